@@ -1,6 +1,7 @@
 #include "gsv/formats/sdf_reader.h"
 
 #include <algorithm>
+#include <map>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -11,6 +12,7 @@
 #include "gsv/formats/sdf/world_reader.h"
 #include "gsv/formats/support/naming_rules.h"
 #include "gsv/formats/xacro/arguments.h"
+#include "gsv/model/drive_choice.h"
 #include "gsv/model/script.h"
 
 namespace gsv::formats {
@@ -44,7 +46,7 @@ base::Result<fs::path> FileAt(const fs::path& path) {
 
 class ModelLibrary::Reader {
  public:
-  explicit Reader(const ReadOptions& options) : store_(options) {}
+  explicit Reader(const ReadOptions& options) : drives_(options.drives), store_(options) {}
 
   base::Result<WorldDescription> ReadWorldAt(const fs::path& path, base::Problems& problems) {
     const base::MutexLock lock(mutex_);
@@ -71,7 +73,17 @@ class ModelLibrary::Reader {
     const base::MutexLock lock(mutex_);
     auto file = FileOf(name, named_in);
     if (!file) return Fail(file.error());
-    return ReadStored(*file, problems);
+    auto model = ReadStored(*file, problems);
+    if (!model) return model;
+    const auto drive = drives_.find((*model)->name);
+    if (drive == drives_.end()) return model;
+    auto& driven = driven_[*model];
+    if (driven == nullptr) {
+      auto robot = model::AsRobot(*model, drive->second);
+      if (!robot) return Fail(robot.error());
+      driven = *std::move(robot);
+    }
+    return driven;
   }
 
  private:
@@ -136,6 +148,10 @@ class ModelLibrary::Reader {
   }
 
   base::Mutex mutex_;
+  const std::map<std::string, std::string> drives_;
+  // Models with the drives that were chosen for them, by the model as its file has it.
+  std::map<std::shared_ptr<const Model>, std::shared_ptr<const Model>> driven_
+      GSV_GUARDED_BY(mutex_);
   ModelStore store_ GSV_GUARDED_BY(mutex_);
 };
 

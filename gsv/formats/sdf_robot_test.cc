@@ -325,5 +325,19 @@ TEST_F(SdfRobotTest, WheelsMayBeOthersThanTheDriveBelieves) {
   EXPECT_EQ(drive->right_wheel_scale, 1);
 }
 
+TEST_F(SdfRobotTest, TakesTheDriveThatIsChosenForItsModel) {
+  const auto file = folder_.Write("r.sdf", Robot(""));
+  ReadOptions options;
+  options.drives = {{"r", "diff,left=fl_joint,right=fr_joint"}, {"other", "omni"}};
+  ModelLibrary library(options);
+  const auto model = library.ReadModel(file.string(), problems_);
+  ASSERT_TRUE(model) << model.error().Sentence();
+  ASSERT_TRUE((*model)->drive);
+  EXPECT_EQ((*model)->drive->kind, DriveKind::kDifferential);
+  EXPECT_EQ(library.ReadModel(file.string(), problems_).value(), *model);
+  options.drives = {{"r", "diff,left=none,right=fr_joint"}};
+  EXPECT_FALSE(ModelLibrary(options).ReadModel(file.string(), problems_));
+}
+
 }  // namespace
 }  // namespace gsv::formats

@@ -7,6 +7,7 @@
 #include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/serving/limit_option.h"
 #include "apps/gsv/serving/runtime.h"
+#include "apps/gsv/simulations/robot_drives.h"
 #include "apps/gsv/simulations/sensor_types.h"
 
 namespace gsv::app {
@@ -14,7 +15,7 @@ namespace {
 
 struct ServeArguments {
   std::string broker, name = "gsv";
-  std::vector<std::string> model_path, sensor_plugins;
+  std::vector<std::string> model_path, sensor_plugins, drives;
   formats::ReadLimits limits;
   ServerLimits server_limits;
   ViewerOptions web;
@@ -35,6 +36,9 @@ int Serve(const ServeArguments& arguments, Signals& signals) {
   options.viewer = !arguments.headless;
   options.web = arguments.web;
   options.noted_as = arguments.name;
+  auto drives = ParseDrives(arguments.drives);
+  if (!drives) return Complain(drives.error());
+  options.drives = *std::move(drives);
   auto runtime = Runtime::Start(options);
   if (!runtime) return Complain(runtime.error());
   if (auto ok = (*runtime)->OfferService(arguments.name, arguments.scenarios); !ok)
@@ -59,6 +63,8 @@ void AddServeCommand(const CommandLine& line) {
       ->envname("GSV_BROKER");
   command->add_option("--name", arguments->name, "the name in the offer")->capture_default_str();
   command->add_option("--model-path", arguments->model_path, "a folder to look for models in");
+  command->add_option("--drive", arguments->drives,
+                      "MODEL=KIND[,KEY=VALUE]...: drive of robots of this model");
   AddSensorPluginOption(*command, arguments->sensor_plugins);
   AddLimitOption(*command, arguments->limits, arguments->server_limits);
   AddViewerOptions(*command, arguments->web);

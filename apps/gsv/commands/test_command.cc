@@ -11,6 +11,7 @@
 
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/simulations/robot_drives.h"
 #include "apps/gsv/trials/test_cases.h"
 #include "apps/gsv/trials/test_report.h"
 #include "gsv/base/mutex.h"
@@ -123,6 +124,9 @@ int JobsFor(const TestArguments& arguments, std::size_t cases) {
 int RunTests(const TestArguments& arguments, Signals& signals) {
   const auto start = std::chrono::steady_clock::now();
   base::Problems problems;
+  if (const auto drives = ParseDrives(arguments.options.drives); !drives) {
+    return Complain(drives.error());
+  }
   auto cases = FindTestCases(arguments.scenarios, problems);
   if (!cases) return Complain(cases.error());
   for (const base::Problem& problem : problems) {
@@ -190,6 +194,9 @@ void AddTestCommand(const CommandLine& line) {
   command->add_option("--timeout", arguments->options.timeout, "wall seconds a run may take")
       ->check(CLI::Range(1.0, 1e6))
       ->capture_default_str();
+  command->add_option(
+      "--drive", arguments->options.drives,
+      "ROBOT=KIND[,KEY=VALUE]...: drive, as in gsv run; each scenario has the robot");
   command->add_option("--junit", arguments->junit, "a file to write the results to as JUnit's XML");
   command
       ->add_option("--failures", arguments->failures,

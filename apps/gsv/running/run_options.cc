@@ -7,8 +7,8 @@
 
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/serving/limit_option.h"
+#include "apps/gsv/simulations/robot_drives.h"
 #include "apps/gsv/simulations/sensor_types.h"
-#include "gsv/model/drive_choice.h"
 #include "gsv/scenario/scenario_file.h"
 
 namespace gsv::app {
@@ -148,24 +148,6 @@ base::Status UnderstandMovements(const std::vector<std::string>& texts, RunOptio
     }
     options.movement_of[text.substr(0, equals)] =
         how == "rigid" ? model::Movement::kRigid : model::Movement::kPlanar;
-  }
-  return {};
-}
-
-base::Status UnderstandDrives(const std::vector<std::string>& texts, RunOptions& options) {
-  for (const std::string& text : texts) {
-    const std::size_t equals = text.find('=');
-    if (equals == 0 || equals == std::string::npos) {
-      return base::Fail(base::ErrorCode::kInvalidArgument,
-                        "expected ROBOT=KIND[,KEY=VALUE]..., such as husky=skid,radius=0.16",
-                        "--drive " + text);
-    }
-    const std::string drive = text.substr(equals + 1);
-    if (const auto choice = model::ParseDriveChoice(drive); !choice) {
-      return base::Fail(base::ErrorCode::kInvalidArgument, choice.error().message,
-                        "--drive " + text);
-    }
-    options.drive_of[text.substr(0, equals)] = drive;
   }
   return {};
 }
@@ -328,7 +310,9 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
   }
   if (auto ok = UnderstandBehaviours(a.behaviours, options); !ok) return base::Fail(ok.error());
   if (auto ok = UnderstandMovements(a.movements, options); !ok) return base::Fail(ok.error());
-  if (auto ok = UnderstandDrives(a.drives, options); !ok) return base::Fail(ok.error());
+  auto drives = ParseDrives(a.drives);
+  if (!drives) return base::Fail(drives.error());
+  options.drive_of = *std::move(drives);
   UnderstandSpecification(a, options.scenario, options.specification);
   if (auto ok = UnderstandTimes(options.scenario, options.specification); !ok)
     return base::Fail(ok.error());

@@ -61,6 +61,7 @@ base::Result<std::unique_ptr<Runtime>> Runtime::Start(const RuntimeOptions& opti
   if (auto ok = runtime->StartBroker(options); !ok) return base::Fail(ok.error());
   formats::ReadOptions reading;
   reading.model_path = options.model_path;
+  reading.drives = options.drives;
   reading.limits = options.limits;
   reading.check_sensor = CheckBy(*sensors);
   simulation::ProcessLimits() = options.server_limits.simulation;

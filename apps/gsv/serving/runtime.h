@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,6 +32,7 @@ class SimulationBuilder;
 struct RuntimeOptions {
   std::string broker;  // empty: a broker of its own, on loopback, for as long as this lives
   std::vector<std::filesystem::path> model_path;
+  std::map<std::string, std::string> drives;  // by model, as ReadOptions::drives
   SensorTypeOptions sensors;
   formats::ReadLimits limits;
   ServerLimits server_limits;

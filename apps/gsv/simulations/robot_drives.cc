@@ -37,6 +37,26 @@ base::Result<std::shared_ptr<const WorldDescription>> WithDrives(
   return std::shared_ptr<const WorldDescription>(std::move(changed));
 }
 
+base::Result<std::map<std::string, std::string>> ParseDrives(
+    const std::vector<std::string>& texts) {
+  std::map<std::string, std::string> drives;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    if (equals == 0 || equals == std::string::npos) {
+      return base::Fail(base::ErrorCode::kInvalidArgument,
+                        "expected ROBOT=KIND[,KEY=VALUE]..., such as husky=skid,radius=0.16",
+                        "--drive " + text);
+    }
+    const std::string drive = text.substr(equals + 1);
+    if (const auto choice = model::ParseDriveChoice(drive); !choice) {
+      return base::Fail(base::ErrorCode::kInvalidArgument, choice.error().message,
+                        "--drive " + text);
+    }
+    drives[text.substr(0, equals)] = drive;
+  }
+  return drives;
+}
+
 std::vector<std::string> DriveNotes(const simulation::Simulation& simulation) {
   std::vector<std::string> notes;
   std::set<const model::Model*> described;

@@ -1,6 +1,7 @@
 // The drives of robots whose files name none.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,6 +17,9 @@ namespace gsv::app {
 // entry chooses, else the guessed one. The same world where nothing changes.
 base::Result<std::shared_ptr<const model::WorldDescription>> WithDrives(
     std::shared_ptr<const model::WorldDescription> world, const scenario::Scenario& scenario);
+
+// The choices of --drive, ROBOT=KIND[,KEY=VALUE]…, by robot. kInvalidArgument with the option.
+base::Result<std::map<std::string, std::string>> ParseDrives(const std::vector<std::string>& texts);
 
 // "NAME: drive: …", once for each model of a robot whose drive no file names.
 std::vector<std::string> DriveNotes(const simulation::Simulation& simulation);

@@ -36,6 +36,7 @@ struct TestOptions {
   int threads = 0;                 // of a run; 0: as `gsv run` chooses
   double timeout = 300;            // wall seconds a run
   double kept_seconds = 10;        // of a recording before the failure
+  std::vector<std::string> drives;  // as --drive of `gsv run`
   int repeat = 1;
   bool record = true;
 };

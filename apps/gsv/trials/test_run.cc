@@ -68,6 +68,9 @@ std::vector<std::string> CommandFor(const TestCase& test, const TestOptions& opt
     command.insert(command.end(), {"--record", (folder / "run.mcap").string(), "--record-rate",
                                    "poses=25,pictures=0.2"});
   }
+  for (const std::string& drive : options.drives) {
+    command.insert(command.end(), {"--drive", drive});
+  }
   command.insert(command.end(), {"--threads", std::to_string(options.threads)});
   return command;
 }

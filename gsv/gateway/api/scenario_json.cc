@@ -62,8 +62,8 @@ FieldResult<T> Judged(T value, const base::Problems& problems) {
 }
 
 FieldResult<void> RefuseWhatIsNotForViewers(const ScenarioJson& json) {
-  constexpr std::string_view kKnown[]{"name",     "world", "mode",   "factor", "step",
-                                      "duration", "seed",  "robots", "avatars"};
+  constexpr std::string_view kKnown[]{"name",     "world", "mode",   "factor",  "step",
+                                      "duration", "seed",  "robots", "avatars", "pedestrians"};
   for (const auto& [name, value] : json.items()) {
     if (std::find(std::begin(kKnown), std::end(kKnown), name) == std::end(kKnown)) {
       std::string sentence = "there is no such field; there are:";

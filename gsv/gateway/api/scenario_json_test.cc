@@ -22,7 +22,8 @@ TEST(ScenarioJson, EveryKeyIsTaken) {
     "robots": [{"name": "a\u00e4\ud83d\ude00/\"b\u0001", "model": "pebble", "x": 1, "y": -2, "z": 0.5,
                 "yaw": 3, "behaviour": "goto --goal-x 3", "movement": "rigid"},
                {"model": "rover4", "behaviour_constraint": "pid > 0", "movement": "planar"}],
-    "avatars": [{"model": "avatar", "x": 0, "y": 1}]})");
+    "avatars": [{"model": "avatar", "x": 0, "y": 1}],
+    "pedestrians": [{"name": "visitor", "count": 3, "route": [{"x": 1, "y": 2, "radius": 0.5}]}]})");
   ASSERT_TRUE(request) << request.error().field << request.error().error.message;
   const scenario::Scenario& scenario = request->scenario;
   EXPECT_EQ(scenario.name, "run");
@@ -43,6 +44,9 @@ TEST(ScenarioJson, EveryKeyIsTaken) {
   EXPECT_EQ(scenario.robots[1].movement, model::Movement::kPlanar);
   ASSERT_EQ(scenario.avatars.size(), 1u);
   EXPECT_FALSE(scenario.avatars[0].start->z);
+  ASSERT_EQ(scenario.pedestrians.size(), 1u);
+  EXPECT_EQ(scenario.pedestrians[0].count, 3);
+  EXPECT_EQ(scenario.pedestrians[0].route, (std::vector<model::PedestrianGoal>{{1, 2, 0.5}}));
 }
 
 struct Refused {
@@ -95,7 +99,7 @@ TEST(ScenarioJson, AnUnknownFieldIsRefusedWithThoseThatAreKnown) {
   ASSERT_FALSE(request);
   EXPECT_EQ(request.error().error.message,
             "there is no such field; there are: name, world, mode, factor, step, duration, seed, "
-            "robots, avatars, record");
+            "robots, avatars, pedestrians, record");
 }
 
 TEST(ScenarioJson, MoreRobotsThanAnybodyTypesAreRefused) {

@@ -1,5 +1,6 @@
 import { expect, test } from "vitest";
 import { EMPTY_SCENARIO, findRobot, freeName, newRobot, parseScenario, scenarioJson } from "./scenario";
+import { newPedestrians } from "./pedestrians";
 import { withChangedRobot, withRobot, withoutRobot } from "./scenario";
 import { changed, redone, robotOfField, undone } from "../state/setUp";
 import type { SetUp } from "../state/setUp";
@@ -13,8 +14,9 @@ const scenario = {
   duration: 60,
   seed: 7,
   record: true,
-  robots: [placed, { ...pebble, name: "second", constraint: "pid > 0", movement: "rigid" as const }],
+  robots: [placed, { ...pebble, name: "second", constraint: "pid > 0", movement: "rigid" as const, drive: "skid" }],
   avatars: [newRobot(EMPTY_SCENARIO, "avatar")],
+  pedestrians: [newPedestrians([])],
 };
 
 test("a scenario's JSON leaves out what is so anyway", () => {
@@ -27,9 +29,19 @@ test("a scenario's JSON leaves out what is so anyway", () => {
     record: true,
     robots: [
       { name: "pebble", model: "pebble", x: 1, y: -2, yaw: 0.5, behaviour: "wander" },
-      { name: "second", model: "pebble", behaviour_constraint: "pid > 0", movement: "rigid" },
+      { name: "second", model: "pebble", behaviour_constraint: "pid > 0", movement: "rigid", drive: "skid" },
     ],
     avatars: [{ name: "avatar", model: "avatar" }],
+    pedestrians: [
+      {
+        name: "pedestrian",
+        count: 5,
+        route: [
+          { x: -3, y: 0, radius: 1 },
+          { x: 3, y: 0, radius: 1 },
+        ],
+      },
+    ],
   });
 });
 

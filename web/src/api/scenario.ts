@@ -3,6 +3,8 @@
 // (docs/formats/scenario.md); JSON is YAML too.
 import type { JsonObject } from "./json";
 import { listAt, numberOr, objectAt, textOr } from "./json";
+import type { PedestrianSetUp } from "./pedestrians";
+import { parsePedestrians, pedestriansJson } from "./pedestrians";
 
 export interface Placed {
   x: number;
@@ -17,6 +19,7 @@ export interface RobotSetUp {
   behaviour: string; // an offer's name; empty: none
   constraint: string; // or what an offer must fulfil; empty: a name is meant
   movement: "" | "planar" | "rigid"; // empty: as its model says
+  drive: string; // KIND[,KEY=VALUE]…; empty: as its model says, else guessed from its wheels
 }
 
 export type RobotList = "robots" | "avatars";
@@ -32,6 +35,7 @@ export interface Scenario {
   record: boolean;
   robots: RobotSetUp[];
   avatars: RobotSetUp[];
+  pedestrians: PedestrianSetUp[];
 }
 
 export const EMPTY_SCENARIO: Scenario = {
@@ -45,10 +49,12 @@ export const EMPTY_SCENARIO: Scenario = {
   record: false,
   robots: [],
   avatars: [],
+  pedestrians: [],
 };
 
 export function newRobot(scenario: Scenario, model: string): RobotSetUp {
-  return { name: freeName(scenario, model), model, place: null, behaviour: "", constraint: "", movement: "" };
+  const name = freeName(scenario, model);
+  return { name, model, place: null, behaviour: "", constraint: "", movement: "", drive: "" };
 }
 
 // The model's name (of a path: its last part), numbered where it is taken.
@@ -92,17 +98,19 @@ export function findRobot(scenario: Scenario, name: string): { list: RobotList; 
 
 // What is as it would be anyway is left out.
 export function scenarioJson(scenario: Scenario): JsonObject {
-  const { robots, avatars, ...rest } = scenario;
+  const { robots, avatars, pedestrians, ...rest } = scenario;
   const json: JsonObject = {};
   for (const [key, value] of Object.entries(rest)) {
     if (key === "world" || value !== EMPTY_SCENARIO[key as keyof Scenario]) json[key] = value;
   }
   if (robots.length > 0) json.robots = robots.map(robotJson);
   if (avatars.length > 0) json.avatars = avatars.map(robotJson);
+  if (pedestrians.length > 0) json.pedestrians = pedestrians.map(pedestriansJson);
   return json;
 }
 
-export function robotJson({ name, model, place, behaviour, constraint, movement }: RobotSetUp): JsonObject {
+export function robotJson(robot: RobotSetUp): JsonObject {
+  const { name, model, place, behaviour, constraint, movement, drive } = robot;
   return {
     ...(name && { name }),
     ...(model && { model }),
@@ -110,6 +118,7 @@ export function robotJson({ name, model, place, behaviour, constraint, movement 
     ...(behaviour && { behaviour }),
     ...(constraint && { behaviour_constraint: constraint }),
     ...(movement && { movement }),
+    ...(drive && { drive }),
   };
 }
 
@@ -128,6 +137,7 @@ export function parseScenario(value: unknown): { scenario: Scenario; left: strin
     record: json.record !== undefined && json.record !== null && json.record !== false,
     robots: parseRobots(json.robots, "robots"),
     avatars: parseRobots(json.avatars, "avatars"),
+    pedestrians: parsePedestrians(json.pedestrians),
   };
   return { scenario, left: Object.keys(json).filter((key) => !(key in scenario)) };
 }
@@ -146,6 +156,7 @@ function parseRobots(value: unknown, where: RobotList): RobotSetUp[] {
       behaviour: textOr(robot.behaviour, ""),
       constraint: textOr(robot.behaviour_constraint, ""),
       movement: movement === "planar" || movement === "rigid" ? movement : "",
+      drive: textOr(robot.drive, ""),
     };
   });
 }

@@ -150,7 +150,7 @@ export class EditControl {
     if (!simulation || !known || !place) return Promise.resolve(false);
     const body = scene?.bodies.find(({ name }) => name === robot);
     const model = body?.isOfWorld ? "" : known.model;
-    const again: RobotSetUp = { name: robot, model, place, behaviour: known.behaviour, constraint: "", movement: "" };
+    const again: RobotSetUp = { name: robot, model, place, behaviour: known.behaviour, constraint: "", movement: "", drive: "" };
     return this.do({
       name: `remove ${robot}`,
       apply: () => this.api.removeRobot(simulation, robot),

@@ -4,6 +4,8 @@
 // The server is asked for one preview at a time; of the changes meanwhile the last counts.
 import { ApiError } from "../api/JsonServer";
 import type { SetUpApi } from "../api/SetUpApi";
+import type { PedestrianSetUp } from "../api/pedestrians";
+import { newPedestrians } from "../api/pedestrians";
 import type { Placed, RobotList, RobotSetUp, Scenario } from "../api/scenario";
 import { EMPTY_SCENARIO, findRobot, newRobot } from "../api/scenario";
 import { withChangedRobot, withRobot, withoutRobot } from "../api/scenario";
@@ -92,6 +94,18 @@ export class SetUpControl {
     if (isSelected && change.name) this.store.set({ selection: change.name });
   }
 
+  addPedestrians(): void {
+    this.takePedestrians((groups) => [...groups, newPedestrians(groups)]);
+  }
+
+  removePedestrians(index: number): void {
+    this.takePedestrians((groups) => groups.filter((_, i) => i !== index));
+  }
+
+  changePedestrians(index: number, patch: Partial<PedestrianSetUp>): void {
+    this.takePedestrians((groups) => groups.map((group, i) => (i === index ? { ...group, ...patch } : group)));
+  }
+
   // Puts a robot where somebody has clicked, or dragged it to.
   async place(name: string, place: Placed): Promise<boolean> {
     const { setUp } = this.store.get();
@@ -147,6 +161,13 @@ export class SetUpControl {
   private end(): void {
     clearTimeout(this.offersTimer);
     this.store.set({ setUp: null, scene: null, selection: null });
+  }
+
+  private takePedestrians(change: (groups: PedestrianSetUp[]) => PedestrianSetUp[]): void {
+    this.take((setUp) => {
+      const { scenario } = setUp;
+      return changed(setUp, { ...scenario, pedestrians: change(scenario.pedestrians) });
+    });
   }
 
   private take(change: (setUp: SetUp) => SetUp): void {

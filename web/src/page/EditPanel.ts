@@ -6,7 +6,7 @@ import { shallowEqual } from "../state/Store";
 import { chosenOf, copiesOf } from "../state/editing";
 import { EMPTY_SCENARIO, newRobot } from "../api/scenario";
 import type { Option } from "../ui/fields";
-import { choiceField } from "../ui/fields";
+import { choiceField, textField } from "../ui/fields";
 import { element, setText } from "../ui/element";
 import type { IconName } from "../ui/icons";
 import { icon } from "../ui/icons";
@@ -20,8 +20,10 @@ const COPY = "copy ";
 export function createEditPanel(app: App): HTMLElement {
   const model = choiceField("Model", () => offerBehaviour());
   const behaviour = choiceField("Behaviour", () => {});
+  const drive = textField("Drive", "as its model says, else guessed", (text) => (driveText = text));
+  let driveText = "";
   const [modelSelect, behaviourSelect] = [model, behaviour].map((each) => each.element.querySelector("select")!);
-  const add = button("Add", () => void addChosen(app, modelSelect!.value, behaviourSelect!.value));
+  const add = button("Add", () => void addChosen(app, modelSelect!.value, behaviourSelect!.value, driveText));
   const remove = button("Remove", () => app.removeSelected());
   const turns = [
     pictureButton("Turn left", "turnLeft", () => app.turnSelected(TURN)),
@@ -34,10 +36,14 @@ export function createEditPanel(app: App): HTMLElement {
     "section",
     { class: "card edit", "aria-label": "Edit" },
     element("div", { class: "field-pair" }, model.element, behaviour.element, add),
+    element("div", { class: "field-pair" }, drive.element),
     element("div", { class: "edit-buttons" }, undo, redo, ...turns, remove),
     hint,
   );
-  const offerBehaviour = () => (behaviourSelect!.disabled = !isRobot(modelSelect!.value));
+  const offerBehaviour = () => {
+    behaviourSelect!.disabled = !isRobot(modelSelect!.value);
+    drive.element.hidden = behaviourSelect!.disabled;
+  };
 
   app.store.watch(
     modelsOf,
@@ -110,19 +116,20 @@ function optionsOf(behaviours: Behaviours | null) {
   return [{ value: "", label: "None" }, ...names.map((value) => ({ value, label: value }))];
 }
 
-async function addChosen(app: App, choice: string, behaviour: string): Promise<void> {
+async function addChosen(app: App, choice: string, behaviour: string, drive: string): Promise<void> {
   if (choice.startsWith(OBJECT)) {
     await app.edits.addObject({ name: "", model: choice.slice(OBJECT.length), place: null });
   } else if (choice.startsWith(COPY)) {
     await app.edits.addObject({ name: "", copy_of: choice.slice(COPY.length), place: null });
   } else {
-    await addRobot(app, choice, behaviour);
+    await addRobot(app, choice, behaviour, drive);
   }
 }
 
-async function addRobot(app: App, model: string, behaviour: string): Promise<void> {
+async function addRobot(app: App, model: string, behaviour: string, drive: string): Promise<void> {
   const models = app.store.get().editing?.models ?? [];
   const isAvatar = models.some((each) => each.name === model && each.isAvatar);
-  const robot = { ...newRobot(EMPTY_SCENARIO, model), name: "", behaviour: isAvatar ? "" : behaviour };
+  const wishes = isAvatar ? {} : { behaviour, drive };
+  const robot = { ...newRobot(EMPTY_SCENARIO, model), name: "", ...wishes };
   await app.edits.add(robot, isAvatar);
 }

@@ -20,6 +20,7 @@ export class RobotRow {
   private readonly behaviour;
   private readonly name;
   private readonly movement;
+  private readonly drive;
   private readonly x = this.place("x (m)", 1, 3, (value) => ({ x: value }));
   private readonly y = this.place("y (m)", 1, 3, (value) => ({ y: value }));
   private readonly yaw = this.place("Heading (°)", DEGREES, 1, (value) => ({ yaw: value }));
@@ -41,18 +42,22 @@ export class RobotRow {
       { value: "planar", label: "Over level ground" },
       { value: "rigid", label: "By forces" },
     ]);
+    this.drive = textField("Drive", "as its model says, else guessed: diff, skid,radius=0.16, …", (drive) =>
+      this.change({ drive }),
+    );
     this.fields = new Map<string, Field<never>>([
       ["name", this.name],
       ["model", this.model],
       ["behaviour", this.behaviour],
       ["behaviour_constraint", this.behaviour],
       ["movement", this.movement],
+      ["drive", this.drive],
       ["x", this.x],
       ["y", this.y],
       ["yaw", this.yaw],
     ]);
     this.wrong.hidden = true;
-    this.behaviour.element.hidden = this.movement.element.hidden = list === "avatars";
+    for (const { element } of [this.behaviour, this.movement, this.drive]) element.hidden = list === "avatars";
     this.element = this.build();
   }
 
@@ -66,6 +71,7 @@ export class RobotRow {
     this.model.show(robot.model);
     this.behaviour.show(robot.constraint || robot.behaviour);
     this.movement.show(robot.movement);
+    this.drive.show(robot.drive);
     this.x.show(robot.place?.x ?? null);
     this.y.show(robot.place?.y ?? null);
     this.yaw.show(robot.place ? robot.place.yaw * DEGREES : null);
@@ -109,6 +115,7 @@ export class RobotRow {
       this.wrong,
       element("div", { class: "field-pair" }, this.name.element, this.model.element),
       element("div", { class: "field-pair" }, this.behaviour.element, this.movement.element),
+      element("div", { class: "field-pair" }, this.drive.element),
       element("div", { class: "field-pair" }, this.x.element, this.y.element, this.yaw.element),
     );
   }

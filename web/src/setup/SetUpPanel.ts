@@ -2,12 +2,13 @@
 import type { App } from "../app/App";
 import type { RobotList, Scenario } from "../api/scenario";
 import type { SetUp } from "../state/setUp";
-import { robotOfField } from "../state/setUp";
+import { pedestriansOfField, robotOfField } from "../state/setUp";
 import { element, setText } from "../ui/element";
 import type { IconName } from "../ui/icons";
 import { icon } from "../ui/icons";
 import { checkField, choiceField, choiceOrText, numberField, textField } from "../ui/fields";
 import { chosenFiles, droppedFiles } from "../upload/dropped";
+import { PedestrianRow } from "./PedestrianRow";
 import { RobotRow } from "./RobotRow";
 
 const BY_PATH = { choice: "A file or folder…", placeholder: "path/to/world.sdf" };
@@ -16,6 +17,7 @@ export function createSetUpPanel(app: App): HTMLElement {
   const world = choiceOrText("Environment", BY_PATH, (value) => app.setUp.change({ world: value }));
   const parameters = parameterFields(app);
   const lists = { robots: createList(app, "robots"), avatars: createList(app, "avatars") };
+  const pedestrians = createPedestrianList(app);
   const hint = element("p", { class: "hint" });
   const offers = element("div", { class: "hint offers-hint" });
   const warnings = element("ul", { class: "warnings", "aria-label": "What the files lack" });
@@ -32,6 +34,7 @@ export function createSetUpPanel(app: App): HTMLElement {
     element("div", { class: "set-up-part" }, world.element, uploads(app)),
     element("div", { class: "set-up-part" }, element("h2", {}, "Robots"), lists.robots.element, adder(app), hint, offers),
     element("div", { class: "set-up-part avatars-part" }, element("h2", {}, "Avatars"), lists.avatars.element),
+    element("div", { class: "set-up-part avatars-part" }, element("h2", {}, "Pedestrians"), pedestrians.element),
     element(
       "details",
       { class: "set-up-part" },
@@ -57,6 +60,7 @@ export function createSetUpPanel(app: App): HTMLElement {
       for (const [key, field] of parameters) field.show(scenario[key] as never);
       lists.robots.show(setUp);
       lists.avatars.show(setUp);
+      pedestrians.show(setUp);
       showWrong(setUp);
       setText(hint, hintFor(scenario));
       showOffers(offers, setUp);
@@ -74,13 +78,15 @@ export function createSetUpPanel(app: App): HTMLElement {
   function showWrong({ wrong: found }: SetUp): void {
     const { field = "", sentence = "" } = found ?? {};
     const robot = robotOfField(field);
+    const group = pedestriansOfField(field);
     world.refuse(field === "world" ? sentence : "");
     for (const [key, each] of parameters) each.refuse(field === key ? sentence : "");
     for (const list of ["robots", "avatars"] as const) {
       lists[list].refuse(robot?.list === list ? robot : null, sentence);
     }
+    pedestrians.refuse(group, sentence);
     if (parameters.has(field as keyof Scenario)) panel.querySelector("details")!.open = true;
-    const hasPlace = field === "world" || robot !== null || parameters.has(field as keyof Scenario);
+    const hasPlace = field === "world" || robot !== null || group !== null || parameters.has(field as keyof Scenario);
     setText(wrong, hasPlace ? "" : sentence);
     wrong.hidden = hasPlace || sentence === "";
   }
@@ -188,6 +194,7 @@ function adder(app: App): HTMLElement {
     model.element,
     button("Add robot", () => app.setUp.addRobot("robots", select.value)),
     button("Add avatar", () => app.setUp.addRobot("avatars", "avatar")),
+    button("Add pedestrians", () => app.setUp.addPedestrians()),
   );
 }
 
@@ -237,6 +244,25 @@ function createList(app: App, list: RobotList) {
         if (wrong?.index === i) row.refuse(wrong.input, sentence);
         else row.refuse("", "");
       });
+    },
+  };
+}
+
+function createPedestrianList(app: App) {
+  const rows: PedestrianRow[] = [];
+  const place = element("ul", { class: "set-up-robots", "aria-label": "Pedestrians" });
+  return {
+    element: place,
+    show: ({ scenario }: SetUp) => {
+      while (rows.length > scenario.pedestrians.length) rows.pop()!.element.remove();
+      scenario.pedestrians.forEach((group, i) => {
+        const row = (rows[i] ??= new PedestrianRow(app, i));
+        if (!row.element.isConnected) place.append(row.element);
+        row.show(group);
+      });
+    },
+    refuse: (wrong: { index: number; input: string } | null, sentence: string) => {
+      rows.forEach((row, i) => (wrong?.index === i ? row.refuse(wrong.input, sentence) : row.refuse("", "")));
     },
   };
 }

@@ -58,7 +58,7 @@ export function redone(setUp: SetUp): SetUp {
 
 const ROBOT_FIELD = /^(robots|avatars)\[(\d+)\](?:\.(\w+))?$/;
 // Those of them that have an input of their own in a robot's row.
-const ROBOT_INPUTS = ["name", "model", "behaviour", "behaviour_constraint", "x", "y", "yaw"];
+const ROBOT_INPUTS = ["name", "model", "behaviour", "behaviour_constraint", "drive", "x", "y", "yaw"];
 
 // The robot that a field belongs to, and its input there; null: it is no robot's.
 export function robotOfField(field: string): { list: RobotList; index: number; input: string } | null {
@@ -69,4 +69,12 @@ export function robotOfField(field: string): { list: RobotList; index: number; i
     index: Number(index),
     input: ROBOT_INPUTS.includes(input) ? input : "",
   };
+}
+
+const PEDESTRIANS_FIELD = /^pedestrians\[(\d+)\](?:\.(\w+))?/;
+
+// Likewise of a group of pedestrians.
+export function pedestriansOfField(field: string): { index: number; input: string } | null {
+  const found = PEDESTRIANS_FIELD.exec(field);
+  return found && { index: Number(found[1]), input: found[2] ?? "" };
 }
