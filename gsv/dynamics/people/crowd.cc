@@ -10,8 +10,6 @@
 namespace gsv::dynamics {
 namespace {
 
-// Pedestrians that one thread takes at a time: some tens of microseconds of work.
-constexpr std::size_t kWalkersAPiece = 64;
 constexpr double kTurningTime = 0.3;   // s
 constexpr double kFastestTurn = 4;     // rad/s
 constexpr double kStandsStill = 0.05;  // m/s: who is slower keeps its heading
@@ -56,7 +54,8 @@ void Crowd::SetLayout(std::shared_ptr<const world::Layout> layout) {
     const double radius =
         body.is_pedestrian() ? body.pedestrian->group->radius : model::FootprintRadius(*body.model);
     if (radius > 0 && radius <= kWidestOther) {
-      others_.push_back({i, radius, HeightOf(*body.model), {}, {}, 0});
+      const int walker = body.is_pedestrian() ? static_cast<int>(walkers_.size()) : -1;
+      others_.push_back({i, walker, radius, HeightOf(*body.model), {}, {}, 0});
     }
     if (!body.is_pedestrian()) continue;
     const double feet = body.initial_pose.position.z;
@@ -121,6 +120,7 @@ void Crowd::SortOthers(const world::State& state) {
   cell_start_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
   cell_of_.resize(others_.size());
   sorted_.resize(others_.size());
+  sorted_at_.resize(others_.size());
   for (std::size_t i = 0; i < others_.size(); ++i) {
     const int column = static_cast<int>((others_[i].at.x - left_) * per_cell_);
     const int row = static_cast<int>((others_[i].at.y - bottom_) * per_cell_);
@@ -129,34 +129,39 @@ void Crowd::SortOthers(const world::State& state) {
   }
   for (std::size_t c = 1; c < cell_start_.size(); ++c) cell_start_[c] += cell_start_[c - 1];
   // Each cell's run is filled from its end, which leaves cell_start_ at its start.
-  for (std::size_t i = others_.size(); i-- > 0;) sorted_[--cell_start_[cell_of_[i]]] = others_[i];
+  for (std::size_t i = others_.size(); i-- > 0;) {
+    const std::uint32_t place = --cell_start_[cell_of_[i]];
+    sorted_[place] = others_[i];
+    sorted_at_[place] = others_[i].at;
+  }
+  walker_order_.clear();
+  for (const Other& other : sorted_) {
+    if (other.walker >= 0) walker_order_.push_back(static_cast<std::uint32_t>(other.walker));
+  }
 }
 
-Vector2 Crowd::ForceOfOthers(const Walker& walker, const world::BodyState& body,
-                             Vector2 wanted) const {
+void Crowd::AddForcesOfOthers(const Walker& walker, std::uint32_t index,
+                              const world::BodyState& body, Block& block) const {
   const geometry::Vector3& position = body.world_from_model.position;
   const Vector2 at{position.x, position.y};
   const model::PedestrianGroup& group = *walker.pedestrian->group;
   const int column = static_cast<int>((at.x - left_) * per_cell_);
   const int row = static_cast<int>((at.y - bottom_) * per_cell_);
-  Vector2 force;
   for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r) {
     // Cells of one row lie next to each other.
     const int first = r * columns_ + std::max(0, column - 1);
     const int last = r * columns_ + std::min(columns_ - 1, column + 1);
     const std::uint32_t end = cell_start_[static_cast<std::size_t>(last) + 1];
     for (std::uint32_t k = cell_start_[static_cast<std::size_t>(first)]; k < end; ++k) {
+      const Vector2 between = at - sorted_at_[k];
+      if (!(Dot(between, between) < kOthersReach * kOthersReach)) continue;
       const Other& other = sorted_[k];
-      const Vector2 between = at - other.at;
-      const bool is_near = Dot(between, between) < kOthersReach * kOthersReach;
-      if (!is_near || other.body == walker.body) continue;
+      if (other.body == walker.body) continue;
       if (other.z > position.z + group.height || other.z + other.height < position.z) continue;
-      force = force +
-              AsSeen(RepulsionByOther(Apart(between, group.radius, other.radius), other.velocity),
-                     wanted);
+      block.repulsions.Add(index, between, group.radius + other.radius, other.velocity,
+                           block.directions[index], block.forces);
     }
   }
-  return force;
 }
 
 Vector2 Crowd::ForceOfWalls(const Walker& walker, Vector2 at) const {
@@ -189,19 +194,17 @@ Vector2 Crowd::ForceOfWalls(const Walker& walker, Vector2 at) const {
   return force;
 }
 
-void Crowd::DecideFor(Walker& walker, double seconds, world::State& state) const {
+Vector2 Crowd::DirectionOf(Walker& walker, world::State& state) const {
   const auto index = static_cast<std::size_t>(walker.body);
-  world::BodyState& body = state.bodies[index];
-  const world::Pedestrian& pedestrian = *walker.pedestrian;
-  const Vector2 at{body.world_from_model.position.x, body.world_from_model.position.y};
+  const geometry::Vector3& position = state.bodies[index].world_from_model.position;
   std::uint32_t& reached = state.goals[index];
   const auto way_to_goal = [&] {
     if (!walker.has_goal || walker.reached != reached) {
-      walker.goal = world::GoalOf(pedestrian, reached);
+      walker.goal = world::GoalOf(*walker.pedestrian, reached);
       walker.reached = reached;
       walker.has_goal = true;
     }
-    return walker.goal - at;
+    return walker.goal - Vector2{position.x, position.y};
   };
   Vector2 way = way_to_goal();
   if (Dot(way, way) < kArrival * kArrival) {
@@ -209,11 +212,15 @@ void Crowd::DecideFor(Walker& walker, double seconds, world::State& state) const
     way = way_to_goal();
   }
   const double length = std::sqrt(Dot(way, way));
-  const Vector2 direction = length > 1e-9 ? (1 / length) * way : Vector2{};
-  const Vector2 force = ForceOfOthers(walker, body, direction) + ForceOfWalls(walker, at);
-  const Vector2 velocity =
-      NextVelocity({body.linear_velocity.x, body.linear_velocity.y}, pedestrian.speed * direction,
-                   force, pedestrian.speed, seconds);
+  return length > kNoLength ? (1 / length) * way : Vector2{};
+}
+
+void Crowd::Command(const Walker& walker, Vector2 direction, Vector2 force, double seconds,
+                    double left, world::State& state) const {
+  world::BodyState& body = state.bodies[static_cast<std::size_t>(walker.body)];
+  const double speed = walker.pedestrian->speed;
+  const Vector2 velocity = NextVelocity({body.linear_velocity.x, body.linear_velocity.y},
+                                        speed * direction, force, speed, seconds, left);
   const double yaw = geometry::Yaw(body.world_from_model.orientation);
   double turn = 0;
   if (Dot(velocity, velocity) > kStandsStill * kStandsStill) {
@@ -227,13 +234,35 @@ void Crowd::DecideFor(Walker& walker, double seconds, world::State& state) const
   body.drive.command_time = state.time;
 }
 
+void Crowd::DecideFor(std::span<const std::uint32_t> walkers, double seconds, double left,
+                      Block& block, world::State& state) {
+  for (std::uint32_t i = 0; i < walkers.size(); ++i) {
+    Walker& walker = walkers_[walkers[i]];
+    block.directions[i] = DirectionOf(walker, state);
+    block.forces[i] = {};
+    AddForcesOfOthers(walker, i, state.bodies[static_cast<std::size_t>(walker.body)], block);
+  }
+  block.repulsions.Finish(block.forces);
+  for (std::size_t i = 0; i < walkers.size(); ++i) {
+    const Walker& walker = walkers_[walkers[i]];
+    const geometry::Vector3& position =
+        state.bodies[static_cast<std::size_t>(walker.body)].world_from_model.position;
+    const Vector2 force = block.forces[i] + ForceOfWalls(walker, {position.x, position.y});
+    Command(walker, block.directions[i], force, seconds, left, state);
+  }
+}
+
 void Crowd::Decide(base::SimTime step, world::State& state) {
   if (walkers_.empty()) return;
   SliceWalls(state);
   SortOthers(state);
-  const double seconds = base::ToSeconds(step);
-  team_->ParallelFor(walkers_.size(), kWalkersAPiece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) DecideFor(walkers_[i], seconds, state);
+  const double seconds = base::ToSeconds(step), left = Relaxation(seconds);
+  team_->ParallelFor(walker_order_.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    Block block;
+    const std::span<const std::uint32_t> order(walker_order_);
+    for (; begin < end; begin += kBlock) {
+      DecideFor(order.subspan(begin, std::min(kBlock, end - begin)), seconds, left, block, state);
+    }
   });
 }
 

@@ -13,12 +13,14 @@
 // Determinism   the outcome is a function of the layout, the state and the step.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "gsv/base/thread_team.h"
+#include "gsv/dynamics/people/repulsions.h"
 #include "gsv/dynamics/shapes/obstacle_field.h"
 #include "gsv/dynamics/shapes/silhouette.h"
 #include "gsv/world/pedestrian.h"
@@ -52,15 +54,29 @@ class Crowd {
   };
   struct Other {
     int body = 0;
+    int walker = -1;  // its index; -1: it is no pedestrian
     double radius = 0, height = 0;
     Vector2 at, velocity;
     double z = 0;
   };
+  // The walkers that are decided for at a time, so that forces are computed for many pairs at once.
+  static constexpr std::size_t kBlock = 64;
+  struct Block {
+    std::array<Vector2, kBlock> directions, forces;
+    Repulsions repulsions;
+  };
 
   void SliceWalls(const world::State& state);
   void SortOthers(const world::State& state);
-  void DecideFor(Walker& walker, double seconds, world::State& state) const;
-  Vector2 ForceOfOthers(const Walker& walker, const world::BodyState& body, Vector2 wanted) const;
+  // `walkers` are indices.
+  void DecideFor(std::span<const std::uint32_t> walkers, double seconds, double left, Block& block,
+                 world::State& state);
+  // Where it wants to go, as a direction; counts a goal that it has reached.
+  Vector2 DirectionOf(Walker& walker, world::State& state) const;
+  void AddForcesOfOthers(const Walker& walker, std::uint32_t index, const world::BodyState& body,
+                         Block& block) const;
+  void Command(const Walker& walker, Vector2 direction, Vector2 force, double seconds, double left,
+               world::State& state) const;
   Vector2 ForceOfWalls(const Walker& walker, Vector2 at) const;
 
   const std::shared_ptr<base::ThreadTeam> team_;
@@ -79,6 +95,9 @@ class Crowd {
   int columns_ = 0, rows_ = 0;
   std::vector<std::uint32_t> cell_of_, cell_start_;
   std::vector<Other> sorted_;
+  std::vector<Vector2> sorted_at_;  // theirs
+  // The walkers by cell: who stand near each other look at the same others.
+  std::vector<std::uint32_t> walker_order_;
 };
 
 }  // namespace gsv::dynamics

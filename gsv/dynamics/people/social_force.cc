@@ -8,12 +8,7 @@ namespace {
 
 using geometry::Vector2;
 
-constexpr double kOtherStrength = 2.1, kOtherRange = 0.3;  // m²/s², m
-constexpr double kStride = 2;                              // s
-constexpr double kWallStrength = 10, kWallRange = 0.2;     // m²/s², m
-constexpr double kHalfSight = 1.7453292519943295;          // rad: 100 degrees
-constexpr double kUnseen = 0.5;
-constexpr double kClosest = 0.05;  // m
+constexpr double kWallStrength = 10, kWallRange = 0.2;  // m²/s², m
 
 double Length(Vector2 v) { return std::sqrt(v.x * v.x + v.y * v.y); }
 
@@ -30,10 +25,10 @@ Vector2 RepulsionByOther(Vector2 apart, Vector2 other_velocity) {
   const Vector2 stride = kStride * other_velocity, beyond = apart - stride;
   const double near = Length(apart), far = Length(beyond), step = Length(stride);
   const double sum = near + far;
-  const double b = 0.5 * std::sqrt(std::max(sum * sum - step * step, 4e-6));
+  const double b = 0.5 * std::sqrt(std::max(sum * sum - step * step, kLeastSquare));
   // grad b = sum / (4 b) (r / |r| + (r - s) / |r - s|).
   Vector2 direction = (1 / near) * apart;
-  if (far > 1e-9) direction = direction + (1 / far) * beyond;
+  if (far > kNoLength) direction = direction + (1 / far) * beyond;
   const double strength = kOtherStrength / kOtherRange * std::exp(-b / kOtherRange) * sum / (4 * b);
   const Vector2 force = strength * direction;
   static const double cosine = std::cos(kAside), sine = std::sin(kAside);
@@ -50,9 +45,10 @@ Vector2 RepulsionByWall(Vector2 away, double distance) {
   return (kWallStrength / kWallRange * std::exp(-std::max(0.0, distance) / kWallRange)) * away;
 }
 
-Vector2 NextVelocity(Vector2 velocity, Vector2 wanted, Vector2 force, double speed,
-                     double seconds) {
-  const double left = std::exp(-seconds / kRelaxationTime);
+double Relaxation(double seconds) { return std::exp(-seconds / kRelaxationTime); }
+
+Vector2 NextVelocity(Vector2 velocity, Vector2 wanted, Vector2 force, double speed, double seconds,
+                     double left) {
   Vector2 next = wanted + left * (velocity - wanted) + seconds * force;
   const double length = Length(next), limit = kFastest * speed;
   if (length > limit) next = (limit / length) * next;

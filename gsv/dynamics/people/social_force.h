@@ -20,16 +20,15 @@
 // Units      metres, seconds. Vectors in the plane of the world.
 #pragma once
 
+#include "gsv/dynamics/people/social_force_constants.h"
 #include "gsv/geometry/vector3.h"
 
 namespace gsv::dynamics {
 
 inline constexpr double kRelaxationTime = 0.5;  // s
 inline constexpr double kFastest = 1.3;         // of the desired speed
-inline constexpr double kAside = 0.1;           // rad
 inline constexpr double kOthersReach = 3;   // m between centres: beyond it others count for nothing
 inline constexpr double kWallsReach = 1.2;  // m: the same of walls
-inline constexpr double kPaperRadius = 0.1;  // m: see Apart()
 
 // From another to the pedestrian: `between` (from centre to centre), shortened by as much as both
 // are thicker than the paper's pedestrians, but never shorter than 5 cm. Those are points, whose
@@ -46,8 +45,12 @@ geometry::Vector2 AsSeen(geometry::Vector2 force, geometry::Vector2 wanted);
 // The acceleration by a wall at `distance`; `away` is the direction from it, of unit length.
 geometry::Vector2 RepulsionByWall(geometry::Vector2 away, double distance);
 
-// The velocity after so many seconds under a constant force. `wanted` is v0 e.
+// How much of the difference to v0 e is left after so many seconds.
+double Relaxation(double seconds);
+
+// The velocity after so many seconds under a constant force. `wanted` is v0 e, `left` is
+// Relaxation(seconds).
 geometry::Vector2 NextVelocity(geometry::Vector2 velocity, geometry::Vector2 wanted,
-                               geometry::Vector2 force, double speed, double seconds);
+                               geometry::Vector2 force, double speed, double seconds, double left);
 
 }  // namespace gsv::dynamics

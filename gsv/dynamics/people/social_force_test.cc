@@ -72,10 +72,11 @@ TEST(SocialForce, ShortensTheDistanceToWhatIsThick) {
 TEST(SocialForce, AcceleratesExponentiallyToTheDesiredVelocity) {
   Vector2 velocity;
   for (int i = 1; i <= 40; ++i) {
-    velocity = NextVelocity(velocity, {1.34, 0}, {}, 1.34, 0.05);
+    velocity = NextVelocity(velocity, {1.34, 0}, {}, 1.34, 0.05, Relaxation(0.05));
     EXPECT_NEAR(velocity.x, 1.34 * (1 - std::exp(-0.05 * i / 0.5)), 1e-12);
   }
-  EXPECT_NEAR(LengthOf(NextVelocity({0, 0}, {1, 0}, {1000, 0}, 1, 0.05)), 1.3, 1e-12);
+  EXPECT_NEAR(LengthOf(NextVelocity({0, 0}, {1, 0}, {1000, 0}, 1, 0.05, Relaxation(0.05))), 1.3,
+              1e-12);
 }
 
 }  // namespace

@@ -1,0 +1,53 @@
+// The forces of the social force model (social_force.h) for many pairs at once.
+//
+// Each value is what Apart(), RepulsionByOther() and AsSeen() give for the pair, to the bit: the
+// same operations in the same order, for several pairs in one instruction.
+//
+// Units    metres, seconds. Vectors in the plane of the world.
+// Threads  an object for each thread.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "gsv/geometry/vector3.h"
+
+namespace gsv::dynamics {
+
+class Repulsions {
+ public:
+  // Adds the force of another on the pedestrian `walker` to forces[walker], at the latest in
+  // Finish(). The forces of one pedestrian are added in the order of the calls. `between` leads
+  // from the other's centre to the pedestrian's; `radii` is the sum of both radii; `wanted` is as
+  // of AsSeen().
+  void Add(std::uint32_t walker, geometry::Vector2 between, double radii,
+           geometry::Vector2 other_velocity, geometry::Vector2 wanted,
+           std::span<geometry::Vector2> forces) {
+    if (count_ == kPairs) Finish(forces);
+    walker_[count_] = walker;
+    x_[count_] = between.x;
+    y_[count_] = between.y;
+    radii_[count_] = radii;
+    velocity_x_[count_] = other_velocity.x;
+    velocity_y_[count_] = other_velocity.y;
+    wanted_x_[count_] = wanted.x;
+    wanted_y_[count_] = wanted.y;
+    ++count_;
+  }
+
+  // Adds what is not added yet.
+  void Finish(std::span<geometry::Vector2> forces);
+
+ private:
+  static constexpr std::size_t kPairs = 256;
+  using Column = std::array<double, kPairs>;
+
+  std::size_t count_ = 0;
+  std::array<std::uint32_t, kPairs> walker_;
+  alignas(64) Column x_, y_, radii_, velocity_x_, velocity_y_, wanted_x_, wanted_y_;
+  alignas(64) Column exponent_, direction_x_, direction_y_, sum_, b_;
+};
+
+}  // namespace gsv::dynamics
