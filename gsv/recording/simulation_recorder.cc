@@ -101,6 +101,7 @@ void SimulationRecorder::RecordFirst(const Simulation& simulation) {
   Record(Observation{snapshot,
                      std::make_shared<SensorLists>(SensorsOf(simulation, *snapshot->layout)),
                      simulation.status()});
+  for (const simulation::Edit& edit : EditsBeforeStart(simulation)) states_.RecordEdit(edit);
 }
 
 base::Status SimulationRecorder::Stop() {

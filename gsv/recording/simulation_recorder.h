@@ -39,8 +39,8 @@ struct RecorderOptions {
 
 class SimulationRecorder {
  public:
-  // Creates the file with the current scene and models, and starts recording. Earlier parts of a
-  // running simulation are not recorded.
+  // Creates the file with the present scene and models, and begins. Nothing from before is recorded,
+  // but for the edits of a simulation that has not started, so that it can be simulated again.
   [[nodiscard]] static base::Result<std::unique_ptr<SimulationRecorder>> Start(
       const std::shared_ptr<simulation::Simulation>& simulation, const std::string& path,
       RecorderOptions options);

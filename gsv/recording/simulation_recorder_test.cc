@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gsv/messages/gsv_msgs.h"
+#include "gsv/presentation/edit_message.h"
 #include "gsv/recording/testing/recorder_fixture.h"
 
 namespace gsv::recording {
@@ -138,6 +139,36 @@ TEST_F(SimulationRecorderTest, ARobotThatComesAgainWasToldNothingYet) {
   const auto commands = Read<messages::gsv_msgs::Command>("/gsv/commands");
   EXPECT_EQ(commands.size(), 10u);  // every 50 ms, until it was removed
   for (const auto& command : commands) EXPECT_EQ(command.linear_m_s, 0.5);
+}
+
+TEST_F(SimulationRecorderTest, KeepsEditsFromBeforeItsStartSoThatTheyCanBeRepeated) {
+  const auto make = [] { return MakeSimulation(100ms, Drives(0.5)); };
+  auto simulation = make();
+  simulation::ObjectSpecification object;
+  object.name = "second";
+  object.copy_of = "wall";
+  object.world_from_object = geometry::PlanarPose(-3, 0, 0, 0);
+  ASSERT_TRUE(simulation->AddObject(object));
+  auto recorder = Start(simulation);
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  ASSERT_TRUE(recorder->Stop());
+  const auto edits = Read<messages::gsv_msgs::Edit>("/gsv/edits");
+  ASSERT_EQ(edits.size(), 1u);  // the robot is in the scenario
+  const auto edit = presentation::EditFrom(edits[0]);
+  ASSERT_TRUE(edit);
+  EXPECT_EQ(edit->time, base::SimTime(0));
+  simulation::ObjectSpecification repeated;
+  repeated.name = edit->body;
+  repeated.copy_of = edit->copy_of;
+  repeated.world_from_object = edit->world_from_body;
+  repeated.on_ground = edit->on_ground;
+  auto again = make();
+  ASSERT_TRUE(again->AddObject(repeated));
+  ASSERT_EQ(RunToEnd(*again), Phase::kFinished);
+  EXPECT_EQ(again->state_hash(), simulation->state_hash());
+  auto unedited = make();
+  ASSERT_EQ(RunToEnd(*unedited), Phase::kFinished);
+  EXPECT_NE(unedited->state_hash(), simulation->state_hash());
 }
 
 TEST_F(SimulationRecorderTest, AFullDiskEndsTheRecordingAndNotTheSimulation) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace gsv::recording {
 namespace {
@@ -65,6 +66,23 @@ scenario::Scenario ScenarioOf(const Simulation& simulation) {
     (body.is_avatar() ? scenario.avatars : scenario.robots).push_back(std::move(entry));
   }
   return scenario;
+}
+
+std::vector<simulation::Edit> EditsBeforeStart(const Simulation& simulation) {
+  if (simulation.status().phase != simulation::Phase::kCreated) return {};
+  const model::WorldDescription& world = *simulation.specification().world;
+  std::set<std::string> of_scenario;  // robots, also those that were removed again
+  std::vector<simulation::Edit> edits;
+  for (const simulation::Event& event : simulation.events(0)) {
+    if (event.kind == "reset") edits.clear();
+    if (event.edit == nullptr) continue;
+    const simulation::Edit& edit = *event.edit;
+    const bool adds_robot = edit.kind == simulation::Edit::Kind::kAddRobot ||
+                            edit.kind == simulation::Edit::Kind::kAddAvatar;
+    if (adds_robot && !CameWithTheWorld(world, edit.body)) of_scenario.insert(edit.body);
+    if (!of_scenario.contains(edit.body)) edits.push_back(edit);
+  }
+  return edits;
 }
 
 }  // namespace gsv::recording

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "gsv/scenario/scenario.h"
 #include "gsv/simulation/simulation.h"
@@ -16,5 +17,9 @@ inline constexpr std::string_view kScenarioMediaType = "application/yaml";
 // at its start. A program that has the original scenario (the name of the world, options of
 // behaviours) should attach that instead.
 scenario::Scenario ScenarioOf(const simulation::Simulation& simulation);
+
+// The edits by which a simulation that has not started came to stand as it does, but for those that
+// ScenarioOf() holds: robots that were added, and where they stand. Empty once it has started.
+std::vector<simulation::Edit> EditsBeforeStart(const simulation::Simulation& simulation);
 
 }  // namespace gsv::recording

@@ -129,9 +129,12 @@ void StateTopics::RecordStatus(const simulation::SimulationStatus& status) {
 void StateTopics::RecordEvent(const simulation::Event& event) {
   events_.Write(event.time, presentation::EventMessage(event));
   log_.Write(event.time, presentation::LogMessage(event));
-  if (event.edit == nullptr) return;
+  if (event.edit != nullptr) RecordEdit(*event.edit);
+}
+
+void StateTopics::RecordEdit(const simulation::Edit& edit) {
   if (!edits_) edits_.emplace(writer_, Selection{}, topics::kEdits);
-  edits_->Write(event.time, presentation::EditMessage(*event.edit));
+  edits_->Write(edit.time, presentation::EditMessage(edit));
 }
 
 }  // namespace gsv::recording

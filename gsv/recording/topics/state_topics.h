@@ -30,6 +30,7 @@ class StateTopics {
 
   void RecordStatus(const simulation::SimulationStatus& status);
   void RecordEvent(const simulation::Event& event);
+  void RecordEdit(const simulation::Edit& edit);
 
  private:
   void WritePoses(const world::Snapshot& snapshot);
