@@ -1,6 +1,6 @@
 import { Box3, PerspectiveCamera, Vector3 } from "three";
 import { expect, test } from "vitest";
-import { environmentOf, fittingDistance, focusOf } from "./framing";
+import { environmentOf, fittingDistance, focusOf, withoutFarAway } from "./framing";
 import { body, scene } from "./testScene";
 
 function camera(aspect: number): PerspectiveCamera {
@@ -68,4 +68,17 @@ test("in a large world the robots are what counts", () => {
 test("a large world without robots is shown from its middle", () => {
   const focus = focusOf(scene({ bounds: { min: [-500, -500, 0], max: [500, 500, 1] } }));
   expect(focus.getSize(new Vector3()).toArray()).toEqual([26, 26, 1]);
+});
+
+test("a body far away from all others does not push the camera away", () => {
+  const at = (x: number) => body(`b${x}`, { pose: [x, 0, 0, 0, 0, 0, 1] });
+  const bounds = { min: [-2, -2, 0], max: [5002, 2, 3] } as const;
+  const near = [at(-1), at(0), at(1), at(2)];
+  const focus = focusOf(scene({ bodies: [...near, at(5000)], bounds: { min: [...bounds.min], max: [...bounds.max] } }));
+  expect(focus.max.x).toBeLessThan(10);
+  expect(focus.min.x).toBe(-2);
+  // A row of bodies has no gap, however long it is.
+  const row = Array.from({ length: 50 }, (_, i) => new Vector3(i * 40, 0, 0));
+  expect(withoutFarAway(row)).toHaveLength(50);
+  expect(withoutFarAway([new Vector3(900, 0, 0)])).toHaveLength(1);
 });

@@ -8,12 +8,16 @@ const AROUND_ROBOTS = 4; // m of the world around the robots that belong into th
 const SMALL_WORLD = 13; // m: a world of at most this half-width is shown whole
 const TALLEST_SHOWN = 3; // m: what rises higher does not push the camera away
 
+// A body is too far away if its distance from the middle exceeds FAR_RADII times that of all nearer
+// bodies, and FAR metres: the rule of `gsv world draw`.
+const FAR_RADII = 20;
+const FAR = 100;
+
 // The part of the scene that the first picture shows: all of a small world, else the robots and
 // what is around them.
 export function focusOf(scene: SceneDescription): Box3 {
-  const world = new Box3(new Vector3(...scene.bounds.min), new Vector3(...scene.bounds.max));
-  const robots = new Box3();
-  for (const { pose } of robotsOf(scene)) robots.expandByPoint(new Vector3(pose[0], pose[1], pose[2]));
+  const world = boundsWithoutFarAway(scene);
+  const robots = new Box3().setFromPoints(withoutFarAway(robotsOf(scene).map(placeOf)));
   const size = world.getSize(new Vector3());
   const isSmall = Math.max(size.x, size.y) <= 2 * SMALL_WORLD;
   if (!world.isEmpty() && (isSmall || robots.isEmpty())) {
@@ -25,6 +29,39 @@ export function focusOf(scene: SceneDescription): Box3 {
   robots.expandByVector(new Vector3(AROUND_ROBOTS, AROUND_ROBOTS, 0));
   robots.max.z += 1;
   return robots;
+}
+
+function placeOf({ pose }: { pose: readonly number[] }): Vector3 {
+  return new Vector3(pose[0], pose[1], pose[2]);
+}
+
+// The scene's bounds, or those of the nearer bodies where some are so far away from the others that
+// with them nothing could be made out.
+function boundsWithoutFarAway(scene: SceneDescription): Box3 {
+  const bounds = new Box3(new Vector3(...scene.bounds.min), new Vector3(...scene.bounds.max));
+  const places = scene.bodies.map(placeOf);
+  const near = withoutFarAway(places);
+  if (near.length === places.length) return bounds;
+  const box = new Box3().setFromPoints(near).expandByVector(new Vector3(AROUND_ROBOTS, AROUND_ROBOTS, 0));
+  box.max.z += TALLEST_SHOWN;
+  return box.intersect(bounds);
+}
+
+// Those before the first gap, in the order of their distance from the median (of fewer than three:
+// from the origin). At least half of them stay.
+export function withoutFarAway(places: Vector3[]): Vector3[] {
+  const middle = new Vector3();
+  if (places.length >= 3) {
+    const median = (axis: "x" | "y" | "z") =>
+      places.map((place) => place[axis]).sort((a, b) => a - b)[Math.floor(places.length / 2)]!;
+    middle.set(median("x"), median("y"), median("z"));
+  }
+  const sorted = [...places].sort((a, b) => a.distanceTo(middle) - b.distanceTo(middle));
+  const gap = sorted.findIndex((place, i) => {
+    const reach = i === 0 ? 0 : sorted[i - 1]!.distanceTo(middle);
+    return 2 * i >= sorted.length && i > 0 && place.distanceTo(middle) > FAR_RADII * reach + FAR;
+  });
+  return gap < 0 ? sorted : sorted.slice(0, gap);
 }
 
 // What a camera was set up for: it stays where it is while this stays the same. Different worlds may
