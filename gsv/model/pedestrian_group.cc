@@ -20,6 +20,19 @@ Visual PartOf(const char* name, const geometry::Shape& shape, double z, const Co
   return visual;
 }
 
+// A limb that hangs from `top` and is swung forwards by so many radians.
+Visual LimbOf(const char* name, const geometry::Vector3& top, double length, double radius,
+              double swing, const Colour& colour) {
+  Visual visual;
+  visual.name = name;
+  visual.shape = geometry::Cylinder{radius, length};
+  const geometry::Quaternion turn = geometry::FromAxisAngle({0, 1, 0}, -swing);
+  visual.link_from_visual = {
+      top + geometry::Vector3{std::sin(swing), 0, -std::cos(swing)} * (length / 2), turn};
+  visual.materials[0].base_colour = colour;
+  return visual;
+}
+
 }  // namespace
 
 base::Status Check(const PedestrianGroup& group) {
@@ -69,10 +82,19 @@ std::shared_ptr<const Model> PedestrianModel(const PedestrianGroup& group, int l
   Link& link = model->links.emplace_back();
   link.name = "body";
   link.inertial.mass = 75;
-  link.visuals.push_back(PartOf("legs", geometry::Cylinder{0.55 * w, 0.5 * h}, 0.25 * h,
-                                kTrousers[i % kTrousers.size()]));
-  link.visuals.push_back(PartOf("torso", geometry::Ellipsoid{{0.6 * w, w, 0.21 * h}}, 0.645 * h,
-                                kTops[i % kTops.size()]));
+  const Colour &trousers = kTrousers[i % kTrousers.size()], &top = kTops[i % kTops.size()];
+  // In the middle of a step.
+  constexpr double kStride = 0.3, kSwing = 0.35;  // rad
+  const double hip = 0.5 * h, leg = hip / std::cos(kStride), shoulder = 0.8 * h;
+  link.visuals.push_back(LimbOf("left_leg", {0, 0.34 * w, hip}, leg, 0.3 * w, kStride, trousers));
+  link.visuals.push_back(
+      LimbOf("right_leg", {0, -0.34 * w, hip}, leg, 0.3 * w, -kStride, trousers));
+  link.visuals.push_back(
+      LimbOf("left_arm", {0, 0.85 * w, shoulder}, 0.34 * h, 0.15 * w, -kSwing, top));
+  link.visuals.push_back(
+      LimbOf("right_arm", {0, -0.85 * w, shoulder}, 0.34 * h, 0.15 * w, kSwing, top));
+  link.visuals.push_back(
+      PartOf("torso", geometry::Ellipsoid{{0.5 * w, 0.8 * w, 0.2 * h}}, 0.65 * h, top));
   link.visuals.push_back(PartOf("head", geometry::Ellipsoid{{0.055 * h, 0.045 * h, 0.07 * h}},
                                 0.93 * h, kSkins[i % kSkins.size()], 0.01 * h));
   Collision collision;
