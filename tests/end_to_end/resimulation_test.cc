@@ -79,6 +79,21 @@ TEST_F(Resimulation, SetsGravityAgainWhereItWasSet) {
   EXPECT_THAT(again.out, StartsWith("simulated again, it is the same: "));
 }
 
+// Actors, pedestrians of the world's file and those of an option.
+TEST_F(Resimulation, RepeatsPeople) {
+  const Outcome recorded =
+      RunProgram("gsv", {"run", "hall", "--robot", "pebble@-8,0", "--behaviour", "wander",
+                         "--pedestrians", "5@-8,-2,1:8,-2,1", "--seed", "5", "--duration", "2",
+                         "--lockstep", "--record", recording_.string(), "--headless"});
+  ASSERT_EQ(recorded.ending, "exit code 0") << recorded.err;
+  const Outcome again = RunProgram("gsv", {"replay", recording_, "--resimulate"});
+  EXPECT_EQ(again.ending, "exit code 0") << again.err;
+  EXPECT_THAT(again.out, StartsWith("simulated again, it is the same: "));
+  const Outcome by_commands =
+      RunProgram("gsv", {"replay", recording_, "--resimulate", "--commands"});
+  EXPECT_EQ(by_commands.ending, "exit code 0") << by_commands.err;
+}
+
 TEST_F(Resimulation, NamesTheFirstDifference) {
   const Outcome recorded = Record({"--lockstep"});
   ASSERT_EQ(recorded.ending, "exit code 0") << recorded.err;
