@@ -16,10 +16,10 @@ struct BrokerCommand {
   pid_t parent = 0;
 };
 
-// Prints the reference as one line on stdout, then serves until SIGINT, SIGTERM, SIGHUP, or the end of
-// `parent`. The calling thread must be the process's only one.
-// Returns the exit code: 0, 130 after SIGINT, or after saying on stderr what is wrong 5, and 2
-// where it is what was asked for.
+// Prints the reference as one line on stdout, then serves until SIGINT, SIGTERM or SIGHUP, or until
+// `parent` ends. The process must have no other thread.
+// Returns the exit code: 0; 130 after SIGINT; after an error, which is printed on stderr, 2 if an
+// argument is invalid, else 5.
 int BrokerMain(const BrokerCommand& command);
 
 }  // namespace gsv::broker

@@ -35,11 +35,11 @@ struct FederationLimits {
   std::size_t calls = 32;                  // underway, of all queries
   std::size_t offers_per_answer = 20'000;  // of one trader
   std::size_t bytes_per_answer = 16u << 20;
-  std::size_t requests = 10'000;  // remembered, so that none is answered twice
+  std::size_t requests = 10'000;  // remembered to answer none twice
   std::chrono::seconds request_lifetime{60};
 };
 
-// Of what the trader holds.
+// The limits of a trader.
 struct TraderLimits {
   ExpressionLimits expression;
   DynamicLimits dynamic{};

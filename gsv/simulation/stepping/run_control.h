@@ -95,8 +95,8 @@ class RunControl {
   Phase phase_ = Phase::kCreated;
   int starts_pending_ = 0;
   // Where the run pauses by itself; set when it starts or resumes.
-  std::optional<SimTime> run_until_;    // when a step has led there
-  std::optional<SimTime> run_through_;  // when the turns there are over
+  std::optional<SimTime> run_until_;    // pauses when a step has reached it
+  std::optional<SimTime> run_through_;  // pauses when the turns at it are over
   std::int64_t steps_left_ = -1;        // -1: any number
 
   std::uint64_t run_ = 0;
