@@ -1,9 +1,10 @@
 // The folder in which machines with a shared file system store the results of a campaign's tasks:
 // NAME.runs beside the results.
 //
-// Format   plan.json            the campaign at the time of the first submission batch-0001.json a
-//          submitted batch: its runs, and the number of runs per task journals/*.journal   the
-//          journals of attempts, one file each (journal.h) logs/                the output of tasks
+// Format   plan.json            the campaign at the time of the first submission
+//          batch-0001.json      a submitted batch: its runs, and the number of runs per task
+//          journals/*.journal   the journals of attempts, one file each (journal.h)
+//          logs/                the output of tasks
 //          Files other than journals are written atomically by renaming. Only one machine ever
 //          writes a file, so that no lock is needed. A run may be in several journals.
 // Threads  one at a time.
