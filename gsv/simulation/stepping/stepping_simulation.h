@@ -1,10 +1,11 @@
 // The implementation of Simulation: connects the parts that own its data, and passes requests to
 // them.
 //
-//   RunControl, LifeCycle   the phase, and the actions on its changes AgentPopulation         the
-//   robots' agents and behaviours SimulatedWorld          layout, state, engine; changed by
-//   WorldEditor and FaultInjector EventLog                events and observers StepLoop, Watchdog
-//   a thread each
+//   RunControl, LifeCycle   the phase, and the actions on its changes
+//   AgentPopulation         the robots' agents and behaviours
+//   SimulatedWorld          layout, state, engine; changed by WorldEditor and FaultInjector
+//   EventLog                events and observers
+//   StepLoop, Watchdog      a thread each
 //
 // Locks, in the order in which they are taken: control_mutex_ (one request at a time),
 // SimulatedWorld::lock(), SharedState::mutex (life cycle, agents, faults that are due), EventLog's.
