@@ -44,7 +44,7 @@ void FindEllipses(std::size_t count, double* __restrict x, double* __restrict y,
     const double step = std::sqrt(stride_x * stride_x + stride_y * stride_y);
     const double sum = near + far;
     const double square = sum * sum - step * step;
-    const double b = 0.5 * std::sqrt(square < kLeastSquare ? kLeastSquare : square);
+    const double b = 0.5 * std::sqrt(square < kMinSquare ? kMinSquare : square);
     const double per_near = 1 / near, per_far = 1 / far;
     const double ahead_x = per_near * apart_x, ahead_y = per_near * apart_y;
     const double both_x = ahead_x + per_far * beyond_x, both_y = ahead_y + per_far * beyond_y;

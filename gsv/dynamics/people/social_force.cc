@@ -25,7 +25,7 @@ Vector2 RepulsionByOther(Vector2 apart, Vector2 other_velocity) {
   const Vector2 stride = kStride * other_velocity, beyond = apart - stride;
   const double near = Length(apart), far = Length(beyond), step = Length(stride);
   const double sum = near + far;
-  const double b = 0.5 * std::sqrt(std::max(sum * sum - step * step, kLeastSquare));
+  const double b = 0.5 * std::sqrt(std::max(sum * sum - step * step, kMinSquare));
   // grad b = sum / (4 b) (r / |r| + (r - s) / |r - s|).
   Vector2 direction = (1 / near) * apart;
   if (far > kNoLength) direction = direction + (1 / far) * beyond;
