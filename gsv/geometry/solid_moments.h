@@ -1,0 +1,35 @@
+// Volume, centroid and second moments of solid shapes.
+//
+// Source  textbooks for shapes with a closed form; of a mesh by the divergence theorem, as the sum
+//         over the tetrahedra that its triangles span with the origin.
+#pragma once
+
+#include "gsv/geometry/shape.h"
+
+namespace gsv::geometry {
+
+// Units  m³, m, m⁵. `xx` is the integral of (x - centroid.x)² over the volume, `xy` that of
+//        (x - centroid.x)(y - centroid.y), and so on.
+struct SolidMoments {
+  double volume = 0;
+  Vector3 centroid;
+  double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
+};
+
+// In the shape's frame. A plane has no volume. A mesh must be closed: the result of an open one
+// depends on where its origin lies. It may be inside out.
+SolidMoments MomentsOf(const Shape& shape);
+
+// The part of a closed mesh below the plane z = `height` in the world: its volume and the integral
+// of the position over it. Exact; the cut needs no lid, as it spans no volume with a point of the
+// plane.
+struct VolumeBelow {
+  double volume = 0;     // m³
+  Vector3 first_moment;  // m⁴, in the world
+};
+VolumeBelow BelowHeight(const TriangleMesh& mesh, const Pose& world_from_mesh, double height);
+
+// The same of a sphere: the cap, in closed form.
+VolumeBelow SphereBelowHeight(double radius, const Vector3& centre_in_world, double height);
+
+}  // namespace gsv::geometry
