@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gsv/geometry/shape.h"
+#include "gsv/model/collision_filter.h"
 #include "gsv/model/control_system.h"
 #include "gsv/model/drive.h"
 #include "gsv/model/material.h"
@@ -35,6 +36,7 @@ struct Surface {
   double restitution = 0.0;
   // In the collision's frame, unit length; zero: the world's x axis.
   geometry::Vector3 friction_direction;
+  CollisionFilter filter;
 };
 
 struct Collision {
@@ -58,6 +60,11 @@ struct Link {
   std::vector<Visual> visuals;
   std::vector<Collision> collisions;
   bool has_gravity = true;
+  bool has_wind = false;      // the world's wind pushes it
+  bool is_kinematic = false;  // no force moves it, only its drive or its joint's command
+  // The share of its velocity that it loses in each step of the world's length: SDFormat's
+  // <velocity_decay>, as Gazebo has it with ODE. In [0, 1].
+  double linear_decay = 0, angular_decay = 0;
 };
 
 enum class JointKind {
@@ -75,6 +82,12 @@ inline bool TakesCommands(JointKind kind) {
   return kind != JointKind::kFixed && kind != JointKind::kBall;
 }
 
+// A joint that follows another one: its position is multiplier * (leader - reference) + offset.
+struct Mimic {
+  int leader = 0;  // index in Model::joints
+  double multiplier = 1, offset = 0, reference = 0;
+};
+
 struct Joint {
   std::string name;
   JointKind kind = JointKind::kFixed;
@@ -90,6 +103,7 @@ struct Joint {
   double damping = 0;
   double friction = 0;
   double thread_pitch = 0;  // m/rad, of kScrew
+  std::optional<Mimic> mimic = std::nullopt;
 };
 
 // "revolute", "prismatic", …
@@ -123,6 +137,7 @@ struct Model {
   std::vector<Link> links;                 // links[0] is the canonical link; never empty
   std::vector<Joint> joints;               // a forest: no link is the child of two joints
   std::vector<JointTarget> joint_targets;  // at most one per joint
+  std::vector<double> start_positions;     // of the joints, where it starts; empty: zero
   std::vector<SensorDescription> sensors;
   std::vector<ControlSystem> control_systems;
   std::optional<Drive> drive;             // present: a robot that can be given a behaviour

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gsv/model/medium.h"
 #include "gsv/model/model.h"
 
 namespace gsv::model {
@@ -56,6 +57,8 @@ struct WorldDescription {
   geometry::Vector3 magnetic_field{5.5645e-6, 22.8758e-6, -42.3884e-6};  // T
   double temperature = 288.15;                                           // K, of the air
   std::optional<GeodeticOrigin> origin;  // absent: no satellite navigation
+  std::optional<Wind> wind;
+  std::optional<Fluid> fluid;
   SceneLook scene;
   std::vector<Light> lights;
   std::vector<PlacedModel> models;

@@ -45,6 +45,10 @@ State InitialState(const Layout& layout) {
   }
   state.joint_positions.assign(layout.joint_count, 0.0);
   state.joint_velocities.assign(layout.joint_count, 0.0);
+  for (const Body& body : layout.bodies) {
+    std::copy(body.model->start_positions.begin(), body.model->start_positions.end(),
+              state.joint_positions.begin() + body.first_joint);
+  }
   if (std::any_of(layout.bodies.begin(), layout.bodies.end(),
                   [](const Body& body) { return body.is_pedestrian(); })) {
     state.goals.assign(layout.bodies.size(), 0);
@@ -88,6 +92,13 @@ base::Status CheckJointCommand(const Body& body, int joint, const JointCommand& 
   }
   if (!model::TakesCommands(which.kind)) {
     return base::Fail(ErrorCode::kInvalidArgument, "fixed and ball joints take no commands", place);
+  }
+  if (which.mimic) {
+    const auto leader = static_cast<std::size_t>(which.mimic->leader);
+    return base::Fail(
+        ErrorCode::kInvalidArgument,
+        "this joint follows " + body.model->joints[leader].name + "; command that one instead",
+        place);
   }
   if (body.is_rigid()) return {};
   if (!body.is_robot()) {

@@ -160,6 +160,12 @@ Articulation MakeArticulation(const model::Model& model) {
   for (Part& part : articulation.parts) {
     Weigh(model, part);
     articulation.mass += part.mass;
+    part.is_kinematic = std::any_of(part.links.begin(), part.links.end(), [&](int link) {
+      return model.links[static_cast<std::size_t>(link)].is_kinematic;
+    });
+  }
+  if (articulation.parts.size() > 1 && articulation.parts[0].is_kinematic) {
+    articulation.is_fixed = true;
   }
   return articulation;
 }

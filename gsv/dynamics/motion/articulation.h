@@ -22,13 +22,16 @@ struct Part {
   geometry::Pose model_from_part;
   geometry::Vector3 inertia;  // principal moments
   double heaviness = 1;       // the share of its mass on which gravity acts
+  bool is_kinematic = false;  // no force moves it
 };
 
 struct Articulation {
   std::vector<Part> parts;  // parents before children; the first is the base
   std::vector<int> part_of_link;
-  bool is_fixed = false;  // a joint holds a link to the world: the base does not move
-  double mass = 0;        // of all parts
+  // The base does not move: a joint holds a link to the world, or the base is kinematic and parts
+  // hang from it.
+  bool is_fixed = false;
+  double mass = 0;  // of all parts
 };
 
 // Links that hang from no joint belong to the base, which moves with the model's frame, and so does

@@ -54,6 +54,7 @@ double NearObstacles::Search(Chunk& chunk, std::uint32_t m, const geometry::Plan
     bool is_placed = false;
     field.ForEachNear(origin, look, [&](std::uint32_t index) {
       const Obstacle& obstacle = field[index];
+      if (!Meet(obstacle.filter, piece.filter)) return;
       const double from_origin = DistanceTo(obstacle.shape, origin);
       nearest = std::min(nearest, from_origin);
       if (from_origin > footprint.radius + within + kRounding) return;

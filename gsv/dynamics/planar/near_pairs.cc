@@ -83,6 +83,7 @@ void NearPairs::AddIfNear(std::uint32_t first, std::uint32_t second,
     const Vector2 centre_p = PointAt(piece_p.centre, start_a);
     for (std::uint32_t q = 0; q < b.pieces.size(); ++q) {
       const Footprint::Piece& piece_q = b.pieces[q];
+      if (!Meet(piece_p.filter, piece_q.filter)) continue;
       const Interval shared =
           SharedHeights(piece_p, scene_.height(first), piece_q, scene_.height(second));
       if (shared.high - shared.low <= kSameHeight) continue;

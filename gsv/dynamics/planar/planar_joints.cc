@@ -18,6 +18,23 @@ double Next(const model::Joint& joint, const world::JointCommand& command, doubl
   return std::clamp(next, joint.position_limits.min, joint.position_limits.max);
 }
 
+// Those that follow others: where their leaders are now.
+void MoveFollowers(const world::Body& body, double seconds, world::State& state) {
+  for (std::size_t j = 0; j < body.model->joints.size(); ++j) {
+    const model::Joint& joint = body.model->joints[j];
+    if (!joint.mimic) continue;
+    const auto first = static_cast<std::size_t>(body.first_joint);
+    const double leader =
+        state.joint_positions[first + static_cast<std::size_t>(joint.mimic->leader)];
+    double& position = state.joint_positions[first + j];
+    const double before = position;
+    const model::Mimic& mimic = *joint.mimic;
+    position = std::clamp(mimic.multiplier * (leader - mimic.reference) + mimic.offset,
+                          joint.position_limits.min, joint.position_limits.max);
+    state.joint_velocities[first + j] = (position - before) / seconds;
+  }
+}
+
 }  // namespace
 
 void MovePlanarJoints(const world::Layout& layout, double seconds, world::State& state) {
@@ -28,11 +45,13 @@ void MovePlanarJoints(const world::Layout& layout, double seconds, world::State&
       const auto at = static_cast<std::size_t>(body.first_joint) + j;
       const world::JointCommand& command = state.joint_commands[at];
       if (command.kind == Kind::kNone && state.joint_velocities[at] == 0) continue;
+      if (body.model->joints[j].mimic) continue;
       if (world::IsOfDrive(*body.model, static_cast<int>(j))) continue;
       const double before = state.joint_positions[at];
       state.joint_positions[at] = Next(body.model->joints[j], command, before, seconds);
       state.joint_velocities[at] = (state.joint_positions[at] - before) / seconds;
     }
+    MoveFollowers(body, seconds, state);
   }
 }
 

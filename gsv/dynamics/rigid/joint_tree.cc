@@ -41,7 +41,8 @@ void Limit(JointRow& row, const model::Joint& joint, double rate, double force, 
 
 class JointTree final : public MovingBody {
  public:
-  JointTree(const RigidBody& plan, const world::State& state, std::span<Owner* const> owners,
+  JointTree(const RigidBody& plan, const model::WorldDescription& world_description,
+            const world::State& state, std::span<Owner* const> owners,
             btMultiBodyDynamicsWorld& world);
 
   void BeforeSubstep(double seconds) override;
@@ -79,6 +80,7 @@ class JointTree final : public MovingBody {
   void StoreBall(const Ball& ball, bool rests, world::State& state) const;
   void Slide();
   void LiftWhatIsWeightless();
+  void Immerse(double seconds);
   bool IsBall(int link) const { return JointOf(PartOf(link)).kind == model::JointKind::kBall; }
   double Rate(int link) const;
   void AddCollider(int link, Owner& owner, btMultiBodyDynamicsWorld& world);
@@ -87,12 +89,16 @@ class JointTree final : public MovingBody {
   world::JointCommand CommandOf(int joint) const;
   void TurnMotors(double seconds);
   void Move(const Motor& motor, double rate, double seconds);
+  void ForceTo(const Motor& motor, double rate, double seconds);
+  void Follow(const Motor& motor, const model::Mimic& mimic, double seconds);
+  void MoveKinematic(const Motor& motor, const world::JointCommand& command, double seconds);
   void Push(const Motor& motor, double force, double seconds);
   std::unique_ptr<JointRow> AddJointRow(int link, btMultiBodyDynamicsWorld& world);
   Pose WorldFromModel() const;
   double RestingSpeed() const;
 
   const RigidBody& plan_;
+  const model::WorldDescription& world_description_;
   btMultiBody tree_;
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
   std::vector<std::unique_ptr<btMultiBodyConstraint>> limits_;
@@ -107,9 +113,11 @@ class JointTree final : public MovingBody {
   double resting_speed_before_;
 };
 
-JointTree::JointTree(const RigidBody& plan, const world::State& state,
-                     std::span<Owner* const> owners, btMultiBodyDynamicsWorld& world)
+JointTree::JointTree(const RigidBody& plan, const model::WorldDescription& world_description,
+                     const world::State& state, std::span<Owner* const> owners,
+                     btMultiBodyDynamicsWorld& world)
     : plan_(plan),
+      world_description_(world_description),
       tree_(static_cast<int>(plan.articulation.parts.size()) - 1, plan.articulation.parts[0].mass,
             ToBullet(plan.articulation.parts[0].inertia), plan.articulation.is_fixed, false),
       wanted_positions_(plan.model->joints.size()),
@@ -312,6 +320,37 @@ void JointTree::Move(const Motor& motor, double rate, double seconds) {
   motor.row->Set(std::clamp(rate, -fastest, fastest), -impulse, impulse);
 }
 
+// Whatever force it takes: without a command, or with one of effort, the joint stands.
+void JointTree::MoveKinematic(const Motor& motor, const world::JointCommand& command,
+                              double seconds) {
+  double rate = 0;
+  if (command.kind == Kind::kVelocity) rate = command.value;
+  if (command.kind == Kind::kPosition) {
+    rate = kServoGain * (command.value - tree_.getJointPos(motor.link));
+  }
+  ForceTo(motor, rate, seconds);
+}
+
+// As fast as its leader, and towards where it should be. The leader does not feel it.
+void JointTree::Follow(const Motor& motor, const model::Mimic& mimic, double seconds) {
+  const auto leader = std::find_if(motors_.begin(), motors_.end(),
+                                   [&](const Motor& other) { return other.joint == mimic.leader; });
+  double position = 0, rate = 0;  // of a leader that does not move
+  if (leader != motors_.end()) {
+    position = tree_.getJointPos(leader->link);
+    rate = tree_.getJointVel(leader->link);
+  }
+  const double wanted = mimic.multiplier * (position - mimic.reference) + mimic.offset;
+  ForceTo(motor, mimic.multiplier * rate + kServoGain * (wanted - tree_.getJointPos(motor.link)),
+          seconds);
+}
+
+void JointTree::ForceTo(const Motor& motor, double rate, double seconds) {
+  const double fastest =
+      std::min(plan_.model->joints[static_cast<std::size_t>(motor.joint)].velocity_limit, kNoLimit);
+  motor.row->Set(std::clamp(rate, -fastest, fastest), -kNoLimit * seconds, kNoLimit * seconds);
+}
+
 // A force, and Coulomb's friction: a motor that holds still with so much force.
 void JointTree::Push(const Motor& motor, double force, double seconds) {
   const model::Joint& joint = plan_.model->joints[motor.joint];
@@ -326,6 +365,14 @@ void JointTree::TurnMotors(double seconds) {
   for (const Motor& motor : motors_) {
     const model::Joint& joint = plan_.model->joints[motor.joint];
     const world::JointCommand command = CommandOf(motor.joint);
+    if (joint.mimic) {
+      Follow(motor, *joint.mimic, seconds);
+      continue;
+    }
+    if (PartOf(motor.link).is_kinematic) {
+      MoveKinematic(motor, command, seconds);
+      continue;
+    }
     const double force = command.kind == Kind::kEffort ? command.value : 0;
     if (command.kind == Kind::kVelocity) {
       Move(motor, command.value, seconds);
@@ -345,6 +392,29 @@ void JointTree::BeforeSubstep(double seconds) {
   if (servo_) Drive(seconds);
   TurnMotors(seconds);
   LiftWhatIsWeightless();
+  if (!plan_.media.empty()) Immerse(seconds);
+}
+
+// Wind, fluids and the decay of velocities, on each part.
+void JointTree::Immerse(double seconds) {
+  const auto count = static_cast<std::size_t>(tree_.getNumLinks()) + 1;
+  std::vector<btVector3> turning(count), moving(count);  // of each part, in its own frame
+  tree_.compTreeLinkVelocities(turning.data(), moving.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    const int link = static_cast<int>(i) - 1;
+    const btTransform place =
+        link < 0 ? tree_.getBaseWorldTransform() : tree_.getLink(link).m_cachedWorldTransform;
+    const PartMotion motion{FromBullet(place), FromBullet(place.getBasis() * moving[i]),
+                            FromBullet(place.getBasis() * turning[i])};
+    const Wrench wrench = WrenchOf(plan_.media[i], parts()[i], motion, world_description_, seconds);
+    if (link < 0) {
+      tree_.addBaseForce(ToBullet(wrench.force));
+      tree_.addBaseTorque(ToBullet(wrench.torque));
+    } else {
+      tree_.addLinkForce(link, ToBullet(wrench.force));
+      tree_.addLinkTorque(link, ToBullet(wrench.torque));
+    }
+  }
 }
 
 // Bullet pulls at all parts.
@@ -433,10 +503,11 @@ void JointTree::Store(double seconds, world::State& state) const {
 
 }  // namespace
 
-std::unique_ptr<MovingBody> MakeJointTree(const RigidBody& plan, const world::State& state,
-                                          std::span<Owner* const> owners,
+std::unique_ptr<MovingBody> MakeJointTree(const RigidBody& plan,
+                                          const model::WorldDescription& world_description,
+                                          const world::State& state, std::span<Owner* const> owners,
                                           btMultiBodyDynamicsWorld& world) {
-  return std::make_unique<JointTree>(plan, state, owners, world);
+  return std::make_unique<JointTree>(plan, world_description, state, owners, world);
 }
 
 }  // namespace gsv::dynamics

@@ -31,12 +31,16 @@ class MovingBody {
   virtual void Store(double seconds, world::State& state) const = 0;
 };
 
-std::unique_ptr<MovingBody> MakeFreeBody(const RigidBody& plan, const world::State& state,
-                                         Owner& owner, btMultiBodyDynamicsWorld& world);
+// `world_description` is the world that the body is in.
+std::unique_ptr<MovingBody> MakeFreeBody(const RigidBody& plan,
+                                         const model::WorldDescription& world_description,
+                                         const world::State& state, Owner& owner,
+                                         btMultiBodyDynamicsWorld& world);
 // `owners` are those of the plan's solids. Joints keep to their limits, are damped and rub; those
 // of a drive's wheels turn as the drive wants (RollsOnWheels()), its steering goes where it wants.
-std::unique_ptr<MovingBody> MakeJointTree(const RigidBody& plan, const world::State& state,
-                                          std::span<Owner* const> owners,
+std::unique_ptr<MovingBody> MakeJointTree(const RigidBody& plan,
+                                          const model::WorldDescription& world_description,
+                                          const world::State& state, std::span<Owner* const> owners,
                                           btMultiBodyDynamicsWorld& world);
 
 // m/s² and rad/s²: a body that neither moves by more than this times the step before a step nor

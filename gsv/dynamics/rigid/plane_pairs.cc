@@ -1,5 +1,7 @@
 #include "gsv/dynamics/rigid/plane_pairs.h"
 
+#include "gsv/dynamics/rigid/shape_filter.h"
+
 namespace gsv::dynamics {
 namespace {
 
@@ -27,6 +29,7 @@ bool IsAbove(const btBroadphaseProxy& body, const btBroadphaseProxy& plane) {
 void LookAtPairsThatMayTouch(btBroadphasePair& pair, btCollisionDispatcher& dispatcher,
                              const btDispatcherInfo& info) {
   const btBroadphaseProxy &a = *pair.m_pProxy0, &b = *pair.m_pProxy1;
+  if (!ShapesMeet(ObjectOf(a).getCollisionShape(), ObjectOf(b).getCollisionShape())) return;
   const bool is_new = pair.m_algorithm == nullptr;
   if (is_new && ((IsPlane(a) && IsAbove(b, a)) || (IsPlane(b) && IsAbove(a, b)))) return;
   btCollisionDispatcher::defaultNearCallback(pair, dispatcher, info);

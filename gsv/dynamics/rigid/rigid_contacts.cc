@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <tuple>
 
+#include <BulletCollision/CollisionDispatch/btCompoundCompoundCollisionAlgorithm.h>
+
+#include "gsv/dynamics/rigid/shape_filter.h"
+
 namespace gsv::dynamics {
 namespace {
 
@@ -86,7 +90,11 @@ bool TakeSurfaces(btManifoldPoint& point, const btCollisionObjectWrapper* first,
 
 }  // namespace
 
-void InstallSurfaces() { gContactAddedCallback = TakeSurfaces; }
+void InstallSurfaces() {
+  gContactAddedCallback = TakeSurfaces;
+  gCompoundChildShapePairCallback = ShapesMeet;
+  gCompoundCompoundChildShapePairCallback = ShapesMeet;
+}
 
 void RigidContacts::Clear() {
   found_.clear();

@@ -25,7 +25,7 @@ struct Owner {
   bool touches = false;  // something, in the last substep
 };
 
-// To be called before the first collision is looked for: has Bullet ask for surfaces.
+// To be called before the first collision is looked for: has Bullet ask for surfaces and filters.
 void InstallSurfaces();
 
 class RigidContacts {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "gsv/dynamics/rigid/shape_filter.h"
+
 namespace gsv::dynamics {
 namespace {
 
@@ -24,16 +26,20 @@ class SolidBuilder {
     shape->getBoundingSphere(centre, radius);
     solid_.radius = std::max<double>(solid_.radius, (solid_from_shape * centre).length() + radius);
     compound_->addChildShape(solid_from_shape, shape);
+    SetFilter(*shape, surface.filter);
+    filter_ = Union(filter_, surface.filter);
     solid_.surfaces.push_back(surface);
   }
 
   Solid Finish() {
+    SetFilter(*compound_, filter_);
     solid_.shape = compound_;
     return std::move(solid_);
   }
 
  private:
   btCompoundShape* compound_;
+  model::CollisionFilter filter_ = model::kMeetsNothing;
   Solid solid_;
 };
 
@@ -88,6 +94,7 @@ base::Status RigidScene::AddRigid(int index) {
     if (!kinematics) return base::Fail(kinematics.error());
     rigid.kinematics = *std::move(kinematics);
   }
+  rigid.media = MakeMedium(*layout_, body, rigid.articulation);
   bodies_.push_back(std::move(rigid));
   return {};
 }
@@ -98,10 +105,11 @@ void RigidScene::AddStanding(int index) {
   for (const model::Link& link : model.links) {
     for (const model::Collision& collision : link.collisions) {
       const Pose pose = link.model_from_link * collision.link_from_collision;
-      btCollisionShape* shape = shapes_.Standing(collision.shape);
+      btCollisionShape* shape = shapes_.Standing(collision.shape, collision.surface.filter);
       if (shape == nullptr) continue;
       if (std::holds_alternative<geometry::Plane>(collision.shape)) {
         // Without end, it would make a compound's tree useless.
+        SetFilter(*shape, collision.surface.filter);
         standing_.push_back({{index, shape, {collision.surface}}, pose});
       } else {
         builder.Add(ToBullet(pose), shape, collision.surface);
@@ -123,7 +131,10 @@ void RigidScene::AddPlanar(int index) {
     if (!(piece.heights.high > low)) continue;
     btTransform model_from_shape;
     btCollisionShape* shape = shapes_.Prism(piece, low, model_from_shape);
-    if (shape != nullptr) builder.Add(model_from_shape, shape, {});
+    if (shape == nullptr) continue;
+    model::Surface surface;
+    surface.filter = piece.filter;
+    builder.Add(model_from_shape, shape, surface);
   }
   planar_.push_back(builder.Finish());
 }

@@ -9,6 +9,7 @@
 #include "gsv/base/error.h"
 #include "gsv/dynamics/motion/articulation.h"
 #include "gsv/dynamics/motion/drive_kinematics.h"
+#include "gsv/dynamics/motion/medium_forces.h"
 #include "gsv/dynamics/rigid/rigid_shapes.h"
 #include "gsv/world/state.h"
 
@@ -30,7 +31,8 @@ struct RigidBody {
   int body = 0;
   const model::Model* model = nullptr;
   Articulation articulation;
-  std::vector<Solid> solids;  // of its parts
+  std::vector<Solid> solids;      // of its parts
+  std::vector<PartMedium> media;  // of its parts; empty if no medium pushes it
   std::optional<DriveKinematics> kinematics;
   int first_joint = 0;
   bool is_jointed() const { return articulation.parts.size() > 1; }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <BulletCollision/CollisionShapes/btScaledBvhTriangleMeshShape.h>
 #include <LinearMath/btConvexHullComputer.h>
 
 #include "gsv/dynamics/shapes/connected_pieces.h"
@@ -107,7 +108,7 @@ btCollisionShape* RigidShapes::Primitive(const geometry::Shape& shape) {
   return nullptr;
 }
 
-btCollisionShape* RigidShapes::MeshOf(const geometry::Mesh& mesh) {
+btBvhTriangleMeshShape* RigidShapes::MeshOf(const geometry::Mesh& mesh) {
   if (mesh.triangles->triangles.empty()) return nullptr;
   const MeshKey key{mesh.triangles.get(), mesh.scale.x, mesh.scale.y, mesh.scale.z};
   if (const auto known = meshes_.find(key); known != meshes_.end()) {
@@ -134,8 +135,13 @@ btCollisionShape* RigidShapes::MeshOf(const geometry::Mesh& mesh) {
   return meshes_.emplace(key, std::move(made)).first->second->shape.get();
 }
 
-btCollisionShape* RigidShapes::Standing(const geometry::Shape& shape) {
-  if (const auto* mesh = std::get_if<geometry::Mesh>(&shape)) return MeshOf(*mesh);
+btCollisionShape* RigidShapes::Standing(const geometry::Shape& shape,
+                                        const model::CollisionFilter& filter) {
+  if (const auto* mesh = std::get_if<geometry::Mesh>(&shape)) {
+    btBvhTriangleMeshShape* const shared = MeshOf(*mesh);
+    if (shared == nullptr || filter == model::CollisionFilter{}) return shared;
+    return Own<btScaledBvhTriangleMeshShape>(shared, btVector3(1, 1, 1));
+  }
   if (const auto* plane = std::get_if<geometry::Plane>(&shape)) {
     return Own<btStaticPlaneShape>(ToBullet(plane->normal), 0);
   }

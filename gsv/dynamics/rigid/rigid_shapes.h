@@ -13,6 +13,7 @@
 #include "gsv/dynamics/rigid/bullet_types.h"
 #include "gsv/dynamics/shapes/footprint.h"
 #include "gsv/geometry/shape.h"
+#include "gsv/model/collision_filter.h"
 
 namespace gsv::dynamics {
 
@@ -31,8 +32,9 @@ struct StandingMesh {
 class RigidShapes {
  public:
   // What stands still. Null: nothing to collide with. Lives as long as this object and one more
-  // NextLayout().
-  btCollisionShape* Standing(const geometry::Shape& shape);
+  // NextLayout(). A mesh that is not to meet everything is a shape of its own around the triangles,
+  // which others share.
+  btCollisionShape* Standing(const geometry::Shape& shape, const model::CollisionFilter& filter);
 
   // What moves: one shape or several, in the frame of `shape`; planes are left out.
   std::vector<btCollisionShape*> Moving(const geometry::Shape& shape);
@@ -51,7 +53,7 @@ class RigidShapes {
   T* Own(Arguments&&... arguments);
   btCollisionShape* HullOf(const std::vector<geometry::Vector3>& points);
   btCollisionShape* Primitive(const geometry::Shape& shape);
-  btCollisionShape* MeshOf(const geometry::Mesh& mesh);
+  btBvhTriangleMeshShape* MeshOf(const geometry::Mesh& mesh);
 
   struct MeshKey {
     const geometry::TriangleMesh* triangles;

@@ -82,8 +82,10 @@ void RigidWorld::AddRigid(const RigidBody& body) {
   std::vector<Owner*> owners;
   const bool is_held = body.kinematics && !RollsOnWheels(*body.model);
   for (const Solid& solid : body.solids) owners.push_back(&NewOwner(solid, true, is_held));
-  bodies_.push_back(body.is_jointed() ? MakeJointTree(body, before_, owners, world_)
-                                      : MakeFreeBody(body, before_, *owners[0], world_));
+  const model::WorldDescription& world_description = *scene_.layout().description;
+  bodies_.push_back(body.is_jointed()
+                        ? MakeJointTree(body, world_description, before_, owners, world_)
+                        : MakeFreeBody(body, world_description, before_, *owners[0], world_));
 }
 
 void RigidWorld::AddStanding(const StandingBody& standing) {

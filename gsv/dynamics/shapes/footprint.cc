@@ -15,10 +15,12 @@ std::vector<Footprint::Piece> PiecesOf(const model::Model& model,
   for (const model::Link& link : model.links) {
     for (const model::Collision& collision : link.collisions) {
       if (std::holds_alternative<geometry::Plane>(collision.shape)) continue;
+      if (collision.surface.filter == model::kMeetsNothing) continue;
       const Pose pose = Pose{{}, tilt} * link.model_from_link * collision.link_from_collision;
       Footprint::Piece piece;
       piece.shape = Silhouette(collision.shape, pose);
       piece.heights = Heights(collision.shape, pose);
+      piece.filter = collision.surface.filter;
       pieces.push_back(piece);
     }
   }
@@ -67,7 +69,8 @@ std::vector<Footprint::Piece> Layers(const std::vector<Footprint::Piece>& pieces
         AddCorners(piece.shape, corners);
       }
     }
-    if (!corners.empty()) layers.push_back({Hull(std::move(corners)), layer, {}, 0});
+    if (corners.empty()) continue;
+    layers.push_back({Hull(std::move(corners)), layer, {}, 0, pieces.front().filter});
   }
   return layers;
 }
@@ -82,19 +85,36 @@ Interval Union(const std::vector<Footprint::Piece>& pieces) {
   return all;
 }
 
+// Pieces that all have one filter.
+void Simplify(std::vector<Footprint::Piece>& pieces) {
+  const Interval heights = Union(pieces);
+  if (pieces.size() > 256) pieces = Layers(pieces, heights);  // too many to compare each with each
+  DropCovered(pieces);
+  if (pieces.size() > Footprint::kMaxPieces) pieces = Layers(pieces, heights);
+}
+
+// Each filter's pieces in turn, the filters in the order in which they appear.
+void SimplifyByFilter(std::vector<Footprint::Piece>& pieces) {
+  std::vector<Footprint::Piece> simplified;
+  while (!pieces.empty()) {
+    const model::CollisionFilter filter = pieces.front().filter;
+    const auto others = std::stable_partition(
+        pieces.begin(), pieces.end(), [&](const auto& piece) { return piece.filter == filter; });
+    std::vector<Footprint::Piece> alike(pieces.begin(), others);
+    pieces.erase(pieces.begin(), others);
+    Simplify(alike);
+    simplified.insert(simplified.end(), alike.begin(), alike.end());
+  }
+  pieces = std::move(simplified);
+}
+
 }  // namespace
 
 Footprint MakeFootprint(const model::Model& model, const geometry::Quaternion& tilt) {
   Footprint footprint;
   footprint.pieces = PiecesOf(model, tilt);
   footprint.heights = Union(footprint.pieces);
-  if (footprint.pieces.size() > 256) {  // too many to compare each with each
-    footprint.pieces = Layers(footprint.pieces, footprint.heights);
-  }
-  DropCovered(footprint.pieces);
-  if (footprint.pieces.size() > Footprint::kMaxPieces) {
-    footprint.pieces = Layers(footprint.pieces, footprint.heights);
-  }
+  SimplifyByFilter(footprint.pieces);
   for (Footprint::Piece& piece : footprint.pieces) {
     const ConvexPiece disc = BoundingDisc(piece.shape);
     piece.centre = disc.vertices[0];

@@ -3,7 +3,9 @@
 // Frame   the model's, with its z axis up.
 // Rule    each collision (at zero joint positions) is a prism over its silhouette, from its lowest
 //         to its highest point; one that lies within another is left out. More than kMaxPieces are
-//         replaced by kMaxPieces layers, each the hull of all that reaches into it.
+//         replaced by kMaxPieces layers, each the hull of all that reaches into it. What meets
+//         nothing by its filter is left out; pieces of different filters are never joined, so
+//         that a model that has several may have more than kMaxPieces.
 #pragma once
 
 #include <vector>
@@ -22,6 +24,7 @@ struct Footprint {
     Interval heights;
     Vector2 centre;  // of a disc that holds the piece, and its radius
     double radius = 0;
+    model::CollisionFilter filter{};
   };
   std::vector<Piece> pieces;  // empty if the model collides with nothing
   Interval heights;           // of all of them

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gsv/dynamics/shapes/convex_piece.h"
+#include "gsv/model/collision_filter.h"
 
 namespace gsv::dynamics {
 
@@ -19,6 +20,7 @@ struct Obstacle {
   Vector2 centre;  // of a disc that holds the shape, and its radius
   double radius = 0;
   int body = 0;  // index in the layout
+  model::CollisionFilter filter{};
 };
 
 class ObstacleField {

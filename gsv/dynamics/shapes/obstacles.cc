@@ -31,25 +31,30 @@ void SlicePlane(const geometry::Plane& plane, const Pose& pose, Interval heights
   pieces.push_back(Hull({edge - side, edge + side, edge + side - back, edge - side - back}));
 }
 
-void SliceBody(const world::Body& body, const Pose& world_from_model, Interval heights,
-               std::vector<ConvexPiece>& pieces) {
+// Adds what `pieces` holds, and empties it.
+void AddObstacles(std::vector<ConvexPiece>& pieces, int body, const model::CollisionFilter& filter,
+                  std::vector<Obstacle>& obstacles) {
+  for (const ConvexPiece& piece : pieces) {
+    const ConvexPiece disc = BoundingDisc(piece);
+    obstacles.push_back({piece, disc.vertices[0], disc.radius, body, filter});
+  }
+  pieces.clear();
+}
+
+void SliceBody(const world::Body& body, const Pose& world_from_model, Interval heights, int index,
+               std::vector<Obstacle>& obstacles) {
+  std::vector<ConvexPiece> pieces;
   for (const model::Link& link : body.model->links) {
     for (const model::Collision& collision : link.collisions) {
+      if (collision.surface.filter == model::kMeetsNothing) continue;
       const Pose pose = world_from_model * link.model_from_link * collision.link_from_collision;
       if (const auto* plane = std::get_if<geometry::Plane>(&collision.shape)) {
         SlicePlane(*plane, pose, heights, pieces);
       } else {
         Slice(collision.shape, pose, heights, pieces);
       }
+      AddObstacles(pieces, index, collision.surface.filter, obstacles);
     }
-  }
-}
-
-void AddObstacles(const std::vector<ConvexPiece>& pieces, int body,
-                  std::vector<Obstacle>& obstacles) {
-  for (const ConvexPiece& piece : pieces) {
-    const ConvexPiece disc = BoundingDisc(piece);
-    obstacles.push_back({piece, disc.vertices[0], disc.radius, body});
   }
 }
 
@@ -58,13 +63,10 @@ void AddObstacles(const std::vector<ConvexPiece>& pieces, int body,
 std::vector<Obstacle> CollectObstacles(const world::Layout& layout, const world::State& state,
                                        Interval heights) {
   std::vector<Obstacle> obstacles;
-  std::vector<ConvexPiece> pieces;
   for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
     const world::Body& body = layout.bodies[i];
     if (body.is_planar() || body.is_rigid() || body.is_actor()) continue;
-    pieces.clear();
-    SliceBody(body, state.bodies[i].world_from_model, heights, pieces);
-    AddObstacles(pieces, static_cast<int>(i), obstacles);
+    SliceBody(body, state.bodies[i].world_from_model, heights, static_cast<int>(i), obstacles);
   }
   return obstacles;
 }
@@ -75,7 +77,6 @@ std::vector<Obstacle> CollectLooseObstacles(const world::Layout& layout, const w
   std::vector<ConvexPiece> pieces;
   for (const int i : bodies) {
     const world::Body& body = layout.bodies[i];
-    pieces.clear();
     const std::vector<Pose> model_from_link = world::LinkPoses(
         *body.model,
         std::span(state.joint_positions).subspan(body.first_joint, body.model->joints.size()));
@@ -83,10 +84,11 @@ std::vector<Obstacle> CollectLooseObstacles(const world::Layout& layout, const w
       const Pose world_from_link = state.bodies[i].world_from_model * model_from_link[l];
       for (const model::Collision& collision : body.model->links[l].collisions) {
         if (std::holds_alternative<geometry::Plane>(collision.shape)) continue;
+        if (collision.surface.filter == model::kMeetsNothing) continue;
         Slice(collision.shape, world_from_link * collision.link_from_collision, heights, pieces);
+        AddObstacles(pieces, i, collision.surface.filter, obstacles);
       }
     }
-    AddObstacles(pieces, i, obstacles);
   }
   return obstacles;
 }

@@ -82,8 +82,12 @@ class TestWorld {
     AddStatic(name, ModelOf(geometry::Box{size}), geometry::PlanarPose(x, y, z + size.z / 2, yaw));
   }
 
+  // Gravity, wind, fluids; to be changed before Start().
+  model::WorldDescription& description() { return description_; }
+
   base::Status Start() {
-    layout_ = world::MakeLayout(1, bodies_, std::make_shared<model::WorldDescription>());
+    layout_ =
+        world::MakeLayout(1, bodies_, std::make_shared<model::WorldDescription>(description_));
     state_ = world::InitialState(*layout_);
     return engine_->SetLayout(layout_);
   }
@@ -150,6 +154,7 @@ class TestWorld {
   }
 
   std::unique_ptr<Engine> engine_;
+  model::WorldDescription description_;
   std::vector<world::Body> bodies_;
   std::shared_ptr<const world::Layout> layout_;
   world::State state_;

@@ -1,0 +1,50 @@
+// Forces on a rigid body by what surrounds it: wind, fluids, and the decay of its velocity.
+//
+// Frames  wrenches, velocities: world axes; torques about the part's centre of mass.
+// Units   N, N m, m/s, rad/s.
+// Source  Gazebo's systems WindEffects and Buoyancy; for <velocity_decay> Gazebo with ODE, which
+//         takes a share of the velocity in each step of the world.
+#pragma once
+
+#include <vector>
+
+#include "gsv/dynamics/motion/articulation.h"
+#include "gsv/world/layout.h"
+
+namespace gsv::dynamics {
+
+// A collision shape that displaces fluid, in its part's frame.
+struct Displacer {
+  double volume = 0;                 // m³
+  geometry::Vector3 centre;          // of the volume
+  double radius = 0;                 // of a sphere; else 0
+  geometry::TriangleMesh surface{};  // of others, closed; empty where the fluid has no layers
+  double reach = 0;                  // m: no point is farther from `centre`
+  double volume_of_surface = 0;      // m³: less than `volume` where the shape is round
+};
+
+// The properties of one part of a body that these forces depend on.
+struct PartMedium {
+  double linear_decay = 0, angular_decay = 0;  // share of the velocity, of a step of the world
+  double mass_in_wind = 0;                     // kg
+  std::vector<Displacer> displacers;
+};
+
+// One for each part of the body; empty if nothing pushes any of them.
+std::vector<PartMedium> MakeMedium(const world::Layout& layout, const world::Body& body,
+                                   const Articulation& articulation);
+
+struct Wrench {
+  geometry::Vector3 force, torque;
+};
+
+struct PartMotion {
+  geometry::Pose world_from_part;
+  geometry::Vector3 velocity, angular_velocity;
+};
+
+// The mean over the next `seconds`, which are at most a step of the world.
+Wrench WrenchOf(const PartMedium& medium, const Part& part, const PartMotion& motion,
+                const model::WorldDescription& world, double seconds);
+
+}  // namespace gsv::dynamics

@@ -1,0 +1,239 @@
+// Wind, fluids, decay of velocities and kinematic links: every expected value is a closed form.
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "gsv/dynamics/testing/test_rigid_world.h"
+
+namespace gsv::dynamics {
+namespace {
+
+using geometry::Vector3;
+using std::numbers::pi;
+using testing::At;
+using testing::kG;
+using testing::SolidOf;
+using testing::TestWorld;
+using testing::WorldOnGround;
+
+constexpr double kMediumStep = 0.001;
+
+std::shared_ptr<model::Model> Cube(double mass) {
+  return SolidOf(geometry::Box{{0.2, 0.2, 0.2}}, mass);
+}
+
+// v = v0 (1 - k)^(t/h) without gravity, with the world's own step h as SDFormat's decay has it.
+TEST(VelocityDecay, TakesItsShareInEachStepOfTheWorld) {
+  for (const double step : {0.001, 0.004}) {
+    TestWorld world(MakeWorldEngine());
+    world.description().gravity = {};
+    world.description().max_step_size = std::chrono::milliseconds(4);
+    auto model = Cube(2);
+    model->links[0].linear_decay = 0.01;
+    model->links[0].angular_decay = 0.02;
+    world.AddRigid("box", model, At(0, 0, 1));
+    ASSERT_TRUE(world.Start());
+    world.body("box").linear_velocity = {3, 0, 0};
+    world.body("box").angular_velocity = {0, 0, 5};
+    world.Run(0.4, step);
+    EXPECT_NEAR(world.body("box").linear_velocity.x, 3 * std::pow(0.99, 100), 1e-9) << step;
+    EXPECT_NEAR(world.body("box").angular_velocity.z, 5 * std::pow(0.98, 100), 1e-9) << step;
+  }
+}
+
+// Terminal velocity: what gravity adds in a step is what the decay takes.
+TEST(VelocityDecay, EndsAFallAtItsTerminalVelocity) {
+  TestWorld world(MakeWorldEngine());
+  auto model = Cube(2);
+  model->links[0].linear_decay = 0.01;
+  world.AddRigid("box", model, At(0, 0, 1));
+  ASSERT_TRUE(world.Start());
+  world.Run(5, kMediumStep);
+  EXPECT_NEAR(world.body("box").linear_velocity.z, -kG * kMediumStep / 0.01, 1e-6);
+}
+
+// Of two links that a fixed joint holds together each loses its own share of momentum.
+TEST(VelocityDecay, OfLinksThatAreFixedTogetherCountsByTheirMass) {
+  TestWorld world(MakeWorldEngine());
+  world.description().gravity = {};
+  auto model = Cube(3);
+  model->links.push_back(model->links[0]);
+  model->links[1].name = "second";
+  model->links[1].inertial.mass = 1;
+  model->links[1].linear_decay = 0.04;
+  model->joints.push_back({"fixed", model::JointKind::kFixed, 0, 1, {}});
+  world.AddRigid("box", model, At(0, 0, 1));
+  ASSERT_TRUE(world.Start());
+  world.body("box").linear_velocity = {1, 0, 0};
+  world.Run(0.1, kMediumStep);
+  EXPECT_NEAR(world.body("box").linear_velocity.x, std::pow(0.99, 100), 1e-9);
+}
+
+// v' = d (w - v): v = w (1 - exp(-d t)).
+TEST(Wind, TakesABodyAlongByTheDifferenceOfVelocities) {
+  TestWorld world(MakeWorldEngine());
+  world.description().gravity = {};
+  world.description().wind = model::Wind{{2, -1, 0}, 0.5};
+  auto model = Cube(4);
+  model->links[0].has_wind = true;
+  world.AddRigid("box", model, At(0, 0, 1));
+  world.AddRigid("sheltered", Cube(4), At(5, 0, 1));
+  ASSERT_TRUE(world.Start());
+  world.Run(2, kMediumStep);
+  const double share = 1 - std::exp(-1.0);
+  EXPECT_NEAR(world.body("box").linear_velocity.x, 2 * share, 1e-3);
+  EXPECT_NEAR(world.body("box").linear_velocity.y, -share, 1e-3);
+  EXPECT_NEAR(world.position("box").x, 2 * (2 - share / 0.5), 1e-3);
+  EXPECT_EQ(world.position("sheltered").x, 5);
+}
+
+// A pendulum of one link hangs where the wind's and the weight's torques balance: tan a = d w / g.
+TEST(Wind, HoldsAPendulumAside) {
+  TestWorld world(MakeWorldEngine());
+  world.description().wind = model::Wind{{3, 0, 0}, 2};
+  auto model = Cube(1);
+  model->links[0].has_wind = true;
+  model->links[0].model_from_link = {{0, 0, -1}, {}};
+  model::Joint joint{"hinge", model::JointKind::kContinuous, -1, 0, {}};
+  joint.axis = {0, -1, 0};
+  joint.damping = 5;
+  model->joints.push_back(joint);
+  world.AddRigid("pendulum", model, At(0, 0, 5));
+  ASSERT_TRUE(world.Start());
+  world.Run(20, kMediumStep);
+  EXPECT_NEAR(world.joint("pendulum", 0), std::atan(2 * 3 / kG), 0.02);
+}
+
+// It rises with (rho V / m - 1) g.
+TEST(Buoyancy, LiftsWhatIsLighterThanTheFluid) {
+  TestWorld world(MakeWorldEngine());
+  world.description().fluid = model::Fluid{1000, {}, {}};
+  world.AddRigid("box", Cube(5), At(0, 0, -10));
+  ASSERT_TRUE(world.Start());
+  world.Run(0.5, kMediumStep);
+  const double acceleration = (1000 * 0.008 / 5 - 1) * kG;
+  EXPECT_NEAR(world.body("box").linear_velocity.z, acceleration * 0.5, 1e-9);
+  EXPECT_NEAR(world.position("box").z, -10 + acceleration * 0.125, 1e-9);
+}
+
+TEST(Buoyancy, LiftsOnlyTheModelsThatItNames) {
+  TestWorld world(MakeWorldEngine());
+  world.description().fluid = model::Fluid{1000, {}, {"boat", "other::link"}};
+  world.AddRigid("boat", Cube(5), At(0, 0, -10));
+  world.AddRigid("other", Cube(5), At(5, 0, -10));
+  world.AddRigid("stone", Cube(5), At(10, 0, -10));
+  ASSERT_TRUE(world.Start());
+  world.Run(0.1, kMediumStep);
+  EXPECT_GT(world.position("boat").z, -10);
+  EXPECT_GT(world.position("other").z, -10);
+  EXPECT_LT(world.position("stone").z, -10);
+}
+
+// Archimedes: of a flat box, which floats upright, the share is under water that its density is of
+// the water's.
+TEST(Buoyancy, BodiesFloatAsDeepAsTheirDensitySays) {
+  for (const double share : {0.25, 0.5, 0.9}) {
+    TestWorld world(MakeWorldEngine());
+    world.description().fluid = model::Fluid{1000, {{0, 0}}, {}};
+    auto model = SolidOf(geometry::Box{{0.4, 0.4, 0.1}}, 16 * share);
+    model->links[0].linear_decay = 0.005;
+    model->links[0].angular_decay = 0.005;
+    world.AddRigid("box", model, At(0, 0, 0.1));
+    ASSERT_TRUE(world.Start());
+    world.Run(10, kMediumStep);
+    EXPECT_NEAR(world.position("box").z, 0.05 - share * 0.1, 1e-3) << share;
+  }
+}
+
+// A ball of half the water's density has its centre in the surface.
+TEST(Buoyancy, ABallFloatsAsDeepAsItsDensitySays) {
+  TestWorld world(MakeWorldEngine());
+  world.description().fluid = model::Fluid{1000, {{1, 0}}, {}};
+  auto model = SolidOf(geometry::Sphere{0.3}, 500 * 4 * pi / 3 * 0.027);
+  model->links[0].linear_decay = 0.005;
+  world.AddRigid("ball", model, At(0, 0, 1.2));
+  ASSERT_TRUE(world.Start());
+  world.Run(20, kMediumStep);
+  EXPECT_NEAR(world.position("ball").z, 1, 2e-3);
+}
+
+// A log that floats upright falls over: the centre of what it displaces is below its own.
+TEST(Buoyancy, TurnsALogOnItsSide) {
+  TestWorld world(MakeWorldEngine());
+  world.description().fluid = model::Fluid{1000, {{0, 0}}, {}};
+  auto model = SolidOf(geometry::Cylinder{0.1, 1}, 500 * pi * 0.01);
+  model->links[0].linear_decay = model->links[0].angular_decay = 0.003;
+  world.AddRigid("log", model, {{0, 0, 0}, geometry::FromAxisAngle({1, 0, 0}, 0.1)});
+  ASSERT_TRUE(world.Start());
+  world.Run(30, kMediumStep);
+  const Vector3 along = world.body("log").world_from_model.orientation * Vector3{0, 0, 1};
+  EXPECT_NEAR(along.z, 0, 0.05);
+}
+
+TEST(KinematicLink, IsMovedByNothing) {
+  TestWorld world = WorldOnGround();
+  auto model = Cube(1);
+  model->links[0].is_kinematic = true;
+  world.AddRigid("shelf", model, At(0, 0, 1));
+  world.AddRigid("stone", SolidOf(geometry::Sphere{0.1}, 50), At(0, 0, 1.5));
+  ASSERT_TRUE(world.Start());
+  world.Run(2, kMediumStep);
+  EXPECT_EQ(world.position("shelf"), (Vector3{0, 0, 1}));
+  // It came down at 2 mm a substep.
+  EXPECT_NEAR(world.position("stone").z, 1.2, 2e-3);
+}
+
+TEST(KinematicLink, MovesAtItsVelocityAndTakesOthersAlong) {
+  TestWorld world = WorldOnGround();
+  auto pusher = Cube(1);
+  pusher->links[0].is_kinematic = true;
+  world.AddRigid("pusher", pusher, At(0, 0, 0.11));
+  world.AddRigid("crate", SolidOf(geometry::Box{{0.4, 0.4, 0.4}}, 1000), At(0.5, 0, 0.2));
+  ASSERT_TRUE(world.Start());
+  world.body("pusher").linear_velocity = {0.5, 0, 0};
+  world.Run(2, kMediumStep);
+  EXPECT_NEAR(world.position("pusher").x, 1, 1e-9);
+  EXPECT_NEAR(world.position("pusher").z, 0.11, 1e-9);
+  EXPECT_NEAR(world.position("crate").x, 1.3, 5e-3);
+}
+
+TEST(KinematicLink, WithADriveMovesAsTheDriveIsTold) {
+  TestWorld world = WorldOnGround();
+  auto model = Cube(1);
+  model->links[0].is_kinematic = true;
+  model->drive = model::Drive{};
+  model->drive->kind = model::DriveKind::kVelocity;
+  model->movement = model::Movement::kRigid;
+  world.AddRigid("platform", model, At(0, 0, 2));
+  ASSERT_TRUE(world.Start());
+  world.Command("platform", {0.5, 0.25, 0});
+  world.Run(2, kMediumStep);
+  EXPECT_NEAR(world.position("platform").x, 1, 2e-3);
+  EXPECT_NEAR(world.position("platform").y, 0.5, 2e-3);
+  EXPECT_NEAR(world.position("platform").z, 2, 1e-9);
+}
+
+// The arm stands still whatever lies on it, and turns when it is told.
+TEST(KinematicLink, BelowAJointObeysTheJointsCommandAlone) {
+  TestWorld world(MakeWorldEngine());
+  auto model = Cube(1);
+  model->links.push_back(testing::LinkOf(geometry::Box{{0.1, 0.1, 0.1}}, At(0.5, 0, 0)));
+  model->links[1].name = "arm";
+  model->links[1].is_kinematic = true;
+  model->links[1].inertial.link_from_com = At(0.5, 0, 0);
+  model->joints.push_back({"to_world", model::JointKind::kFixed, -1, 0, {}});
+  model::Joint hinge{"hinge", model::JointKind::kContinuous, 0, 1, {}};
+  hinge.axis = {0, 1, 0};
+  model->joints.push_back(hinge);
+  world.AddRigid("robot", model, At(0, 0, 1));
+  ASSERT_TRUE(world.Start());
+  world.Run(1, kMediumStep);
+  EXPECT_NEAR(world.joint("robot", 1), 0, 1e-4);
+  world.CommandJoint("robot", 1, {world::JointCommand::Kind::kVelocity, 0.5});
+  world.Run(1, kMediumStep);
+  EXPECT_NEAR(world.joint("robot", 1), 0.5, 1e-3);
+}
+
+}  // namespace
+}  // namespace gsv::dynamics

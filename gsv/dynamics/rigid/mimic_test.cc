@@ -1,0 +1,84 @@
+// Joints that follow others, in both movements.
+#include <gtest/gtest.h>
+
+#include "gsv/dynamics/testing/test_rigid_world.h"
+
+namespace gsv::dynamics {
+namespace {
+
+using testing::At;
+using testing::TestWorld;
+using Kind = world::JointCommand::Kind;
+
+// A base with two fingers, of which the second follows the first.
+std::shared_ptr<model::Model> Fingers(const model::Mimic& mimic) {
+  auto model = testing::SolidOf(geometry::Box{{0.2, 0.2, 0.2}}, 1);
+  for (const double side : {1.0, -1.0}) {
+    model::Link finger = testing::LinkOf(geometry::Box{{0.1, 0.02, 0.02}});
+    finger.name = side > 0 ? "left" : "right";
+    finger.model_from_link = At(0.3, 0.1 * side, 0);
+    finger.inertial.mass = 0.1;
+    finger.inertial.ixx = finger.inertial.iyy = finger.inertial.izz = 1e-4;
+    model->links.push_back(finger);
+  }
+  model->joints.push_back({"to_world", model::JointKind::kFixed, -1, 0, {}});
+  for (int finger = 1; finger <= 2; ++finger) {
+    model::Joint joint{finger == 1 ? "leader" : "follower", model::JointKind::kRevolute, 0, finger,
+                       model->links[static_cast<std::size_t>(finger)].model_from_link};
+    joint.position_limits = {-3, 3};
+    model->joints.push_back(joint);
+  }
+  model->joints[2].mimic = mimic;
+  return model;
+}
+
+TEST(Mimic, AJointFollowsItsLeader) {
+  TestWorld world(MakeWorldEngine());
+  world.AddRigid("gripper", Fingers({1, -1.5, 0.2, 0.1}), At(0, 0, 1));
+  ASSERT_TRUE(world.Start());
+  world.Run(2, 0.002);
+  EXPECT_NEAR(world.joint("gripper", 2), 0.2 + 1.5 * 0.1, 2e-3);
+  world.CommandJoint("gripper", 1, {Kind::kPosition, 0.8});
+  world.Run(3, 0.002);
+  EXPECT_NEAR(world.joint("gripper", 1), 0.8, 2e-3);
+  EXPECT_NEAR(world.joint("gripper", 2), -1.5 * (0.8 - 0.1) + 0.2, 5e-3);
+}
+
+// In motion, too: at the leader's rate.
+TEST(Mimic, AJointMovesAtItsLeadersRate) {
+  TestWorld world(MakeWorldEngine());
+  world.AddRigid("gripper", Fingers({1, 2, 0, 0}), At(0, 0, 1));
+  ASSERT_TRUE(world.Start());
+  world.CommandJoint("gripper", 1, {Kind::kVelocity, 0.3});
+  world.Run(2, 0.002);
+  EXPECT_NEAR(world.joint_velocity("gripper", 2), 0.6, 1e-3);
+  EXPECT_NEAR(world.joint("gripper", 2), 2 * world.joint("gripper", 1), 5e-3);
+}
+
+TEST(Mimic, AJointOfAPlanarRobotFollowsItsLeader) {
+  auto model = Fingers({1, -1, 0, 0});
+  model->joints.erase(model->joints.begin());
+  model->joints[1].mimic->leader = 0;
+  model->drive = model::Drive{};
+  TestWorld world(MakeWorldEngine());
+  world.AddRobot("robot", model, {});
+  ASSERT_TRUE(world.Start());
+  world.CommandJoint("robot", 0, {Kind::kPosition, 0.4});
+  world.Run(0.5, 0.01);
+  EXPECT_NEAR(world.joint("robot", 0), 0.4, 1e-12);
+  EXPECT_NEAR(world.joint("robot", 1), -0.4, 1e-12);
+}
+
+TEST(Mimic, AJointThatFollowsTakesNoCommands) {
+  TestWorld world(MakeWorldEngine());
+  world.AddRigid("gripper", Fingers({1, 1, 0, 0}), At(0, 0, 1));
+  ASSERT_TRUE(world.Start());
+  const world::Body& body = world.layout().bodies[0];
+  EXPECT_TRUE(world::CheckJointCommand(body, 1, {Kind::kPosition, 1}));
+  const auto refused = world::CheckJointCommand(body, 2, {Kind::kPosition, 1});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().Sentence().find("follows leader"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gsv::dynamics
