@@ -146,6 +146,40 @@ TEST_F(FamilyTest, AnImuTellsItsOrientationIfItShould) {
   EXPECT_NEAR(message.orientation.z, std::sqrt(0.5), 1e-12);
 }
 
+// The robot faces y, a quarter turn from x; the world's x points 30 degrees north of east.
+TEST_F(FamilyTest, AnImuGivesItsOrientationInTheFrameItIsTold) {
+  model::WorldDescription world = *world_;
+  world.origin = model::GeodeticOrigin{0, 0, 0, kPi / 6};
+  world.gravity = {0, -9.8, 0};
+  auto layout = std::make_shared<world::Layout>(*snapshot_->layout);
+  layout->description = std::make_shared<model::WorldDescription>(world);
+  snapshot_->layout = layout;
+  struct Case {
+    std::string localization;
+    geometry::Vector3 forward, up;  // the robot's axes in the reference frame
+  };
+  const double c = std::cos(kPi * 2 / 3), s = std::sin(kPi * 2 / 3);
+  for (const Case& expected :
+       {Case{"ENU", {c, s, 0}, {0, 0, 1}}, Case{"NED", {s, c, 0}, {0, 0, -1}},
+        Case{"NWU", {s, -c, 0}, {0, 0, 1}},
+        // Forward is up, and up points to the right of the world's x.
+        Case{"GRAV_UP", {0, 0, 1}, {0, -1, 0}}, Case{"GRAV_DOWN", {0, 0, -1}, {0, 1, 0}},
+        // A frame that is turned with the robot.
+        Case{"CUSTOM", {1, 0, 0}, {0, 0, 1}}}) {
+    const auto values =
+        Sample(DescriptionOf("imu",
+                             {{"orientation_reference_frame.localization", expected.localization},
+                              {"orientation_reference_frame.custom_rpy",
+                               std::string("0 0 1.5707963267948966")}}))
+            .values;
+    ASSERT_EQ(values.size(), 10u);
+    const geometry::Quaternion q{values[6], values[7], values[8], values[9]};
+    EXPECT_LT(Norm(q * geometry::Vector3{1, 0, 0} - expected.forward), 1e-9)
+        << expected.localization;
+    EXPECT_LT(Norm(q * geometry::Vector3{0, 0, 1} - expected.up), 1e-9) << expected.localization;
+  }
+}
+
 TEST_F(FamilyTest, AMagnetometerTurnsTheField) {
   // It faces y: its x is the world's y, its y the world's -x.
   ExpectValues(Sample(DescriptionOf("magnetometer")), {2e-5, -1e-5, -4e-5}, {"T", "T", "T"}, 1e-18);
@@ -378,6 +412,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"imu", "angular_velocity.x.noise.stddev", -1.0},
         Refused{"imu", "linear_acceleration.z.noise.mean", std::nan("")},
         Refused{"imu", "enable_orientation", std::string("perhaps")},
+        Refused{"imu", "orientation_reference_frame.localization", std::string("NORTH")},
         Refused{"magnetometer", "y.noise.precision", -1.0},
         Refused{"altimeter", "vertical_reference", std::numeric_limits<double>::infinity()},
         Refused{"navsat", "position_sensing.vertical.noise.dropout_probability", 1.5},

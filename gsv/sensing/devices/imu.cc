@@ -3,6 +3,7 @@
 #include <array>
 
 #include "gsv/messages/sensor_msgs.h"
+#include "gsv/sensing/devices/orientation_reference.h"
 #include "gsv/sensing/devices/sensor_motion.h"
 #include "gsv/sensing/noise.h"
 #include "gsv/sensing/sensor_type.h"
@@ -18,7 +19,9 @@ constexpr double kDrawnPerForce = 0.03;  // m a m/s²
 class Imu final : public SensorOf<readings::Imu, messages::sensor_msgs::Imu> {
  public:
   Imu(const model::SensorDescription& description, ParameterReader& reader)
-      : SensorOf(description), has_orientation_(reader.Flag("enable_orientation", true)) {
+      : SensorOf(description),
+        has_orientation_(reader.Flag("enable_orientation", true)),
+        reference_(reader) {
     constexpr std::array kAxes = {"x", "y", "z"};
     for (std::size_t i = 0; i < 3; ++i) {
       const std::string axis = kAxes[i];
@@ -42,7 +45,10 @@ class Imu final : public SensorOf<readings::Imu, messages::sensor_msgs::Imu> {
     };
     Values motion_felt{disturbed(turning, 0), disturbed(force, 3), std::nullopt};
     if (has_orientation_) {
-      const Quaternion& q = world_from_sensor;
+      const auto& world = *sampling.snapshot()->layout->description;
+      const Quaternion q = reference_.is_world()
+                               ? world_from_sensor
+                               : reference_.ReferenceFromWorld(world) * world_from_sensor;
       motion_felt.world_from_sensor = {q.w, q.x, q.y, q.z};
     }
     Reading reading = sampling.Stamped();
@@ -71,6 +77,7 @@ class Imu final : public SensorOf<readings::Imu, messages::sensor_msgs::Imu> {
   }
 
   const bool has_orientation_;
+  const OrientationReference reference_;
   std::array<NoiseModel, 6> noise_;
 };
 

@@ -3,9 +3,11 @@
 // Frame       sensor frame. What is felt is the specific force, acceleration less gravity: at rest
 //             +9.8 m/s² along the world's z, in free fall nothing.
 // Parameters  angular_velocity.{x,y,z}.noise (rad/s) and linear_acceleration.{x,y,z}.noise (m/s²),
-//             see noise.h; enable_orientation (true).
+//             see noise.h; enable_orientation (true); orientation_reference_frame, see
+//             orientation_reference.h.
 // Readings    values {angular velocity x, y, z (rad/s), specific force x, y, z (m/s²)}, then, if
-//             enabled, {orientation w, x, y, z}, world_from_sensor. As a message: sensor_msgs/Imu.
+//             enabled, {orientation w, x, y, z}, world_from_sensor, or reference_from_sensor where
+//             there is another reference frame. As a message: sensor_msgs/Imu.
 #pragma once
 
 #include "gsv/sensing/registry.h"

@@ -1,0 +1,34 @@
+// The frame in which an IMU gives its orientation: SDFormat's <orientation_reference_frame>.
+#pragma once
+
+#include <string>
+
+#include "gsv/model/world_description.h"
+#include "gsv/sensing/parameters.h"
+
+namespace gsv::sensing {
+
+// East, north and up are those of the world's place on the earth: x points east, turned by the
+// heading of <spherical_coordinates>; without one, x points east.
+class OrientationReference {
+ public:
+  // Parameters orientation_reference_frame.localization (default: the world's frame),
+  // .custom_rpy and .grav_dir_x, both in the world's frame.
+  explicit OrientationReference(ParameterReader& reader);
+
+  // Whether it is the world's frame itself.
+  bool is_world() const { return is_world_; }
+  // Turns vectors of the world's frame into vectors of the reference frame.
+  geometry::Quaternion ReferenceFromWorld(const model::WorldDescription& world) const;
+
+ private:
+  geometry::Quaternion AlongGravity(const geometry::Vector3& gravity) const;
+
+  enum class Kind { kCustom, kEnu, kNed, kNwu, kGravityUp, kGravityDown };
+  Kind kind_ = Kind::kCustom;
+  bool is_world_ = true;
+  geometry::Quaternion custom_from_world_;
+  geometry::Vector3 along_x_{1, 0, 0};  // GRAV_UP and GRAV_DOWN: x points there, as far as level
+};
+
+}  // namespace gsv::sensing
