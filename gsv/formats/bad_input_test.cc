@@ -49,7 +49,7 @@ TEST_F(BadInputTest, RefusesFilesThatAreNoWorlds) {
       HasSubstr("absent.world: there is no such file"));
   EXPECT_THAT(ErrorOf("").Sentence(), HasSubstr("w.sdf"));
   EXPECT_THAT(ErrorOf("<sdf version='1.9'>\n<world name='w'>\n<model>").Sentence(),
-              HasSubstr("w.sdf:3: the XML is malformed"));
+              HasSubstr("w.sdf:3:1: the XML is malformed: <model> is not closed. Add </model>"));
   EXPECT_THAT(ErrorOf("<html/>").Sentence(), HasSubstr("found <html>"));
   EXPECT_THAT(ErrorOf("<sdf version='1.9'/>").Sentence(), HasSubstr("no model inside"));
   EXPECT_THAT(ErrorOf("<sdf><world name='w'/></sdf>").Sentence(), HasSubstr("needs a version"));

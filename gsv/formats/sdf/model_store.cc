@@ -5,6 +5,7 @@
 #include <sdf/Root.hh>
 
 #include "gsv/formats/sdf/include_scan.h"
+#include "gsv/formats/sdf/joint_mimic.h"
 #include "gsv/formats/sdf/ros2_control.h"
 #include "gsv/formats/sdf/sdf_actor.h"
 #include "gsv/formats/sdf/sdf_document.h"
@@ -113,6 +114,7 @@ void ModelStore::Complete(const XMLElement& element, const std::filesystem::path
   if (stored.framed.model == nullptr) return;
   stored.framed.model =
       WithControlSystems(element, file, std::move(stored.framed.model), stored.problems);
+  stored.framed.model = WithMimics(element, file, std::move(stored.framed.model), stored.problems);
   if (!is_robot || stored.framed.model->drive) return;
   auto drive = model::GuessDrive(*stored.framed.model);
   if (drive.kind == model::DriveKind::kNone) return;

@@ -1,5 +1,6 @@
 #include "gsv/formats/sdf/sdf_geometry.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 
@@ -15,6 +16,7 @@
 
 #include "gsv/formats/meshes/heightmap.h"
 #include "gsv/formats/meshes/polyline.h"
+#include "gsv/formats/meshes/terrain_texture.h"
 #include "gsv/formats/sdf/sdf_document.h"
 
 namespace gsv::formats {
@@ -22,6 +24,8 @@ namespace {
 
 using base::ErrorCode;
 using geometry::Vector3;
+
+constexpr std::uint64_t kMostLayers = 16;
 
 base::Result<SdfShape> Checked(geometry::Shape shape, std::initializer_list<double> lengths) {
   for (const double length : lengths) {
@@ -51,9 +55,44 @@ bool IsElevationModel(const std::filesystem::path& file) {
   return extension == ".tif" || extension == ".tiff";
 }
 
+// The textures of a visual's heightmap, each after the first with the blend that leads to it.
+std::vector<TerrainLayer> ReadLayers(const sdf::Heightmap& heightmap,
+                                     const std::filesystem::path& file,
+                                     const ReadingContext& context) {
+  std::vector<TerrainLayer> layers;
+  bool any = false;
+  for (std::uint64_t i = 0; i < std::min<std::uint64_t>(heightmap.TextureCount(), kMostLayers);
+       ++i) {
+    const sdf::HeightmapTexture& texture = *heightmap.TextureByIndex(i);
+    TerrainLayer layer;
+    if (texture.Size() > 0 && std::isfinite(texture.Size())) layer.tile = texture.Size();
+    if (i > 0 && i <= heightmap.BlendCount()) {
+      layer.min_height = heightmap.BlendByIndex(i - 1)->MinHeight();
+      layer.fade_distance = heightmap.BlendByIndex(i - 1)->FadeDistance();
+    } else if (i > 0) {
+      break;  // nothing says where it begins
+    }
+    const std::string place = texture.Element() == nullptr
+                                  ? context.source.string()
+                                  : PlaceOf(*texture.Element(), context.source);
+    auto path = context.finder.Find(texture.Diffuse(), file);
+    auto image = path ? context.textures.Read(*path)
+                      : base::Result<std::shared_ptr<const model::Image>>(Fail(path.error()));
+    if (image) {
+      layer.image = *image;
+      any = true;
+    } else {
+      context.Warn("the terrain is grey in place of a texture: " + image.error().Sentence(), place);
+    }
+    layers.push_back(std::move(layer));
+  }
+  if (!any) layers.clear();
+  return layers;
+}
+
 // A picture, or as Gazebo has it an elevation model in TIFF, which may give its own size.
 base::Result<SdfShape> ReadHeightmap(const sdf::Heightmap& heightmap,
-                                     const std::filesystem::path& file,
+                                     const std::filesystem::path& file, bool is_drawn,
                                      const ReadingContext& context) {
   Vector3 size = FromIgnition(heightmap.Size());
   const bool has_size = heightmap.Element() != nullptr && heightmap.Element()->HasElement("size");
@@ -73,9 +112,18 @@ base::Result<SdfShape> ReadHeightmap(const sdf::Heightmap& heightmap,
     if (!picture) return Fail(ErrorCode::kBadModel, picture.error().Sentence());
     mesh = HeightmapMesh(**picture, size, context.limits.heightmap_side);
   }
+  std::vector<model::Material> materials;
+  if (is_drawn) {
+    if (const auto layers = ReadLayers(heightmap, file, context); !layers.empty()) {
+      model::Material& material = materials.emplace_back();
+      material.base_colour = {1, 1, 1, 1};
+      material.base_colour_map =
+          std::make_shared<const model::Image>(TerrainTexture(mesh, {size.x, size.y}, layers));
+    }
+  }
   SdfShape shape{geometry::Mesh{std::make_shared<const geometry::TriangleMesh>(std::move(mesh))},
                  {FromIgnition(heightmap.Position()), {}},
-                 {}};
+                 std::move(materials)};
   return shape;
 }
 
@@ -140,7 +188,9 @@ base::Result<SdfShape> ReadGeometry(const sdf::Geometry& geometry, const sdf::El
   if (const sdf::Plane* plane = geometry.PlaneShape()) return ReadPlane(*plane);
   if (const sdf::Mesh* mesh = geometry.MeshShape()) return ReadMesh(*mesh, file, context);
   if (const sdf::Heightmap* map = geometry.HeightmapShape()) {
-    return ReadHeightmap(*map, file, context);
+    const sdf::ElementPtr owner = element->GetParent();
+    const bool is_drawn = owner != nullptr && owner->GetName() == "visual";
+    return ReadHeightmap(*map, file, is_drawn, context);
   }
   if (element->HasElement("polyline")) return ReadPolyline(element);
   if (element->HasElement("cone")) return ReadCone(element);

@@ -8,6 +8,7 @@
 #include <sdf/SemanticPose.hh>
 #include <sdf/Visual.hh>
 
+#include "gsv/formats/sdf/auto_inertia.h"
 #include "gsv/formats/sdf/sdf_document.h"
 #include "gsv/formats/sdf/sdf_geometry.h"
 #include "gsv/formats/sdf/sdf_material.h"
@@ -31,6 +32,23 @@ std::optional<T> ValueAt(sdf::ElementPtr element, std::initializer_list<const ch
     element = element->GetElement(name);
   }
   return element->Get<T>();
+}
+
+// A collision that makes no contact forces meets nothing; <collide_bitmask> is stronger.
+model::CollisionFilter ReadFilter(const sdf::ElementPtr& collision) {
+  const auto bits = [&](const char* name) -> std::optional<std::uint16_t> {
+    const auto value = ValueAt<unsigned int>(collision, {"surface", "contact", name});
+    return value ? std::optional(static_cast<std::uint16_t>(*value & 0xFFFF)) : std::nullopt;
+  };
+  const auto collides = bits("collide_bitmask");
+  if (!collides &&
+      ValueAt<bool>(collision, {"surface", "contact", "collide_without_contact"}).value_or(false)) {
+    return model::kMeetsNothing;
+  }
+  model::CollisionFilter filter;
+  filter.collides = collides.value_or(0xFFFF);
+  filter.category = bits("category_bitmask").value_or(filter.collides);
+  return filter;
 }
 
 model::Surface ReadSurface(const sdf::ElementPtr& collision, const ReadingContext& context) {
@@ -67,6 +85,7 @@ model::Surface ReadSurface(const sdf::ElementPtr& collision, const ReadingContex
   }
   take(surface.restitution, {"surface", "bounce", "restitution_coefficient"});
   surface.restitution = std::min(surface.restitution, 1.0);
+  surface.filter = ReadFilter(collision);
   return surface;
 }
 
@@ -114,7 +133,25 @@ sdf::ElementPtr GeometryElement(const sdf::ElementPtr& element) {
                                                                : nullptr;
 }
 
-void ReadCollisions(const sdf::Link& source, model::Link& link, const ReadingContext& context) {
+// A density in kg/m³ that an element has, or `otherwise`.
+double DensityOf(const sdf::ElementPtr& element, double otherwise, const ReadingContext& context) {
+  if (element == nullptr || !element->HasElement("density")) return otherwise;
+  const auto [density, is_number] = element->Get<double>("density", otherwise);
+  if (is_number && density > 0 && std::isfinite(density)) return density;
+  context.Warn("<density> must be a number above zero; " + std::to_string(otherwise) + " is taken",
+               PlaceOf(*element, context.source));
+  return otherwise;
+}
+
+// The densities of the link's collisions.
+std::vector<double> ReadCollisions(const sdf::Link& source, model::Link& link,
+                                   const ReadingContext& context) {
+  std::vector<double> densities;
+  const double density_of_link =
+      DensityOf(source.Element() != nullptr && source.Element()->HasElement("inertial")
+                    ? source.Element()->GetElement("inertial")
+                    : nullptr,
+                kDefaultDensity, context);
   for (std::uint64_t i = 0; i < source.CollisionCount(); ++i) {
     const sdf::Collision& collision = *source.CollisionByIndex(i);
     const sdf::ElementPtr element = collision.Element();
@@ -130,7 +167,56 @@ void ReadCollisions(const sdf::Link& source, model::Link& link, const ReadingCon
         {collision.Name(),
          Resolve(collision.SemanticPose(), "", place, context) * shape->visual_from_shape,
          shape->shape, ReadSurface(element, context)});
+    densities.push_back(DensityOf(element, density_of_link, context));
   }
+  return densities;
+}
+
+// libsdformat 12 knows no @auto; ValueRepair keeps it under a name of ours.
+void MakeInertialOfShapes(const sdf::Link& source, const std::vector<double>& densities,
+                          bool is_static, const ReadingContext& context, model::Link& link) {
+  if (source.Element() == nullptr || !source.Element()->HasElement("inertial")) return;
+  const sdf::ElementPtr element = source.Element()->GetElement("inertial");
+  if (!element->HasAttribute("gsv:auto")) return;
+  auto made = InertialOf(link.collisions, densities);
+  if (!made || !IsPositiveDefinite(*made)) {
+    if (!is_static) {
+      context.Warn(
+          "<inertial auto> needs collision shapes that have a volume (closed meshes); 1 kg "
+          "and 1 kg m² are taken",
+          PlaceOf(*element, context.source));
+    }
+    link.inertial = {};
+    return;
+  }
+  // A <mass> beside it scales the rest, as in SDFormat 1.12.
+  const double scale =
+      element->HasElement("mass") && link.inertial.mass > 0 ? link.inertial.mass / made->mass : 1;
+  link.inertial = *made;
+  for (const auto member :
+       {&model::Inertial::mass, &model::Inertial::ixx, &model::Inertial::iyy, &model::Inertial::izz,
+        &model::Inertial::ixy, &model::Inertial::ixz, &model::Inertial::iyz}) {
+    link.inertial.*member *= scale;
+  }
+}
+
+// A share of the velocity.
+double ReadDecay(const sdf::Link& source, const char* name, const ReadingContext& context) {
+  const double decay = ValueAt<double>(source.Element(), {"velocity_decay", name}).value_or(0.0);
+  if (decay >= 0 && decay <= 1) return decay;
+  context.Warn("<velocity_decay><" + std::string(name) +
+                   "> must be a share between 0 and 1 of the velocity; 0 is taken",
+               PlaceOf(*source.Element(), context.source));
+  return 0;
+}
+
+// A link's own <enable_wind>, or that of the nearest model around it.
+bool HasWind(const sdf::Link& source) {
+  for (auto element = source.Element(); element != nullptr; element = element->GetParent()) {
+    if (element->GetName() != "link" && element->GetName() != "model") break;
+    if (element->HasElement("enable_wind")) return element->Get<bool>("enable_wind");
+  }
+  return false;
 }
 
 std::vector<Material> MaterialsOf(const sdf::Visual& source, const SdfShape& shape,
@@ -231,7 +317,12 @@ model::Link ReadLink(const sdf::Link& source, bool is_static, const ReadingConte
   model::Link link;
   link.inertial = ReadInertial(source, is_static, context);
   link.has_gravity = ValueAt<bool>(source.Element(), {"gravity"}).value_or(true);
-  ReadCollisions(source, link, context);
+  link.is_kinematic = ValueAt<bool>(source.Element(), {"kinematic"}).value_or(false);
+  link.has_wind = HasWind(source);
+  link.linear_decay = ReadDecay(source, "linear", context);
+  link.angular_decay = ReadDecay(source, "angular", context);
+  const std::vector<double> densities = ReadCollisions(source, link, context);
+  MakeInertialOfShapes(source, densities, is_static, context, link);
   ReadVisuals(source, link, context);
   return link;
 }

@@ -7,6 +7,7 @@
 #include <map>
 #include <system_error>
 
+#include "gsv/formats/files/xml_fault.h"
 #include "gsv/formats/support/element_audit.h"
 #include "gsv/formats/xacro/arguments.h"
 #include "gsv/formats/xacro/xacro.h"
@@ -161,10 +162,8 @@ base::Result<XmlFile> ReadXml(const std::filesystem::path& named, const Resource
     parsed = file.document->Parse(text->data(), text->size());
   }
   if (parsed != tinyxml2::XML_SUCCESS) {
-    return Fail(ErrorCode::kBadModel,
-                std::string("the XML is malformed (") +
-                    tinyxml2::XMLDocument::ErrorIDToName(file.document->ErrorID()) + ")",
-                path.string() + ":" + std::to_string(file.document->ErrorLineNum()));
+    const auto error = DescribeXmlError(*text, path.string(), file.document->ErrorLineNum());
+    return Fail(ErrorCode::kBadModel, error.message, error.place);
   }
   file.root = file.document->RootElement();
   if (file.root != nullptr && xacro::NeedsExpansion(*file.root, path)) {

@@ -52,6 +52,7 @@ class ValueRepair {
   void Visit(XMLElement& element, const sdf::ElementPtr& description) {
     RepairAttributes(element, description);
     RepairOwnText(element, description);
+    KeepAutomaticInertia(element);
     XMLElement* next = nullptr;
     for (auto* child = element.FirstChildElement(); child != nullptr; child = next) {
       next = child->NextSiblingElement();
@@ -64,6 +65,13 @@ class ValueRepair {
  private:
   void Warn(const XMLElement& element, const std::string& message) {
     problems_.push_back({base::Problem::Severity::kWarning, message, PlaceOf(file_, element)});
+  }
+
+  // libsdformat 12 drops @auto, which SDFormat has since 1.11, but keeps attributes of a namespace.
+  static void KeepAutomaticInertia(XMLElement& element) {
+    if (std::strcmp(element.Name(), "inertial") == 0 && element.BoolAttribute("auto", false)) {
+      element.SetAttribute("gsv:auto", true);
+    }
   }
 
   // Removes an element that nothing can be made of.

@@ -66,7 +66,8 @@ RepairedText RepairOne(const std::string& type, const std::string& text,
     if (numbers.words == 1 && numbers.are_all_clean) return {text, ""};
     return {TextOf(value), "one number is expected"};
   }
-  if (!std::isfinite(value) || std::abs(value) > 2e9 || (type != "int" && value < 0)) {
+  const double largest = type == "int" ? 2e9 : 4294967295.0;
+  if (!std::isfinite(value) || std::abs(value) > largest || (type != "int" && value < 0)) {
     return {otherwise, type == "int" ? "a whole number is expected"
                                      : "a whole number that is not negative is expected"};
   }

@@ -13,13 +13,16 @@
 
 #include "gsv/formats/sdf/builtin_models.h"
 #include "gsv/formats/sdf/include_scan.h"
+#include "gsv/formats/sdf/joint_mimic.h"
 #include "gsv/formats/sdf/ros2_control.h"
 #include "gsv/formats/sdf/sdf_actor.h"
 #include "gsv/formats/sdf/sdf_document.h"
+#include "gsv/formats/sdf/sdf_medium.h"
 #include "gsv/formats/sdf/sdf_pedestrians.h"
 #include "gsv/formats/sdf/sdf_world.h"
 #include "gsv/formats/sdf/value_repair.h"
 #include "gsv/formats/sdf/world_frames.h"
+#include "gsv/formats/sdf/world_state.h"
 
 namespace gsv::formats {
 namespace {
@@ -52,7 +55,9 @@ class WorldReader {
     if (const XMLElement* second = world->NextSiblingElement("world")) {
       context_.Warn("only the first world of a file is read", PlaceOf(file_.path, *second));
     }
+    state_.Read(*world, context_);
     RepairValues(*world, file_.path, problems_);
+    ReadMedium(*world, context_, world_);
     TakeScripts(*world);
     if (auto status = TakeIncludes(*world); !status) return Fail(status.error());
     scan_.Scan(*world, file_.path);
@@ -359,6 +364,8 @@ class WorldReader {
       if (script != scripts_.end()) framed->model = ActorOf(*framed->model, script->second);
       framed->model =
           WithControlSystems(*distinct.element, file_.path, std::move(framed->model), problems_);
+      framed->model =
+          WithMimics(*distinct.element, file_.path, std::move(framed->model), problems_);
       distinct.framed = std::move(*framed);
     } else {
       context_.Warn(framed.error().message + "; it is left out", Place(*distinct.element));
@@ -402,9 +409,11 @@ class WorldReader {
       }
       const auto& script = framed->model->script;
       const Pose start = script == nullptr ? Pose{} : model::StartPose(*script);
+      if (state_.IsDeleted(placement.name)) continue;
       world_.models.push_back({placement.name, framed->model,
                                world_from_model.value_or(Pose{}) * start,
                                placement.is_static.value_or(framed->model->is_static)});
+      state_.Apply(world_.models.back());
     }
   }
 
@@ -413,6 +422,10 @@ class WorldReader {
       auto world_from_light = frames_.WorldFrom(placed.at);
       if (!world_from_light) context_.Warn(world_from_light.error().message, placed.place);
       placed.light.world_from_light = world_from_light.value_or(placed.at.pose);
+      if (const auto saved = state_.LightPose(placed.light.name)) {
+        placed.light.world_from_light = *saved;
+      }
+      if (state_.IsDeleted(placed.light.name)) continue;
       world_.lights.push_back(std::move(placed.light));
     }
   }
@@ -423,6 +436,7 @@ class WorldReader {
   ReadingContext context_;
   IncludeScan scan_;
   WorldDescription world_;
+  WorldState state_;
   WorldFrames frames_;
   std::vector<Placement> placements_;
   std::deque<Distinct> distinct_;

@@ -15,6 +15,12 @@ const std::string_view kKnownPlugins = R"table(
 + synchrodrive; a synchro drive
 + jointpositioncontroller; the target of a joint
 + jointcontroller; the target of a joint
+- systems::buoyancyengine; nothing changes what a body displaces
++ systems::buoyancy; fluids that lift bodies
++ buoyancysystem; fluids that lift bodies
++ systems::windeffects; the wind
++ windeffectssystem; the wind
++ windplugin; the wind
 + systems::thermal; the temperature of a visual
 . physicssystem; GSV moves the world itself
 . systems::physics; GSV moves the world itself

@@ -39,7 +39,7 @@ static - 1.5-1.6 =true
 @namespace . 1.12- = ; topics are named by robot and sensor
 @placement_frame + 1.8- =
 allow_auto_disable . 1.4- =true ; bodies at rest cost nothing by themselves
-enable_wind - 1.6- =false ; there is no wind
+enable_wind + 1.6- =false
 frame:frame* + 1.5-
 gripper:gripper* - 1.4- ; a gsv gripper sensor closes fingers; see docs/actuators.md
 include* + 1.5-
@@ -73,11 +73,11 @@ audio_sink:audio_sink* . 1.4- ; GSV plays no sound on the machine
 audio_source:audio_source* - 1.4- ; the link makes no sound; a gsv speaker does
 battery:battery* - 1.5- ; a gsv battery sensor models one
 collision:collision* + 1.4-
-enable_wind - 1.6- =false ; there is no wind
+enable_wind + 1.6- =false
 frame:frame* - 1.5-1.6 ; the frame is not used
 gravity + 1.4- =true
 inertial:inertial + 1.4-
-kinematic - 1.4- =false ; the link moves as any other
+kinematic + 1.4- =false
 light:light* - 1.6- ; the light of a link is not lit; a gsv lamp is
 must_be_base_link . 1.4- =false ; the joints say which link is the base
 particle_emitter:particle_emitter* - 1.6- ; there are no particles
@@ -85,14 +85,14 @@ pose:pose + 1.4- =0 0 0 0 0 0
 projector:projector* - 1.4- ; no image is projected
 self_collide - 1.4- =false ; the links of a model do not collide with each other
 sensor:sensor* + 1.4-
-velocity_decay - 1.4- ; the velocity of the link does not decay by itself
-velocity_decay/angular - 1.4- =0.0 ; the velocity of the link does not decay by itself
-velocity_decay/linear - 1.4- =0.0 ; the velocity of the link does not decay by itself
+velocity_decay + 1.4-
+velocity_decay/angular + 1.4- =0.0
+velocity_decay/linear + 1.4- =0.0
 visual:visual* + 1.4-
 [inertial]
-@auto - 1.11- =false ; the mass and inertia that the file gives hold, or 1 kg and 1 kg m² without them
-auto_inertia_params - 1.11- ; inertia is not computed from the shapes
-density - 1.11- =1000 ; inertia is not computed from the shapes
+@auto + 1.11- =false
+auto_inertia_params . 1.11- ; the inertia of every shape is computed exactly
+density + 1.11- =1000
 fluid_added_mass - 1.10- ; no water is moved along
 fluid_added_mass/pp - 1.10- =0
 fluid_added_mass/pq - 1.10- =0
@@ -130,8 +130,8 @@ pose/@frame - 1.5-1.6 = ; the pose is that in the link's frame
 pose/@rotation_format + 1.9- =euler_rpy
 [collision]
 @name + 1.4-
-auto_inertia_params - 1.11- ; inertia is not computed from the shapes
-density - 1.11- =1000 ; inertia is not computed from the shapes
+auto_inertia_params . 1.11- ; the inertia of every shape is computed exactly
+density + 1.11- =1000
 frame:frame* - 1.5-1.6 ; the frame is not used
 geometry:geometry + 1.4-
 laser_retro - 1.4- =0 ; lidars report no intensity
@@ -150,10 +150,10 @@ contact/bullet/soft_cfm - 1.4- =0
 contact/bullet/soft_erp - 1.4- =0.2
 contact/bullet/split_impulse - 1.4- =true
 contact/bullet/split_impulse_penetration_threshold - 1.4- =-0.01
-contact/category_bitmask - 1.6- =65535 ; every collision meets every other
-contact/collide_bitmask - 1.4- =65535 ; every collision meets every other
-contact/collide_without_contact - 1.4- =false ; the collision pushes as any other
-contact/collide_without_contact_bitmask - 1.4- =1 ; the collision pushes as any other
+contact/category_bitmask + 1.6- =65535
+contact/collide_bitmask + 1.4- =65535
+contact/collide_without_contact ~ 1.4- =false ; the collision pushes nothing, and its contacts are not reported
+contact/collide_without_contact_bitmask - 1.4- =1 ; the collision meets nothing without contact
 contact/elastic_modulus - 1.5- =-1 ; bodies do not bend
 contact/ode - 1.4- ; contacts are hard: their stiffness and damping are not used
 contact/ode/kd - 1.4- =1.0
@@ -269,16 +269,16 @@ radius + 1.4- =1
 [ellipsoid_shape]
 radii + 1.8- =1 1 1
 [heightmap_shape]
-blend* - 1.4- ; the terrain has the material of its visual
-blend/fade_dist - 1.4- =0
-blend/min_height - 1.4- =0
+blend* + 1.4-
+blend/fade_dist + 1.4- =0
+blend/min_height + 1.4- =0
 pos + 1.4- =0 0 0
 sampling . 1.6- =1 ; the terrain is a mesh
 size + 1.4- =1 1 1
-texture* - 1.4- ; the terrain has the material of its visual
-texture/diffuse - 1.4-
-texture/normal - 1.4-
-texture/size - 1.4- =10
+texture* + 1.4-
+texture/diffuse + 1.4-
+texture/normal - 1.4- ; the terrain has its shape alone
+texture/size + 1.4- =10
 uri + 1.4-
 use_terrain_paging . 1.4- =false ; the terrain is a mesh
 [image_shape]
@@ -363,7 +363,7 @@ axis/limit/lower + 1.4- =-1e16
 axis/limit/stiffness - 1.4- =1e8 ; the stops of joints are hard
 axis/limit/upper + 1.4- =1e16
 axis/limit/velocity + 1.4- =-1
-axis/mimic:mimic - 1.11- ; the joint does not follow the other
+axis/mimic:mimic + 1.11-
 axis/use_parent_model_frame + 1.5-1.6 =false
 axis/xyz + 1.4- =0 0 1
 axis/xyz/@expressed_in + 1.7- =
@@ -415,11 +415,11 @@ screw_thread_pitch + 1.10- =1.0
 sensor:sensor* + 1.4-
 thread_pitch + 1.4- =1.0
 [mimic]
-@axis - 1.11- =axis
-@joint - 1.11- =
-multiplier - 1.11- =1
-offset - 1.11- =0
-reference - 1.11- =0
+@axis - 1.11- =axis ; the joint follows the other's first axis
+@joint + 1.11- =
+multiplier + 1.11- =1
+offset + 1.11- =0
+reference + 1.11- =0
 [plugin]
 @filename + 1.4-
 @name + 1.4-

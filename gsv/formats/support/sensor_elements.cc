@@ -197,12 +197,12 @@ orientation/y - 1.10- ; the orientation has no noise
 orientation/y/noise:noise - 1.10- ; the orientation has no noise
 orientation/z - 1.10- ; the orientation has no noise
 orientation/z/noise:noise - 1.10- ; the orientation has no noise
-orientation_reference_frame - 1.6- ; the orientation is that in the world's frame
-orientation_reference_frame/custom_rpy - 1.6- =0 0 0 ; the orientation is that in the world's frame
-orientation_reference_frame/custom_rpy/@parent_frame - 1.6- = ; the orientation is that in the world's frame
-orientation_reference_frame/grav_dir_x - 1.6- =1 0 0 ; the orientation is that in the world's frame
-orientation_reference_frame/grav_dir_x/@parent_frame - 1.6- = ; the orientation is that in the world's frame
-orientation_reference_frame/localization - 1.6- =CUSTOM ; the orientation is that in the world's frame
+orientation_reference_frame + 1.6-
+orientation_reference_frame/custom_rpy + 1.6- =0 0 0
+orientation_reference_frame/custom_rpy/@parent_frame ~ 1.6- = ; the parent is always the world's frame
+orientation_reference_frame/grav_dir_x + 1.6- =1 0 0
+orientation_reference_frame/grav_dir_x/@parent_frame ~ 1.6- = ; the parent is always the world's frame
+orientation_reference_frame/localization + 1.6- =CUSTOM
 topic . 1.4-1.6 =__default_topic__ ; topics and frames are named by robot and sensor
 [lidar]
 noise + 1.6-

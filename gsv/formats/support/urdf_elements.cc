@@ -83,10 +83,10 @@ limit/@lower +
 limit/@upper +
 limit/@effort +
 limit/@velocity +
-mimic - ; the joint does not follow the other
-mimic/@joint -
-mimic/@multiplier -
-mimic/@offset -
+mimic +
+mimic/@joint +
+mimic/@multiplier +
+mimic/@offset +
 safety_controller . ; controllers of real robots use it
 [gazebo]
 @reference +

@@ -40,9 +40,9 @@ population:population* - 1.5- ; the models of a population are not placed
 road:road* - 1.4- ; roads are not shown
 scene:scene + 1.4-
 spherical_coordinates:spherical_coordinates + 1.4-
-state:state* - 1.4- ; the world starts as its models are written, not as its <state> says
-wind - 1.6- ; there is no wind
-wind/linear_velocity - 1.6- =0 0 0 ; there is no wind
+state:state* + 1.4-
+wind + 1.6-
+wind/linear_velocity + 1.6- =0 0 0
 [physics]
 @default + 1.5- =false
 @name . 1.5- =default_physics ; there is one engine for rigid bodies, and one for planar ones
@@ -185,82 +185,68 @@ material:material - 1.5-
 point* - 1.4- =0 0 0
 width - 1.4- =1.0
 [state]
-@world_name - 1.4-
-deletions - 1.4-
-deletions/name* - 1.4-
-insertions - 1.4-
+@world_name + 1.4-
+deletions + 1.4-
+deletions/name* + 1.4-
+insertions + 1.4-
 insertions/joint:joint* - 1.12-
-insertions/light:light* - 1.6-
-insertions/model:model* - 1.4-
-iterations - 1.5- =0
+insertions/light:light* + 1.6-
+insertions/model:model* + 1.4-
+iterations . 1.5- =0 ; the clock starts at zero
 joint_state:joint_state* - 1.12-
-light:light_state* - 1.5-
-light_state:light_state* - 1.12-
-model:model_state* - 1.4-
-model/@name - 1.4-1.4
-model/joint* - 1.4-1.4
-model/joint/@name - 1.4-1.4
-model/joint/angle* - 1.4-1.4 =0
-model/joint/angle/@axis - 1.4-1.4 =0
-model/link* - 1.4-1.4
-model/link/@name - 1.4-1.4
-model/link/acceleration - 1.4-1.4 =0 0 0 0 0 0
-model/link/collision* - 1.4-1.4
-model/link/collision/@name - 1.4-1.4
-model/link/collision/pose - 1.4-1.4 =0 0 0 0 0 0
-model/link/pose - 1.4-1.4 =0 0 0 0 0 0
-model/link/velocity - 1.4-1.4 =0 0 0 0 0 0
-model/link/wrench - 1.4-1.4 =0 0 0 0 0 0
-model/pose - 1.4-1.4 =0 0 0 0 0 0
-model_state:model_state* - 1.12-
-real_time - 1.4- =0 0
-sim_time - 1.4- =0 0
-wall_time - 1.4- =0 0
+light:light_state* + 1.5-
+light_state:light_state* + 1.12-
+model:model_state* + 1.4-
+model_state:model_state* + 1.12-
+real_time . 1.4- =0 0 ; the clock starts at zero
+sim_time . 1.4- =0 0 ; the clock starts at zero
+wall_time . 1.4- =0 0 ; the clock starts at zero
 [model_state]
-@name - 1.5-
+@name + 1.4-
 frame:frame* - 1.5-
-joint* - 1.5-
-joint/@name - 1.5-
-joint/angle* - 1.5- =0
-joint/angle/@axis - 1.5- =0
-joint_state:joint_state* - 1.12-
-link:link_state* - 1.5-
-link_state:link_state* - 1.12-
-model:model_state* - 1.5-
-model_state:model_state* - 1.12-
-pose:pose - 1.5- =0 0 0 0 0 0
-scale - 1.6- =1 1 1
+joint* + 1.4-
+joint/@name + 1.4-
+joint/angle* + 1.4- =0
+joint/angle/@axis + 1.4- =0
+joint_state:joint_state* + 1.12-
+link:link_state* + 1.4-
+link_state:link_state* + 1.12-
+model:model_state* + 1.5-
+model_state:model_state* + 1.12-
+pose:pose + 1.4- =0 0 0 0 0 0
+scale - 1.6- =1 1 1 ; models keep their size
 [link_state]
-@name - 1.5-
-acceleration - 1.5- =0 0 0 0 0 0
-collision* - 1.5-
-collision/@name - 1.5-
+@name + 1.4-
+acceleration . 1.4- =0 0 0 0 0 0 ; forces and accelerations follow from the rest
+collision* - 1.4-
+collision/@name - 1.4-
+collision/pose:pose - 1.4-1.4 =0 0 0 0 0 0
 frame:frame* - 1.5-1.6 ; the frame is not used
-pose:pose - 1.5- =0 0 0 0 0 0
-velocity - 1.5- =0 0 0 0 0 0
-wrench - 1.5- =0 0 0 0 0 0
+pose:pose + 1.4- =0 0 0 0 0 0
+velocity - 1.4- =0 0 0 0 0 0 ; the world starts at rest
+wrench . 1.4- =0 0 0 0 0 0 ; forces and accelerations follow from the rest
 [joint_state]
-@name - 1.12-
-angle* - 1.12- =0
-angle/@axis - 1.12- =0
+@name + 1.12-
+angle* + 1.12- =0
+angle/@axis + 1.12- =0
 axis2_state - 1.12-
 axis2_state/acceleration - 1.12- =0
 axis2_state/acceleration/@degrees - 1.12- =false
 axis2_state/position - 1.12- =0
 axis2_state/position/@degrees - 1.12- =false
-axis2_state/velocity - 1.12- =0
+axis2_state/velocity - 1.12- =0 ; the world starts at rest
 axis2_state/velocity/@degrees - 1.12- =false
-axis_state - 1.12-
+axis_state + 1.12-
 axis_state/acceleration - 1.12- =0
 axis_state/acceleration/@degrees - 1.12- =false
-axis_state/position - 1.12- =0
-axis_state/position/@degrees - 1.12- =false
-axis_state/velocity - 1.12- =0
+axis_state/position + 1.12- =0
+axis_state/position/@degrees + 1.12- =false
+axis_state/velocity - 1.12- =0 ; the world starts at rest
 axis_state/velocity/@degrees - 1.12- =false
 [light_state]
-@name - 1.5-
+@name + 1.5-
 frame:frame* - 1.5-1.6 ; the frame is not used
-pose:pose - 1.5- =0 0 0 0 0 0
+pose:pose + 1.5- =0 0 0 0 0 0
 [gui]
 @fullscreen . 1.4- =false
 camera . 1.4-

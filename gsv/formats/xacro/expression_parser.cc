@@ -9,7 +9,7 @@ namespace gsv::formats::xacro {
 namespace {
 
 using Kind = Expression::Kind;
-using Node = std::unique_ptr<Expression>;
+using ParsedPtr = std::unique_ptr<Expression>;
 
 constexpr int kDeepestExpression = 64;
 constexpr std::size_t kMaxTokens = 4096;
@@ -128,8 +128,8 @@ class Parser {
  public:
   explicit Parser(std::vector<Token> tokens) : tokens_(std::move(tokens)) {}
 
-  base::Result<Node> Read() {
-    Node node = TernaryOrTuple();
+  base::Result<ParsedPtr> Read() {
+    ParsedPtr node = TernaryOrTuple();
     if (error_.empty() && Now().kind != Token::Kind::kEnd) {
       Refuse("\"" + Now().text + "\" is not expected here");
     }
@@ -139,7 +139,7 @@ class Parser {
 
  private:
   // After an error all answers are null, and nothing is read any more.
-  Node Refuse(const std::string& why) {
+  ParsedPtr Refuse(const std::string& why) {
     if (error_.empty()) error_ = why;
     at_ = tokens_.size() - 1;
     return nullptr;
@@ -158,23 +158,23 @@ class Parser {
     if (!Take(text)) Refuse(std::string("\"") + text + "\" is missing");
   }
 
-  static Node Make(Kind kind, std::string text = {}) {
+  static ParsedPtr Make(Kind kind, std::string text = {}) {
     auto node = std::make_unique<Expression>();
     node->kind = kind;
     node->text = std::move(text);
     return node;
   }
-  static Node Pair(Kind kind, const std::string& text, Node a, Node b) {
-    Node node = Make(kind, text);
+  static ParsedPtr Pair(Kind kind, const std::string& text, ParsedPtr a, ParsedPtr b) {
+    ParsedPtr node = Make(kind, text);
     node->parts.push_back(std::move(a));
     node->parts.push_back(std::move(b));
     return node;
   }
 
-  Node TernaryOrTuple() {
-    Node first = Ternary();
+  ParsedPtr TernaryOrTuple() {
+    ParsedPtr first = Ternary();
     if (!Is(",")) return first;
-    Node tuple = Make(Kind::kTuple);
+    ParsedPtr tuple = Make(Kind::kTuple);
     tuple->parts.push_back(std::move(first));
     while (Take(",")) {
       if (Is(")") || Now().kind == Token::Kind::kEnd) break;
@@ -183,12 +183,12 @@ class Parser {
     return tuple;
   }
 
-  Node Ternary() {
+  ParsedPtr Ternary() {
     if (++depth_ > kDeepestExpression) return Refuse("the expression is nested too deep");
     if (Is("lambda")) return Refuse("lambda is not supported in an expression");
-    Node then = Or();
+    ParsedPtr then = Or();
     if (Take("if")) {
-      Node node = Make(Kind::kTernary);
+      ParsedPtr node = Make(Kind::kTernary);
       node->parts.push_back(Or());
       Expect("else");
       node->parts.push_back(std::move(then));
@@ -200,26 +200,26 @@ class Parser {
     return then;
   }
 
-  Node Or() {
-    Node left = And();
+  ParsedPtr Or() {
+    ParsedPtr left = And();
     while (Take("or")) left = Pair(Kind::kOr, "or", std::move(left), And());
     return left;
   }
 
-  Node And() {
-    Node left = Not();
+  ParsedPtr And() {
+    ParsedPtr left = Not();
     while (Take("and")) left = Pair(Kind::kAnd, "and", std::move(left), Not());
     return left;
   }
 
-  Node Not() {
+  ParsedPtr Not() {
     if (!Take("not")) return Comparison();
     return Unary("not", &Parser::Not);
   }
 
-  Node Unary(const char* sign, Node (Parser::*operand)()) {
+  ParsedPtr Unary(const char* sign, ParsedPtr (Parser::*operand)()) {
     if (++depth_ > kDeepestExpression) return Refuse("the expression is nested too deep");
-    Node node = Make(Kind::kUnary, sign);
+    ParsedPtr node = Make(Kind::kUnary, sign);
     node->parts.push_back((this->*operand)());
     --depth_;
     return node;
@@ -237,9 +237,9 @@ class Parser {
     return "";
   }
 
-  Node Comparison() {
-    Node first = Sum();
-    Node compare;
+  ParsedPtr Comparison() {
+    ParsedPtr first = Sum();
+    ParsedPtr compare;
     for (std::string word = Comparator(); !word.empty(); word = Comparator()) {
       if (compare == nullptr) {
         compare = Make(Kind::kCompare);
@@ -251,8 +251,8 @@ class Parser {
     return compare == nullptr ? std::move(first) : std::move(compare);
   }
 
-  Node Sum() {
-    Node left = Product();
+  ParsedPtr Sum() {
+    ParsedPtr left = Product();
     while (Is("+") || Is("-")) {
       const std::string sign = tokens_[at_++].text;
       left = Pair(Kind::kBinary, sign, std::move(left), Product());
@@ -260,8 +260,8 @@ class Parser {
     return left;
   }
 
-  Node Product() {
-    Node left = Signed();
+  ParsedPtr Product() {
+    ParsedPtr left = Signed();
     while (Is("*") || Is("/") || Is("//") || Is("%")) {
       const std::string sign = tokens_[at_++].text;
       left = Pair(Kind::kBinary, sign, std::move(left), Signed());
@@ -269,10 +269,10 @@ class Parser {
     return left;
   }
 
-  Node Signed() {
+  ParsedPtr Signed() {
     if (Take("-")) return Unary("-", &Parser::Signed);
     if (Take("+")) return Unary("+", &Parser::Signed);
-    Node base = Postfix();
+    ParsedPtr base = Postfix();
     if (!Take("**")) return base;
     if (++depth_ > kDeepestExpression) return Refuse("the expression is nested too deep");
     base = Pair(Kind::kBinary, "**", std::move(base), Signed());
@@ -280,13 +280,13 @@ class Parser {
     return base;
   }
 
-  Node Postfix() {
-    Node node = Atom();
+  ParsedPtr Postfix() {
+    ParsedPtr node = Atom();
     for (int links = 0;; ++links) {
       if (links > kDeepestExpression) return Refuse("the expression is nested too deep");
       if (Take(".")) {
         if (Now().kind != Token::Kind::kName) return Refuse("a name is missing after \".\"");
-        Node member = Make(Kind::kMember, tokens_[at_++].text);
+        ParsedPtr member = Make(Kind::kMember, tokens_[at_++].text);
         member->parts.push_back(std::move(node));
         node = std::move(member);
       } else if (Take("(")) {
@@ -299,8 +299,8 @@ class Parser {
     }
   }
 
-  Node Call(Node function) {
-    Node call = Make(Kind::kCall);
+  ParsedPtr Call(ParsedPtr function) {
+    ParsedPtr call = Make(Kind::kCall);
     call->parts.push_back(std::move(function));
     while (!Is(")") && error_.empty()) {
       if (Is("*") || Is("**")) return Refuse("* and ** are not supported in a call");
@@ -319,8 +319,8 @@ class Parser {
     return call;
   }
 
-  Node Subscript(Node of) {
-    Node node = Make(Kind::kIndex);
+  ParsedPtr Subscript(ParsedPtr of) {
+    ParsedPtr node = Make(Kind::kIndex);
     node->parts.push_back(std::move(of));
     node->parts.push_back(Is(":") ? nullptr : Ternary());
     if (Take(":")) {
@@ -331,7 +331,7 @@ class Parser {
     return node;
   }
 
-  Node Atom() {
+  ParsedPtr Atom() {
     const Token token = Now();
     switch (token.kind) {
       case Token::Kind::kEnd:
@@ -340,7 +340,7 @@ class Parser {
         ++at_;
         return Number(token.text);
       case Token::Kind::kString: {
-        Node node = Make(Kind::kLiteral);
+        ParsedPtr node = Make(Kind::kLiteral);
         std::string text;
         while (Now().kind == Token::Kind::kString) text += tokens_[at_++].text;
         node->value = {text};
@@ -358,8 +358,8 @@ class Parser {
     return Refuse("\"" + token.text + "\" is not expected here");
   }
 
-  Node Number(const std::string& text) {
-    Node node = Make(Kind::kLiteral);
+  ParsedPtr Number(const std::string& text) {
+    ParsedPtr node = Make(Kind::kLiteral);
     if (const auto integer = ParseInteger(text)) {
       node->value = {*integer};
     } else if (const auto real = ParseFloat(text)) {
@@ -370,11 +370,11 @@ class Parser {
     return node;
   }
 
-  Node Name(const std::string& text) {
+  ParsedPtr Name(const std::string& text) {
     for (const char* word : {"if", "else", "for", "and", "or", "in", "is", "import", "lambda"}) {
       if (text == word) return Refuse("\"" + text + "\" is not expected here");
     }
-    Node node = Make(Kind::kLiteral);
+    ParsedPtr node = Make(Kind::kLiteral);
     if (text == "True" || text == "False") {
       node->value = {text == "True"};
     } else if (text != "None") {
@@ -383,15 +383,15 @@ class Parser {
     return node;
   }
 
-  Node Parenthesis() {
+  ParsedPtr Parenthesis() {
     if (Take(")")) return Make(Kind::kTuple);
-    Node inner = TernaryOrTuple();
+    ParsedPtr inner = TernaryOrTuple();
     Expect(")");
     return inner;
   }
 
-  Node ListDisplay() {
-    Node list = Make(Kind::kList);
+  ParsedPtr ListDisplay() {
+    ParsedPtr list = Make(Kind::kList);
     while (!Is("]") && error_.empty()) {
       list->parts.push_back(Ternary());
       if (!Take(",")) break;
@@ -400,8 +400,8 @@ class Parser {
     return list;
   }
 
-  Node DictionaryDisplay() {
-    Node dictionary = Make(Kind::kDictionary);
+  ParsedPtr DictionaryDisplay() {
+    ParsedPtr dictionary = Make(Kind::kDictionary);
     while (!Is("}") && error_.empty()) {
       dictionary->parts.push_back(Ternary());
       Expect(":");

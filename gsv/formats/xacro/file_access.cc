@@ -5,6 +5,7 @@
 #include <iterator>
 #include <system_error>
 
+#include "gsv/formats/files/xml_fault.h"
 #include "gsv/formats/xacro/package_finder.h"
 #include "gsv/formats/xacro/yaml_values.h"
 
@@ -71,9 +72,8 @@ base::Result<NodePtr> FileAccess::ReadIncluded(const std::string& name, const fs
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS ||
       document.RootElement() == nullptr) {
-    return NoFile(std::string("the XML is malformed (") +
-                      tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID()) + ")",
-                  file->string() + ":" + std::to_string(document.ErrorLineNum()));
+    const auto malformed = DescribeXmlError(text, file->string(), document.ErrorLineNum());
+    return NoFile(malformed.message, malformed.place);
   }
   return known = ToNode(*document.RootElement(), std::make_shared<const fs::path>(*file));
 }

@@ -1,0 +1,22 @@
+// Joints that follow others: <mimic> of URDF, and of SDFormat since 1.11.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <tinyxml2.h>
+
+#include "gsv/base/error.h"
+#include "gsv/model/model.h"
+
+namespace gsv::formats {
+
+// The same model with the <mimic> elements of its <robot> or <model>, which libsdformat 12 drops.
+// One that names no joint, or a joint that follows itself, is left out with a warning.
+std::shared_ptr<const model::Model> WithMimics(const tinyxml2::XMLElement& element,
+                                               const std::filesystem::path& file,
+                                               std::shared_ptr<const model::Model> model,
+                                               base::Problems& problems);
+
+}  // namespace gsv::formats

@@ -1,0 +1,184 @@
+#include "gsv/formats/sdf/world_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <vector>
+
+#include "gsv/formats/sdf/sdf_xml.h"
+#include "gsv/formats/sdf/value_text.h"
+#include "gsv/formats/sdf/world_frames.h"
+
+namespace gsv::formats {
+namespace {
+
+using geometry::Pose;
+using model::JointKind;
+using tinyxml2::XMLElement;
+
+constexpr int kDeepestState = 32;
+// rad or m: a joint so close to zero is at zero, so that models stay shared.
+constexpr double kAtZero = 1e-9;
+
+std::string NameAttribute(const XMLElement& element) {
+  const char* name = element.Attribute("name");
+  return name == nullptr ? "" : name;
+}
+
+std::optional<Pose> StatePose(const XMLElement& element, const ReadingContext& context) {
+  if (element.FirstChildElement("pose") == nullptr) return std::nullopt;
+  auto pose = ReadPose(element);
+  if (pose) return pose->pose;
+  context.Warn(pose.error().message + "; the state's pose is left out",
+               PlaceOf(context.source, element));
+  return std::nullopt;
+}
+
+// Calls `visit` with each child of one of two names: SDFormat 1.12 renamed them.
+template <typename Visit>
+void ForEachChild(const XMLElement& parent, const char* name, const char* newer, Visit visit) {
+  for (auto* child = parent.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    if (std::strcmp(child->Name(), name) == 0 || std::strcmp(child->Name(), newer) == 0) {
+      visit(*child);
+    }
+  }
+}
+
+// <angle axis="0"> up to 1.11, then <axis_state><position>.
+std::optional<double> PositionOf(const XMLElement& joint) {
+  const XMLElement* element = joint.FirstChildElement("angle");
+  if (const auto* axis = joint.FirstChildElement("axis_state")) {
+    element = axis->FirstChildElement("position");
+  }
+  if (element == nullptr || element->GetText() == nullptr) return std::nullopt;
+  const LeadingNumber number = LeadingNumberOf(element->GetText());
+  if (!number.is_number || !std::isfinite(number.value)) return std::nullopt;
+  return element->BoolAttribute("degrees", false) ? number.value * std::numbers::pi / 180
+                                                  : number.value;
+}
+
+// How far a joint has moved its child's frame against its parent's.
+double Displacement(const model::Joint& joint, const Pose& joint_from_moved) {
+  if (joint.kind == JointKind::kPrismatic) return Dot(joint.axis, joint_from_moved.position);
+  const auto& q = joint_from_moved.orientation;
+  return geometry::WrapAngle(2 * std::atan2(Dot(joint.axis, {q.x, q.y, q.z}), q.w));
+}
+
+}  // namespace
+
+void WorldState::Read(XMLElement& world, const ReadingContext& context) {
+  while (auto* state = world.FirstChildElement("state")) {
+    const char* of = state->Attribute("world_name");
+    const char* name = world.Attribute("name");
+    if (of != nullptr && name != nullptr && std::strcmp(of, name) != 0) {
+      context.Warn("the <state> is one of the world \"" + std::string(of) +
+                       "\", not of this one; it is left out",
+                   PlaceOf(context.source, *state));
+    } else {
+      ReadState(*state, world, context);
+    }
+    world.DeleteChild(state);
+  }
+}
+
+void WorldState::ReadState(XMLElement& state, XMLElement& world, const ReadingContext& context) {
+  if (auto* insertions = state.FirstChildElement("insertions")) {
+    XMLElement* next = nullptr;
+    for (auto* child = insertions->FirstChildElement(); child != nullptr; child = next) {
+      next = child->NextSiblingElement();
+      if (std::strcmp(child->Name(), "model") == 0 || std::strcmp(child->Name(), "light") == 0) {
+        world.InsertEndChild(child);
+      }
+    }
+  }
+  if (const auto* deletions = state.FirstChildElement("deletions")) {
+    ForEachChild(*deletions, "name", "name", [&](const XMLElement& name) {
+      if (name.GetText() != nullptr) deleted_.insert(name.GetText());
+    });
+  }
+  ForEachChild(state, "model", "model_state", [&](const XMLElement& model) {
+    ReadModel(model, "", kDeepestState, context, models_[NameAttribute(model)]);
+  });
+  ForEachChild(state, "light", "light_state", [&](const XMLElement& light) {
+    if (const auto pose = StatePose(light, context)) lights_[NameAttribute(light)] = *pose;
+  });
+}
+
+void WorldState::ReadModel(const XMLElement& element, const std::string& scope, int levels_left,
+                           const ReadingContext& context, ModelState& state) {
+  if (levels_left == 0) return;
+  if (scope.empty()) {
+    if (const auto pose = StatePose(element, context)) state.pose = pose;
+  }
+  ForEachChild(element, "link", "link_state", [&](const XMLElement& link) {
+    if (const auto pose = StatePose(link, context)) {
+      state.links[scope + NameAttribute(link)] = *pose;
+    }
+  });
+  ForEachChild(element, "joint", "joint_state", [&](const XMLElement& joint) {
+    if (const auto position = PositionOf(joint)) {
+      state.joints[scope + NameAttribute(joint)] = *position;
+    }
+  });
+  ForEachChild(element, "model", "model_state", [&](const XMLElement& inner) {
+    ReadModel(inner, scope + NameAttribute(inner) + "::", levels_left - 1, context, state);
+  });
+}
+
+std::vector<double> WorldState::PositionsOf(const model::Model& model, const ModelState& state,
+                                            const Pose& world_from_model) {
+  const auto pose_of = [&](int link) -> std::optional<Pose> {
+    if (link < 0) return world_from_model;
+    const auto found = state.links.find(model.links[static_cast<std::size_t>(link)].name);
+    return found == state.links.end() ? std::nullopt : std::optional(found->second);
+  };
+  const auto at_zero = [&](int link) {
+    return link < 0 ? Pose{} : model.links[static_cast<std::size_t>(link)].model_from_link;
+  };
+  std::vector<double> positions;
+  bool has_moved = false;
+  for (const model::Joint& joint : model.joints) {
+    double position = 0;
+    const auto parent = pose_of(joint.parent), child = pose_of(joint.child);
+    const auto written = state.joints.find(joint.name);
+    if (!model::TakesCommands(joint.kind)) {
+      position = 0;
+    } else if (parent && child) {
+      const Pose joint_from_parent = Inverse(joint.model_from_joint) * at_zero(joint.parent);
+      const Pose child_from_joint = Inverse(at_zero(joint.child)) * joint.model_from_joint;
+      position =
+          Displacement(joint, joint_from_parent * (Inverse(*parent) * *child) * child_from_joint);
+    } else if (written != state.joints.end()) {
+      position = written->second;
+    }
+    position = std::clamp(position, joint.position_limits.min, joint.position_limits.max);
+    has_moved = has_moved || std::abs(position) > kAtZero;
+    positions.push_back(position);
+  }
+  return has_moved ? positions : std::vector<double>{};
+}
+
+void WorldState::Apply(model::PlacedModel& placed) const {
+  const auto found = models_.find(placed.name);
+  if (found == models_.end() || placed.model->script != nullptr) return;
+  const ModelState& state = found->second;
+  if (state.pose) placed.world_from_model = *state.pose;
+  const model::Link& first = placed.model->links.front();
+  if (const auto link = state.links.find(first.name); link != state.links.end()) {
+    placed.world_from_model = link->second * Inverse(first.model_from_link);
+  }
+  std::vector<double> positions = PositionsOf(*placed.model, state, placed.world_from_model);
+  if (positions.empty()) return;
+  auto moved = std::make_shared<model::Model>(*placed.model);
+  moved->start_positions = std::move(positions);
+  placed.model = std::move(moved);
+}
+
+std::optional<Pose> WorldState::LightPose(const std::string& name) const {
+  const auto found = lights_.find(name);
+  return found == lights_.end() ? std::nullopt : std::optional(found->second);
+}
+
+}  // namespace gsv::formats
