@@ -18,7 +18,7 @@ namespace {
 constexpr std::chrono::milliseconds kBrokerTimeout{3000};
 // Stopping and resetting wait for behaviours, which have 10 s for each call.
 constexpr std::chrono::milliseconds kCallTimeout{30'000};
-constexpr std::size_t kMaxServers = 1000;
+constexpr std::size_t kMaxOfferedServers = 1000;
 constexpr std::size_t kMaxInstances = 64;  // that are asked at the same time
 
 std::string TextOf(const broker::PropertyList& properties, const char* name) {
@@ -71,7 +71,8 @@ base::Status AddSimulationsAt(CORBA::ORB_ptr orb, const std::string& reference,
                               std::vector<std::string>& silent) {
   auto client = broker::BrokerClient::Connect(orb, reference, kBrokerTimeout);
   if (!client) return base::Fail(client.error());
-  const auto offers = client->Query(broker::SimulationServiceType().name, "", "first", kMaxServers);
+  const auto offers =
+      client->Query(broker::SimulationServiceType().name, "", "first", kMaxOfferedServers);
   if (!offers) {
     // Nobody has offered simulations there so far.
     if (offers.error().code == base::ErrorCode::kNotFound) return {};
@@ -204,9 +205,9 @@ base::Result<RemoteServer> FindOneInstance(const Selection& selection) {
   if (!orb) return base::Fail(orb.error());
   for (const std::string& broker : brokers) {
     auto client = broker::BrokerClient::Connect(*orb, broker, kBrokerTimeout);
-    const auto offers =
-        client ? client->Query(broker::SimulationServiceType().name, "", "first", kMaxServers)
-               : base::Fail(client.error());
+    const auto offers = client ? client->Query(broker::SimulationServiceType().name, "", "first",
+                                               kMaxOfferedServers)
+                               : base::Fail(client.error());
     if (!offers && is_named) return base::Fail(offers.error());
     if (!offers) continue;  // of one's own instances some may just have ended
     for (const broker::FoundOffer& offer : *offers) {
