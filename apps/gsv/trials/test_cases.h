@@ -32,10 +32,10 @@ base::Result<Shard> ParseShard(const std::string& text);
 std::vector<TestCase> ShareOf(std::vector<TestCase> cases, const Shard& shard);
 
 struct TestOptions {
-  std::filesystem::path failures;  // a folder for what failed; empty: nothing is kept
-  int threads = 0;                 // of a run; 0: as `gsv run` chooses
-  double timeout = 300;            // wall seconds a run
-  double kept_seconds = 10;        // of a recording before the failure
+  std::filesystem::path failures;   // a folder for what failed; empty: nothing is kept
+  int threads = 0;                  // of a run; 0: as `gsv run` chooses
+  double timeout = 300;             // wall seconds a run
+  double kept_seconds = 10;         // of a recording before the failure
   std::vector<std::string> drives;  // as --drive of `gsv run`
   int repeat = 1;
   bool record = true;

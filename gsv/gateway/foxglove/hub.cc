@@ -92,7 +92,8 @@ void Hub::Take(Client* client, const foxglove::ClientMessage& message) {
   }
   std::visit(
       [&](const auto& content) {
-        if constexpr (requires { requests_.Take(sender, content); }) requests_.Take(sender, content);
+        if constexpr (requires { requests_.Take(sender, content); })
+          requests_.Take(sender, content);
       },
       message);
   on_demand_();
