@@ -82,7 +82,7 @@ TEST_F(SdfMedium, ADecayThatIsNoShareIsLeftOut) {
       ModelOf("<link name='a'><velocity_decay><linear>1.5</linear></velocity_decay></link>");
   EXPECT_EQ(model.links.at(0).linear_decay, 0);
   ASSERT_EQ(problems_.size(), 1u);
-  EXPECT_THAT(problems_[0].Sentence(), HasSubstr("must be a share between 0 and 1"));
+  EXPECT_THAT(problems_[0].Sentence(), HasSubstr("must lie between 0 and 1, not"));
 }
 
 TEST_F(SdfMedium, WindIsReadWithTheFactorOfItsPlugin) {

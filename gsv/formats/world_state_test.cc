@@ -102,6 +102,21 @@ TEST_F(WorldStateTest, OfAnotherWorldIsLeftOut) {
   EXPECT_THAT(problems_[0].Sentence(), HasSubstr("one of the world \"default\""));
 }
 
+TEST_F(WorldStateTest, NamesWhatTheWorldDoesNotHave) {
+  World("<model name='a'>" + std::string(kSavedBox) +
+        "<state world_name='w'><deletions><name>gone</name></deletions>"
+        "<model name='nobody'><pose>1 0 0 0 0 0</pose></model>"
+        "<model name='gone'><pose>1 0 0 0 0 0</pose></model>"
+        "<model name='a'><pose>1 0 0 0 0 0</pose><link name='wing'><pose>1 0 0 0 0 0</pose></link>"
+        "<joint name='hinge'><angle axis='0'>1</angle></joint></model>"
+        "<light name='lamp'><pose>0 0 9 0 0 0</pose></light></state>");
+  std::vector<std::string> named;
+  for (const base::Problem& problem : problems_) named.push_back(problem.Sentence());
+  EXPECT_THAT(named, ::testing::UnorderedElementsAre(
+                         HasSubstr("model \"nobody\""), HasSubstr("link \"wing\""),
+                         HasSubstr("joint \"hinge\""), HasSubstr("light \"lamp\"")));
+}
+
 TEST_F(WorldStateTest, ReportsVelocities) {
   World("<model name='a'>" + std::string(kSavedBox) +
         "<state world_name='w'><model name='a'><link name='l'><pose>1 0 0.5 0 0 0</pose>"

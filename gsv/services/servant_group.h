@@ -24,8 +24,8 @@ class ServantGroup {
     const CORBA::Object_var object = Adopt(servant, nullptr);
     return Interface::_narrow(object);
   }
-  // The same, with the type `Interface` in the reference, though the servant may have a derived
-  // interface, for older clients.
+  // Activates a servant under a reference of type `Interface`. The servant may implement an interface
+  // that derives from it; older clients know only `Interface`.
   template <typename Interface>
   typename Interface::_ptr_type ActivateAs(PortableServer::ServantBase* servant) {
     const CORBA::Object_var object = Adopt(servant, Interface::_PD_repoId);

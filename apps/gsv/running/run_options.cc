@@ -14,10 +14,11 @@
 namespace gsv::app {
 
 void AddRunOptions(CLI::App& command, RunArguments& a) {
-  command.add_option("world", a.world,
-                     "a world's file, a model to use as one, one of ours (office, maze, "
-                     "warehouse, yard, playground), or a scenario, NAME.yaml, which says all of it "
-                     "and over which the options go; without one: the office with five robots");
+  command.add_option(
+      "world", a.world,
+      "a world's file, a model to use as one, one of ours (office, maze, "
+      "warehouse, yard, playground, hall), or a scenario, NAME.yaml, which says all of it "
+      "and over which the options go; without one: the office with five robots");
   command.add_option("--name", a.name, "of the simulation; without it: simulation");
   command.add_option(
       "--robot", a.robots,

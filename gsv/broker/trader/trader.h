@@ -181,8 +181,8 @@ class Trader {
   Journal::Ticket last_ticket_ GSV_GUARDED_BY(mutex_) = 0;
 };
 
-// What is changed under the lock is durable when it is answered, but no thread waits for the disk
-// with the lock held: the changes of many callers become one transaction.
+// A change is on disk before its caller gets an answer. No thread waits for the disk while it holds
+// the lock, so that the changes of many callers become one transaction.
 template <typename Apply>
 std::invoke_result_t<Apply> Trader::Change(const Apply& apply) {
   const TradingError not_stored{.refusal = Refusal::kNotStored};

@@ -68,7 +68,7 @@ TEST(CollisionFilter, ABodyRestsOnWhatSharesItsBits) {
   }
 }
 
-// Of two shapes of one body each meets by its own bits.
+// Each shape of a body collides by its own bits.
 TEST(CollisionFilter, ShapesOfOneBodyAreToldApart) {
   TestWorld world(MakeWorldEngine());
   world.AddStatic("ground", Filtered(testing::GroundOf(), {2, 2}), {});

@@ -53,7 +53,7 @@ TEST(VelocityDecay, EndsAFallAtItsTerminalVelocity) {
   EXPECT_NEAR(world.body("box").linear_velocity.z, -kG * kMediumStep / 0.01, 1e-6);
 }
 
-// Of two links that a fixed joint holds together each loses its own share of momentum.
+// Two links on a fixed joint: each loses the share of its own momentum.
 TEST(VelocityDecay, OfLinksThatAreFixedTogetherCountsByTheirMass) {
   TestWorld world(MakeWorldEngine());
   world.description().gravity = {};
@@ -214,7 +214,7 @@ TEST(KinematicLink, WithADriveMovesAsTheDriveIsTold) {
   EXPECT_NEAR(world.position("platform").z, 2, 1e-9);
 }
 
-// The arm stands still whatever lies on it, and turns when it is told.
+// A load does not move the arm; the command of its joint turns it.
 TEST(KinematicLink, BelowAJointObeysTheJointsCommandAlone) {
   TestWorld world(MakeWorldEngine());
   auto model = Cube(1);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <sdf/Collision.hh>
 #include <sdf/Element.hh>
 #include <sdf/SemanticPose.hh>
@@ -138,7 +139,7 @@ double DensityOf(const sdf::ElementPtr& element, double otherwise, const Reading
   if (element == nullptr || !element->HasElement("density")) return otherwise;
   const auto [density, is_number] = element->Get<double>("density", otherwise);
   if (is_number && density > 0 && std::isfinite(density)) return density;
-  context.Warn("<density> must be a number above zero; " + std::to_string(otherwise) + " is taken",
+  context.Warn(fmt::format("<density> must be a number above zero; {:g} kg/m³ is taken", otherwise),
                PlaceOf(*element, context.source));
   return otherwise;
 }
@@ -204,8 +205,8 @@ void MakeInertialOfShapes(const sdf::Link& source, const std::vector<double>& de
 double ReadDecay(const sdf::Link& source, const char* name, const ReadingContext& context) {
   const double decay = ValueAt<double>(source.Element(), {"velocity_decay", name}).value_or(0.0);
   if (decay >= 0 && decay <= 1) return decay;
-  context.Warn("<velocity_decay><" + std::string(name) +
-                   "> must be a share between 0 and 1 of the velocity; 0 is taken",
+  context.Warn("<velocity_decay><" + std::string(name) + "> must lie between 0 and 1, not " +
+                   fmt::format("{:g}", decay) + "; 0 is taken",
                PlaceOf(*source.Element(), context.source));
   return 0;
 }

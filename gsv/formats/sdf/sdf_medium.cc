@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include <fmt/format.h>
+
 #include "gsv/formats/sdf/sdf_xml.h"
 #include "gsv/formats/sdf/value_text.h"
 
@@ -48,8 +50,9 @@ class MediumReader {
     if (number.is_number && std::isfinite(number.value) && number.value >= least) {
       return number.value;
     }
-    Warn(element, "must be a number, not " + Quoted(text == nullptr ? "" : text) + "; " +
-                      Quoted(std::to_string(otherwise)) + " is taken");
+    const std::string bound = std::isfinite(least) ? fmt::format(" of at least {:g}", least) : "";
+    Warn(element, fmt::format("must be a number{}, not {}; {:g} is taken", bound,
+                              Quoted(text == nullptr ? "" : text), otherwise));
     return otherwise;
   }
 

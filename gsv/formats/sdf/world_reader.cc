@@ -428,6 +428,7 @@ class WorldReader {
       if (state_.IsDeleted(placed.light.name)) continue;
       world_.lights.push_back(std::move(placed.light));
     }
+    state_.ReportMissing(world_, context_);
   }
 
   XmlFile& file_;

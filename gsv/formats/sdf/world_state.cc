@@ -99,10 +99,14 @@ void WorldState::ReadState(XMLElement& state, XMLElement& world, const ReadingCo
     });
   }
   ForEachChild(state, "model", "model_state", [&](const XMLElement& model) {
-    ReadModel(model, "", kDeepestState, context, models_[NameAttribute(model)]);
+    ModelState& saved = models_[NameAttribute(model)];
+    saved.place = PlaceOf(context.source, model);
+    ReadModel(model, "", kDeepestState, context, saved);
   });
   ForEachChild(state, "light", "light_state", [&](const XMLElement& light) {
-    if (const auto pose = StatePose(light, context)) lights_[NameAttribute(light)] = *pose;
+    if (const auto pose = StatePose(light, context)) {
+      lights_[NameAttribute(light)] = {*pose, PlaceOf(context.source, light)};
+    }
   });
 }
 
@@ -178,7 +182,44 @@ void WorldState::Apply(model::PlacedModel& placed) const {
 
 std::optional<Pose> WorldState::LightPose(const std::string& name) const {
   const auto found = lights_.find(name);
-  return found == lights_.end() ? std::nullopt : std::optional(found->second);
+  return found == lights_.end() ? std::nullopt : std::optional(found->second.pose);
+}
+
+void WorldState::ReportMissing(const model::WorldDescription& world,
+                               const ReadingContext& context) const {
+  const auto find = [](const auto& all, const std::string& name) {
+    return std::find_if(all.begin(), all.end(),
+                        [&](const auto& each) { return each.name == name; });
+  };
+  const auto warn = [&](const std::string& owner, const char* kind, const std::string& name,
+                        const std::string& place) {
+    context.Warn("the <state> names the " + std::string(kind) + " \"" + name + "\", but " + owner +
+                     " has none of that name; this part of the state is ignored",
+                 place);
+  };
+  for (const auto& [name, state] : models_) {
+    if (IsDeleted(name)) continue;
+    const auto placed = find(world.models, name);
+    if (placed == world.models.end()) {
+      warn("the world", "model", name, state.place);
+      continue;
+    }
+    for (const auto& [link, pose] : state.links) {
+      if (find(placed->model->links, link) == placed->model->links.end()) {
+        warn("the model " + name, "link", link, state.place);
+      }
+    }
+    for (const auto& [joint, position] : state.joints) {
+      if (find(placed->model->joints, joint) == placed->model->joints.end()) {
+        warn("the model " + name, "joint", joint, state.place);
+      }
+    }
+  }
+  for (const auto& [name, state] : lights_) {
+    if (!IsDeleted(name) && find(world.lights, name) == world.lights.end()) {
+      warn("the world", "light", name, state.place);
+    }
+  }
 }
 
 }  // namespace gsv::formats

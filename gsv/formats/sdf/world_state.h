@@ -30,11 +30,21 @@ class WorldState {
   void Apply(model::PlacedModel& placed) const;
   std::optional<geometry::Pose> LightPose(const std::string& name) const;
 
+  // Warns of each model, link, joint and light of the states that `world`, once it is complete, does
+  // not have.
+  void ReportMissing(const model::WorldDescription& world, const ReadingContext& context) const;
+
  private:
   struct ModelState {
+    std::string place;  // "file:line"
     std::optional<geometry::Pose> pose;
     std::map<std::string, geometry::Pose> links;  // "inner::link"
     std::map<std::string, double> joints;
+  };
+
+  struct LightState {
+    geometry::Pose pose;
+    std::string place;
   };
 
   void ReadState(tinyxml2::XMLElement& state, tinyxml2::XMLElement& world,
@@ -45,7 +55,7 @@ class WorldState {
                                          const geometry::Pose& world_from_model);
 
   std::map<std::string, ModelState> models_;
-  std::map<std::string, geometry::Pose> lights_;
+  std::map<std::string, LightState> lights_;
   std::set<std::string> deleted_;
 };
 

@@ -39,7 +39,7 @@ class McapFileWriter {
 
   // Writes the current chunk, unless it is empty. It then survives a crash of this process.
   base::Status CloseChunk();
-  // The same, and returns when it survives a loss of power.
+  // As CloseChunk(), and returns when the chunk survives a loss of power.
   base::Status Flush();
   // Writes the current chunk and the summary. No call may follow.
   base::Status Close();

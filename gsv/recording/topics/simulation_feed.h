@@ -56,7 +56,7 @@ class SimulationFeed final : public simulation::Observer {
   // Closes the feed and releases waiting producers. Queued occurrences remain. A reset of the
   // simulation closes it, too.
   void Close();
-  // The same, and appends the current state of the simulation, which must still exist.
+  // As Close(), and appends the current state of the simulation, which must still exist.
   void CloseAtLatest();
   bool is_over() const;  // closed, and nothing is queued
   bool was_reset() const;
