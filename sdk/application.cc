@@ -179,8 +179,8 @@ class SimulationProxy final : public RemoteSimulation {
     auto phase = sba::PHASE_STARTING;
     while (phase == sba::PHASE_STARTING || phase == sba::PHASE_RUNNING) {
       if (std::chrono::steady_clock::now() > give_up) {
-        return base::Fail(base::ErrorCode::kTimeout, "the simulation did not get there in time",
-                          server_);
+        return base::Fail(base::ErrorCode::kTimeout,
+                          "the simulation did not reach this time in time", server_);
       }
       if (go_on && !go_on()) {
         return base::Fail(base::ErrorCode::kEnded, "the wait was interrupted", server_);
@@ -194,7 +194,7 @@ class SimulationProxy final : public RemoteSimulation {
       } else if (next.error().code != base::ErrorCode::kTimeout || !lost_.empty()) {
         return base::Fail(next.error());
       } else if (now - heard > kServerPatience) {
-        return Lose("it has not answered for too long");
+        return Lose("it has not responded for too long");
       }
     }
     if (phase == sba::PHASE_PAUSED || phase == sba::PHASE_FINISHED) return {};
@@ -245,7 +245,7 @@ class SimulationProxy final : public RemoteSimulation {
     if (!lost_.empty()) return base::Fail(base::ErrorCode::kUnavailable, lost_, server_);
     auto answer = orb::Call(server_, question);
     const bool is_doubtful = !answer && answer.error().code == base::ErrorCode::kUnavailable;
-    if (is_doubtful && IsServerGone()) return Lose("nobody accepts connections there any more");
+    if (is_doubtful && IsServerGone()) return Lose("no program accepts connections there any more");
     return answer;
   }
   // A connection that broke says little, and there may be several: a port that refuses says all.
@@ -264,7 +264,7 @@ class SimulationProxy final : public RemoteSimulation {
     return false;
   }
   tl::unexpected<base::Error> Lose(const std::string& why) {
-    lost_ = "the simulation is lost with its server: " + why;
+    lost_ = "the simulation ended with its server: " + why;
     return base::Fail(base::ErrorCode::kUnavailable, lost_, server_);
   }
 
@@ -288,7 +288,7 @@ class BrokerApplication final : public Application {
     if (!offers && offers.error().code == base::ErrorCode::kNotFound) offers.emplace();
     if (!offers) return base::Fail(offers.error());
     base::Error error{base::ErrorCode::kNotFound,
-                      "no simulator is offered" +
+                      "no simulator is available at the broker" +
                           (constraint.empty() ? "" : " for the constraint: " + constraint) +
                           "; start one with gsv serve --broker " + broker_.reference(),
                       broker_.reference()};
@@ -307,7 +307,7 @@ class BrokerApplication final : public Application {
     orb::LimitCalls(object, kCreateTimeout);
     return orb::Call(server, [&]() -> std::unique_ptr<RemoteSimulation> {
       const sba::SimulationService_var service = sba::SimulationService::_narrow(object);
-      if (CORBA::is_nil(service)) throw sba::Failed("the offer is no SimulationService");
+      if (CORBA::is_nil(service)) throw sba::Failed("the offer is not a SimulationService");
       sba::SimulationSpecification specification;
       specification.name = request.name.c_str();
       specification.world = request.world.c_str();

@@ -42,8 +42,8 @@ void BehaviourServant::init(const char* agent_name, sba::Hardware_ptr hardware) 
 
 void BehaviourServant::start() {
   const base::MutexLock lock(mutex_);
-  if (behaviour_ == nullptr) throw sba::Refused("start comes after init");
-  if (running_.joinable()) throw sba::Refused("the behaviour has been started already");
+  if (behaviour_ == nullptr) throw sba::Refused("call init before start");
+  if (running_.joinable()) throw sba::Refused("the behaviour is running already");
   orb::ValueOrThrow(robot_->OpenClock());
   // Both outlive the thread: EndRun() joins it before either is replaced.
   running_ =

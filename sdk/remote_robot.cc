@@ -102,7 +102,7 @@ class RemotePort final : public SensorPort {
   base::Status Send(const std::string& receiver, const std::string& content) override {
     return robot_.Ask([&] {
       const sba::Radio_var radio = sba::Radio::_narrow(sensor_);
-      if (CORBA::is_nil(radio)) throw sba::Refused("only a radio sends messages");
+      if (CORBA::is_nil(radio)) throw sba::Refused("cannot send a message: only a radio can");
       sba::Octets octets(static_cast<CORBA::ULong>(content.size()));
       octets.length(octets.maximum());
       std::copy(content.begin(), content.end(), octets.get_buffer());
@@ -113,7 +113,7 @@ class RemotePort final : public SensorPort {
   base::Status CommandDevice(const std::vector<double>& values, const std::string& word) override {
     return robot_.Ask([&] {
       const sba::Actuator_var actuator = sba::Actuator::_narrow(sensor_);
-      if (CORBA::is_nil(actuator)) throw sba::Refused("a sensor cannot be told anything");
+      if (CORBA::is_nil(actuator)) throw sba::Refused("a sensor takes no commands");
       sba::Doubles numbers(static_cast<CORBA::ULong>(values.size()));
       numbers.length(numbers.maximum());
       std::copy(values.begin(), values.end(), numbers.get_buffer());

@@ -67,10 +67,10 @@ int ServeBehaviour(int argc, char** argv, const BehaviourModule& module) {
   Arguments arguments;
   arguments.name = module.name;
   CLI::App app(module.description);
-  app.add_option("--broker", arguments.broker, "the broker to offer the behaviour at")
+  app.add_option("--broker", arguments.broker, "broker to which the behaviour is offered")
       ->envname("GSV_BROKER")
       ->required();
-  app.add_option("--name", arguments.name, "the name to offer it under")->capture_default_str();
+  app.add_option("--name", arguments.name, "name of the offer")->capture_default_str();
   app.add_flag("--exit-with-parent", arguments.exit_with_parent,
                "end when the program that started this one ends");
   BehaviourFactory factory = module.configure(app);

@@ -119,7 +119,11 @@ def texts_of_help(source):
             if argument.lstrip().startswith('"'):
                 begin += len(argument) - len(argument.lstrip())
                 words = "".join(STRING.findall(argument)).replace('\\"', '"')
-                yield Text(source.count("\n", 0, begin) + 1, "help", without_code(words))
+                line = source.count("\n", 0, begin) + 1
+                short, _, details = words.partition("\\n")  # details are for the manual page
+                yield Text(line, "help", without_code(short))
+                if details:
+                    yield Text(line, "docs", without_code(details.replace("\\n", " ")))
                 break
 
 

@@ -9,6 +9,7 @@
 
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/help_formatter.h"
 #include "apps/gsv/process/standard_output.h"
 #include "gsv/base/log.h"
 #include "gsv/simulation/simulation.h"
@@ -31,16 +32,16 @@ CLI::Validator ReadableBy(Parse parse) {
 }
 
 void AddLogOptions(CLI::App& app, LogArguments& log) {
-  app.add_option("--log-level", log.level,
-                 "what is logged, on stderr: trace, debug, info, warning, error or off "
-                 "(default: warning)")
+  app.add_option("--log-level", log.level, "lowest level to log on stderr (default: warning)")
+      ->type_name("trace|debug|info|warning|error|off")
       ->check(ReadableBy(&gsv::base::ParseLogLevel))
       ->envname("GSV_LOG_LEVEL");
-  app.add_option("--log-format", log.format, "text, or json: one object a line (default: text)")
+  app.add_option("--log-format", log.format, "format of log lines (default: text)")
+      ->type_name("text|json")
       ->check(ReadableBy(&gsv::base::ParseLogFormat))
       ->envname("GSV_LOG_FORMAT");
-  app.add_option("--log-rate", log.lines,
-                 "lines a second that are logged in the long run; the rest is counted")
+  app.add_option("--log-rate", log.lines, "log lines per second; further lines are counted")
+      ->type_name("N")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
 }
@@ -51,18 +52,24 @@ struct CorbaArguments {
 };
 
 void AddCorbaOptions(CLI::App& app, CorbaArguments& corba) {
-  app.add_option("--corba-certificate", corba.certificate,
-                 "a PEM file, by which all of CORBA goes by TLS and only to those whose "
-                 "certificate is of the same authority; `gsv certificates make` makes one")
+  app.add_option(
+         "--corba-certificate", corba.certificate,
+         "certificate (PEM), with which CORBA uses TLS\n"
+         "Both sides need a certificate of the same authority. `gsv certificates make` makes "
+         "one.")
+      ->type_name("FILE")
       ->envname("GSV_CORBA_CERTIFICATE");
-  app.add_option("--corba-key", corba.key, "its key (default: NAME-key.pem beside NAME.pem)")
+  app.add_option("--corba-key", corba.key, "private key (default: NAME-key.pem beside NAME.pem)")
+      ->type_name("FILE")
       ->envname("GSV_CORBA_KEY");
   app.add_option("--corba-authority", corba.authority,
-                 "whose certificates are taken (default: ca.pem beside NAME.pem)")
+                 "authority to trust (default: ca.pem beside NAME.pem)")
+      ->type_name("FILE")
       ->envname("GSV_CORBA_AUTHORITY");
   app.add_flag("--insecure-corba", corba.is_insecure,
-               "listen beyond this machine without a certificate, too: whoever reaches it may "
-               "call (GSV_INSECURE_CORBA=1)");
+               "accept CORBA calls without certificates\n"
+               "Everyone who can reach this machine may then control it. GSV_INSECURE_CORBA=1 does "
+               "the same.");
 }
 
 // Where orb::PrepareAccess() looks, and programs that this one starts.
@@ -86,8 +93,7 @@ void StartLog(const LogArguments& log, bool verbose) {
   gsv::base::InitLogging(options);
 }
 
-// One sentence, as for everything that is wrong. What CLI11 says of an unknown command is that one
-// is missing.
+// One sentence, as for every error. CLI11 reports an unknown command as a missing one.
 std::string UsageSentence(const CLI::App* app, const CLI::Error& error) {
   const CLI::App* typed = app;  // as far as it is a command
   std::string words = app->get_name();
@@ -104,7 +110,19 @@ std::string UsageSentence(const CLI::App* app, const CLI::Error& error) {
                ? "a command is missing"
                : (is_option ? "there is no option " : "there is no command ") + unknown.front();
   }
-  return "gsv: " + what + "; " + words + " --help says what there is\n";
+  return "gsv: " + what + ". See " + words + " --help\n";
+}
+
+// Sets the groups of commands that set none themselves.
+void GroupCommands(CLI::App& app) {
+  const std::pair<const char*, std::vector<const char*>> groups[]{
+      {"Commands to run simulations", {"run", "serve", "view", "test", "campaign"}},
+      {"Commands for recordings", {"rec", "replay"}},
+      {"Commands for files", {"world", "model"}},
+      {"Commands for this machine", {"doctor", "bench", "certificates"}}};
+  for (const auto& [group, commands] : groups) {
+    for (const char* command : commands) app.get_subcommand(command)->group(group);
+  }
 }
 
 }  // namespace
@@ -114,13 +132,15 @@ int main(int argc, char** argv) {
   Signals signals;
   int exit_code = kOk;
   CLI::App app(
-      "GSV simulates robots whose behaviours are programs of their own, found through a broker.",
+      "GSV simulates robots in 3D worlds. Behaviours are separate programs, found\nthrough a "
+      "broker.",
       "gsv");
-  app.set_version_flag("--version", "gsv " GSV_VERSION);
+  UseHelpFormatter(app);
+  app.set_version_flag("--version", "gsv " GSV_VERSION, "print the version");
   app.require_subcommand(1);
   app.failure_message(UsageSentence);
   bool verbose = false;
-  app.add_flag("-v,--verbose", verbose, "say more about what happens, on stderr");
+  app.add_flag("-v,--verbose", verbose, "log more, as --log-level debug");
   LogArguments log;
   AddLogOptions(app, log);
   CorbaArguments corba;
@@ -132,17 +152,18 @@ int main(int argc, char** argv) {
   const CommandLine line{app, signals, exit_code};
   AddRunCommand(line);
   AddServeCommand(line);
-  AddBrokerCommands(line);
-  AddCheckCommands(line);
-  AddDrawCommand(line);
-  AddRecordingCommands(line);
-  AddRecordCommands(line);
-  AddControlCommands(line);
-  AddBenchCommands(line);
+  AddViewCommand(line);
   AddTestCommand(line);
   AddCampaignCommand(line);
-  AddViewCommand(line);
+  AddControlCommands(line);
+  AddRecordingCommands(line);
+  AddRecordCommands(line);
+  AddCheckCommands(line);
+  AddDrawCommand(line);
+  AddBrokerCommands(line);
+  AddBenchCommands(line);
   AddCertificatesCommand(line);
+  GroupCommands(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -96,10 +96,9 @@ std::string WhyNotListening(const BrokerOptions& options) {
   freeaddrinfo(found);
   if (bound) return "the ORB cannot listen here";
   if (reason == EADDRINUSE) {
-    return fmt::format("port {} is in use; choose another, or 0 for one that is free",
-                       options.port);
+    return fmt::format("port {} is in use; choose another, or 0 for any free port", options.port);
   }
-  return fmt::format("the port cannot be opened: {}", std::strerror(reason));
+  return fmt::format("cannot open the port: {}", std::strerror(reason));
 }
 
 PortableServer::POA_ptr IteratorPoa(PortableServer::POA_ptr root, const char* name,

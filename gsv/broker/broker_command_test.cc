@@ -46,7 +46,7 @@ TEST(Broker, SaysThatItsPortIsInUse) {
   EXPECT_EQ(second.reference(), "");
   EXPECT_EQ(second.Wait(), 5);
   EXPECT_EQ(second.Complaint(), "broker at 127.0.0.1:" + first.port() + ": port " + first.port() +
-                                    " is in use; choose another, or 0 for one that is free\n");
+                                    " is in use; choose another, or 0 for any free port\n");
 }
 
 TEST(Broker, RestartsOnItsPortAndForgetsEverythingWithoutAFile) {

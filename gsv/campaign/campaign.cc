@@ -102,7 +102,7 @@ class ParameterReader {
     const bool is_range = mapping.Has("from") || mapping.Has("to") || mapping.Has("step");
     if (mapping.is_mapping() && is_range + is_uniform + is_normal != 1) {
       mapping.AddProblem(
-          "a parameter is a list, {from, to, step}, {uniform: [A, B]} or {normal: [MEAN, "
+          "a parameter must be a list, {from, to, step}, {uniform: [A, B]} or {normal: [MEAN, "
           "DEVIATION]}");
       return;
     }
@@ -111,7 +111,8 @@ class ParameterReader {
     if (!is_range) return;
     const double stride = step.value_or(1);
     if (!from || !to || *from > *to || (*to - *from) / stride >= kMaxValues) {
-      mapping.AddProblem("from and to are needed, the smaller first, 100,000 values at most");
+      mapping.AddProblem(
+          "from and to are required, the smaller first, with at most 100,000 values");
       return;
     }
     // To be spared the last bit of a sum: the end counts if it is met but for rounding.
@@ -198,12 +199,12 @@ base::Result<std::string> Campaign::ScenarioWith(const std::vector<std::string>&
     for (std::size_t i = 0; i < parameters.size(); ++i) {
       if (SetAt(node, parameters[i].path, values[i])) continue;
       return base::Fail(base::ErrorCode::kBadModel,
-                        "the scenario has no such place; a path is as in robots[0].x",
+                        "the scenario has no such key; a path has the form robots[0].x",
                         parameters[i].path);
     }
     return YAML::Dump(node) + "\n";
   } catch (const YAML::Exception& error) {
-    return base::Fail(base::ErrorCode::kBadModel, "a value is no YAML: " + error.msg);
+    return base::Fail(base::ErrorCode::kBadModel, "a value is not valid YAML: " + error.msg);
   }
 }
 
@@ -232,7 +233,7 @@ base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Pro
                                     const EngineRequest& request, Engine& engine) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) {
-    return base::Fail(base::ErrorCode::kNotFound, "the campaign's file cannot be opened", file);
+    return base::Fail(base::ErrorCode::kNotFound, "cannot open the campaign file", file);
   }
   std::string text(scenario::kMaxScenarioBytes + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
@@ -242,30 +243,32 @@ base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Pro
   std::string scenario_file;
   try {
     if (text.size() > scenario::kMaxScenarioBytes)
-      return base::Fail(base::ErrorCode::kBadModel, "a campaign has at most 4 MiB", file);
+      return base::Fail(base::ErrorCode::kBadModel,
+                        "the campaign file is too large; at most 4 MiB are allowed", file);
     YamlMapping mapping(YAML::Load(text), "", place);
     scenario_file = mapping.Text("scenario").value_or("");
     if (mapping.is_mapping() && scenario_file.empty())
-      mapping.AddProblem("scenario", "scenario is needed: the file that each run is a variant of");
+      mapping.AddProblem("scenario", "the key scenario is required: the file that each run varies");
     if (const auto node = mapping.Any("parameters"))
       campaign.parameters = ParameterReader(place).Read(*node);
     campaign.draws = static_cast<std::size_t>(mapping.Number("draws", 1, kMaxRuns).value_or(1));
     campaign.draw_seed = mapping.Count("draw_seed").value_or(0);
     engine = ReadEngine(mapping, request);
   } catch (const YAML::Exception& error) {
-    return base::Fail(base::ErrorCode::kBadModel, "it is no YAML: " + error.msg,
+    return base::Fail(base::ErrorCode::kBadModel, "it is not valid YAML: " + error.msg,
                       place.Of(error.mark, ""));
   }
   if (!problems.empty()) return campaign;
   auto scenario = scenario::ReadScenario(file.parent_path() / scenario_file, problems);
   if (!scenario) return base::Fail(scenario.error());
   if (scenario->duration.value_or(0) <= 0) {
-    return base::Fail(base::ErrorCode::kBadModel, "a run needs an end: duration, in seconds",
+    return base::Fail(base::ErrorCode::kBadModel, "a run needs an end: set duration, in seconds",
                       scenario_file);
   }
   campaign.scenario = scenario::ToYaml(*scenario);
   if (campaign.runs() > kMaxRuns) {
-    return base::Fail(base::ErrorCode::kBadModel, "a campaign has at most 1,000,000 runs", file);
+    return base::Fail(base::ErrorCode::kBadModel, "too many runs; a campaign has at most 1,000,000",
+                      file);
   }
   if (problems.empty()) TryValues(campaign, file, problems);
   return campaign;

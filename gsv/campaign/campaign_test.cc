@@ -67,12 +67,12 @@ TEST_F(CampaignTest, ListsMakeAGridAndDrawsFollowTheSeed) {
 
 TEST_F(CampaignTest, MistakesAreToldBeforeAnythingRuns) {
   const std::pair<const char*, const char*> bad[]{
-      {"parameters: {seed: [1]}", "scenario is needed"},
+      {"parameters: {seed: [1]}", "the key scenario is required"},
       {"scenario: s.yaml\nparameters: {seed: []}", "c.yaml:2:20: the list is empty"},
-      {"scenario: s.yaml\nparameters: {seed: {from: 3, to: 1}}", "from and to are needed"},
+      {"scenario: s.yaml\nparameters: {seed: {from: 3, to: 1}}", "from and to are required"},
       {"scenario: s.yaml\nparameters: {seed: {uniform: [1]}}", "uniform must be two numbers"},
-      {"scenario: s.yaml\nparameters: {seed: {gauss: [1, 2]}}", "a parameter is a list"},
-      {"scenario: s.yaml\nparameters: {'robots[3].x': [1]}", "the scenario has no such place"},
+      {"scenario: s.yaml\nparameters: {seed: {gauss: [1, 2]}}", "a parameter must be a list"},
+      {"scenario: s.yaml\nparameters: {'robots[3].x': [1]}", "the scenario has no such key"},
       {"scenario: s.yaml\nparameters: {seed: [1, -1]}", "seed = -1: seed must be a whole number"},
       {"scenario: s.yaml\nengine: pbs", "c.yaml:2:9: there is no engine \"pbs\""},
       {"scenario: s.yaml\nruns: 3", "there is no key \"runs\" here"}};
@@ -109,7 +109,8 @@ TEST_F(CampaignTest, WhatADriverLeftIsDoneByTheNextAndEachRunCountsOnce) {
     EXPECT_EQ((*results)->DoneRuns()->size(), 120u);
     const auto second = Results::OpenToAdd(file(), *campaign);
     ASSERT_FALSE(second);
-    EXPECT_THAT(second.error().Sentence(), HasSubstr("another `gsv campaign run` adds to it"));
+    EXPECT_THAT(second.error().Sentence(),
+                HasSubstr("another `gsv campaign run` is writing to it"));
   }
   const auto results = Results::OpenToAdd(file(), *campaign);
   ASSERT_TRUE(results);
@@ -148,10 +149,9 @@ TEST_F(CampaignTest, ALockedOrTornResultsFileLosesNothing) {
     const auto refused = (*results)->Add(many);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, base::ErrorCode::kUnavailable);
-    EXPECT_EQ(refused.error().Sentence(),
-              file() +
-                  ": database is locked: another program holds it; once that has ended, the "
-                  "same command goes on");
+    EXPECT_EQ(refused.error().Sentence(), file() +
+                                              ": database is locked: another program uses it; when "
+                                              "that has ended, run the same command again");
     ASSERT_TRUE(other->Run("ROLLBACK"));
     ASSERT_TRUE((*results)->Add(many));
   }

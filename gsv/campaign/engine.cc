@@ -66,8 +66,14 @@ Engine ReadEngine(scenario::YamlMapping& campaign, const EngineRequest& request)
     if (is_chosen) node = WithOptions(*node, type, request);
     scenario::YamlMapping mapping(*node, type.name, campaign.place());
     MakeQueue make_queue = type.read(mapping);
-    const auto runs_per_task = static_cast<std::size_t>(
-        mapping.Number("runs_a_task", 1, static_cast<double>(kMaxRuns)).value_or(0));
+    const double most_runs = static_cast<double>(kMaxRuns);
+    const auto runs = mapping.Number("runs_per_task", 1, most_runs);
+    const auto former = mapping.Number("runs_a_task", 1, most_runs);  // the key's former name
+    if (runs && former) {
+      mapping.AddProblem("runs_a_task",
+                         "runs_a_task is the former name of runs_per_task; give one");
+    }
+    const auto runs_per_task = static_cast<std::size_t>(runs.value_or(former.value_or(0)));
     if (!is_chosen) continue;
     engine.make_queue = std::move(make_queue);
     engine.runs_per_task = request.runs_per_task > 0 ? request.runs_per_task : runs_per_task;

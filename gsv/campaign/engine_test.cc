@@ -36,17 +36,22 @@ TEST_F(EngineTest, DefaultRunsInThisProcess) {
 }
 
 TEST_F(EngineTest, FileNamesTheEngineAndItsKeys) {
-  const Engine engine = Read("engine: slurm\nslurm: {partition: short, runs_a_task: 10}");
+  const Engine engine = Read("engine: slurm\nslurm: {partition: short, runs_per_task: 10}");
   EXPECT_EQ(engine.type->title, "Slurm");
   EXPECT_TRUE(engine.make_queue);
   EXPECT_EQ(engine.runs_per_task, 10u);
   EXPECT_EQ(Problems(), "");
 }
 
+TEST_F(EngineTest, TheFormerNameOfRunsPerTaskIsAccepted) {
+  EXPECT_EQ(Read("engine: slurm\nslurm: {runs_a_task: 10}").runs_per_task, 10u);
+  EXPECT_EQ(Problems(), "");
+}
+
 TEST_F(EngineTest, CommandLineGoesBeforeTheFile) {
   EngineRequest request{.name = "ssh", .runs_per_task = 3};
   request.options["--host"] = {"n2:4"};
-  const Engine engine = Read("engine: slurm\nssh: {hosts: [n1], runs_a_task: 10}", request);
+  const Engine engine = Read("engine: slurm\nssh: {hosts: [n1], runs_per_task: 10}", request);
   EXPECT_EQ(engine.type->name, "ssh");
   EXPECT_EQ(engine.runs_per_task, 3u);
   EXPECT_EQ(Problems(), "");
@@ -60,11 +65,14 @@ TEST_F(EngineTest, ComplaintsNameThePlaceOfEachMistake) {
   const std::pair<const char*, const char*> bad[]{
       {"engine: pbs", "c.yaml:1:9: there is no engine \"pbs\"; take local, slurm or ssh"},
       {"slurm: {queue: short}", "c.yaml:1:9: there is no key \"queue\" here"},
-      {"slurm: {runs_a_task: 0}", "c.yaml:1:22: runs_a_task must be"},
-      {"engine: ssh", "c.yaml: hosts must be a list of 1 to 1,000 hosts, as [n1, user@n2:8]"},
+      {"slurm: {runs_per_task: 0}", "c.yaml:1:24: runs_per_task must be"},
+      {"slurm: {runs_per_task: 1, runs_a_task: 1}",
+       "runs_a_task is the former name of runs_per_task"},
+      {"engine: ssh", "c.yaml: hosts must be a list of 1 to 1,000 hosts, such as [n1, user@n2:8]"},
       {"ssh: {hosts: []}", "c.yaml:1:14: hosts must be a list of 1 to 1,000 hosts"},
       {"ssh: {hosts: n1}", "hosts must be a list, found \"n1\""},
-      {"ssh: {hosts: [n1, 'n2:0']}", "a host is HOST or HOST:SLOTS with 1 to 256 slots"},
+      {"ssh: {hosts: [n1, 'n2:0']}",
+       "a host must have the form HOST or HOST:SLOTS with 1 to 256 slots"},
       {"ssh: {hosts: ['n2:']}", "found \"n2:\""},
       {"ssh: {hosts: ['n2:1x']}", "found \"n2:1x\""},
       {"ssh: {hosts: ['n2:257']}", "found \"n2:257\""},

@@ -84,7 +84,7 @@ base::Result<std::unique_ptr<JournalWriter>> JournalWriter::Create(
       open(file.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_APPEND | O_CLOEXEC, 0644);
   if (descriptor < 0) {
     return base::Fail(base::ErrorCode::kUnavailable,
-                      std::string("results cannot be written: ") + std::strerror(errno), file);
+                      std::string("cannot write results: ") + std::strerror(errno), file);
   }
   std::unique_ptr<JournalWriter> journal(new JournalWriter(file, descriptor));
   if (auto ok = journal->Write({{"attempt", ToJson(attempt)}}); !ok) return base::Fail(ok.error());
@@ -117,7 +117,7 @@ base::Status JournalWriter::Write(const Json& json) {
     why = std::strerror(errno);
   }
   if (why.empty()) return {};
-  return base::Fail(base::ErrorCode::kUnavailable, "results cannot be written: " + why, file_);
+  return base::Fail(base::ErrorCode::kUnavailable, "cannot write results: " + why, file_);
 }
 
 base::Result<std::vector<RunResult>> JournalReader::ReadNew() {

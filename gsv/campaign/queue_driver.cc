@@ -85,7 +85,7 @@ class Drive {
       if (!has_looked_ || tasks.error().code == base::ErrorCode::kNotFound)
         return base::Fail(tasks.error());
       if (!std::exchange(is_silent_, true))
-        settings_.say(tasks.error().Sentence() + "; it is asked again, what runs goes on");
+        settings_.say(tasks.error().Sentence() + "; gsv asks again, and running tasks continue");
       return {};
     }
     has_looked_ = true;
@@ -146,8 +146,10 @@ class Drive {
       return base::Fail(
           base::ErrorCode::kUnavailable,
           fmt::format(
-              "{}'s job {} ended before any of its runs had begun{}", settings_.title, batch.job,
-              said.empty() ? "; was it cancelled, or can the nodes not write there?" : ": " + said),
+              "{}: job {} ended before any of its runs started{}", settings_.title, batch.job,
+              said.empty()
+                  ? "; check that it was not cancelled, and that the nodes can write to this folder"
+                  : ": " + said),
           log);
     }
     return {};
@@ -199,8 +201,8 @@ class Drive {
   RunResult GivenUp(std::int64_t run) const {
     RunResult result{run, "error"};
     result.message = fmt::format(
-        "its task ended {} times while it ran; look at the queue's limits on memory and time, and "
-        "at {}",
+        "its task ended {} times during the run; check the memory and time limits of the queue, "
+        "and {}",
         kMaxAttempts, spool_.logs().string());
     const auto values = spool_.campaign().ValuesOf(static_cast<std::size_t>(run));
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -234,7 +236,7 @@ class Drive {
       if (!job) return base::Fail(job.error());
       batch.job = *std::move(job);
       if (auto ok = spool_.Put(batch); !ok) return ok;
-      settings_.say(fmt::format("{} has {} runs in {} tasks: job {}{}", settings_.title,
+      settings_.say(fmt::format("{}: submitted {} runs in {} tasks, job {}{}", settings_.title,
                                 batch.runs.size(), batch.tasks(), batch.job,
                                 batch.job == batch.name ? "" : ", " + batch.name));
       tasks_in_queue += batch.tasks();

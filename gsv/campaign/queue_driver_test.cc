@@ -236,7 +236,7 @@ TEST_F(QueueDriverTest, AQueueThatDoesNotAnswerIsAskedAgainButNotAtFirst) {
   Then([this] { queue_.failure = base::Error{base::ErrorCode::kUnavailable, "no answer", "ask"}; });
   Then([] {});
   Then([this] {
-    EXPECT_EQ(said_.back(), "ask: no answer; it is asked again, what runs goes on");
+    EXPECT_EQ(said_.back(), "ask: no answer; gsv asks again, and running tasks continue");
     EXPECT_EQ(said_.size(), 2u) << "said once";
     queue_.failure.reset();
     DoAll();

@@ -50,7 +50,7 @@ base::Result<std::unique_ptr<Results>> Results::OpenToAdd(const std::string& fil
   const int lock = open((file + ".lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
   if (lock < 0) {
     return base::Fail(base::ErrorCode::kUnavailable,
-                      "cannot be written beside; name a file in a folder that is there", file);
+                      "cannot write files beside it; choose a file in an existing folder", file);
   }
   const auto give_up = std::chrono::steady_clock::now() + patience;
   bool is_held = flock(lock, LOCK_EX | LOCK_NB) != 0;
@@ -60,9 +60,10 @@ base::Result<std::unique_ptr<Results>> Results::OpenToAdd(const std::string& fil
   }
   if (is_held) {
     close(lock);
-    return base::Fail(base::ErrorCode::kNotRunning,
-                      "another `gsv campaign run` adds to it; wait for that, or name another file",
-                      file);
+    return base::Fail(
+        base::ErrorCode::kNotRunning,
+        "another `gsv campaign run` is writing to it; wait until it ends, or choose another file",
+        file);
   }
   auto database = broker::Database::Open(file);
   if (!database) {
@@ -80,7 +81,7 @@ tl::unexpected<base::Error> Results::Refused(const base::Error& error) const {
   switch (database_.LastCode()) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      message += ": another program holds it; once that has ended, the same command goes on";
+      message += ": another program uses it; when that has ended, run the same command again";
       break;
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
@@ -117,15 +118,16 @@ base::Status Results::Begin(const Campaign& campaign) {
   if (!identity) return Refused(identity.error());
   if (*identity == campaign.Identity()) return {};
   return base::Fail(base::ErrorCode::kInvalidArgument,
-                    "holds the results of another campaign, or of this one before it was changed; "
-                    "name another file by --results",
+                    "has the results of another campaign, or of this one before it was changed; "
+                    "choose another file with --results",
                     file_);
 }
 
 base::Result<std::unique_ptr<Results>> Results::Open(const std::string& file) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) {
-    return base::Fail(base::ErrorCode::kNotFound, "there are no results of that name", file);
+    return base::Fail(base::ErrorCode::kNotFound,
+                      "there are no results in this file; run the campaign first", file);
   }
   auto database = broker::Database::Open(file);
   if (!database) return base::Fail(database.error());
@@ -133,7 +135,7 @@ base::Result<std::unique_ptr<Results>> Results::Open(const std::string& file) {
   if (auto ok = results->database_.Run(kPatience); !ok) return base::Fail(ok.error());
   if (auto planned = results->PlannedRuns(); !planned) {
     return base::Fail(base::ErrorCode::kCorrupt,
-                      "holds no campaign's results: " + planned.error().message, file);
+                      "is not a results file of a campaign: " + planned.error().message, file);
   }
   return results;
 }

@@ -65,7 +65,7 @@ class SlurmQueue final : public JobQueue {
       std::from_chars(&(*text)[digits], text->data() + text->size(), most);
     if (most < 2) {
       return base::Fail(base::ErrorCode::kNotRunning,
-                        "this Slurm takes no job arrays (MaxArraySize); ask its administrator",
+                        "this Slurm allows no job arrays (MaxArraySize); ask its administrator",
                         "scontrol");
     }
     return most;
@@ -96,8 +96,8 @@ class SlurmQueue final : public JobQueue {
                         "sbatch");
     }
     if (std::string job = JobIn(*output); !job.empty()) return job;
-    return base::Fail(base::ErrorCode::kUnavailable, "it named no job: " + Complaint(*output),
-                      "sbatch");
+    return base::Fail(base::ErrorCode::kUnavailable,
+                      "it printed no job number: " + Complaint(*output), "sbatch");
   }
 
   base::Result<std::map<std::string, QueuedTask>> TasksOf(
@@ -134,15 +134,16 @@ class SlurmQueue final : public JobQueue {
     auto outcome = commands_.Run(command);
     if (!outcome) {
       if (outcome.error().code != base::ErrorCode::kTimeout) return base::Fail(outcome.error());
-      return base::Fail(base::ErrorCode::kTimeout,
-                        outcome.error().message + "; is Slurm up? The same command goes on",
-                        command.front());
+      return base::Fail(
+          base::ErrorCode::kTimeout,
+          outcome.error().message + "; check that Slurm runs, then run the same command again",
+          command.front());
     }
     if (outcome->ending == kSucceeded) return outcome->output;
     if (outcome->ending == "exit code 127") {
       return base::Fail(base::ErrorCode::kUnavailable,
-                        "Slurm's commands are not on the PATH; run this on a login node of the "
-                        "cluster, or with --engine local",
+                        "the commands of Slurm are not on the PATH; run this on a login node of "
+                        "the cluster, or with --engine local",
                         command.front());
     }
     // Only a command that ended by itself has refused; of one that was killed nobody knows what it
@@ -174,12 +175,13 @@ EngineType SlurmEngine() {
   EngineType type;
   type.name = "slurm";
   type.title = "Slurm";
-  type.help = "by Slurm's job arrays";
+  type.help = "as Slurm job arrays";
   type.options = {
-      {"--partition", "partition", "Slurm's partition for the tasks"},
-      {"--time-limit", "time_limit", "time limit of a task, as sbatch has it: 30, 2:00:00"},
-      {"--sbatch", "options", "one more option for sbatch, as --sbatch=--mem=2G", true}};
-  type.after_interrupt = "what Slurm has goes on (scancel --name ends it)";
+      {"--partition", "partition", "Slurm partition of the tasks"},
+      {"--time-limit", "time_limit",
+       "time limit of a task in the form of sbatch, such as 30 or 2:00:00"},
+      {"--sbatch", "options", "further option for sbatch, such as --sbatch=--mem=2G", true}};
+  type.after_interrupt = "the tasks in Slurm continue (scancel --name ends them)";
   type.read = &ReadSlurm;
   return type;
 }

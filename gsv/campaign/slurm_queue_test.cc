@@ -105,16 +105,17 @@ TEST_F(SlurmQueueTest, AnSbatchThatWasKilledMayHaveSubmitted) {
   EXPECT_EQ(killed.error().Sentence(), "sbatch: it ended with signal 9");
   Answer("Submitted\n");
   EXPECT_EQ(Queue()->Submit(spool_, TwoTasks()).error().Sentence(),
-            "sbatch: it named no job: Submitted");
+            "sbatch: it printed no job number: Submitted");
 }
 
 TEST_F(SlurmQueueTest, MissingCommandsAndTimeoutsSayWhatToDo) {
   Answer("", "exit code 127");
   EXPECT_THAT(Queue()->MaxTasks().error().Sentence(),
-              HasSubstr("scontrol: Slurm's commands are not on the PATH"));
+              HasSubstr("scontrol: the commands of Slurm are not on the PATH"));
   slurm_.answer = base::Fail(base::ErrorCode::kTimeout, "did not answer within 60 s", "sbatch");
-  EXPECT_EQ(Queue()->Submit(spool_, TwoTasks()).error().Sentence(),
-            "sbatch: did not answer within 60 s; is Slurm up? The same command goes on");
+  EXPECT_EQ(
+      Queue()->Submit(spool_, TwoTasks()).error().Sentence(),
+      "sbatch: did not answer within 60 s; check that Slurm runs, then run the same command again");
 }
 
 TEST_F(SlurmQueueTest, MaxTasksIsTheLengthOfAnArray) {
@@ -124,7 +125,7 @@ TEST_F(SlurmQueueTest, MaxTasksIsTheLengthOfAnArray) {
   Answer("an old Slurm\n");
   EXPECT_EQ(*Queue()->MaxTasks(), 1001u);
   Answer("MaxArraySize = 1\n");
-  EXPECT_THAT(Queue()->MaxTasks().error().Sentence(), HasSubstr("takes no job arrays"));
+  EXPECT_THAT(Queue()->MaxTasks().error().Sentence(), HasSubstr("allows no job arrays"));
 }
 
 TEST_F(SlurmQueueTest, TasksAreFoundByTheNamesOfTheirBatches) {

@@ -54,7 +54,8 @@ base::Result<Batch> ReadBatch(const fs::path& file) {
   std::error_code error;
   if (!fs::exists(file, error)) {
     return base::Fail(base::ErrorCode::kUnavailable,
-                      "is not there; does this machine see the folder of the campaign?", file);
+                      "does not exist; check that this machine can read the folder of the campaign",
+                      file);
   }
   Batch batch;
   try {
@@ -68,11 +69,10 @@ base::Result<Batch> ReadBatch(const fs::path& file) {
     batch.timeout = json.at("timeout_s");
     batch.failures = json.at("failures");
   } catch (const nlohmann::json::exception&) {
-    return base::Fail(
-        base::ErrorCode::kCorrupt,
-        "it does not say what was handed to the queue; remove it once the queue holds "
-        "no job of this campaign",
-        file);
+    return base::Fail(base::ErrorCode::kCorrupt,
+                      "it does not contain the jobs of the queue; remove it when the queue has no "
+                      "job of this campaign",
+                      file);
   }
   return batch;
 }
@@ -96,8 +96,8 @@ base::Result<Spool> Spool::Make(const fs::path& folder, const Campaign& campaign
   auto spool = Open(whole);
   if (spool && spool->campaign().Identity() != campaign.Identity()) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "holds runs of another campaign, or of this one before it was changed; name "
-                      "another file by --results, or remove the folder",
+                      "has runs of another campaign, or of this one before it was changed; choose "
+                      "another file with --results, or remove the folder",
                       folder);
   }
   return spool;
@@ -107,7 +107,7 @@ base::Result<Spool> Spool::Open(const fs::path& folder) {
   std::error_code error;
   const fs::path file = folder / "plan.json";
   if (!fs::exists(file, error))
-    return base::Fail(base::ErrorCode::kNotFound, "nothing was handed out from here", folder);
+    return base::Fail(base::ErrorCode::kNotFound, "no runs were submitted from here", folder);
   auto campaign = CampaignInJson(TextOf(file));
   if (!campaign) return base::Fail(campaign.error().code, campaign.error().message, file);
   return Spool(folder, *std::move(campaign));

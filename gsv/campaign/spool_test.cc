@@ -86,7 +86,7 @@ TEST_F(SpoolTest, ABatchIsReadAsItWasWritten) {
   std::ofstream(spool->FileOf(batch)) << "{\"number\": 2, \"na";
   EXPECT_EQ(spool->Batches().error().code, base::ErrorCode::kCorrupt);
   EXPECT_THAT(ReadBatch(folder_ / "batch-0003.json").error().Sentence(),
-              HasSubstr("does this machine see the folder"));
+              HasSubstr("this machine can read the folder"));
 }
 
 TEST_F(SpoolTest, AJournalIsReadWhileItGrowsAndATornLineCountsForNothing) {

@@ -77,8 +77,9 @@ class SshQueue final : public JobQueue {
         if (reasons.size() < 1000)
           reasons += fmt::format("; {}: {}", host.settings.name, host.complaint);
       }
-      return base::Fail(base::ErrorCode::kNotFound,
-                        "no host takes a task" + reasons + "; the same command goes on", "ssh");
+      return base::Fail(
+          base::ErrorCode::kNotFound,
+          "no host accepts a task" + reasons + "; run the same command again to continue", "ssh");
     }
     std::map<std::string, QueuedTask> tasks;
     for (const Running& running : running_) tasks[running.task.share] = {"RUNNING", ""};
@@ -113,7 +114,7 @@ class SshQueue final : public JobQueue {
       const std::string output = running->program->Output();
       if (!running->has_begun && output.find(kTaskBegins) != std::string::npos) Begin(*running);
       std::string ending = running->program->Ending();
-      if (ending.empty() && context_.now() >= running->give_up) ending = "no sign of life in time";
+      if (ending.empty() && context_.now() >= running->give_up) ending = "no response in time";
       if (ending.empty()) {
         ++running;
         continue;
@@ -240,13 +241,15 @@ MakeQueue ReadSsh(scenario::YamlMapping& mapping) {
   SshOptions options;
   const std::vector<std::string> hosts = mapping.Texts("hosts");
   if (mapping.is_mapping() && (hosts.empty() || hosts.size() > kMaxHosts))
-    mapping.AddProblem("hosts", "hosts must be a list of 1 to 1,000 hosts, as [n1, user@n2:8]");
+    mapping.AddProblem("hosts",
+                       "hosts must be a list of 1 to 1,000 hosts, such as [n1, user@n2:8]");
   for (const std::string& text : hosts) {
     if (auto host = HostIn(text)) {
       options.hosts.push_back(*std::move(host));
     } else {
       mapping.AddProblem(
-          "hosts", "a host is HOST or HOST:SLOTS with 1 to 256 slots, found \"" + text + "\"");
+          "hosts", "a host must have the form HOST or HOST:SLOTS with 1 to 256 slots, found \"" +
+                       text + "\"");
     }
   }
   options.ssh = mapping.Text("program").value_or(options.ssh);
@@ -263,8 +266,8 @@ EngineType SshEngine() {
   EngineType type;
   type.name = "ssh";
   type.title = "ssh";
-  type.help = "on a list of hosts, by ssh";
-  type.options = {{"--host", "hosts", "one more host, HOST or HOST:SLOTS (default: 1 slot)", true}};
+  type.help = "on a list of hosts, with ssh";
+  type.options = {{"--host", "hosts", "further host, HOST or HOST:SLOTS (default: 1 slot)", true}};
   type.poll_period = std::chrono::milliseconds(500);
   type.outlives_driver = false;
   type.after_interrupt = "the tasks on the hosts end";

@@ -203,9 +203,10 @@ TEST_F(SshQueueTest, WhereNoHostTakesATaskItEndsWithTheWordsOfEach) {
     const auto after = Look();
     if (failure < 5 && after.front() == "0:PENDING") now_ += seconds(60);
   }
-  EXPECT_THAT(Look(),
-              ElementsAre("ssh: no host takes a task; n1: Permission denied (publickey).; n2: "
-                          "Permission denied (publickey).; the same command goes on"));
+  EXPECT_THAT(
+      Look(),
+      ElementsAre("ssh: no host accepts a task; n1: Permission denied (publickey).; n2: "
+                  "Permission denied (publickey).; run the same command again to continue"));
   EXPECT_EQ(queue_->TasksOf({}).error().code, base::ErrorCode::kNotFound);
 }
 
@@ -243,7 +244,7 @@ TEST_F(SshQueueTest, ATaskThatDoesNotBeginInTimeFailsItsHost) {
   EXPECT_THAT(Look(), ElementsAre("0:RUNNING"));
   EXPECT_TRUE(session(0).is_killed);
   EXPECT_THAT(Hosts(), ElementsAre("n1", "n2"));
-  EXPECT_THAT(said_, ElementsAre(HasSubstr("host n1 failed: no sign of life in time")));
+  EXPECT_THAT(said_, ElementsAre(HasSubstr("host n1 failed: no response in time")));
 }
 
 TEST_F(SshQueueTest, ATaskThatTakesLongerThanItsRunsMayIsEnded) {

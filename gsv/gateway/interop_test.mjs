@@ -132,7 +132,7 @@ async function checkParameters(watcher) {
   assert.deepEqual(parameters, [{ name: "/gsv/name", value: "arena" },
     { name: "/gsv/step_size_s", value: 0.01, type: "float64" }]);
   const set = watcher.next("parameterValues");
-  watcher.client.setParameters([{ name: "/gsv/factor", value: 2.5, type: "float64" }], "c");
+  watcher.client.setParameters([{ name: "/gsv/real_time_factor", value: 2.5, type: "float64" }], "c");
   assert.equal((await set).parameters[0].value, 2.5);
   let complaint = "";
   watcher.onStatus = (message) => { complaint = message; };

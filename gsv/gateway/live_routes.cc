@@ -44,7 +44,7 @@ class LiveRoutes final : public RouteSet {
     routes.push_back(OpenApiRoute());
     routes.push_back(SocketRoute(
         "/ws", true, [this](const Request& request) { return FindHub(request); },
-        "The live stream of a simulation"));
+        "Open the live stream of a simulation"));
     return routes;
   }
 

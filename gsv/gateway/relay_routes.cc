@@ -29,7 +29,7 @@ base::Status Probe(const upstream::Address& address) {
   if (!answer) return base::Fail(answer.error());
   if (answer->status == 200 && answer->content_type == "application/json") return {};
   return base::Fail(base::ErrorCode::kUnavailable,
-                    "this is not a gsv that may be watched: it answers " +
+                    "this is not a gsv instance that can be relayed: it returns " +
                         std::to_string(answer->status) + " " +
                         std::string(answer->body.view().substr(0, 200)),
                     address.Url());
@@ -80,13 +80,13 @@ class RelayRoutes final : public RouteSet {
     }
     routes.push_back(SocketRoute(
         "/ws", true, [this](const Request& request) { return FindHub(request, kSocket); },
-        "The live stream of a simulation"));
+        "Open the live stream of a simulation"));
     routes.push_back(SocketRoute(
         "/replays/{session}/ws", false,
         [this](const Request& request) {
           return FindHub(request, "/replays/" + Escape(request.Parameter("session")) + kSocket);
         },
-        "The live stream of a replay of one's own"));
+        "Open the live stream of your replay"));
     return routes;
   }
 
@@ -102,7 +102,7 @@ class RelayRoutes final : public RouteSet {
     if (known != streams_.end()) return known->second->hub();
     if (streams_.size() >= kMaxStreams) {
       return base::Fail(base::ErrorCode::kUnavailable,
-                        "too many simulations are watched through this relay; restart it");
+                        "too many simulations are open through this relay; restart it");
     }
     // A replay of one's own is moved over HTTP.
     auto operations = socket == kSocket ? std::make_shared<upstream::RelayedOperations>(

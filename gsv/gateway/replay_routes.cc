@@ -29,7 +29,7 @@ class ReplayRouteSet final : public RouteSet {
     routes.push_back(OpenApiRoute());
     routes.push_back(SocketRoute(
         "/ws", true, [this](const Request& request) { return FindHub(request); },
-        "The live stream of a simulation"));
+        "Open the live stream of a simulation"));
     return routes;
   }
 

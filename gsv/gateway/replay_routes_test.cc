@@ -203,12 +203,12 @@ TEST_F(ReplayGatewayTest, ARecordingWithoutASceneSaysSo) {
   ASSERT_TRUE(sink->Write(bytes));
   Open(path, {});
   ASSERT_EQ(player_->problems().size(), 1u);
-  EXPECT_NE(player_->problems()[0].message.find("holds no scene"), std::string::npos);
+  EXPECT_NE(player_->problems()[0].message.find("has no scene"), std::string::npos);
   const std::string name = player_->name();
   EXPECT_EQ(name, std::filesystem::path(path).stem().string());
   const HttpReply scene = Get("/api/simulations/" + name + "/scene");
   EXPECT_EQ(scene.status, 404);
-  EXPECT_NE(scene.body.find("holds no scene"), std::string::npos);
+  EXPECT_NE(scene.body.find("has no scene"), std::string::npos);
   Viewer viewer(port());
   viewer.Subscribe(1, "/even");
   EXPECT_EQ(viewer.ReceiveData(1).time_ns, 0u);

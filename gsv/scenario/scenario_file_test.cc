@@ -88,10 +88,18 @@ record_pictures: png
 
 TEST(ScenarioFile, ReadsJson) {
   const Scenario scenario = Parsed(
-      R"({"world": "yard", "factor": 2.5, "robots": [{"model": "pebble", "x": 1, "y": -2}]})");
+      R"({"world": "yard", "real_time_factor": 2.5, "robots": [{"model": "pebble", "x": 1, "y": -2}]})");
   EXPECT_EQ(scenario.world, "yard");
   EXPECT_EQ(scenario.factor, 2.5);
   EXPECT_EQ(scenario.robots.at(0).start, (Place{1, -2, {}, 0}));
+}
+
+TEST(ScenarioFile, TheFormerNameOfTheRealTimeFactorIsAccepted) {
+  EXPECT_EQ(Parsed("{world: yard, factor: 2.5}").factor, 2.5);
+  base::Problems problems;
+  (void)ParseScenario("{world: yard, factor: 2, real_time_factor: 2}", "s.yaml", problems);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_THAT(problems[0].message, ::testing::HasSubstr("is the former name of real_time_factor"));
 }
 
 TEST(ScenarioFile, WhatIsWrittenIsReadBackToTheBit) {

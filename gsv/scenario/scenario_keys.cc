@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kMaxRobots = 100'000;
 constexpr std::size_t kMaxGroups = 1000, kMaxGoals = 1000;
-constexpr double kMaxRealTimeFactor = 1e6;
+constexpr double kMinRealTimeFactor = 1e-6, kMaxRealTimeFactor = 1e6;
 constexpr double kMinStep = 1e-6;                      // s
 constexpr double kMinRate = 0.001, kMaxRate = 10'000;  // Hz
 
@@ -104,6 +104,16 @@ std::map<std::string, double> ReadRates(YamlMapping& mapping) {
   return rates;
 }
 
+// `factor` is the former name of the key.
+std::optional<double> ReadRealTimeFactor(YamlMapping& mapping) {
+  const auto factor = mapping.Number("real_time_factor", kMinRealTimeFactor, kMaxRealTimeFactor);
+  const auto former = mapping.Number("factor", kMinRealTimeFactor, kMaxRealTimeFactor);
+  if (mapping.Had("factor") && mapping.Had("real_time_factor")) {
+    mapping.AddProblem("factor", "is the former name of real_time_factor; give one of the two");
+  }
+  return factor ? factor : former;
+}
+
 // 0: the world's, as without one.
 std::optional<double> ReadStep(YamlMapping& mapping) {
   const auto step = mapping.Number("step", 0, 10);
@@ -163,7 +173,7 @@ Scenario ReadScenarioKeys(const YAML::Node& node, const YamlPlace& place) {
   scenario.name = mapping.Text("name").value_or("");
   scenario.seed = mapping.Count("seed");
   scenario.lockstep = mapping.IsSecondOf("mode", "real_time", "lockstep");
-  scenario.factor = mapping.Number("factor", 1e-6, kMaxRealTimeFactor);
+  scenario.factor = ReadRealTimeFactor(mapping);
   scenario.step = ReadStep(mapping);
   scenario.duration = mapping.Number("duration", 0, kMaxDuration);
   scenario.deadline = mapping.Number("deadline", 0, kMaxDuration);

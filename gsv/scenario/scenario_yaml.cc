@@ -201,7 +201,7 @@ std::string ToYaml(const Scenario& scenario) {
   writer.PutText("name", scenario.name);
   if (scenario.seed) writer.Put("seed", std::to_string(*scenario.seed));
   writer.PutChoice("mode", scenario.lockstep, "real_time", "lockstep");
-  writer.PutNumber("factor", scenario.factor);
+  writer.PutNumber("real_time_factor", scenario.factor);
   writer.PutNumber("step", scenario.step);
   writer.PutNumber("duration", scenario.duration);
   writer.PutNumber("deadline", scenario.deadline);

@@ -152,7 +152,7 @@ void BindApplications(py::module_& module) {
            "Back to the start, with the same robots.")
       .def("set_factor", Calling(&RemoteSimulation::SetRealTimeFactor), py::arg("factor"),
            LetOthersRun(),
-           "In real time: simulated seconds a second from the next step on. Lockstep refuses.")
+           "Set the target real-time factor from the next step on. Lockstep refuses.")
       .def("command", &Command, py::arg("name"),
            "Any command of the simulator by its name, with its arguments by theirs: "
            "command(\"step\", count=10).")

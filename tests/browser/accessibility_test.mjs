@@ -95,7 +95,7 @@ test("editing, and putting another simulation together", async () => {
   await page.getByRole("button", { name: "Add robot" }).click();
   await page.locator('.set-up[aria-busy="false"]').waitFor();
   await page.getByText("Parameters", { exact: true }).click();
-  await page.getByLabel("Factor (simulated seconds a second)").fill("-1");
+  await page.getByLabel("Real-time factor (simulated seconds per second)").fill("-1");
   await page.keyboard.press("Tab");
   await page.locator(".field-error", { hasText: "a number from" }).waitFor();
   await judge(page);
@@ -115,7 +115,7 @@ test("the page of recordings, whole ones and others", async () => {
   await judge(page);
   fs.writeFileSync(path.join(folder, "broken.mcap"), "no recording");
   await page.reload();
-  await page.getByText("cut off").waitFor();
+  await page.getByText("interrupted").waitFor();
   await judge(page);
   await page.close();
 });
@@ -133,20 +133,20 @@ test("the pages on which a token is asked for, and a page of recordings without 
   const server = await startServer([...RUN, "--watch-token", WATCH, "--recordings", empty]);
   try {
     const { page } = await openPage(browser, server.url);
-    await page.getByText("This server takes a token").waitFor();
+    await page.getByText("This server requires a token").waitFor();
     await judge(page);
     await page.getByLabel("Token").fill("not the right one");
     await page.keyboard.press("Enter");
-    await page.getByText("this token is not the right one").waitFor();
+    await page.getByText("this token is wrong").waitFor();
     await judge(page);
     for (const name of ["recordings", "join", "broker"]) {
       await page.goto(`${server.url}${name}.html`);
-      await page.getByText("this token is not the right one").first().waitFor();
+      await page.getByText("this token is wrong").first().waitFor();
       await judge(page);
     }
     await page.goto(`${server.url}recordings.html#token=${WATCH}`);
     await page.reload();
-    await page.getByText("No recording yet").waitFor();
+    await page.getByText("No recordings yet").waitFor();
     await judge(page);
     await page.close();
   } finally {

@@ -56,8 +56,8 @@ test("who holds control acts alone; who asks is told of, and gets it", async () 
   const question = ada.page.getByRole("alert").filter({ hasText: "Bob asks for control" });
   await question.waitFor();
   await keepPicture(ada.page, "control");
-  await question.getByRole("button", { name: "Give it" }).click();
-  await bob.page.getByRole("button", { name: "Let go of control" }).waitFor();
+  await question.getByRole("button", { name: "Give control" }).click();
+  await bob.page.getByRole("button", { name: "Release control" }).waitFor();
   await pause.click();
   await phaseIs(ada.page, "paused");
 });
@@ -67,8 +67,8 @@ test("it passes by itself to who asks when the holder leaves", async () => {
   await ada.page.getByRole("button", { name: "Ask for control" }).click();
   await bob.page.getByRole("alert").filter({ hasText: "Ada asks for control" }).waitFor();
   await bob.page.close();
-  await ada.page.getByRole("button", { name: "Let go of control" }).waitFor();
-  await ada.page.getByRole("button", { name: "Let go of control" }).click();
+  await ada.page.getByRole("button", { name: "Release control" }).waitFor();
+  await ada.page.getByRole("button", { name: "Release control" }).click();
 });
 
 test("two simulations of a server are held by two people", async () => {
@@ -84,10 +84,10 @@ test("two simulations of a server are held by two people", async () => {
   await waitUntilDrawn(bob.page);
   await ada.page.getByRole("button", { name: "Take control" }).click();
   await bob.page.getByRole("button", { name: "Viewers" }).click();
-  await bob.page.getByRole("listitem").filter({ hasText: "Ada · at simulation · holds control" }).waitFor();
+  await bob.page.getByRole("listitem").filter({ hasText: "Ada · at simulation · has control" }).waitFor();
   await bob.page.getByRole("button", { name: "Take control" }).click();
-  await bob.page.getByRole("button", { name: "Let go of control" }).waitFor();
-  await ada.page.getByRole("listitem").filter({ hasText: "Bob · at second · holds control" }).waitFor();
+  await bob.page.getByRole("button", { name: "Release control" }).waitFor();
+  await ada.page.getByRole("listitem").filter({ hasText: "Bob · at second · has control" }).waitFor();
   const act = (page, simulation, action) =>
     page.evaluate(
       async ([simulation, action]) =>
@@ -98,7 +98,7 @@ test("two simulations of a server are held by two people", async () => {
   for (const simulation of ["simulation", "second"]) assert.equal(await act(ada.page, simulation, "reset"), 409);
   await bob.page.getByRole("button", { name: "Start" }).click();
   await phaseIs(bob.page, "running");
-  await ada.page.getByRole("button", { name: "Let go of control" }).click();
+  await ada.page.getByRole("button", { name: "Release control" }).click();
 });
 
 test("two people press everything at once: both pages show the server's truth in the end", async () => {
@@ -139,7 +139,7 @@ test("a server that takes a token lets one watch, and act with the token at the 
   const { page } = await openPage(browsers[0], server.url);
   await waitUntilDrawn(page);
   await page.getByRole("button", { name: "Pause" }).click();
-  await page.getByText("this takes a token, and none was shown").waitFor();
+  await page.getByText("this request requires a token").waitFor();
   await page.goto("about:blank");
   await page.goto(`${server.url}#token=${CONTROL}`);
   await waitUntilDrawn(page);
@@ -152,10 +152,10 @@ test("a server that asks for a token to watch as well asks the page's reader", a
   await server.stop();
   server = await startServer([...RUN, "--control-token", CONTROL, "--watch-token", "watching-0123456789abcdef"]);
   const { page } = await openPage(browsers[1], server.url);
-  await page.getByText("This server takes a token").waitFor();
+  await page.getByText("This server requires a token").waitFor();
   await page.getByLabel("Token").fill("not the right one");
   await page.getByRole("button", { name: "Enter" }).click();
-  await page.getByText("this token is not the right one").waitFor();
+  await page.getByText("this token is wrong").waitFor();
   await page.getByLabel("Token").fill(CONTROL);
   await page.getByRole("button", { name: "Enter" }).click();
   await waitUntilDrawn(page);
@@ -170,7 +170,7 @@ test("so do the pages of instances, recordings and the broker", async () => {
     ["broker.html", ".offer, .summary"],
   ]) {
     const { page } = await openPage(browsers[1], `${server.url}${name}`); // a tab of its own knows no token
-    await page.getByRole("alert").filter({ hasText: "takes a token" }).waitFor();
+    await page.getByRole("alert").filter({ hasText: "requires a token" }).waitFor();
     await page.getByLabel("Token").fill(CONTROL);
     await page.getByRole("button", { name: "Enter" }).click();
     await page.locator(ready).first().waitFor();

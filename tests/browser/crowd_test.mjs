@@ -60,10 +60,10 @@ test("the last robot's camera and sensors are shown too, once it is chosen", asy
   await page.locator(`[data-robot="${last}"][aria-pressed="true"]`).waitFor();
   await page.locator("li[data-sensor] dd .number", { hasText: /\d/ }).first().waitFor();
   const choice = page.getByRole("combobox", { name: "Camera" });
-  if (!(await choice.isVisible())) await page.getByRole("button", { name: "Open camera picture" }).click();
+  if (!(await choice.isVisible())) await page.getByRole("button", { name: "Open camera image" }).click();
   assert.match(await choice.evaluate((select) => select.selectedOptions[0].text), new RegExp(`^${last} `));
   await page.locator(".picture-waiting").waitFor({ state: "hidden" });
-  const seen = await page.getByRole("img", { name: "Camera picture" }).boundingBox();
+  const seen = await page.getByRole("img", { name: "Camera image" }).boundingBox();
   assert.equal(isBlank(await picture(page, seen)), false);
 });
 

@@ -74,7 +74,7 @@ test("a thing that is added stands there and is chosen", async () => {
   await press("Add");
   await shown("crate");
   assert.equal((await body("crate")).is_fixed, false);
-  await page.getByText("Click the floor to put crate there").waitFor();
+  await page.getByText("Click the floor to place crate there").waitFor();
 });
 
 test("it is turned by its arrow's tip, and by a key", async () => {
@@ -118,7 +118,7 @@ test("what is removed comes back; all is taken back and done again", async () =>
   const stood = await place("can");
   await page.locator(".world-tree summary").click();
   await page.locator('[data-object="crate"]').click();
-  await page.getByText("Click the floor to put crate there").waitFor();
+  await page.getByText("Click the floor to place crate there").waitFor();
   await page.keyboard.press("r");
   await settled(page);
   await keepPicture(page, "edit-objects");

@@ -45,7 +45,7 @@ test("editing pauses what runs, and says what can be done", async () => {
   await phaseIs(page, "running");
   await press("Edit");
   await phaseIs(page, "paused");
-  await page.getByRole("region", { name: "Edit" }).getByText("Drag what can move.").waitFor();
+  await page.getByRole("region", { name: "Edit" }).getByText("Drag robots and objects.").waitFor();
   await page.getByRole("region", { name: "Edit" }).locator("option", { hasText: "rover4" }).waitFor({ state: "attached" });
 });
 
@@ -128,7 +128,7 @@ test("a recording is switched on, which another viewer sees, and off", async () 
   await ask(page, "/bodies/pebble/place", { x: 0, y: -1.5 });
   try {
     await record(other).click();
-    await other.getByText("Recorded. Replay it on the page Recordings").waitFor();
+    await other.getByText("Recording saved. Replay it on the page Recordings").waitFor();
     await page.locator('.record[aria-pressed="false"]').waitFor();
     assert.ok(fs.statSync(path).size > 1000);
     // What was done before it was switched on is not in it, and is said to be so.

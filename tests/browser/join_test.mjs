@@ -39,7 +39,7 @@ after(async () => {
 const instance = (name) => page.locator(".instance", { has: page.getByRole("heading", { name }) });
 
 test("every instance is listed with its simulations, this one marked", async () => {
-  await instance("workbench · this one").getByText("It runs no simulation.").waitFor();
+  await instance("workbench · this one").getByText("No simulation is running.").waitFor();
   const link = instance("gsv run").getByRole("link", { name: "simulation" });
   await link.waitFor();
   assert.equal(await link.getAttribute("href"), `${elsewhere.url}?simulation=simulation`);

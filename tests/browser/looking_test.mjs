@@ -263,7 +263,7 @@ test("a link shows the same robot from the same place", async () => {
     return now.every((value, i) => Math.abs(value - then[i]) < 1e-3);
   }, "a view at rest");
   await page.keyboard.press("l");
-  await page.getByText("The link is copied.").waitFor();
+  await page.getByText("Link copied.").waitFor();
   const link = await page.evaluate(() => navigator.clipboard.readText());
   assert.equal(link, page.url());
   const other = await openBrowser({ width: 1100, height: 700 });
@@ -288,7 +288,7 @@ test("a link shows the same robot from the same place", async () => {
 test("the sheet of keys knows them all", async () => {
   await page.keyboard.press("?");
   const sheet = page.getByRole("dialog");
-  for (const text of ["Chase it", "Trails", "Film the view", "Plots against"]) {
+  for (const text of ["Chase the selected robot", "Trails", "Record video", "Plots against"]) {
     await sheet.getByText(text).first().waitFor();
   }
   await keepPicture(page, "keys");

@@ -38,7 +38,7 @@ const item = (name) => page.locator(".recording", { has: page.getByRole("heading
 const timeOn = (page) => page.evaluate(() => window.gsv.time);
 
 async function goTo(page, time) {
-  await page.getByLabel("Go to the time").fill(String(time));
+  await page.getByLabel("Go to time").fill(String(time));
   await page.keyboard.press("Enter");
   await until(async () => (await timeOn(page)) === time, `the instant ${time}`);
 }
@@ -52,7 +52,7 @@ test("what the red dot records is in the list, with its size and length", async 
   await page.getByRole("link", { name: "Recordings" }).click();
   await item("first run.mcap").getByText("0:06.00").waitFor();
   await item(/^simulation-/).getByText("messages").waitFor();
-  await item("half.mcap").getByText("cut off").waitFor();
+  await item("half.mcap").getByText("interrupted").waitFor();
   await keepPicture(page, "recordings");
 });
 

@@ -280,7 +280,7 @@ test("it works on a phone's screen, in the dark, and both pages show one instant
   try {
     const small = await openPage(phone, server.url);
     await waitUntilDrawn(small.page);
-    const button = small.page.getByRole("button", { name: "To the end", exact: true });
+    const button = small.page.getByRole("button", { name: "Go to the end", exact: true });
     await button.click();
     await small.page.waitForFunction((end) => window.gsv.time === end, DURATION_S);
     await robotsAreRight(await standsAt(DURATION_S));

@@ -132,13 +132,13 @@ test("the number of steps to take, and how fast it goes, are set in a menu", asy
   await press("Speed and steps");
   const sheet = page.getByRole("group", { name: "Speed and steps" });
   await sheet.getByLabel("Steps (paused)").fill("25");
-  await press("Take them");
+  await press("Take steps");
   await until(async () => (await ask("")).step === before.step + 25, "the steps");
   await phaseIs("paused");
   await page.getByRole("button", { name: "2×", exact: true }).click();
   await page.getByTestId("factor").getByText("/ 2.00×").waitFor();
   assert.equal((await ask("")).target_factor, 2);
-  await sheet.getByLabel("Simulated seconds a second").fill("0.5");
+  await sheet.getByLabel("Simulated seconds per second of wall-clock time").fill("0.5");
   await page.keyboard.press("Enter");
   await page.getByTestId("factor").getByText("/ 0.50×").waitFor();
   await page.getByRole("button", { name: "1×", exact: true }).click();

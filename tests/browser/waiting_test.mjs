@@ -60,7 +60,7 @@ test("a behaviour that is stopped is named, and no longer when it goes on", asyn
     process.kill(behaviour, "SIGCONT");
   }
   await page.waitForFunction(() => document.querySelector("[data-testid=waiting]").textContent === "");
-  await page.getByRole("region", { name: "Diagnostics" }).getByText("1 robot well.").waitFor();
+  await page.getByRole("region", { name: "Diagnostics" }).getByText("1 robot OK.").waitFor();
   const then = await page.evaluate(() => window.gsv.time);
   await page.waitForFunction((time) => window.gsv.time > time, then);
 });

@@ -144,7 +144,7 @@ test("the log has every line, by text, and a press on one goes there", async () 
   await lines.first().getByRole("button").click();
   await standsAt(DURATION_S, 1e-6);
   await log.getByLabel("Text in the log").fill("nothing like this");
-  await log.getByText("No line fits").waitFor();
+  await log.getByText("No message matches").waitFor();
 });
 
 test("all this needed no other host and raised no error", () => {

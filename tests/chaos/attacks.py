@@ -2,7 +2,7 @@
 
 An attack has `refusal`, why it is not possible here (None: it is), strike(), which takes a second or two
 at most, and end(), after which nothing of it is left. What the server refuses with a sentence is no
-broken promise; what it does not answer at all is.
+broken promise; what it does not respond at all is.
 """
 
 import base64

@@ -1,4 +1,4 @@
-// gsv ps, pause, resume, step, factor, stop and reset against simulations in other processes.
+// gsv ps, pause, resume, step, real-time-factor, stop and reset against simulations in other processes.
 #include <csignal>
 #include <cstdlib>
 
@@ -76,7 +76,7 @@ TEST_F(Control, RecordsARunThatIsUnderWay) {
   const Outcome started = Gsv({"rec", "start", path});
   EXPECT_EQ(started.ending, "exit code 0") << started.err;
   EXPECT_EQ(started.out, "simulation is recorded to " + path + "\n");
-  EXPECT_THAT(Gsv({"rec", "start", path + "2"}).err, HasSubstr("stop that first"));
+  EXPECT_THAT(Gsv({"rec", "start", path + "2"}).err, HasSubstr("stop this recording first"));
   EXPECT_EQ(Json({"pause"})["phase"], "paused");
   const int from = Json({"ps"})["step"];
   Json({"step", "100"});
@@ -86,7 +86,7 @@ TEST_F(Control, RecordsARunThatIsUnderWay) {
   const auto info = Json({"rec", "info", path});
   EXPECT_TRUE(info["indexed"]);
   EXPECT_GE(info["duration_s"], 0.1);
-  EXPECT_THAT(Gsv({"rec", "stop"}).err, HasSubstr("is not being recorded"));
+  EXPECT_THAT(Gsv({"rec", "stop"}).err, HasSubstr("it is not recorded"));
 }
 
 TEST_F(Control, PausesStepsResumesAndStops) {
@@ -127,14 +127,15 @@ TEST_F(Control, CommandsOfTheTableTakeTheirParametersAsOptions) {
 }
 
 TEST_F(Control, TheFactorOfARunInRealTimeIsSet) {
-  Running run("gsv", {"run", "playground", "--headless", "--factor", "0.001", "--duration", "20"});
+  Running run("gsv", {"run", "playground", "--headless", "--real-time-factor", "0.001",
+                      "--duration", "20"});
   run.AwaitLine("broker: ");
-  const Outcome set = Gsv({"factor", "2.5"});
+  const Outcome set = Gsv({"real-time-factor", "2.5"});
   EXPECT_EQ(set.ending, "exit code 0") << set.err;
   EXPECT_THAT(set.out, HasSubstr("(target 2.5)"));
   ExpectComplaint({"factor", "0"}, 2, "must lie above 0 and not above 1e6");
   ExpectComplaint({"factor", "fast"}, 2, "fast");
-  ExpectComplaint({"factor"}, 2, "factor is required");
+  ExpectComplaint({"real-time-factor"}, 2, "real_time_factor is required");
   EXPECT_EQ(Json({"ps"})["target_factor"], 2.5);
   EXPECT_EQ(Gsv({"factor", "1000000"}).ending, "exit code 0");
   EXPECT_EQ(run.AwaitEnd().ending, "exit code 0");  // at its first pace: five and a half hours
@@ -154,7 +155,7 @@ TEST_F(Control, WithoutABrokerTheNewestRunIsMeant) {
   const Outcome all = Gsv({"ps"});
   EXPECT_THAT(all.out, HasSubstr(":" + Pid(*older)));
   EXPECT_THAT(all.out, HasSubstr(":" + Pid(*newer)));
-  ExpectComplaint({"pause", "simulation"}, 2, "several simulations fit");
+  ExpectComplaint({"pause", "simulation"}, 2, "several simulations match");
   EXPECT_EQ(Json({"pause", "--server", Pid(*older)})["phase"], "paused");
 }
 
@@ -196,15 +197,15 @@ TEST_F(Control, AServersSimulationsAreFoundThroughItsBroker) {
   const Outcome none = Gsv({"ps", "--broker", broker.reference()});
   EXPECT_EQ(none.ending, "exit code 0");
   EXPECT_EQ(none.out, "");
-  ExpectComplaint({"stop", "--broker", broker.reference()}, 5, "no simulation is offered there");
+  ExpectComplaint({"stop", "--broker", broker.reference()}, 5, "the broker has no simulations");
   const auto run = StartRun({"--broker", broker.reference()});
   EXPECT_EQ(Json({"pause", "--broker", broker.reference(), "simulation"})["phase"], "paused");
 }
 
 TEST_F(Control, ComplaintsAreOneSentenceWithAnExitCode) {
-  ExpectComplaint({"pause"}, 5, "no simulation of yours runs on this machine");
+  ExpectComplaint({"pause"}, 5, "you have no running simulation on this machine");
   ExpectComplaint({"ps", "--broker", "corbaloc::127.0.0.1:1/TradingService"}, 5,
-                  "no broker answers");
+                  "no broker responds");
   ExpectComplaint({"ps", "--broker", "nonsense"}, 2, "nonsense");
   const auto run = StartRun();
   ExpectComplaint({"pause", "another"}, 2, "there are: simulation on gsv run (");

@@ -175,7 +175,7 @@ TEST_F(CorbaTls, WithoutACertificateNobodyIsServed) {
   const std::string plain = "corbaloc::1.2@127.0.0.1:" + std::to_string(broker.port());
   const Outcome cut = RunProgram("gsv", {"offers", "--broker", plain + "/TradingService"});
   EXPECT_EQ(cut.ending, "exit code 5");
-  EXPECT_THAT(cut.err, HasSubstr("does it take TLS?"));
+  EXPECT_THAT(cut.err, HasSubstr("If the broker requires TLS"));
   EXPECT_THAT(AwaitErrors(broker.program(), "refused"), HasSubstr("it does not speak TLS"));
 }
 

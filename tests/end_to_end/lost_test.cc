@@ -207,7 +207,8 @@ TEST_F(Lost, NotesThatAreNoneAreASentenceAndTheServerStarts) {
   const std::string log = End();
   for (const char* name :
        {"bad0", "bad1", "bad2", "bad3", "bad4", "bad5", "bad6", "bad7", "endless"}) {
-    EXPECT_NE(log.find(std::string(name) + ".json: it is no note of a server"), std::string::npos)
+    EXPECT_NE(log.find(std::string(name) + ".json: it is not a note of a server"),
+              std::string::npos)
         << name << log;
   }
   EXPECT_TRUE(fs::is_empty(notes()));
@@ -218,7 +219,7 @@ TEST_F(Lost, WithoutAFolderForNotesAServerSaysSoAndServes) {
   Serve();
   Create("arena");
   EXPECT_TRUE(LostOnes().empty());
-  EXPECT_NE(End().find("what runs here would not be missed after a crash"), std::string::npos);
+  EXPECT_NE(End().find("cannot write crash reports for this server"), std::string::npos);
 }
 
 }  // namespace

@@ -37,10 +37,11 @@ TEST_F(Record, TopicsThatAreNoneAreToldOfWithThoseThatThereAre) {
   const Outcome run = Run({"--record-topics", "/nonsense,/pebble,/clock"});
   EXPECT_EQ(run.ending, "exit code 0") << run.err;
   const std::string nonsense =
-      "--record-topics /nonsense: no topic of this simulation has this name or lies below it; "
-      "there are /clock, /diagnostics, /gsv/actuators, /gsv/beams, ";
+      "--record-topics /nonsense: there is no topic of this name or below it; topics are /clock, "
+      "/diagnostics, /gsv/actuators, /gsv/beams, ";
   const std::string pebble =
-      "--record-topics /pebble: no topic has this name; all below it are \"/pebble/\"";
+      "--record-topics /pebble: there is no topic of this name; use \"/pebble/\" for all topics "
+      "below it";
   EXPECT_THAT(run.LastLine()["warnings"].get<Strings>(), ElementsAre(HasSubstr(nonsense), pebble));
   EXPECT_THAT(run.err, HasSubstr("gsv: warning: " + nonsense));
   EXPECT_THAT(run.err, HasSubstr("gsv: warning: " + pebble));
@@ -57,8 +58,8 @@ TEST_F(Record, AWordThatIsNoNameIsRefused) {
   for (const std::string word : {"true", "false"}) {
     const Outcome run = RunProgram("gsv", {"run", "playground", "--headless", "--record", word});
     EXPECT_EQ(run.ending, "exit code 2");
-    EXPECT_EQ(run.err, "gsv: --record: it is a file, NAME.mcap, or a folder, found \"" + word +
-                           "\"; gsv run --help says what there is\n");
+    EXPECT_EQ(run.err, "gsv: --record: expected a file NAME.mcap or a folder, found \"" + word +
+                           "\". See gsv run --help\n");
     EXPECT_FALSE(std::filesystem::exists(word));
   }
 }
@@ -67,8 +68,8 @@ TEST_F(Record, ATopicWithoutASlashIsRefused) {
   const Outcome run = Run({"--record-topics", "nonsense"});
   EXPECT_EQ(run.ending, "exit code 2");
   EXPECT_EQ(run.err,
-            "gsv: --record-topics nonsense: a topic begins with a slash, as /gsv/poses and "
-            "/ROBOT/SENSOR do\n");
+            "gsv: --record-topics nonsense: a topic must begin with a slash, such as /gsv/poses or "
+            "/ROBOT/SENSOR\n");
   EXPECT_FALSE(std::filesystem::exists(file_));
 }
 

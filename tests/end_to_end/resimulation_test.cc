@@ -49,7 +49,7 @@ TEST_F(Resimulation, TellsThatARunRepeats) {
   ASSERT_EQ(recorded.ending, "exit code 0") << recorded.err;
   const Outcome again = RunProgram("gsv", {"replay", recording_, "--resimulate"});
   EXPECT_EQ(again.ending, "exit code 0") << again.err;
-  EXPECT_THAT(again.out, StartsWith("simulated again, it is the same: "));
+  EXPECT_THAT(again.out, StartsWith("the new run is equal: "));
   EXPECT_THAT(again.out, HasSubstr("2.000 s"));
 }
 
@@ -76,7 +76,7 @@ TEST_F(Resimulation, SetsGravityAgainWhereItWasSet) {
   EXPECT_EQ(run.AwaitEnd().ending, "exit code 0");
   const Outcome again = RunProgram("gsv", {"replay", recording_, "--resimulate"});
   EXPECT_EQ(again.ending, "exit code 0") << again.err << again.out;
-  EXPECT_THAT(again.out, StartsWith("simulated again, it is the same: "));
+  EXPECT_THAT(again.out, StartsWith("the new run is equal: "));
 }
 
 // Actors, pedestrians of the world's file and those of an option.
@@ -132,7 +132,7 @@ TEST_F(Resimulation, OfARecordingThatIsNoRunIsRefused) {
   ASSERT_EQ(RunProgram(writer, {folder_.path()}).ending, "exit code 0");
   const Outcome again =
       RunProgram("gsv", {"replay", folder_.path() / "whole.mcap", "--resimulate"});
-  EXPECT_THAT(again.err, HasSubstr("only recordings of gsv run can be simulated again"));
+  EXPECT_THAT(again.err, HasSubstr("only recordings of `gsv run` can be simulated again"));
   EXPECT_EQ(again.ending, "exit code 2");
 }
 

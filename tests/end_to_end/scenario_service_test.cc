@@ -82,10 +82,10 @@ TEST_F(ScenarioService, EndsOneThatNobodyAsksAbout) {
 
 TEST_F(ScenarioService, RefusesWhatItDoesNotRunForOthers) {
   EXPECT_THAT(Refusal("- 1\n"), HasSubstr("scenario"));
-  EXPECT_THAT(Refusal("world: playground\n"), HasSubstr("the scenario needs an end: duration"));
+  EXPECT_THAT(Refusal("world: playground\n"), HasSubstr("the scenario needs an end: set duration"));
   EXPECT_THAT(Refusal("world: playground\nduration: 1\nwolrd: 2\n"), HasSubstr("\"wolrd\""));
   EXPECT_THAT(Refusal("world: playground\nduration: 1\nrecord: /tmp/x.mcap\n"),
-              HasSubstr("leave out record"));
+              HasSubstr("remove record"));
   EXPECT_EQ(Refusal(kStands, Option("timeout", "3")),
             "timeout: there is no such option; there are: abandoned_after_s, timeout_s");
   EXPECT_EQ(Refusal(kStands, Option("timeout_s", "soon")),

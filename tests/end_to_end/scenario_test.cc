@@ -100,7 +100,7 @@ TEST_F(Scenario, ARobotWithoutAModelMustStandInTheWorld) {
       "room.yaml", "world: playground\nrobots: [{name: Marvin, behaviour: wander}]\n");
   const Outcome run = Run(file);
   EXPECT_EQ(run.ending, "exit code 2");
-  EXPECT_THAT(run.err, HasSubstr("Marvin: the world brings no robot of that name"));
+  EXPECT_THAT(run.err, HasSubstr("Marvin: the world has no robot of this name"));
 }
 
 TEST_F(Scenario, WhatARecordingDoesNotHoldCannotBeExtracted) {

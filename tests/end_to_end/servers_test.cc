@@ -91,7 +91,7 @@ TEST(Servers, ACampaignOutlivesAServerThatIsKilledAndOneThatIsCutOff) {
   second.Mend();
   EXPECT_THAT(outcome.err, HasSubstr("killed (elsewhere:"));
   EXPECT_THAT(outcome.err, HasSubstr("cut (elsewhere:"));
-  EXPECT_THAT(outcome.err, HasSubstr("is lost; its runs are given to others"));
+  EXPECT_THAT(outcome.err, HasSubstr("other servers do its runs"));
   EXPECT_EQ(outcome.LastLine()["done"], 14) << outcome.err;
   EXPECT_EQ(outcome.LastLine()["errors"], 0) << outcome.err;
 
@@ -129,7 +129,9 @@ TEST(Servers, ACampaignWithoutAnyIsToldSo) {
   const std::string file = folder.Write("c.yaml", "scenario: s.yaml\n");
   const Outcome none = RunProgram("gsv", {"campaign", "run", file, "--broker", broker.reference()});
   EXPECT_EQ(none.ending, "exit code 5");
-  EXPECT_THAT(none.err, HasSubstr("no server that takes scenarios is offered; start one with"));
+  EXPECT_THAT(
+      none.err,
+      HasSubstr("no server that accepts scenarios is available at the broker; start one with"));
   const auto server = Serve(broker.reference(), "a", {"--scenarios", "1"});
   const Outcome wrong = RunProgram(
       "gsv", {"campaign", "run", file, "--broker", broker.reference(), "--servers", "slots >"});
@@ -203,11 +205,11 @@ TEST(Servers, ASimulationWhoseServerDiesIsLostAndSaysSo) {
     return true;
   });
   ASSERT_FALSE(ran);
-  EXPECT_THAT(ran.error().Sentence(), HasSubstr("the simulation is lost with its server"));
+  EXPECT_THAT(ran.error().Sentence(), HasSubstr("the simulation ended with its server"));
   const auto state = (*simulation)->State();
   ASSERT_TRUE(state);
   EXPECT_EQ(state->phase, "lost");
-  EXPECT_THAT(state->failure, HasSubstr("nobody accepts connections there any more"));
+  EXPECT_THAT(state->failure, HasSubstr("no program accepts connections there any more"));
   ASSERT_EQ(state->robots.size(), 1u);  // as it was when it was last asked for
   EXPECT_EQ(state->robots[0].place.x, 1);
   // The application goes on with another.

@@ -215,7 +215,7 @@ TEST(Exposure, ByDefaultNothingIsReachedFromOtherMachines) {
   const auto sockets = ExposureOf(server.pid());
   ASSERT_EQ(sockets.at("viewer, HTTP").size(), 1u);
   ASSERT_GE(sockets.at("CORBA").size(), 1u);
-  EXPECT_FALSE(sockets.contains("does not answer"));
+  EXPECT_FALSE(sockets.contains("does not respond"));
   for (const auto& [speaks, all] : sockets) {
     for (const json& socket : all) {
       EXPECT_TRUE(socket["local"]) << socket;
@@ -274,11 +274,11 @@ TEST(Certificates, ThatAreNoneStartNothing) {
 TEST(Doctor, SaysWhatThisMachineHasAndWhetherABrokerAnswers) {
   const std::string gone = BrokerProcess().reference();
   const Outcome unreachable = RunProgram("gsv", {"doctor", "--broker", gone});
-  EXPECT_NE(unreachable.out.find("broker: does not answer"), std::string::npos) << unreachable.out;
+  EXPECT_NE(unreachable.out.find("broker: does not respond"), std::string::npos) << unreachable.out;
   EXPECT_EQ(unreachable.ending, "exit code 5");
   const BrokerProcess broker;
   const Outcome found = RunProgram("gsv", {"doctor", "--broker", broker.reference()});
-  EXPECT_NE(found.out.find("broker: ok, it answers at " + broker.reference()), std::string::npos)
+  EXPECT_NE(found.out.find("broker: ok, responds at " + broker.reference()), std::string::npos)
       << found.out;
   for (const char* line : {"cameras: ", "viewer: ", "descriptors: ", "port 8080 ", "EGL: "}) {
     EXPECT_NE(found.out.find(line), std::string::npos) << line;

@@ -89,7 +89,7 @@ TEST_F(SlurmCampaign, EachRunCountsOnceThoughDriverSlurmdAndANodeAreKilled) {
   const int runs = wanted != nullptr ? std::atoi(wanted) : 40;
   WriteCampaign(runs);
   SlurmCluster cluster;
-  const Strings arguments = RunArguments({"--runs-a-task", runs > 100 ? "10" : "4"});
+  const Strings arguments = RunArguments({"--runs-per-task", runs > 100 ? "10" : "4"});
   {
     Running driver("gsv", arguments);
     AwaitDone(runs / 10, driver);
@@ -125,7 +125,7 @@ TEST_F(SlurmCampaign, EachRunCountsOnceThoughDriverSlurmdAndANodeAreKilled) {
 TEST_F(SlurmCampaign, WhatTheQueueLosesIsHandedOutAgain) {
   WriteCampaign(8);
   SlurmCluster cluster({.nodes = 1, .processors = 1, .more = "MaxArraySize=3"});
-  const Strings arguments = RunArguments({"--sbatch=--no-requeue", "--runs-a-task", "1"});
+  const Strings arguments = RunArguments({"--sbatch=--no-requeue", "--runs-per-task", "1"});
   {
     Running driver("gsv", arguments);
     AwaitDone(1, driver);
@@ -134,7 +134,7 @@ TEST_F(SlurmCampaign, WhatTheQueueLosesIsHandedOutAgain) {
     SlurmCluster::Ask({"scancel", "--state=PENDING", "--me"});
     const Outcome cancelled = AwaitEnd(driver);
     EXPECT_EQ(cancelled.ending, "exit code 5");
-    EXPECT_THAT(cancelled.err, HasSubstr("ended before any of its runs had begun"));
+    EXPECT_THAT(cancelled.err, HasSubstr("ended before any of its runs started"));
   }
   Running driver("gsv", arguments);
   while (driver.process().Ending().empty() && cluster.KillProcesses("gsv campaign task") == 0) {
@@ -191,7 +191,7 @@ TEST_F(SlurmCampaign, WithoutSlurmASentenceSaysSo) {
   const Outcome run = RunProgram(
       "/usr/bin/env", {"PATH=/nowhere", Program("gsv").string(), "campaign", "run", file_});
   EXPECT_EQ(run.ending, "exit code 5");
-  EXPECT_THAT(run.err, HasSubstr("Slurm's commands are not on the PATH"));
+  EXPECT_THAT(run.err, HasSubstr("the commands of Slurm are not on the PATH"));
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ class SshCampaign : public ::testing::Test {
                   "world: playground\nduration: " + duration +
                       "\nrobots: [{name: r, model: pebble, x: 0, y: 0}]\n"
                       "expect: [{name: stays, stays_within: {robot: r, x: [-0.5, 0.5]}}]\n");
-    folder_.Write("c.yaml", "engine: ssh\nssh: {hosts: " + names + ", runs_a_task: 2, " +
+    folder_.Write("c.yaml", "engine: ssh\nssh: {hosts: " + names + ", runs_per_task: 2, " +
                                 hosts.Keys() +
                                 "}\nscenario: s.yaml\nparameters:\n  robots[0].x: [0, 1]\n"
                                 "  seed: {from: 1, to: " +
@@ -115,8 +115,9 @@ TEST_F(SshCampaign, CtrlCEndsTheTasksOnTheHosts) {
   driver.process().Signal(SIGINT);
   const Outcome outcome = AwaitEnd(driver);
   EXPECT_EQ(outcome.ending, "exit code 130");
-  EXPECT_THAT(outcome.err, HasSubstr("interrupted; the tasks on the hosts end, and the same "
-                                     "command goes on where this stopped"));
+  EXPECT_THAT(
+      outcome.err,
+      HasSubstr("interrupted; the tasks on the hosts end. Run the same command again to continue"));
   ExpectTasksEnd();
 }
 
@@ -126,7 +127,7 @@ TEST_F(SshCampaign, BadInputIsOneSentence) {
   const Outcome no_wait = RunProgram("gsv", {"campaign", "run", file_, "--no-wait"});
   EXPECT_EQ(no_wait.ending, "exit code 2");
   EXPECT_EQ(no_wait.err,
-            "gsv: --no-wait: the engine ssh ends its tasks with this command; leave it out\n");
+            "gsv: --no-wait: the engine ssh ends its tasks with this command; remove --no-wait\n");
   WriteCampaign(hosts, "[]", 2);
   const Outcome none = RunProgram("gsv", {"campaign", "run", file_});
   EXPECT_EQ(none.ending, "exit code 3");

@@ -114,7 +114,7 @@ TEST_F(TestCommand, BadInputIsToldBeforeAnythingRuns) {
   EXPECT_EQ(Test({good, "--shard", "3/2"}).ending, "exit code 2");
   const Outcome endless = Test({folder_.Write("endless.yaml", "world: playground\n")});
   EXPECT_EQ(endless.ending, "exit code 3");
-  EXPECT_THAT(endless.err, HasSubstr("a test needs an end: duration"));
+  EXPECT_THAT(endless.err, HasSubstr("a test needs an end: set duration"));
 }
 
 TEST_F(TestCommand, AWorldThatIsNotThereIsBadInputAndOneError) {

@@ -224,7 +224,7 @@ class World:
             "add_robot": {"robot": self.robot_specification("pebble")},
             "add_avatar": {"avatar": self.robot_specification("avatar", x=1.0)}, "remove_robot": {"name": "pebble"},
             "step": {"count": 1}, "run_until": {"instant": 10**15}, "set_factor": {"factor": 2.0},
-            "command": {"name": "factor", "arguments": [{"name": "factor", "value": "2"}]}, "await_change": {"known": "PHASE_CREATED"},
+            "command": {"name": "real_time_factor", "arguments": [{"name": "real_time_factor", "value": "2"}]}, "await_change": {"known": "PHASE_CREATED"},
             "start_recording": {"path": f"recording-{number}"},
             "run": {"scenario": SCENARIO, "options": [{"name": "timeout_s", "value": "10"}]},
             "init": {"agent_name": "giop", "robot": self.targets.get("sba::JointedHardware", Reference())},

@@ -5,7 +5,7 @@
 namespace gsv::app {
 
 void AddBenchCommands(const CommandLine& line) {
-  CLI::App* bench = line.app.add_subcommand("bench", "Measure this machine");
+  CLI::App* bench = line.app.add_subcommand("bench", "Measure the performance of this machine");
   bench->require_subcommand(1);
   const CommandLine inner{*bench, line.signals, line.exit_code};
   AddTypicalBench(inner);

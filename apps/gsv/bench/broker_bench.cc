@@ -293,12 +293,13 @@ void AddBrokerBench(const CommandLine& bench) {
     bool json = false;
   };
   CLI::App* command =
-      bench.app.add_subcommand("broker", "How fast a broker with many offers is, and how large");
+      bench.app.add_subcommand("broker", "Speed and memory of a broker with many offers");
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("--offers", arguments->offers, "how many offers there are")
+  command->add_option("--offers", arguments->offers, "number of offers")
+      ->type_name("N")
       ->check(CLI::Range(1000, 200'000))
       ->capture_default_str();
-  command->add_flag("--json", arguments->json, "one JSON object a line");
+  command->add_flag("--json", arguments->json, "print one JSON object per line");
   command->callback([arguments, bench] {
     if (const auto end = RunBench(arguments->offers, arguments->json); !end) {
       bench.exit_code = Complain(end.error());

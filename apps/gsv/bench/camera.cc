@@ -231,29 +231,36 @@ int Run(const CameraArguments& arguments) {
 
 void AddCameraBench(const CommandLine& bench) {
   CLI::App* command = bench.app.add_subcommand(
-      "camera",
-      "Pictures of robots that drive about in real time, asked for in batches: how many a second, "
-      "how long from request to picture (p50_ms, p99_ms), and from step to step (step_p99_ms)");
+      "camera", "Camera images of driving robots in real time: throughput and latency");
   auto arguments = std::make_shared<CameraArguments>();
-  command->add_option("--cameras", arguments->cameras, "pictures in a batch")
+  command->add_option("--cameras", arguments->cameras, "images per batch")
+      ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(1, 1024));
-  command->add_option("--size", arguments->size, "of a picture, pixels")->capture_default_str();
-  command->add_option("--robots", arguments->robots)
+  command->add_option("--size", arguments->size, "width and height of an image in pixels")
+      ->capture_default_str();
+  command->add_option("--robots", arguments->robots, "number of robots")
+      ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(1, 10'000));
-  command->add_option("--world", arguments->world, "\"square\": that of bench crowd")
+  command
+      ->add_option("--world", arguments->world, "world, or \"square\" for the world of bench crowd")
+      ->type_name("WORLD")
       ->capture_default_str();
-  command->add_option("--model", arguments->model)->capture_default_str();
+  command->add_option("--model", arguments->model, "model of the robots")
+      ->type_name("MODEL")
+      ->capture_default_str();
   command->add_flag("--overview", arguments->overview,
-                    "cameras that circle above and see all, instead of the robots' own");
-  command->add_option("--duration", arguments->duration, "seconds")
+                    "use cameras that circle above the world, instead of those of the robots");
+  command->add_option("--duration", arguments->duration, "wall-clock time of the measurement")
+      ->type_name("SECONDS")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 3600.0));
-  command->add_option("--save", arguments->save, "a folder for the first batch, as JPEG");
+  command->add_option("--save", arguments->save, "save the first batch as JPEG")
+      ->type_name("FOLDER");
   command->add_flag("--opengl", arguments->opengl,
-                    "with OpenGL, in software where there is no graphics card");
-  command->add_flag("--json", arguments->json, "one JSON object");
+                    "render with OpenGL, in software if there is no graphics card");
+  command->add_flag("--json", arguments->json, "print one JSON object");
   command->callback([arguments, bench] { bench.exit_code = Run(*arguments); });
 }
 

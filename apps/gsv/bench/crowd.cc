@@ -206,25 +206,27 @@ int Crowd(const CrowdArguments& arguments) {
 
 void AddCrowdBench(const CommandLine& bench) {
   CLI::App* command = bench.app.add_subcommand(
-      "crowd",
-      "Robots that wander about a walled square by eight rays each 50 ms, behaviours in process, "
-      "as fast as possible");
+      "crowd", "Many wandering robots in a walled square, in process and as fast as possible");
   auto arguments = std::make_shared<CrowdArguments>();
-  command->add_option("--robots", arguments->robots, "numbers of robots, one row each")
+  command->add_option("--robots", arguments->robots, "numbers of robots, one row for each")
+      ->type_name("N,...")
       ->delimiter(',')
       ->capture_default_str()
       ->check(CLI::Range(1, 100'000));
-  command->add_option("--duration", arguments->duration, "simulated seconds a row")
+  command->add_option("--duration", arguments->duration, "simulated time per row")
+      ->type_name("SECONDS")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 1e6));
-  command->add_option("--seed", arguments->seed)->capture_default_str();
-  command->add_option("--threads", arguments->threads, "0: as many as there are processors")
+  command->add_option("--seed", arguments->seed, "seed of all noise")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--threads", arguments->threads, "threads; 0: one per processor")
+      ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(0, 256));
   command->add_flag("--verify", arguments->verify,
-                    "check every overlap and 1 % of the readings by brute force; exit code 1 on a "
-                    "mismatch");
-  command->add_flag("--json", arguments->json, "one JSON object");
+                    "check overlaps and 1 % of the readings by brute force (exit code 1)");
+  command->add_flag("--json", arguments->json, "print one JSON object");
   command->callback([arguments, bench] { bench.exit_code = Crowd(*arguments); });
 }
 

@@ -185,32 +185,41 @@ int RunLidarBench(LidarArguments arguments) {
 
 void AddLidarBench(const CommandLine& bench) {
   CLI::App* command = bench.app.add_subcommand(
-      "lidar",
-      "Scans of robots that drive about, all robots' at each instant, each checked: rays and scans "
-      "a second, from the moved world to the reading; processor time a ray");
+      "lidar", "Lidar scans of driving robots: rays and scans per second, processor time per ray");
   auto arguments = std::make_shared<LidarArguments>();
   arguments->scene.mode = simulation::Mode::kLockstep;
-  command->add_option("--rays", arguments->rays, "of a scan, all around")
+  command->add_option("--rays", arguments->rays, "rays of a scan, all around")
+      ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(8, 100'000));
-  command->add_option("--range", arguments->range, "metres")
+  command->add_option("--range", arguments->range, "range of the lidar")
+      ->type_name("METRES")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 1000.0));
-  command->add_option("--robots", arguments->scene.robots)
+  command->add_option("--robots", arguments->scene.robots, "number of robots")
+      ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(1, 10'000));
-  command->add_option("--world", arguments->scene.world, "\"square\": that of bench crowd")
+  command
+      ->add_option("--world", arguments->scene.world,
+                   "world, or \"square\" for the world of bench crowd")
+      ->type_name("WORLD")
       ->capture_default_str();
-  command->add_option("--model", arguments->scene.model)->capture_default_str();
+  command->add_option("--model", arguments->scene.model, "model of the robots")
+      ->type_name("MODEL")
+      ->capture_default_str();
   command->add_flag("--meshes", arguments->scene.collide_with_visuals,
-                    "rays meet the world as it is drawn, instead of its collision shapes");
-  command->add_option("--threads", arguments->threads, "that read; 0: one a processor")
+                    "intersect rays with visual meshes instead of collision shapes");
+  command
+      ->add_option("--threads", arguments->threads, "threads for the scans; 0: one per processor")
+      ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(0, 64));
-  command->add_option("--duration", arguments->duration, "seconds of reading")
+  command->add_option("--duration", arguments->duration, "wall-clock time of the measurement")
+      ->type_name("SECONDS")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 3600.0));
-  command->add_flag("--json", arguments->json, "one JSON object");
+  command->add_flag("--json", arguments->json, "print one JSON object");
   command->callback([arguments, bench] { bench.exit_code = RunLidarBench(*arguments); });
 }
 

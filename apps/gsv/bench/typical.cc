@@ -250,17 +250,23 @@ int Lockstep(const TypicalArguments& arguments) {
 std::shared_ptr<TypicalArguments> AddCommon(CLI::App& command, std::vector<int> robots) {
   auto arguments = std::make_shared<TypicalArguments>();
   arguments->robots = std::move(robots);
-  command.add_option("--robots", arguments->robots, "numbers of robots, one row each")
+  command.add_option("--robots", arguments->robots, "numbers of robots, one row for each")
+      ->type_name("N,...")
       ->delimiter(',')
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
-  command.add_option("--duration", arguments->duration, "simulated seconds a row")
+  command.add_option("--duration", arguments->duration, "simulated time per row")
+      ->type_name("SECONDS")
       ->capture_default_str()
       ->check(CLI::Range(1.0, 3600.0));
-  command.add_option("--world", arguments->world,
-                     "without one: the office for up to 20 robots, else the square of bench crowd");
-  command.add_option("--model", arguments->model)->capture_default_str();
-  command.add_flag("--json", arguments->json, "one JSON object");
+  command
+      .add_option("--world", arguments->world,
+                  "world (default: office for up to 20 robots, else the square of bench crowd)")
+      ->type_name("WORLD");
+  command.add_option("--model", arguments->model, "model of the robots")
+      ->type_name("MODEL")
+      ->capture_default_str();
+  command.add_flag("--json", arguments->json, "print one JSON object");
   return arguments;
 }
 
@@ -268,17 +274,18 @@ std::shared_ptr<TypicalArguments> AddCommon(CLI::App& command, std::vector<int> 
 
 void AddTypicalBench(const CommandLine& bench) {
   CLI::App* command = bench.app.add_subcommand(
-      "typical",
-      "The original experiment: robots with the typical behaviour, in other processes, in real "
-      "time");
+      "typical", "Robots with the typical behaviour, in other processes and in real time");
   auto arguments = AddCommon(*command, {1, 2, 3, 4, 5});
-  auto* behaviour = command->add_option("--behaviour", arguments->behaviour)->capture_default_str();
+  auto* behaviour =
+      command->add_option("--behaviour", arguments->behaviour, "behaviour of the robots")
+          ->type_name("NAME")
+          ->capture_default_str();
   command
       ->add_flag("--exchange", arguments->exchange,
-                 "behaviours that need one round trip a cycle, and no pictures")
+                 "use behaviours with one round trip per cycle and without images")
       ->excludes(behaviour);
   command->add_flag("--in-process", arguments->in_process,
-                    "the behaviours inside gsv, as fast as possible");
+                    "run behaviours inside gsv, as fast as possible");
   command->callback([arguments, bench] {
     if (arguments->exchange) arguments->behaviour = kExchange;
     if (arguments->in_process) arguments->mode = simulation::Mode::kLockstep;
@@ -289,8 +296,7 @@ void AddTypicalBench(const CommandLine& bench) {
 void AddLockstepBench(const CommandLine& bench) {
   CLI::App* command = bench.app.add_subcommand(
       "lockstep",
-      "As fast as possible with behaviours in other processes, without pictures: with separate "
-      "calls, and with one exchange a cycle");
+      "Behaviours in other processes, as fast as possible: separate calls and one exchange");
   auto arguments = AddCommon(*command, {5});
   arguments->mode = simulation::Mode::kLockstep;
   command->callback([arguments, bench] { bench.exit_code = Lockstep(*arguments); });

@@ -57,7 +57,7 @@ base::Result<campaign::CommandOutcome> ChildCommands::Run(const std::vector<std:
   outcome.ending = (*child)->AwaitEnd(left());
   if (!outcome.ending.empty()) return outcome;
   return base::Fail(base::ErrorCode::kTimeout,
-                    fmt::format("did not answer within {} s", kCommandPatience.count()),
+                    fmt::format("did not respond within {} s", kCommandPatience.count()),
                     command.front());
 }
 

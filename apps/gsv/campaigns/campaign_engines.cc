@@ -158,7 +158,7 @@ int RunHere(const campaign::Campaign& campaign, campaign::Results& results,
     return Complain({base::ErrorCode::kUnavailable, servers->failure()});
   }
   if (!is_interrupted) return kOk;
-  Say("interrupted; the same command goes on where this stopped");
+  Say("interrupted; run the same command again to continue");
   return kInterrupted;
 }
 
@@ -166,9 +166,10 @@ int RunByQueue(const campaign::Campaign& campaign, campaign::Results& results,
                const std::string& results_file, const EngineOptions& options, Signals& signals) {
   const campaign::EngineType& type = *options.engine.type;
   if (!options.waits && !type.outlives_driver) {
-    return Complain({base::ErrorCode::kInvalidArgument,
-                     "the engine " + type.name + " ends its tasks with this command; leave it out",
-                     "--no-wait"});
+    return Complain(
+        {base::ErrorCode::kInvalidArgument,
+         "the engine " + type.name + " ends its tasks with this command; remove --no-wait",
+         "--no-wait"});
   }
   auto spool = Spool::Make(SpoolOf(results_file), campaign);
   if (!spool) return Complain(spool.error());
@@ -193,7 +194,7 @@ int RunByQueue(const campaign::Campaign& campaign, campaign::Results& results,
   if (!is_interrupted) return kOk;
   Say("interrupted; " + type.after_interrupt +
       (type.outlives_driver ? ", and so does the same command"
-                            : ", and the same command goes on where this stopped"));
+                            : ". Run the same command again to continue"));
   return kInterrupted;
 }
 
@@ -223,7 +224,7 @@ int RunTask(const TaskArguments& arguments, Signals& signals) {
   if (arguments.task >= batch->tasks()) {
     return Complain(
         {base::ErrorCode::kInvalidArgument,
-         fmt::format("its tasks are 0 to {}, --task is {}", batch->tasks() - 1, arguments.task),
+         fmt::format("--task must be 0 to {}, found {}", batch->tasks() - 1, arguments.task),
          arguments.batch_file});
   }
   attempt.share = batch->ShareOf(arguments.task);

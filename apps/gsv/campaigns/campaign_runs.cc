@@ -82,7 +82,7 @@ TestResult RunTaker::RunHere(std::int64_t run, const std::string& scenario,
   if (std::ofstream out(file); out << scenario << std::flush) {
     result = RunTestCase({file, file.stem().string()}, options_, is_cancelled);
   } else {
-    result.message = "the scenario cannot be written to " + file.string();
+    result.message = "cannot write the scenario to " + file.string();
   }
   std::error_code ignored;
   fs::remove(file, ignored);

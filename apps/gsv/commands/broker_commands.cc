@@ -20,8 +20,8 @@ std::chrono::milliseconds Milliseconds(double seconds) {
   return std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000));
 }
 
-// Nobody finds a broker again whose port the system chose, so that only one with a port of its own
-// keeps a file unasked. Empty when there is no folder for it.
+// The default of --data. Only a broker with a fixed port has one: nobody finds a broker again whose port
+// the system chose. Empty when there is no folder for it.
 std::string DefaultDataFile(int port) {
   const char* data = std::getenv("XDG_DATA_HOME");
   const char* home = std::getenv("HOME");
@@ -48,37 +48,41 @@ void AddBrokerCommand(const CommandLine& line) {
     double liveness_period_s = 60;
     double liveness_patience_s = 600;
   };
-  CLI::App* command = line.app.add_subcommand("broker", "Run a broker: the OMG Trading Service");
+  CLI::App* command = line.app.add_subcommand("broker", "Run a broker (OMG Trading Service)");
+  command->group("Commands for brokers");
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("--port", arguments->port, "the port to listen on; 0: any that is free")
+  command->add_option("--port", arguments->port, "port to listen on; 0: any free port")
       ->check(CLI::Range(0, 65535))
+      ->type_name("PORT")
       ->capture_default_str();
-  command->add_option("--listen", arguments->command.broker.host, "the address to listen on")
+  command->add_option("--listen", arguments->command.broker.host, "address to listen on")
+      ->type_name("ADDRESS")
       ->capture_default_str();
   CLI::Option* file =
       command
           ->add_option("--data", arguments->file,
-                       "the file that keeps offers and service types; without it, "
-                       "broker-PORT.db in the folder gsv of $XDG_DATA_HOME (~/.local/share), or "
-                       "none with --port 0")
+                       "file that keeps offers and service types (default: broker-PORT.db)\n"
+                       "The default is in the folder gsv of $XDG_DATA_HOME (~/.local/share). "
+                       "With --port 0, there is none.")
           ->type_name("FILE");
-  command->add_flag("--memory", arguments->memory, "keep nothing on disk")->excludes(file);
+  command->add_flag("--memory", arguments->memory, "keep offers and service types in memory only")
+      ->excludes(file);
   command
       ->add_option("--liveness-period", arguments->liveness_period_s,
-                   "how often each offered service is asked whether it lives; 0: never. The "
-                   "offer of a dead one is seen for two periods at most")
+                   "time between two checks that offered services respond; 0: no checks\n"
+                   "The offer of a service that ended is visible for at most two periods.")
       ->check(CLI::Range(0.0, kMaxSeconds))
       ->type_name("SECONDS")
       ->capture_default_str();
   command
       ->add_option("--liveness-patience", arguments->liveness_patience_s,
-                   "how long a service may be silent before its offers go")
+                   "time without a response after which the offers of a service are removed")
       ->check(CLI::Range(0.0, kMaxSeconds))
       ->type_name("SECONDS")
       ->capture_default_str();
   command
       ->add_option("--exit-with-parent", arguments->command.parent,
-                   "end when the process of this number ends")
+                   "PID of the process with which this broker ends")
       ->group("");
   command->callback([arguments, line] {
     arguments->command.broker.port = static_cast<std::uint16_t>(arguments->port);

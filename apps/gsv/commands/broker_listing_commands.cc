@@ -18,7 +18,9 @@
 namespace gsv::app {
 namespace {
 
-// A command that lists without a word more; `list`, `add` and `remove` are its subcommands.
+constexpr const char* kBrokerGroup = "Commands for brokers";
+
+// A command that lists by default; `list`, `add` and `remove` are its subcommands.
 struct Listing {
   CLI::App* list = nullptr;
   CLI::App* add = nullptr;
@@ -39,15 +41,17 @@ std::shared_ptr<Arguments> AddListing(const CommandLine& line, const char* name,
                                       const char* description, const char* one,
                                       Actions (*actions_of)(const Arguments&)) {
   CLI::App* command = line.app.add_subcommand(name, description);
+  command->group(kBrokerGroup);
   auto arguments = std::make_shared<Arguments>();
   command
-      ->add_option("--broker", arguments->broker,
-                   "the broker, corbaloc::1.2@HOST:PORT/TradingService")
+      ->add_option("--broker", arguments->broker, "broker, corbaloc::1.2@HOST:PORT/TradingService")
+      ->type_name("ADDRESS")
       ->envname("GSV_BROKER")
       ->required();
-  command->add_flag("--json", arguments->json, "one JSON object a line");
+  command->add_flag("--json", arguments->json, "print one JSON object per line");
   const std::string which(one);
-  arguments->list = command->add_subcommand("list", "List them; so does no subcommand");
+  arguments->list = command->add_subcommand(
+      "list", "List all; this is also what the command does without a subcommand");
   arguments->add = command->add_subcommand("add", "Add " + which);
   arguments->remove = command->add_subcommand("remove", "Remove " + which);
   for (CLI::App* sub : {arguments->list, arguments->add, arguments->remove}) sub->fallthrough();
@@ -154,56 +158,63 @@ Actions LinkActions(const LinkArguments& arguments) {
 
 void AddOffersCommand(const CommandLine& line) {
   const auto arguments = AddListing<OfferArguments>(
-      line, "offers", "What is offered at a broker: list, add, remove", "an offer", &OfferActions);
-  arguments->add->add_option("TYPE", arguments->type, "its service type")->required();
-  arguments->add->add_option("REFERENCE", arguments->reference, "the service, IOR:… or corbaloc:…")
+      line, "offers", "List, add and remove offers of a broker", "an offer", &OfferActions);
+  arguments->add->add_option("TYPE", arguments->type, "service type of the offer")->required();
+  arguments->add
+      ->add_option("REFERENCE", arguments->reference,
+                   "object reference of the service, IOR:... or corbaloc:...")
       ->required();
   arguments->add
       ->add_option("--property", arguments->properties,
-                   "a property, with the value as JSON; text needs no quotes")
+                   "property of the offer, with its value as JSON; text needs no quotes")
       ->type_name("NAME=VALUE");
-  arguments->remove->add_option("ID", arguments->name, "the offer's id")->required();
+  arguments->remove->add_option("ID", arguments->name, "id of the offer")->required();
 }
 
 void AddTypesCommand(const CommandLine& line) {
   const auto arguments =
-      AddListing<TypeArguments>(line, "types", "The service types of a broker: list, add, remove",
+      AddListing<TypeArguments>(line, "types", "List, add and remove service types of a broker",
                                 "a service type", &TypeActions);
-  arguments->add->add_option("NAME", arguments->name, "its name")->required();
+  arguments->add->add_option("NAME", arguments->name, "name of the service type")->required();
   arguments->add
       ->add_option("--interface", arguments->interface_name,
-                   "the interface that offered services must have, IDL:…")
+                   "interface that offered services must have, IDL:...")
       ->type_name("ID");
-  arguments->add->add_option("--super", arguments->super_types, "a super type")->type_name("NAME");
+  arguments->add->add_option("--super", arguments->super_types, "super type")->type_name("NAME");
   arguments->add
-      ->add_option("--property", arguments->properties,
-                   "a property as `gsv types` shows it: [mandatory] [readonly] TYPE NAME")
+      ->add_option(
+          "--property", arguments->properties,
+          "property in the form [mandatory] [readonly] TYPE NAME, as `gsv types` prints it")
       ->type_name("PROPERTY");
-  arguments->remove->add_option("NAME", arguments->name, "its name")->required();
+  arguments->remove->add_option("NAME", arguments->name, "name of the entry")->required();
 }
 
 void AddLinksCommand(const CommandLine& line) {
   const auto arguments = AddListing<LinkArguments>(
-      line, "links", "A broker's links to others: list, add, remove", "a link", &LinkActions);
+      line, "links", "List, add and remove links of a broker to other brokers", "a link",
+      &LinkActions);
   const std::map<std::string, broker::FollowOption> rules = {
       {"local_only", broker::FollowOption::kLocalOnly},
       {"if_no_local", broker::FollowOption::kIfNoLocal},
       {"always", broker::FollowOption::kAlways}};
-  arguments->add->add_option("NAME", arguments->name, "its name")->required();
+  arguments->add->add_option("NAME", arguments->name, "name of the link")->required();
   arguments->add
       ->add_option("TARGET", arguments->target,
-                   "the other broker, corbaloc::1.2@HOST:PORT/TradingService")
+                   "other broker, corbaloc::1.2@HOST:PORT/TradingService")
       ->required();
   arguments->add
       ->add_option("--pass-on", arguments->pass_on,
-                   "what the other broker does with its links when the importer says nothing: "
-                   "local_only, if_no_local, or always")
-      ->transform(CLI::CheckedTransformer(rules));
+                   "link policy that the other broker applies if the importer sets none")
+      ->transform(CLI::CheckedTransformer(rules))
+      ->type_name("local_only|if_no_local|always")
+      ->default_str("always");
   arguments->add
       ->add_option("--limit", arguments->limit,
-                   "the most that is done with this link: local_only, if_no_local, or always")
-      ->transform(CLI::CheckedTransformer(rules));
-  arguments->remove->add_option("NAME", arguments->name, "its name")->required();
+                   "limit of the link policies with which this link is followed")
+      ->transform(CLI::CheckedTransformer(rules))
+      ->type_name("local_only|if_no_local|always")
+      ->default_str("always");
+  arguments->remove->add_option("NAME", arguments->name, "name of the entry")->required();
 }
 
 }  // namespace gsv::app

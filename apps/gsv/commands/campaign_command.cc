@@ -39,7 +39,7 @@ std::string ResultsFile(const CampaignArguments& arguments) {
   return file.extension() == ".sqlite" ? file : fs::path(file).replace_extension(".sqlite");
 }
 
-// kOk, or what to exit with after having told why.
+// Returns kOk, or the exit code after the errors are printed.
 int ReadCampaignFile(const std::string& file, Campaign& campaign,
                      const campaign::EngineRequest& request, campaign::Engine& engine) {
   base::Problems problems;
@@ -52,7 +52,7 @@ int ReadCampaignFile(const std::string& file, Campaign& campaign,
   return problems.empty() ? kOk : kBadModel;
 }
 
-// Prints how it stands; gives the exit code: 1 when a run has not passed.
+// Prints the state of the campaign; returns the exit code: 1 when a run has not passed.
 int TellStatus(campaign::Results& results, bool json) {
   const auto all = results.All();
   const auto planned = results.PlannedRuns();
@@ -107,7 +107,8 @@ int WriteReportFile(const std::string& file, const std::string& text) {
   std::ofstream stream(file, std::ios::binary);
   stream << text;
   if (stream.flush()) return kOk;
-  return Complain({base::ErrorCode::kUnavailable, "the report cannot be written", file});
+  return Complain({base::ErrorCode::kUnavailable,
+                   "cannot write the report; check the folder and its permissions", file});
 }
 
 int TellStatusOf(const CampaignArguments& arguments) {
@@ -132,7 +133,8 @@ int ReportCampaign(const CampaignArguments& arguments) {
   }
   for (const std::string& parameter : arguments.by) {
     if (std::find(parameters->begin(), parameters->end(), parameter) != parameters->end()) continue;
-    return Complain({base::ErrorCode::kInvalidArgument, "the campaign varies no such parameter",
+    return Complain({base::ErrorCode::kInvalidArgument,
+                     "cannot group by it: the campaign does not vary this parameter",
                      "--by " + parameter});
   }
   campaign::Report report =
@@ -156,7 +158,9 @@ int ShowRun(const CampaignArguments& arguments) {
     return code;
   if (arguments.run < 0 || arguments.run >= static_cast<std::int64_t>(campaign.runs())) {
     return Complain({base::ErrorCode::kInvalidArgument,
-                     fmt::format("its runs are 0 to {}", campaign.runs() - 1), arguments.file});
+                     fmt::format("there is no run {}: the runs are 0 to {}", arguments.run,
+                                 campaign.runs() - 1),
+                     arguments.file});
   }
   const auto scenario =
       campaign.ScenarioWith(campaign.ValuesOf(static_cast<std::size_t>(arguments.run)));
@@ -184,15 +188,18 @@ CLI::Option* AddEngineOptions(CLI::App* run, const Arguments& arguments) {
       if (!option.is_list) added->take_last();
     }
   }
-  run->add_option("--runs-a-task", engine.runs_per_task,
-                  "runs of a task, one after another (default: so many that 1,000 tasks take all)")
+  run->add_option("--runs-per-task,--runs-a-task", engine.runs_per_task,
+                  "runs of one task, one after another (default: enough for 1,000 tasks)\n"
+                  "--runs-a-task is the former name of this option.")
+      ->type_name("N")
       ->check(CLI::Range(0, static_cast<int>(campaign::kMaxRuns)))
       ->group("Job queues");
   run->add_option("--poll", options.poll,
-                  "seconds between questions to the queue (default: 10; ssh: 0.5)")
+                  "time between two requests to the queue (default: 10; ssh: 0.5)")
+      ->type_name("SECONDS")
       ->check(CLI::Range(0.1, 3600.0))
       ->group("Job queues");
-  run->add_flag("!--no-wait", options.waits, "hand the runs to the queue and end")
+  run->add_flag("!--no-wait", options.waits, "submit the runs to the queue and end")
       ->group("Job queues");
   return run
       ->add_option("--engine", engine.name, help + " (default: the campaign's engine, else local)")
@@ -202,28 +209,32 @@ CLI::Option* AddEngineOptions(CLI::App* run, const Arguments& arguments) {
 void AddRunOptions(CLI::App* run, const Arguments& arguments, const CommandLine& line) {
   EngineOptions& options = arguments->options;
   run->add_option("-j,--jobs", options.jobs,
-                  "how many at once; 0: one a processor, or as many as the servers take")
+                  "runs at the same time (default: one per processor, or all the servers take)")
       ->check(CLI::Range(0, 256))
-      ->capture_default_str();
-  run->add_option("--timeout", options.timeout, "wall seconds a run may take")
+      ->type_name("N");
+  run->add_option("--timeout", options.timeout, "wall-clock time of a run")
       ->check(CLI::Range(1.0, 1e6))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->type_name("SECONDS");
   run->add_option("--failures", options.failures,
-                  "a folder in which each failure leaves its recording and a picture; without it "
-                  "nothing is recorded");
+                  "folder for recordings and images of failed runs (default: none)")
+      ->type_name("FOLDER");
   CLI::Option* broker =
       run->add_option("--broker", options.broker,
-                      "do them on the servers that this broker knows (gsv serve --scenarios N), "
-                      "corbaloc::1.2@HOST:PORT/TradingService; without it: here")
-          ->excludes("--failures");
+                      "run on the servers of this broker (default: on this machine)\n"
+                      "The servers are started with `gsv serve --scenarios N`. Form: "
+                      "corbaloc::1.2@HOST:PORT/TradingService.")
+          ->excludes("--failures")
+          ->type_name("ADDRESS");
   run->add_option("--servers", options.servers,
-                  "with --broker: which servers, as a constraint over docs/services.md's "
-                  "properties; without it: all")
-      ->needs(broker);
+                  "servers to use with --broker (default: all)\n"
+                  "The value is a constraint over the properties in docs/services.md.")
+      ->needs(broker)
+      ->type_name("CONSTRAINT");
   AddEngineOptions(run, arguments)->excludes(broker);
-  run->add_option(
-      "--shard", arguments->shard,
-      "I/N: only the I-th of N shares, for tasks of another queue; status gathers them");
+  run->add_option("--shard", arguments->shard,
+                  "run only the I-th of N equal shares; `gsv campaign status` collects the results")
+      ->type_name("I/N");
   run->callback([=] { line.exit_code = RunCampaign(*arguments, line.signals); });
 }
 
@@ -231,45 +242,51 @@ void AddRunOptions(CLI::App* run, const Arguments& arguments, const CommandLine&
 
 void AddCampaignCommand(const CommandLine& line) {
   CLI::App* command =
-      line.app.add_subcommand("campaign", "Run a scenario many times, with parameters varied");
+      line.app.add_subcommand("campaign", "Run a scenario many times with varied parameters");
   command->require_subcommand(1);
   auto arguments = std::make_shared<CampaignArguments>();
   const auto add = [&](const char* name, const char* what) {
     CLI::App* sub = command->add_subcommand(name, what);
-    sub->add_option("file", arguments->file, "the campaign's file, NAME.yaml")->required();
+    sub->add_option("file", arguments->file, "campaign file, NAME.yaml")->required();
     return sub;
   };
-  AddRunOptions(add("run", "Do all runs that are not done yet; exit code 1 if one did not pass"),
+  AddRunOptions(add("run", "Do all runs that are not done yet; exit code 1 if one does not pass"),
                 arguments, line);
-  CLI::App* status = add("status", "How many runs are done, and how many passed");
+  CLI::App* status = add("status", "Print how many runs are done and how many passed");
   status->callback([=] { line.exit_code = TellStatusOf(*arguments); });
-  CLI::App* report = add("report", "What the results say, by parameters");
-  report->add_option("--by", arguments->by, "parameters to look at, separated by commas")
+  CLI::App* report = add("report", "Print the results by parameters");
+  report->add_option("--by", arguments->by, "parameters to group by, separated by commas")
+      ->type_name("NAME,...")
       ->delimiter(',');
-  report->add_option("--metric", arguments->metrics, "a metric to show the mean of");
-  report->add_option("--csv", arguments->csv, "a file for all runs, one a line");
-  report->add_option("--svg", arguments->svg, "a file for the plot");
-  report->add_option("--html", arguments->html, "a file for a page with plot and table");
+  report->add_option("--metric", arguments->metrics, "metric whose mean is printed")
+      ->type_name("NAME");
+  report->add_option("--csv", arguments->csv, "write all runs as CSV, one per line")
+      ->type_name("FILE");
+  report->add_option("--svg", arguments->svg, "write the plot as SVG")->type_name("FILE");
+  report->add_option("--html", arguments->html, "write a page with plot and table")
+      ->type_name("FILE");
   report->callback([=] { line.exit_code = ReportCampaign(*arguments); });
-  CLI::App* show = add("show", "Print one run's scenario, for `gsv run`");
-  show->add_option("run", arguments->run, "its number, from 0")->required();
+  CLI::App* show = add("show", "Print the scenario of one run, for `gsv run`");
+  show->add_option("run", arguments->run, "number of the run, from 0")->required();
   show->callback([=] { line.exit_code = ShowRun(*arguments); });
-  CLI::App* task = command->add_subcommand("task", "a task of a batch, for a job queue to start");
+  CLI::App* task = command->add_subcommand("task", "Do one task of a batch; job queues start it");
   task->group("");
   TaskArguments& its = arguments->task;
-  task->add_option("file", its.batch_file, "the batch's file")->required();
-  task->add_option("--task", its.task, "its number, from 0")->required();
-  task->add_option("--job", its.job, "the queue's name for it");
-  task->add_option("--node", its.node, "the machine's name");
-  task->add_option("--jobs", its.jobs, "runs at once")->check(CLI::Range(1, 256));
+  task->add_option("file", its.batch_file, "file of the batch")->required();
+  task->add_option("--task", its.task, "number of the task, from 0")->required();
+  task->add_option("--job", its.job, "name of the job in the queue");
+  task->add_option("--node", its.node, "name of this machine");
+  task->add_option("--jobs", its.jobs, "runs at the same time")->check(CLI::Range(1, 256));
   task->add_flag("--until-stdin-closes", its.until_stdin_closes, "end when stdin is closed");
   task->callback([=] { line.exit_code = RunTask(arguments->task, line.signals); });
   CLI::App* run = command->get_subcommand("run");
   for (CLI::App* sub : {run, status, report}) {
     sub->add_option("--results", arguments->results,
-                    "the results' file (NAME.sqlite beside the campaign's)");
+                    "results file (default: NAME.sqlite beside the campaign file)")
+        ->type_name("FILE");
   }
-  for (CLI::App* sub : {run, status}) sub->add_flag("--json", arguments->json, "one JSON object");
+  for (CLI::App* sub : {run, status})
+    sub->add_flag("--json", arguments->json, "print one JSON object");
 }
 
 }  // namespace gsv::app

@@ -23,7 +23,7 @@ tls::Validity ValidityOf(int days) {
   return validity;
 }
 
-// Names under which a server is called if nothing else is said.
+// The names of a server if --host gives none.
 std::vector<std::string> UsualHosts() {
   std::vector<std::string> hosts{"localhost", "127.0.0.1", "::1"};
   if (const std::string name = base::HostName(); name != hosts.front()) hosts.push_back(name);
@@ -53,26 +53,29 @@ base::Status MakeCertificates(const CertificatesArguments& arguments) {
 
 void AddCertificatesCommand(const CommandLine& line) {
   CLI::App* group = line.app.add_subcommand(
-      "certificates", "Make certificates for TLS, by an authority of one's own");
+      "certificates", "Make certificates for TLS, signed by your own authority");
   group->require_subcommand(1);
   CLI::App* command = group->add_subcommand(
-      "make", "Make them, and the authority that signs them if the folder holds none");
+      "make", "Make certificates, and the authority that signs them if the folder has none");
   auto arguments = std::make_shared<CertificatesArguments>();
-  command->add_option("folder", arguments->folder, "where the authority and what it signs lie")
+  command->add_option("folder", arguments->folder, "folder of the authority and its certificates")
       ->required();
   command
       ->add_option("--name", arguments->names,
-                   "whose it is; the files are called so. Several make as many")
+                   "name of the certificate and its files; repeat it for several")
       ->allow_extra_args(false)
+      ->type_name("NAME")
       ->capture_default_str();
-  command->add_option("--host", arguments->hosts,
-                      "a name or address under which the server is called; without it: this "
-                      "machine's name, localhost, 127.0.0.1 and ::1");
+  command
+      ->add_option("--host", arguments->hosts,
+                   "name or address of the server (default: those of this machine)\n"
+                   "The default is the host name, localhost, 127.0.0.1 and ::1.")
+      ->type_name("NAME");
   command
       ->add_option("--days", arguments->days,
-                   "for how long it is good; the authority ten times "
-                   "as long")
+                   "days for which a certificate is valid; the authority ten times as long")
       ->check(CLI::Range(1, 3650))
+      ->type_name("N")
       ->capture_default_str();
   command->callback([arguments, line] {
     if (const auto made = MakeCertificates(*arguments); !made) {
@@ -81,10 +84,10 @@ void AddCertificatesCommand(const CommandLine& line) {
     }
     const std::filesystem::path folder = arguments->folder;
     for (const std::string& name : arguments->names) {
-      std::printf("certificate: %s\nkey:         %s (keep it to yourself)\n",
+      std::printf("certificate: %s\nkey:         %s (keep it secret)\n",
                   (folder / (name + ".pem")).c_str(), (folder / (name + "-key.pem")).c_str());
     }
-    std::printf("authority:   %s (give it to those who connect)\n", (folder / "ca.pem").c_str());
+    std::printf("authority:   %s (give it to all who connect)\n", (folder / "ca.pem").c_str());
   });
 }
 

@@ -73,7 +73,7 @@ void Print(const CheckArguments& arguments, const char* severity, const std::str
 
 const char* SeverityName(bool is_error) { return is_error ? "error" : "warning"; }
 
-// Prints each problem once; gives the exit code: 3 when the simulation would not be faithful.
+// Prints each problem once; returns the exit code: 3 when there are errors.
 int Report(const CheckArguments& arguments, const base::Problems& problems, const Notes& notes,
            const base::Status& read) {
   int errors = read ? 0 : 1;
@@ -102,18 +102,19 @@ int Report(const CheckArguments& arguments, const base::Problems& problems, cons
 
 template <typename Read>
 void AddCheck(const CommandLine& line, const char* group, const char* what, Read read) {
-  CLI::App* parent = line.app.add_subcommand(group, std::string("Look at ") + what);
+  CLI::App* parent = line.app.add_subcommand(group, std::string("Check ") + what);
   parent->require_subcommand(1);
-  CLI::App* command =
-      parent->add_subcommand("check", std::string("Print every problem of ") + what);
+  CLI::App* command = parent->add_subcommand("check", std::string("Print all problems of ") + what);
   auto arguments = std::make_shared<CheckArguments>();
-  command->add_option("file", arguments->file, "its file, folder or name")->required();
-  command->add_option("--model-path", arguments->model_path, "a folder to look for models in");
+  command->add_option("file", arguments->file, std::string("file, folder or name of the ") + group)
+      ->required();
+  command->add_option("--model-path", arguments->model_path, "folder to search for models")
+      ->type_name("FOLDER");
   AddSensorPluginOption(*command, arguments->sensor_plugins);
   AddLimitOption(*command, arguments->limits);
-  command->add_flag("--json", arguments->json, "one JSON object a line");
+  command->add_flag("--json", arguments->json, "print one JSON object per line");
   command->add_flag("--strict", arguments->strict,
-                    "make every warning an error, such as what is not carried out");
+                    "treat warnings as errors, such as elements that are not supported");
   // For TryToRead(), and in no help.
   command->add_option("--confined-memory", arguments->confinement.memory_bytes)->group("");
   command->add_option("--confined-time", arguments->confined_seconds)->group("");
@@ -128,7 +129,7 @@ void AddCheck(const CommandLine& line, const char* group, const char* what, Read
     SensorTypeOptions sensors;
     sensors.plugins.assign(arguments->sensor_plugins.begin(), arguments->sensor_plugins.end());
     auto types = MakeSensorTypes(
-        sensors, base::Fail(base::ErrorCode::kUnavailable, "a check needs no pictures"));
+        sensors, base::Fail(base::ErrorCode::kUnavailable, "a check renders no images"));
     if (!types) {
       line.exit_code = Complain(types.error());
       return;
@@ -170,12 +171,15 @@ void AddCheckCommands(const CommandLine& line) {
     bool security = false, json = false;
   };
   CLI::App* doctor = line.app.add_subcommand(
-      "doctor", "Check this machine: cameras and how fast they are, limits, ports, the broker");
+      "doctor", "Check this machine: cameras, system limits, ports and the broker");
   auto asked = std::make_shared<DoctorArguments>();
-  CLI::Option* security = doctor->add_flag(
-      "--security", asked->security, "list what of GSV can be reached here instead, and by whom");
-  doctor->add_flag("--json", asked->json, "one object a program")->needs(security);
-  doctor->add_option("--broker", asked->broker, "a broker that should answer")
+  CLI::Option* security =
+      doctor->add_flag("--security", asked->security,
+                       "list the ports of running gsv programs, and who can reach them");
+  doctor->add_flag("--json", asked->json, "print one JSON object per program, with --security")
+      ->needs(security);
+  doctor->add_option("--broker", asked->broker, "broker that must respond")
+      ->type_name("ADDRESS")
       ->envname("GSV_BROKER");
   doctor->callback([asked, line] {
     line.exit_code = asked->security ? TellExposure(asked->json) : Doctor(asked->broker);

@@ -1,4 +1,4 @@
-// Looks at simulations that run in other processes, and steers them.
+// Lists and controls simulations that run in other processes.
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
@@ -23,6 +23,8 @@ namespace gsv::app {
 namespace {
 
 using simulation::Phase;
+
+constexpr const char* kControlGroup = "Commands to control running simulations";
 
 // The object that the viewer gets too, with the server in front and the state's hash at the end.
 std::string Json(const FoundSimulation& simulation) {
@@ -68,7 +70,7 @@ struct Arguments {
   std::map<std::string, std::string> texts;  // of commands of the table, by parameter
 };
 
-// What servers of this user were running when they ended without a word.
+// The simulations of servers of this user that were killed.
 int ListLost(const Arguments& arguments) {
   int count = 0;
   for (const LostSimulation& lost : LostSimulationsNoted(arguments.selection.broker)) {
@@ -101,7 +103,7 @@ int List(const Arguments& arguments) {
   }
   const int lost = arguments.selection.server.empty() ? ListLost(arguments) : 0;
   if (simulations->empty() && lost == 0 && !arguments.json)
-    std::fprintf(stderr, "gsv: no simulation runs\n");
+    std::fprintf(stderr, "gsv: no simulation is running\n");
   return kOk;
 }
 
@@ -132,7 +134,7 @@ int Steer(const Arguments& arguments, const Call& call, bool awaits_rest, Signal
     if (!rested) return Complain(rested.error());
     if (!*rested) return kInterrupted;
   }
-  // A `gsv run` without a viewer ends when its simulation is stopped; what was seen last serves.
+  // A `gsv run` without a viewer ends when its simulation is stopped; then the last known status serves.
   if (const auto status = StatusOf(*simulation)) {
     simulation->status = *status;
   } else {
@@ -149,7 +151,7 @@ int Steer(const Arguments& arguments, const Call& call, bool awaits_rest, Signal
 std::shared_ptr<Arguments> AddSelection(CLI::App& command) {
   auto arguments = std::make_shared<Arguments>();
   AddInstanceOptions(command, arguments->selection);
-  command.add_flag("--json", arguments->json, "one JSON object a simulation and line");
+  command.add_flag("--json", arguments->json, "print one JSON object per simulation and line");
   return arguments;
 }
 
@@ -158,6 +160,7 @@ void AddSteering(const CommandLine& line, const char* name, const char* descript
                  const std::function<void(CLI::App&, Arguments&)>& add_value = {},
                  bool awaits_rest = false) {
   CLI::App* command = line.app.add_subcommand(name, description);
+  command->group(kControlGroup);
   auto arguments = AddSelection(*command);
   if (add_value) add_value(*command, *arguments);
   AddSimulationName(*command, arguments->selection);
@@ -167,13 +170,15 @@ void AddSteering(const CommandLine& line, const char* name, const char* descript
 }
 
 void AddStepCount(CLI::App& command, Arguments& arguments) {
-  command.add_option("count", arguments.steps, "how many steps")
+  command.add_option("count", arguments.steps, "number of steps")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
       ->capture_default_str();
 }
 
 void AddFactor(CLI::App& command, Arguments& arguments) {
-  command.add_option("factor", arguments.factor, "simulated seconds a second: 0.5, 1, 10")
+  command
+      .add_option("real_time_factor", arguments.factor,
+                  "simulated seconds per second of wall-clock time, such as 0.5 or 10")
       ->required();
 }
 
@@ -218,15 +223,15 @@ void AddFromTable(const CommandLine& line, const simulation::Command& command) {
 }  // namespace
 
 void AddControlCommands(const CommandLine& line) {
-  CLI::App* list = line.app.add_subcommand(
-      "ps", "List running simulations, their robots, and whom they wait for");
+  CLI::App* list = line.app.add_subcommand("ps", "List running simulations and their robots");
+  list->group(kControlGroup);
   auto arguments = AddSelection(*list);
-  list->add_option("simulation", arguments->selection.simulation, "only those of this name");
+  list->add_option("simulation", arguments->selection.simulation, "only simulations of this name");
   list->callback([arguments, line] { line.exit_code = List(*arguments); });
 
-  AddSteering(line, "pause", "Freeze a running simulation's clock",
+  AddSteering(line, "pause", "Pause a running simulation",
               [](sba::Simulation_ptr simulation, const Arguments&) { simulation->pause(); });
-  AddSteering(line, "resume", "Let a paused simulation go on, or start one that was reset",
+  AddSteering(line, "resume", "Resume a paused simulation, or start one that was reset",
               [](sba::Simulation_ptr simulation, const Arguments&) {
                 const sba::SimulationState_var state = simulation->state();
                 if (state->phase == sba::PHASE_CREATED) {
@@ -236,18 +241,19 @@ void AddControlCommands(const CommandLine& line) {
                 }
               });
   AddSteering(
-      line, "step", "Take some steps of a paused simulation, and pause again",
+      line, "step", "Take some steps of a paused simulation, then pause it again",
       [](sba::Simulation_ptr simulation, const Arguments& given) { simulation->step(given.steps); },
       &AddStepCount, true);
   AddSteering(
-      line, "factor", "Set how fast a simulation in real time goes, until it is set again",
+      line, "real-time-factor", "Set the target real-time factor of a simulation in real time",
       [](sba::Simulation_ptr simulation, const Arguments& given) {
         simulation->set_factor(given.factor);
       },
       &AddFactor);
-  AddSteering(line, "stop", "End a simulation",
+  line.app.get_subcommand("real-time-factor")->alias("factor");
+  AddSteering(line, "stop", "Stop a simulation for good",
               [](sba::Simulation_ptr simulation, const Arguments&) { simulation->stop(); });
-  AddSteering(line, "reset", "Put a simulation back to its start, where `resume` starts it",
+  AddSteering(line, "reset", "Reset a simulation to its start; `gsv resume` starts it again",
               [](sba::Simulation_ptr simulation, const Arguments&) { simulation->reset(); });
   for (const simulation::Command& command : simulation::Commands()) {
     const std::string name = Dashed(command.name);

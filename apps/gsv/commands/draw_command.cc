@@ -129,22 +129,26 @@ int Run(const DrawArguments& arguments) {
 }  // namespace
 
 void AddDrawCommand(const CommandLine& line) {
-  CLI::App* command =
-      line.app.get_subcommand("world")->add_subcommand("draw", "A picture of a world or a model");
+  CLI::App* command = line.app.get_subcommand("world")->add_subcommand(
+      "draw", "Draw an image of a world or a model");
   auto arguments = std::make_shared<DrawArguments>();
-  command->add_option("file", arguments->file, "its file, folder or name")->required();
-  command->add_option("picture", arguments->picture, "the file to write, .jpg or .png")
+  command->add_option("file", arguments->file, "file, folder or name of the world or model")
+      ->required();
+  command->add_option("picture", arguments->picture, "image to write, .jpg or .png")
       ->required()
       ->check(CheckPictureName);
-  command->add_option("--model-path", arguments->model_path, "a folder to look for models in");
+  command->add_option("--model-path", arguments->model_path, "folder to search for models")
+      ->type_name("FOLDER");
   AddLimitOption(*command, arguments->limits);
-  command->add_option("--width", arguments->width, "pixels")
+  command->add_option("--width", arguments->width, "width of the image")
+      ->type_name("PIXELS")
       ->capture_default_str()
       ->check(CLI::Range(16, rendering::kMaxImageSide));
-  command->add_option("--height", arguments->height, "pixels")
+  command->add_option("--height", arguments->height, "height of the image")
+      ->type_name("PIXELS")
       ->capture_default_str()
       ->check(CLI::Range(16, rendering::kMaxImageSide));
-  command->add_flag("--json", arguments->json, "what was read, as one JSON object");
+  command->add_flag("--json", arguments->json, "print what was read as one JSON object");
   command->callback([arguments, line] { line.exit_code = Run(*arguments); });
 }
 

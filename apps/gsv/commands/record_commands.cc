@@ -1,4 +1,4 @@
-// Switches the recording of simulations in other processes on and off.
+// Starts and stops the recording of simulations in other processes.
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -27,7 +27,7 @@ int StartRecording(const RecordArguments& arguments) {
   const auto done = orb::Call(simulation->server.Describe(),
                               [&] { simulation->reference->start_recording(path.c_str()); });
   if (!done) return Complain(done.error());
-  std::printf("%s is recorded to %s\n", simulation->status.name.c_str(), path.c_str());
+  std::printf("recording %s to %s\n", simulation->status.name.c_str(), path.c_str());
   return kOk;
 }
 
@@ -37,7 +37,7 @@ int StopRecording(const RecordArguments& arguments) {
   const auto done =
       orb::Call(simulation->server.Describe(), [&] { simulation->reference->stop_recording(); });
   if (!done) return Complain(done.error());
-  std::printf("%s is recorded no more\n", simulation->status.name.c_str());
+  std::printf("stopped recording %s\n", simulation->status.name.c_str());
   return kOk;
 }
 
@@ -51,17 +51,17 @@ void AddRecordedSimulation(CLI::App& command, Selection& selection) {
 void AddRecordCommands(const CommandLine& line) {
   CLI::App* rec = line.app.get_subcommand("rec");
 
-  CLI::App* start = rec->add_subcommand("start", "Begin to record a simulation that runs");
+  CLI::App* start = rec->add_subcommand("start", "Start recording a running simulation");
   auto start_arguments = std::make_shared<RecordArguments>();
   start
       ->add_option("file", start_arguments->file,
-                   "path on the simulation's machine: NAME.mcap is a bare file, NAME a folder for "
-                   "rosbag2")
+                   "file NAME.mcap, or folder NAME for rosbag2, on the machine of the simulation")
       ->required();
   AddRecordedSimulation(*start, start_arguments->selection);
   start->callback([start_arguments, line] { line.exit_code = StartRecording(*start_arguments); });
 
-  CLI::App* stop = rec->add_subcommand("stop", "End the recording of a simulation that runs on");
+  CLI::App* stop =
+      rec->add_subcommand("stop", "Stop the recording of a simulation; the simulation continues");
   auto stop_arguments = std::make_shared<RecordArguments>();
   AddRecordedSimulation(*stop, stop_arguments->selection);
   stop->callback([stop_arguments, line] { line.exit_code = StopRecording(*stop_arguments); });

@@ -67,8 +67,7 @@ int Recover(const RecordingArguments& arguments) {
 base::Status CheckSelection(const RecordingArguments& arguments,
                             const recording::McapReader& reader) {
   if (arguments.from > arguments.to) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "is after --to, so that no message lies between them", "--from");
+    return base::Fail(base::ErrorCode::kInvalidArgument, "must not be after --to", "--from");
   }
   for (const std::string& topic : arguments.topics) {
     const recording::Selection one{{topic}};
@@ -78,14 +77,14 @@ base::Status CheckSelection(const RecordingArguments& arguments,
       continue;
     }
     return base::Fail(base::ErrorCode::kNotFound,
-                      "the recording has no such topic; see `gsv rec info`", topic);
+                      "the recording has no such topic; `gsv rec info` lists its topics", topic);
   }
   return {};
 }
 
 void WarnIfEmpty(std::uint64_t messages, const std::string& file) {
   if (messages > 0) return;
-  std::fprintf(stderr, "gsv: warning: %s: no message lies in the selected part\n", file.c_str());
+  std::fprintf(stderr, "gsv: warning: %s: the selected part has no messages\n", file.c_str());
 }
 
 int Filter(const RecordingArguments& arguments) {
@@ -133,7 +132,9 @@ bool IsRecording(const std::string& file) {
 
 int Video(const RecordingArguments& arguments, const recording::McapReader& reader) {
   if (arguments.output.empty()) {
-    return Complain({base::ErrorCode::kInvalidArgument, "a video needs a file: -o NAME.mp4", {}});
+    return Complain({base::ErrorCode::kInvalidArgument,
+                     "cannot write the video: no file is given. Use -o NAME.mp4",
+                     {}});
   }
   VideoOptions options;
   options.output = arguments.output;
@@ -151,7 +152,7 @@ int Export(const RecordingArguments& arguments) {
   if (auto ok = CheckSelection(arguments, **reader); !ok) return Refuse(ok.error());
   if (IsRecording(arguments.output)) {
     return Complain({base::ErrorCode::kInvalidArgument,
-                     "is a recording and is not overwritten; give the table another name",
+                     "is a recording and is not overwritten; choose another output file",
                      arguments.output});
   }
   if (arguments.video) return Video(arguments, **reader);
@@ -166,7 +167,8 @@ int Export(const RecordingArguments& arguments) {
   std::ofstream file(arguments.output, std::ios::binary);
   file << *csv << std::flush;
   if (file) return kOk;
-  return Complain({base::ErrorCode::kUnavailable, "cannot write the file", arguments.output});
+  return Complain({base::ErrorCode::kUnavailable,
+                   "cannot write the file; check the folder and the free space", arguments.output});
 }
 
 // Of several that have the name, the last.
@@ -179,7 +181,7 @@ int Extract(const RecordingArguments& arguments) {
   if (found == attachments.rend()) {
     return Refuse(
         {base::ErrorCode::kNotFound,
-         "holds no attachment \"" + arguments.other + "\"; gsv rec info lists what it holds",
+         "has no attachment \"" + arguments.other + "\"; `gsv rec info` lists its attachments",
          arguments.file});
   }
   const auto attachment = (*reader)->Read(*found);
@@ -194,7 +196,8 @@ int Extract(const RecordingArguments& arguments) {
       std::fwrite(attachment->data.data(), 1, attachment->data.size(), file);
   const bool is_flushed = (arguments.output.empty() ? std::fflush(file) : std::fclose(file)) == 0;
   if (written == attachment->data.size() && is_flushed) return kOk;
-  return Complain({base::ErrorCode::kUnavailable, "cannot write all of it", where});
+  return Complain({base::ErrorCode::kUnavailable,
+                   "cannot write the whole attachment; check the free space", where});
 }
 
 int Diff(const RecordingArguments& arguments) {
@@ -209,7 +212,7 @@ int Diff(const RecordingArguments& arguments) {
     if (*difference) json.update(ToJson(**difference));
     std::puts(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
   } else {
-    std::puts(*difference ? (*difference)->Sentence().c_str() : "they tell the same");
+    std::puts(*difference ? (*difference)->Sentence().c_str() : "the recordings are equal");
   }
   return *difference ? kAssertionFailed : kOk;
 }
@@ -277,8 +280,8 @@ base::Result<std::unique_ptr<gateway::Gateway>> StartGateway(const ReplayArgumen
 
 int Replay(const ReplayArguments& arguments, Signals& signals) {
   if (arguments.json && !arguments.headless && !arguments.resimulate) {
-    return Complain(
-        {base::ErrorCode::kInvalidArgument, "goes with --headless or --resimulate", "--json"});
+    return Complain({base::ErrorCode::kInvalidArgument,
+                     "has an effect only with --headless or --resimulate", "--json"});
   }
   if (arguments.resimulate) {
     const auto end =
@@ -303,100 +306,122 @@ int Replay(const ReplayArguments& arguments, Signals& signals) {
 void AddReplayCommand(const CommandLine& line) {
   CLI::App* command = line.app.add_subcommand("replay", "Show a recording in the viewer");
   auto arguments = std::make_shared<ReplayArguments>();
-  command->add_option("file", arguments->file, "the recording")->required();
+  command->add_option("file", arguments->file, "recording: file NAME.mcap or folder NAME")
+      ->required();
   AddViewerOptions(*command, arguments->web);
-  command->add_option("--speed", arguments->options.speed, "recorded seconds a second")
+  command
+      ->add_option("--speed", arguments->options.speed,
+                   "recorded seconds per second of wall-clock time")
+      ->type_name("F")
       ->check(CLI::Range(0.001, 1000.0))
       ->capture_default_str();
-  command->add_flag("--loop", arguments->options.loop, "begin anew at the end");
+  command->add_flag("--loop", arguments->options.loop, "start again at the end");
   command->add_flag("--paused", arguments->paused,
-                    "wait at the beginning for somebody to start it");
-  command->add_flag("--headless", arguments->headless, "no viewer: read all of it, and check");
+                    "wait at the beginning until a viewer starts the replay");
+  command->add_flag("--headless", arguments->headless,
+                    "start no viewer; read the whole recording and check it");
   CLI::Option* resimulate = command->add_flag(
       "--resimulate", arguments->resimulate,
-      "no viewer: run the recorded simulation again, in lockstep, with live behaviours, and say "
-      "where the outcome first differs; exit code 1 if it does");
-  command->add_option("--broker", arguments->broker, "where a resimulation finds the behaviours")
+      "run the simulation again and print where the result first differs (exit code 1)\n"
+      "It runs in lockstep, with live behaviours and without a viewer.");
+  command->add_option("--broker", arguments->broker, "broker of the behaviours, with --resimulate")
+      ->type_name("ADDRESS")
       ->needs(resimulate);
   command
       ->add_flag("--commands", arguments->commands,
-                 "a resimulation gives the robots the recorded commands, without behaviours, and "
-                 "compares how bodies moved")
+                 "apply the recorded commands instead of behaviours, with --resimulate\n"
+                 "The motions of the bodies are compared.")
       ->needs(resimulate);
-  command->add_flag("--json", arguments->json, "with --headless or --resimulate: one JSON object");
+  command->add_flag("--json", arguments->json,
+                    "print one JSON object, with --headless or --resimulate");
   command->callback([arguments, line] { line.exit_code = Replay(*arguments, line.signals); });
 }
 
 std::shared_ptr<RecordingArguments> AddArguments(CLI::App& command) {
   auto arguments = std::make_shared<RecordingArguments>();
-  command.add_option("file", arguments->file, "the recording")->required();
-  command.add_flag("--json", arguments->json, "one JSON object");
+  command.add_option("file", arguments->file, "recording: file NAME.mcap or folder NAME")
+      ->required();
+  command.add_flag("--json", arguments->json, "print one JSON object");
   return arguments;
 }
 
 }  // namespace
 
 void AddRecordingCommands(const CommandLine& line) {
-  CLI::App* rec = line.app.add_subcommand("rec", "Look at recordings, mend them");
+  CLI::App* rec = line.app.add_subcommand("rec", "Inspect, repair and convert recordings");
   rec->require_subcommand(1);
 
-  CLI::App* info = rec->add_subcommand("info", "Print what a recording holds");
+  CLI::App* info = rec->add_subcommand("info", "Print the contents of a recording");
   const auto info_arguments = AddArguments(*info);
   info->callback([info_arguments, line] { line.exit_code = Info(*info_arguments); });
 
   CLI::App* recover =
-      rec->add_subcommand("recover", "Make a whole recording of one that was cut off or damaged");
+      rec->add_subcommand("recover", "Repair a recording that is incomplete or damaged");
   const auto recover_arguments = AddArguments(*recover);
-  recover->add_option("-o,--output", recover_arguments->output, "the file to write")->required();
+  recover->add_option("-o,--output", recover_arguments->output, "file to write")
+      ->type_name("FILE")
+      ->required();
   recover->callback([recover_arguments, line] { line.exit_code = Recover(*recover_arguments); });
 
   const auto add_selection = [](CLI::App& command, RecordingArguments& arguments) {
-    command.add_option("--topic", arguments.topics,
-                       "a topic, or with a slash at its end all below it; repeats");
-    command.add_option("--from", arguments.from, "seconds of simulated time");
-    command.add_option("--to", arguments.to, "seconds of simulated time");
+    command
+        .add_option("--topic", arguments.topics,
+                    "topic to select; a trailing slash selects all topics below it")
+        ->type_name("TOPIC");
+    command.add_option("--from", arguments.from, "first simulated time to select")
+        ->type_name("SECONDS");
+    command.add_option("--to", arguments.to, "last simulated time to select")->type_name("SECONDS");
   };
   const auto add = [&](const char* name, const char* what, auto run) {
     CLI::App* command = rec->add_subcommand(name, what);
     auto arguments = std::make_shared<RecordingArguments>();
-    command->add_option("file", arguments->file, "the recording")->required();
+    command->add_option("file", arguments->file, "recording: file NAME.mcap or folder NAME")
+        ->required();
     command->callback([arguments, line, run] { line.exit_code = run(*arguments); });
     return std::pair(command, arguments);
   };
   {
-    const auto [command, arguments] = add("cat", "Print messages, one JSON object a line", Cat);
+    const auto [command, arguments] = add("cat", "Print messages, one JSON object per line", Cat);
     add_selection(*command, *arguments);
   }
   {
     const auto [command, arguments] =
-        add("export", "Write a topic as a table (CSV), or pictures as a video", Export);
+        add("export", "Write a topic as a table (CSV), or images as a video", Export);
     add_selection(*command, *arguments);
     command->get_option("--topic")->required()->expected(1);
-    command->add_option("-o,--output", arguments->output, "the file; without it: stdout");
+    command->add_option("-o,--output", arguments->output, "file to write (default: stdout)")
+        ->type_name("FILE");
     CLI::Option* video = command->add_flag("--video", arguments->video,
-                                           "the topic's pictures as a video, by ffmpeg");
-    command->add_option("--fps", arguments->frames_a_second, "the video's frames a second")
+                                           "write the images of the topic as a video, with ffmpeg");
+    command->add_option("--fps", arguments->frames_a_second, "frames per second of the video")
+        ->type_name("HZ")
         ->check(CLI::Range(0.1, 240.0))
         ->needs(video)
         ->capture_default_str();
   }
   {
-    const auto [command, arguments] = add("filter", "Make a recording of part of one", Filter);
+    const auto [command, arguments] =
+        add("filter", "Write a part of a recording as a new recording", Filter);
     add_selection(*command, *arguments);
-    command->add_option("-o,--output", arguments->output, "the file to write")->required();
-  }
-  {
-    const auto [command, arguments] =
-        add("extract", "Write an attachment, such as scenario.yaml, as it is", Extract);
-    command->add_option("attachment", arguments->other, "its name, as gsv rec info lists it")
+    command->add_option("-o,--output", arguments->output, "file to write")
+        ->type_name("FILE")
         ->required();
-    command->add_option("-o,--output", arguments->output, "a new file; without it: stdout");
   }
   {
     const auto [command, arguments] =
-        add("diff", "Say where two recordings first differ; exit code 1 if they do", Diff);
-    command->add_option("other", arguments->other, "another recording")->required();
-    command->add_flag("--json", arguments->json, "one JSON object");
+        add("extract", "Write an attachment, such as scenario.yaml, unchanged", Extract);
+    command
+        ->add_option("attachment", arguments->other,
+                     "name of the attachment, as gsv rec info lists it")
+        ->required();
+    command->add_option("-o,--output", arguments->output, "new file to write (default: stdout)")
+        ->type_name("FILE");
+  }
+  {
+    const auto [command, arguments] =
+        add("diff", "Print where two recordings first differ; exit code 1 if they do", Diff);
+    command->add_option("other", arguments->other, "the other recording")->required();
+    command->add_flag("--json", arguments->json, "print one JSON object");
   }
 
   AddReplayCommand(line);

@@ -4,18 +4,20 @@ namespace gsv::app {
 
 void AddInstanceOptions(CLI::App& command, Selection& selection) {
   command
-      .add_option(
-          "--broker", selection.broker,
-          "broker to search, corbaloc::1.2@HOST:PORT/TradingService (default: those of your "
-          "own running gsv)")
+      .add_option("--broker", selection.broker,
+                  "broker to search for simulations (default: those of your running instances)\n"
+                  "Form: corbaloc::1.2@HOST:PORT/TradingService.")
+      ->type_name("ADDRESS")
       ->envname("GSV_BROKER");
-  command.add_option("--server", selection.server,
-                     "search only this server: its name, its process number or HOST:PID");
+  command
+      .add_option("--server", selection.server,
+                  "search only this server: its name, its PID or HOST:PID")
+      ->type_name("SERVER");
 }
 
 void AddSimulationName(CLI::App& command, Selection& selection) {
   command.add_option("simulation", selection.simulation,
-                     "name of the simulation (default: the newest run's, or the only one)");
+                     "name of the simulation (default: the newest)");
 }
 
 }  // namespace gsv::app

@@ -55,27 +55,35 @@ int Serve(const ServeArguments& arguments, Signals& signals) {
 }  // namespace
 
 void AddServeCommand(const CommandLine& line) {
-  CLI::App* command = line.app.add_subcommand("serve", "Offer simulations as a service, and wait");
+  CLI::App* command =
+      line.app.add_subcommand("serve", "Serve simulations to viewers and applications");
   auto arguments = std::make_shared<ServeArguments>();
-  command
-      ->add_option("--broker", arguments->broker,
-                   "a broker, corbaloc::1.2@HOST:PORT/TradingService; without it: one of its own")
-      ->envname("GSV_BROKER");
-  command->add_option("--name", arguments->name, "the name in the offer")->capture_default_str();
-  command->add_option("--model-path", arguments->model_path, "a folder to look for models in");
-  command->add_option("--drive", arguments->drives,
-                      "MODEL=KIND[,KEY=VALUE]...: drive of robots of this model");
-  AddSensorPluginOption(*command, arguments->sensor_plugins);
-  AddLimitOption(*command, arguments->limits, arguments->server_limits);
-  AddViewerOptions(*command, arguments->web);
-  AddRecordingsOption(*command, arguments->web);
+  constexpr const char* kServiceGroup = "Service";
+  command->add_option("--name", arguments->name, "name of this server at the broker")
+      ->capture_default_str()
+      ->type_name("NAME")
+      ->group(kServiceGroup);
+  command->add_option("--model-path", arguments->model_path, "folder to search for models")
+      ->type_name("FOLDER")
+      ->group(kServiceGroup);
+  command->add_option("--drive", arguments->drives, "drive of robots of a model")
+      ->type_name("MODEL=KIND[,KEY=VALUE]")
+      ->group(kServiceGroup);
+  AddSensorPluginOption(*command, arguments->sensor_plugins)->group(kServiceGroup);
   command
       ->add_option("--scenarios", arguments->scenarios,
-                   "take whole scenarios from campaigns (gsv campaign run --broker), so many at "
-                   "once, and run them with the behaviours that are installed here; 0: none")
+                   "scenarios of campaigns to run here in parallel\n"
+                   "`gsv campaign run --broker` sends them. They run with the behaviours that are "
+                   "installed here.")
       ->check(CLI::Range(0, 256))
-      ->capture_default_str();
-  command->add_flag("--headless", arguments->headless, "without a viewer");
+      ->capture_default_str()
+      ->type_name("N")
+      ->group(kServiceGroup);
+  command->add_flag("--headless", arguments->headless, "start no viewer")->group(kViewerGroup);
+  AddViewerOptions(*command, arguments->web);
+  AddRecordingsOption(*command, arguments->web);
+  AddBrokerOption(*command, arguments->broker);
+  AddLimitOption(*command, arguments->limits, arguments->server_limits)->group("Limits");
   command->callback([arguments, line] { line.exit_code = Serve(*arguments, line.signals); });
 }
 

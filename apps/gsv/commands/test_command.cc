@@ -150,8 +150,9 @@ int RunTests(const TestArguments& arguments, Signals& signals) {
     std::ofstream file(arguments.junit);
     file << ToJUnit(results, wall);
     if (!file.flush()) {
-      return Complain(
-          {base::ErrorCode::kUnavailable, "the report cannot be written", arguments.junit});
+      return Complain({base::ErrorCode::kUnavailable,
+                       "cannot write the report; check the folder and its permissions",
+                       arguments.junit});
     }
   }
   const std::size_t passed = Count(results, TestResult::Status::kPassed);
@@ -164,7 +165,7 @@ int RunTests(const TestArguments& arguments, Signals& signals) {
   }
   if (session.is_cancelled()) return kInterrupted;
   if (passed == results.size()) return kOk;
-  // Nothing but what is not there, or cannot be used, kept them from passing.
+  // All that did not pass had files that are missing or cannot be used.
   const bool is_bad_input = std::all_of(results.begin(), results.end(), [](const auto& result) {
     return result.is_bad_input || result.status == TestResult::Status::kPassed;
   });
@@ -174,42 +175,61 @@ int RunTests(const TestArguments& arguments, Signals& signals) {
 }  // namespace
 
 void AddTestCommand(const CommandLine& line) {
+  constexpr const char *kRunGroup = "Runs", *kResultGroup = "Results";
   CLI::App* command = line.app.add_subcommand(
-      "test", "Run scenarios in lockstep and judge what they expect; exit code 1 if one fails");
+      "test", "Run scenarios as tests; exit code 1 if an expectation is not met");
   auto arguments = std::make_shared<TestArguments>();
   command
       ->add_option("scenarios", arguments->scenarios,
-                   "files, or folders of which all *.yaml are taken")
+                   "scenario files, or folders whose *.yaml files are taken")
       ->required();
-  command->add_option("-j,--jobs", arguments->jobs, "how many at once; 0: one a processor")
+  command
+      ->add_option("-j,--jobs", arguments->jobs,
+                   "scenarios to run in parallel (default: one per CPU)")
       ->check(CLI::Range(0, 256))
-      ->capture_default_str();
+      ->type_name("N")
+      ->group(kRunGroup);
   command
       ->add_option("--repeat", arguments->options.repeat,
-                   "run each so often, and compare the states at the end")
+                   "runs per scenario, which must end in the same state")
       ->check(CLI::Range(1, 100'000))
-      ->capture_default_str();
-  command->add_option("--shard", arguments->shard, "I/N: run the I-th of N shares only")
-      ->capture_default_str();
-  command->add_option("--timeout", arguments->options.timeout, "wall seconds a run may take")
+      ->capture_default_str()
+      ->type_name("N")
+      ->group(kRunGroup);
+  command->add_option("--shard", arguments->shard, "run only the I-th of N equal shares")
+      ->capture_default_str()
+      ->type_name("I/N")
+      ->group(kRunGroup);
+  command->add_option("--timeout", arguments->options.timeout, "wall-clock time of a run")
       ->check(CLI::Range(1.0, 1e6))
-      ->capture_default_str();
-  command->add_option(
-      "--drive", arguments->options.drives,
-      "ROBOT=KIND[,KEY=VALUE]...: drive, as in gsv run; each scenario has the robot");
-  command->add_option("--junit", arguments->junit, "a file to write the results to as JUnit's XML");
+      ->capture_default_str()
+      ->type_name("SECONDS")
+      ->group("Limits");
   command
-      ->add_option("--failures", arguments->failures,
-                   "the folder in which each failure leaves a folder")
-      ->capture_default_str();
+      ->add_option("--drive", arguments->options.drives,
+                   "drive, such as husky=skid,radius=0.16\nEach scenario must have the robot.")
+      ->type_name("ROBOT=KIND[,KEY=VALUE]")
+      ->group(kRunGroup);
+  command->add_option("--junit", arguments->junit, "write the results as JUnit XML")
+      ->type_name("FILE")
+      ->group(kResultGroup);
+  command->add_option("--failures", arguments->failures, "folder for failed tests")
+      ->capture_default_str()
+      ->type_name("FOLDER")
+      ->group(kResultGroup);
   command
       ->add_option("--keep", arguments->options.kept_seconds,
-                   "simulated seconds of the recording to keep before a failure")
+                   "simulated time to keep before a failure")
       ->check(CLI::Range(0.0, 1e9))
-      ->capture_default_str();
-  command->add_flag("--no-record", arguments->no_record,
-                    "no recordings: faster, and a failure leaves none");
-  command->add_flag("--json", arguments->json, "the results as one JSON object, and nothing else");
+      ->capture_default_str()
+      ->type_name("SECONDS")
+      ->group(kResultGroup);
+  command
+      ->add_flag("--no-record", arguments->no_record,
+                 "record nothing: faster, but no recording of failures")
+      ->group(kResultGroup);
+  command->add_flag("--json", arguments->json, "print the results as one JSON object only")
+      ->group(kResultGroup);
   command->callback([arguments, line] { line.exit_code = RunTests(*arguments, line.signals); });
 }
 

@@ -12,18 +12,20 @@
 namespace gsv::app {
 namespace {
 
-// The viewer's address of an instance that is named by it, or by its offer.
+// The viewer's address of an instance, which is given by this address or by its name.
 base::Result<std::string> ViewerOf(const std::string& instance, const std::string& broker) {
   if (instance.starts_with("http://") || instance.starts_with("https://")) return instance;
   if (instance.find("://") != std::string::npos) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "a viewer's address begins with http:// or https://", instance);
+    return base::Fail(
+        base::ErrorCode::kInvalidArgument,
+        "cannot be used as the address of a viewer: it must begin with http:// or https://",
+        instance);
   }
   const auto found = FindOneInstance({broker, instance, {}});
   if (!found) return base::Fail(found.error());
   if (!found->viewer_url.empty()) return found->viewer_url;
   return base::Fail(base::ErrorCode::kUnavailable,
-                    "it was started without a viewer (--headless), so there is nothing to relay",
+                    "cannot be relayed: it runs without a viewer. Start it without --headless",
                     found->Describe());
 }
 
@@ -47,26 +49,28 @@ void AddViewCommand(const CommandLine& line) {
     std::string instance, broker, token, authority;
     ViewerOptions web;
   };
-  CLI::App* command = line.app.add_subcommand(
-      "view",
-      "Watch the simulations of another instance: its only viewer, however many watch here");
+  constexpr const char* kOtherGroup = "The other instance";
+  CLI::App* command =
+      line.app.add_subcommand("view", "Relay another instance to many viewers over one connection");
   auto arguments = std::make_shared<Arguments>();
-  command->add_option(
-      "instance", arguments->instance,
-      "the other instance: its viewer, http(s)://HOST:PORT/, or its offer's name, pid "
-      "or HOST:PID; without it: the newest of yours");
+  command->add_option("instance", arguments->instance,
+                      "viewer address http(s)://HOST:PORT/, or name, PID or HOST:PID (default: "
+                      "your newest instance)");
   command
       ->add_option("--broker", arguments->broker,
-                   "where it is offered; without it: those of your running instances")
-      ->envname("GSV_BROKER");
+                   "broker to search (default: of your own instances)")
+      ->type_name("ADDRESS")
+      ->envname("GSV_BROKER")
+      ->group(kOtherGroup);
+  command->add_option("--token", arguments->token, "control or watch token of the other instance")
+      ->type_name("TOKEN")
+      ->envname("GSV_TOKEN")
+      ->group(kOtherGroup);
   command
-      ->add_option(
-          "--token", arguments->token,
-          "the other instance's control or watch token, shown there for all who watch here")
-      ->envname("GSV_TOKEN");
-  command->add_option("--authority", arguments->authority,
-                      "a PEM file with the certificate of who signed that of the other instance, "
-                      "where that one speaks HTTPS; without it: whom this system trusts");
+      ->add_option("--authority", arguments->authority,
+                   "authority of its HTTPS, PEM (default: the system's)")
+      ->type_name("FILE")
+      ->group(kOtherGroup);
   AddViewerOptions(*command, arguments->web);
   command->callback([arguments, line] {
     base::RedactInLog(arguments->token);

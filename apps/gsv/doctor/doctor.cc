@@ -50,7 +50,7 @@ bool LookAtCameras(bool has_worlds) {
     return false;
   }
   const std::string name = (*renderer)->renderer_name();
-  std::printf("cameras: ok, drawn by %s\n", name.c_str());
+  std::printf("cameras: ok, rendered with %s\n", name.c_str());
   rendering::RendererOptions options;
   options.back_end = rendering::BackEnd::kOpenGl;
   const auto opengl = rendering::Renderer::Start(options);
@@ -59,7 +59,7 @@ bool LookAtCameras(bool has_worlds) {
   } else {
     const std::string driver = (*opengl)->renderer_name();
     std::printf("graphics driver: %s%s\n", driver.c_str(),
-                driver == name ? "" : " (no graphics card, so that it is not used)");
+                driver == name ? "" : " (not used: no graphics card)");
   }
   if (!has_worlds) return true;
   const auto rate = PictureRate(**renderer);
@@ -67,7 +67,8 @@ bool LookAtCameras(bool has_worlds) {
     std::printf("pictures: failed: %s\n", rate.error().Sentence().c_str());
     return false;
   }
-  std::printf("pictures: %.0f a second of 320x240 in the office, %d at once\n", *rate, kCameras);
+  std::printf("images: %.0f per second (320x240 pixels, world office, %d cameras)\n", *rate,
+              kCameras);
   return true;
 }
 

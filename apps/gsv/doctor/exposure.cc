@@ -102,7 +102,7 @@ const char* Name(Speaks speaks) {
     case Speaks::kCorbaTls:
       return "CORBA, TLS";
     case Speaks::kUnknown:
-      return "does not answer";
+      return "does not respond";
   }
   return "";
 }
@@ -113,15 +113,16 @@ std::string Place(const Listener& listener) {
 }
 
 std::string Reach(const Listener& listener) {
-  if (listener.port == 0) return "this user only";
-  return listener.IsLocal() ? "this machine only" : "other machines";
+  if (listener.port == 0) return "only this user";
+  return listener.IsLocal() ? "only this machine" : "other machines";
 }
 
 std::string Takes(const Exposure& exposure) {
-  if (exposure.takes_certificate) return "a certificate of its authority";
+  if (exposure.takes_certificate) return "certificate of its authority";
   if (exposure.speaks != Speaks::kHttp && exposure.speaks != Speaks::kHttps) return "no token";
-  if (exposure.watching_takes_token) return "watching takes a token";
-  return exposure.acting_takes_token ? "watching is free, acting takes a token" : "no token";
+  if (exposure.watching_takes_token) return "token required";
+  return exposure.acting_takes_token ? "token required for control, watching without token"
+                                     : "no token";
 }
 
 // The value of an option, given as "--name VALUE" or "--name=VALUE".
@@ -187,21 +188,20 @@ std::string Complaint(const Listener& listener, const Exposure& exposure) {
     case Speaks::kHttps:
       return exposure.acting_takes_token
                  ? ""
-                 : "whoever reaches it may act; start it with --control-token";
+                 : "everyone who can reach it can control it; start it with --control-token";
     case Speaks::kHttp:
       return exposure.acting_takes_token
-                 ? "tokens and all else can be read on the way; give --tls-certificate and "
+                 ? "others can read the traffic and the tokens; use --tls-certificate and "
                    "--tls-key (`gsv certificates make` makes them)"
-                 : "whoever reaches it may act; start it with --control-token, and with "
+                 : "everyone who can reach it can control it; start it with --control-token and "
                    "--tls-certificate";
     case Speaks::kCorba:
-      return "--insecure-corba lets whoever reaches it call it; give it a certificate instead "
-             "(GSV_CORBA_CERTIFICATE), let it listen on 127.0.0.1, or keep others away by a "
-             "firewall";
+      return "--insecure-corba lets everyone who can reach it control it; use a certificate "
+             "(GSV_CORBA_CERTIFICATE), listen on 127.0.0.1, or use a firewall";
     case Speaks::kCorbaTls:
-      return exposure.takes_certificate ? "" : "whoever reaches it may call it";
+      return exposure.takes_certificate ? "" : "everyone who can reach it can call it";
     case Speaks::kUnknown:
-      return "it does not answer, so that nothing can be said of it; is it stopped?";
+      return "it does not respond, so its exposure is unknown; check whether it is stopped";
   }
   return {};
 }
@@ -250,8 +250,9 @@ int TellExposure(bool json) {
                   line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     }
   }
-  if (!json && processes.empty()) std::printf("no program of GSV listens here as this user\n");
-  if (!json && complaints == 0 && !processes.empty()) std::printf("nothing to complain of\n");
+  if (!json && processes.empty())
+    std::printf("no GSV program of this user listens on this machine\n");
+  if (!json && complaints == 0 && !processes.empty()) std::printf("no problems found\n");
   return complaints == 0 ? kOk : kInfrastructure;
 }
 

@@ -19,9 +19,9 @@ TEST(Exposure, OnThisMachineOnlyIsNeverComplainedOf) {
 
 TEST(Exposure, AViewerBeyondThisMachineNeedsTokensAndTls) {
   Exposure exposure{Speaks::kHttp};
-  EXPECT_THAT(Complaint(kOpen, exposure), HasSubstr("whoever reaches it may act"));
+  EXPECT_THAT(Complaint(kOpen, exposure), HasSubstr("everyone who can reach it can control it"));
   exposure.acting_takes_token = true;
-  EXPECT_THAT(Complaint(kOpen, exposure), HasSubstr("can be read on the way"));
+  EXPECT_THAT(Complaint(kOpen, exposure), HasSubstr("can read the traffic"));
   exposure.speaks = Speaks::kHttps;
   EXPECT_EQ(Complaint(kOpen, exposure), "") << "watching may be free";
   exposure.acting_takes_token = false;
@@ -31,13 +31,13 @@ TEST(Exposure, AViewerBeyondThisMachineNeedsTokensAndTls) {
 TEST(Exposure, CorbaBeyondThisMachineNeedsCertificates) {
   EXPECT_THAT(Complaint(kOpen, {Speaks::kCorba}), HasSubstr("--insecure-corba"));
   Exposure exposure{Speaks::kCorbaTls};
-  EXPECT_EQ(Complaint(kOpen, exposure), "whoever reaches it may call it");
+  EXPECT_EQ(Complaint(kOpen, exposure), "everyone who can reach it can call it");
   exposure.takes_certificate = true;
   EXPECT_EQ(Complaint(kOpen, exposure), "");
 }
 
 TEST(Exposure, WhatDoesNotAnswerIsSuspect) {
-  EXPECT_THAT(Complaint(kOpen, {Speaks::kUnknown}), HasSubstr("it does not answer"));
+  EXPECT_THAT(Complaint(kOpen, {Speaks::kUnknown}), HasSubstr("it does not respond"));
 }
 
 }  // namespace

@@ -32,12 +32,12 @@ bool CheckDescriptors() {
   getrlimit(RLIMIT_NOFILE, &limit);
   const auto may = static_cast<unsigned long long>(limit.rlim_cur);
   if (limit.rlim_cur >= kEnoughDescriptors) {
-    std::printf("descriptors: ok, %llu may be open\n", may);
+    std::printf("file descriptors: ok, at most %llu\n", may);
     return true;
   }
   std::printf(
-      "descriptors: few, %llu may be open, and each behaviour and viewer takes one; "
-      "`ulimit -n 4096` allows more\n",
+      "file descriptors: low limit, at most %llu; each behaviour and viewer needs one. Use `ulimit "
+      "-n 4096`\n",
       may);
   return false;
 }
@@ -47,11 +47,10 @@ void CheckPriority() {
   rlimit limit{};
   getrlimit(RLIMIT_NICE, &limit);
   if (geteuid() == 0 || limit.rlim_cur >= 30) {
-    std::printf("priority: ok, steps go before behaviours\n");
+    std::printf("priority: ok, steps run before behaviours\n");
   } else {
     std::printf(
-        "priority: usual; in real time steps of crowds may be late. `ulimit -e 30` lets "
-        "them go first\n");
+        "priority: default; with many robots, real-time steps may be late. Use `ulimit -e 30`\n");
   }
 }
 
@@ -69,7 +68,7 @@ void CheckPort(std::uint16_t port, const char* whose, const char* otherwise) {
   if (is_free) {
     std::printf("port %d (%s): free\n", port, whose);
   } else {
-    std::printf("port %d (%s): not free: %s; %s\n", port, whose, std::strerror(why), otherwise);
+    std::printf("port %d (%s): in use: %s; %s\n", port, whose, std::strerror(why), otherwise);
   }
 }
 
@@ -79,7 +78,8 @@ void CheckLibrary(const char* name, const char* what, const char* package) {
     std::printf("%s: ok\n", what);
     dlclose(library);
   } else {
-    std::printf("%s: none; it is used with graphics cards: apt-get install %s\n", what, package);
+    std::printf("%s: not installed; needed for graphics cards: apt-get install %s\n", what,
+                package);
   }
 }
 
@@ -98,8 +98,8 @@ bool CheckRoom() {
   const double gigabytes =
       static_cast<double>(room.f_bavail) * static_cast<double>(room.f_frsize) / 1e9;
   const bool is_enough = gigabytes >= kEnoughRoom;
-  std::printf("room for recordings here: %s, %.1f GB%s\n", is_enough ? "ok" : "little", gigabytes,
-              is_enough ? "" : "; name another folder with --recordings");
+  std::printf("free space for recordings: %s, %.1f GB%s\n", is_enough ? "ok" : "little", gigabytes,
+              is_enough ? "" : "; choose another folder with --recordings");
   return is_enough;
 }
 
@@ -118,12 +118,13 @@ bool CheckUserFolder() {
 bool CheckMachine() {
   const bool descriptors = CheckDescriptors();
   CheckPriority();
-  CheckPort(8080, "the viewer's usual one", "gsv takes another, or the one of --port");
+  CheckPort(8080, "default port of the viewer", "gsv uses another free port, or the one of --port");
   CheckLibrary("libEGL.so.1", "EGL", "libegl1 libgl1-mesa-dri");
-  std::printf("video: %s\n",
-              IsOnPath("ffmpeg")
-                  ? "ok, ffmpeg is there"
-                  : "no ffmpeg; `gsv rec export --video` takes it: apt-get install ffmpeg");
+  std::printf(
+      "video: %s\n",
+      IsOnPath("ffmpeg")
+          ? "ok, ffmpeg is installed"
+          : "ffmpeg is not installed; `gsv rec export --video` needs it: apt-get install ffmpeg");
   const bool folder = CheckUserFolder();
   const bool room = CheckRoom();
   return descriptors && folder && room;
@@ -134,7 +135,7 @@ bool CheckBroker(const std::string& broker) {
   if (reference.empty()) {
     const std::vector<Instance> instances = RunningInstances();
     if (instances.empty()) {
-      std::printf("broker: none is named, and none is needed: gsv run starts its own\n");
+      std::printf("broker: none given, none needed: `gsv run` starts its own\n");
       return true;
     }
     reference = instances.front().broker;
@@ -152,10 +153,10 @@ bool CheckBroker(const std::string& broker) {
     }
   }
   if (reached) {
-    std::printf("broker: ok, it answers at %s\n", normalised->c_str());
+    std::printf("broker: ok, responds at %s\n", normalised->c_str());
     return true;
   }
-  std::printf("broker: does not answer: %s; `gsv broker --port N` starts one\n",
+  std::printf("broker: does not respond: %s; start one with `gsv broker --port N`\n",
               reached.error().Sentence().c_str());
   return broker.empty();  // who is not named may just have ended
 }

@@ -12,7 +12,7 @@ gateway::Response Dismiss(LostSimulations& lost, const std::string& text) {
   const char* const end = text.data() + text.size();
   const auto [last, error] = std::from_chars(text.data(), end, number);
   if (error != std::errc() || last != end || !lost.Dismiss(number)) {
-    return gateway::ErrorResponse(404, "nothing that was lost has this number; see /api/lost");
+    return gateway::ErrorResponse(404, "no crash report has this number; /api/lost lists them");
   }
   return gateway::JsonResponse(200, "{}");
 }
@@ -37,12 +37,12 @@ std::vector<gateway::Route> LostRoutes(LostSimulations& lost) {
   return {
       {"GET", "/api/lost", kWatch, false, kReaders,
        [&lost](const gateway::Request&) { return List(lost); },
-       "What servers with this folder of recordings were running when they were killed"},
+       "List the simulations of servers that were killed"},
       {"DELETE", "/api/lost/{number}", kControl, false, kCommanders,
        [&lost](const gateway::Request& request) {
          return Dismiss(lost, request.Parameter("number"));
        },
-       "It was noticed, and is told no more"},
+       "Dismiss a crash report"},
   };
 }
 

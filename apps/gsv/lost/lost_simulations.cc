@@ -34,7 +34,7 @@ LostSimulations::LostSimulations(const Server& server, services::SimulationHost&
   note_.recordings = server.recordings;
   const auto folder = NotesFolder();
   if (!folder) {
-    spdlog::warn("what runs here would not be missed after a crash: {}", folder.error().Sentence());
+    spdlog::warn("cannot write crash reports for this server: {}", folder.error().Sentence());
     return;
   }
   file_ = NoteFile(*folder, note_);
@@ -108,8 +108,7 @@ void LostSimulations::Write() {
   for (auto& [number, each] : List()) note.lost.push_back(std::move(each));
   const auto written = WriteNote(file_, note);
   if (!written && std::exchange(could_write_, false)) {
-    spdlog::warn("what runs here would not be missed after a crash: {}",
-                 written.error().Sentence());
+    spdlog::warn("cannot write crash reports for this server: {}", written.error().Sentence());
   }
   if (written) could_write_ = true;
 }

@@ -122,14 +122,13 @@ std::optional<ServerNote> ReadNote(const fs::path& file) {
 }  // namespace
 
 std::string Sentence(const LostSimulation& lost) {
-  std::string recording = "it was not being recorded";
+  std::string recording = "it was not recorded";
   if (!lost.recording.empty()) {
     recording = "recording " + lost.recording;
     if (lost.whole_until_s) recording += fmt::format(", whole until {:.1f} s", *lost.whole_until_s);
   }
-  return fmt::format(
-      "{} on {} was lost at about {:.1f} s ({}), when its server ended without a word; {}",
-      lost.name, lost.server, lost.time_s, lost.phase, recording);
+  return fmt::format("{} on {} was lost at about {:.1f} s ({}), when its server was killed; {}",
+                     lost.name, lost.server, lost.time_s, lost.phase, recording);
 }
 
 nlohmann::ordered_json Describe(const LostSimulation& lost) {
@@ -209,7 +208,7 @@ NotesFound ReadNotes(const fs::path& folder) {
       found.notes.push_back({file, *std::move(note)});
     } else if (fs::exists(fs::symlink_status(file, gone))) {
       found.problems.push_back({base::Problem::Severity::kWarning,
-                                "it is no note of a server, and is thrown away", file.string()});
+                                "it is not a note of a server and is ignored", file.string()});
       found.broken.push_back(file);
     }
   }

@@ -24,7 +24,7 @@ struct LostSimulation {
   std::string name, world, phase;
   double time_s = 0;                    // simulated, when it was noted last
   std::int64_t noted = 0;               // that instant, s since 1970
-  std::string recording;                // a file or folder; empty: it was not being recorded
+  std::string recording;                // a file or folder; empty: it was not recorded
   std::optional<double> whole_until_s;  // the recording's last message, once it was looked at
   std::string server;                   // who ran it: "gsv (process 123)"
 };

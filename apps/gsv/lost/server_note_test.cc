@@ -125,7 +125,7 @@ TEST(LostSimulationSentence, SaysWhatIsLeft) {
   EXPECT_EQ(Sentence(lost), begin + "recording /r/x.mcap, whole until 11.9 s");
   EXPECT_EQ(Describe(lost)["whole_until_s"], 11.94);
   lost.recording.clear();
-  EXPECT_EQ(Sentence(lost), begin + "it was not being recorded");
+  EXPECT_EQ(Sentence(lost), begin + "it was not recorded");
 }
 
 }  // namespace

@@ -78,8 +78,9 @@ base::Status Confine(const Confinement& bounds) {
     is_confined = true;
     return {};
   }
-  return base::Fail(base::ErrorCode::kUnavailable,
-                    std::string("this process cannot be confined: ") + std::strerror(errno));
+  return base::Fail(
+      base::ErrorCode::kUnavailable,
+      std::string("cannot limit the resources of this process: ") + std::strerror(errno));
 }
 
 }  // namespace gsv::app

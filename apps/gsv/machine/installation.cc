@@ -41,7 +41,8 @@ base::Result<std::string> FindWorld(const std::string& world) {
   std::string names;
   for (const std::string& name : OurWorlds()) names += (names.empty() ? "" : ", ") + name;
   return base::Fail(base::ErrorCode::kNotFound,
-                    "there is no such file, and no world of this name; there are " + names, world);
+                    "there is no file or built-in world of this name; built-in worlds are " + names,
+                    world);
 }
 
 base::Problems CheckModelPath(const std::vector<std::string>& model_path) {
@@ -50,8 +51,9 @@ base::Problems CheckModelPath(const std::vector<std::string>& model_path) {
     std::error_code ignored;
     if (fs::is_directory(folder, ignored)) continue;
     problems.push_back({base::Problem::Severity::kWarning,
-                        fs::exists(folder, ignored) ? "is no folder; no model is looked for there"
-                                                    : "there is no such folder",
+                        fs::exists(folder, ignored)
+                            ? "is not a folder; it is not searched for models"
+                            : "there is no such folder",
                         "--model-path " + folder});
   }
   return problems;

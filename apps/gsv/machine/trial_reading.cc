@@ -45,12 +45,12 @@ base::Status TryToRead(const std::string& world,
       ending == ExitedWith(kWantsMoreMemory)
           ? "reading it takes more than " + std::to_string(limits.confinement.memory_bytes) +
                 " bytes of memory"
-      : ending.empty() ? "reading it does not come to an end within " +
-                             std::to_string(limits.wall_time.count()) + " s"
+      : ending.empty()
+          ? "reading it takes longer than " + std::to_string(limits.wall_time.count()) + " s"
       : ending.starts_with("signal") ? "reading it crashes, or takes too long (" + ending + ")"
                                      : "reading it fails (" + ending + ")";
   return base::Fail(base::ErrorCode::kBadModel,
-                    why + "; it was tried in a process of its own, and is not read here", world);
+                    why + "; a separate process tried it, so it is not read here", world);
 }
 
 }  // namespace gsv::app

@@ -25,10 +25,10 @@ int EndOutput(std::FILE* output, int exit_code) {
   if (!has_failed && is_flushed) return exit_code;
   if (error != EPIPE && !HasLostItsReader(output)) {
     const std::string why = error != 0 ? std::string(": ") + std::strerror(error) : "";
-    std::fprintf(stderr,
-                 "gsv: not all of the output could be written to standard output%s; check the free "
-                 "space of its disk\n",
-                 why.c_str());
+    std::fprintf(
+        stderr,
+        "gsv: cannot write all output to standard output%s; check the free space of the disk\n",
+        why.c_str());
   }
   return exit_code == kOk ? static_cast<int>(kInfrastructure) : exit_code;
 }

@@ -56,7 +56,7 @@ TEST(StandardOutput, ThatWasLostEarlierIsNoSuccess) {
   EXPECT_NE(std::fflush(output.get()), 0);
   const Ending ending = EndOf(output.get(), "", kOk);
   EXPECT_EQ(ending.exit_code, kInfrastructure);
-  EXPECT_THAT(ending.errors, HasSubstr("not all of the output could be written"));
+  EXPECT_THAT(ending.errors, HasSubstr("cannot write all output"));
 }
 
 TEST(StandardOutput, ThatIsLostKeepsTheExitCodeOfAnotherFailure) {

@@ -66,7 +66,7 @@ base::Status PrepareDrives(const std::string& file, formats::ModelLibrary& libra
   for (const std::string& name : *left) {
     if (!HasModel(*world, name)) {
       return base::Fail(base::ErrorCode::kInvalidArgument,
-                        "there is no robot of that name or model, neither added nor in the world",
+                        "there is no robot of this name or model; check --robot and the world",
                         "--drive " + name);
     }
     const scenario::RobotEntry entry{.name = name, .drive = options.drive_of.at(name)};

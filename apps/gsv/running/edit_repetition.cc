@@ -192,14 +192,14 @@ base::Result<RecordedDoings> ReadDoings(const recording::McapReader& reader,
   }
   doings.was_held_up = doings.was_held_up || !has_finished;
   if (doings.edits.empty() && !told.empty()) {
-    return NotAgain(file, "somebody changed what stands there by hand (" + told[0].event + " " +
-                              told[0].robot + " " + AtInstant(messages::ToSimTime(told[0].stamp)) +
-                              "), and this recording does not hold how");
+    return NotAgain(file, "a viewer edited the world (" + told[0].event + " " + told[0].robot +
+                              " " + AtInstant(messages::ToSimTime(told[0].stamp)) +
+                              "), and this recording does not contain the edits");
   }
   for (const Edit& edit : doings.edits) {
     if (by_commands || edit.moment != Edit::Moment::kAmidTurns) continue;
-    return NotAgain(file, "\"" + (edit.body.empty() ? edit.command : edit.body) +
-                              "\" was changed by hand " + AtInstant(edit.time) +
+    return NotAgain(file, "\"" + (edit.body.empty() ? edit.command : edit.body) + "\" was edited " +
+                              AtInstant(edit.time) +
                               " while behaviours ran, and nobody knows which of them saw it; try "
                               "--commands, by which they do what they did,");
   }

@@ -15,7 +15,7 @@ bool EndsAsPng(const std::string& path) { return path.ends_with(".png"); }
 
 std::string CheckPictureName(const std::string& path) {
   if (EndsAsPng(path) || path.ends_with(".jpg") || path.ends_with(".jpeg")) return {};
-  return "a picture's name ends with .jpg, .jpeg or .png, and " + path + " does not";
+  return "the name of an image must end with .jpg, .jpeg or .png, but " + path + " does not";
 }
 
 base::Status WritePicture(const model::Image& picture, const std::string& path) {
@@ -27,7 +27,7 @@ base::Status WritePicture(const model::Image& picture, const std::string& path) 
              static_cast<std::streamsize>(bytes->size()));
   if (file.flush()) return {};
   return base::Fail(base::ErrorCode::kUnavailable,
-                    "cannot be written; name a file in a folder that is there", path);
+                    "cannot be written; choose a file in an existing folder", path);
 }
 
 base::Status DrawAround(const std::shared_ptr<const world::Snapshot>& snapshot,

@@ -36,7 +36,8 @@ std::vector<std::string> MotionTopics() {
 
 base::Error NotOfARun(const std::string& file) {
   return {base::ErrorCode::kInvalidArgument,
-          "does not say how it was made: only recordings of gsv run can be simulated again", file};
+          "does not contain its command: only recordings of `gsv run` can be simulated again",
+          file};
 }
 
 // How the recorded run was called.
@@ -73,8 +74,7 @@ base::Result<RunOptions> OptionsOf(const RecordedCall& call, const std::string& 
   } catch (const CLI::ParseError& error) {
     return base::Fail(
         base::ErrorCode::kInvalidArgument,
-        std::string("was made by a command that this version does not know: ") + error.what(),
-        file);
+        std::string("was made with a command that this version cannot run: ") + error.what(), file);
   }
   arguments.broker.clear();
   arguments.lockstep = true;
@@ -191,14 +191,13 @@ base::Status CheckThatItIsWhole(const recording::RecordingInfo& info) {
                       "cannot be simulated again: " + reason + "; replay it instead", info.path);
   };
   if (info.start > base::SimTime(0)) {
-    return refuse(
-        fmt::format("it begins in mid-run, at {:.3f} s, and what came before is not known",
-                    base::ToSeconds(info.start)));
+    return refuse(fmt::format("it starts at {:.3f} s, in the middle of the run",
+                              base::ToSeconds(info.start)));
   }
   for (const recording::MetadataRecord& record : info.metadata) {
     const auto edited = record.values.find("edited");
     if (edited == record.values.end() || edited->second != "true") continue;
-    return refuse("somebody changed what stands there by hand before it was recorded");
+    return refuse("a viewer edited the world before the recording started");
   }
   return {};
 }
@@ -225,8 +224,7 @@ base::Result<base::SimTime> EndOf(const recording::RecordingInfo& info,
   if (with_people) return info.end;
   const auto end = recording::EndOfSteps(reader);
   if (!end || *end > base::SimTime(0)) return end;
-  return base::Fail(base::ErrorCode::kInvalidArgument,
-                    "cannot be simulated again: it was stopped before a step was recorded",
+  return base::Fail(base::ErrorCode::kInvalidArgument, "cannot be simulated again: it has no steps",
                     info.path);
 }
 
@@ -241,15 +239,15 @@ void Print(const std::optional<recording::Difference>& difference,
     if (difference) report["first_difference"] = ToJson(*difference);
     std::puts(report.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
   } else if (difference) {
-    std::printf("simulated again, it differs: %s\n", difference->Sentence().c_str());
+    std::printf("the new run differs: %s\n", difference->Sentence().c_str());
   } else {
-    std::printf("simulated again, it is the same: %llu messages, %.3f s\n",
+    std::printf("the new run is equal: %llu messages, %.3f s\n",
                 static_cast<unsigned long long>(info.messages), base::ToSeconds(info.duration()));
   }
   if (json || left_out == 0) return;
   std::printf(
-      "the recording has gaps: %llu snapshots or messages were left out, since the recorder did "
-      "not keep up; what it lacks was neither compared nor, of commands, done again\n",
+      "the recording has gaps: the recorder was too slow and left out %llu snapshots or messages. "
+      "These were not compared, and missing commands were not applied\n",
       static_cast<unsigned long long>(left_out));
 }
 
@@ -273,7 +271,7 @@ base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signal
   std::filesystem::current_path(call->folder, error);
   if (error) {
     return base::Fail(base::ErrorCode::kNotFound,
-                      "the folder in which it was recorded cannot be entered: " + error.message(),
+                      "cannot open the folder in which it was recorded: " + error.message(),
                       call->folder);
   }
   auto run = OptionsOf(*call, options.file);

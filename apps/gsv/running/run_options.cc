@@ -13,107 +13,179 @@
 
 namespace gsv::app {
 
-void AddRunOptions(CLI::App& command, RunArguments& a) {
+namespace {
+
+void AddWorldOptions(CLI::App& command, RunArguments& a) {
+  constexpr const char* kGroup = "World and robots";
   command.add_option(
       "world", a.world,
-      "a world's file, a model to use as one, one of ours (office, maze, "
-      "warehouse, yard, playground, hall), or a scenario, NAME.yaml, which says all of it "
-      "and over which the options go; without one: the office with five robots");
-  command.add_option("--name", a.name, "of the simulation; without it: simulation");
-  command.add_option(
-      "--robot", a.robots,
-      "MODEL[@x,y[,yaw]]: a robot and where it starts; metres, yaw in radians or as 90deg");
-  command.add_option("--behaviour", a.behaviours,
-                     "NAME for all robots, or ROBOT=NAME for one: a behaviour that is offered, or "
-                     "a program gsv-NAME to start; its options may follow: 'goto --goal-x 3'");
-  command.add_option(
-      "--movement", a.movements,
-      "ROBOT=rigid (a name, or a model of --robot): by forces, as its wheels roll; ROBOT=planar: "
-      "by its drive alone, over level ground. Without it: as its model says, else planar");
-  command.add_option(
-      "--drive", a.drives,
-      "ROBOT=KIND[,KEY=VALUE]...: drive, as husky=skid,radius=0.16 (default: model's or guess)");
-  command.add_flag("--in-process", a.in_process,
-                   "run the behaviours inside gsv, from their plug-ins gsv-NAME.so: the same "
-                   "outcome, and many more robots");
+      "world file, built-in world (office, maze, warehouse, yard, playground, hall), "
+      "model, or scenario file NAME.yaml (default: office with five robots)\n"
+      "The options override what a scenario file says.");
+  command.add_option("--robot", a.robots, "add a robot at a pose (m, rad; yaw also as 90deg)")
+      ->type_name("MODEL[@X,Y[,YAW]]")
+      ->group(kGroup);
+  command.add_option("--avatar", a.avatars, "add an avatar that people steer from the viewer")
+      ->type_name("MODEL[@X,Y[,YAW]]")
+      ->group(kGroup);
   command
-      .add_option("--threads", a.threads,
-                  "threads that move bodies and run behaviours in process; 0: in lockstep as many "
-                  "as there are processors, else one. The outcome is the same")
-      ->check(CLI::Range(0, 256))
-      ->capture_default_str();
-  command.add_option("--avatar", a.avatars,
-                     "MODEL[@x,y[,yaw]]: a person in the world, steered from the viewer");
-  command.add_option("--pedestrians", a.pedestrians,
-                     "COUNT@x,y[,radius][:x,y[,radius]...]: people who walk from place to place");
-  CLI::Option* lockstep = command.add_flag(
-      "--lockstep", a.lockstep,
-      "as fast as possible and reproducible: every step waits for every behaviour");
+      .add_option("--pedestrians", a.pedestrians,
+                  "add pedestrians who walk from place to place\n"
+                  "Places are separated by colons, such as 20@-4,0,1:4,0,1.")
+      ->type_name("COUNT@X,Y[,RADIUS]...")
+      ->group(kGroup);
   command
-      .add_flag("--real-time", a.real_time,
-                "paced by the wall clock, also where a scenario says lockstep")
-      ->excludes(lockstep);
-  command.add_option("--factor", a.factor, "simulated seconds a wall second, in real time")
-      ->default_str("1");
-  command.add_option("--duration", a.duration,
-                     "simulated seconds after which the run ends; without it: Ctrl-C");
-  command.add_option("--step", a.step, "seconds a step; without it: the world's max_step_size");
-  command.add_option("--seed", a.seed, "seed of all noise")->default_str("0");
+      .add_option("--movement", a.movements,
+                  "rigid-body dynamics, or 2D kinematics on level ground (default: as the model "
+                  "says, else planar)\n"
+                  "ROBOT is the name of a robot, or a model of --robot.")
+      ->type_name("ROBOT=rigid|planar")
+      ->group(kGroup);
   command
-      .add_option("--deadline", a.deadline, "wall seconds a behaviour may run before it must wait")
-      ->default_str("10");
+      .add_option("--drive", a.drives,
+                  "drive, such as husky=skid,radius=0.16\nWithout this option, the model says it, "
+                  "or gsv guesses it.")
+      ->type_name("ROBOT=KIND[,KEY=VALUE]")
+      ->group(kGroup);
+  command.add_option("--model-path", a.model_path, "folder to search for models")
+      ->type_name("FOLDER")
+      ->group(kGroup);
+  AddSensorPluginOption(command, a.sensor_plugins)->group(kGroup);
+  command.add_option("--name", a.name, "name of the simulation (default: simulation)")
+      ->type_name("NAME")
+      ->group(kGroup);
+  command.add_option("--seed", a.seed, "seed of all noise")
+      ->default_str("0")
+      ->type_name("N")
+      ->group(kGroup);
+  command
+      .add_flag("--strict", a.strict,
+                "refuse to run when there are warnings\nWarnings name elements of files that gsv "
+                "repairs or does not support.")
+      ->group(kGroup);
+}
+
+void AddBehaviourOptions(CLI::App& command, RunArguments& a) {
+  constexpr const char* kGroup = "Behaviours";
+  command
+      .add_option("--behaviour", a.behaviours,
+                  "behaviour of all robots, or of one robot\nIts options may follow, such as 'goto "
+                  "--goal-x 3'. "
+                  "NAME is a behaviour that the broker offers, or a program gsv-NAME to start.")
+      ->type_name("[ROBOT=]NAME")
+      ->group(kGroup);
+  command
+      .add_flag("--in-process", a.in_process,
+                "run behaviours inside gsv, from plug-ins gsv-NAME.so\n"
+                "The results are the same, and a machine can run many more robots.")
+      ->group(kGroup);
   command
       .add_option("--on-failure", a.mode_on_failure,
-                  "when a behaviour dies or hangs: go_on or fail")
+                  "after a crash or hang: continue, or fail the run")
       ->check(CLI::IsMember({"go_on", "fail"}))
-      ->default_str("go_on");
+      ->default_str("go_on")
+      ->type_name("go_on|fail")
+      ->group(kGroup);
+  command.add_option("--deadline", a.deadline, "wall-clock time between two waits of a behaviour")
+      ->default_str("10")
+      ->type_name("SECONDS")
+      ->group(kGroup);
+}
+
+void AddTimeOptions(CLI::App& command, RunArguments& a) {
+  constexpr const char* kGroup = "Time";
+  CLI::Option* lockstep = command
+                              .add_flag("--lockstep", a.lockstep,
+                                        "run as fast as possible, with reproducible results\n"
+                                        "Every step waits for every behaviour.")
+                              ->group(kGroup);
+  command.add_flag("--real-time", a.real_time, "follow the wall clock, even in lockstep scenarios")
+      ->excludes(lockstep)
+      ->group(kGroup);
   command
-      .add_option("--wall-timeout", a.wall_timeout,
-                  "wall seconds after which the run is given up with exit code 124")
-      ->check(CLI::NonNegativeNumber);
+      .add_option("--real-time-factor,--factor", a.factor,
+                  "simulated seconds per wall-clock second\n"
+                  "--factor is the former name of this option.")
+      ->default_str("1")
+      ->type_name("F")
+      ->group(kGroup);
+  command.add_option("--duration", a.duration, "simulated time of the run (default: until Ctrl-C)")
+      ->type_name("SECONDS")
+      ->group(kGroup);
+  command.add_option("--step", a.step, "simulated time of a step (default: from the world)")
+      ->type_name("SECONDS")
+      ->group(kGroup);
   command
-      .add_option("--record", a.record,
-                  "write a recording: NAME.mcap is a bare file, NAME a folder that rosbag2 opens")
+      .add_option("--threads", a.threads,
+                  "threads for physics and behaviours (default: auto)\n"
+                  "Auto, or 0, means one per processor in lockstep, else one. Only in-process "
+                  "behaviours use them. The results "
+                  "do not depend on it.")
+      ->check(CLI::Range(0, 256))
+      ->type_name("N")
+      ->group(kGroup);
+}
+
+void AddRecordOptions(CLI::App& command, RunArguments& a) {
+  constexpr const char* kGroup = "Recording";
+  command.add_option("--record", a.record, "record to file NAME.mcap or to rosbag2 folder NAME")
       ->check([](const std::string& name) {
         return name == "true" || name == "false"
-                   ? "it is a file, NAME.mcap, or a folder, found \"" + name + "\""
+                   ? "expected a file NAME.mcap or a folder, found \"" + name + "\""
                    : std::string();
-      });
+      })
+      ->type_name("NAME")
+      ->group(kGroup);
   command
       .add_option("--record-topics", a.record_topics,
-                  "record these only, separated by commas; with a slash at its end a topic stands "
-                  "for all below it. A replay needs /gsv/poses")
-      ->delimiter(',');
+                  "topics to record; TOPIC/ selects all topics below\n"
+                  "Topics are separated by commas. A replay needs /gsv/poses.")
+      ->delimiter(',')
+      ->type_name("TOPIC,...")
+      ->group(kGroup);
   command
       .add_option("--record-rate", a.record_rates,
-                  "KIND=HZ of simulated time, separated by commas: poses=50, readings=20, "
-                  "pictures=1, beams=10 if not said otherwise")
-      ->delimiter(',');
-  command.add_option("--record-pictures", a.record_pictures, "jpeg or png")
+                  "rates in simulated time (default: poses=50,readings=20,pictures=1,beams=10)")
+      ->delimiter(',')
+      ->type_name("KIND=HZ,...")
+      ->group(kGroup);
+  command.add_option("--record-pictures", a.record_pictures, "encoding of recorded images")
       ->check(CLI::IsMember({"jpeg", "png"}))
-      ->default_str("jpeg");
+      ->default_str("jpeg")
+      ->type_name("jpeg|png")
+      ->group(kGroup);
   command
-      .add_option("--broker", a.broker,
-                  "a broker, corbaloc::1.2@HOST:PORT/TradingService; without it: one of its own")
-      ->envname("GSV_BROKER");
-  command.add_option("--model-path", a.model_path, "a folder to look for models in");
-  AddSensorPluginOption(command, a.sensor_plugins);
-  AddLimitOption(command, a.limits, a.server_limits);
+      .add_option("--failure-picture", a.failure_picture,
+                  "image of the first violated expectation (.jpg, .png)")
+      ->type_name("FILE")
+      ->group(kGroup);
+}
+
+}  // namespace
+
+void AddRunOptions(CLI::App& command, RunArguments& a) {
+  AddWorldOptions(command, a);
+  AddBehaviourOptions(command, a);
+  AddTimeOptions(command, a);
+  AddRecordOptions(command, a);
+  command.add_flag("--headless", a.headless, "start no viewer")->group(kViewerGroup);
+  command.add_flag("--open", a.open, "open the viewer in a browser")->group(kViewerGroup);
   AddViewerOptions(command, a.web);
   AddRecordingsOption(command, a.web);
-  command.add_flag("--strict", a.strict,
-                   "refuse to run when files are repaired or not carried out in full");
-  command.add_flag("--headless", a.headless, "without a viewer");
-  command.add_flag("--open", a.open, "open the viewer in a browser");
-  command.add_option("--failure-picture", a.failure_picture,
-                     "a file, .jpg or .png, for a picture of the world when an expectation of the "
-                     "scenario is first violated");
-  command.add_flag("--json", a.json, "the last line on stdout is the result as JSON");
+  AddBrokerOption(command, a.broker);
+  AddLimitOption(command, a.limits, a.server_limits)->group("Limits");
+  command
+      .add_option("--wall-timeout", a.wall_timeout,
+                  "abort after this wall-clock time (exit code 124)")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("SECONDS")
+      ->group("Limits");
+  command.add_flag("--json", a.json, "print the result as JSON on the last line");
 }
 
 namespace {
 
-constexpr double kDeadline = 10;  // s of wall time
+constexpr double kDeadline = 10;  // s of wall-clock time
 
 base::Result<base::SimTime> Time(double seconds, const char* option) {
   if (!std::isfinite(seconds) || seconds < 0 || seconds > 1e9) {
@@ -157,7 +229,7 @@ base::Status UnderstandTopics(const std::vector<std::string>& topics) {
   for (const std::string& topic : topics) {
     if (topic.starts_with('/')) continue;
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "a topic begins with a slash, as /gsv/poses and /ROBOT/SENSOR do",
+                      "a topic must begin with a slash, such as /gsv/poses or /ROBOT/SENSOR",
                       "--record-topics " + topic);
   }
   return {};
@@ -173,7 +245,7 @@ base::Status UnderstandRobots(const std::vector<std::string>& texts,
   return {};
 }
 
-// What the file says, or what stands for it.
+// The scenario of the file, or the default one.
 base::Result<scenario::Scenario> ScenarioToStartFrom(const RunArguments& a,
                                                      base::Problems& problems) {
   scenario::Scenario scenario;
@@ -195,7 +267,7 @@ void Override(std::optional<Value>& value, const std::optional<Value>& given) {
   if (given) value = given;
 }
 
-// What the command line says goes over what the file says.
+// Options override the scenario file.
 void Override(scenario::Scenario& scenario, const RunArguments& a) {
   if (!a.name.empty()) scenario.name = a.name;
   Override(scenario.seed, a.seed);
@@ -213,7 +285,7 @@ void Override(scenario::Scenario& scenario, const RunArguments& a) {
   if (!a.record_pictures.empty()) scenario.record_png = a.record_pictures == "png";
 }
 
-// Options that have no effect with the others. A scenario's file may say what they go with.
+// Warns of options that have no effect together with the others or with the scenario file.
 base::Problems CheckOptions(const RunArguments& a, const scenario::Scenario& scenario) {
   base::Problems problems = CheckModelPath(scenario.model_path);
   const auto warn = [&](bool is_given, const char* option, const char* why) {
@@ -221,7 +293,7 @@ base::Problems CheckOptions(const RunArguments& a, const scenario::Scenario& sce
     problems.push_back({base::Problem::Severity::kWarning, why, option});
   };
   const bool is_lockstep = scenario.lockstep.value_or(false);
-  warn(is_lockstep && a.factor, "--factor",
+  warn(is_lockstep && a.factor, "--real-time-factor",
        "has no effect with --lockstep, which runs as fast as it can");
   warn(a.headless && a.open, "--open", "has no effect with --headless: there is no viewer");
   warn(a.headless && a.web.port >= 0, "--port",
@@ -264,7 +336,8 @@ base::Status UnderstandRecording(const RunArguments& a, RunOptions& options) {
                                              {"--record-pictures", !a.record_pictures.empty()}};
   for (const auto& [option, is_given] : given) {
     if (!is_given || !options.record.empty()) continue;
-    return base::Fail(base::ErrorCode::kInvalidArgument, "goes with --record NAME", option);
+    return base::Fail(base::ErrorCode::kInvalidArgument, "has an effect only with --record NAME",
+                      option);
   }
   return {};
 }

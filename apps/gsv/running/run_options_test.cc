@@ -75,8 +75,8 @@ TEST(RunOptions, TheCommandLineGoesBeforeTheScenarioFile) {
   ASSERT_TRUE(as_it_is) << as_it_is.error().Sentence();
   ASSERT_THAT(as_it_is->problems, IsEmpty());
   EXPECT_EQ(as_it_is->specification.mode, simulation::Mode::kLockstep);
-  const auto options = Parse({file, "--seed", "7", "--duration", "5", "--real-time", "--factor",
-                              "2", "--on-failure", "fail", "--name", "n"});
+  const auto options = Parse({file, "--seed", "7", "--duration", "5", "--real-time",
+                              "--real-time-factor", "2", "--on-failure", "fail", "--name", "n"});
   ASSERT_TRUE(options) << options.error().Sentence();
   EXPECT_EQ(options->specification.seed, 7u);
   EXPECT_EQ(options->specification.duration, std::chrono::seconds(5));
@@ -85,6 +85,12 @@ TEST(RunOptions, TheCommandLineGoesBeforeTheScenarioFile) {
   EXPECT_EQ(options->specification.factor, 2);
   EXPECT_EQ(options->specification.on_failure, simulation::FailurePolicy::kFail);
   EXPECT_EQ(options->specification.name, "n");
+}
+
+TEST(RunOptions, TheFormerNameOfTheRealTimeFactorIsAccepted) {
+  const auto options = Parse({"maze", "--factor", "2.5"});
+  ASSERT_TRUE(options) << options.error().Sentence();
+  EXPECT_EQ(options->specification.factor, 2.5);
 }
 
 TEST(RunOptions, RecordingIsChosenByTopicsRatesAndFormat) {
@@ -113,13 +119,13 @@ TEST(RunOptions, EachMistakeNamesItsOption) {
       {{"--duration", "-1"}, "--duration: must be a number of seconds from 0 to 1e9"},
       {{"--duration", "2e9"}, "--duration: must be a number of seconds"},
       {{"--step", "nan"}, "--step: must be a number of seconds"},
-      {{"--record-topics", "/gsv/poses"}, "--record-topics: goes with --record NAME"},
-      {{"--record-rate", "poses=1"}, "--record-rate: goes with --record NAME"},
-      {{"--record-pictures", "png"}, "--record-pictures: goes with --record NAME"},
-      {{"--record", "x", "--record-topics", "poses"}, "a topic begins with a slash"},
+      {{"--record-topics", "/gsv/poses"}, "--record-topics: has an effect only with --record NAME"},
+      {{"--record-rate", "poses=1"}, "--record-rate: has an effect only with --record NAME"},
+      {{"--record-pictures", "png"}, "--record-pictures: has an effect only with --record NAME"},
+      {{"--record", "x", "--record-topics", "poses"}, "a topic must begin with a slash"},
       {{"--record", "x", "--record-rate", "poses=0"}, "--record-rate poses=0: expected poses=HZ"},
       {{"--record", "x", "--record-rate", "sounds=1"}, "--record-rate sounds=1: expected"},
-      {{"--record", "true"}, "it is a file, NAME.mcap, or a folder"},
+      {{"--record", "true"}, "expected a file NAME.mcap or a folder"},
       {{"--record-pictures", "gif"}, "usage: "},
       {{"--on-failure", "panic"}, "usage: "},
       {{"--lockstep", "--real-time"}, "usage: "},

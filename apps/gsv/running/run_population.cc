@@ -47,7 +47,7 @@ base::Status OverrideMovements(const RunOptions& options, const Simulation& simu
     left.erase(name);
   }
   if (left.empty()) return {};
-  return base::Fail(base::ErrorCode::kInvalidArgument, "no robot of that name or model is added",
+  return base::Fail(base::ErrorCode::kInvalidArgument, "no robot of this name or model was added",
                     "--movement " + *left.begin());
 }
 

@@ -93,16 +93,14 @@ class StartCheck {
 
   void CheckHeading(const scenario::Place& start) {
     if (std::abs(start.yaw) <= kFullTurn) return;
-    Warn(
-        fmt::format("its heading of {0:g} rad is more than a full turn; headings are in radians, "
-                    "and in degrees with deg at their end ({0:g}deg)",
-                    start.yaw));
+    Warn(fmt::format("its yaw of {0:g} rad is more than a full turn; for degrees, write {0:g}deg",
+                     start.yaw));
   }
 
   void CheckPlace(const scenario::Place& start, int body) {
     const world::Body& robot = snapshot_->layout->bodies[static_cast<std::size_t>(body)];
     if (robot.is_rigid() && !HasFloor(start, body)) {
-      Warn("there is nothing below it, so that it falls");
+      Warn("there is no ground below it, so it falls");
     }
     if (things_.is_empty()) return;
     const double distance = things_.DistanceTo(start.x, start.y);
@@ -111,10 +109,10 @@ class StartCheck {
         fmt::format("x from {:.1f} to {:.1f} m, y from {:.1f} to {:.1f} m", things_.min_x,
                     things_.max_x, things_.min_y, things_.max_y);
     if (distance > kFar + things_.size()) {
-      Warn(fmt::format("it starts {:.0f} m away from everything that stands in the world ({})",
-                       distance, extent));
+      Warn(fmt::format("it starts {:.0f} m away from all objects of the world ({})", distance,
+                       extent));
     } else if (IsWorldEnclosed() && Walls(start.x, start.y, body) < kOutside) {
-      Warn(fmt::format("it starts outside of the walls of the world ({})", extent));
+      Warn(fmt::format("it starts outside the walls of the world ({})", extent));
     }
   }
 

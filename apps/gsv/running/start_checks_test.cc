@@ -71,7 +71,7 @@ TEST(StartChecks, AHeadingBeyondAFullTurnIsNamed) {
 }
 
 TEST(StartChecks, AStartOutsideOfTheWallsIsNamed) {
-  EXPECT_THAT(Warnings(Walls(), 8, 0, 0), ElementsAre(HasSubstr("outside of the walls")));
+  EXPECT_THAT(Warnings(Walls(), 8, 0, 0), ElementsAre(HasSubstr("outside the walls")));
 }
 
 TEST(StartChecks, AStartFarFromEverythingIsNamed) {
@@ -87,7 +87,7 @@ TEST(StartChecks, AStartBesideThingsThatEncloseNothingIsNoProblem) {
 
 TEST(StartChecks, ARigidRobotWithoutAFloorIsNamed) {
   EXPECT_THAT(Warnings(Walls(), 0, 0, 0, world::BodyKind::kRigidBody),
-              ElementsAre(HasSubstr("nothing below it")));
+              ElementsAre(HasSubstr("no ground below it")));
 }
 
 }  // namespace

@@ -54,8 +54,8 @@ class Encoder {
     if (failure != 0) {
       close(ends[1]);
       return Fail(ErrorCode::kUnavailable,
-                  "videos are made by ffmpeg, and there is none here; install it (apt-get install "
-                  "ffmpeg), or export the pictures' topic without --video");
+                  "cannot make a video: ffmpeg is not installed. Install it (apt-get install "
+                  "ffmpeg), or export the images without --video");
     }
     return std::unique_ptr<Encoder>(new Encoder(pid, ends[1]));
   }
@@ -110,7 +110,8 @@ class Exporter {
       if (auto ok = Take((*next)->log_time, *picture); !ok) return Fail(ok.error());
     }
     if (!encoder_) {
-      return Fail(ErrorCode::kInvalidArgument, "there are no pictures to make a video of",
+      return Fail(ErrorCode::kInvalidArgument,
+                  "cannot make a video: the selected part has no images",
                   selection_.topics.front());
     }
     if (!encoder_->Write(shown_) || !encoder_->Finish()) return NotFinished();
@@ -135,7 +136,7 @@ class Exporter {
     const double due = base::ToSeconds(time - start_) * options_.frames_a_second;
     if (due > static_cast<double>(kMaxFrames)) {
       return Fail(ErrorCode::kInvalidArgument,
-                  "the video would be too long; narrow it by --from and --to");
+                  "the video would be too long; select a part with --from and --to");
     }
     // Those before this picture's instant; a little early counts as it.
     for (; static_cast<double>(frames_) < due - 1e-6; ++frames_) {
@@ -146,8 +147,8 @@ class Exporter {
   }
 
   tl::unexpected<base::Error> NotFinished() const {
-    return Fail(ErrorCode::kUnavailable,
-                "ffmpeg could not write the video; its reason stands above", options_.output);
+    return Fail(ErrorCode::kUnavailable, "ffmpeg could not write the video; its messages are above",
+                options_.output);
   }
 
   const recording::McapReader& reader_;
@@ -171,13 +172,15 @@ base::Result<std::uint64_t> ExportVideo(const recording::McapReader& reader,
     const auto schema = summary.schemas.find(channel.schema_id);
     const std::string type = schema == summary.schemas.end() ? "" : schema->second.name;
     if (type == messages::SchemaOf<CompressedImage>().name) continue;
-    return Fail(ErrorCode::kInvalidArgument,
-                "a video needs a topic of sensor_msgs/msg/CompressedImage, this one is of " + type,
-                channel.topic);
+    return Fail(
+        ErrorCode::kInvalidArgument,
+        "a video needs a topic of type sensor_msgs/msg/CompressedImage, but this one is of type " +
+            type,
+        channel.topic);
   }
   std::error_code ignored;
   if (std::filesystem::exists(options.output, ignored)) {
-    return Fail(ErrorCode::kInvalidArgument, "the file exists already; give the video another name",
+    return Fail(ErrorCode::kInvalidArgument, "the file exists already; choose another name",
                 options.output);
   }
   return Exporter(reader, selection, options).Run();

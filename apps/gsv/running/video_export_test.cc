@@ -89,7 +89,7 @@ TEST_F(VideoExportTest, WithoutFfmpegASentenceSaysSo) {
   const auto frames = Export();
   ASSERT_FALSE(frames);
   EXPECT_EQ(frames.error().code, base::ErrorCode::kUnavailable);
-  EXPECT_NE(frames.error().Sentence().find("install it"), std::string::npos);
+  EXPECT_NE(frames.error().Sentence().find("Install it"), std::string::npos);
 }
 
 TEST_F(VideoExportTest, AnFfmpegThatFailsIsTold) {

@@ -23,7 +23,7 @@ constexpr milliseconds kServerCallTimeout{5000};  // a wait for the end is answe
 
 base::Error NoServers(const std::string& broker, const std::string& constraint) {
   return {base::ErrorCode::kUnavailable,
-          "no server that takes scenarios is offered" +
+          "no server that accepts scenarios is available at the broker" +
               (constraint.empty() ? "" : " for the constraint: " + constraint) +
               "; start one with gsv serve --scenarios 2 --broker " + broker,
           broker};
@@ -167,7 +167,7 @@ void ScenarioServers::Release(Server& server, Ending ending) {
   if (ending == Ending::kNoRoom) server.avoided_until = Clock::now() + kRefreshPeriod;
   if (ending == Ending::kLost) {
     if (Clock::now() >= server.avoided_until) {
-      std::fprintf(stderr, "gsv: warning: %s is lost; its runs are given to others\n",
+      std::fprintf(stderr, "gsv: warning: lost the connection to %s; other servers do its runs\n",
                    server.name.c_str());
     }
     server.avoided_until = Clock::now() + kAvoidLost;
@@ -190,7 +190,7 @@ TestResult ScenarioServers::Run(const std::string& scenario, double timeout,
     lost += ending == Ending::kLost;
   }
   result.message =
-      fmt::format("{} servers were lost with it, one after the other", kMaxLostServers);
+      fmt::format("{} servers ended during this run, one after the other", kMaxLostServers);
   return result;
 }
 

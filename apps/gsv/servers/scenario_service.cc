@@ -36,9 +36,9 @@ void RefuseUnlessRunnable(const std::string& text) {
       throw sba::Refused(problem.Sentence().c_str());
   }
   if (scenario.duration.value_or(0) <= 0)
-    throw sba::Refused("the scenario needs an end: duration, in simulated seconds");
+    throw sba::Refused("the scenario needs an end: set duration, in simulated seconds");
   if (!scenario.record.empty())
-    throw sba::Refused("a server records no scenario for others: leave out record");
+    throw sba::Refused("a server does not record scenarios of campaigns; remove record");
 }
 
 double SecondsOption(const model::Parameters& options, const char* name, double otherwise) {
@@ -85,7 +85,7 @@ class ScenarioRunServant final : public POA_sba::ScenarioRun {
   sba::ScenarioOutcome* outcome() override {
     NoteQuestion();
     const base::MutexLock lock(mutex_);
-    if (!result_) throw sba::NotRunning("the scenario is still under way");
+    if (!result_) throw sba::NotRunning("the scenario is still running");
     RaiseIfGivenUp();
     auto* outcome = new sba::ScenarioOutcome;
     outcome->status = StatusText(result_->status);
@@ -115,7 +115,7 @@ class ScenarioRunServant final : public POA_sba::ScenarioRun {
   // What the server has given up has no outcome.
   void RaiseIfGivenUp() const GSV_REQUIRES(mutex_) {
     if (result_->status == TestResult::Status::kInterrupted)
-      throw sba::Ended("the server gave the scenario up");
+      throw sba::Ended("the server aborted the scenario");
   }
   void NoteQuestion() { asked_ = RunClock::now().time_since_epoch(); }
 
@@ -132,7 +132,7 @@ class ScenarioRunServant final : public POA_sba::ScenarioRun {
       if (std::ofstream out(file); out << scenario_ << std::flush) {
         result = RunTestCase({file, "scenario"}, options, is_cancelled_);
       } else {
-        result.message = "the scenario cannot be written to " + file.string();
+        result.message = "cannot write the scenario to " + file.string();
       }
     }
     const base::MutexLock lock(mutex_);
@@ -214,7 +214,7 @@ void ScenarioServiceServant::EndAbandoned() {
     }
     lock.unlock();
     for (HeldRun& run : abandoned) {
-      spdlog::warn("a scenario was given up, since nobody has asked about it for too long");
+      spdlog::warn("aborted a scenario: its campaign did not ask for it in time");
       run->Cancel();
       Forget(run.in());
     }

@@ -50,12 +50,12 @@ FoundProgram FindProgram(const std::string& name) {
 
 base::Error NoProgram(const std::string& behaviour, const std::string& name,
                       const FoundProgram& found, const std::string& broker) {
-  const std::string program = found.unstartable.empty()
-                                  ? "and there is no program gsv-" + name + " to start"
-                                  : "and the program " + found.unstartable +
-                                        " cannot be executed: make it executable with chmod +x";
+  const std::string program =
+      found.unstartable.empty()
+          ? "and there is no program gsv-" + name + " to start"
+          : "and the program " + found.unstartable + " is not executable: run chmod +x on it";
   return {base::ErrorCode::kBehaviour,
-          "no such behaviour is offered at " + broker + ", " + program +
+          "the behaviour is not offered at " + broker + ", " + program +
               "; see `gsv offers`, or start your program with --broker " + broker,
           behaviour};
 }

@@ -137,13 +137,13 @@ std::vector<gateway::Route> BrokerRoutes(CORBA::ORB_ptr orb, const std::string& 
   return {
       {"GET", "/api/broker/types", kWatch, false, kReaders,
        [page](const gateway::Request&) { return page->Types(); },
-       "The service types that the broker knows, each with all its properties"},
+       "List the service types of the broker with their properties"},
       {"GET", "/api/broker/offers", kWatch, false, kReaders,
        [page](const gateway::Request& request) { return page->Offers(request.target); },
-       "Offers of a type, and which of them a constraint finds"},
+       "List offers of a service type that match a constraint"},
       {"GET", "/api/broker/links", kWatch, false, kReaders,
        [page](const gateway::Request&) { return page->Links(); },
-       "The broker's links, and whether the other traders answer"},
+       "List the links of the broker, and whether their targets respond"},
   };
 }
 

@@ -52,7 +52,7 @@ gateway::Response InstancesPage::Get() {
   if (!asking_.try_lock()) {
     const base::MutexLock lock(mutex_);
     if (has_asked_) return last_;
-    return gateway::ErrorResponse(503, "the others are being asked; try again in a moment");
+    return gateway::ErrorResponse(503, "a search for instances is running; try again in a moment");
   }
   const base::MutexLock asking(asking_, std::adopt_lock);
   gateway::Response answer = Ask();
@@ -79,7 +79,7 @@ std::vector<gateway::Route> InstancesRoutes(CORBA::ORB_ptr orb, const std::strin
   const auto page = std::make_shared<InstancesPage>(orb, broker, place);
   return {{"GET", "/api/instances", gateway::Permission::kWatch, false, gateway::Pool::kReaders,
            [page](const gateway::Request&) { return page->Get(); },
-           "Every gsv that the broker knows, and its simulations"}};
+           "List the gsv instances of the broker, and their simulations"}};
 }
 
 }  // namespace gsv::app

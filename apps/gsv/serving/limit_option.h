@@ -6,13 +6,14 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace gsv::app {
 
 // `limits` outlives the parsing.
-void AddLimitOption(CLI::App& command, formats::ReadLimits& limits);
+CLI::Option* AddLimitOption(CLI::App& command, formats::ReadLimits& limits);
 // The same, where simulations are served.
-void AddLimitOption(CLI::App& command, formats::ReadLimits& limits, ServerLimits& server);
+CLI::Option* AddLimitOption(CLI::App& command, formats::ReadLimits& limits, ServerLimits& server);
 
 }  // namespace gsv::app

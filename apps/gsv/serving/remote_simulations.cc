@@ -51,7 +51,7 @@ base::Status AddSimulationsOf(const RemoteServer& server, CORBA::Object_ptr obje
   orb::LimitCalls(object, kBrokerTimeout);
   return orb::Call(server.Describe(), [&] {
     const sba::SimulationService_var service = sba::SimulationService::_narrow(object);
-    if (CORBA::is_nil(service)) throw sba::Failed("the offer is no SimulationService");
+    if (CORBA::is_nil(service)) throw sba::Failed("the offer is not a SimulationService");
     const sba::Simulations_var simulations = service->list();
     for (CORBA::ULong i = 0; i < simulations->length(); ++i) {
       FoundSimulation simulation;
@@ -124,14 +124,13 @@ base::Error NoSuchSimulation(const Selection& selection) {
   const auto there = FindSimulations(all, silent);
   if (there && !there->empty()) {
     return {base::ErrorCode::kInvalidArgument,
-            "no simulation fits that name; there are: " + NamesOf(*there), where};
+            "there is no simulation of this name; there are: " + NamesOf(*there), where};
   }
   if (!silent.empty()) return {base::ErrorCode::kUnavailable, silent.front(), where};
   return {base::ErrorCode::kUnavailable,
-          selection.broker.empty()
-              ? "no simulation of yours runs on this machine; name the broker of another with "
-                "--broker"
-              : "no simulation is offered there",
+          selection.broker.empty() ? "you have no running simulation on this machine; use --broker "
+                                     "for simulations of other machines"
+                                   : "the broker has no simulations",
           where};
 }
 
@@ -190,9 +189,10 @@ base::Result<FoundSimulation> FindOneSimulation(const Selection& selection) {
       selection.broker.empty() && selection.server.empty() && selection.simulation.empty();
   if (is_open) KeepThoseOfTheNewestInstance(*found);
   if (found->size() != 1) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "several simulations fit; name one, with --server where names are equal: " +
-                          NamesOf(*found));
+    return base::Fail(
+        base::ErrorCode::kInvalidArgument,
+        "several simulations match; give one by name, and by --server if names are equal: " +
+            NamesOf(*found));
   }
   return std::move(found->front());
 }
@@ -217,13 +217,12 @@ base::Result<RemoteServer> FindOneInstance(const Selection& selection) {
   }
   if (found.empty()) {
     return base::Fail(base::ErrorCode::kNotFound,
-                      "no such instance is offered; see `gsv ps`, or name its broker with --broker",
+                      "there is no such instance; see `gsv ps`, or give its broker with --broker",
                       selection.server);
   }
   if (found.size() > 1 && !selection.server.empty()) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "several instances have that name; name one by its HOST:PID",
-                      selection.server);
+                      "several instances have this name; give one as HOST:PID", selection.server);
   }
   return std::move(found.front());
 }

@@ -102,7 +102,7 @@ base::Status Runtime::StartBroker(const RuntimeOptions& options) {
       const std::string ending = broker_process_->Ending();
       return base::Fail(base::ErrorCode::kUnavailable,
                         fmt::format("the embedded broker did not start: {}",
-                                    ending.empty() ? fmt::format("it has said nothing for {} s",
+                                    ending.empty() ? fmt::format("it did not respond for {} s",
                                                                  kBrokerStartTimeout.count())
                                                    : ending));
     }

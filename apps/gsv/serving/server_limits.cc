@@ -72,8 +72,8 @@ base::Status SetServerLimit(const std::string& text, ServerLimits& limits) {
   const auto [end, error] = std::from_chars(number.data(), last, value);
   if (error != std::errc() || end != last || value == 0 || value > limit.most) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      name + " must be a whole number above zero, at most " +
-                          std::to_string(limit.most) + ", not \"" + number + "\"");
+                      name + " must be a whole number from 1 to " + std::to_string(limit.most) +
+                          ", not \"" + number + "\"");
   }
   limit.set(limits, value);
   return {};

@@ -42,7 +42,7 @@ TEST(ServerLimits, AreSetWhereTheyAreNeeded) {
 TEST(ServerLimits, RefuseWhatIsNoNumberOrTooLarge) {
   for (const char* number : {"", "0", "-1", "1.5", "1x", " 1", "1e3", "99999999999999999999"})
     EXPECT_THAT(Refusal(std::string("simulations=") + number),
-                HasSubstr("simulations must be a whole number above zero, at most 10000, not \""))
+                HasSubstr("simulations must be a whole number from 1 to 10000, not \""))
         << number;
   EXPECT_THAT(Refusal("simulations"), HasSubstr("not \"\""));
   EXPECT_EQ(Refusal("simulations=10000"), "taken");

@@ -9,7 +9,7 @@ namespace {
 
 std::function<void(const std::string&)> TakeToken(std::string& token) {
   return [&token](const std::string& text) {
-    // The text itself is told to nobody.
+    // No message may contain the token.
     if (const auto good = gateway::access::CheckToken(text); !good) {
       throw CLI::ValidationError(good.error().Sentence());
     }
@@ -22,41 +22,69 @@ std::function<void(const std::string&)> TakeToken(std::string& token) {
 
 void AddViewerOptions(CLI::App& command, ViewerOptions& options) {
   command
-      .add_option("--port", options.port,
-                  "the viewer's port; 0: any that is free (default: 8080, or any)")
-      ->check(CLI::Range(0, 65535));
+      .add_option(
+          "--port", options.port,
+          "port of the viewer (default: 8080, else any free)\nWith 0, gsv chooses any free port.")
+      ->check(CLI::Range(0, 65535))
+      ->type_name("PORT")
+      ->group(kViewerGroup);
   command
       .add_option("--listen", options.listen,
-                  "the address on which the viewer listens; 0.0.0.0 is every one of this machine, "
-                  "and like all but loopback takes a token")
-      ->capture_default_str();
-  command.add_option("--allow-host", options.names,
-                     "another name of this machine under which the viewer may be opened");
+                  "address of the viewer\n"
+                  "0.0.0.0 stands for all addresses of this machine. Every address but loopback "
+                  "requires a token.")
+      ->capture_default_str()
+      ->type_name("ADDRESS")
+      ->group(kNetworkGroup);
+  command.add_option("--allow-host", options.names, "further host name that browsers may use")
+      ->type_name("NAME")
+      ->group(kNetworkGroup);
   command
       .add_option_function<std::string>("--control-token", TakeToken(options.tokens.control),
-                                        "who shows it may act; 16 characters or more. Seen by "
-                                        "others in a list of processes: prefer the variable")
-      ->envname("GSV_CONTROL_TOKEN");
+                                        "token that allows control (16+ characters)\nOther users "
+                                        "can see it in `ps`, so prefer the variable.")
+      ->type_name("TOKEN")
+      ->envname("GSV_CONTROL_TOKEN")
+      ->group(kNetworkGroup);
   command
       .add_option_function<std::string>(
           "--watch-token", TakeToken(options.tokens.watch),
-          "who shows it may watch; without it watching is free on this machine")
-      ->envname("GSV_WATCH_TOKEN");
+          "token that allows watching (default: not required)\nBeyond this machine, watching "
+          "requires this token or the control token.")
+      ->type_name("TOKEN")
+      ->envname("GSV_WATCH_TOKEN")
+      ->group(kNetworkGroup);
   CLI::Option* certificate =
       command
           .add_option("--tls-certificate", options.tls.certificate,
-                      "a PEM file, for HTTPS; `gsv certificates make` makes one")
-          ->envname("GSV_TLS_CERTIFICATE");
-  CLI::Option* key = command.add_option("--tls-key", options.tls.key, "its key, a PEM file")
-                         ->envname("GSV_TLS_KEY");
+                      "certificate for HTTPS (PEM)\n`gsv certificates make` makes one.")
+          ->type_name("FILE")
+          ->envname("GSV_TLS_CERTIFICATE")
+          ->group(kNetworkGroup);
+  CLI::Option* key =
+      command.add_option("--tls-key", options.tls.key, "private key of the certificate (PEM)")
+          ->type_name("FILE")
+          ->envname("GSV_TLS_KEY")
+          ->group(kNetworkGroup);
   certificate->needs(key);
   key->needs(certificate);
 }
 
 void AddRecordingsOption(CLI::App& command, ViewerOptions& options) {
-  command.add_option("--recordings", options.recordings,
-                     "the folder whose recordings the viewer lists, and to which it records; "
-                     "without it: the current one");
+  command
+      .add_option("--recordings", options.recordings,
+                  "folder of recordings (default: current folder)")
+      ->type_name("FOLDER")
+      ->group(kViewerGroup);
+}
+
+void AddBrokerOption(CLI::App& command, std::string& broker) {
+  command
+      .add_option("--broker", broker,
+                  "broker, corbaloc::1.2@HOST:PORT/TradingService (default: start one)")
+      ->type_name("ADDRESS")
+      ->envname("GSV_BROKER")
+      ->group(kNetworkGroup);
 }
 
 base::Result<std::unique_ptr<gateway::Gateway>> StartViewer(

@@ -14,6 +14,10 @@ class App;
 
 namespace gsv::app {
 
+// Groups of options in the help of commands that serve a viewer.
+inline constexpr const char* kViewerGroup = "Viewer";
+inline constexpr const char* kNetworkGroup = "Network and security";
+
 struct ViewerOptions {
   int port = -1;           // 0: the system chooses; -1: the usual one, or another if it is in use
   std::string recordings;  // a folder; empty: the current one
@@ -28,6 +32,8 @@ struct ViewerOptions {
 void AddViewerOptions(CLI::App& command, ViewerOptions& options);
 // Adds --recordings, where simulations run.
 void AddRecordingsOption(CLI::App& command, ViewerOptions& options);
+// Adds --broker, of a command that starts a broker where none is named.
+void AddBrokerOption(CLI::App& command, std::string& broker);
 
 // Starts a gateway where it was asked for; `gateway` holds the rest.
 base::Result<std::unique_ptr<gateway::Gateway>> StartViewer(

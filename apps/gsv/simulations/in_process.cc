@@ -29,7 +29,8 @@ base::Result<std::shared_ptr<simulation::BehaviourPort>> InProcessBehaviour(
     const std::string& behaviour) {
   std::vector<std::string> words = SplitWords(behaviour);
   if (words.empty()) {
-    return base::Fail(base::ErrorCode::kInvalidArgument, "a behaviour has a name", "--behaviour");
+    return base::Fail(base::ErrorCode::kInvalidArgument, "the name of the behaviour is empty",
+                      "--behaviour");
   }
   const std::vector<std::string> folders = PluginFolders();
   const std::string file = hosting::FindPlugin(words.front(), folders);
@@ -38,7 +39,7 @@ base::Result<std::shared_ptr<simulation::BehaviourPort>> InProcessBehaviour(
     for (const std::string& folder : folders) looked_in += (looked_in.empty() ? "" : ", ") + folder;
     return base::Fail(base::ErrorCode::kBehaviour,
                       "there is no plug-in gsv-" + words.front() + ".so in " + looked_in +
-                          "; name its folder in GSV_PLUGIN_PATH, or leave out --in-process",
+                          "; add its folder to GSV_PLUGIN_PATH, or run without --in-process",
                       behaviour);
   }
   const auto module = hosting::LoadPlugin(file);

@@ -41,8 +41,7 @@ base::Result<std::shared_ptr<const model::Model>> ModelFor(const Simulation& sim
     return library.ReadModel(entry.model, problems, simulation.specification().world->source);
   }
   if (auto model = ModelInWorld(simulation, entry.name)) return model;
-  return base::Fail(base::ErrorCode::kNotFound, "the world brings no robot of that name",
-                    entry.name);
+  return base::Fail(base::ErrorCode::kNotFound, "the world has no robot of this name", entry.name);
 }
 
 FieldResult<RobotSpecification> Specify(const Simulation& simulation,
@@ -122,11 +121,10 @@ class ListPlacing {
       of_world_.push_back({entry, i});
       return {};
     }
-    return WrongIn(
-        list_, i,
-        {{base::ErrorCode::kInvalidArgument,
-          "the world brings no robot of that name; one that is added needs a model", entry.name},
-         "name"});
+    return WrongIn(list_, i,
+                   {{base::ErrorCode::kInvalidArgument,
+                     "the world has no robot of this name; a new robot needs a model", entry.name},
+                    "name"});
   }
 
   tl::expected<void, FieldError> PlaceTogether() {

@@ -96,8 +96,9 @@ std::vector<std::string> ComplaintsAbout(const RecordingChoice& choice,
     sentences.push_back(fmt::format(
         "--record-topics {}: {}", pattern,
         is_folder
-            ? fmt::format("no topic has this name; all below it are \"{}/\"", pattern)
-            : "no topic of this simulation has this name or lies below it; there are " + there));
+            ? fmt::format("there is no topic of this name; use \"{}/\" for all topics below it",
+                          pattern)
+            : "there is no topic of this name or below it; topics are " + there));
   }
   return sentences;
 }
@@ -117,8 +118,8 @@ base::Status SetRate(const std::string& text, RecordingChoice& choice) {
   const bool is_number = error == std::errc() && end == number.data() + number.size();
   if (kind == std::end(kinds) || !is_number || !(rate >= kMinRate && rate <= kMaxRate)) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "expected poses=HZ, readings=HZ, pictures=HZ or beams=HZ, from 0.001 to "
-                      "10000 of simulated time",
+                      "expected poses=HZ, readings=HZ, pictures=HZ or beams=HZ, with 0.001 to "
+                      "10000 Hz of simulated time",
                       "--record-rate " + text);
   }
   *kind->second = rate;
@@ -131,7 +132,7 @@ base::Result<std::filesystem::path> RecordingsFolder(const std::filesystem::path
       std::filesystem::canonical(folder.empty() ? "." : folder, error);
   if (!error && std::filesystem::is_directory(whole, error)) return whole;
   return base::Fail(base::ErrorCode::kInvalidArgument,
-                    "there is no such folder for recordings; make it, or name another",
+                    "the folder for recordings does not exist; create it, or choose another",
                     folder.string());
 }
 
@@ -146,8 +147,9 @@ base::Status Recordings::FinishThatWhichIsOver(
   if (found == recordings_.end()) return {};
   // A recording is over when its simulation is gone, was reset, or the disk failed.
   if (found->second.simulation.lock() == simulation && found->second.recorder->is_recording()) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "it is being recorded to " + found->second.path + "; stop that first", name);
+    return base::Fail(
+        base::ErrorCode::kInvalidArgument,
+        "it is already recorded to " + found->second.path + "; stop this recording first", name);
   }
   auto node = recordings_.extract(found);
   lock.unlock();
@@ -235,7 +237,7 @@ base::Status Recordings::Stop(const std::string& simulation) {
   auto node = recordings_.extract(simulation);
   lock.unlock();
   if (node.empty()) {
-    return base::Fail(base::ErrorCode::kNotFound, "it is not being recorded", simulation);
+    return base::Fail(base::ErrorCode::kNotFound, "it is not recorded", simulation);
   }
   const base::Status finished = Finish(node.mapped());
   CountEnded(node.mapped());

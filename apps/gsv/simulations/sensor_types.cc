@@ -54,10 +54,12 @@ formats::SensorCheck CheckBy(std::shared_ptr<const sensing::SensorRegistry> type
   };
 }
 
-void AddSensorPluginOption(CLI::App& command, std::vector<std::string>& plugins) {
-  command.add_option("--sensor-plugin", plugins,
-                     "a library that brings sensor types, gsv-sensor-NAME.so; those in the folders "
-                     "of GSV_SENSOR_PLUGIN_PATH are there anyway");
+CLI::Option* AddSensorPluginOption(CLI::App& command, std::vector<std::string>& plugins) {
+  return command
+      .add_option("--sensor-plugin", plugins,
+                  "library with sensor types, gsv-sensor-NAME.so\n"
+                  "Libraries in the folders of GSV_SENSOR_PLUGIN_PATH are loaded without it.")
+      ->type_name("FILE");
 }
 
 }  // namespace gsv::app

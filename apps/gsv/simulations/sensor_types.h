@@ -13,7 +13,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace gsv::app {
 
@@ -32,6 +33,6 @@ base::Result<std::shared_ptr<const sensing::SensorRegistry>> MakeSensorTypes(
 formats::SensorCheck CheckBy(std::shared_ptr<const sensing::SensorRegistry> types);
 
 // --sensor-plugin, of every command that has to do with sensors. `plugins` outlives the parsing.
-void AddSensorPluginOption(CLI::App& command, std::vector<std::string>& plugins);
+CLI::Option* AddSensorPluginOption(CLI::App& command, std::vector<std::string>& plugins);
 
 }  // namespace gsv::app

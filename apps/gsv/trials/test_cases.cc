@@ -14,7 +14,8 @@ base::Result<std::vector<std::string>> FilesOf(const std::string& name) {
   std::error_code error;
   if (!fs::is_directory(name, error)) {
     if (fs::exists(name, error)) return std::vector<std::string>{name};
-    return base::Fail(base::ErrorCode::kNotFound, "there is no such scenario or folder", name);
+    return base::Fail(base::ErrorCode::kNotFound,
+                      "there is no scenario file or folder of this name", name);
   }
   std::vector<std::string> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(name, error)) {
@@ -22,7 +23,7 @@ base::Result<std::vector<std::string>> FilesOf(const std::string& name) {
   }
   std::sort(files.begin(), files.end());
   if (!files.empty()) return files;
-  return base::Fail(base::ErrorCode::kNotFound, "the folder holds no scenario (*.yaml)", name);
+  return base::Fail(base::ErrorCode::kNotFound, "the folder has no scenario files (*.yaml)", name);
 }
 
 void Check(const std::string& file, base::Problems& problems) {
@@ -32,7 +33,7 @@ void Check(const std::string& file, base::Problems& problems) {
         {base::Problem::Severity::kError, scenario.error().message, scenario.error().where});
   } else if (scenario->duration.value_or(0) <= 0) {
     problems.push_back({base::Problem::Severity::kError,
-                        "a test needs an end: duration, in simulated seconds", file});
+                        "a test needs an end: set duration, in simulated seconds", file});
   }
 }
 
@@ -65,7 +66,7 @@ base::Result<Shard> ParseShard(const std::string& text) {
                         count.ec == std::errc() && count.ptr == end;
   if (is_whole && shard.index >= 1 && shard.index <= shard.count) return shard;
   return base::Fail(base::ErrorCode::kInvalidArgument,
-                    "expected I/N, the I-th of N shares, counted from 1", "--shard " + text);
+                    "expected I/N, for the I-th of N shares, counted from 1", "--shard " + text);
 }
 
 std::vector<TestCase> ShareOf(std::vector<TestCase> cases, const Shard& shard) {

@@ -47,9 +47,10 @@ TEST_F(TestCasesTest, AFileThatIsNamedTwiceIsOneCase) {
 }
 
 TEST_F(TestCasesTest, WhatIsNotThereIsAnError) {
-  EXPECT_THAT(Names({path() + "/none.yaml"}),
-              ElementsAre(HasSubstr("none.yaml: there is no such scenario or folder")));
-  EXPECT_THAT(Names({path()}), ElementsAre(HasSubstr("the folder holds no scenario (*.yaml)")));
+  EXPECT_THAT(
+      Names({path() + "/none.yaml"}),
+      ElementsAre(HasSubstr("none.yaml: there is no scenario file or folder of this name")));
+  EXPECT_THAT(Names({path()}), ElementsAre(HasSubstr("the folder has no scenario files (*.yaml)")));
 }
 
 TEST_F(TestCasesTest, EveryProblemOfEveryFileIsReported) {

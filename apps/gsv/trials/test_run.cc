@@ -86,7 +86,7 @@ base::Result<ChildOutcome> RunChild(const TestCase& test, const TestOptions& opt
   }
   if (outcome.ending.empty() && !is_cancelled) {
     (*child)->Signal(SIGKILL);
-    outcome.ending = "no end: it was killed";
+    outcome.ending = "it did not end in time and was killed";
   }
   outcome.errors = WholeText(folder / "stderr");
   if (outcome.errors.size() > kMaxErrorLength)
@@ -149,7 +149,7 @@ void KeepFailure(const fs::path& folder, const TestOptions& options, const Child
                                     base::FromSeconds(failed + kSecondsAfter)};
     const fs::path file = kept / "run.mcap";
     if (const auto cut = recording::Recover(folder / "run.mcap", file, last); !cut) {
-      text += "\nThe recording could not be kept: " + cut.error().Sentence() + "\n";
+      text += "\nCannot keep the recording: " + cut.error().Sentence() + "\n";
     } else {
       std::string about;
       for (const auto& robot : outcome.report.value("robots", nlohmann::ordered_json::array())) {
@@ -164,8 +164,8 @@ void KeepFailure(const fs::path& folder, const TestOptions& options, const Child
     }
   }
   if (std::ofstream readme(kept / "README.txt"); !(readme << text << std::flush)) {
-    result.message += "\nWhat shows the failure cannot be kept in " + kept.string() +
-                      "; check the free space of its disk";
+    result.message += "\nCannot save the files of the failure in " + kept.string() +
+                      "; check the free space of the disk";
   }
   result.folder = kept;
 }
@@ -197,8 +197,8 @@ TestResult RunTestCase(const TestCase& test, const TestOptions& options,
     result.hashes.push_back(outcome->report.value("state_hash", ""));
     if (result.status == TestResult::Status::kPassed && result.hashes.back() != result.hashes[0]) {
       result.status = TestResult::Status::kFailed;
-      result.message = fmt::format("run {} came to another state, {}, than the first, {}", i + 1,
-                                   result.hashes.back(), result.hashes[0]);
+      result.message = fmt::format("run {} ended in another state, {}, than the first run, {}",
+                                   i + 1, result.hashes.back(), result.hashes[0]);
     } else if (result.status != TestResult::Status::kPassed) {
       result.message = Message(*outcome);
     }

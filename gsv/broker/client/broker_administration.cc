@@ -48,7 +48,7 @@ auto WithLookup(const std::string& broker, std::chrono::milliseconds timeout, co
   return Guarded(*reference, [&]() -> decltype(call(CORBA::ORB_ptr(), CosTrading::Lookup_ptr())) {
     const auto lookup = Resolve<CosTrading::Lookup>(orb, *reference, timeout);
     if (CORBA::is_nil(lookup)) {
-      return base::Fail(ErrorCode::kUnavailable, "what answers at this address is not a broker",
+      return base::Fail(ErrorCode::kUnavailable, "the object at this address is not a broker",
                         *reference);
     }
     return call(orb, lookup);
@@ -136,7 +136,7 @@ base::Status BrokerAdministration::AddLink(const std::string& name, const std::s
     return Guarded(*reference, [&]() -> base::Status {
       const auto other = Resolve<CosTrading::Lookup>(orb, *reference, timeout_);
       if (CORBA::is_nil(other)) {
-        return base::Fail(ErrorCode::kUnavailable, "what answers at this address is not a broker",
+        return base::Fail(ErrorCode::kUnavailable, "the object at this address is not a broker",
                           *reference);
       }
       // The reference that it knows itself by, rather than the one that led to it.
@@ -199,7 +199,7 @@ base::Result<std::string> BrokerAdministration::AddOffer(
     return client->Export(type, object, values);
   } catch (const CORBA::BAD_PARAM&) {
     return base::Fail(ErrorCode::kInvalidArgument,
-                      "a service's reference is an IOR:… or a corbaloc:…", reference);
+                      "the reference of a service must begin with IOR: or corbaloc:", reference);
   }
 }
 
@@ -226,7 +226,7 @@ std::string_view Spelling(FollowOption option) {
 void PrintLinks(const std::vector<LinkDescription>& links, std::ostream& out) {
   for (const LinkDescription& link : links) {
     out << link.name << "  " << link.address << "  " << Spelling(link.def_pass_on) << ", at most "
-        << Spelling(link.limiting) << (link.answers ? "" : "  (does not answer)") << "\n";
+        << Spelling(link.limiting) << (link.answers ? "" : "  (does not respond)") << "\n";
   }
 }
 

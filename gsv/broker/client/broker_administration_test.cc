@@ -32,7 +32,7 @@ TEST(BrokerAdministration, AddsListsAndRemovesLinks) {
   std::ostringstream text;
   PrintLinks(*administration.ListLinks(), text);
   EXPECT_EQ(text.str(), "north  127.0.0.1:" + other.port() +
-                            "  local_only, at most if_no_local  (does not answer)\n");
+                            "  local_only, at most if_no_local  (does not respond)\n");
   ASSERT_TRUE(administration.RemoveLink("north"));
   EXPECT_TRUE(administration.ListLinks()->empty());
 }

@@ -80,8 +80,8 @@ base::Status CheckReachable(CORBA::ORB_ptr orb, CORBA::Object_ptr object,
   const auto service = ReadReference(ior.in());
   if (!service || !orb::IsLoopback(service->host)) return {};
   return base::Fail(ErrorCode::kInvalidArgument,
-                    fmt::format("the service listens on {}, which the broker's host cannot reach; "
-                                "give it an -ORBendPoint on an outside address",
+                    fmt::format("the service listens on {}, which the host of the broker cannot "
+                                "reach; give it an -ORBendPoint on an external address",
                                 service->Address()),
                     broker);
 }
@@ -113,19 +113,19 @@ base::Status BrokerClient::Resolve(CORBA::ORB_ptr orb, unsigned long timeout_ms)
     object = reference_.empty() ? InitialReference(orb) : orb->string_to_object(reference_.c_str());
   } catch (const CORBA::BAD_PARAM&) {
     return base::Fail(ErrorCode::kInvalidArgument,
-                      "a broker's address looks like corbaloc::1.2@host:port/TradingService",
+                      "the address of a broker has the form corbaloc::1.2@HOST:PORT/TradingService",
                       reference_);
   }
   if (CORBA::is_nil(object)) {
     return base::Fail(ErrorCode::kInvalidArgument,
-                      "no broker is named; give one with --broker corbaloc::HOST:PORT/"
-                      "TradingService or -ORBInitRef TradingService=…");
+                      "no broker is given; use --broker corbaloc::1.2@HOST:PORT/TradingService or "
+                      "-ORBInitRef TradingService=...");
   }
   // The time-out is the reference's own: it holds for the narrow as well.
   SetTimeout(object, timeout_ms);
   lookup_ = CosTrading::Lookup::_narrow(object);
   if (CORBA::is_nil(lookup_)) {
-    return base::Fail(ErrorCode::kUnavailable, "what answers at this address is not a broker",
+    return base::Fail(ErrorCode::kUnavailable, "the object at this address is not a broker",
                       reference_);
   }
   SetTimeout(lookup_, timeout_ms);
@@ -135,7 +135,7 @@ base::Status BrokerClient::Resolve(CORBA::ORB_ptr orb, unsigned long timeout_ms)
   SetTimeout(types, timeout_ms);
   types_ = Repository::_narrow(types);
   if (CORBA::is_nil(registry_) || CORBA::is_nil(types_)) {
-    return base::Fail(ErrorCode::kUnavailable, "this broker takes no offers", reference_);
+    return base::Fail(ErrorCode::kUnavailable, "this broker does not accept offers", reference_);
   }
   SetTimeout(registry_, timeout_ms);
   SetTimeout(admin_, timeout_ms);

@@ -96,7 +96,7 @@ TEST_F(BrokerClientTest, SaysWhatIsWrongWithAnOffer) {
   EXPECT_EQ(client_.Export("Robot", TestService(), {{"name", Value::Long(1)}}).error().message,
             "the property name has another type than Robot declares");
   EXPECT_EQ(client_.Export("Robot", CORBA::Object::_nil(), {}).error().message,
-            "the offered service is nil, or does not answer the broker");
+            "the offered service is nil, or does not respond to the broker");
   EXPECT_EQ(client_.Withdraw("x").error().message, "\"x\" cannot be an offer's id");
 }
 
@@ -143,7 +143,7 @@ TEST_F(BrokerClientTest, SaysThatABrokerStoppedAnswering) {
   broker_.Send(SIGCONT);
   ASSERT_FALSE(late);
   EXPECT_EQ(late.error().code, ErrorCode::kTimeout);
-  EXPECT_EQ(late.error().Sentence(), broker_.reference() + ": the broker does not answer in time");
+  EXPECT_EQ(late.error().Sentence(), broker_.reference() + ": the broker did not respond in time");
 }
 
 TEST_F(BrokerClientTest, SaysThatABrokerIsGone) {
@@ -157,7 +157,7 @@ TEST_F(BrokerClientTest, SaysThatABrokerIsGone) {
   ASSERT_FALSE(again);
   EXPECT_EQ(
       again.error().Sentence(),
-      broker_.reference() + ": no broker answers at this address; start one with `gsv broker`");
+      broker_.reference() + ": no broker responds at this address; start one with `gsv broker`");
 }
 
 TEST(BrokerClient, RefusesWhatIsNoBroker) {
@@ -165,7 +165,7 @@ TEST(BrokerClient, RefusesWhatIsNoBroker) {
             ErrorCode::kInvalidArgument);
   const CORBA::String_var ior = TestOrb()->object_to_string(TestService());
   EXPECT_EQ(BrokerClient::Connect(TestOrb(), ior.in()).error().message,
-            "what answers at this address is not a broker");
+            "the object at this address is not a broker");
   EXPECT_EQ(BrokerClient::Connect(TestOrb(), "").error().code, ErrorCode::kInvalidArgument);
 }
 

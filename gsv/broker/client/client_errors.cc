@@ -39,7 +39,8 @@ Error OfQuery(const std::string& where) {
   try {
     throw;
   } catch (const CosTrading::IllegalServiceType& e) {
-    return {kWrong, fmt::format("\"{}\" cannot be a service type's name", e.type.in()), where};
+    return {kWrong, fmt::format("\"{}\" is not a valid name of a service type", e.type.in()),
+            where};
   } catch (const CosTrading::UnknownServiceType& e) {
     return {kMissing, fmt::format("the broker knows no service type {}", e.type.in()), where};
   } catch (const CosTrading::IllegalConstraint& e) {
@@ -59,15 +60,15 @@ Error OfOffer(const std::string& where) {
   try {
     throw;
   } catch (const Register::InvalidObjectRef&) {
-    return {kWrong, "the offered service is nil, or does not answer the broker", where};
+    return {kWrong, "the offered service is nil, or does not respond to the broker", where};
   } catch (const Register::InterfaceTypeMismatch& e) {
     return {kWrong,
-            fmt::format("the offered service does not have the interface that the service type "
-                        "{} demands",
-                        e.type.in()),
+            fmt::format(
+                "the offered service does not have the interface that the service type {} requires",
+                e.type.in()),
             where};
   } catch (const CosTrading::IllegalPropertyName& e) {
-    return {kWrong, fmt::format("\"{}\" cannot be a property's name", e.name.in()), where};
+    return {kWrong, fmt::format("\"{}\" is not a valid name of a property", e.name.in()), where};
   } catch (const CosTrading::DuplicatePropertyName& e) {
     return {kWrong, fmt::format("the property {} is given twice", e.name.in()), where};
   } catch (const CosTrading::PropertyTypeMismatch& e) {
@@ -76,7 +77,7 @@ Error OfOffer(const std::string& where) {
                         e.type.in()),
             where};
   } catch (const CosTrading::MissingMandatoryProperty& e) {
-    return {kWrong, fmt::format("{} demands the property {}", e.type.in(), e.name.in()), where};
+    return {kWrong, fmt::format("{} requires the property {}", e.type.in(), e.name.in()), where};
   } catch (const CosTrading::ReadonlyDynamicProperty& e) {
     return {kWrong,
             fmt::format("the property {} of {} is read-only and cannot be dynamic", e.name.in(),
@@ -89,7 +90,7 @@ Error OfOffer(const std::string& where) {
     return {kWrong, fmt::format("the property {} of {} is mandatory", e.name.in(), e.type.in()),
             where};
   } catch (const CosTrading::IllegalOfferId& e) {
-    return {kWrong, fmt::format("\"{}\" cannot be an offer's id", e.id.in()), where};
+    return {kWrong, fmt::format("\"{}\" is not a valid id of an offer", e.id.in()), where};
   } catch (const CosTrading::UnknownOfferId& e) {
     return {kMissing, fmt::format("the broker has no offer {}", e.id.in()), where};
   } catch (const CORBA::UserException&) {
@@ -101,9 +102,9 @@ Error OfLink(const std::string& where) {
   try {
     throw;
   } catch (const CosTrading::Link::IllegalLinkName& e) {
-    return {kWrong, fmt::format("\"{}\" cannot be a link's name", e.name.in()), where};
+    return {kWrong, fmt::format("\"{}\" is not a valid name of a link", e.name.in()), where};
   } catch (const CosTrading::Link::DuplicateLinkName& e) {
-    return {kWrong, fmt::format("there is a link {} already", e.name.in()), where};
+    return {kWrong, fmt::format("the link {} exists already", e.name.in()), where};
   } catch (const CosTrading::Link::UnknownLinkName& e) {
     return {kMissing, fmt::format("the broker has no link {}", e.name.in()), where};
   } catch (const CosTrading::Link::DefaultFollowTooPermissive&) {
@@ -111,7 +112,7 @@ Error OfLink(const std::string& where) {
   } catch (const CosTrading::Link::LimitingFollowTooPermissive&) {
     return {kWrong, "a link cannot follow more than the broker's max_link_follow_policy", where};
   } catch (const CosTrading::InvalidLookupRef&) {
-    return {kWrong, "the link's target is no broker, or does not answer this one", where};
+    return {kWrong, "the target of the link is not a broker, or does not respond", where};
   } catch (const CORBA::UserException&) {
     return OfOffer(where);
   }
@@ -121,10 +122,9 @@ Error OfType(const std::string& where) {
   try {
     throw;
   } catch (const Repository::ServiceTypeExists& e) {
-    return {
-        kWrong,
-        fmt::format("the service type {} is known already, with another definition", e.name.in()),
-        where};
+    return {kWrong,
+            fmt::format("the service type {} exists already with another definition", e.name.in()),
+            where};
   } catch (const Repository::InterfaceTypeMismatch& e) {
     return {kWrong,
             fmt::format("the interface of {} is not one of its super type {}",
@@ -151,36 +151,36 @@ Error OfSystem(const std::string& where) {
   try {
     throw;
   } catch (const CORBA::TIMEOUT&) {
-    return {ErrorCode::kTimeout, "the broker does not answer in time", where};
+    return {ErrorCode::kTimeout, "the broker did not respond in time", where};
   } catch (const CORBA::TRANSIENT& e) {
     if (e.minor() == omni::TRANSIENT_CallTimedout) {
-      return {ErrorCode::kTimeout, "the broker does not answer in time", where};
+      return {ErrorCode::kTimeout, "the broker did not respond in time", where};
     }
     const std::string why = orb::WhyNotConnected(e);
     return {ErrorCode::kUnavailable,
-            why.empty() ? "no broker answers at this address; start one with `gsv broker`" : why,
+            why.empty() ? "no broker responds at this address; start one with `gsv broker`" : why,
             where};
   } catch (const CORBA::COMM_FAILURE& e) {
     const std::string why = orb::WhyNotConnected(e);
     if (!why.empty()) return {ErrorCode::kUnavailable, why, where};
     return {ErrorCode::kUnavailable,
-            TakesTls(where) ? "the connection to the broker broke"
-                            : "the connection to the broker broke; does it take TLS? Then its "
-                              "address has \"ssliop\" between the colons",
+            TakesTls(where) ? "the connection to the broker was lost"
+                            : "the connection to the broker was lost. If the broker requires TLS, "
+                              "its address needs \"ssliop\" between the colons",
             where};
   } catch (const CORBA::OBJECT_NOT_EXIST&) {
-    return {ErrorCode::kUnavailable, "what answers at this address is not a broker", where};
+    return {ErrorCode::kUnavailable, "the object at this address is not a broker", where};
   } catch (const CORBA::IMP_LIMIT&) {
-    return {kWrong, "the request goes beyond the broker's limits", where};
+    return {kWrong, "the request exceeds the limits of the broker", where};
   } catch (const CORBA::NO_MEMORY&) {
     return {ErrorCode::kUnavailable,
-            "the broker has no memory left for more; withdraw offers that nobody needs", where};
+            "the broker is out of memory; withdraw offers that are not needed", where};
   } catch (const CORBA::SystemException& e) {
     const char* minor = e.NP_minorString();
-    return {
-        ErrorCode::kUnavailable,
-        fmt::format("the broker cannot be asked: {} {}", e._name(), minor != nullptr ? minor : ""),
-        where};
+    return {ErrorCode::kUnavailable,
+            fmt::format("the call to the broker failed: {} {}", e._name(),
+                        minor != nullptr ? minor : ""),
+            where};
   }
 }
 

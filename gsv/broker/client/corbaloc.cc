@@ -11,7 +11,7 @@ constexpr std::string_view kTlsProtocol = "ssliop:";
 
 base::Error Misspelt(std::string_view reference) {
   return {base::ErrorCode::kInvalidArgument,
-          "a broker's address looks like corbaloc::1.2@host:port/TradingService",
+          "the address of a broker has the form corbaloc::1.2@HOST:PORT/TradingService",
           std::string(reference)};
 }
 

@@ -119,10 +119,11 @@ base::Result<PropertyDefinition> ParsePropertyDefinition(const std::string& text
   const std::size_t blank = rest.rfind(' ');
   const auto type = blank == std::string_view::npos ? std::nullopt : TypeOf(rest.substr(0, blank));
   if (!type) {
-    return base::Fail(ErrorCode::kInvalidArgument,
-                      "a property is written as [mandatory] [readonly] TYPE NAME, with a type like "
-                      "\"double\", \"unsigned long\" or \"sequence<string>\"",
-                      text);
+    return base::Fail(
+        ErrorCode::kInvalidArgument,
+        "a property must have the form [mandatory] [readonly] TYPE NAME, with a type such as "
+        "\"double\", \"unsigned long\" or \"sequence<string>\"",
+        text);
   }
   return PropertyDefinition{.name = std::string(rest.substr(blank + 1)),
                             .type = *type,
@@ -132,7 +133,8 @@ base::Result<PropertyDefinition> ParsePropertyDefinition(const std::string& text
 base::Result<Property> ParseProperty(const std::string& text, const ServiceType& type) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos) {
-    return base::Fail(ErrorCode::kInvalidArgument, "a property is written as NAME=VALUE", text);
+    return base::Fail(ErrorCode::kInvalidArgument, "a property must have the form NAME=VALUE",
+                      text);
   }
   const std::string name = text.substr(0, equals);
   const std::string content = text.substr(equals + 1);

@@ -27,7 +27,7 @@ std::optional<Value> Ask(const std::string& name, const OtherValue& property, mi
     }
     return value;
   } catch (const CORBA::Exception&) {
-    return std::nullopt;  // DPEvalFailure, or a service that does not answer
+    return std::nullopt;  // DPEvalFailure, or a service that does not respond
   }
 }
 

@@ -252,7 +252,7 @@ TEST_F(FederationTest, AKilledTraderIsMissedAndNoted) {
   Node(0).broker_.Wait();
   const std::string complaint = Node(0).broker_.Complaint();
   EXPECT_NE(complaint.find("link to1"), std::string::npos) << complaint;
-  EXPECT_NE(complaint.find("does not answer"), std::string::npos) << complaint;
+  EXPECT_NE(complaint.find("does not respond"), std::string::npos) << complaint;
 }
 
 // One that stands still in the middle of the way: those before it still answer in time.

@@ -182,9 +182,7 @@ void QueryForwarder::Leave(const QueryDestination& destination, bool answered) {
   const std::string address = parts ? parts->Address() : "an address that cannot be read";
   std::fprintf(stderr, "broker: %s, the trader at %s, %s\n", destination.name.c_str(),
                address.c_str(),
-               answered ? "answers again"
-                        : "does not answer; queries wait for it no longer than they may, and go on "
-                          "without it");
+               answered ? "answers again" : "does not respond; queries continue without it");
 }
 
 }  // namespace gsv::broker

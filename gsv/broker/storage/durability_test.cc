@@ -149,7 +149,7 @@ TEST(Durability, ABrokerWithoutItsFileDoesNotStart) {
   EXPECT_EQ(second.Wait(), 5);
   EXPECT_EQ(second.Complaint(),
             folder.Arguments()[1].substr(5) +
-                ": another broker uses this file; end it, or name another file with --data\n");
+                ": another broker uses this file; stop it, or choose another file with --data\n");
 }
 
 }  // namespace

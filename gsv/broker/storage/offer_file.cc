@@ -218,8 +218,8 @@ void OfferFile::Write() {
       works_ = false;
       waiting_.clear();
       std::fprintf(stderr,
-                   "%s: offers can no longer be kept (%s); queries are still answered, changes "
-                   "are refused until the broker is started again\n",
+                   "%s: cannot store offers (%s). Queries still work; changes are refused until "
+                   "the broker is restarted\n",
                    path_.c_str(), written.error().message.c_str());
     }
     written_.notify_all();

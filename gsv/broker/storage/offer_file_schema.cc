@@ -26,17 +26,18 @@ base::Error Unusable(Database& database, const std::string& path) {
   switch (database.LastCode()) {
     case SQLITE_BUSY:
       return {base::ErrorCode::kUnavailable,
-              "another broker uses this file; end it, or name another file with --data", path};
+              "another broker uses this file; stop it, or choose another file with --data", path};
     case SQLITE_NOTADB:
       return {base::ErrorCode::kCorrupt,
-              "this is not a broker's file; name another with --data, or use --memory", path};
+              "this is not the file of a broker; choose another with --data, or use --memory",
+              path};
     case SQLITE_CORRUPT:
       return {base::ErrorCode::kCorrupt,
-              "the file is damaged; put back a copy of it, or move it away to start without offers",
+              "the file is damaged; restore a copy of it, or move it away to start without offers",
               path};
     default:
       return {base::ErrorCode::kUnavailable,
-              fmt::format("the file cannot be used ({}); name another with --data, or use --memory",
+              fmt::format("cannot use the file ({}); choose another with --data, or use --memory",
                           sqlite3_errstr(database.LastCode())),
               path};
   }
@@ -78,14 +79,15 @@ base::Status CheckIdentity(Database& database, const std::string& path) {
   if (!application) return base::Fail(application.error());
   if (*application != kApplication) {
     return base::Fail(base::ErrorCode::kCorrupt,
-                      "this is another program's database; name another file with --data", path);
+                      "this is the database of another program; choose another file with --data",
+                      path);
   }
   const auto version = AskNumber(database, path, "PRAGMA user_version");
   if (!version) return base::Fail(version.error());
   if (*version >= 1 && *version <= kVersion) return {};
   return base::Fail(base::ErrorCode::kCorrupt,
-                    fmt::format("the file has format {}, this gsv reads format {}; use the gsv "
-                                "that wrote it, or name another file with --data",
+                    fmt::format("the file has format {}, but this gsv reads format {}; use the gsv "
+                                "that wrote it, or choose another file with --data",
                                 *version, kVersion),
                     path);
 }
@@ -96,7 +98,7 @@ base::Status CheckSoundness(Database& database, const std::string& path) {
   if (*sound == "ok") return {};
   return base::Fail(base::ErrorCode::kCorrupt,
                     "the file is damaged (" + *sound +
-                        "); put back a copy of it, or move it away to start without offers",
+                        "); restore a copy of it, or move it away to start without offers",
                     path);
 }
 
@@ -106,8 +108,8 @@ base::Result<Database> OpenOfferDatabase(const std::string& path, std::uint32_t 
   auto database = Database::Open(path);
   if (!database) {
     return base::Fail(base::ErrorCode::kUnavailable,
-                      "the file cannot be opened (" + database.error().message +
-                          "); name another with --data, or use --memory",
+                      "cannot open the file (" + database.error().message +
+                          "); choose another with --data, or use --memory",
                       path);
   }
   // The lock is kept from the first access on; the kernel lets go of it when the process ends.

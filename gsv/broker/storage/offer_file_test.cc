@@ -200,26 +200,27 @@ TEST_F(OfferFileTest, OnceClosedHoldsWhatWasAnsweredAndRefusesChanges) {
 TEST_F(OfferFileTest, IsForOneBrokerAtATime) {
   const auto first = OfferFile::Open(Path(), kOwnStem);
   ASSERT_TRUE(first);
-  EXPECT_EQ(Complaint().Sentence(),
-            Path() + ": another broker uses this file; end it, or name another file with --data");
+  EXPECT_EQ(
+      Complaint().Sentence(),
+      Path() + ": another broker uses this file; stop it, or choose another file with --data");
 }
 
 TEST_F(OfferFileTest, RefusesWhatIsNotItsOwn) {
   std::ofstream(Path()) << "These are the notes of a friend, and nothing for a broker to read. "
                            "They go on for a while so that they are longer than a header.";
   EXPECT_EQ(Complaint().message,
-            "this is not a broker's file; name another with --data, or use --memory");
+            "this is not the file of a broker; choose another with --data, or use --memory");
   std::filesystem::remove(Path());
 
   ASSERT_TRUE(Database::Open(Path())->Run("CREATE TABLE recipes (name TEXT)"));
   EXPECT_EQ(Complaint().message,
-            "this is another program's database; name another file with --data");
+            "this is the database of another program; choose another file with --data");
   std::filesystem::remove(Path());
 
   ASSERT_TRUE(OfferFile::Open(Path(), kOwnStem));
   ASSERT_TRUE(Database::Open(Path())->Run("PRAGMA user_version = 99"));
   EXPECT_EQ(Complaint().message,
-            "the file has format 99, this gsv reads format 2; use the gsv that wrote it, or name "
+            "the file has format 99, this gsv reads format 2; use the gsv that wrote it, or choose "
             "another file with --data");
 
   EXPECT_FALSE(OfferFile::Open(folder_.path() / "absent" / "broker.db", kOwnStem));

@@ -67,7 +67,8 @@ base::Status AccessRule::Check(std::string_view host, std::string_view origin) c
   const bool is_address = takes_addresses_ && IsAddress(asked);
   if (!is_address && !Contains(hosts_, asked)) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "the Host header is " + Quoted(host) + "; open " + scheme_ + hosts_.front() +
+                      "the Host header names " + Quoted(host) + "; open " + scheme_ +
+                          hosts_.front() +
                           "/ instead, or allow this name when you start the server");
   }
   const bool is_own = is_address && LowerCase(origin) == scheme_ + asked;

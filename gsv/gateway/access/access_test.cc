@@ -170,12 +170,12 @@ TEST_F(AccessTest, FromElsewhereEvenWatchingTakesAToken) {
   EXPECT_EQ(Send("GET", "/api/simulations?token=" + std::string(kWatch)).status, 401);
   const HttpReply watcher = Send("POST", "/api/simulations/arena/start", Bearer(kWatch));
   EXPECT_EQ(watcher.status, 403);
-  EXPECT_NE(watcher.body.find("watch only"), std::string::npos);
+  EXPECT_NE(watcher.body.find("does not allow control"), std::string::npos);
   const std::uint16_t port = gateway_->port();
   EXPECT_THROW(Viewer(port, "/ws"), std::runtime_error);
   EXPECT_THROW(Viewer(port, "/ws?token=wrong"), std::runtime_error);
   Viewer looks(port, "/ws?token=" + std::string(kWatch));
-  EXPECT_NE(looks.CallRefusedService("start").find("watch only"), std::string::npos);
+  EXPECT_NE(looks.CallRefusedService("start").find("does not allow control"), std::string::npos);
   Viewer acts(port, "/ws?token=" + std::string(kControl));
   EXPECT_TRUE(acts.CallService("start").first);
 }
@@ -185,7 +185,7 @@ TEST_F(AccessTest, WithAWatchTokenOnlyNobodyActs) {
   EXPECT_EQ(Send("GET", "/api/simulations").status, 401);
   const HttpReply refused = Send("POST", "/api/simulations/arena/start", Bearer(kWatch));
   EXPECT_EQ(refused.status, 403);
-  EXPECT_NE(refused.body.find("can only be watched"), std::string::npos);
+  EXPECT_NE(refused.body.find("allows no control"), std::string::npos);
 }
 
 TEST_F(AccessTest, OneHoldsControlAndTheOthersAsk) {

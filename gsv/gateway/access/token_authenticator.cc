@@ -20,8 +20,8 @@ base::Status CheckToken(std::string_view token) {
                        std::all_of(token.begin(), token.end(), IsTokenCharacter);
   if (is_good) return {};
   return base::Fail(base::ErrorCode::kInvalidArgument,
-                    "a token has 16 to 256 letters, digits or characters of -._~+/=; `openssl rand "
-                    "-hex 16` makes one");
+                    "a token must have 16 to 256 characters: letters, digits or -._~+/=. `openssl "
+                    "rand -hex 16` makes one");
 }
 
 bool EqualsSecret(std::string_view shown, std::string_view secret) {
@@ -56,16 +56,16 @@ Permission TokenAuthenticator::PermissionOf(std::string_view token) const {
 std::string TokenAuthenticator::Refusal(const Principal& principal, Permission needed) const {
   const bool needs_control = needed == Permission::kControl;
   if (needs_control && tokens_.control.empty()) {
-    return "this server can only be watched: it was started without --control-token";
+    return "this server allows no control: it was started without --control-token";
   }
   if (principal.showed_credentials && principal.permission == Permission::kWatch) {
-    return "this token allows to watch only; acting takes the control token";
+    return "this token does not allow control; use the token given with --control-token";
   }
   const std::string wanted = needs_control
                                  ? "the token given with --control-token"
                                  : "the token given with --control-token or --watch-token";
-  return (!principal.showed_credentials ? "this takes a token, and none was shown: "
-                                        : "this token is not the right one: it takes ") +
+  return (!principal.showed_credentials ? "this request requires a token: "
+                                        : "this token is wrong: use ") +
          wanted;
 }
 

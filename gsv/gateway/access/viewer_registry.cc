@@ -45,7 +45,9 @@ base::Result<ViewerRegistry::Admission> ViewerRegistry::Enter(const std::string&
   const base::MutexLock lock(mutex_);
   Expire(now);
   if (viewers_.size() >= kMaxViewers) {
-    return base::Fail(base::ErrorCode::kUnavailable, "a thousand people are watching already");
+    return base::Fail(
+        base::ErrorCode::kUnavailable,
+        "cannot connect: 1000 viewers are connected already. Close some, then try again");
   }
   Admission admission{next_++, NewKey()};
   ++version_;
@@ -58,7 +60,7 @@ base::Result<ViewerRegistry::Viewer*> ViewerRegistry::Find(const std::string& ke
   const auto found = viewers_.find(key);
   if (found == viewers_.end()) {
     return base::Fail(base::ErrorCode::kNotFound,
-                      "this viewer is not known here, any more; say your name again");
+                      "this viewer is not registered any more; reload the page");
   }
   found->second.seen = now;
   return &found->second;
@@ -100,7 +102,8 @@ base::Status ViewerRegistry::RequestControl(const std::string& key, Time now) {
   const base::Result<Viewer*> viewer = Find(key, now);
   if (!viewer) return base::Fail(viewer.error());
   if ((*viewer)->person.simulation.empty()) {
-    return base::Fail(base::ErrorCode::kNotRunning, "you look at no simulation to control");
+    return base::Fail(base::ErrorCode::kNotRunning,
+                      "no simulation is open; open one, then ask for control");
   }
   Control& control = ControlOf(**viewer);
   const bool asks = std::any_of(control.questions.begin(), control.questions.end(),
@@ -127,8 +130,9 @@ base::Status ViewerRegistry::Answer(const std::string& key, bool grants, Time no
   Control& control = ControlOf(**viewer);
   if (control.holder != key || control.questions.empty()) {
     const bool holds = control.holder == key;
-    return base::Fail(base::ErrorCode::kNotRunning,
-                      holds ? "nobody asks for control" : "you do not hold control");
+    return base::Fail(
+        base::ErrorCode::kNotRunning,
+        holds ? "no viewer asks for control" : "you do not have control; ask for it first");
   }
   ++version_;
   if (grants) {
@@ -179,7 +183,7 @@ base::Status ViewerRegistry::CheckControl(const std::string& key, const std::str
   const std::string& holder = found->second.holder;
   if (holder.empty() || holder == key) return {};
   return base::Fail(base::ErrorCode::kNotRunning,
-                    viewers_.at(holder).person.name + " holds control; ask for it");
+                    viewers_.at(holder).person.name + " has control; ask for control first");
 }
 
 void ViewerRegistry::Expire(Time now) {

@@ -27,7 +27,7 @@ std::optional<T> MemberOf(const std::string& body, const char* name) {
 }
 
 base::Error Expected(const std::string& body) {
-  return {base::ErrorCode::kInvalidArgument, "this address takes " + body};
+  return {base::ErrorCode::kInvalidArgument, "the body of this request must be " + body};
 }
 
 }  // namespace
@@ -45,18 +45,19 @@ std::vector<Route> ViewersApi::Routes() {
   return {
       {"GET", "/api/viewers", kWatch, false, kReaders,
        [this](const Request& request) { return ViewerList(request.viewer); },
-       "Who is watching what, who holds control of it, who asks for it"},
+       "List the viewers, with who has control and who asks for it"},
       {"POST", "/api/viewers", kWatch, false, kReaders,
-       [this](const Request& request) { return Enter(request); }, "Enter, under a name"},
+       [this](const Request& request) { return Enter(request); },
+       "Register as a viewer, with a name"},
       {"POST", "/api/viewers/me", kWatch, false, kReaders, changing(&ViewersApi::Change),
-       "Be called otherwise, or look at another simulation, which lets go of control"},
+       "Change the name, or open another simulation, which releases control"},
       {"DELETE", "/api/viewers/me", kWatch, false, kReaders, changing(&ViewersApi::Leave),
-       "Leave; control passes on"},
+       "Leave as a viewer, and release control"},
       {"POST", "/api/viewers/me/control", kControl, false, kReaders,
        changing(&ViewersApi::WantControl),
-       "Ask for control of the simulation that one looks at, or let go of it (or of the question)"},
+       "Ask for control of the open simulation, release it, or cancel the request"},
       {"POST", "/api/viewers/me/answer", kControl, false, kReaders,
-       changing(&ViewersApi::AnswerFirst), "The holder's answer to the first who asks"},
+       changing(&ViewersApi::AnswerFirst), "Answer the first viewer who asks for control"},
   };
 }
 

@@ -31,31 +31,31 @@ std::vector<Route> Api::Routes() {
   const std::string simulation = "/api/simulations/{name}";
   std::vector<Route> routes{
       {"GET", "/api/server", kWatch, false, kReaders, [this](const Request&) { return Server(); },
-       "What can be done here"},
+       "List the capabilities of the server"},
       {"GET", "/api/simulations", kWatch, false, kReaders,
        [this](const Request&) { return List(); }, "The simulations"},
       {"GET", "/api/models/{id}.glb", kWatch, false, kReaders,
-       [this](const Request& request) { return Model(request); }, "One model as glTF"},
+       [this](const Request& request) { return Model(request); }, "Get a model as glTF"},
       {"GET", simulation, kWatch, false, kReaders, of([](const auto& of_name, const Request&) {
          return JsonResponse(200, StatusJson(of_name->status()));
        }),
-       "The status of a simulation"},
+       "Get the status of a simulation"},
       {"GET", simulation + "/scene", kWatch, false, kReaders,
        of([this](const auto& of_name, const Request&) { return Scene(of_name); }),
-       "What stands in a simulation and how it looks"},
+       "Get the scene of a simulation, with bodies and their appearance"},
       {"GET", simulation + "/robots/{robot}/topics", kWatch, false, kReaders,
        of([this](const auto& of_name, const Request& request) {
          return Topics(of_name, request.Parameter("robot"));
        }),
-       "The topics of a robot's sensors"},
+       "List the topics of a robot's sensors"},
       {"GET", simulation + "/recording", kWatch, false, kReaders,
        of([this](const auto& of_name, const Request&) { return Recording(of_name); }),
-       "Whether the simulation is recorded, and where to"},
+       "Get whether the simulation is recorded, and to which file"},
       {"POST", simulation + "/recording", kControl, true, kCommanders,
        of([this](const auto& of_name, const Request& request) {
          return SwitchRecording(of_name, request.body);
        }),
-       "Switch the recording on or off"},
+       "Start or stop the recording"},
   };
   Append(routes, CommandRoutes(directory_));
   Append(routes, BodyRoutes(directory_));
@@ -98,7 +98,7 @@ Response Api::Topics(const SimulationPointer& simulation, const std::string& rob
 }
 
 Response Api::Recording(const SimulationPointer& simulation) const {
-  if (recordings_ == nullptr) return ErrorResponse(404, "this server does not record");
+  if (recordings_ == nullptr) return ErrorResponse(404, "this server cannot record simulations");
   const std::string& name = simulation->specification().name;
   return JsonResponse(200, RecordingJson(recordings_->RecordingOf(name)));
 }

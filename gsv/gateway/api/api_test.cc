@@ -89,7 +89,8 @@ TEST_F(ApiTest, SwitchesTheRecordingOnAndOff) {
     EXPECT_EQ(ask("POST", bad).status, 400) << bad;
   }
   EXPECT_EQ(ask("PUT").status, 405);
-  EXPECT_EQ(AskJson("GET", path_ + "/recording", 404)["error"], "this server does not record");
+  EXPECT_EQ(AskJson("GET", path_ + "/recording", 404)["error"],
+            "this server cannot record simulations");
 }
 
 TEST_F(ApiTest, TellsARobotsTopicsAndHasThemListed) {
@@ -150,14 +151,18 @@ TEST_F(ApiTest, TheButtonsWork) {
 }
 
 TEST_F(ApiTest, TheFactorIsSet) {
-  EXPECT_EQ(AskJson("POST", path_ + "/factor", 200, R"({"factor":2.5})")["target_factor"], 2.5);
+  const std::string path = path_ + "/real_time_factor";
+  EXPECT_EQ(AskJson("POST", path, 200, R"({"real_time_factor":2.5})")["target_factor"], 2.5);
   EXPECT_EQ(simulation_->real_time_factor(), 2.5);
-  for (const char* body : {"", "{}", "[]", R"({"factor":"2"})", R"({"factor":null})",
-                           R"({"factor":0})", R"({"factor":-1})"}) {
-    EXPECT_FALSE(AskJson("POST", path_ + "/factor", 400, body)["error"].empty()) << body;
+  for (const char* body : {"", "{}", "[]", R"({"real_time_factor":"2"})",
+                           R"({"real_time_factor":null})", R"({"real_time_factor":0})",
+                           R"({"real_time_factor":-1})", R"({"real_time_factor":1,"factor":1})"}) {
+    EXPECT_FALSE(AskJson("POST", path, 400, body)["error"].empty()) << body;
   }
   EXPECT_EQ(simulation_->real_time_factor(), 2.5);
-  EXPECT_EQ(Ask("GET", path_ + "/factor").allow, "POST");
+  EXPECT_EQ(Ask("GET", path).allow, "POST");
+  // The former names of the route and of its parameter.
+  EXPECT_EQ(AskJson("POST", path_ + "/factor", 200, R"({"factor":0.5})")["target_factor"], 0.5);
 }
 
 TEST_F(ApiTest, CommandsAreDescribedAndTakeTheirArguments) {

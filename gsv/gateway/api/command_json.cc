@@ -21,7 +21,7 @@ tl::unexpected<base::Error> Invalid(std::string sentence) {
 base::Result<Json> ParseObject(std::string_view body) {
   if (body.empty()) return Json::object();
   Json json = Json::parse(body, nullptr, false);
-  if (!json.is_object()) return Invalid("the request's body must be a JSON object");
+  if (!json.is_object()) return Invalid("the body of the request must be a JSON object");
   return json;
 }
 
@@ -32,7 +32,7 @@ base::Result<simulation::ArgumentValue> ValueOf(const std::string& name, const J
   const bool is_large = json.is_number_unsigned() && json.get<std::int64_t>() < 0;
   if (json.is_number_integer() && !is_large) return json.get<std::int64_t>();
   if (json.is_number()) return json.get<double>();
-  return Invalid("'" + name.substr(0, 100) + "' must be a number, true, false or a text");
+  return Invalid("'" + name.substr(0, 100) + "' must be a number, true, false or a string");
 }
 
 Json JsonOf(const simulation::ArgumentValue& value) {
@@ -110,7 +110,7 @@ base::Result<bool> ParseRecordingSwitch(std::string_view body) {
   if (!json) return base::Fail(json.error());
   const auto record = json->find("record");
   if (record != json->end() && record->is_boolean()) return record->get<bool>();
-  return Invalid("to switch a recording, give {\"record\": true or false}");
+  return Invalid("the body of the request must be {\"record\": true} or {\"record\": false}");
 }
 
 }  // namespace gsv::gateway

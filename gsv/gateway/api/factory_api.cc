@@ -43,15 +43,15 @@ std::vector<Route> FactoryApi::Routes(const std::shared_ptr<SimulationDirectory>
   };
   return {
       {"GET", "/api/worlds", kWatch, false, kReaders, [this](const Request&) { return Worlds(); },
-       "The worlds that ship with gsv"},
+       "List the built-in worlds"},
       {"GET", "/api/models", kWatch, false, kReaders, [this](const Request&) { return Models(); },
-       "The models that can be robots, ours and those on the server's model path"},
+       "List the models for robots, built-in and on the model path"},
       {"GET", "/api/behaviours", kWatch, false, kReaders,
        [this](const Request& request) { return Behaviours(request.target); },
-       "The behaviours that the broker offers now"},
+       "List the behaviours that the broker offers"},
       {"POST", "/api/preview", kControl, false, kReaders,
        [this](const Request& request) { return Preview(request.body); },
-       "What a scenario looks like at its start; nothing is created"},
+       "Get the scene of a scenario at its start, without creating a simulation"},
       {"POST", "/api/simulations", kControl, false, kCommanders,
        [this](const Request& request) { return Create(request.body); }, "Create a simulation"},
       {"DELETE", "/api/simulations/{name}", kControl, true, kCommanders,
@@ -59,11 +59,11 @@ std::vector<Route> FactoryApi::Routes(const std::shared_ptr<SimulationDirectory>
                     [this](const auto&, const Request& request) {
                       return Destroy(request.Parameter("name"));
                     }),
-       "Stop it and let go of it; a recording is closed"},
+       "Stop and remove a simulation; its recording is closed"},
       {"POST", "/api/simulations/{name}/robots", kControl, true, kCommanders,
-       of(&FactoryApi::AddRobot), "Add a robot, or an avatar"},
+       of(&FactoryApi::AddRobot), "Add a robot or an avatar"},
       {"POST", "/api/simulations/{name}/objects", kControl, true, kCommanders,
-       of(&FactoryApi::AddObject), "Put a thing that is no robot into the world"},
+       of(&FactoryApi::AddObject), "Add an object to the world"},
   };
 }
 

@@ -58,12 +58,12 @@ constexpr ReplayCommand kReplayCommands[]{
      [](ReplayPlayer& player, const std::string&) { return player.Start(); }},
     {"pause", "Pause a simulation",
      [](ReplayPlayer& player, const std::string&) { return player.Pause(); }},
-    {"resume", "Resume a simulation that is paused",
+    {"resume", "Resume a paused simulation",
      [](ReplayPlayer& player, const std::string&) { return player.Resume(); }},
-    {"stop", "End a simulation", &Rewind},
-    {"reset", "Go back to the start", &Rewind},
+    {"stop", "Stop a simulation for good", &Rewind},
+    {"reset", "Reset a simulation to its start", &Rewind},
     {"step", "Take some steps, then pause", &StepBy},
-    {"seek", "Go to an instant of the recording (replays only)", &SeekTo},
+    {"seek", "Go to a time of the recording (replays only)", &SeekTo},
 };
 
 Response JsonOr(const base::Result<SharedBytes>& json) {
@@ -130,7 +130,7 @@ Response TopicsOf(const Replay& replay, const Request& request) {
   const std::string& robot = request.Parameter("robot");
   const std::vector<std::string> topics = replay.player->ListTopicsOf(robot);
   if (!topics.empty()) return JsonResponse(200, TopicsJson(topics));
-  return ErrorResponse(404, "no sensors of a robot '" + robot + "' are recorded");
+  return ErrorResponse(404, "there are no sensors of a robot '" + robot + "' are recorded");
 }
 
 Response EventsOf(const Replay& replay, const Request&) {
@@ -174,11 +174,12 @@ Response CurveOf(const Replay& replay, const Request& request) {
 }
 
 Response RefuseFactor(const Replay&, const Request&) {
-  return ErrorResponse(409, "this is a replay: its speed is set by POST to .../replay");
+  return ErrorResponse(409,
+                       "a replay has no real-time factor; set its speed with POST to .../replay");
 }
 
 Response RefuseEdit(const Replay&, const Request&) {
-  return ErrorResponse(409, "this is a replay: what the robots did cannot be changed");
+  return ErrorResponse(409, "a replay cannot be edited");
 }
 
 using ReplayHandler = std::function<Response(const Replay&, const Request&)>;
@@ -205,11 +206,9 @@ struct RefusedRequest {
   Response (*refuse)(const Replay&, const Request&);
 };
 constexpr RefusedRequest kRefused[]{
-    {"POST", "/factor", &RefuseFactor},
-    {"DELETE", "/robots/{robot}", &RefuseEdit},
-    {"POST", "/robots/{robot}/drive", &RefuseEdit},
-    {"DELETE", "/objects/{object}", &RefuseEdit},
-    {"POST", "/bodies/{body}/place", &RefuseEdit},
+    {"POST", "/real_time_factor", &RefuseFactor}, {"POST", "/factor", &RefuseFactor},
+    {"DELETE", "/robots/{robot}", &RefuseEdit},   {"POST", "/robots/{robot}/drive", &RefuseEdit},
+    {"DELETE", "/objects/{object}", &RefuseEdit}, {"POST", "/bodies/{body}/place", &RefuseEdit},
 };
 
 }  // namespace
@@ -229,19 +228,20 @@ std::vector<Route> ReplayRoutes(const FindReplay& find) {
                       true, Pool::kReaders, OfReplay(find, std::move(handler)),
                       std::string(summary)});
   };
-  read("/api/server", &ServerOf, "What can be done here");
+  read("/api/server", &ServerOf, "List the capabilities of the server");
   read("/api/simulations", &ListOf, "The simulations");
-  read("/api/models/{id}.glb", &ModelOf, "One model as glTF");
-  read(simulation, &StatusOf, "The status of a simulation");
-  read(simulation + "/scene", &SceneOf, "What stands in a simulation and how it looks");
-  read(simulation + "/robots/{robot}/topics", &TopicsOf, "The topics of a robot's sensors");
+  read("/api/models/{id}.glb", &ModelOf, "Get a model as glTF");
+  read(simulation, &StatusOf, "Get the status of a simulation");
+  read(simulation + "/scene", &SceneOf,
+       "Get the scene of a simulation, with bodies and their appearance");
+  read(simulation + "/robots/{robot}/topics", &TopicsOf, "List the topics of a robot's sensors");
   read(simulation + "/replay", &PlaybackOf,
-       "Where a replay stands in its recording, and how it plays (replays only)");
-  read(simulation + "/events", &EventsOf, "What happened when in a recording (replays only)");
-  read(simulation + "/log", &LogOf, "The lines of a recording's log, /rosout (replays only)");
-  read(simulation + "/curve", &CurveOf, "A value over a whole recording (replays only)");
+       "Get the time, speed and state of a replay (replays only)");
+  read(simulation + "/events", &EventsOf, "List the events of a recording (replays only)");
+  read(simulation + "/log", &LogOf, "List the log messages of a recording, /rosout (replays only)");
+  read(simulation + "/curve", &CurveOf, "Get a value over the whole recording (replays only)");
   change("POST", "/replay", &ChangePlayback,
-         "Play at another speed, or over and over (replays only)");
+         "Set the speed and the loop of a replay (replays only)");
   for (const ReplayCommand& command : kReplayCommands) {
     const auto handler = [apply = command.apply](const Replay& replay, const Request& request) {
       const base::Status done = apply(*replay.player, request.body);
@@ -250,7 +250,7 @@ std::vector<Route> ReplayRoutes(const FindReplay& find) {
     change("POST", "/" + std::string(command.name), handler, command.summary);
   }
   for (const auto& [method, below, handler] : kRefused) {
-    change(method, below, handler, "Refused, as this is a replay");
+    change(method, below, handler, "Always refused, because a replay cannot be changed");
   }
   return routes;
 }
@@ -258,8 +258,9 @@ std::vector<Route> ReplayRoutes(const FindReplay& find) {
 base::Result<ReplayChange> ParseReplayChange(std::string_view body) {
   const nlohmann::json json = nlohmann::json::parse(body, nullptr, false);
   const auto fail = [] {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "to change a replay, give {\"speed\": number, \"loop\": true or false}");
+    return base::Fail(
+        base::ErrorCode::kInvalidArgument,
+        "the body of the request must be {\"speed\": NUMBER, \"loop\": true or false}");
   };
   if (!json.is_object()) return fail();
   ReplayChange change;
@@ -280,8 +281,9 @@ base::Result<base::SimTime> ParseSeekTime(std::string_view body) {
   const bool is_number = json.is_object() && time != json.end() && time->is_number();
   const double seconds = is_number ? time->get<double>() : NAN;
   if (!(std::abs(seconds) < kLatest)) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "to seek, give {\"time_s\": T} with simulated seconds since the start");
+    return base::Fail(
+        base::ErrorCode::kInvalidArgument,
+        "the body of the request must be {\"time_s\": T}, in simulated seconds since the start");
   }
   return base::FromSeconds(seconds);
 }

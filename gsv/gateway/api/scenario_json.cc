@@ -23,7 +23,7 @@ tl::unexpected<FieldError> Refused(std::string field, std::string sentence) {
 
 FieldResult<ScenarioJson> ParseRequestObject(std::string_view body) {
   ScenarioJson json = ScenarioJson::parse(body, nullptr, false);
-  if (!json.is_object()) return Refused("", "the request's body must be a JSON object");
+  if (!json.is_object()) return Refused("", "the body of the request must be a JSON object");
   return json;
 }
 
@@ -50,7 +50,7 @@ FieldResult<std::string> TakeName(ScenarioJson& json, const char* name) {
   const ScenarioJson value = json.value(name, ScenarioJson());
   json.erase(name);
   if (value.is_null()) return std::string();
-  if (!value.is_string()) return Refused(name, "expected a text");
+  if (!value.is_string()) return Refused(name, "expected a string");
   return value.get<std::string>();
 }
 
@@ -62,11 +62,14 @@ FieldResult<T> Judged(T value, const base::Problems& problems) {
 }
 
 FieldResult<void> RefuseWhatIsNotForViewers(const ScenarioJson& json) {
-  constexpr std::string_view kKnown[]{"name",     "world", "mode",   "factor",  "step",
-                                      "duration", "seed",  "robots", "avatars", "pedestrians"};
+  constexpr std::string_view kKnown[]{"name",    "world",      "mode", "real_time_factor",
+                                      "step",    "duration",   "seed", "robots",
+                                      "avatars", "pedestrians"};
+  constexpr std::string_view kFormer = "factor";  // of real_time_factor
   for (const auto& [name, value] : json.items()) {
-    if (std::find(std::begin(kKnown), std::end(kKnown), name) == std::end(kKnown)) {
-      std::string sentence = "there is no such field; there are:";
+    if (name != kFormer &&
+        std::find(std::begin(kKnown), std::end(kKnown), name) == std::end(kKnown)) {
+      std::string sentence = "unknown field; known are:";
       for (const std::string_view known : kKnown) {
         sentence += (known == kKnown[0] ? " " : ", ") + std::string(known);
       }
@@ -75,7 +78,8 @@ FieldResult<void> RefuseWhatIsNotForViewers(const ScenarioJson& json) {
   }
   for (const char* list : {"robots", "avatars"}) {
     if (json.contains(list) && json[list].size() > kMaxRobots) {
-      return Refused(list, "at most " + std::to_string(kMaxRobots) + " are expected here");
+      return Refused(
+          list, "has too many entries; at most " + std::to_string(kMaxRobots) + " are allowed");
     }
   }
   return {};
@@ -101,7 +105,7 @@ FieldResult<SimulationRequest> ParseSimulationRequest(std::string_view body) {
   base::Problems problems;
   auto scenario = Judged(scenario::ParseScenarioJson(json->dump(), problems), problems);
   if (!scenario) return tl::make_unexpected(scenario.error());
-  if (scenario->world.empty()) return Refused("world", "choose an environment");
+  if (scenario->world.empty()) return Refused("world", "choose a world");
   if (auto ok = RequireModels(*scenario); !ok) return tl::make_unexpected(ok.error());
   return SimulationRequest{*std::move(scenario), *record};
 }
@@ -154,8 +158,8 @@ FieldResult<ObjectRequest> ParseObjectRequest(std::string_view body) {
     *text = *std::move(taken);
   }
   if (object.model.empty() == object.copy_of.empty()) {
-    return Refused("model", object.model.empty() ? "choose a model, or a thing to copy"
-                                                 : "either a model or a thing to copy, not both");
+    return Refused("model", object.model.empty() ? "give a model, or an object to copy"
+                                                 : "give a model or an object to copy, not both");
   }
   if (json->empty()) return object;
   const auto place = ParsePlace(json->dump());

@@ -11,7 +11,7 @@
 
 namespace gsv::gateway {
 
-// {name, world, mode: real_time|lockstep, factor, step, duration, seed, record, robots, avatars};
+// {name, world, mode: real_time|lockstep, real_time_factor, step, duration, seed, record, robots, avatars};
 // `record` is a boolean here. Only the world is required.
 FieldResult<SimulationRequest> ParseSimulationRequest(std::string_view body);
 

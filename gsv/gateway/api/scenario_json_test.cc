@@ -17,7 +17,7 @@ TEST(ScenarioJson, AWorldAloneIsEnough) {
 
 TEST(ScenarioJson, EveryKeyIsTaken) {
   const auto request = ParseSimulationRequest(R"({
-    "name": "run", "world": "maze", "mode": "lockstep", "factor": 2.5, "step": 0.01,
+    "name": "run", "world": "maze", "mode": "lockstep", "real_time_factor": 2.5, "step": 0.01,
     "duration": 60, "seed": 18446744073709551615, "record": true,
     "robots": [{"name": "a\u00e4\ud83d\ude00/\"b\u0001", "model": "pebble", "x": 1, "y": -2, "z": 0.5,
                 "yaw": 3, "behaviour": "goto --goal-x 3", "movement": "rigid"},
@@ -62,8 +62,8 @@ TEST(ScenarioJson, WhatIsWrongIsRefusedWithItsField) {
       {R"({"world": "w", "in_process": true})", "in_process"},
       {R"({"world": "w", "wolrd": 1})", "wolrd"},
       {R"({"world": "w", "mode": "fast"})", "mode"},
-      {R"({"world": "w", "factor": 0})", "factor"},
-      {R"({"world": "w", "factor": "1"})", "factor"},
+      {R"({"world": "w", "real_time_factor": 0})", "real_time_factor"},
+      {R"({"world": "w", "real_time_factor": "1"})", "real_time_factor"},
       {R"({"world": "w", "step": 1e-9})", "step"},
       {R"({"world": "w", "duration": -1})", "duration"},
       {R"({"world": "w", "seed": -1})", "seed"},
@@ -98,7 +98,7 @@ TEST(ScenarioJson, AnUnknownFieldIsRefusedWithThoseThatAreKnown) {
   const auto request = ParseSimulationRequest(R"({"world": "w", "wolrd": 1})");
   ASSERT_FALSE(request);
   EXPECT_EQ(request.error().error.message,
-            "there is no such field; there are: name, world, mode, factor, step, duration, seed, "
+            "unknown field; known are: name, world, mode, real_time_factor, step, duration, seed, "
             "robots, avatars, pedestrians, record");
 }
 

@@ -77,8 +77,8 @@ std::vector<Route> CommandRoutes(const std::shared_ptr<SimulationDirectory>& dir
       {"GET", simulation + "commands", Permission::kWatch, false, Pool::kReaders,
        OfSimulation(directory, [](const SimulationPointer&,
                                   const Request&) { return JsonResponse(200, CommandsJson()); }),
-       "The commands that a simulation takes"}};
-  for (const simulation::Command& command : simulation::Commands()) {
+       "List the commands of a simulation"}};
+  for (const simulation::Command& command : simulation::CommandsWithFormerNames()) {
     routes.push_back({"POST", simulation + std::string(command.name), Permission::kControl, true,
                       Pool::kCommanders, OfSimulation(directory, Applying(command)),
                       std::string(command.summary)});
@@ -92,14 +92,14 @@ std::vector<Route> BodyRoutes(const std::shared_ptr<SimulationDirectory>& direct
   const std::string simulation = "/api/simulations/{name}";
   return {
       {"DELETE", simulation + "/robots/{robot}", kControl, true, kCommanders,
-       OfSimulation(directory, &RemoveRobot), "Remove a robot, or an avatar"},
+       OfSimulation(directory, &RemoveRobot), "Remove a robot or an avatar"},
       {"POST", simulation + "/robots/{robot}/drive", kControl, true, kCommanders,
-       OfSimulation(directory, &Drive), "Steer an avatar"},
+       OfSimulation(directory, &Drive), "Set the velocity of an avatar"},
       {"DELETE", simulation + "/objects/{object}", kControl, true, kCommanders,
-       OfSimulation(directory, &RemoveObject), "Take a thing away"},
+       OfSimulation(directory, &RemoveObject), "Remove an object"},
       {"POST", simulation + "/bodies/{body}/place", kControl, true, kCommanders,
        OfSimulation(directory, &PlaceBody),
-       "Put a robot, an avatar or an object elsewhere, or turn it, at rest"},
+       "Set the pose of a robot, an avatar or an object, at rest"},
   };
 }
 

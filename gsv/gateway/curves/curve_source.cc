@@ -34,9 +34,9 @@ ChannelIds ChannelsNamed(const recording::McapReader& reader, const std::string&
 }
 
 auto NoSuchTopic(const std::string& topic) {
-  return base::Fail(base::ErrorCode::kNotFound, "the recording has no topic '" +
-                                                    topic.substr(0, kMaxKeyLength) +
-                                                    "' that can be read; see `gsv rec info`");
+  return base::Fail(base::ErrorCode::kNotFound,
+                    "the recording has no topic '" + topic.substr(0, kMaxKeyLength) +
+                        "' that can be plotted; `gsv rec info` lists the topics");
 }
 
 class FieldSource final : public CurveSource {

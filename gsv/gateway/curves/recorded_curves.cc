@@ -33,7 +33,8 @@ struct RecordedCurves::Job {
 
 base::Result<Curve> RecordedCurves::Get(const CurveRequest& wish) {
   if (wish.most < 2 || wish.most > kMaxCurvePoints) {
-    return base::Fail(base::ErrorCode::kInvalidArgument, "'most' is from 2 to 100000 points");
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "'most' must be a number from 2 to 100000");
   }
   std::shared_ptr<Job> job;
   {
@@ -109,9 +110,9 @@ void RecordedCurves::Read(Job& job) {
   };
   for (int count = 1;; ++count) {
     if (count % kMessagesBetweenLooks == 0) {
-      if (job.is_dropped) return finish("nobody asked for it any more");
+      if (job.is_dropped) return finish("no viewer needs the curve any more");
       if (std::chrono::steady_clock::now() > end) {
-        return finish("reading the recording took too long, so the curve ends early");
+        return finish("reading the recording took too long; the curve is incomplete");
       }
     }
     const auto message = cursor.Next();

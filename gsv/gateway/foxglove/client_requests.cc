@@ -140,7 +140,8 @@ void ClientRequests::Take(const std::shared_ptr<Client>& client,
   if (request.encoding != "cdr") return fail("services are called in the encoding 'cdr' only");
   if (const base::Status may = client->CheckControl(); !may) return fail(may.error().Sentence());
   const std::shared_ptr<std::atomic<int>> calls = BeginCall(client.get());
-  if (!calls) return fail("too many of your calls are under way; wait for their answers");
+  if (!calls)
+    return fail("too many calls of this client are in progress; wait for their responses");
   operations_->Call(request,
                     [caller = std::weak_ptr<Client>(client), calls, service = request.service,
                      call = request.call](const base::Result<std::vector<std::byte>>& response) {
@@ -154,7 +155,9 @@ void ClientRequests::Take(const std::shared_ptr<Client>& client,
 void ClientRequests::Take(const std::shared_ptr<Client>& client,
                           const foxglove::PlaybackControl& request) const {
   const auto before = operations_ ? operations_->playback() : std::nullopt;
-  if (!before) return client->SendStatus(StatusLevel::kError, "there is no playback here");
+  if (!before)
+    return client->SendStatus(StatusLevel::kError,
+                              "this server has no playback; only replays have one");
   const base::Status may = client->CheckControl();
   if (const base::Status done = may ? operations_->Control(request) : may; !done) {
     client->SendStatus(StatusLevel::kError, done.error().Sentence());

@@ -120,7 +120,7 @@ TEST_F(RequestDeskTest, OneClientsCallsAreBounded) {
   for (char call = 0; call < 20; ++call) CallStop(*client, call);
   EXPECT_EQ(operations_->answers.size(), 8u);
   EXPECT_EQ(client->texts().back()["message"],
-            "too many of your calls are under way; wait for their answers");
+            "too many calls of this client are in progress; wait for their responses");
   CallStop(*other, 1);
   EXPECT_EQ(operations_->answers.size(), 9u);
   operations_->answers[0](std::vector<std::byte>());

@@ -13,7 +13,7 @@ using Json = nlohmann::json;
 
 tl::unexpected<base::Error> Malformed(std::string_view expected) {
   return base::Fail(base::ErrorCode::kCorrupt,
-                    "a message is not one of the Foxglove protocol: " + std::string(expected));
+                    "a message does not follow the Foxglove protocol: " + std::string(expected));
 }
 
 std::optional<std::uint32_t> AsId(const Json& json) {
@@ -159,7 +159,7 @@ base::Result<ClientMessage> ParsePlaybackControl(BytesReader reader) {
   message.request = reader.Take(reader.Take<std::uint32_t>());
   const bool is_whole = !reader.is_short() && reader.rest().empty();
   if (!is_whole || command > 1 || message.request.size() > kMaxRequestLength) {
-    return Malformed("a request to a playback that cannot be understood");
+    return Malformed("a playback request has the wrong form");
   }
   message.play = command == 0;
   if (has_seek) message.seek_ns = seek;
@@ -196,7 +196,7 @@ base::Result<ClientMessage> ParseClientBytes(std::string_view bytes) {
     case 3:
       return ParsePlaybackControl(content);
     default:
-      return Malformed("a binary message with an opcode that does not exist");
+      return Malformed("a binary message has an unknown opcode");
   }
 }
 

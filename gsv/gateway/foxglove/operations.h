@@ -34,7 +34,8 @@ class Operations {
 };
 
 inline base::Status Operations::Control(const foxglove::PlaybackControl&) {
-  return base::Fail(base::ErrorCode::kInvalidArgument, "there is no playback here to control");
+  return base::Fail(base::ErrorCode::kInvalidArgument,
+                    "this server has no playback; only replays have one");
 }
 
 }  // namespace gsv::gateway

@@ -54,7 +54,7 @@ Response ErrorResponse(const base::Error& error) {
 }
 
 Response MethodNotAllowed(std::string allow) {
-  Response response = ErrorResponse(405, "this address takes only " + allow);
+  Response response = ErrorResponse(405, "the body of this request must be only " + allow);
   response.allow = std::move(allow);
   return response;
 }

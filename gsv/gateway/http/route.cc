@@ -9,7 +9,8 @@ Route SocketRoute(std::string pattern, bool needs_control, Route::FindHub find_h
                   std::string summary) {
   Route route{"GET", std::move(pattern), Permission::kWatch, needs_control, Pool::kReaders};
   route.handler = [](const Request&) {
-    return ErrorResponse(426, "this address is for WebSockets that speak foxglove.sdk.v1");
+    return ErrorResponse(
+        426, "this address accepts only WebSockets with the sub-protocol foxglove.sdk.v1");
   };
   route.summary = std::move(summary);
   route.find_hub = std::move(find_hub);

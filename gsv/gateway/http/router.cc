@@ -116,8 +116,7 @@ Router::Match Router::Find(std::string_view method, const Target& target) const 
 
 Response NoRoute(const Router::Match& match) {
   if (!match.allow.empty()) return MethodNotAllowed(match.allow);
-  return ErrorResponse(404,
-                       "there is nothing at this address; /api/openapi.yaml lists what there is");
+  return ErrorResponse(404, "there is no resource at this address; /api/openapi.yaml lists all");
 }
 
 }  // namespace gsv::gateway

@@ -131,7 +131,7 @@ std::optional<Response> StaticFiles::Find(const std::vector<std::string>& segmen
   }
   std::ifstream in(*file, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (!in) return ErrorResponse(500, "the file could not be read");
+  if (!in) return ErrorResponse(500, "cannot read the file");
   response.body = SharedBytes(std::move(bytes));
   return response;
 }
@@ -140,7 +140,8 @@ Response StaticFiles::Get(const Request& request) const {
   const std::vector<std::string>& segments = request.target.segments;
   std::optional<Response> found = Find(segments, request.if_none_match);
   if (!found) {
-    return segments.empty() ? Explain() : ErrorResponse(404, "there is nothing at this address");
+    return segments.empty() ? Explain()
+                            : ErrorResponse(404, "there is no resource at this address");
   }
   // The build gives files under assets/ names that change with their content.
   if (found->status < 400 && !segments.empty() && segments.front() == "assets") {
@@ -151,9 +152,9 @@ Response StaticFiles::Get(const Request& request) const {
 
 std::vector<Route> StaticFiles::Routes() const {
   const Route::Handler get = [this](const Request& request) { return Get(request); };
-  return {
-      {"GET", "/", Permission::kNone, false, Pool::kReaders, get, "The viewer"},
-      {"GET", "/{path...}", Permission::kNone, false, Pool::kReaders, get, "The viewer's files"}};
+  return {{"GET", "/", Permission::kNone, false, Pool::kReaders, get, "The viewer"},
+          {"GET", "/{path...}", Permission::kNone, false, Pool::kReaders, get,
+           "Get a file of the viewer"}};
 }
 
 Response StaticFiles::Explain() const {
@@ -182,7 +183,7 @@ Response Documentation::Get(const Request& request) const {
     found->allows_own_frames = true;  // doxygen's pages show what a search found in a frame
     return *std::move(found);
   }
-  if (!segments.empty()) return ErrorResponse(404, "the documentation has no such page");
+  if (!segments.empty()) return ErrorResponse(404, "the documentation has no page of this name");
   return PageResponse(404,
                       "<h1>The documentation is not installed</h1><p>Build it with <code>make "
                       "docs</code> in the source tree, then load this page again. The pages are "
@@ -193,7 +194,7 @@ std::vector<Route> Documentation::Routes() const {
   const Route::Handler get = [this](const Request& request) { return Get(request); };
   return {{"GET", "/docs", Permission::kNone, false, Pool::kReaders, get, "The documentation"},
           {"GET", "/docs/{path...}", Permission::kNone, false, Pool::kReaders, get,
-           "The documentation's files"}};
+           "Get a file of the documentation"}};
 }
 
 }  // namespace gsv::gateway

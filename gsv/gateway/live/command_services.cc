@@ -120,7 +120,7 @@ base::Result<Arguments> ArgumentsIn(const Command& command, const foxglove::Serv
   if (command.parameters.empty()) {
     if (call.request.size() <= kMaxEmptyBytes) return ReadArguments(command, Arguments::Values());
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "this service's request is empty; what came is longer");
+                      "the request of this service must be empty, but it has content");
   }
   messages::CdrReader reader(std::as_bytes(std::span(call.request)));
   Arguments::Values given;

@@ -10,10 +10,11 @@ namespace {
 
 using simulation::Simulation;
 
-constexpr const char* kFactor = "/gsv/factor";
+constexpr const char* kFactor = "/gsv/real_time_factor";
+constexpr const char* kFormerFactor = "/gsv/factor";  // still accepted
 
 base::Result<std::string> Gone() {
-  return base::Fail(base::ErrorCode::kEnded, "the simulation is gone");
+  return base::Fail(base::ErrorCode::kEnded, "the simulation was removed");
 }
 
 // Answers with where it is recorded.
@@ -28,7 +29,7 @@ base::Result<std::string> Record(const std::shared_ptr<Simulation>& simulation,
 std::vector<CommandServices::Service> ServicesOf(const std::weak_ptr<Simulation>& simulation,
                                                  RecordingSwitch* recordings) {
   std::vector<CommandServices::Service> services;
-  for (const simulation::Command& command : simulation::Commands()) {
+  for (const simulation::Command& command : simulation::CommandsWithFormerNames()) {
     services.push_back(
         {command, [simulation, apply = command.apply](const simulation::Arguments& arguments) {
            const auto locked = simulation.lock();
@@ -84,6 +85,7 @@ std::vector<foxglove::Parameter> LiveOperations::parameters() const {
     const simulation::Phase phase = simulation->WaitForPhase({}, std::chrono::milliseconds(0));
     parameters.push_back({"/gsv/phase", std::string(ToString(phase))});
     parameters.push_back({kFactor, simulation->real_time_factor()});
+    parameters.push_back({kFormerFactor, simulation->real_time_factor()});
     if (recordings_ != nullptr) {
       const std::string& name = simulation->specification().name;
       parameters.push_back({"/gsv/recording", recordings_->RecordingOf(name).is_recording});
@@ -93,7 +95,9 @@ std::vector<foxglove::Parameter> LiveOperations::parameters() const {
 }
 
 base::Status LiveOperations::Set(const foxglove::Parameter& parameter) {
-  if (parameter.name == kFactor) return SetRealTimeFactor(parameter.value);
+  if (parameter.name == kFactor || parameter.name == kFormerFactor) {
+    return SetRealTimeFactor(parameter.value);
+  }
   const std::vector<foxglove::Parameter> all = parameters();
   const bool is_known = std::any_of(all.begin(), all.end(),
                                     [&](const auto& each) { return each.name == parameter.name; });
@@ -108,7 +112,7 @@ base::Status LiveOperations::SetRealTimeFactor(const foxglove::ParameterValue& v
   const auto* factor = std::get_if<double>(&value);
   if (factor == nullptr) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "the parameter '/gsv/factor' must be a number");
+                      "the parameter '/gsv/real_time_factor' must be a number");
   }
   const auto simulation = simulation_.lock();
   return simulation ? simulation->SetRealTimeFactor(*factor) : base::Fail(Gone().error());

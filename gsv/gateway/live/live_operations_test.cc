@@ -89,23 +89,26 @@ class LiveOperationsTest : public ::testing::Test {
 
 TEST_F(LiveOperationsTest, TheFactorCanBeSet) {
   LiveOperations operations(simulation_, workers_, nullptr);
-  EXPECT_EQ(ValueOf(operations, "/gsv/factor"), foxglove::ParameterValue(1.0));
-  EXPECT_TRUE(operations.Set({"/gsv/factor", 2.5}));
+  EXPECT_EQ(ValueOf(operations, "/gsv/real_time_factor"), foxglove::ParameterValue(1.0));
+  EXPECT_TRUE(operations.Set({"/gsv/real_time_factor", 2.5}));
   EXPECT_EQ(simulation_->real_time_factor(), 2.5);
-  EXPECT_EQ(ValueOf(operations, "/gsv/factor"), foxglove::ParameterValue(2.5));
+  EXPECT_EQ(ValueOf(operations, "/gsv/real_time_factor"), foxglove::ParameterValue(2.5));
+  EXPECT_TRUE(operations.Set({"/gsv/factor", 3.5})) << "the former name";
+  EXPECT_EQ(ValueOf(operations, "/gsv/factor"), foxglove::ParameterValue(3.5));
+  EXPECT_TRUE(operations.Set({"/gsv/factor", 2.5}));
 }
 
 TEST_F(LiveOperationsTest, WhatCannotBeSetIsRefusedWithASentence) {
   LiveOperations operations(simulation_, workers_, nullptr);
-  EXPECT_EQ(Refusal(operations, {"/gsv/factor", std::string("fast")}),
-            "the parameter '/gsv/factor' must be a number");
+  EXPECT_EQ(Refusal(operations, {"/gsv/real_time_factor", std::string("fast")}),
+            "the parameter '/gsv/real_time_factor' must be a number");
   EXPECT_EQ(Refusal(operations, {"/gsv/factor", -1.0}), "the factor must be above 0");
   EXPECT_EQ(Refusal(operations, {"/gsv/seed", 1.0}),
             "the parameter '/gsv/seed' cannot be changed while a simulation runs");
   EXPECT_EQ(Refusal(operations, {"/gsv/colour", true}), "there is no parameter '/gsv/colour'");
   EXPECT_EQ(simulation_->real_time_factor(), 1);
   simulation_.reset();
-  EXPECT_EQ(Refusal(operations, {"/gsv/factor", 1.0}), "the simulation is gone");
+  EXPECT_EQ(Refusal(operations, {"/gsv/factor", 1.0}), "the simulation was removed");
 }
 
 TEST_F(LiveOperationsTest, ARecordingIsSwitchedOnAndOff) {

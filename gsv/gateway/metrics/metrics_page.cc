@@ -29,45 +29,43 @@ void PutSimulations(SimulationDirectory& directory, Exposition& out) {
     robots += status.CountRobots();
     if (status.phase == Phase::kRunning) factors.push_back(status.real_time_factor);
   }
-  out.Begin("gsv_simulations", kGauge, "Simulations that there are, by phase.");
+  out.Begin("gsv_simulations", kGauge, "Number of simulations, by phase.");
   for (const Phase phase : kPhases) {
     out.Add(by_phase[static_cast<std::size_t>(phase)], {{"phase", ToString(phase)}});
   }
-  out.Put("gsv_robots", kGauge, "Robots and avatars of all simulations.", robots);
-  out.Begin(
-      "gsv_real_time_factor", kGauge,
-      "Simulated seconds a second, of the simulations that run: the slowest and the fastest.");
+  out.Put("gsv_robots", kGauge, "Number of robots and avatars of all simulations.", robots);
+  out.Begin("gsv_real_time_factor", kGauge,
+            "Real-time factor of the slowest and the fastest running simulation.");
   if (!factors.empty()) {
     out.Add(*std::min_element(factors.begin(), factors.end()), {{"of", "slowest"}});
     out.Add(*std::max_element(factors.begin(), factors.end()), {{"of", "fastest"}});
   }
   const simulation::Totals& totals = simulation::ProcessTotals();
   out.Put("gsv_steps_total", kCounter, "Steps taken by all simulations.", totals.steps.load());
-  out.Put("gsv_late_steps_total", kCounter,
-          "Steps in real time that began a step's length or more too late.",
+  out.Put("gsv_late_steps_total", kCounter, "Real-time steps that started at least one step late.",
           totals.late_steps.load());
 }
 
 void PutRecordings(RecordingSwitch& recordings, Exposition& out) {
   const RecordingSwitch::Totals totals = recordings.totals();
-  out.Put("gsv_recordings", kGauge, "Recordings under way.", totals.under_way);
+  out.Put("gsv_recordings", kGauge, "Number of recordings in progress.", totals.under_way);
   out.Put("gsv_recorded_bytes_total", kCounter, "Bytes written to recordings.", totals.bytes);
   out.Put("gsv_recorded_messages_total", kCounter, "Messages recorded.", totals.messages);
   out.Put("gsv_recording_dropped_messages_total", kCounter,
-          "Messages that were not recorded, as the disk was too slow.", totals.dropped);
+          "Messages not recorded because the disk was too slow.", totals.dropped);
 }
 
 void PutTraffic(const Traffic& traffic, Exposition& out) {
   out.Put("gsv_connections", kGauge, "Connections to the viewer's port.",
           traffic.connections.load());
   out.Put("gsv_connections_turned_away_total", kCounter,
-          "Connections refused, as there were too many.", traffic.turned_away.load());
-  out.Put("gsv_viewers", kGauge, "Viewers that follow a simulation.", traffic.viewers.load());
-  out.Put("gsv_sent_bytes_total", kCounter, "Bytes of answers and updates sent to viewers.",
+          "Connections refused because there were too many.", traffic.turned_away.load());
+  out.Put("gsv_viewers", kGauge, "Viewers that have a simulation open.", traffic.viewers.load());
+  out.Put("gsv_sent_bytes_total", kCounter, "Bytes of responses and updates sent to viewers.",
           traffic.sent_bytes.load());
-  out.Put("gsv_dropped_updates_total", kCounter,
-          "Updates that were not sent, as a viewer was too slow.", traffic.dropped_updates.load());
-  out.Begin("gsv_http_answers_total", kCounter, "HTTP answers, by the class of their status.");
+  out.Put("gsv_dropped_updates_total", kCounter, "Updates not sent because a viewer was too slow.",
+          traffic.dropped_updates.load());
+  out.Begin("gsv_http_answers_total", kCounter, "HTTP responses, by status class.");
   for (const char* status : {"1xx", "2xx", "3xx", "4xx", "5xx"}) {
     out.Add(traffic.answers[status[0] - '0'].load(), {{"status", status}});
   }
@@ -81,25 +79,26 @@ void PutBroker(const BrokerCalls& calls, Exposition& out) {
 // The names that Prometheus' own client libraries give.
 void PutProcess(const MetricsSources& sources, Exposition& out) {
   const ProcessUsage usage = ReadProcessUsage();
-  out.Begin("gsv_build_info", kGauge, "1; the version is the label.");
+  out.Begin("gsv_build_info", kGauge, "Always 1; the label is the version.");
   out.Add(std::uint64_t{1}, {{"version", sources.version}});
-  out.Put("gsv_uptime_seconds", kGauge, "Since this process started.", usage.uptime);
-  out.Put("process_start_time_seconds", kGauge, "When this process started, since 1970.",
+  out.Put("gsv_uptime_seconds", kGauge, "Time since this process started.", usage.uptime);
+  out.Put("process_start_time_seconds", kGauge, "Start time of this process, since 1970.",
           usage.start_time);
   out.Put("process_cpu_seconds_total", kCounter, "Processor time used.", usage.processor_seconds);
   out.Put("process_resident_memory_bytes", kGauge, "Memory in use.", usage.resident_bytes);
-  out.Put("gsv_allocated_memory_bytes", kGauge, "Memory that malloc gave out.",
+  out.Put("gsv_allocated_memory_bytes", kGauge, "Memory allocated with malloc.",
           usage.allocated_bytes);
   out.Put("process_threads", kGauge, "Threads of this process.", usage.threads);
-  out.Put("process_open_fds", kGauge, "Descriptors that are open.", usage.descriptors);
-  out.Put("process_max_fds", kGauge, "Descriptors that may be open.", usage.max_descriptors);
+  out.Put("process_open_fds", kGauge, "Open file descriptors.", usage.descriptors);
+  out.Put("process_max_fds", kGauge, "Maximum number of open file descriptors.",
+          usage.max_descriptors);
 }
 
 void PutLog(Exposition& out) {
   const base::LogCounts counts = base::ProcessLogCounts();
   out.Put("gsv_log_lines_total", kCounter, "Lines written to the log.", counts.written);
   out.Put("gsv_log_suppressed_lines_total", kCounter,
-          "Lines that were not written to the log, as there were too many.", counts.suppressed);
+          "Lines not written to the log because there were too many.", counts.suppressed);
 }
 
 }  // namespace
@@ -124,10 +123,10 @@ std::vector<Route> Monitor::Routes() const {
   return {
       {"GET", "/healthz", kNone, false, kReaders,
        [](const Request&) { return JsonResponse(200, R"({"ok":true})"); },
-       "Whether the server answers"},
+       "Check that the server responds"},
       {"GET", "/metrics", kWatch, false, kReaders,
        [this](const Request&) { return MetricsPage(sources_, *traffic_); },
-       "How the server and its simulations are doing, for a monitoring system"},
+       "Get the metrics of the server and its simulations, for monitoring"},
   };
 }
 

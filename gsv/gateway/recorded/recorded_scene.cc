@@ -56,7 +56,7 @@ RecordedScene::RecordedScene(const recording::McapReader& reader) : reader_(read
 
 base::Status RecordedScene::Add(const recording::AttachmentIndexRecord& index) {
   if (index.data_size > kMaxSceneBytes) {
-    return base::Fail(base::ErrorCode::kCorrupt, "a scene is larger than is read", index.name);
+    return base::Fail(base::ErrorCode::kCorrupt, "the scene is too large", index.name);
   }
   const auto attachment = reader_.Read(index);
   if (!attachment) return base::Fail(attachment.error());
@@ -64,7 +64,7 @@ base::Status RecordedScene::Add(const recording::AttachmentIndexRecord& index) {
   const Json scene = Json::parse(text, nullptr, false);
   const Json& version = MemberOf(scene, "layout_version");
   if (!version.is_number_unsigned()) {
-    return base::Fail(base::ErrorCode::kCorrupt, "it is no scene: it has no layout_version",
+    return base::Fail(base::ErrorCode::kCorrupt, "it is not a scene: layout_version is missing",
                       index.name);
   }
   scenes_[version.get<std::uint32_t>()] = {SharedBytes(std::string(text)), BodyPosesOf(scene)};
@@ -78,8 +78,8 @@ void RecordedScene::Warn(const base::Error& error) {
 base::Result<SharedBytes> RecordedScene::Scene(std::uint32_t layout_version) const {
   if (scenes_.empty()) {
     return base::Fail(base::ErrorCode::kNotFound,
-                      "the recording holds no scene (an attachment scene.json), so there is "
-                      "nothing to draw; its messages can be seen all the same");
+                      "the recording has no scene (attachment scene.json), so the 3D view is "
+                      "empty; its messages can be shown");
   }
   const auto found = scenes_.find(layout_version);
   return found == scenes_.end() ? scenes_.begin()->second.json : found->second.json;
@@ -101,10 +101,10 @@ base::Result<SharedBytes> RecordedScene::Model(const std::string& id) const {
   const auto found = models_.find(recording::ModelAttachment(id));
   if (found == models_.end()) {
     return base::Fail(base::ErrorCode::kNotFound,
-                      "the recording holds no model '" + id.substr(0, 64) + "'");
+                      "the recording has no model '" + id.substr(0, 64) + "'");
   }
   if (found->second.data_size > kMaxModelBytes) {
-    return base::Fail(base::ErrorCode::kCorrupt, "the model is larger than is read", id);
+    return base::Fail(base::ErrorCode::kCorrupt, "the model is too large", id);
   }
   auto attachment = reader_.Read(found->second);
   if (!attachment) return base::Fail(attachment.error());

@@ -56,10 +56,10 @@ std::vector<Route> RecordingsApi::Routes() {
   using enum Pool;
   std::vector<Route> routes{
       {"GET", "/api/recordings", kWatch, false, kReaders, [this](const Request&) { return List(); },
-       "The recordings in the server's folder, the newest first"},
+       "List the recordings in the server's folder, newest first"},
       {"POST", "/api/recordings/{recording}/replay", kWatch, false, kCommanders,
        [this](const Request& request) { return Open(request.Parameter("recording")); },
-       "Open a recording for oneself"},
+       "Open a recording as your own replay"},
   };
   Append(routes, sessions_.Routes());
   return routes;

@@ -6,7 +6,7 @@ namespace gsv::gateway::recordings {
 namespace {
 
 constexpr const char* kGone =
-    "this replay has ended, as nobody watched it; open the recording again";
+    "this replay has ended because no viewer watched it; open the recording again";
 
 }  // namespace
 
@@ -19,8 +19,7 @@ base::Result<std::string> ReplaySessions::Open(const std::string& path,
   if (is_stopped_) return base::Fail(base::ErrorCode::kUnavailable, "the server is shutting down");
   if (sessions_.size() >= limits_.sessions) {
     return base::Fail(base::ErrorCode::kUnavailable,
-                      "so many recordings are watched here that no more can be opened; close a "
-                      "page, and try again in half a minute");
+                      "too many recordings are open; close a page, and try again in half a minute");
   }
   const std::string name = std::to_string(next_++);
   sessions_[name] = {{*std::move(player), recording}, std::chrono::steady_clock::now()};
@@ -66,7 +65,7 @@ std::vector<Route> ReplaySessions::Routes() {
   routes.push_back(SocketRoute(
       below + "/ws", false,
       [this](const Request& request) { return FindHub(request.Parameter("session")); },
-      "The live stream of a replay of one's own"));
+      "Open the live stream of your replay"));
   return routes;
 }
 

@@ -59,7 +59,8 @@ base::Result<std::unique_ptr<ReplayPlayer>> ReplayPlayer::Open(const std::string
   auto reader = recording::McapReader::Open(path);
   if (!reader) return base::Fail(reader.error());
   if ((*reader)->summary().message_count == 0) {
-    return base::Fail(base::ErrorCode::kCorrupt, "the recording holds no messages to replay", path);
+    return base::Fail(base::ErrorCode::kCorrupt, "cannot replay the recording: it has no messages",
+                      path);
   }
   return std::unique_ptr<ReplayPlayer>(new ReplayPlayer(*std::move(reader), path, options));
 }
@@ -115,7 +116,7 @@ base::Status ReplayPlayer::Resume() {
 
 base::Status ReplayPlayer::Step(std::int64_t count) {
   if (count < 1 || count > base::SimTime::max() / step_) {
-    return base::Fail(base::ErrorCode::kInvalidArgument, "so many steps cannot be taken at once");
+    return base::Fail(base::ErrorCode::kInvalidArgument, "too many steps at once; take fewer");
   }
   return Command([&](ReplayClock& clock)
                      GSV_REQUIRES(mutex_) { return clock.Step(count * step_); });
@@ -138,7 +139,7 @@ void ReplayPlayer::Seek(base::SimTime time) {
 base::Status ReplayPlayer::StepPoses(std::int64_t count) {
   if (count == 0 || count < -kMaxPoses || count > kMaxPoses) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "a step over recorded poses is from 1 to 1000 of them, or from -1 to -1000");
+                      "the number of poses to step must be 1 to 1000 or -1 to -1000");
   }
   const base::SimTime time = timeline_.PoseBeside(clock().position(), count);
   Command([&](ReplayClock& clock) GSV_REQUIRES(mutex_) {

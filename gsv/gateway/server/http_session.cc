@@ -36,11 +36,11 @@ std::optional<Response> ResponseTo(error_code error, std::uint64_t header_limit,
                                    std::uint64_t body_limit) {
   if (error == http::error::header_limit || error == http::error::buffer_overflow) {
     return ErrorResponse(
-        431, "the request's header is longer than " + std::to_string(header_limit) + " bytes");
+        431, "the header of the request is longer than " + std::to_string(header_limit) + " bytes");
   }
   if (error == http::error::body_limit) {
     return ErrorResponse(
-        413, "the request's body is longer than " + std::to_string(body_limit) + " bytes");
+        413, "the body of the request is longer than " + std::to_string(body_limit) + " bytes");
   }
   if (error.category() == make_error_code(http::error::bad_target).category() &&
       error != http::error::end_of_stream && error != http::error::partial_message) {
@@ -135,7 +135,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   void ReadFile() {
     upload_ = UploadSlot::Take(context_);
     if (!upload_) {
-      return Write(ErrorResponse(503, "others are uploading files; try again in a moment"));
+      return Write(ErrorResponse(503, "too many uploads at the same time; try again in a moment"));
     }
     tcp().expires_after(kUploadTime);
     ReadBody();

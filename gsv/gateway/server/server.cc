@@ -42,7 +42,7 @@ base::Result<tcp::endpoint> EndpointOf(const ServerOptions& options) {
 
 base::Error NeedsToken(const ServerOptions& options) {
   return {base::ErrorCode::kInvalidArgument,
-          "other machines can reach this address, so it takes a token: give --control-token or "
+          "other machines can reach this address, so a token is required: give --control-token or "
           "--watch-token, or listen on 127.0.0.1",
           "listening on " + options.host};
 }
@@ -51,8 +51,7 @@ base::Error CannotListen(const ServerOptions& options, error_code error) {
   const std::string where = Authority(options.host, options.port);
   if (error == asio::error::address_in_use) {
     return {base::ErrorCode::kUnavailable,
-            "the port is used by another program; give another one, or --port 0 to let the system "
-            "choose",
+            "another program uses the port; choose another port, or --port 0 for any free one",
             where};
   }
   return {base::ErrorCode::kUnavailable,

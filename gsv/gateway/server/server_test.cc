@@ -116,10 +116,10 @@ TEST_F(ServerTest, APortThatIsTakenIsNamed) {
   const auto other = Server::Start(options, echo_);
   ASSERT_FALSE(other);
   EXPECT_EQ(other.error().code, base::ErrorCode::kUnavailable);
-  EXPECT_EQ(other.error().Sentence(),
-            "127.0.0.1:" + std::to_string(port()) +
-                ": the port is used by another program; give another one, or --port 0 to let the "
-                "system choose");
+  EXPECT_EQ(
+      other.error().Sentence(),
+      "127.0.0.1:" + std::to_string(port()) +
+          ": another program uses the port; choose another port, or --port 0 for any free one");
 }
 
 TEST_F(ServerTest, AnAddressThatIsNoneIsNamed) {

@@ -11,8 +11,7 @@ namespace ssl = boost::asio::ssl;
 base::Result<std::shared_ptr<ssl::context>> MakeTlsContext(const TlsFiles& files) {
   if (files.certificate.empty() || files.key.empty()) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "TLS takes both a certificate and its key; `gsv certificates make` makes "
-                      "them");
+                      "TLS needs a certificate and its key; `gsv certificates make` makes them");
   }
   if (auto good = tls::CheckKeyPair(files.certificate, files.key); !good) {
     return base::Fail(good.error());
@@ -22,8 +21,8 @@ base::Result<std::shared_ptr<ssl::context>> MakeTlsContext(const TlsFiles& files
   context->use_certificate_chain_file(files.certificate, error);
   if (!error) context->use_private_key_file(files.key, ssl::context::pem, error);
   if (error) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "OpenSSL does not take it: " + error.message(), files.certificate);
+    return base::Fail(base::ErrorCode::kInvalidArgument, "OpenSSL refuses it: " + error.message(),
+                      files.certificate);
   }
   SSL_CTX_set_min_proto_version(context->native_handle(), TLS1_2_VERSION);
   return context;
@@ -39,8 +38,8 @@ base::Result<std::shared_ptr<ssl::context>> MakeTlsClientContext(const std::stri
     context->load_verify_file(authority, error);
   }
   if (error) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "OpenSSL does not take it: " + error.message(), authority);
+    return base::Fail(base::ErrorCode::kInvalidArgument, "OpenSSL refuses it: " + error.message(),
+                      authority);
   }
   SSL_CTX_set_min_proto_version(context->native_handle(), TLS1_2_VERSION);
   return context;

@@ -99,7 +99,8 @@ class WebSocketSession final : public Client,
 
   void SendControl(SharedBytes message, bool is_text) {
     if (queue_.PushControl(std::move(message), is_text)) return Wake();
-    Close(CloseCode::kTryAgainLater, "this viewer does not take what it is told; connect again");
+    Close(CloseCode::kTryAgainLater,
+          "this viewer is too slow: it does not read its messages; connect again");
   }
 
   void OnAccepted() {

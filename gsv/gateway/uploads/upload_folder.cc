@@ -35,7 +35,7 @@ base::Result<std::string> UploadFolder::Begin() {
   }
   if (sets_ >= limits_.files) {
     return base::Fail(base::ErrorCode::kUnavailable,
-                      "so much was uploaded that there is no room left; restart the server");
+                      "the space for uploads is full; restart the server to empty it");
   }
   return std::to_string(++sets_);
 }
@@ -46,7 +46,8 @@ base::Result<fs::path> UploadFolder::Put(const std::string& set,
   const base::MutexLock lock(mutex_);
   const std::uint64_t number = NumberOf(set);
   if (number == 0 || number > sets_) {
-    return base::Fail(base::ErrorCode::kNotFound, "there is no such upload, any more");
+    return base::Fail(base::ErrorCode::kNotFound,
+                      "this upload does not exist any more; upload the files again");
   }
   const bool is_usable = !path.empty() && path.size() <= limits_.depth &&
                          std::all_of(path.begin(), path.end(), IsName);
@@ -58,7 +59,7 @@ base::Result<fs::path> UploadFolder::Put(const std::string& set,
   }
   if (files_ >= limits_.files || content.size() > limits_.bytes - bytes_) {
     return base::Fail(base::ErrorCode::kUnavailable,
-                      "so much was uploaded that there is no room left; restart the server");
+                      "the space for uploads is full; restart the server to empty it");
   }
   fs::path file = folder_->path() / std::to_string(number);
   for (const std::string& name : path) file /= name;
@@ -69,8 +70,7 @@ base::Result<fs::path> UploadFolder::Put(const std::string& set,
   out.close();
   if (error || !out) {
     return base::Fail(base::ErrorCode::kUnavailable,
-                      "the file cannot be written: the disk is full, "
-                      "or something else has this name");
+                      "cannot write the file: the disk is full, or the name is in use");
   }
   files_ += 1;
   bytes_ += content.size();

@@ -28,9 +28,9 @@ std::vector<Route> UploadsApi::Routes() {
   };
   return {
       {"POST", "/api/uploads", kControl, false, kCommanders, begin,
-       "Begin a set of files that belong together"},
-      {"PUT", "/api/uploads/{upload}/{path...}", kControl, false, kCommanders, put,
-       "Upload one file", true},
+       "Create an upload, for files that belong together"},
+      {"PUT", "/api/uploads/{upload}/{path...}", kControl, false, kCommanders, put, "Upload a file",
+       true},
   };
 }
 

@@ -11,8 +11,9 @@ namespace {
 using Json = nlohmann::json;
 
 tl::unexpected<base::Error> Malformed(const std::string& what) {
-  return base::Fail(base::ErrorCode::kCorrupt,
-                    "the other instance sent what is not of the Foxglove protocol: " + what);
+  return base::Fail(
+      base::ErrorCode::kCorrupt,
+      "the other instance sent a message that does not follow the Foxglove protocol: " + what);
 }
 
 std::string TextOf(const Json& object, const char* name) {

@@ -55,14 +55,14 @@ base::Result<std::string> Command(const Address& address, std::string simulation
   const bool has_sentence = json.is_object() && sentence != json.end() && sentence->is_string();
   return base::Fail(base::ErrorCode::kNotRunning,
                     has_sentence ? sentence->get<std::string>()
-                                 : "the other instance answers " + std::to_string(answer->status),
+                                 : "the other instance returns " + std::to_string(answer->status),
                     address.Url());
 }
 
 std::vector<CommandServices::Service> ServicesOf(const Address& address,
                                                  const std::string& simulation) {
   std::vector<CommandServices::Service> services;
-  for (const simulation::Command& command : simulation::Commands()) {
+  for (const simulation::Command& command : simulation::CommandsWithFormerNames()) {
     services.push_back({command, [address, simulation, name = std::string(command.name)](
                                      const simulation::Arguments& arguments) {
                           return Command(address, simulation, name, arguments);
@@ -88,7 +88,7 @@ void RelayedOperations::Call(const foxglove::ServiceCall& call, Answer answer) {
 
 base::Status RelayedOperations::Set(const foxglove::Parameter&) {
   return base::Fail(base::ErrorCode::kInvalidArgument,
-                    "a relay passes on no parameters; set them at the other instance");
+                    "a relay cannot set parameters; set them at the other instance");
 }
 
 }  // namespace gsv::gateway::upstream

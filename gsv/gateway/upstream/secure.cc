@@ -39,10 +39,10 @@ std::string WhyNotConnected(const boost::system::error_code& error) {
   }
   if (ERR_GET_REASON(static_cast<unsigned long>(error.value())) ==
       SSL_R_CERTIFICATE_VERIFY_FAILED) {
-    return "its certificate is of nobody who is trusted here, or for another name; name the "
-           "authority's by --authority (`gsv certificates make` calls it ca.pem)";
+    return "its certificate is not trusted, or is for another name; give the authority's "
+           "certificate with --authority (ca.pem of `gsv certificates make`)";
   }
-  return "it does not speak TLS as it should: " + error.message();
+  return "the TLS connection failed: " + error.message();
 }
 
 }  // namespace gsv::gateway::upstream

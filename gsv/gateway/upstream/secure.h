@@ -14,6 +14,6 @@ void Secure(transport::ByteStream& stream, const Address& address, transport::Co
 
 // The reason for a failed connection, with advice.
 std::string WhyNotConnected(const boost::system::error_code& error);
-inline constexpr char kConnectionHint[] = "is gsv running there, and is the address right?";
+inline constexpr char kConnectionHint[] = "check that gsv runs there and that the address is right";
 
 }  // namespace gsv::gateway::upstream

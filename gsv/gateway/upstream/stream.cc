@@ -266,7 +266,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
     Disconnect();
     if (was_open || pause_length_ == kFirstPause) {
       hub_->SendStatus(foxglove::StatusLevel::kWarning,
-                       address_.Url() + ": the connection is lost: " + why + "; it is tried again");
+                       address_.Url() + ": connection lost: " + why + "; trying again");
     }
     state_ = State::kPausing;
     pause_.expires_after(pause_length_);

@@ -97,6 +97,15 @@ class ArgumentReader {
       if (Find(name) == nullptr) return Unknown(name);
     }
     for (const Parameter& parameter : command_.parameters) {
+      auto former = given.extract(std::string(parameter.former_name));
+      if (former.empty()) continue;
+      former.key() = parameter.name;
+      if (!given.insert(std::move(former)).inserted) {
+        return Wrong(parameter, fmt::format("it is also given by its former name '{}'",
+                                            parameter.former_name));
+      }
+    }
+    for (const Parameter& parameter : command_.parameters) {
       const auto found = given.find(parameter.name);
       if (found == given.end()) {
         if (parameter.is_required()) return Wrong(parameter, "it is missing");
@@ -125,8 +134,10 @@ class ArgumentReader {
 
  private:
   const Parameter* Find(std::string_view name) const {
-    const auto found = std::find_if(command_.parameters.begin(), command_.parameters.end(),
-                                    [&](const Parameter& each) { return each.name == name; });
+    const auto found = std::find_if(
+        command_.parameters.begin(), command_.parameters.end(), [&](const Parameter& each) {
+          return !name.empty() && (each.name == name || each.former_name == name);
+        });
     return found == command_.parameters.end() ? nullptr : &*found;
   }
 

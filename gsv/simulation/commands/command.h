@@ -32,7 +32,8 @@ const char* ToString(ParameterType type);
 std::string ToText(const ArgumentValue& value);
 
 struct Parameter {
-  std::string_view name;  // lower_case
+  std::string_view name;           // lower_case
+  std::string_view former_name{};  // still accepted in its place; empty: none
   ParameterType type = ParameterType::kNumber;
   std::string_view unit{};     // "m/s²"; empty: none
   std::string_view summary{};  // a noun phrase
@@ -78,9 +79,10 @@ class Arguments {
 struct Command {
   std::string_view name;     // lower_case
   std::string_view summary;  // an imperative, as in docs/api.yaml
-  std::vector<Parameter> parameters;
+  std::vector<Parameter> parameters{};
   // May block: a reset calls behaviours.
   base::Status (*apply)(Simulation& simulation, const Arguments& arguments) = nullptr;
+  std::string_view former_name{};  // still accepted in its place; empty: none
 };
 
 }  // namespace gsv::simulation

@@ -18,12 +18,15 @@ std::span<const Command> Commands() {
        {},
        [](Simulation& s, const Arguments&) { return s.Pause(); }},
       {"resume",
-       "Resume a simulation that is paused",
+       "Resume a paused simulation",
        {},
        [](Simulation& s, const Arguments&) { return s.Resume(); }},
-      {"stop", "End a simulation", {}, [](Simulation& s, const Arguments&) { return s.Stop(); }},
+      {"stop",
+       "Stop a simulation for good",
+       {},
+       [](Simulation& s, const Arguments&) { return s.Stop(); }},
       {"reset",
-       "Go back to the start",
+       "Reset a simulation to its start",
        {},
        [](Simulation& s, const Arguments&) { return s.Reset(); }},
       {"step",
@@ -38,23 +41,25 @@ std::span<const Command> Commands() {
        [](Simulation& s, const Arguments& given) {
          return s.Step(given.Get<std::int64_t>("count"));
        }},
-      {"factor",
-       "Set how fast a simulation in real time goes",
-       {{.name = "factor",
+      {"real_time_factor",
+       "Set the target real-time factor of a simulation in real time",
+       {{.name = "real_time_factor",
+         .former_name = "factor",
          .type = kNumber,
-         .unit = "simulated seconds a second",
+         .unit = "simulated seconds per second",
          .summary = "target real-time factor, above 0",
          .minimum = 0,
          .maximum = 1e6}},
        [](Simulation& s, const Arguments& given) {
-         return s.SetRealTimeFactor(given.Get<double>("factor"));
-       }},
+         return s.SetRealTimeFactor(given.Get<double>("real_time_factor"));
+       },
+       "factor"},
       {"set_gravity",
        "Set gravity along the world's z, while created or paused",
        {{.name = "z",
          .type = kNumber,
          .unit = "m/s²",
-         .summary = "acceleration upwards, -1.62 on the Moon",
+         .summary = "acceleration upwards, such as -1.62 on the Moon",
          .minimum = -100,
          .maximum = 100,
          .default_meaning = "the world's own"}},
@@ -66,10 +71,24 @@ std::span<const Command> Commands() {
   return kCommands;
 }
 
+std::span<const Command> CommandsWithFormerNames() {
+  static const std::vector<Command> kCommands = [] {
+    std::vector<Command> commands(Commands().begin(), Commands().end());
+    for (const Command& command : Commands()) {
+      if (command.former_name.empty()) continue;
+      commands.push_back(command);
+      commands.back().name = command.former_name;
+    }
+    return commands;
+  }();
+  return kCommands;
+}
+
 const Command* FindCommand(std::string_view name) {
   const auto commands = Commands();
-  const auto found = std::find_if(commands.begin(), commands.end(),
-                                  [&](const Command& command) { return command.name == name; });
+  const auto found = std::find_if(commands.begin(), commands.end(), [&](const Command& command) {
+    return !name.empty() && (command.name == name || command.former_name == name);
+  });
   return found == commands.end() ? nullptr : &*found;
 }
 

@@ -11,7 +11,11 @@ namespace gsv::simulation {
 
 std::span<const Command> Commands();
 
-// Null if there is none of that name.
+// The same, with a further entry for each command that has a former name, under that name. It is for front
+// ends whose clients choose a command by its name: HTTP routes, Foxglove services.
+std::span<const Command> CommandsWithFormerNames();
+
+// Finds a command by its name or its former name. Null if there is none.
 const Command* FindCommand(std::string_view name);
 
 }  // namespace gsv::simulation

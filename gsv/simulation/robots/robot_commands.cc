@@ -29,7 +29,7 @@ bool TakesCommands(const MountedSensor& sensor) {
 base::Result<DeviceAction> CommandOf(const MountedSensor& sensor, world::DeviceCommand command,
                                      const std::string& robot) {
   if (!TakesCommands(sensor)) {
-    return RefuseCommand(sensor, robot, "a sensor cannot be told anything");
+    return RefuseCommand(sensor, robot, "a sensor takes no commands");
   }
   auto device = sensor.device();
   if (auto ok = device->Check(command); !ok) {
@@ -70,7 +70,7 @@ base::Status RobotCommands::Send(const MountedSensor& radio, const std::string& 
                                  std::string content, const std::string& robot) {
   auto device = radio.device();
   if (device == nullptr || !device->SendsMessages()) {
-    return RefuseCommand(radio, robot, "only a radio sends messages");
+    return RefuseCommand(radio, robot, "cannot send a message: only a radio can");
   }
   world::DeviceCommand message{{}, receiver, std::move(content)};
   if (auto ok = device->Check(message); !ok) {

@@ -97,12 +97,12 @@ TEST(RobotCommands, MessagesAreAllKept) {
 
 TEST(RobotCommands, AreRefusedForTheWrongSensor) {
   EXPECT_EQ(CommandOf(Mounted("sonar"), {}, "robot").error().Sentence(),
-            "robot/front: a sensor cannot be told anything");
+            "robot/front: a sensor takes no commands");
   EXPECT_EQ(CommandOf(Mounted("radio"), {}, "robot").error().Sentence(),
-            "robot/front: a sensor cannot be told anything");
+            "robot/front: a sensor takes no commands");
   RobotCommands commands;
   EXPECT_EQ(commands.Send(Mounted("lamp"), "", "x", "robot").error().Sentence(),
-            "robot/front: only a radio sends messages");
+            "robot/front: cannot send a message: only a radio can");
   EXPECT_TRUE(commands.empty());
 }
 

@@ -95,8 +95,8 @@ def serve(name: str, make: Callable[..., Any], parser: Optional[argparse.Argumen
     parser = parser or argparse.ArgumentParser(description=doc)
     broker = os.environ.get("GSV_BROKER", "")
     parser.add_argument("--broker", default=broker, required=not broker, metavar="REFERENCE",
-                        help="the broker to offer the behaviour at (or GSV_BROKER)")
-    parser.add_argument("--name", default=name, help="the name to offer it under")
+                        help="broker to which the behaviour is offered (or GSV_BROKER)")
+    parser.add_argument("--name", default=name, help="name of the offer")
     parser.add_argument("--exit-with-parent", action="store_true",
                         help="end when the program that started this one ends")
     options = parser.parse_args()

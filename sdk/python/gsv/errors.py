@@ -23,7 +23,7 @@ class NotFound(Error, LookupError):
 
 
 class Unavailable(Error, ConnectionError):
-    """A peer, port, display or disk that does not answer."""
+    """A peer, port, display or disk that does not respond."""
 
 
 class TimedOut(Error, TimeoutError):

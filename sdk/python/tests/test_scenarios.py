@@ -26,7 +26,7 @@ def test_one_that_does_not_pass_fails_with_its_words(expect_passes, tmp_path):
 
 
 def test_what_is_no_scenario_is_told(tmp_path):
-    with pytest.raises(gsv.BadModel, match="there is no such scenario"):
+    with pytest.raises(gsv.BadModel, match="there is no scenario file"):
         run_scenarios(tmp_path / "none.yaml")
     (tmp_path / "lost.yaml").write_text(STILL.replace("playground", "atlantis"))
     (result,) = run_scenarios(tmp_path / "lost.yaml", "--no-record",

@@ -69,7 +69,7 @@ export class JsonServer {
     const answer: unknown = await response.json().catch(() => null);
     if (response.ok) return answer;
     const refusal = answer as { error?: unknown; field?: unknown } | null;
-    const sentence = textOr(refusal?.error, "") || `The server answered ${response.status}.`;
+    const sentence = textOr(refusal?.error, "") || `The server returned an error: ${response.status}.`;
     throw new ApiError(response.status, sentence, textOr(refusal?.field, ""));
   }
 }
@@ -80,6 +80,6 @@ export function simulationPath(name: string): string {
 
 function reasonOf(error: unknown): string {
   const name = (error as { name?: string }).name;
-  if (name === "TimeoutError") return "The server did not answer in time.";
-  return "The server cannot be reached.";
+  if (name === "TimeoutError") return "The server did not respond in time. Check that gsv still runs.";
+  return "The server cannot be reached. Check that gsv still runs.";
 }

@@ -14,7 +14,7 @@ export class MetricsApi {
   async figures(): Promise<ServerFigures> {
     const signal = AbortSignal.timeout(TIMEOUT_MS);
     const answer = await this.fetchPage(new URL("metrics", this.base).href, { signal });
-    if (!answer.ok) throw new Error(`The server answered ${answer.status}.`);
+    if (!answer.ok) throw new Error(`The server returned an error: ${answer.status}.`);
     return parseFigures(await answer.text());
   }
 }

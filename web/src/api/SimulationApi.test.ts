@@ -20,8 +20,8 @@ test("how fast it goes is posted to its own address", async () => {
   const { api, fetchPage } = answering({ ...STATUS, target_factor: 2.5 });
   expect((await api.setFactor("a b", 2.5)).targetFactor).toBe(2.5);
   const [url, init] = fetchPage.mock.calls[0]!;
-  expect(url).toBe("http://127.0.0.1:8080/api/simulations/a%20b/factor");
-  expect(init).toMatchObject({ method: "POST", body: '{"factor":2.5}' });
+  expect(url).toBe("http://127.0.0.1:8080/api/simulations/a%20b/real_time_factor");
+  expect(init).toMatchObject({ method: "POST", body: '{"real_time_factor":2.5}' });
 });
 
 test("any command is posted to its own address with its arguments", async () => {
@@ -64,18 +64,18 @@ test("a refusal carries the server's sentence", async () => {
 
 test("an error without a sentence still reads as one", async () => {
   const api = new SimulationApi("http://127.0.0.1/", async () => new Response("<html>", { status: 502 }));
-  await expect(api.simulations()).rejects.toThrow("The server answered 502.");
+  await expect(api.simulations()).rejects.toThrow("The server returned an error: 502.");
 });
 
 test("a server that is away and one that is silent are told apart", async () => {
   const refusing = new SimulationApi("http://127.0.0.1/", () =>
     Promise.reject(new TypeError("fetch failed")),
   );
-  await expect(refusing.simulations()).rejects.toThrow("The server cannot be reached.");
+  await expect(refusing.simulations()).rejects.toThrow("The server cannot be reached. Check that gsv still runs.");
   const silent = new SimulationApi("http://127.0.0.1/", () =>
     Promise.reject(new DOMException("timed out", "TimeoutError")),
   );
-  await expect(silent.simulations()).rejects.toThrow("The server did not answer in time.");
+  await expect(silent.simulations()).rejects.toThrow("The server did not respond in time. Check that gsv still runs.");
 });
 
 test("addresses stay below the page's own", () => {

@@ -87,9 +87,9 @@ export class SimulationApi {
     await this.server.post(`${simulationPath(name)}/${encodeURIComponent(command)}`, given, ACTION_TIMEOUT_MS);
   }
 
-  // In real time: simulated seconds a second.
+  // In real time: simulated seconds per second of wall-clock time.
   async setFactor(name: string, factor: number): Promise<SimulationStatus> {
-    return parseStatus(await this.server.post(`${simulationPath(name)}/factor`, { factor }));
+    return parseStatus(await this.server.post(`${simulationPath(name)}/real_time_factor`, { real_time_factor: factor }));
   }
 
   // The recorded instant, or the end that is nearer.

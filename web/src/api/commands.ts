@@ -1,4 +1,4 @@
-// The commands that a simulation takes, as the server describes them (GET …/commands in docs/api.yaml).
+// The commands of a simulation, as the server describes them (GET …/commands in docs/api.yaml).
 import { listAt, numberOr, objectAt, textAt, textOr } from "./json";
 
 export type CommandValue = number | boolean | string;

@@ -28,7 +28,7 @@ export interface Scenario {
   name: string; // empty: the server chooses one
   world: string;
   mode: "real_time" | "lockstep";
-  factor: number;
+  real_time_factor: number;
   step: number; // 0: the world's
   duration: number; // 0: until it is stopped
   seed: number;
@@ -38,11 +38,13 @@ export interface Scenario {
   pedestrians: PedestrianSetUp[];
 }
 
+const FORMER_FACTOR = "factor"; // the former name of real_time_factor in scenario files
+
 export const EMPTY_SCENARIO: Scenario = {
   name: "",
   world: "",
   mode: "real_time",
-  factor: 1,
+  real_time_factor: 1,
   step: 0,
   duration: 0,
   seed: 0,
@@ -130,7 +132,7 @@ export function parseScenario(value: unknown): { scenario: Scenario; left: strin
     name: textOr(json.name, ""),
     world: textOr(json.world, ""),
     mode: json.mode === "lockstep" ? "lockstep" : "real_time",
-    factor: numberOr(json.factor, 1),
+    real_time_factor: numberOr(json.real_time_factor ?? json[FORMER_FACTOR], 1),
     step: numberOr(json.step, 0),
     duration: numberOr(json.duration, 0),
     seed: numberOr(json.seed, 0),
@@ -139,7 +141,7 @@ export function parseScenario(value: unknown): { scenario: Scenario; left: strin
     avatars: parseRobots(json.avatars, "avatars"),
     pedestrians: parsePedestrians(json.pedestrians),
   };
-  return { scenario, left: Object.keys(json).filter((key) => !(key in scenario)) };
+  return { scenario, left: Object.keys(json).filter((key) => !(key in scenario) && key !== FORMER_FACTOR) };
 }
 
 function parseRobots(value: unknown, where: RobotList): RobotSetUp[] {

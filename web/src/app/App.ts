@@ -68,7 +68,7 @@ export class App {
     return this.command(action, (simulation) => this.api.act(simulation, action, count));
   }
 
-  // How fast a simulation in real time goes: simulated seconds a second.
+  // Sets the target real-time factor of a simulation in real time.
   setFactor(factor: number): Promise<void> {
     return this.command("factor", (simulation) => this.api.setFactor(simulation, factor));
   }
@@ -216,7 +216,7 @@ export class App {
   copyLink(): void {
     const link = this.link.linkTo(location.href);
     history.replaceState(null, "", link);
-    void this.copy(link, "The link is copied.");
+    void this.copy(link, "Link copied.");
   }
 
   openHelp(open: boolean): void {

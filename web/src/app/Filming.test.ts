@@ -67,7 +67,7 @@ test("a video that fills the memory ends by itself, and is saved", () => {
   FakeRecorder.newest.ondataavailable({ data: large });
   vi.unstubAllGlobals();
   expect(store.get().filming).toBe(false);
-  expect(store.get().notices[0]?.sentence).toMatch(/ends here/);
+  expect(store.get().notices[0]?.sentence).toMatch(/longest possible length/);
   expect(save).toHaveBeenCalledOnce();
 });
 
@@ -76,5 +76,5 @@ test("a browser that cannot record says so", () => {
   const { store, filming: each } = filming();
   each.toggle();
   expect(store.get().filming).toBe(false);
-  expect(store.get().notices[0]?.sentence).toBe("This browser records no video.");
+  expect(store.get().notices[0]?.sentence).toBe("This browser cannot record video.");
 });

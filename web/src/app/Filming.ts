@@ -26,14 +26,14 @@ export class Filming {
 
   private start(): void {
     const type = FORMATS.find((each) => globalThis.MediaRecorder?.isTypeSupported(each));
-    if (!type) return notify(this.store, "error", "This browser records no video.");
+    if (!type) return notify(this.store, "error", "This browser cannot record video.");
     const { simulation, time } = this.store.get();
     const stream = this.video();
     if (!stream) return;
     const recorder = new MediaRecorder(stream, { mimeType: type });
     this.recorder = recorder;
     recorder.ondataavailable = ({ data }) => this.take(recorder, data);
-    recorder.onerror = () => notify(this.store, "error", "The video broke off.");
+    recorder.onerror = () => notify(this.store, "error", "The video stopped because of an error.");
     recorder.onstop = () => {
       for (const track of stream.getTracks()) track.stop();
       this.finish(fileName(simulation, time, "video", "webm"));
@@ -46,7 +46,7 @@ export class Filming {
     this.pieces.push(piece);
     this.bytes += piece.size;
     if (this.bytes < LARGEST_BYTES || recorder.state !== "recording") return;
-    notify(this.store, "note", "The video is as long as a page can hold: it ends here.");
+    notify(this.store, "note", "The video reached the longest possible length and stopped.");
     recorder.stop();
   }
 

@@ -62,7 +62,7 @@ test("who gets or loses control is told, of the simulation that is looked at", a
   await it.load();
   people.mockResolvedValueOnce({ viewers: [ADA, { ...BOB, holds: true }], you: 3 });
   await it.load();
-  expect(sentences()).toEqual(["You hold control.", "Bob holds control now."]);
+  expect(sentences()).toEqual(["You have control.", "Bob has control now."]);
 });
 
 test("the stream tells it at once", async () => {
@@ -75,7 +75,7 @@ test("the stream tells it at once", async () => {
   const viewers = [{ number: 3, name: "Ada", simulation: "house", holds_control: true }];
   topics.get("/gsv/viewers")!({ data: JSON.stringify({ viewers, you: 0 }) });
   expect(store.get().people).toEqual({ viewers: [{ ...ADA, holds: true }], you: 3 });
-  expect(sentences()).toEqual(["You hold control."]);
+  expect(sentences()).toEqual(["You have control."]);
   vi.useRealTimers();
 });
 

@@ -107,9 +107,9 @@ export class PeopleControl {
     this.store.set({ people });
     const [now, then] = [holderOf(people), holderOf(before)];
     if (now === null || now.number === then?.number) return;
-    if (now.number === people.you) notify(this.store, "note", "You hold control.");
+    if (now.number === people.you) notify(this.store, "note", "You have control.");
     else if (youOf(before)?.holds && youOf(people)?.simulation === youOf(before)?.simulation) {
-      notify(this.store, "note", `${now.name} holds control now.`);
+      notify(this.store, "note", `${now.name} has control now.`);
     }
   }
 }

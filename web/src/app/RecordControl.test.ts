@@ -37,7 +37,7 @@ test("a press records, another ends it and says how to replay", async () => {
   api.record.mockResolvedValue({ ...ON, isOn: false });
   await app.records.toggle();
   expect(api.record).toHaveBeenLastCalledWith("house", false);
-  expect(store.get().notices.at(-1)!.sentence).toBe("Recorded. Replay it on the page Recordings, or: gsv replay '/tmp/a run.mcap'");
+  expect(store.get().notices.at(-1)!.sentence).toBe("Recording saved. Replay it on the page Recordings, or with: gsv replay '/tmp/a run.mcap'");
 });
 
 test("where the server does not record, or something is replayed, there is no button", async () => {

@@ -35,7 +35,7 @@ export class RecordControl {
     try {
       const now = await this.api.record(simulation, !recording.isOn);
       this.take(simulation, now);
-      notify(this.store, "note", now.isOn ? `Recording to ${now.path}` : `Recorded. Replay it on the page Recordings, or: gsv replay ${quoted(now.path)}`);
+      notify(this.store, "note", now.isOn ? `Recording to ${now.path}` : `Recording saved. Replay it on the page Recordings, or with: gsv replay ${quoted(now.path)}`);
     } catch (error) {
       notify(this.store, "error", (error as Error).message);
     }

@@ -285,7 +285,7 @@ export class Session implements TopicSource {
       }
     } catch (error) {
       this.sceneFailedAtMs = Date.now();
-      notify(this.store, "error", `The scene cannot be shown: ${(error as Error).message}`);
+      notify(this.store, "error", `Cannot show the scene: ${(error as Error).message}`);
     } finally {
       if (this.fetchingScene === name) this.fetchingScene = null;
     }
@@ -325,7 +325,7 @@ export class Session implements TopicSource {
   private takeEvent(message: LifecycleEventMessage): void {
     if (seconds(message.stamp) < this.newsSince) return;
     if (message.event === "agent_dead" || message.event === "agent_unresponsive") {
-      notify(this.store, "error", message.detail || `${message.robot}: its behaviour has died.`);
+      notify(this.store, "error", message.detail || `${message.robot}: the behaviour crashed.`);
     }
   }
 }

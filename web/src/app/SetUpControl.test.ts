@@ -108,9 +108,9 @@ test("what belongs to no field stands at the end, what belongs to a robot at its
   api.preview.mockRejectedValueOnce(new ApiError(422, "there is no room", "robots[0]"));
   expect(await app.setUp.place("pebble", { x: 1, y: 1, yaw: 0 })).toBe(false);
   expect(panel.querySelector("[data-row='robots[0]'] > .field-error")!.textContent).toBe("there is no room");
-  api.create.mockRejectedValueOnce(new Error("The server cannot be reached."));
+  api.create.mockRejectedValueOnce(new Error("The server cannot be reached. Check that gsv still runs."));
   await app.setUp.create();
-  expect(panel.querySelector(".set-up-end .field-error")!.textContent).toBe("The server cannot be reached.");
+  expect(panel.querySelector(".set-up-end .field-error")!.textContent).toBe("The server cannot be reached. Check that gsv still runs.");
   expect(app.store.get().setUp).not.toBeNull();
 });
 
@@ -174,12 +174,12 @@ test("a scenario file is loaded, YAML as well, and what is none is refused with 
   const yaml = "world: maze\nseed: 3\nrobots:\n  - {model: pebble, x: 1, y: 2, yaw: 0}\nfaults: []\n";
   await app.setUp.load(file("run.yaml", yaml));
   expect(store.get().setUp!.scenario).toMatchObject({ world: "maze", seed: 3, robots: [{ model: "pebble" }] });
-  expect(store.get().notices.at(-1)!.sentence).toBe("run.yaml: faults cannot be set here and was left out.");
+  expect(store.get().notices.at(-1)!.sentence).toBe("run.yaml: faults is not supported on this page and was ignored.");
   await app.setUp.load(file("torn.yaml", "a: [b"));
   expect(store.get().notices.at(-1)!.sentence).toMatch(/^torn\.yaml cannot be read as a scenario: /);
   expect(store.get().setUp!.scenario.world).toBe("maze");
   await app.setUp.load(file("huge.yaml", "x".repeat(1_000_001)));
-  expect(store.get().notices.at(-1)!.sentence).toContain("at most 1 MB");
+  expect(store.get().notices.at(-1)!.sentence).toContain("not be larger than 1 MB");
 });
 
 test("of several worlds that are dropped each can be chosen", async () => {

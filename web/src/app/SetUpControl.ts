@@ -134,7 +134,7 @@ export class SetUpControl {
       const { scenario, left } = await readScenario(file);
       this.take((setUp) => changed(setUp, scenario));
       if (left.length > 0) {
-        notify(this.store, "note", `${file.name}: ${left.join(", ")} cannot be set here and was left out.`);
+        notify(this.store, "note", `${file.name}: ${left.join(", ")} is not supported on this page and was ignored.`);
       }
     } catch (error) {
       notify(this.store, "error", (error as Error).message);

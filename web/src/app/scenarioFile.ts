@@ -26,7 +26,7 @@ function titleOf({ name, world }: Scenario): string {
 // Throws a sentence on what is no scenario.
 export async function readScenario(file: TextFile): Promise<ReturnType<typeof parseScenario>> {
   try {
-    if (file.size > LARGEST_BYTES) throw new Error("a scenario has at most 1 MB");
+    if (file.size > LARGEST_BYTES) throw new Error("a scenario file must not be larger than 1 MB");
     return parseScenario(await parse(await file.text()));
   } catch (error) {
     const reason = (error as Error).message.split("\n")[0];

@@ -59,24 +59,24 @@ test("says which offers match a constraint, and which term failed", async () => 
   await find(host, "speed > 3");
   expect(asked).toContain("/api/broker/offers?type=Robot&constraint=speed%20%3E%203&preference=");
   expect(host.querySelector(".summary")!.textContent).toBe("1 of 2 offers match");
-  expect(host.querySelector("[data-matches=false] .term")!.textContent).toContain("the offer has no speed");
+  expect(host.querySelector("[data-matches=false] .term")!.textContent).toContain("the offer has no property speed");
   expect(host.querySelector("[data-matches=false] dd")!.textContent).toBe('"<b>"');
 });
 
-test("shows a refused constraint as the broker's sentence, and a link that does not answer", async () => {
+test("shows a refused constraint as the broker's sentence, and a link that does not respond", async () => {
   const { host } = await open({
     types: [200, TYPES],
     offers: [400, { error: "expected a value at 9" }],
     links: [200, LINKS],
   });
   expect(host.querySelector("[role=alert]")!.textContent).toBe("expected a value at 9");
-  expect(host.querySelector(".link")!.textContent).toContain("does not answer");
+  expect(host.querySelector(".link")!.textContent).toContain("does not respond");
 });
 
 test("a server that takes a token is shown the one that is typed", async () => {
-  const answers: Parameters<typeof open>[0] = { types: [401, { error: "this takes a token" }], links: [401, {}] };
+  const answers: Parameters<typeof open>[0] = { types: [401, { error: "this request requires a token" }], links: [401, {}] };
   const { host, admit } = await open(answers);
-  expect(host.querySelector("[role=alert]")!.textContent).toBe("this takes a token");
+  expect(host.querySelector("[role=alert]")!.textContent).toBe("this request requires a token");
   answers.types = [200, TYPES];
   answers.offers = [200, OFFERS];
   host.querySelector<HTMLInputElement>(".token-field")!.value = " secret ";

@@ -48,7 +48,7 @@ export class BrokerPage {
       const { broker, types } = await this.api.types();
       if (this.address) this.address.textContent = broker;
       this.types.replaceChildren(...types.map((type) => this.typeButton(type)));
-      if (types.length === 0) this.types.replaceChildren(hint("The broker knows no service type yet."));
+      if (types.length === 0) this.types.replaceChildren(hint("No service types yet. Add one with `gsv types add`, or start a program that offers a service."));
       this.answer.replaceChildren();
       if (types[0]) await this.choose(types[0]);
     } catch (error) {
@@ -164,7 +164,7 @@ function linkRow({ name, address, rules, answers }: Link): HTMLElement {
     { class: "link", "data-answers": String(answers) },
     element("span", { class: "dot", "data-phase": answers ? "running" : "dead", "aria-hidden": "true" }),
     element("span", { class: "robot-name" }, name),
-    element("span", { class: "robot-behaviour" }, answers ? address : `${address} does not answer`),
+    element("span", { class: "robot-behaviour" }, answers ? address : `${address} does not respond`),
     element("span", { class: "robot-behaviour" }, rules),
   );
 }

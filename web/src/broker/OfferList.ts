@@ -40,10 +40,10 @@ function offerRow(offer: Offer, isAsked: boolean): HTMLElement {
   );
 }
 
-const MEANING = { true: "true", false: "false", "no value": "no value: the types do not fit, or 0 divides" };
+const MEANING = { true: "true", false: "false", "no value": "no value: the types do not match, or division by 0" };
 
 function termRow({ term, result, missing }: Term): HTMLElement {
-  const why = missing.length > 0 ? `no value: the offer has no ${missing.join(", ")}` : MEANING[result];
+  const why = missing.length > 0 ? `no value: the offer has no property ${missing.join(", ")}` : MEANING[result];
   return element(
     "li",
     { class: "term", "data-result": result },

@@ -22,12 +22,12 @@ async function open(fetch: () => Promise<{ note: string; items: string[] }>) {
 
 test("a server that takes a token is asked again with the one that is typed", async () => {
   const fetch = vi.fn(async () => ({ note: "here", items: ["a thing"] }));
-  fetch.mockRejectedValueOnce(new ApiError(401, "this takes a token"));
-  fetch.mockRejectedValueOnce(new ApiError(403, "this token is not the right one"));
+  fetch.mockRejectedValueOnce(new ApiError(401, "this request requires a token"));
+  fetch.mockRejectedValueOnce(new ApiError(403, "this token is wrong"));
   const { host, admit, form, enter, sentence } = await open(fetch);
   expect(form.hidden).toBe(false);
   enter("wrong");
-  await vi.waitFor(() => expect(sentence().textContent).toBe("this token is not the right one"));
+  await vi.waitFor(() => expect(sentence().textContent).toBe("this token is wrong"));
   expect(form.hidden).toBe(false);
   enter(" right ");
   await vi.waitFor(() => expect(host.querySelector("li")?.textContent).toBe("a thing"));

@@ -42,12 +42,12 @@ test("an address that is none of the web is no link, a name with markup is a nam
   expect(links(host)).toEqual([]);
   expect(host.querySelector("b")).toBeNull();
   expect(host.textContent).toContain("<b>x</b>");
-  expect(host.textContent).toContain("It was started without a viewer.");
+  expect(host.textContent).toContain("It runs without a viewer. Start it without --headless.");
 });
 
-test("who does not answer is there with the reason; so is a silent broker", async () => {
-  const host = await open([{ name: "gone", place: "h:3", problem: "h:3 does not answer", simulations: [] }]);
-  expect(host.querySelector(".instance .field-error")!.textContent).toBe("h:3 does not answer");
+test("who does not respond is there with the reason; so is a silent broker", async () => {
+  const host = await open([{ name: "gone", place: "h:3", problem: "h:3 does not respond", simulations: [] }]);
+  expect(host.querySelector(".instance .field-error")!.textContent).toBe("h:3 does not respond");
   const silent = await open([], 504);
   expect(silent.querySelector("[role=alert]")!.textContent).toBe("the broker is silent");
 });

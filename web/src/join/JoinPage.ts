@@ -18,7 +18,7 @@ export function createJoinPage(
     admit,
     title: "Join",
     label: "Instances",
-    empty: "No instance is offered.",
+    empty: "No instances found. Start one with `gsv run` or `gsv serve`.",
     fetch: async () => {
       const [{ broker, instances }, lost] = await Promise.all([fetchInstances(server), fetchLost(server)]);
       return { note: broker, items: [...lost, ...instances] };
@@ -55,9 +55,9 @@ function instanceItem(instance: Instance): HTMLElement {
     element("p", { class: "dim" }, place),
     problem !== "" && element("p", { class: "field-error" }, problem),
     element("ul", {}, ...simulations.map(simulationItem)),
-    problem === "" && simulations.length === 0 && element("p", { class: "dim" }, "It runs no simulation."),
-    url === null && element("p", { class: "dim" }, "It was started without a viewer."),
-    isHere && simulations.length === 0 && element("a", { class: "button", href: "./" }, "Create one"),
+    problem === "" && simulations.length === 0 && element("p", { class: "dim" }, "No simulation is running."),
+    url === null && element("p", { class: "dim" }, "It runs without a viewer. Start it without --headless."),
+    isHere && simulations.length === 0 && element("a", { class: "button", href: "./" }, "Create simulation"),
   );
 }
 

@@ -78,8 +78,8 @@ export function createEditPanel(app: App): HTMLElement {
     setText(
       hint,
       chosen === null
-        ? "Drag what can move. Click a robot or an object to choose it, then the floor to put it there."
-        : `Click the floor to put ${chosen} there; drag its arrow's tip to turn it.`,
+        ? "Drag robots and objects. Or click one to select it, then click the floor to place it there."
+        : `Click the floor to place ${chosen} there. Drag the tip of its arrow to turn it.`,
     );
   });
   return panel;
@@ -107,7 +107,7 @@ function modelsOf({ editing, scene }: State): Option[] {
   return [
     ...editing.models.map(({ name }) => ({ value: name, label: name, group: "Robots" })),
     ...editing.objects.map((name) => ({ value: OBJECT + name, label: name, group: "Objects" })),
-    ...copiesOf(scene).map((name) => ({ value: COPY + name, label: `like ${name}`, group: "One more of these" })),
+    ...copiesOf(scene).map((name) => ({ value: COPY + name, label: `like ${name}`, group: "Add another one like this" })),
   ];
 }
 

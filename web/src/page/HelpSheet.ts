@@ -12,8 +12,8 @@ const KEYS: [heading: string, lines: Line[]][] = [
   [
     "Run",
     [
-      [["Space"], "Start, pause, resume"],
-      [["N"], "One step while paused (recording: one pose on)"],
+      [["Space"], "Start, pause or resume"],
+      [["N"], "Take one step while paused (recording: next pose)"],
       [["W", "A", "S", "D"], "Drive the avatar (or the arrow keys; Q and E sideways, Shift faster)"],
     ],
   ],
@@ -23,11 +23,11 @@ const KEYS: [heading: string, lines: Line[]][] = [
       [["T"], "Top view"],
       [["R"], "Reset view"],
       [["F"], "Follow the selected robot"],
-      [["C"], "Chase it: from behind, turning with it"],
-      [["V"], "Look out of its eye"],
-      [["O"], "Turn the view freely again"],
-      [["Esc"], "Deselect, close"],
-      [["?"], "This sheet"],
+      [["C"], "Chase the selected robot: stay behind it"],
+      [["V"], "View from the robot"],
+      [["O"], "Free view"],
+      [["Esc"], "Deselect or close"],
+      [["?"], "Show this help"],
     ],
   ],
   [
@@ -38,17 +38,17 @@ const KEYS: [heading: string, lines: Line[]][] = [
     ],
   ],
   [
-    "Take along",
+    "Copy and save",
     [
-      [["L"], "Copy a link to this view (recording: at this instant)"],
-      [["X"], "Save a picture"],
-      [["M"], "Film the view, until the next press"],
+      [["L"], "Copy a link to this view (recording: at this time)"],
+      [["X"], "Save an image"],
+      [["M"], "Start or stop recording a video of the view"],
     ],
   ],
   [
     "Edit",
     [
-      [["Ctrl Z"], "Take back the last change (Ctrl Shift Z: do it again)"],
+      [["Ctrl Z"], "Undo the last change (Ctrl Shift Z: redo)"],
       [["Delete"], "Remove the selected robot or object"],
       [["[", "]"], "Turn it by 15° to the left or right"],
     ],
@@ -56,20 +56,20 @@ const KEYS: [heading: string, lines: Line[]][] = [
   [
     "Recording",
     [
-      [["←", "→"], "One pose back or on (Shift: ten)"],
-      [["Home", "End"], "To the start or the end"],
-      [[",", "."], "To the last or next event"],
+      [["←", "→"], "Previous or next pose (Shift: ten poses)"],
+      [["Home", "End"], "Go to the start or the end"],
+      [[",", "."], "Go to the previous or next event"],
     ],
   ],
 ];
 
 const GESTURES: [gesture: string, meaning: string][] = [
   ["Drag", "Turn the view"],
-  ["Right drag, or two fingers", "Move the view"],
-  ["Wheel, or pinch", "Zoom to the pointer"],
-  ["Click a robot", "Select it"],
-  ["Drag a robot or object, while editing", "Move it; its arrow's tip turns it"],
-  ["Click the floor, while editing", "Put there what is selected"],
+  ["Right-drag, or drag with two fingers", "Move the view"],
+  ["Mouse wheel, or pinch", "Zoom at the pointer"],
+  ["Click a robot", "Select the robot"],
+  ["Drag a robot or object, while editing", "Move it; drag the tip of its arrow to turn it"],
+  ["Click the floor, while editing", "Place the selected robot or object there"],
 ];
 
 export function createHelpSheet(app: App): HTMLElement {
@@ -119,7 +119,7 @@ function singleKeysSetting(app: App): HTMLElement {
     element(
       "p",
       { class: "dim" },
-      "Turn them off if keys act by accident, for example with speech input. Arrow keys, Esc, Delete, Home, End " +
+      "Turn these off if keys are pressed by accident, for example with speech input. Arrow keys, Esc, Delete, Home, End " +
         "and keys with Ctrl still work. This browser remembers the choice.",
     ),
   );

@@ -43,11 +43,11 @@ function content(app: App, situation: Situation): Node[] {
     case "none":
       return [];
     case "refused":
-      return [message("This server takes a token", app.store.get().refusal, createTokenForm((token) => app.enterToken(token)))];
+      return [message("This server requires a token", app.store.get().refusal, createTokenForm((token) => app.enterToken(token)))];
     case "missing":
       return [
         message(
-          "This recording is not here",
+          "Recording not found",
           app.store.get().missing,
           element("a", { class: "button", href: "recordings.html" }, "All recordings"),
         ),
@@ -55,19 +55,19 @@ function content(app: App, situation: Situation): Node[] {
     case "connecting":
       return [message("Connecting to GSV…")];
     case "loading":
-      return [message("Fetching the scene…")];
+      return [message("Loading the scene…")];
     case "no-webgl":
       return [
         message(
-          "This browser cannot draw in 3D",
-          "WebGL 2 is not available here. The buttons and lists work all the same; for the picture, use another browser or turn on graphics acceleration.",
+          "This browser cannot show 3D graphics",
+          "WebGL 2 is not available. For the 3D view, use another browser or turn on graphics acceleration. All other parts of the page work.",
         ),
       ];
     case "webgl-lost":
       return [
         message(
           "The 3D view has stopped",
-          "The browser took the graphics card away. The view comes back by itself as soon as the browser returns it; the simulation continues, and the buttons and lists work.",
+          "The browser lost access to the graphics card. The view returns when the browser restores access. The simulation continues, and all other parts of the page work.",
           element("button", { class: "button", type: "button", onclick: () => location.reload() }, "Reload the page"),
         ),
       ];
@@ -76,15 +76,15 @@ function content(app: App, situation: Situation): Node[] {
         message(
           "No simulation yet",
           createButton(app),
-          "Or start one in a terminal. It appears here by itself.",
+          "Create a simulation here, or start one in a terminal. It appears here automatically.",
           element("code", {}, "gsv run WORLD --robot MODEL@x,y --behaviour wander"),
         ),
       ];
     case "unreachable":
       return [
         message(
-          "GSV cannot be reached",
-          `Nothing answers at ${location.host}. Is gsv still running there?`,
+          "Cannot reach GSV",
+          `No response from ${location.host}. Check that gsv still runs there.`,
           retry(app),
         ),
       ];
@@ -92,7 +92,7 @@ function content(app: App, situation: Situation): Node[] {
       return [
         message(
           "Connection lost",
-          "This is the last picture. The page connects again by itself as soon as GSV answers.",
+          "The view shows the last known state. The page reconnects when GSV responds.",
           retry(app),
         ),
       ];

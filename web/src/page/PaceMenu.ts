@@ -26,8 +26,8 @@ function speedPart(app: App): HTMLElement {
     factor,
     button: element("button", { class: "button small", type: "button", onclick: () => set(factor) }, `${factor}×`),
   }));
-  const typed = numberField("Simulated seconds a second", null, set, { least: "0" });
-  const hint = element("p", { class: "hint" }, "In lockstep it goes as fast as it can: it has no speed to set.");
+  const typed = numberField("Simulated seconds per second of wall-clock time", null, set, { least: "0" });
+  const hint = element("p", { class: "hint" }, "In lockstep, the simulation runs as fast as possible. The speed cannot be set.");
   const buttons = element("div", { class: "pace-choices" }, ...choices.map(({ button }) => button));
   app.store.watch(
     ({ status }) => ({ factor: status?.targetFactor ?? 1, isPaced: status?.mode === "real_time" }),
@@ -53,8 +53,8 @@ function stepsPart(app: App): HTMLElement {
   let count = FIRST_STEPS;
   const take = element(
     "button",
-    { class: "button", type: "button", title: "Then it is paused again", onclick: () => void app.act("step", count) },
-    "Take them",
+    { class: "button", type: "button", title: "Take these steps, then pause again", onclick: () => void app.act("step", count) },
+    "Take steps",
   );
   const field = numberField(
     "Steps (paused)",

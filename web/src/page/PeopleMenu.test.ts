@@ -23,9 +23,9 @@ function page(ada: Partial<Person> = {}, bob: Partial<Person> = {}) {
 
 test("all who watch are listed by name, whatever it looks like", () => {
   const { lines, menu } = page({}, { holds: true });
-  expect(lines()).toEqual(["Ada · you", "<b>Bob</b> · holds control"]);
+  expect(lines()).toEqual(["Ada · you", "<b>Bob</b> · has control"]);
   expect(menu.querySelector("b")).toBeNull();
-  expect(menu.querySelector("button")!.title).toBe("Viewers (<b>Bob</b> holds control)");
+  expect(menu.querySelector("button")!.title).toBe("Viewers (<b>Bob</b> has control)");
 });
 
 test("control is taken, asked for, and let go of", () => {
@@ -33,9 +33,9 @@ test("control is taken, asked for, and let go of", () => {
   const want = vi.spyOn(app.people, "want").mockResolvedValue();
   const steps: [Partial<Person>, Partial<Person>, string, boolean][] = [
     [{}, {}, "Take control", true],
-    [{ holds: true }, {}, "Let go of control", false],
+    [{ holds: true }, {}, "Release control", false],
     [{}, { holds: true }, "Ask for control", true],
-    [{ asks: 1 }, { holds: true }, "Ask no more", false],
+    [{ asks: 1 }, { holds: true }, "Cancel request", false],
     [{}, { holds: true, simulation: "cafe" }, "Take control", true],
   ];
   for (const [ada, bob, label, wants] of steps) {
@@ -48,7 +48,7 @@ test("control is taken, asked for, and let go of", () => {
 
 test("those who look at another simulation come last, and who looks at none can take none", () => {
   const { store, lines, button } = page({}, { simulation: "cafe", holds: true });
-  expect(lines()).toEqual(["Ada · you", "<b>Bob</b> · at cafe · holds control"]);
+  expect(lines()).toEqual(["Ada · you", "<b>Bob</b> · at cafe · has control"]);
   store.set(people({ simulation: "" }));
   expect(button().hidden).toBe(true);
 });
@@ -59,7 +59,7 @@ test("the holder is told who asks, and answers", () => {
   const card = createControlQuestion(app);
   expect(card.hidden).toBe(true);
   store.set(people({ holds: true }, { asks: 1, passesIn: 19.2 }));
-  expect(card.textContent).toContain("<b>Bob</b> asks for control. It passes in 20 s.");
+  expect(card.textContent).toContain("<b>Bob</b> asks for control. Control passes on in 20 s.");
   const [give, keep] = card.querySelectorAll("button");
   give!.click();
   expect(answer).toHaveBeenLastCalledWith(true);
@@ -69,7 +69,7 @@ test("the holder is told who asks, and answers", () => {
   expect(card.hidden).toBe(true);
 });
 
-test("while somebody else holds control the buttons rest", () => {
+test("while somebody else has control the buttons rest", () => {
   const { app, store } = testApp({ status: simulationStatus("running"), ...people() });
   const bar = createToolbar(app, () => {});
   const pause = bar.querySelector<HTMLButtonElement>(".main-action")!;

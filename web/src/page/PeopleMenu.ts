@@ -28,7 +28,7 @@ export function createPeopleMenu(app: App): HTMLElement {
 function titleOf(people: People): string {
   const holder = holderOf(people);
   if (!holder) return "Viewers";
-  return holder.number === people.you ? "Viewers (you hold control)" : `Viewers (${holder.name} holds control)`;
+  return holder.number === people.you ? "Viewers (you have control)" : `Viewers (${holder.name} has control)`;
 }
 
 // Those who look at something else come last, with what it is.
@@ -42,7 +42,7 @@ function line({ number, name, holds, asks }: Person, you: number, simulation: st
   const notes = [
     number === you && "you",
     simulation !== "" && `at ${simulation}`,
-    holds && "holds control",
+    holds && "has control",
     asks > 0 && "asks for control",
   ];
   return [name, ...notes.filter(Boolean)].join(" · ");
@@ -83,8 +83,8 @@ function controlButton(app: App): HTMLElement {
 
 function labelOf(holds: boolean, isFree: boolean, asks: boolean): string {
   if (isFree) return "Take control";
-  if (holds) return "Let go of control";
-  return asks ? "Ask no more" : "Ask for control";
+  if (holds) return "Release control";
+  return asks ? "Cancel request" : "Ask for control";
 }
 
 // The holder's side: somebody asks. It passes by itself when nothing is answered.
@@ -104,7 +104,7 @@ export function createControlQuestion(app: App): HTMLElement {
     "div",
     { class: "card control-question", role: "alert" },
     sentence,
-    element("div", {}, button("Give it", true, true), button("Keep it", false, false)),
+    element("div", {}, button("Give control", true, true), button("Keep control", false, false)),
   );
   let countdown: ReturnType<typeof setInterval> | undefined;
   app.store.watch(
@@ -116,7 +116,7 @@ export function createControlQuestion(app: App): HTMLElement {
       const end = performance.now() + person.passesIn * 1000;
       const tell = () => {
         const left = Math.max(0, Math.ceil((end - performance.now()) / 1000));
-        setText(sentence, `${person.name} asks for control. It passes in ${left} s.`);
+        setText(sentence, `${person.name} asks for control. Control passes on in ${left} s.`);
       };
       tell();
       countdown = setInterval(tell, 1000);

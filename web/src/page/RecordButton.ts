@@ -33,7 +33,7 @@ export function createRecordButton(app: App): HTMLElement {
 }
 
 function titleOf({ isOn, path, droppedMessages }: Recording): string {
-  if (!isOn) return path ? `Record (the last one is ${path})` : "Record";
+  if (!isOn) return path ? `Record (last recording: ${path})` : "Record";
   const lost = droppedMessages > 0 ? `; the disk was too slow for ${droppedMessages} messages` : "";
-  return `Recording to ${path}${lost}. Press to end it`;
+  return `Recording to ${path}${lost}. Press to stop`;
 }

@@ -4,17 +4,17 @@ import { createMenu, menuItem } from "../ui/menu";
 
 export function createShareMenu(app: App): HTMLElement {
   const film = menuItem(
-    "Film the view",
+    "Record video",
     "M",
-    "A video until the next press, as WebM",
+    "Record a video of the view (WebM) until you press it again",
     () => app.film(),
     "film",
   );
   const menu = createMenu(
     "Share",
     "share",
-    menuItem("Copy link", "L", "An address that shows this again", () => app.copyLink(), "link"),
-    menuItem("Save picture", "X", "What is seen now, as PNG", () => void app.savePicture(), "camera"),
+    menuItem("Copy link", "L", "Copy an address that shows this view again", () => app.copyLink(), "link"),
+    menuItem("Save image", "X", "Save the current view as PNG", () => void app.savePicture(), "camera"),
     film,
   );
   // Without a picture there is still a link.
@@ -28,7 +28,7 @@ export function createShareMenu(app: App): HTMLElement {
     (filming) => {
       film.setAttribute("aria-pressed", String(filming));
       menu.button.classList.toggle("filming", filming);
-      menu.button.title = filming ? "Share (filming)" : "Share";
+      menu.button.title = filming ? "Share (recording video)" : "Share";
     },
   );
   return menu.element;

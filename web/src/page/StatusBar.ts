@@ -23,11 +23,11 @@ export function createStatusBar(app: App): HTMLElement {
   const late = element("span", {
     class: "number late",
     "data-testid": "late",
-    title: "Steps that were taken later than the pace asks for",
+    title: "Steps that started late, measured against the target real-time factor",
   });
   const waiting = element("span", { class: "waiting", role: "status", "data-testid": "waiting" });
   const connection = element("span", { class: "connection", role: "status", "data-testid": "connection" });
-  const frames = element("span", { class: "number dim frames", title: "Pictures drawn in the last second" });
+  const frames = element("span", { class: "number dim frames", title: "Frames drawn in the last second" });
 
   app.store.watch(
     ({ status }) => status?.phase,
@@ -86,7 +86,7 @@ function lag({ phase, mode, realTimeFactor, targetFactor }: SimulationStatus): s
   const isPaced = phase === "running" && mode === "real_time" && targetFactor > 0 && realTimeFactor > 0;
   if (!isPaced || realTimeFactor >= LAGGING_SHARE * targetFactor) return "";
   const share = Math.floor((100 * realTimeFactor) / targetFactor);
-  return `It lags: ${share} % of the pace that was asked for`;
+  return `Running at ${share} % of the target speed`;
 }
 
 function connectionLabel({ connection, modelsMissing, replay }: State): string {

@@ -59,10 +59,10 @@ test("its buttons ask for what they say", () => {
   const step = vi.spyOn(app.replay, "step").mockImplementation(() => {});
   const toEnd = vi.spyOn(app.replay, "toEnd").mockImplementation(() => {});
   const play = vi.spyOn(app.replay, "playOrPause").mockResolvedValue();
-  named("One pose back").click();
-  named("One pose on").click();
+  named("Previous pose").click();
+  named("Next pose").click();
   expect(step.mock.calls).toEqual([[-1], [1]]);
-  named("To the end").click();
+  named("Go to the end").click();
   expect(toEnd).toHaveBeenCalledOnce();
   named("Play").click();
   expect(play).toHaveBeenCalledOnce();

@@ -22,11 +22,11 @@ export function createTimeline(app: App): HTMLElement {
       element(
         "div",
         { class: "timeline-transport", role: "group", "aria-label": "Playback" },
-        button(app, "toStart", "To the start", "Home", () => app.replay.toStart()),
-        button(app, "stepBack", "One pose back", "ArrowLeft", () => app.replay.step(-1)),
+        button(app, "toStart", "Go to the start", "Home", () => app.replay.toStart()),
+        button(app, "stepBack", "Previous pose", "ArrowLeft", () => app.replay.step(-1)),
         playButton(app),
-        button(app, "stepOn", "One pose on", "ArrowRight", () => app.replay.step(1)),
-        button(app, "toEnd", "To the end", "End", () => app.replay.toEnd()),
+        button(app, "stepOn", "Next pose", "ArrowRight", () => app.replay.step(1)),
+        button(app, "toEnd", "Go to the end", "End", () => app.replay.toEnd()),
       ),
       times(app),
       element("div", { class: "timeline-pace" }, speedChoice(app), loopButton(app)),
@@ -175,9 +175,9 @@ function times(app: App): HTMLElement {
 function typedTime(app: App): HTMLElement {
   const field = element("input", {
     class: "typed-time number",
-    "aria-label": "Go to the time",
+    "aria-label": "Go to time",
     placeholder: "go to…",
-    title: "Seconds, or minutes:seconds; Enter goes there",
+    title: "Seconds or minutes:seconds; press Enter to go there",
     autocomplete: "off",
     spellcheck: "false",
   });
@@ -217,7 +217,7 @@ function loopButton(app: App): HTMLElement {
       class: "button plain",
       type: "button",
       "aria-label": "Loop",
-      title: "Begin anew at the end",
+      title: "Start again at the end",
       onclick: () => void app.replay.toggleLoop(),
     },
     icon("loop"),

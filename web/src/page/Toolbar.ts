@@ -55,10 +55,10 @@ function transport(app: App): HTMLElement {
     "div",
     { class: "toolbar-transport", role: "group", "aria-label": "Run" },
     mainButton(app),
-    actionButton(app, "step", "step", "Step", "One step (paused)"),
+    actionButton(app, "step", "step", "Step", "Take one step (paused)"),
     createPaceMenu(app),
     actionButton(app, "stop", "stop", "Stop", "Stop for good"),
-    actionButton(app, "reset", "reset", "Reset", "Back to the start"),
+    actionButton(app, "reset", "reset", "Reset", "Reset to the start"),
     editButton(app),
     createRecordButton(app),
   );

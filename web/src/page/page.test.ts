@@ -72,10 +72,10 @@ test("how fast it goes and how many steps it takes can be set", () => {
 
   steps!.value = "250";
   steps!.dispatchEvent(new Event("change"));
-  button("Take them").click();
+  button("Take steps").click();
   expect(act).toHaveBeenCalledWith("house", "step", 250);
   store.set({ pending: null, status: simulationStatus("running") });
-  expect(button("Take them").disabled).toBe(true);
+  expect(button("Take steps").disabled).toBe(true);
 });
 
 test("what goes as fast as it can says so where its speed would be set", () => {
@@ -188,7 +188,7 @@ test("a simulation that cannot keep its pace is said to lag", () => {
   expect(factor.classList.contains("lagging")).toBe(false);
   store.set({ status: simulationStatus("running", { targetFactor: 2, realTimeFactor: 1.1 }) });
   expect(factor.classList.contains("lagging")).toBe(true);
-  expect(factor.title).toBe("It lags: 55 % of the pace that was asked for");
+  expect(factor.title).toBe("Running at 55 % of the target speed");
   store.set({ status: simulationStatus("paused", { targetFactor: 2, realTimeFactor: 0 }) });
   expect(factor.classList.contains("lagging")).toBe(false);
 });

@@ -14,7 +14,7 @@ export const PANELS: readonly Panel[] = [
   {
     id: "log",
     title: "Log",
-    hint: "The log",
+    hint: "Log of the simulation",
     picture: "log",
     key: "G",
     isAvailable: () => true,
@@ -41,7 +41,7 @@ export const PANELS: readonly Panel[] = [
   {
     id: "commands",
     title: "Commands",
-    hint: "Commands that the simulation takes",
+    hint: "Commands of the simulation",
     picture: "gauge",
     isAvailable: ({ replay }) => replay === null,
     load: () => import("./commands/CommandsPanel"),

@@ -245,7 +245,7 @@ test("what cannot be read is reported once and does no further harm", async () =
   await vi.waitFor(() => expect(handler).toHaveBeenCalledWith({ number: 5, text: "fine" }));
   expect(problems).toHaveLength(2);
   expect(problems[0]).toMatch(/^A message on \/greeting cannot be read: /);
-  expect(problems[1]).toMatch(/^The server sent something unreadable: /);
+  expect(problems[1]).toMatch(/^Cannot read a message of the server: /);
 });
 
 test("a channel in another encoding is refused with a sentence", async () => {

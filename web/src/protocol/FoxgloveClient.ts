@@ -171,7 +171,7 @@ export class FoxgloveClient implements TopicSource {
       if (typeof data === "string") this.receiveText(data);
       else if (data instanceof ArrayBuffer) this.receiveBinary(new DataView(data));
     } catch (error) {
-      this.problem(`The server sent something unreadable: ${sentenceOf(error)}`);
+      this.problem(`Cannot read a message of the server: ${sentenceOf(error)}`);
     }
   }
 

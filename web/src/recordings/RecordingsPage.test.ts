@@ -41,13 +41,13 @@ test("what is not finished can be replayed as far as it goes, what cannot be rea
   ]);
   const [unfinished, unreadable] = host.querySelectorAll(".recording");
   expect(unfinished!.querySelector("a")).not.toBeNull();
-  expect(unfinished!.textContent).toContain("cut off");
+  expect(unfinished!.textContent).toContain("interrupted");
   expect(unreadable!.querySelector("a")).toBeNull();
   expect(unreadable!.querySelector("b")).toBeNull();
   expect(unreadable!.textContent).toContain("it is no recording");
 });
 
 test("without recordings the page says how one is made; with very many, how many are left out", async () => {
-  expect((await open([])).querySelector(".frame-list")!.textContent).toContain("No recording yet");
+  expect((await open([])).querySelector(".frame-list")!.textContent).toContain("No recordings yet");
   expect((await open([RUN], { left_out: 3 })).textContent).toContain("3 older ones not shown.");
 });

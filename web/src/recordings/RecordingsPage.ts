@@ -25,7 +25,7 @@ function noRecordings(): Node {
   return element(
     "span",
     {},
-    "No recording yet. The red dot beside a simulation's buttons records it, and so does ",
+    "No recordings yet. Press the red dot beside the buttons of a simulation to record it, or use ",
     element("code", {}, "gsv run WORLD --record NAME.mcap"),
   );
 }
@@ -52,8 +52,8 @@ function content({ state, problem, duration, messages }: RecordingLine): HTMLEle
     case "complete":
       return element("span", { class: "dim" }, `${formatTime(duration)} · ${count(messages, "message")}`);
     case "unfinished":
-      return element("span", { class: "dim" }, "Not finished: it is being recorded, or was cut off.");
+      return element("span", { class: "dim" }, "Incomplete: still being recorded, or interrupted.");
     case "unreadable":
-      return element("span", { class: "field-error" }, `It cannot be read: ${problem}`);
+      return element("span", { class: "field-error" }, `Cannot be read: ${problem}`);
   }
 }

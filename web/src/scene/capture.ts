@@ -11,13 +11,13 @@ export async function pngOf(
   copy.width = canvas.width;
   copy.height = canvas.height;
   const context = copy.getContext("2d");
-  if (!context) throw new Error("This browser gives no picture of the view.");
+  if (!context) throw new Error("This browser cannot save an image of the view.");
   context.drawImage(canvas, 0, 0);
   paint(context);
   return new Promise((resolve, reject) => {
     copy.toBlob((blob) => {
       if (blob) resolve(blob);
-      else reject(new Error("This browser gives no picture of the view."));
+      else reject(new Error("This browser cannot save an image of the view."));
     }, "image/png");
   });
 }

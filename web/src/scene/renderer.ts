@@ -12,7 +12,7 @@ export function makeRenderer(isFine: boolean): WebGLRenderer {
     antialias: isFine,
     powerPreference: "high-performance",
   });
-  if (!context) throw new Error("this browser has no WebGL 2");
+  if (!context) throw new Error("this browser does not support WebGL 2");
   const renderer = new WebGLRenderer({ canvas, context });
   renderer.toneMapping = NeutralToneMapping;
   renderer.shadowMap.enabled = true;

@@ -31,16 +31,16 @@ export class RobotRow {
     private readonly list: RobotList,
     private readonly index: number,
   ) {
-    this.name = textField("Name", "after its model", (name) => this.change({ name }));
+    this.name = textField("Name", "same as the model", (name) => this.change({ name }));
     this.model = choiceOrText("Model", BY_PATH, (model) => this.change({ model }));
     this.behaviour = choiceOrText("Behaviour", BY_CONSTRAINT, (value) => this.changeBehaviour(value));
     this.movement = choiceField("Moves", (value) =>
       this.change({ movement: value === "planar" || value === "rigid" ? value : "" }),
     );
     this.movement.offer([
-      { value: "", label: "As its model says" },
-      { value: "planar", label: "Over level ground" },
-      { value: "rigid", label: "By forces" },
+      { value: "", label: "As the model says" },
+      { value: "planar", label: "Planar: 2D kinematics on level ground" },
+      { value: "rigid", label: "Rigid: rigid-body dynamics" },
     ]);
     this.drive = textField("Drive", "as its model says, else guessed: diff, skid,radius=0.16, …", (drive) =>
       this.change({ drive }),
@@ -156,5 +156,5 @@ function behaviourOptions({ behaviours }: SetUp, { behaviour }: RobotSetUp) {
   if (behaviour && !names.includes(behaviour)) {
     options.push({ value: behaviour, label: `${behaviour} (not offered now)` });
   }
-  return [{ value: "", label: "None: it stands still" }, ...options];
+  return [{ value: "", label: "None: the robot stands still" }, ...options];
 }

@@ -20,7 +20,7 @@ export function createSetUpPanel(app: App): HTMLElement {
   const pedestrians = createPedestrianList(app);
   const hint = element("p", { class: "hint" });
   const offers = element("div", { class: "hint offers-hint" });
-  const warnings = element("ul", { class: "warnings", "aria-label": "What the files lack" });
+  const warnings = element("ul", { class: "warnings", "aria-label": "Problems in the files" });
   const wrong = element("p", { class: "field-error", role: "alert" });
   const create = element(
     "button",
@@ -202,17 +202,17 @@ function parameterFields(app: App) {
   const take = (key: keyof Scenario) => (value: unknown) => app.setUp.change({ [key]: value });
   const mode = choiceField("Pace", take("mode"));
   mode.offer([
-    { value: "real_time", label: "Real time, by the factor" },
-    { value: "lockstep", label: "Lockstep: as fast as possible, reproducible" },
+    { value: "real_time", label: "Real time, at the real-time factor" },
+    { value: "lockstep", label: "Lockstep: as fast as possible, same result each time" },
   ]);
   return new Map<keyof Scenario, { element: HTMLElement; show(value: never): void; refuse(sentence: string): void }>([
-    ["name", textField("Name", "one is chosen", take("name"))],
+    ["name", textField("Name", "chosen automatically", take("name"))],
     ["mode", mode],
-    ["factor", numberField("Factor (simulated seconds a second)", 1, take("factor"), { least: "0" })],
+    ["real_time_factor", numberField("Real-time factor (simulated seconds per second)", 1, take("real_time_factor"), { least: "0" })],
     ["duration", numberField("Duration (s; 0: until stopped)", 0, take("duration"), { least: "0" })],
-    ["step", numberField("Step (s; 0: the world's)", 0, take("step"), { least: "0" })],
+    ["step", numberField("Step (s; 0: as the world says)", 0, take("step"), { least: "0" })],
     ["seed", numberField("Seed of all noise", 0, take("seed"), { step: "1", least: "0" })],
-    ["record", checkField("Record it from the start", take("record"))],
+    ["record", checkField("Record from the start", take("record"))],
   ]);
 }
 
@@ -268,8 +268,8 @@ function createPedestrianList(app: App) {
 }
 
 function hintFor({ robots, avatars }: Scenario): string {
-  if (robots.length + avatars.length === 0) return "No robots yet. Choose a model and add one.";
-  return "Click a robot to choose it, then the floor to put it there. Drag it to move it; drag its arrow's tip to turn it.";
+  if (robots.length + avatars.length === 0) return "No robots yet. Choose a model and press Add robot.";
+  return "Drag a robot to move it. Drag the tip of its arrow to turn it. Or click a robot to select it, then click the floor to place it there.";
 }
 
 function showOffers(place: HTMLElement, { behaviours, scenario }: SetUp): void {
@@ -277,7 +277,7 @@ function showOffers(place: HTMLElement, { behaviours, scenario }: SetUp): void {
   if (place.hidden || place.dataset.command === behaviours?.startCommand) return;
   place.dataset.command = behaviours?.startCommand ?? "";
   place.replaceChildren(
-    element("p", {}, "No behaviours are offered. Start one in a terminal; it appears here by itself:"),
+    element("p", {}, "No behaviours yet. Start one in a terminal; it appears here automatically:"),
     element("code", {}, behaviours?.startCommand ?? ""),
   );
 }

@@ -26,18 +26,18 @@ export type OverlayName = (typeof OVERLAY_NAMES)[number];
 export type Shown = Record<OverlayName, boolean>;
 
 export const OVERLAYS: readonly OverlayKind[] = [
-  { name: "beams", label: "Beams", key: "1", hint: "What sonars and their like measure" },
-  { name: "points", label: "Points", key: "2", hint: "What lidars and depth cameras measure" },
-  { name: "contacts", label: "Contacts", key: "3", hint: "Where bumpers are touched" },
-  { name: "cameras", label: "Camera views", key: "4", hint: "What cameras see of the world" },
-  { name: "trails", label: "Trails", key: "5", hint: "Where robots have been" },
+  { name: "beams", label: "Beams", key: "1", hint: "Readings of sonars and other range sensors" },
+  { name: "points", label: "Points", key: "2", hint: "Points of lidars and depth cameras" },
+  { name: "contacts", label: "Contacts", key: "3", hint: "Contact points of bumpers" },
+  { name: "cameras", label: "Camera views", key: "4", hint: "Frustums of the cameras" },
+  { name: "trails", label: "Trails", key: "5", hint: "Paths of the robots" },
   { name: "frames", label: "Frames", key: "6", hint: "Axes of robots, moving links and sensors" },
-  { name: "labels", label: "Names", key: "7", hint: "The robots' names" },
-  { name: "grid", label: "Grid", key: "8", hint: "Metres on the floor" },
-  { name: "collisions", label: "Collision shapes", key: "9", hint: "What is collided with, as it is computed" },
-  { name: "joints", label: "Joints", key: "0", hint: "Axes about which, or along which, links move" },
-  { name: "actuators", label: "Actuators and radio", key: "-", hint: "What lamps, speakers, grippers and radios do" },
-  { name: "sound", label: "Let it be heard", key: "=", hint: "Play what speakers play" },
+  { name: "labels", label: "Names", key: "7", hint: "Names of the robots" },
+  { name: "grid", label: "Grid", key: "8", hint: "Grid with 1 m cells" },
+  { name: "collisions", label: "Collision shapes", key: "9", hint: "Collision shapes used by the physics" },
+  { name: "joints", label: "Joints", key: "0", hint: "Axes of the joints" },
+  { name: "actuators", label: "Actuators and radio", key: "-", hint: "State of lamps, speakers, grippers and radios" },
+  { name: "sound", label: "Sound", key: "=", hint: "Play the sound of the speakers" },
 ];
 
 export const FIRST_SHOWN: Shown = {

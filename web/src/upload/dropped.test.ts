@@ -32,7 +32,7 @@ test("a single file is sent whatever its name: the server says what is wrong wit
 
 test("what is too large, too many, or holds no world is refused with a sentence", () => {
   expect(() => worldsFirst([file("big.sdf", 2 ** 31)])).toThrow("big.sdf has 2048 MiB; at most 64 MiB");
-  expect(() => worldsFirst([file("a.stl"), file("b.stl")])).toThrow("no world among these files");
+  expect(() => worldsFirst([file("a.stl"), file("b.stl")])).toThrow("These files contain no world");
   expect(() => worldsFirst(Array.from({ length: 2001 }, (_, i) => file(`${i}.sdf`)))).toThrow("2001 files");
 });
 
@@ -41,5 +41,5 @@ test("only an archive on its own is unpacked", async () => {
   expect(await unpacked(files)).toBe(files);
   expect(await unpacked(files.slice(1))).toEqual(files.slice(1));
   const zip = { ...file("a.zip"), content: async () => new Blob([new Uint8Array([0x50, 0x4b, 3, 4])]) };
-  await expect(unpacked([zip])).rejects.toThrow("a.zip cannot be taken: its list of files is missing or damaged");
+  await expect(unpacked([zip])).rejects.toThrow("a.zip cannot be used: its list of files is missing or damaged");
 });

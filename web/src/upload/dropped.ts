@@ -11,14 +11,14 @@ export interface Delivery {
 
 // Throws a sentence for people.
 export function worldsFirst(files: readonly DroppedFile[]): Delivery {
-  if (files.length > MOST_FILES) throw new Error(`These are ${files.length} files; at most ${MOST_FILES} can be taken.`);
+  if (files.length > MOST_FILES) throw new Error(`You chose ${files.length} files; at most ${MOST_FILES} are allowed.`);
   const large = files.find(({ size }) => size > LARGEST_FILE);
   if (large) {
-    throw new Error(`${large.path} has ${Math.round(large.size / 2 ** 20)} MiB; at most 64 MiB can be taken.`);
+    throw new Error(`${large.path} has ${Math.round(large.size / 2 ** 20)} MiB; at most 64 MiB are allowed.`);
   }
   if (files.length === 1) return { files: [...files], worlds: 1 };
   const candidates = files.filter(({ path }) => rankOf(path) < NO_WORLD).sort(byLikelihood);
-  if (candidates.length === 0) throw new Error("There is no world among these files: its name ends in .world or .sdf.");
+  if (candidates.length === 0) throw new Error("These files contain no world. Add a file whose name ends in .world or .sdf.");
   // Where there are worlds, models belong to them.
   const worlds = candidates.filter(({ path }) => rankOf(path) < A_MODEL);
   const front = new Set(worlds.length > 0 ? worlds : candidates.slice(0, 1));

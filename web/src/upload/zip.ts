@@ -31,13 +31,13 @@ export async function isZip(file: Blob): Promise<boolean> {
 // a sentence for people.
 export async function filesInZip(name: string, archive: Blob): Promise<DroppedFile[]> {
   const refuse = (reason: string): never => {
-    throw new Error(`${name} cannot be taken: ${reason}.`);
+    throw new Error(`${name} cannot be used: ${reason}.`);
   };
   const entries = (await listOf(archive, refuse)).filter(isWanted);
-  if (entries.length > MOST_FILES) refuse(`it holds ${entries.length} files; at most ${MOST_FILES} can be taken`);
+  if (entries.length > MOST_FILES) refuse(`it contains ${entries.length} files; at most ${MOST_FILES} are allowed`);
   for (const entry of entries) check(entry, refuse);
   const total = entries.reduce((sum, { uncompressedSize }) => sum + uncompressedSize, 0);
-  if (total > LARGEST_TOTAL) refuse(`unpacked it has ${mebibytes(total)}; at most ${mebibytes(LARGEST_TOTAL)} can be taken`);
+  if (total > LARGEST_TOTAL) refuse(`unpacked it has ${mebibytes(total)}; at most ${mebibytes(LARGEST_TOTAL)} are allowed`);
   return entries.map((entry) => ({
     path: entry.filename,
     size: entry.uncompressedSize,
@@ -59,12 +59,12 @@ function mebibytes(bytes: number): string {
 }
 
 function check({ filename, encrypted, compressionMethod, uncompressedSize, externalFileAttributes }: Entry, refuse: Refuse): void {
-  if (leadsOut(filename)) refuse(`the name ${JSON.stringify(filename.slice(0, 80))} in it leads out of it`);
+  if (leadsOut(filename)) refuse(`the name ${JSON.stringify(filename.slice(0, 80))} leads out of the archive`);
   const unixMode = externalFileAttributes >>> 16;
   if ((unixMode & FILE_TYPE) === SYMBOLIC_LINK) refuse(`${filename} in it is a symbolic link`);
   if (encrypted) refuse(`${filename} in it is encrypted`);
-  if (compressionMethod !== STORED && compressionMethod !== DEFLATED) refuse(`${filename} in it is packed by a method that is not known here`);
-  if (uncompressedSize > LARGEST_FILE) refuse(`${filename} in it has ${mebibytes(uncompressedSize)} unpacked; at most ${mebibytes(LARGEST_FILE)} can be taken`);
+  if (compressionMethod !== STORED && compressionMethod !== DEFLATED) refuse(`${filename} uses an unsupported compression method`);
+  if (uncompressedSize > LARGEST_FILE) refuse(`${filename} in it has ${mebibytes(uncompressedSize)} unpacked; at most ${mebibytes(LARGEST_FILE)} are allowed`);
 }
 
 async function listOf(archive: Blob, refuse: Refuse): Promise<Entry[]> {
@@ -74,7 +74,7 @@ async function listOf(archive: Blob, refuse: Refuse): Promise<Entry[]> {
   for (;;) {
     const { done, value } = await list.next().catch(() => refuse("its list of files is missing or damaged"));
     if (done) return entries;
-    if (entries.push(value) > MOST_ENTRIES) refuse(`it holds more than ${MOST_ENTRIES} files and folders`);
+    if (entries.push(value) > MOST_ENTRIES) refuse(`it contains more than ${MOST_ENTRIES} files and folders`);
   }
 }
 
@@ -85,7 +85,7 @@ async function unpack(entry: Entry, refuse: Refuse): Promise<Blob> {
   const sink = new WritableStream<Uint8Array>({
     write(chunk) {
       isLonger = filled + chunk.length > content.length;
-      if (isLonger) throw new Error("longer than it says");
+      if (isLonger) throw new Error("longer than declared");
       content.set(chunk, filled);
       filled += chunk.length;
     },
@@ -93,7 +93,7 @@ async function unpack(entry: Entry, refuse: Refuse): Promise<Blob> {
   try {
     await entry.getData!(sink);
   } catch {
-    refuse(`${entry.filename} in it is ${isLonger ? "longer than it says" : "damaged"}`);
+    refuse(`${entry.filename} in it is ${isLonger ? "longer than declared" : "damaged"}`);
   }
   if (filled !== content.length) refuse(`${entry.filename} in it is damaged`);
   return new Blob([content]);

@@ -21,7 +21,7 @@ function opened(state: Partial<State>) {
 
 test("a camera is listened to once there is a view, and its picture waited for", () => {
   const { store, topics, waiting } = opened({ view: "starting" });
-  expect(waiting()).toBe("Waiting for a picture…");
+  expect(waiting()).toBe("Waiting for an image…");
   expect(topics.read).toEqual([]);
   store.set({ view: "open" });
   expect(topics.read).toEqual(["/a/eye"]);
@@ -30,7 +30,7 @@ test("a camera is listened to once there is a view, and its picture waited for",
 test("a recording that has no picture yet is not waited for", () => {
   const { store, waiting } = opened({});
   store.set({ replay: { start: 0, end: 10, speed: 1, loop: false } });
-  expect(waiting()).toBe("No picture of it is recorded up to here.");
+  expect(waiting()).toBe("The recording has no image of this camera up to this time.");
   store.set({ replay: null });
-  expect(waiting()).toBe("Waiting for a picture…");
+  expect(waiting()).toBe("Waiting for an image…");
 });

@@ -18,16 +18,16 @@ const SAME_INSTANT_S = 1e-6;
 
 export function createCameraPane({ state, topics, cameras }: Ports): HTMLElement {
   const choice = element("select", { "aria-label": "Camera" });
-  const picture = element("canvas", { class: "picture", role: "img", "aria-label": "Camera picture" });
+  const picture = element("canvas", { class: "picture", role: "img", "aria-label": "Camera image" });
   picture.width = picture.height = 1;
   const caption = element("span", { class: "picture-time number" });
   const waiting = element("p", { class: "picture-waiting" });
   const body = element("div", { class: "picture-frame" }, picture, waiting, caption);
-  const enlarge = headButton("enlarge", "Enlarge camera picture");
-  const fold = headButton("close", "Close camera picture");
+  const enlarge = headButton("enlarge", "Enlarge camera image");
+  const fold = headButton("close", "Close camera image");
   const reopen = element(
     "button",
-    { class: "button camera-reopen", type: "button", "aria-label": "Open camera picture", title: "Camera" },
+    { class: "button camera-reopen", type: "button", "aria-label": "Open camera image", title: "Camera" },
     icon("camera"),
   );
   const card = element(
@@ -60,7 +60,7 @@ export function createCameraPane({ state, topics, cameras }: Ports): HTMLElement
     waiting.hidden = false;
     const { cameraOpen, view, replay } = state.get();
     // A recording holds those that somebody asked for; what it has, it gives at once.
-    setText(waiting, replay ? "No picture of it is recorded up to here." : "Waiting for a picture…");
+    setText(waiting, replay ? "The recording has no image of this camera up to this time." : "Waiting for an image…");
     card.hidden = !camera || !cameraOpen;
     reopen.hidden = !camera || cameraOpen;
     if (camera && cameraOpen) choice.value = camera.topic;

@@ -23,8 +23,8 @@ export function mount({ state, commands }: Ports): MountedPanel {
     if (simulation === shown && simulation !== null) return;
     shown = simulation;
     forms.replaceChildren();
-    if (simulation === null) return say("Open a simulation to see its commands.");
-    say("Reading the simulation's commands.");
+    if (simulation === null) return say("No simulation. Open one to see its commands.");
+    say("Loading commands…");
     try {
       const list = await commands.list(simulation);
       if (shown !== simulation) return;

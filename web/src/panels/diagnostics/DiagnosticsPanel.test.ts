@@ -47,10 +47,10 @@ test("robots that are unwell are named, the worst first; good news is short", ()
   expect(texts("Robots")).toEqual([
     ["gone", "dead: killed"],
     ["slow", "unresponsive"],
-    ["", "1 more well."],
+    ["", "1 more OK."],
   ]);
   store.set({ robots: [WELL, WELL] });
-  expect(texts("Robots")).toEqual([["", "2 robots well."]]);
+  expect(texts("Robots")).toEqual([["", "2 robots OK."]]);
 });
 
 test("what the server tells of itself and of this page's updates is shown, what it does not tell is left out", () => {
@@ -72,7 +72,7 @@ test("what the server tells of itself and of this page's updates is shown, what 
     ["viewers", "3"],
     ["processor", "50 % of a core, on average"],
     ["open files", "20 of 1024"],
-    ["up for", "100 s"],
+    ["running for", "100 s"],
   ]);
 });
 

@@ -13,7 +13,7 @@ import type { Diagnosis, Diagnostics } from "./diagnostics";
 import { NO_DIAGNOSTICS, unwell } from "./diagnostics";
 
 const MOST_ROWS = 100;
-const NOTHING_YET = "Nothing is known yet.";
+const NOTHING_YET = "No data yet. The panel fills when the server responds.";
 
 export function mount({ state, topics, server }: Pick<PanelPorts, "state" | "topics" | "server">): MountedPanel {
   const store = new Store<Diagnostics>(NO_DIAGNOSTICS);
@@ -32,8 +32,8 @@ export function panelOf(store: Store<Diagnostics>, state: PanelPorts["state"], s
   const robots = createFacts("Robots", NOTHING_YET);
   const complaints = createFacts("Complaints", "None.");
   const page = createFacts("This page", NOTHING_YET);
-  const server = createFacts("Server", "It tells no figures.");
-  const body = element("div", { class: "facts-body", tabindex: "0", role: "region", "aria-label": "How things are" });
+  const server = createFacts("Server", "This server reports no figures.");
+  const body = element("div", { class: "facts-body", tabindex: "0", role: "region", "aria-label": "State" });
   body.append(...[simulation, robots, complaints, page, server].map((each) => each.element));
   const show = () => {
     const diagnostics = store.get();
@@ -66,16 +66,16 @@ function robotFacts({ robots }: Diagnostics): Fact[] {
   if (robots.length === 0) return [];
   const bad = unwell(robots);
   const good = robots.length - bad.length;
-  const rest: Fact[] = good > 0 ? [["", bad.length === 0 ? `${count(good, "robot")} well.` : `${good} more well.`]] : [];
+  const rest: Fact[] = good > 0 ? [["", bad.length === 0 ? `${count(good, "robot")} OK.` : `${good} more OK.`]] : [];
   const rows = bad.slice(0, MOST_ROWS).map(({ name, message, health }): Fact => [name, message, health]);
-  const cut: Fact[] = bad.length > MOST_ROWS ? [["", `${bad.length - MOST_ROWS} more unwell.`]] : [];
+  const cut: Fact[] = bad.length > MOST_ROWS ? [["", `${bad.length - MOST_ROWS} more failed.`]] : [];
   return [...rows, ...cut, ...rest];
 }
 
 function pageFacts({ dropped }: Diagnostics, frames: number): Fact[] {
   return [
-    ["pictures a second", String(frames)],
-    ["updates dropped for this page", dropped === null ? "not told" : String(dropped)],
+    ["frames per second", String(frames)],
+    ["updates dropped for this page", dropped === null ? "not reported" : String(dropped)],
   ];
 }
 
@@ -91,17 +91,17 @@ function serverFacts(figures: ServerFigures | null): Fact[] {
   return [
     ...line("viewers", "gsv_viewers"),
     ...line("connections", "gsv_connections"),
-    ...line("connections turned away", "gsv_connections_turned_away_total"),
+    ...line("refused connections", "gsv_connections_turned_away_total"),
     ...line("updates dropped for all viewers", "gsv_dropped_updates_total"),
     ...line("sent", "gsv_sent_bytes_total", formatSize),
     ...line("late steps of all simulations", "gsv_late_steps_total"),
     ...line("recordings", "gsv_recordings"),
-    ...line("messages that the disk was too slow for", "gsv_recording_dropped_messages_total"),
+    ...line("messages not recorded: disk too slow", "gsv_recording_dropped_messages_total"),
     ...line("failed calls to the broker", "gsv_broker_errors_total"),
     ...line("processor", "process_cpu_seconds_total", share),
     ...line("memory", "process_resident_memory_bytes", formatSize),
     ...line("threads", "process_threads"),
     ...line("open files", "process_open_fds", (open) => `${open} of ${figures.get("process_max_fds") ?? "?"}`),
-    ...line("up for", "gsv_uptime_seconds", (seconds) => `${Math.round(seconds)} s`),
+    ...line("running for", "gsv_uptime_seconds", (seconds) => `${Math.round(seconds)} s`),
   ];
 }

@@ -121,7 +121,7 @@ function copyButtons({ state, notices }: Ports): HTMLElement {
         title,
         onclick: () => {
           const pose = state.get().selectedPose;
-          if (pose) void notices.copy(textOf(pose), "The pose is copied.");
+          if (pose) void notices.copy(textOf(pose), "Pose copied.");
         },
       },
       icon("copy"),
@@ -131,7 +131,7 @@ function copyButtons({ state, notices }: Ports): HTMLElement {
     "div",
     { class: "inspector-actions" },
     button("Copy pose", "x y z roll pitch yaw, in metres and radians, as in a <pose>", poseText),
-    button("As --robot", "x,y,yaw, as gsv run --robot MODEL@x,y,yaw takes it", startText),
+    button("Copy as --robot", "x,y,yaw, as gsv run --robot MODEL@x,y,yaw takes it", startText),
   );
 }
 

@@ -121,7 +121,7 @@ class SensorRow {
   }
 
   private pictureButton(): HTMLElement {
-    const label = `Show the picture of ${this.sensor.name}`;
+    const label = `Show the image of ${this.sensor.name}`;
     const { robot, sensor } = this;
     return element(
       "button",

@@ -53,6 +53,6 @@ test("of a recording all lines are fetched, once", async () => {
 test("a log that cannot be read is told of", async () => {
   const { ports } = feeding({ replay: REPLAY }, () => Promise.reject(new Error("no such file")));
   await vi.waitFor(() =>
-    expect(ports.notices.notify).toHaveBeenCalledWith("error", "The log cannot be read: no such file"),
+    expect(ports.notices.notify).toHaveBeenCalledWith("error", "Cannot read the log: no such file"),
   );
 });

@@ -51,7 +51,7 @@ export class LogFeed {
       const lines = await this.ports.server.log(simulation);
       if (this.heard === simulation) this.store.set({ lines });
     } catch (error) {
-      this.ports.notices.notify("error", `The log cannot be read: ${(error as Error).message}`);
+      this.ports.notices.notify("error", `Cannot read the log: ${(error as Error).message}`);
     }
   }
 

@@ -52,12 +52,12 @@ test("level and text choose among them", () => {
   field.value = "nowhere";
   field.dispatchEvent(new Event("input"));
   expect(panel.querySelector<HTMLElement>(".log-empty")!.hidden).toBe(false);
-  expect(panel.querySelector(".log-empty")!.textContent).toContain("No line fits");
+  expect(panel.querySelector(".log-empty")!.textContent).toContain("No message matches");
 });
 
 test("an empty log says what comes there", () => {
   const { panel } = panelIn({}, []);
-  expect(panel.querySelector(".log-empty")!.textContent).toContain("Nothing is logged yet");
+  expect(panel.querySelector(".log-empty")!.textContent).toContain("No messages yet");
 });
 
 test("of a recording, lines after the present instant are still to come, and a press goes to one", () => {

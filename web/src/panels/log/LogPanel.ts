@@ -13,9 +13,9 @@ const MOST_ROWS = 500; // at once: those about the present instant
 const NEAR_END_PX = 24; // who reads further up is left there
 
 const NOTHING_YET =
-  "Nothing is logged yet. What happens to the simulation comes here by itself: starts and pauses, robots " +
-  "that come and go, behaviours that die.";
-const NOTHING_FITS = "No line fits the level and the text above.";
+  "No messages yet. This panel lists events of the simulation: starts and pauses, robots " +
+  "that are added or removed, behaviours that crash.";
+const NOTHING_FITS = "No message matches. Choose a lower level, or change the text above.";
 
 type Ports = Pick<PanelPorts, "state" | "replay">;
 
@@ -126,7 +126,7 @@ class Rows {
     const word = levelWord(level);
     const go = () => void this.ports.replay.seek(time);
     const instant = formatTime(time);
-    const attributes = { type: "button", title: "Go to this instant", onclick: go };
+    const attributes = { type: "button", title: "Go to this time", onclick: go };
     return element(
       "li",
       { class: `log-line ${word}` },

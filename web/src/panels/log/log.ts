@@ -18,9 +18,9 @@ export const MOST_LINES = 5000;
 
 export const LEVELS: readonly { level: number; label: string; word: string }[] = [
   { level: 0, label: "All levels", word: "debug" },
-  { level: 20, label: "From info", word: "info" },
-  { level: 30, label: "From warnings", word: "warning" },
-  { level: 40, label: "Only errors", word: "error" },
+  { level: 20, label: "Info and above", word: "info" },
+  { level: 30, label: "Warnings and above", word: "warning" },
+  { level: 40, label: "Errors only", word: "error" },
 ];
 
 const LIKELY_AGAIN = 200; // a stream that is joined anew tells its last hundred lines again

@@ -29,7 +29,7 @@ export function mount(ports: Ports): MountedPanel {
   const empty = element(
     "p",
     { class: "plot-empty" },
-    "Nothing is plotted yet. Choose a value above, or press the curve beside one in the inspector.",
+    "No curves yet. Choose a value above, or press the curve button beside a value in the inspector.",
   );
   const feed = new PlotFeed(ports.state, ports.topics, () => drawing.request());
   const drawing = new Drawing(ports, feed, canvas, legend);
@@ -113,8 +113,8 @@ function spanLabel(seconds: number): string {
 }
 
 const THINNED =
-  `Of a curve with more than ${MOST_SAMPLES.toLocaleString("en")} values the table holds the least and the ` +
-  "greatest of each short stretch; gsv rec export writes every one.";
+  `For a curve with more than ${MOST_SAMPLES.toLocaleString("en")} values, the table holds the minimum and the ` +
+  "maximum of each short interval. `gsv rec export` writes all values.";
 
 function saveTable({ state, notices }: Ports, feed: PlotFeed): void {
   const { plots, simulation, time } = state.get();
@@ -146,7 +146,7 @@ class Drawing {
     for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => this.letGo());
     ports.state.watch(
       ({ replay }) => replay !== null,
-      (isReplay) => (canvas.title = isReplay ? "Click or drag to go to an instant" : ""),
+      (isReplay) => (canvas.title = isReplay ? "Click or drag to go to a time" : ""),
     );
   }
 

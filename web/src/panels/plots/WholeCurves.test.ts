@@ -76,7 +76,7 @@ test("what is missing is told", async () => {
   await vi.advanceTimersByTimeAsync(0);
   const sentences = notify.mock.calls.map(([, sentence]) => sentence as string);
   expect(sentences.sort()).toEqual([
-    "Not all of the recording is plotted: a chunk is damaged",
-    "Not all of the recording is plotted: no such topic",
+    "The plot does not cover the whole recording: a chunk is damaged",
+    "The plot does not cover the whole recording: no such topic",
   ]);
 });

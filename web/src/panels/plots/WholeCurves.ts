@@ -69,6 +69,6 @@ export class WholeCurves {
   }
 
   private tell(problem: string): void {
-    if (problem) this.ports.notices.notify("error", `Not all of the recording is plotted: ${problem}`);
+    if (problem) this.ports.notices.notify("error", `The plot does not cover the whole recording: ${problem}`);
   }
 }

@@ -44,7 +44,7 @@ test("the simulation's state is shown as it comes", () => {
   topics.send("/gsv/status", message({ late_steps: 3n, waiting_for: "a (wander)" }));
   expect(facts("Simulation")).toEqual({
     state: "Running",
-    mode: "real time",
+    mode: "wall-clock time",
     "simulated time": "0:06.00",
     step: "600",
     "real-time factor, actual": "0.50×",
@@ -83,7 +83,7 @@ test("what the page knows of the server stands beside it", () => {
   const { facts, store, body } = opened({ simulations });
   expect(facts("Server")).toMatchObject({ simulations: "house, yard", viewers: "0", "in control": "nobody" });
   store.set({ connection: { phase: "waiting", attempt: 1, retryAtMs: 0 } });
-  expect(body.textContent).toContain("Not connected.");
+  expect(body.textContent).toContain("Not connected. The page reconnects automatically.");
 });
 
 test("it listens only while it is open, and forgets one simulation for another", () => {

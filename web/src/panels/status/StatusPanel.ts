@@ -20,7 +20,7 @@ const MOST_ROWS = 200;
 
 export function mount({ state, topics, robots }: Ports): MountedPanel {
   const simulation = createFacts("Simulation", `Waiting for ${TOPIC}.`);
-  const server = createFacts("Server", "Not connected.");
+  const server = createFacts("Server", "Not connected. The page reconnects automatically.");
   const table = new RobotTable((robot) => robots.select(robot));
   const facts = element("div", { class: "facts-body" }, simulation.element, server.element);
   const show = (status: SimulationStatus | null) => {
@@ -46,7 +46,7 @@ function simulationFacts(status: SimulationStatus): Fact[] {
   const { phase, mode, time, step, realTimeFactor, targetFactor, lateSteps, waitingFor } = status;
   return [
     ["state", phaseLabel(phase), phase === "failed" ? "error" : ""],
-    ["mode", mode === "lockstep" ? "lockstep" : "real time"],
+    ["mode", mode === "lockstep" ? "lockstep" : "wall-clock time"],
     ["simulated time", formatTime(time)],
     ["step", String(step)],
     ["real-time factor, actual", formatFactor(realTimeFactor)],
@@ -85,7 +85,7 @@ class RobotTable {
     const table = element("table", {}, element("thead", {}, head), this.body);
     this.element = element(
       "div",
-      { class: "panel-table", tabindex: "0", role: "region", "aria-label": "Robots' status" },
+      { class: "panel-table", tabindex: "0", role: "region", "aria-label": "Status of the robots" },
       table,
       this.rest,
     );

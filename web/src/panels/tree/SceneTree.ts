@@ -17,7 +17,7 @@ export function createSceneTree(ports: Ports, pages: HTMLElement): HTMLElement {
   const empty = element(
     "div",
     { class: "hint" },
-    element("p", {}, "No robots here yet. Start the simulation with some:"),
+    element("p", {}, "No robots yet. Start the simulation with robots:"),
     element("code", {}, "gsv run WORLD --robot MODEL@x,y --behaviour wander"),
   );
   const world = element("details", { class: "world-tree" });
