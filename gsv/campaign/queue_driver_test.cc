@@ -162,7 +162,7 @@ TEST_F(QueueDriverTest, ARunThatEndsItsTaskThreeTimesIsAnError) {
   const auto all = results_->All();
   ASSERT_EQ(all->size(), 10u);
   EXPECT_EQ((*all)[4].status, "error");
-  EXPECT_THAT((*all)[4].message, HasSubstr("its task ended 3 times while it ran"));
+  EXPECT_THAT((*all)[4].message, HasSubstr("its task ended 3 times during the run"));
   EXPECT_EQ((*all)[4].parameters.at("seed"), "5");
   EXPECT_EQ(*results_->NotPassed(), 1u);
 }

@@ -133,7 +133,7 @@ test("a recording is switched on, which another viewer sees, and off", async () 
     assert.ok(fs.statSync(path).size > 1000);
     // What was done before it was switched on is not in it, and is said to be so.
     const again = spawnSync(program(), ["replay", path, "--resimulate"], { encoding: "utf8" });
-    assert.match(again.stderr, /it begins in mid-run, at \d+\.\d+ s, and what came before is not known/);
+    assert.match(again.stderr, /it starts at \d+\.\d+ s, in the middle of the run/);
     assert.equal(again.status, 2);
   } finally {
     fs.rmSync(path, { force: true });

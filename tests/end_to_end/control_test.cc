@@ -75,7 +75,7 @@ TEST_F(Control, RecordsARunThatIsUnderWay) {
   const std::string path = folder_.path() / "part.mcap";
   const Outcome started = Gsv({"rec", "start", path});
   EXPECT_EQ(started.ending, "exit code 0") << started.err;
-  EXPECT_EQ(started.out, "simulation is recorded to " + path + "\n");
+  EXPECT_EQ(started.out, "recording simulation to " + path + "\n");
   EXPECT_THAT(Gsv({"rec", "start", path + "2"}).err, HasSubstr("stop this recording first"));
   EXPECT_EQ(Json({"pause"})["phase"], "paused");
   const int from = Json({"ps"})["step"];

@@ -173,7 +173,7 @@ TEST_F(SlurmCampaign, ASlurmThatRefusesIsTold) {
   EXPECT_EQ(Files("c.runs", "1.json"), 0u);
   // Handed out and not waited for; then cancelled, which a second driver takes for lost.
   const Outcome handed = RunProgram("gsv", RunArguments({"--no-wait", "--sbatch=--hold"}));
-  EXPECT_THAT(handed.err, HasSubstr("Slurm has 4 runs in 4 tasks: job "));
+  EXPECT_THAT(handed.err, HasSubstr("Slurm: submitted 4 runs in 4 tasks, job "));
   EXPECT_EQ(SlurmCluster::Ask({"squeue", "--noheader", "--array"}).empty(), false);
   const Outcome again = RunProgram("gsv", RunArguments({"--no-wait"}));
   EXPECT_THAT(again.err, Not(HasSubstr("Slurm has")));

@@ -118,8 +118,7 @@ TEST_F(ServerNoteTest, OtherFilesAndFoldersAreLeftAlone) {
 TEST(LostSimulationSentence, SaysWhatIsLeft) {
   LostSimulation lost = Arena();
   const std::string begin =
-      "arena on gsv (process 123) was lost at about 12.3 s (running), when its server ended "
-      "without a word; ";
+      "arena on gsv (process 123) was lost at about 12.3 s (running), when its server was killed; ";
   EXPECT_EQ(Sentence(lost), begin + "recording /r/x.mcap");
   lost.whole_until_s = 11.94;
   EXPECT_EQ(Sentence(lost), begin + "recording /r/x.mcap, whole until 11.9 s");

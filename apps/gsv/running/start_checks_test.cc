@@ -75,7 +75,7 @@ TEST(StartChecks, AStartOutsideOfTheWallsIsNamed) {
 }
 
 TEST(StartChecks, AStartFarFromEverythingIsNamed) {
-  EXPECT_THAT(Warnings(Walls(), 300, 0, 0), ElementsAre(HasSubstr("295 m away from everything")));
+  EXPECT_THAT(Warnings(Walls(), 300, 0, 0), ElementsAre(HasSubstr("295 m away from all objects")));
 }
 
 TEST(StartChecks, AStartBesideThingsThatEncloseNothingIsNoProblem) {

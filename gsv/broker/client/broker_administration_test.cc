@@ -89,7 +89,7 @@ TEST(BrokerAdministration, SaysWhatIsWrongWithALink) {
     return added ? std::string() : added.error().message;
   };
   EXPECT_EQ(add("1st", FollowOption::kAlways, FollowOption::kAlways),
-            "\"1st\" cannot be a link's name");
+            "\"1st\" is not a valid name of a link");
   EXPECT_EQ(add("north", FollowOption::kAlways, FollowOption::kLocalOnly),
             "a link cannot pass on more than it may follow itself");
   EXPECT_EQ(add("north", FollowOption::kAlways, FollowOption::kAlways), "");

@@ -66,7 +66,7 @@ TEST_F(BrokerClientTest, IsContentWithAnEqualTypeAndNotWithAnother) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(
       refused.error().Sentence(),
-      broker_.reference() + ": the service type Robot is known already, with another definition");
+      broker_.reference() + ": the service type Robot exists already with another definition");
 }
 
 TEST_F(BrokerClientTest, SaysWhereAConstraintIsWrong) {
@@ -97,7 +97,7 @@ TEST_F(BrokerClientTest, SaysWhatIsWrongWithAnOffer) {
             "the property name has another type than Robot declares");
   EXPECT_EQ(client_.Export("Robot", CORBA::Object::_nil(), {}).error().message,
             "the offered service is nil, or does not respond to the broker");
-  EXPECT_EQ(client_.Withdraw("x").error().message, "\"x\" cannot be an offer's id");
+  EXPECT_EQ(client_.Withdraw("x").error().message, "\"x\" is not a valid id of an offer");
 }
 
 TEST_F(BrokerClientTest, ListsOffersAndTypes) {

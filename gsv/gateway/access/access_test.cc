@@ -200,11 +200,10 @@ TEST_F(AccessTest, OneHoldsControlAndTheOthersAsk) {
   for (const std::string& other : {As(bob), std::string(), As("nobody")}) {
     EXPECT_EQ(Reset(other), 409) << other;
   }
-  EXPECT_NE(
-      Send("POST", "/api/simulations/arena/reset", As(bob)).body.find("Ada <b> holds control"),
-      std::string::npos);
+  EXPECT_NE(Send("POST", "/api/simulations/arena/reset", As(bob)).body.find("Ada <b> has control"),
+            std::string::npos);
   Viewer looks(gateway_->port(), "/ws?viewer=" + bob);
-  EXPECT_NE(looks.CallRefusedService("start").find("holds control"), std::string::npos);
+  EXPECT_NE(looks.CallRefusedService("start").find("has control"), std::string::npos);
   Send("POST", "/api/viewers/me/control", As(bob), R"({"wants":true})");
   const json told = json::parse(Send("GET", "/api/viewers", As(ada)).body);
   EXPECT_EQ(told["viewers"][1]["asks"], 1);
@@ -234,7 +233,7 @@ TEST_F(AccessTest, TwoSimulationsAreHeldByTwoPeople) {
   EXPECT_EQ(reset(bob, "arena"), 409);
   // By its WebSocket each acts on what that one shows, whatever they say they look at.
   Viewer stranger(gateway_->port(), "/ws?simulation=other&viewer=" + ada);
-  EXPECT_NE(stranger.CallRefusedService("start").find("Bob holds control"), std::string::npos);
+  EXPECT_NE(stranger.CallRefusedService("start").find("Bob has control"), std::string::npos);
   Viewer holder(gateway_->port(), "/ws?simulation=arena&viewer=" + ada);
   EXPECT_TRUE(holder.CallService("start").first);
 }

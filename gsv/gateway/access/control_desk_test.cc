@@ -1,0 +1,155 @@
+#include "gsv/gateway/access/control_desk.h"
+
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace gsv::gateway::access {
+namespace {
+
+using std::chrono::seconds;
+
+// Two people at a desk whose clock is set by hand.
+class ControlDeskTest : public ::testing::Test {
+ protected:
+  // Both keep asking how things stand until then.
+  void WaitUntil(int second) {
+    for (; now_ < start_ + seconds(second); now_ += seconds(1)) {
+      desk_.See(ada_.key, now_);
+      desk_.See(bob_.key, now_);
+    }
+  }
+  std::uint64_t Holder(const std::string& simulation = "arena") {
+    for (const auto& person : desk_.See(bob_.key, now_).viewers) {
+      if (person.simulation == simulation && person.holds) return person.number;
+    }
+    return 0;
+  }
+  base::Status MayAct(const std::string& key) { return desk_.MayAct(key, "arena", now_); }
+  ControlDesk::Person Bob() { return desk_.See("", now_).viewers.at(1); }
+
+  const ControlDesk::Time start_{};
+  ControlDesk::Time now_ = start_;
+  ControlDesk desk_{{.absence = seconds(8), .answer = seconds(20)}};
+  const ControlDesk::Admission ada_ = desk_.Enter("Ada", "arena", now_).value();
+  const ControlDesk::Admission bob_ = desk_.Enter("  Bob\n", "arena", now_).value();
+};
+
+TEST_F(ControlDeskTest, WhileNobodyHoldsControlAllMayAct) {
+  EXPECT_TRUE(MayAct(ada_.key));
+  EXPECT_TRUE(MayAct(""));
+  const auto standing = desk_.See(ada_.key, now_);
+  ASSERT_EQ(standing.viewers.size(), 2u);
+  EXPECT_EQ(standing.viewers[1].name, "Bob");
+  EXPECT_EQ(standing.you, ada_.number);
+  EXPECT_EQ(Holder(), 0u);
+}
+
+TEST_F(ControlDeskTest, WhoHoldsItActsAlone) {
+  ASSERT_TRUE(desk_.Ask(ada_.key, now_));
+  EXPECT_EQ(Holder(), ada_.number);
+  EXPECT_TRUE(MayAct(ada_.key));
+  for (const std::string& other : {bob_.key, std::string(), std::string("no key")}) {
+    const base::Status may = MayAct(other);
+    ASSERT_FALSE(may) << other;
+    EXPECT_NE(may.error().message.find("Ada has control"), std::string::npos);
+  }
+  ASSERT_TRUE(desk_.Release(ada_.key, now_));
+  EXPECT_TRUE(MayAct(bob_.key));
+}
+
+TEST_F(ControlDeskTest, AHolderGrantsOrKeepsIt) {
+  ASSERT_TRUE(desk_.Ask(ada_.key, now_));
+  ASSERT_TRUE(desk_.Ask(bob_.key, now_));
+  EXPECT_EQ(Bob().asks, 1u);
+  EXPECT_FALSE(desk_.Answer(bob_.key, true, now_));
+  ASSERT_TRUE(desk_.Answer(ada_.key, false, now_));
+  EXPECT_EQ(Bob().asks, 0u);
+  EXPECT_EQ(Holder(), ada_.number);
+  ASSERT_TRUE(desk_.Ask(bob_.key, now_));
+  ASSERT_TRUE(desk_.Answer(ada_.key, true, now_));
+  EXPECT_EQ(Holder(), bob_.number);
+  EXPECT_FALSE(desk_.Answer(bob_.key, true, now_));  // nobody asks
+}
+
+TEST_F(ControlDeskTest, ItPassesWhenTheHolderDoesNotAnswer) {
+  ASSERT_TRUE(desk_.Ask(ada_.key, now_));
+  ASSERT_TRUE(desk_.Ask(bob_.key, now_));
+  WaitUntil(19);
+  EXPECT_EQ(Holder(), ada_.number);
+  EXPECT_EQ(Bob().left, seconds(1));
+  WaitUntil(21);
+  EXPECT_EQ(Holder(), bob_.number);
+}
+
+TEST_F(ControlDeskTest, ItPassesWhenTheHolderLeavesOrIsSilent) {
+  ASSERT_TRUE(desk_.Ask(ada_.key, now_));
+  ASSERT_TRUE(desk_.Ask(bob_.key, now_));
+  ASSERT_TRUE(desk_.Leave(ada_.key, now_));
+  EXPECT_EQ(Holder(), bob_.number);
+  EXPECT_FALSE(desk_.Ask(ada_.key, now_));
+  now_ += seconds(9);  // Bob's machine sleeps
+  EXPECT_TRUE(MayAct(""));
+  EXPECT_TRUE(desk_.See("", now_).viewers.empty());
+  EXPECT_EQ(desk_.Rename(bob_.key, "Bob", now_).error().code, base::ErrorCode::kNotFound);
+}
+
+TEST_F(ControlDeskTest, EachSimulationHasAHolderOfItsOwn) {
+  ASSERT_TRUE(desk_.Ask(ada_.key, now_));
+  ASSERT_TRUE(desk_.Turn(bob_.key, "other", now_));
+  ASSERT_TRUE(desk_.Ask(bob_.key, now_));
+  EXPECT_EQ(Holder("arena"), ada_.number);
+  EXPECT_EQ(Holder("other"), bob_.number);
+  EXPECT_TRUE(desk_.MayAct(ada_.key, "arena", now_));
+  EXPECT_FALSE(desk_.MayAct(ada_.key, "other", now_));
+  EXPECT_FALSE(desk_.MayAct(bob_.key, "arena", now_));
+  EXPECT_TRUE(desk_.MayAct(bob_.key, "a third", now_));
+}
+
+TEST_F(ControlDeskTest, WhoTurnsToAnotherSimulationLetsGo) {
+  ASSERT_TRUE(desk_.Ask(ada_.key, now_));
+  ASSERT_TRUE(desk_.Ask(bob_.key, now_));
+  ASSERT_TRUE(desk_.Turn(ada_.key, "arena", now_));  // she looks at it already
+  EXPECT_EQ(Holder(), ada_.number);
+  ASSERT_TRUE(desk_.Turn(ada_.key, "", now_));
+  EXPECT_EQ(Holder(), bob_.number);
+  EXPECT_EQ(desk_.Ask(ada_.key, now_).error().code, base::ErrorCode::kNotRunning);
+}
+
+TEST_F(ControlDeskTest, ItsVersionTellsThatSomethingIsOtherwise) {
+  std::uint64_t version = desk_.Version(now_);
+  const auto is_news = [&] {
+    const std::uint64_t before = std::exchange(version, desk_.Version(now_));
+    return version != before;
+  };
+  EXPECT_FALSE(is_news());
+  ASSERT_TRUE(desk_.Ask(ada_.key, now_));
+  EXPECT_TRUE(is_news());
+  ASSERT_TRUE(desk_.Ask(ada_.key, now_));  // again
+  EXPECT_FALSE(is_news());
+  ASSERT_TRUE(desk_.Rename(bob_.key, "Robert", now_));
+  EXPECT_TRUE(is_news());
+  now_ += seconds(9);  // both are silent
+  EXPECT_TRUE(is_news());
+  EXPECT_FALSE(is_news());
+}
+
+TEST_F(ControlDeskTest, NamesAreShortAndOnOneLine) {
+  std::string name;
+  for (int i = 0; i < 40; ++i) name += "ä";
+  ASSERT_TRUE(desk_.Rename(ada_.key, name, now_));
+  EXPECT_EQ(desk_.See("", now_).viewers[0].name, name.substr(0, 60));
+  ASSERT_TRUE(desk_.Rename(ada_.key, "a\tb\x1b[2J<b>", now_));
+  EXPECT_EQ(desk_.See("", now_).viewers[0].name, "a b [2J<b>");
+  ASSERT_TRUE(desk_.Rename(ada_.key, " \n ", now_));
+  EXPECT_EQ(desk_.See("", now_).viewers[0].name, "viewer 1");
+}
+
+TEST_F(ControlDeskTest, NoMoreThanAThousandAreThere) {
+  for (std::size_t i = 2; i < ControlDesk::kMostViewers; ++i)
+    ASSERT_TRUE(desk_.Enter("", "arena", now_));
+  EXPECT_EQ(desk_.Enter("", "arena", now_).error().code, base::ErrorCode::kUnavailable);
+}
+
+}  // namespace
+}  // namespace gsv::gateway::access
