@@ -120,7 +120,7 @@ TEST_F(QueueDriverTest, RunsGoOutInBatchesOfAsManyTasksAsTheQueueTakes) {
   EXPECT_THAT(queue_.submitted[0].runs, ElementsAre(0, 1, 2, 3, 4, 5));
   EXPECT_THAT(queue_.submitted[1].runs, ElementsAre(6, 7, 8, 9));
   EXPECT_EQ(queue_.submitted[1].tasks(), 2u);
-  EXPECT_THAT(said_.front(), HasSubstr("The queue has 6 runs in 3 tasks: job job 1, gsv-"));
+  EXPECT_THAT(said_.front(), HasSubstr("The queue: submitted 6 runs in 3 tasks, job job 1, gsv-"));
 }
 
 TEST_F(QueueDriverTest, RunsOfATaskAreChosenSoThatOneBatchTakesAll) {
@@ -199,8 +199,7 @@ TEST_F(QueueDriverTest, AJobOfItsOwnThatCameToNothingEndsItWithWhatTheLogSays) {
   ASSERT_FALSE(ended);
   EXPECT_THAT(
       ended.error().message,
-      HasSubstr(
-          "The queue's job job 1 ended before any of its runs had begun: gsv: no such folder"));
+      HasSubstr("The queue: job job 1 ended before any of its runs started: gsv: no such folder"));
 }
 
 TEST_F(QueueDriverTest, ARefusalWhileTasksAreQueuedIsTriedAgainOnceTheQueueIsShorter) {
