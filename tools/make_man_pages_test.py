@@ -101,7 +101,7 @@ class Program(unittest.TestCase):
         whole = (self.folder / "gsv.1").read_text()
         for command in commands:
             page = (self.folder / f"gsv-{command}.1").read_text()
-            self.assertIn(f"gsv\\-{command} \\- ".replace("set-", "set\\-"), page)
+            self.assertIn(pages.roff(f"gsv-{command}") + " \\- ", page)
             self.assertIn(pages.roff(f"gsv-{command}") + " (1)", whole)
         self.assertEqual(len(list(self.folder.iterdir())), len(commands) + 1)
         self.assertIn("\\-\\-lockstep", (self.folder / "gsv-run.1").read_text())

@@ -130,7 +130,7 @@ TEST(RunOptions, EachMistakeNamesItsOption) {
       {{"--on-failure", "panic"}, "usage: "},
       {{"--lockstep", "--real-time"}, "usage: "},
       {{"--threads", "-1"}, "usage: "},
-      {{"--limit", "robots=0"}, "robots must be a whole number above zero"},
+      {{"--limit", "robots=0"}, "robots must be a whole number from 1 to"},
       {{"none.yaml"}, "none.yaml"}};
   for (const auto& [words, sentence] : bad) {
     Words with_world = words;

@@ -100,7 +100,7 @@ TEST_F(VideoExportTest, AnFfmpegThatFailsIsTold) {
 
 TEST_F(VideoExportTest, RefusesWhatHoldsNoPicturesAndFilesThatAreThere) {
   Record({});
-  EXPECT_NE(Export().error().Sentence().find("no pictures"), std::string::npos);
+  EXPECT_NE(Export().error().Sentence().find("has no images"), std::string::npos);
   EXPECT_NE(Export({{"/clock"}}).error().Sentence().find("rosgraph_msgs/msg/Clock"),
             std::string::npos);
   Record({{milliseconds(0), 'a'}});
