@@ -108,7 +108,7 @@ std::map<std::string, double> ReadRates(YamlMapping& mapping) {
 std::optional<double> ReadRealTimeFactor(YamlMapping& mapping) {
   const auto factor = mapping.Number("real_time_factor", kMinRealTimeFactor, kMaxRealTimeFactor);
   const auto former = mapping.Number("factor", kMinRealTimeFactor, kMaxRealTimeFactor);
-  if (mapping.Had("factor") && mapping.Had("real_time_factor")) {
+  if (mapping.Has("factor") && mapping.Has("real_time_factor")) {
     mapping.AddProblem("factor", "is the former name of real_time_factor; give one of the two");
   }
   return factor ? factor : former;

@@ -88,7 +88,7 @@ TEST_F(Resimulation, RepeatsPeople) {
   ASSERT_EQ(recorded.ending, "exit code 0") << recorded.err;
   const Outcome again = RunProgram("gsv", {"replay", recording_, "--resimulate"});
   EXPECT_EQ(again.ending, "exit code 0") << again.err;
-  EXPECT_THAT(again.out, StartsWith("simulated again, it is the same: "));
+  EXPECT_THAT(again.out, StartsWith("the new run is equal: "));
   const Outcome by_commands =
       RunProgram("gsv", {"replay", recording_, "--resimulate", "--commands"});
   EXPECT_EQ(by_commands.ending, "exit code 0") << by_commands.err;

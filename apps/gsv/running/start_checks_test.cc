@@ -65,8 +65,7 @@ TEST(StartChecks, AStartAmongWallsIsNoProblem) {
 }
 
 TEST(StartChecks, AHeadingBeyondAFullTurnIsNamed) {
-  EXPECT_THAT(Warnings(Walls(), 0, 0, 90),
-              ElementsAre(HasSubstr("pebble@0,0: its yaw of 90 rad")));
+  EXPECT_THAT(Warnings(Walls(), 0, 0, 90), ElementsAre(HasSubstr("pebble@0,0: its yaw of 90 rad")));
   EXPECT_THAT(Warnings(Walls(), 0, 0, 2 * 3.14159265358979), IsEmpty());
 }
 

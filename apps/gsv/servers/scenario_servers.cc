@@ -16,7 +16,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr std::size_t kMaxServers = 1000;
+constexpr std::size_t kMaxScenarioServers = 1000;
 constexpr int kMaxLostServers = 5;  // servers, one after the other, with the same run
 constexpr seconds kRefreshPeriod{1}, kSilence{10}, kAvoidLost{30}, kWithoutServers{60};
 constexpr milliseconds kServerCallTimeout{5000};  // a wait for the end is answered after two
@@ -87,8 +87,8 @@ ScenarioServers::~ScenarioServers() {
 }
 
 base::Status ScenarioServers::Refresh() {
-  auto offers =
-      broker_.Query(broker::ScenarioServiceType().name, constraint_, "min load", kMaxServers);
+  auto offers = broker_.Query(broker::ScenarioServiceType().name, constraint_, "min load",
+                              kMaxScenarioServers);
   // A broker that no such server has ever registered with does not know the type.
   if (!offers && offers.error().code == base::ErrorCode::kNotFound) offers.emplace();
   const base::MutexLock lock(mutex_);

@@ -54,7 +54,7 @@ TEST_F(ControlDeskTest, WhoHoldsItActsAlone) {
   for (const std::string& other : {bob_.key, std::string(), std::string("no key")}) {
     const base::Status may = CheckControl(other);
     ASSERT_FALSE(may) << other;
-    EXPECT_NE(may.error().message.find("Ada holds control"), std::string::npos);
+    EXPECT_NE(may.error().message.find("Ada has control"), std::string::npos);
   }
   ASSERT_TRUE(registry_.Release(ada_.key, now_));
   EXPECT_TRUE(CheckControl(bob_.key));
