@@ -271,7 +271,8 @@ class TakenPort {
 
 TEST(BadInput, ViewersAddressOfAnotherKind) {
   ExpectOneSentence(RunProgram("gsv", {"view", "ftp://127.0.0.1:8080/"}), 2,
-                    "ftp://127.0.0.1:8080/: it must begin with http:// or https://");
+                    "ftp://127.0.0.1:8080/: cannot be used as the address of a viewer: it must "
+                    "begin with http:// or https://");
 }
 
 TEST(BadInput, ViewerPortInUse) {

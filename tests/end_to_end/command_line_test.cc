@@ -344,7 +344,7 @@ TEST(CommandLine, WhatIsTakenButMostLikelyNotMeantIsNamed) {
     return outcome.LastLine()["warnings"].dump();
   };
   EXPECT_THAT(warnings({"--robot", "pebble@0,0,90", "--duration", "0.1"}),
-              HasSubstr("heading of 90 rad"));
+              HasSubstr("yaw of 90 rad"));
   EXPECT_THAT(warnings({"--robot", "pebble@500,0", "--duration", "0.1"}),
               HasSubstr("away from all objects"));
   EXPECT_THAT(warnings({"--model-path", "/nowhere", "--duration", "0.1"}),

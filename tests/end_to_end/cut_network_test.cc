@@ -26,7 +26,7 @@ TEST(CutNetwork, TheOffersOfAHostThatCannotBeReachedGoAway) {
   host.Cut();
   while (!offers().empty()) {
   }
-  EXPECT_THAT(broker.errors(), HasSubstr("withdrawn: it has not responded for too long"));
+  EXPECT_THAT(broker.errors(), HasSubstr("it has not responded for too long"));
   host.Mend();
 }
 

@@ -110,7 +110,7 @@ TEST_F(Scenario, WhatARecordingDoesNotHoldCannotBeExtracted) {
   ASSERT_EQ(Run("playground", options).ending, "exit code 0");
   const Outcome none = RunProgram("gsv", {"rec", "extract", recording, "scene.yaml"});
   EXPECT_EQ(none.ending, "exit code 5");
-  EXPECT_THAT(none.err, HasSubstr("holds no attachment \"scene.yaml\"; gsv rec info lists"));
+  EXPECT_THAT(none.err, HasSubstr("has no attachment \"scene.yaml\"; `gsv rec info` lists"));
   const std::string scene = folder_.path() / "scene.json";
   EXPECT_EQ(RunProgram("gsv", {"rec", "extract", recording, "scene.json", "-o", scene}).ending,
             "exit code 0");

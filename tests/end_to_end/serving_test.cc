@@ -94,7 +94,7 @@ TEST(Limits, ThatAreNoneAreRefusedWithThoseThatThereAre) {
   for (const char* limit : {"robots=0", "robots=many", "simulations=10001"}) {
     const Outcome refused = RunProgram("gsv", {"serve", "--limit", limit});
     EXPECT_EQ(refused.ending, "exit code 2") << limit;
-    EXPECT_NE(refused.err.find("must be a whole number above zero"), std::string::npos)
+    EXPECT_NE(refused.err.find("must be a whole number from 1 to"), std::string::npos)
         << refused.err;
   }
   const Outcome unknown = RunProgram("gsv", {"serve", "--limit", "viewers=3"});

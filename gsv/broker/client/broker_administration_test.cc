@@ -94,7 +94,7 @@ TEST(BrokerAdministration, SaysWhatIsWrongWithALink) {
             "a link cannot pass on more than it may follow itself");
   EXPECT_EQ(add("north", FollowOption::kAlways, FollowOption::kAlways), "");
   EXPECT_EQ(add("north", FollowOption::kAlways, FollowOption::kAlways),
-            "there is a link north already");
+            "the link north exists already");
   EXPECT_EQ(administration.RemoveLink("west").error().message, "the broker has no link west");
   EXPECT_EQ(administration.AddLink("west", "nonsense", {}, {}).error().code,
             base::ErrorCode::kInvalidArgument);

@@ -92,7 +92,7 @@ TEST_F(BrokerClientTest, SaysWhatIsWrongWithAnOffer) {
   EXPECT_EQ(unknown.error().message, "the broker knows no service type Robot");
   ASSERT_TRUE(client_.EnsureServiceType(kRobot));
   EXPECT_EQ(client_.Export("Robot", TestService(), {}).error().message,
-            "Robot demands the property name");
+            "Robot requires the property name");
   EXPECT_EQ(client_.Export("Robot", TestService(), {{"name", Value::Long(1)}}).error().message,
             "the property name has another type than Robot declares");
   EXPECT_EQ(client_.Export("Robot", CORBA::Object::_nil(), {}).error().message,

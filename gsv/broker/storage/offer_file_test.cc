@@ -219,9 +219,10 @@ TEST_F(OfferFileTest, RefusesWhatIsNotItsOwn) {
 
   ASSERT_TRUE(OfferFile::Open(Path(), kOwnStem));
   ASSERT_TRUE(Database::Open(Path())->Run("PRAGMA user_version = 99"));
-  EXPECT_EQ(Complaint().message,
-            "the file has format 99, this gsv reads format 2; use the gsv that wrote it, or choose "
-            "another file with --data");
+  EXPECT_EQ(
+      Complaint().message,
+      "the file has format 99, but this gsv reads format 2; use the gsv that wrote it, or choose "
+      "another file with --data");
 
   EXPECT_FALSE(OfferFile::Open(folder_.path() / "absent" / "broker.db", kOwnStem));
 }
