@@ -49,7 +49,7 @@ test("a constraint that does not match says which term failed", async () => {
   await find("cores >= 1 and pid < 0 and wings == 2");
   await page.getByText("0 of 1 offer matches", { exact: true }).waitFor();
   assert.match(await page.locator(".term[data-result='false']").innerText(), /pid < 0/);
-  assert.match(await page.locator(".term[data-result='no value']").innerText(), /the offer has no wings/);
+  assert.match(await page.locator(".term[data-result='no value']").innerText(), /the offer has no property wings/);
   await keepPicture(page, "broker");
 });
 
