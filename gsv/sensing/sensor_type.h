@@ -19,6 +19,7 @@
 #include "gsv/readings/catalogue.h"
 #include "gsv/sensing/encoding.h"
 #include "gsv/sensing/parameters.h"
+#include "gsv/sensing/presets.h"
 #include "gsv/sensing/registry.h"
 
 namespace gsv::sensing {
@@ -62,10 +63,12 @@ SensorType MakeSensorType(std::string name, std::vector<std::string> aliases = {
   type.name = std::move(name);
   type.aliases = std::move(aliases);
   type.create =
-      [context...](
-          const model::SensorDescription& description) -> base::Result<std::unique_ptr<Sensor>> {
-    ParameterReader reader(description);
-    auto sensor = std::make_unique<Kind>(description, reader, context...);
+      [name = type.name,
+       context...](const model::SensorDescription& given) -> base::Result<std::unique_ptr<Sensor>> {
+    const auto description = WithPreset(name, given);
+    if (!description) return base::Fail(description.error());
+    ParameterReader reader(*description);
+    auto sensor = std::make_unique<Kind>(*description, reader, context...);
     if (!reader.status()) return base::Fail(reader.status().error());
     return sensor;
   };

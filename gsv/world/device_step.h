@@ -1,6 +1,7 @@
 // The arguments of DeviceState::BeforeStep(), and the state that devices may change.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct DeviceStep {
   // Bodies as in `now`. Devices before this one, by robot and name, have been stepped.
   const State& state;
   std::vector<Transmission>& transmissions;  // sent in this step, in the order of senders
+  std::uint64_t seed = 0;                    // of the simulation
 };
 
 }  // namespace gsv::world

@@ -1,6 +1,7 @@
 #include "gsv/sensing/devices/imu.h"
 
 #include <array>
+#include <cmath>
 
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/sensing/devices/orientation_reference.h"
@@ -15,6 +16,7 @@ using geometry::Quaternion;
 using geometry::Vector3;
 
 constexpr double kDrawnPerForce = 0.03;  // m a m/s²
+constexpr double kUsualRate = 100;       // Hz, of a sensor without an update rate
 
 class Imu final : public SensorOf<readings::Imu, messages::sensor_msgs::Imu> {
  public:
@@ -28,6 +30,8 @@ class Imu final : public SensorOf<readings::Imu, messages::sensor_msgs::Imu> {
       noise_[i] = ReadNoise(reader, "angular_velocity." + axis + ".noise", 1e4);
       noise_[i + 3] = ReadNoise(reader, "linear_acceleration." + axis + ".noise", 1e6);
     }
+    ReadAllan(reader, "angular_velocity", 1e4, 0);
+    ReadAllan(reader, "linear_acceleration", 1e6, 3);
   }
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {
@@ -38,10 +42,15 @@ class Imu final : public SensorOf<readings::Imu, messages::sensor_msgs::Imu> {
     const Vector3 force = sensor_from_world *
                           (motion.acceleration - sampling.snapshot()->layout->description->gravity);
     const NoisyReading noisy(sampling, description());
+    const auto along_axis = [&](std::size_t channel, double value) {
+      for (std::size_t i = 0; i < allan_.size(); ++i) {
+        value = noisy.Read(allan_[i][channel / 3], 6 * (i + 1) + channel, value);
+      }
+      return noisy.Read(noise_[channel], channel, value);
+    };
     const auto disturbed = [&](const Vector3& v, std::size_t channel) {
-      return readings::Vector{noisy.Read(noise_[channel], channel, v.x),
-                              noisy.Read(noise_[channel + 1], channel + 1, v.y),
-                              noisy.Read(noise_[channel + 2], channel + 2, v.z)};
+      return readings::Vector{along_axis(channel, v.x), along_axis(channel + 1, v.y),
+                              along_axis(channel + 2, v.z)};
     };
     Values motion_felt{disturbed(turning, 0), disturbed(force, 3), std::nullopt};
     if (has_orientation_) {
@@ -57,6 +66,24 @@ class Imu final : public SensorOf<readings::Imu, messages::sensor_msgs::Imu> {
   }
 
  private:
+  // The three terms of an Allan plot, of `quantity`'s three axes alike.
+  void ReadAllan(ParameterReader& reader, const std::string& quantity, double limit,
+                 std::size_t first_channel) {
+    // The flicker floor lies at 0.664 times the deviation of a slowly drifting bias (IEEE 952).
+    constexpr double kFloor = 0.664, kInstabilityTime = 100, kWalkTime = 3600;  // s
+    const double density = reader.Number(quantity + ".noise_density", 0, 0, limit);
+    const double instability = reader.Number(quantity + ".bias_instability", 0, 0, limit);
+    const double walk = reader.Number(quantity + ".random_walk", 0, 0, limit);
+    const double rate = description().update_rate > 0 ? description().update_rate : kUsualRate;
+    NoiseModel& quick = allan_[0][first_channel / 3];
+    quick.stddev = density * std::sqrt(rate);
+    quick.drift_stddev = instability / kFloor;
+    quick.drift_time = instability > 0 ? kInstabilityTime : 0;
+    NoiseModel& slow = allan_[1][first_channel / 3];
+    slow.drift_stddev = walk * std::sqrt(kWalkTime / 2);
+    slow.drift_time = walk > 0 ? kWalkTime : 0;
+  }
+
   Message ToMessage(const Values& motion, const Reading&, const std::string&) const override {
     Message message;
     const auto& [turning, force] = std::tie(motion.angular_velocity, motion.specific_force);
@@ -79,6 +106,8 @@ class Imu final : public SensorOf<readings::Imu, messages::sensor_msgs::Imu> {
   const bool has_orientation_;
   const OrientationReference reference_;
   std::array<NoiseModel, 6> noise_;
+  // By term (white noise and bias instability; random walk), then angular velocity and force.
+  std::array<std::array<NoiseModel, 2>, 2> allan_;
 };
 
 }  // namespace

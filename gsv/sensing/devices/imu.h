@@ -4,7 +4,9 @@
 //             +9.8 m/s² along the world's z, in free fall nothing.
 // Parameters  angular_velocity.{x,y,z}.noise (rad/s) and linear_acceleration.{x,y,z}.noise (m/s²),
 //             see noise.h; enable_orientation (true); orientation_reference_frame, see
-//             orientation_reference.h.
+//             orientation_reference.h. Terms of an Allan plot, for all three axes of
+//             angular_velocity and linear_acceleration: noise_density (per root hertz),
+//             bias_instability, random_walk (per root second), all 0.
 // Readings    values {angular velocity x, y, z (rad/s), specific force x, y, z (m/s²)}, then, if
 //             enabled, {orientation w, x, y, z}, world_from_sensor, or reference_from_sensor where
 //             there is another reference frame. As a message: sensor_msgs/Imu.

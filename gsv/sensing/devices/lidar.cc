@@ -54,6 +54,10 @@ class Lidar final : public SensorOf<readings::Lidar, MessageType> {
     std::vector<double> ranges(beams);
     for (int row = 0; row < settings_.vertical.count; ++row) {
       sampling.Rays().Scan(FanOf(row, world_from_lidar), sampling.body(), ranges);
+      if (!settings_.errors.is_none()) {
+        Disturb(settings_.errors, sampling, this->description(), settings_.horizontal.increment(),
+                reading.values.size(), ranges);
+      }
       for (double distance : ranges) {
         if (noisy) distance = Disturbed(*noisy, reading.values.size(), distance);
         reading.values.push_back(Measured(distance, noise));

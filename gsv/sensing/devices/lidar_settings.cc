@@ -58,6 +58,7 @@ LidarSettings ReadLidarSettings(ParameterReader& reader) {
   } else {
     settings.full_noise = noise;
   }
+  settings.errors = ReadLidarErrors(reader);
   return settings;
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "gsv/sensing/devices/lidar_errors.h"
 #include "gsv/sensing/noise.h"
 #include "gsv/sensing/parameters.h"
 
@@ -23,6 +24,7 @@ struct LidarSettings {
   double min = 0, max = 0;
   double noise_mean = 0, noise_stddev = 0;  // of white noise alone, drawn beam after beam
   std::optional<NoiseModel> full_noise;     // any other
+  LidarErrors errors;                       // before the noise
 };
 
 // Refuses by the reader.

@@ -31,10 +31,18 @@ world::RadioSetupPtr ReadSetup(ParameterReader& reader) {
   return setup;
 }
 
+RadioErrors ReadErrors(ParameterReader& reader) {
+  RadioErrors errors;
+  errors.fading = reader.Number("fading", 0, 0, 100);
+  errors.loss_probability = reader.Number("loss_probability", 0, 0, 1);
+  errors.capture_ratio = reader.Number("capture_ratio", 0, 0, 100);
+  return errors;
+}
+
 class Radio final : public SensorOf<readings::Radio, messages::gsv_msgs::Radio, Device> {
  public:
   Radio(const model::SensorDescription& description, ParameterReader& reader)
-      : SensorOf(description), setup_(ReadSetup(reader)) {}
+      : SensorOf(description), setup_(ReadSetup(reader)), errors_(ReadErrors(reader)) {}
 
   bool IsOnWhileOpen() const override { return true; }
   bool SendsMessages() const override { return true; }
@@ -52,7 +60,7 @@ class Radio final : public SensorOf<readings::Radio, messages::gsv_msgs::Radio, 
   }
 
   world::DeviceStatePtr SwitchedOn(const std::string& robot) const override {
-    return std::make_shared<const RadioState>(MountOn(robot), setup_);
+    return std::make_shared<const RadioState>(MountOn(robot), setup_, errors_);
   }
 
   // A radio that is not on sends as well.
@@ -103,6 +111,7 @@ class Radio final : public SensorOf<readings::Radio, messages::gsv_msgs::Radio, 
   }
 
   const world::RadioSetupPtr setup_;
+  const RadioErrors errors_;
 };
 
 }  // namespace

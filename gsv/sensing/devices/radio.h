@@ -10,6 +10,9 @@
 //             sensitivity (-90 dBm), frequency (2442 MHz) and essid (""), which both must share, as
 //             SDFormat's <transceiver> has them; path_loss_exponent (2), wall_loss (10 dB for each
 //             wall); inbox (16: messages that are kept), max_size (1024: bytes of a message).
+//             Of the receiver, all 0: fading (dB: deviation of each message's strength),
+//             loss_probability, and capture_ratio (dB: how much stronger than all other robots'
+//             messages of the same step a message must arrive; 0: radios do not disturb each other).
 // Message     gsv_msgs/Radio
 #pragma once
 

@@ -1,10 +1,12 @@
 // What a radio has heard since it was switched on.
 //
 // Determinism  what is heard, and in which order, depends on who sent what since the last step and
-//              where the robots stand, and not on the order in which behaviours ran.
+//              where the robots stand, and not on the order in which behaviours ran. What fades
+//              or is lost is keyed by (seed, robot, radio, message, step).
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "gsv/sensing/radio_link.h"
@@ -19,10 +21,19 @@ struct HeardMessage {
   double strength = 0;       // dBm
 };
 
+// What goes wrong on the air, at the receiver. All 0: nothing.
+struct RadioErrors {
+  double fading = 0;            // dB: deviation of each message's strength
+  double loss_probability = 0;  // of a message that is strong enough
+  double capture_ratio = 0;     // dB above all else that is sent in the same step; 0: radios do not
+                                // disturb each other
+  bool is_none() const { return fading == 0 && loss_probability == 0 && capture_ratio == 0; }
+};
+
 class RadioState final : public world::DeviceState {
  public:
-  RadioState(world::DeviceMount mount, world::RadioSetupPtr setup)
-      : DeviceState(std::move(mount)), setup_(std::move(setup)) {}
+  RadioState(world::DeviceMount mount, world::RadioSetupPtr setup, const RadioErrors& errors = {})
+      : DeviceState(std::move(mount)), setup_(std::move(setup)), errors_(errors) {}
 
   std::uint64_t heard() const { return heard_; }                     // since it was switched on
   const std::vector<HeardMessage>& inbox() const { return inbox_; }  // the last, oldest first
@@ -36,7 +47,16 @@ class RadioState final : public world::DeviceState {
   void Hear(const world::RadioMessagePtr& message, double strength);
 
  private:
+  // The strength (dBm) at which each transmission arrives, as it fades; nothing of those that do not
+  // arrive. Own ones do not.
+  std::vector<std::optional<double>> Arriving(const world::DeviceStep& step,
+                                              const world::Antenna& here) const;
+  bool IsLost(const world::DeviceStep& step, std::size_t place,
+              const std::vector<std::optional<double>>& arriving) const;
+  std::uint64_t StreamOf(const world::RadioMessage& message) const;
+
   const world::RadioSetupPtr setup_;
+  const RadioErrors errors_;
   std::uint64_t heard_ = 0;
   std::vector<HeardMessage> inbox_;
 };

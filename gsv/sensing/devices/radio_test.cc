@@ -222,5 +222,62 @@ TEST(Radio, HasWhatItHeardInItsHash) {
   EXPECT_EQ(hash.Digest(), expected.Digest());
 }
 
+// What "b" hears of messages that "a" and perhaps "c" send in one step each.
+class RadioOnTheAir : public RadioLink {
+ protected:
+  std::vector<double> Strengths(const RadioErrors& errors, int messages, bool c_sends = false) {
+    Stand({{"c", testing::ModelOf(geometry::Sphere{0.2}), PlanarPose(0, 3, 1, 0), false}});
+    to_.inbox = 256;
+    auto setup = std::make_shared<const world::RadioSetup>(to_);
+    world::DeviceStatePtr state =
+        std::make_shared<const RadioState>(world::DeviceMount{"b", "radio", 0, {}}, setup, errors);
+    std::vector<double> strengths;
+    for (int i = 0; i < messages; ++i) {
+      snapshot_->state.step = i;
+      std::vector<world::Transmission> sent;
+      for (const char* robot : {"a", "c"}) {
+        if (robot[0] == 'c' && !c_sends) continue;
+        world::RadioMessage message;
+        message.sender = robot;
+        message.content = std::to_string(i);
+        sent.push_back({world::Sealed(std::move(message)), AntennaOf(robot, from_), {}});
+      }
+      world::DeviceStep step{
+          snapshot_, base::SimTime(0), *rays_.At(snapshot_), snapshot_->state, sent, 1};
+      const auto next = state->BeforeStep(step);
+      if (next == nullptr) continue;
+      strengths.push_back(dynamic_cast<const RadioState&>(*next).inbox().back().strength);
+    }
+    return strengths;
+  }
+};
+
+TEST_F(RadioOnTheAir, LosesTheShareOfMessagesThatItShould) {
+  RadioErrors errors;
+  errors.loss_probability = 0.3;
+  const double share = static_cast<double>(Strengths(errors, 2000).size()) / 2000;
+  EXPECT_WITHIN_3_SIGMA(share, 0.7, std::sqrt(0.3 * 0.7 / 2000));
+}
+
+TEST_F(RadioOnTheAir, FadesWithTheDeviationThatItShould) {
+  const double still = Strengths({}, 1).at(0);
+  RadioErrors errors;
+  errors.fading = 4;
+  double squares = 0;
+  const std::vector<double> heard = Strengths(errors, 2000);
+  ASSERT_EQ(heard.size(), 2000u);
+  for (const double strength : heard) squares += (strength - still) * (strength - still);
+  EXPECT_WITHIN_3_SIGMA(std::sqrt(squares / 2000), 4, 4 / std::sqrt(4000.0));
+}
+
+TEST_F(RadioOnTheAir, HearsNeitherOfTwoThatAreAboutAsStrong) {
+  RadioErrors errors;
+  errors.capture_ratio = 6;  // dB
+  EXPECT_EQ(Strengths(errors, 5).size(), 5u);
+  EXPECT_EQ(Strengths(errors, 5, /*c_sends=*/true).size(), 0u);
+  errors.capture_ratio = 0;
+  EXPECT_EQ(Strengths(errors, 5, /*c_sends=*/true).size(), 5u);
+}
+
 }  // namespace
 }  // namespace gsv::sensing

@@ -67,9 +67,27 @@ class Sonar final : public SensorOf<readings::Sonar, messages::sensor_msgs::Rang
 
  private:
   double Echo(const Sampling& sampling, const geometry::Pose& world_from_sonar) const {
-    if (cone_) return cone_->NearestEcho(sampling, world_from_sonar, settings_.max);
+    if (cone_) {
+      return cone_->NearestEcho(sampling, world_from_sonar, settings_.max, Others(sampling));
+    }
     return sampling.Range({world_from_sonar.position,
                            world_from_sonar.orientation * Vector3{1, 0, 0}, settings_.max});
+  }
+
+  // The sonars of the robot's model that fire when this one does.
+  std::vector<SoundCone::Sender> Others(const Sampling& sampling) const {
+    std::vector<SoundCone::Sender> others;
+    if (settings_.sound->firing_slot == 0) return others;
+    for (const model::SensorDescription& other : sampling.robot().model->sensors) {
+      if (other.type != readings::Sonar::kType || other.name == description().name) continue;
+      const auto whole = WithPreset(readings::Sonar::kType, other);
+      if (!whole) continue;
+      ParameterReader reader(*whole);
+      const SoundSettings sound = ReadSound(reader);
+      if (sound.firing_slot != settings_.sound->firing_slot) continue;
+      others.push_back({sampling.WorldFromSensor(other), sound});
+    }
+    return others;
   }
 
   Message ToMessage(const Values& sonar, const Reading&, const std::string&) const override {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <tuple>
 
 #include "gsv/geometry/constants.h"
 
@@ -27,6 +28,10 @@ SoundSettings ReadSound(ParameterReader& reader) {
   sound.threshold = reader.Number("threshold", sound.threshold, 1e-4, 1);
   sound.specular_width = reader.Number("specular_width", sound.specular_width, 0.01, 1);
   sound.roughness = reader.Number("roughness", sound.roughness, 0, 1);
+  sound.gain_range = reader.Number("gain_range", sound.gain_range, 0, 1e4);
+  sound.target_size = reader.Flag("target_size", sound.target_size);
+  sound.second_reflections = reader.Flag("second_reflections", sound.second_reflections);
+  sound.firing_slot = reader.Count("firing_slot", sound.firing_slot, 0, 1000);
   return sound;
 }
 
@@ -55,7 +60,7 @@ SoundCone::SoundCone(const SoundSettings& sound)
 }
 
 double SoundCone::NearestEcho(const Sampling& sampling, const geometry::Pose& world_from_sonar,
-                              double max_distance) const {
+                              double max_distance, std::span<const Sender> others) const {
   std::vector<Ray> rays;
   rays.reserve(beams_.size());
   for (const Beam& beam : beams_) {
@@ -64,31 +69,174 @@ double SoundCone::NearestEcho(const Sampling& sampling, const geometry::Pose& wo
   }
   std::vector<std::optional<Hit>> hits(rays.size());
   sampling.Rays().Cast(rays, sampling.body(), hits);
-  double nearest = std::numeric_limits<double>::infinity();
+  std::vector<Echo> echoes;
   std::map<int, std::size_t> nearest_of;  // by body, a place in rays
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (!hits[i]) continue;
-    if (EchoOf(rays[i], *hits[i], beams_[i].strength) >= sound_.threshold) {
-      nearest = std::min(nearest, hits[i]->distance);
+    const double strength = EchoOf(rays[i], *hits[i], beams_[i].strength);
+    if (IsHeard(strength, hits[i]->distance)) {
+      echoes.push_back({hits[i]->distance, strength, rays[i], *hits[i]});
     }
     const auto [known, is_new] = nearest_of.emplace(hits[i]->body, i);
     if (!is_new && hits[i]->distance < hits[known->second]->distance) known->second = i;
   }
   const Vector3 axis = world_from_sonar.orientation * Vector3{1, 0, 0};
   for (const auto& [body, place] : nearest_of) {
-    nearest = std::min(nearest, EchoNear(sampling, rays[place], *hits[place], axis));
+    const Echo echo = EchoNear(sampling, rays[place], *hits[place], axis);
+    if (IsHeard(echo.strength, echo.distance)) echoes.push_back(echo);
   }
-  return nearest;
+  if (sound_.second_reflections) {
+    AddSecondReflections(sampling, rays, hits, max_distance, echoes);
+  }
+  for (const Sender& sender : others) AddCrosstalk(sender, rays, hits, echoes);
+  return NearestHeard(sampling, std::move(echoes));
+}
+
+double SoundCone::NearestHeard(const Sampling& sampling, std::vector<Echo> echoes) const {
+  if (!sound_.target_size) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Echo& echo : echoes) nearest = std::min(nearest, echo.distance);
+    return nearest;
+  }
+  std::sort(echoes.begin(), echoes.end(), [](const Echo& a, const Echo& b) {
+    return std::tie(a.distance, b.strength) < std::tie(b.distance, a.strength);
+  });
+  // Echoes that lie close together come from one target: the strongest of them stands for it.
+  constexpr double kOneTarget = 0.02;  // of the distance
+  constexpr int kMostTargets = 6;
+  int targets = 0;
+  for (std::size_t i = 0; i < echoes.size() && targets < kMostTargets; ++targets) {
+    Echo strongest = echoes[i];
+    const double end = echoes[i].distance * (1 + kOneTarget);
+    const double nearest = echoes[i].distance;
+    for (; i < echoes.size() && echoes[i].distance <= end; ++i) {
+      if (echoes[i].strength > strongest.strength) strongest = echoes[i];
+    }
+    if (IsHeard(strongest.strength * FilledPart(sampling, strongest), strongest.distance)) {
+      return nearest;
+    }
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+double SoundCone::FilledPart(const Sampling& sampling, const Echo& echo) const {
+  constexpr int kHalvings = 4;
+  const double wave_length = kSpeedOfSound / sound_.frequency;
+  const double distance = echo.hit.distance;
+  const double half = std::sqrt(wave_length * distance / 2) / 2;
+  const Ray& ray = echo.ray;
+  const Vector3 aside = geometry::Normalized(
+      Cross(ray.direction, std::abs(ray.direction.z) < 0.9 ? Vector3{0, 0, 1} : Vector3{1, 0, 0}));
+  const Vector3 across = Cross(ray.direction, aside);
+  const Vector3 middle = distance * ray.direction;
+  // How far the surface lies within an eighth of a wave of the plane across the sound's way.
+  const auto extent = [&](const Vector3& way) {
+    const auto is_filled = [&](double offset) {
+      const Vector3 there = middle + offset * way;
+      const double length = Norm(there);
+      const auto hit = sampling.Rays().Cast(
+          {ray.origin, (1 / length) * there, length + wave_length}, sampling.body());
+      return hit && hit->body == echo.hit.body &&
+             std::abs(hit->distance - length) < wave_length / 8;
+    };
+    if (is_filled(half)) return half;
+    double within = 0, beyond = half;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double between = (within + beyond) / 2;
+      (is_filled(between) ? within : beyond) = between;
+    }
+    return (within + beyond) / 2;
+  };
+  const double width = extent(aside) + extent(-aside), height = extent(across) + extent(-across);
+  return width * height / (4 * half * half);
+}
+
+void SoundCone::AddSecondReflections(const Sampling& sampling, std::span<const Ray> rays,
+                                     std::span<const std::optional<Hit>> hits, double max_distance,
+                                     std::vector<Echo>& echoes) const {
+  constexpr double kOffTheSurface = 1e-6;
+  constexpr double kOblique = 0.2;  // rad off the normal; nearer to it the first echo is heard
+  std::vector<Ray> mirrored;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (!hits[i] || beams_[i].strength < sound_.threshold) continue;
+    const Vector3& direction = rays[i].direction;
+    const double cosine = -Dot(direction, hits[i]->normal);
+    if (cosine > std::cos(kOblique) || hits[i]->distance >= max_distance) continue;
+    const Vector3 onward = direction + 2 * cosine * hits[i]->normal;
+    mirrored.push_back(
+        {rays[i].origin + hits[i]->distance * direction + kOffTheSurface * hits[i]->normal, onward,
+         max_distance - hits[i]->distance});
+    places.push_back(i);
+  }
+  std::vector<std::optional<Hit>> seconds(mirrored.size());
+  sampling.Rays().Cast(mirrored, sampling.body(), seconds);
+  const double once = 1 - sound_.roughness;
+  for (std::size_t i = 0; i < mirrored.size(); ++i) {
+    if (!seconds[i]) continue;
+    const std::size_t place = places[i];
+    const Vector3& out = rays[place].direction;
+    const Vector3& onward = mirrored[i].direction;
+    const double cosine = std::clamp(-Dot(onward, seconds[i]->normal), -1.0, 1.0);
+    // Back the same way from a surface at right angles, mirrored twice more; or back by the corner.
+    const double same_way = once * once * Mirrored(std::acos(cosine));
+    const Vector3 home = onward + 2 * cosine * seconds[i]->normal;
+    const double corner = once * Mirrored(std::acos(std::clamp(-Dot(home, out), -1.0, 1.0)) / 2);
+    const double first = hits[place]->distance, second = seconds[i]->distance;
+    const double whole = first + second;
+    // From a corner the sound comes back beside itself; its last leg is the way out of the second
+    // surface, and half of all legs is the distance of the corner's edge.
+    const double by_corner = first + second * (1 + Dot(out, onward)) / 2;
+    const double strength = beams_[place].strength * std::max(same_way, corner);
+    const double distance = same_way >= corner ? whole : by_corner;
+    if (distance <= max_distance && IsHeard(strength, distance)) {
+      echoes.push_back({distance, strength, mirrored[i], *seconds[i]});
+    }
+  }
+}
+
+void SoundCone::AddCrosstalk(const Sender& sender, std::span<const Ray> rays,
+                             std::span<const std::optional<Hit>> hits,
+                             std::vector<Echo>& echoes) const {
+  const Vector3 axis = sender.world_from_sonar.orientation * Vector3{1, 0, 0};
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (!hits[i]) continue;
+    const Vector3 place = rays[i].origin + hits[i]->distance * rays[i].direction;
+    const Vector3 way = place - sender.world_from_sonar.position;
+    const double length = Norm(way);
+    if (length < 1e-6) continue;
+    const Vector3 out = (1 / length) * way;
+    const double sent =
+        std::abs(Directivity(sender.sound, std::acos(std::clamp(Dot(out, axis), -1.0, 1.0))));
+    const double heard = std::sqrt(beams_[i].strength);
+    const Vector3 half = geometry::Normalized(out + rays[i].direction);
+    const double cosine = std::clamp(-Dot(half, hits[i]->normal), -1.0, 1.0);
+    const double strength = sent * heard *
+                            ((1 - sound_.roughness) * Mirrored(std::acos(cosine)) +
+                             sound_.roughness * std::max(cosine, 0.0));
+    const double distance = (length + hits[i]->distance) / 2;
+    if (IsHeard(strength, distance)) echoes.push_back({distance, strength, rays[i], *hits[i]});
+  }
+}
+
+bool SoundCone::IsHeard(double strength, double distance) const {
+  const double beyond = sound_.gain_range > 0 ? std::max(1.0, distance / sound_.gain_range) : 1.0;
+  return strength >= sound_.threshold * beyond;
+}
+
+double SoundCone::Mirrored(double angle) const {
+  const double off = angle / sound_.specular_width;
+  return std::exp(-off * off / 2);
 }
 
 double SoundCone::EchoOf(const Ray& ray, const Hit& hit, double strength) const {
   const double cosine = std::clamp(-Dot(ray.direction, hit.normal), -1.0, 1.0);
-  const double off = std::acos(cosine) / sound_.specular_width;
-  return strength * ((1 - sound_.roughness) * std::exp(-off * off / 2) +
+  return strength * ((1 - sound_.roughness) * Mirrored(std::acos(cosine)) +
                      sound_.roughness * std::max(cosine, 0.0));
 }
 
-double SoundCone::EchoNear(const Sampling& sampling, Ray ray, Hit hit, const Vector3& axis) const {
+SoundCone::Echo SoundCone::EchoNear(const Sampling& sampling, Ray ray, Hit hit,
+                                    const Vector3& axis) const {
   for (double step = spacing_ / 2; step > spacing_ / 64; step /= 2) {
     const Vector3 aside = geometry::Normalized(Cross(
         ray.direction, std::abs(ray.direction.z) < 0.9 ? Vector3{0, 0, 1} : Vector3{1, 0, 0}));
@@ -105,8 +253,7 @@ double SoundCone::EchoNear(const Sampling& sampling, Ray ray, Hit hit, const Vec
   }
   const double angle = std::acos(std::clamp(Dot(ray.direction, axis), -1.0, 1.0));
   const double strength = std::pow(Directivity(sound_, angle), 2);
-  return EchoOf(ray, hit, strength) >= sound_.threshold ? hit.distance
-                                                        : std::numeric_limits<double>::infinity();
+  return {hit.distance, EchoOf(ray, hit, strength), ray, hit};
 }
 
 }  // namespace gsv::sensing

@@ -10,11 +10,22 @@
 //              the sound from everywhere.
 // Source       R. Kuc and M. W. Siegel, "Physically based simulation model for acoustic sensor
 //              robot navigation", IEEE PAMI 9(6), 1987.
-// Left out     second reflections (corners), diffraction at edges, and attenuation with distance,
-//              which the amplifiers of such sonars compensate.
+// Full model   Each effect of real rings has a parameter that is off by default.
+//              gain_range: the amplifier compensates attenuation with distance up to this range.
+//              Beyond it, an echo must be stronger by distance / gain_range to be detected.
+//              target_size: a target smaller than the first Fresnel zone, which is
+//              sqrt(wave length x distance / 2) wide, reflects less, by the fraction of the zone
+//              that it fills across and up (Kirchhoff's approximation).
+//              second_reflections: sound that a smooth surface reflects to a second surface
+//              returns the same way, if the second is at right angles to it or forms a corner.
+//              firing_slot: sonars of one robot with the same slot (above 0) fire together and
+//              detect each other's echoes.
+// Left out     diffraction at edges; echoes of an earlier slot that arrive late.
 // Threads      const members may run concurrently.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "gsv/sensing/parameters.h"
@@ -29,10 +40,15 @@ struct SoundSettings {
                               // 0.0175 from the side lobes
   // Rad: largest deviation from the right angle at which a smooth surface reflects.
   double specular_width = 0.035;
-  double roughness = 0;  // fraction of the sound that returns from everywhere
+  double roughness = 0;   // fraction of the sound that returns from everywhere
+  double gain_range = 0;  // m; 0: the amplifier compensates any distance
+  bool target_size = false;
+  bool second_reflections = false;
+  int firing_slot = 0;  // 0: fires alone
 };
 
-// transducer_radius, frequency, threshold, specular_width and roughness, with these defaults.
+// transducer_radius, frequency, threshold, specular_width, roughness, gain_range, target_size,
+// second_reflections and firing_slot, with these defaults.
 SoundSettings ReadSound(ParameterReader& reader);
 
 // The relative amplitude, one way, at an angle off the axis.
@@ -42,10 +58,15 @@ class SoundCone {
  public:
   explicit SoundCone(const SoundSettings& sound);
 
+  // Another sonar that fires at the same time.
+  struct Sender {
+    geometry::Pose world_from_sonar;
+    SoundSettings sound;
+  };
   // The distance of the nearest detected echo; infinite if there is none. The sonar points along
-  // its x axis.
+  // its x axis. `others` fire at the same time.
   double NearestEcho(const Sampling& sampling, const geometry::Pose& world_from_sonar,
-                     double max_distance) const;
+                     double max_distance, std::span<const Sender> others = {}) const;
 
  private:
   struct Beam {
@@ -53,11 +74,29 @@ class SoundCone {
     double strength = 0;          // there and back
   };
 
+  struct Echo {
+    double distance = 0, strength = 0;
+    Ray ray;  // to the surface that returns it
+    Hit hit;
+  };
+
   // The strength of the echo of a ray that was sent with `strength`.
   double EchoOf(const Ray& ray, const Hit& hit, double strength) const;
-  // The distance of the nearest point of the hit body, searched in steps from the hit; infinite if
-  // it is not detected. For bodies thinner than the spacing of the rays, such as posts.
-  double EchoNear(const Sampling& sampling, Ray ray, Hit hit, const geometry::Vector3& axis) const;
+  // The fraction that a surface reflects whose normal deviates by `angle` (rad) from the sound.
+  double Mirrored(double angle) const;
+  bool IsHeard(double strength, double distance) const;
+  // The nearest echo that is detected when the size of its target counts.
+  double NearestHeard(const Sampling& sampling, std::vector<Echo> echoes) const;
+  // The fraction of the first Fresnel zone that the target of an echo fills.
+  double FilledPart(const Sampling& sampling, const Echo& echo) const;
+  void AddSecondReflections(const Sampling& sampling, std::span<const Ray> rays,
+                            std::span<const std::optional<Hit>> hits, double max_distance,
+                            std::vector<Echo>& echoes) const;
+  void AddCrosstalk(const Sender& sender, std::span<const Ray> rays,
+                    std::span<const std::optional<Hit>> hits, std::vector<Echo>& echoes) const;
+  // The echo of the nearest point of the hit body, searched in steps from the hit. For bodies
+  // thinner than the spacing of the rays, such as posts.
+  Echo EchoNear(const Sampling& sampling, Ray ray, Hit hit, const geometry::Vector3& axis) const;
 
   const SoundSettings sound_;
   const double spacing_;  // rad, between rings of rays

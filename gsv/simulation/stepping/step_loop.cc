@@ -219,7 +219,7 @@ void StepLoop::TakeStep() {
     if (world.state().devices != nullptr || !device_actions_.empty()) {
       transmissions =
           StepDevices(shared.history.latest(), length, std::exchange(device_actions_, {}),
-                      shared.rays, parts_.team.get(), world.state());
+                      shared.rays, parts_.team.get(), shared.seed, world.state());
       world.FollowAttachments();
     }
     snapshot = snapshots_.Take();

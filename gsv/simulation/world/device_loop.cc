@@ -96,12 +96,12 @@ void Apply(const DeviceAction& action, const std::string& robot, world::DeviceSt
 std::vector<world::Transmission> StepDevices(const std::shared_ptr<const world::Snapshot>& now,
                                              base::SimTime length, DeviceActions actions,
                                              sensing::RaySceneCache& rays, base::ThreadTeam* team,
-                                             world::State& state) {
+                                             std::uint64_t seed, world::State& state) {
   std::sort(actions.begin(), actions.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<world::Transmission> transmissions;
   const SnapshotRays caster(now, rays, team);
-  world::DeviceStep step{now, length, caster, state, transmissions};
+  world::DeviceStep step{now, length, caster, state, transmissions, seed};
   ChangingDevices devices(state);
   for (const auto& [robot, of_robot] : actions) {
     for (const DeviceAction& action : of_robot) Apply(action, robot, step, devices);

@@ -25,7 +25,7 @@ using DeviceActions = std::vector<std::pair<std::string, std::vector<DeviceActio
 std::vector<world::Transmission> StepDevices(const std::shared_ptr<const world::Snapshot>& now,
                                              base::SimTime length, DeviceActions actions,
                                              sensing::RaySceneCache& rays, base::ThreadTeam* team,
-                                             world::State& state);
+                                             std::uint64_t seed, world::State& state);
 
 // After the bodies have moved to their poses at `time`: calls AfterMove() of each device.
 void MoveDevices(const world::Layout& layout, base::SimTime time, world::State& state);

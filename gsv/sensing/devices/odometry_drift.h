@@ -1,0 +1,63 @@
+// Errors of odometry that add up: wheels that are not as large or as far apart as the robot takes
+// them for, and slip that nobody foresees.
+//
+// Model        of each step's way ds and turn da the odometry makes ds' = scale.linear ds + a random
+//              part of variance random.linear_per_metre^2 |ds|, and da' = scale.angular da + one of
+//              variance random.angular_per_metre^2 |ds| + random.angular_per_radian^2 |da|. So the
+//              variance of a way does not depend on the length of the steps that it is divided into.
+// Source       Thrun, Burgard and Fox, "Probabilistic Robotics", section 5.4, whose coefficients
+//              are those of variances.
+// Determinism  each step's draws are keyed by (seed, robot, sensor, step).
+#pragma once
+
+#include <optional>
+
+#include "gsv/geometry/planar_motion.h"
+#include "gsv/sensing/parameters.h"
+#include "gsv/world/device_state.h"
+#include "gsv/world/device_step.h"
+
+namespace gsv::sensing {
+
+struct OdometryDrift {
+  double linear_scale = 1, angular_scale = 1;
+  double linear_per_metre = 0;    // m after one metre
+  double angular_per_metre = 0;   // rad after one metre
+  double angular_per_radian = 0;  // rad after one radian
+
+  bool is_none() const { return *this == OdometryDrift{}; }
+  friend bool operator==(const OdometryDrift&, const OdometryDrift&) = default;
+};
+
+OdometryDrift ReadOdometryDrift(ParameterReader& reader);
+
+// What the odometry makes of a way (m) and a turn (rad), with three standard normal draws.
+struct OdometryStep {
+  double way = 0, turn = 0;
+};
+OdometryStep Drifted(const OdometryDrift& drift, OdometryStep exact, double first, double second,
+                     double third);
+
+// The place an odometry that drifts believes in.
+class DriftState final : public world::DeviceState {
+ public:
+  DriftState(world::DeviceMount mount, const OdometryDrift& drift)
+      : DeviceState(std::move(mount)), drift_(drift) {}
+
+  void AddToHash(base::Hash& hash) const override;
+  world::DeviceStatePtr BeforeStep(world::DeviceStep& step) const override;
+  world::DeviceStatePtr CarryOver(const world::Layout& layout,
+                                  const std::vector<std::string>& placed,
+                                  base::SimTime now) const override;
+
+  // With what the robot has moved since the last step.
+  geometry::PlanarPosition EstimateAt(const world::Snapshot& now, int body,
+                                      std::uint64_t seed) const;
+
+ private:
+  const OdometryDrift drift_;
+  std::optional<geometry::PlanarPosition> exact_;  // none before the first step
+  geometry::PlanarPosition estimate_;
+};
+
+}  // namespace gsv::sensing
