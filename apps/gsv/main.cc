@@ -119,6 +119,7 @@ void GroupCommands(CLI::App& app) {
       {"Commands to run simulations", {"run", "serve", "view", "test", "campaign"}},
       {"Commands for recordings", {"rec", "replay"}},
       {"Commands for files", {"world", "model"}},
+      {"Commands for logs of real robots", {"compare", "fit"}},
       {"Commands for this machine", {"doctor", "bench", "certificates"}}};
   for (const auto& [group, commands] : groups) {
     for (const char* command : commands) app.get_subcommand(command)->group(group);
@@ -160,6 +161,8 @@ int main(int argc, char** argv) {
   AddRecordCommands(line);
   AddCheckCommands(line);
   AddDrawCommand(line);
+  AddMapCommands(line);
+  AddCompareCommands(line);
   AddBrokerCommands(line);
   AddBenchCommands(line);
   AddCertificatesCommand(line);

@@ -19,11 +19,13 @@ void AddRunCommand(const CommandLine& line);
 void AddCampaignCommand(const CommandLine& line);
 void AddCertificatesCommand(const CommandLine& line);
 void AddServeCommand(const CommandLine& line);
-void AddBrokerCommands(const CommandLine& line);     // broker, offers, types, links
-void AddCheckCommands(const CommandLine& line);      // world check, model check, doctor
-void AddDrawCommand(const CommandLine& line);        // world draw; after AddCheckCommands()
+void AddBrokerCommands(const CommandLine& line);  // broker, offers, types, links
+void AddCheckCommands(const CommandLine& line);   // world check, model check, doctor
+void AddDrawCommand(const CommandLine& line);     // world draw; after AddCheckCommands()
+void AddMapCommands(const CommandLine& line);  // world from-map, to-map; after AddCheckCommands()
 void AddRecordingCommands(const CommandLine& line);  // rec, replay
 void AddRecordCommands(const CommandLine& line);   // rec start, stop; after AddRecordingCommands()
+void AddCompareCommands(const CommandLine& line);  // compare, fit
 void AddControlCommands(const CommandLine& line);  // ps, and those on a simulation
 void AddBenchCommands(const CommandLine& line);    // bench
 void AddTestCommand(const CommandLine& line);

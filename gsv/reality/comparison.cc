@@ -1,0 +1,320 @@
+#include "gsv/reality/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "gsv/geometry/constants.h"
+#include "gsv/reality/localization.h"
+#include "gsv/reality/maps/map_world.h"
+#include "gsv/reality/odometry_comparison.h"
+#include "gsv/reality/simulated_device.h"
+#include "gsv/reality/statistics.h"
+#include "gsv/reality/world_fit.h"
+#include "gsv/sensing/presets.h"
+
+namespace gsv::reality {
+namespace {
+
+constexpr double kWindow = 5;  // s
+// m: a hit of a laser. The walls of a map of cells are a few cells thick, and nobody knows where in
+// them the surface lies.
+constexpr double kTolerance = 0.5;
+constexpr double k95 = 1.96;
+
+bool HasOdometry(const Log& log) {
+  return log.truth_has_yaw && log.truth.size() > 1 &&
+         (!log.odometry.empty() || !log.wheels.empty() || !log.commands.empty());
+}
+
+base::Result<sensing::OdometryDrift> DriftOf(const CompareOptions& options) {
+  model::SensorDescription description;
+  description.name = description.type = "odometry";
+  description.parameters = options.parameters;
+  if (!options.preset.empty()) description.parameters.emplace("preset", options.preset);
+  const auto whole = sensing::WithPreset("odometry", description);
+  if (!whole) return base::Fail(whole.error());
+  sensing::ParameterReader reader(*whole);
+  const sensing::OdometryDrift drift = sensing::ReadOdometryDrift(reader);
+  if (!reader.status()) return base::Fail(reader.status().error());
+  return drift;
+}
+
+double EndError(const std::vector<TimedPose>& reckoned, const std::vector<TimedPose>& truth) {
+  const TimedPose& a = reckoned.front();
+  const auto from = PoseAt(truth, a.time, geometry::kInfinity);
+  const auto end =
+      PoseAt(truth, std::min(truth.back().time, reckoned.back().time), geometry::kInfinity);
+  if (!from || !end) return 0;
+  const auto last = PoseAt(reckoned, end->time, geometry::kInfinity);
+  if (!last) return 0;
+  const double turn = from->yaw - a.yaw;
+  const double dx = last->x - a.x, dy = last->y - a.y;
+  return std::hypot(from->x + std::cos(turn) * dx - std::sin(turn) * dy - end->x,
+                    from->y + std::sin(turn) * dx + std::cos(turn) * dy - end->y);
+}
+
+base::Status CompareOdometry(const Log& log, const CompareOptions& options, Comparison& result) {
+  const auto drift = DriftOf(options);
+  if (!drift) return base::Fail(drift.error());
+  const std::vector<TimedPose> path = ReckonedPath(log, options.wheel_distance, log.truth.front());
+  const MotionStatistics real = StatisticsOf(Windows(path, log.truth, kWindow));
+  std::vector<double> way, turn, way_scatter, turn_scatter, ends;
+  Series way_series{"way", "m", real.way_residuals, {}};
+  Series turn_series{"turn", "rad", real.turn_residuals, {}};
+  for (int run = 0; run < options.runs; ++run) {
+    const auto odometry =
+        SimulatedOdometry(log.truth, *drift, options.seed + static_cast<std::uint64_t>(run));
+    const MotionStatistics one = StatisticsOf(Windows(odometry, log.truth, kWindow));
+    way.push_back(one.way_ratio), turn.push_back(one.turn_ratio);
+    way_scatter.push_back(one.way_scatter), turn_scatter.push_back(one.turn_scatter);
+    ends.push_back(EndError(odometry, log.truth));
+    way_series.simulated.insert(way_series.simulated.end(), one.way_residuals.begin(),
+                                one.way_residuals.end());
+    turn_series.simulated.insert(turn_series.simulated.end(), one.turn_residuals.begin(),
+                                 one.turn_residuals.end());
+  }
+  const auto add = [&](const char* what, const char* unit, double real_value,
+                       const std::vector<double>& simulated) {
+    const Summary summary = Summarize(simulated);
+    result.rows.push_back(
+        {"odometry", what, unit, real_value, summary.mean, k95 * summary.deviation});
+  };
+  add("true over reckoned way", "", real.way_ratio, way);
+  add("true over reckoned turn", "", real.turn_ratio, turn);
+  add("scatter of the way in 5 s", "m", real.way_scatter, way_scatter);
+  add("scatter of the turn in 5 s", "rad", real.turn_scatter, turn_scatter);
+  add("error at the end", "m", EndError(path, log.truth), ends);
+  result.rows.push_back({"odometry", "Kolmogorov-Smirnov distance of the way", "", 0,
+                         KolmogorovSmirnov(way_series.real, way_series.simulated), 0});
+  result.rows.push_back({"odometry", "Kolmogorov-Smirnov distance of the turn", "", 0,
+                         KolmogorovSmirnov(turn_series.real, turn_series.simulated), 0});
+  result.series.push_back(std::move(way_series));
+  result.series.push_back(std::move(turn_series));
+  return {};
+}
+
+// A simulated reading at the maximum, or beyond, is no echo.
+void MarkMissing(std::vector<double>& ranges, double max_range) {
+  for (double& range : ranges) {
+    if (!(range < max_range - 1e-9)) range = geometry::kInfinity;
+    if (range < 0) range = geometry::kInfinity;
+  }
+}
+
+std::vector<model::SensorDescription> AskedSensors(const Log& log, const CompareOptions& options) {
+  auto sensors = SensorsOf(log, options.preset, options.parameters, options.height);
+  for (std::size_t i = 0; i < std::min(sensors.size(), options.beam_parameters.size()); ++i) {
+    for (const auto& [name, value] : options.beam_parameters[i]) {
+      sensors[i].parameters[name] = value;
+    }
+  }
+  return sensors;
+}
+
+base::Result<std::vector<ScanPair>> PairsIn(const model::WorldDescription& world, const Log& log,
+                                            const CompareOptions& options,
+                                            const std::vector<RangeScan>& scans) {
+  auto device = SimulatedDevice::Create(world, AskedSensors(log, options), options.seed);
+  if (!device) return base::Fail(device.error());
+  auto exact = SimulatedDevice::Create(world, SensorsOf(log, "", {}, options.height), 1);
+  if (!exact) return base::Fail(exact.error());
+  std::vector<ScanPair> pairs;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (!scans[i].base) continue;
+    ScanPair pair{*scans[i].base, scans[i].ranges, {}, {}};
+    pair.simulated = device->Read(pair.pose, static_cast<std::int64_t>(i));
+    pair.exact = exact->Read(pair.pose, 0);
+    MarkMissing(pair.simulated, log.max_range);
+    MarkMissing(pair.exact, log.max_range);
+    pairs.push_back(std::move(pair));
+  }
+  return pairs;
+}
+
+std::vector<RangeScan> Thinned(std::vector<RangeScan> scans, std::size_t most) {
+  const std::size_t stride = std::max<std::size_t>(1, (scans.size() + most - 1) / most);
+  std::vector<RangeScan> thinned;
+  for (std::size_t i = 0; i < scans.size(); i += stride) thinned.push_back(std::move(scans[i]));
+  return thinned;
+}
+
+// The scans with their poses in the world.
+base::Result<std::vector<RangeScan>> PlacedScans(const Log& log, const CompareOptions& options) {
+  std::vector<RangeScan> scans = log.scans;
+  if (log.is_sonar || !log.truth.empty()) return scans;
+  const auto map = MapOfWorld(*options.world, {0.1, options.height, 1});
+  if (!map) return base::Fail(map.error());
+  const std::size_t stride =
+      std::max<std::size_t>(1, (scans.size() + options.max_scans - 1) / options.max_scans);
+  const auto poses = Localize(log, LikelihoodField(*map), options.start, stride);
+  if (!poses) return base::Fail(poses.error());
+  std::vector<RangeScan> placed;
+  for (std::size_t i = 0; i < poses->size(); ++i) {
+    placed.push_back(scans[i * stride]);
+    placed.back().base = (*poses)[i];
+  }
+  return placed;
+}
+
+void CompareScans(const Log& log, const std::vector<ScanPair>& pairs, Comparison& result) {
+  const char* const device = log.is_sonar ? "sonar" : "lidar";
+  const auto count = static_cast<double>(pairs.size());
+  const std::vector<double> real = EchoShares(pairs, true), simulated = EchoShares(pairs, false);
+  const auto share = [&](const std::string& what, double a, double b, double trials) {
+    result.rows.push_back({device, what, "", a, b, k95 * std::sqrt(b * (1 - b) / trials)});
+  };
+  if (real.size() <= 16) {
+    for (std::size_t i = 0; i < real.size(); ++i) {
+      share(fmt::format("share of echoes at {:.1f}°", log.beam_angles[i] * 180 / geometry::kPi),
+            real[i], simulated[i], count);
+    }
+  } else {
+    // By sectors of thirty degrees.
+    const auto mean = [](const std::vector<double>& values, std::size_t from, std::size_t to) {
+      double sum = 0;
+      for (std::size_t i = from; i < to; ++i) sum += values[i];
+      return sum / static_cast<double>(to - from);
+    };
+    constexpr double kSector = geometry::kPi / 6;
+    for (std::size_t from = 0; from < real.size();) {
+      std::size_t to = from + 1;
+      const double first = log.beam_angles[from];
+      while (to < real.size() && log.beam_angles[to] - first < kSector) ++to;
+      share(fmt::format("share of echoes from {:.0f} to {:.0f}°", first * 180 / geometry::kPi,
+                        log.beam_angles[to - 1] * 180 / geometry::kPi),
+            mean(real, from, to), mean(simulated, from, to),
+            count * static_cast<double>(to - from));
+      from = to;
+    }
+  }
+  Series ranges{"range", "m", {}, {}}, residuals{"residual", "m", {}, {}};
+  std::vector<double> real_mean, simulated_mean;  // by scan
+  for (const ScanPair& pair : pairs) {
+    std::vector<double> of_real, of_simulated;
+    for (std::size_t i = 0; i < std::min(pair.real.size(), pair.exact.size()); ++i) {
+      if (std::isfinite(pair.real[i])) ranges.real.push_back(pair.real[i]);
+      if (std::isfinite(pair.simulated[i])) ranges.simulated.push_back(pair.simulated[i]);
+      if (std::abs(pair.real[i] - pair.exact[i]) <= kTolerance) {
+        of_real.push_back(pair.real[i] - pair.exact[i]);
+      }
+      if (std::abs(pair.simulated[i] - pair.exact[i]) <= kTolerance) {
+        of_simulated.push_back(pair.simulated[i] - pair.exact[i]);
+      }
+    }
+    residuals.real.insert(residuals.real.end(), of_real.begin(), of_real.end());
+    residuals.simulated.insert(residuals.simulated.end(), of_simulated.begin(), of_simulated.end());
+    real_mean.push_back(Summarize(of_real).mean);
+    simulated_mean.push_back(Summarize(of_simulated).mean);
+  }
+  const Summary a = Summarize(residuals.real), b = Summarize(residuals.simulated);
+  const double root = std::sqrt(std::max<double>(1, static_cast<double>(b.count)));
+  result.rows.push_back({device, "mean residual", "m", a.mean, b.mean, k95 * b.deviation / root});
+  result.rows.push_back({device, "deviation of residuals", "m", a.deviation, b.deviation,
+                         k95 * b.deviation / (root * std::sqrt(2.0))});
+  result.rows.push_back({device, "autocorrelation of a scan's mean residual", "",
+                         Autocorrelation(real_mean, 1), Autocorrelation(simulated_mean, 1),
+                         k95 / std::sqrt(std::max(1.0, count))});
+  result.rows.push_back({device, "Kolmogorov-Smirnov distance of ranges", "", 0,
+                         KolmogorovSmirnov(ranges.real, ranges.simulated), 0});
+  const Mixture real_mix = MixtureOf(pairs, true, kTolerance);
+  const Mixture mix = MixtureOf(pairs, false, kTolerance);
+  const double beams = count * static_cast<double>(real.size());
+  share("share of hits", real_mix.hit, mix.hit, beams);
+  share("share of shorter readings", real_mix.shorter, mix.shorter, beams);
+  share("share without an echo", real_mix.none, mix.none, beams);
+  share("share of longer readings", real_mix.longer, mix.longer, beams);
+  result.series.push_back(std::move(ranges));
+  result.series.push_back(std::move(residuals));
+}
+
+// A device that stands still where the log's robot first did.
+void CompareAtRest(const Log& log, const model::WorldDescription& world,
+                   const CompareOptions& options, const TimedPose& pose, Comparison& result) {
+  const std::vector<double> real = RestDifferences(log.scans);
+  if (real.size() < 100) return;
+  auto device = SimulatedDevice::Create(world, AskedSensors(log, options), options.seed);
+  if (!device) return;
+  constexpr int kScans = 30;
+  std::vector<ScanPair> pairs;
+  for (int i = 0; i < kScans; ++i) {
+    ScanPair pair{pose, {}, device->Read(pose, i), {}};
+    MarkMissing(pair.simulated, log.max_range);
+    pairs.push_back(std::move(pair));
+  }
+  const Summary a = Summarize(real), b = Summarize(RestDifferences(pairs));
+  result.rows.push_back({log.is_sonar ? "sonar" : "lidar", "scatter of a beam at rest", "m",
+                         a.deviation, b.deviation,
+                         k95 * b.deviation / std::sqrt(2.0 * static_cast<double>(b.count) + 1)});
+}
+
+void CompareRadio(const Log& log, Comparison& result) {
+  std::vector<double> errors;
+  for (const RadioRange& range : log.radio) errors.push_back(range.measured - range.reference);
+  const Summary real = Summarize(errors);
+  const double nothing = std::nan("");
+  result.rows.push_back({"radio", "mean error of ranges", "m", real.mean, nothing, 0});
+  result.rows.push_back({"radio", "deviation of errors", "m", real.deviation, nothing, 0});
+}
+
+struct Placed {
+  model::WorldDescription world;
+  std::vector<RangeScan> scans;
+};
+
+// The world, given or fitted, and the scans to judge.
+base::Result<Placed> PlaceScans(const Log& log, const CompareOptions& options, bool for_fitting) {
+  if (options.world) {
+    auto scans = PlacedScans(log, options);
+    if (!scans) return base::Fail(scans.error());
+    std::erase_if(*scans,
+                  [&](const RangeScan& scan) { return IsForFitting(scan.time) != for_fitting; });
+    return Placed{*options.world, Thinned(*std::move(scans), options.max_scans)};
+  }
+  std::vector<RangeScan> for_world = ScansFor(log, true), to_read = ScansFor(log, for_fitting);
+  if (for_fitting) {
+    // A device is fitted to readings that the world has not seen either: otherwise the world would
+    // answer for the device.
+    std::erase_if(for_world, [](const RangeScan& scan) { return IsLateInBlock(scan.time); });
+    std::erase_if(to_read, [](const RangeScan& scan) { return !IsLateInBlock(scan.time); });
+  }
+  const auto map = FitMap(log, for_world, 0.1);
+  if (!map) return base::Fail(map.error());
+  return Placed{WallsOf(*map, 1), Thinned(std::move(to_read), options.max_scans)};
+}
+
+}  // namespace
+
+base::Result<std::vector<ScanPair>> PairScans(const Log& log, const CompareOptions& options,
+                                              bool for_fitting) {
+  auto placed = PlaceScans(log, options, for_fitting);
+  if (!placed) return base::Fail(placed.error());
+  return PairsIn(placed->world, log, options, placed->scans);
+}
+
+base::Result<Comparison> Compare(const Log& log, const CompareOptions& options) {
+  Comparison result;
+  if (HasOdometry(log)) {
+    if (auto ok = CompareOdometry(log, options, result); !ok) return base::Fail(ok.error());
+  }
+  if (!log.scans.empty() && log.scans.front().base) {
+    const auto placed = PlaceScans(log, options, false);
+    if (!placed) return base::Fail(placed.error());
+    const auto pairs = PairsIn(placed->world, log, options, placed->scans);
+    if (!pairs) return base::Fail(pairs.error());
+    if (!pairs->empty()) {
+      CompareScans(log, *pairs, result);
+      CompareAtRest(log, placed->world, options, pairs->front().pose, result);
+    }
+  }
+  if (!log.radio.empty()) CompareRadio(log, result);
+  if (result.rows.empty()) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "the log has nothing to compare: it needs scans with poses, odometry or "
+                      "commands beside a reference, or radio ranges");
+  }
+  return result;
+}
+
+}  // namespace gsv::reality

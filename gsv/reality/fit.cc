@@ -1,0 +1,285 @@
+// Parameters of simulated devices from a log, see comparison.h.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "gsv/reality/comparison.h"
+#include "gsv/reality/odometry_comparison.h"
+#include "gsv/reality/statistics.h"
+#include "gsv/reality/world_fit.h"
+
+namespace gsv::reality {
+namespace {
+
+constexpr double kFitWindow = 5;       // s
+constexpr double kFitTolerance = 0.5;  // m
+constexpr double kInterval = 1.96;
+
+// The jackknife (Efron 1982): the estimate without each of `kParts` parts of the data.
+constexpr std::size_t kParts = 10;
+double JackknifeInterval(const std::vector<double>& without) {
+  const Summary summary = Summarize(without);
+  const auto count = static_cast<double>(without.size());
+  if (count < 2) return 0;
+  return kInterval * summary.deviation * (count - 1) / std::sqrt(count);
+}
+
+template <typename T>
+std::vector<T> Without(const std::vector<T>& all, std::size_t part) {
+  std::vector<T> rest;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i * kParts / all.size() != part) rest.push_back(all[i]);
+  }
+  return rest;
+}
+
+FittedDevice FitOdometry(const Log& log, const CompareOptions& options) {
+  const auto windows =
+      Windows(ReckonedPath(log, options.wheel_distance, log.truth.front()), log.truth, kFitWindow);
+  using sensing::OdometryDrift;
+  struct Parameter {
+    const char* name;
+    const char* unit;
+    double OdometryDrift::*member;
+  };
+  constexpr Parameter kParameters[] = {
+      {"scale.linear", "", &OdometryDrift::linear_scale},
+      {"scale.angular", "", &OdometryDrift::angular_scale},
+      {"random.linear_per_metre", "m", &OdometryDrift::linear_per_metre},
+      {"random.angular_per_metre", "rad", &OdometryDrift::angular_per_metre},
+      {"random.angular_per_radian", "rad", &OdometryDrift::angular_per_radian}};
+  const OdometryDrift all = FitDrift(windows);
+  std::vector<OdometryDrift> without;
+  for (std::size_t part = 0; part < kParts; ++part)
+    without.push_back(FitDrift(Without(windows, part)));
+  FittedDevice device{"odometry", "odometry", {}};
+  for (const Parameter& parameter : kParameters) {
+    std::vector<double> values;
+    for (const OdometryDrift& drift : without) values.push_back(drift.*parameter.member);
+    device.parameters.push_back(
+        {parameter.name, parameter.unit, all.*parameter.member, JackknifeInterval(values)});
+  }
+  return device;
+}
+
+// The value that a function gives of the scans, and its interval.
+template <typename Estimate>
+FittedParameter Estimated(const char* name, const char* unit, const std::vector<ScanPair>& pairs,
+                          const Estimate& estimate) {
+  std::vector<double> without;
+  for (std::size_t part = 0; part < kParts; ++part)
+    without.push_back(estimate(Without(pairs, part)));
+  return {name, unit, estimate(pairs), JackknifeInterval(without)};
+}
+
+double MeanShortRange(const std::vector<ScanPair>& pairs) {
+  double sum = 0, count = 0;
+  for (const ScanPair& pair : pairs) {
+    for (std::size_t i = 0; i < std::min(pair.real.size(), pair.exact.size()); ++i) {
+      if (pair.real[i] < pair.exact[i] - kFitTolerance) sum += pair.real[i], ++count;
+    }
+  }
+  return count > 0 ? std::max(sum / count, 1e-3) : 1;
+}
+
+FittedDevice FitLidar(const Log& log, const std::vector<ScanPair>& pairs) {
+  FittedDevice device{"lidar", "lidar", {}};
+  const std::vector<double> rest = RestDifferences(log.scans);
+  if (rest.size() >= 100) {
+    const double deviation = Summarize(rest).deviation;
+    device.parameters.push_back(
+        {"noise.stddev", "m", deviation,
+         kInterval * deviation / std::sqrt(2.0 * static_cast<double>(rest.size()))});
+  }
+  device.parameters.push_back(Estimated(
+      "noise.dropout_probability", "", pairs,
+      [](const std::vector<ScanPair>& some) { return MixtureOf(some, true, kFitTolerance).none; }));
+  device.parameters.push_back(Estimated("short_range", "m", pairs, MeanShortRange));
+  const double scale = device.parameters.back().value;
+  device.parameters.push_back(
+      Estimated("short_probability", "", pairs, [scale](const std::vector<ScanPair>& some) {
+        // Some of what would be met lies behind the surface and is never met.
+        double nearer = 0, beams = 0;
+        for (const ScanPair& pair : some) {
+          for (const double exact : pair.exact) {
+            if (!std::isfinite(exact)) continue;
+            nearer += 1 - std::exp(-std::max(0.0, exact - kFitTolerance) / scale);
+            ++beams;
+          }
+        }
+        const double shorter = MixtureOf(some, true, kFitTolerance).shorter;
+        return nearer > 0 ? std::min(1.0, shorter * beams / nearer) : 0;
+      }));
+  return device;
+}
+
+// What a sonar's reflections depend on is searched for, a parameter at a time.
+struct Searched {
+  const char* name;
+  const char* unit;
+  double value;
+  std::vector<double> tries;  // factors
+  double low, high;
+};
+
+class SonarFit {
+ public:
+  SonarFit(const Log& log, const CompareOptions& options) : log_(log), options_(options) {}
+
+  base::Result<std::vector<FittedDevice>> Run() {
+    std::vector<Searched> searched = {{"roughness", "", 0.1, {0.2, 0.5, 2, 4}, 1e-3, 1},
+                                      {"threshold", "", 0.02, {0.5, 2, 4}, 1e-3, 0.9},
+                                      {"gain_range", "m", 3, {0.5, 0.75, 1.4, 2}, 0.2, 50}};
+    auto best = Cost(searched);
+    if (!best) return base::Fail(best.error());
+    for (int round = 0; round < 3; ++round) {
+      for (Searched& each : searched) {
+        const double from = each.value;
+        for (const double factor : each.tries) {
+          const double before = each.value;
+          each.value = std::clamp(from * std::pow(factor, 1.0 / (1 + round)), each.low, each.high);
+          const auto cost = Cost(searched);
+          if (!cost) return base::Fail(cost.error());
+          if (*cost < *best) {
+            best = cost;
+          } else {
+            each.value = before;
+          }
+        }
+      }
+    }
+    FittedDevice shared{"sonar", "", {}};
+    for (Searched& each : searched) {
+      const double value = each.value;
+      auto interval = IntervalOf(searched, each, *best);
+      if (!interval) return base::Fail(interval.error());
+      each.value = value;
+      shared.parameters.push_back({each.name, each.unit, value, *interval});
+    }
+    return WithLosses(searched, shared);
+  }
+
+ private:
+  // The sonars of a ring are not equally keen: echoes that one of them hears less often than the
+  // shared parameters have it are lost.
+  base::Result<std::vector<FittedDevice>> WithLosses(const std::vector<Searched>& searched,
+                                                     const FittedDevice& shared) {
+    const auto pairs = PairsWith(searched);
+    if (!pairs) return base::Fail(pairs.error());
+    const std::vector<double> real = EchoShares(*pairs, true);
+    const std::vector<double> simulated = EchoShares(*pairs, false);
+    std::vector<FittedDevice> devices;
+    for (std::size_t i = 0; i < real.size(); ++i) {
+      FittedDevice device = shared;
+      device.name = fmt::format("sonar_{}", i);
+      const double lost = simulated[i] > 0 ? std::clamp(1 - real[i] / simulated[i], 0.0, 1.0) : 0;
+      const double interval =
+          kInterval * std::sqrt(real[i] * (1 - real[i]) / static_cast<double>(pairs->size()));
+      device.parameters.push_back(
+          {"noise.dropout_probability", "", lost, simulated[i] > 0 ? interval / simulated[i] : 1});
+      devices.push_back(std::move(device));
+    }
+    return devices;
+  }
+
+  base::Result<std::vector<ScanPair>> PairsWith(const std::vector<Searched>& searched) {
+    CompareOptions options = options_;
+    for (const Searched& each : searched) options.parameters[each.name] = each.value;
+    return PairScans(log_, options, true);
+  }
+
+  // Chi squared of the echo shares, in units of their own deviations.
+  base::Result<double> Cost(const std::vector<Searched>& searched) {
+    const auto pairs = PairsWith(searched);
+    if (!pairs) return base::Fail(pairs.error());
+    const std::vector<double> real = EchoShares(*pairs, true);
+    const std::vector<double> simulated = EchoShares(*pairs, false);
+    double cost = 0;
+    for (std::size_t i = 0; i < real.size(); ++i) {
+      const double variance =
+          std::max(real[i] * (1 - real[i]), 0.02) * 2 / static_cast<double>(pairs->size());
+      cost += (real[i] - simulated[i]) * (real[i] - simulated[i]) / variance;
+    }
+    return cost;
+  }
+
+  // How far the parameter goes until the cost has grown by 3.84, the 95 % of one degree of freedom,
+  // in steps of a tenth.
+  base::Result<double> IntervalOf(std::vector<Searched>& searched, Searched& each, double best) {
+    const double value = each.value;
+    for (double part = 0.1; part < 1; part += 0.3) {
+      each.value = std::min(value * (1 + part), each.high);
+      const auto cost = Cost(searched);
+      if (!cost) return base::Fail(cost.error());
+      if (*cost > best + kInterval * kInterval) return each.value - value;
+    }
+    return value;
+  }
+
+  const Log& log_;
+  const CompareOptions& options_;
+};
+
+}  // namespace
+
+base::Result<std::vector<FittedDevice>> Fit(const Log& log, const CompareOptions& options) {
+  std::vector<FittedDevice> devices;
+  if (log.truth_has_yaw && log.truth.size() > 1 &&
+      (!log.odometry.empty() || !log.wheels.empty() || !log.commands.empty())) {
+    devices.push_back(FitOdometry(log, options));
+  }
+  if (!log.scans.empty() && log.scans.front().base) {
+    if (log.is_sonar) {
+      auto sonars = SonarFit(log, options).Run();
+      if (!sonars) return base::Fail(sonars.error());
+      devices.insert(devices.end(), sonars->begin(), sonars->end());
+    } else {
+      const auto pairs = PairScans(log, options, true);
+      if (!pairs) return base::Fail(pairs.error());
+      if (!pairs->empty()) devices.push_back(FitLidar(log, *pairs));
+    }
+  }
+  if (!log.radio.empty()) {
+    std::vector<double> errors;
+    for (const RadioRange& range : log.radio) errors.push_back(range.measured - range.reference);
+    const Summary summary = Summarize(errors);
+    const double root = std::sqrt(static_cast<double>(summary.count));
+    devices.push_back({"ranging",
+                       "ranging",
+                       {{"bias", "m", summary.mean, kInterval * summary.deviation / root},
+                        {"noise.stddev", "m", summary.deviation,
+                         kInterval * summary.deviation / (root * std::sqrt(2.0))}}});
+  }
+  if (devices.empty()) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "the log has nothing to fit a device to: it needs scans with poses, odometry "
+                      "or commands beside a reference, or radio ranges");
+  }
+  return devices;
+}
+
+std::string ToSdf(const std::vector<FittedDevice>& devices) {
+  std::string sdf;
+  for (const FittedDevice& device : devices) {
+    sdf += fmt::format("<sensor name=\"{}\" type=\"{}\">\n", device.name, device.type);
+    for (const FittedParameter& parameter : device.parameters) {
+      std::string open, close;
+      std::string rest = parameter.name;
+      while (!rest.empty()) {
+        const std::size_t dot = rest.find('.');
+        const std::string part = rest.substr(0, dot);
+        open += "<gsv:" + part + ">";
+        close = "</gsv:" + part + ">" + close;
+        rest = dot == std::string::npos ? "" : rest.substr(dot + 1);
+      }
+      sdf += fmt::format("  {}{:.4g}{}  <!-- ± {:.2g} {} -->\n", open, parameter.value, close,
+                         parameter.confidence, parameter.unit);
+    }
+    sdf += "</sensor>\n";
+  }
+  return sdf;
+}
+
+}  // namespace gsv::reality

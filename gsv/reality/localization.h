@@ -1,0 +1,44 @@
+// Where a robot with a lidar stood in a world, from its scans and its odometry.
+//
+// Method  a likelihood field (Thrun, Burgard, Fox, "Probabilistic Robotics", section 6.4): the
+//         distance from each cell to the nearest occupied one. The first pose is searched for
+//         everywhere, by several scans along the first metres of odometry; from there each pose is
+//         found near the one before it.
+// Errors  kInvalidArgument where no pose explains the scans.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/reality/logs/log.h"
+#include "gsv/reality/maps/occupancy_map.h"
+
+namespace gsv::reality {
+
+class LikelihoodField {
+ public:
+  explicit LikelihoodField(const OccupancyMap& map);
+
+  // In [0, 1]: how well the finite ranges of a scan end on what is occupied. Every `stride`th beam.
+  double Score(const Log& log, const RangeScan& scan, const TimedPose& base,
+               std::size_t stride) const;
+  // The pose near `guess` of the best score: within `reach` m and a tenth of a radian for each 0.1 m.
+  TimedPose Refined(const Log& log, const RangeScan& scan, TimedPose guess, double reach) const;
+
+  const OccupancyMap& map() const { return map_; }
+
+ private:
+  double DistanceAt(double x, double y) const;
+
+  OccupancyMap map_;
+  double deviation_ = 0.1;        // m: how far off the end of a beam may lie
+  std::vector<float> distances_;  // m, capped
+};
+
+// World poses of log.scans, each `stride`th of them. `start`: the pose of the first one, if known.
+base::Result<std::vector<TimedPose>> Localize(const Log& log, const LikelihoodField& field,
+                                              const std::optional<TimedPose>& start,
+                                              std::size_t stride);
+
+}  // namespace gsv::reality

@@ -1,0 +1,154 @@
+// CARMEN's logs: https://carmen.sourceforge.net (the header of every log lists the messages).
+#include <cmath>
+#include <map>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "gsv/geometry/constants.h"
+#include "gsv/reality/logs/log_reader.h"
+#include "gsv/reality/logs/text_rows.h"
+
+namespace gsv::reality {
+namespace {
+
+using geometry::kInfinity;
+using geometry::kPi;
+
+constexpr std::size_t kMaxBeams = 10'000;
+
+class CarmenReader {
+ public:
+  CarmenReader(TextRows rows, Log& log) : rows_(std::move(rows)), log_(log) {}
+
+  base::Status Read() {
+    while (rows_.Next()) {
+      const std::string_view kind = rows_.word(0);
+      if (kind == "ODOM") {
+        Odometry();
+      } else if (kind == "FLASER") {
+        FrontLaser();
+      } else if (kind == "ROBOTLASER1") {
+        RobotLaser();
+      } else if (kind == "TRUEPOS") {
+        TruePosition();
+      } else {
+        ++others_;
+      }
+    }
+    if (used_ == 0 && others_ > 0) {
+      rows_.Warn("the log has no ODOM, FLASER, ROBOTLASER1 or TRUEPOS");
+    }
+    return rows_.Finish(used_);
+  }
+
+ private:
+  // The logger's time: the last word of each message.
+  bool Time(double& time) {
+    std::vector<double> last;
+    if (!rows_.Numbers(rows_.size() - 1, 1, last) || !rows_.InOrder(last[0])) return false;
+    time = last[0];
+    return true;
+  }
+
+  void Odometry() {
+    std::vector<double> v;
+    double time = 0;
+    if (!rows_.Numbers(1, 6, v) || !Time(time)) return;
+    log_.odometry.push_back({time, v[0], v[1], WrappedAngle(v[2])});
+    log_.commands.push_back({time, v[3], v[4]});
+    ++used_;
+  }
+
+  void TruePosition() {
+    std::vector<double> v;
+    double time = 0;
+    if (!rows_.Numbers(1, 6, v) || !Time(time)) return;
+    log_.truth.push_back({time, v[0], v[1], WrappedAngle(v[2])});
+    ++used_;
+  }
+
+  // The number of readings stands in word `place`; nothing if it is unreasonable.
+  std::size_t BeamCount(std::size_t place) {
+    std::vector<double> v;
+    if (!rows_.Numbers(place, 1, v)) return 0;
+    if (!(v[0] >= 1 && v[0] <= double{kMaxBeams}) || v[0] != std::floor(v[0])) {
+      rows_.LeaveOut(
+          fmt::format("the scan has {} readings; it must have 1 to {}", v[0], kMaxBeams));
+      return 0;
+    }
+    return static_cast<std::size_t>(v[0]);
+  }
+
+  void FrontLaser() {
+    const std::size_t count = rows_.size() > 1 ? BeamCount(1) : 0;
+    std::vector<double> v;
+    double time = 0;
+    if (count == 0 || !rows_.Numbers(2, count + 6, v)) return;
+    // 180 readings lie between the whole degrees, 181 on them.
+    const bool has_both_ends = count % 2 == 1;
+    const double step = kPi / static_cast<double>(has_both_ends ? count - 1 : count);
+    if (!Angles(-kPi / 2 + (has_both_ends ? 0 : step / 2), step, count) || !Time(time)) return;
+    AddScan(time, {v.begin(), v.begin() + static_cast<std::ptrdiff_t>(count)},
+            {time, v[count], v[count + 1], WrappedAngle(v[count + 2])});
+  }
+
+  // type start fov resolution max accuracy remission_mode n r… n_remissions … laser pose, robot pose
+  void RobotLaser() {
+    std::vector<double> head, v;
+    double time = 0;
+    if (!rows_.Numbers(1, 8, head)) return;
+    const std::size_t count = BeamCount(8);
+    if (count == 0 || !rows_.Numbers(9, count + 1, v)) return;
+    const double remissions = v[count];
+    if (!(remissions >= 0 && remissions <= double{kMaxBeams})) {
+      rows_.LeaveOut(fmt::format("the scan has {} remissions", remissions));
+      return;
+    }
+    std::vector<double> pose;
+    if (!rows_.Numbers(10 + count + static_cast<std::size_t>(remissions), 6, pose)) return;
+    if (!Angles(head[1], head[3], count) || !Time(time)) return;
+    if (head[4] > 0) log_.max_range = head[4];
+    AddScan(time, {v.begin(), v.begin() + static_cast<std::ptrdiff_t>(count)},
+            {time, pose[3], pose[4], WrappedAngle(pose[5])});
+  }
+
+  bool Angles(double first, double step, std::size_t count) {
+    if (log_.beam_angles.empty()) {
+      for (std::size_t i = 0; i < count; ++i) {
+        log_.beam_angles.push_back(first + static_cast<double>(i) * step);
+      }
+    }
+    if (log_.beam_angles.size() == count) return true;
+    rows_.LeaveOut(fmt::format("the scan has {} readings; the first one had {}", count,
+                               log_.beam_angles.size()));
+    return false;
+  }
+
+  void AddScan(double time, std::vector<double> ranges, const TimedPose& base) {
+    for (double& range : ranges) {
+      if (range <= 0 || range >= log_.max_range) range = kInfinity;
+    }
+    log_.scans.push_back({time, std::move(ranges), base});
+    ++used_;
+  }
+
+  TextRows rows_;
+  Log& log_;
+  std::size_t used_ = 0, others_ = 0;
+};
+
+}  // namespace
+
+base::Result<Log> ReadCarmen(const std::filesystem::path& path, base::Problems& problems) {
+  auto rows = TextRows::Open(path, problems);
+  if (!rows) return base::Fail(rows.error());
+  Log log;
+  log.max_range = 81;  // the SICK LMS of most of these logs; ROBOTLASER1 has its own
+  if (auto read = CarmenReader(*std::move(rows), log).Read(); !read) {
+    return base::Fail(read.error());
+  }
+  return log;
+}
+
+}  // namespace gsv::reality

@@ -1,0 +1,71 @@
+// What a real robot did and measured, as its log tells it, in one shape for all formats.
+//
+// Units   metres, radians, seconds. Times count from the first one in the log.
+// Frames  `truth`, `odometry`: world_from_base and odom_from_base. Angles of beams are those of the
+//         sensor's frame against the base's x axis, counter-clockwise.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/geometry/vector3.h"
+
+namespace gsv::reality {
+
+struct TimedPose {
+  double time = 0;
+  double x = 0, y = 0, yaw = 0;
+};
+
+// What the robot was commanded.
+struct TimedTwist {
+  double time = 0;
+  double linear = 0, angular = 0;
+};
+
+// How far each wheel has rolled since the log began.
+struct TimedWheels {
+  double time = 0;
+  double left = 0, right = 0;
+};
+
+// The readings of all beams, or of all sonars of a ring, at one instant. Infinite: no echo.
+struct RangeScan {
+  double time = 0;
+  std::vector<double> ranges;
+  std::optional<TimedPose> base;  // where the log says the robot was
+};
+
+// One measured distance to a radio anchor, and the distance by the reference system.
+struct RadioRange {
+  double time = 0;
+  int anchor = 0;
+  double measured = 0, reference = 0;
+};
+
+struct Log {
+  std::vector<TimedPose> truth;  // by a reference system: motion capture, overhead camera
+  bool truth_has_yaw = true;
+  std::vector<TimedPose> odometry;  // as the robot itself reckoned
+  std::vector<TimedTwist> commands;
+  std::vector<TimedWheels> wheels;
+  std::vector<double> beam_angles;
+  double max_range = 0;          // of beams; a reading there is none
+  double sensor_forward = 0;     // m from the base to the sensor, along x
+  bool is_sonar = false;         // beams are cones of sound
+  std::vector<RangeScan> scans;  // each of beam_angles.size() ranges
+  std::vector<RadioRange> radio;
+  double duration() const;
+};
+
+// The pose at `time` between two of `poses`, which are in order of time; nothing outside of them, or
+// where they lie more than `max_gap` seconds apart.
+std::optional<TimedPose> PoseAt(const std::vector<TimedPose>& poses, double time,
+                                double max_gap = 1);
+
+// An angle in [-pi, pi].
+double WrappedAngle(double angle);
+
+}  // namespace gsv::reality

@@ -1,0 +1,172 @@
+// Recordings of ROS 2 messages (MCAP), by GSV or by `ros2 bag record`.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "gsv/geometry/constants.h"
+#include "gsv/reality/logs/log_reader.h"
+#include "gsv/recording/mcap/mcap_reader.h"
+#include "gsv/recording/reading/decoded_messages.h"
+
+namespace gsv::reality {
+namespace {
+
+using geometry::kInfinity;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMaxScanBeams = 100'000, kMaxSentences = 20;
+
+// A number of a message; not a number where there is none. Infinite ones are written as texts.
+double NumberIn(const Json& object, const char* key) {
+  const auto it = object.find(key);
+  if (it == object.end()) return std::nan("");
+  if (it->is_number()) return it->get<double>();
+  if (it->is_string()) return it->get<std::string>() == "-Infinity" ? -kInfinity : kInfinity;
+  return std::nan("");
+}
+
+double YawOf(const Json& q) {
+  const double x = NumberIn(q, "x"), y = NumberIn(q, "y"), z = NumberIn(q, "z"),
+               w = NumberIn(q, "w");
+  return std::atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
+}
+
+class McapLog {
+ public:
+  McapLog(const std::filesystem::path& path, base::Problems& problems)
+      : path_(path), problems_(problems) {}
+
+  base::Result<Log> Read() {
+    const auto reader = recording::McapReader::Open(path_.string());
+    if (!reader) return base::Fail(reader.error());
+    for (const base::Problem& problem : (*reader)->summary().problems) problems_.push_back(problem);
+    auto messages = recording::DecodedMessages::Open(**reader, {});
+    if (!messages) return base::Fail(messages.error());
+    while (true) {
+      auto next = messages->Next();
+      if (!next) {
+        Warn(next.error().Sentence());
+        continue;
+      }
+      if (!*next) break;
+      Add(**next);
+    }
+    if (warnings_ > kMaxSentences) {
+      Keep(fmt::format("{} more messages have problems", warnings_ - kMaxSentences));
+    }
+    if (log_.duration() == 0 && log_.scans.empty()) {
+      return base::Fail(base::ErrorCode::kCorrupt,
+                        "the recording has no LaserScan, Range, Odometry, PoseStamped or Twist",
+                        path_.string());
+    }
+    return std::move(log_);
+  }
+
+ private:
+  // Of several topics of one kind the first counts.
+  bool IsOfFirstTopic(const std::string& kind, const std::string& topic) {
+    const auto [known, is_new] = topics_.emplace(kind, topic);
+    if (!is_new && known->second != topic && noted_.emplace(topic, "").second) {
+      Keep(fmt::format("{} is not read; {} has the {}", topic, known->second, kind));
+    }
+    return known->second == topic;
+  }
+
+  void Add(const recording::DecodedMessage& message) {
+    const double time = base::ToSeconds(message.time);
+    const Json& content = message.content;
+    if (message.type == "sensor_msgs/msg/LaserScan") {
+      if (IsOfFirstTopic("scans", message.topic)) AddScan(time, content);
+    } else if (message.type == "sensor_msgs/msg/Range") {
+      if (IsOfFirstTopic("scans", message.topic)) AddRange(time, content);
+    } else if (message.type == "nav_msgs/msg/Odometry") {
+      if (IsOfFirstTopic("odometry", message.topic)) {
+        AddPose(time, content["pose"]["pose"], log_.odometry);
+      }
+    } else if (message.type == "geometry_msgs/msg/PoseStamped") {
+      if (IsOfFirstTopic("truth", message.topic)) AddPose(time, content["pose"], log_.truth);
+    } else if (message.type == "geometry_msgs/msg/TwistStamped" ||
+               message.type == "geometry_msgs/msg/Twist") {
+      if (!IsOfFirstTopic("commands", message.topic)) return;
+      const Json& twist = content.contains("twist") ? content["twist"] : content;
+      const double linear = NumberIn(twist["linear"], "x");
+      const double angular = NumberIn(twist["angular"], "z");
+      if (!std::isfinite(linear + angular)) return Warn(Where(time) + "the twist is not finite");
+      log_.commands.push_back({time, linear, angular});
+    }
+  }
+
+  void AddPose(double time, const Json& pose, std::vector<TimedPose>& poses) {
+    const TimedPose read{time, NumberIn(pose["position"], "x"), NumberIn(pose["position"], "y"),
+                         YawOf(pose["orientation"])};
+    if (!std::isfinite(read.x + read.y + read.yaw)) {
+      return Warn(Where(time) + "the pose is not finite");
+    }
+    poses.push_back(read);
+  }
+
+  void AddRange(double time, const Json& range) {
+    log_.is_sonar = true;
+    log_.beam_angles = {0};
+    log_.max_range = NumberIn(range, "max_range");
+    const double read = NumberIn(range, "range");
+    if (std::isnan(read)) return Warn(Where(time) + "the range is not a number");
+    log_.scans.push_back({time, {read >= log_.max_range ? kInfinity : read}, std::nullopt});
+  }
+
+  void AddScan(double time, const Json& scan) {
+    const auto ranges = scan.find("ranges");
+    if (ranges == scan.end() || !ranges->is_array() || ranges->size() > kMaxScanBeams) {
+      return Warn(Where(time) + "the scan has no ranges, or too many");
+    }
+    const double first = NumberIn(scan, "angle_min"), step = NumberIn(scan, "angle_increment");
+    const double max = NumberIn(scan, "range_max"), min = NumberIn(scan, "range_min");
+    if (!std::isfinite(first + step)) return Warn(Where(time) + "the angles are not finite");
+    if (log_.beam_angles.empty()) {
+      for (std::size_t i = 0; i < ranges->size(); ++i) {
+        log_.beam_angles.push_back(first + static_cast<double>(i) * step);
+      }
+      log_.max_range = max;
+    }
+    if (log_.beam_angles.size() != ranges->size()) {
+      return Warn(Where(time) + "the scan has another number of beams than the first one");
+    }
+    RangeScan read;
+    read.time = time;
+    for (const Json& each : *ranges) {
+      const double range = each.is_number() ? each.get<double>() : kInfinity;
+      read.ranges.push_back(range < min || range >= max ? kInfinity : range);
+    }
+    log_.scans.push_back(std::move(read));
+  }
+
+  std::string Where(double time) const { return fmt::format("at {} s ", time); }
+  void Warn(const std::string& what) {
+    if (++warnings_ <= kMaxSentences) Keep(what + "; it is left out");
+  }
+  void Keep(const std::string& what) {
+    problems_.push_back({base::Problem::Severity::kWarning, what, path_.string()});
+  }
+
+  const std::filesystem::path path_;
+  base::Problems& problems_;
+  Log log_;
+  std::map<std::string, std::string> topics_, noted_;
+  std::size_t warnings_ = 0;
+};
+
+}  // namespace
+
+base::Result<Log> ReadMcap(const std::filesystem::path& path, base::Problems& problems) {
+  auto log = McapLog(path, problems).Read();
+  if (!log) return log;
+  for (RangeScan& scan : log->scans) {
+    scan.base = PoseAt(log->truth.empty() ? log->odometry : log->truth, scan.time);
+  }
+  return log;
+}
+
+}  // namespace gsv::reality

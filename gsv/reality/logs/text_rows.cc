@@ -1,0 +1,135 @@
+#include "gsv/reality/logs/text_rows.h"
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+
+namespace gsv::reality {
+namespace {
+
+constexpr std::uintmax_t kMaxBytes = 512u << 20;
+constexpr std::size_t kMaxLine = 1u << 20;
+constexpr std::size_t kMaxSentences = 20;
+constexpr double kLongGap = 10;  // s
+
+bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+}  // namespace
+
+base::Result<TextRows> TextRows::Open(const std::filesystem::path& path, base::Problems& problems) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    return base::Fail(base::ErrorCode::kNotFound, "no such file", path.string());
+  }
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error || size > kMaxBytes) {
+    return base::Fail(
+        base::ErrorCode::kCorrupt,
+        fmt::format("the file has {} bytes; logs of up to {} are read", size, kMaxBytes),
+        path.string());
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (!file.good() && !file.eof()) {
+    return base::Fail(base::ErrorCode::kUnavailable, "the file cannot be read", path.string());
+  }
+  return TextRows(path, std::move(text), problems);
+}
+
+bool TextRows::Next() {
+  while (at_ < text_.size()) {
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    const std::string_view whole(text_.data() + at_, end - at_);
+    at_ = end + 1;
+    ++line_;
+    words_.clear();
+    if (whole.size() > kMaxLine) {
+      ++rows_;
+      LeaveOut(
+          fmt::format("the line has {} characters; up to {} are read", whole.size(), kMaxLine));
+      continue;
+    }
+    for (std::size_t i = 0; i < whole.size();) {
+      while (i < whole.size() && IsBlank(whole[i])) ++i;
+      const std::size_t start = i;
+      while (i < whole.size() && !IsBlank(whole[i])) ++i;
+      if (i > start) words_.push_back(whole.substr(start, i - start));
+    }
+    if (words_.empty() || words_.front().starts_with('#')) continue;
+    ++rows_;
+    return true;
+  }
+  return false;
+}
+
+bool TextRows::Numbers(std::size_t first, std::size_t count, std::vector<double>& numbers) {
+  numbers.clear();
+  if (words_.size() < first + count) {
+    LeaveOut(fmt::format("the row has {} fields and needs {}; it may be cut off", words_.size(),
+                         first + count));
+    return false;
+  }
+  numbers.reserve(count);
+  for (std::size_t i = first; i < first + count; ++i) {
+    const std::string_view word = words_[i];
+    double value = 0;
+    const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || rest != word.data() + word.size() || !std::isfinite(value)) {
+      LeaveOut(
+          fmt::format("field {} is \"{}\"; it must be a finite number", i + 1, word.substr(0, 40)));
+      return false;
+    }
+    numbers.push_back(value);
+  }
+  return true;
+}
+
+bool TextRows::InOrder(double time) {
+  if (has_time_ && time < last_time_) {
+    LeaveOut(fmt::format("time goes back from {} to {} s", last_time_, time));
+    return false;
+  }
+  if (has_time_ && time - last_time_ > kLongGap) {
+    Warn(fmt::format("the clock jumps from {} to {} s; nothing is compared across the gap",
+                     last_time_, time));
+  }
+  has_time_ = true;
+  last_time_ = time;
+  return true;
+}
+
+std::string TextRows::Here() const { return fmt::format("{}:{}", path_.string(), line_); }
+
+void TextRows::LeaveOut(const std::string& why) {
+  ++left_out_;
+  Warn(why + "; the row is left out");
+}
+
+void TextRows::Warn(const std::string& what) {
+  if (++warnings_ > kMaxSentences) return;
+  problems_->push_back({base::Problem::Severity::kWarning, what, Here()});
+}
+
+base::Status TextRows::Finish(std::size_t used) {
+  if (warnings_ > kMaxSentences) {
+    problems_->push_back({base::Problem::Severity::kWarning,
+                          fmt::format("{} more rows have problems", warnings_ - kMaxSentences),
+                          path_.string()});
+  }
+  if (used == 0) {
+    return base::Fail(base::ErrorCode::kCorrupt,
+                      "no row can be used; is the format (--as) the right one?", path_.string());
+  }
+  if (left_out_ * 10 > rows_) {
+    return base::Fail(
+        base::ErrorCode::kCorrupt,
+        fmt::format("{} of {} rows cannot be used, which is too many to trust the rest", left_out_,
+                    rows_),
+        path_.string());
+  }
+  return {};
+}
+
+}  // namespace gsv::reality

@@ -1,0 +1,48 @@
+// Occupancy maps as ROS's map_server reads and writes them: an image (PGM or PNG) and a YAML file.
+//
+// Frame   cell (0, 0) is the lower left one; its lower left corner lies at `origin`. Images have
+//         their rows from the top.
+// Source  https://wiki.ros.org/map_server, "Map format".
+// Input   untrusted: a side of at most 16384 cells, 64 million cells, 1 MiB of YAML.
+// Errors  kNotFound, kBadModel; a sentence with the file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "gsv/base/error.h"
+
+namespace gsv::reality {
+
+enum class Cell : std::uint8_t { kFree, kOccupied, kUnknown };
+
+struct OccupancyMap {
+  int width = 0, height = 0;  // cells
+  double resolution = 0.05;   // m, a cell's side
+  double origin_x = 0, origin_y = 0, origin_yaw = 0;
+  std::vector<Cell> cells;  // width * height, rows from the bottom
+
+  Cell at(int x, int y) const {
+    return cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                 static_cast<std::size_t>(x)];
+  }
+};
+
+// `yaml` names the image, resolution, origin, negate, the thresholds and perhaps the mode.
+base::Result<OccupancyMap> ReadMap(const std::filesystem::path& yaml, base::Problems& problems);
+
+// CMU's text format: "robot_specifications->resolution 10" (cm), "global_map[0]: 800 800", and for
+// each cell how probably it is free, or -1.
+base::Result<OccupancyMap> ReadBeesoftMap(const std::filesystem::path& path);
+
+// Writes NAME.yaml and NAME.pgm beside it.
+base::Status WriteMap(const OccupancyMap& map, const std::filesystem::path& yaml);
+
+// The occupied cells as few rectangles as joining rows gives, in cells: [x, x + width).
+struct CellBox {
+  int x = 0, y = 0, width = 1, height = 1;
+};
+std::vector<CellBox> BoxesOf(const OccupancyMap& map);
+
+}  // namespace gsv::reality

@@ -1,0 +1,166 @@
+#include "gsv/reality/world_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gsv/geometry/constants.h"
+#include "gsv/model/model.h"
+
+namespace gsv::reality {
+namespace {
+
+constexpr double kSonarHalfAngle = 0.13;  // rad: within it most of the sound returns
+constexpr double kMargin = 6;             // m around the path
+constexpr double kWidest = 1000;          // m
+constexpr double kFree = -0.4, kOccupied = 0.9;
+constexpr double kWall = 10;  // more than all the long echoes that a smooth wall mirrors away say
+
+// A sonar that looks to the side passes along a wall: two of its echoes that lie on one are joined.
+constexpr double kSideways = 1.2;    // rad
+constexpr double kSameWall = 0.4;    // m: how much the range may change
+constexpr double kLongestGap = 2.5;  // m
+
+class LogOdds {
+ public:
+  LogOdds(OccupancyMap& map) : map_(map), odds_(map.cells.size(), 0) {}
+
+  void Add(double x, double y, double angle, double range, double reach) {
+    const double cosine = std::cos(angle), sine = std::sin(angle);
+    const double free_to = std::min(std::isfinite(range) ? range - map_.resolution : reach, reach);
+    for (double d = map_.resolution; d < free_to; d += map_.resolution / 2) {
+      Put(x + d * cosine, y + d * sine, kFree / 2);
+    }
+    if (std::isfinite(range)) Put(x + range * cosine, y + range * sine, kOccupied);
+  }
+
+  void AddWall(double from_x, double from_y, double to_x, double to_y) {
+    const double length = std::hypot(to_x - from_x, to_y - from_y);
+    for (double d = 0; d < length; d += map_.resolution / 2) {
+      Put(from_x + d / length * (to_x - from_x), from_y + d / length * (to_y - from_y), kWall);
+    }
+  }
+
+  void Finish() {
+    for (std::size_t i = 0; i < odds_.size(); ++i) {
+      map_.cells[i] =
+          odds_[i] > 0.5 ? Cell::kOccupied : (odds_[i] < 0 ? Cell::kFree : Cell::kUnknown);
+    }
+  }
+
+ private:
+  void Put(double x, double y, double odds) {
+    const double cell_x = (x - map_.origin_x) / map_.resolution;
+    const double cell_y = (y - map_.origin_y) / map_.resolution;
+    if (!(cell_x >= 0 && cell_y >= 0 && cell_x < map_.width && cell_y < map_.height)) return;
+    odds_[static_cast<std::size_t>(cell_y) * static_cast<std::size_t>(map_.width) +
+          static_cast<std::size_t>(cell_x)] += odds;
+  }
+
+  OccupancyMap& map_;
+  std::vector<double> odds_;
+};
+
+void JoinWalls(const Log& log, const std::vector<RangeScan>& scans, LogOdds& odds) {
+  for (std::size_t i = 0; i < log.beam_angles.size(); ++i) {
+    if (std::abs(log.beam_angles[i]) < kSideways) continue;
+    double x = 0, y = 0, range = geometry::kInfinity;  // of the last echo
+    for (const RangeScan& scan : scans) {
+      if (!scan.base || i >= scan.ranges.size() || !std::isfinite(scan.ranges[i])) continue;
+      const double angle = scan.base->yaw + log.beam_angles[i];
+      const double next_x = scan.base->x + scan.ranges[i] * std::cos(angle);
+      const double next_y = scan.base->y + scan.ranges[i] * std::sin(angle);
+      if (std::abs(scan.ranges[i] - range) < kSameWall &&
+          std::hypot(next_x - x, next_y - y) < kLongestGap) {
+        odds.AddWall(x, y, next_x, next_y);
+      }
+      x = next_x, y = next_y, range = scan.ranges[i];
+    }
+  }
+}
+
+}  // namespace
+
+bool IsForFitting(double time) {
+  return static_cast<long long>(std::floor(time / kBlockSeconds)) % 2 == 0;
+}
+
+bool IsLateInBlock(double time) {
+  return time / kBlockSeconds - std::floor(time / kBlockSeconds) >= 0.5;
+}
+
+std::vector<RangeScan> ScansFor(const Log& log, bool for_fitting) {
+  std::vector<RangeScan> scans;
+  for (const RangeScan& scan : log.scans) {
+    if (IsForFitting(scan.time) == for_fitting) scans.push_back(scan);
+  }
+  return scans;
+}
+
+base::Result<OccupancyMap> FitMap(const Log& log, const std::vector<RangeScan>& scans,
+                                  double resolution) {
+  double min_x = geometry::kInfinity, min_y = min_x, max_x = -min_x, max_y = -min_x;
+  for (const RangeScan& scan : scans) {
+    if (!scan.base) continue;
+    min_x = std::min(min_x, scan.base->x), max_x = std::max(max_x, scan.base->x);
+    min_y = std::min(min_y, scan.base->y), max_y = std::max(max_y, scan.base->y);
+  }
+  if (!(max_x >= min_x && max_x - min_x < kWidest && max_y - min_y < kWidest)) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "no world can be fitted: the scans have no poses, or a path of more than a "
+                      "kilometre. Give a world with --world");
+  }
+  OccupancyMap map;
+  map.resolution = resolution;
+  const double margin = std::min(kMargin, log.max_range + 1);
+  map.origin_x = min_x - margin, map.origin_y = min_y - margin;
+  map.width = static_cast<int>((max_x - min_x + 2 * margin) / resolution) + 1;
+  map.height = static_cast<int>((max_y - min_y + 2 * margin) / resolution) + 1;
+  map.cells.resize(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height),
+                   Cell::kUnknown);
+  LogOdds odds(map);
+  for (const RangeScan& scan : scans) {
+    if (!scan.base) continue;
+    const double x = scan.base->x + log.sensor_forward * std::cos(scan.base->yaw);
+    const double y = scan.base->y + log.sensor_forward * std::sin(scan.base->yaw);
+    for (std::size_t i = 0; i < std::min(scan.ranges.size(), log.beam_angles.size()); ++i) {
+      const double middle = scan.base->yaw + log.beam_angles[i];
+      const double range = scan.ranges[i];
+      // Sound that is not heard may have been mirrored away: it says little beyond the nearest.
+      const double reach = log.is_sonar ? (std::isfinite(range) ? range : 0.6) : margin;
+      const double spread = log.is_sonar ? kSonarHalfAngle : 0;
+      const double step =
+          std::max(0.01, resolution / std::max(1.0, std::isfinite(range) ? range : 1));
+      for (double off = -spread; off <= spread + 1e-9; off += step) {
+        odds.Add(x, y, middle + off, range, reach);
+      }
+    }
+  }
+  if (log.is_sonar) JoinWalls(log, scans, odds);
+  odds.Finish();
+  return map;
+}
+
+model::WorldDescription WallsOf(const OccupancyMap& map, double height) {
+  auto walls = std::make_shared<model::Model>();
+  walls->name = "walls";
+  walls->links.resize(1);
+  for (const CellBox& box : BoxesOf(map)) {
+    model::Collision collision;
+    collision.shape =
+        geometry::Box{{box.width * map.resolution, box.height * map.resolution, height}};
+    collision.link_from_collision =
+        geometry::PlanarPose((box.x + box.width / 2.0) * map.resolution,
+                             (box.y + box.height / 2.0) * map.resolution, height / 2, 0);
+    walls->links[0].collisions.push_back(collision);
+  }
+  model::WorldDescription world;
+  model::PlacedModel placed;
+  placed.name = "walls";
+  placed.model = walls;
+  placed.world_from_model = geometry::PlanarPose(map.origin_x, map.origin_y, 0, map.origin_yaw);
+  placed.is_static = true;
+  world.models.push_back(placed);
+  return world;
+}
+
+}  // namespace gsv::reality
