@@ -28,11 +28,40 @@ bool HasOdometry(const Log& log) {
          (!log.odometry.empty() || !log.wheels.empty() || !log.commands.empty());
 }
 
+// A log may have several devices, and a preset is of one type: others go without.
+std::string PresetOf(const std::string& type, const CompareOptions& options) {
+  for (const sensing::Preset& preset : sensing::Presets()) {
+    if (preset.type == type && preset.name == options.preset) return preset.name;
+  }
+  return "";
+}
+
+std::string ScannerOf(const Log& log) { return log.is_sonar ? "sonar" : "lidar"; }
+
+bool HasScans(const Log& log) { return !log.scans.empty() && log.scans.front().base; }
+
+base::Status CheckPreset(const Log& log, const CompareOptions& options) {
+  if (options.preset.empty()) return {};
+  std::vector<std::string> types;
+  if (HasOdometry(log)) types.emplace_back("odometry");
+  if (HasScans(log)) types.push_back(ScannerOf(log));
+  for (const std::string& type : types) {
+    if (!PresetOf(type, options).empty()) return {};
+  }
+  if (types.empty()) return {};
+  return base::Fail(
+      base::ErrorCode::kInvalidArgument,
+      fmt::format("there is no preset \"{}\" of the log's devices ({}); docs/sensors.md "
+                  "lists the presets",
+                  options.preset, fmt::join(types, ", ")));
+}
+
 base::Result<sensing::OdometryDrift> DriftOf(const CompareOptions& options) {
   model::SensorDescription description;
   description.name = description.type = "odometry";
   description.parameters = options.parameters;
-  if (!options.preset.empty()) description.parameters.emplace("preset", options.preset);
+  const std::string preset = PresetOf("odometry", options);
+  if (!preset.empty()) description.parameters.emplace("preset", preset);
   const auto whole = sensing::WithPreset("odometry", description);
   if (!whole) return base::Fail(whole.error());
   sensing::ParameterReader reader(*whole);
@@ -104,7 +133,8 @@ void MarkMissing(std::vector<double>& ranges, double max_range) {
 }
 
 std::vector<model::SensorDescription> AskedSensors(const Log& log, const CompareOptions& options) {
-  auto sensors = SensorsOf(log, options.preset, options.parameters, options.height);
+  auto sensors =
+      SensorsOf(log, PresetOf(ScannerOf(log), options), options.parameters, options.height);
   for (std::size_t i = 0; i < std::min(sensors.size(), options.beam_parameters.size()); ++i) {
     for (const auto& [name, value] : options.beam_parameters[i]) {
       sensors[i].parameters[name] = value;
@@ -288,6 +318,7 @@ base::Result<Placed> PlaceScans(const Log& log, const CompareOptions& options, b
 
 base::Result<std::vector<ScanPair>> PairScans(const Log& log, const CompareOptions& options,
                                               bool for_fitting) {
+  if (auto ok = CheckPreset(log, options); !ok) return base::Fail(ok.error());
   auto placed = PlaceScans(log, options, for_fitting);
   if (!placed) return base::Fail(placed.error());
   return PairsIn(placed->world, log, options, placed->scans);
@@ -295,10 +326,11 @@ base::Result<std::vector<ScanPair>> PairScans(const Log& log, const CompareOptio
 
 base::Result<Comparison> Compare(const Log& log, const CompareOptions& options) {
   Comparison result;
+  if (auto ok = CheckPreset(log, options); !ok) return base::Fail(ok.error());
   if (HasOdometry(log)) {
     if (auto ok = CompareOdometry(log, options, result); !ok) return base::Fail(ok.error());
   }
-  if (!log.scans.empty() && log.scans.front().base) {
+  if (HasScans(log)) {
     const auto placed = PlaceScans(log, options, false);
     if (!placed) return base::Fail(placed.error());
     const auto pairs = PairsIn(placed->world, log, options, placed->scans);

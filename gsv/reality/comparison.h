@@ -22,7 +22,7 @@ struct Row {
   double real = 0, simulated = 0, confidence = 0;
 };
 
-// What a plot shows: the distribution of one quantity in both.
+// The distribution of one quantity in both, for a plot.
 struct Series {
   std::string what, unit;
   std::vector<double> real, simulated;

@@ -241,21 +241,11 @@ base::Result<std::vector<FittedDevice>> Fit(const Log& log, const CompareOptions
       if (!pairs->empty()) devices.push_back(FitLidar(log, *pairs));
     }
   }
-  if (!log.radio.empty()) {
-    std::vector<double> errors;
-    for (const RadioRange& range : log.radio) errors.push_back(range.measured - range.reference);
-    const Summary summary = Summarize(errors);
-    const double root = std::sqrt(static_cast<double>(summary.count));
-    devices.push_back({"ranging",
-                       "ranging",
-                       {{"bias", "m", summary.mean, kInterval * summary.deviation / root},
-                        {"noise.stddev", "m", summary.deviation,
-                         kInterval * summary.deviation / (root * std::sqrt(2.0))}}});
-  }
   if (devices.empty()) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "the log has nothing to fit a device to: it needs scans with poses, odometry "
-                      "or commands beside a reference, or radio ranges");
+    return base::Fail(
+        base::ErrorCode::kInvalidArgument,
+        "the log has nothing to fit a device to: it needs scans with poses, or odometry "
+        "or commands beside a reference");
   }
   return devices;
 }

@@ -22,8 +22,8 @@ struct MotionWindow {
 std::vector<MotionWindow> Windows(const std::vector<TimedPose>& reckoned,
                                   const std::vector<TimedPose>& truth, double seconds);
 
-// What the windows show: true over reckoned way and turn, by least squares, and the deviations of
-// what is left in a window (m, rad).
+// Statistics of windows: true over reckoned way and turn, by least squares, and the deviations of
+// the residuals of a window (m, rad).
 struct MotionStatistics {
   double way_ratio = 1, turn_ratio = 1;
   double way_scatter = 0, turn_scatter = 0;
@@ -31,7 +31,8 @@ struct MotionStatistics {
 };
 MotionStatistics StatisticsOf(const std::vector<MotionWindow>& windows);
 
-// The odometry of GSV's sensor on a robot that follows the truth.
+// The path that the error model of GSV's odometer (odometry_drift.h) makes of the truth, taken every
+// half second.
 std::vector<TimedPose> SimulatedOdometry(const std::vector<TimedPose>& truth,
                                          const sensing::OdometryDrift& drift, std::uint64_t seed);
 

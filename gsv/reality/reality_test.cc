@@ -117,8 +117,6 @@ TEST_F(Reality, ASonarHearsAPanelOverTheAnglesOfAnHcSr04) {
     errors.push_back(std::abs(simulated.back() - real.back()));
   }
   const Summary summary = Summarize(errors);
-  Tell("mean half angle over 17 distances", "°", Summarize(real).mean, Summarize(simulated).mean, 0,
-       true);
   Tell("mean absolute error of the half angle (at most 3)", "°", 0, summary.mean,
        1.96 * summary.deviation / std::sqrt(17.0), summary.mean <= 3);
   EXPECT_LE(summary.mean, 3);

@@ -1,4 +1,4 @@
-// What is compared between a real and a simulated device.
+// Statistics by which real and simulated devices are compared.
 #pragma once
 
 #include <cstddef>

@@ -11,7 +11,9 @@ namespace {
 
 constexpr double kSonarHalfAngle = 0.13;  // rad: within it most of the sound returns
 constexpr double kMargin = 6;             // m around the path
-constexpr double kWidest = 1000;          // m
+constexpr double kMaxFittedCells = 25e6;
+constexpr double kFurthest = 50;  // m: echoes from beyond say nothing here
+constexpr double kWidest = 1000;  // m
 constexpr double kFree = -0.4, kOccupied = 0.9;
 constexpr double kWall = 10;  // more than all the long echoes that a smooth wall mirrors away say
 
@@ -115,6 +117,10 @@ base::Result<OccupancyMap> FitMap(const Log& log, const std::vector<RangeScan>& 
   map.origin_x = min_x - margin, map.origin_y = min_y - margin;
   map.width = static_cast<int>((max_x - min_x + 2 * margin) / resolution) + 1;
   map.height = static_cast<int>((max_y - min_y + 2 * margin) / resolution) + 1;
+  if (double{1} * map.width * map.height > kMaxFittedCells) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "the path is too wide to fit a world to it. Give a world with --world");
+  }
   map.cells.resize(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height),
                    Cell::kUnknown);
   LogOdds odds(map);
@@ -126,7 +132,8 @@ base::Result<OccupancyMap> FitMap(const Log& log, const std::vector<RangeScan>& 
       const double middle = scan.base->yaw + log.beam_angles[i];
       const double range = scan.ranges[i];
       // Sound that is not heard may have been mirrored away: it says little beyond the nearest.
-      const double reach = log.is_sonar ? (std::isfinite(range) ? range : 0.6) : margin;
+      const double reach =
+          log.is_sonar ? (std::isfinite(range) ? std::min(range, kFurthest) : 0.6) : margin;
       const double spread = log.is_sonar ? kSonarHalfAngle : 0;
       const double step =
           std::max(0.01, resolution / std::max(1.0, std::isfinite(range) ? range : 1));

@@ -8,7 +8,7 @@
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
-#include "gsv/base/whole_file.h"
+#include "gsv/base/atomic_file.h"
 #include "gsv/formats/sdf_reader.h"
 #include "gsv/reality/comparison.h"
 #include "gsv/reality/logs/log_reader.h"
@@ -112,8 +112,8 @@ int Compare(const CompareArguments& arguments) {
   const auto comparison = reality::Compare(read->log, read->options);
   if (!comparison) return Complain(comparison.error());
   if (!arguments.plot.empty()) {
-    const auto ok =
-        base::WriteWhole(arguments.plot, reality::ToSvg(*comparison), base::Outlives::kProcess);
+    const auto ok = base::WriteAtomically(arguments.plot, reality::ToSvg(*comparison),
+                                          base::Durability::kProcess);
     if (!ok) return Complain(ok.error());
   }
   Print(*comparison, arguments.json);

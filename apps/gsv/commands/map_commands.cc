@@ -6,7 +6,7 @@
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/serving/limit_option.h"
-#include "gsv/base/whole_file.h"
+#include "gsv/base/atomic_file.h"
 #include "gsv/formats/sdf_reader.h"
 #include "gsv/reality/maps/map_world.h"
 
@@ -37,7 +37,7 @@ int FromMap(const FromMapArguments& arguments) {
   if (file.empty()) file = fs::path(arguments.map).replace_extension(".sdf");
   const auto sdf = reality::WorldOfMap(*map, file.stem().string(), arguments.height);
   if (!sdf) return Complain(sdf.error());
-  if (auto ok = base::WriteWhole(file, *sdf, base::Outlives::kProcess); !ok) {
+  if (auto ok = base::WriteAtomically(file, *sdf, base::Durability::kProcess); !ok) {
     return Complain(ok.error());
   }
   std::printf("%s: %g by %g m, walls of %zu boxes\n", file.c_str(), map->width * map->resolution,

@@ -1,4 +1,4 @@
-// What a real robot did and measured, as its log tells it, in one shape for all formats.
+// The log of a real robot, in one shape for all formats.
 //
 // Units   metres, radians, seconds. Times count from the first one in the log.
 // Frames  `truth`, `odometry`: world_from_base and odom_from_base. Angles of beams are those of the
@@ -19,7 +19,7 @@ struct TimedPose {
   double x = 0, y = 0, yaw = 0;
 };
 
-// What the robot was commanded.
+// A velocity command.
 struct TimedTwist {
   double time = 0;
   double linear = 0, angular = 0;

@@ -28,6 +28,13 @@ double NumberIn(const Json& object, const char* key) {
   return std::nan("");
 }
 
+// The member of that name; null where there is none.
+const Json& In(const Json& object, const char* key) {
+  static const Json kNothing;
+  const auto it = object.find(key);
+  return it == object.end() ? kNothing : *it;
+}
+
 double YawOf(const Json& q) {
   const double x = NumberIn(q, "x"), y = NumberIn(q, "y"), z = NumberIn(q, "z"),
                w = NumberIn(q, "w");
@@ -84,24 +91,24 @@ class McapLog {
       if (IsOfFirstTopic("scans", message.topic)) AddRange(time, content);
     } else if (message.type == "nav_msgs/msg/Odometry") {
       if (IsOfFirstTopic("odometry", message.topic)) {
-        AddPose(time, content["pose"]["pose"], log_.odometry);
+        AddPose(time, In(In(content, "pose"), "pose"), log_.odometry);
       }
     } else if (message.type == "geometry_msgs/msg/PoseStamped") {
-      if (IsOfFirstTopic("truth", message.topic)) AddPose(time, content["pose"], log_.truth);
+      if (IsOfFirstTopic("truth", message.topic)) AddPose(time, In(content, "pose"), log_.truth);
     } else if (message.type == "geometry_msgs/msg/TwistStamped" ||
                message.type == "geometry_msgs/msg/Twist") {
       if (!IsOfFirstTopic("commands", message.topic)) return;
-      const Json& twist = content.contains("twist") ? content["twist"] : content;
-      const double linear = NumberIn(twist["linear"], "x");
-      const double angular = NumberIn(twist["angular"], "z");
+      const Json& twist = content.contains("twist") ? In(content, "twist") : content;
+      const double linear = NumberIn(In(twist, "linear"), "x");
+      const double angular = NumberIn(In(twist, "angular"), "z");
       if (!std::isfinite(linear + angular)) return Warn(Where(time) + "the twist is not finite");
       log_.commands.push_back({time, linear, angular});
     }
   }
 
   void AddPose(double time, const Json& pose, std::vector<TimedPose>& poses) {
-    const TimedPose read{time, NumberIn(pose["position"], "x"), NumberIn(pose["position"], "y"),
-                         YawOf(pose["orientation"])};
+    const TimedPose read{time, NumberIn(In(pose, "position"), "x"),
+                         NumberIn(In(pose, "position"), "y"), YawOf(In(pose, "orientation"))};
     if (!std::isfinite(read.x + read.y + read.yaw)) {
       return Warn(Where(time) + "the pose is not finite");
     }

@@ -32,7 +32,9 @@ base::Status CheckUnit(double largest, double least_credible, const char* unit,
                     path.string());
 }
 
+// Rows of `first`, time, x and y, in these units (s and m).
 base::Result<std::vector<TimedPose>> ReadPlaces(const fs::path& path, const std::string& first,
+                                                double time_unit, double length_unit,
                                                 base::Problems& problems) {
   auto rows = TextRows::Open(path, problems);
   if (!rows) return base::Fail(rows.error());
@@ -40,8 +42,8 @@ base::Result<std::vector<TimedPose>> ReadPlaces(const fs::path& path, const std:
   std::vector<double> v;
   while (rows->Next()) {
     if (rows->word(0) != first) continue;
-    if (!rows->Numbers(1, 3, v) || !rows->InOrder(v[0])) continue;
-    places.push_back({v[0], v[1], v[2], 0});
+    if (!rows->Numbers(1, 3, v) || !rows->InOrder(v[0] * time_unit)) continue;
+    places.push_back({v[0] * time_unit, v[1] * length_unit, v[2] * length_unit, 0});
   }
   if (auto done = rows->Finish(places.size()); !done) return base::Fail(done.error());
   return places;
@@ -132,11 +134,9 @@ base::Result<Log> ReadArena(const fs::path& path, base::Problems& problems) {
   }
   if (auto done = rows->Finish(log.wheels.size()); !done) return base::Fail(done.error());
 
-  auto places = ReadPlaces(Companion(path, "_reference.txt"), "P", problems);
+  auto places = ReadPlaces(Companion(path, "_reference.txt"), "P", 1e-3, kMillimetre, problems);
   if (!places) return base::Fail(places.error());
-  for (const TimedPose& p : *places) {
-    log.truth.push_back({p.time * 1e-3, p.x * kMillimetre, p.y * kMillimetre, 0});
-  }
+  log.truth = *std::move(places);
   return log;
 }
 
@@ -199,9 +199,9 @@ base::Result<Log> ReadRobotData(const fs::path& path, base::Problems& problems) 
 
 base::Result<Log> ReadUwb(const fs::path& path, base::Problems& problems) {
   Log log;
-  auto places = ReadPlaces(Companion(path, "_GT.txt"), "point2", problems);
+  auto places = ReadPlaces(Companion(path, "_GT.txt"), "point2", 1, 1, problems);
   if (!places) return base::Fail(places.error());
-  for (TimedPose place : *places) log.truth.push_back(place);
+  log.truth = *std::move(places);
   log.truth_has_yaw = false;
   auto rows = TextRows::Open(path, problems);
   if (!rows) return base::Fail(rows.error());

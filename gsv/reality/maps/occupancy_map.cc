@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "gsv/base/whole_file.h"
+#include "gsv/base/atomic_file.h"
 
 namespace gsv::reality {
 
@@ -47,13 +47,14 @@ base::Status WriteMap(const OccupancyMap& map, const std::filesystem::path& yaml
                                             : static_cast<char>(cell == Cell::kFree ? 254 : 205));
     }
   }
-  if (auto ok = base::WriteWhole(image, pgm, base::Outlives::kProcess); !ok) return ok;
-  return base::WriteWhole(yaml,
-                          fmt::format("image: {}\nresolution: {}\norigin: [{}, {}, {}]\nnegate: 0\n"
-                                      "occupied_thresh: 0.65\nfree_thresh: 0.196\n",
-                                      image.filename().string(), map.resolution, map.origin_x,
-                                      map.origin_y, map.origin_yaw),
-                          base::Outlives::kProcess);
+  if (auto ok = base::WriteAtomically(image, pgm, base::Durability::kProcess); !ok) return ok;
+  return base::WriteAtomically(
+      yaml,
+      fmt::format("image: {}\nresolution: {}\norigin: [{}, {}, {}]\nnegate: 0\n"
+                  "occupied_thresh: 0.65\nfree_thresh: 0.196\n",
+                  image.filename().string(), map.resolution, map.origin_x, map.origin_y,
+                  map.origin_yaw),
+      base::Durability::kProcess);
 }
 
 }  // namespace gsv::reality

@@ -1,5 +1,5 @@
-// What real lidars get wrong beside white noise, by what a scan itself shows: how far a surface is,
-// how it is turned (from the ranges of the neighbouring beams), and where it ends.
+// Errors of real lidars beside white noise. They depend on how far a surface is, how it is turned
+// (from the ranges of the neighbouring beams), and where it ends.
 //
 // Parameters  all 0 by default, which changes nothing:
 //             range_noise (m a metre): deviation that grows with range.

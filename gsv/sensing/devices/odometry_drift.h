@@ -31,7 +31,7 @@ struct OdometryDrift {
 
 OdometryDrift ReadOdometryDrift(ParameterReader& reader);
 
-// What the odometry makes of a way (m) and a turn (rad), with three standard normal draws.
+// The odometry's estimate of a way (m) and a turn (rad), with three standard normal draws.
 struct OdometryStep {
   double way = 0, turn = 0;
 };

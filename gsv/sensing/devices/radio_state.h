@@ -21,7 +21,7 @@ struct HeardMessage {
   double strength = 0;       // dBm
 };
 
-// What goes wrong on the air, at the receiver. All 0: nothing.
+// Errors of the radio channel, at the receiver. All 0: none.
 struct RadioErrors {
   double fading = 0;            // dB: deviation of each message's strength
   double loss_probability = 0;  // of a message that is strong enough
