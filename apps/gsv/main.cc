@@ -10,9 +10,9 @@
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/process/help_formatter.h"
+#include "apps/gsv/process/program_end.h"
 #include "apps/gsv/process/standard_output.h"
 #include "gsv/base/log.h"
-#include "gsv/simulation/simulation.h"
 
 namespace {
 
@@ -174,11 +174,5 @@ int main(int argc, char** argv) {
   } catch (const std::exception& exception) {
     return Complain({gsv::base::ErrorCode::kUnavailable, exception.what(), "unexpected"});
   }
-  exit_code = EndOutput(stdout, exit_code);
-  if (gsv::simulation::Simulation::AbandonedSimulations() > 0) {
-    // A behaviour is still at work on what a return from here would destroy.
-    std::fflush(nullptr);
-    std::_Exit(exit_code);
-  }
-  return exit_code;
+  return EndProgram(exit_code);
 }

@@ -1,6 +1,7 @@
 #include "gsv/scenario/scenario_file.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -131,9 +132,11 @@ base::Result<Scenario> ReadScenario(const std::filesystem::path& file, base::Pro
     return base::Fail(base::ErrorCode::kNotFound, "the scenario's file cannot be opened", file);
   }
   std::string text;
-  text.resize(kMaxScenarioBytes + 1);
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
+  std::array<char, 16384> part;
+  while (text.size() <= kMaxScenarioBytes && stream.good()) {
+    stream.read(part.data(), part.size());
+    text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+  }
   auto scenario = ParseScenario(text, file, problems);
   if (!scenario) return scenario;
   const std::filesystem::path folder = file.parent_path();

@@ -16,6 +16,7 @@
 #include "apps/gsv/running/run.h"
 #include "apps/gsv/running/run_population.h"
 #include "apps/gsv/running/run_report.h"
+#include "apps/gsv/running/run_server.h"
 #include "apps/gsv/simulations/recordings.h"
 #include "apps/gsv/simulations/robot_drives.h"
 #include "gsv/recording/mcap/mcap_reader.h"
@@ -165,6 +166,10 @@ base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) 
   auto& library = (*runtime)->host().library();
   if (auto ok = PrepareDrives(*world, library, options, problems); !ok)
     return base::Fail(ok.error());
+  if (options.specification.world == nullptr && options.prepared_world != nullptr) {
+    options.specification.world = options.prepared_world->description;
+    problems = options.prepared_world->problems;
+  }
   auto simulation = (*runtime)->host().Create(options.specification, *world, problems);
   if (!simulation) return base::Fail(simulation.error());
   auto told = PopulateRun(**runtime, **simulation, options, problems);
@@ -193,9 +198,12 @@ base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) 
   }
   auto judge = verdict::Judge::Attach(options.scenario.expect, **simulation);
   if (!judge) return base::Fail(judge.error());
-  if (auto ok = (*runtime)->OfferService("gsv run"); !ok) return base::Fail(ok.error());
   std::FILE* const notes = options.json ? stderr : stdout;
-  if (!is_quiet) std::fprintf(notes, "broker: %s\n", (*runtime)->broker().reference().c_str());
+  if (options.runtime.has_broker) {
+    if (auto ok = (*runtime)->OfferService("gsv run"); !ok) return base::Fail(ok.error());
+  }
+  if (options.runtime.has_broker && !is_quiet)
+    std::fprintf(notes, "broker: %s\n", (*runtime)->broker().reference().c_str());
   if (const std::string& url = (*runtime)->viewer_url(); !url.empty()) {
     std::fprintf(notes, "viewer: %s\n", url.c_str());
     if (options.open_browser) OpenBrowser(url);
@@ -243,6 +251,11 @@ void AddRunCommand(const CommandLine& line) {
     const auto result = Run(*options, line.signals);
     line.exit_code = result ? *result : Complain(result.error());
   });
+  // For `gsv test` and campaigns, which start it; in no list of commands.
+  CLI::App* server =
+      line.app.add_subcommand("run-server", "Run simulations as stdin asks for them")->group("");
+  server->allow_extras();  // room for the command line that a run shows
+  server->callback([line] { line.exit_code = ServeRuns(line.signals); });
 }
 
 }  // namespace gsv::app

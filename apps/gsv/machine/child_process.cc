@@ -99,6 +99,20 @@ std::string ChildProcess::AwaitEnd(std::chrono::milliseconds timeout) {
   return Ending();
 }
 
+base::Status ChildProcess::Write(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = write(input_, text.data(), text.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) {
+      return base::Fail(base::ErrorCode::kUnavailable,
+                        std::string("cannot be written to: ") + std::strerror(errno),
+                        "the process " + std::to_string(pid_));
+    }
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return {};
+}
+
 std::optional<std::string> ChildProcess::ReadLine(std::chrono::milliseconds timeout) {
   const auto give_up = std::chrono::steady_clock::now() + timeout;
   for (;;) {

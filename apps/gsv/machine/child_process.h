@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gsv/base/error.h"
@@ -31,6 +32,8 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   pid_t pid() const { return pid_; }
+  // To its stdin, which must be kOpen. kUnavailable: it has ended, or closed its stdin.
+  base::Status Write(std::string_view text);
   // Its next line on stdout, without the end of line. Nothing when it ends or the time is over.
   std::optional<std::string> ReadLine(std::chrono::milliseconds timeout);
   // How it ended ("exit code 5", "signal 11"); empty while it runs.

@@ -20,6 +20,12 @@ class App;
 
 namespace gsv::app {
 
+// A world that was read before its run, and what there is to say about its files.
+struct PreparedWorld {
+  std::shared_ptr<const model::WorldDescription> description;
+  base::Problems problems;
+};
+
 struct RunOptions {
   RuntimeOptions runtime;
   scenario::Scenario scenario;                         // as it was told, overrides included
@@ -36,6 +42,7 @@ struct RunOptions {
       make_behaviour;
   std::vector<simulation::Edit> edits;  // to be made in mid-run, in this order
   simulation::Specification specification;
+  std::shared_ptr<const PreparedWorld> prepared_world;  // null: the run reads it
   std::string record;  // a file; empty: no recording
   RecordingChoice recording;
   double wall_timeout = 0;      // s; 0: none

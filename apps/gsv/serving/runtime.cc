@@ -58,16 +58,21 @@ base::Result<std::unique_ptr<Runtime>> Runtime::Start(const RuntimeOptions& opti
   if (!renderer) spdlog::warn("no cameras: {}", renderer.error().Sentence());
   auto sensors = MakeSensorTypes(options.sensors, std::move(renderer));
   if (!sensors) return base::Fail(sensors.error());
-  if (auto ok = runtime->StartBroker(options); !ok) return base::Fail(ok.error());
-  formats::ReadOptions reading;
-  reading.model_path = options.model_path;
-  reading.drives = options.drives;
-  reading.limits = options.limits;
-  reading.check_sensor = CheckBy(*sensors);
+  if (options.has_broker) {
+    if (auto ok = runtime->StartBroker(options); !ok) return base::Fail(ok.error());
+  }
+  auto library = options.library;
+  if (library == nullptr) {
+    formats::ReadOptions reading;
+    reading.model_path = options.model_path;
+    reading.drives = options.drives;
+    reading.limits = options.limits;
+    reading.check_sensor = CheckBy(*sensors);
+    library = std::make_shared<formats::ModelLibrary>(std::move(reading));
+  }
   simulation::ProcessLimits() = options.server_limits.simulation;
   runtime->host_ = std::make_shared<services::SimulationHost>(
-      *std::move(sensors), std::make_shared<formats::ModelLibrary>(std::move(reading)),
-      options.server_limits.simulations);
+      *std::move(sensors), std::move(library), options.server_limits.simulations);
   auto folder = RecordingsFolder(options.web.recordings);
   if (!folder) return base::Fail(folder.error());
   runtime->recordings_ = std::make_unique<Recordings>(*std::move(folder));
@@ -77,6 +82,7 @@ base::Result<std::unique_ptr<Runtime>> Runtime::Start(const RuntimeOptions& opti
                                 runtime->recordings_->folder()},
         *runtime->host_, *runtime->recordings_);
   }
+  if (!options.has_broker) return runtime;
   const PortableServer::POA_var poa = orb::RootPoa(runtime->orb_);
   runtime->behaviours_ = std::make_unique<services::BrokerBehaviours>(*runtime->broker_, poa);
   runtime->launcher_ = std::make_unique<BehaviourLauncher>(*runtime->broker_);
@@ -225,8 +231,8 @@ base::Status Runtime::OfferScenarios(const std::string& name, int scenarios) {
 }
 
 void Runtime::EndSoon() {
-  behaviours_->stop_timeout()->Shorten();
-  launcher_->SetPatience(kHurriedPrograms);
+  if (behaviours_ != nullptr) behaviours_->stop_timeout()->Shorten();
+  if (launcher_ != nullptr) launcher_->SetPatience(kHurriedPrograms);
 }
 
 Runtime::~Runtime() {

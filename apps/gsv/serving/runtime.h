@@ -30,9 +30,12 @@ class Recordings;
 class SimulationBuilder;
 
 struct RuntimeOptions {
-  std::string broker;  // empty: a broker of its own, on loopback, for as long as this lives
+  std::string broker;      // empty: a broker of its own, on loopback, for as long as this lives
+  bool has_broker = true;  // without: no behaviours over CORBA, no services, no viewer
   std::vector<std::filesystem::path> model_path;
   std::map<std::string, std::string> drives;  // by model, as ReadOptions::drives
+  // That has read files already, in the way that these options say; null: a new one.
+  std::shared_ptr<formats::ModelLibrary> library;
   SensorTypeOptions sensors;
   formats::ReadLimits limits;
   ServerLimits server_limits;

@@ -30,6 +30,8 @@ std::vector<std::string> ArgumentsOfThisProcess() {
   for (std::string argument; std::getline(file, argument, '\0');) {
     arguments.push_back(std::move(argument));
   }
+  // A forked run has its arguments in a longer memory; see running/run_server.cc.
+  while (!arguments.empty() && arguments.back().empty()) arguments.pop_back();
   return arguments;
 }
 

@@ -7,9 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "apps/gsv/machine/child_process.h"
-#include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/trials/prepared_runs.h"
 #include "apps/gsv/trials/test_cases.h"
 #include "gsv/base/temporary_folder.h"
 #include "gsv/recording/reading/recover.h"
@@ -46,48 +45,47 @@ nlohmann::ordered_json LastLineOf(std::string text) {
   return json.is_object() ? json : nlohmann::ordered_json::object();
 }
 
-std::vector<std::string> CommandFor(const TestCase& test, const TestOptions& options,
-                                    const fs::path& folder) {
-  // A broker of its own, whatever the environment says; what it says goes to files.
-  std::vector<std::string> command{"/bin/sh",
-                                   "-c",
-                                   "unset GSV_BROKER; exec \"$@\" >\"$0/stdout\" 2>\"$0/stderr\"",
-                                   folder.string(),
-                                   ProgramPath().string(),
-                                   "run",
-                                   test.file,
-                                   "--lockstep",
-                                   "--headless",
-                                   "--json",
-                                   "--wall-timeout",
-                                   fmt::format("{}", options.timeout)};
+std::vector<std::string> ArgumentsFor(const TestCase& test, const TestOptions& options,
+                                      const fs::path& folder) {
+  std::vector<std::string> arguments{test.file,        "--lockstep",
+                                     "--headless",     "--json",
+                                     "--wall-timeout", fmt::format("{}", options.timeout)};
   if (!options.failures.empty()) {
-    command.insert(command.end(), {"--failure-picture", (folder / "picture.jpg").string()});
+    arguments.insert(arguments.end(), {"--failure-picture", (folder / "picture.jpg").string()});
   }
   if (options.record) {
-    command.insert(command.end(), {"--record", (folder / "run.mcap").string(), "--record-rate",
-                                   "poses=25,pictures=0.2"});
+    arguments.insert(arguments.end(), {"--record", (folder / "run.mcap").string(), "--record-rate",
+                                       "poses=25,pictures=0.2"});
   }
   for (const std::string& drive : options.drives) {
-    command.insert(command.end(), {"--drive", drive});
+    arguments.insert(arguments.end(), {"--drive", drive});
   }
-  command.insert(command.end(), {"--threads", std::to_string(options.threads)});
-  return command;
+  arguments.insert(arguments.end(), {"--threads", std::to_string(options.threads)});
+  return arguments;
+}
+
+// A process that serves runs ends with the thread that started it, so each thread has its own.
+PreparedRuns& RunsOfThread() {
+  thread_local PreparedRuns runs;
+  return runs;
 }
 
 base::Result<ChildOutcome> RunChild(const TestCase& test, const TestOptions& options,
                                     const fs::path& folder, const std::atomic<bool>& is_cancelled) {
-  auto child = ChildProcess::Start(CommandFor(test, options, folder), true);
-  if (!child) return base::Fail(child.error());
+  PreparedRuns& runs = RunsOfThread();
+  if (auto ok =
+          runs.Start(ArgumentsFor(test, options, folder), folder / "stdout", folder / "stderr");
+      !ok) {
+    return base::Fail(ok.error());
+  }
   const auto give_up = TestClock::now() + Seconds(options.timeout + kPatience);
   ChildOutcome outcome;
   while (outcome.ending.empty() && !is_cancelled && TestClock::now() < give_up) {
-    outcome.ending = (*child)->AwaitEnd(kPollPeriod);
+    outcome.ending = runs.AwaitEnd(kPollPeriod);
   }
-  if (outcome.ending.empty() && !is_cancelled) {
-    (*child)->Signal(SIGKILL);
+  if (outcome.ending.empty()) runs.Stop();
+  if (outcome.ending.empty() && !is_cancelled)
     outcome.ending = "it did not end in time and was killed";
-  }
   outcome.errors = WholeText(folder / "stderr");
   if (outcome.errors.size() > kMaxErrorLength)
     outcome.errors = "…" + outcome.errors.substr(outcome.errors.size() - kMaxErrorLength);

@@ -20,6 +20,7 @@ struct ReadLimits {
   std::size_t texture_bytes = 256u << 20;
   int texture_side = 8192;   // pixels
   int heightmap_side = 513;  // vertices; larger pictures are sampled down
+  bool operator==(const ReadLimits&) const = default;
 };
 
 // Sets one of them by its name above: "mesh_triangles=20000000". kInvalidArgument, naming those
