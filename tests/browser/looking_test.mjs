@@ -288,7 +288,7 @@ test("a link shows the same robot from the same place", async () => {
 test("the sheet of keys knows them all", async () => {
   await page.keyboard.press("?");
   const sheet = page.getByRole("dialog");
-  for (const text of ["Chase the selected robot", "Trails", "Record video", "Plots against"]) {
+  for (const text of ["Chase the selected robot", "Trails", "recording a video", "Plots"]) {
     await sheet.getByText(text).first().waitFor();
   }
   await keepPicture(page, "keys");

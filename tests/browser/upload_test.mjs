@@ -123,9 +123,9 @@ test("of several worlds in a folder another is chosen, and the view turns to it"
 
 test("an archive whose names lead out of it, or that is cut off, is refused with a sentence", async () => {
   await choose(zipped({ "room.world": WORLD, "../../evil.sh": "x" }));
-  await objection().filter({ hasText: 'lab.zip cannot be taken: the name "../../evil.sh" leads out of the archive.' }).waitFor();
+  await objection().filter({ hasText: 'lab.zip cannot be used: the name "../../evil.sh" leads out of the archive.' }).waitFor();
   await choose(zipped({ "room.world": WORLD }).subarray(0, -5));
-  await objection().filter({ hasText: "lab.zip cannot be taken: its list of files is missing or damaged" }).waitFor();
+  await objection().filter({ hasText: "lab.zip cannot be used: its list of files is missing or damaged" }).waitFor();
   assert.deepEqual(faults, []);
 });
 

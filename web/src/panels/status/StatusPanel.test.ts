@@ -44,7 +44,7 @@ test("the simulation's state is shown as it comes", () => {
   topics.send("/gsv/status", message({ late_steps: 3n, waiting_for: "a (wander)" }));
   expect(facts("Simulation")).toEqual({
     state: "Running",
-    mode: "wall-clock time",
+    mode: "real time",
     "simulated time": "0:06.00",
     step: "600",
     "real-time factor, actual": "0.50×",

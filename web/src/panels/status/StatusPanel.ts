@@ -46,7 +46,7 @@ function simulationFacts(status: SimulationStatus): Fact[] {
   const { phase, mode, time, step, realTimeFactor, targetFactor, lateSteps, waitingFor } = status;
   return [
     ["state", phaseLabel(phase), phase === "failed" ? "error" : ""],
-    ["mode", mode === "lockstep" ? "lockstep" : "wall-clock time"],
+    ["mode", mode === "lockstep" ? "lockstep" : "real time"],
     ["simulated time", formatTime(time)],
     ["step", String(step)],
     ["real-time factor, actual", formatFactor(realTimeFactor)],
