@@ -126,6 +126,15 @@ void GroupCommands(CLI::App& app) {
   }
 }
 
+// Each option takes one value, so that an argument may follow it, as in `--drive NAME=diff FILE`.
+// CLI11 would take all following words as further values of an option that may be repeated.
+void TakeOneValuePerOption(CLI::App& app) {
+  for (CLI::Option* option : app.get_options()) {
+    if (option->nonpositional()) option->allow_extra_args(false);
+  }
+  for (CLI::App* command : app.get_subcommands({})) TakeOneValuePerOption(*command);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -167,6 +176,7 @@ int main(int argc, char** argv) {
   AddBenchCommands(line);
   AddCertificatesCommand(line);
   GroupCommands(app);
+  TakeOneValuePerOption(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

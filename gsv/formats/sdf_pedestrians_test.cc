@@ -23,7 +23,7 @@ class SdfPedestrians : public ::testing::Test {
 
 TEST_F(SdfPedestrians, AreReadWithTheirRoute) {
   const auto world = World(R"(<gsv:pedestrians name='guest' count='12'>
-      <gsv:goal>-3 0.5 2</gsv:goal><gsv:goal> 4 1 </gsv:goal>
+      <gsv:goal>-3 0.5 2</gsv:goal><gsv:goal> 4 1 </gsv:goal><gsv:goal>5 2</gsv:goal>
       <gsv:speed>0.9</gsv:speed><gsv:speed_deviation>0.1</gsv:speed_deviation>
       <gsv:radius>0.3</gsv:radius><gsv:height>1.6</gsv:height><gsv:z>2</gsv:z>
       </gsv:pedestrians>)");
@@ -32,7 +32,7 @@ TEST_F(SdfPedestrians, AreReadWithTheirRoute) {
   model::PedestrianGroup expected;
   expected.name = "guest";
   expected.count = 12;
-  expected.route = {{-3, 0.5, 2}, {4, 1, 0}};
+  expected.route = {{-3, 0.5, 2}, {4, 1, 0}, {5, 2, 0}};
   expected.speed = 0.9;
   expected.speed_deviation = 0.1;
   expected.radius = 0.3;
@@ -45,10 +45,12 @@ TEST_F(SdfPedestrians, AreLeftOutWhenTheyMakeNoSense) {
   const auto world = World(R"(<gsv:pedestrians/>
       <gsv:pedestrians><gsv:goal>here</gsv:goal></gsv:pedestrians>
       <gsv:pedestrians><gsv:goal>1 2 3 4</gsv:goal></gsv:pedestrians>
+      <gsv:pedestrians><gsv:goal>1 2 -</gsv:goal></gsv:pedestrians>
+      <gsv:pedestrians><gsv:goal>1</gsv:goal></gsv:pedestrians>
       <gsv:pedestrians count='many'><gsv:goal>1 2</gsv:goal></gsv:pedestrians>
       <gsv:pedestrians><gsv:goal>1 2</gsv:goal><gsv:speed>fast</gsv:speed></gsv:pedestrians>)");
   EXPECT_TRUE(world.pedestrians.empty());
-  ASSERT_EQ(problems_.size(), 5u);
+  ASSERT_EQ(problems_.size(), 7u);
   for (const base::Problem& problem : problems_) {
     EXPECT_THAT(problem.Sentence(), ::testing::HasSubstr("the pedestrians are left out"));
   }

@@ -255,6 +255,23 @@ TEST(CommandLine, DrawWritesAPictureOfAWorldAndSaysWhatItHolds) {
   EXPECT_THAT(refused.err, HasSubstr("x.gif"));
 }
 
+TEST(CommandLine, DrawsPedestriansAtTheirStarts) {
+  base::testing::TestFolder folder;
+  const auto models_in = [&](const std::string& pedestrians) {
+    const std::filesystem::path world = folder.path() / "square.sdf";
+    std::ofstream(world) << "<sdf version='1.11'><world name='square' xmlns:gsv='https://gsv/'>" +
+                                pedestrians + "</world></sdf>";
+    const Outcome outcome =
+        RunProgram("gsv", {"world", "draw", world, folder.path() / "square.png", "--json"});
+    EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+    return outcome.LastLine()["models"].get<int>();
+  };
+  EXPECT_EQ(models_in(""), 0);
+  EXPECT_EQ(models_in("<gsv:pedestrians name='walker' count='3'><gsv:goal>-4 0</gsv:goal>"
+                      "<gsv:goal>4 0</gsv:goal></gsv:pedestrians>"),
+            3);
+}
+
 TEST(CommandLine, LimitsAreRaisedByName) {
   EXPECT_EQ(RunProgram("gsv", {"world", "check", "office", "--limit", "xml_bytes=10"}).ending,
             "exit code 3");
@@ -354,6 +371,13 @@ TEST(CommandLine, WhatIsTakenButMostLikelyNotMeantIsNamed) {
   EXPECT_THAT(warnings({"--real-time-factor", "2", "--duration", "0.1"}),
               HasSubstr("--real-time-factor: has no effect with --lockstep"));
   EXPECT_EQ(warnings({"--robot", "pebble@0,0,90deg", "--duration", "0.1"}), "[]");
+}
+
+TEST(CommandLine, AnArgumentMayFollowAnOptionThatCanBeRepeated) {
+  base::testing::TestFolder folder;
+  const Outcome outcome =
+      RunProgram("gsv", {"model", "check", "--model-path", folder.path().string(), "pebble"});
+  EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
 }
 
 TEST(CommandLine, ABehavioursProgramThatCannotBeExecutedIsNamed) {

@@ -19,6 +19,7 @@
 #include "gsv/formats/sdf_reader.h"
 #include "gsv/geometry/box_corners.h"
 #include "gsv/rendering/renderer.h"
+#include "gsv/simulation/simulation.h"
 
 namespace gsv::app {
 namespace {
@@ -34,9 +35,22 @@ struct DrawArguments {
   bool json = false;
 };
 
-std::shared_ptr<const world::Snapshot> FirstInstant(model::WorldDescription description) {
+// The world as it is when a simulation of it begins: pedestrians stand at their starts. Also draws
+// worlds that cannot be simulated, as long as they have no pedestrians.
+base::Result<std::shared_ptr<const world::Snapshot>> FirstInstant(
+    model::WorldDescription description) {
+  auto world = std::make_shared<const model::WorldDescription>(std::move(description));
+  if (!world->pedestrians.empty()) {
+    simulation::Specification specification;
+    specification.world = world;
+    specification.mode = simulation::Mode::kLockstep;
+    const auto created = simulation::Simulation::Create(
+        std::move(specification), std::make_shared<const sensing::SensorRegistry>());
+    if (!created) return base::Fail(created.error());
+    return (*created)->snapshot();
+  }
   std::vector<world::Body> bodies;
-  for (const model::PlacedModel& placed : description.models) {
+  for (const model::PlacedModel& placed : world->models) {
     world::Body body;
     body.name = placed.name;
     body.model = placed.model;
@@ -44,9 +58,7 @@ std::shared_ptr<const world::Snapshot> FirstInstant(model::WorldDescription desc
     bodies.push_back(std::move(body));
   }
   auto snapshot = std::make_shared<world::Snapshot>();
-  snapshot->layout =
-      world::MakeLayout(1, std::move(bodies),
-                        std::make_shared<const model::WorldDescription>(std::move(description)));
+  snapshot->layout = world::MakeLayout(1, std::move(bodies), std::move(world));
   snapshot->state = world::InitialState(*snapshot->layout);
   return snapshot;
 }
@@ -100,7 +112,9 @@ int Run(const DrawArguments& arguments) {
   const double processor = static_cast<double>(std::clock() - processor_start) / CLOCKS_PER_SEC;
   if (!world) return Complain(world.error());
   if (IsModelAlone(*world)) StandModelOnGround(*world);
-  const auto snapshot = FirstInstant(*std::move(world));
+  const auto first = FirstInstant(*std::move(world));
+  if (!first) return Complain(first.error());
+  const auto& snapshot = *first;
   auto renderer = rendering::Renderer::Start();
   if (!renderer) return Complain(renderer.error());
   const auto view = ViewOfAll(CornersToShow(*snapshot), arguments.width, arguments.height);

@@ -1,28 +1,31 @@
 #include "gsv/formats/sdf/sdf_pedestrians.h"
 
+#include <array>
 #include <limits>
-#include <sstream>
 #include <string>
+#include <vector>
 
 #include "gsv/formats/sdf/sdf_xml.h"
+#include "gsv/formats/sdf/value_text.h"
 
 namespace gsv::formats {
 namespace {
 
 using tinyxml2::XMLElement;
 
-// "x y" or "x y radius"; anything else gives numbers that are none.
+// "x y" or "x y radius"; anything else gives a place that is not a number.
 model::PedestrianGoal GoalFrom(const XMLElement& element) {
   const char* text = element.GetText();
-  std::istringstream stream(text == nullptr ? "" : text);
-  stream.imbue(std::locale::classic());
-  model::PedestrianGoal goal;
-  const bool has_place = static_cast<bool>(stream >> goal.x >> goal.y);
-  if (has_place && !(stream >> std::ws).eof()) stream >> goal.radius;
-  if (!has_place || stream.fail() || !(stream >> std::ws).eof()) {
-    goal.x = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<std::string> words = WordsOf(text == nullptr ? "" : text);
+  std::array<double, 3> numbers{0, 0, 0};
+  bool is_goal = words.size() == 2 || words.size() == 3;
+  for (std::size_t i = 0; is_goal && i < words.size(); ++i) {
+    const LeadingNumber number = LeadingNumberOf(words[i]);
+    numbers[i] = number.value;
+    is_goal = number.is_all;
   }
-  return goal;
+  if (!is_goal) numbers[0] = std::numeric_limits<double>::quiet_NaN();
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 void ReadNumber(const XMLElement& parent, const char* name, double& value) {
