@@ -10,6 +10,7 @@
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/process/help_formatter.h"
+#include "apps/gsv/process/option_values.h"
 #include "apps/gsv/process/program_end.h"
 #include "apps/gsv/process/standard_output.h"
 #include "gsv/base/log.h"
@@ -124,15 +125,6 @@ void GroupCommands(CLI::App& app) {
   for (const auto& [group, commands] : groups) {
     for (const char* command : commands) app.get_subcommand(command)->group(group);
   }
-}
-
-// Each option takes one value, so that an argument may follow it, as in `--drive NAME=diff FILE`.
-// CLI11 would take all following words as further values of an option that may be repeated.
-void TakeOneValuePerOption(CLI::App& app) {
-  for (CLI::Option* option : app.get_options()) {
-    if (option->nonpositional()) option->allow_extra_args(false);
-  }
-  for (CLI::App* command : app.get_subcommands({})) TakeOneValuePerOption(*command);
 }
 
 }  // namespace

@@ -172,6 +172,7 @@ base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) 
   }
   auto simulation = (*runtime)->host().Create(options.specification, *world, problems);
   if (!simulation) return base::Fail(simulation.error());
+  (*runtime)->recordings().SetSimulationOfCommand(*simulation);
   auto told = PopulateRun(**runtime, **simulation, options, problems);
   if (!told) return base::Fail(told.error());
 

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "apps/gsv/running/edit_repetition.h"
 #include "apps/gsv/running/run.h"
 #include "apps/gsv/simulations/recordings.h"
@@ -69,6 +70,7 @@ base::Result<RunOptions> OptionsOf(const RecordedCall& call, const std::string& 
   CLI::App app;
   RunArguments arguments;
   AddRunOptions(app, arguments);
+  TakeOneValuePerOption(app);
   try {
     app.parse(std::vector<std::string>(call.arguments.rbegin(), call.arguments.rend()));
   } catch (const CLI::ParseError& error) {

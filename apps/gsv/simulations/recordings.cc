@@ -54,7 +54,7 @@ std::vector<std::string> WithoutSecrets(std::vector<std::string> arguments) {
 
 namespace {
 
-recording::RecorderOptions Options(const RecordingChoice& choice) {
+recording::RecorderOptions Options(const RecordingChoice& choice, bool is_of_command) {
   recording::RecorderOptions options;
   options.write_glb = &formats::WriteGlb;
   options.topics = choice.topics;
@@ -64,13 +64,14 @@ recording::RecorderOptions Options(const RecordingChoice& choice) {
   if (choice.png) options.write_png = &rendering::EncodePng;
   const std::vector<std::string> arguments = WithoutSecrets(ArgumentsOfThisProcess());
   std::error_code ignored;
-  options.metadata = {
-      {"gsv_version", GSV_VERSION},
-      {"command", fmt::format("{}", fmt::join(arguments, " "))},
-      {std::string(kArgumentsKey),
-       nlohmann::json(arguments).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)},
-      {std::string(kFolderKey), std::filesystem::current_path(ignored).string()},
-      {"host", base::HostName()}};
+  options.metadata = {{"gsv_version", GSV_VERSION},
+                      {"command", fmt::format("{}", fmt::join(arguments, " "))},
+                      {std::string(kFolderKey), std::filesystem::current_path(ignored).string()},
+                      {"host", base::HostName()}};
+  if (is_of_command) {
+    options.metadata[std::string(kArgumentsKey)] =
+        nlohmann::json(arguments).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  }
   return options;
 }
 
@@ -160,6 +161,11 @@ base::Status Recordings::FinishThatWhichIsOver(
   return {};
 }
 
+void Recordings::SetSimulationOfCommand(const std::shared_ptr<simulation::Simulation>& simulation) {
+  const base::MutexLock lock(mutex_);
+  of_command_ = simulation;
+}
+
 base::Status Recordings::Start(std::shared_ptr<simulation::Simulation> simulation,
                                const std::string& path, const RecordingChoice& choice) {
   const base::MutexLock starting(starting_);
@@ -170,10 +176,13 @@ base::Status Recordings::Start(std::shared_ptr<simulation::Simulation> simulatio
     if (!file) return base::Fail(file.error());
     bag = *std::move(file);
   }
-  auto recorder =
-      recording::SimulationRecorder::Start(simulation, bag.empty() ? path : bag, Options(choice));
+  base::MutexLock lock(mutex_);
+  const bool is_of_command = of_command_.lock() == simulation;
+  lock.unlock();
+  auto recorder = recording::SimulationRecorder::Start(simulation, bag.empty() ? path : bag,
+                                                       Options(choice, is_of_command));
   if (!recorder) return base::Fail(recorder.error());
-  const base::MutexLock lock(mutex_);
+  lock.lock();
   recordings_.emplace(simulation->specification().name,
                       Recording{simulation, path, std::move(bag), *std::move(recorder)});
   return {};

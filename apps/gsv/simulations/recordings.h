@@ -57,6 +57,10 @@ class Recordings final : public gateway::RecordingSwitch {
   explicit Recordings(std::filesystem::path folder);
   ~Recordings() override;
 
+  // Only recordings of this simulation contain the arguments of this process: those of its `gsv
+  // run`, with which the recording can be simulated again.
+  void SetSimulationOfCommand(const std::shared_ptr<simulation::Simulation>& simulation);
+
   // `path` ends in ".mcap": a bare file; else a folder that rosbag2 opens. kInvalidArgument when
   // the simulation is being recorded, or something of that name is there already.
   base::Status Start(std::shared_ptr<simulation::Simulation> simulation, const std::string& path,
@@ -95,6 +99,7 @@ class Recordings final : public gateway::RecordingSwitch {
       GSV_GUARDED_BY(mutex_);            // that ended, by the simulation's name
   Totals ended_ GSV_GUARDED_BY(mutex_);  // of those that ended
   Totals told_ GSV_GUARDED_BY(mutex_);   // last
+  std::weak_ptr<simulation::Simulation> of_command_ GSV_GUARDED_BY(mutex_);
 };
 
 }  // namespace gsv::app

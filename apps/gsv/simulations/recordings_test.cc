@@ -68,6 +68,24 @@ TEST_F(RecordingsTest, TheFileSaysWhichProgramWroteIt) {
   EXPECT_GT(info->attachments[2].size, 20u);
 }
 
+TEST_F(RecordingsTest, OnlyTheSimulationOfTheCommandIsRecordedWithItsArguments) {
+  const auto keys = [this] {
+    EXPECT_TRUE(recordings_.Start(simulation_, path_));
+    EXPECT_TRUE(recordings_.StopAll());
+    const recording::RecordingInfo info = recording::ReadInfo(path_).value();
+    recording::StringMap values;
+    for (const auto& record : info.metadata) {
+      if (record.name == "gsv.simulation") values = record.values;
+    }
+    std::filesystem::remove(path_);
+    return values;
+  };
+  recordings_.SetSimulationOfCommand(simulation_);
+  EXPECT_TRUE(keys().contains("arguments"));
+  simulation_ = recording::MakeSimulation(1s, nullptr);
+  EXPECT_FALSE(keys().contains("arguments"));
+}
+
 TEST_F(RecordingsTest, ASimulationIsRecordedOnceAtATime) {
   ASSERT_TRUE(recordings_.Start(simulation_, path_));
   const base::Status again = recordings_.Start(simulation_, path_ + ".other");
