@@ -29,6 +29,7 @@
 
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "apps/gsv/process/program_end.h"
 #include "apps/gsv/running/prepared_files.h"
 #include "apps/gsv/running/run.h"
@@ -62,6 +63,7 @@ Result<RunOptions> OptionsOf(const RunRequest& request) {
   RunArguments arguments;
   CLI::App app("", "gsv run");
   AddRunOptions(app, arguments);
+  TakeOneValuePerOption(app);
   try {
     app.parse(std::vector<std::string>(request.arguments.rbegin(), request.arguments.rend()));
   } catch (const CLI::ParseError& error) {
