@@ -33,6 +33,9 @@ endforeach()
 # gsv: programs, and what they need to run.
 set(GSV_PROGRAMS gsv gsv-wander gsv-cruise gsv-fetch gsv-follow-wall gsv-goto)
 set(GSV_PLUGINS behaviour_wander behaviour_cruise behaviour_fetch behaviour_follow-wall behaviour_goto)
+if(TARGET gsv-ros2)
+  list(APPEND GSV_PLUGINS gsv-ros2)
+endif()
 install(TARGETS ${GSV_PROGRAMS} RUNTIME DESTINATION bin COMPONENT gsv)
 install(TARGETS ${GSV_PLUGINS} LIBRARY DESTINATION lib/gsv COMPONENT gsv)
 install(DIRECTORY assets/models assets/worlds ${CMAKE_BINARY_DIR}/share/gsv/web

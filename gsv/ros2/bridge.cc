@@ -1,0 +1,255 @@
+#include "gsv/ros2/bridge.h"
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <set>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "gsv/base/log.h"
+#include "gsv/messages/diagnostic_msgs.h"
+#include "gsv/messages/rcl_interfaces.h"
+#include "gsv/messages/rosgraph_msgs.h"
+#include "gsv/messages/time.h"
+#include "gsv/presentation/run_messages.h"
+#include "gsv/ros2/feed.h"
+#include "gsv/ros2/graph.h"
+#include "gsv/ros2/message_source.h"
+#include "gsv/ros2/names.h"
+#include "gsv/ros2/robot_topics.h"
+#include "gsv/ros2/slow_lane.h"
+#include "gsv/world/station.h"
+
+namespace gsv::ros2 {
+namespace {
+
+using messages::rosgraph_msgs::Clock;
+using messages::tf2_msgs::TFMessage;
+using simulation::Simulation;
+
+constexpr base::SimTime kClockPeriod = std::chrono::milliseconds(10);
+constexpr base::SimTime kTransformPeriod = std::chrono::milliseconds(20);
+// Wall time: how soon new robots and sensors are noticed, and how often diagnostics are sent.
+constexpr std::chrono::milliseconds kRefreshPeriod{1000};
+constexpr std::chrono::milliseconds kTimeout{250};
+
+using WallClock = std::chrono::steady_clock;
+
+class SimulationBridge final : public Bridge {
+ public:
+  SimulationBridge(dds::Participant& participant, Options options,
+                   const std::shared_ptr<Simulation>& simulation);
+  ~SimulationBridge() override;
+
+ private:
+  void Run();
+  void Refresh(Simulation& simulation);
+  bool FollowRobots(Simulation& simulation, const world::Snapshot& snapshot);
+  std::string NamespaceOf(const std::string& body) const;
+  void SendStaticFrames(const world::Snapshot& snapshot);
+  void SendGraph();
+  void FollowReaders();
+  void Publish(const SnapshotPointer& snapshot);
+  template <typename Visit>
+  void VisitSources(const Visit& visit);
+
+  dds::Participant& participant_;
+  const Options options_;
+  const std::weak_ptr<Simulation> simulation_;
+  const bool is_lockstep_;
+  const std::uint64_t seed_;
+  const std::shared_ptr<Feed> feed_;
+  std::atomic<bool> is_stopping_{false};
+  std::atomic<bool> has_matched_{true};
+
+  // The publisher thread's.
+  std::shared_ptr<const sensing::SensorRegistry> types_;
+  sensing::SensorSet sensors_;
+  sensing::RaySceneCache rays_;
+  Graph graph_;
+  Node node_;
+  std::vector<std::unique_ptr<Source>> sources_;  // of the simulation as a whole
+  dds::Writer* static_frames_ = nullptr;
+  dds::Writer* log_ = nullptr;
+  dds::Writer* diagnostics_ = nullptr;
+  std::map<std::string, std::unique_ptr<RobotTopics>> robots_;  // by body
+  SlowLane slow_;                                               // after what it uses
+  std::thread thread_;
+};
+
+SimulationBridge::SimulationBridge(dds::Participant& participant, Options options,
+                                   const std::shared_ptr<Simulation>& simulation)
+    : participant_(participant),
+      options_(std::move(options)),
+      simulation_(simulation),
+      is_lockstep_(simulation->specification().mode == simulation::Mode::kLockstep),
+      seed_(simulation->specification().seed),
+      feed_(std::make_shared<Feed>(is_lockstep_)),
+      types_(std::make_shared<sensing::SensorRegistry>(simulation->sensor_types())),
+      sensors_(*types_),
+      graph_(participant, options_.distro),
+      node_(participant, "/", "gsv", [this] {
+        has_matched_ = true;
+        feed_->Wake();
+      }) {
+  static_frames_ = node_.Advertise("/tf_static", "tf2_msgs/msg/TFMessage", kLatchedQos);
+  log_ = node_.Advertise("/rosout", "rcl_interfaces/msg/Log", kLogQos);
+  diagnostics_ =
+      node_.Advertise("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", kDefaultQos);
+  sources_.push_back(std::make_unique<MessageSource<Clock>>(
+      kClockPeriod, node_.Advertise("/clock", "rosgraph_msgs/msg/Clock", kClockQos),
+      [](const world::Snapshot& snapshot) {
+        return Clock{messages::ToMessage(snapshot.state.time)};
+      }));
+  sources_.push_back(std::make_unique<MessageSource<TFMessage>>(
+      kTransformPeriod, node_.Advertise("/tf", "tf2_msgs/msg/TFMessage", kTransformQos),
+      [this](const world::Snapshot& snapshot) {
+        TFMessage message;
+        for (const auto& [body, robot] : robots_) robot->AppendMovingFrames(snapshot, message);
+        return message;
+      }));
+  Refresh(*simulation);
+  simulation->AddObserver(feed_);
+  thread_ = std::thread([this] { Run(); });
+}
+
+SimulationBridge::~SimulationBridge() {
+  is_stopping_ = true;
+  feed_->Close();
+  thread_.join();
+  if (const auto simulation = simulation_.lock()) simulation->RemoveObserver(feed_);
+  slow_.Drain();
+  if (feed_->dropped() > 0) {
+    spdlog::info("ROS 2: {} snapshots were skipped because publishing did not keep up",
+                 feed_->dropped());
+  }
+}
+
+void SimulationBridge::Run() {
+  auto refreshed = WallClock::now();
+  std::shared_ptr<const world::Layout> layout;
+  while (!is_stopping_) {
+    const Feed::News news = feed_->Next(kTimeout);
+    for (const simulation::Event& event : news.events) {
+      Send(presentation::LogMessage(event), log_);
+    }
+    const bool is_new = news.snapshot != nullptr && news.snapshot->layout != layout;
+    if (is_new) layout = news.snapshot->layout;
+    const auto now = WallClock::now();
+    if (is_new || now - refreshed >= kRefreshPeriod) {
+      const std::shared_ptr<Simulation> simulation = simulation_.lock();
+      if (simulation == nullptr) return;
+      Refresh(*simulation);
+      refreshed = now;
+    }
+    if (has_matched_.exchange(false)) FollowReaders();
+    if (news.snapshot != nullptr) Publish(news.snapshot);
+  }
+}
+
+void SimulationBridge::Refresh(Simulation& simulation) {
+  const std::shared_ptr<const world::Snapshot> snapshot = simulation.snapshot();
+  if (FollowRobots(simulation, *snapshot)) {
+    SendStaticFrames(*snapshot);
+    has_matched_ = true;
+  }
+  SendGraph();
+  for (const auto& [body, robot] : robots_) robot->CheckPublishers();
+  if (diagnostics_ != nullptr && diagnostics_->has_readers()) {
+    Send(presentation::DiagnosticsMessage(simulation.status()), diagnostics_);
+  }
+}
+
+// Whether robots came, went, or changed.
+bool SimulationBridge::FollowRobots(Simulation& simulation, const world::Snapshot& snapshot) {
+  std::set<std::string> with_behaviour;
+  for (const simulation::RobotStatus& robot : simulation.status().robots) {
+    if (!robot.behaviour.empty() || robot.is_avatar || robot.is_station) {
+      with_behaviour.insert(robot.name);
+    }
+  }
+  const RobotTopics::Context context{participant_, options_, simulation, sensors_, [this] {
+                                       has_matched_ = true;
+                                       feed_->Wake();
+                                     }};
+  bool has_changed = false;
+  std::set<std::string> here;
+  for (const world::Body& body : snapshot.layout->bodies) {
+    if (!world::HasAgent(body) || body.is_avatar()) continue;
+    here.insert(body.name);
+    const bool takes_commands = !with_behaviour.contains(body.name);
+    std::unique_ptr<RobotTopics>& robot = robots_[body.name];
+    if (robot != nullptr && robot->IsOf(body, simulation.sensors(body.name), takes_commands)) {
+      continue;
+    }
+    slow_.Drain();
+    robot = nullptr;  // its topics are free again
+    robot = std::make_unique<RobotTopics>(context, body, NamespaceOf(body.name), takes_commands);
+    has_changed = true;
+  }
+  const auto is_gone = [&](const auto& entry) { return !here.contains(entry.first); };
+  if (std::none_of(robots_.begin(), robots_.end(), is_gone)) return has_changed;
+  slow_.Drain();
+  std::erase_if(robots_, is_gone);
+  return true;
+}
+
+std::string SimulationBridge::NamespaceOf(const std::string& body) const {
+  const auto chosen = options_.namespaces.find(body);
+  return chosen != options_.namespaces.end() ? chosen->second : "/" + RosName(body);
+}
+
+void SimulationBridge::SendStaticFrames(const world::Snapshot& snapshot) {
+  TFMessage message;
+  for (const auto& [body, robot] : robots_) robot->AppendStaticFrames(snapshot, message);
+  Send(message, static_frames_);
+}
+
+void SimulationBridge::SendGraph() {
+  std::vector<NodeInfo> nodes{node_.info()};
+  for (const auto& [body, robot] : robots_) nodes.push_back(robot->node());
+  graph_.Publish(nodes);
+}
+
+template <typename Visit>
+void SimulationBridge::VisitSources(const Visit& visit) {
+  for (const auto& source : sources_) visit(*source);
+  for (const auto& [body, robot] : robots_) {
+    for (const auto& source : robot->sources()) visit(*source);
+  }
+}
+
+// Snapshots are taken only where somebody wants something of them.
+void SimulationBridge::FollowReaders() {
+  std::set<base::SimTime> periods;
+  VisitSources([&](Source& source) {
+    if (source.is_wanted()) periods.insert(source.period());
+  });
+  feed_->SetPeriods(periods);
+}
+
+void SimulationBridge::Publish(const SnapshotPointer& snapshot) {
+  const Moment moment{snapshot, seed_, rays_};
+  std::vector<Source*> slow;
+  VisitSources([&](Source& source) {
+    if (!source.Pass(snapshot->state.time) || !source.is_wanted()) return;
+    if (source.takes_long()) {
+      slow.push_back(&source);
+    } else {
+      source.Publish(moment);
+    }
+  });
+  if (!slow.empty()) slow_.Offer(std::move(slow), moment, is_lockstep_);
+}
+
+}  // namespace
+
+std::unique_ptr<Bridge> Bridge::Start(dds::Participant& participant, Options options,
+                                      const std::shared_ptr<Simulation>& simulation) {
+  return std::make_unique<SimulationBridge>(participant, std::move(options), simulation);
+}
+
+}  // namespace gsv::ros2

@@ -1,0 +1,24 @@
+// One simulation in ROS 2: what its robots sense goes out as topics, commands come in.
+//
+// Threads  its own publisher thread, and one for sensors that take long; members from any thread. The
+//          stepping thread only hands over snapshots. In lockstep it waits for the publisher, never for a
+//          reader.
+#pragma once
+
+#include <memory>
+
+#include "gsv/ros2/dds/participant.h"
+#include "gsv/ros2/options.h"
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::ros2 {
+
+class Bridge {
+ public:
+  // `participant` outlives the bridge. Does not keep the simulation alive.
+  static std::unique_ptr<Bridge> Start(dds::Participant& participant, Options options,
+                                       const std::shared_ptr<simulation::Simulation>& simulation);
+  virtual ~Bridge() = default;
+};
+
+}  // namespace gsv::ros2

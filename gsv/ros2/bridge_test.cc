@@ -1,0 +1,144 @@
+#include "gsv/ros2/bridge.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "gsv/messages/geometry_msgs.h"
+#include "gsv/messages/nav_msgs.h"
+#include "gsv/messages/rosgraph_msgs.h"
+#include "gsv/messages/sensor_msgs.h"
+#include "gsv/messages/tf2_msgs.h"
+#include "gsv/ros2/node.h"
+#include "gsv/ros2/testing/peer.h"
+#include "gsv/simulation/testing/test_simulation.h"
+
+namespace gsv::ros2 {
+namespace {
+
+using testing::Peer;
+
+// A robot "robot" at the origin in real time, published, and a peer.
+class BridgeTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto specification = simulation::Lockstep(base::SimTime(0));
+    specification.mode = simulation::Mode::kRealTime;
+    simulation_ = simulation::Make(std::move(specification));
+    ASSERT_TRUE(simulation_->AddRobot(simulation::Robot("robot", 0, 0)));
+    participant_ = testing::MakeParticipant();
+    ASSERT_NE(participant_, nullptr);
+    peer_ = std::make_unique<Peer>(true);
+  }
+  void TearDown() override {
+    bridge_.reset();
+    (void)simulation_->Stop();
+  }
+  void Publish(Options options = {}) {
+    bridge_ = Bridge::Start(*participant_, std::move(options), simulation_);
+  }
+
+  std::shared_ptr<simulation::Simulation> simulation_;
+  std::unique_ptr<dds::Participant> participant_;
+  std::unique_ptr<Peer> peer_;
+  std::unique_ptr<Bridge> bridge_;
+};
+
+TEST_F(BridgeTest, PublishesClockOdometryAndRange) {
+  Publish();
+  peer_->Listen("/clock", "rosgraph_msgs/msg/Clock", kClockQos);
+  peer_->Listen("/robot/odom", "nav_msgs/msg/Odometry", kDefaultQos);
+  peer_->Listen("/robot/range", "sensor_msgs/msg/Range", kSensorDataQos);
+  ASSERT_TRUE(simulation_->Start());
+  const auto clock = peer_->Await<messages::rosgraph_msgs::Clock>("/clock", 3);
+  EXPECT_EQ(clock.clock.nanosec % 10'000'000, 0u);
+  const auto odometry = peer_->Await<messages::nav_msgs::Odometry>("/robot/odom");
+  EXPECT_EQ(odometry.header.frame_id, "robot/odom");
+  EXPECT_EQ(odometry.child_frame_id, "robot/base");
+  EXPECT_EQ(odometry.pose.pose.position.x, 0);
+  EXPECT_EQ(odometry.pose.pose.orientation.w, 1);
+  const auto range = peer_->Await<messages::sensor_msgs::Range>("/robot/range");
+  EXPECT_NEAR(range.range, 2.9, 1e-6);  // the wall's near side
+  EXPECT_EQ(range.header.frame_id, "robot/front");
+}
+
+TEST_F(BridgeTest, PublishesFramesToLateReaders) {
+  Publish();
+  ASSERT_TRUE(simulation_->Start());
+  peer_->Listen("/tf_static", "tf2_msgs/msg/TFMessage", kLatchedQos);
+  peer_->Listen("/tf", "tf2_msgs/msg/TFMessage", kTransformQos);
+  const auto fixed = peer_->Await<messages::tf2_msgs::TFMessage>("/tf_static");
+  ASSERT_EQ(fixed.transforms.size(), 2u);
+  EXPECT_EQ(fixed.transforms[0].child_frame_id, "robot/base_link");
+  EXPECT_EQ(fixed.transforms[1].header.frame_id, "robot/base");
+  EXPECT_EQ(fixed.transforms[1].child_frame_id, "robot/front");
+  EXPECT_EQ(fixed.transforms[1].transform.translation.z, 0.25);
+  const auto moving = peer_->Await<messages::tf2_msgs::TFMessage>("/tf");
+  ASSERT_EQ(moving.transforms.size(), 1u);
+  EXPECT_EQ(moving.transforms[0].header.frame_id, "robot/odom");
+  EXPECT_EQ(moving.transforms[0].child_frame_id, "robot/base");
+}
+
+TEST_F(BridgeTest, DrivesARobotByCmdVel) {
+  Publish();
+  ASSERT_TRUE(simulation_->Start());
+  peer_->Listen("/robot/ground_truth/pose", "geometry_msgs/msg/PoseStamped", kDefaultQos);
+  const auto writer = peer_->Talk("/robot/cmd_vel", "geometry_msgs/msg/Twist");
+  messages::geometry_msgs::Twist twist;
+  twist.linear.x = 2;
+  messages::Bytes bytes;
+  messages::Encode(twist, bytes);
+  writer->Write(bytes);
+  double x = 0;
+  for (std::size_t count = 1; x < 1 && count < 500; ++count) {
+    x = peer_->Await<messages::geometry_msgs::PoseStamped>("/robot/ground_truth/pose", count)
+            .pose.position.x;
+    if (::testing::Test::HasFailure()) break;
+  }
+  EXPECT_GE(x, 1);
+}
+
+TEST_F(BridgeTest, SurvivesBytesThatAreNoCommand) {
+  Publish();
+  ASSERT_TRUE(simulation_->Start());
+  const auto writer = peer_->Talk("/robot/cmd_vel", "geometry_msgs/msg/Twist");
+  for (const std::size_t size : {4, 5, 12, 51, 4096}) {
+    writer->Write(messages::Bytes(size, std::byte{0xff}));
+  }
+  peer_->Listen("/robot/odom", "nav_msgs/msg/Odometry", kDefaultQos);
+  const auto odometry = peer_->Await<messages::nav_msgs::Odometry>("/robot/odom", 5);
+  EXPECT_EQ(odometry.twist.twist.linear.x, 0);
+}
+
+TEST_F(BridgeTest, PutsARobotIntoAnotherNamespace) {
+  Publish({.namespaces = {{"robot", "/"}}});
+  ASSERT_TRUE(simulation_->Start());
+  peer_->Listen("/odom", "nav_msgs/msg/Odometry", kDefaultQos);
+  const auto odometry = peer_->Await<messages::nav_msgs::Odometry>("/odom");
+  EXPECT_EQ(odometry.header.frame_id, "odom");
+  EXPECT_EQ(odometry.child_frame_id, "base");
+}
+
+TEST_F(BridgeTest, PublishesARobotThatComesLater) {
+  Publish();
+  ASSERT_TRUE(simulation_->Start());
+  ASSERT_TRUE(simulation_->AddRobot(simulation::Robot("late", 0, 3)));
+  peer_->Listen("/late/odom", "nav_msgs/msg/Odometry", kDefaultQos);
+  EXPECT_EQ(peer_->Await<messages::nav_msgs::Odometry>("/late/odom").header.frame_id, "late/odom");
+}
+
+TEST_F(BridgeTest, TakesNoCommandsForARobotWithABehaviour) {
+  ASSERT_TRUE(simulation_->AddRobot(simulation::Robot("driven", 0, 3, simulation::Drives(0))));
+  Publish();
+  ASSERT_TRUE(simulation_->Start());
+  peer_->Listen("/driven/odom", "nav_msgs/msg/Odometry", kDefaultQos);
+  (void)peer_->Await<messages::nav_msgs::Odometry>("/driven/odom");
+  (void)peer_->Talk("/robot/cmd_vel", "geometry_msgs/msg/Twist");  // that one is there
+  for (const dds::Endpoint& endpoint : peer_->participant().endpoints()) {
+    EXPECT_NE(endpoint.topic.name, "rt/driven/cmd_vel");
+  }
+}
+
+}  // namespace
+}  // namespace gsv::ros2

@@ -1,0 +1,47 @@
+// Commands of ROS 2 nodes to a robot's drive and its joints.
+//
+// The bytes are untrusted input. A message that does not decode, or holds a number that is not finite, is
+// refused, and the first of its kind is logged.
+//
+// Threads  Take…() on any threads; a command acts from the next step on.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gsv/simulation/agent.h"
+
+namespace gsv::ros2 {
+
+class CommandInput {
+ public:
+  explicit CommandInput(const std::shared_ptr<simulation::Agent>& agent);
+
+  // geometry_msgs/msg/Twist: linear x and y in m/s, angular z in rad/s; the rest is not looked at, but must be
+  // finite.
+  void TakeTwist(std::span<const std::byte> sample);
+  void TakeTwistStamped(std::span<const std::byte> sample);
+  // std_msgs/msg/Float64MultiArray: a value for each joint of `joints`, in this order.
+  void TakeJoints(std::span<const std::byte> sample, const std::vector<int>& joints,
+                  world::JointCommand::Kind kind);
+
+  std::uint64_t taken() const { return taken_; }
+  std::uint64_t refused() const { return refused_; }
+
+ private:
+  void Apply(const world::DriveCommand& command);
+  void Note(const base::Status& status, const char* topic);
+
+  const std::weak_ptr<simulation::Agent> agent_;
+  const std::string robot_;
+  std::atomic<std::uint64_t> taken_{0};
+  std::atomic<std::uint64_t> refused_{0};
+};
+
+// The `data` of a std_msgs/msg/Float64MultiArray. Fails with kCorrupt.
+base::Result<std::vector<double>> DecodeFloat64MultiArray(std::span<const std::byte> sample);
+
+}  // namespace gsv::ros2

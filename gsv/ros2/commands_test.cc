@@ -1,0 +1,111 @@
+#include "gsv/ros2/commands.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "gsv/messages/cdr.h"
+#include "gsv/messages/geometry_msgs.h"
+#include "gsv/simulation/testing/test_simulation.h"
+
+namespace gsv::ros2 {
+namespace {
+
+using messages::geometry_msgs::Twist;
+
+messages::Bytes TwistBytes(double linear, double angular = 0) {
+  Twist twist;
+  twist.linear.x = linear;
+  twist.angular.z = angular;
+  messages::Bytes bytes;
+  messages::Encode(twist, bytes);
+  return bytes;
+}
+
+struct CommandedRobot {
+  CommandedRobot() {
+    simulation = simulation::Make(simulation::Lockstep(std::chrono::seconds(1)));
+    EXPECT_TRUE(simulation->AddRobot(simulation::Robot("robot", 0, 0)));
+    input = std::make_unique<CommandInput>(simulation->agent("robot"));
+  }
+  double XAtTheEnd() {
+    EXPECT_EQ(simulation::RunToEnd(*simulation), simulation::Phase::kFinished);
+    return simulation::PoseOf(*simulation, "robot").position.x;
+  }
+  std::shared_ptr<simulation::Simulation> simulation;
+  std::unique_ptr<CommandInput> input;
+};
+
+TEST(CommandInput, DrivesARobotThatHasNoBehaviour) {
+  CommandedRobot robot;
+  robot.input->TakeTwist(TwistBytes(0.5));
+  EXPECT_EQ(robot.input->taken(), 1u);
+  EXPECT_NEAR(robot.XAtTheEnd(), 0.5, 0.02);  // 0.5 m/s for 1 s, the first step before it acts
+}
+
+TEST(CommandInput, RefusesWhatIsNotFinite) {
+  CommandedRobot robot;
+  Twist twist;
+  twist.linear.z = std::numeric_limits<double>::infinity();  // not looked at, and yet refused
+  messages::Bytes sideways;
+  messages::Encode(twist, sideways);
+  robot.input->TakeTwist(TwistBytes(std::numeric_limits<double>::quiet_NaN()));
+  robot.input->TakeTwist(TwistBytes(0, -std::numeric_limits<double>::infinity()));
+  robot.input->TakeTwist(sideways);
+  EXPECT_EQ(robot.input->refused(), 3u);
+  EXPECT_EQ(robot.XAtTheEnd(), 0);
+}
+
+TEST(CommandInput, RefusesEachTruncationOfACommand) {
+  CommandedRobot robot;
+  const messages::Bytes whole = TwistBytes(0.5);
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    robot.input->TakeTwist(std::span(whole).first(size));
+  }
+  EXPECT_EQ(robot.input->refused(), whole.size());
+  EXPECT_EQ(robot.XAtTheEnd(), 0);
+}
+
+TEST(CommandInput, KeepsOnlyTheLatestOfAFlood) {
+  CommandedRobot robot;
+  for (int i = 0; i < 10'000; ++i) robot.input->TakeTwist(TwistBytes(-1));
+  robot.input->TakeTwist(TwistBytes(0.5));
+  EXPECT_EQ(robot.input->taken(), 10'001u);
+  EXPECT_NEAR(robot.XAtTheEnd(), 0.5, 0.02);
+}
+
+TEST(CommandInput, ForgetsARobotThatIsGone) {
+  CommandedRobot robot;
+  robot.simulation.reset();
+  robot.input->TakeTwist(TwistBytes(0.5));
+  EXPECT_EQ(robot.input->taken(), 0u);
+}
+
+TEST(Float64MultiArray, IsReadWithItsLayout) {
+  messages::Bytes bytes;
+  messages::CdrWriter writer(bytes);
+  writer.WriteCount(1);
+  writer.Write(std::string_view("joints"));
+  writer.Write(std::uint32_t{2});
+  writer.Write(std::uint32_t{2});
+  writer.Write(std::uint32_t{0});
+  writer.WriteCount(2);
+  writer.Write(1.5);
+  writer.Write(-2.0);
+  const auto values = DecodeFloat64MultiArray(bytes);
+  ASSERT_TRUE(values);
+  EXPECT_EQ(*values, (std::vector<double>{1.5, -2.0}));
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_FALSE(DecodeFloat64MultiArray(std::span(bytes).first(size))) << size;
+  }
+}
+
+TEST(Float64MultiArray, ClaimsNoMoreThanItHolds) {
+  messages::Bytes bytes;
+  messages::CdrWriter writer(bytes);
+  writer.WriteCount(0xffffffff);
+  EXPECT_FALSE(DecodeFloat64MultiArray(bytes));
+}
+
+}  // namespace
+}  // namespace gsv::ros2

@@ -1,0 +1,19 @@
+// A UDP transport of Fast DDS that stays on this machine and yet reaches participants that do not.
+//
+// Its sockets are bound to 127.0.0.1. A participant of this machine that announces the address of a network
+// interface is sent to at 127.0.0.1, where it listens as well. Fast DDS alone offers one or the other: with
+// 127.0.0.1 as only interface it ignores participants with default settings. Without that list anybody on
+// the network can send to it.
+#pragma once
+
+#include <memory>
+
+#include <fastdds/rtps/transport/ChainingTransport.h>
+#include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
+
+namespace gsv::ros2::dds {
+
+std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> LoopbackTransport(
+    std::uint32_t max_peers);
+
+}  // namespace gsv::ros2::dds

@@ -1,0 +1,337 @@
+#include "gsv/ros2/dds/fast_participant.h"
+
+#include <arpa/inet.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <map>
+#include <utility>
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastrtps/utils/IPFinder.h>
+#include <fastrtps/utils/IPLocator.h>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
+#include <fastdds/dds/log/Log.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+
+#include "gsv/base/log.h"
+#include "gsv/base/mutex.h"
+#include "gsv/ros2/dds/fast_loopback.h"
+#include "gsv/ros2/dds/fast_types.h"
+#include "gsv/ros2/dds/module.h"
+
+namespace gsv::ros2::dds {
+namespace {
+
+namespace fast = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+using eprosima::fastrtps::types::ReturnCode_t;
+
+constexpr std::uint32_t kMaxDomain = 232;  // higher ones have no ports
+// So many participants of this machine can be found without multicast.
+constexpr std::uint32_t kMaxLocalPeers = 32;
+
+Guid GuidOf(const rtps::GUID_t& guid) {
+  Guid bytes{};
+  std::copy(guid.guidPrefix.value, guid.guidPrefix.value + 12, bytes.begin());
+  std::copy(guid.entityId.value, guid.entityId.value + 4, bytes.begin() + 12);
+  return bytes;
+}
+
+template <typename EndpointQos>
+void Apply(const Topic& topic, EndpointQos& qos) {
+  qos.reliability().kind =
+      topic.qos.is_reliable ? fast::RELIABLE_RELIABILITY_QOS : fast::BEST_EFFORT_RELIABILITY_QOS;
+  qos.durability().kind = topic.qos.is_transient_local ? fast::TRANSIENT_LOCAL_DURABILITY_QOS
+                                                       : fast::VOLATILE_DURABILITY_QOS;
+  qos.history().kind = fast::KEEP_LAST_HISTORY_QOS;
+  qos.history().depth = topic.qos.depth;
+  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.data_sharing().off();
+  const std::vector<rtps::octet> data(topic.user_data.begin(), topic.user_data.end());
+  qos.user_data().setValue(data);
+}
+
+rtps::Locator_t LocatorOf(const std::string& address) {
+  rtps::Locator_t locator;
+  locator.kind = LOCATOR_KIND_UDPv4;
+  locator.port = 0;
+  rtps::IPLocator::setIPv4(locator, address);
+  return locator;
+}
+
+base::Result<rtps::Locator_t> PeerOf(const std::string& peer) {
+  in_addr parsed{};
+  if (inet_pton(AF_INET, peer.c_str(), &parsed) == 1) return LocatorOf(peer);
+  const auto found = rtps::IPLocator::resolveNameDNS(peer);
+  if (!found.first.empty()) return LocatorOf(*found.first.begin());
+  return base::Fail(base::ErrorCode::kInvalidArgument,
+                    "'" + peer + "' is neither an IPv4 address nor a host name that resolves",
+                    "ROS_STATIC_PEERS");
+}
+
+// Listening locators that suppress the default ones, among which are multicast addresses.
+void UseUnicastOnly(const std::string& address, rtps::BuiltinAttributes& builtin,
+                    rtps::LocatorList_t& user) {
+  builtin.metatrafficMulticastLocatorList.clear();
+  builtin.metatrafficUnicastLocatorList.push_back(LocatorOf(address));
+  user.push_back(LocatorOf(address));
+}
+
+// Unicast announcements may cross and be lost: they are repeated sooner than the 3 s of the default.
+void AnnounceOften(rtps::BuiltinAttributes& builtin) {
+  builtin.discovery_config.leaseDuration_announcementperiod = {1, 0};
+  builtin.discovery_config.initial_announcements.count = 10;
+  builtin.discovery_config.initial_announcements.period = {0, 200'000'000};
+}
+
+base::Status UseTransport(const ParticipantOptions& options, fast::DomainParticipantQos& qos) {
+  auto& wire = qos.wire_protocol();
+  qos.transport().use_builtin_transports = false;  // shared memory is one of them
+  wire.builtin.initialPeersList.push_back(LocatorOf("127.0.0.1"));
+  AnnounceOften(wire.builtin);
+  if (options.range == Range::kLocalhost) {
+    qos.transport().user_transports.push_back(LoopbackTransport(kMaxLocalPeers));
+    UseUnicastOnly("127.0.0.1", wire.builtin, wire.default_unicast_locator_list);
+    return {};
+  }
+  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  udp->maxInitialPeersRange = kMaxLocalPeers;
+  qos.transport().user_transports.push_back(std::move(udp));
+  if (options.range == Range::kPeers) {
+    UseUnicastOnly("0.0.0.0", wire.builtin, wire.default_unicast_locator_list);
+  } else {
+    rtps::Locator_t multicast = LocatorOf("239.255.0.1");
+    multicast.port = 7400 + 250 * options.domain;
+    wire.builtin.initialPeersList.push_back(multicast);
+  }
+  for (const std::string& peer : options.peers) {
+    auto locator = PeerOf(peer);
+    if (!locator) return base::Fail(locator.error());
+    wire.builtin.initialPeersList.push_back(*locator);
+  }
+  return {};
+}
+
+class FastWriter final : public Writer, fast::DataWriterListener {
+ public:
+  FastWriter(fast::Publisher& publisher, std::function<void()> on_match)
+      : publisher_(publisher), on_match_(std::move(on_match)) {}
+  ~FastWriter() override {
+    if (writer_ == nullptr) return;
+    writer_->set_listener(nullptr);
+    publisher_.delete_datawriter(writer_);
+  }
+  bool Open(fast::Topic* topic, const Topic& description) {
+    fast::DataWriterQos qos = fast::DATAWRITER_QOS_DEFAULT;
+    Apply(description, qos);
+    writer_ =
+        publisher_.create_datawriter(topic, qos, this, fast::StatusMask::publication_matched());
+    return writer_ != nullptr;
+  }
+
+  void Write(std::span<const std::byte> sample) override { writer_->write(&sample); }
+  bool has_readers() const override { return readers_ > 0; }
+  Guid guid() const override { return GuidOf(writer_->guid()); }
+
+ private:
+  void on_publication_matched(fast::DataWriter*,
+                              const fast::PublicationMatchedStatus& status) override {
+    readers_ = status.current_count;
+    if (on_match_) on_match_();
+  }
+
+  fast::Publisher& publisher_;
+  const std::function<void()> on_match_;
+  std::atomic<int> readers_{0};
+  fast::DataWriter* writer_ = nullptr;
+};
+
+class FastReader final : public Reader, fast::DataReaderListener {
+ public:
+  FastReader(fast::Subscriber& subscriber,
+             std::function<void(std::span<const std::byte>)> on_message)
+      : subscriber_(subscriber), on_message_(std::move(on_message)) {}
+  ~FastReader() override {
+    if (reader_ == nullptr) return;
+    reader_->set_listener(nullptr);
+    subscriber_.delete_datareader(reader_);
+  }
+  bool Open(fast::Topic* topic, const Topic& description) {
+    fast::DataReaderQos qos = fast::DATAREADER_QOS_DEFAULT;
+    Apply(description, qos);
+    fast::StatusMask mask = fast::StatusMask::data_available();
+    mask << fast::StatusMask::subscription_matched();
+    reader_ = subscriber_.create_datareader(topic, qos, this, mask);
+    return reader_ != nullptr;
+  }
+
+  Guid guid() const override { return GuidOf(reader_->guid()); }
+  int writers() const override { return writers_; }
+
+ private:
+  void on_data_available(fast::DataReader* reader) override {
+    fast::SampleInfo info;
+    while (reader->take_next_sample(&sample_, &info) == ReturnCode_t::RETCODE_OK) {
+      if (info.valid_data && !sample_.empty()) on_message_(sample_);
+    }
+  }
+  void on_subscription_matched(fast::DataReader*,
+                               const fast::SubscriptionMatchedStatus& status) override {
+    writers_ = status.current_count;
+  }
+
+  fast::Subscriber& subscriber_;
+  const std::function<void(std::span<const std::byte>)> on_message_;
+  std::vector<std::byte> sample_;  // of the thread that calls on_data_available
+  std::atomic<int> writers_{0};
+  fast::DataReader* reader_ = nullptr;
+};
+
+// The endpoints of others.
+class EndpointList final : public fast::DomainParticipantListener {
+ public:
+  std::vector<Endpoint> list() const {
+    const base::MutexLock lock(mutex_);
+    std::vector<Endpoint> all;
+    for (const auto& [guid, endpoint] : endpoints_) all.push_back(endpoint);
+    return all;
+  }
+
+ private:
+  static constexpr std::size_t kMaxEndpoints = 100'000;
+
+  void on_publisher_discovery(fast::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) override {
+    Note(info.info, true, info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER);
+  }
+  void on_subscriber_discovery(fast::DomainParticipant*,
+                               rtps::ReaderDiscoveryInfo&& info) override {
+    Note(info.info, false, info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER);
+  }
+
+  template <typename Proxy>
+  void Note(const Proxy& proxy, bool is_writer, bool is_gone) {
+    Endpoint endpoint;
+    endpoint.guid = GuidOf(proxy.guid());
+    endpoint.is_writer = is_writer;
+    endpoint.topic.name = proxy.topicName().to_string();
+    endpoint.topic.type = proxy.typeName().to_string();
+    endpoint.topic.qos.is_reliable =
+        proxy.m_qos.m_reliability.kind == fast::RELIABLE_RELIABILITY_QOS;
+    endpoint.topic.qos.is_transient_local =
+        proxy.m_qos.m_durability.kind >= fast::TRANSIENT_LOCAL_DURABILITY_QOS;
+    const auto data = proxy.m_qos.m_userData.getValue();
+    endpoint.topic.user_data.assign(data.begin(), data.end());
+    const base::MutexLock lock(mutex_);
+    if (is_gone) {
+      endpoints_.erase(endpoint.guid);
+    } else if (endpoints_.size() < kMaxEndpoints) {
+      endpoints_[endpoint.guid] = std::move(endpoint);
+    }
+  }
+
+  mutable base::Mutex mutex_;
+  std::map<Guid, Endpoint> endpoints_ GSV_GUARDED_BY(mutex_);
+};
+
+class FastParticipant final : public Participant {
+ public:
+  ~FastParticipant() override {
+    if (participant_ == nullptr) return;
+    participant_->set_listener(nullptr);
+    participant_->delete_contained_entities();
+    fast::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+  }
+
+  base::Status Open(const ParticipantOptions& options) {
+    fast::DomainParticipantQos qos = fast::PARTICIPANT_QOS_DEFAULT;
+    if (auto ok = UseTransport(options, qos); !ok) return ok;
+    qos.name(options.name.c_str());
+    qos.user_data().setValue({options.user_data.begin(), options.user_data.end()});
+    fast::DomainParticipantListener* const listener = options.watches_endpoints ? &list_ : nullptr;
+    participant_ = fast::DomainParticipantFactory::get_instance()->create_participant(
+        options.domain, qos, listener, fast::StatusMask::none());
+    if (participant_ != nullptr) publisher_ = participant_->create_publisher({});
+    if (participant_ != nullptr) subscriber_ = participant_->create_subscriber({});
+    if (publisher_ != nullptr && subscriber_ != nullptr) return {};
+    return base::Fail(base::ErrorCode::kUnavailable,
+                      "no DDS participant can be made in domain " + std::to_string(options.domain) +
+                          ": all its ports are taken, or the network is not usable. Choose another "
+                          "domain with ROS_DOMAIN_ID");
+  }
+
+  base::Result<std::unique_ptr<Writer>> MakeWriter(const Topic& topic,
+                                                   std::function<void()> on_match) override {
+    auto writer = std::make_unique<FastWriter>(*publisher_, std::move(on_match));
+    fast::Topic* const fast_topic = TopicOf(topic);
+    if (fast_topic != nullptr && writer->Open(fast_topic, topic)) return writer;
+    return Refusal(topic);
+  }
+  base::Result<std::unique_ptr<Reader>> MakeReader(
+      const Topic& topic, std::function<void(std::span<const std::byte>)> on_message) override {
+    auto reader = std::make_unique<FastReader>(*subscriber_, std::move(on_message));
+    fast::Topic* const fast_topic = TopicOf(topic);
+    if (fast_topic != nullptr && reader->Open(fast_topic, topic)) return reader;
+    return Refusal(topic);
+  }
+
+  Guid guid() const override { return GuidOf(participant_->guid()); }
+  std::vector<Endpoint> endpoints() const override { return list_.list(); }
+
+ private:
+  static tl::unexpected<base::Error> Refusal(const Topic& topic) {
+    return base::Fail(base::ErrorCode::kUnavailable,
+                      "Fast DDS refuses the topic with type " + topic.type, topic.name);
+  }
+
+  // A topic stays for as long as the participant: robots that come back use it again.
+  fast::Topic* TopicOf(const Topic& topic) {
+    const base::MutexLock lock(mutex_);
+    const auto found = topics_.find(topic.name);
+    if (found != topics_.end()) {
+      return found->second->get_type_name() == topic.type ? found->second : nullptr;
+    }
+    if (participant_->find_type(topic.type).empty()) {
+      fast::TypeSupport(new RawType(topic.type, kMaxSampleIn)).register_type(participant_);
+    }
+    fast::Topic* const made =
+        participant_->create_topic(topic.name, topic.type, fast::TOPIC_QOS_DEFAULT);
+    if (made != nullptr) topics_[topic.name] = made;
+    return made;
+  }
+
+  EndpointList list_;
+  fast::DomainParticipant* participant_ = nullptr;
+  fast::Publisher* publisher_ = nullptr;
+  fast::Subscriber* subscriber_ = nullptr;
+  base::Mutex mutex_;
+  std::map<std::string, fast::Topic*> topics_ GSV_GUARDED_BY(mutex_);
+};
+
+}  // namespace
+
+base::Result<std::unique_ptr<Participant>> MakeFastParticipant(const ParticipantOptions& options) {
+  if (options.domain > kMaxDomain) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "must be from 0 to 232, found " + std::to_string(options.domain),
+                      "ROS_DOMAIN_ID");
+  }
+  if (std::getenv("ROS_DISCOVERY_SERVER") != nullptr) {
+    spdlog::warn("ROS_DISCOVERY_SERVER is ignored: gsv finds its peers without a discovery server");
+    unsetenv("ROS_DISCOVERY_SERVER");
+  }
+  fast::Log::SetVerbosity(fast::Log::Kind::Error);
+  auto participant = std::make_unique<FastParticipant>();
+  if (auto ok = participant->Open(options); !ok) return base::Fail(ok.error());
+  return participant;
+}
+
+}  // namespace gsv::ros2::dds

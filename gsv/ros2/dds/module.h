@@ -1,0 +1,25 @@
+// The plug-in that holds the DDS library, lib/gsv/gsv-ros2.so, and how it is loaded.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "gsv/ros2/dds/participant.h"
+
+namespace gsv::ros2::dds {
+
+// Grows with each change of participant.h.
+inline constexpr int kModuleInterface = 1;
+inline constexpr const char* kModuleSymbol = "gsv_ros2_module";
+inline constexpr const char* kModuleFile = "gsv-ros2.so";
+
+struct Module {
+  int interface_version = kModuleInterface;
+  const char* library = "";  // "Fast DDS 2.9.1"
+  base::Result<std::unique_ptr<Participant>> (*make)(const ParticipantOptions& options) = nullptr;
+};
+
+// Loads the plug-in from one of `folders`; it stays loaded. Fails with kUnavailable where there is none.
+base::Result<const Module*> LoadModule(const std::vector<std::string>& folders);
+
+}  // namespace gsv::ros2::dds

@@ -1,0 +1,98 @@
+// A DDS participant as GSV needs it: topics whose samples are bytes in CDR.
+//
+// No DDS library is named here. The implementation is a plug-in (module.h), so that a program without
+// ROS 2 neither loads nor links one.
+//
+// Threads  any. `on_message` and `on_match` are called on threads of the DDS library; they return at once and
+//          do not call back.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gsv/base/error.h"
+
+namespace gsv::ros2::dds {
+
+// As RTPS sends it: twelve bytes of prefix, four of entity.
+using Guid = std::array<std::uint8_t, 16>;
+
+struct Qos {
+  bool is_reliable = true;
+  bool is_transient_local = false;  // late readers get the last `depth` samples
+  int depth = 10;                   // keep last
+  friend bool operator==(const Qos&, const Qos&) = default;
+};
+
+// A topic under the names that go over the wire.
+struct Topic {
+  std::string name;  // "rt/pebble/scan"
+  std::string type;  // "sensor_msgs::msg::dds_::LaserScan_"
+  Qos qos;
+  std::string user_data;  // of the endpoint; empty: none
+};
+
+// How far discovery reaches.
+enum class Range {
+  kLocalhost,  // nothing leaves this machine, nothing is received from elsewhere
+  kPeers,      // the machines in `peers`, without multicast
+  kSubnet,     // multicast on all interfaces, and `peers`
+};
+
+struct ParticipantOptions {
+  std::uint32_t domain = 0;  // 0 to 232
+  Range range = Range::kLocalhost;
+  std::vector<std::string> peers{};  // IPv4 addresses or host names
+  std::string name = "gsv";          // in discovery
+  std::string user_data{};           // "enclave=/;"
+  bool watches_endpoints = false;    // endpoints() works
+};
+
+class Writer {
+ public:
+  virtual ~Writer() = default;
+  // One sample with its encapsulation header. Does not wait for readers: of a reader that does not
+  // keep up, the oldest samples are lost. One thread at a time.
+  virtual void Write(std::span<const std::byte> sample) = 0;
+  virtual bool has_readers() const = 0;
+  virtual Guid guid() const = 0;
+};
+
+class Reader {
+ public:
+  virtual ~Reader() = default;
+  virtual Guid guid() const = 0;
+  virtual int writers() const = 0;  // that match
+};
+
+// An endpoint of another participant.
+struct Endpoint {
+  Guid guid{};
+  bool is_writer = false;
+  Topic topic;
+};
+
+class Participant {
+ public:
+  // Larger samples that come in are dropped.
+  static constexpr std::size_t kMaxSampleIn = 16 << 20;
+
+  virtual ~Participant() = default;
+
+  // `on_match` is called when a reader comes or goes; may be empty.
+  virtual base::Result<std::unique_ptr<Writer>> MakeWriter(const Topic& topic,
+                                                           std::function<void()> on_match) = 0;
+  virtual base::Result<std::unique_ptr<Reader>> MakeReader(
+      const Topic& topic, std::function<void(std::span<const std::byte>)> on_message) = 0;
+  virtual Guid guid() const = 0;
+  // Those that are known now, in the order of their GUIDs.
+  virtual std::vector<Endpoint> endpoints() const = 0;
+};
+
+}  // namespace gsv::ros2::dds

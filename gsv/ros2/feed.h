@@ -1,0 +1,60 @@
+// The publisher's queue: the snapshots at which something is due, and events.
+//
+// Threads  OnSnapshot() and OnEvent() as simulation::Observer; Next() from one; the rest from any.
+// Bounded  a few snapshots. If the publisher does not keep up, the oldest are dropped, or in lockstep the
+//          stepping thread waits.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <map>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "gsv/base/mutex.h"
+#include "gsv/recording/topics/instants.h"
+#include "gsv/simulation/observer.h"
+
+namespace gsv::ros2 {
+
+using SnapshotPointer = std::shared_ptr<const world::Snapshot>;
+
+class Feed final : public simulation::Observer {
+ public:
+  explicit Feed(bool waits_when_full) : waits_when_full_(waits_when_full) {}
+
+  void OnSnapshot(const SnapshotPointer& snapshot) override;
+  void OnEvent(const simulation::Event& event) override;
+
+  // From here on snapshots at the multiples of these periods are taken, and no others.
+  void SetPeriods(const std::set<base::SimTime>& periods);
+
+  struct News {
+    SnapshotPointer snapshot;  // null: none
+    std::vector<simulation::Event> events;
+  };
+  // Returns the news, at the latest after `timeout` of wall time; earlier when Wake() is called.
+  News Next(std::chrono::milliseconds timeout);
+  void Wake();
+  // Takes nothing more, and releases a stepping thread that waits.
+  void Close();
+  std::uint64_t dropped() const;
+
+ private:
+  static constexpr std::size_t kMaxSnapshots = 16;
+  static constexpr std::size_t kMaxEvents = 1000;
+
+  const bool waits_when_full_;
+  mutable base::Mutex mutex_;
+  base::ConditionVariable news_;
+  base::ConditionVariable room_;
+  std::map<base::SimTime, recording::Instants> instants_ GSV_GUARDED_BY(mutex_);
+  std::deque<SnapshotPointer> snapshots_ GSV_GUARDED_BY(mutex_);
+  std::vector<simulation::Event> events_ GSV_GUARDED_BY(mutex_);
+  std::uint64_t dropped_ GSV_GUARDED_BY(mutex_) = 0;
+  bool is_woken_ GSV_GUARDED_BY(mutex_) = false;
+  bool is_closed_ GSV_GUARDED_BY(mutex_) = false;
+};
+
+}  // namespace gsv::ros2

@@ -1,0 +1,51 @@
+// The frames of one robot in ROS 2: PREFIXodom → PREFIXBASE → links → sensors, by REP-105.
+//
+// BASE is the model's own frame. It has the name of the canonical link where that link's frame is the
+// model's; else it is base_link, or base_footprint where another link is called base_link. base_link is
+// always there.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gsv/messages/tf2_msgs.h"
+#include "gsv/model/model.h"
+#include "gsv/model/sensor_description.h"
+#include "gsv/world/snapshot.h"
+
+namespace gsv::ros2 {
+
+inline constexpr std::string_view kRosWorldFrame = "world";
+
+class Frames {
+ public:
+  // `prefix` is empty or ends with a slash.
+  Frames(std::string prefix, const model::Model& model);
+
+  std::string odom() const { return prefix_ + "odom"; }
+  const std::string& base() const { return base_; }
+  std::string OfLink(const model::Model& model, int link) const;
+  // The frame of its link where that is the sensor's; else one of its own.
+  std::string OfSensor(const model::Model& model, const model::SensorDescription& sensor) const;
+
+  // base → fixed links, links → sensors (and the optical frames of those that have one).
+  void AppendStatic(const model::Model& model, const std::vector<model::SensorDescription>& sensors,
+                    const std::vector<bool>& is_optical, base::SimTime time,
+                    messages::tf2_msgs::TFMessage& message) const;
+  // odom → base, base → moving links.
+  void AppendMoving(const world::Snapshot& snapshot, int body, bool has_odometry,
+                    messages::tf2_msgs::TFMessage& message) const;
+
+ private:
+  bool IsMoving(int link) const;
+
+  const std::string prefix_;
+  const std::vector<int> moving_;  // links
+  std::string base_;
+};
+
+// Where a robot believes to be by its wheels.
+geometry::Pose OdometryPose(const world::Odometry& odometry);
+
+}  // namespace gsv::ros2

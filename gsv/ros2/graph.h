@@ -1,0 +1,41 @@
+// Tells other participants which nodes there are: ros_discovery_info.
+//
+// Source  rmw_dds_common/msg/ParticipantEntitiesInfo.msg, of Humble and of Iron and later.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gsv/messages/cdr.h"
+#include "gsv/ros2/node.h"
+#include "gsv/ros2/options.h"
+
+namespace gsv::ros2 {
+
+// The bytes of a Gid: 24 in Humble, of which 16 are used; 16 since Iron.
+std::size_t GidSize(Distro distro);
+
+// Appends a ParticipantEntitiesInfo.
+void EncodeGraph(const dds::Guid& participant, const std::vector<NodeInfo>& nodes, Distro distro,
+                 messages::Bytes& out);
+
+// The nodes in a ParticipantEntitiesInfo of any distribution, which is untrusted input.
+base::Result<std::vector<NodeInfo>> DecodeGraph(std::span<const std::byte> sample);
+
+class Graph {
+ public:
+  // `participant` outlives this.
+  Graph(dds::Participant& participant, Distro distro);
+  // Sends the nodes if they are others than before.
+  void Publish(const std::vector<NodeInfo>& nodes);
+
+ private:
+  dds::Participant& participant_;
+  const Distro distro_;
+  std::unique_ptr<dds::Writer> writer_;  // null: refused, which is logged
+  std::optional<std::vector<NodeInfo>> sent_;
+};
+
+}  // namespace gsv::ros2

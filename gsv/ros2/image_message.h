@@ -1,0 +1,22 @@
+// sensor_msgs/msg/Image, written without a copy of the pixels in between.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "gsv/base/sim_time.h"
+#include "gsv/messages/cdr.h"
+#include "gsv/model/image.h"
+
+namespace gsv::ros2 {
+
+inline constexpr const char* kImageType = "sensor_msgs/msg/Image";
+
+// rgb8 or rgba8.
+void EncodeImage(const model::Image& image, base::SimTime time, const std::string& frame,
+                 messages::Bytes& out);
+// 32FC1, in metres; rows from the top, width × height values.
+void EncodeDepth(int width, int height, std::span<const double> depth, base::SimTime time,
+                 const std::string& frame, messages::Bytes& out);
+
+}  // namespace gsv::ros2

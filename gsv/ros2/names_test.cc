@@ -1,0 +1,40 @@
+#include "gsv/ros2/names.h"
+
+#include <gtest/gtest.h>
+
+namespace gsv::ros2 {
+namespace {
+
+TEST(RosNames, AreMangledAsRosDoes) {
+  EXPECT_EQ(DdsTopicName("/pebble/scan"), "rt/pebble/scan");
+  EXPECT_EQ(DdsTypeName("sensor_msgs/msg/LaserScan"), "sensor_msgs::msg::dds_::LaserScan_");
+}
+
+TEST(RosNames, ComeBackFromTheWire) {
+  EXPECT_EQ(RosTopicName("rt/pebble/scan"), "/pebble/scan");
+  EXPECT_EQ(RosTypeName("sensor_msgs::msg::dds_::LaserScan_"), "sensor_msgs/msg/LaserScan");
+  EXPECT_EQ(RosTopicName("ros_discovery_info"), "");
+  EXPECT_EQ(RosTypeName("LaserScan"), "");
+}
+
+TEST(RosNames, ReplaceWhatRosDoesNotAllow) {
+  EXPECT_EQ(RosName("pebble"), "pebble");
+  EXPECT_EQ(RosName("box-1.a b"), "box_1_a_b");
+  EXPECT_EQ(RosName("2nd"), "_2nd");
+  EXPECT_EQ(RosName(""), "_");
+}
+
+TEST(RosNames, KnowNamespaces) {
+  for (const char* good : {"/", "/a", "/a/b_2", "/_"}) EXPECT_TRUE(IsNamespace(good)) << good;
+  for (const char* bad : {"", "a", "/a/", "//", "/2", "/a-b", "/a//b"}) {
+    EXPECT_FALSE(IsNamespace(bad)) << bad;
+  }
+}
+
+TEST(RosNames, StandInTheirNamespace) {
+  EXPECT_EQ(InNamespace("/", "scan"), "/scan");
+  EXPECT_EQ(InNamespace("/pebble", "scan"), "/pebble/scan");
+}
+
+}  // namespace
+}  // namespace gsv::ros2

@@ -1,0 +1,59 @@
+// A ROS 2 node: its writers and readers under one name.
+//
+// Threads  one; what readers are called with comes from threads of the DDS library.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gsv/ros2/dds/participant.h"
+
+namespace gsv::ros2 {
+
+// QoS profiles by rmw/qos_profiles.h.
+inline constexpr dds::Qos kSensorDataQos{.is_reliable = false, .depth = 5};
+inline constexpr dds::Qos kDefaultQos{.depth = 10};
+inline constexpr dds::Qos kLatchedQos{.is_transient_local = true, .depth = 1};
+inline constexpr dds::Qos kClockQos{.depth = 1};
+inline constexpr dds::Qos kTransformQos{.depth = 100};
+inline constexpr dds::Qos kLogQos{.is_transient_local = true, .depth = 1000};
+
+// A node as ros_discovery_info lists it.
+struct NodeInfo {
+  std::string name_space, name;
+  std::vector<dds::Guid> readers, writers;
+  friend bool operator==(const NodeInfo&, const NodeInfo&) = default;
+};
+
+class Node {
+ public:
+  // `participant` outlives the node. `on_match` is called when a reader of one of its topics comes or
+  // goes.
+  Node(dds::Participant& participant, std::string name_space, std::string name,
+       std::function<void()> on_match);
+
+  const std::string& name_space() const { return info_.name_space; }
+  const NodeInfo& info() const { return info_; }
+
+  // `topic` is absolute or relative to the node's namespace, `type` as "std_msgs/msg/String". The writer
+  // lives as long as the node. Null when the participant refuses, which is logged.
+  dds::Writer* Advertise(std::string_view topic, std::string_view type, const dds::Qos& qos);
+  // Null likewise.
+  dds::Reader* Subscribe(std::string_view topic, std::string_view type, const dds::Qos& qos,
+                         std::function<void(std::span<const std::byte>)> on_message);
+
+ private:
+  dds::Topic TopicFor(std::string_view topic, std::string_view type, const dds::Qos& qos) const;
+
+  dds::Participant& participant_;
+  const std::function<void()> on_match_;
+  NodeInfo info_;
+  std::vector<std::unique_ptr<dds::Writer>> writers_;
+  std::vector<std::unique_ptr<dds::Reader>> readers_;
+};
+
+}  // namespace gsv::ros2

@@ -1,0 +1,40 @@
+// The options of ROS 2, and ROS's own environment variables.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "gsv/ros2/dds/participant.h"
+
+namespace gsv::ros2 {
+
+// Distributions differ in what discovery carries.
+enum class Distro { kHumble, kJazzy, kKilted, kLyrical };
+
+struct Options {
+  std::optional<dds::Range> range{};  // empty: as the environment says, else localhost
+  Distro distro = Distro::kJazzy;
+  std::map<std::string, std::string> namespaces{};  // by robot; of others "/ROBOT"
+  bool is_cmd_vel_stamped = false;                  // TwistStamped, else Twist
+};
+
+base::Result<Distro> ParseDistro(const std::string& text);
+base::Result<dds::Range> ParseRange(const std::string& text);
+// ROBOT=NAMESPACE.
+base::Status ParseNamespace(const std::string& text,
+                            std::map<std::string, std::string>& namespaces);
+
+// The value of an environment variable; empty: it is not set.
+using Environment = std::function<std::string(const char* name)>;
+std::string ProcessEnvironment(const char* name);
+
+// Reads ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE and ROS_STATIC_PEERS.
+base::Result<dds::ParticipantOptions> ParticipantFor(const Options& options,
+                                                     const Environment& environment);
+
+// Others than this machine can send and receive.
+bool IsExposed(const dds::ParticipantOptions& options);
+
+}  // namespace gsv::ros2

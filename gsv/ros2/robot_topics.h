@@ -1,0 +1,73 @@
+// One robot or station in ROS 2: a node with its sensors' topics and the commands it takes.
+//
+// Threads  one.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gsv/messages/tf2_msgs.h"
+#include "gsv/ros2/commands.h"
+#include "gsv/ros2/frames.h"
+#include "gsv/ros2/node.h"
+#include "gsv/ros2/options.h"
+#include "gsv/ros2/source.h"
+#include "gsv/sensing/sensor_set.h"
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::ros2 {
+
+class RobotTopics {
+ public:
+  struct Context {
+    dds::Participant& participant;
+    const Options& options;
+    simulation::Simulation& simulation;
+    sensing::SensorSet& sensors;
+    std::function<void()> on_match;
+  };
+
+  // `name_space`: "/pebble" or "/". `takes_commands`: no behaviour drives the robot.
+  RobotTopics(const Context& context, const world::Body& body, std::string name_space,
+              bool takes_commands);
+
+  // Whether this is what would be made of the body now.
+  bool IsOf(const world::Body& body, const std::vector<model::SensorDescription>& sensors,
+            bool takes_commands) const;
+
+  const std::string& body() const { return body_; }
+  const NodeInfo& node() const { return node_.info(); }
+  const std::vector<std::unique_ptr<Source>>& sources() const { return sources_; }
+
+  void AppendMovingFrames(const world::Snapshot& snapshot,
+                          messages::tf2_msgs::TFMessage& message) const;
+  void AppendStaticFrames(const world::Snapshot& snapshot,
+                          messages::tf2_msgs::TFMessage& message) const;
+
+  // Logs once when several nodes command this robot at the same time.
+  void CheckPublishers();
+
+ private:
+  void AddSensors(const Context& context);
+  void AddImplied(const Context& context);
+  void AddSensor(const Context& context, model::SensorDescription description, bool is_only);
+  void TakeCommands(const Context& context);
+  void TakeJointCommands(const std::shared_ptr<CommandInput>& input);
+
+  const std::string body_;
+  const std::shared_ptr<const model::Model> model_;
+  const world::BodyKind kind_;
+  const bool has_odometry_;
+  const bool takes_commands_;
+  const std::vector<model::SensorDescription> sensors_;
+  const Frames frames_;
+  std::vector<bool> is_optical_;  // as sensors_
+  Node node_;
+  std::vector<std::unique_ptr<Source>> sources_;
+  dds::Reader* drive_reader_ = nullptr;
+  bool has_warned_ = false;
+};
+
+}  // namespace gsv::ros2

@@ -1,0 +1,237 @@
+#include "gsv/ros2/sensor_source.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "gsv/base/log.h"
+#include "gsv/messages/nav_msgs.h"
+#include "gsv/messages/sensor_msgs.h"
+#include "gsv/readings/catalogue.h"
+#include "gsv/ros2/image_message.h"
+#include "gsv/ros2/names.h"
+#include "gsv/sensing/encoding.h"
+#include "gsv/sensing/frames.h"
+
+namespace gsv::ros2 {
+namespace {
+
+using sensing::Reading;
+
+// How a sensor type is known in ROS 2.
+struct Habit {
+  const char* topic;
+  bool is_sensor_data;
+  double rate;  // Hz, of one that samples whenever asked
+};
+
+constexpr double kUsualRate = 20;
+constexpr double kUsualImageRate = 15;
+
+const Habit* FindHabit(const std::string& type) {
+  static const std::map<std::string, Habit> kHabits{
+      {readings::Lidar::kType, {"scan", true, 10}},
+      {readings::Odometry::kType, {"odom", false, 50}},
+      {readings::Imu::kType, {"imu", true, 100}},
+      {readings::JointEncoders::kType, {"joint_states", false, 50}},
+      {readings::Sonar::kType, {"range", true, 20}},
+      {readings::Navsat::kType, {"fix", true, 10}},
+      {readings::Magnetometer::kType, {"magnetic_field", true, 50}},
+      {readings::Battery::kType, {"battery_state", false, 1}},
+      {readings::Contact::kType, {"contacts", false, 20}},
+      {readings::Positioning::kType, {"pose", false, 20}},
+      {readings::Camera::kType, {"camera", true, kUsualImageRate}},
+      {readings::Camera::kWideAngleType, {"camera", true, kUsualImageRate}},
+      {readings::DepthImage::kType, {"depth", true, kUsualImageRate}},
+  };
+  const auto found = kHabits.find(type);
+  return found == kHabits.end() ? nullptr : &found->second;
+}
+
+bool Append(const std::vector<std::uint8_t>& bytes, messages::Bytes& out) {
+  const auto* begin = reinterpret_cast<const std::byte*>(bytes.data());
+  out.insert(out.end(), begin, begin + bytes.size());
+  return !bytes.empty();
+}
+
+// The message that recordings and viewers get as well.
+SensorOutput OwnMessage(const RosSensor& sensor, std::string topic, std::string frame,
+                        const dds::Qos& qos, const messages::Schema& schema) {
+  return {std::move(topic), std::string(schema.name), qos,
+          [sensor = sensor.sensor, frame = std::move(frame)](const Reading& reading,
+                                                             messages::Bytes& out) {
+            const auto bytes = sensor->Encode(reading, frame);
+            return bytes && Append(*bytes, out);
+          }};
+}
+
+SensorOutput CompanionMessage(const RosSensor& sensor, std::string topic, std::string frame,
+                              const sensing::Companion& companion) {
+  return {std::move(topic), std::string(companion.schema->name), kSensorDataQos,
+          [sensor = sensor.sensor, frame = std::move(frame)](const Reading& reading,
+                                                             messages::Bytes& out) {
+            return Append(sensor->EncodeCompanionOf(reading, frame), out);
+          }};
+}
+
+SensorOutput OdometryMessage(const RosSensor& sensor, std::string topic, const Frames& frames) {
+  return {std::move(topic), "nav_msgs/msg/Odometry", kDefaultQos,
+          [name = sensor.description.name, odom = frames.odom(), base = frames.base()](
+              const Reading& reading, messages::Bytes& out) {
+            const auto estimate = sensing::ValuesOf<readings::Odometry>(reading, name);
+            if (!estimate) return false;
+            messages::nav_msgs::Odometry message;
+            message.header = sensing::HeaderOf(reading, odom);
+            message.child_frame_id = base;
+            const geometry::Quaternion turn = geometry::FromRollPitchYaw({0, 0, estimate->yaw});
+            message.pose.pose.position = {estimate->x, estimate->y, 0};
+            message.pose.pose.orientation = {turn.x, turn.y, turn.z, turn.w};
+            message.twist.twist.linear.x = estimate->linear;
+            message.twist.twist.linear.y = estimate->lateral;
+            message.twist.twist.angular.z = estimate->angular;
+            messages::Encode(message, out);
+            return true;
+          }};
+}
+
+std::string OpticalFrame(const std::string& frame) {
+  return sensing::FrameOf(frame, sensing::kOpticalFrame);
+}
+
+SensorOutput ImageMessage(const std::string& base, const std::string& frame) {
+  return {base + "/image_raw", kImageType, kSensorDataQos,
+          [frame = OpticalFrame(frame)](const Reading& reading, messages::Bytes& out) {
+            if (reading.picture == nullptr) return false;
+            EncodeImage(*reading.picture, reading.time, frame, out);
+            return true;
+          }};
+}
+
+SensorOutput DepthMessage(const RosSensor& sensor, const std::string& base,
+                          const std::string& frame) {
+  return {base + "/image_raw", kImageType, kSensorDataQos,
+          [name = sensor.description.name, frame = OpticalFrame(frame)](const Reading& reading,
+                                                                        messages::Bytes& out) {
+            const auto image = sensing::ValuesOf<readings::DepthImage>(reading, name);
+            if (!image || !image->IsComplete()) return false;
+            EncodeDepth(image->width, image->height, image->depth, reading.time, frame, out);
+            return true;
+          }};
+}
+
+// The outputs of one sensor, as they are made.
+class OutputList {
+ public:
+  OutputList(const RosSensor& sensor, std::string base, std::string frame)
+      : sensor_(sensor),
+        sent_(sensor.type->MessagesOf(sensor.description)),
+        base_(std::move(base)),
+        frame_(std::move(frame)) {}
+
+  void AddImages() {
+    outputs_.push_back(ImageMessage(base_, frame_));
+    AddOwn(base_ + "/image_raw/compressed", OpticalFrame(frame_), kSensorDataQos);
+    AddCompanion(base_ + "/camera_info");
+  }
+  void AddDepth() {
+    outputs_.push_back(DepthMessage(sensor_, base_, frame_));
+    AddOwn(base_ + "/points", frame_, kSensorDataQos);
+    AddCompanion(base_ + "/camera_info");
+  }
+  // One row is a scan, several are points.
+  void AddLidar() {
+    if (!sent_.companion) return AddOwn(base_, frame_, kSensorDataQos);
+    AddCompanion(sensor_.is_only ? "points" : RosName(sensor_.description.name) + "/points");
+  }
+  void AddOdometry(const Frames& frames) {
+    outputs_.push_back(OdometryMessage(sensor_, base_, frames));
+  }
+  void AddOther(const dds::Qos& qos) {
+    AddOwn(base_, frame_, qos);
+    if (sent_.companion) AddCompanion(base_ + "/" + sent_.companion->topic);
+  }
+  std::vector<SensorOutput> Take() { return std::move(outputs_); }
+
+ private:
+  void AddOwn(std::string topic, std::string frame, const dds::Qos& qos) {
+    if (sent_.schema == nullptr) return;
+    outputs_.push_back(OwnMessage(sensor_, std::move(topic), std::move(frame), qos, *sent_.schema));
+  }
+  void AddCompanion(std::string topic) {
+    if (!sent_.companion) return;
+    outputs_.push_back(CompanionMessage(sensor_, std::move(topic), frame_, *sent_.companion));
+  }
+
+  const RosSensor& sensor_;
+  const sensing::SensorMessages sent_;
+  const std::string base_, frame_;
+  std::vector<SensorOutput> outputs_;
+};
+
+}  // namespace
+
+std::vector<SensorOutput> OutputsOf(const RosSensor& sensor, const Frames& frames,
+                                    const model::Model& model) {
+  const Habit* const habit = FindHabit(sensor.type->name);
+  const std::string name = RosName(sensor.description.name);
+  const std::string type = sensor.type->name;
+  const bool is_camera =
+      type == readings::Camera::kType || type == readings::Camera::kWideAngleType;
+  const bool is_depth = type == readings::DepthImage::kType;
+  std::string base = name;
+  if (habit != nullptr && sensor.is_only) base = habit->topic;
+  if (habit != nullptr && !sensor.is_only && !is_camera && !is_depth)
+    base += std::string("/") + habit->topic;
+  OutputList list(sensor, std::move(base), frames.OfSensor(model, sensor.description));
+  if (is_camera) {
+    list.AddImages();
+  } else if (is_depth) {
+    list.AddDepth();
+  } else if (type == readings::Lidar::kType) {
+    list.AddLidar();
+  } else if (type == readings::Odometry::kType) {
+    list.AddOdometry(frames);
+  } else {
+    list.AddOther(habit != nullptr && habit->is_sensor_data ? kSensorDataQos : kDefaultQos);
+  }
+  return list.Take();
+}
+
+double RateOf(const RosSensor& sensor) {
+  if (sensor.description.update_rate > 0) return sensor.description.update_rate;
+  if (const Habit* const habit = FindHabit(sensor.type->name)) return habit->rate;
+  return sensor.sensor->TakesLong() ? kUsualImageRate : kUsualRate;
+}
+
+SensorSource::SensorSource(RosSensor sensor, std::vector<SensorOutput> outputs, Node& node)
+    : Source(base::FromSeconds(1 / RateOf(sensor))), sensor_(std::move(sensor)) {
+  for (SensorOutput& output : outputs) {
+    dds::Writer* const writer = node.Advertise(output.topic, output.type, output.qos);
+    if (writer != nullptr) channels_.push_back({std::move(output), writer});
+  }
+}
+
+bool SensorSource::is_wanted() const {
+  return !has_failed_ &&
+         std::any_of(channels_.begin(), channels_.end(),
+                     [](const Channel& channel) { return channel.writer->has_readers(); });
+}
+
+void SensorSource::Publish(const Moment& moment) {
+  const int body = moment.snapshot->layout->Find(sensor_.body);
+  if (body < 0 || has_failed_) return;
+  const auto reading = sensor_.sensor->Sample({moment.snapshot, body, moment.seed, moment.rays});
+  if (!reading) {
+    has_failed_ = true;
+    spdlog::warn("{}/{} is not published to ROS 2: {}", sensor_.body, sensor_.description.name,
+                 reading.error().Sentence());
+    return;
+  }
+  for (const Channel& channel : channels_) {
+    if (!channel.writer->has_readers()) continue;
+    buffer_.clear();
+    if (channel.output.encode(*reading, buffer_)) channel.writer->Write(buffer_);
+  }
+}
+
+}  // namespace gsv::ros2

@@ -1,0 +1,67 @@
+// A sensor of a robot, published: one sample, as many messages as ROS 2 has of it.
+//
+// A reading is a function of the snapshot, so it is sampled here again: the value that the robot's
+// behaviour gets, without leaving a trace in the simulation.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gsv/messages/cdr.h"
+#include "gsv/ros2/frames.h"
+#include "gsv/ros2/node.h"
+#include "gsv/ros2/source.h"
+#include "gsv/sensing/registry.h"
+
+namespace gsv::ros2 {
+
+// One message of a reading.
+struct SensorOutput {
+  std::string topic;  // relative to the robot's namespace
+  std::string type;   // "sensor_msgs/msg/LaserScan"
+  dds::Qos qos;
+  // Appends the message. False: of this reading there is none.
+  std::function<bool(const sensing::Reading& reading, messages::Bytes& out)> encode;
+};
+
+struct RosSensor {
+  std::string body;  // the robot's name in the world
+  model::SensorDescription description;
+  const sensing::SensorType* type = nullptr;
+  std::shared_ptr<const sensing::Sensor> sensor;
+  bool is_only =
+      true;  // the only one of its type on the robot, which has the usual name for its topic
+};
+
+// The messages of a sensor, by its type: "scan" of a lidar, "camera/image_raw" of a camera. Where there
+// are several of a type, their topics stand below their names. A type without a usual name has a topic with
+// the sensor's.
+std::vector<SensorOutput> OutputsOf(const RosSensor& sensor, const Frames& frames,
+                                    const model::Model& model);
+
+// Hz: its own, or a usual one of a sensor that samples whenever asked.
+double RateOf(const RosSensor& sensor);
+
+class SensorSource final : public Source {
+ public:
+  SensorSource(RosSensor sensor, std::vector<SensorOutput> outputs, Node& node);
+
+  bool is_wanted() const override;
+  bool takes_long() const override { return sensor_.sensor->TakesLong(); }
+  void Publish(const Moment& moment) override;
+
+ private:
+  struct Channel {
+    SensorOutput output;
+    dds::Writer* writer = nullptr;
+  };
+
+  const RosSensor sensor_;
+  std::vector<Channel> channels_;
+  messages::Bytes buffer_;
+  bool has_failed_ = false;
+};
+
+}  // namespace gsv::ros2
