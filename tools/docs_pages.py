@@ -21,7 +21,7 @@ MAX_SOURCE_BYTES = 200_000
 # The order of pages. One that is not listed stands in the section of its folder, else in "More".
 SECTIONS = (
     ("Tutorial", ("tutorial/README.md", "tutorial/*")),
-    ("Guides", ("install.md", "viewer.md", "worlds.md", "sensors.md", "actuators.md", "python.md",
+    ("Guides", ("install.md", "viewer.md", "worlds.md", "sensors.md", "actuators.md", "ros2.md", "python.md",
                 "testing.md", "campaigns.md")),
     ("Services", ("services.md", "broker.md")),
     ("Operation", ("security.md", "limits.md", "monitoring.md", "reliability.md", "performance.md")),

@@ -165,6 +165,7 @@ int main(int argc, char** argv) {
   AddMapCommands(line);
   AddCompareCommands(line);
   AddBrokerCommands(line);
+  AddRos2Commands(line);
   AddBenchCommands(line);
   AddCertificatesCommand(line);
   GroupCommands(app);

@@ -30,5 +30,6 @@ void AddControlCommands(const CommandLine& line);  // ps, and those on a simulat
 void AddBenchCommands(const CommandLine& line);    // bench
 void AddTestCommand(const CommandLine& line);
 void AddViewCommand(const CommandLine& line);
+void AddRos2Commands(const CommandLine& line);  // ros2 topics, nodes, echo, hz
 
 }  // namespace gsv::app

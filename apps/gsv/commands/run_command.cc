@@ -209,6 +209,11 @@ base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) 
     std::fprintf(notes, "viewer: %s\n", url.c_str());
     if (options.open_browser) OpenBrowser(url);
   }
+  if (Ros2Access* const access = (*runtime)->ros2()) {
+    access->Publish(*simulation);
+    if (!is_quiet) std::fprintf(notes, "ros2: %s\n", access->Description().c_str());
+    if (const std::string why = access->Exposure(); !why.empty()) Warn({why});
+  }
   std::fflush(notes);
   std::vector<std::string> topics;  // that can be recorded
   if (!options.record.empty()) {

@@ -19,6 +19,7 @@ struct ServeArguments {
   formats::ReadLimits limits;
   ServerLimits server_limits;
   ViewerOptions web;
+  Ros2Arguments ros2;
   int scenarios = 0;
   bool headless = false;
 };
@@ -35,6 +36,9 @@ int Serve(const ServeArguments& arguments, Signals& signals) {
   options.server_limits = arguments.server_limits;
   options.viewer = !arguments.headless;
   options.web = arguments.web;
+  auto ros2 = Understand(arguments.ros2);
+  if (!ros2) return Complain(ros2.error());
+  options.ros2 = *std::move(ros2);
   options.noted_as = arguments.name;
   auto drives = ParseDrives(arguments.drives);
   if (!drives) return Complain(drives.error());
@@ -46,6 +50,13 @@ int Serve(const ServeArguments& arguments, Signals& signals) {
   if (!(*runtime)->viewer_url().empty())
     std::printf("viewer: %s\n", (*runtime)->viewer_url().c_str());
   std::printf("broker: %s\n", (*runtime)->broker().reference().c_str());
+  if (Ros2Access* const access = (*runtime)->ros2()) {
+    access->Follow([&host = (*runtime)->host()] { return host.List(); });
+    std::printf("ros2: %s\n", access->Description().c_str());
+    if (const std::string why = access->Exposure(); !why.empty()) {
+      std::fprintf(stderr, "gsv: warning: %s\n", why.c_str());
+    }
+  }
   std::fflush(stdout);
   signals.Wait();
   (*runtime)->EndSoon();
@@ -82,6 +93,7 @@ void AddServeCommand(const CommandLine& line) {
   command->add_flag("--headless", arguments->headless, "start no viewer")->group(kViewerGroup);
   AddViewerOptions(*command, arguments->web);
   AddRecordingsOption(*command, arguments->web);
+  AddRos2Options(*command, arguments->ros2);
   AddBrokerOption(*command, arguments->broker);
   AddLimitOption(*command, arguments->limits, arguments->server_limits)->group("Limits");
   command->callback([arguments, line] { line.exit_code = Serve(*arguments, line.signals); });

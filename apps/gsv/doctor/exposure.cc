@@ -101,6 +101,8 @@ const char* Name(Speaks speaks) {
       return "CORBA";
     case Speaks::kCorbaTls:
       return "CORBA, TLS";
+    case Speaks::kRos2:
+      return "ROS 2, UDP";
     case Speaks::kUnknown:
       return "does not respond";
   }
@@ -152,6 +154,10 @@ Exposure Probe(const Listener& listener) {
     exposure.speaks = Speaks::kCorba;
     return exposure;
   }
+  if (listener.is_dds) {  // DDS asks nobody who he is
+    exposure.speaks = Speaks::kRos2;
+    return exposure;
+  }
   const std::string look = Asking(listener, "GET", "/api/server", "");
   // A control request that changes nothing: it asks what a scenario would look like.
   const std::string act = Asking(listener, "POST", "/api/preview", "{}");
@@ -200,6 +206,9 @@ std::string Complaint(const Listener& listener, const Exposure& exposure) {
              "(GSV_CORBA_CERTIFICATE), listen on 127.0.0.1, or use a firewall";
     case Speaks::kCorbaTls:
       return exposure.takes_certificate ? "" : "everyone who can reach it can call it";
+    case Speaks::kRos2:
+      return "everyone who can reach it can read all topics, and command robots without a "
+             "behaviour; start it with --ros2-range localhost, or use a firewall";
     case Speaks::kUnknown:
       return "it does not respond, so its exposure is unknown; check whether it is stopped";
   }

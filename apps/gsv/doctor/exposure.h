@@ -10,7 +10,7 @@
 
 namespace gsv::app {
 
-enum class Speaks { kHttp, kHttps, kCorba, kCorbaTls, kUnknown };
+enum class Speaks { kHttp, kHttps, kCorba, kCorbaTls, kRos2, kUnknown };
 
 struct Exposure {
   Speaks speaks = Speaks::kUnknown;

@@ -172,6 +172,7 @@ void AddRunOptions(CLI::App& command, RunArguments& a) {
   command.add_flag("--open", a.open, "open the viewer in a browser")->group(kViewerGroup);
   AddViewerOptions(command, a.web);
   AddRecordingsOption(command, a.web);
+  AddRos2Options(command, a.ros2);
   AddBrokerOption(command, a.broker);
   AddLimitOption(command, a.limits, a.server_limits)->group("Limits");
   command
@@ -401,6 +402,9 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
   options.runtime.server_limits = a.server_limits;
   options.runtime.viewer = !a.headless;
   options.runtime.web = a.web;
+  auto ros2 = Understand(a.ros2);
+  if (!ros2) return base::Fail(ros2.error());
+  options.runtime.ros2 = *std::move(ros2);
   options.wall_timeout = a.wall_timeout;
   options.failure_picture = a.failure_picture;
   options.open_browser = a.open;

@@ -67,6 +67,7 @@ struct RunArguments {
   double wall_timeout = 0;
   int threads = 0;
   ViewerOptions web;
+  Ros2Arguments ros2;
   bool lockstep = false, real_time = false, headless = false, json = false, open = false,
        in_process = false, strict = false;
 };

@@ -91,7 +91,8 @@ class RunBehaviours {
     if (options_.in_process || options_.make_behaviour) return {};
     std::map<std::string, int> programs;
     for (const PlacedRobot& robot : robots) {
-      if (!robot.entry.behaviour.empty()) ++programs[robot.entry.behaviour];
+      if (robot.entry.behaviour.empty() || robot.entry.behaviour == kRos2Behaviour) continue;
+      ++programs[robot.entry.behaviour];
     }
     for (const auto& [behaviour, count] : programs) {
       if (auto ok = runtime_.launcher().Ensure(behaviour, count); !ok) return ok;
@@ -101,6 +102,13 @@ class RunBehaviours {
 
   FieldResult<std::shared_ptr<simulation::BehaviourPort>> Make(const scenario::RobotEntry& robot) {
     if (robot.behaviour.empty() && robot.behaviour_constraint.empty()) return nullptr;
+    if (robot.behaviour == kRos2Behaviour) {
+      if (options_.runtime.ros2) return nullptr;
+      return tl::make_unexpected(
+          FieldError{{base::ErrorCode::kInvalidArgument, "a robot with this behaviour needs --ros2",
+                      "--behaviour ros2"},
+                     "behaviour"});
+    }
     auto behaviour = Get(robot);
     if (behaviour) return *std::move(behaviour);
     return tl::make_unexpected(FieldError{behaviour.error(), "behaviour"});

@@ -22,6 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 using SocketsByInode = std::map<std::uint64_t, Listener>;
 
+constexpr std::uint16_t kFirstDdsPort = 7400, kLastDdsPort = 32767;
+
 std::string ReadWhole(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -63,6 +65,9 @@ SocketsByInode SocketsOf(const fs::path& process) {
       sockets[inode] = std::move(listener);
     }
   }
+  for (auto& [inode, listener] : ParseDdsSockets(ReadWhole(process / "net" / "udp"))) {
+    sockets[inode] = std::move(listener);
+  }
   AddUnixSockets(ReadWhole(process / "net" / "unix"), sockets);
   return sockets;
 }
@@ -83,6 +88,29 @@ std::vector<Listener> ListenersOf(const fs::path& process) {
   return listeners;
 }
 
+// The sockets of a state in a table of TCP or UDP, by inode.
+std::vector<std::pair<std::uint64_t, Listener>> ParseInternetTable(std::string_view table,
+                                                                   std::string_view wanted) {
+  std::vector<std::pair<std::uint64_t, Listener>> sockets;
+  std::istringstream lines{std::string(table)};
+  std::string line;
+  std::getline(lines, line);  // its heading
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    std::string number, local, remote, state, queues, timer, retransmits, uid, timeout;
+    std::uint64_t inode = 0;
+    fields >> number >> local >> remote >> state >> queues >> timer >> retransmits >> uid >>
+        timeout >> inode;
+    const std::size_t colon = local.find(':');
+    if (!fields || state != wanted || colon == std::string::npos) continue;
+    Listener listener;
+    listener.address = AddressText(std::string_view(local).substr(0, colon));
+    std::from_chars(local.data() + colon + 1, local.data() + local.size(), listener.port, 16);
+    if (!listener.address.empty()) sockets.emplace_back(inode, std::move(listener));
+  }
+  return sockets;
+}
+
 bool IsProgramOfOurs(const fs::path& program) {
   const std::string name = program.filename();
   return program.parent_path() == fs::path(ProgramPath()).parent_path() &&
@@ -97,24 +125,15 @@ bool Listener::IsLocal() const {
 }
 
 std::vector<std::pair<std::uint64_t, Listener>> ParseSocketTable(std::string_view table) {
-  constexpr std::string_view kListening = "0A";
-  std::vector<std::pair<std::uint64_t, Listener>> sockets;
-  std::istringstream lines{std::string(table)};
-  std::string line;
-  std::getline(lines, line);  // its heading
-  while (std::getline(lines, line)) {
-    std::istringstream fields(line);
-    std::string number, local, remote, state, queues, timer, retransmits, uid, timeout;
-    std::uint64_t inode = 0;
-    fields >> number >> local >> remote >> state >> queues >> timer >> retransmits >> uid >>
-        timeout >> inode;
-    const std::size_t colon = local.find(':');
-    if (!fields || state != kListening || colon == std::string::npos) continue;
-    Listener listener;
-    listener.address = AddressText(std::string_view(local).substr(0, colon));
-    std::from_chars(local.data() + colon + 1, local.data() + local.size(), listener.port, 16);
-    if (!listener.address.empty()) sockets.emplace_back(inode, std::move(listener));
-  }
+  return ParseInternetTable(table, "0A");  // it listens
+}
+
+std::vector<std::pair<std::uint64_t, Listener>> ParseDdsSockets(std::string_view table) {
+  auto sockets = ParseInternetTable(table, "07");  // it is connected to nobody
+  std::erase_if(sockets, [](const auto& socket) {
+    return socket.second.port < kFirstDdsPort || socket.second.port > kLastDdsPort;
+  });
+  for (auto& [inode, listener] : sockets) listener.is_dds = true;
   return sockets;
 }
 

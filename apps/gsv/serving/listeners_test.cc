@@ -38,6 +38,7 @@ TEST(SocketTable, HoldsAddressesOfIpv6) {
   ASSERT_EQ(sockets.size(), 1u);
   EXPECT_EQ(sockets[0].second.address, "::1");
   EXPECT_TRUE(ParseSocketTable("").empty());
+  EXPECT_TRUE(ParseDdsSockets("").empty());
 }
 
 TEST(Listener, IsLocalOnLoopbackAndInTheFileSystem) {
@@ -46,6 +47,26 @@ TEST(Listener, IsLocalOnLoopbackAndInTheFileSystem) {
   for (const char* open : {"0.0.0.0", "::", "10.0.0.1", "1.127.0.0", "fe80::1"})
     EXPECT_FALSE((Listener{open, 80}.IsLocal())) << open;
   EXPECT_TRUE((Listener{"/run/socket", 0}.IsLocal()));
+}
+
+TEST(Listeners, OfDdsAreUdpSocketsAtItsPorts) {
+  const auto sockets = ParseDdsSockets(
+      "  sl  local_address rem_address   st tx_queue rx_queue tr tm->when retrnsmt   uid  timeout "
+      "inode\n"
+      "  10: 0100007F:1CF2 00000000:0000 07 00000000:00000000 00:00000000 00000000  1000        0 "
+      "71\n"
+      "  11: 00000000:1CE8 00000000:0000 07 00000000:00000000 00:00000000 00000000  1000        0 "
+      "72\n"
+      "  12: 00000000:0035 00000000:0000 07 00000000:00000000 00:00000000 00000000  1000        0 "
+      "73\n"
+      "  13: 0100007F:D431 00000000:0000 07 00000000:00000000 00:00000000 00000000  1000        0 "
+      "74\n");
+  ASSERT_EQ(sockets.size(), 2u);
+  EXPECT_EQ(sockets[0].second.port, 7410);
+  EXPECT_TRUE(sockets[0].second.IsLocal());
+  EXPECT_EQ(sockets[1].second.port, 7400);
+  EXPECT_FALSE(sockets[1].second.IsLocal());
+  EXPECT_TRUE(sockets[1].second.is_dds);
 }
 
 }  // namespace

@@ -89,6 +89,11 @@ base::Result<std::unique_ptr<Runtime>> Runtime::Start(const RuntimeOptions& opti
   runtime->builder_ = std::make_unique<SimulationBuilder>(
       *runtime->host_, *runtime->behaviours_, *runtime->broker_, *runtime->recordings_,
       options.model_path, options.server_limits.reading);
+  if (options.ros2) {
+    auto access = Ros2Access::Start(*options.ros2);
+    if (!access) return base::Fail(access.error());
+    runtime->ros2_ = *std::move(access);
+  }
   if (options.viewer) {
     if (auto ok = runtime->StartGateway(options); !ok) return base::Fail(ok.error());
   }
@@ -240,6 +245,7 @@ Runtime::~Runtime() {
   for (const std::string& offer : offers_) (void)broker_->Withdraw(offer);  // it may be gone
   if (scenarios_.in() != nullptr) scenarios_->Close();
   gateway_.reset();
+  ros2_.reset();
   builder_.reset();
   if (host_ != nullptr) {
     for (const auto& simulation : host_->List()) (void)simulation->Stop();

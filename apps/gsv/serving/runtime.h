@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "apps/gsv/machine/running_instances.h"
 #include "apps/gsv/servers/scenario_service.h"
 #include "apps/gsv/serving/behaviour_launcher.h"
+#include "apps/gsv/serving/ros2_access.h"
 #include "apps/gsv/serving/server_limits.h"
 #include "apps/gsv/serving/viewer_options.h"
 #include "apps/gsv/simulations/sensor_types.h"
@@ -41,6 +43,7 @@ struct RuntimeOptions {
   ServerLimits server_limits;
   bool viewer = true;
   ViewerOptions web;
+  std::optional<ros2::Options> ros2;  // empty: no ROS 2
   // Of a server that is to tell, when it is started again, what it ran when it was killed; empty:
   // it is not noted.
   std::string noted_as;
@@ -56,6 +59,7 @@ class Runtime {
   BehaviourLauncher& launcher() { return *launcher_; }
   broker::BrokerClient& broker() { return *broker_; }
   Recordings& recordings() { return *recordings_; }
+  Ros2Access* ros2() { return ros2_.get(); }  // null: no ROS 2
   const std::string& viewer_url() const { return viewer_url_; }  // empty: none
 
   // Registers sba::SimulationService, with the simulations that are there, with the broker until
@@ -83,6 +87,7 @@ class Runtime {
   std::unique_ptr<BehaviourLauncher> launcher_;
   std::unique_ptr<SimulationBuilder> builder_;
   std::unique_ptr<gateway::Gateway> gateway_;
+  std::unique_ptr<Ros2Access> ros2_;
   std::string viewer_url_;
   PortableServer::Servant_var<services::SimulationServiceServant> service_;
   PortableServer::Servant_var<ScenarioServiceServant> scenarios_;
