@@ -161,6 +161,7 @@ int main(int argc, char** argv) {
   AddRecordingCommands(line);
   AddRecordCommands(line);
   AddCheckCommands(line);
+  AddConvertCommand(line);
   AddDrawCommand(line);
   AddMapCommands(line);
   AddCompareCommands(line);

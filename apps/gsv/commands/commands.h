@@ -22,6 +22,7 @@ void AddServeCommand(const CommandLine& line);
 void AddBrokerCommands(const CommandLine& line);  // broker, offers, types, links
 void AddCheckCommands(const CommandLine& line);   // world check, model check, doctor
 void AddDrawCommand(const CommandLine& line);     // world draw; after AddCheckCommands()
+void AddConvertCommand(const CommandLine& line);  // model convert; after AddCheckCommands()
 void AddMapCommands(const CommandLine& line);  // world from-map, to-map; after AddCheckCommands()
 void AddRecordingCommands(const CommandLine& line);  // rec, replay
 void AddRecordCommands(const CommandLine& line);   // rec start, stop; after AddRecordingCommands()

@@ -1,0 +1,37 @@
+// Models as URDF, whatever format they were read from: links, joints, limits, inertias, visuals and
+// collisions.
+//
+// Frames    every link of the model keeps its name and its frame. Links are added where URDF's tree needs
+//           them, see urdf_tree.h.
+// Shapes    URDF has boxes, cylinders, spheres and meshes. All others become meshes. A mesh is an STL file
+//           for each of its materials, since an STL file has none.
+// Gazebo    <gazebo> elements hold what Gazebo adds to URDF: friction, gravity, static models, and that
+//           fixed joints stay. Other readers skip them.
+// Left out  sensors, drives and textures, which are warnings; restitution and shadows.
+// Equal models give equal files.
+// Threads   any.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/model/model.h"
+
+namespace gsv::formats {
+
+struct UrdfMesh {
+  std::string file;  // "mesh_0.stl"
+  std::string stl;   // its bytes
+};
+
+struct Urdf {
+  std::string text;
+  std::vector<UrdfMesh> meshes;
+};
+
+// In the text, `mesh_prefix` stands before the file names of meshes: "meshes/", "file:///tmp/robot/",
+// "package://robot/meshes/". What URDF cannot hold is appended to `problems`.
+Urdf WriteUrdf(const model::Model& model, const std::string& mesh_prefix, base::Problems& problems);
+
+}  // namespace gsv::formats
