@@ -1,0 +1,141 @@
+#include "tests/ros2/ros2_json.h"
+
+#include <cstddef>
+
+namespace gsv::ros2_peer {
+namespace {
+
+// Infinities and NaN, which JSON does not have, as strings.
+Json Number(double value) {
+  if (value != value) return "nan";
+  if (value - value != 0) return value > 0 ? "inf" : "-inf";
+  return value;
+}
+
+Json Of(const builtin_interfaces_msg_dds__Time_& time) {
+  return {{"sec", time.sec}, {"nanosec", time.nanosec}};
+}
+Json Of(const std_msgs_msg_dds__Header_& header) {
+  return {{"stamp", Of(header.stamp)}, {"frame_id", header.frame_id}};
+}
+template <typename Vector>
+Json OfVector(const Vector& v) {
+  return {{"x", Number(v.x)}, {"y", Number(v.y)}, {"z", Number(v.z)}};
+}
+Json Of(const geometry_msgs_msg_dds__Quaternion_& q) {
+  return {{"x", q.x}, {"y", q.y}, {"z", q.z}, {"w", q.w}};
+}
+Json Of(const geometry_msgs_msg_dds__Pose_& pose) {
+  return {{"position", OfVector(pose.position)}, {"orientation", Of(pose.orientation)}};
+}
+Json Of(const geometry_msgs_msg_dds__TransformStamped_& each) {
+  return {{"header", Of(each.header)},
+          {"child_frame_id", each.child_frame_id},
+          {"transform",
+           {{"translation", OfVector(each.transform.translation)},
+            {"rotation", Of(each.transform.rotation)}}}};
+}
+template <typename Value, std::size_t kSize>
+Json List(const Value (&values)[kSize]) {
+  Json list = Json::array();
+  for (const Value value : values) list.push_back(Number(value));
+  return list;
+}
+template <typename Sequence>
+Json Numbers(const Sequence& values) {
+  Json list = Json::array();
+  for (std::uint32_t i = 0; i < values._length; ++i) list.push_back(Number(values._buffer[i]));
+  return list;
+}
+
+}  // namespace
+
+Json ToJson(const rosgraph_msgs_msg_dds__Clock_& message) { return {{"clock", Of(message.clock)}}; }
+
+Json ToJson(const std_msgs_msg_dds__String_& message) { return {{"data", message.data}}; }
+
+Json ToJson(const geometry_msgs_msg_dds__PoseStamped_& message) {
+  return {{"header", Of(message.header)}, {"pose", Of(message.pose)}};
+}
+
+Json ToJson(const geometry_msgs_msg_dds__Twist_& message) {
+  return {{"linear", OfVector(message.linear)}, {"angular", OfVector(message.angular)}};
+}
+
+Json ToJson(const geometry_msgs_msg_dds__TwistStamped_& message) {
+  return {{"header", Of(message.header)}, {"twist", ToJson(message.twist)}};
+}
+
+Json ToJson(const tf2_msgs_msg_dds__TFMessage_& message) {
+  Json transforms = Json::array();
+  for (std::uint32_t i = 0; i < message.transforms._length; ++i) {
+    transforms.push_back(Of(message.transforms._buffer[i]));
+  }
+  return {{"transforms", transforms}};
+}
+
+Json ToJson(const nav_msgs_msg_dds__Odometry_& message) {
+  return {
+      {"header", Of(message.header)},
+      {"child_frame_id", message.child_frame_id},
+      {"pose", {{"pose", Of(message.pose.pose)}, {"covariance", List(message.pose.covariance)}}},
+      {"twist",
+       {{"twist", ToJson(message.twist.twist)}, {"covariance", List(message.twist.covariance)}}}};
+}
+
+Json ToJson(const sensor_msgs_msg_dds__LaserScan_& message) {
+  return {{"header", Of(message.header)},
+          {"angle_min", message.angle_min},
+          {"angle_max", message.angle_max},
+          {"angle_increment", message.angle_increment},
+          {"time_increment", message.time_increment},
+          {"scan_time", message.scan_time},
+          {"range_min", message.range_min},
+          {"range_max", message.range_max},
+          {"ranges", Numbers(message.ranges)},
+          {"intensities", Numbers(message.intensities)}};
+}
+
+Json ToJson(const sensor_msgs_msg_dds__Range_& message) {
+  return {{"header", Of(message.header)},           {"radiation_type", message.radiation_type},
+          {"field_of_view", message.field_of_view}, {"min_range", message.min_range},
+          {"max_range", message.max_range},         {"range", Number(message.range)}};
+}
+
+Json ToJson(const sensor_msgs_msg_dds__Imu_& message) {
+  return {{"header", Of(message.header)},
+          {"orientation", Of(message.orientation)},
+          {"orientation_covariance", List(message.orientation_covariance)},
+          {"angular_velocity", OfVector(message.angular_velocity)},
+          {"angular_velocity_covariance", List(message.angular_velocity_covariance)},
+          {"linear_acceleration", OfVector(message.linear_acceleration)},
+          {"linear_acceleration_covariance", List(message.linear_acceleration_covariance)}};
+}
+
+Json ToJson(const sensor_msgs_msg_dds__JointState_& message) {
+  Json names = Json::array();
+  for (std::uint32_t i = 0; i < message.name._length; ++i) names.push_back(message.name._buffer[i]);
+  return {{"header", Of(message.header)},
+          {"name", names},
+          {"position", Numbers(message.position)},
+          {"velocity", Numbers(message.velocity)},
+          {"effort", Numbers(message.effort)}};
+}
+
+Json ToJson(const sensor_msgs_msg_dds__Image_& message) {
+  return {{"header", Of(message.header)},
+          {"height", message.height},
+          {"width", message.width},
+          {"encoding", message.encoding},
+          {"is_bigendian", message.is_bigendian},
+          {"step", message.step},
+          {"data", {{"bytes", message.data._length}}}};
+}
+
+Json ToJson(const rcl_interfaces_msg_dds__Log_& message) {
+  return {{"stamp", Of(message.stamp)}, {"level", message.level}, {"name", message.name},
+          {"msg", message.msg},         {"file", message.file},   {"function", message.function},
+          {"line", message.line}};
+}
+
+}  // namespace gsv::ros2_peer

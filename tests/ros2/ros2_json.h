@@ -1,0 +1,27 @@
+// Samples that Cyclone DDS decoded, as JSON with the fields' names.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "ros2_types.h"
+
+namespace gsv::ros2_peer {
+
+using Json = nlohmann::ordered_json;
+
+Json ToJson(const rosgraph_msgs_msg_dds__Clock_& message);
+Json ToJson(const std_msgs_msg_dds__String_& message);
+Json ToJson(const geometry_msgs_msg_dds__PoseStamped_& message);
+Json ToJson(const geometry_msgs_msg_dds__Twist_& message);
+Json ToJson(const geometry_msgs_msg_dds__TwistStamped_& message);
+Json ToJson(const tf2_msgs_msg_dds__TFMessage_& message);
+Json ToJson(const nav_msgs_msg_dds__Odometry_& message);
+Json ToJson(const sensor_msgs_msg_dds__LaserScan_& message);
+Json ToJson(const sensor_msgs_msg_dds__Range_& message);
+Json ToJson(const sensor_msgs_msg_dds__Imu_& message);
+Json ToJson(const sensor_msgs_msg_dds__JointState_& message);
+// The pixels as {"bytes": how many}.
+Json ToJson(const sensor_msgs_msg_dds__Image_& message);
+Json ToJson(const rcl_interfaces_msg_dds__Log_& message);
+
+}  // namespace gsv::ros2_peer

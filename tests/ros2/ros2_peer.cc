@@ -1,0 +1,355 @@
+// A stranger to GSV's own ROS 2: Cyclone DDS, with types that its idlc generated from IDL.
+//
+//   ros2_peer listen [--count N] TYPE:TOPIC…     prints N samples of each as JSON, one a line
+//   ros2_peer drive --distance M [--stamped] ROBOT   sends cmd_vel until ROBOT/odom shows M metres
+//   ros2_peer endpoints TOPIC…                   prints endpoints of others until each topic (rt/clock) was
+//                                                among them: topic, type, QoS, user data
+//
+// All take --domain D and --timeout SECONDS (default: 20). TYPE is "sensor_msgs/msg/LaserScan", TOPIC is
+// "/pebble/scan". Exits 0 when all came, 1 when the time is over, 2 on wrong usage.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <dds/dds.h>
+
+#include "tests/ros2/ros2_json.h"
+
+namespace gsv::ros2_peer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kLoopback =
+    "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" "
+    "multicast=\"false\"/></Interfaces>"
+    "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</"
+    "ParticipantIndex>"
+    "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex><Peers><Peer "
+    "Address=\"127.0.0.1\"/></Peers>"
+    "</Discovery></Domain></CycloneDDS>";
+
+[[noreturn]] void Die(const std::string& message) {
+  std::fprintf(stderr, "ros2_peer: %s\n", message.c_str());
+  std::exit(2);
+}
+
+dds_entity_t Made(dds_entity_t entity, const std::string& what) {
+  if (entity < 0) Die("cannot make " + what + ": " + dds_strretcode(-entity));
+  return entity;
+}
+
+struct Type {
+  const dds_topic_descriptor_t* descriptor;
+  Json (*to_json)(const void* sample);
+};
+
+template <typename Message>
+Json JsonOf(const void* sample) {
+  return ToJson(*static_cast<const Message*>(sample));
+}
+
+const std::map<std::string, Type>& Types() {
+#define GSV_PEER_TYPE(PACKAGE, NAME)                                            \
+  {                                                                             \
+#PACKAGE "/msg/" #NAME, {                                                   \
+      &PACKAGE##_msg_dds__##NAME##__desc, &JsonOf<PACKAGE##_msg_dds__##NAME##_> \
+    }                                                                           \
+  }
+  static const std::map<std::string, Type> kTypes = {
+      GSV_PEER_TYPE(rosgraph_msgs, Clock),        GSV_PEER_TYPE(std_msgs, String),
+      GSV_PEER_TYPE(geometry_msgs, PoseStamped),  GSV_PEER_TYPE(geometry_msgs, Twist),
+      GSV_PEER_TYPE(geometry_msgs, TwistStamped), GSV_PEER_TYPE(tf2_msgs, TFMessage),
+      GSV_PEER_TYPE(nav_msgs, Odometry),          GSV_PEER_TYPE(sensor_msgs, LaserScan),
+      GSV_PEER_TYPE(sensor_msgs, Range),          GSV_PEER_TYPE(sensor_msgs, Imu),
+      GSV_PEER_TYPE(sensor_msgs, JointState),     GSV_PEER_TYPE(sensor_msgs, Image),
+      GSV_PEER_TYPE(rcl_interfaces, Log)};
+#undef GSV_PEER_TYPE
+  return kTypes;
+}
+
+const Type& TypeNamed(const std::string& name) {
+  const auto found = Types().find(name);
+  if (found == Types().end()) Die("unknown type " + name);
+  return found->second;
+}
+
+struct Arguments {
+  dds_domainid_t domain = 0;
+  int count = 1;
+  double timeout = 20, distance = 1;
+  bool is_stamped = false;
+  std::vector<std::string> words;
+};
+
+Arguments Parse(int count, char** words) {
+  Arguments arguments;
+  for (int i = 2; i < count; ++i) {
+    const std::string word = words[i];
+    const auto value = [&] {
+      if (++i >= count) Die(word + " needs a value");
+      return std::atof(words[i]);
+    };
+    if (word == "--domain") {
+      arguments.domain = static_cast<dds_domainid_t>(value());
+    } else if (word == "--count") {
+      arguments.count = static_cast<int>(value());
+    } else if (word == "--timeout") {
+      arguments.timeout = value();
+    } else if (word == "--distance") {
+      arguments.distance = value();
+    } else if (word == "--stamped") {
+      arguments.is_stamped = true;
+    } else if (word.starts_with("--")) {
+      Die("unknown option " + word);
+    } else {
+      arguments.words.push_back(word);
+    }
+  }
+  return arguments;
+}
+
+class Participant {
+ public:
+  explicit Participant(const Arguments& arguments)
+      : deadline_(Clock::now() +
+                  std::chrono::milliseconds(static_cast<std::int64_t>(1000 * arguments.timeout))) {
+    Made(dds_create_domain(arguments.domain, kLoopback), "a domain");
+    entity_ = Made(dds_create_participant(arguments.domain, nullptr, nullptr), "a participant");
+    waits_ = Made(dds_create_waitset(entity_), "a wait set");
+  }
+
+  dds_entity_t entity() const { return entity_; }
+  bool Has(const dds_builtintopic_endpoint_t& endpoint) const {
+    dds_guid_t own{};
+    dds_get_guid(entity_, &own);
+    return std::equal(std::begin(own.v), std::end(own.v), std::begin(endpoint.participant_key.v));
+  }
+
+  // Best effort and volatile, which takes whatever a writer offers.
+  dds_entity_t Reader(const Type& type, const std::string& topic) {
+    dds_qos_t* const qos = dds_create_qos();
+    dds_qset_reliability(qos, DDS_RELIABILITY_BEST_EFFORT, 0);
+    dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 100);
+    const dds_entity_t reader =
+        Made(dds_create_reader(entity_, Topic(type, topic), qos, nullptr), "a reader of " + topic);
+    dds_delete_qos(qos);
+    return reader;
+  }
+  // One that also gets what was sent before it came.
+  dds_entity_t LatchedReader(const Type& type, const std::string& topic) {
+    dds_qos_t* const qos = dds_create_qos();
+    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
+    dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+    const dds_entity_t reader =
+        Made(dds_create_reader(entity_, Topic(type, topic), qos, nullptr), "a reader of " + topic);
+    dds_delete_qos(qos);
+    return reader;
+  }
+  dds_entity_t Writer(const Type& type, const std::string& topic) {
+    dds_qos_t* const qos = dds_create_qos();
+    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
+    const dds_entity_t writer =
+        Made(dds_create_writer(entity_, Topic(type, topic), qos, nullptr), "a writer of " + topic);
+    dds_delete_qos(qos);
+    return writer;
+  }
+  // From here on WaitForData() ends when this reader has something.
+  void Watch(dds_entity_t reader) {
+    dds_set_status_mask(reader, DDS_DATA_AVAILABLE_STATUS);
+    dds_waitset_attach(waits_, reader, reader);
+  }
+  // False when the time is over.
+  bool WaitForData() {
+    const auto left = deadline_ - Clock::now();
+    if (left <= left.zero()) return false;
+    return dds_waitset_wait(waits_, nullptr, 0, std::chrono::nanoseconds(left).count()) > 0;
+  }
+
+ private:
+  dds_entity_t Topic(const Type& type, const std::string& topic) {
+    return Made(
+        dds_create_topic(entity_, type.descriptor, ("rt" + topic).c_str(), nullptr, nullptr),
+        "the topic " + topic);
+  }
+
+  const Clock::time_point deadline_;
+  dds_entity_t entity_ = 0, waits_ = 0;
+};
+
+// The next sample of a reader goes to `use`; false when there is none.
+template <typename Use>
+bool TakeOne(dds_entity_t reader, Use use) {
+  void* samples[1] = {nullptr};
+  dds_sample_info_t info[1];
+  const dds_return_t count = dds_take(reader, samples, info, 1, 1);
+  if (count <= 0) return false;
+  if (info[0].valid_data) use(samples[0]);
+  dds_return_loan(reader, samples, count);
+  return true;
+}
+
+void Print(const Json& json) {
+  std::printf("%s\n", json.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());
+  std::fflush(stdout);
+}
+
+int Listen(const Arguments& arguments) {
+  struct Wanted {
+    std::string topic;
+    const Type* type;
+    dds_entity_t reader;
+    int missing;
+  };
+  Participant participant(arguments);
+  std::vector<Wanted> all;
+  for (const std::string& word : arguments.words) {
+    const std::size_t colon = word.find(':');
+    if (colon == std::string::npos) Die("expected TYPE:TOPIC, found " + word);
+    const Type& type = TypeNamed(word.substr(0, colon));
+    const std::string topic = word.substr(colon + 1);
+    const bool is_latched = topic.ends_with("tf_static") || topic.ends_with("robot_description");
+    all.push_back(
+        {topic, &type,
+         is_latched ? participant.LatchedReader(type, topic) : participant.Reader(type, topic),
+         is_latched ? 1 : arguments.count});
+    participant.Watch(all.back().reader);
+  }
+  const auto is_complete = [](const Wanted& wanted) { return wanted.missing <= 0; };
+  while (!std::all_of(all.begin(), all.end(), is_complete)) {
+    if (!participant.WaitForData()) {
+      for (const Wanted& wanted : all) {
+        if (wanted.missing > 0) {
+          std::fprintf(stderr, "ros2_peer: %s lacks %d samples\n", wanted.topic.c_str(),
+                       wanted.missing);
+        }
+      }
+      return 1;
+    }
+    for (Wanted& wanted : all) {
+      while (TakeOne(wanted.reader, [&](const void* sample) {
+        if (--wanted.missing < 0) return;
+        Print({{"topic", wanted.topic}, {"message", wanted.type->to_json(sample)}});
+      })) {
+      }
+    }
+  }
+  return 0;
+}
+
+// A command goes out with each odometry, so that nothing here depends on time.
+int Drive(const Arguments& arguments) {
+  if (arguments.words.size() != 1) Die("drive needs one robot, such as /pebble");
+  const std::string& robot = arguments.words.front();
+  Participant participant(arguments);
+  const dds_entity_t odometry =
+      participant.Reader(TypeNamed("nav_msgs/msg/Odometry"), robot + "/odom");
+  const dds_entity_t command =
+      participant.Writer(TypeNamed(arguments.is_stamped ? "geometry_msgs/msg/TwistStamped"
+                                                        : "geometry_msgs/msg/Twist"),
+                         robot + "/cmd_vel");
+  participant.Watch(odometry);
+  double distance = 0;
+  std::uint64_t commands = 0;
+  std::vector<double> start;
+  while (distance < arguments.distance) {
+    if (!participant.WaitForData()) {
+      std::fprintf(stderr, "ros2_peer: %s went %.3f m by %lu commands\n", robot.c_str(), distance,
+                   commands);
+      return 1;
+    }
+    while (TakeOne(odometry, [&](const void* sample) {
+      const auto& p = static_cast<const nav_msgs_msg_dds__Odometry_*>(sample)->pose.pose.position;
+      if (start.empty()) start = {p.x, p.y};
+      distance = std::hypot(p.x - start[0], p.y - start[1]);
+      geometry_msgs_msg_dds__TwistStamped_ twist{};
+      char frame[] = "";
+      twist.header.frame_id = frame;
+      twist.twist.linear.x = 0.3;
+      if (arguments.is_stamped) {
+        dds_write(command, &twist);
+      } else {
+        dds_write(command, &twist.twist);
+      }
+      ++commands;
+    })) {
+    }
+  }
+  const geometry_msgs_msg_dds__Twist_ stop{};
+  if (!arguments.is_stamped) dds_write(command, &stop);
+  Print({{"distance", distance}, {"commands", commands}});
+  return 0;
+}
+
+Json EndpointJson(const dds_builtintopic_endpoint_t& endpoint, const char* kind) {
+  Json json = {{"kind", kind}, {"topic", endpoint.topic_name}, {"type", endpoint.type_name}};
+  dds_reliability_kind_t reliability = DDS_RELIABILITY_BEST_EFFORT;
+  dds_durability_kind_t durability = DDS_DURABILITY_VOLATILE;
+  void* user_data = nullptr;
+  std::size_t size = 0;
+  if (dds_qget_reliability(endpoint.qos, &reliability, nullptr)) {
+    json["reliable"] = reliability == DDS_RELIABILITY_RELIABLE;
+  }
+  if (dds_qget_durability(endpoint.qos, &durability)) {
+    json["transient_local"] = durability == DDS_DURABILITY_TRANSIENT_LOCAL;
+  }
+  if (dds_qget_userdata(endpoint.qos, &user_data, &size) && size > 0) {
+    json["user_data"] = std::string(static_cast<const char*>(user_data), size);
+  }
+  dds_free(user_data);
+  return json;
+}
+
+int Endpoints(const Arguments& arguments) {
+  Participant participant(arguments);
+  struct Kind {
+    const char* name;
+    dds_entity_t topic, reader;
+  };
+  Kind kinds[] = {{"writer", DDS_BUILTIN_TOPIC_DCPSPUBLICATION, 0},
+                  {"reader", DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, 0}};
+  for (Kind& kind : kinds) {
+    kind.reader =
+        Made(dds_create_reader(participant.entity(), kind.topic, nullptr, nullptr), "a reader");
+    participant.Watch(kind.reader);
+  }
+  std::set<std::string> missing(arguments.words.begin(), arguments.words.end());
+  while (!missing.empty()) {
+    if (!participant.WaitForData()) {
+      std::fprintf(stderr, "ros2_peer: nobody announced %s\n", missing.begin()->c_str());
+      return 1;
+    }
+    for (const Kind& kind : kinds) {
+      while (TakeOne(kind.reader, [&](const void* sample) {
+        const auto& endpoint = *static_cast<const dds_builtintopic_endpoint_t*>(sample);
+        if (participant.Has(endpoint)) return;
+        Print(EndpointJson(endpoint, kind.name));
+        missing.erase(endpoint.topic_name);
+      })) {
+      }
+    }
+  }
+  return 0;
+}
+
+int Main(int count, char** words) {
+  if (count < 2) Die("expected listen, drive or endpoints");
+  const std::string command = words[1];
+  const Arguments arguments = Parse(count, words);
+  if (command == "listen") return Listen(arguments);
+  if (command == "drive") return Drive(arguments);
+  if (command == "endpoints") return Endpoints(arguments);
+  Die("expected listen, drive or endpoints, found " + command);
+}
+
+}  // namespace
+}  // namespace gsv::ros2_peer
+
+int main(int count, char** words) { return gsv::ros2_peer::Main(count, words); }

@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+"""Runs `gsv run --ros2` and holds what it does to a peer on another DDS.
+
+  ros2_test.py GSV ROS2_PEER
+
+Every field that the peer prints was decoded by Cyclone DDS with types generated from IDL. Traffic is
+captured and dissected by tshark where that is installed and may capture. Exits 77 (a skip) with a
+sentence where this gsv has no --ros2.
+"""
+import contextlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+GSV, PEER = sys.argv[1:3]
+DOMAIN = 60 + os.getpid() % 40  # apart from others on this machine
+PUBLISHED = {  # by ROS 2's packages
+    "sensor_msgs::msg::dds_::LaserScan_":
+        "RIHS01_64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828",
+    "geometry_msgs::msg::dds_::Twist_":
+        "RIHS01_9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a",
+}
+
+
+def peer(*words, timeout=40):
+    done = subprocess.run([PEER, *words, "--domain", str(DOMAIN), "--timeout", str(timeout)],
+                          capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise AssertionError(f"ros2_peer {' '.join(words)}: {done.stderr or done.stdout}")
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+@contextlib.contextmanager
+def running_gsv(*options):
+    """gsv with ROS 2 in real time, until the block ends."""
+    environment = {**os.environ, "ROS_DOMAIN_ID": str(DOMAIN)}
+    gsv = subprocess.Popen([GSV, "run", "office", "--robot", "pebble", "--ros2", "--headless", *options],
+                           env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    try:
+        yield gsv
+    finally:
+        gsv.terminate()
+        gsv.communicate(timeout=30)
+
+
+@contextlib.contextmanager
+def captured(path):
+    """What goes over all interfaces on the ports of this domain, until the block ends."""
+    first = 7400 + 250 * DOMAIN
+    tshark = subprocess.Popen(["tshark", "-i", "any", "-f", f"udp portrange {first}-{first + 249}", "-w", path],
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    for line in tshark.stderr:
+        if "Capture started" in line:
+            break
+    else:
+        raise unittest.SkipTest("tshark may not capture here")
+    try:
+        yield
+    finally:
+        tshark.terminate()
+        tshark.communicate(timeout=30)
+
+
+class ForeignPeer(unittest.TestCase):
+    def test_reads_topics_field_by_field(self):
+        with running_gsv():
+            samples = peer("listen", "--count", "2", "rosgraph_msgs/msg/Clock:/clock",
+                           "nav_msgs/msg/Odometry:/pebble/odom", "tf2_msgs/msg/TFMessage:/tf",
+                           "tf2_msgs/msg/TFMessage:/tf_static")
+        by_topic = {}
+        for sample in samples:
+            by_topic.setdefault(sample["topic"], []).append(sample["message"])
+        first, second = (m["clock"]["sec"] * 10**9 + m["clock"]["nanosec"] for m in by_topic["/clock"])
+        self.assertLess(first, second)
+        odometry = by_topic["/pebble/odom"][0]
+        self.assertEqual(odometry["header"]["frame_id"], "pebble/odom")
+        q = odometry["pose"]["pose"]["orientation"]
+        self.assertAlmostEqual(sum(value * value for value in q.values()), 1, places=6)
+        self.assertEqual(len(odometry["pose"]["covariance"]), 36)
+        frames = {t["child_frame_id"] for t in by_topic["/tf"][0]["transforms"]}
+        self.assertIn(odometry["child_frame_id"], frames)
+
+    def test_drives_a_robot_a_metre(self):
+        with running_gsv("--behaviour", "ros2"):
+            result = peer("drive", "--distance", "1", "/pebble")[0]
+        self.assertGreaterEqual(result["distance"], 1)
+
+    def test_sees_types_and_their_published_hashes(self):
+        with running_gsv():
+            found = {e["topic"]: e for e in peer("endpoints", "rt/clock", "rt/pebble/cmd_vel")}
+        self.assertEqual(found["rt/clock"]["type"], "rosgraph_msgs::msg::dds_::Clock_")
+        self.assertTrue(found["rt/clock"]["reliable"])
+        for endpoint in found.values():
+            if published := PUBLISHED.get(endpoint["type"]):
+                self.assertEqual(endpoint.get("user_data"), f"typehash={published};", endpoint)
+
+    @unittest.skipUnless(shutil.which("tshark"), "tshark is not installed")
+    def test_traffic_names_topics_types_and_qos_and_stays_on_this_machine(self):
+        best_effort, reliable = "0x00000001", "0x00000002"
+        with tempfile.TemporaryDirectory() as folder:
+            capture = os.path.join(folder, "rtps.pcapng")
+            with captured(capture), running_gsv():
+                peer("listen", "nav_msgs/msg/Odometry:/pebble/odom")
+            fields = ["ip.src", "ip.dst", "rtps.param.topicName", "rtps.param.typeName", "rtps.reliability_kind"]
+            rows = subprocess.run(
+                ["tshark", "-r", capture, "-Y", "rtps", "-T", "fields", *(f"-e{field}" for field in fields)],
+                capture_output=True, text=True, check=True).stdout.splitlines()
+        rows = [tuple(row.split("\t")) for row in rows]
+        self.assertEqual({address for row in rows for address in row[:2]}, {"127.0.0.1"})
+        announced = {row[2:] for row in rows if len(row) == len(fields)}
+        for expected in [("rt/clock", "rosgraph_msgs::msg::dds_::Clock_", reliable),
+                         ("rt/tf", "tf2_msgs::msg::dds_::TFMessage_", reliable),
+                         ("rt/pebble/odom", "nav_msgs::msg::dds_::Odometry_", reliable),
+                         ("rt/pebble/cmd_vel", "geometry_msgs::msg::dds_::Twist_", reliable),
+                         ("rt/pebble/camera/image_raw", "sensor_msgs::msg::dds_::Image_", best_effort)]:
+            self.assertIn(expected, announced)
+
+
+if __name__ == "__main__":
+    shown = subprocess.run([GSV, "run", "--help"], capture_output=True, text=True, check=False).stdout
+    if "--ros2" not in shown:
+        print("skipped: this gsv was built without ROS 2")
+        sys.exit(77)
+    unittest.main(argv=[sys.argv[0], "-v"])
