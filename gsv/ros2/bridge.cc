@@ -91,7 +91,7 @@ SimulationBridge::SimulationBridge(dds::Participant& participant, Options option
       types_(std::make_shared<sensing::SensorRegistry>(simulation->sensor_types())),
       sensors_(*types_),
       graph_(participant, options_.distro),
-      node_(participant, "/", "gsv", [this] {
+      node_(participant, options_.distro, "/", "gsv", [this] {
         has_matched_ = true;
         feed_->Wake();
       }) {

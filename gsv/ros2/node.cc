@@ -4,12 +4,15 @@
 
 #include "gsv/base/log.h"
 #include "gsv/ros2/names.h"
+#include "gsv/ros2/types/type_hash.h"
 
 namespace gsv::ros2 {
 
-Node::Node(dds::Participant& participant, std::string name_space, std::string name,
+Node::Node(dds::Participant& participant, Distro distro, std::string name_space, std::string name,
            std::function<void()> on_match)
-    : participant_(participant), on_match_(std::move(on_match)) {
+    : participant_(participant),
+      has_hashes_(distro != Distro::kHumble),
+      on_match_(std::move(on_match)) {
   info_.name_space = std::move(name_space);
   info_.name = std::move(name);
 }
@@ -18,7 +21,8 @@ dds::Topic Node::TopicFor(std::string_view topic, std::string_view type,
                           const dds::Qos& qos) const {
   const std::string whole =
       topic.starts_with('/') ? std::string(topic) : InNamespace(name_space(), topic);
-  return {DdsTopicName(whole), DdsTypeName(type), qos, {}};
+  return {DdsTopicName(whole), DdsTypeName(type), qos,
+          has_hashes_ ? TypeHashUserData(type) : std::string()};
 }
 
 dds::Writer* Node::Advertise(std::string_view topic, std::string_view type, const dds::Qos& qos) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gsv/ros2/dds/participant.h"
+#include "gsv/ros2/options.h"
 
 namespace gsv::ros2 {
 
@@ -32,8 +33,8 @@ struct NodeInfo {
 class Node {
  public:
   // `participant` outlives the node. `on_match` is called when a reader of one of its topics comes or
-  // goes.
-  Node(dds::Participant& participant, std::string name_space, std::string name,
+  // goes. Endpoints carry the hashes of their types, except for Humble, which has none.
+  Node(dds::Participant& participant, Distro distro, std::string name_space, std::string name,
        std::function<void()> on_match);
 
   const std::string& name_space() const { return info_.name_space; }
@@ -50,6 +51,7 @@ class Node {
   dds::Topic TopicFor(std::string_view topic, std::string_view type, const dds::Qos& qos) const;
 
   dds::Participant& participant_;
+  const bool has_hashes_;
   const std::function<void()> on_match_;
   NodeInfo info_;
   std::vector<std::unique_ptr<dds::Writer>> writers_;

@@ -75,7 +75,7 @@ RobotTopics::RobotTopics(const Context& context, const world::Body& body, std::s
       takes_commands_(takes_commands),
       sensors_(context.simulation.sensors(body.name)),
       frames_(PrefixOf(name_space), *body.model),
-      node_(context.participant, name_space, kRobotNode, context.on_match) {
+      node_(context.participant, context.options.distro, name_space, kRobotNode, context.on_match) {
   AddSensors(context);
   AddImplied(context);
   if (takes_commands_) TakeCommands(context);
