@@ -59,7 +59,7 @@ class Runtime {
   BehaviourLauncher& launcher() { return *launcher_; }
   broker::BrokerClient& broker() { return *broker_; }
   Recordings& recordings() { return *recordings_; }
-  Ros2Access* ros2() { return ros2_.get(); }  // null: no ROS 2
+  Ros2Access* ros2() { return ros2_.get(); }                     // null: no ROS 2
   const std::string& viewer_url() const { return viewer_url_; }  // empty: none
 
   // Registers sba::SimulationService, with the simulations that are there, with the broker until
