@@ -5,7 +5,8 @@
 //   ros2_peer endpoints TOPIC…                   prints endpoints of others until each topic (rt/clock) was
 //                                                among them: topic, type, QoS, user data
 //
-// All take --domain D and --timeout SECONDS (default: 20). TYPE is "sensor_msgs/msg/LaserScan", TOPIC is
+// All take --domain D, --timeout SECONDS (default: 20) and --multicast, which leaves Cyclone DDS its default
+// settings; without it, it stays on loopback and uses no multicast. TYPE is "sensor_msgs/msg/LaserScan", TOPIC is
 // "/pebble/scan". Exits 0 when all came, 1 when the time is over, 2 on wrong usage.
 #include <algorithm>
 #include <chrono>
@@ -85,7 +86,7 @@ struct Arguments {
   dds_domainid_t domain = 0;
   int count = 1;
   double timeout = 20, distance = 1;
-  bool is_stamped = false;
+  bool is_stamped = false, uses_multicast = false;
   std::vector<std::string> words;
 };
 
@@ -107,6 +108,8 @@ Arguments Parse(int count, char** words) {
       arguments.distance = value();
     } else if (word == "--stamped") {
       arguments.is_stamped = true;
+    } else if (word == "--multicast") {
+      arguments.uses_multicast = true;
     } else if (word.starts_with("--")) {
       Die("unknown option " + word);
     } else {
@@ -121,7 +124,9 @@ class Participant {
   explicit Participant(const Arguments& arguments)
       : deadline_(Clock::now() +
                   std::chrono::milliseconds(static_cast<std::int64_t>(1000 * arguments.timeout))) {
-    Made(dds_create_domain(arguments.domain, kLoopback), "a domain");
+    if (!arguments.uses_multicast) {
+      Made(dds_create_domain(arguments.domain, kLoopback), "a domain");
+    }
     entity_ = Made(dds_create_participant(arguments.domain, nullptr, nullptr), "a participant");
     waits_ = Made(dds_create_waitset(entity_), "a wait set");
   }

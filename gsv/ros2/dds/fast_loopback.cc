@@ -1,15 +1,65 @@
 #include "gsv/ros2/dds/fast_loopback.h"
 
+#include <cstddef>
+#include <span>
+
 #include <fastdds/rtps/network/SenderResource.h>
 #include <fastdds/rtps/transport/TransportReceiverInterface.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 
+#include "gsv/ros2/dds/local_multicast.h"
+
 namespace gsv::ros2::dds {
 namespace {
 
 namespace rtps = eprosima::fastdds::rtps;
+using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::rtps::Locator_t;
+using eprosima::fastrtps::rtps::LocatorsIterator;
+
+// Stands for kDiscoveryGroup among the peers. The group itself would not do: participants with default
+// settings announce it too, and Fast DDS would then multicast more than announcements.
+constexpr const char* kGroupPeer = "127.255.255.254";
+constexpr const char* kDiscoveryGroup = "239.255.0.1";  // RTPS 2.3, 9.6.1.4
+
+bool IsGroupPeer(const Locator_t& locator) {
+  return locator.kind == LOCATOR_KIND_UDPv4 && IPLocator::toIPv4string(locator) == kGroupPeer;
+}
+
+// Fast DDS deletes no iterator through this base class.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wnon-virtual-dtor"
+// Passes on the destinations but kGroupPeer. What goes there is multicast on this machine.
+class WithoutGroup final : public LocatorsIterator {
+ public:
+  WithoutGroup(LocatorsIterator& next, const LocatorsIterator& end,
+               std::span<const std::byte> datagram, const LocalMulticast& multicast)
+      : next_(next), end_(end), datagram_(datagram), multicast_(multicast) {
+    SkipGroup();
+  }
+  LocatorsIterator& operator++() override {
+    ++next_;
+    SkipGroup();
+    return *this;
+  }
+  bool operator==(const LocatorsIterator& other) const override { return next_ == other; }
+  bool operator!=(const LocatorsIterator& other) const override { return next_ != other; }
+  const Locator_t& operator*() const override { return *next_; }
+
+ private:
+  void SkipGroup() {
+    for (; next_ != end_ && IsGroupPeer(*next_); ++next_) {
+      multicast_.Send(datagram_, IPLocator::getPhysicalPort(*next_));
+    }
+  }
+
+  LocatorsIterator& next_;
+  const LocatorsIterator& end_;
+  const std::span<const std::byte> datagram_;
+  const LocalMulticast& multicast_;
+};
+#pragma GCC diagnostic pop
 
 class Loopback final : public rtps::ChainingTransport {
  public:
@@ -21,25 +71,29 @@ class Loopback final : public rtps::ChainingTransport {
 
   // Addresses of this machine become 127.0.0.1; those of others are refused.
   bool transform_remote_locator(const Locator_t& remote, Locator_t& result) const override {
+    result = remote;
+    if (IsGroupPeer(remote)) return true;
     if (!IsLocatorSupported(remote) || !low_level_transport_->is_local_locator(remote))
       return false;
-    result = remote;
-    eprosima::fastrtps::rtps::IPLocator::setIPv4(result, 127, 0, 0, 1);
+    IPLocator::setIPv4(result, 127, 0, 0, 1);
     return true;
   }
 
   bool send(eprosima::fastrtps::rtps::SenderResource* sender,
             const eprosima::fastrtps::rtps::octet* bytes, std::uint32_t size,
-            eprosima::fastrtps::rtps::LocatorsIterator* begin,
-            eprosima::fastrtps::rtps::LocatorsIterator* end,
+            LocatorsIterator* begin, LocatorsIterator* end,
             const std::chrono::steady_clock::time_point& timeout) override {
-    return sender->send(bytes, size, begin, end, timeout);
+    WithoutGroup to(*begin, *end, std::as_bytes(std::span(bytes, size)), multicast_);
+    return sender->send(bytes, size, &to, end, timeout);
   }
 
   void receive(rtps::TransportReceiverInterface* next, const eprosima::fastrtps::rtps::octet* bytes,
                std::uint32_t size, const Locator_t& local, const Locator_t& remote) override {
     next->OnDataReceived(bytes, size, local, remote);
   }
+
+ private:
+  const LocalMulticast multicast_{kDiscoveryGroup};
 };
 
 struct LoopbackDescriptor final : rtps::ChainingTransportDescriptor {
@@ -54,6 +108,14 @@ std::shared_ptr<rtps::TransportDescriptorInterface> LoopbackTransport(std::uint3
   udp->interfaceWhiteList = {"127.0.0.1"};
   udp->maxInitialPeersRange = max_peers;
   return std::make_shared<LoopbackDescriptor>(std::move(udp));
+}
+
+eprosima::fastrtps::rtps::Locator_t LocalGroup(std::uint32_t domain) {
+  Locator_t locator;
+  locator.kind = LOCATOR_KIND_UDPv4;
+  IPLocator::setIPv4(locator, kGroupPeer);
+  locator.port = 7400 + 250 * domain;  // RTPS 2.3, 9.6.1.1
+  return locator;
 }
 
 }  // namespace gsv::ros2::dds

@@ -8,6 +8,7 @@
 
 #include <memory>
 
+#include <fastdds/rtps/common/Locator.h>
 #include <fastdds/rtps/transport/ChainingTransport.h>
 #include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
 
@@ -15,5 +16,9 @@ namespace gsv::ros2::dds {
 
 std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> LoopbackTransport(
     std::uint32_t max_peers);
+
+// A peer by which this transport reaches participants of this machine that wait for multicast, as Cyclone DDS
+// does with default settings: announcements to it are multicast on loopback.
+eprosima::fastrtps::rtps::Locator_t LocalGroup(std::uint32_t domain);
 
 }  // namespace gsv::ros2::dds

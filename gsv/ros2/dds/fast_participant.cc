@@ -100,6 +100,7 @@ base::Status UseTransport(const ParticipantOptions& options, fast::DomainPartici
   AnnounceOften(wire.builtin);
   if (options.range == Range::kLocalhost) {
     qos.transport().user_transports.push_back(LoopbackTransport(kMaxLocalPeers));
+    wire.builtin.initialPeersList.push_back(LocalGroup(options.domain));
     UseUnicastOnly("127.0.0.1", wire.builtin, wire.default_unicast_locator_list);
     return {};
   }

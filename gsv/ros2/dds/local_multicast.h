@@ -1,0 +1,33 @@
+// Multicast on the loopback interface alone. It reaches programs that joined the group on any interface.
+//
+// Linux delivers it to each socket that is bound to the port and has joined any group (IP_MULTICAST_ALL of
+// ip(7)), provided that somebody joined this group on loopback, which the sender does.
+//
+// By it, participants are found that wait for multicast, as Cyclone DDS does with default settings.
+//
+// Threads  any.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace gsv::ros2::dds {
+
+class LocalMulticast {
+ public:
+  // `group`: a dotted IPv4 address. Where loopback refuses multicast, nothing is sent.
+  explicit LocalMulticast(const char* group);
+  ~LocalMulticast();
+  LocalMulticast(const LocalMulticast&) = delete;
+  LocalMulticast& operator=(const LocalMulticast&) = delete;
+
+  // Sends one datagram, which may be lost like any other.
+  void Send(std::span<const std::byte> datagram, std::uint16_t port) const;
+
+ private:
+  int socket_ = -1;  // -1: none
+  std::uint32_t group_ = 0;
+};
+
+}  // namespace gsv::ros2::dds
