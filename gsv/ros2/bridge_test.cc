@@ -63,6 +63,14 @@ TEST_F(BridgeTest, PublishesClockOdometryAndRange) {
   EXPECT_EQ(range.header.frame_id, "robot/front");
 }
 
+// More participants than are looked for on one machine, one after the other.
+TEST(Participant, IsFoundThoughManyWereThereBefore) {
+  for (int i = 0; i < 40; ++i) ASSERT_NE(testing::MakeParticipant(), nullptr);
+  Peer one, other;
+  one.Listen("/topic", "geometry_msgs/msg/Twist", kDefaultQos);
+  (void)other.Talk("/topic", "geometry_msgs/msg/Twist");
+}
+
 TEST_F(BridgeTest, PublishesFramesToLateReaders) {
   Publish();
   ASSERT_TRUE(simulation_->Start());

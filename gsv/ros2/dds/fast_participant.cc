@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
@@ -121,6 +122,29 @@ base::Status UseTransport(const ParticipantOptions& options, fast::DomainPartici
   }
   return {};
 }
+
+// The index of a participant, from which its ports follow, is the lowest that is free in this process. Fast DDS
+// counts on instead, and participants past kMaxLocalPeers would not be found.
+class ParticipantIndex {
+ public:
+  ParticipantIndex() {
+    const base::MutexLock lock(mutex_);
+    while (!taken_.insert(value_).second) ++value_;
+  }
+  ~ParticipantIndex() {
+    const base::MutexLock lock(mutex_);
+    taken_.erase(value_);
+  }
+  ParticipantIndex(const ParticipantIndex&) = delete;
+  ParticipantIndex& operator=(const ParticipantIndex&) = delete;
+
+  int value() const { return value_; }
+
+ private:
+  static inline base::Mutex mutex_;
+  static inline std::set<int> taken_ GSV_GUARDED_BY(mutex_);
+  int value_ = 0;
+};
 
 class FastWriter final : public Writer, fast::DataWriterListener {
  public:
@@ -256,6 +280,7 @@ class FastParticipant final : public Participant {
     fast::DomainParticipantQos qos = fast::PARTICIPANT_QOS_DEFAULT;
     if (auto ok = UseTransport(options, qos); !ok) return ok;
     qos.name(options.name.c_str());
+    qos.wire_protocol().participant_id = index_.value();
     qos.user_data().setValue({options.user_data.begin(), options.user_data.end()});
     fast::DomainParticipantListener* const listener = options.watches_endpoints ? &list_ : nullptr;
     participant_ = fast::DomainParticipantFactory::get_instance()->create_participant(
@@ -309,6 +334,7 @@ class FastParticipant final : public Participant {
     return made;
   }
 
+  const ParticipantIndex index_;
   EndpointList list_;
   fast::DomainParticipant* participant_ = nullptr;
   fast::Publisher* publisher_ = nullptr;
