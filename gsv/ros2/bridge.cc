@@ -19,6 +19,7 @@
 #include "gsv/ros2/graph.h"
 #include "gsv/ros2/message_source.h"
 #include "gsv/ros2/names.h"
+#include "gsv/ros2/robot_descriptions.h"
 #include "gsv/ros2/robot_topics.h"
 #include "gsv/ros2/slow_lane.h"
 #include "gsv/world/station.h"
@@ -72,6 +73,7 @@ class SimulationBridge final : public Bridge {
   Graph graph_;
   Node node_;
   std::vector<std::unique_ptr<Source>> sources_;  // of the simulation as a whole
+  RobotDescriptions descriptions_;
   dds::Writer* static_frames_ = nullptr;
   dds::Writer* log_ = nullptr;
   dds::Writer* diagnostics_ = nullptr;
@@ -157,7 +159,8 @@ void SimulationBridge::Refresh(Simulation& simulation) {
     has_matched_ = true;
   }
   SendGraph();
-  for (const auto& [body, robot] : robots_) robot->CheckPublishers();
+  const std::vector<dds::Endpoint> endpoints = participant_.endpoints();
+  for (const auto& [body, robot] : robots_) robot->CheckPublishers(endpoints);
   if (diagnostics_ != nullptr && diagnostics_->has_readers()) {
     Send(presentation::DiagnosticsMessage(simulation.status()), diagnostics_);
   }
@@ -224,6 +227,7 @@ void SimulationBridge::VisitSources(const Visit& visit) {
 
 // Snapshots are taken only where somebody wants something of them.
 void SimulationBridge::FollowReaders() {
+  for (const auto& [body, robot] : robots_) robot->SendDescription(descriptions_);
   std::set<base::SimTime> periods;
   VisitSources([&](Source& source) {
     if (source.is_wanted()) periods.insert(source.period());

@@ -15,7 +15,7 @@ namespace gsv::ros2 {
 
 class Bridge {
  public:
-  // `participant` outlives the bridge. Does not keep the simulation alive.
+  // `participant` outlives the bridge, and watches endpoints. Does not keep the simulation alive.
   static std::unique_ptr<Bridge> Start(dds::Participant& participant, Options options,
                                        const std::shared_ptr<simulation::Simulation>& simulation);
   virtual ~Bridge() = default;

@@ -9,6 +9,7 @@
 #include "gsv/messages/nav_msgs.h"
 #include "gsv/messages/rosgraph_msgs.h"
 #include "gsv/messages/sensor_msgs.h"
+#include "gsv/messages/std_msgs.h"
 #include "gsv/messages/tf2_msgs.h"
 #include "gsv/ros2/node.h"
 #include "gsv/ros2/testing/peer.h"
@@ -27,7 +28,7 @@ class BridgeTest : public ::testing::Test {
     specification.mode = simulation::Mode::kRealTime;
     simulation_ = simulation::Make(std::move(specification));
     ASSERT_TRUE(simulation_->AddRobot(simulation::Robot("robot", 0, 0)));
-    participant_ = testing::MakeParticipant();
+    participant_ = testing::MakeParticipant(true);
     ASSERT_NE(participant_, nullptr);
     peer_ = std::make_unique<Peer>(true);
   }
@@ -86,6 +87,16 @@ TEST_F(BridgeTest, PublishesFramesToLateReaders) {
   ASSERT_EQ(moving.transforms.size(), 1u);
   EXPECT_EQ(moving.transforms[0].header.frame_id, "robot/odom");
   EXPECT_EQ(moving.transforms[0].child_frame_id, "robot/base");
+}
+
+TEST_F(BridgeTest, SendsTheDescriptionOfARobotToLateReaders) {
+  Publish();
+  peer_->Listen("/robot/robot_description", "std_msgs/msg/String", kLatchedQos);
+  const auto text = peer_->Await<messages::std_msgs::String>("/robot/robot_description");
+  EXPECT_NE(text.data.find("<link name=\"base\""), std::string::npos) << text.data;
+  Peer late;
+  late.Listen("/robot/robot_description", "std_msgs/msg/String", kLatchedQos);
+  EXPECT_EQ(late.Await<messages::std_msgs::String>("/robot/robot_description").data, text.data);
 }
 
 TEST_F(BridgeTest, DrivesARobotByCmdVel) {

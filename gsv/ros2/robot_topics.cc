@@ -6,6 +6,7 @@
 
 #include "gsv/base/log.h"
 #include "gsv/messages/geometry_msgs.h"
+#include "gsv/messages/std_msgs.h"
 #include "gsv/messages/time.h"
 #include "gsv/presentation/state_messages.h"
 #include "gsv/readings/catalogue.h"
@@ -19,6 +20,7 @@ namespace {
 
 constexpr base::SimTime kTruthPeriod = std::chrono::milliseconds(20);
 constexpr const char* kRobotNode = "robot";
+constexpr const char* kDriveTopic = "cmd_vel";
 
 // "/fleet/one" gives "fleet/one/", "/" nothing.
 std::string PrefixOf(const std::string& name_space) {
@@ -78,6 +80,7 @@ RobotTopics::RobotTopics(const Context& context, const world::Body& body, std::s
       node_(context.participant, context.options.distro, name_space, kRobotNode, context.on_match) {
   AddSensors(context);
   AddImplied(context);
+  description_ = node_.Advertise("robot_description", "std_msgs/msg/String", kLatchedQos);
   if (takes_commands_) TakeCommands(context);
 }
 
@@ -150,11 +153,12 @@ void RobotTopics::TakeCommands(const Context& context) {
   const auto input = std::make_shared<CommandInput>(agent);
   if (has_odometry_) {
     const bool is_stamped = context.options.is_cmd_vel_stamped;
-    drive_reader_ = node_.Subscribe(
-        "cmd_vel", is_stamped ? "geometry_msgs/msg/TwistStamped" : "geometry_msgs/msg/Twist",
-        kDefaultQos, [input, is_stamped](std::span<const std::byte> sample) {
-          is_stamped ? input->TakeTwistStamped(sample) : input->TakeTwist(sample);
-        });
+    drive_type_ = is_stamped ? "geometry_msgs/msg/TwistStamped" : "geometry_msgs/msg/Twist";
+    drive_reader_ =
+        node_.Subscribe(kDriveTopic, drive_type_, kDefaultQos,
+                        [input, is_stamped](std::span<const std::byte> sample) {
+                          is_stamped ? input->TakeTwistStamped(sample) : input->TakeTwist(sample);
+                        });
   }
   TakeJointCommands(input);
 }
@@ -195,11 +199,36 @@ void RobotTopics::AppendStaticFrames(const world::Snapshot& snapshot,
   frames_.AppendStatic(*model_, sensors_, is_optical_, time, message);
 }
 
-void RobotTopics::CheckPublishers() {
-  if (has_warned_ || drive_reader_ == nullptr || drive_reader_->writers() < 2) return;
-  has_warned_ = true;
-  spdlog::warn("{} is commanded by {} ROS 2 publishers on {}; the latest command counts", body_,
-               drive_reader_->writers(), InNamespace(node_.name_space(), "cmd_vel"));
+void RobotTopics::SendDescription(RobotDescriptions& descriptions) {
+  if (description_ == nullptr || !description_->has_readers()) return;
+  const auto text = descriptions.Of(model_);
+  if (text) {
+    Send(messages::std_msgs::String{*text}, description_);
+  } else {
+    spdlog::warn("{} has no robot_description: {}", body_, text.error().Sentence());
+  }
+  description_ = nullptr;
+}
+
+void RobotTopics::CheckPublishers(const std::vector<dds::Endpoint>& endpoints) {
+  if (drive_reader_ == nullptr) return;
+  const std::string topic = InNamespace(node_.name_space(), kDriveTopic);
+  if (!has_warned_of_many_ && drive_reader_->writers() > 1) {
+    has_warned_of_many_ = true;
+    spdlog::warn("{} ROS 2 publishers on {} command {}. The latest command counts",
+                 drive_reader_->writers(), topic, body_);
+  }
+  if (has_warned_of_type_) return;
+  const std::string name = DdsTopicName(topic), type = DdsTypeName(drive_type_);
+  const auto other = std::find_if(endpoints.begin(), endpoints.end(), [&](const auto& endpoint) {
+    return endpoint.is_writer && endpoint.topic.name == name && endpoint.topic.type != type;
+  });
+  if (other == endpoints.end()) return;
+  has_warned_of_type_ = true;
+  const std::string found = RosTypeName(other->topic.type);
+  spdlog::warn(
+      "a ROS 2 node publishes {} on {}, but {} takes {}. Change the node, or --ros2-cmd-vel",
+      found.empty() ? other->topic.type.substr(0, 200) : found, topic, body_, drive_type_);
 }
 
 }  // namespace gsv::ros2

@@ -13,6 +13,7 @@
 #include "gsv/ros2/frames.h"
 #include "gsv/ros2/node.h"
 #include "gsv/ros2/options.h"
+#include "gsv/ros2/robot_descriptions.h"
 #include "gsv/ros2/source.h"
 #include "gsv/sensing/sensor_set.h"
 #include "gsv/simulation/simulation.h"
@@ -46,8 +47,12 @@ class RobotTopics {
   void AppendStaticFrames(const world::Snapshot& snapshot,
                           messages::tf2_msgs::TFMessage& message) const;
 
-  // Logs once when several nodes command this robot at the same time.
-  void CheckPublishers();
+  // Sends robot_description, once somebody reads it.
+  void SendDescription(RobotDescriptions& descriptions);
+
+  // Logs once when several nodes command this robot at the same time, and once when a node sends commands of
+  // another type. `endpoints` are those of other participants.
+  void CheckPublishers(const std::vector<dds::Endpoint>& endpoints);
 
  private:
   void AddSensors(const Context& context);
@@ -66,8 +71,11 @@ class RobotTopics {
   std::vector<bool> is_optical_;  // as sensors_
   Node node_;
   std::vector<std::unique_ptr<Source>> sources_;
+  dds::Writer* description_ = nullptr;  // null: it was sent, or the participant refuses it
+  std::string drive_type_;              // "geometry_msgs/msg/Twist"; empty: takes no cmd_vel
   dds::Reader* drive_reader_ = nullptr;
-  bool has_warned_ = false;
+  bool has_warned_of_many_ = false;
+  bool has_warned_of_type_ = false;
 };
 
 }  // namespace gsv::ros2

@@ -2,6 +2,8 @@
 //
 //   ros2_peer listen [--count N] TYPE:TOPIC…     prints N samples of each as JSON, one a line
 //   ros2_peer drive --distance M [--stamped] ROBOT   sends cmd_vel until ROBOT/odom shows M metres
+//   ros2_peer disturb ROBOT                      publishes bad commands: another type on cmd_vel, NaN and
+//                                                infinities, and 10,000 commands from a second publisher
 //   ros2_peer endpoints TOPIC…                   prints endpoints of others until each topic (rt/clock) was
 //                                                among them: topic, type, QoS, user data
 //
@@ -127,8 +129,11 @@ class Participant {
     if (!arguments.uses_multicast) {
       Made(dds_create_domain(arguments.domain, kLoopback), "a domain");
     }
-    entity_ = Made(dds_create_participant(arguments.domain, nullptr, nullptr), "a participant");
-    waits_ = Made(dds_create_waitset(entity_), "a wait set");
+    Join(arguments);
+  }
+  // Another participant in the domain of the first.
+  Participant(const Arguments& arguments, const Participant& first) : deadline_(first.deadline_) {
+    Join(arguments);
   }
 
   dds_entity_t entity() const { return entity_; }
@@ -179,6 +184,10 @@ class Participant {
   }
 
  private:
+  void Join(const Arguments& arguments) {
+    entity_ = Made(dds_create_participant(arguments.domain, nullptr, nullptr), "a participant");
+    waits_ = Made(dds_create_waitset(entity_), "a wait set");
+  }
   dds_entity_t Topic(const Type& type, const std::string& topic) {
     return Made(
         dds_create_topic(entity_, type.descriptor, ("rt" + topic).c_str(), nullptr, nullptr),
@@ -293,6 +302,51 @@ int Drive(const Arguments& arguments) {
   return 0;
 }
 
+// Whether a reader of this writer was found before the time was over.
+bool WaitForReader(Participant& participant, dds_entity_t writer) {
+  dds_publication_matched_status_t status{};
+  while (dds_get_publication_matched_status(writer, &status) == 0 && status.current_count == 0) {
+    if (!participant.WaitForData()) return false;
+  }
+  return true;
+}
+
+// Bad commands go out with each odometry, for about two seconds. The robot's odometry must stay finite.
+int Disturb(const Arguments& arguments) {
+  if (arguments.words.size() != 1) Die("disturb needs one robot, such as /pebble");
+  const std::string topic = arguments.words.front() + "/cmd_vel";
+  constexpr int kRounds = 100, kCommandsEach = 100;
+  Participant participant(arguments);
+  const dds_entity_t odometry =
+      participant.Reader(TypeNamed("nav_msgs/msg/Odometry"), arguments.words.front() + "/odom");
+  const dds_entity_t flood = participant.Writer(TypeNamed("geometry_msgs/msg/Twist"), topic);
+  const dds_entity_t bad = participant.Writer(TypeNamed("geometry_msgs/msg/Twist"), topic);
+  Participant other(arguments, participant);
+  const dds_entity_t wrong = other.Writer(TypeNamed("std_msgs/msg/String"), topic);
+  participant.Watch(odometry);
+  if (!WaitForReader(participant, flood) || !WaitForReader(participant, bad)) return 1;
+  int rounds = 0;
+  double x = 0;
+  while (rounds < kRounds) {
+    if (!participant.WaitForData()) return 1;
+    while (TakeOne(odometry, [&](const void* sample) {
+      x = static_cast<const nav_msgs_msg_dds__Odometry_*>(sample)->pose.pose.position.x;
+      ++rounds;
+      geometry_msgs_msg_dds__Twist_ twist{};
+      twist.linear.x = rounds % 2 == 0 ? std::nan("") : HUGE_VAL;
+      dds_write(bad, &twist);
+      twist.linear.x = 0.1;
+      for (int i = 0; i < kCommandsEach; ++i) dds_write(flood, &twist);
+      char text[] = "go";
+      const std_msgs_msg_dds__String_ string{text};
+      dds_write(wrong, &string);
+    })) {
+    }
+  }
+  Print({{"finite", std::isfinite(x)}, {"commands", kRounds * kCommandsEach}});
+  return std::isfinite(x) ? 0 : 1;
+}
+
 Json EndpointJson(const dds_builtintopic_endpoint_t& endpoint, const char* kind) {
   Json json = {{"kind", kind}, {"topic", endpoint.topic_name}, {"type", endpoint.type_name}};
   dds_reliability_kind_t reliability = DDS_RELIABILITY_BEST_EFFORT;
@@ -345,13 +399,14 @@ int Endpoints(const Arguments& arguments) {
 }
 
 int Main(int count, char** words) {
-  if (count < 2) Die("expected listen, drive or endpoints");
+  if (count < 2) Die("expected listen, drive, disturb or endpoints");
   const std::string command = words[1];
   const Arguments arguments = Parse(count, words);
   if (command == "listen") return Listen(arguments);
   if (command == "drive") return Drive(arguments);
+  if (command == "disturb") return Disturb(arguments);
   if (command == "endpoints") return Endpoints(arguments);
-  Die("expected listen, drive or endpoints, found " + command);
+  Die("expected listen, drive, disturb or endpoints, found " + command);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from xml.etree import ElementTree
 
 GSV, PEER = sys.argv[1:3]
 DOMAIN = 60 + os.getpid() % 40  # apart from others on this machine
@@ -43,7 +44,7 @@ def running_gsv(*options):
         yield gsv
     finally:
         gsv.terminate()
-        gsv.communicate(timeout=30)
+        gsv.log = gsv.communicate(timeout=30)[1]
 
 
 @contextlib.contextmanager
@@ -103,6 +104,37 @@ class ForeignPeer(unittest.TestCase):
         with running_gsv("--behaviour", "ros2"):
             result = peer("drive", "--distance", "1", "/pebble")[0]
         self.assertGreaterEqual(result["distance"], 1)
+
+    def test_reports_bad_commands_once_and_keeps_driving(self):
+        with running_gsv() as gsv:
+            result = peer("disturb", "/pebble")[0]
+        self.assertTrue(result["finite"])
+        for sentence in ["the velocities must be finite, found NaN or infinity",
+                         "2 ROS 2 publishers on /pebble/cmd_vel command pebble. The latest command counts",
+                         "a ROS 2 node publishes std_msgs/msg/String on /pebble/cmd_vel, but pebble takes "
+                         "geometry_msgs/msg/Twist"]:
+            self.assertEqual(gsv.log.count(sentence), 1, gsv.log)
+        self.assertEqual(gsv.returncode, 130, gsv.log)  # ended by a signal, and by nothing else
+
+    def test_refuses_a_domain_out_of_range(self):
+        done = subprocess.run([GSV, "run", "office", "--robot", "pebble", "--ros2", "--headless"],
+                              env={**os.environ, "ROS_DOMAIN_ID": "233"},
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("ROS_DOMAIN_ID: must be a number from 0 to 232, found '233'", done.stderr)
+
+    def test_describes_the_robot_as_urdf(self):
+        with running_gsv():
+            samples = peer("listen", "std_msgs/msg/String:/pebble/robot_description",
+                           "tf2_msgs/msg/TFMessage:/tf_static", "tf2_msgs/msg/TFMessage:/tf")
+        by_topic = {sample["topic"]: sample["message"] for sample in samples}
+        robot = ElementTree.fromstring(by_topic["/pebble/robot_description"]["data"])
+        self.assertEqual(robot.tag, "robot")
+        links = {"pebble/" + link.get("name") for link in robot.iter("link")}
+        frames = {t["child_frame_id"] for topic in ("/tf_static", "/tf") for t in by_topic[topic]["transforms"]}
+        self.assertLessEqual(links, frames)
+        for mesh in robot.iter("mesh"):
+            self.assertTrue(mesh.get("filename").startswith("file:///"), mesh.get("filename"))
 
     def test_sees_types_and_their_published_hashes(self):
         with running_gsv():

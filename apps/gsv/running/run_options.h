@@ -43,7 +43,7 @@ struct RunOptions {
   std::vector<simulation::Edit> edits;  // to be made in mid-run, in this order
   simulation::Specification specification;
   std::shared_ptr<const PreparedWorld> prepared_world;  // null: the run reads it
-  std::string record;  // a file; empty: no recording
+  std::string record;                                   // a file; empty: no recording
   RecordingChoice recording;
   double wall_timeout = 0;      // s; 0: none
   std::string failure_picture;  // a file to draw the first violation to; empty: none

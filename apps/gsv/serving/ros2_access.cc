@@ -101,6 +101,7 @@ base::Result<std::unique_ptr<Ros2Access>> Ros2Access::Start(ros2::Options option
   std::unique_ptr<Ros2Access> access(new Ros2Access);
   auto reach = ros2::ParticipantFor(options, ros2::ProcessEnvironment);
   if (!reach) return base::Fail(reach.error());
+  reach->watches_endpoints = true;
   auto participant = MakeParticipant(*reach);
   if (!participant) return base::Fail(participant.error());
   access->options_ = std::move(options);

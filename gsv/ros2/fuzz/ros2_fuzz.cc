@@ -1,0 +1,26 @@
+// What other participants send: commands, the node graph and the USER_DATA of endpoints.
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "gsv/messages/cdr.h"
+#include "gsv/messages/geometry_msgs.h"
+#include "gsv/ros2/commands.h"
+#include "gsv/ros2/graph.h"
+#include "gsv/ros2/names.h"
+#include "gsv/ros2/types/type_hash.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace gsv;
+  const auto bytes = std::as_bytes(std::span(data, size));
+  (void)messages::Decode<messages::geometry_msgs::Twist>(bytes);
+  (void)messages::Decode<messages::geometry_msgs::TwistStamped>(bytes);
+  (void)ros2::DecodeFloat64MultiArray(bytes);
+  (void)ros2::DecodeGraph(bytes);
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  (void)ros2::TypeHashIn(text);
+  (void)ros2::RosTopicName(text);
+  (void)ros2::RosTypeName(text);
+  return 0;
+}

@@ -1,0 +1,31 @@
+// robot_description: models as URDF, whose meshes are files that RViz finds on this machine.
+//
+// Errors   a mesh that cannot be written is an error of its model.
+// Threads  one.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "gsv/base/error.h"
+#include "gsv/base/temporary_folder.h"
+#include "gsv/model/model.h"
+
+namespace gsv::ros2 {
+
+class RobotDescriptions {
+ public:
+  // The URDF of a model, which is written once. Its meshes are named file:///…, in a temporary folder that
+  // exists as long as this object.
+  base::Result<std::string> Of(const std::shared_ptr<const model::Model>& model);
+
+ private:
+  base::Result<std::string> Write(const model::Model& model, const std::string& name);
+
+  std::optional<base::TemporaryFolder> folder_;  // once there is a mesh
+  std::map<std::shared_ptr<const model::Model>, std::string> texts_;
+};
+
+}  // namespace gsv::ros2
