@@ -5,6 +5,8 @@
 # `make soak` repeats the determinism matrix many times and compares a debug build (a quarter of an hour, and the debug build);
 # it also runs a campaign of 500 runs by a Slurm of its own, has a viewer's tab stand still for three minutes,
 # and tries the packages on a bare Debian, which needs root and debootstrap.
+# `make bench` runs all benches (half an hour, on a machine that does nothing else) and prints one table; it writes
+# build/release/bench.json. BENCH_ARGS="--quick --rows crowd,lidar" runs some, in short; bench/all lists its options.
 # `make chaos` kills, stops, floods and fills up all that a server lives with for CHAOS_SECONDS (3600).
 # `make fuzz` feeds each fuzz target with random input for FUZZ_SECONDS (60), for which it needs clang, and sends
 # mutated requests to every servant of the real programs for as long (of PRESET; FUZZ_SEED says which).
@@ -20,7 +22,7 @@ CHAOS_SECONDS ?= 3600
 CHAOS_SEED ?= 1
 BUILD := build/$(PRESET)
 
-.PHONY: run test docs install deb soak chaos build configure setup asan tsan ubsan coverage fuzz format clean
+.PHONY: run test bench docs install deb soak chaos build configure setup asan tsan ubsan coverage fuzz format clean
 
 run: configure
 	cmake --build $(BUILD) --target programs docs --parallel $(JOBS)
@@ -28,6 +30,10 @@ run: configure
 
 test: build
 	tools/run_tests $(BUILD)
+
+bench: configure
+	cmake --build $(BUILD) --target programs --parallel $(JOBS)
+	bench/all $(BUILD) $(BUILD)/bench.json $(BENCH_ARGS)
 
 docs: configure
 	cmake --build $(BUILD) --target docs

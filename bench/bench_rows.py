@@ -1,0 +1,169 @@
+"""The rows of bench/all: what each runs, and the value that is wanted."""
+
+import functools
+import json
+import os
+import shutil
+import subprocess
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Callable, Optional
+
+HERE = Path(__file__).resolve().parent
+EMPTY_WORLD = '<sdf version="1.9"><world name="empty"></world></sdf>\n'
+SHORT_SCENARIO = {"world": "playground", "duration": 0.1,
+                  "robots": [{"name": "r", "model": "pebble", "x": 0, "y": 0}],
+                  "expect": [{"name": "stays", "stays_within": {"robot": "r", "x": [-0.5, 0.5]}}]}
+SMALL_MODEL = """<model name="m{0}"><static>true</static><pose>{1} {2} 0 0 0 0</pose><link name="l">
+<collision name="c"><geometry><box><size>0.{0} 0.2 0.3</size></box></geometry></collision>
+<visual name="v"><geometry><box><size>0.{0} 0.2 0.3</size></box></geometry></visual></link></model>"""
+
+
+@dataclass
+class Measured:
+    value: float
+    beside: Optional[float] = None
+    hash: str = ""
+
+
+@dataclass
+class Row:
+    name: str
+    unit: str
+    wanted: float
+    is_more_better: bool
+    run: Callable[[], Measured]
+    beside: str = ""  # the operation that the other value is of
+
+
+def timed(command, cwd=None):
+    """Processor and wall seconds of a program and of those that it starts and waits for."""
+    start = time.monotonic()
+    process = subprocess.Popen(command, cwd=cwd, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    errors = process.stderr.read().decode()
+    _, status, used = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    assert process.returncode == 0, f"{' '.join(map(str, command))}: {errors.strip()}"
+    return used.ru_utime + used.ru_stime, time.monotonic() - start
+
+
+def median_of(times, command, which, cwd=None):
+    return sorted(timed(command, cwd)[which] for _ in range(times))[times // 2]
+
+
+class Benches:
+    def __init__(self, gsv, folder, is_quick):
+        self.gsv, self.folder, self.is_quick = gsv, folder, is_quick
+        self.broker_figures = {}
+        (folder / "empty.sdf").write_text(EMPTY_WORLD)
+        (folder / "s.yaml").write_text(json.dumps(SHORT_SCENARIO))
+        models = "\n".join(SMALL_MODEL.format(i + 1, i % 40, i // 40) for i in range(1000))
+        (folder / "models.sdf").write_text(f'<sdf version="1.9"><world name="w">{models}</world></sdf>\n')
+
+    def bench(self, *arguments):
+        command = [self.gsv, "bench", *arguments, "--json"]
+        output = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+        return [json.loads(line) for line in output.splitlines() if line.startswith("{")]
+
+    def seconds(self, whole):
+        return str(max(1, whole // 10) if self.is_quick else whole)
+
+    def crowd(self, robots, threads):
+        row = self.bench("crowd", "--robots", str(robots), "--threads", str(threads), "--duration",
+                         self.seconds(20))[-1]["rows"][0]
+        return Measured(row["real_time_factor"], hash=row["state_hash"])
+
+    @functools.cached_property
+    def handover(self):
+        """A program that prints the nanoseconds of a futex from one process to another and back."""
+        compiler = os.environ.get("CXX") or shutil.which("c++")
+        program = self.folder / "handover"
+        subprocess.run([compiler, "-O2", "-std=c++20", HERE / "handover.cc", "-o", program], check=True)
+        return program
+
+    def lockstep(self, index, calls):
+        """Beside the real-time factor: that of a futex for each call, 20 cycles a second of 5 robots."""
+        row = self.bench("lockstep", "--robots", "5", "--duration", self.seconds(60))[-1]["rows"][index]
+        bare = float(subprocess.run([self.handover], check=True, stdout=subprocess.PIPE, text=True).stdout)
+        return Measured(row["real_time_factor"], 1e9 / (bare * 20 * 5 * calls), row["state_hash"])
+
+    def typical(self, robots):
+        row = self.bench("typical", "--exchange", "--robots", str(robots), "--duration",
+                         self.seconds(30))[-1]["rows"][0]
+        return Measured(row["real_time_factor"])
+
+    def images(self, size):
+        return Measured(self.bench("camera", "--cameras", "64", "--size", size, "--duration",
+                                   self.seconds(10))[-1]["pictures_per_s"])
+
+    def lidar(self):
+        return Measured(self.bench("lidar", "--duration", self.seconds(10))[-1]["rays_per_s"] / 1e6)
+
+    def short_run(self):
+        command = [self.gsv, "run", self.folder / "s.yaml", "--lockstep", "--headless"]
+        return Measured(median_of(5, command, 1))
+
+    def campaign(self):
+        runs = 20 if self.is_quick else 300
+        (self.folder / "c.yaml").write_text(
+            json.dumps({"scenario": "s.yaml", "parameters": {"seed": {"from": 1, "to": runs}}}))
+        for file in self.folder.glob("c.sqlite*"):
+            file.unlink()
+        cpu, _ = timed([self.gsv, "campaign", "run", "c.yaml", "--json", "--jobs", "2"], self.folder)
+        return Measured(cpu / runs)
+
+    def start(self, *arguments):
+        return Measured(median_of(9, [self.gsv, *arguments], 0), median_of(9, ["/bin/true"], 0))
+
+    def broker(self, figure):
+        """Each figure over TCP once of each run, which takes a minute."""
+        if figure not in self.broker_figures:
+            offers = "5000" if self.is_quick else "100000"
+            self.broker_figures = self.bench("broker", "--offers", offers)[-1]
+        return Measured(self.broker_figures.pop(figure))
+
+    def recording(self):
+        """The share of its speed that a run keeps while it records all topics but images."""
+        out = self.folder / "recording.json"
+        sonars = [f"/robot_{robot}/sonar_0{sonar}" for robot in range(100) for sonar in range(8)]
+        topics = ["/clock", "/diagnostics", "/gsv/", "/rosout", "/tf", "/tf_static", *sonars]
+        subprocess.run([HERE / "recording", Path(self.gsv).parent.parent, out, "--topics", ",".join(topics),
+                        "--seconds", self.seconds(20), "--pairs", "3"],
+                       check=True, stdout=subprocess.DEVNULL)
+        result = json.loads(out.read_text())
+        assert result["same_hash"], "a recording changes the run"
+        return Measured(1 / (1 + result["median_extra_percent"] / 100))
+
+    def load(self, world):
+        """Processor time beyond that of an empty world."""
+        command = [self.gsv, "run", "--headless", "--lockstep", "--duration", "0.01"]
+        return Measured(median_of(3, [*command, world], 0), median_of(3, [*command, self.folder / "empty.sdf"], 0))
+
+
+def rows(gsv, folder, is_quick):
+    b = Benches(gsv, folder, is_quick)
+    empty = ("run", str(folder / "empty.sdf"), "--headless", "--lockstep", "--duration", "0.01")
+    crowds = [Row(f"crowd {robots}, {threads} thread{'s' if threads > 1 else ''}", "× real time", wanted, True,
+                  functools.partial(b.crowd, robots, threads))
+              for robots, wanted in ((100, 900), (1000, 80), (5000, 12), (20000, 3)) for threads in (1, 2)]
+    return [
+        Row("start: gsv --version", "s of processor time", 0.01, False, lambda: b.start("--version"), "/bin/true"),
+        Row("start: gsv run, empty world", "s of processor time", 0.08, False, lambda: b.start(*empty), "/bin/true"),
+        Row("short scenario: gsv run", "s", 0.2, False, b.short_run),
+        Row("short scenario: in a campaign", "s of processor time", 0.03, False, b.campaign),
+        *crowds,
+        Row("lockstep 5, separate calls", "× real time", 250, True, lambda: b.lockstep(0, 10), "ten futexes a cycle"),
+        Row("lockstep 5, exchange", "× real time", 900, True, lambda: b.lockstep(1, 1), "a futex a cycle"),
+        Row("typical 800, exchange", "× real time", 0.99, True, lambda: b.typical(800)),
+        Row("typical 1000, exchange", "× real time", 0.99, True, lambda: b.typical(1000)),
+        Row("images 64 × 320×240", "a second", 900, True, lambda: b.images("320x240")),
+        Row("images 64 × 640×480", "a second", 300, True, lambda: b.images("640x480")),
+        Row("lidar, 360 rays of 10 m", "million rays a second", 35, True, b.lidar),
+        Row("broker: scan, p50", "ms", 2, False, lambda: b.broker("query_scan_p50_ms")),
+        Row("broker: bytes an offer", "bytes", 400, False, lambda: b.broker("bytes_per_offer")),
+        Row("broker: durable exports", "a second", 15000, True, lambda: b.broker("exports_durable_per_s")),
+        Row("recording 100, all but images", "of the speed without", 0.5, True, b.recording),
+        Row("read a world of 1,000 models", "s of processor time", 1, False,
+            lambda: b.load(folder / "models.sdf"), "an empty world"),
+    ]
