@@ -114,6 +114,7 @@ class WorldEngine final : public Engine {
       if (layout_->bodies[i].is_rigid()) state.bodies[i].in_contact = false;
     }
     for (world::Contact& contact : contacts) {
+      if (contact.supports) continue;
       for (const int index : {contact.first, contact.second}) {
         if (!layout_->bodies[index].is_rigid()) continue;
         world::BodyState& body = state.bodies[index];
@@ -123,7 +124,7 @@ class WorldEngine final : public Engine {
       }
     }
     std::sort(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) {
-      return std::tie(a.first, a.second) < std::tie(b.first, b.second);
+      return std::tie(a.first, a.second, a.supports) < std::tie(b.first, b.second, b.supports);
     });
   }
 

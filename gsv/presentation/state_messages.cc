@@ -94,6 +94,9 @@ messages::gsv_msgs::Contact ContactMessage(const world::Snapshot& snapshot,
   message.normal = {contact.normal.x, contact.normal.y, contact.normal.z};
   message.depth = contact.depth;
   message.closing_speed = contact.closing_speed;
+  for (const auto& [point, normal, depth] : world::PointsOf(contact)) {
+    message.points.push_back({point.x, point.y, point.z});
+  }
   return message;
 }
 

@@ -1,10 +1,13 @@
 // Worlds like those of gz-sim's integration tests, read from SDFormat, and the values that these
 // expect (gazebosim/gz-sim, test/integration). The worlds' texts are our own.
+#include <set>
+
 #include <gmock/gmock.h>
 
 #include "gsv/base/test_folder.h"
 #include "gsv/base/test_within.h"
 #include "gsv/formats/sdf_reader.h"
+#include "gsv/formats/testing/real_folder.h"
 #include "gsv/geometry/constants.h"
 #include "gsv/simulation/testing/test_simulation.h"
 
@@ -41,6 +44,10 @@ class GazeboValues : public ::testing::Test {
         "<sdf version='1.9' xmlns:gsv='https://gsv/'><world name='w'><physics name='p' "
         "type='ignored'><max_step_size>0.001</max_step_size></physics>" +
             settings + content + "</world></sdf>");
+    StartFile(file);
+  }
+
+  void StartFile(const std::filesystem::path& file) {
     base::Problems problems;
     auto world = formats::ModelLibrary().ReadWorld(file, problems);
     ASSERT_TRUE(world) << world.error().Sentence();
@@ -74,6 +81,21 @@ class GazeboValues : public ::testing::Test {
     EXPECT_TRUE(reading) << (reading ? "" : reading.error().Sentence());
     if (!reading) return std::vector<double>(10, 1e9);
     return {reading->values.begin(), reading->values.end()};
+  }
+
+  // Four points at which two spheres lie on the edges of two boxes.
+  void ExpectFourCorners(const std::string& robot, const std::string& sensor) {
+    const std::vector<double> touches = Read(robot, sensor);
+    ASSERT_EQ(touches.size(), 4 * 8u);
+    std::set<std::pair<double, double>> corners;
+    for (std::size_t i = 0; i < touches.size(); i += 8) {
+      const Vector3 point = At(robot) * Vector3{touches[i], touches[i + 1], touches[i + 2]};
+      EXPECT_WITHIN(std::abs(point.x), 0.25, 0.05, "m");
+      EXPECT_WITHIN(std::abs(point.y), 1, 0.05, "m");
+      EXPECT_WITHIN(point.z, 1, 0.05, "m");
+      corners.insert({std::copysign(1, point.x), std::copysign(1, point.y)});
+    }
+    EXPECT_EQ(corners.size(), 4u);
   }
 
   base::testing::TestFolder folder_;
@@ -207,7 +229,8 @@ TEST_F(GazeboValues, ANavsatKnowsWhereItsWorldLies) {
   EXPECT_WITHIN(Read("robot", "s")[1], -43.2, 1e-4, "°");
 }
 
-TEST_F(GazeboValues, ADifferentialDriveKeepsItsLimitsAndKnowsWhereItIs) {
+// A car with two driven wheels in front and a caster, and an odometer of 50 Hz.
+std::string Car(const std::string& movement) {
   const auto wheel = [](const std::string& side, const std::string& y) {
     return "<link name='" + side + "'><pose>0.554283 " + y + " -0.025 -1.5707963 0 0</pose>" +
            Inertial("2", Moments("0.1458", "0.1458", "0.125")) + "<collision name='c'>" +
@@ -216,46 +239,176 @@ TEST_F(GazeboValues, ADifferentialDriveKeepsItsLimitsAndKnowsWhereItIs) {
            "</child><axis><xyz>0 0 1</xyz><limit><lower>-1e308</lower><upper>1e308</upper></limit>"
            "</axis></joint>";
   };
-  Start(std::string(kGround) +
-        "<model name='car'><pose>0 0 0.325 0 0 0</pose><link name='chassis'>"
-        "<pose>-0.151427 0 0.175 0 0 0</pose>" +
-        Inertial("1.14395", Moments("0.126", "0.416", "0.481")) + "<collision name='c'>" +
-        Box("2.01142 1 0.568726") + "</collision></link>" + wheel("left", "0.625029") +
-        wheel("right", "-0.625029") + "<link name='caster'><pose>-0.957138 0 -0.125 0 0 0</pose>" +
-        Inertial("1", Moments("0.1", "0.1", "0.1")) + "<collision name='c'>" + Sphere("0.2") +
-        "</collision></link><joint name='caster_joint' type='ball'><parent>chassis</parent><child>"
-        "caster</child></joint><plugin filename='gz-sim-diff-drive-system' "
-        "name='gz::sim::systems::DiffDrive'><left_joint>left_joint</left_joint><right_joint>"
-        "right_joint</right_joint><wheel_separation>1.25</wheel_separation><wheel_radius>0.3"
-        "</wheel_radius><max_linear_acceleration>1</max_linear_acceleration>"
-        "<min_linear_acceleration>-1</min_linear_acceleration><max_angular_acceleration>2"
-        "</max_angular_acceleration><min_angular_acceleration>-2</min_angular_acceleration>"
-        "<max_linear_velocity>0.5</max_linear_velocity><min_linear_velocity>-0.5"
-        "</min_linear_velocity><max_angular_velocity>1</max_angular_velocity>"
-        "<min_angular_velocity>-1</min_angular_velocity></plugin></model>");
+  return "<model name='car'><pose>0 0 0.325 0 0 0</pose><gsv:movement>" + movement +
+         "</gsv:movement><link name='chassis'><pose>-0.151427 0 0.175 0 0 0</pose>" +
+         Inertial("1.14395", Moments("0.126", "0.416", "0.481")) + "<collision name='c'>" +
+         Box("2.01142 1 0.568726") +
+         "</collision><sensor name='odometer' type='odometry'><update_rate>50</update_rate>"
+         "</sensor></link>" +
+         wheel("left", "0.625029") + wheel("right", "-0.625029") +
+         "<link name='caster'><pose>-0.957138 0 -0.125 0 0 0</pose>" +
+         Inertial("1", Moments("0.1", "0.1", "0.1")) + "<collision name='c'>" + Sphere("0.2") +
+         "</collision></link><joint name='caster_joint' type='ball'><parent>chassis</parent><child>"
+         "caster</child></joint><plugin filename='gz-sim-diff-drive-system' "
+         "name='gz::sim::systems::DiffDrive'><left_joint>left_joint</left_joint><right_joint>"
+         "right_joint</right_joint><wheel_separation>1.25</wheel_separation><wheel_radius>0.3"
+         "</wheel_radius><max_linear_acceleration>1</max_linear_acceleration>"
+         "<min_linear_acceleration>-1</min_linear_acceleration><max_angular_acceleration>2"
+         "</max_angular_acceleration><min_angular_acceleration>-2</min_angular_acceleration>"
+         "<max_linear_velocity>0.5</max_linear_velocity><min_linear_velocity>-0.5"
+         "</min_linear_velocity><max_angular_velocity>1</max_angular_velocity>"
+         "<min_angular_velocity>-1</min_angular_velocity></plugin></model>";
+}
+
+class GazeboCar : public GazeboValues, public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(GazeboCar, KeepsItsLimitsAndKnowsWhereItIs) {
+  Start(std::string(kGround) + Car(GetParam()));
   auto behaviour = std::make_shared<ThreadBehaviour>([](Agent& agent, ClockId clock) {
     do {
       (void)agent.Command({10.5, 0, 0.2});
     } while (SleepFor(agent, clock, 20ms));
   });
   ASSERT_TRUE(simulation_->SetBehaviour("car", behaviour));
-  RunUntil(3s);
+  // The odometry is that of the point halfway between the wheels.
+  const Pose car_from_axle{{0.554283, 0, -0.325}, {}};
+  const Pose start_from_world = Inverse(At("car") * car_from_axle);
+  std::set<SimTime> samples;
+  std::vector<double> odometry;
+  for (SimTime time = 10ms; time <= 3s; time += 10ms) {
+    RunUntil(time);
+    EXPECT_LE(std::abs(StateOf("car").drive.actual.linear), 0.5 + 1e-9);
+    const auto reading = simulation_->Watch("car", "odometer");
+    ASSERT_TRUE(reading);
+    samples.insert(reading->time);
+    odometry.assign(reading->values.begin(), reading->values.end());
+    EXPECT_LE(std::abs(odometry[3]), 0.5 + 1e-9);
+  }
+  EXPECT_EQ(samples.size(), 151u);  // at 0 s, 0.02 s, ..., 3 s
   const world::BodyState state = StateOf("car");
   EXPECT_WITHIN(state.drive.actual.linear, 0.5, 1e-9, "m/s");
   EXPECT_WITHIN(state.drive.actual.angular, 0.2, 1e-9, "rad/s");
-  // The odometry is that of the wheels' axle: half a second to get going, of a path along an arc.
-  const Pose car_from_axle{{0.554283, 0, -0.325}, {}};
-  const Pose moved = At("car") * car_from_axle;
-  const Pose start = Pose{{0, 0, 0.325}, {}} * car_from_axle;
+  // Half a second to get going, of a path along an arc.
+  const Pose moved = start_from_world * (At("car") * car_from_axle);
   double x = 0, y = 0, yaw = 0;
   for (double time = 0; time < 3; time += 1e-4) {
     yaw += 1e-4 * std::min(0.2, 2 * time);
     x += 1e-4 * std::min(0.5, time) * std::cos(yaw);
     y += 1e-4 * std::min(0.5, time) * std::sin(yaw);
   }
-  EXPECT_WITHIN(moved.position.x - start.position.x, x, 0.01, "m");
-  EXPECT_WITHIN(moved.position.y - start.position.y, y, 0.01, "m");
+  EXPECT_WITHIN(moved.position.x, x, 0.01, "m");
+  EXPECT_WITHIN(moved.position.y, y, 0.01, "m");
   EXPECT_WITHIN(geometry::Yaw(moved.orientation), yaw, 0.01, "rad");
+  EXPECT_WITHIN(moved.position.x, odometry[0], 0.01, "m");
+  EXPECT_WITHIN(moved.position.y, odometry[1], 0.01, "m");
+  EXPECT_WITHIN(geometry::Yaw(moved.orientation), odometry[2], 0.01, "rad");
+}
+
+INSTANTIATE_TEST_SUITE_P(Movements, GazeboCar, ::testing::Values("planar", "rigid"));
+
+TEST_F(GazeboValues, AContactSensorFeelsEachPointWhereItsCollisionsTouch) {
+  // A link of two spheres falls onto the edges of two boxes, 0.5 m apart.
+  const auto box = [](const std::string& name, const std::string& x) {
+    return "<model name='" + name + "'><static>1</static><pose>" + x +
+           " 0 0.5 0 0 0</pose><link name='l'><collision name='c'>" + Box("1 4 1") +
+           "</collision></link></model>";
+  };
+  const auto sphere = [](const std::string& name, const std::string& y) {
+    return "<collision name='" + name + "'><pose>0 " + y + " 0 0 0 0</pose>" + Sphere("0.5") +
+           "</collision>";
+  };
+  Start(box("left", "-0.75") + box("right", "0.75") +
+        "<model name='dumbbell'><pose>0 0 3 0 0 0</pose><link name='l'>" + sphere("a", "1") +
+        sphere("b", "-1") +
+        "<sensor name='s' type='contact'><contact><collision>a</collision><collision>b</collision>"
+        "</contact><update_rate>1000</update_rate></sensor></link></model>");
+  EXPECT_THAT(Read("dumbbell", "s"), ::testing::IsEmpty());
+  for (const SimTime time : {SimTime(1s), SimTime(2s), SimTime(5s)}) {
+    RunUntil(time);
+    ExpectFourCorners("dumbbell", "s");
+    // Both edges stop it at once: nothing turns it.
+    EXPECT_WITHIN(At("dumbbell").position.z, 1 + std::sqrt(0.5 * 0.5 - 0.25 * 0.25), 1e-3, "m");
+    EXPECT_WITHIN(At("dumbbell").orientation.y, 0, 1e-3, "rad");
+  }
+}
+
+// The original worlds, in a folder beside that of other people's files, which may be absent.
+class GazeboOriginals : public GazeboValues {
+ protected:
+  void StartOriginal(const std::string& name) {
+    const auto file = formats::RealFolder().parent_path() / "checks" / "gz_sim" / name;
+    if (formats::RealFolder().empty() || !std::filesystem::exists(file)) {
+      GTEST_SKIP() << "no " << name << " in checks/gz_sim beside the folder in GSV_REAL_DIR";
+    }
+    StartFile(file);
+  }
+};
+
+TEST_F(GazeboOriginals, Altimeter) {
+  StartOriginal("altimeter.sdf");
+  if (IsSkipped()) return;
+  RunUntil(100ms);
+  EXPECT_LT(Read("altimeter_model", "altimeter_sensor")[0], 0);
+  EXPECT_LT(Read("altimeter_model", "altimeter_sensor")[1], 0);
+  RunUntil(1100ms);
+  EXPECT_WITHIN(At("altimeter_model").position.z + 0.05, 0.05, 0.01, "m");
+  EXPECT_WITHIN(Read("altimeter_model", "altimeter_sensor")[0], -3, 0.01, "m");
+  EXPECT_WITHIN(Read("altimeter_model", "altimeter_sensor")[1], 0, 1e-3, "m/s");
+}
+
+TEST_F(GazeboOriginals, Imu) {
+  StartOriginal("imu.sdf");
+  if (IsSkipped()) return;
+  RunUntil(200ms);
+  EXPECT_WITHIN(Read("imu_model", "imu_sensor")[5], 0, 1e-2, "m/s²");
+  RunUntil(3s);
+  EXPECT_WITHIN(Read("imu_model", "imu_sensor")[5], 5, 1e-2, "m/s²");
+}
+
+TEST_F(GazeboOriginals, Contact) {
+  StartOriginal("contact.sdf");
+  if (IsSkipped()) return;
+  RunUntil(2s);
+  ExpectFourCorners("contact_model", "sensor_contact");
+}
+
+TEST_F(GazeboOriginals, Falling) {
+  StartOriginal("falling.sdf");
+  if (IsSkipped()) return;
+  RunUntil(10ms);
+  EXPECT_WITHIN(At("sphere").position.z, 2 - 9.8 * 0.01 * 0.01 / 2, 2e-4, "m");
+  RunUntil(2s);
+  EXPECT_WITHIN(At("sphere").position.z, -4, 0.05, "m");
+}
+
+TEST_F(GazeboOriginals, JointController) {
+  StartOriginal("joint_controller.sdf");
+  if (IsSkipped()) return;
+  RunUntil(100ms);
+  EXPECT_WITHIN(Joint("joint_controller_test", 0, true), 5, 1e-2, "rad/s");
+}
+
+TEST_F(GazeboOriginals, DifferentialDrive) {
+  StartOriginal("diff_drive.sdf");
+  if (IsSkipped()) return;
+  auto behaviour = std::make_shared<ThreadBehaviour>([](Agent& agent, ClockId clock) {
+    do {
+      (void)agent.Command({10.5, 0, 0.2});
+    } while (SleepFor(agent, clock, 20ms));
+  });
+  ASSERT_TRUE(simulation_->SetBehaviour("vehicle", behaviour));
+  const Pose vehicle_from_axle{{0.554283, 0, -0.325}, {}};
+  const Pose start_from_world = Inverse(At("vehicle") * vehicle_from_axle);
+  for (SimTime time = 20ms; time <= 3s; time += 20ms) {
+    RunUntil(time);
+    EXPECT_LE(std::abs(StateOf("vehicle").drive.actual.linear), 0.5 + 1e-9);
+  }
+  const Pose moved = start_from_world * (At("vehicle") * vehicle_from_axle);
+  const world::Odometry odometry = StateOf("vehicle").odometry;
+  EXPECT_WITHIN(moved.position.x, odometry.place.x, 0.01, "m");
+  EXPECT_WITHIN(moved.position.y, odometry.place.y, 0.01, "m");
+  EXPECT_WITHIN(geometry::Yaw(moved.orientation),
+                std::atan2(odometry.place.sine, odometry.place.cosine), 0.01, "rad");
 }
 
 }  // namespace

@@ -97,7 +97,8 @@ TEST(Gripping, WhatIsBetweenTheJawsGoesWithTheRobotUntilTheyOpen) {
   EXPECT_EQ(HeldBy(*simulation, "robot"), "");
   const geometry::Pose left = PoseOf(*simulation, "post");
   RunTo(*simulation, 4500ms);  // the robot leaves, the post stands
-  EXPECT_LT(Norm(PoseOf(*simulation, "post").position - left.position), 1e-3);
+  // Dropped at speed, it rocks from edge to edge for a while.
+  EXPECT_LT(Norm(PoseOf(*simulation, "post").position - left.position), 5e-3);
   EXPECT_GT(Norm(PoseOf(*simulation, "robot").position - left.position), 0.3);
 }
 

@@ -134,7 +134,7 @@ std::optional<double> Measure::OfContact(const scenario::Quantity& quantity) con
   const int b = snapshot_->layout->Find(quantity.second);
   const bool touch = std::any_of(
       snapshot_->contacts.begin(), snapshot_->contacts.end(), [&](const world::Contact& c) {
-        return (c.first == a && c.second == b) || (c.first == b && c.second == a);
+        return !c.supports && ((c.first == a && c.second == b) || (c.first == b && c.second == a));
       });
   return touch ? 1 : 0;
 }

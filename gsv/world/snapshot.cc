@@ -65,6 +65,11 @@ std::span<const double> JointPositions(const Snapshot& snapshot, int body) {
 
 }  // namespace
 
+std::vector<ContactPoint> PointsOf(const Contact& contact) {
+  if (!contact.points.empty()) return contact.points;
+  return {{contact.point, contact.normal, contact.depth}};
+}
+
 void KeepVelocities(const State& state, std::vector<Acceleration>& accelerations) {
   accelerations.resize(state.bodies.size());
   for (std::size_t i = 0; i < state.bodies.size(); ++i) {

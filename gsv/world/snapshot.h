@@ -11,8 +11,16 @@
 
 namespace gsv::world {
 
+// A point at which two bodies touch.
+struct ContactPoint {
+  geometry::Vector3 point;   // world
+  geometry::Vector3 normal;  // world, unit length, from the first body to the second
+  double depth = 0;          // m
+};
+
 // A contact of two bodies. The normal points from the first to the second. If a robot touches a
-// static body or the ground, the robot is the first.
+// static body or the ground, the robot is the first. Point, normal and depth are those of the
+// deepest point.
 struct Contact {
   int first = 0;
   int second = 0;
@@ -24,7 +32,16 @@ struct Contact {
   // N s over the step along the normal, summed over all contact points; NaN if no engine computes
   // it. Planar kinematics computes the impulse of a push only.
   double impulse = std::numeric_limits<double>::quiet_NaN();
+  // The second body, static or planar, carries the first from below, as the ground does. Such a
+  // contact is not a collision: only contact sensors report it.
+  bool supports = false;
+  // All points of two rigid bodies, the deepest first, at the end of the last substep in which the
+  // bodies touched. Empty if the engine computes only the point above.
+  std::vector<ContactPoint> points;
 };
+
+// The contact's points, at least one.
+std::vector<ContactPoint> PointsOf(const Contact& contact);
 
 // The acceleration of a model's origin in world axes: the mean over the last step.
 struct Acceleration {
@@ -35,7 +52,7 @@ struct Acceleration {
 struct Snapshot {
   std::shared_ptr<const Layout> layout;  // never null
   State state;
-  std::vector<Contact> contacts;            // of the last step, by (first, second)
+  std::vector<Contact> contacts;            // of the last step, by (first, second, supports)
   std::vector<Acceleration> accelerations;  // as Layout::bodies; empty before the first step
   std::vector<Transmission> transmissions;  // of the last step, in the order of senders
 };

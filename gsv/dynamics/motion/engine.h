@@ -46,7 +46,7 @@ class Engine {
   // Takes `state`, which fits the layout, from its time t to t + step: drives follow their
   // commands within their limits, bodies do not enter each other, joints of wheels turn.
   // state.step and state.time are the caller's. `contacts` becomes those at t + step, in the order
-  // of (first, second), with `began` set by comparing with BodyState::in_contact and the contacts
+  // of (first, second, supports), with `began` set by comparing with BodyState::in_contact and the contacts
   // of the step before; given the same vector again, it keeps its memory.
   virtual void Step(base::SimTime step, world::State& state,
                     std::vector<world::Contact>& contacts) = 0;

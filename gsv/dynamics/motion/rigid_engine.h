@@ -50,10 +50,10 @@ class RigidEngine {
   // step: poses, velocities, joints, drives, distances. Planar bodies are in `before` where the
   // step starts and in `state` where it ends. Fills in the results of `pushes`.
   //
-  // `contacts` becomes those of rigid bodies in this step, with their impulses, in any order: at
-  // most one for each pair, of which the first body is rigid, and `began` if the two did not touch
-  // when the step started. The ground is no contact, nor whatever else, static or planar, carries a
-  // body from below.
+  // `contacts` becomes those of rigid bodies in this step, with their points and impulses, in any
+  // order: at most two for each pair, of which the first body is rigid, and `began` if the two did
+  // not touch when the step started. One of the two `supports`: it has the points at which the
+  // second body, static or planar, carries the first from below, as the ground does.
   virtual void Step(base::SimTime step, const world::State& before, std::span<Push> pushes,
                     world::State& state, std::vector<world::Contact>& contacts) = 0;
 

@@ -49,6 +49,8 @@ class ImpulseRows {
 
   // `impulse` is what has acted already: its effect is part of the velocities. Returns the row.
   int AddRow(const Side& a, const Side& b, const Limits& limits, double impulse);
+  // The row asks for this share of its target. Only before AddCone().
+  void ScaleTarget(int row, double share) { At(row).target *= share; }
   // A row that no impulse can move (J M⁻¹ Jᵀ = 0) keeps its impulse.
   double impulse(int row) const { return rows_[static_cast<std::size_t>(row)].impulse; }
 

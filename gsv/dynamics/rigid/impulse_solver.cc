@@ -19,6 +19,22 @@ ImpulseRows::Limits LimitsOf(const BulletRow& row) {
           row.m_upperLimit};
 }
 
+// m/s: contacts that close more slowly are not impacts.
+constexpr double kImpact = 0.05;
+
+// The share of the slip that friction takes in this substep. A contact that closes during the
+// substep keeps a part of its closing speed: as much as takes the bodies together by the end. The
+// next substep takes that part. Friction may not be faster than that: one point that sticks before
+// it touches would throw a body that lands on two edges at once to one side.
+template <typename BulletRow>
+double ShareOfSlip(const BulletRow& normal, const btContactSolverInfo& info) {
+  const auto& point = *static_cast<const btManifoldPoint*>(normal.m_originalContactPoint);
+  const double kept = (point.getDistance() + info.m_linearSlop) / info.m_timeStep;
+  const double taken = LimitsOf(normal).target;
+  if (!(kept > kImpact) || !(taken > 0)) return 1;
+  return taken / (taken + kept);
+}
+
 // For contacts of trees Bullet takes axes of the world, whatever the point asks for.
 ImpulseRows::Axes AxesOf(const btMultiBodySolverConstraint& first,
                          const btMultiBodySolverConstraint& second) {
@@ -106,7 +122,7 @@ void ImpulseSolver::AddRows(const btMultiBodyConstraintArray& rows, double give)
 }
 
 // The rows lie one kind after the other, as Solve() takes them: constraints, contacts, friction.
-void ImpulseSolver::AddCones() {
+void ImpulseSolver::AddCones(const btContactSolverInfo& info) {
   AddRows(m_tmpSolverNonContactConstraintPool);
   AddRows(m_multiBodyNonContactConstraints);
   const int normals =
@@ -120,10 +136,15 @@ void ImpulseSolver::AddCones() {
   AddRows(m_multiBodyFrictionContactConstraints);
   for (int i = 0; i + 1 < m_tmpSolverContactFrictionConstraintPool.size(); i += 2) {
     const btSolverConstraint& row = m_tmpSolverContactFrictionConstraintPool[i];
+    const double share = ShareOfSlip(m_tmpSolverContactConstraintPool[row.m_frictionIndex], info);
+    for (const int of : {friction + i, friction + i + 1}) rows_.ScaleTarget(of, share);
     rows_.AddCone(normals + row.m_frictionIndex, friction + i, row.m_friction, kAsTheyAre);
   }
   for (int i = 0; i + 1 < m_multiBodyFrictionContactConstraints.size(); i += 2) {
     const btMultiBodySolverConstraint& row = m_multiBodyFrictionContactConstraints[i];
+    const double share =
+        ShareOfSlip(m_multiBodyNormalContactConstraints[row.m_frictionIndex], info);
+    for (const int of : {tree_friction + i, tree_friction + i + 1}) rows_.ScaleTarget(of, share);
     rows_.AddCone(tree_normals + row.m_frictionIndex, tree_friction + i, row.m_friction,
                   AxesOf(row, m_multiBodyFrictionContactConstraints[i + 1]));
   }
@@ -173,7 +194,7 @@ btScalar ImpulseSolver::solveGroupCacheFriendlyIterations(
   rows_.Clear();
   trees_.resize(0);
   AddBodies();
-  AddCones();
+  AddCones(info);
   rows_.Solve(info.m_numIterations, std::sqrt(info.m_leastSquaresResidualThreshold));
   Store();
   return 0;

@@ -41,7 +41,7 @@ class ImpulseSolver final : public btMultiBodyConstraintSolver {
                            const btVector3& angular_response, int which);
   void AddRows(const btConstraintArray& rows);
   void AddRows(const btMultiBodyConstraintArray& rows, double give = 0);
-  void AddCones();
+  void AddCones(const btContactSolverInfo& info);
   void Store();
 
   ImpulseRows rows_;

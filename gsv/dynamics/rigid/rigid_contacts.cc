@@ -99,7 +99,7 @@ void InstallSurfaces() {
 void RigidContacts::Clear() {
   found_.clear();
   at_start_.clear();
-  is_first_ = true;
+  substep_ = 0;
 }
 
 void RigidContacts::Add(const Owner& first, const Owner& second,
@@ -107,15 +107,14 @@ void RigidContacts::Add(const Owner& first, const Owner& second,
   const BodyPair pair{first.solid->body, second.solid->body};
   for (int i = 0; i < manifold.getNumContacts(); ++i) {
     const btManifoldPoint& point = manifold.getContactPoint(i);
-    if (is_first_ && point.getDistance() <= kTouchingDistance) at_start_.push_back(pair);
+    if (substep_ == 0 && point.getDistance() <= kTouchingDistance) at_start_.push_back(pair);
     if (point.getDistance() > kTouchingDistance && !(point.getAppliedImpulse() > 0)) continue;
     // Bullet's normal points from its second body to its first.
     const bool swapped = manifold.getBody0()->getUserPointer() != &first;
     geometry::Vector3 normal = FromBullet(point.m_normalWorldOnB);
     if (!swapped) normal = -normal;
-    if (!second.moves_by_forces && normal.z < -kCarries) continue;
     const btVector3 middle = (point.getPositionWorldOnA() + point.getPositionWorldOnB()) / 2;
-    world::Contact& contact = found_.emplace_back();
+    world::Contact& contact = found_.emplace_back(Found{{}, substep_}).contact;
     contact.first = pair.first;
     contact.second = pair.second;
     contact.point = FromBullet(middle);
@@ -124,6 +123,7 @@ void RigidContacts::Add(const Owner& first, const Owner& second,
     // The solver leaves out points beyond the threshold: they keep the impulse of a substep before.
     const bool is_solved = point.getDistance() <= manifold.getContactProcessingThreshold();
     contact.impulse = is_solved ? point.getAppliedImpulse() : 0;
+    contact.supports = !second.moves_by_forces && normal.z < -kCarries;
   }
 }
 
@@ -138,25 +138,35 @@ void RigidContacts::Read(btDispatcher& dispatcher) {
         a.moves_by_forces && (!b.moves_by_forces || a.solid->body < b.solid->body);
     Add(in_order ? a : b, in_order ? b : a, manifold);
   }
-  is_first_ = false;
+  ++substep_;
 }
 
 void RigidContacts::Store(std::vector<world::Contact>& contacts) {
   contacts.clear();
-  const auto pair_of = [](const world::Contact& c) { return BodyPair{c.first, c.second}; };
-  std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
-    return std::make_tuple(a.first, a.second, -a.depth) <
-           std::make_tuple(b.first, b.second, -b.depth);
+  const auto key_of = [](const Found& found) {
+    return std::make_tuple(found.contact.first, found.contact.second, found.contact.supports);
+  };
+  std::stable_sort(found_.begin(), found_.end(), [&](const Found& a, const Found& b) {
+    return std::make_tuple(key_of(a), -a.contact.depth) <
+           std::make_tuple(key_of(b), -b.contact.depth);
   });
   std::sort(at_start_.begin(), at_start_.end());
-  for (std::size_t i = 0; i < found_.size(); ++i) {
-    if (i > 0 && pair_of(found_[i]) == pair_of(found_[i - 1])) {
-      contacts.back().impulse += found_[i].impulse;
-      continue;
+  for (auto begin = found_.begin(); begin != found_.end();) {
+    const auto end = std::find_if(
+        begin, found_.end(), [&](const Found& found) { return key_of(found) != key_of(*begin); });
+    const int last = std::max_element(begin, end, [](const Found& a, const Found& b) {
+                       return a.substep < b.substep;
+                     })->substep;
+    world::Contact& contact = contacts.emplace_back(begin->contact);
+    contact.impulse = 0;
+    contact.began = !std::binary_search(at_start_.begin(), at_start_.end(),
+                                        BodyPair{contact.first, contact.second});
+    for (auto found = begin; found != end; ++found) {
+      contact.impulse += found->contact.impulse;
+      if (found->substep < last) continue;
+      contact.points.push_back({found->contact.point, found->contact.normal, found->contact.depth});
     }
-    contacts.push_back(found_[i]);
-    contacts.back().began =
-        !std::binary_search(at_start_.begin(), at_start_.end(), pair_of(found_[i]));
+    begin = end;
   }
 }
 

@@ -32,19 +32,25 @@ class RigidContacts {
  public:
   // Starts a step.
   void Clear();
-  // Reads what touches after a substep: marks owners, and adds the contacts between what moves by
-  // forces and others that do not just carry it.
+  // Reads what touches after a substep: marks owners, and adds the contacts of what moves by
+  // forces.
   void Read(btDispatcher& dispatcher);
-  // `contacts` becomes those of the step, one for each pair of bodies: of the points at which they
-  // touched the deepest, with the impulse of all.
+  // `contacts` becomes those of the step: for each pair of bodies one, and one that supports. Each
+  // has the deepest of its points, the impulse of all, and the points of the last substep in which
+  // there were any.
   void Store(std::vector<world::Contact>& contacts);
 
  private:
+  struct Found {
+    world::Contact contact;  // of one point, in one substep
+    int substep;
+  };
+
   void Add(const Owner& first, const Owner& second, const btPersistentManifold& manifold);
 
-  std::vector<world::Contact> found_;
+  std::vector<Found> found_;
   std::vector<BodyPair> at_start_;  // who touched when the step began
-  bool is_first_ = true;
+  int substep_ = 0;
 };
 
 }  // namespace gsv::dynamics

@@ -86,6 +86,45 @@ TEST(RigidFidelity, ASlidingBoxStopsAfterTheFrictionDistance) {
   EXPECT_EQ(world.body("box").linear_velocity, Vector3{});
 }
 
+TEST(RigidFidelity, ABallThatLandsOnTwoEdgesIsNotThrownToOneSide) {
+  // 0.5 m between the edges: the ball comes to lie with its middle sqrt(0.5² - 0.25²) above them.
+  for (const double height : {1.5, 2.0, 2.5, 3.0, 3.5, 4.0}) {
+    TestWorld world(MakeWorldEngine());
+    world.AddBox("left", {1, 4, 1}, -0.75, 0);
+    world.AddBox("right", {1, 4, 1}, 0.75, 0);
+    world.AddRigid("ball", SolidOf(geometry::Sphere{0.5}, 1), At(0, 0, height));
+    ASSERT_TRUE(world.Start());
+    for (int i = 0; i < 1500; ++i) {
+      world.Step(kStep);
+      ASSERT_NEAR(world.position("ball").x, 0, 1e-4) << height;
+    }
+    EXPECT_WITHIN(world.position("ball").z, 1 + std::sqrt(0.1875), 1e-3, "m") << height;
+    EXPECT_WITHIN(world.position("ball").y, 0, 1e-6, "m") << height;
+    EXPECT_WITHIN(Norm(world.body("ball").angular_velocity), 0, 1e-6, "rad/s") << height;
+  }
+}
+
+// Speed of a ball 0.05 s after it has landed at 2 m/s, moving along at 3 m/s without spin.
+double SpeedAfterLanding(double friction, double height_more) {
+  const double height = 2.0 * 2.0 / (2 * kG) + height_more;
+  TestWorld world = WorldOnGround();
+  world.AddRigid("ball", SolidOf(geometry::Sphere{0.1}, 1, SurfaceOf(friction)),
+                 At(0, 0, 0.1 + height));
+  EXPECT_TRUE(world.Start());
+  world.body("ball").linear_velocity = {3, 0, 0};
+  world.Run(std::sqrt(2 * height / kG) + 0.05, kStep);
+  return world.body("ball").linear_velocity.x;
+}
+
+TEST(RigidFidelity, ABallThatLandsIsSlowedByFrictionTimesTheImpact) {
+  // The ground is found at different distances within a step.
+  for (const double more : {0.0, 3e-4, 7e-4, 1.3e-3, 1.9e-3}) {
+    EXPECT_WITHIN(SpeedAfterLanding(0.1, more), 3 - 0.1 * 2 - 0.1 * kG * 0.05, 2e-3, "m/s") << more;
+    // Of so much friction it rolls at once: 5/7 of the speed.
+    EXPECT_WITHIN(SpeedAfterLanding(1, more), 3 * 5 / 7.0, 2e-3, "m/s") << more;
+  }
+}
+
 constexpr double kInclineFriction = 0.5;
 
 // A box that is put down on an incline: how far it is down the slope after so many seconds.

@@ -34,14 +34,9 @@ constexpr int kStanding = btBroadphaseProxy::StaticFilter;
 constexpr int kPlanar = btBroadphaseProxy::KinematicFilter;
 constexpr int kRigid = btBroadphaseProxy::DefaultFilter;
 
-constexpr int kContactPoints = 4, kDirections = 8;
-
 }  // namespace
 
 BulletKit::BulletKit() : dispatcher(&configuration) {
-  // A contact area is found at once, not over several substeps.
-  configuration.setPlaneConvexMultipointIterations(kDirections, kContactPoints);
-  configuration.setConvexConvexMultipointIterations(kDirections, kContactPoints);
   dispatcher.setNearCallback(LookAtPairsThatMayTouch);
   InstallSurfaces();
 }

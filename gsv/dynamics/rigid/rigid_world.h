@@ -13,6 +13,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
 #include "gsv/dynamics/motion/rigid_engine.h"
+#include "gsv/dynamics/rigid/collision_kinds.h"
 #include "gsv/dynamics/rigid/impulse_solver.h"
 #include "gsv/dynamics/rigid/moving_body.h"
 #include "gsv/dynamics/rigid/push_constraint.h"
@@ -24,7 +25,7 @@ namespace gsv::dynamics {
 // What may be kept from step to step: settings, and pools of memory.
 struct BulletKit {
   BulletKit();
-  btDefaultCollisionConfiguration configuration;
+  CollisionKinds configuration;
   btCollisionDispatcher dispatcher;
 };
 

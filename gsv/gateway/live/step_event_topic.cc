@@ -7,7 +7,8 @@ namespace gsv::gateway {
 void CollectContacts(const world::Snapshot& snapshot,
                      std::vector<messages::gsv_msgs::Contact>& found) {
   for (const world::Contact& contact : snapshot.contacts) {
-    if (contact.began) found.push_back(presentation::ContactMessage(snapshot, contact));
+    if (contact.began && !contact.supports)
+      found.push_back(presentation::ContactMessage(snapshot, contact));
   }
 }
 

@@ -107,7 +107,7 @@ void StateTopics::WriteNewDeviceCommands(const world::Snapshot& snapshot) {
 
 void StateTopics::WriteNewContacts(const world::Snapshot& snapshot) {
   for (const world::Contact& contact : snapshot.contacts) {
-    if (contact.began) {
+    if (contact.began && !contact.supports) {
       contacts_.Write(snapshot.state.time, presentation::ContactMessage(snapshot, contact));
     }
   }

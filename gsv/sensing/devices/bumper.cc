@@ -69,28 +69,17 @@ class Bumper final : public SensorOf<readings::Contact, messages::gsv_msgs::Bump
       : SensorOf(description),
         half_view_(reader.Number("field_of_view", 2 * std::numbers::pi, 0, 2 * std::numbers::pi) /
                    2),
-        feels_ground_(reader.Flag("ground", false)),
+        // A collision that is named, such as a foot, feels whatever it touches.
+        feels_ground_(reader.Flag("ground", !model::CollisionNamesOf(description).empty())),
         collisions_(description, NamesIn(description, reader)) {}
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {
-    const world::Snapshot& snapshot = *sampling.snapshot();
-    const geometry::Pose sensor_from_world = Inverse(sampling.WorldFromSensor(description()));
     Values felt;
-    for (const world::Contact& contact : snapshot.contacts) {
-      const bool is_first = contact.first == sampling.body();
-      if (!is_first && contact.second != sampling.body()) continue;
-      const Vector3 outwards = is_first ? contact.normal : -contact.normal;
-      if (!feels_ground_ && outwards.z < kGroundSlope) continue;
-      if (!collisions_.Touch(snapshot, sampling.body(), contact.point)) continue;
-      const Vector3 point = sensor_from_world * contact.point;
-      if (std::abs(std::atan2(point.y, point.x)) > half_view_) continue;
-      const Vector3 normal = sensor_from_world.orientation * outwards;
-      felt.touches.push_back(
-          {.other = snapshot.layout->bodies[is_first ? contact.second : contact.first].name,
-           .point = ToVector(point),
-           .normal = ToVector(normal),
-           .depth = contact.depth,
-           .closing_speed = contact.closing_speed});
+    for (const world::Contact& contact : sampling.snapshot()->contacts) {
+      const bool is_of_robot =
+          contact.first == sampling.body() || contact.second == sampling.body();
+      if (!is_of_robot || (contact.supports && !feels_ground_)) continue;
+      AddTouches(sampling, contact, felt);
     }
     Reading reading = sampling.Stamped();
     Fill(felt, reading);
@@ -98,6 +87,25 @@ class Bumper final : public SensorOf<readings::Contact, messages::gsv_msgs::Bump
   }
 
  private:
+  void AddTouches(const Sampling& sampling, const world::Contact& contact, Values& felt) const {
+    const world::Snapshot& snapshot = *sampling.snapshot();
+    const geometry::Pose sensor_from_world = Inverse(sampling.WorldFromSensor(description()));
+    const bool is_first = contact.first == sampling.body();
+    for (const world::ContactPoint& at : world::PointsOf(contact)) {
+      const Vector3 outwards = is_first ? at.normal : -at.normal;
+      if (!feels_ground_ && outwards.z < kGroundSlope) continue;
+      if (!collisions_.Touch(snapshot, sampling.body(), at.point)) continue;
+      const Vector3 point = sensor_from_world * at.point;
+      if (std::abs(std::atan2(point.y, point.x)) > half_view_) continue;
+      felt.touches.push_back(
+          {.other = snapshot.layout->bodies[is_first ? contact.second : contact.first].name,
+           .point = ToVector(point),
+           .normal = ToVector(sensor_from_world.orientation * outwards),
+           .depth = at.depth,
+           .closing_speed = contact.closing_speed});
+    }
+  }
+
   static std::vector<std::string> NamesIn(const model::SensorDescription& description,
                                           ParameterReader& reader) {
     (void)reader.Text(model::kCollisionNames, "");  // refuses what is no text

@@ -249,6 +249,11 @@ TEST_F(FamilyTest, ABumperFeelsWhereItIsTouched) {
   const Reading ahead = Sample(DescriptionOf("contact", {{"field_of_view", kPi}}));
   EXPECT_EQ(*ahead.labels, std::vector<std::string>{"other"});
   EXPECT_EQ(Sample(DescriptionOf("contact", {{"ground", true}})).values.size(), 24u);
+  // What carries the robot counts as ground, whatever its normal.
+  snapshot_->contacts[2].supports = true;
+  EXPECT_EQ(Sample(DescriptionOf("contact")).values.size(), 8u);
+  EXPECT_EQ(Sample(DescriptionOf("contact", {{"ground", true}})).values.size(), 24u);
+  snapshot_->contacts[2].supports = false;
   const auto message = Sent<messages::gsv_msgs::Bumper>(DescriptionOf("contact"));
   ASSERT_EQ(message.contacts.size(), 2u);
   EXPECT_EQ(message.contacts[0].other, "other");
@@ -301,6 +306,21 @@ TEST_F(NamedCollisionsTest, ABumperFeelsTheCollisionsThatItNames) {
   EXPECT_EQ(ContactsOf("body"), 0u);
   EXPECT_EQ(ContactsOf("rear\nfront"), 1u);
   EXPECT_EQ(ContactsOf("robot::front"), 0u);  // no link has that name
+}
+
+TEST_F(NamedCollisionsTest, ABumperFeelsEachPointOfAContact) {
+  snapshot_->contacts[0].points = {{{1.22, 0.1, 0.1}, {1, 0, 0}, 0.001},
+                                   {{1.22, -0.1, 0.1}, {1, 0, 0}, 0.0005}};
+  EXPECT_EQ(ContactsOf("front"), 2u);
+  EXPECT_EQ(ContactsOf(""), 2u);
+  EXPECT_EQ(ContactsOf("rear"), 0u);
+}
+
+TEST_F(NamedCollisionsTest, ABumperThatNamesACollisionFeelsWhatCarriesIt) {
+  snapshot_->contacts[0].normal = {0, 0, -1};
+  snapshot_->contacts[0].supports = true;
+  EXPECT_EQ(ContactsOf("front"), 1u);
+  EXPECT_EQ(ContactsOf(""), 0u);
 }
 
 TEST_F(NamedCollisionsTest, ABumperThatNamesNoneFeelsThemAll) {
