@@ -137,7 +137,7 @@ void ImpulseRows::Combine(int first_row, const Axes& axes) {
   b.impulse = axes[1][0] * impulse_a + axes[1][1] * impulse_b;
 }
 
-void ImpulseRows::AddCone(int normal_row, int first_row, double friction, const Axes& axes) {
+int ImpulseRows::AddCone(int normal_row, int first_row, double friction, const Axes& axes) {
   Combine(first_row, axes);
   const Row &a = At(first_row), &b = At(first_row + 1);
   const Axes principal = PrincipalAxesOf(Coupling(a, a), Coupling(b, b), Coupling(a, b));
@@ -148,6 +148,7 @@ void ImpulseRows::AddCone(int normal_row, int first_row, double friction, const 
     Weigh(At(row));
   }
   cones_.push_back({normal_row, first_row, friction, principal});
+  return static_cast<int>(cones_.size()) - 1;
 }
 
 std::array<double, 2> ImpulseRows::ConeImpulse(int cone) const {

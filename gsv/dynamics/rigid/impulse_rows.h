@@ -57,7 +57,8 @@ class ImpulseRows {
   // Makes a cone of two rows, which were added one after the other. Before that, they become along
   // `axes`: each axis gives the weights of the two rows.
   using Axes = std::array<std::array<double, 2>, 2>;
-  void AddCone(int normal_row, int first_row, double friction, const Axes& axes);
+  // Returns the cone.
+  int AddCone(int normal_row, int first_row, double friction, const Axes& axes);
 
   static constexpr int kMaxDirect = 150;
 

@@ -1,5 +1,6 @@
 #include "gsv/dynamics/rigid/impulse_solver.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gsv::dynamics {
@@ -8,6 +9,9 @@ namespace {
 // Of a wheel or a foot under its robot's weight: a micrometre or so. Wheels and casters on one floor
 // share the load, however little their heights differ.
 constexpr double kGive = 0.02;
+
+// Iterations: an island of few bodies has time for many.
+constexpr int kMaxIterations = 80, kMinIterations = 25, kIterationsOfAll = 1600;
 
 constexpr ImpulseRows::Axes kAsTheyAre{{{1, 0}, {0, 1}}};
 
@@ -35,6 +39,10 @@ double ShareOfSlip(const BulletRow& normal, const btContactSolverInfo& info) {
   return taken / (taken + kept);
 }
 
+ImpulseRows::Axes AxesOf(const btSolverConstraint& /*first*/,
+                         const btSolverConstraint& /*second*/) {
+  return kAsTheyAre;
+}
 // For contacts of trees Bullet takes axes of the world, whatever the point asks for.
 ImpulseRows::Axes AxesOf(const btMultiBodySolverConstraint& first,
                          const btMultiBodySolverConstraint& second) {
@@ -47,156 +55,296 @@ ImpulseRows::Axes AxesOf(const btMultiBodySolverConstraint& first,
 
 }  // namespace
 
-void ImpulseSolver::AddBodies() {
+void ImpulseSolver::AddNodes() {
+  nodes_.clear();
+  node_of_body_.assign(static_cast<std::size_t>(m_tmpSolverBodyPool.size()), -1);
+  node_of_tree_.assign(static_cast<std::size_t>(m_data.m_deltaVelocities.size()), -1);
   for (int i = 0; i < m_tmpSolverBodyPool.size(); ++i) {
     const btSolverBody& body = m_tmpSolverBodyPool[i];
-    const btVector3 &v = body.m_deltaLinearVelocity, &w = body.m_deltaAngularVelocity;
-    const double velocities[] = {v.x(), v.y(), v.z(), w.x(), w.y(), w.z()};
-    rows_.AddBody(velocities);
+    if (body.m_originalBody == nullptr || body.m_invMass.isZero()) continue;
+    const int node = static_cast<int>(nodes_.size());
+    node_of_body_[static_cast<std::size_t>(i)] = node;
+    nodes_.push_back({nullptr, i, node, -1, 0, 6});
   }
 }
 
-int ImpulseSolver::TreeOf(btMultiBody* body, int bullets_first) {
-  for (int i = 0; i < trees_.size(); ++i) {
-    if (trees_[i].body == body) return i;
-  }
-  const int count = body->getNumDofs() + 6;
-  const btScalar* velocities = &m_data.m_deltaVelocities[bullets_first];
-  const int first = rows_.AddBody({velocities, static_cast<std::size_t>(count)});
-  trees_.push_back({body, bullets_first, first, count});
-  return trees_.size() - 1;
+int ImpulseSolver::NodeOf(int solver_body) const {
+  return solver_body < 0 ? -1 : node_of_body_[static_cast<std::size_t>(solver_body)];
 }
 
-ImpulseRows::Side ImpulseSolver::SideOf(btMultiBody* body, int velocity, int jacobian) {
-  const Tree& tree = trees_[TreeOf(body, velocity)];
-  const auto count = static_cast<std::size_t>(tree.count);
-  return {tree.first,
+int ImpulseSolver::NodeOf(btMultiBody* tree, int bullets_first) {
+  int& known = node_of_tree_[static_cast<std::size_t>(bullets_first)];
+  if (known < 0) {
+    known = static_cast<int>(nodes_.size());
+    nodes_.push_back({tree, bullets_first, known, -1, 0, tree->getNumDofs() + 6});
+  }
+  return known;
+}
+
+// What a row acts on, or -1.
+int ImpulseSolver::NodeOf(const btSolverConstraint& row, bool is_first) {
+  return NodeOf(is_first ? row.m_solverBodyIdA : row.m_solverBodyIdB);
+}
+
+int ImpulseSolver::NodeOf(const btMultiBodySolverConstraint& row, bool is_first) {
+  btMultiBody* const tree = is_first ? row.m_multiBodyA : row.m_multiBodyB;
+  if (tree != nullptr) return NodeOf(tree, is_first ? row.m_deltaVelAindex : row.m_deltaVelBindex);
+  return NodeOf(is_first ? row.m_solverBodyIdA : row.m_solverBodyIdB);
+}
+
+int ImpulseSolver::RootOf(int node) {
+  auto parent = [&](int of) -> int& { return nodes_[static_cast<std::size_t>(of)].parent; };
+  while (parent(node) != node) node = parent(node) = parent(parent(node));
+  return node;
+}
+
+// The first node stands for the others. Every node with a row gets an island, still unnumbered.
+template <typename Rows>
+void ImpulseSolver::Join(const Rows& rows) {
+  for (int i = 0; i < rows.size(); ++i) {
+    const int a = NodeOf(rows[i], true), b = NodeOf(rows[i], false);
+    if (a >= 0) nodes_[static_cast<std::size_t>(a)].island = 0;
+    if (b >= 0) nodes_[static_cast<std::size_t>(b)].island = 0;
+    if (a < 0 || b < 0) continue;
+    const int x = RootOf(a), y = RootOf(b);
+    nodes_[static_cast<std::size_t>(std::max(x, y))].parent = std::min(x, y);
+  }
+}
+
+// Friction acts on what its contact acts on.
+void ImpulseSolver::JoinNodes() {
+  Join(m_tmpSolverNonContactConstraintPool);
+  Join(m_multiBodyNonContactConstraints);
+  Join(m_tmpSolverContactConstraintPool);
+  Join(m_multiBodyNormalContactConstraints);
+}
+
+ImpulseSolver::Island& ImpulseSolver::NewIsland() {
+  if (island_count_ == islands_.size()) islands_.emplace_back();
+  Island& island = islands_[island_count_++];
+  island.rows.Clear();
+  island.contacts.clear();
+  island.bodies = 0;
+  return island;
+}
+
+void ImpulseSolver::AddBody(Node& node) {
+  Island& island = islands_[static_cast<std::size_t>(node.island)];
+  ++island.bodies;
+  if (node.tree != nullptr) {
+    node.first = island.rows.AddBody(
+        {&m_data.m_deltaVelocities[node.bullets_first], static_cast<std::size_t>(node.count)});
+    return;
+  }
+  const btSolverBody& body = m_tmpSolverBodyPool[node.bullets_first];
+  const btVector3 &v = body.m_deltaLinearVelocity, &w = body.m_deltaAngularVelocity;
+  const double velocities[] = {v.x(), v.y(), v.z(), w.x(), w.y(), w.z()};
+  node.first = island.rows.AddBody(velocities);
+}
+
+// In the order of their first nodes.
+void ImpulseSolver::NumberIslands() {
+  island_count_ = 0;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    Node& node = nodes_[i];
+    if (node.island < 0) continue;
+    const auto root = static_cast<std::size_t>(RootOf(static_cast<int>(i)));
+    if (root == i) {
+      node.island = static_cast<int>(island_count_);
+      NewIsland();
+    } else {
+      node.island = nodes_[root].island;
+    }
+    AddBody(node);
+  }
+}
+
+template <typename Row>
+ImpulseRows::Side ImpulseSolver::SideOfBody(const Node& node, const Row& row, bool is_first) {
+  const btSolverBody& body = m_tmpSolverBodyPool[node.bullets_first];
+  const btVector3& linear = is_first ? row.m_contactNormal1 : row.m_contactNormal2;
+  const btVector3& angular = is_first ? row.m_relpos1CrossNormal : row.m_relpos2CrossNormal;
+  const btVector3 linear_response = linear * body.m_invMass * body.m_linearFactor;
+  const btVector3 turning =
+      (is_first ? row.m_angularComponentA : row.m_angularComponentB) * body.m_angularFactor;
+  double* const jacobian = jacobian_[is_first ? 0 : 1];
+  double* const response = response_[is_first ? 0 : 1];
+  for (int i = 0; i < 3; ++i) {
+    jacobian[i] = linear[i];
+    jacobian[3 + i] = angular[i];
+    response[i] = linear_response[i];
+    response[3 + i] = turning[i];
+  }
+  return {node.first, {jacobian, 6}, {response, 6}};
+}
+
+ImpulseRows::Side ImpulseSolver::SideOf(const Node& node, const btSolverConstraint& row,
+                                        bool is_first) {
+  return SideOfBody(node, row, is_first);
+}
+
+ImpulseRows::Side ImpulseSolver::SideOf(const Node& node, const btMultiBodySolverConstraint& row,
+                                        bool is_first) {
+  if (node.tree == nullptr) return SideOfBody(node, row, is_first);
+  const auto count = static_cast<std::size_t>(node.count);
+  const int jacobian = is_first ? row.m_jacAindex : row.m_jacBindex;
+  return {node.first,
           {&m_data.m_jacobians[jacobian], count},
           {&m_data.m_deltaVelocitiesUnitImpulse[jacobian], count}};
 }
 
-ImpulseRows::Side ImpulseSolver::SideOf(int solver_body, const btVector3& linear,
-                                        const btVector3& angular, const btVector3& angular_response,
-                                        int which) {
-  if (solver_body < 0) return {};
-  const btSolverBody& body = m_tmpSolverBodyPool[solver_body];
-  if (body.m_originalBody == nullptr || body.m_invMass.isZero()) return {};
-  const btVector3 linear_response = linear * body.m_invMass * body.m_linearFactor;
-  const btVector3 turning = angular_response * body.m_angularFactor;
-  for (int i = 0; i < 3; ++i) {
-    jacobian_[which][i] = linear[i];
-    jacobian_[which][3 + i] = angular[i];
-    response_[which][i] = linear_response[i];
-    response_[which][3 + i] = turning[i];
-  }
-  return {6 * solver_body, jacobian_[which], response_[which]};
-}
-
-void ImpulseSolver::AddRows(const btConstraintArray& rows) {
-  for (int i = 0; i < rows.size(); ++i) {
-    const btSolverConstraint& row = rows[i];
-    const auto a = SideOf(row.m_solverBodyIdA, row.m_contactNormal1, row.m_relpos1CrossNormal,
-                          row.m_angularComponentA, 0);
-    const auto b = SideOf(row.m_solverBodyIdB, row.m_contactNormal2, row.m_relpos2CrossNormal,
-                          row.m_angularComponentB, 1);
-    rows_.AddRow(a, b, LimitsOf(row), row.m_appliedImpulse);
-  }
-}
-
 // They give way by so much of their inverse mass.
-void ImpulseSolver::AddRows(const btMultiBodyConstraintArray& rows, double give) {
+template <typename Rows>
+void ImpulseSolver::AddRows(const Rows& rows, double give) {
   for (int i = 0; i < rows.size(); ++i) {
-    const btMultiBodySolverConstraint& row = rows[i];
-    const auto a = row.m_multiBodyA != nullptr
-                       ? SideOf(row.m_multiBodyA, row.m_deltaVelAindex, row.m_jacAindex)
-                       : SideOf(row.m_solverBodyIdA, row.m_contactNormal1, row.m_relpos1CrossNormal,
-                                row.m_angularComponentA, 0);
-    const auto b = row.m_multiBodyB != nullptr
-                       ? SideOf(row.m_multiBodyB, row.m_deltaVelBindex, row.m_jacBindex)
-                       : SideOf(row.m_solverBodyIdB, row.m_contactNormal2, row.m_relpos2CrossNormal,
-                                row.m_angularComponentB, 1);
+    const auto& row = rows[i];
+    const int a = NodeOf(row, true), b = NodeOf(row, false);
+    Place& place = rows_.emplace_back();
+    if (a < 0 && b < 0) continue;  // it moves nothing
+    const auto node = [&](int of) -> const Node& { return nodes_[static_cast<std::size_t>(of)]; };
     ImpulseRows::Limits limits = LimitsOf(row);
     if (row.m_jacDiagABInv > 0) limits.softness += give / row.m_jacDiagABInv;
-    rows_.AddRow(a, b, limits, row.m_appliedImpulse);
+    place.island = &islands_[static_cast<std::size_t>(node(a < 0 ? b : a).island)];
+    place.row = place.island->rows.AddRow(a < 0 ? ImpulseRows::Side{} : SideOf(node(a), row, true),
+                                          b < 0 ? ImpulseRows::Side{} : SideOf(node(b), row, false),
+                                          limits, row.m_appliedImpulse);
   }
 }
 
-// The rows lie one kind after the other, as Solve() takes them: constraints, contacts, friction.
-void ImpulseSolver::AddCones(const btContactSolverInfo& info) {
+// The rows lie one kind after the other: constraints, contacts, friction.
+void ImpulseSolver::AddAllRows() {
+  rows_.clear();
   AddRows(m_tmpSolverNonContactConstraintPool);
   AddRows(m_multiBodyNonContactConstraints);
-  const int normals =
-      m_tmpSolverNonContactConstraintPool.size() + m_multiBodyNonContactConstraints.size();
+  const std::size_t contacts = rows_.size();
   AddRows(m_tmpSolverContactConstraintPool);
-  const int tree_normals = normals + m_tmpSolverContactConstraintPool.size();
-  AddRows(m_multiBodyNormalContactConstraints, kGive);
-  const int friction = tree_normals + m_multiBodyNormalContactConstraints.size();
-  AddRows(m_tmpSolverContactFrictionConstraintPool);
-  const int tree_friction = friction + m_tmpSolverContactFrictionConstraintPool.size();
-  AddRows(m_multiBodyFrictionContactConstraints);
-  for (int i = 0; i + 1 < m_tmpSolverContactFrictionConstraintPool.size(); i += 2) {
-    const btSolverConstraint& row = m_tmpSolverContactFrictionConstraintPool[i];
-    const double share = ShareOfSlip(m_tmpSolverContactConstraintPool[row.m_frictionIndex], info);
-    for (const int of : {friction + i, friction + i + 1}) rows_.ScaleTarget(of, share);
-    rows_.AddCone(normals + row.m_frictionIndex, friction + i, row.m_friction, kAsTheyAre);
+  for (std::size_t i = contacts; i < rows_.size(); ++i) {
+    if (rows_[i].island == nullptr) continue;
+    rows_[i].island->contacts.push_back(static_cast<int>(i - contacts));
   }
-  for (int i = 0; i + 1 < m_multiBodyFrictionContactConstraints.size(); i += 2) {
-    const btMultiBodySolverConstraint& row = m_multiBodyFrictionContactConstraints[i];
-    const double share =
-        ShareOfSlip(m_multiBodyNormalContactConstraints[row.m_frictionIndex], info);
-    for (const int of : {tree_friction + i, tree_friction + i + 1}) rows_.ScaleTarget(of, share);
-    rows_.AddCone(tree_normals + row.m_frictionIndex, tree_friction + i, row.m_friction,
-                  AxesOf(row, m_multiBodyFrictionContactConstraints[i + 1]));
+  AddRows(m_multiBodyNormalContactConstraints, kGive);
+  AddRows(m_tmpSolverContactFrictionConstraintPool);
+  AddRows(m_multiBodyFrictionContactConstraints);
+}
+
+template <typename Rows>
+void ImpulseSolver::AddCones(const Rows& normals, const Rows& friction, int first_normal,
+                             int first_friction, const btContactSolverInfo& info) {
+  for (int i = 0; i + 1 < friction.size(); i += 2) {
+    const auto& row = friction[i];
+    const Place& normal = rows_[static_cast<std::size_t>(first_normal + row.m_frictionIndex)];
+    const Place& first = rows_[static_cast<std::size_t>(first_friction + i)];
+    Place& cone = cones_.emplace_back();
+    if (first.island == nullptr) continue;
+    const double share = ShareOfSlip(normals[row.m_frictionIndex], info);
+    ImpulseRows& rows = first.island->rows;
+    for (const int of : {first.row, first.row + 1}) rows.ScaleTarget(of, share);
+    cone.island = first.island;
+    cone.row = rows.AddCone(normal.row, first.row, row.m_friction, AxesOf(row, friction[i + 1]));
   }
 }
 
-void ImpulseSolver::Store() {
-  int row = 0, cone = 0;
-  const auto store = [&](auto& rows) {
-    for (int i = 0; i < rows.size(); ++i) rows[i].m_appliedImpulse = rows_.impulse(row++);
-  };
-  const auto store_cones = [&](auto& rows) {
-    for (int i = 0; i + 1 < rows.size(); i += 2) {
-      const auto [x, y] = rows_.ConeImpulse(cone++);
-      rows[i].m_appliedImpulse = x;
-      rows[i + 1].m_appliedImpulse = y;
+void ImpulseSolver::AddAllCones(const btContactSolverInfo& info) {
+  cones_.clear();
+  const int normals =
+      m_tmpSolverNonContactConstraintPool.size() + m_multiBodyNonContactConstraints.size();
+  const int tree_normals = normals + m_tmpSolverContactConstraintPool.size();
+  const int friction = tree_normals + m_multiBodyNormalContactConstraints.size();
+  const int tree_friction = friction + m_tmpSolverContactFrictionConstraintPool.size();
+  AddCones(m_tmpSolverContactConstraintPool, m_tmpSolverContactFrictionConstraintPool, normals,
+           friction, info);
+  AddCones(m_multiBodyNormalContactConstraints, m_multiBodyFrictionContactConstraints, tree_normals,
+           tree_friction, info);
+}
+
+// Takes bodies out of each other, by velocities that are gone after the substep: Bullet's split
+// impulses, until they change no more.
+void ImpulseSolver::PushApart(const Island& island, int iterations, double tolerance) {
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    double most = 0;
+    for (const int contact : island.contacts) {
+      const btSolverConstraint& row = m_tmpSolverContactConstraintPool[contact];
+      const double change = resolveSplitPenetrationImpulse(
+          m_tmpSolverBodyPool[row.m_solverBodyIdA], m_tmpSolverBodyPool[row.m_solverBodyIdB], row);
+      most = std::max(most, change * change);
     }
+    if (most <= tolerance) return;
+  }
+}
+
+template <typename Rows>
+void ImpulseSolver::Store(Rows& rows, int first) {
+  for (int i = 0; i < rows.size(); ++i) {
+    const Place& place = rows_[static_cast<std::size_t>(first + i)];
+    if (place.island != nullptr) rows[i].m_appliedImpulse = place.island->rows.impulse(place.row);
+  }
+}
+
+template <typename Rows>
+void ImpulseSolver::StoreCones(Rows& rows, int first_cone) {
+  for (int i = 0; i + 1 < rows.size(); i += 2) {
+    const Place& cone = cones_[static_cast<std::size_t>(first_cone + i / 2)];
+    if (cone.island == nullptr) continue;
+    const auto [x, y] = cone.island->rows.ConeImpulse(cone.row);
+    rows[i].m_appliedImpulse = x;
+    rows[i + 1].m_appliedImpulse = y;
+  }
+}
+
+void ImpulseSolver::StoreVelocities() {
+  for (const Node& node : nodes_) {
+    if (node.island < 0) continue;
+    const ImpulseRows& rows = islands_[static_cast<std::size_t>(node.island)].rows;
+    const auto v = rows.velocities(node.first, node.count);
+    if (node.tree == nullptr) {
+      btSolverBody& body = m_tmpSolverBodyPool[node.bullets_first];
+      body.m_deltaLinearVelocity.setValue(v[0], v[1], v[2]);
+      body.m_deltaAngularVelocity.setValue(v[3], v[4], v[5]);
+      continue;
+    }
+    btScalar* const bullets = &m_data.m_deltaVelocities[node.bullets_first];
+    for (int k = 0; k < node.count; ++k) {
+      bullets[k] = v[static_cast<std::size_t>(k)] - bullets[k];
+    }
+    node.tree->applyDeltaVeeMultiDof2(bullets, 1);
+    node.tree->setPosUpdated(false);
+  }
+}
+
+void ImpulseSolver::StoreAll() {
+  int first = 0;
+  const auto store = [&](auto& rows) {
+    Store(rows, first);
+    first += rows.size();
   };
   store(m_tmpSolverNonContactConstraintPool);
   store(m_multiBodyNonContactConstraints);
   store(m_tmpSolverContactConstraintPool);
   store(m_multiBodyNormalContactConstraints);
-  store_cones(m_tmpSolverContactFrictionConstraintPool);
-  store_cones(m_multiBodyFrictionContactConstraints);
-  for (int i = 0; i < m_tmpSolverBodyPool.size(); ++i) {
-    const auto v = rows_.velocities(6 * i, 6);
-    m_tmpSolverBodyPool[i].m_deltaLinearVelocity.setValue(v[0], v[1], v[2]);
-    m_tmpSolverBodyPool[i].m_deltaAngularVelocity.setValue(v[3], v[4], v[5]);
-  }
-  for (int i = 0; i < trees_.size(); ++i) {
-    const Tree& tree = trees_[i];
-    const auto velocities = rows_.velocities(tree.first, tree.count);
-    btScalar* bullets = &m_data.m_deltaVelocities[tree.bullets_first];
-    for (int k = 0; k < tree.count; ++k) {
-      bullets[k] = velocities[static_cast<std::size_t>(k)] - bullets[k];
-    }
-    tree.body->applyDeltaVeeMultiDof2(bullets, 1);
-    tree.body->setPosUpdated(false);
-  }
+  StoreCones(m_tmpSolverContactFrictionConstraintPool, 0);
+  StoreCones(m_multiBodyFrictionContactConstraints,
+             m_tmpSolverContactFrictionConstraintPool.size() / 2);
+  StoreVelocities();
 }
 
 btScalar ImpulseSolver::solveGroupCacheFriendlyIterations(
-    btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds,
-    int manifold_count, btTypedConstraint** constraints, int constraint_count,
-    const btContactSolverInfo& info, btIDebugDraw* debug) {
-  solveGroupCacheFriendlySplitImpulseIterations(bodies, body_count, manifolds, manifold_count,
-                                                constraints, constraint_count, info, debug);
-  rows_.Clear();
-  trees_.resize(0);
-  AddBodies();
-  AddCones(info);
-  rows_.Solve(info.m_numIterations, std::sqrt(info.m_leastSquaresResidualThreshold));
-  Store();
+    btCollisionObject** /*bodies*/, int /*body_count*/, btPersistentManifold** /*manifolds*/,
+    int /*manifold_count*/, btTypedConstraint** /*constraints*/, int /*constraint_count*/,
+    const btContactSolverInfo& info, btIDebugDraw* /*debug*/) {
+  const double tolerance = info.m_leastSquaresResidualThreshold;
+  AddNodes();
+  JoinNodes();
+  NumberIslands();
+  AddAllRows();
+  AddAllCones(info);
+  for (std::size_t i = 0; i < island_count_; ++i) {
+    Island& island = islands_[i];
+    const int iterations =
+        std::clamp(kIterationsOfAll / island.bodies, kMinIterations, kMaxIterations);
+    if (info.m_splitImpulse != 0) PushApart(island, iterations, tolerance);
+    island.rows.Solve(iterations, std::sqrt(tolerance));
+  }
+  StoreAll();
   return 0;
 }
 

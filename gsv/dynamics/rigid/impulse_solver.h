@@ -5,7 +5,14 @@
 // Bullet's own iterations skew the cone of a jointed body's contact by the inverse masses along two
 // axes of the world, so that how far a skid-steered robot turns depends on its heading. Those of a
 // single body bound friction by a square. See docs/adr/040-own-iterations-in-bullet.md.
+//
+// Islands  bodies that act on each other, directly or through others, are solved apart from all
+//          others: neither their number nor their state changes an island's result. See
+//          docs/adr/062-islands-are-solved-apart.md.
 #pragma once
+
+#include <deque>
+#include <vector>
 
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 
@@ -28,24 +35,61 @@ class ImpulseSolver final : public btMultiBodyConstraintSolver {
                                              btIDebugDraw* debug) override;
 
  private:
-  // A tree of links with rows in this group.
-  struct Tree {
-    btMultiBody* body;
-    int bullets_first, first, count;  // in m_data.m_deltaVelocities; in rows_
+  // A body or a tree of links that impulses move.
+  struct Node {
+    btMultiBody* tree = nullptr;  // null: the body of m_tmpSolverBodyPool
+    int bullets_first = 0;        // in the pool; of a tree in m_data.m_deltaVelocities
+    int parent = 0;               // another node of the same island, or itself
+    int island = -1;              // in islands_; -1: no row acts on it
+    int first = 0, count = 0;     // of its velocities in the island's rows
+  };
+  struct Island {
+    ImpulseRows rows;
+    std::vector<int> contacts;  // in m_tmpSolverContactConstraintPool
+    int bodies = 0;
+  };
+  // Where a row of Bullet's has gone.
+  struct Place {
+    Island* island = nullptr;
+    int row = 0;
   };
 
-  void AddBodies();
-  int TreeOf(btMultiBody* body, int bullets_first);
-  ImpulseRows::Side SideOf(btMultiBody* body, int velocity, int jacobian);
-  ImpulseRows::Side SideOf(int solver_body, const btVector3& linear, const btVector3& angular,
-                           const btVector3& angular_response, int which);
-  void AddRows(const btConstraintArray& rows);
-  void AddRows(const btMultiBodyConstraintArray& rows, double give = 0);
-  void AddCones(const btContactSolverInfo& info);
-  void Store();
+  void AddNodes();
+  int NodeOf(int solver_body) const;
+  int NodeOf(btMultiBody* tree, int bullets_first);
+  int NodeOf(const btSolverConstraint& row, bool is_first);
+  int NodeOf(const btMultiBodySolverConstraint& row, bool is_first);
+  int RootOf(int node);
+  template <typename Rows>
+  void Join(const Rows& rows);
+  void JoinNodes();
+  void NumberIslands();
+  void AddBody(Node& node);
+  Island& NewIsland();
+  ImpulseRows::Side SideOf(const Node& node, const btSolverConstraint& row, bool is_first);
+  ImpulseRows::Side SideOf(const Node& node, const btMultiBodySolverConstraint& row, bool is_first);
+  template <typename Row>
+  ImpulseRows::Side SideOfBody(const Node& node, const Row& row, bool is_first);
+  template <typename Rows>
+  void AddRows(const Rows& rows, double give = 0);
+  void AddAllRows();
+  template <typename Rows>
+  void AddCones(const Rows& normals, const Rows& friction, int first_normal, int first_friction,
+                const btContactSolverInfo& info);
+  void AddAllCones(const btContactSolverInfo& info);
+  void PushApart(const Island& island, int iterations, double tolerance);
+  template <typename Rows>
+  void Store(Rows& rows, int first);
+  template <typename Rows>
+  void StoreCones(Rows& rows, int first_cone);
+  void StoreVelocities();
+  void StoreAll();
 
-  ImpulseRows rows_;
-  btAlignedObjectArray<Tree> trees_;
+  std::vector<Node> nodes_;
+  std::vector<int> node_of_body_, node_of_tree_;  // by index in the pool; by bullets_first; or -1
+  std::deque<Island> islands_;                    // memory for as many as there have been
+  std::size_t island_count_ = 0;
+  std::vector<Place> rows_, cones_;         // in Bullet's order: constraints, contacts, friction
   double jacobian_[2][6], response_[2][6];  // of the row that is being added
 };
 

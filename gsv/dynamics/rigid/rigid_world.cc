@@ -19,8 +19,6 @@ constexpr double kLongest = 1e-3, kShortest = 1e-3 / 16;
 // nothing.
 constexpr double kPassable = 0.4;
 
-// Iterations of the solver: a few bodies have time for many.
-constexpr int kMaxIterations = 80, kMinIterations = 25, kIterationsOfAll = 1600;
 // (m/s)²: until no velocity changes by more in an iteration.
 constexpr double kConverged = 1e-14;
 // m: how deep bodies rest in each other, so that what touches goes on touching.
@@ -48,12 +46,11 @@ RigidWorld::RigidWorld(BulletKit& kit, const RigidScene& scene, const world::Sta
       before_(before),
       after_(after),
       seconds_(seconds),
-      world_(&kit.dispatcher, &broad_phase_, &solver_, &kit.configuration) {
+      world_(&kit.dispatcher, &broad_phase_, &kit.solver, &kit.configuration) {
+  kit.solver.reset();
   world_.setGravity(ToBullet(scene.layout().description->gravity));
   world_.getDispatchInfo().m_deterministicOverlappingPairs = true;
   btContactSolverInfo& settings = world_.getSolverInfo();
-  settings.m_numIterations = std::clamp(kIterationsOfAll / static_cast<int>(scene.bodies().size()),
-                                        kMinIterations, kMaxIterations);
   settings.m_leastSquaresResidualThreshold = kConverged;
   settings.m_linearSlop = kSlop;
   settings.m_restitutionVelocityThreshold = kBounces;

@@ -27,6 +27,7 @@ struct BulletKit {
   BulletKit();
   CollisionKinds configuration;
   btCollisionDispatcher dispatcher;
+  ImpulseSolver solver;
 };
 
 class RigidWorld {
@@ -80,7 +81,6 @@ class RigidWorld {
   std::vector<std::unique_ptr<PushConstraint>> pushes_;
 
   btDbvtBroadphase broad_phase_;
-  ImpulseSolver solver_;
   btMultiBodyDynamicsWorld world_;  // goes before all that it holds
 };
 

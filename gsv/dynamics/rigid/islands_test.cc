@@ -1,0 +1,87 @@
+// What does not touch does not matter: to the bit.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "gsv/dynamics/testing/test_rigid_world.h"
+
+namespace gsv::dynamics::islands {
+namespace {
+
+using testing::At;
+using testing::SolidOf;
+using testing::TestWorld;
+
+constexpr double kStep = 1e-3;  // s
+
+// A plate on four wheels that turn about its middle, so that all of them slip.
+std::shared_ptr<model::Model> Rover() {
+  auto model = SolidOf(geometry::Box{{0.6, 0.4, 0.1}}, 10);
+  for (const double x : {-0.2, 0.2}) {
+    for (const double y : {-0.25, 0.25}) {
+      model::Link link = SolidOf(geometry::Cylinder{0.1, 0.06}, 1)->links[0];
+      link.name = "wheel" + std::to_string(model->links.size());
+      link.model_from_link = {{x, y, -0.05}, geometry::FromAxisAngle({1, 0, 0}, std::asin(1))};
+      model->links.push_back(link);
+      model::Joint joint;
+      joint.name = link.name;
+      joint.kind = model::JointKind::kContinuous;
+      joint.parent = 0;
+      joint.child = static_cast<int>(model->links.size()) - 1;
+      joint.model_from_joint = At(x, y, -0.05);
+      joint.axis = {0, 1, 0};
+      joint.effort_limit = 5;
+      model->joints.push_back(joint);
+    }
+  }
+  return model;
+}
+
+// A rover that pushes a box ahead, and another box that slides; more than a heap's bodies, if
+// any, lie and fall 20 m away.
+TestWorld WorldWith(int far_bodies) {
+  TestWorld world = testing::WorldOnGround();
+  world.AddRigid("rover", Rover(), At(0, 0, 0.15));
+  world.AddRigid("pushed", SolidOf(geometry::Box{{0.3, 0.3, 0.3}}, 1), At(0.5, 0.02, 0.15));
+  world.AddRigid("sliding", SolidOf(geometry::Box{{0.3, 0.2, 0.1}}, 1), At(-3, 0, 0.05));
+  for (int i = 0; i < far_bodies; ++i) {
+    world.AddRigid("far" + std::to_string(i), SolidOf(geometry::Box{{0.2, 0.2, 0.2}}, 1),
+                   At(20 + 0.05 * (i % 3), 0.03 * (i % 5), 0.15 + 0.22 * i));
+  }
+  EXPECT_TRUE(world.Start());
+  world.body("sliding").linear_velocity = {0, 2, 0};
+  for (int wheel = 0; wheel < 4; ++wheel) {
+    world.CommandJoint("rover", wheel,
+                       {world::JointCommand::Kind::kVelocity, wheel % 2 == 0 ? 5.0 : 3.0});
+  }
+  return world;
+}
+
+void ExpectTheSame(TestWorld& a, TestWorld& b, const std::string& name) {
+  const world::BodyState &x = a.body(name), &y = b.body(name);
+  EXPECT_EQ(x.world_from_model.position, y.world_from_model.position) << name;
+  EXPECT_EQ(x.linear_velocity, y.linear_velocity) << name;
+  EXPECT_EQ(x.angular_velocity, y.angular_velocity) << name;
+}
+
+TEST(Islands, BodiesFarAwayChangeNoBit) {
+  TestWorld alone = WorldWith(0);
+  for (const int far_bodies : {1, 30}) {
+    TestWorld crowded = WorldWith(far_bodies);
+    alone = WorldWith(0);
+    for (int i = 0; i < 600; ++i) {
+      alone.Step(kStep);
+      crowded.Step(kStep);
+    }
+    for (const auto* name : {"rover", "pushed", "sliding"}) ExpectTheSame(alone, crowded, name);
+    for (int wheel = 0; wheel < 4; ++wheel) {
+      EXPECT_EQ(alone.joint("rover", wheel), crowded.joint("rover", wheel));
+    }
+  }
+  // The rover has pushed the box, and the other one has come to rest.
+  EXPECT_GT(alone.position("pushed").x, 0.55);
+  EXPECT_EQ(alone.body("sliding").linear_velocity, geometry::Vector3{});
+}
+
+}  // namespace
+}  // namespace gsv::dynamics::islands
