@@ -171,9 +171,9 @@ class SimulationProxy final : public RemoteSimulation {
     return Ask([&] { simulation_->command(name.c_str(), ToIdl(arguments)); });
   }
 
-  base::Status RunUntil(SimTime until, std::chrono::seconds patience,
-                        const std::function<bool()>& go_on) override {
-    const auto give_up = std::chrono::steady_clock::now() + patience;
+  base::Status RunUntil(SimTime until, std::chrono::seconds timeout,
+                        const std::function<bool()>& keep_waiting) override {
+    const auto give_up = std::chrono::steady_clock::now() + timeout;
     if (auto ok = Ask([&] { simulation_->run_until(until.count()); }); !ok) return ok;
     auto heard = std::chrono::steady_clock::now();
     auto phase = sba::PHASE_STARTING;
@@ -182,7 +182,7 @@ class SimulationProxy final : public RemoteSimulation {
         return base::Fail(base::ErrorCode::kTimeout,
                           "the simulation did not reach this time in time", server_);
       }
-      if (go_on && !go_on()) {
+      if (keep_waiting && !keep_waiting()) {
         return base::Fail(base::ErrorCode::kEnded, "the wait was interrupted", server_);
       }
       const auto known = phase;

@@ -87,12 +87,12 @@ class RemoteSimulation {
   // kInvalidArgument for an unknown command or an invalid argument.
   virtual base::Status Command(const std::string& name,
                                const std::map<std::string, std::string>& arguments = {}) = 0;
-  // Runs until the instant and pauses there. Blocks until then, at most `patience` of wall-clock
-  // time. Calls `go_on` at least every two seconds; if it returns false, this returns kEnded and
-  // the run continues.
+  // Runs until the instant and pauses there. Blocks until then, at most `timeout` of wall-clock
+  // time. Calls `keep_waiting` at least every two seconds; if it returns false, this returns kEnded
+  // and the run continues.
   virtual base::Status RunUntil(SimTime until,
-                                std::chrono::seconds patience = std::chrono::minutes(10),
-                                const std::function<bool()>& go_on = {}) = 0;
+                                std::chrono::seconds timeout = std::chrono::minutes(10),
+                                const std::function<bool()>& keep_waiting = {}) = 0;
   virtual base::Result<SimulationState> State() = 0;
   virtual base::Result<std::string> StateHash() = 0;
   virtual base::Result<std::string> ViewerUrl() = 0;

@@ -20,7 +20,7 @@ class RemoteJoint final : public Joint {
  public:
   RemoteJoint(RemoteRobot& robot, sba::JointActuator_ptr joint, JointTraits traits)
       : robot_(robot), joint_(sba::JointActuator::_duplicate(joint)), traits_(std::move(traits)) {
-    orb::LimitCalls(joint_, RemoteRobot::kPatience);
+    orb::LimitCalls(joint_, RemoteRobot::kCallTimeout);
   }
 
   const JointTraits& traits() const override { return traits_; }

@@ -74,7 +74,7 @@ class RemotePort final : public SensorPort {
  public:
   RemotePort(RemoteRobot& robot, sba::Sensor_ptr sensor, SensorTraits traits)
       : robot_(robot), sensor_(sba::Sensor::_duplicate(sensor)), traits_(std::move(traits)) {
-    orb::LimitCalls(sensor_, RemoteRobot::kPatience);
+    orb::LimitCalls(sensor_, RemoteRobot::kCallTimeout);
   }
 
   const SensorTraits& traits() const override { return traits_; }
@@ -150,13 +150,13 @@ base::Result<std::shared_ptr<RemoteRobot>> RemoteRobot::Connect(const std::strin
     return base::Fail(base::ErrorCode::kInvalidArgument, "was given no hardware", name);
   }
   std::shared_ptr<RemoteRobot> robot(new RemoteRobot(name, hardware));
-  orb::LimitCalls(robot->hardware_, kPatience);
+  orb::LimitCalls(robot->hardware_, kCallTimeout);
   auto connected = orb::Call(name, [&] {
     robot->factory_ = robot->hardware_->sensor_factory();
     robot->base_ = robot->hardware_->base();
     robot->footprint_radius_ = robot->hardware_->footprint_radius_m();
-    orb::LimitCalls(robot->factory_, kPatience);
-    orb::LimitCalls(robot->base_, kPatience);
+    orb::LimitCalls(robot->factory_, kCallTimeout);
+    orb::LimitCalls(robot->base_, kCallTimeout);
   });
   if (!connected) return base::Fail(connected.error());
   return robot;
@@ -176,7 +176,7 @@ std::string RemoteRobot::error() const {
 base::Status RemoteRobot::OpenClock() {
   return orb::Call(name_, [this] {
     clock_ = hardware_->open_clock();
-    orb::LimitCalls(clock_, kPatience);
+    orb::LimitCalls(clock_, kCallTimeout);
   });
 }
 

@@ -18,7 +18,7 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
  public:
   // Time limit of each call. The simulation gives up an image after a minute, and may itself be
   // delayed by a busy machine or a stopped process.
-  static constexpr std::chrono::milliseconds kPatience{70'000};
+  static constexpr std::chrono::milliseconds kCallTimeout{70'000};
 
   // Queries the robot's parts. Fails if the hardware does not answer. Shared, as a garbage-collected
   // language such as Python may keep it beyond the run.

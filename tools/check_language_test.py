@@ -114,7 +114,8 @@ class Extraction(unittest.TestCase):
 
     def test_names_of_a_header(self):
         header = ('#include "picture.h"\n// Of TakePicture.\nint Take(int most_);  // told\n'
-                  'const char* kText = "wish";\nint Take();\n')
+                  'const char* kText = "wish";\nint Take();\n'
+                  'using Picture [[deprecated("use Image")]] = Image;\n')
         self.assertEqual([(text.line, text.words) for text in texts.names_in(header)],
                          [(3, "int"), (3, "Take"), (3, "most_"), (4, "const"), (4, "char"), (4, "kText")])
         self.assertEqual(texts.parts_of_name("kMaxGPUWait2_"), "max gpu wait 2")

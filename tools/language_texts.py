@@ -198,10 +198,12 @@ def parts_of_name(name):
 
 
 def names_in(source):
-    """The identifiers of C++ code, each once, at its first line, outside of comments and strings."""
+    """The identifiers of C++ code, each once, at its first line, outside of comments and strings.
+
+    Lines with [[deprecated]] are left out: they keep old names for users of the library."""
     seen = set()
     for number, line in enumerate(source.splitlines(), start=1):
-        if line.lstrip().startswith("#"):
+        if line.lstrip().startswith("#") or "[[deprecated" in line:
             continue
         code = re.sub(r'"(?:[^"\\]|\\.)*"|//.*', " ", line)
         for name in re.findall(r"\b[A-Za-z_]\w+", code):

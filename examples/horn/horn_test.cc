@@ -40,7 +40,7 @@ TEST(Horn, IsHeardForAsLongAsItHonks) {
   ASSERT_TRUE(simulation->AddRobot(RobotWith("microphone", "ear", 10)));
   const auto run_to = [&](SimTime instant) {
     ASSERT_TRUE(simulation->RunUntil(instant));
-    ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+    ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
   };
   run_to(150ms);
   EXPECT_NEAR(simulation->Watch("car", "horn")->values[0], 0.05, 1e-12);

@@ -78,7 +78,7 @@ bool AllOthersSleep() {
 TEST(ThreadTeam, AThreadWithoutAPieceSleeps) {
   constexpr int kLooks =
       200;  // in a row: a thread that looks for work again and again may rest once
-  constexpr auto kPatience = std::chrono::seconds(30);
+  constexpr auto kTimeout = std::chrono::seconds(30);
   std::latch begun(2), end(1);
   std::thread job([&] {
     ThreadTeam team(4);
@@ -88,7 +88,7 @@ TEST(ThreadTeam, AThreadWithoutAPieceSleeps) {
     });
   });
   begun.wait();
-  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  const auto give_up = std::chrono::steady_clock::now() + kTimeout;
   int looks = 0;
   while (looks < kLooks && std::chrono::steady_clock::now() < give_up)
     looks = AllOthersSleep() ? looks + 1 : 0;

@@ -1,9 +1,9 @@
-// The Trading Service as a server on TCP, or TLS as the environment says (orb/corba_access.h):
-// CosTrading Lookup, Register, Link, Proxy and Admin, and the ServiceTypeRepository, at
-// "corbaloc::1.2@HOST:PORT/TradingService".
+// The Trading Service as a server on TCP, or on TLS if the environment requests it
+// (orb/corba_access.h): CosTrading Lookup, Register, Link, Proxy and Admin, and the
+// ServiceTypeRepository, at "corbaloc::1.2@HOST:PORT/TradingService".
 //
-// One in a process, which should do nothing else with CORBA: what an `any` may hold bounds the
-// size of every message of its ORB (64 KiB), see docs/broker.md.
+// A process has one broker and should use CORBA for nothing else: the broker limits every message
+// of the process's ORB to 64 KiB, which bounds the content of an `any`, see docs/broker.md.
 //
 // Errors   kUnavailable: the port is in use, or the host is not this machine's; those of
 //          OfferFile, and of orb::PrepareAccess().
@@ -24,14 +24,14 @@ struct BrokerOptions {
   std::string host = "127.0.0.1";  // the address to listen on
   std::uint16_t port = 0;          // 0: the system chooses
   TraderLimits limits;
-  // Keeps offers and service types from one start to the next; empty: in memory only.
+  // File that keeps offers and service types from one start to the next; empty: memory only.
   std::string data_file{};
   LivenessOptions liveness{};
 };
 
 class Broker {
  public:
-  // Serves from the moment it returns.
+  // The broker serves when this returns.
   [[nodiscard]] static base::Result<std::unique_ptr<Broker>> Start(const BrokerOptions& options);
   // Ends every call and closes the port.
   ~Broker();
@@ -41,7 +41,7 @@ class Broker {
   const std::string& reference() const;
   std::uint16_t port() const;
 
-  // Closes the data file, which holds all that was answered; changes are refused from then on.
+  // Closes the data file, which holds all acknowledged changes; later changes are refused.
   void Close();
 
  private:

@@ -1,4 +1,4 @@
-// What `gsv broker` does.
+// The command `gsv broker`: serves a broker until it is stopped.
 #pragma once
 
 #include <sys/types.h>

@@ -45,8 +45,8 @@ TEST(Broker, SaysThatItsPortIsInUse) {
   BrokerProcess second({first.port()});
   EXPECT_EQ(second.reference(), "");
   EXPECT_EQ(second.Wait(), 5);
-  EXPECT_EQ(second.Complaint(), "broker at 127.0.0.1:" + first.port() + ": port " + first.port() +
-                                    " is in use; choose another, or 0 for any free port\n");
+  EXPECT_EQ(second.Stderr(), "broker at 127.0.0.1:" + first.port() + ": port " + first.port() +
+                                 " is in use; choose another, or 0 for any free port\n");
 }
 
 TEST(Broker, RestartsOnItsPortAndForgetsEverythingWithoutAFile) {

@@ -92,7 +92,7 @@ base::Status LocalEngine::Take(
     if (taken > 0)
       progress.seconds_left =
           seconds / static_cast<double>(taken) * static_cast<double>(to_take - taken);
-    if (tell) tell(progress);
+    if (report) report(progress);
     if (is_interrupted && is_interrupted()) work.Cancel();
   }
   return {};

@@ -19,7 +19,7 @@ struct LocalEngine {
   // cancelled and does not count.
   std::function<std::optional<RunResult>(std::int64_t run, const std::atomic<bool>& is_cancelled)>
       take;
-  std::function<void(const Progress&)> tell;  // called about twice a second
+  std::function<void(const Progress&)> report;  // called about twice a second
   std::function<bool()> is_interrupted;
 
   // Blocks until all runs are in the results or it is interrupted. An interrupt cancels the runs in

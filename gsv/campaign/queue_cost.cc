@@ -44,7 +44,7 @@ std::optional<QueueCost> CostOf(const std::vector<Attempt>& attempts) {
   cost.slots = static_cast<std::size_t>(most);
   for (const auto& [share, wait] : waits) {
     cost.mean_wait += wait / static_cast<double>(waits.size());
-    cost.longest_wait = std::max(cost.longest_wait, wait);
+    cost.max_wait = std::max(cost.max_wait, wait);
   }
   cost.idle_seconds = std::max(0.0, most * (last - first) - cost.task_seconds);
   cost.span = last - submitted;
@@ -59,7 +59,7 @@ std::string Sentence(const QueueCost& cost) {
       "({:.1f} s the longest); runs took {:.1f} s in all, their tasks {:.2f} s each beside them; "
       "between tasks, slots were empty for {:.2f} s a task; {:.1f} s from first submission to last "
       "end",
-      cost.tasks, cost.requeued, cost.nodes, cost.slots, cost.mean_wait, cost.longest_wait,
+      cost.tasks, cost.requeued, cost.nodes, cost.slots, cost.mean_wait, cost.max_wait,
       cost.run_seconds, (cost.task_seconds - cost.run_seconds) / tasks, cost.idle_seconds / tasks,
       cost.span);
 }
@@ -67,7 +67,7 @@ std::string Sentence(const QueueCost& cost) {
 nlohmann::ordered_json ToJson(const QueueCost& cost) {
   return {{"tasks", cost.tasks},           {"requeued", cost.requeued},
           {"nodes", cost.nodes},           {"slots", cost.slots},
-          {"mean_wait_s", cost.mean_wait}, {"longest_wait_s", cost.longest_wait},
+          {"mean_wait_s", cost.mean_wait}, {"longest_wait_s", cost.max_wait},
           {"runs_s", cost.run_seconds},    {"tasks_s", cost.task_seconds},
           {"idle_s", cost.idle_seconds},   {"span_s", cost.span}};
 }

@@ -73,7 +73,7 @@ class Drive {
       progress_.seconds_left = seconds / static_cast<double>(done_.size() - done_before_) *
                                static_cast<double>(progress_.planned - done_.size());
     }
-    if (settings_.tell) settings_.tell(progress_);
+    if (settings_.report) settings_.report(progress_);
     return {};
   }
 

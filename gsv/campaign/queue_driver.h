@@ -25,7 +25,7 @@ struct QueueDriver {
   std::string failures;  // a folder for the files of failed runs, as the nodes name it; or empty
   bool waits = true;     // false: it only submits
   std::chrono::milliseconds poll_period{10'000};  // between queries of the queue
-  std::function<void(const Progress&)> tell;
+  std::function<void(const Progress&)> report;
   std::function<void(const std::string& sentence)> say;  // prints for the user
   // Waits that long; returns true at once when the user interrupts.
   std::function<bool(std::chrono::milliseconds)> is_interrupted;

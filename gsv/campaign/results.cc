@@ -13,7 +13,7 @@ namespace gsv::campaign {
 namespace {
 
 constexpr std::chrono::milliseconds kLockPeriod{20};
-constexpr const char* kPatience = "PRAGMA busy_timeout=2000";
+constexpr const char* kBusyTimeout = "PRAGMA busy_timeout=2000";
 constexpr const char* kSettings = "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;";
 constexpr const char* kTables =
     "CREATE TABLE IF NOT EXISTS campaign (key TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT;"
@@ -45,14 +45,14 @@ Results::~Results() {
 
 base::Result<std::unique_ptr<Results>> Results::OpenToAdd(const std::string& file,
                                                           const Campaign& campaign,
-                                                          std::chrono::milliseconds patience) {
+                                                          std::chrono::milliseconds timeout) {
   // The kernel gives it back when the process ends, however that does.
   const int lock = open((file + ".lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
   if (lock < 0) {
     return base::Fail(base::ErrorCode::kUnavailable,
                       "cannot write files beside it; choose a file in an existing folder", file);
   }
-  const auto give_up = std::chrono::steady_clock::now() + patience;
+  const auto give_up = std::chrono::steady_clock::now() + timeout;
   bool is_held = flock(lock, LOCK_EX | LOCK_NB) != 0;
   while (is_held && std::chrono::steady_clock::now() < give_up) {
     std::this_thread::sleep_for(kLockPeriod);
@@ -96,7 +96,7 @@ tl::unexpected<base::Error> Results::Refused(const base::Error& error) const {
 }
 
 base::Status Results::Begin(const Campaign& campaign) {
-  if (auto ok = database_.Run(kPatience); !ok) return Refused(ok.error());
+  if (auto ok = database_.Run(kBusyTimeout); !ok) return Refused(ok.error());
   if (auto ok = database_.Run(kSettings); !ok) return Refused(ok.error());
   if (auto ok = database_.Run(kTables); !ok) return Refused(ok.error());
   nlohmann::ordered_json paths = nlohmann::ordered_json::array();
@@ -132,7 +132,7 @@ base::Result<std::unique_ptr<Results>> Results::Open(const std::string& file) {
   auto database = broker::Database::Open(file);
   if (!database) return base::Fail(database.error());
   std::unique_ptr<Results> results(new Results(*std::move(database), file));
-  if (auto ok = results->database_.Run(kPatience); !ok) return base::Fail(ok.error());
+  if (auto ok = results->database_.Run(kBusyTimeout); !ok) return base::Fail(ok.error());
   if (auto planned = results->PlannedRuns(); !planned) {
     return base::Fail(base::ErrorCode::kCorrupt,
                       "is not a results file of a campaign: " + planned.error().message, file);

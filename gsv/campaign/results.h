@@ -50,11 +50,11 @@ struct Attempt {
 class Results {
  public:
   // For a driver: creates the file if it does not exist. Fails for a file of another campaign, a
-  // file that does not hold results, and one that another process still writes after `patience`
+  // file that does not hold results, and one that another process still writes after `timeout`
   // (kNotRunning). A process that only collects results ends soon.
   static base::Result<std::unique_ptr<Results>> OpenToAdd(
       const std::string& file, const Campaign& campaign,
-      std::chrono::milliseconds patience = std::chrono::milliseconds(0));
+      std::chrono::milliseconds timeout = std::chrono::milliseconds(0));
   // Opens the file for reading; kNotFound if it does not exist.
   static base::Result<std::unique_ptr<Results>> Open(const std::string& file);
   ~Results();

@@ -165,7 +165,7 @@ TEST(QueueCostTest, WaitsOverheadAndGapsAddUp) {
   EXPECT_EQ(cost->nodes, 2u);
   EXPECT_EQ(cost->slots, 2u);
   EXPECT_EQ(cost->mean_wait, 4);  // 2, 3, 7
-  EXPECT_EQ(cost->longest_wait, 7);
+  EXPECT_EQ(cost->max_wait, 7);
   EXPECT_EQ(cost->run_seconds, 9.5);
   EXPECT_EQ(cost->task_seconds, 13);
   EXPECT_EQ(cost->idle_seconds, 2 * 8 - 13);

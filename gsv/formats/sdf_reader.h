@@ -1,19 +1,19 @@
 // Reads worlds and robots: SDFormat 1.3 to 1.12, URDF.
 //
-// A ModelLibrary reads each model file once and hands out the same Model ever after; meshes and
-// textures are shared between all models of one library.
+// A ModelLibrary reads each model file once and returns the same Model for every later request. All
+// models of one library share meshes and textures.
 //
-// Frames   model::Model keeps every link in the model's frame; nested models are flattened to
+// Frames   model::Model has every link in the model's frame; nested models are flattened to
 //          "inner::link". Ground Plane and Sun are built in and need no file.
-// Drives   come from plugin elements, see sdf_drive.h; that of a URDF without any is guessed from
-//          its wheels, see model/drive_guess.h.
-// Errors   kBadModel with one sentence when nothing usable could be read: no such file, malformed
-//          XML, no world or model inside, includes that go round, a file too large. Everything
-//          else is appended to `problems`: a warning for what can be lived with (a missing mesh, a
-//          model on the web, a sensor of a type nobody knows, an element that is unknown or not
-//          carried out), an error for what makes the
-//          simulation unfaithful (a negative mass, an axis of length zero, inverted limits, a
-//          sensor whose parameters are refused).
+// Drives   come from plugin elements, see sdf_drive.h. The drive of a URDF without such elements is
+//          guessed from its wheels, see model/drive_guess.h.
+// Errors   kBadModel with one sentence if nothing could be read: no such file, malformed XML, no
+//          world or model inside, cyclic includes, a file too large. All other problems are
+//          appended to `problems`. A problem is a warning if the simulation is useful without the
+//          part (a missing mesh, a model on the web, a sensor of unknown type, an element that is
+//          unknown or not supported). It is an error if it makes the simulation unfaithful (a
+//          negative mass, an axis of length zero, inverted limits, invalid parameters of a
+//          sensor).
 // Threads  all members may be called concurrently; one file is read at a time.
 #pragma once
 
@@ -34,13 +34,13 @@ class ModelLibrary {
   ModelLibrary(const ModelLibrary&) = delete;
   ModelLibrary& operator=(const ModelLibrary&) = delete;
 
-  // `path` is a world file, or the file or folder of a model to be used as an environment: then the
-  // world holds that model, a sun, and a ground plane unless the model has a plane to collide with.
+  // `path` is a world file, or the file or folder of a model. A model becomes a world with a sun,
+  // and with a ground plane unless the model has a plane as collision shape.
   base::Result<model::WorldDescription> ReadWorld(const std::filesystem::path& path,
                                                   base::Problems& problems);
 
-  // A model's file (SDFormat or URDF), its folder, or its name, which is looked for as model://NAME
-  // from `named_in` (a file, or the current folder).
+  // Reads a model by its file (SDFormat or URDF), its folder, or its name. A name is found as
+  // model://NAME from `named_in` (a file; default: the current folder).
   base::Result<std::shared_ptr<const model::Model>> ReadModel(
       const std::string& name_or_path, base::Problems& problems,
       const std::filesystem::path& named_in = {});

@@ -7,7 +7,7 @@
 namespace gsv::hosting {
 namespace {
 
-using simulation::kPatience;
+using simulation::kTimeout;
 using simulation::Mode;
 using simulation::Phase;
 using simulation::RunToEnd;
@@ -50,7 +50,7 @@ class EndlessTurn : public ::testing::TestWithParam<Mode> {
     simulation_.reset();
     const auto ended = end_.get_future();
     token_.reset();
-    EXPECT_EQ(ended.wait_for(kPatience), std::future_status::ready) << "it was never destroyed";
+    EXPECT_EQ(ended.wait_for(kTimeout), std::future_status::ready) << "it was never destroyed";
   }
 
  protected:
@@ -146,7 +146,7 @@ TEST_P(EndlessTurn, ItsSimulationIsLeftToItself) {
 TEST_P(EndlessTurn, OneThatEndsAfterAllLetsTheSimulationBeReset) {
   GetStuck();
   Release();
-  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  const auto give_up = std::chrono::steady_clock::now() + kTimeout;
   while (!simulation_->Reset() && std::chrono::steady_clock::now() < give_up) {
   }
   EXPECT_EQ(RunToEnd(*simulation_), Phase::kFinished);

@@ -10,7 +10,7 @@
 namespace gsv::hosting {
 namespace {
 
-using simulation::kPatience;
+using simulation::kTimeout;
 using simulation::Lockstep;
 using simulation::Phase;
 using simulation::RunToEnd;
@@ -194,7 +194,7 @@ TEST(HostedBehaviour, OneWhoseWorkIsDoneHasFinished) {
   ASSERT_TRUE(simulation->AddRobot(simulation::Robot(
       "robot", 0, 0, Hosted([](gsv::Robot& robot, Sonar&) { robot.SleepFor(100ms); }))));
   ASSERT_TRUE(simulation->RunUntil(300ms));
-  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
   EXPECT_EQ(StatusOf(*simulation, "robot").phase, simulation::AgentPhase::kFinished);
 }
 
@@ -219,7 +219,7 @@ TEST(HostedBehaviour, AStopInTheMiddleLetsItReturn) {
                                                has_returned.notify_all();
                                              }))));
   ASSERT_TRUE(simulation->Start());
-  ASSERT_EQ(simulation->WaitForPhase({Phase::kRunning}, kPatience), Phase::kRunning);
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kRunning}, kTimeout), Phase::kRunning);
   ASSERT_TRUE(simulation->Stop());
   has_returned.wait(false);
 }

@@ -25,8 +25,8 @@ class Definition {
   // the types it uses, as in Schema::text.
   static base::Result<Definition> Parse(std::string_view name, std::string_view text);
 
-  // A message as JSON, fields in their order. Octets become {"bytes": how many}: pictures and point
-  // clouds are not for reading.
+  // A message as JSON, with its fields in order. Octets (images, point clouds) become
+  // {"bytes": COUNT}, as nobody reads them as text.
   base::Result<nlohmann::ordered_json> Decode(std::span<const std::byte> cdr) const;
 
  private:

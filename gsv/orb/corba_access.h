@@ -1,12 +1,11 @@
 // Access control of CORBA. Without a certificate, only programs on this machine may call this
-// process. With a certificate, any program with a certificate of the same authority may call it
-// from any host by TLS; the process then accepts no calls by plain TCP, and calls only services on
-// this machine by plain TCP.
-//
+// process. With a certificate, a program on any host may call it by TLS if its certificate is of
+// the same authority. The process then accepts no calls by plain TCP, and makes plain TCP calls
+// only to services on this machine.
 // GSV_CORBA_CERTIFICATE  a PEM file, such as `gsv certificates make` writes
 // GSV_CORBA_KEY          its key (default: NAME-key.pem beside NAME.pem)
-// GSV_CORBA_AUTHORITY    the trusted authority (default: ca.pem beside NAME.pem) GSV_INSECURE_CORBA
-// 1: no access control, in both directions
+// GSV_CORBA_AUTHORITY    the trusted authority (default: ca.pem beside NAME.pem)
+// GSV_INSECURE_CORBA     1: no access control, in both directions
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
-// The ORB of this process, with the settings that a distributed simulator needs: loopback by
-// default, TLS according to environment variables (corba_access.h), a time limit on every call,
-// idle connections closed, messages large enough for images.
+// The ORB of this process. It listens on loopback by default, uses TLS according to environment
+// variables (corba_access.h), limits the time of every call, closes idle connections, and accepts
+// messages large enough for images.
 //
 // Threads  StartOrb() once a process, before any other use of CORBA.
 #pragma once

@@ -12,7 +12,7 @@ namespace {
 // Wall time: how soon it is seen that the simulation is gone or the disk has failed, and after
 // which time what was recorded is written. Together they stay well below the second that is
 // promised, so that a busy machine keeps the promise, too.
-constexpr std::chrono::milliseconds kPatience{100};
+constexpr std::chrono::milliseconds kPollPeriod{100};
 constexpr std::chrono::milliseconds kFlushAge{500};
 
 using simulation::Simulation;
@@ -124,7 +124,7 @@ bool SimulationRecorder::is_recording() const { return !has_ended_; }
 
 void SimulationRecorder::Run() {
   while (!writer_->failed()) {
-    if (const std::optional<Occurrence> occurrence = feed_->Next(kPatience)) {
+    if (const std::optional<Occurrence> occurrence = feed_->Next(kPollPeriod)) {
       Record(*occurrence);
     } else if (feed_->is_over() || simulation_.expired()) {
       break;

@@ -110,10 +110,10 @@ TEST_F(SimulationRecorderTest, ARobotThatComesLaterBringsItsScene) {
   auto simulation = MakeSimulation(1s, Drives(0.5));
   auto recorder = Start(simulation);
   ASSERT_TRUE(simulation->RunUntil(500ms));
-  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
   ASSERT_TRUE(simulation->AddRobot(Robot("second", 2, nullptr)));
   ASSERT_TRUE(simulation->Resume());
-  ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
   ASSERT_TRUE(recorder->Stop());
   const auto poses = Read<messages::gsv_msgs::Poses>("/gsv/poses");
   EXPECT_EQ(poses.front().poses.size(), 7u);
@@ -130,11 +130,11 @@ TEST_F(SimulationRecorderTest, ARobotThatComesAgainWasToldNothingYet) {
   auto simulation = MakeSimulation(1s, Drives(0.5));
   auto recorder = Start(simulation);
   ASSERT_TRUE(simulation->RunUntil(500ms));
-  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
   ASSERT_TRUE(simulation->RemoveRobot("robot"));
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 2, nullptr)));
   ASSERT_TRUE(simulation->Resume());
-  ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
   ASSERT_TRUE(recorder->Stop());
   const auto commands = Read<messages::gsv_msgs::Command>("/gsv/commands");
   EXPECT_EQ(commands.size(), 10u);  // every 50 ms, until it was removed

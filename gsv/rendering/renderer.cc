@@ -122,7 +122,7 @@ class Renderer::RenderThread {
     EglOptions egl = options_.egl;
     if (automatic && raster::CanRasterise()) egl.software = false;
     std::unique_ptr<EglContext> context;
-    std::unique_ptr<BatchRenderer> painter;
+    std::unique_ptr<BatchRenderer> renderer;
     if (options_.back_end != BackEnd::kRasteriser) {
       Result<std::unique_ptr<EglContext>> created = EglContext::Create(egl);
       if (!created && egl.software) {
@@ -131,7 +131,7 @@ class Renderer::RenderThread {
       }
       if (created) {
         context = *std::move(created);
-        painter = std::make_unique<GlBatchRenderer>();
+        renderer = std::make_unique<GlBatchRenderer>();
       }
     } else if (!raster::CanRasterise()) {
       started.set_value(Fail(ErrorCode::kUnavailable,
@@ -139,16 +139,16 @@ class Renderer::RenderThread {
                              "pictures need OpenGL here"));
       return;
     }
-    if (painter == nullptr) {
-      painter = std::make_unique<raster::RasterBatchRenderer>(base::ThreadTeam::DefaultThreads());
+    if (renderer == nullptr) {
+      renderer = std::make_unique<raster::RasterBatchRenderer>(base::ThreadTeam::DefaultThreads());
     }
     started.set_value(context != nullptr ? context->renderer_name() : raster::kRasteriserName);
-    Serve(*painter);
-    painter.reset();
+    Serve(*renderer);
+    renderer.reset();
     EndAll();
   }
 
-  void Serve(BatchRenderer& painter) {
+  void Serve(BatchRenderer& renderer) {
     base::MutexLock lock(mutex_);
     while (!stopping_) {
       Batch batch = TakeBatch();
@@ -157,13 +157,13 @@ class Renderer::RenderThread {
         const bool woken = work_.wait_for(lock, kIdleSweep, [&]() GSV_REQUIRES(mutex_) {
           return stopping_ || !queue_.empty() || !counts_.empty();
         });
-        if (!woken) painter.Sweep();
+        if (!woken) renderer.Sweep();
         continue;
       }
       lock.unlock();
-      if (!batch.empty()) Serve(painter, std::move(batch));
-      painter.Sweep();
-      for (auto& count : counts) count.set_value(painter.Count());
+      if (!batch.empty()) Serve(renderer, std::move(batch));
+      renderer.Sweep();
+      for (auto& count : counts) count.set_value(renderer.Count());
       lock.lock();
     }
   }
@@ -185,15 +185,15 @@ class Renderer::RenderThread {
     return batch;
   }
 
-  static void Serve(BatchRenderer& painter, Batch batch) {
+  static void Serve(BatchRenderer& renderer, Batch batch) {
     const auto surveys = std::stable_partition(
         batch.begin(), batch.end(), [](const auto& request) { return !request->is_survey; });
     const world::Snapshot& snapshot = *batch.front()->snapshot;
     const std::span pictures(batch.begin(), surveys), truths(surveys, batch.end());
     Result<Pictures> drawn;
     Result<Truths> surveyed;
-    if (!pictures.empty()) drawn = painter.Draw(snapshot, ViewsOf(pictures));
-    if (!truths.empty()) surveyed = painter.DrawGroundTruth(snapshot, ViewsOf(truths));
+    if (!pictures.empty()) drawn = renderer.Draw(snapshot, ViewsOf(pictures));
+    if (!truths.empty()) surveyed = renderer.DrawGroundTruth(snapshot, ViewsOf(truths));
     Serve(pictures, std::move(drawn), &Request::pictures);
     Serve(truths, std::move(surveyed), &Request::truths);
   }

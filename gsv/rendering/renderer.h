@@ -45,7 +45,7 @@ class Renderer {
  public:
   // Longer than the slowest machine needs for an image. The simulation's deadline for behaviours
   // may be shorter.
-  static constexpr std::chrono::seconds kPatience{60};
+  static constexpr std::chrono::seconds kTimeout{60};
 
   [[nodiscard]] static base::Result<std::shared_ptr<Renderer>> Start(RendererOptions options = {});
   // Ends pending requests with kEnded.
@@ -56,18 +56,18 @@ class Renderer {
   // Renders an RGB image of `snapshot`.
   [[nodiscard]] base::Result<std::shared_ptr<const model::Image>> Draw(
       std::shared_ptr<const world::Snapshot> snapshot, const CameraView& view,
-      std::chrono::milliseconds timeout = kPatience);
+      std::chrono::milliseconds timeout = kTimeout);
 
   // The same for several cameras in one batch; image i is that of views[i].
   [[nodiscard]] base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
       std::shared_ptr<const world::Snapshot> snapshot, const std::vector<CameraView>& views,
-      std::chrono::milliseconds timeout = kPatience);
+      std::chrono::milliseconds timeout = kTimeout);
 
   // Renders depth and label images; element i is that of views[i]. Always uses the rasteriser:
   // kUnavailable on processors without AVX2 and FMA.
   [[nodiscard]] base::Result<std::vector<std::shared_ptr<const GroundTruth>>> DrawGroundTruth(
       std::shared_ptr<const world::Snapshot> snapshot, const std::vector<CameraView>& views,
-      std::chrono::milliseconds timeout = kPatience);
+      std::chrono::milliseconds timeout = kTimeout);
 
   // "GSV rasteriser (AVX2)" or "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa
   // 22.3.6".

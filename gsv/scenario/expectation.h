@@ -46,11 +46,11 @@ struct Formula {
   enum class Kind { kAtom, kNot, kAll, kAny, kAlways, kEventually, kUntil };
 
   Kind kind = Kind::kAtom;
-  // kAtom: the quantity lies in [least, most]. A quantity that is not available lies in no
+  // kAtom: the quantity lies in [min, max]. A quantity that is not available lies in no
   // interval.
   Quantity quantity{};
-  double least = -std::numeric_limits<double>::infinity();
-  double most = std::numeric_limits<double>::infinity();
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
   // kUntil: the first part holds until the second does. kNot, kAlways, kEventually: one part.
   std::vector<Formula> parts{};
   double from = 0;             // s after the instant of evaluation

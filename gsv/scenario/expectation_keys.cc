@@ -19,8 +19,8 @@ Formula Atom(QuantityKind kind, std::string first, double least, double most) {
   Formula atom;
   atom.quantity.kind = kind;
   atom.quantity.first = std::move(first);
-  atom.least = least;
-  atom.most = most;
+  atom.min = least;
+  atom.max = most;
   return atom;
 }
 
@@ -165,9 +165,9 @@ class FormulaReader {
     if (m.is_mapping() && !m.Has("at_least") && !m.Has("at_most")) {
       m.AddProblem("at_least and at_most, or one of them, are needed");
     }
-    if (least) atom.least = *least;
-    if (most) atom.most = *most;
-    if (atom.least > atom.most) m.AddProblem("at_most", "at_most lies below at_least");
+    if (least) atom.min = *least;
+    if (most) atom.max = *most;
+    if (atom.min > atom.max) m.AddProblem("at_most", "at_most lies below at_least");
   }
 
   Formula Near(const YAML::Node& node, YamlMapping& m, const std::string& key, int) {
@@ -177,7 +177,7 @@ class FormulaReader {
     atom.quantity.y = near.Number("y", -kMaxCoordinate, kMaxCoordinate).value_or(0);
     if (near.is_mapping() && !(near.Has("x") && near.Has("y")))
       near.AddProblem(near.Has("x") ? "y" : "x", "a place needs both x and y");
-    atom.most = near.Number("within", 1e-6, kMaxCoordinate).value_or(kNear);
+    atom.max = near.Number("within", 1e-6, kMaxCoordinate).value_or(kNear);
     const auto yaw = near.Angle("yaw");
     const auto yaw_within = near.Angle("yaw_within");
     if (!yaw) return atom;
@@ -255,7 +255,7 @@ class FormulaReader {
     ReadPair(of, atom.quantity);
     const auto metres = of.Number("metres", 0, kMaxCoordinate);
     if (of.is_mapping() && !of.Has("metres")) of.AddProblem("metres", "metres is needed");
-    atom.least = metres.value_or(0);
+    atom.min = metres.value_or(0);
     return Joined(FormulaKind::kAlways, {std::move(atom)});
   }
 

@@ -51,7 +51,7 @@ class YamlMapping {
   // Each returns nothing if the key is absent or null, or, after adding a problem, if the value has
   // another type.
   std::optional<std::string> Text(const std::string& key);
-  std::optional<double> Number(const std::string& key, double least, double most);
+  std::optional<double> Number(const std::string& key, double min, double max);
   std::optional<double> Angle(const std::string& key);  // radians
   std::optional<std::uint64_t> Count(const std::string& key);
   std::optional<bool> Flag(const std::string& key);
@@ -63,11 +63,11 @@ class YamlMapping {
   std::optional<YAML::Node> Any(const std::string& key);
   // Calls `read` with each element of a list and its field.
   template <typename Read>
-  void Each(const std::string& key, std::size_t most, const Read& read) {
+  void Each(const std::string& key, std::size_t max, const Read& read) {
     const std::vector<YAML::Node> list = List(key);
-    if (list.size() > most) {
-      place_.AddProblem(list[most].Mark(), FieldOf(key),
-                        key + " has at most " + std::to_string(most) + " entries");
+    if (list.size() > max) {
+      place_.AddProblem(list[max].Mark(), FieldOf(key),
+                        key + " has at most " + std::to_string(max) + " entries");
       return;
     }
     for (std::size_t i = 0; i < list.size(); ++i) {

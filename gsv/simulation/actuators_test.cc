@@ -101,11 +101,11 @@ TEST(Actuators, ALampCanBeOnFromTheStartAndAgainAfterAReset) {
   EXPECT_EQ(BrightnessOf(*simulation, "robot"), 0.5);
   for (int run = 0; run < 2; ++run) {
     ASSERT_TRUE(simulation->RunUntil(20ms));
-    ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+    ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
     ASSERT_NE(simulation->snapshot()->state.devices, nullptr);
     EXPECT_EQ(BrightnessOf(*simulation, "robot"), 0.5);
     ASSERT_TRUE(simulation->Resume());
-    ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
+    ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
     EXPECT_EQ(BrightnessOf(*simulation, "robot"), 0);
     ASSERT_TRUE(simulation->Reset());
     EXPECT_EQ(simulation->snapshot()->state.devices, nullptr);
@@ -131,7 +131,7 @@ TEST(Actuators, GoWithTheirRobotAndWithASensorThatIsTakenOff) {
   ASSERT_TRUE(simulation->AddRobot(RobotWithLamp("robot", 0, behaviour)));
   ASSERT_TRUE(simulation->AddRobot(RobotWithLamp("other", 1, nullptr, {{"brightness", 1.0}})));
   ASSERT_TRUE(simulation->RunUntil(50ms));
-  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
   // Its own lamp goes on shining, also when nobody has it open.
   ASSERT_EQ(simulation->snapshot()->state.devices->size(), 2u);
   EXPECT_EQ(BrightnessOf(*simulation, "robot"), 1);

@@ -21,7 +21,7 @@ TEST(Factor, ARunThatCrawlsIsMadeToHurry) {
   const auto simulation = Make(Slow());
   ASSERT_TRUE(simulation->Start());
   ASSERT_TRUE(simulation->SetRealTimeFactor(1000));
-  EXPECT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
+  EXPECT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
   EXPECT_EQ(simulation->real_time_factor(), 1000);
   EXPECT_EQ(simulation->status().target_factor, 1000);
   EXPECT_EQ(simulation->specification().factor, 0.001);

@@ -53,7 +53,7 @@ std::string HeldBy(Simulation& simulation, const std::string& robot) {
 
 void RunTo(Simulation& simulation, SimTime instant) {
   ASSERT_TRUE(simulation.RunUntil(instant));
-  ASSERT_EQ(simulation.WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  ASSERT_EQ(simulation.WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
 }
 
 // Closes at once; drives from 1 s to 2 s; opens then, if it is to, and drives away.

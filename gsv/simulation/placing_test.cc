@@ -10,7 +10,7 @@ geometry::Vector3 PositionOf(const Simulation& simulation, const std::string& na
 
 void RunUntilPaused(Simulation& simulation, SimTime instant) {
   ASSERT_TRUE(simulation.RunUntil(instant));
-  ASSERT_EQ(simulation.WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  ASSERT_EQ(simulation.WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
 }
 
 TEST(Placing, BeforeTheFirstStepItIsWhereABodyStarts) {
@@ -32,7 +32,7 @@ TEST(Placing, InAPauseARobotGoesOnFromThereAndAResetBringsItBack) {
   ASSERT_TRUE(simulation->PlaceBody("robot", PlanarPose(-1, 2, 0, 0), true));
   EXPECT_EQ(PositionOf(*simulation, "robot"), (geometry::Vector3{-1, 2, 0}));
   ASSERT_TRUE(simulation->Resume());
-  ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
   // Half a second at 0.5 m/s, without a limit on acceleration.
   EXPECT_NEAR(PositionOf(*simulation, "robot").x, -1 + 0.25, 1e-9);
   ASSERT_TRUE(simulation->Reset());
@@ -72,7 +72,7 @@ TEST(Placing, ARobotThatCameInAPauseDrivesAfterIt) {
   RunUntilPaused(*simulation, 500ms);
   ASSERT_TRUE(simulation->AddRobot(Robot("second", 0, 2, Drives(0.5))));
   ASSERT_TRUE(simulation->Resume());
-  ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
   EXPECT_NEAR(PositionOf(*simulation, "first").x, 0.5, 1e-9);
   EXPECT_NEAR(PositionOf(*simulation, "second").x, 0.25, 1e-9);
 }

@@ -61,13 +61,13 @@ TEST(RigidBodies, ARobotThatComesAndGoesElsewhereLeavesNoTrace) {
   const auto alone = Make(WithBox()), visited = Make(WithBox());
   RunToEnd(*alone);
   ASSERT_TRUE(visited->RunUntil(200ms));
-  visited->WaitForPhase({Phase::kPaused}, kPatience);
+  visited->WaitForPhase({Phase::kPaused}, kTimeout);
   ASSERT_TRUE(visited->AddRobot(Robot("visitor", 0, 0)));
   ASSERT_TRUE(visited->RunUntil(400ms));
-  visited->WaitForPhase({Phase::kPaused}, kPatience);
+  visited->WaitForPhase({Phase::kPaused}, kTimeout);
   ASSERT_TRUE(visited->RemoveRobot("visitor"));
   ASSERT_TRUE(visited->Resume());
-  visited->WaitForPhase({Phase::kFinished}, kPatience);
+  visited->WaitForPhase({Phase::kFinished}, kTimeout);
   EXPECT_EQ(visited->state_hash(), alone->state_hash());
 }
 

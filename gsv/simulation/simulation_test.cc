@@ -147,7 +147,7 @@ TEST(Simulation, AWaitingAgentsCommandIsRefusedInAPause) {
   auto simulation = Make(Lockstep(0s));
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, Sleeps())));
   ASSERT_TRUE(simulation->RunUntil(100ms));
-  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
   EXPECT_EQ(simulation->status().time, SimTime(100ms));
   const auto command = simulation->agent("robot")->Command({1, 0, 0});
   ASSERT_FALSE(command);
@@ -180,7 +180,7 @@ TEST(Simulation, AWaitForTheInstantOfAPauseEndsWhenItGoesOn) {
   });
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, behaviour)));
   ASSERT_TRUE(simulation->RunUntil(100ms));
-  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
   const std::string hash = simulation->state_hash();
   for (int i = 0; i < 3; ++i) {
     const int ended = leases;
@@ -189,7 +189,7 @@ TEST(Simulation, AWaitForTheInstantOfAPauseEndsWhenItGoesOn) {
   EXPECT_FALSE(has_reached);
   EXPECT_EQ(simulation->state_hash(), hash);
   ASSERT_TRUE(simulation->Step(1));
-  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
   EXPECT_TRUE(has_reached);
 }
 
@@ -208,14 +208,14 @@ TEST(Simulation, PauseFreezesTheClockAndTellsTheBehaviours) {
   });
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, behaviour)));
   ASSERT_TRUE(simulation->Start());
-  ASSERT_EQ(simulation->WaitForPhase({Phase::kRunning}, kPatience), Phase::kRunning);
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kRunning}, kTimeout), Phase::kRunning);
   ASSERT_TRUE(simulation->Pause());
   (void)simulation->state_hash();  // waits for a step that was under way when the pause came
   const std::int64_t step = simulation->status().step;
   for (int i = 0; i < 5; ++i) waits.wait(waits);  // in a run that goes on a step at least each
   EXPECT_EQ(simulation->status().step, step);
   ASSERT_TRUE(simulation->Step(7));
-  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
   EXPECT_EQ(simulation->status().step, step + 7);
   ASSERT_TRUE(simulation->Resume());
   ASSERT_TRUE(simulation->Stop());
@@ -249,7 +249,7 @@ TEST(Simulation, ABehaviourThatNeverWaitsIsDeclaredUnresponsiveAndTheRunGoesOn) 
   ASSERT_TRUE(simulation->AddRobot(Robot("stuck", 0, 0, stuck)));
   ASSERT_TRUE(simulation->AddRobot(Robot("good", 0, 1, Drives(1.0))));
   ASSERT_TRUE(simulation->Start());
-  EXPECT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
+  EXPECT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
   EXPECT_EQ(StatusOf(*simulation, "stuck").phase, AgentPhase::kUnresponsive);
   EXPECT_EQ(StatusOf(*simulation, "stuck").distance, 0.0);  // its robot stops
   EXPECT_NEAR(StatusOf(*simulation, "good").distance, 0.2, 1e-9);
@@ -289,7 +289,7 @@ TEST(Simulation, ADeadBehaviourEndsTheRunWhereThePolicySaysSo) {
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, behaviour)));
   ASSERT_TRUE(simulation->Start());
   behaviour->dead = true;
-  EXPECT_EQ(simulation->WaitForPhase({Phase::kFailed}, kPatience), Phase::kFailed);
+  EXPECT_EQ(simulation->WaitForPhase({Phase::kFailed}, kTimeout), Phase::kFailed);
   EXPECT_NE(simulation->status().failure.find("robot (test on here:1)"), std::string::npos);
 }
 
@@ -337,7 +337,7 @@ TEST(Simulation, RemovingARobotEndsItsBehavioursCalls) {
   auto behaviour = Drives(0.01);
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, behaviour)));
   ASSERT_TRUE(simulation->Start());
-  ASSERT_EQ(simulation->WaitForPhase({Phase::kRunning}, kPatience), Phase::kRunning);
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kRunning}, kTimeout), Phase::kRunning);
   ASSERT_TRUE(simulation->RemoveRobot("robot"));
   EXPECT_TRUE(simulation->status().robots.empty());
   EXPECT_FALSE(simulation->RemoveRobot("robot"));
@@ -354,7 +354,7 @@ TEST(Simulation, InRealTimeNobodyIsWaitedFor) {
   auto stuck = std::make_shared<ThreadBehaviour>([&](Agent&, ClockId) { release.wait(false); });
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, stuck)));
   ASSERT_TRUE(simulation->Start());
-  EXPECT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
+  EXPECT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
   release = true;
   release.notify_all();
 }
@@ -380,7 +380,7 @@ TEST(Simulation, ResumingDuringAFewStepsGoesOnBeyondThem) {
   });
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, slow)));
   ASSERT_TRUE(simulation->Step(1));
-  ASSERT_EQ(simulation->WaitForPhase({Phase::kRunning}, kPatience), Phase::kRunning);
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kRunning}, kTimeout), Phase::kRunning);
   ASSERT_TRUE(simulation->Resume());
   release = true;
   release.notify_all();
@@ -401,7 +401,7 @@ TEST(Simulation, ARunPausedDuringItsLastStepHasNoStepBeyondIt) {
     while (simulation->snapshot()->state.step == 0) std::this_thread::yield();
     if (simulation->Pause()) (void)simulation->state_hash();  // waits for the step
     (void)simulation->Resume();                               // refused when it is over
-    ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
+    ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
     ASSERT_EQ(simulation->status().step, 2) << "round " << round;
     ASSERT_TRUE(simulation->Reset());
   }

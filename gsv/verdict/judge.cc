@@ -14,14 +14,14 @@ std::string InWords(double number) {
 }
 
 bool Lies(const scenario::Formula& atom, std::optional<double> value) {
-  return value && *value >= atom.least && *value <= atom.most;
+  return value && *value >= atom.min && *value <= atom.max;
 }
 
 std::string Bounds(const scenario::Formula& atom) {
   constexpr double kNone = 1e8;
   std::string text;
-  if (atom.least > -kNone && atom.least != 0) text += "at least " + InWords(atom.least);
-  if (atom.most < kNone) text += (text.empty() ? "" : ", ") + ("at most " + InWords(atom.most));
+  if (atom.min > -kNone && atom.min != 0) text += "at least " + InWords(atom.min);
+  if (atom.max < kNone) text += (text.empty() ? "" : ", ") + ("at most " + InWords(atom.max));
   return text;
 }
 

@@ -15,15 +15,15 @@
 
 namespace gsv::world {
 
-// What moves a body.
+// The kind of motion of a body.
 enum class BodyKind : std::uint8_t {
-  kStatic,      // nothing: it is a part of the world
-  kUnmoved,     // nothing, though it is not static: it has no drive and no collisions
-  kPlanarBase,  // its drive, by planar kinematics
-  kAvatar,      // a person, by planar kinematics
+  kStatic,      // it is a part of the world and never moves
+  kUnmoved,     // it is not static, but nothing moves it: it has no drive and no collisions
+  kPlanarBase,  // its drive moves it by planar kinematics
+  kAvatar,      // a person steers it; it moves by planar kinematics
   kRigidBody,   // rigid-body dynamics: it falls, tips and is pushed, and its joints move
-  kActor,       // its script: nothing stops it, and it stops bodies that run into it
-  kPedestrian,  // the social force model, by planar kinematics
+  kActor,       // its script moves it: nothing stops it, and bodies that run into it stop
+  kPedestrian,  // the social force model moves it by planar kinematics
 };
 
 struct Pedestrian;  // gsv/world/pedestrian.h

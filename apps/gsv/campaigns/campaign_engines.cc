@@ -29,7 +29,7 @@ constexpr int kRunsWithServers = 64;  // at once, waiting for room included
 
 int Processors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
-void TellProgress(const campaign::Progress& progress) {
+void ReportProgress(const campaign::Progress& progress) {
   if (isatty(STDERR_FILENO) != 1) return;
   std::fprintf(stderr, "\r\033[K%zu of %zu runs, %zu not passed%s", progress.done, progress.planned,
                progress.not_passed,
@@ -152,7 +152,7 @@ int RunHere(const campaign::Campaign& campaign, campaign::Results& results,
   engine.take = [&](std::int64_t run, const std::atomic<bool>& is_cancelled) {
     return taker.Take(run, is_cancelled);
   };
-  engine.tell = &TellProgress;
+  engine.report = &ReportProgress;
   if (auto ok = engine.Run(results); !ok) return Complain(ok.error());
   if (!is_interrupted && servers != nullptr && !servers->failure().empty()) {
     return Complain({base::ErrorCode::kUnavailable, servers->failure()});
@@ -184,10 +184,10 @@ int RunByQueue(const campaign::Campaign& campaign, campaign::Results& results,
   driver.poll_period = options.poll > 0
                            ? std::chrono::milliseconds(static_cast<int>(1e3 * options.poll))
                            : type.poll_period;
-  driver.tell = &TellProgress;
+  driver.report = &ReportProgress;
   driver.say = &Say;
-  driver.is_interrupted = [&](std::chrono::milliseconds patience) {
-    is_interrupted = signals.WaitFor(static_cast<int>(patience.count())) != 0;
+  driver.is_interrupted = [&](std::chrono::milliseconds timeout) {
+    is_interrupted = signals.WaitFor(static_cast<int>(timeout.count())) != 0;
     return is_interrupted;
   };
   if (auto ok = driver.Run(*spool, results); !ok) return Complain(ok.error());

@@ -92,7 +92,7 @@ void AddBrokerCommand(const CommandLine& line) {
       kept = DefaultDataFile(arguments->port);
     }
     arguments->command.broker.liveness.period = Milliseconds(arguments->liveness_period_s);
-    arguments->command.broker.liveness.patience = Milliseconds(arguments->liveness_patience_s);
+    arguments->command.broker.liveness.max_silence = Milliseconds(arguments->liveness_patience_s);
     line.exit_code = broker::BrokerMain(arguments->command);
   });
 }

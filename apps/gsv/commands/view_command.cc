@@ -54,8 +54,8 @@ void AddViewCommand(const CommandLine& line) {
       line.app.add_subcommand("view", "Relay another instance to many viewers over one connection");
   auto arguments = std::make_shared<Arguments>();
   command->add_option("instance", arguments->instance,
-                      "viewer address http(s)://HOST:PORT/, or name, PID or HOST:PID (default: "
-                      "your newest instance)");
+                      "viewer address http(s)://HOST:PORT/, name, PID or HOST:PID (default: your "
+                      "newest)");
   command
       ->add_option("--broker", arguments->broker,
                    "broker to search (default: of your own instances)")

@@ -19,9 +19,9 @@ void AddWorldOptions(CLI::App& command, RunArguments& a) {
   constexpr const char* kGroup = "World and robots";
   command.add_option(
       "world", a.world,
-      "world file, built-in world (office, maze, warehouse, yard, playground, hall), "
-      "model, or scenario file NAME.yaml (default: office with five robots)\n"
-      "The options override what a scenario file says.");
+      "world, built-in world, model, or scenario NAME.yaml (default: office with five robots)\n"
+      "Built-in worlds are office, maze, warehouse, yard, playground and hall. The options "
+      "override what a scenario file says.");
   command.add_option("--robot", a.robots, "add a robot at a pose (m, rad; yaw also as 90deg)")
       ->type_name("MODEL[@X,Y[,YAW]]")
       ->group(kGroup);
@@ -36,9 +36,9 @@ void AddWorldOptions(CLI::App& command, RunArguments& a) {
       ->group(kGroup);
   command
       .add_option("--movement", a.movements,
-                  "rigid-body dynamics, or 2D kinematics on level ground (default: as the model "
-                  "says, else planar)\n"
-                  "ROBOT is the name of a robot, or a model of --robot.")
+                  "rigid-body dynamics, or 2D kinematics on level ground (default: by the model)\n"
+                  "A model without this setting is planar. ROBOT is the name of a robot, or a "
+                  "model of --robot.")
       ->type_name("ROBOT=rigid|planar")
       ->group(kGroup);
   command

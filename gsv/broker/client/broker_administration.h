@@ -1,6 +1,6 @@
-// What `gsv links`, `gsv types` and `gsv offers` change at a broker, and the links that it has.
-//
-// They use the process's ORB, and start one if there is none.
+// Changes a broker's links, service types and offers, and lists its links, for `gsv links`,
+// `gsv types` and `gsv offers`.
+// All calls use the process's ORB, and start one if there is none.
 // Errors  see BrokerClient; kUnavailable when the broker has no links.
 #pragma once
 
@@ -21,7 +21,7 @@ struct LinkDescription {
   std::string address;  // "host:port" of the other trader; empty when it has none on TCP
   FollowOption def_pass_on = FollowOption::kAlways;
   FollowOption limiting = FollowOption::kAlways;
-  bool answers = false;  // when it was asked, for a second at most
+  bool answers = false;  // it answered a call within a second
 };
 
 // "local_only", "if_no_local", "always".
@@ -33,10 +33,10 @@ class BrokerAdministration {
                                 std::chrono::milliseconds timeout = std::chrono::seconds(5))
       : broker_(std::move(broker)), timeout_(timeout) {}
 
-  // In the order of their names. Each target is asked from here, not by the broker.
+  // The links by name. This process calls each target; the broker does not.
   [[nodiscard]] base::Result<std::vector<LinkDescription>> ListLinks() const;
-  // `target`: another broker's address. It need not answer if it is an "IOR:…" that says what it
-  // is.
+  // `target`: another broker's address. If it is an "IOR:…" with a type id, the other broker need
+  // not answer.
   [[nodiscard]] base::Status AddLink(const std::string& name, const std::string& target,
                                      FollowOption def_pass_on, FollowOption limiting) const;
   [[nodiscard]] base::Status RemoveLink(const std::string& name) const;

@@ -46,9 +46,9 @@ class Sociable : public POA_CosTradingDynamic::DynamicPropEval {
   }
   CORBA::Boolean _non_existent() override {
     others_.count_down();
-    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (!others_.try_wait()) {
-      if (std::chrono::steady_clock::now() > patience) throw CORBA::TRANSIENT();
+      if (std::chrono::steady_clock::now() > deadline) throw CORBA::TRANSIENT();
       std::this_thread::yield();
     }
     return false;

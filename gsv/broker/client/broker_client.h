@@ -1,9 +1,9 @@
-// A program's side of a broker: register service types, export offers, find them.
+// A client of a broker: registers service types, exports offers and finds them.
 //
-// Works with any Trading Service. Every call ends within the time-out; every failure is an Error
+// It works with any Trading Service. Every call ends within the time-out. Every failure is an Error
 // whose sentence names the broker's address.
 //
-// Errors   kInvalidArgument: what was asked for is wrong (a constraint: with its position).
+// Errors   kInvalidArgument: a wrong argument (for a constraint, with the position of the error).
 //          kNotFound: no such service type, offer or property. kUnavailable, kTimeout: no response
 //          from the address, or not in time.
 // Threads  every member may be called at any time.
@@ -38,23 +38,23 @@ struct DescribedOffer {
 
 class BrokerClient {
  public:
-  // `reference`: "corbaloc::host:port/TradingService" ("1.2@" is put in where it lacks), an
-  // "IOR:…", or nothing for what omniORB's -ORBInitRef TradingService=… says.
+  // `reference`: "corbaloc::host:port/TradingService" ("1.2@" is added if it is missing), an
+  // "IOR:…", or empty for the value of omniORB's -ORBInitRef TradingService=….
   [[nodiscard]] static base::Result<BrokerClient> Connect(
       CORBA::ORB_ptr orb, const std::string& reference,
       std::chrono::milliseconds timeout = std::chrono::seconds(5));
 
-  // The broker's address as it should be shown and passed on.
+  // The broker's address, to show to users and to pass to other programs.
   const std::string& reference() const { return reference_; }
 
-  // Adds the type. One that is there already and says the same is fine.
+  // Adds the type. It is no error if the broker already has an equal type.
   [[nodiscard]] base::Status EnsureServiceType(const ServiceType& type);
   // Returns the offer's id. Refuses a service that listens on loopback while the broker is on
   // another host, because no client there could call it.
   [[nodiscard]] base::Result<std::string> Export(const std::string& type, CORBA::Object_ptr object,
                                                  const std::vector<Property>& properties);
   [[nodiscard]] base::Status Withdraw(const std::string& id);
-  // Sets `properties`, leaving the others as they are.
+  // Sets `properties`; the other properties of the offer stay.
   [[nodiscard]] base::Status Modify(const std::string& id, const std::vector<Property>& properties);
   // At most `limit` offers with all their properties, in the order of `preference`.
   [[nodiscard]] base::Result<std::vector<FoundOffer>> Query(const std::string& type,
@@ -63,7 +63,7 @@ class BrokerClient {
                                                             std::size_t limit);
 
   [[nodiscard]] base::Result<std::vector<std::string>> ServiceTypeNames();
-  // With every inherited property.
+  // The type with all inherited properties.
   [[nodiscard]] base::Result<ServiceType> DescribeServiceType(const std::string& name);
   [[nodiscard]] base::Result<std::vector<std::string>> OfferIds();
   [[nodiscard]] base::Result<DescribedOffer> Describe(const std::string& id);
@@ -77,7 +77,7 @@ class BrokerClient {
   CORBA::ORB_var orb_;
   CosTrading::Lookup_var lookup_;
   CosTrading::Register_var registry_;
-  CosTrading::Admin_var admin_;  // nil where the broker has none
+  CosTrading::Admin_var admin_;  // nil if the broker has none
   CosTradingRepos::ServiceTypeRepository_var types_;
 };
 

@@ -1,4 +1,4 @@
-// What a broker raises, as sentences.
+// Turns the exceptions of a broker into errors with a sentence.
 #pragma once
 
 #include <atomic>
@@ -12,7 +12,7 @@
 
 namespace gsv::broker {
 
-// For the exception that is being handled; call it in a catch block.
+// The error for the exception that is being handled. Call it in a catch block.
 // `where` is the broker's address.
 base::Error ErrorOfCurrentException(const std::string& where);
 
@@ -22,7 +22,7 @@ struct CallCounts {
 };
 CallCounts& ProcessCallCounts();
 
-// Runs `call` and turns what it throws into an error. Errors that it returns pass.
+// Runs `call` and turns an exception into an error. Returns the errors of `call` unchanged.
 template <typename Call>
 auto Guarded(const std::string& where, const Call& call) -> decltype(call()) {
   ++ProcessCallCounts().made;
@@ -34,8 +34,8 @@ auto Guarded(const std::string& where, const Call& call) -> decltype(call()) {
   }
 }
 
-// As Guarded, for a call that may be made twice: an ORB learns that a broker was restarted only
-// when it uses the old connection, which fails once.
+// The same for a call that may be repeated. After a restart of the broker, the first call over the
+// old connection fails, so that it is made again.
 template <typename Call>
 auto GuardedRepeatable(const std::string& where, const Call& call) -> decltype(call()) {
   ++ProcessCallCounts().made;

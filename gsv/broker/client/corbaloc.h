@@ -1,5 +1,5 @@
-// Addresses of brokers, as people write them: "corbaloc::HOST:PORT/TradingService", and with
-// "ssliop" between the colons that of one which takes TLS.
+// Addresses of brokers: "corbaloc::HOST:PORT/TradingService" for TCP, and
+// "corbaloc:ssliop:HOST:PORT/TradingService" for TLS.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace gsv::broker {
 
-// A "corbaloc:" with the GIOP version 1.2 put in where none is given (without one an ORB speaks
-// 1.0), or an "IOR:" as it is.
-// Errors  kInvalidArgument, saying what a reference looks like.
+// Adds GIOP version 1.2 to a "corbaloc:" without a version, for which an ORB would use 1.0. Returns
+// an "IOR:" unchanged.
+// Errors  kInvalidArgument, with the forms that a reference may have.
 base::Result<std::string> NormaliseReference(std::string_view reference);
 
-// Whether it names one that takes TLS, and nothing else.
+// Whether the address is of a broker that accepts only TLS.
 bool TakesTls(std::string_view reference);
 
 // The host in a normalised reference; empty when it names none.

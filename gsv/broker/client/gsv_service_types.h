@@ -1,5 +1,5 @@
-// The service types under which GSV's own services are offered; docs/services.md says the same in
-// a table.
+// The service types under which GSV offers its own services; docs/services.md lists them in a
+// table.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ struct BehaviourOffer {
   std::string description;
   std::string host;
   std::int32_t pid = 0;
-  bool time_managed = true;  // it uses the robot's clock, so that the simulation may wait for it
+  bool time_managed = true;  // it uses the robot's clock: the simulation may wait for it
 };
 std::vector<Property> PropertiesOf(const BehaviourOffer& offer);
 // Properties that are missing keep their defaults.
@@ -31,12 +31,12 @@ struct SimulationServiceOffer {
   std::string name;  // of the server
   std::string host;
   std::int32_t pid = 0;
-  std::string viewer_url;  // empty: nowhere
+  std::string viewer_url;  // empty: it has no viewer
   std::int32_t cores = 1;
 };
 std::vector<Property> PropertiesOf(const SimulationServiceOffer& offer);
 
-// How many scenarios a server runs at once is its `slots`.
+// `slots` is the number of scenarios that the server runs at once.
 struct ScenarioServiceOffer {
   std::string name;  // of the server
   std::string host;

@@ -1,4 +1,4 @@
-// What `gsv offers` and `gsv types` show.
+// Lists a broker's offers and service types, for `gsv offers` and `gsv types`.
 #pragma once
 
 #include <chrono>
@@ -21,24 +21,24 @@ struct OfferDescription {
   PropertyList properties;
 };
 
-// Everything that the broker at `broker` offers, in the order of export. They use the process's
-// ORB, and start one if there is none.
+// All offers of the broker at `broker`, in the order of export. The call uses the process's ORB,
+// and starts one if there is none.
 // Errors  see BrokerClient.
 [[nodiscard]] base::Result<std::vector<OfferDescription>> ListOffers(
     const std::string& broker, std::chrono::milliseconds timeout = std::chrono::seconds(5));
-// With every inherited property.
+// All service types, each with its inherited properties.
 [[nodiscard]] base::Result<std::vector<ServiceType>> ListServiceTypes(
     const std::string& broker, std::chrono::milliseconds timeout = std::chrono::seconds(5));
 
-// For people: a few lines an offer.
+// Prints a few lines for each offer.
 void PrintOffers(const std::vector<OfferDescription>& offers, std::ostream& out);
 void PrintServiceTypes(const std::vector<ServiceType>& types, std::ostream& out);
 
-// NDJSON: {"id":…, "type":…, "address":…, "interface":…, "properties":{name: value, …}} a line. A
-// value that JSON cannot hold is {"type": its IDL type}, a dynamic one {"dynamic": the type that it
-// will have}; text that is not UTF-8 is mended with U+FFFD.
+// NDJSON: one {"id":…, "type":…, "address":…, "interface":…, "properties":{name: value, …}} a line.
+// A value that JSON cannot hold is {"type": its IDL type}; a dynamic one is {"dynamic": the type of
+// its value}. U+FFFD replaces bytes that are not UTF-8.
 void PrintOffersJson(const std::vector<OfferDescription>& offers, std::ostream& out);
-// {"name":…, "interface":…, "super_types":[…], "masked":…, "incarnation":…,
+// NDJSON: one {"name":…, "interface":…, "super_types":[…], "masked":…, "incarnation":…,
 //  "properties":[{"name":…, "type":…, "readonly":…, "mandatory":…}, …]} a line.
 void PrintServiceTypesJson(const std::vector<ServiceType>& types, std::ostream& out);
 

@@ -1,4 +1,4 @@
-// Properties' types between CORBA and the trader.
+// Converts the types of properties between CORBA and the trader.
 #pragma once
 
 #include <omniORB4/CORBA.h>
@@ -7,7 +7,7 @@
 
 namespace gsv::broker {
 
-// The type as the constraint language sees it, `encoded` left empty: aliases are not kept.
+// The type for the constraint language, with `encoded` empty. Aliases are resolved.
 PropertyType Classify(CORBA::TypeCode_ptr type);
 PropertyType ToPropertyType(CORBA::TypeCode_ptr type);
 // A new reference.

@@ -1,7 +1,7 @@
-// Properties and their types between CORBA and the trader.
+// Converts properties and their types between CORBA and the trader.
 //
-// A value that the constraint language can handle becomes plain data: an alias of its type is not
-// kept. Every other value is carried as it came.
+// A value that the constraint language can handle becomes plain data, with aliases of its type
+// resolved. Every other value keeps its encoding.
 #pragma once
 
 #include <string>

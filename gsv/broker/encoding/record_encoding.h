@@ -1,8 +1,8 @@
-// Offers' properties and service types as bytes that outlive the process.
+// Encodes the properties of offers, and service types, as bytes for a file.
 //
 // Format  CDR encapsulations of CosTrading::PropertySeq and PolicySeq, and of
 //         CosTradingRepos::ServiceTypeRepository::TypeStruct.
-// The process needs an ORB for them.
+// The process needs an ORB.
 //
 // Errors  kCorrupt for bytes that are neither.
 #pragma once
@@ -23,7 +23,7 @@ std::string EncodeProperties(const PropertyList& properties);
 std::string EncodePolicies(const CosTrading::PolicySeq& policies);
 [[nodiscard]] base::Result<CosTrading::PolicySeq> DecodePolicies(const std::string& bytes);
 
-// All but the name.
+// Everything but the name.
 std::string EncodeServiceType(const ServiceType& type);
 [[nodiscard]] base::Result<ServiceType> DecodeServiceType(const std::string& name,
                                                           const std::string& bytes);

@@ -1,5 +1,5 @@
-// What a constraint demands of single properties: the terms `property == literal` that must all be
-// TRUE for the whole to be.
+// The equality terms of a constraint: terms `property == literal` that must all be TRUE for the
+// constraint to be TRUE.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct EqualityTerm {
   ScalarValue value;
 };
 
-// Those joined by `and` from the root on, in their order.
+// The terms that `and` joins from the root on, in their order.
 std::vector<EqualityTerm> EqualityTerms(const Expression& constraint);
 
 }  // namespace gsv::broker

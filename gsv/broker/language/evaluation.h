@@ -1,13 +1,13 @@
 // The value of an expression for one offer.
 //
-// Operands are evaluated from left to right, and `and` and `or` only as far as needed. An
-// expression has no value when it needs a property that the offer lacks, or one whose type does
-// not fit its operator, or divides by zero: a constraint is then FALSE as a whole (so that
-// `not (speed > 3)` does not match an offer without a speed), and the offer comes last in the
-// order of a preference.
+// Operands are evaluated from left to right; `and` and `or` stop as soon as the result is known. An
+// expression has no value if it needs a property that the offer lacks, if the type of a property
+// does not fit its operator, or if it divides by zero. A constraint without a value is FALSE as a
+// whole, so that `not (speed > 3)` does not match an offer without a speed. An offer for which a
+// preference has no value comes last.
 //
 // Source  OMG Trading Object Service (formal/00-06-27), annex B.
-// Threads  pure; any number at once.
+// Threads  pure functions; any thread.
 #pragma once
 
 #include <optional>
@@ -19,8 +19,8 @@ namespace gsv::broker {
 
 bool Matches(const Expression& constraint, const PropertySource& offer);
 
-// The number that `min` and `max` order by. long double holds every int64 and double exactly, so
-// that mixed numbers have one order. Nothing when there is no value, or it is not a number.
+// The number that `min` and `max` order by; nothing if there is no value or it is not a number.
+// A long double holds every int64 and double exactly, so that mixed numbers have one order.
 std::optional<long double> EvaluateNumber(const Expression& expression,
                                           const PropertySource& offer);
 

@@ -1,4 +1,4 @@
-// Why an offer matches a constraint, or does not: the terms that `and` joins, one by one.
+// Explains why an offer matches a constraint or not: the value of each term that `and` joins.
 #pragma once
 
 #include <string>
@@ -13,11 +13,11 @@ struct TermOutcome {
   enum class Result : std::uint8_t { kTrue, kFalse, kNoValue };
   std::string term;  // in the language, with all its parentheses
   Result result = Result::kNoValue;
-  std::vector<std::string> missing{};  // properties that it names and the offer lacks
+  std::vector<std::string> missing{};  // properties in the term that the offer lacks
 };
 
-// In the order of the constraint, which matches when all are TRUE. Terms behind one that is not
-// TRUE are looked at as well, though a query would not.
+// The terms in the order of the constraint, which matches if all are TRUE. Terms after one that is
+// not TRUE are evaluated as well, although a query would stop there.
 std::vector<TermOutcome> Explain(const Expression& constraint, const PropertySource& offer);
 
 }  // namespace gsv::broker

@@ -25,7 +25,7 @@ enum class Operator : std::uint8_t {
   kLessEqual,
   kGreater,
   kGreaterEqual,
-  kIn,         // an expression in a sequence, which is a property
+  kIn,         // an expression is an element of a property of sequence type
   kSubstring,  // left is contained in right
   kAdd,
   kSubtract,

@@ -1,6 +1,6 @@
-// The names of offers' properties, each list of them kept once.
+// The property names of offers; each distinct list of names is kept once.
 //
-// Threads  not safe; OfferStore's.
+// Threads  not safe; OfferStore serialises.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ namespace gsv::broker {
 
 class NameTable {
  public:
-  // Lets `properties` share its names with other lists of the same names.
+  // Makes `properties` share its names with other lists of the same names.
   void Share(PropertyList& properties);
   // The number of lists of names that are in use or were used recently.
   std::size_t size() const { return known_.size(); }

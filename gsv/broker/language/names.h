@@ -1,4 +1,4 @@
-// The names that may be written in offers and service types.
+// Checks the names in offers and service types.
 //
 // Source  OMG Trading Object Service (formal/00-06-27), annex B: letters are those of ISO Latin-1.
 #pragma once
@@ -19,7 +19,7 @@ bool IsIdentifier(std::string_view name);
 // A scoped name ("::Finance::Converter"), or a repository identifier ("IDL:omg.org/X:1.0").
 bool IsServiceTypeName(std::string_view name);
 
-// The words that the constraint language keeps for itself; no property may bear one.
+// The keywords of the constraint language; no property may have such a name.
 bool IsReservedWord(std::string_view name);
 
 }  // namespace gsv::broker

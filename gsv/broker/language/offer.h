@@ -1,4 +1,4 @@
-// One offer: a service, found by what is said of it.
+// An offer: the reference of a service, and properties by which clients find it.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,20 @@
 
 namespace gsv::broker {
 
-// What a proxy offer has more: it stands for the offers that another trader has of its type.
+// The additional members of a proxy offer, which stands for another trader's offers of its type.
 struct ProxyPart {
-  bool if_match_all = false;  // it matches whatever the constraint says
+  bool if_match_all = false;  // it matches every constraint
   std::string recipe{};       // see recipe.h
   std::string policies{};     // to be passed on: CDR of a CosTrading::PolicySeq
 };
 
-// Immutable: a modification replaces the offer, so that whoever holds one may read it at leisure.
+// Immutable: a modification replaces the offer, so that any holder may read it without a lock.
 struct Offer {
   std::uint64_t number = 0;  // in the order of export, from 1
   std::string type;
   std::string reference;  // of the service, or of a proxy's target: "IOR:…"
   PropertyList properties;
-  std::shared_ptr<const ProxyPart> proxy{};  // null: an offer like any other
+  std::shared_ptr<const ProxyPart> proxy{};  // null: an ordinary offer
 };
 
 using OfferPtr = std::shared_ptr<const Offer>;

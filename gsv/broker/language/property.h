@@ -16,23 +16,23 @@ struct Property {
   Value value;
 };
 
-// Where an evaluator gets properties from: an offer's own, or, for a dynamic property, another
-// service. The pointer holds until the next call.
+// The source of an evaluator's properties: the offer, or another service for a dynamic property.
+// The pointer is valid until the next call.
 class PropertySource {
  public:
   virtual ~PropertySource() = default;
-  // Null when the offer has no such property, or its value cannot be had.
+  // Null if the offer has no such property, or its value is not available.
   virtual const Value* Find(std::string_view name) const = 0;
 };
 
-// In their order, each once.
+// Sorted, each name once.
 using PropertyNames = std::vector<std::string>;
 
-// Properties in the order of their names, each name once. The names are kept apart from the
-// values, so that offers that say the same things of themselves share them.
+// Properties sorted by name, each name once. The names are stored apart from the values, so that
+// offers with the same names share them.
 class PropertyList : public PropertySource {
  public:
-  // One property as a list shows it.
+  // One property of the list.
   struct Entry {
     const std::string& name;
     const Value& value;
@@ -55,12 +55,12 @@ class PropertyList : public PropertySource {
   PropertyList();
   // `properties` in any order, each name at most once.
   explicit PropertyList(std::vector<Property> properties);
-  // In any order; of those with one name the last one counts.
+  // `properties` in any order; of several with the same name the last counts.
   static PropertyList LastOfEachName(std::vector<Property> properties);
 
   const Value* Find(std::string_view name) const override;
   void Set(Property property);
-  // False when there was none.
+  // False if there was none.
   bool Remove(std::string_view name);
 
   std::size_t size() const { return values_.size(); }
@@ -70,7 +70,7 @@ class PropertyList : public PropertySource {
   // The index of the property of that name; size() if there is none.
   std::size_t IndexOf(std::string_view name) const;
 
-  // As many, in the same order. Lists with the same pointer have the same names.
+  // The names in the order of the values. Lists with the same pointer have the same names.
   const std::shared_ptr<const PropertyNames>& names() const { return names_; }
   std::span<const Value> values() const { return values_; }
   // `names` are equal to its own.

@@ -1,5 +1,5 @@
-// Whether the operands of an expression's operators have the types that the standard demands, as
-// far as this is known without offers.
+// Checks that the operands of an expression's operators have the types that the standard requires,
+// as far as the service type declares them.
 //
 // Source  OMG Trading Object Service (formal/00-06-27), annex B, "operator restrictions".
 #pragma once
@@ -13,8 +13,8 @@
 
 namespace gsv::broker {
 
-// The declared type of a property; nothing for one that the service type does not declare, which
-// an offer may hold with any type.
+// The declared type of a property; nothing if the service type does not declare it. An offer may
+// have such a property with any type.
 using DeclaredTypes = std::function<std::optional<PropertyType>(std::string_view name)>;
 
 // Errors  kInvalidArgument with the position of the operator whose operands never fit.

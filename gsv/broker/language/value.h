@@ -1,9 +1,9 @@
-// The value of an offer's property, and its type: those that the constraint language can handle
-// are plain data, every other is carried unread.
+// The value of an offer's property, and its type. Values that the constraint language can handle
+// are plain data; all others stay encoded.
 //
 // Source  OMG Trading Object Service (formal/00-06-27), annex B, "basic elements": boolean, short,
 //         unsigned short, long, unsigned long, float, double, char, string, and sequences of these.
-//         A property of any other type may only be asked for with `exist`.
+//         A property of any other type may only be used with `exist`.
 #pragma once
 
 #include <cstdint>
@@ -29,14 +29,14 @@ enum class Scalar : std::uint8_t {
   kOther,
 };
 
-// Integers of every width are an int64, both float types a double, a char a string of one.
+// An int64 holds integers of every width, a double both float types, a string a char.
 using ScalarValue = std::variant<bool, std::int64_t, double, std::string>;
 
 // The type of a property. Two types are equal when their scalar, sequence and name are.
 struct PropertyType {
   Scalar scalar = Scalar::kOther;
   bool sequence = false;
-  std::string name{};     // of a kOther type: its IDL spelling, aliases resolved; else empty
+  std::string name{};     // of a kOther type: its IDL spelling with aliases resolved; else empty
   std::string encoded{};  // of a kOther type: its TypeCode as a CDR encapsulation; else empty
 
   // "unsigned long", "sequence<string>", "struct IDL:acme/Place:1.0".
@@ -47,12 +47,12 @@ struct PropertyType {
   }
 };
 
-// A value of a type that the constraint language cannot handle: its type's spelling and the whole
-// `any` as a CDR encapsulation.
+// A value of a type that the constraint language cannot handle: the spelling of its type, and the
+// whole `any` as a CDR encapsulation.
 struct OtherValue {
   std::string type_name;
   std::string encoded;
-  // Of a dynamic property: the type that its value will have. Null for every other.
+  // Of a dynamic property: the type of its value. Null for all others.
   std::shared_ptr<const PropertyType> promised_type{};
 };
 
@@ -70,7 +70,7 @@ class Value {
   static Value Double(double value) { return Value(Scalar::kDouble, value); }
   static Value Char(char value) { return Value(Scalar::kChar, std::string(1, value)); }
   static Value String(std::string value) { return Value(Scalar::kString, std::move(value)); }
-  // Content and elements are of the type that their scalar demands: see ScalarValue.
+  // `content` and `elements` have the type of their scalar, see ScalarValue.
   static Value Of(Scalar scalar, ScalarValue content);
   static Value SequenceOf(Scalar element, Sequence elements);
   static Value Strings(const std::vector<std::string>& elements);
@@ -80,7 +80,7 @@ class Value {
   Scalar scalar() const { return scalar_; }
   bool is_sequence() const { return std::holds_alternative<SequencePtr>(content_); }
 
-  // Null where the value is of another kind.
+  // Null if the value is of another kind.
   template <typename T>
   const T* As() const {
     return std::get_if<T>(&content_);
@@ -88,11 +88,11 @@ class Value {
   const Sequence* AsSequence() const;
   const OtherValue* AsOther() const;
 
-  // True when a property declared as `type` may hold this value.
+  // True if a property declared as `type` may hold this value.
   bool Is(const PropertyType& type) const;
   PropertyType Type() const;
 
-  // Roughly the bytes it takes on the wire; never less.
+  // An upper bound of its size on the wire, in bytes.
   std::size_t EncodedSize() const;
 
   friend bool operator==(const Value& a, const Value& b);

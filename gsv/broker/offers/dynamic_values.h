@@ -1,4 +1,4 @@
-// Dynamic properties: an offer says whom to ask for the value, a query asks.
+// Dynamic properties: an offer refers to a service that computes the value, and a query calls it.
 //
 // Source   OMG Trading Object Service (formal/00-06-27), "dynamic properties".
 #pragma once
@@ -25,33 +25,33 @@ class DynamicEvaluator {
   using Clock = std::chrono::steady_clock;
 
   virtual ~DynamicEvaluator() = default;
-  // The value now, of the type that the property promises; nothing when it cannot be had by
+  // The current value, of the property's declared type; nothing if it is not available by
   // `deadline`. `property` is dynamic.
   virtual std::optional<Value> Evaluate(const std::string& name, const OtherValue& property,
                                         Clock::time_point deadline) = 0;
 };
 
-// What one query sees of dynamic properties: each is asked for at most once, so that constraint,
-// preference and answer agree, and only if it is needed. When the query's time is spent, those
-// that are still unknown have no value.
+// The values of dynamic properties in one query. Each is evaluated at most once, so that
+// constraint, preference and answer agree, and only if it is needed. When the query's time is up,
+// properties that were not evaluated have no value.
 //
-// Threads  not safe; one query's own.
+// Threads  not safe; each query has its own.
 class DynamicValues {
  public:
-  // Without an evaluator no dynamic property has a value.
+  // If `evaluator` is null, no dynamic property has a value.
   DynamicValues(DynamicEvaluator* evaluator, std::chrono::milliseconds budget);
 
-  // Null, or whose turn is given up while a service is asked.
+  // The turn that is paused during calls to services; or null.
   void set_slot(ScanSlot* turn) { turn_ = turn; }
 
-  // The property's value, asked for when it is dynamic. Null when there is none. The pointer holds
-  // as long as this and the offer. It is found at once where offers that are asked for one after
-  // the other have the same names of properties.
+  // The property's value, evaluated if it is dynamic; null if there is none. The pointer is valid
+  // as long as this and the offer. The search is fast if successive offers have the same property
+  // names.
   const Value* Find(const Offer& offer, std::string_view name);
 
  private:
   using Key = std::pair<std::uint64_t, std::string>;
-  // Where the property of a name stood last, in offers whose properties have these names.
+  // The last index of a property of this name, in offers with these property names.
   struct Place {
     std::string name;
     std::shared_ptr<const PropertyNames> names{};
@@ -63,7 +63,7 @@ class DynamicValues {
   DynamicEvaluator* const evaluator_;
   ScanSlot* turn_ = nullptr;
   const std::chrono::milliseconds budget_;
-  std::optional<DynamicEvaluator::Clock::time_point> deadline_;  // from the first question on
+  std::optional<DynamicEvaluator::Clock::time_point> deadline_;  // set by the first evaluation
   std::map<Key, std::optional<Value>> known_;
   std::vector<Place> places_;
 };

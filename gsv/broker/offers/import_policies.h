@@ -1,4 +1,4 @@
-// How far a query may go: what the importer asks for, and what the trader allows.
+// Limits of a query: the policies of the importer, and the attributes of the trader.
 //
 // Source  OMG Trading Object Service (formal/00-06-27), "policies".
 #pragma once
@@ -13,10 +13,10 @@ namespace gsv::broker {
 // As CosTrading::FollowOption.
 enum class FollowOption : std::uint8_t { kLocalOnly, kIfNoLocal, kAlways };
 
-// The names of links that lead to another trader, from the first on.
+// The names of the links on the way to another trader, in order.
 using TraderName = std::vector<std::string>;
 
-// The trader's attributes: what it does by default, and at most.
+// The trader's attributes: its defaults and limits.
 struct TraderAttributes {
   std::uint32_t def_search_card = 200'000;
   std::uint32_t max_search_card = 200'000;
@@ -36,7 +36,7 @@ struct TraderAttributes {
   std::string request_id_stem{};  // octets; no other trader's are the same
 };
 
-// The policies of one query; what is absent takes the trader's default.
+// The policies of one query. An absent policy has the trader's default.
 struct ImportPolicies {
   std::optional<std::uint32_t> search_card{};
   std::optional<std::uint32_t> match_card{};
@@ -52,7 +52,7 @@ struct ImportPolicies {
   std::optional<std::string> request_id{};
 };
 
-// How many offers are looked at, ordered, and returned.
+// The maximum number of offers that a query examines, orders and returns.
 struct Cardinalities {
   std::uint32_t search = 0;
   std::uint32_t match = 0;

@@ -1,5 +1,5 @@
-// The numbers that offers have in a property, side by side, so that looking through many of them
-// does not go from offer to offer.
+// The numbers of many offers for one property, in one array, so that a scan over them does not
+// access the offers.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,10 @@
 
 namespace gsv::broker {
 
-// Nothing when a double cannot hold it exactly.
+// The integer as a double; nothing if a double cannot hold it exactly.
 std::optional<double> ExactNumber(std::int64_t integer);
 
-// What is known of an offer after some terms.
+// The state of an offer after some terms were evaluated.
 enum class Choice : std::uint8_t {
   kNo,       // one of them is FALSE or has no value
   kYes,      // all of them are TRUE
@@ -29,8 +29,8 @@ class NumberColumn {
  public:
   NumberColumn(const Offers& offers, const std::string& property);
 
-  // What min and max order the offer at `index` by: NaN for none. Nothing when the offer must be
-  // asked.
+  // The number by which min and max order the offer at `index`; NaN if it has none. Nothing if the
+  // number must be read from the offer.
   std::optional<double> At(std::size_t index) const;
   // Narrows `choices`, one for each offer, to those for which `term` is TRUE.
   void Narrow(const NumberTerm& term, std::vector<Choice>& choices) const;
@@ -40,15 +40,15 @@ class NumberColumn {
   std::vector<Choice> known_;  // kYes: it has the number
 };
 
-// The columns of offers that do not change. Made when a property is asked for the second time, so
-// that they cost nothing where every query sees other offers.
+// The columns of offers that do not change. A column is made at the second request for its
+// property, so that columns cost nothing if every query has other offers.
 //
-// Threads  any may ask.
+// Threads  Of() from any.
 class NumberColumns {
  public:
-  // Null if the column does not exist (yet). `offers` are the same each time, until Clear().
+  // Null if the column does not exist (yet). Until Clear(), `offers` are the same in each call.
   std::shared_ptr<const NumberColumn> Of(const Offers& offers, const std::string& property);
-  // Call it while no query runs.
+  // Removes all columns. Call it while no query runs.
   void Clear() {
     const base::MutexLock lock(mutex_);
     columns_.clear();
@@ -57,7 +57,7 @@ class NumberColumns {
  private:
   base::Mutex mutex_;
   std::map<std::string, std::shared_ptr<const NumberColumn>> columns_
-      GSV_GUARDED_BY(mutex_);  // null: asked for once
+      GSV_GUARDED_BY(mutex_);  // null: requested once
 };
 
 }  // namespace gsv::broker

@@ -1,4 +1,4 @@
-// The order of numbers, many at a time.
+// Sorts many numbers.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +6,8 @@
 
 namespace gsv::broker {
 
-// The indices of `numbers` in ascending order: NaN last, equal ones as they came. A long double
-// holds every int64 and double exactly.
+// The indices of `numbers` in ascending order. NaN is last; equal numbers keep their order. A long
+// double holds every int64 and double exactly.
 std::vector<std::uint32_t> AscendingOrder(const std::vector<long double>& numbers);
 
 }  // namespace gsv::broker

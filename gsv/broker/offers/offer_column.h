@@ -1,9 +1,9 @@
-// The offers of one service type in the order of export, which a query reads without a lock while
-// others change them. They lie in chunks: a change copies a chunk that is being read, and what is
-// known of the other chunks' numbers stays.
+// The offers of one service type in the order of export. A query reads them without a lock while
+// other threads change them. The offers are stored in chunks: a change copies a chunk that is being
+// read, and the number columns of all other chunks stay.
 //
-// Threads  a view may be read by any thread. Views are made, and the column is changed, by one
-//          thread at a time (views by several, while no thread changes it).
+// Threads  any thread may read a view. One thread at a time changes the column; several threads may
+//          make views while none changes it.
 #pragma once
 
 #include <atomic>
@@ -18,7 +18,7 @@
 
 namespace gsv::broker {
 
-// Some offers, and the columns of their numbers.
+// Some offers, and their number columns.
 class OfferChunk {
  public:
   explicit OfferChunk(Offers offers) : offers_(std::move(offers)) {}
@@ -26,7 +26,7 @@ class OfferChunk {
   const Offers& offers() const { return offers_; }
   // Null if the column does not exist (yet).
   std::shared_ptr<const NumberColumn> ColumnOf(const std::string& property) const;
-  // What the columns say of each offer. Empty when they say nothing.
+  // The state of each offer by the columns; empty if there is no column for the terms.
   std::vector<Choice> Choose(const std::vector<NumberTerm>& terms) const;
 
  private:
@@ -38,7 +38,7 @@ class OfferChunk {
   std::atomic<int> readers_ = 0;
 };
 
-// What the column held when the view was made.
+// The content of the column when the view was made.
 class OfferView {
  public:
   using Chunks = std::vector<std::shared_ptr<OfferChunk>>;
@@ -65,22 +65,23 @@ class OfferColumn {
   std::size_t size() const { return size_; }
   OfferView View() const { return OfferView(chunks_); }
 
-  // In the place of the one with its number, or a new one.
+  // Adds the offer, or replaces the one with its number.
   void Put(OfferPtr offer);
-  // It must be there.
+  // Removes an offer, which must exist.
   void Remove(std::uint64_t number);
 
  private:
-  using Place = std::pair<std::size_t, std::size_t>;  // a chunk, and where in it
+  using Place = std::pair<std::size_t, std::size_t>;  // chunk, and index in the chunk
 
-  // Of the first offer in its chunk whose number is not less; the last chunk is for all beyond.
+  // The place of the first offer whose number is not less, in the chunk of `number`. Numbers above
+  // all others belong to the last chunk.
   Place PlaceOf(std::uint64_t number) const;
-  // The chunk's offers, for a change.
+  // The chunk's offers, to be changed.
   Offers& Own(std::size_t chunk);
   void SplitIfFull(std::size_t chunk);
   void JoinIfSmall(std::size_t chunk);
 
-  OfferView::Chunks chunks_;  // none is empty
+  OfferView::Chunks chunks_;  // no chunk is empty
   std::size_t size_ = 0;
 };
 

@@ -1,6 +1,6 @@
-// The offers, by number, by service type, and by the values of properties that queries ask for.
+// Stores the offers by number, by service type, and by the values of queried properties.
 //
-// Threads  not safe; Trader serialises. What a view shows stays as it is.
+// Threads  not safe; Trader serialises. The content of a view does not change.
 #pragma once
 
 #include <cstdint>
@@ -23,13 +23,13 @@ class OfferStore {
  public:
   std::size_t size() const { return offers_.size(); }
 
-  // Gives the offer its number.
+  // Adds an offer and sets its number.
   std::uint64_t Add(Offer offer);
-  // Puts back an offer that has its number, which no other has.
+  // Adds an offer that has a number already; no other offer may have that number.
   void Restore(Offer offer);
   // The next offer added has at least this number.
   void SkipTo(std::uint64_t number);
-  // Puts `offer` in the place of the one with its number, which must be there, of the same type.
+  // Replaces the offer with the same number, which must exist and have the same type.
   void Replace(Offer offer);
   // False if there is no such offer.
   bool Remove(std::uint64_t number);
@@ -39,14 +39,14 @@ class OfferStore {
   // The offers of `types`: type by type, in the order of export within one.
   std::vector<OfferView> OfTypes(const std::vector<std::string>& types) const;
   std::size_t CountOfTypes(const std::vector<std::string>& types) const;
-  // In the order of export.
+  // All offers in the order of export.
   Offers All() const;
 
-  // Of OfTypes(), in the same order, at least those for which one of `terms` is TRUE: the one that
-  // leaves the fewest. Nothing when there is no index for one of them in every type.
+  // A part of OfTypes(), in the same order, that contains all offers for which one of `terms` is
+  // TRUE: the term with the fewest offers. Nothing if no term has an index in every type.
   std::optional<std::vector<OfferView>> OfTypesWith(const std::vector<std::string>& types,
                                                     const std::vector<EqualityTerm>& terms) const;
-  // Makes indices for the first few of `terms`. Each type has a few; the oldest goes first.
+  // Makes indices for the first few of `terms`. Each type keeps a few; the oldest is removed first.
   void Index(const std::vector<std::string>& types, const std::vector<EqualityTerm>& terms);
 
  private:

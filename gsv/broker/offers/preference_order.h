@@ -1,9 +1,8 @@
-// The order in which a preference returns offers.
+// Orders offers by a preference: `min` and `max` by a number, `with` the offers for which the
+// expression is TRUE first, `random` at random, and `first` as they were found. Offers without a
+// value of the expression come last. Equal offers keep the order in which they were found.
 //
-// Source  OMG Trading Object Service (formal/00-06-27), "preference": min and max in the order of
-//         a number, with: the offers for which it is true first, random, first: as they were
-//         found. Offers for which the expression has no value come last. Otherwise equal offers
-//         keep the order in which they were found.
+// Source  OMG Trading Object Service (formal/00-06-27), "preference".
 #pragma once
 
 #include <cstdint>
@@ -16,11 +15,11 @@
 
 namespace gsv::broker {
 
-// The property whose number min or max orders by; null when it is not one property's alone.
+// The property by which min or max orders; null if the expression is not a single property.
 const std::string* PropertyToOrderBy(const Preference& preference);
 
-// `seed` decides what random does. `known` are the numbers of the first few offers, where min or
-// max orders by a property: NaN when an offer has none.
+// `seed` is that of `random`. `known`: the numbers of the first few offers if min or max orders by
+// a property, NaN for an offer that has none.
 void OrderBy(const Preference& preference, std::uint64_t seed, const std::vector<double>& known,
              DynamicValues& values, Offers& offers);
 

@@ -1,9 +1,9 @@
-// Offers by the value of one property: those for which `property == value` may be TRUE.
+// An index of offers by the value of one property. It finds the offers for which
+// `property == value` may be TRUE.
 //
-// Equal are values that the constraint language calls so: numbers of every type by what they are,
-// a char and a string by their text.
-//
-// Threads  not safe; OfferStore's.
+// Values are equal as in the constraint language: numbers of all types by value, char and string by
+// text.
+// Threads  not safe; OfferStore serialises.
 #pragma once
 
 #include <optional>
@@ -23,17 +23,17 @@ class PropertyIndex {
   void Insert(const OfferPtr& offer);
   void Remove(const Offer& offer);
 
-  // In the order of export: every offer whose property is equal to `value`, and those for which the
-  // index does not decide: dynamic properties, and proxies that match every query.
+  // In the order of export: the offers whose property is equal to `value`, and those that the index
+  // cannot decide, which have a dynamic property or are proxies that match every query.
   Offers Find(const ScalarValue& value) const;
-  // How many Find() would return.
+  // The number of offers that Find() returns.
   std::size_t Count(const ScalarValue& value) const;
 
  private:
   using Key = std::variant<bool, long double, std::string>;
 
   static std::optional<Key> KeyOf(const ScalarValue& value);
-  // Where an offer stands; null when no value is equal to its property's.
+  // The list that contains the offer; null if its property has no value to index.
   Offers* PlaceOf(const Offer& offer);
   const Offers& Equal(const ScalarValue& value) const;
 

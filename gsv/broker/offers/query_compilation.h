@@ -1,4 +1,4 @@
-// A query's constraint and preference, parsed and checked against the service type.
+// Parses a query's constraint and preference and checks them against the service type.
 #pragma once
 
 #include <string>

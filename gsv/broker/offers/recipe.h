@@ -1,5 +1,5 @@
-// The recipe of a proxy offer: how the importer's constraint becomes the one that the proxy's
-// target is asked.
+// The recipe of a proxy offer, which makes the constraint for the proxy's target from the
+// importer's constraint.
 //
 // A recipe is text in which `$*` stands for the importer's constraint, `$(name)` for the value of
 // the proxy's property as a literal, and `$$` for a dollar sign.
@@ -15,11 +15,11 @@
 
 namespace gsv::broker {
 
-// True when it can be followed with these properties: each that it names is there, of a type that
-// the constraint language has literals for. A dynamic property counts as what it promises.
+// True if every property in the recipe exists and has a type with literals in the constraint
+// language. For a dynamic property the declared type counts.
 bool IsRecipe(std::string_view recipe, const PropertyList& properties);
 
-// Nothing when a property has no value, or one without a literal.
+// The constraint for the target; nothing if a property has no value, or a value without a literal.
 std::optional<std::string> FollowRecipe(std::string_view recipe, const PropertySource& properties,
                                         std::string_view constraint);
 

@@ -1,5 +1,5 @@
-// Limits how many threads scan many offers at the same time. One core stays free of that, so that
-// short queries are answered meanwhile; the long ones go one after the other as they came.
+// Limits the number of threads that scan many offers at the same time. One core stays free for
+// short queries. Long queries take turns in the order of their arrival.
 //
 // Threads  any.
 #pragma once
@@ -13,9 +13,9 @@ namespace gsv::broker {
 
 class ScanSlots {
  public:
-  // `at_once` have a turn at a time, at least one.
+  // `at_once`: number of concurrent turns, >= 1.
   explicit ScanSlots(std::size_t at_once);
-  // As many as there are cores, but for one.
+  // The number of cores minus one, but at least 1.
   static std::size_t ForThisMachine();
 
   void Take();
@@ -29,7 +29,7 @@ class ScanSlots {
   std::uint64_t ended_ GSV_GUARDED_BY(mutex_) = 0;
 };
 
-// A turn as long as this lives; null: none is needed.
+// Holds a turn during its lifetime. Null: no turn is needed.
 class ScanSlot {
  public:
   explicit ScanSlot(ScanSlots* turns) : turns_(turns) { Resume(); }
@@ -37,7 +37,7 @@ class ScanSlot {
   ScanSlot(const ScanSlot&) = delete;
   ScanSlot& operator=(const ScanSlot&) = delete;
 
-  // Others go on while the holder waits for something else.
+  // Gives the turn to others while the holder waits for something else.
   void Pause() {
     if (turns_ != nullptr) turns_->Give();
   }

@@ -1,4 +1,4 @@
-// What an offer of a service type must and may say.
+// A service type: the interface of its offers, and the properties that they must or may have.
 //
 // Source  OMG Trading Object Service (formal/00-06-27), "service types".
 #pragma once
@@ -11,17 +11,17 @@
 
 namespace gsv::broker {
 
-// As CosTradingRepos::ServiceTypeRepository::PropertyMode: bit 0 says read-only, bit 1 mandatory.
+// As CosTradingRepos::ServiceTypeRepository::PropertyMode: bit 0 is read-only, bit 1 is mandatory.
 enum class PropertyMode : std::uint8_t {
   kNormal = 0,             // may be absent, changed, and removed
-  kReadonly = 1,           // may be absent; once given it is not changed
-  kMandatory = 2,          // is always there
-  kMandatoryReadonly = 3,  // is always there and is not changed
+  kReadonly = 1,           // may be absent; cannot be changed after the export
+  kMandatory = 2,          // always present
+  kMandatoryReadonly = 3,  // always present; cannot be changed
 };
 
 inline bool IsReadonly(PropertyMode mode) { return (static_cast<int>(mode) & 1) != 0; }
 inline bool IsMandatory(PropertyMode mode) { return (static_cast<int>(mode) & 2) != 0; }
-// As demanding as both together.
+// The mode with the requirements of both.
 inline PropertyMode Stronger(PropertyMode a, PropertyMode b) {
   return static_cast<PropertyMode>(static_cast<int>(a) | static_cast<int>(b));
 }
@@ -34,13 +34,13 @@ struct PropertyDefinition {
 
 struct ServiceType {
   std::string name{};
-  // The interface that offered services have: a repository identifier, or a scoped name, or
-  // nothing for any interface.
+  // The interface of offered services: a repository identifier or a scoped name; empty: any
+  // interface.
   std::string interface_name{};
   std::vector<PropertyDefinition> properties{};
   std::vector<std::string> super_types{};
-  bool masked = false;            // no offers of this very type are taken
-  std::uint64_t incarnation = 0;  // grows with each type that is added
+  bool masked = false;            // offers of exactly this type are refused
+  std::uint64_t incarnation = 0;  // grows with each added type
 };
 
 }  // namespace gsv::broker

@@ -1,5 +1,5 @@
-// What the trader refuses: one value for each exception of the standard, with that exception's
-// members.
+// The errors of the trader: one value for each exception of the standard, with the members of the
+// exception.
 #pragma once
 
 #include <optional>
@@ -15,8 +15,8 @@
 
 namespace gsv::broker {
 
-// The exceptions of CosTrading and CosTradingRepos, kLimit for a request that goes beyond the
-// trader's limits (CORBA::IMP_LIMIT), and kNotStored when the disk fails (CORBA::PERSIST_STORE).
+// The exceptions of CosTrading and CosTradingRepos, kLimit for a request that exceeds the trader's
+// limits (CORBA::IMP_LIMIT), and kNotStored if the disk fails (CORBA::PERSIST_STORE).
 enum class Refusal {
   // Members: type
   kIllegalServiceType,
@@ -42,7 +42,7 @@ enum class Refusal {
   kReadonlyDynamicProperty,
   // Members: type, property
   kPropertyTypeMismatch,
-  // Members: name (the text that was refused)
+  // Members: name (the refused text)
   kIllegalConstraint,
   kIllegalPreference,
   kIllegalRecipe,
@@ -77,7 +77,7 @@ struct InterfaceMismatch {
   std::string derived_interface;
 };
 
-// A follow rule that goes beyond what bounds it.
+// A follow rule that is more permissive than its bound.
 struct FollowConflict {
   FollowOption rule;
   FollowOption bound;
@@ -87,7 +87,7 @@ struct TradingError {
   Refusal refusal = Refusal::kLimit;
   std::string type{};
   std::string name{};
-  std::string detail{};  // for people: why, and where
+  std::string detail{};  // for users: the reason, and the position
   std::optional<Property> property{};
   std::optional<Redefinition> redefinition{};
   std::optional<InterfaceMismatch> interfaces{};

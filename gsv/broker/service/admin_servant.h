@@ -1,4 +1,4 @@
-// CosTrading::Admin: the trader's attributes, and the ids of all offers.
+// Implements CosTrading::Admin: the trader's attributes, and the ids of all offers.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ class AdminServant : public POA_CosTrading::Admin,
   CosTrading::FollowOption max_link_follow_policy() override;
   CosTrading::Admin::OctetSeq* request_id_stem() override;
 
-  // Each returns what held before.
+  // Each returns the value before.
   CORBA::ULong set_def_search_card(CORBA::ULong value) override;
   CORBA::ULong set_max_search_card(CORBA::ULong value) override;
   CORBA::ULong set_def_match_card(CORBA::ULong value) override;
@@ -40,7 +40,7 @@ class AdminServant : public POA_CosTrading::Admin,
 
   CORBA::Boolean set_supports_proxy_offers(CORBA::Boolean value) override;
 
-  // Another repository than its own is refused with CORBA::NO_IMPLEMENT.
+  // Throws CORBA::NO_IMPLEMENT for any repository other than its own.
   CORBA::Object_ptr set_type_repos(CORBA::Object_ptr repository) override;
 
   void list_offers(CORBA::ULong how_many, CosTrading::OfferIdSeq_out ids,

@@ -1,4 +1,4 @@
-// The attributes that the trader's interfaces have in common.
+// Implements the attributes that the trader's interfaces have in common.
 #pragma once
 
 #include <COS/CosTrading.hh>

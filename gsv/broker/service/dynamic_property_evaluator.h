@@ -1,4 +1,4 @@
-// Asks services for the values of dynamic properties (CosTradingDynamic::DynamicPropEval).
+// Gets the values of dynamic properties from services (CosTradingDynamic::DynamicPropEval).
 //
 // Values, and failures to get one, are cached for a short time, so that many queries make few
 // calls.
@@ -26,7 +26,7 @@ class DynamicPropertyEvaluator : public DynamicEvaluator {
                                 Clock::time_point deadline) override;
 
  private:
-  // A property's name, and whom to ask what as CDR: equal for equal questions.
+  // A property's name, and the service and arguments of the call as CDR: equal for equal calls.
   using Question = std::pair<std::string, std::string>;
   struct Answer {
     std::optional<Value> value;

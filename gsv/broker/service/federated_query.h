@@ -1,4 +1,4 @@
-// A query's way to other traders: through links, and through proxy offers that match it.
+// Forwards a query to other traders: over links, and through proxy offers that match it.
 #pragma once
 
 #include <string>
@@ -16,16 +16,16 @@ struct FederatedQuery {
   std::string request_id;
 };
 
-// Adds to what was found here what other traders find, and the names of the policies that limited
-// them. A trader that does not answer counts as one whose link was not followed, or whose proxy
-// was not used: link_follow_rule or use_proxy_offers is among the names.
+// Adds the offers of other traders to the local ones, and the names of the policies that limited
+// them. If a trader does not answer, its link counts as not followed, or its proxy as not used:
+// link_follow_rule or use_proxy_offers is then among the names.
 // Threads  any; waits for other traders.
 void AddFederatedAnswers(TradingObjects& objects, const FederatedQuery& query,
                          MatchingOffers& matches, DynamicValues& values);
 
-// The Lookup that the first name of the policy starting_trader leads to, with what the query to it
-// may take as its time-out.
-// Errors  throws InvalidPolicyValue when there is no such link.
+// The Lookup behind the first link of the policy starting_trader. Its calls have the time limit of
+// the query.
+// Errors  throws InvalidPolicyValue if there is no such link.
 CosTrading::Lookup_ptr StartingTrader(TradingObjects& objects, const ImportPolicies& import,
                                       const CosTrading::PolicySeq& policies);
 

@@ -1,4 +1,4 @@
-// Whether a service has the interface that its service type demands.
+// Checks whether a service has the interface that its service type requires.
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@ namespace gsv::broker {
 
 enum class Conformance { kConforms, kDiffers, kUnknown };
 
-// Checks only the type id in the reference: `interface_name` is a repository identifier, a scoped
-// name, or nothing. kUnknown where the reference may be of a derived interface.
+// Checks only the type id in the reference. `interface_name` is a repository identifier, a scoped
+// name, or empty. kUnknown if the reference may be of a derived interface.
 Conformance CompareInterface(std::string_view type_id, std::string_view interface_name);
 
-// As CompareInterface, then by asking the service (_is_a), for at most a second. kUnknown when it
-// does not answer.
+// As CompareInterface(), then calls the service (_is_a) with a time limit of one second. kUnknown
+// if it does not answer.
 Conformance CheckInterface(CORBA::Object_ptr service, std::string_view type_id,
                            const std::string& interface_name);
 

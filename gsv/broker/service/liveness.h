@@ -1,4 +1,4 @@
-// Whether the service behind a reference still exists.
+// Checks whether the service behind a reference still exists.
 #pragma once
 
 #include <chrono>
@@ -10,9 +10,9 @@
 
 namespace gsv::broker {
 
-// Asks it (_non_existent). kGone only when the service says so, or when the operating system at
-// its address does: a network that is cut is silence. A service that answers anything else is
-// alive, and so is one that this ORB cannot address.
+// Calls _non_existent. kGone: the service reports so, or the operating system at its address refuses
+// the connection. kSilent: no answer in time, also if the network is cut. kAlive: any other answer.
+// A service that this ORB cannot address counts as alive.
 Liveness CheckLiveness(CORBA::ORB_ptr orb, const std::string& reference,
                        std::chrono::milliseconds timeout);
 

@@ -8,12 +8,12 @@
 namespace gsv::broker {
 namespace {
 
-constexpr std::chrono::seconds kPatience{40};  // shorter than the test's own time limit
+constexpr std::chrono::seconds kTimeout{40};  // shorter than the test's own time limit
 
 class LivenessTest : public BrokerFixture {
  protected:
-  explicit LivenessTest(const std::string& patience_ms = "3600000")
-      : BrokerFixture({"0", "liveness_ms=20", "patience_ms=" + patience_ms}) {}
+  explicit LivenessTest(const std::string& max_silence_ms = "3600000")
+      : BrokerFixture({"0", "liveness_ms=20", "max_silence_ms=" + max_silence_ms}) {}
 
   bool IsOffered(const std::string& id) {
     try {
@@ -24,7 +24,7 @@ class LivenessTest : public BrokerFixture {
     }
   }
   void AwaitWithdrawal(const std::string& id) {
-    const auto give_up = std::chrono::steady_clock::now() + kPatience;
+    const auto give_up = std::chrono::steady_clock::now() + kTimeout;
     while (IsOffered(id)) {
       ASSERT_LT(std::chrono::steady_clock::now(), give_up) << id << " is still offered";
       std::this_thread::yield();

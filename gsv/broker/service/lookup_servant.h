@@ -1,4 +1,4 @@
-// CosTrading::Lookup, and the iterators over what a query found.
+// Implements CosTrading::Lookup, and the iterators over the results of a query.
 #pragma once
 
 #include <COS/CosTrading.hh>
@@ -21,7 +21,7 @@ class LookupServant : public POA_CosTrading::Lookup,
              CosTrading::PolicyNameSeq_out limits_applied) override;
 };
 
-// One servant stands for every iterator: the object id is the cursor's key.
+// One servant serves all iterators: the object id is the cursor's key.
 class OfferIteratorServant : public POA_CosTrading::OfferIterator {
  public:
   explicit OfferIteratorServant(TradingObjects& objects) : objects_(objects) {}

@@ -18,18 +18,19 @@ inline CosTrading::FollowOption ToCorba(FollowOption option) {
   return static_cast<CosTrading::FollowOption>(option);
 }
 
-// A policy with a name that the standard does not know is passed over.
+// Ignores a policy with a name that the standard does not define.
 // Errors  throws IllegalPolicyName, DuplicatePolicyName, PolicyTypeMismatch, InvalidPolicyValue.
 ImportPolicies ToImportPolicies(const CosTrading::PolicySeq& policies);
 
-// What replaces the importer's own policies when the query goes to another trader; what is absent
-// stays as the importer said it, but for starting_trader, which then goes.
+// The policies that replace the importer's when the query is forwarded to another trader. An absent
+// policy keeps the importer's value, except starting_trader, which is removed.
 struct PassedPolicies {
   TraderName starting_trader{};
   std::optional<std::uint32_t> hop_count{};
   std::optional<FollowOption> link_follow_rule{};
   std::optional<std::string> request_id{};
-  // In the place of the importer's of the same names, and after all others; those above stay.
+  // They replace the importer's policies of the same names, and come last. They do not replace the
+  // members above.
   CosTrading::PolicySeq fixed{};
 };
 

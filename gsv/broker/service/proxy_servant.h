@@ -1,4 +1,4 @@
-// CosTrading::Proxy.
+// Implements CosTrading::Proxy.
 #pragma once
 
 #include <COS/CosTrading.hh>

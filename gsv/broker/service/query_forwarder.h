@@ -1,8 +1,8 @@
-// Asks other traders the query that came to this one: at the same time, each for as long as there
-// is time, and no trader that is known to be silent by more than one query at once.
+// Forwards a query to other traders, to all at the same time, within the query's time limit. Only
+// one query at a time calls a trader that did not answer before.
 //
-// Errors   a trader that does not answer, or refuses, has nothing to offer; the first silence of a
-//          trader, and its end, are logged on stderr.
+// Errors   a trader that does not answer, or refuses, contributes no offers. Its first silence and
+//          the end of it are logged on stderr.
 // Threads  any; no lock is held during a call.
 #pragma once
 
@@ -20,7 +20,7 @@
 
 namespace gsv::broker {
 
-// Which properties of an offer an importer wants to see.
+// The properties of an offer that an importer requests.
 struct DesiredProperties {
   bool all = false;
   std::vector<std::string> names;
@@ -29,13 +29,13 @@ struct DesiredProperties {
 struct ForwardedQuery {
   std::string type;
   std::string preference;
-  DesiredProperties desired;  // with those that the preference needs
-  std::size_t at_most = 0;    // offers of each trader
+  DesiredProperties desired;  // including those that the preference needs
+  std::size_t at_most = 0;    // limit of offers from each trader
   std::chrono::steady_clock::time_point deadline;
 };
 
 struct QueryDestination {
-  std::string name;    // for people: "link north"
+  std::string name;    // for messages: "link north"
   std::string target;  // the trader's Lookup: "IOR:…"
   std::string constraint;
   CosTrading::PolicySeq policies;
@@ -51,7 +51,7 @@ class QueryForwarder {
  public:
   explicit QueryForwarder(const FederationLimits& limits) : limits_(limits) {}
 
-  // Returns when all have answered, or the time is over. The answers in the order of
+  // Returns when all traders have answered, or when the time is up. The answers are in the order of
   // `destinations`.
   std::vector<ForwardedAnswer> Ask(CORBA::ORB_ptr orb, const ForwardedQuery& query,
                                    const std::vector<QueryDestination>& destinations);
@@ -59,7 +59,8 @@ class QueryForwarder {
  private:
   ForwardedAnswer AskOne(CORBA::ORB_ptr orb, const ForwardedQuery& query,
                          const QueryDestination& destination);
-  // False: the trader is silent, and another query is asking it; or too many calls are underway.
+  // False if the trader is silent and another query is calling it, or if too many calls are in
+  // progress.
   bool Enter(const std::string& target);
   void Leave(const QueryDestination& destination, bool answered);
 
@@ -67,7 +68,7 @@ class QueryForwarder {
   base::Mutex mutex_;
   std::size_t underway_ GSV_GUARDED_BY(mutex_) = 0;
   std::map<std::string, bool> silent_
-      GSV_GUARDED_BY(mutex_);  // by target: whether a query is asking it
+      GSV_GUARDED_BY(mutex_);  // by target: whether a query is calling it
 };
 
 }  // namespace gsv::broker

@@ -1,4 +1,4 @@
-// The trader's refusals as the standard's exceptions.
+// Throws the trader's errors as the exceptions of the standard.
 #pragma once
 
 #include "gsv/broker/offers/trading_error.h"

@@ -1,4 +1,4 @@
-// CosTrading::Register.
+// Implements CosTrading::Register.
 #pragma once
 
 #include <COS/CosTrading.hh>
@@ -14,7 +14,7 @@ class RegisterServant : public POA_CosTrading::Register,
   explicit RegisterServant(TradingObjects& objects)
       : ComponentsServant(objects), SupportServant(objects) {}
 
-  // omniORB's spelling of `export`, which C++ keeps for itself.
+  // omniORB's spelling of `export`, which is a keyword of C++.
   char* _cxx_export(CORBA::Object_ptr reference, const char* type,
                     const CosTrading::PropertySeq& properties) override;
   void withdraw(const char* id) override;

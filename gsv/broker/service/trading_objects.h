@@ -1,5 +1,5 @@
-// What the servants of the Trading Service share: the trader, the open iterators, and each
-// other's references.
+// The objects that the servants of the Trading Service share: the trader, the open iterators, and
+// the references of the servants.
 #pragma once
 
 #include <atomic>
@@ -18,7 +18,7 @@
 
 namespace gsv::broker {
 
-// A reply fits a GIOP message of 64 KiB with this many bytes of offers or names.
+// Maximum bytes of offers or names in a reply, so that it fits a GIOP message of 64 KiB.
 constexpr std::size_t kReplyBytes = 48 * 1024;
 
 using OfferCursors = CursorTable<OfferPtr, DesiredProperties>;
@@ -35,7 +35,7 @@ struct TradingObjects {
   OfferCursors offer_cursors;
   OfferIdCursors id_cursors;
 
-  // No other query of any trader has the same.
+  // An id that no other query of any trader has.
   std::string NewRequestId();
 
   // Set before the first request is served.
@@ -50,7 +50,7 @@ struct TradingObjects {
   CosTradingRepos::ServiceTypeRepository_var types;
 
  private:
-  const std::string process_;  // another each time that the trader starts
+  const std::string process_;  // unique to each start of the trader
   std::atomic<std::uint64_t> next_request_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// CosTradingRepos::ServiceTypeRepository.
+// Implements CosTradingRepos::ServiceTypeRepository.
 #pragma once
 
 #include <COS/CosTradingRepos.hh>

@@ -1,6 +1,6 @@
-// SQLite behind values that close themselves: a database file and its prepared statements.
+// Owns an SQLite database and its prepared statements; the destructors close them.
 //
-// Errors   every failure carries SQLite's own words.
+// Errors   every failure has SQLite's message.
 // Threads  one at a time.
 #pragma once
 
@@ -17,12 +17,12 @@ namespace gsv::broker {
 
 class Statement {
  public:
-  // Binds the arguments from the left; a string_view is text, see Blob for bytes.
+  // Binds an argument; `place` counts from 1. A string_view is text; BindBlob() binds bytes.
   Statement& Bind(int place, std::int64_t value);
   Statement& Bind(int place, std::string_view text);
   Statement& BindBlob(int place, std::string_view bytes);
 
-  // Runs a statement that returns no rows, and makes it ready for the next arguments.
+  // Runs a statement that returns no rows, and resets it for the next arguments.
   [[nodiscard]] base::Status Run();
   // Steps to the next row; false after the last.
   [[nodiscard]] base::Result<bool> Next();
@@ -42,12 +42,12 @@ class Database {
   [[nodiscard]] static base::Result<Database> Open(const std::string& path);
 
   [[nodiscard]] base::Result<Statement> Prepare(std::string_view sql);
-  // One or more statements; what they return is passed over.
+  // Runs one or more statements and ignores their rows.
   [[nodiscard]] base::Status Run(const std::string& sql);
-  // The first column of the first row.
+  // Runs a query and returns the first column of the first row.
   [[nodiscard]] base::Result<std::string> Ask(std::string_view sql);
 
-  // What SQLite said last: SQLITE_BUSY, SQLITE_NOTADB, …
+  // SQLite's last result code: SQLITE_BUSY, SQLITE_NOTADB, …
   int LastCode() const;
 
  private:

@@ -210,7 +210,7 @@ void OfferFile::Write() {
     const std::vector<StateChange> changes = std::exchange(waiting_, {});
     const Ticket last = last_appended_;
     lock.unlock();
-    const base::Status written = WriteWithPatience(changes);
+    const base::Status written = WriteWithRetries(changes);
     lock.lock();
     if (written) {
       last_written_ = last;
@@ -226,8 +226,8 @@ void OfferFile::Write() {
   }
 }
 
-// The address space is limited, and others may need it for a moment.
-base::Status OfferFile::WriteWithPatience(const std::vector<StateChange>& changes) {
+// Other threads may use the limited address space for a moment.
+base::Status OfferFile::WriteWithRetries(const std::vector<StateChange>& changes) {
   constexpr int kTries = 50;
   constexpr std::chrono::milliseconds kPause(100);
   for (int tries = 1;; ++tries) {

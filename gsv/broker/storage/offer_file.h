@@ -1,9 +1,9 @@
-// What a broker knows, in a file that survives it.
+// Stores the state of a broker in a file, from which the next start restores it.
 //
-// Format   an SQLite database in WAL mode with synchronous=NORMAL: what was answered survives the
-//          end of the process at any moment; a power cut may lose the last changes, never the
-//          file. See docs/broker.md.
-// Threads  a thread of its own writes; all changes that wait become one transaction.
+// Format   an SQLite database in WAL mode with synchronous=NORMAL. Acknowledged changes survive the
+//          end of the process at any moment. A power failure may lose the last changes, but does
+//          not damage the file. See docs/broker.md.
+// Threads  its own thread writes; all waiting changes become one transaction.
 #pragma once
 
 #include <cstdint>
@@ -21,26 +21,26 @@ namespace gsv::broker {
 
 class OfferFile : public Journal {
  public:
-  // Opens the file, or makes one whose offers' ids will have `stem`. It is locked for other
-  // processes then.
-  // Errors  kUnavailable: it cannot be opened, or another broker uses it.
-  //         kCorrupt: it is damaged, or not a broker's, or of a newer version.
+  // Opens the file and locks it against other processes. Creates it if it does not exist; `stem` is
+  // then part of its offers' ids.
+  // Errors  kUnavailable: the file cannot be opened, or another broker uses it.
+  //         kCorrupt: the file is damaged, not a broker's, or of a newer version.
   [[nodiscard]] static base::Result<std::unique_ptr<OfferFile>> Open(const std::string& path,
                                                                      std::uint32_t stem);
   ~OfferFile() override { Close(); }
 
-  // All that was in the file when it was opened. Before the first Append.
+  // The content of the file when it was opened. Call it before the first Append().
   // Errors  kCorrupt.
   [[nodiscard]] base::Result<TraderState> Load();
 
-  // The file does not grow beyond `pages` of 4 KiB; changes that need more are not kept. Before
-  // the first Append.
+  // Limits the file to `pages` of 4 KiB; changes that need more are not stored. Call it before the
+  // first Append().
   [[nodiscard]] base::Status LimitPages(int pages);
 
   bool works() const override;
   Ticket Append(StateChange change) override;
   [[nodiscard]] bool Wait(Ticket ticket) override;
-  // The log beside the file is then empty.
+  // Also empties the write-ahead log.
   void Close() override;
 
  private:
@@ -58,7 +58,7 @@ class OfferFile : public Journal {
   base::Status LoadAttributes(TraderState& state);
 
   void Write();
-  base::Status WriteWithPatience(const std::vector<StateChange>& changes);
+  base::Status WriteWithRetries(const std::vector<StateChange>& changes);
   base::Status WriteAll(const std::vector<StateChange>& changes);
   base::Status Apply(const OfferStored& change);
   base::Status PutProxy(const Offer& offer);

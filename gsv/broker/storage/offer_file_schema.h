@@ -1,4 +1,4 @@
-// The tables of a broker's file, and whether a file is one.
+// The tables of a broker's file, and the check that a file is one.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ constexpr std::string_view kStem = "stem";
 constexpr std::string_view kNextNumber = "next_number";
 constexpr std::string_view kNextIncarnation = "next_incarnation";
 
-// Opens `path` for this process alone, sound and with every table; makes what is not there.
+// Opens `path` for this process only, checks the file and creates missing tables.
 // Errors  see OfferFile::Open.
 [[nodiscard]] base::Result<Database> OpenOfferDatabase(const std::string& path, std::uint32_t stem);
 

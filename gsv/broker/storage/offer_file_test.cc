@@ -32,8 +32,8 @@ class OfferFileTest : public testing::Test {
     return trader;
   }
 
-  // Why the file cannot be used.
-  base::Error Complaint() const {
+  // The error of opening or loading the file.
+  base::Error OpenError() const {
     auto file = OfferFile::Open(Path(), kOwnStem);
     if (!file) return file.error();
     auto state = (*file)->Load();
@@ -201,26 +201,26 @@ TEST_F(OfferFileTest, IsForOneBrokerAtATime) {
   const auto first = OfferFile::Open(Path(), kOwnStem);
   ASSERT_TRUE(first);
   EXPECT_EQ(
-      Complaint().Sentence(),
+      OpenError().Sentence(),
       Path() + ": another broker uses this file; stop it, or choose another file with --data");
 }
 
 TEST_F(OfferFileTest, RefusesWhatIsNotItsOwn) {
   std::ofstream(Path()) << "These are the notes of a friend, and nothing for a broker to read. "
                            "They go on for a while so that they are longer than a header.";
-  EXPECT_EQ(Complaint().message,
+  EXPECT_EQ(OpenError().message,
             "this is not the file of a broker; choose another with --data, or use --memory");
   std::filesystem::remove(Path());
 
   ASSERT_TRUE(Database::Open(Path())->Run("CREATE TABLE recipes (name TEXT)"));
-  EXPECT_EQ(Complaint().message,
+  EXPECT_EQ(OpenError().message,
             "this is the database of another program; choose another file with --data");
   std::filesystem::remove(Path());
 
   ASSERT_TRUE(OfferFile::Open(Path(), kOwnStem));
   ASSERT_TRUE(Database::Open(Path())->Run("PRAGMA user_version = 99"));
   EXPECT_EQ(
-      Complaint().message,
+      OpenError().message,
       "the file has format 99, but this gsv reads format 2; use the gsv that wrote it, or choose "
       "another file with --data");
 
@@ -238,7 +238,7 @@ TEST_F(OfferFileTest, SaysThatItIsDamaged) {
     file.seekp(at) << std::string(64, '\xff');
   }
   file.close();
-  const base::Error error = Complaint();
+  const base::Error error = OpenError();
   EXPECT_EQ(error.code, base::ErrorCode::kCorrupt);
   EXPECT_TRUE(error.message.starts_with("the file is damaged")) << error.message;
 }
@@ -249,7 +249,7 @@ TEST_F(OfferFileTest, SaysThatARecordCannotBeDecoded) {
   ASSERT_TRUE(trader->Export("Robot", "IOR:00", {{"n", Value::Long(1)}}));
   trader = nullptr;
   ASSERT_TRUE(Database::Open(Path())->Run("UPDATE offer SET properties = x'01ffffffff'"));
-  EXPECT_EQ(Complaint().Sentence(), Path() + ": an offer cannot be decoded (MARSHAL)");
+  EXPECT_EQ(OpenError().Sentence(), Path() + ": an offer cannot be decoded (MARSHAL)");
 }
 
 // A disk that is full: SQLite refuses to let the file grow.

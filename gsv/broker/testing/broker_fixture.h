@@ -1,5 +1,5 @@
-// For tests over TCP: a broker in another process, and this process's ORB as its client and as
-// the host of offered services.
+// For tests over TCP: a broker in another process. This process's ORB is its client and serves the
+// offered services.
 #pragma once
 
 #include <string>
@@ -14,10 +14,10 @@
 
 namespace gsv::broker {
 
-// This process's ORB; it serves.
+// This process's ORB, which serves requests.
 CORBA::ORB_ptr TestOrb();
 
-// A living service with the interface kServiceInterface.
+// A running service with the interface kServiceInterface.
 CORBA::Object_ptr TestService();
 constexpr const char* kServiceInterface = "IDL:omg.org/CosTradingDynamic/DynamicPropEval:1.0";
 
@@ -36,7 +36,7 @@ class BrokerFixture : public testing::Test {
                                         const std::string& interface_name = "");
   static Repository::PropStruct Define(const char* name, CORBA::TypeCode_ptr type,
                                        Repository::PropertyMode mode);
-  // Exports TestService(); the offer's id.
+  // Exports TestService(); returns the offer's id.
   std::string Export(const std::string& type, const std::vector<Property>& properties = {});
   static CosTrading::PropertySeq Sequence(const std::vector<Property>& properties);
   static CosTrading::Policy Policy(const char* name, const CORBA::Any& value);

@@ -40,7 +40,7 @@ TestProcess::TestProcess(const std::string& name, std::vector<std::string> argum
   posix_spawn_file_actions_destroy(&actions);
   close(out[1]);
   close(err[1]);
-  complaint_ = err[0];
+  stderr_ = err[0];
   first_line_ = ReadUntil(out[0], '\n');
   close(out[0]);
 }
@@ -50,7 +50,7 @@ TestProcess::~TestProcess() {
     Send(SIGKILL);
     Wait();
   }
-  close(complaint_);
+  close(stderr_);
 }
 
 std::string BrokerProcess::port() const {
@@ -73,6 +73,6 @@ int TestProcess::Wait() {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-std::string TestProcess::Complaint() { return ReadUntil(complaint_, '\0'); }
+std::string TestProcess::Stderr() { return ReadUntil(stderr_, '\0'); }
 
 }  // namespace gsv::broker

@@ -1,4 +1,4 @@
-// A broker, or the service of an offer, in a child process, for tests that go over TCP.
+// A broker, or the service of an offer, in a child process, for tests over TCP.
 #pragma once
 
 #include <memory>
@@ -12,43 +12,43 @@ namespace gsv::broker {
 
 class TestProcess {
  public:
-  // Returns when it has printed a line, or has ended. `program` lies beside the tests.
+  // Returns when the process has printed a line, or has ended. `program` is beside the tests.
   TestProcess(const std::string& program, std::vector<std::string> arguments);
-  // Ends it.
+  // Ends the process.
   ~TestProcess();
   TestProcess(const TestProcess&) = delete;
   TestProcess& operator=(const TestProcess&) = delete;
 
-  // Empty when it ended without one.
+  // Empty if the process ended without a line.
   const std::string& first_line() const { return first_line_; }
   pid_t pid() const { return pid_; }
 
   void Send(int signal);
-  // SIGSTOP; returns when it stands still.
+  // Sends SIGSTOP; returns when the process has stopped.
   void Stop();
-  // Waits for the end; the exit code, or minus the signal that ended it.
+  // Waits for the end. Returns the exit code, or minus the signal that ended it.
   int Wait();
-  // All that it wrote on stderr; call it after Wait().
-  std::string Complaint();
+  // Everything that it wrote on stderr. Call it after Wait().
+  std::string Stderr();
 
  private:
   std::string first_line_;
   pid_t pid_ = 0;
-  int complaint_ = -1;
+  int stderr_ = -1;
 };
 
 class BrokerProcess : public TestProcess {
  public:
-  // Returns when it serves, or has ended.
+  // Returns when the broker serves, or has ended.
   explicit BrokerProcess(std::vector<std::string> arguments = {"0"})
       : TestProcess("gsv_broker_test_server", std::move(arguments)) {}
 
-  // "corbaloc::1.2@127.0.0.1:…/TradingService"; empty when it ended without one.
+  // "corbaloc::1.2@127.0.0.1:…/TradingService"; empty if the process ended without it.
   const std::string& reference() const { return first_line(); }
   std::string port() const;
 };
 
-// Offers itself as a "Service" at a broker.
+// A process that exports itself as a "Service" at a broker.
 class ServiceProcess : public TestProcess {
  public:
   explicit ServiceProcess(const std::string& broker)

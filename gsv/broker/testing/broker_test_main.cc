@@ -19,7 +19,8 @@ int main(int argc, char** argv) {
     if (name == "data") command.broker.data_file = argument.substr(equals + 1);
     const auto value = static_cast<std::size_t>(std::atoll(argument.c_str() + equals + 1));
     if (name == "liveness_ms") command.broker.liveness.period = std::chrono::milliseconds(value);
-    if (name == "patience_ms") command.broker.liveness.patience = std::chrono::milliseconds(value);
+    if (name == "max_silence_ms")
+      command.broker.liveness.max_silence = std::chrono::milliseconds(value);
     if (name == "per_hop_ms") {
       command.broker.limits.federation.per_hop = std::chrono::milliseconds(value);
     }

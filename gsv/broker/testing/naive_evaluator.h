@@ -1,5 +1,5 @@
-// A second evaluator, for tests alone: it reads the text by recursive descent from the standard's
-// productions and evaluates as it goes, sharing nothing with the real one but Value.
+// A second evaluator, only for tests. It parses the text by recursive descent from the standard's
+// productions and evaluates at the same time. It shares only Value with the real evaluator.
 #pragma once
 
 #include <string>

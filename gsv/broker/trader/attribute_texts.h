@@ -1,4 +1,4 @@
-// The trader's attributes as texts under their names, for what outlives the process.
+// The trader's attributes as texts by name, for the data file.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace gsv::broker {
 
 std::vector<std::pair<std::string, std::string>> AttributeTexts(const TraderAttributes& attributes);
 
-// Passes over a name that it does not know, and a text that is no value of the attribute.
+// Ignores unknown names, and texts that are not a value of the attribute.
 void SetAttribute(std::string_view name, const std::string& text, TraderAttributes& attributes);
 
 }  // namespace gsv::broker

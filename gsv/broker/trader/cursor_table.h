@@ -1,7 +1,7 @@
-// Results that are handed out bit by bit: what stands behind an iterator.
+// The cursors behind iterators. A cursor holds results that a client fetches in several calls.
 //
-// Bounded in number, in entries held, and in time since the last use: the least recently used
-// cursor goes first.
+// Bounded in number, in stored entries, and in time since the last use. The least recently used
+// cursor is removed first.
 //
 // Threads  every member may be called at any time.
 #pragma once
@@ -25,18 +25,18 @@ struct CursorLimits {
   std::chrono::nanoseconds lifetime = std::chrono::seconds(60);
 };
 
-// How many entries from `next` on fit one answer: at most `count`, and no more than `bytes` by
-// `size_of`, but at least one where any remain and `count` is not 0.
+// The number of entries from `next` on that fit one answer: at most `count`, and at most `bytes` by
+// `size_of`, but at least one if any remain and `count` is not 0.
 template <typename Entry, typename SizeOf>
 std::size_t CountFitting(const std::vector<Entry>& entries, std::size_t next, std::size_t count,
                          std::size_t bytes, const SizeOf& size_of) {
-  const std::size_t most = std::min(count, entries.size() - next);
+  const std::size_t max_taken = std::min(count, entries.size() - next);
   std::size_t taken_bytes = 0;
-  for (std::size_t taken = 0; taken < most; ++taken) {
+  for (std::size_t taken = 0; taken < max_taken; ++taken) {
     taken_bytes += size_of(entries[next + taken]);
     if (taken > 0 && taken_bytes > bytes) return taken;
   }
-  return most;
+  return max_taken;
 }
 
 template <typename Entry, typename Context>
@@ -68,7 +68,7 @@ class CursorTable {
     return key;
   }
 
-  // Takes the next entries, see CountFitting. Nothing when there is no such cursor.
+  // Takes the next entries, see CountFitting(). Nothing if there is no such cursor.
   std::optional<Batch> Take(std::uint64_t key, std::size_t count, std::size_t bytes,
                             const SizeOf& size_of) {
     const base::MutexLock lock(mutex_);
@@ -92,7 +92,7 @@ class CursorTable {
     return cursor->entries.size() - cursor->next;
   }
 
-  // False when there is no such cursor.
+  // False if there is no such cursor.
   bool Close(std::uint64_t key) {
     const base::MutexLock lock(mutex_);
     const auto found = cursors_.find(key);
@@ -101,7 +101,7 @@ class CursorTable {
     return true;
   }
 
-  // Removes cursors that were not used for the lifetime.
+  // Removes cursors that have not been used during their lifetime limit.
   void Expire() {
     const base::MutexLock lock(mutex_);
     RemoveExpired();

@@ -1,4 +1,4 @@
-// The object ids of iterators.
+// Converts between the keys of iterators and their object ids.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ CORBA::Object_ptr IteratorReference(PortableServer::POA_ptr poa, std::uint64_t k
                                     const char* repository_id);
 
 // The key of the iterator that the current request addresses.
-// Errors  throws OBJECT_NOT_EXIST when it is none of ours.
+// Errors  throws OBJECT_NOT_EXIST if the id is not one of ours.
 std::uint64_t CurrentIterator(CORBA::ORB_ptr orb);
 
 }  // namespace gsv::broker

@@ -13,21 +13,21 @@
 
 namespace gsv::broker {
 
-// A new offer, or one in the place of that with its number.
+// An offer that is new, or replaces the one with its number.
 struct OfferStored {
   OfferPtr offer;
 };
 struct OffersRemoved {
   std::vector<std::uint64_t> numbers;
 };
-// A new service type, or one in the place of that with its name.
+// A service type that is new, or replaces the one with its name.
 struct TypeStored {
   ServiceType type;
 };
 struct TypeRemoved {
   std::string name;
 };
-// A new link, or one in the place of that with its name.
+// A link that is new, or replaces the one with its name.
 struct LinkStored {
   TraderLink link;
 };
@@ -40,31 +40,32 @@ struct AttributesStored {
 using StateChange = std::variant<OfferStored, OffersRemoved, TypeStored, TypeRemoved, LinkStored,
                                  LinkRemoved, AttributesStored>;
 
-// All that a trader knows.
+// The whole state of a trader.
 struct TraderState {
   std::uint32_t stem = 0;              // of its offers' ids
-  std::uint64_t next_number = 1;       // above that of every offer there ever was
-  std::uint64_t next_incarnation = 1;  // above that of every type there ever was
+  std::uint64_t next_number = 1;       // above the number of every offer so far
+  std::uint64_t next_incarnation = 1;  // above the incarnation of every type so far
   std::vector<ServiceType> types{};
   std::vector<Offer> offers{};
   std::vector<TraderLink> links{};
   TraderAttributes attributes{};
 };
 
-// Threads  any; the order is that of the calls to Append.
+// Stores changes in the order of the calls to Append().
+// Threads  any.
 class Journal {
  public:
   using Ticket = std::uint64_t;  // grows with each change
 
   virtual ~Journal() = default;
-  // False from the first change that could not be written on.
+  // False after a change could not be written.
   virtual bool works() const = 0;
-  // Takes the change without waiting. A caller waits for it before it appends another, so that
-  // no more changes are underway than there are callers.
+  // Queues the change without waiting. A caller must wait for it before appending another, so that
+  // there are at most as many queued changes as callers.
   virtual Ticket Append(StateChange change) = 0;
-  // Returns when this change and all before it are kept; false when they never will be.
+  // Blocks until this change and all before it are stored; false if they cannot be stored.
   [[nodiscard]] virtual bool Wait(Ticket ticket) = 0;
-  // Keeps what was appended, and nothing from then on: it no longer works.
+  // Stores all queued changes; later changes are not stored, and works() is false.
   virtual void Close() = 0;
 };
 

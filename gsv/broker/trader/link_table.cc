@@ -9,28 +9,29 @@
 namespace gsv::broker {
 namespace {
 
-TradingResult<void> CheckRules(FollowOption def_pass_on, FollowOption limiting, FollowOption most) {
+TradingResult<void> CheckRules(FollowOption def_pass_on, FollowOption limiting,
+                               FollowOption bound) {
   if (def_pass_on > limiting) {
     return Refuse({.refusal = Refusal::kDefaultFollowTooPermissive,
                    .follow = FollowConflict{def_pass_on, limiting}});
   }
-  if (limiting > most) {
+  if (limiting > bound) {
     return Refuse({.refusal = Refusal::kLimitingFollowTooPermissive,
-                   .follow = FollowConflict{limiting, most}});
+                   .follow = FollowConflict{limiting, bound}});
   }
   return {};
 }
 
 }  // namespace
 
-TradingResult<void> LinkTable::Add(TraderLink link, FollowOption most) {
+TradingResult<void> LinkTable::Add(TraderLink link, FollowOption bound) {
   if (!IsIdentifier(link.name)) {
     return Refuse({.refusal = Refusal::kIllegalLinkName, .name = link.name});
   }
   if (links_.contains(link.name)) {
     return Refuse({.refusal = Refusal::kDuplicateLinkName, .name = link.name});
   }
-  if (auto fits = CheckRules(link.def_pass_on, link.limiting, most); !fits) return fits;
+  if (auto fits = CheckRules(link.def_pass_on, link.limiting, bound); !fits) return fits;
   if (links_.size() >= limit_) {
     return Refuse(
         {.refusal = Refusal::kLimit, .detail = fmt::format("there are {} links already", limit_)});
@@ -40,9 +41,9 @@ TradingResult<void> LinkTable::Add(TraderLink link, FollowOption most) {
 }
 
 TradingResult<void> LinkTable::Modify(const std::string& name, FollowOption def_pass_on,
-                                      FollowOption limiting, FollowOption most) {
+                                      FollowOption limiting, FollowOption bound) {
   if (auto known = CheckKnown(name); !known) return known;
-  if (auto fits = CheckRules(def_pass_on, limiting, most); !fits) return fits;
+  if (auto fits = CheckRules(def_pass_on, limiting, bound); !fits) return fits;
   TraderLink& link = links_.at(name);
   link.def_pass_on = def_pass_on;
   link.limiting = limiting;

@@ -1,7 +1,7 @@
 // The links to other traders, by name.
 //
 // Source   OMG Trading Object Service (formal/00-06-27), "Link".
-// Errors   those of the standard, see Refusal. What is refused changes nothing.
+// Errors   those of the standard, see Refusal. A refused call changes nothing.
 // Threads  not safe; Trader serialises.
 #pragma once
 
@@ -17,9 +17,9 @@ namespace gsv::broker {
 struct TraderLink {
   std::string name{};
   std::string target{};  // the other trader's Lookup: "IOR:…"
-  // What is asked of the other trader when the importer says nothing of links.
+  // The link_follow_rule for the other trader if the importer sets none.
   FollowOption def_pass_on = FollowOption::kAlways;
-  // The most that is done with this link.
+  // The most permissive rule for this link.
   FollowOption limiting = FollowOption::kAlways;
 };
 
@@ -27,15 +27,15 @@ class LinkTable {
  public:
   explicit LinkTable(std::size_t limit) : limit_(limit) {}
 
-  // `most` is the trader's max_link_follow_policy.
-  TradingResult<void> Add(TraderLink link, FollowOption most);
+  // `bound` is the trader's max_link_follow_policy.
+  TradingResult<void> Add(TraderLink link, FollowOption bound);
   TradingResult<void> Modify(const std::string& name, FollowOption def_pass_on,
-                             FollowOption limiting, FollowOption most);
+                             FollowOption limiting, FollowOption bound);
   TradingResult<void> Remove(const std::string& name);
   TradingResult<TraderLink> Describe(const std::string& name) const;
-  // In the order of their names.
+  // The links by name.
   std::vector<TraderLink> All() const;
-  // Puts back a link that was taken once.
+  // Adds a stored link without checks.
   void Restore(TraderLink link);
 
  private:

@@ -101,7 +101,7 @@ bool LivenessMonitor::Judge(const Service& service, Liveness pulse) {
   if (!service.address.empty()) silent_addresses_.insert(service.address);
   const auto now = Clock::now();
   const auto since = silent_since_.emplace(service.reference, now).first->second;
-  return now - since >= options_.patience;
+  return now - since >= options_.max_silence;
 }
 
 void LivenessMonitor::Withdraw(const Service& service, Liveness pulse) {

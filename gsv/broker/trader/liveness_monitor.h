@@ -1,13 +1,12 @@
-// Withdraws the offers of services that are gone.
+// Withdraws the offers of services that no longer exist.
 //
-// Every offered service is asked once a period whether it still exists. The questions are spread
-// over the period, few are underway at a time, and each ends with its timeout. A service that says
-// that it is gone, or whose port refuses connections, is dead at once; one that does not answer is
-// dead when it has not answered for `patience`. An address that does not answer is asked once a
-// period, for all services there.
+// The monitor calls every offered service once per period. The calls are spread over the period; a
+// few run at a time, and each ends after `timeout`. A service that reports its end, or whose port
+// refuses connections, is dead at once. A service that does not answer is dead after `max_silence`.
+// An address that does not answer is called once per period, for all its services.
 //
-// A dead offer is seen for at most two periods, and as long as it takes to ask the silent
-// addresses: their number times `timeout` over `concurrent`.
+// The offer of a dead service is visible for at most two periods plus the time for the silent
+// addresses: their number times `timeout` / `concurrent`.
 //
 // Threads  its own.
 #pragma once
@@ -27,27 +26,27 @@
 namespace gsv::broker {
 
 struct LivenessOptions {
-  std::chrono::milliseconds period{60'000};     // zero: no service is checked
-  std::chrono::milliseconds patience{600'000};  // how long a service may be silent
-  std::chrono::milliseconds timeout{1'000};     // of one question
-  int concurrent = 4;                           // questions underway
+  std::chrono::milliseconds period{60'000};        // zero: no service is checked
+  std::chrono::milliseconds max_silence{600'000};  // of a service
+  std::chrono::milliseconds timeout{1'000};        // of one call
+  int concurrent = 4;                              // calls at a time
 };
 
 enum class Liveness {
   kAlive,
   kGone,    // it reported so, or its port refuses connections
-  kSilent,  // nothing came back in time
+  kSilent,  // no answer in time
 };
 
 class LivenessMonitor {
  public:
-  // Asks the service behind a stringified reference, for at most the time given. Called by
-  // several threads at once.
+  // Calls the service behind a stringified reference, with this time limit. Several threads call
+  // it at the same time.
   using Ask =
       std::function<Liveness(const std::string& reference, std::chrono::milliseconds timeout)>;
 
   LivenessMonitor(const LivenessOptions& options, Trader& trader, Ask ask);
-  // Waits for the questions that are underway.
+  // Waits for the calls in progress.
   ~LivenessMonitor();
   LivenessMonitor(const LivenessMonitor&) = delete;
   LivenessMonitor& operator=(const LivenessMonitor&) = delete;
@@ -63,10 +62,10 @@ class LivenessMonitor {
 
   void Work();
   void AskDueServices();
-  // The next service that is due, or null at the end. Waits for it.
+  // Waits for the next service that is due; null at the end.
   std::shared_ptr<const Service> Next(base::MutexLock& lock) GSV_REQUIRES(mutex_);
   void StartRound() GSV_REQUIRES(mutex_);
-  // True when it is dead.
+  // True if the service is dead.
   bool Judge(const Service& service, Liveness pulse) GSV_REQUIRES(mutex_);
   void Withdraw(const Service& service, Liveness pulse);
 

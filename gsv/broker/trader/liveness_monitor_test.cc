@@ -75,9 +75,10 @@ class LivenessMonitorTest : public testing::Test {
  protected:
   LivenessMonitorTest() { EXPECT_TRUE(trader_.AddType({.name = "Robot"})); }
 
-  void Start(milliseconds patience) {
+  void Start(milliseconds max_silence) {
     monitor_.emplace(
-        LivenessOptions{.period = milliseconds(1), .patience = patience, .concurrent = 3}, trader_,
+        LivenessOptions{.period = milliseconds(1), .max_silence = max_silence, .concurrent = 3},
+        trader_,
         [this](const std::string& reference, milliseconds) { return services_.Ask(reference); });
   }
   void AwaitOffers(std::size_t count) {
@@ -124,7 +125,7 @@ TEST_F(LivenessMonitorTest, AsksASilentAddressOnceARound) {
   }
   services_.Tell(elsewhere, Liveness::kAlive);
   monitor_.emplace(
-      LivenessOptions{.period = milliseconds(1), .patience = hours(1), .concurrent = 1}, trader_,
+      LivenessOptions{.period = milliseconds(1), .max_silence = hours(1), .concurrent = 1}, trader_,
       [this](const std::string& reference, milliseconds) { return services_.Ask(reference); });
   services_.AwaitAsked(elsewhere, 10);
   monitor_.reset();

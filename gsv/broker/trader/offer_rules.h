@@ -1,4 +1,4 @@
-// What a service type demands of an offer's properties.
+// Checks an offer's properties against its service type.
 //
 // Source  OMG Trading Object Service (formal/00-06-27), "Register": export and modify.
 #pragma once
@@ -12,12 +12,12 @@
 
 namespace gsv::broker {
 
-// `type` is fully described; with `dynamic_allowed`, properties may be dynamic. The properties in
-// the order of their names.
+// Returns the properties by name. `type` is fully described; with `dynamic_allowed`, properties may
+// be dynamic.
 TradingResult<PropertyList> CheckExport(const ServiceType& type, std::vector<Property> properties,
                                         bool dynamic_allowed);
 
-// The properties that `current` becomes. All of the modification is done, or nothing.
+// Returns the modified properties. Applies all of the modification or nothing.
 TradingResult<PropertyList> CheckModification(const ServiceType& type, PropertyList current,
                                               Modification modification, bool dynamic_allowed);
 

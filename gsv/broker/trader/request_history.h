@@ -1,7 +1,7 @@
-// The requests that were answered lately: one that comes again, round a circle of traders, is told
-// from a new one.
+// Remembers recently answered requests, so that a request that returns through a cycle of traders
+// is recognised.
 //
-// Bounded in number and in time: the oldest are forgotten first.
+// Bounded in number and in time: the oldest requests are forgotten first.
 //
 // Threads  every member may be called at any time.
 #pragma once
@@ -25,7 +25,7 @@ class RequestHistory {
   RequestHistory(std::size_t requests, std::chrono::nanoseconds lifetime,
                  Clock clock = std::chrono::steady_clock::now);
 
-  // True the first time that this request comes.
+  // Remembers the request. True if it was not remembered before.
   bool Remember(const std::string& id);
 
  private:

@@ -1,4 +1,4 @@
-// What a stringified object reference says about itself, read without an ORB.
+// Reads type id and address from a stringified object reference, without an ORB.
 //
 // Source  CORBA 3.1 part 2, 7.6.2 (IOR), 7.7.2 (IIOP profile), 10.5.1.1 (TAG_SSL_SEC_TRANS).
 #pragma once
@@ -15,13 +15,13 @@ struct ServiceReference {
   std::string type_id;  // "IDL:omg.org/CosTrading/Lookup:1.0"; may be empty
   std::string host;     // of the first IIOP profile; empty if there is none
   std::uint16_t port = 0;
-  bool takes_tls = false;  // and nothing else there
+  bool takes_tls = false;  // the address accepts only TLS
 
-  // "127.0.0.1:4321", "[::1]:4321", or nothing.
+  // "127.0.0.1:4321", "[::1]:4321", or empty.
   std::string Address() const;
 };
 
-// Errors  kCorrupt when `ior` is not "IOR:" and the digits of a reference.
+// Errors  kCorrupt if `ior` is not "IOR:" and the digits of a reference.
 base::Result<ServiceReference> ReadReference(std::string_view ior);
 
 }  // namespace gsv::broker

@@ -1,7 +1,7 @@
 // The Trading Service without CORBA: service types, offers, and the queries that find them.
 //
 // Source   OMG Trading Object Service (formal/00-06-27).
-// Errors   those of the standard, see Refusal. What is refused changes nothing.
+// Errors   those of the standard, see Refusal. A refused call changes nothing.
 // Threads  every member may be called at any time; queries run side by side and evaluate their
 //          constraint without a lock.
 #pragma once
@@ -38,7 +38,7 @@ struct Query {
   ImportPolicies policies{};
 };
 
-// What a query found before it is ordered and cut.
+// The results of a query before they are ordered and limited.
 struct MatchingOffers {
   Offers offers{};
   Offers proxies{};  // other traders may have offers for the query
@@ -50,11 +50,11 @@ struct MatchingOffers {
 
 struct QueryResult {
   Offers offers;
-  // The names of the policies that kept the query from returning more.
+  // The names of the policies that limited the result.
   std::vector<std::string> limits_applied{};
 };
 
-// What Modify changes.
+// The changes that Modify() makes to an offer.
 struct Modification {
   std::vector<std::string> remove{};
   std::vector<Property> set{};
@@ -62,12 +62,12 @@ struct Modification {
 
 class Trader {
  public:
-  // `stem` is part of every offer's id, so that an id of another trader is unknown to this one;
-  // `seed` decides what the preference random does.
+  // `stem` is part of every offer's id, so that an id of another trader is unknown to this one.
+  // `seed` is that of the preference random.
   Trader(const TraderLimits& limits, std::uint32_t stem, std::uint64_t seed);
 
-  // Takes over what an earlier trader knew, its stem too, and has `journal` remember every change
-  // from now on. Before anything else, by one thread.
+  // Restores the state of an earlier trader, including its stem, and stores every later change in
+  // `journal`. Call it before any other member, from one thread.
   // Errors  kCorrupt: the state contradicts itself.
   [[nodiscard]] base::Status Restore(TraderState state, std::unique_ptr<Journal> journal);
 
@@ -88,30 +88,30 @@ class Trader {
   TradingResult<void> UnmaskType(const std::string& name);
 
   // ---- Offers
-  // The type that an offer may be exported for: known and not masked.
+  // The type for an export: it must be known and not masked.
   TradingResult<ServiceType> TypeForExport(const std::string& type) const;
-  // `reference` is not looked at. Returns the offer's id.
+  // Does not check `reference`. Returns the offer's id.
   TradingResult<std::string> Export(const std::string& type, std::string reference,
                                     std::vector<Property> properties);
-  // `type` is as TypeForExport() has just described it.
+  // The same with the result of TypeForExport() as `type`.
   TradingResult<std::string> Export(const ServiceType& type, std::string reference,
                                     std::vector<Property> properties);
   TradingResult<void> Withdraw(const std::string& id);
   TradingResult<OfferPtr> Describe(const std::string& id) const;
   TradingResult<void> Modify(const std::string& id, Modification modification);
-  // Withdraws the offers that a query without policies would find; returns how many.
+  // Withdraws the offers that a query without policies finds; returns their number.
   TradingResult<std::size_t> WithdrawMatching(const std::string& type,
                                               const std::string& constraint,
                                               DynamicEvaluator* evaluator = nullptr);
-  // Withdraws those of the offers that are still there; returns how many.
+  // Withdraws the offers with these numbers that still exist; returns how many it has withdrawn.
   std::size_t WithdrawAll(const std::vector<std::uint64_t>& numbers);
-  // In the order of export; without proxies.
+  // The offers in the order of export, without proxies.
   std::vector<std::string> OfferIds() const;
   Offers AllOffers() const;
   std::string IdOf(const Offer& offer) const { return IdOf(offer.number); }
 
-  // ---- Proxy offers: what is said of offers above does not see them
-  // `target`, another trader's Lookup, is not looked at. Returns the proxy's id.
+  // ---- Proxy offers: the members for offers above do not affect them
+  // Does not check `target`, another trader's Lookup. Returns the proxy's id.
   TradingResult<std::string> ExportProxy(const std::string& type, std::string target,
                                          std::vector<Property> properties, ProxyPart part);
   TradingResult<void> WithdrawProxy(const std::string& id);
@@ -125,25 +125,26 @@ class Trader {
   TradingResult<TraderLink> DescribeLink(const std::string& name) const;
   TradingResult<void> ModifyLink(const std::string& name, FollowOption def_pass_on,
                                  FollowOption limiting);
-  // In the order of their names.
+  // The links by name.
   std::vector<TraderLink> links() const;
 
-  // What is answered is kept; changes are refused from then on.
+  // Stores all acknowledged changes; refuses later changes.
   void Close() {
     if (journal_ != nullptr) journal_->Close();
   }
 
   // ---- Queries
-  // Those of this trader alone. Find() is both steps; other traders' offers may be added between.
+  // The offers of this trader only. Find() does both steps; between them, the caller may add offers
+  // of other traders.
   TradingResult<MatchingOffers> FindMatching(const Query& query, DynamicValues& values) const;
   QueryResult Rank(MatchingOffers matches, DynamicValues& values) const;
   TradingResult<QueryResult> Find(const Query& query, DynamicValues& values) const;
-  // Without dynamic properties.
+  // The same, in which dynamic properties have no value.
   TradingResult<QueryResult> Find(const Query& query) const;
 
  private:
-  // Calls `apply` under the lock; returns when what it recorded is durable. kNotStored when it
-  // cannot become so: nothing is changed then, but for the very change that failed.
+  // Calls `apply` under the lock; returns when the changes that it recorded are durable. Fails with
+  // kNotStored if they cannot be stored: nothing is changed then, except by the first such change.
   template <typename Apply>
   std::invoke_result_t<Apply> Change(const Apply& apply);
   void Record(StateChange change) GSV_REQUIRES(mutex_) {
@@ -153,7 +154,7 @@ class Trader {
 
   struct Candidates;
   class Search;
-  // `terms` are those of the query's constraint.
+  // `terms` are the equality terms of the query's constraint.
   Candidates SelectCandidates(const Query& query, const std::vector<EqualityTerm>& terms) const;
   void MakeIndex(const std::vector<std::string>& types,
                  const std::vector<EqualityTerm>& terms) const;
@@ -163,7 +164,7 @@ class Trader {
   TradingResult<OfferPtr> FindAny(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
   TradingResult<OfferPtr> FindOffer(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
   TradingResult<OfferPtr> FindProxy(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
-  // Checks the size, and gives the offer its number.
+  // Checks the size, and sets the offer's number.
   TradingResult<std::string> Store(Offer offer);
   void Remove(std::vector<std::uint64_t> numbers) GSV_REQUIRES(mutex_);
   TradingResult<void> CheckSize(const PropertyList& properties, const std::string& reference) const;
@@ -176,13 +177,13 @@ class Trader {
   mutable base::SharedMutex mutex_;
   TraderAttributes attributes_ GSV_GUARDED_BY(mutex_);
   TypeRepository types_ GSV_GUARDED_BY(mutex_);
-  mutable OfferStore offers_ GSV_GUARDED_BY(mutex_);  // a query may make it an index
+  mutable OfferStore offers_ GSV_GUARDED_BY(mutex_);  // mutable: a query may add an index
   LinkTable links_ GSV_GUARDED_BY(mutex_);
   Journal::Ticket last_ticket_ GSV_GUARDED_BY(mutex_) = 0;
 };
 
-// A change is on disk before its caller gets an answer. No thread waits for the disk while it holds
-// the lock, so that the changes of many callers become one transaction.
+// A change is on disk before its caller gets an answer. No thread holds the lock while it waits for
+// the disk, so that the changes of many callers become one transaction.
 template <typename Apply>
 std::invoke_result_t<Apply> Trader::Change(const Apply& apply) {
   const TradingError not_stored{.refusal = Refusal::kNotStored};

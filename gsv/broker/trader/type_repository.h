@@ -1,4 +1,4 @@
-// The service types that are known, and how they derive from each other.
+// The known service types and their inheritance.
 //
 // Source   OMG Trading Object Service (formal/00-06-27), "ServiceTypeRepository".
 // Errors   those of the standard, see Refusal.
@@ -23,23 +23,23 @@ class TypeRepository {
  public:
   explicit TypeRepository(const TraderLimits& limits) : limits_(limits) {}
 
-  // The incarnation that the next type added will bear.
+  // The incarnation of the next added type.
   std::uint64_t next_incarnation() const { return next_incarnation_; }
 
-  // Puts back the types of an earlier repository, in any order.
-  // Errors  kCorrupt: a super type is missing, or younger than its sub type.
+  // Restores the types of an earlier repository, in any order.
+  // Errors  kCorrupt: a super type is missing, or newer than its sub type.
   [[nodiscard]] base::Status Restore(std::vector<ServiceType> types,
                                      std::uint64_t next_incarnation);
 
-  // `type` says name, interface, properties and super types; the rest is ignored. Returns its
+  // Uses name, interface, properties and super types of `type`, and ignores the rest. Returns the
   // incarnation.
   TradingResult<std::uint64_t> Add(ServiceType type);
   TradingResult<void> Remove(const std::string& name);
   // The names of all types, or of those with an incarnation not below `since`, sorted.
   std::vector<std::string> List(std::optional<std::uint64_t> since) const;
-  // As it was added.
+  // The type as it was added.
   TradingResult<ServiceType> Describe(const std::string& name) const;
-  // With every inherited property and all its super types, direct or not.
+  // The type with all inherited properties and all its super types, direct or not.
   TradingResult<ServiceType> FullyDescribe(const std::string& name) const;
   TradingResult<void> Mask(const std::string& name);
   TradingResult<void> Unmask(const std::string& name);
@@ -52,7 +52,7 @@ class TypeRepository {
   TradingResult<void> CheckNew(const ServiceType& type) const;
   TradingResult<void> CheckSuperTypes(const ServiceType& type) const;
   TradingResult<void> CheckInheritedProperties(const ServiceType& type) const;
-  // Every super type of `type`, nearest first, each once.
+  // All super types of `type`, nearest first, each once.
   std::vector<const ServiceType*> Ancestors(const ServiceType& type) const;
   bool DerivesFrom(const ServiceType& type, const std::string& ancestor) const;
 

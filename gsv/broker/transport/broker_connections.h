@@ -1,13 +1,13 @@
-// What the broker has its ORB's connections do, so that omniORB gets no message that harms it and
-// no client keeps others waiting:
+// The connection policy of the broker's ORB. It keeps harmful messages from omniORB, and no client
+// can delay the others:
 //
-// - messages are at most 64 KiB long and 3 s under way;
-// - `connections` of clients stay open at most; then the one that has been silent longest is
-// closed;
-// - a client that sends slowly occupies no thread: the thread that accepts gathers its messages;
-// - about as many requests are worked on at once as there are processors;
-// - arguments of requests, and what services and other traders reply, are checked
-// (message_check.h).
+// - A message has at most 64 KiB, and must arrive within 3 s.
+// - At most `connections` of clients stay open; a further one closes the connection that has been
+//   idle longest.
+// - A client that sends slowly occupies no thread: the accepting thread collects its messages.
+// - About as many requests are processed at a time as there are processors.
+// - Arguments of requests, and replies of services and other traders, are checked
+//   (message_check.h).
 #pragma once
 
 #include <cstddef>

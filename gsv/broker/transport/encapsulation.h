@@ -1,4 +1,4 @@
-// CDR encapsulations as byte strings.
+// Encodes and decodes CDR encapsulations as byte strings.
 //
 // Source  CORBA 3.1 part 2, 7.3.3.
 #pragma once

@@ -1,20 +1,20 @@
-// Memory put by for a broker whose address space is bounded (process_limits.h): it goes to whoever
-// finds none left, and from then on what would keep more is refused until as much is free again. So
-// a full broker answers queries over new connections too, lets offers be withdrawn, and no thread
-// of the ORB's, which does not catch bad_alloc, runs out.
+// A memory reserve for a broker with limited address space (process_limits.h). It is freed when an
+// allocation fails. Operations that would keep more memory are then refused until as much is free
+// again. So a full broker still answers queries, also over new connections, and lets offers be
+// withdrawn. The ORB's threads, which do not catch bad_alloc, do not run out of memory.
 //
-// Threads  any; HoldMemoryReserve() before others start.
+// Threads  any; call HoldMemoryReserve() before other threads start.
 #pragma once
 
 #include <cstddef>
 
 namespace gsv::broker {
 
-// For the whole process, from now on.
+// Reserves memory for the whole process.
 void HoldMemoryReserve(std::size_t bytes);
 
-// Throws CORBA::NO_MEMORY while less is free than was to be put by. For operations that keep what
-// they are told. A process that holds no reserve has no bound.
+// Throws CORBA::NO_MEMORY while less than the reserve is free. For operations that store their
+// arguments. Does nothing in a process without a reserve.
 void RequireMemoryReserve();
 
 }  // namespace gsv::broker

@@ -1,4 +1,4 @@
-// Which of the trading service's operations need a check of their messages, as its IDL says.
+// Checks the messages of the trading service's operations that need it, according to its IDL.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace gsv::broker {
 
-// Made from trading.idl.
+// Generated from trading.idl.
 const orb::Signatures& TradingSignatures();
 
-// orb::CheckRequest() with them.
+// Calls orb::CheckRequest() with them.
 void CheckRequest(std::string& message);
 
-// Whether `encapsulation` is one of a sequence of properties, or policies.
+// Whether `encapsulation` holds a sequence of properties, or of policies.
 bool IsPropertySequence(std::string_view encapsulation);
 
 }  // namespace gsv::broker

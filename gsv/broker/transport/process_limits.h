@@ -1,4 +1,4 @@
-// Bounds on what a broker's process may take from the machine.
+// Limits on the resources of a broker's process.
 #pragma once
 
 #include <cstddef>
@@ -8,17 +8,17 @@
 namespace gsv::broker {
 
 struct ProcessLimits {
-  // Whoever wants more gets bad_alloc, not the machine; a sixteenth is held back for whoever must
-  // not (memory_reserve.h).
+  // An allocation beyond this fails with bad_alloc. A sixteenth is a reserve for threads that do
+  // not catch bad_alloc (memory_reserve.h).
   std::size_t address_space_bytes = std::size_t{2} << 30;
   int malloc_arenas = 2;
-  std::size_t descriptors = 8192;  // as far as the system lets the process have them
+  std::size_t descriptors = 8192;  // or fewer, if the system allows fewer
 };
 
-// For the whole process, from now on. Call it before threads start.
+// Limits the whole process. Call it before threads start.
 [[nodiscard]] base::Status ApplyProcessLimits(const ProcessLimits& limits);
 
-// How many connections clients may keep open, so that descriptors remain for the rest.
+// The number of connections that clients may keep open, so that descriptors remain for other uses.
 std::size_t MaxConnections();
 
 }  // namespace gsv::broker

@@ -1,5 +1,5 @@
-// What a file may ask for at most; more is refused with a sentence. docs/formats/worlds.md lists
-// them.
+// Limits on the contents of files. A reader refuses more with a sentence. docs/formats/worlds.md
+// lists the limits.
 #pragma once
 
 #include <cstddef>
@@ -19,12 +19,12 @@ struct ReadLimits {
   std::size_t mesh_vertices = 10'000'000;
   std::size_t texture_bytes = 256u << 20;
   int texture_side = 8192;   // pixels
-  int heightmap_side = 513;  // vertices; larger pictures are sampled down
+  int heightmap_side = 513;  // vertices; larger images are sampled down
   bool operator==(const ReadLimits&) const = default;
 };
 
-// Sets one of them by its name above: "mesh_triangles=20000000". kInvalidArgument, naming those
-// that there are, when there is none of that name or the number is not above zero.
+// Sets a limit by its name above: "mesh_triangles=20000000". kInvalidArgument, with the names of
+// all limits, if there is no limit of that name or the number is not positive.
 [[nodiscard]] base::Status SetLimit(const std::string& text, ReadLimits& limits);
 
 }  // namespace gsv::formats

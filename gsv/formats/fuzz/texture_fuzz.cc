@@ -1,4 +1,4 @@
-// Any bytes as a picture: refused, or as many pixels as it says.
+// Decodes any bytes as an image. It is refused, or it has as many pixels as its size requires.
 #include <cstdint>
 
 #include "gsv/base/check.h"
@@ -14,12 +14,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     GSV_CHECK(!image.error().message.empty());
     return 0;
   }
-  const model::Image& picture = **image;
-  GSV_CHECK(picture.width > 0 && picture.width <= limits.texture_side);
-  GSV_CHECK(picture.height > 0 && picture.height <= limits.texture_side);
-  GSV_CHECK(picture.channels == 3 || picture.channels == 4);
-  GSV_CHECK(picture.pixels.size() == static_cast<std::size_t>(picture.width) *
-                                         static_cast<std::size_t>(picture.height) *
-                                         static_cast<std::size_t>(picture.channels));
+  const model::Image& decoded = **image;
+  GSV_CHECK(decoded.width > 0 && decoded.width <= limits.texture_side);
+  GSV_CHECK(decoded.height > 0 && decoded.height <= limits.texture_side);
+  GSV_CHECK(decoded.channels == 3 || decoded.channels == 4);
+  GSV_CHECK(decoded.pixels.size() == static_cast<std::size_t>(decoded.width) *
+                                         static_cast<std::size_t>(decoded.height) *
+                                         static_cast<std::size_t>(decoded.channels));
   return 0;
 }

@@ -1,6 +1,6 @@
-// What stb's code is given for memcpy: a PNG's empty chunk has it copy nothing to nowhere, which
-// memcpy leaves undefined. Included after <cstring> and before stb's files, by those that compile
-// them.
+// The memcpy of stb's code. For a PNG's empty chunk, stb copies zero bytes to a null pointer, which
+// is undefined for memcpy. Sources that compile stb include this after <cstring> and before stb's
+// files.
 #pragma once
 
 #include <cstddef>

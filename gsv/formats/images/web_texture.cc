@@ -71,9 +71,9 @@ WebTexture Original(const Image& image) {
   return texture;
 }
 
-// Scaled down so that no side is above `most_side`.
-Image Reduced(const Image& image, int most_side) {
-  const double scale = static_cast<double>(most_side) / std::max(image.width, image.height);
+// Scaled down so that no side is above `max_side`.
+Image Reduced(const Image& image, int max_side) {
+  const double scale = static_cast<double>(max_side) / std::max(image.width, image.height);
   Image reduced;
   reduced.width = std::max(1, static_cast<int>(std::lround(image.width * scale)));
   reduced.height = std::max(1, static_cast<int>(std::lround(image.height * scale)));
@@ -106,9 +106,9 @@ WebTexture Encode(const Image& image) {
 
 }  // namespace
 
-WebTexture EncodeForWeb(const Image& image, bool original_allowed, int most_side) {
+WebTexture EncodeForWeb(const Image& image, bool original_allowed, int max_side) {
   if (!IsUsable(image)) return {};
-  if (std::max(image.width, image.height) > most_side) return Encode(Reduced(image, most_side));
+  if (std::max(image.width, image.height) > max_side) return Encode(Reduced(image, max_side));
   if (original_allowed && !image.source.empty()) {
     if (WebTexture original = Original(image); !original.mime_type.empty()) return original;
   }

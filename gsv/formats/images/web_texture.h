@@ -1,4 +1,4 @@
-// Pictures as the files that a browser reads.
+// Encodes images as files that a browser can read.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 namespace gsv::formats {
 
 struct WebTexture {
-  std::string mime_type;  // "image/png" or "image/jpeg"; empty: the picture cannot be used
+  std::string mime_type;  // "image/png" or "image/jpeg"; empty: the image cannot be encoded
   std::vector<std::uint8_t> bytes;
 };
 
-// The file that the picture came from, if `original_allowed` and it is a PNG or JPEG of its size
-// and no side is above `most_side`; else JPEG, or PNG where something is see-through, scaled down
-// to `most_side`.
-WebTexture EncodeForWeb(const model::Image& image, bool original_allowed, int most_side = 1024);
+// Returns the image's original file if `original_allowed`, if it is a PNG or JPEG of the same size,
+// and if no side exceeds `max_side`. Otherwise encodes a JPEG, or a PNG if the image has
+// transparent pixels, scaled down to `max_side`.
+WebTexture EncodeForWeb(const model::Image& image, bool original_allowed, int max_side = 1024);
 
 }  // namespace gsv::formats

@@ -1,4 +1,4 @@
-// What assimp's COLLADA reader takes on trust.
+// Checks COLLADA text for errors that assimp's reader does not check.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace gsv::formats {
 
-// Fails, with a sentence, for text that is no well-formed XML, that claims more values than it
-// holds (assimp takes memory for as many), whose accessors reach beyond their arrays (assimp reads
-// what lies there), or whose lists of indices hold anything but whole
-// numbers (assimp would read them for ever).
+// Fails with a sentence if the text is not well-formed XML. Fails if an array declares more values
+// than it has (assimp allocates the declared number), or if an accessor reaches beyond its array
+// (assimp reads there). Fails if a list of indices has anything but whole numbers (assimp would not
+// terminate).
 base::Status CheckCollada(const std::string& text, const std::string& file);
 
 }  // namespace gsv::formats

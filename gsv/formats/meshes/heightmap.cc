@@ -21,20 +21,20 @@ double HeightAt(const HeightGrid& grid, double x, double y) {
 }
 
 // The first channel in [0, 1].
-HeightGrid GreysOf(const model::Image& picture) {
-  HeightGrid grid{picture.width, picture.height, {}, {}};
-  const auto channels = static_cast<std::size_t>(picture.channels);
-  for (std::size_t i = 0; i < picture.pixels.size(); i += channels) {
-    grid.heights.push_back(picture.pixels[i] / 255.0);
+HeightGrid GreysOf(const model::Image& image) {
+  HeightGrid grid{image.width, image.height, {}, {}};
+  const auto channels = static_cast<std::size_t>(image.channels);
+  for (std::size_t i = 0; i < image.pixels.size(); i += channels) {
+    grid.heights.push_back(image.pixels[i] / 255.0);
   }
   return grid;
 }
 
 // `scale` times the height above `lowest`.
 geometry::TriangleMesh MeshOf(const HeightGrid& grid, const Vector3& size, double lowest,
-                              double scale, int most_vertices) {
-  const int columns = std::clamp(grid.width, 2, most_vertices);
-  const int rows = std::clamp(grid.height, 2, most_vertices);
+                              double scale, int max_vertices) {
+  const int columns = std::clamp(grid.width, 2, max_vertices);
+  const int rows = std::clamp(grid.height, 2, max_vertices);
   geometry::TriangleMesh mesh;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
@@ -68,16 +68,16 @@ geometry::TriangleMesh MeshOf(const HeightGrid& grid, const Vector3& size, doubl
 
 }  // namespace
 
-geometry::TriangleMesh HeightmapMesh(const model::Image& picture, const Vector3& size,
-                                     int most_vertices) {
-  return MeshOf(GreysOf(picture), size, 0, size.z, most_vertices);
+geometry::TriangleMesh HeightmapMesh(const model::Image& image, const Vector3& size,
+                                     int max_vertices) {
+  return MeshOf(GreysOf(image), size, 0, size.z, max_vertices);
 }
 
 geometry::TriangleMesh HeightmapMesh(const HeightGrid& grid, const Vector3& size,
-                                     int most_vertices) {
+                                     int max_vertices) {
   const auto [lowest, highest] = std::minmax_element(grid.heights.begin(), grid.heights.end());
   const double range = *highest - *lowest;
-  return MeshOf(grid, size, *lowest, range > 0 ? size.z / range : 0, most_vertices);
+  return MeshOf(grid, size, *lowest, range > 0 ? size.z / range : 0, max_vertices);
 }
 
 Vector3 TrueSize(const HeightGrid& grid) {

@@ -1,4 +1,4 @@
-// Terrain from a grey picture or an elevation model, as SDFormat's <heightmap> describes it.
+// Makes terrain meshes from a grey image or an elevation model, for SDFormat's <heightmap>.
 #pragma once
 
 #include "gsv/base/error.h"
@@ -9,17 +9,17 @@
 namespace gsv::formats {
 
 // A grid over [-size.x/2, size.x/2] x [-size.y/2, size.y/2], white at height size.z and black at
-// 0; the picture's upper edge lies at +y. At most `most_vertices` (at least 2) a side: larger
-// pictures are sampled down.
-geometry::TriangleMesh HeightmapMesh(const model::Image& picture, const geometry::Vector3& size,
-                                     int most_vertices);
+// 0; the image's upper edge is at +y. A side has at most `max_vertices` (>= 2); larger images are
+// sampled down.
+geometry::TriangleMesh HeightmapMesh(const model::Image& image, const geometry::Vector3& size,
+                                     int max_vertices);
 
-// The same of a grid: its lowest height lies at 0 and its highest at size.z.
+// The same for a height grid: its lowest height is at 0 and its highest at size.z.
 geometry::TriangleMesh HeightmapMesh(const HeightGrid& grid, const geometry::Vector3& size,
-                                     int most_vertices);
+                                     int max_vertices);
 
-// How large a grid is by what its file says: metres a side, and from the lowest to the highest.
-// Where the file does not say how far the heights lie apart, 1 m.
+// The size of a grid by its file, m: width, depth, and the range of heights. The distance between
+// heights is 1 m if the file does not give it.
 geometry::Vector3 TrueSize(const HeightGrid& grid);
 
 }  // namespace gsv::formats

@@ -6,14 +6,13 @@ namespace gsv::formats {
 namespace {
 
 model::Image Ramp(int width, int height) {
-  model::Image picture{width, height, 3, {}, "ramp"};
+  model::Image image{width, height, 3, {}, "ramp"};
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      picture.pixels.insert(picture.pixels.end(), 3,
-                            static_cast<std::uint8_t>(255 * x / (width - 1)));
+      image.pixels.insert(image.pixels.end(), 3, static_cast<std::uint8_t>(255 * x / (width - 1)));
     }
   }
-  return picture;
+  return image;
 }
 
 TEST(Heightmap, SpansItsSizeAndRisesWithGrey) {

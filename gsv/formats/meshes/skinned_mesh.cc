@@ -224,7 +224,7 @@ class BoneCutter {
       std::size_t faces = 0;
       for (const Piece& piece : pieces_[n]) faces += piece.faces.size();
       const int parent = skeleton_.nodes()[n].parent;
-      const bool are_few = static_cast<double>(faces) < kFewest * static_cast<double>(count_);
+      const bool are_few = static_cast<double>(faces) < kMinTriangles * static_cast<double>(count_);
       if (faces == 0 || !are_few || parent <= 0) continue;
       auto& above = pieces_[static_cast<std::size_t>(parent)];
       above.insert(above.end(), pieces_[n].begin(), pieces_[n].end());

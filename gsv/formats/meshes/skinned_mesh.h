@@ -1,13 +1,13 @@
-// A mesh with a skeleton and its animation, as rigid parts that move: for each bone the triangles
-// that it moves most.
+// Reads an animated mesh with a skeleton as moving rigid parts. Each bone has the triangles that it
+// moves most.
 //
-// Rule      A triangle belongs to the bones that weigh most at its corners. Where these are
-//           several, each has a copy of it, so that no gap opens between parts. Bones that move
-//           less than kFewest of the triangles leave them to the bone above.
-// Frames    a skin's frame is its file's root, as MeshReader has it. A bone's own frame has no
-//           scale.
-// Sampling  evenly over the animation, about kFramesPerSecond, kMaxFrames at most. Of a file with
-//           several animations all channels run at once, as Gazebo has them.
+// Rule      A triangle belongs to the bones with the largest weights at its corners. If these are
+//           several bones, each has a copy, so that there is no gap between parts. If a bone has
+//           less than the fraction kMinTriangles of all triangles, its parent gets them.
+// Frames    the frame of a skin is the root of its file, as for MeshReader. The frame of a bone
+//           has no scale.
+// Sampling  at equal intervals over the animation, at about kFramesPerSecond, at most kMaxFrames.
+//           If a file has several animations, all channels run at once, as in Gazebo.
 // Units     metres, seconds.
 #pragma once
 
@@ -27,21 +27,21 @@ struct SkinnedMesh {
   struct Bone {
     std::string name;
     std::shared_ptr<const geometry::TriangleMesh> triangles;  // in the bone's frame; never empty
-    std::vector<geometry::Pose> skin_from_bone;               // by frame
+    std::vector<geometry::Pose> skin_from_bone;               // one per frame
   };
   std::vector<Bone> bones;
-  std::vector<model::Material> materials;  // as the parts of the meshes name them
-  std::vector<geometry::Vector3> root;     // by frame: the root bone's place in the skin
+  std::vector<model::Material> materials;  // of the parts of the meshes, by index
+  std::vector<geometry::Vector3> root;     // one per frame: position of the root bone in the skin
   double length = 0;                       // s, above zero
 };
 
 inline constexpr double kFramesPerSecond = 30;
 inline constexpr int kMaxFrames = 240;
-inline constexpr double kFewest = 0.01;
+inline constexpr double kMinTriangles = 0.01;
 
-// `motion`: the file whose animation moves the skeleton of `skin`, by the names of bones; it may be
-// the same. `scale`: of all lengths. kNotFound: the skin has no skeleton, or the other file no
-// animation that moves it.
+// `motion`: the file with the animation for the skeleton of `skin`, matched by bone names; it may
+// be the same file. `scale`: factor of all lengths. kNotFound: the skin has no skeleton, or
+// `motion` has no animation of it.
 base::Result<SkinnedMesh> ReadSkinnedMesh(const std::filesystem::path& skin,
                                           const std::filesystem::path& motion, double scale,
                                           const ReadLimits& limits, TextureReader& textures,

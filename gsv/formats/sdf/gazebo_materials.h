@@ -1,4 +1,4 @@
-// Gazebo's own materials by name, such as "Gazebo/Grey".
+// Gazebo's built-in materials by name, such as "Gazebo/Grey".
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace gsv::formats {
 
-// Textured ones (Wood, Bricks, Grass, …) have their picture's mean colour.
+// Textured materials (Wood, Bricks, Grass, …) have the mean colour of their image.
 std::optional<model::Material> GazeboMaterial(std::string_view name);
 
 }  // namespace gsv::formats

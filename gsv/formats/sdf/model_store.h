@@ -1,4 +1,4 @@
-// Model files, each read once.
+// Reads model files, each once.
 #pragma once
 
 #include <filesystem>
@@ -21,13 +21,13 @@
 
 namespace gsv::formats {
 
-// What a file that is included holds: a model, or a light by itself.
+// The content of an included file: a model, or a single light.
 struct StoredFile {
-  FramedModel framed;  // its model is null when the file holds a light
+  FramedModel framed;  // its model is null if the file holds a light
   std::optional<model::Light> light;
-  geometry::Pose world_from_light;  // as the file says
+  geometry::Pose world_from_light;  // from the file
   base::Problems problems;
-  base::Problems broken_rules;  // as of ReadOptions::check_rules
+  base::Problems broken_rules;  // see ReadOptions::check_rules
 };
 
 class ModelStore {
@@ -44,7 +44,7 @@ class ModelStore {
   base::Result<std::shared_ptr<const StoredFile>> Read(const std::filesystem::path& file,
                                                        const std::string& plugins = {});
 
-  // The same of a file whose XML is read already, with the problems of that.
+  // The same for a file whose XML was read already, with the problems found by that.
   base::Result<std::shared_ptr<const StoredFile>> Take(XmlFile xml, base::Problems problems);
 
   bool checks_rules() const { return check_rules_; }
@@ -60,7 +60,8 @@ class ModelStore {
   base::Result<std::shared_ptr<const StoredFile>> Keep(
       const std::filesystem::path& file, const std::string& plugins,
       const std::function<base::Result<StoredFile>()>& read);
-  // Adds what libsdformat does not read: <ros2_control>, and a robot description's guessed drive.
+  // Adds what libsdformat does not read: <ros2_control>, and the guessed drive of a robot
+  // description.
   static void Complete(const tinyxml2::XMLElement& element, const std::filesystem::path& file,
                        bool is_robot, StoredFile& stored);
   base::Result<StoredFile> FromText(const SdfText& text, const IncludedFiles& includes,
@@ -73,7 +74,7 @@ class ModelStore {
   TextureReader textures_;
   MeshReader meshes_;
   std::map<std::pair<std::filesystem::path, std::string>, std::shared_ptr<const StoredFile>> files_;
-  // The same as they were named, so that the file system is asked once.
+  // The same files by the names in the sources, so that each file is looked up once.
   std::map<std::pair<std::string, std::string>, std::shared_ptr<const StoredFile>> by_name_;
 };
 

@@ -1,4 +1,4 @@
-// OGRE material scripts, as far as Gazebo's models use them.
+// Reads OGRE material scripts, as far as Gazebo's models use them.
 #pragma once
 
 #include <array>
@@ -11,16 +11,16 @@
 
 namespace gsv::formats {
 
-// What the first pass of a material says; absent where it says nothing.
+// The values of a material's first pass; members are empty if it does not set them.
 struct OgreMaterial {
   std::optional<model::Colour> ambient, diffuse, specular, emissive;
   double shininess = 0;
   std::string texture;  // of the first texture unit
 };
 
-// The materials of a script by name. Reads `material NAME [: PARENT] { technique { pass { … } } }`,
-// of a pass the four colours, and `texture` of the first texture unit; whatever else is there is
-// passed over, and a script that ends early yields what it has. A parent's values are inherited.
+// The materials of a script by name. Reads `material NAME [: PARENT] { technique { pass { … } } }`
+// with the four colours of a pass, and `texture` of the first texture unit. Ignores the rest. A
+// truncated script gives the materials before its end. Materials inherit their parent's values.
 std::map<std::string, OgreMaterial> ParseOgreMaterials(std::string_view script);
 
 }  // namespace gsv::formats

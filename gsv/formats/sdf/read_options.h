@@ -1,4 +1,4 @@
-// How worlds and models are to be read.
+// Options for reading worlds and models.
 #pragma once
 
 #include <filesystem>
@@ -13,20 +13,20 @@
 
 namespace gsv::formats {
 
-// What is wrong with a sensor, if anything: kNotFound when nobody knows its type.
+// Checks a sensor. Returns an error for invalid parameters, and kNotFound for an unknown type.
 using SensorCheck = std::function<base::Status(const model::SensorDescription&)>;
 
 struct ReadOptions {
-  std::vector<std::filesystem::path> model_path;  // as of --model-path
+  std::vector<std::filesystem::path> model_path;  // see --model-path
   bool allow_absolute_paths = true;               // in the names that files contain
-  // Of models that ModelLibrary::ReadModel() reads, by their names: drives as
-  // model/drive_choice.h has them, which replace their own.
+  // Drives that replace those of models, by the name with which ModelLibrary::ReadModel() reads the
+  // model. Their form is that of model/drive_choice.h.
   std::map<std::string, std::string> drives;
   ReadLimits limits;
-  // Errors as well for each rule of SDFormat that a named file breaks by its names and references,
-  // see gsv/formats/support/naming_rules.h. Reading repairs these; a check refuses them.
+  // Also adds an error for each of SDFormat's rules on names and references that a named file
+  // breaks, see gsv/formats/support/naming_rules.h. Reading repairs these; a check refuses them.
   bool check_rules = false;
-  SensorCheck check_sensor;  // may be empty: then a sensor's parameters are taken as they are
+  SensorCheck check_sensor;  // empty: sensors are not checked
 };
 
 }  // namespace gsv::formats

@@ -1,4 +1,4 @@
-// What the readers of one file share.
+// The objects that the readers of one file share.
 #pragma once
 
 #include <filesystem>

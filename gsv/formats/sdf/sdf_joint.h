@@ -1,9 +1,9 @@
 // Reads a <joint>: its kind, axes, limits and losses.
 //
-// A joint with several axes becomes several in a row, from parent to child, between which hang
-// links without mass or shape: a universal (or revolute2) joint "j" is "j" and "j::axis2" with the
-// link "j::cross" between them; a ball joint is three, "j", "j::axis2" and "j::axis3", about the z,
-// y and x axes of its frame, with "j::cross" and "j::cross2".
+// A joint with several axes becomes a chain of joints from parent to child, with links without mass
+// or shape between them. A universal (or revolute2) joint "j" becomes "j" and "j::axis2" with the
+// link "j::cross" between them. A ball joint becomes "j", "j::axis2" and "j::axis3", about the z, y
+// and x axes of its frame, with "j::cross" and "j::cross2".
 #pragma once
 
 #include <string>
@@ -15,9 +15,9 @@
 
 namespace gsv::formats {
 
-// Adds to `model` what `source` describes. `joint` has its name, links and frame already; `place`
-// is for messages. An axis that is none, and limits that are the wrong way round, are repaired and
-// complained of.
+// Adds the joint that `source` describes to `model`. `joint` has its name, links and frame already;
+// `place` is for messages. A zero axis and inverted limits are repaired and reported as problems.
+//
 void AddJoint(const sdf::Joint& source, model::Joint joint, const std::string& place,
               const ReadingContext& context, model::Model& model);
 

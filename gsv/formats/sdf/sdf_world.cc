@@ -92,8 +92,8 @@ model::Light ReadLight(const sdf::Light& source, const ReadingContext& context) 
   return light;
 }
 
-void ReadSurroundings(const sdf::World& source, const ReadingContext& context,
-                      model::WorldDescription& world) {
+void ReadPhysicsAndScene(const sdf::World& source, const ReadingContext& context,
+                         model::WorldDescription& world) {
   const Vector3 gravity = FromIgnition(source.Gravity());
   if (geometry::IsFinite(gravity)) {
     world.gravity = gravity;

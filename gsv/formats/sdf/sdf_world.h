@@ -1,4 +1,4 @@
-// What a world has besides models: light, look, physics.
+// Reads the parts of a world that are not models: lights, scene, physics.
 #pragma once
 
 #include <sdf/Light.hh>
@@ -9,11 +9,11 @@
 
 namespace gsv::formats {
 
-// Its pose is the caller's.
+// Reads a light; the caller sets its pose.
 model::Light ReadLight(const sdf::Light& source, const ReadingContext& context);
 
-// Gravity, physics and scene; models and lights are the caller's.
-void ReadSurroundings(const sdf::World& source, const ReadingContext& context,
-                      model::WorldDescription& world);
+// Reads gravity, physics and scene; the caller reads models and lights.
+void ReadPhysicsAndScene(const sdf::World& source, const ReadingContext& context,
+                         model::WorldDescription& world);
 
 }  // namespace gsv::formats

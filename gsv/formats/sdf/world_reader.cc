@@ -337,7 +337,7 @@ class WorldReader {
   }
 
   void TakeSurroundings(const sdf::World& world) {
-    ReadSurroundings(world, context_, world_);
+    ReadPhysicsAndScene(world, context_, world_);
     for (PlacedLight& placed : lights_) {
       if (const sdf::Light* light = LightNamed(world, placed.light.name)) {
         placed.light = ReadLight(*light, context_);

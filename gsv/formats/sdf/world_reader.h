@@ -1,9 +1,9 @@
-// Puts a world together: models read once and placed often.
+// Reads a world. A model that is placed several times is read once.
 //
-// libsdformat's time grows with the square of the number of models (30 s for 3,000), so that it
-// never sees a whole world. <include>s are taken out and read from the store; inline models that
-// are alike but for name and pose are parsed once; what is left goes to libsdformat in batches.
-// Poses between models are resolved here (WorldFrames), poses within one by libsdformat.
+// libsdformat's time grows with the square of the number of models (30 s for 3,000), so it never
+// reads a whole world. The store reads <include>s. Inline models that differ only in name and pose
+// are parsed once. libsdformat reads the rest in batches.
+// WorldFrames resolves poses between models, libsdformat those within a model.
 #pragma once
 
 #include "gsv/base/error.h"
@@ -13,7 +13,7 @@
 
 namespace gsv::formats {
 
-// Reads the first <world> of `file`, which it changes on the way.
+// Reads the first <world> of `file`, and changes `file` for that.
 base::Result<model::WorldDescription> ReadWorld(XmlFile& file, ModelStore& store,
                                                 base::Problems& problems);
 

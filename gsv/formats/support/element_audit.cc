@@ -85,7 +85,7 @@ class ElementAudit {
 
  private:
   void Report(std::string message, const XMLElement& element) {
-    if (reported_ == kMostFindings) {
+    if (reported_ == kMaxFindings) {
       ++unreported_;
       return;
     }

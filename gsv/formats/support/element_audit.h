@@ -1,15 +1,15 @@
-// Compares a file's XML with the table of elements: what is not carried out is reported.
+// Compares a file's XML with the table of elements, and reports elements that GSV does not support.
 //
-// libsdformat drops what it does not know, and flattens or keeps to itself much of what it does,
-// without a word. So the XML itself is compared with the table, before libsdformat sees it.
+// libsdformat drops unknown elements, and does not give access to many known ones, without a
+// warning. Therefore this checks the XML before libsdformat reads it.
 //
 // Reported, as warnings with "file:line: world/model[box]/link[l]/…":
-//   - elements and attributes that SDFormat or URDF does not have, or not there, or no more;
-//   - a second element where one may stand, a model beside a world, a second shape;
-//   - what GSV does not carry out, or in part, unless it says what holds without it;
-//   - plugins whose work nobody does.
-// Not reported: what is in a namespace of others (<gz:name>), the content of plugins, and what has
-// no effect on a simulation.
+//   - elements and attributes that SDFormat or URDF does not define there, or no longer defines;
+//   - a second element where only one is allowed, a model beside a world, a second shape;
+//   - elements that GSV supports in part or not at all, unless they have the default value;
+//   - plugins that GSV does not replace.
+// Not reported: elements in other namespaces (<gz:name>), the content of plugins, and elements that
+// have no effect on a simulation.
 #pragma once
 
 #include <filesystem>
@@ -26,9 +26,9 @@ struct AuditedFile {
   int minor_version = 0;             // 9 of SDFormat 1.9; 0 of URDF
 };
 
-// Adds one warning for each place, at most kMostFindings of a file and one that counts the rest.
+// Adds one warning for each place, at most kMaxFindings per file and one that counts the rest.
 void AuditElements(const AuditedFile& file, base::Problems& problems);
 
-inline constexpr int kMostFindings = 1000;
+inline constexpr int kMaxFindings = 1000;
 
 }  // namespace gsv::formats

@@ -144,9 +144,9 @@ TEST(ElementAudit, ComparesUrdfWithItsOwnElements) {
 
 TEST(ElementAudit, CountsWhatItDoesNotName) {
   std::string many;
-  for (int i = 0; i < kMostFindings + 7; ++i) many += "<wing/>";
+  for (int i = 0; i < kMaxFindings + 7; ++i) many += "<wing/>";
   const auto sentences = AuditOfLink(many);
-  ASSERT_THAT(sentences, SizeIs(kMostFindings + 1));
+  ASSERT_THAT(sentences, SizeIs(kMaxFindings + 1));
   EXPECT_THAT(sentences.back(), HasSubstr("7 more elements are unknown or not carried out"));
 }
 

@@ -86,7 +86,7 @@ class NamingRules {
 
  private:
   void Report(std::string message, const XMLElement& element) {
-    if (reported_++ >= kMostFindings) return;
+    if (reported_++ >= kMaxFindings) return;
     problems_.push_back({base::Problem::Severity::kError, std::move(message),
                          PlaceOf(file_.path, element) + ": " + PathOf(element)});
   }

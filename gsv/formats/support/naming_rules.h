@@ -1,14 +1,14 @@
-// SDFormat's rules of names and references, checked in the XML of one file.
+// Checks the XML of one file by SDFormat's rules on names and references.
 //
-// The reader repairs or leaves out what breaks them, with a warning, so that the rest can run. A
-// check of the file calls it invalid all the same: other programs refuse it.
+// The reader repairs or leaves out elements that break them, with a warning, so that the rest can
+// run. A check of the file still reports them as errors, as other programs refuse the file.
 //
-// Rules     links, collisions, visuals, joints, frames and models have names; those beside each
-//           other in a model or world differ, of whatever kind; names of the form __name__ are
-//           reserved. Joints, frames, poses and canonical links refer to names that are there, not
-//           to themselves and not in circles. A model has a link.
+// Rules     links, collisions, visuals, joints, frames and models have names. Siblings in a model
+//           or world have different names, of whatever kind they are. Names of the form __name__
+//           are reserved. Joints, frames, poses and canonical links refer to existing names, not to
+//           themselves and not in cycles. A model has a link.
 //           http://sdformat.org/tutorials?tut=pose_frame_semantics
-// Includes  what they bring is not looked at: a name that they may bring is taken for there.
+// Includes  are not read: a name that they may define counts as defined.
 #pragma once
 
 #include "gsv/base/error.h"
@@ -16,7 +16,7 @@
 
 namespace gsv::formats {
 
-// Adds an error for each broken rule, at most kMostFindings. Says nothing of URDF.
+// Adds an error for each broken rule, at most kMaxFindings. Adds none for URDF.
 void CheckNamingRules(const AuditedFile& file, base::Problems& problems);
 
 }  // namespace gsv::formats

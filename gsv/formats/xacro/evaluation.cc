@@ -30,7 +30,7 @@ bool Fits(const Value& value, std::size_t& room) {
 
 class Evaluator {
  public:
-  explicit Evaluator(const Surroundings& surroundings) : surroundings_(surroundings) {}
+  explicit Evaluator(const EvaluationContext& context) : context_(context) {}
 
   base::Result<Value> Of(const Expression& node) {
     switch (node.kind) {
@@ -73,7 +73,7 @@ class Evaluator {
   }
 
   base::Result<Value> Name(const std::string& name) {
-    auto property = surroundings_.property(name);
+    auto property = context_.property(name);
     if (!property) return base::Fail(property.error());
     if (*property) return **property;
     if (auto constant = Constant(name)) return *constant;
@@ -89,7 +89,7 @@ class Evaluator {
 
   base::Result<Value> MemberOf(const Expression& node) {
     if (IsModule(*node.parts[0])) {
-      const auto shadow = surroundings_.property(node.parts[0]->text);
+      const auto shadow = context_.property(node.parts[0]->text);
       if (shadow && !*shadow) {
         if (auto constant = Constant(node.text)) return *constant;
         return Refuse("\"" + node.parts[0]->text + "." + node.text + "\" is not supported");
@@ -154,14 +154,14 @@ class Evaluator {
     if (name == "dict") return DictionaryOf(node, arguments);
     if (!node.words.empty()) return Refuse(name + "() takes no arguments by name");
     const auto* text = arguments.size() == 1 ? arguments[0].as<std::string>() : nullptr;
-    if (name == "load_yaml" && text != nullptr && surroundings_.load_yaml) {
-      return surroundings_.load_yaml(*text);
+    if (name == "load_yaml" && text != nullptr && context_.load_yaml) {
+      return context_.load_yaml(*text);
     }
-    if (name == "arg" && text != nullptr && surroundings_.argument) {
-      return surroundings_.argument(*text);
+    if (name == "arg" && text != nullptr && context_.argument) {
+      return context_.argument(*text);
     }
     if (name == "message" || name == "warning" || name == "error") {
-      if (surroundings_.report) surroundings_.report(Joined(arguments));
+      if (context_.report) context_.report(Joined(arguments));
       return Value{std::string()};
     }
     if (name == "print_location") return Value{std::string()};
@@ -221,15 +221,15 @@ class Evaluator {
     return Of(*node.parts[1]);
   }
 
-  const Surroundings& surroundings_;
+  const EvaluationContext& context_;
 };
 
 }  // namespace
 
-base::Result<Value> Evaluate(const std::string& expression, const Surroundings& surroundings) {
+base::Result<Value> Evaluate(const std::string& expression, const EvaluationContext& context) {
   const auto parsed = ParseExpression(expression);
   if (!parsed) return base::Fail(parsed.error());
-  auto value = Evaluator(surroundings).Of(**parsed);
+  auto value = Evaluator(context).Of(**parsed);
   std::size_t room = kMaxValues;
   if (value && !Fits(*value, room)) {
     return base::Fail(base::ErrorCode::kBadModel, "a list or dictionary is too large");

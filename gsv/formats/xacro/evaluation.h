@@ -1,8 +1,8 @@
 // Evaluates xacro's expressions in a sandbox: no file, no clock, no environment, bounded results.
 //
-// Errors  kBadModel with what is wrong (a name that is not defined, a type that does not fit, a
-//         division by zero, a function that is not supported); the place is the caller's to add.
-// Differs from Python in that integers beyond 64 bits are errors.
+// Errors  kBadModel with the reason (an undefined name, a type that does not fit, a division by
+//         zero, an unsupported function). The caller adds the place.
+// Unlike in Python, integers beyond 64 bits are errors.
 #pragma once
 
 #include <functional>
@@ -14,16 +14,16 @@
 namespace gsv::formats::xacro {
 
 // The part of the file around an expression that the expression may see.
-struct Surroundings {
+struct EvaluationContext {
   // A property's value, or none if there is no such property.
   std::function<base::Result<std::optional<Value>>(const std::string& name)> property;
   // The content of a YAML file, and the value of an argument; may be empty.
   std::function<base::Result<Value>(const std::string& file)> load_yaml;
   std::function<base::Result<Value>(const std::string& name)> argument;
-  // Takes what xacro.message(), xacro.warning() and xacro.error() say; may be empty.
+  // Receives the texts of xacro.message(), xacro.warning() and xacro.error(); may be empty.
   std::function<void(const std::string& text)> report;
 };
 
-base::Result<Value> Evaluate(const std::string& expression, const Surroundings& surroundings);
+base::Result<Value> Evaluate(const std::string& expression, const EvaluationContext& context);
 
 }  // namespace gsv::formats::xacro

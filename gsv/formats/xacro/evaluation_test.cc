@@ -7,17 +7,17 @@ namespace {
 
 using testing::HasSubstr;
 
-Surroundings Nowhere() {
-  Surroundings surroundings;
-  surroundings.property = [](const std::string& name) -> base::Result<std::optional<Value>> {
+EvaluationContext EmptyContext() {
+  EvaluationContext context;
+  context.property = [](const std::string& name) -> base::Result<std::optional<Value>> {
     if (name == "side") return Value{std::string("left")};
     return std::nullopt;
   };
-  return surroundings;
+  return context;
 }
 
 std::string TextOf(const std::string& expression) {
-  const auto value = Evaluate(expression, Nowhere());
+  const auto value = Evaluate(expression, EmptyContext());
   return value ? ToText(*value) : "refused: " + value.error().message;
 }
 

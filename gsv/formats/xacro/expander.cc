@@ -72,12 +72,12 @@ Expander::Expander(const ExpandOptions& options, base::Problems& problems)
         return Evaluate(text, at, scope);
       }),
       main_(nullptr, nullptr, resolve_),
-      most_included_(options.limits.include_depth) {}
+      max_include_depth_(options.limits.include_depth) {}
 
 base::Result<NodePtr> Expander::Run(const NodePtr& root) {
   takes_plain_names_ = root->text == "robot";
   Node document;
-  Context context{main_.scope, main_, 0, most_included_};
+  Context context{main_.scope, main_, 0, max_include_depth_};
   auto status = Plain(root->text, *root, document, context);
   if (!status) {
     base::Error error = status.error();
@@ -276,7 +276,7 @@ base::Status Expander::OnInclude(const NodePtr& node, Node& parent, Context& con
     return Unfit("the pattern \"" + *name + "\" is not supported; include the files one by one");
   }
   if (context.includes_left <= 0) {
-    return Unfit("files include each other deeper than " + std::to_string(most_included_));
+    return Unfit("files include each other deeper than " + std::to_string(max_include_depth_));
   }
   const auto root = files_.ReadIncluded(*name, *node->file);
   if (!root) {
@@ -450,14 +450,14 @@ base::Result<Value> Expander::Evaluate(const std::string& text, const Node& at, 
   if (++steps_ > kMaxSteps) return Unfit("the file takes too many steps to expand");
   const Level level(levels_);
   if (levels_ > kMaxLevels) return Unfit("properties need each other too deep");
-  Surroundings surroundings;
-  surroundings.property = [&](const std::string& name) { return scope.Find(name); };
-  surroundings.load_yaml = [&](const std::string& name) { return files_.ReadYaml(name, *at.file); };
-  surroundings.argument = [&](const std::string& name) { return ArgumentNamed(name); };
-  surroundings.report = [&](const std::string& said) {
+  EvaluationContext evaluation;
+  evaluation.property = [&](const std::string& name) { return scope.Find(name); };
+  evaluation.load_yaml = [&](const std::string& name) { return files_.ReadYaml(name, *at.file); };
+  evaluation.argument = [&](const std::string& name) { return ArgumentNamed(name); };
+  evaluation.report = [&](const std::string& said) {
     problems_.push_back({base::Problem::Severity::kWarning, said, at.place()});
   };
-  return Substitute(text, surroundings,
+  return Substitute(text, evaluation,
                     [&](const std::string& command) { return Command(command, at, scope); });
 }
 
@@ -502,14 +502,14 @@ base::Result<Value> Expander::Command(const std::string& command, const Node& at
   }
   if (name == "dirname") return Value{at.file->parent_path().string()};
   if (name == "eval") {
-    Surroundings surroundings;
-    surroundings.property = [&](const std::string& word) -> base::Result<std::optional<Value>> {
+    EvaluationContext evaluation;
+    evaluation.property = [&](const std::string& word) -> base::Result<std::optional<Value>> {
       const auto argument = arguments_.find(word);
       if (argument != arguments_.end()) return FromLiteral(argument->second);
       return scope.Find(word);
     };
-    surroundings.argument = [&](const std::string& word) { return ArgumentNamed(word); };
-    return xacro::Evaluate(rest, surroundings);
+    evaluation.argument = [&](const std::string& word) { return ArgumentNamed(word); };
+    return xacro::Evaluate(rest, evaluation);
   }
   if (name == "optenv") {
     const std::size_t end = std::min(rest.find(' '), rest.size());

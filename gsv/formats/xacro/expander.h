@@ -1,4 +1,4 @@
-// Walks the elements of a xacro file and writes down what becomes of them.
+// Expands the elements of a xacro file.
 #pragma once
 
 #include <map>
@@ -21,12 +21,12 @@ class Expander {
   base::Result<NodePtr> Run(const NodePtr& root);
 
  private:
-  // Where an element stands among what is being expanded.
+  // The state of the expansion at an element.
   struct Context {
     Scope& scope;
     Space& space;
     int line = 0;           // of the call in the main file; 0: its own
-    int includes_left = 0;  // how deep files may still include others
+    int includes_left = 0;  // the depth to which files may still include others
   };
   using Handler = base::Status (Expander::*)(const NodePtr&, Node& parent, Context&);
 
@@ -57,7 +57,7 @@ class Expander {
 
   base::Result<Value> Evaluate(const std::string& text, const Node& at, Scope& scope);
   base::Result<std::string> TextOf(const std::string& text, const Node& at, Scope& scope);
-  // An attribute's value; kBadModel when it is not there.
+  // An attribute's value; kBadModel if it is missing.
   base::Result<std::string> Needed(const Node& node, const char* name, Scope& scope);
   base::Result<bool> FlagOf(const Node& node, const char* name, bool otherwise, Scope& scope);
   base::Result<Value> Command(const std::string& command, const Node& at, Scope& scope);
@@ -72,7 +72,7 @@ class Expander {
   std::set<const Node*> active_;    // definitions of the macros that are being expanded
   std::string missing_file_;        // the last include that was not found; empty if there was none
   std::set<std::string> missing_packages_;
-  int steps_ = 0, levels_ = 0, most_included_;
+  int steps_ = 0, levels_ = 0, max_include_depth_;
 };
 
 }  // namespace gsv::formats::xacro

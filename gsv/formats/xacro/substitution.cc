@@ -30,8 +30,8 @@ std::size_t ClosingOf(const std::string& text, std::size_t open) {
 
 class Substitution {
  public:
-  Substitution(const Surroundings& surroundings, const Command& command)
-      : surroundings_(surroundings), command_(command) {}
+  Substitution(const EvaluationContext& context, const Command& command)
+      : context_(context), command_(command) {}
 
   base::Result<Value> Of(const std::string& text, int depth) {
     if (depth > kDeepestSubstitution) return Refuse("${…} and $(…) are nested too deep");
@@ -73,7 +73,7 @@ class Substitution {
     const auto inner = Of(content, depth + 1);
     if (!inner) return inner;
     const std::string text = ToText(*inner);
-    auto value = bracket == '{' ? Evaluate(text, surroundings_) : command_(text);
+    auto value = bracket == '{' ? Evaluate(text, context_) : command_(text);
     if (value) return value;
     base::Error error = value.error();
     if (error.where.empty() && error.message.find(" in ${") == std::string::npos &&
@@ -83,15 +83,15 @@ class Substitution {
     return base::Fail(error);
   }
 
-  const Surroundings& surroundings_;
+  const EvaluationContext& context_;
   const Command& command_;
 };
 
 }  // namespace
 
-base::Result<Value> Substitute(const std::string& text, const Surroundings& surroundings,
+base::Result<Value> Substitute(const std::string& text, const EvaluationContext& context,
                                const Command& command) {
-  return Substitution(surroundings, command).Of(text, 0);
+  return Substitution(context, command).Of(text, 0);
 }
 
 }  // namespace gsv::formats::xacro

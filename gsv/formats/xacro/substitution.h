@@ -1,6 +1,6 @@
-// Texts with ${expression} and $(command argument) in them, as attributes and properties have.
+// Substitutes ${expression} and $(command argument) in texts of attributes and properties.
 //
-// "$${" and "$$(" stand for "${" and "$(" themselves.
+// "$${" and "$$(" stand for "${" and "$(".
 #pragma once
 
 #include <functional>
@@ -11,11 +11,11 @@
 
 namespace gsv::formats::xacro {
 
-// Answers "$(command)": its argument included, as "arg name" or "find package".
+// Returns the value of "$(command)". `command` includes the argument: "arg name", "find package".
 using Command = std::function<base::Result<Value>(const std::string& command)>;
 
-// The value of a text: that of its expression where it is one and nothing else, else a text.
-base::Result<Value> Substitute(const std::string& text, const Surroundings& surroundings,
+// The value of the expression if the text is a single ${expression}; otherwise a text.
+base::Result<Value> Substitute(const std::string& text, const EvaluationContext& context,
                                const Command& command);
 
 }  // namespace gsv::formats::xacro

@@ -74,18 +74,19 @@ Response JsonOr(const base::Result<SharedBytes>& json) {
   return response;
 }
 
-curves::CurveRequest CurveWishOf(const Target& target) {
-  curves::CurveRequest wish{.most = kDefaultCurvePoints};
+curves::CurveRequest CurveRequestOf(const Target& target) {
+  curves::CurveRequest request{.max_points = kDefaultCurvePoints};
   for (const auto& [name, value] : target.query) {
-    if (name == "topic") wish.topic = value;
-    if (name == "robot") wish.robot = value;
-    if (name == "key") wish.key = value;
+    if (name == "topic") request.topic = value;
+    if (name == "robot") request.robot = value;
+    if (name == "key") request.key = value;
     if (name != "most") continue;
-    const auto parsed = std::from_chars(value.data(), value.data() + value.size(), wish.most);
+    const auto parsed =
+        std::from_chars(value.data(), value.data() + value.size(), request.max_points);
     const bool is_number = parsed.ec == std::errc() && parsed.ptr == value.data() + value.size();
-    if (!is_number) wish.most = 0;  // is refused with the others that are out of range
+    if (!is_number) request.max_points = 0;  // is refused with the others that are out of range
   }
-  return wish;
+  return request;
 }
 
 Response StatusOf(const Replay& replay, const Request&) {
@@ -157,7 +158,7 @@ Response LogOf(const Replay& replay, const Request&) {
 
 Response CurveOf(const Replay& replay, const Request& request) {
   const base::Result<curves::Curve> curve =
-      replay.player->curves().Get(CurveWishOf(request.target));
+      replay.player->curves().Get(CurveRequestOf(request.target));
   if (!curve) return ErrorResponse(curve.error());
   OrderedJson times = OrderedJson::array(), values = OrderedJson::array();
   for (const curves::Point& point : curve->points) {

@@ -1,5 +1,5 @@
-// A curve in bounded memory: all samples while they fit; then the minimum and maximum of equal time
-// bins, each at its own instant. So no spike is lost, and every point is a sample.
+// A curve in bounded memory. It keeps all samples while they fit, and then the minimum and maximum
+// of equal time bins, each at its own instant. So no spike is lost, and every point is a sample.
 #pragma once
 
 #include <cstddef>
@@ -18,14 +18,14 @@ struct Point {
 
 class CurvePoints {
  public:
-  // Samples from `start` to `end`; at most `most` points are kept, >= 2.
-  CurvePoints(base::SimTime start, base::SimTime end, std::size_t most);
+  // For samples from `start` to `end`. Keeps at most `max_points`, >= 2.
+  CurvePoints(base::SimTime start, base::SimTime end, std::size_t max_points);
 
   // A sample outside of the range counts at its nearer end.
   void Add(base::SimTime time, double value);
 
-  std::size_t samples() const { return samples_; }      // added so far
-  bool is_whole() const { return stretches_.empty(); }  // whether every sample is a point
+  std::size_t samples() const { return samples_; }  // added so far
+  bool is_whole() const { return bins_.empty(); }   // whether every sample is a point
 
   // The points by time. A bin without finite samples has one point, its first.
   std::vector<Point> Points() const;
@@ -33,16 +33,16 @@ class CurvePoints {
  private:
   struct TimeBin {
     std::size_t finite = 0, samples = 0;
-    Point least, greatest;  // the first sample, while none is finite
+    Point min, max;  // the first sample, while none is finite
   };
 
-  void AddToStretch(const Point& point);
+  void AddToBin(const Point& point);
 
   const base::SimTime start_, end_;
-  const std::size_t most_;
+  const std::size_t max_points_;
   std::size_t samples_ = 0;
   std::vector<Point> points_;
-  std::vector<TimeBin> stretches_;  // empty: points_ holds all
+  std::vector<TimeBin> bins_;  // empty: points_ holds all
 };
 
 }  // namespace gsv::gateway::curves

@@ -57,24 +57,24 @@ class FieldSource final : public CurveSource {
 };
 
 base::Result<std::unique_ptr<CurveSource>> MakeFieldSource(const recording::McapReader& reader,
-                                                           const CurveRequest& wish) {
+                                                           const CurveRequest& request) {
   std::map<std::uint16_t, messages::Definition> definitions;
-  for (const std::uint16_t id : ChannelsNamed(reader, wish.topic)) {
+  for (const std::uint16_t id : ChannelsNamed(reader, request.topic)) {
     const auto& summary = reader.summary();
     const auto schema = summary.schemas.find(summary.channels.at(id).schema_id);
     if (schema == summary.schemas.end() || schema->second.encoding != "ros2msg") continue;
     auto definition = messages::Definition::Parse(schema->second.name, schema->second.data);
     if (definition) definitions.emplace(id, *std::move(definition));
   }
-  if (definitions.empty()) return NoSuchTopic(wish.topic);
-  return std::make_unique<FieldSource>(std::move(definitions), wish.key);
+  if (definitions.empty()) return NoSuchTopic(request.topic);
+  return std::make_unique<FieldSource>(std::move(definitions), request.key);
 }
 
 // What /gsv/status says of a robot, or of the simulation.
 class StatusSource final : public CurveSource {
  public:
-  StatusSource(ChannelIds channels, const CurveRequest& wish)
-      : channels_(std::move(channels)), robot_(wish.robot), key_(wish.key) {}
+  StatusSource(ChannelIds channels, const CurveRequest& request)
+      : channels_(std::move(channels)), robot_(request.robot), key_(request.key) {}
 
   std::optional<double> SampleIn(const MessageRecord& message) override {
     if (!channels_.contains(message.channel_id)) return std::nullopt;
@@ -95,8 +95,8 @@ class StatusSource final : public CurveSource {
 
 class PoseSource final : public CurveSource {
  public:
-  PoseSource(ChannelIds channels, const RecordedScene& scene, const CurveRequest& wish)
-      : channels_(std::move(channels)), scene_(scene), robot_(wish.robot), key_(wish.key) {}
+  PoseSource(ChannelIds channels, const RecordedScene& scene, const CurveRequest& request)
+      : channels_(std::move(channels)), scene_(scene), robot_(request.robot), key_(request.key) {}
 
   std::optional<double> SampleIn(const MessageRecord& message) override {
     if (!channels_.contains(message.channel_id)) return std::nullopt;
@@ -147,49 +147,49 @@ class PoseSource final : public CurveSource {
 
 base::Result<std::unique_ptr<CurveSource>> MakeRobotSource(const recording::McapReader& reader,
                                                            const RecordedScene& scene,
-                                                           const CurveRequest& wish) {
+                                                           const CurveRequest& request) {
   static const std::set<std::string> kOfPoses{"x",     "y",   "z",     "roll",
                                               "pitch", "yaw", "speed", "turn_rate"};
   static const std::set<std::string> kOfStatus{"distance", "collisions"};
-  const bool is_of_poses = kOfPoses.contains(wish.key);
-  if (!is_of_poses && !kOfStatus.contains(wish.key)) {
+  const bool is_of_poses = kOfPoses.contains(request.key);
+  if (!is_of_poses && !kOfStatus.contains(request.key)) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "a robot's 'key' is x, y, z, roll, pitch, yaw, speed, turn_rate, distance "
                       "or collisions");
   }
-  if (!scene.HasBody(wish.robot)) {
-    return base::Fail(base::ErrorCode::kNotFound,
-                      "the recording has no robot '" + wish.robot.substr(0, kMaxKeyLength) + "'");
+  if (!scene.HasBody(request.robot)) {
+    return base::Fail(base::ErrorCode::kNotFound, "the recording has no robot '" +
+                                                      request.robot.substr(0, kMaxKeyLength) + "'");
   }
   const std::string topic =
       is_of_poses ? presentation::topics::kPoses.name : presentation::topics::kStatus.name;
   ChannelIds channels = ChannelsNamed(reader, topic);
   if (channels.empty()) return NoSuchTopic(topic);
-  if (is_of_poses) return std::make_unique<PoseSource>(std::move(channels), scene, wish);
-  return std::make_unique<StatusSource>(std::move(channels), wish);
+  if (is_of_poses) return std::make_unique<PoseSource>(std::move(channels), scene, request);
+  return std::make_unique<StatusSource>(std::move(channels), request);
 }
 
 }  // namespace
 
 base::Result<std::unique_ptr<CurveSource>> MakeCurveSource(const recording::McapReader& reader,
                                                            const RecordedScene& scene,
-                                                           const CurveRequest& wish) {
-  const bool names_both = !wish.topic.empty() && !wish.robot.empty();
-  if (names_both || wish.key.empty() || wish.key.size() > kMaxKeyLength) {
+                                                           const CurveRequest& request) {
+  const bool names_both = !request.topic.empty() && !request.robot.empty();
+  if (names_both || request.key.empty() || request.key.size() > kMaxKeyLength) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "name a curve by 'key', of at most 200 characters, with 'topic' or 'robot' "
                       "or neither");
   }
-  if (!wish.topic.empty()) return MakeFieldSource(reader, wish);
-  if (!wish.robot.empty()) return MakeRobotSource(reader, scene, wish);
-  if (wish.key != "real_time_factor" && wish.key != "late_steps") {
+  if (!request.topic.empty()) return MakeFieldSource(reader, request);
+  if (!request.robot.empty()) return MakeRobotSource(reader, scene, request);
+  if (request.key != "real_time_factor" && request.key != "late_steps") {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "the simulation's 'key' is real_time_factor or late_steps; give 'robot' or "
                       "'topic' for others");
   }
   ChannelIds channels = ChannelsNamed(reader, presentation::topics::kStatus.name);
   if (channels.empty()) return NoSuchTopic(presentation::topics::kStatus.name);
-  return std::make_unique<StatusSource>(std::move(channels), wish);
+  return std::make_unique<StatusSource>(std::move(channels), request);
 }
 
 }  // namespace gsv::gateway::curves

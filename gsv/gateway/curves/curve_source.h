@@ -21,7 +21,7 @@ namespace gsv::gateway::curves {
 //   key            real_time_factor or late_steps of the simulation
 struct CurveRequest {
   std::string topic, robot, key;
-  std::size_t most = 0;  // points
+  std::size_t max_points = 0;
 
   friend bool operator==(const CurveRequest&, const CurveRequest&) = default;
 };
@@ -37,6 +37,6 @@ class CurveSource {
 // robot; kInvalidArgument: there is no such value. Each with a sentence.
 base::Result<std::unique_ptr<CurveSource>> MakeCurveSource(const recording::McapReader& reader,
                                                            const RecordedScene& scene,
-                                                           const CurveRequest& wish);
+                                                           const CurveRequest& request);
 
 }  // namespace gsv::gateway::curves

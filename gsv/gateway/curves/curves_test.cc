@@ -124,9 +124,9 @@ recording::Bytes TenSeconds() {
 class RecordedCurvesTest : public ::testing::Test {
  protected:
   // Asks until it is read.
-  static Curve Whole(RecordedCurves& curves, const CurveRequest& wish) {
+  static Curve Whole(RecordedCurves& curves, const CurveRequest& request) {
     for (;;) {
-      auto curve = curves.Get(wish).value();
+      auto curve = curves.Get(request).value();
       if (curve.is_done) return curve;
       std::this_thread::yield();
     }
@@ -140,7 +140,7 @@ class RecordedCurvesTest : public ::testing::Test {
 TEST_F(RecordedCurvesTest, ReadsAllOfAShortOne) {
   RecordedCurves curves(*reader_, scene_);
   const Curve curve =
-      Whole(curves, {.topic = "/robot/sonar", .robot = {}, .key = "range", .most = 1000});
+      Whole(curves, {.topic = "/robot/sonar", .robot = {}, .key = "range", .max_points = 1000});
   ASSERT_EQ(curve.points.size(), 1000u);
   EXPECT_TRUE(curve.is_whole);
   EXPECT_EQ(curve.read_to, 9990ms);
@@ -152,7 +152,7 @@ TEST_F(RecordedCurvesTest, ReadsAllOfAShortOne) {
 TEST_F(RecordedCurvesTest, ThinsOutALongOneFromEndToEnd) {
   RecordedCurves curves(*reader_, scene_);
   const Curve curve =
-      Whole(curves, {.topic = "/robot/sonar", .robot = {}, .key = "range", .most = 50});
+      Whole(curves, {.topic = "/robot/sonar", .robot = {}, .key = "range", .max_points = 50});
   EXPECT_FALSE(curve.is_whole);
   EXPECT_EQ(curve.samples, 1000u);
   ASSERT_EQ(curve.points.size(), 50u);
@@ -166,25 +166,26 @@ TEST_F(RecordedCurvesTest, ThinsOutALongOneFromEndToEnd) {
 TEST_F(RecordedCurvesTest, GivesUpAfterItsTimeAndSaysSo) {
   RecordedCurves curves(*reader_, scene_, std::chrono::milliseconds(-1));
   const Curve curve =
-      Whole(curves, {.topic = "/robot/sonar", .robot = {}, .key = "range", .most = 1000});
+      Whole(curves, {.topic = "/robot/sonar", .robot = {}, .key = "range", .max_points = 1000});
   EXPECT_LT(curve.points.size(), 1000u);
   EXPECT_NE(curve.problem.find("too long"), std::string::npos) << curve.problem;
 }
 
 TEST_F(RecordedCurvesTest, KeepsAFewAndReadsAgainWhatItForgot) {
   RecordedCurves curves(*reader_, scene_);
-  for (std::size_t most = 2; most < 60; ++most) {
-    (void)curves.Get({.topic = "/robot/sonar", .robot = {}, .key = "range", .most = most});
+  for (std::size_t max_points = 2; max_points < 60; ++max_points) {
+    (void)curves.Get(
+        {.topic = "/robot/sonar", .robot = {}, .key = "range", .max_points = max_points});
   }
-  EXPECT_EQ(
-      Whole(curves, {.topic = "/robot/sonar", .robot = {}, .key = "range", .most = 2}).samples,
-      1000u);
+  EXPECT_EQ(Whole(curves, {.topic = "/robot/sonar", .robot = {}, .key = "range", .max_points = 2})
+                .samples,
+            1000u);
 }
 
 TEST_F(RecordedCurvesTest, RefusesWhatIsNotThere) {
   RecordedCurves curves(*reader_, scene_);
-  const auto code = [&](const CurveRequest& wish) {
-    const auto curve = curves.Get(wish);
+  const auto code = [&](const CurveRequest& request) {
+    const auto curve = curves.Get(request);
     return curve ? std::optional<base::ErrorCode>() : curve.error().code;
   };
   using enum base::ErrorCode;

@@ -13,14 +13,14 @@ constexpr int kMessagesBetweenLooks = 256;  // at the clock, and whether anybody
 }  // namespace
 
 struct RecordedCurves::Job {
-  Job(const CurveRequest& wished, std::unique_ptr<CurveSource> made,
+  Job(const CurveRequest& requested, std::unique_ptr<CurveSource> made,
       const recording::Summary& summary)
-      : wish(wished),
+      : request(requested),
         source(std::move(made)),
-        points(summary.start, summary.end, wished.most),
+        points(summary.start, summary.end, requested.max_points),
         read_to(summary.start) {}
 
-  const CurveRequest wish;
+  const CurveRequest request;
   const std::unique_ptr<CurveSource> source;  // of the thread that reads
   std::atomic<bool> is_dropped = false;
 
@@ -31,8 +31,8 @@ struct RecordedCurves::Job {
   std::string problem GSV_GUARDED_BY(mutex);
 };
 
-base::Result<Curve> RecordedCurves::Get(const CurveRequest& wish) {
-  if (wish.most < 2 || wish.most > kMaxCurvePoints) {
+base::Result<Curve> RecordedCurves::Get(const CurveRequest& request) {
+  if (request.max_points < 2 || request.max_points > kMaxCurvePoints) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "'most' must be a number from 2 to 100000");
   }
@@ -42,11 +42,11 @@ base::Result<Curve> RecordedCurves::Get(const CurveRequest& wish) {
     if (is_stopping_) {
       return base::Fail(base::ErrorCode::kUnavailable, "the server is shutting down");
     }
-    job = Find(wish);
+    job = Find(request);
     if (!job) {
-      auto source = MakeCurveSource(reader_, scene_, wish);
+      auto source = MakeCurveSource(reader_, scene_, request);
       if (!source) return base::Fail(source.error());
-      job = std::make_shared<Job>(wish, *std::move(source), reader_.summary());
+      job = std::make_shared<Job>(request, *std::move(source), reader_.summary());
       jobs_.push_back(job);
       if (jobs_.size() > kMaxCurves) {
         jobs_.front()->is_dropped = true;
@@ -61,9 +61,9 @@ base::Result<Curve> RecordedCurves::Get(const CurveRequest& wish) {
                job->is_done,         job->read_to,          job->problem};
 }
 
-std::shared_ptr<RecordedCurves::Job> RecordedCurves::Find(const CurveRequest& wish) {
-  const auto found =
-      std::find_if(jobs_.begin(), jobs_.end(), [&](const auto& job) { return job->wish == wish; });
+std::shared_ptr<RecordedCurves::Job> RecordedCurves::Find(const CurveRequest& request) {
+  const auto found = std::find_if(jobs_.begin(), jobs_.end(),
+                                  [&](const auto& job) { return job->request == request; });
   if (found == jobs_.end()) return nullptr;
   std::rotate(found, found + 1, jobs_.end());
   return jobs_.back();
@@ -101,7 +101,7 @@ void RecordedCurves::Run() {
 }
 
 void RecordedCurves::Read(Job& job) {
-  const auto end = std::chrono::steady_clock::now() + longest_;
+  const auto end = std::chrono::steady_clock::now() + timeout_;
   recording::MessageCursor cursor = reader_.Messages();
   const auto finish = [&](const std::string& problem) {
     const base::MutexLock lock(job.mutex);

@@ -2,9 +2,7 @@
 // requests return the progress.
 //
 // Threads  Get() from any; its own thread reads, started by the first Get().
-// Bounded  the sixteen most recently requested curves are kept; reading a curve ends after a
-//          minute.
-// minute.
+// Bounded  keeps the sixteen most recently requested curves; reading a curve ends after a minute.
 #pragma once
 
 #include <chrono>
@@ -32,16 +30,15 @@ struct Curve {
 
 class RecordedCurves {
  public:
-  // `reader` and `scene` must outlive this. `longest`: time limit for reading a curve, wall-clock
-  // time.
+  // `reader` and `scene` must outlive this. `timeout`: limit for reading a curve, wall-clock time.
   RecordedCurves(const recording::McapReader& reader, const RecordedScene& scene,
-                 std::chrono::milliseconds longest = std::chrono::minutes(1))
-      : reader_(reader), scene_(scene), longest_(longest) {}
+                 std::chrono::milliseconds timeout = std::chrono::minutes(1))
+      : reader_(reader), scene_(scene), timeout_(timeout) {}
   ~RecordedCurves() { Stop(); }
 
-  // The curve as far as it was read. Errors: see MakeCurveSource(); kInvalidArgument if `wish.most`
-  // is not from 2 to kMaxCurvePoints; kUnavailable after Stop().
-  base::Result<Curve> Get(const CurveRequest& wish);
+  // The curve as far as it was read. Errors: see MakeCurveSource(); kInvalidArgument if
+  // `request.max_points` is not from 2 to kMaxCurvePoints; kUnavailable after Stop().
+  base::Result<Curve> Get(const CurveRequest& request);
 
   // Stops reading and waits.
   void Stop();
@@ -50,13 +47,13 @@ class RecordedCurves {
   struct Job;
 
   // The job of the request, or null; updates its time of use.
-  std::shared_ptr<Job> Find(const CurveRequest& wish) GSV_REQUIRES(mutex_);
+  std::shared_ptr<Job> Find(const CurveRequest& request) GSV_REQUIRES(mutex_);
   void Run();
   void Read(Job& job);
 
   const recording::McapReader& reader_;
   const RecordedScene& scene_;
-  const std::chrono::milliseconds longest_;
+  const std::chrono::milliseconds timeout_;
   base::Mutex mutex_;
   base::ConditionVariable changed_;
   std::vector<std::shared_ptr<Job>> jobs_

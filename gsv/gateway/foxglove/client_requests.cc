@@ -45,14 +45,14 @@ void RefuseAll(Client& client) {
 ClientRequests::ClientRequests(std::shared_ptr<Operations> operations)
     : operations_(std::move(operations)) {
   if (!operations_) return;
-  told_ = operations_->parameters();
+  sent_ = operations_->parameters();
   playback_ = operations_->playback().value_or(playback_);
 }
 
 std::vector<std::string> ClientRequests::capabilities() const {
   if (!operations_) return {};
   const base::MutexLock lock(mutex_);
-  if (told_.empty()) return {"services"};
+  if (sent_.empty()) return {"services"};
   return {"services", "parameters", "parametersSubscribe"};
 }
 
@@ -179,11 +179,11 @@ void ClientRequests::PublishParameters() {
   const base::MutexLock lock(mutex_);
   std::vector<Parameter> changed;
   for (const Parameter& parameter : now) {
-    if (std::find(told_.begin(), told_.end(), parameter) == told_.end()) {
+    if (std::find(sent_.begin(), sent_.end(), parameter) == sent_.end()) {
       changed.push_back(parameter);
     }
   }
-  told_ = std::move(now);
+  sent_ = std::move(now);
   if (changed.empty()) return;
   for (const auto& [key, guest] : clients_) {
     std::vector<Parameter> watched = changed;

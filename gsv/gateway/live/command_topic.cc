@@ -22,16 +22,16 @@ void CommandTopic::Publish(const world::Snapshot& snapshot) {
   if (!hub_->IsSubscribed(channel_)) return;
   if (hub_->HasNewSubscribers(channel_)) {
     hub_->Welcome(channel_, {});
-    told_.assign(told_.size(), {});
+    sent_.assign(sent_.size(), {});
   }
   int sent = 0;
-  for (std::size_t i = 0; i < told_.size() && sent < kMaxPerRound; ++i) {
-    const std::size_t body = std::exchange(next_, (next_ + 1) % told_.size());
+  for (std::size_t i = 0; i < sent_.size() && sent < kMaxPerRound; ++i) {
+    const std::size_t body = std::exchange(next_, (next_ + 1) % sent_.size());
     const world::DriveState& drive = snapshot.state.bodies[body].drive;
-    world::DriveState& told = told_[body];
-    const bool is_news = drive.command != told.command || drive.command_time != told.command_time;
+    world::DriveState& last = sent_[body];
+    const bool is_news = drive.command != last.command || drive.command_time != last.command_time;
     if (!layout_->bodies[body].is_robot() || !is_news) continue;
-    told = drive;
+    last = drive;
     ++sent;
     hub_->Publish(
         channel_,
@@ -42,7 +42,7 @@ void CommandTopic::Publish(const world::Snapshot& snapshot) {
 
 void CommandTopic::FollowLayout(const world::Snapshot& snapshot) {
   layout_ = snapshot.layout;
-  told_.assign(layout_->bodies.size(), {});
+  sent_.assign(layout_->bodies.size(), {});
   next_ = 0;
   std::set<std::string> robots;
   for (const world::Body& body : layout_->bodies) {

@@ -81,11 +81,11 @@ const std::vector<RecordedLine>& RecordedTimeline::Log() const {
 }
 
 template <typename Message, typename Entry, typename Use>
-std::vector<Entry> RecordedTimeline::ReadAll(const ChannelIds& channels, std::size_t most,
+std::vector<Entry> RecordedTimeline::ReadAll(const ChannelIds& channels, std::size_t max_entries,
                                              Use use) const {
   std::vector<Entry> entries;
   std::size_t bytes = 0;
-  const auto is_full = [&] { return entries.size() >= most || bytes > kMaxBytes; };
+  const auto is_full = [&] { return entries.size() >= max_entries || bytes > kMaxBytes; };
   for (const MessageBlock& block : reader_.summary().blocks) {
     if (is_full()) break;
     if (!MayHold(block, channels)) continue;

@@ -50,7 +50,7 @@ class RecordedTimeline {
   std::vector<RecordedLine> ReadLog() const;
   // Applies `use` to each message of these channels, within the limits.
   template <typename Message, typename Entry, typename Use>
-  std::vector<Entry> ReadAll(const ChannelIds& channels, std::size_t most, Use use) const;
+  std::vector<Entry> ReadAll(const ChannelIds& channels, std::size_t max_entries, Use use) const;
 
   const recording::McapReader& reader_;
   const ChannelIds pose_channels_, event_channels_, log_channels_;

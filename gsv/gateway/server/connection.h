@@ -49,9 +49,9 @@ class UploadSlot {
  public:
   // Null if none is free.
   static std::unique_ptr<UploadSlot> Take(std::shared_ptr<ServerContext> context) {
-    const std::size_t most = context->options.limits.uploads_at_once;
+    const std::size_t limit = context->options.limits.uploads_at_once;
     auto slot = std::unique_ptr<UploadSlot>(new UploadSlot(std::move(context)));
-    return slot->number_ <= most ? std::move(slot) : nullptr;
+    return slot->number_ <= limit ? std::move(slot) : nullptr;
   }
   ~UploadSlot() { --context_->uploads; }
   UploadSlot(const UploadSlot&) = delete;

@@ -147,7 +147,7 @@ void ScriptedSimulation::PublishSnapshot() {
     snapshot->state.joint_positions[joint] = kWheelRate * seconds;
     snapshot->state.joint_positions[joint + 1] = kWheelRate * seconds;
   }
-  for (const auto& [robot, drive] : told_) {
+  for (const auto& [robot, drive] : drive_states_) {
     snapshot->state.bodies[layout_->Find(robot)].drive = drive;
   }
   snapshot_ = std::move(snapshot);
@@ -166,8 +166,8 @@ world::DriveCommand ScriptedSimulation::CommandOf(int robot) {
 void ScriptedSimulation::SetDriveState(const std::string& robot, const world::DriveCommand& command,
                                        base::SimTime time) {
   const std::lock_guard lock(mutex_);
-  told_[robot].command = command;
-  told_[robot].command_time = time;
+  drive_states_[robot].command = command;
+  drive_states_[robot].command_time = time;
   PublishSnapshot();
 }
 

@@ -80,7 +80,7 @@ class ScriptedSimulation final : public simulation::Simulation {
  private:
   class Avatar;
 
-  void PlaceAll();  // the layout anew, then everything at time_
+  void PlaceAll();  // makes the layout, and places all bodies at time_
   void PublishSnapshot();
   base::Status Become(simulation::Phase phase, std::vector<simulation::Phase> from,
                       const char* event);
@@ -100,7 +100,7 @@ class ScriptedSimulation final : public simulation::Simulation {
   std::shared_ptr<const world::Snapshot> snapshot_;
   std::vector<simulation::Event> events_;
   std::map<std::string, std::vector<model::SensorDescription>> mounted_;
-  std::map<std::string, world::DriveState> told_;  // by robot
+  std::map<std::string, world::DriveState> drive_states_;  // by robot
   std::function<base::Status(const std::string&)> on_watch_;
   std::vector<std::shared_ptr<simulation::Observer>> observers_;
   double factor_ = 1;

@@ -1,8 +1,8 @@
-// The internal classes of omniORB that this folder builds on. They are no documented interface:
-// they may change with any release, so CMake takes the one release that they were read in
-// (cmake/GsvOmniOrbVersion.cmake, ADR 029). No other file includes them.
+// The internal classes of omniORB that this folder uses. They are not a documented interface and
+// may change with any release. Therefore CMake accepts only the release for which this code was
+// written (cmake/GsvOmniOrbVersion.cmake, ADR 029). No other file includes them.
 //
-// Whoever includes it needs omniORB's internal include folder, see ../CMakeLists.txt.
+// A target that includes this file needs omniORB's internal include folder, see ../CMakeLists.txt.
 #pragma once
 
 // Each of these headers needs those before it.

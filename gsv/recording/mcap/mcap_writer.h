@@ -110,7 +110,7 @@ class McapWriter {
   bool flush_ GSV_GUARDED_BY(mutex_) = false;
   bool closing_ GSV_GUARDED_BY(mutex_) = false;
   std::chrono::steady_clock::time_point oldest_
-      GSV_GUARDED_BY(mutex_){};  // of what is not flushed; {}: nothing is
+      GSV_GUARDED_BY(mutex_){};  // time of the oldest message that is not flushed; {}: none
   base::Status status_ GSV_GUARDED_BY(mutex_);
   Progress progress_ GSV_GUARDED_BY(mutex_);
   std::map<std::string, ChannelRecord> channels_ GSV_GUARDED_BY(mutex_);  // by topic

@@ -10,7 +10,7 @@
 
 namespace gsv::recording {
 
-using simulation::kPatience;
+using simulation::kTimeout;
 using simulation::RunToEnd;
 using simulation::SleepFor;
 using simulation::ThreadBehaviour;

@@ -94,7 +94,7 @@ std::shared_ptr<SensorRecorder::Sensor> SensorRecorder::Make(
     Complain(sensor.error());
     return nullptr;
   }
-  const double rate = (*sensor)->TakesLong() ? options_.rates.pictures : options_.rates.readings;
+  const double rate = (*sensor)->TakesLong() ? options_.rates.images : options_.rates.readings;
   return std::make_shared<Sensor>(Sensor{.robot = robot,
                                          .type = type,
                                          .messages = std::move(sent),

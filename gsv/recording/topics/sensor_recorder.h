@@ -26,13 +26,12 @@ namespace gsv::recording {
 // Rates in Hz of simulated time, > 0. A faster sensor is recorded at every nth of its instants.
 struct SensorRates {
   double readings = 20;
-  double pictures = 1;
+  double images = 1;
   double beams = 10;
 };
 
 // Encodes an image as PNG.
-using WritePng =
-    std::function<base::Result<std::vector<std::uint8_t>>(const model::Image& picture)>;
+using WritePng = std::function<base::Result<std::vector<std::uint8_t>>(const model::Image& image)>;
 
 struct SensorRecorderOptions {
   SensorRates rates{};

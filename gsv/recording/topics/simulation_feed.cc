@@ -72,9 +72,9 @@ void SimulationFeed::OnEvent(const simulation::Event& event) {
   if (is_reset) room_.notify_all();
 }
 
-std::optional<Occurrence> SimulationFeed::Next(std::chrono::milliseconds patience) {
+std::optional<Occurrence> SimulationFeed::Next(std::chrono::milliseconds timeout) {
   base::MutexLock lock(mutex_);
-  news_.wait_for(lock, patience,
+  news_.wait_for(lock, timeout,
                  [this]() GSV_REQUIRES(mutex_) { return closed_ || !queue_.empty(); });
   if (queue_.empty()) return std::nullopt;
   Occurrence next = std::move(queue_.front());

@@ -50,8 +50,8 @@ class SimulationFeed final : public simulation::Observer {
   void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) override;
   void OnEvent(const simulation::Event& event) override;
 
-  // The next occurrence; nothing after `patience` of wall-clock time, or at the end.
-  std::optional<Occurrence> Next(std::chrono::milliseconds patience);
+  // The next occurrence; nothing after `timeout` of wall-clock time, or at the end.
+  std::optional<Occurrence> Next(std::chrono::milliseconds timeout);
 
   // Closes the feed and releases waiting producers. Queued occurrences remain. A reset of the
   // simulation closes it, too.
@@ -71,7 +71,7 @@ class SimulationFeed final : public simulation::Observer {
   // Used by the stepping thread only.
   Instants status_instants_;
   Instants sensor_instants_;
-  std::shared_ptr<const world::Layout> layout_;  // whose sensors were listed
+  std::shared_ptr<const world::Layout> layout_;  // for which the sensors were listed
 
   mutable base::Mutex mutex_;
   base::ConditionVariable news_;

@@ -50,8 +50,8 @@ TEST_F(SimulationFeedTest, InLockstepTheStepWaitsForRoom) {
   SimulationFeed feed(*simulation_, {.when_full = WhenFull::kWait, .capacity = 1});
   feed.OnSnapshot(simulation_->snapshot());
   auto second = std::async(std::launch::async, [&] { feed.OnSnapshot(simulation_->snapshot()); });
-  EXPECT_TRUE(feed.Next(kPatience));
-  EXPECT_TRUE(feed.Next(kPatience));
+  EXPECT_TRUE(feed.Next(kTimeout));
+  EXPECT_TRUE(feed.Next(kTimeout));
   second.get();
   EXPECT_EQ(feed.dropped(), 0u);
 }

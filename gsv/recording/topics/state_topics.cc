@@ -85,7 +85,7 @@ void StateTopics::WriteNewCommands(const world::Snapshot& snapshot) {
     const world::Body& body = layout_->bodies[i];
     if (!body.is_robot()) continue;
     const world::DriveState& drive = state.bodies[i].drive;
-    if (IsSameOrder(drive, std::exchange(told_[body.name], drive))) continue;
+    if (IsSameOrder(drive, std::exchange(written_[body.name], drive))) continue;
     if (IsSameOrder(drive, {})) continue;  // it was removed, and came again
     commands_.Write(state.time, presentation::CommandMessage(body.name, drive, state));
   }

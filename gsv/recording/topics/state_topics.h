@@ -1,7 +1,7 @@
-// Records the topics of the simulation as a whole: /clock, /gsv/poses, /tf, /gsv/commands,
-// /gsv/actuators, /gsv/contacts, /gsv/radio, /gsv/status, /diagnostics, /gsv/events, /rosout,
-// /gsv/state_hash (docs/formats/messages.md). /gsv/edits is added with the first edit, whatever is
-// selected, as resimulation needs it.
+// Records the topics of the simulation as a whole (docs/formats/messages.md). They are /clock, /tf,
+// /diagnostics, /rosout, and poses, commands, actuators, contacts, radio, status, events and
+// state_hash in /gsv. The first edit adds the topic /gsv/edits, whether selected or not, as
+// resimulation needs it.
 #pragma once
 
 #include <map>
@@ -45,8 +45,8 @@ class StateTopics {
   Instants diagnostics_instants_;
   std::optional<std::int64_t> poses_step_;  // step of the last written poses
   std::shared_ptr<const world::Layout> layout_;
-  std::vector<presentation::PoseEntry> pose_list_;  // of layout_
-  std::map<std::string, world::DriveState> told_;   // by robot: the last command
+  std::vector<presentation::PoseEntry> pose_list_;    // of layout_
+  std::map<std::string, world::DriveState> written_;  // by robot: the last written command
 
   std::shared_ptr<const world::DeviceStates> devices_;  // of the last snapshot
 

@@ -23,12 +23,12 @@ class Exposure {
 
   // Applies exposure, vignetting and the noise of the sampling's instant to an RGB image.
   void Apply(const sensing::Sampling& sampling, const model::SensorDescription& description,
-             model::Image& picture) const;
+             model::Image& image) const;
 
  private:
-  void ApplyLight(model::Image& picture) const;
+  void ApplyLight(model::Image& image) const;
   void ApplyNoise(const sensing::Sampling& sampling, const model::SensorDescription& description,
-                  model::Image& picture) const;
+                  model::Image& image) const;
 
   double light_ = 1;  // a factor
   double gain_ = 1;

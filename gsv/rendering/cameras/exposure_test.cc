@@ -28,9 +28,9 @@ class ExposureTest : public testing::Test {
     EXPECT_TRUE(reader.status()) << reader.status().error().Sentence();
     auto snapshot = std::make_shared<world::Snapshot>(*scene_.Snapshot());
     snapshot->state.step = step;
-    model::Image picture{100, 80, 3, std::vector<std::uint8_t>(3 * 100 * 80, grey), {}};
-    exposure.Apply(sensing::Sampling(snapshot, 0, 7, rays_), description, picture);
-    return picture;
+    model::Image image{100, 80, 3, std::vector<std::uint8_t>(3 * 100 * 80, grey), {}};
+    exposure.Apply(sensing::Sampling(snapshot, 0, 7, rays_), description, image);
+    return image;
   }
 
   TestScene scene_;
@@ -41,8 +41,8 @@ TEST_F(ExposureTest, AStopHalvesOrDoublesTheLight) {
   for (const double stops : {-2.0, -1.0, 0.5, 1.0}) {
     for (const int grey : {10, 60, 120, 180}) {
       const double light = std::min(1.0, Linear(grey / 255.0) * std::exp2(stops));
-      const model::Image picture = Exposed({{"exposure", stops}}, static_cast<std::uint8_t>(grey));
-      EXPECT_WITHIN(picture.pixels[0], Encoded(light), 0.51, "level") << stops << " " << grey;
+      const model::Image image = Exposed({{"exposure", stops}}, static_cast<std::uint8_t>(grey));
+      EXPECT_WITHIN(image.pixels[0], Encoded(light), 0.51, "level") << stops << " " << grey;
     }
   }
 }
@@ -53,19 +53,19 @@ TEST_F(ExposureTest, NothingAskedForChangesNothing) {
 }
 
 TEST_F(ExposureTest, CornersAreDarkerByTheSquareOfTheDistance) {
-  const model::Image picture = Exposed({{"vignetting", 0.6}}, 200);
+  const model::Image image = Exposed({{"vignetting", 0.6}}, 200);
   const double light = Linear(200 / 255.0);
-  EXPECT_WITHIN(Brightness(picture, 50, 40), 200, 1, "level");
+  EXPECT_WITHIN(Brightness(image, 50, 40), 200, 1, "level");
   const double corner = 49.5 * 49.5 + 39.5 * 39.5, whole = 50 * 50 + 40 * 40;
-  EXPECT_WITHIN(Brightness(picture, 0, 0), Encoded(light * (1 - 0.6 * corner / whole)), 1, "level");
-  EXPECT_NEAR(Brightness(picture, 99, 79), Brightness(picture, 0, 0), 0);
+  EXPECT_WITHIN(Brightness(image, 0, 0), Encoded(light * (1 - 0.6 * corner / whole)), 1, "level");
+  EXPECT_NEAR(Brightness(image, 99, 79), Brightness(image, 0, 0), 0);
 }
 
 TEST_F(ExposureTest, NoiseHasItsMeanAndDeviation) {
-  const model::Image picture = Exposed({{"noise.mean", 0.02}, {"noise.stddev", 0.05}}, 120);
+  const model::Image image = Exposed({{"noise.mean", 0.02}, {"noise.stddev", 0.05}}, 120);
   double sum = 0, squares = 0;
-  for (const std::uint8_t v : picture.pixels) sum += v, squares += double(v) * v;
-  const double n = static_cast<double>(picture.pixels.size());
+  for (const std::uint8_t v : image.pixels) sum += v, squares += double(v) * v;
+  const double n = static_cast<double>(image.pixels.size());
   const double mean = sum / n, deviation = std::sqrt(squares / n - mean * mean);
   const double expected = 0.05 * 255;
   EXPECT_WITHIN_3_SIGMA(mean, 120 + 0.02 * 255, expected / std::sqrt(n));
@@ -81,11 +81,11 @@ TEST_F(ExposureTest, NoiseIsThatOfTheStepAndOfNothingElse) {
 }
 
 TEST_F(ExposureTest, GainIsForLightAndNoise) {
-  const model::Image picture =
+  const model::Image image =
       Exposed({{"exposure", -1.0}, {"gain", 2.0}, {"noise.stddev", 0.02}}, 120);
   double sum = 0, squares = 0;
-  for (const std::uint8_t v : picture.pixels) sum += v, squares += double(v) * v;
-  const double n = static_cast<double>(picture.pixels.size());
+  for (const std::uint8_t v : image.pixels) sum += v, squares += double(v) * v;
+  const double n = static_cast<double>(image.pixels.size());
   EXPECT_NEAR(sum / n, 120, 0.6);
   EXPECT_NEAR(std::sqrt(squares / n - sum / n * (sum / n)), 0.04 * 255, 0.2);
 }

@@ -2,22 +2,22 @@
 // "boundingbox_camera", "thermal_camera" and "normals_camera".
 //
 // Frame       sensor frame: x along the view, y left, z up.
-// Parameters  those of every camera, see optics.h. Of a depth camera also noise (m), see
-//             sensing/noise.h: white noise, bias and dropout, a pixel each.
+// Parameters  those of every camera, see optics.h. A depth camera also has noise (m), see
+//             sensing/noise.h: white noise, bias and dropout for each pixel.
 // Readings    rows from the top, see ground_truth.h.
 //             depth_camera ("depth", "rgbd_camera"): values {width, height, then for each pixel the
 //             distance along the view in m, infinite where nothing is}. As a message:
-//             sensor_msgs/PointCloud2, a point a pixel, NaN where nothing is.
+//             sensor_msgs/PointCloud2, one point per pixel, NaN where nothing is.
 //             segmentation_camera ("segmentation"): values {width, height, then for each pixel the
-//             label's number from 1, 0 where nothing is}; the labels are the names of all models in
-//             the world; the picture shows label n in the colour 0x9E3779 n mod 2^24, so that
-//             either tells the other. As a message: sensor_msgs/CompressedImage, PNG.
-//             boundingbox_camera ("boundingbox"): for each model of which a pixel is seen, by name,
-//             the values {left, top, right, bottom} in pixels, and its name as label. As a message:
+//             label's number from 1, 0 where nothing is}. The labels are the names of all models in
+//             the world. The image shows label n in the colour 0x9E3779 n mod 2^24, which is unique
+//             for each label. As a message: sensor_msgs/CompressedImage, PNG.
+//             boundingbox_camera ("boundingbox"): for each model with a visible pixel, by name, the
+//             values {left, top, right, bottom} in pixels, and its name as label. As a message:
 //             vision_msgs/Detection2DArray.
-//             thermal_camera ("thermal"): how warm the visual at each pixel is, or the air where
-//             nothing is, in whole steps of the parameter `resolution` (0.01 K, so that 16 bits
-//             reach to 655.35 K); `noise` (K). As a message:
+//             thermal_camera ("thermal"): the temperature of the visual at each pixel, or of the
+//             air where nothing is, in whole steps of the parameter `resolution` (0.01 K, so that
+//             16 bits reach to 655.35 K); `noise` (K). As a message:
 //             sensor_msgs/CompressedImage, PNG of 16-bit grey, where a pixel counts steps.
 //             normals_camera ("normals"): values {width, height, then for each pixel the unit normal
 //             x, y, z of the visible surface, towards the camera, in the sensor frame}. The normal

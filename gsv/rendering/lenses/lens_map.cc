@@ -13,7 +13,7 @@ namespace {
 using geometry::Quaternion;
 using geometry::Vector3;
 
-// One pinhole picture is enough for what lies within this of the view, as a tangent: 72 degrees.
+// One pinhole image covers directions up to this angle from the view, as a tangent: 72 degrees.
 constexpr double kMaxFaceAngle = 3;
 constexpr double kMaxMagnification = 4;
 // Pixels around what is looked up, so that there is something to mix with on all sides.
@@ -30,7 +30,7 @@ Rays RaysOf(const Lens& lens) {
   return rays;
 }
 
-// The lens's pixels a radian about a point of its picture; 0 where it shows nothing.
+// The lens's pixels per radian about a point of its image; 0 where it shows nothing.
 double DensityAt(const Lens& lens, double u, double v) {
   double most = 0;
   for (const bool across : {true, false}) {
@@ -186,13 +186,13 @@ std::vector<CameraView> LensMap::Views(const geometry::Pose& world_from_camera) 
   return views;
 }
 
-model::Image LensMap::Join(std::span<const std::shared_ptr<const model::Image>> pictures) const {
+model::Image LensMap::Join(std::span<const std::shared_ptr<const model::Image>> images) const {
   model::Image joined{width_, height_, 3, {}, {}};
   joined.pixels.reserve(3 * sources_.size());
   for (const Source& source : sources_) {
     Light light{};
     if (source.face >= 0) {
-      const model::Image& from = *pictures[static_cast<std::size_t>(source.face)];
+      const model::Image& from = *images[static_cast<std::size_t>(source.face)];
       // As many places as the pixel covers, so that none of what it shows is passed over.
       const int side = std::clamp(static_cast<int>(std::lround(source.reach)), 1, kMaxMixedSamples);
       for (int i = 0; i < side * side; ++i) {

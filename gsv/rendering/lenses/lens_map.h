@@ -34,7 +34,7 @@ class LensMap {
   std::vector<CameraView> Views(const geometry::Pose& world_from_camera) const;
 
   // Resamples the images of Views(), in that order. Black where the lens shows nothing.
-  model::Image Join(std::span<const std::shared_ptr<const model::Image>> pictures) const;
+  model::Image Join(std::span<const std::shared_ptr<const model::Image>> images) const;
   // The same with nearest pixels; background where the lens shows nothing. Depth is along the
   // camera's view, and negative behind the camera.
   GroundTruth Join(std::span<const std::shared_ptr<const GroundTruth>> truths) const;

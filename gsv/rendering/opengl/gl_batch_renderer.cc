@@ -86,7 +86,7 @@ base::Result<Pictures> GlBatchRenderer::Draw(const world::Snapshot& snapshot,
       FrameBlock block = lighting.BlockFor(view);
       if (shadows) shadow_map_.region().Describe(view.world_from_camera.position, block);
       target.Begin();
-      painter_.Draw(view, render_list, block, shadows ? &shadow_map_ : nullptr, instances_);
+      view_pass_.Draw(view, render_list, block, shadows ? &shadow_map_ : nullptr, instances_);
     }
     for (auto& picture : target.Read()) pictures[order[done++]] = std::move(picture);
   }

@@ -36,7 +36,7 @@ class GlBatchRenderer final : public BatchRenderer {
   std::list<RenderTarget> targets_;  // most recently used first
   InstanceBuffer instances_;
   ShadowMap shadow_map_;
-  ViewPass painter_;
+  ViewPass view_pass_;
   std::unique_ptr<raster::RasterBatchRenderer> ground_truth_renderer_;  // null until the first use
 };
 

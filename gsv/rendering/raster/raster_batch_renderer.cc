@@ -30,15 +30,15 @@ base::Result<std::vector<std::shared_ptr<const model::Image>>> RasterBatchRender
   if (shadows) shadow_.Draw(render_list, planned.id, lighting.to_sun(), views);
   std::vector<std::shared_ptr<const model::Image>> pictures(views.size());
   team_.ParallelFor(views.size(), 1, [&](std::size_t begin, std::size_t end) {
-    std::unique_ptr<ImageRenderer> painter = TakeRenderer();
+    std::unique_ptr<ImageRenderer> renderer = TakeRenderer();
     for (std::size_t i = begin; i < end; ++i) {
       FrameBlock block = lighting.BlockFor(views[i]);
       const bool shaded = shadows && !shadow_.region().IsEmpty();
       if (shaded) shadow_.region().Describe(views[i].world_from_camera.position, block);
       pictures[i] = std::make_shared<const model::Image>(
-          painter->Draw(views[i], render_list, block, shaded ? &shadow_ : nullptr));
+          renderer->Draw(views[i], render_list, block, shaded ? &shadow_ : nullptr));
     }
-    GiveBack(std::move(painter));
+    GiveBack(std::move(renderer));
   });
   return pictures;
 }
@@ -49,12 +49,12 @@ base::Result<std::vector<std::shared_ptr<const GroundTruth>>> RasterBatchRendere
   planned.render_list->Pose(snapshot, RenderList::Glow::kHidden);
   std::vector<std::shared_ptr<const GroundTruth>> truths(views.size());
   team_.ParallelFor(views.size(), 1, [&](std::size_t begin, std::size_t end) {
-    std::unique_ptr<ImageRenderer> painter = TakeRenderer();
+    std::unique_ptr<ImageRenderer> renderer = TakeRenderer();
     for (std::size_t i = begin; i < end; ++i) {
-      truths[i] = std::make_shared<const GroundTruth>(painter->DrawGroundTruth(
+      truths[i] = std::make_shared<const GroundTruth>(renderer->DrawGroundTruth(
           views[i], *planned.render_list, planned.lighting->BlockFor(views[i])));
     }
-    GiveBack(std::move(painter));
+    GiveBack(std::move(renderer));
   });
   return truths;
 }
@@ -62,17 +62,17 @@ base::Result<std::vector<std::shared_ptr<const GroundTruth>>> RasterBatchRendere
 std::unique_ptr<ImageRenderer> RasterBatchRenderer::TakeRenderer() {
   const base::MutexLock lock(mutex_);
   if (idle_.empty()) return std::make_unique<ImageRenderer>();
-  auto painter = std::move(idle_.back());
+  auto renderer = std::move(idle_.back());
   idle_.pop_back();
-  return painter;
+  return renderer;
 }
 
-void RasterBatchRenderer::GiveBack(std::unique_ptr<ImageRenderer> painter) {
+void RasterBatchRenderer::GiveBack(std::unique_ptr<ImageRenderer> renderer) {
   // What a picture as large as a wall took is not kept for the next small one.
   constexpr std::size_t kMaxPixels = 2 << 20;
-  if (painter->pixels() > kMaxPixels) return;
+  if (renderer->pixels() > kMaxPixels) return;
   const base::MutexLock lock(mutex_);
-  idle_.push_back(std::move(painter));
+  idle_.push_back(std::move(renderer));
 }
 
 }  // namespace gsv::rendering::raster

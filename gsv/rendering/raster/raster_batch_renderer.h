@@ -34,7 +34,7 @@ class RasterBatchRenderer final : public BatchRenderer {
 
  private:
   std::unique_ptr<ImageRenderer> TakeRenderer();
-  void GiveBack(std::unique_ptr<ImageRenderer> painter);
+  void GiveBack(std::unique_ptr<ImageRenderer> renderer);
 
   base::ThreadTeam team_;
   SunShadow shadow_;

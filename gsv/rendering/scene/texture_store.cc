@@ -23,7 +23,7 @@ bool SeeThrough(const Image& image) {
 }  // namespace
 
 std::shared_ptr<const DrawTexture> TextureStore::Find(const std::shared_ptr<const Image>& image) {
-  if (image == nullptr || !Usable(*image, largest_)) return nullptr;
+  if (image == nullptr || !Usable(*image, max_side_)) return nullptr;
   Entry& entry = entries_[image.get()];
   // An address may be that of an earlier picture that is gone.
   if (entry.texture == nullptr || entry.image.lock() != image) {

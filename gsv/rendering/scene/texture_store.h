@@ -20,9 +20,9 @@ struct DrawTexture {
 
 class TextureStore {
  public:
-  // Makes a texture of a valid image of at most `largest_side` pixels.
+  // Makes a texture of a valid image with sides of at most `max_side` pixels.
   using Make = std::function<std::shared_ptr<DrawTexture>(const model::Image&)>;
-  TextureStore(Make make, int largest_side) : make_(std::move(make)), largest_(largest_side) {}
+  TextureStore(Make make, int max_side) : make_(std::move(make)), max_side_(max_side) {}
 
   // Null for a null or invalid image; the material then has no such map.
   std::shared_ptr<const DrawTexture> Find(const std::shared_ptr<const model::Image>& image);
@@ -37,7 +37,7 @@ class TextureStore {
     std::shared_ptr<const DrawTexture> texture;
   };
   const Make make_;
-  const int largest_;
+  const int max_side_;
   std::map<const model::Image*, Entry> entries_;
 };
 

@@ -83,15 +83,14 @@ struct Blob {
   int pixels = 0;
 };
 
-// `channel` 0, 1 or 2: pixels in which it is more than `margin` above both others. Each counts by
-// how far it is above them, so that anti-aliased edges count less.
-inline Blob FindBlob(const model::Image& picture, int channel, int margin = 40) {
+// The pixels whose `channel` (0, 1 or 2) is more than `margin` above both others. Each is weighted
+// by the difference, so that antialiased edges count less.
+inline Blob FindBlob(const model::Image& image, int channel, int margin = 40) {
   Blob blob;
   double weight = 0;
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width; ++x) {
-      const std::uint8_t* p =
-          &picture.pixels[(static_cast<std::size_t>(y) * picture.width + x) * 3];
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const std::uint8_t* p = &image.pixels[(static_cast<std::size_t>(y) * image.width + x) * 3];
       const int above = p[channel] - std::max(p[(channel + 1) % 3], p[(channel + 2) % 3]);
       if (above <= margin) continue;
       ++blob.pixels;
@@ -104,8 +103,8 @@ inline Blob FindBlob(const model::Image& picture, int channel, int margin = 40) 
   return blob;
 }
 
-inline int Brightness(const model::Image& picture, int x, int y) {
-  const std::uint8_t* p = &picture.pixels[(static_cast<std::size_t>(y) * picture.width + x) * 3];
+inline int Brightness(const model::Image& image, int x, int y) {
+  const std::uint8_t* p = &image.pixels[(static_cast<std::size_t>(y) * image.width + x) * 3];
   return (p[0] + p[1] + p[2]) / 3;
 }
 

@@ -82,8 +82,8 @@ class ColumnGrid {
   // The column (row) of a coordinate, counted from the ring.
   int IndexOf(double from_low) const { return static_cast<int>(from_low * per_metre_ + 1); }
   void Divide(double cell, double width, double depth);
-  // Counts the boxes of each column; false if the total exceeds `most`.
-  bool Count(std::span<const geometry::Bounds> boxes, std::size_t most);
+  // Counts the boxes of each column; false if the total exceeds `limit`.
+  bool Count(std::span<const geometry::Bounds> boxes, std::size_t limit);
 
   double low_x_ = 0, low_y_ = 0;
   double cell_ = 1, per_metre_ = 1;  // a column is cell_ wide and deep

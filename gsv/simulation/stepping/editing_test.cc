@@ -50,12 +50,12 @@ int Find(const Simulation& simulation, const std::string& name) {
 
 void PauseAt(Simulation& simulation, SimTime instant) {
   ASSERT_TRUE(simulation.RunUntil(instant));
-  ASSERT_EQ(simulation.WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  ASSERT_EQ(simulation.WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
 }
 
 void PauseThrough(Simulation& simulation, SimTime instant) {
   ASSERT_TRUE(simulation.RunThrough(instant));
-  ASSERT_EQ(simulation.WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  ASSERT_EQ(simulation.WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
 }
 
 std::vector<Edit> EditsOf(const Simulation& simulation) {
@@ -85,7 +85,7 @@ TEST(Editing, AnObjectPutInTheAirFalls) {
   // Free fall, by steps of a millisecond at the coarsest.
   EXPECT_NEAR(PoseOf(*simulation, "high").position.z, 1.2 - 9.8 * 0.3 * 0.3 / 2, 9.8 * 0.3 * 1e-3);
   ASSERT_TRUE(simulation->Resume());
-  ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
   EXPECT_NEAR(PoseOf(*simulation, "high").position.z, 0.2, 1e-3);
 }
 
@@ -109,7 +109,7 @@ TEST(Editing, WhatWasRemovedIsGoneAndACopyOfItComesBack) {
   ASSERT_TRUE(simulation->AddObject(again));
   EXPECT_GE(Find(*simulation, "crate"), 0);
   ASSERT_TRUE(simulation->Resume());
-  ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
   EXPECT_NEAR(PoseOf(*simulation, "crate").position.y, 2, 1e-6);
 }
 
@@ -214,7 +214,7 @@ std::string HashOfAnEditedRun(SimTime first, SimTime second) {
   EXPECT_TRUE(simulation->PlaceBody("crate", PlanarPose(0.8, 1, 0, 0.4), true));
   EXPECT_TRUE(simulation->SetGravity(-3.7));
   EXPECT_TRUE(simulation->Resume());
-  EXPECT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
+  EXPECT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
   return simulation->state_hash();
 }
 

@@ -144,12 +144,12 @@ void SteppingSimulation::Dispose(SteppingSimulation* simulation) {
     return;
   }
   const std::string name = simulation->specification_.name;
-  const auto patience = simulation->world_.lock().is_stuck() ? WorldLock::kPollPeriod
-                                                             : simulation->specification_.deadline;
+  const auto timeout = simulation->world_.lock().is_stuck() ? WorldLock::kPollPeriod
+                                                            : simulation->specification_.deadline;
   std::packaged_task<void()> destroy([simulation] { delete simulation; });
   std::future<void> destroyed = destroy.get_future();
   std::thread thread(std::move(destroy));
-  if (destroyed.wait_for(patience) == std::future_status::ready) return thread.join();
+  if (destroyed.wait_for(timeout) == std::future_status::ready) return thread.join();
   ++left_to_themselves;
   thread.detach();
   spdlog::warn("{}: a behaviour in process does not return; the simulation is left to itself",

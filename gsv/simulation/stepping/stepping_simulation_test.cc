@@ -55,7 +55,7 @@ TEST(SteppingSimulation, AnswersAgentsWhileItsEngineIsGivenALayout) {
   int answers = 0;
   engine.before_layout = [&] {
     auto now = std::async(std::launch::async, [&] { return agent->Now(); });
-    EXPECT_EQ(now.wait_for(kPatience), std::future_status::ready);
+    EXPECT_EQ(now.wait_for(kTimeout), std::future_status::ready);
     ++answers;
   };
   ASSERT_TRUE(simulation.RemoveRobot("goes"));

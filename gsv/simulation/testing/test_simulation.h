@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 using geometry::PlanarPose;
 
 inline constexpr auto kLease = 200ms;
-inline constexpr auto kPatience = 20s;  // wall-clock time limit of every expected change
+inline constexpr auto kTimeout = 20s;  // wall-clock time limit of every expected change
 
 // The current pose of a body.
 inline geometry::Pose PoseOf(const Simulation& simulation, const std::string& name) {
@@ -159,7 +159,7 @@ inline std::shared_ptr<ThreadBehaviour> Drives(double speed,
 
 inline Phase RunToEnd(Simulation& simulation) {
   EXPECT_TRUE(simulation.Start());
-  return simulation.WaitForPhase({Phase::kFinished, Phase::kFailed, Phase::kStopped}, kPatience);
+  return simulation.WaitForPhase({Phase::kFinished, Phase::kFailed, Phase::kStopped}, kTimeout);
 }
 
 inline RobotStatus StatusOf(const Simulation& simulation, const std::string& name) {
