@@ -13,8 +13,8 @@ namespace {
 
 // Reading a world and initialising behaviours may take long.
 constexpr std::chrono::milliseconds kCreateTimeout{120'000};
-// A wait for the next phase is answered after two seconds. A server that answers none of them for
-// so long is lost.
+// The server answers a wait for the next phase after two seconds. A server that does not answer for
+// this long is lost.
 constexpr std::chrono::milliseconds kWaitTimeout{10'000};
 constexpr std::chrono::seconds kServerPatience{30};
 constexpr int kConnectionsTried = 16;
@@ -109,7 +109,7 @@ class SimulationProxy final : public RemoteSimulation {
         simulation_(sba::Simulation::_duplicate(simulation)),
         server_(std::move(server)) {
     orb::LimitCalls(simulation_, kCreateTimeout);
-    // Another reference, since time limits are a reference's.
+    // Uses another reference, since a time limit belongs to a reference.
     const CORBA::String_var text = orb_->orb()->object_to_string(simulation);
     const CORBA::Object_var object = orb_->orb()->string_to_object(text);
     waiting_ = sba::Simulation::_unchecked_narrow(object);
@@ -136,7 +136,7 @@ class SimulationProxy final : public RemoteSimulation {
       return std::string(name);
     });
     if (!added && request.own_behaviour) {
-      // Unless the simulator has done so already.
+      // The simulator may have done so already.
       (void)Ask([&] { robot.behaviour->destroy(); });
     }
     return added;
@@ -239,7 +239,7 @@ class SimulationProxy final : public RemoteSimulation {
   }
 
  private:
-  // Nothing is asked of a server that is lost.
+  // A lost server is not called any more.
   template <typename Question>
   auto Ask(Question question) -> base::Result<decltype(question())> {
     if (!lost_.empty()) return base::Fail(base::ErrorCode::kUnavailable, lost_, server_);
@@ -248,7 +248,7 @@ class SimulationProxy final : public RemoteSimulation {
     if (is_doubtful && IsServerGone()) return Lose("no program accepts connections there any more");
     return answer;
   }
-  // A connection that broke says little, and there may be several: a port that refuses says all.
+  // A broken connection is no proof, and there may be several. A refused connection is.
   bool IsServerGone() {
     for (int i = 0; i < kConnectionsTried; ++i) {
       try {
@@ -271,8 +271,8 @@ class SimulationProxy final : public RemoteSimulation {
   const std::shared_ptr<sdk::SharedOrb> orb_;
   sba::Simulation_var simulation_, waiting_;
   const std::string server_;
-  std::string lost_;       // why; empty: it is not
-  SimulationState known_;  // the last
+  std::string lost_;       // the reason; empty: it is not lost
+  SimulationState known_;  // the last known state
 };
 
 class BrokerApplication final : public Application {
@@ -284,7 +284,7 @@ class BrokerApplication final : public Application {
                                                          const std::string& constraint,
                                                          const std::string& preference) override {
     auto offers = broker_.Query(broker::SimulationServiceType().name, constraint, preference, 16);
-    // A broker that no simulator has ever registered with does not know the type.
+    // A broker with which no simulator has ever registered does not know the type.
     if (!offers && offers.error().code == base::ErrorCode::kNotFound) offers.emplace();
     if (!offers) return base::Fail(offers.error());
     base::Error error{base::ErrorCode::kNotFound,
@@ -295,7 +295,7 @@ class BrokerApplication final : public Application {
     for (const broker::FoundOffer& offer : *offers) {
       auto created = CreateAt(offer.object, request);
       if (created || created.error().code == base::ErrorCode::kInvalidArgument) return created;
-      error = created.error();  // the server may have died: try the next
+      error = created.error();  // the server may have ended: try the next
     }
     return base::Fail(std::move(error));
   }

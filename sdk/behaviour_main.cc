@@ -1,4 +1,4 @@
-// The program of a behaviour that is made known by GSV_BEHAVIOUR.
+// The program of a behaviour that GSV_BEHAVIOUR registers.
 #include "sdk/serve.h"
 
 int main(int argc, char** argv) { return gsv::ServeBehaviour(argc, argv, *gsv_behaviour_module()); }

@@ -9,7 +9,7 @@
 namespace gsv::sdk {
 namespace {
 
-// On the behaviour's own thread. Whatever the behaviour throws ends its run, not the program.
+// Runs on the behaviour's own thread. An exception of the behaviour ends its run, not the program.
 void RunOnClock(Behaviour& behaviour, RemoteRobot& robot) {
   const std::string failure = RunToItsEnd(behaviour, robot);
   if (failure.empty()) return robot.CloseClock();

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kMaxMilliseconds = 60'000;
 
-// The ORB calls plain functions, so what they need is the process's.
+// The ORB calls plain functions, so their settings are global.
 FaultDelay& Settings() {
   static FaultDelay settings;
   return settings;
@@ -26,10 +26,10 @@ template <typename Info>
 CORBA::Boolean Delay(Info&) {
   static std::atomic<std::uint64_t> number{0};
   std::this_thread::sleep_for(NthDelay(Settings(), number++));
-  return true;  // further interceptors follow
+  return true;  // other interceptors follow
 }
 
-// The number after `key` and "=" at the front of `text`, which it is taken off.
+// Reads the number after `key` and "=" at the front of `text`, and removes them from it.
 bool TakeNumber(std::string_view key, std::string_view& text, std::uint64_t& number) {
   if (!text.starts_with(key) || text.substr(key.size(), 1) != "=") return false;
   text.remove_prefix(key.size() + 1);

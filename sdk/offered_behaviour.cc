@@ -25,7 +25,7 @@ class ExportedBehaviour final : public OfferedBehaviour {
   ~ExportedBehaviour() override {
     if (!offer_.empty()) {
       if (auto ok = client_.Withdraw(offer_); !ok) {
-        // The broker may have gone first; then there is no offer either.
+        // The broker may have ended before; then the offer is gone, too.
         spdlog::debug("{}", ok.error().Sentence());
       }
     }
@@ -47,7 +47,7 @@ class ExportedBehaviour final : public OfferedBehaviour {
   const std::string& broker() const override { return client_.reference(); }
 
  private:
-  const std::shared_ptr<sdk::SharedOrb> orb_;  // ends after what uses it
+  const std::shared_ptr<sdk::SharedOrb> orb_;  // ends after the objects that use it
   broker::BrokerClient client_;
   const PortableServer::POA_var poa_;
   const PortableServer::Servant_var<sdk::BehaviourFactoryServant> servant_;

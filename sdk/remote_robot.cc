@@ -18,7 +18,7 @@ Placement FromIdl(const sba::Placement& p) {
 
 sba::Placement ToIdl(const Placement& p) { return {p.x, p.y, p.z, p.roll, p.pitch, p.yaw}; }
 
-// A parameter's text as what it stands for.
+// The value in a parameter's text.
 Parameters::mapped_type ValueOf(const std::string& text) {
   if (text == "true") return true;
   if (text == "false") return false;
@@ -164,7 +164,7 @@ base::Result<std::shared_ptr<RemoteRobot>> RemoteRobot::Connect(const std::strin
 
 void RemoteRobot::Note(const base::Error& error) {
   const base::MutexLock lock(error_mutex_);
-  // The end of a run is no error.
+  // The end of a run is not an error.
   if (running_.exchange(false) && error.code != base::ErrorCode::kEnded) error_ = error.Sentence();
 }
 
@@ -183,14 +183,14 @@ base::Status RemoteRobot::OpenClock() {
 void RemoteRobot::End() { running_ = false; }
 
 void RemoteRobot::CloseClock() {
-  // The simulation may be gone already; then there is nobody to tell.
+  // The simulation may have ended; then there is nothing to close.
   if (!CORBA::is_nil(clock_)) (void)orb::Call(name_, [this] { clock_->close(); });
 }
 
 void RemoteRobot::GiveUp(const std::string& reason) {
   if (CORBA::is_nil(clock_)) return;
   const auto told = orb::Call(name_, [&] { clock_->give_up(reason.c_str()); });
-  if (!told) CloseClock();  // a simulation of an older version takes it for a plain end
+  if (!told) CloseClock();  // a simulation of an older version reports a normal end
 }
 
 std::vector<SensorTraits> RemoteRobot::Sensors() {

@@ -1,5 +1,5 @@
-// Every sensor as a behaviour reads it, inside the simulation's process and through CORBA, and
-// through its own IDL interface: the same each time.
+// A behaviour reads every sensor inside the simulation's process, through CORBA, and through the
+// sensor's own IDL interface: the results are equal.
 #include "sdk/behaviour/sensors.h"
 
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// What it reads 50 ms after the start, as plain numbers and names.
+// The reading 50 ms after the start, as plain numbers and names.
 struct Read {
   std::map<std::string, std::vector<double>> values;
   std::map<std::string, std::vector<std::string>> names;
@@ -61,7 +61,7 @@ class ReadsAll final : public Behaviour {
       read_.error = sent.error().message;
     }
     const auto refused = radio_->Broadcast(std::string(2000, 'x'));
-    // The hardware's sentence, wherever it comes through.
+    // The hardware's sentence, unchanged by every way.
     const std::string why = refused ? "" : refused.error().Sentence();
     read_.names["refused"] = {why.substr(std::min(why.size(), why.find("a message of")))};
     for (const base::Status& told :
@@ -144,7 +144,7 @@ class ReadsAll final : public Behaviour {
   std::unique_ptr<Microphone> microphone_;
 };
 
-// A disc at the wall's foot with a lever and one sensor of each type, named after it.
+// A disc at the foot of the wall with a lever and one sensor of each type, named after it.
 simulation::RobotSpecification RobotWithAll(std::shared_ptr<simulation::BehaviourPort> behaviour) {
   auto model = std::make_shared<model::Model>(*simulation::Disc(0.2));
   model->links.push_back({});
@@ -161,7 +161,7 @@ simulation::RobotSpecification RobotWithAll(std::shared_ptr<simulation::Behaviou
     model::SensorDescription sensor;
     sensor.name = sensor.type = type;
     sensor.link_from_sensor.position = {0, 0, 0.25};
-    // Level with the wall's middle.
+    // At the height of the wall's centre.
     if (sensor.type == "logical_camera") sensor.link_from_sensor.position.z = 1;
     if (sensor.type == "lidar") sensor.parameters = {{"scan.horizontal.samples", 8.0}};
     if (sensor.type == "imu") {
@@ -174,7 +174,7 @@ simulation::RobotSpecification RobotWithAll(std::shared_ptr<simulation::Behaviou
   return robot;
 }
 
-// Says 20 things at 20 ms, of which a radio keeps 16, behind the robot.
+// Sends 20 messages at 20 ms, of which a radio keeps 16. It is behind the robot.
 simulation::RobotSpecification Speaker() {
   auto model = std::make_shared<model::Model>(*simulation::Disc(0.2));
   model::SensorDescription radio;
@@ -205,7 +205,7 @@ void RunWith(std::shared_ptr<simulation::BehaviourPort> behaviour) {
   ASSERT_EQ(simulation::RunToEnd(*simulation), simulation::Phase::kFinished);
 }
 
-// Drives the behaviour through the servants of its robot, as a process elsewhere does.
+// Drives the behaviour through the servants of its robot, like a process elsewhere.
 class ThroughCorba final : public simulation::BehaviourPort {
  public:
   using Also = std::function<void(sba::SensorFactory_ptr)>;
@@ -348,7 +348,7 @@ TEST(Sensors, ReadTheSameInProcessThroughCorbaAndThroughTheirInterfaces) {
 
   const auto& values = local.values;
   EXPECT_EQ(values.at("more")[1], 2);
-  EXPECT_NEAR(values.at("sonar")[0], 0.2, 1e-3);  // it stands at the wall
+  EXPECT_NEAR(values.at("sonar")[0], 0.2, 1e-3);  // it is at the wall
   EXPECT_EQ(values.at("sonar")[1], 5);
   EXPECT_NEAR(values.at("altimeter")[2], 0.25, 1e-9);
   EXPECT_GT(values.at("navsat")[0], 45);
@@ -371,8 +371,8 @@ TEST(Sensors, ReadTheSameInProcessThroughCorbaAndThroughTheirInterfaces) {
   EXPECT_EQ(remote.error, "the sensor \"sonar\" is no imu");
 }
 
-// Runs the behaviour on a disc with the sensor, in process and through CORBA; a robot of its own
-// each time, made by `make`.
+// Runs the behaviour on a disc with the sensor, in process and through CORBA. `make` makes a new
+// behaviour for each.
 void RunBothWays(const model::SensorDescription& sensor,
                  const std::shared_ptr<sensing::SensorRegistry>& types,
                  const std::function<std::unique_ptr<Behaviour>()>& make,

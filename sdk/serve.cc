@@ -28,8 +28,8 @@ int Complain(const base::Error& error) {
   return error.code == base::ErrorCode::kInvalidArgument ? kUsage : kInfrastructure;
 }
 
-// SIGINT, SIGTERM and SIGHUP (unless it is ignored, as by nohup) are blocked from here on, in this
-// and all later threads, for sigwait().
+// Blocks SIGINT, SIGTERM and SIGHUP (unless it is ignored, as by nohup) in this and all later
+// threads, for sigwait().
 sigset_t BlockSignals() {
   sigset_t signals;
   sigemptyset(&signals);
@@ -48,14 +48,14 @@ int Serve(const Arguments& arguments, const BehaviourModule& module, BehaviourFa
                                          {arguments.name, module.description, module.time_managed},
                                          std::move(factory));
   if (!offered) return Complain(offered.error());
-  // One line on stdout: whoever started this program may wait for it.
+  // One line on stdout, for which the parent process may wait.
   std::printf("%s: offered at %s\n", arguments.name.c_str(), (*offered)->broker().c_str());
   std::fflush(stdout);
-  // Who started this program reads no further: what the behaviour prints goes where its errors go.
+  // The parent process does not read further: the behaviour's output goes to stderr.
   if (arguments.exit_with_parent) dup2(STDERR_FILENO, STDOUT_FILENO);
   int signal = 0;
   sigwait(&signals, &signal);
-  // A behaviour that never returns from its run would hold up the end: a second signal ends the
+  // A behaviour that does not return from its run would delay the end: a second signal ends the
   // program at once.
   pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
   return 0;

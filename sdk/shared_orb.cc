@@ -8,7 +8,7 @@
 namespace gsv::sdk {
 namespace {
 
-// An ORB is the process's, so who shares it finds it here. Held while one starts or ends.
+// A process has one ORB, which its users share. Locked while it starts or ends.
 base::Mutex shared_orb_mutex;
 std::weak_ptr<SharedOrb> shared_orb;
 
@@ -28,14 +28,14 @@ base::Result<CORBA::ORB_var> StartOrbTowards(const std::string& broker) {
 }  // namespace
 
 base::Result<std::shared_ptr<SharedOrb>> SharedOrb::Towards(const std::string& broker) {
-  std::shared_ptr<SharedOrb> shared;  // outlives the lock, which its end takes
+  std::shared_ptr<SharedOrb> shared;  // destroyed after the lock, which its destructor takes
   const base::MutexLock lock(shared_orb_mutex);
   shared = shared_orb.lock();
   if (shared != nullptr) return shared;
   auto orb = StartOrbTowards(broker);
   if (!orb) return base::Fail(orb.error());
   shared.reset(new SharedOrb(*orb));
-  static const base::Status delayed = DelayCallsAsEnvironmentSays();  // once a process
+  static const base::Status delayed = DelayCallsAsEnvironmentSays();  // once per process
   if (!delayed) return base::Fail(delayed.error());
   shared_orb = shared;
   return shared;

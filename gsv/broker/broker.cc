@@ -48,14 +48,14 @@ CORBA::ORB_ptr StartOrb(const orb::OrbAccess& access) {
       {"threadPerConnectionLowerLimit", "200"},
       {"maxServerThreadPerConnection", "2"},
       {"maxServerThreadPoolSize", "32"},
-      // A thread of the pool that waited for one connection's next request would make others wait.
+      // A pool thread that waits for one connection's next request would delay others.
       {"threadPoolWatchConnection", "0"},
       {"inConScanPeriod", "180"},
       {"outConScanPeriod", "60"},
       {"scanGranularity", "5"},
       {"serverCallTimeOutPeriod", "3000"},
       {"clientCallTimeOutPeriod", "2000"},
-      // A time of its own for connecting would be in the place of the call's time-out.
+      // A separate connect time-out would replace the time-out of the call.
       {"clientConnectTimeOutPeriod", "0"},
       {"supportPerThreadTimeOut", "1"},
       {"verifyObjectExistsAndType", "0"},
@@ -66,7 +66,7 @@ CORBA::ORB_ptr StartOrb(const orb::OrbAccess& access) {
   };
   orb::SetConnectionPolicy(BrokerConnectionPolicy(MaxConnections()));
   omni_thread::stacksize(kThreadStackBytes);
-  // Those that ask other traders read what these answer.
+  // Threads that query other traders read large answers.
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
   pthread_attr_setstacksize(&attributes, kThreadStackBytes);
@@ -76,7 +76,7 @@ CORBA::ORB_ptr StartOrb(const orb::OrbAccess& access) {
   return CORBA::ORB_init(no_arguments, nullptr, "omniORB4", settings);
 }
 
-// Why the endpoint could not be opened; omniORB does not say.
+// The reason why the endpoint could not be opened, which omniORB does not report.
 std::string WhyNotListening(const BrokerOptions& options) {
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
@@ -116,7 +116,7 @@ PortableServer::POA_ptr IteratorPoa(PortableServer::POA_ptr root, const char* na
   return poa._retn();
 }
 
-// Activates `servant`, which the POA then owns, under a key of its own.
+// Activates `servant` under its own key; the POA then owns it.
 template <typename Interface, typename Servant>
 typename Interface::_ptr_type Activate(PortableServer::POA_ptr poa, const char* key,
                                        Servant* servant) {
@@ -151,7 +151,7 @@ class Broker::Impl {
   std::uint16_t port() const { return port_; }
   void Close() { objects_.trader.Close(); }
 
-  // Knows again what is in the file, and keeps in it what changes.
+  // Restores the state from the file, and stores later changes in it.
   base::Status Remember(const std::string& path) {
     auto file = OfferFile::Open(path, objects_.trader.stem());
     if (!file) return base::Fail(file.error());
@@ -196,7 +196,7 @@ class Broker::Impl {
   }
 
  private:
-  // Lets go of iterators that nobody uses, though nobody asks for others either.
+  // Removes unused iterators, even if no client requests new ones.
   void Reap(std::chrono::seconds period) {
     base::MutexLock lock(mutex_);
     while (!changed_.wait_for(lock, period, [this]() GSV_REQUIRES(mutex_) { return ending_; })) {

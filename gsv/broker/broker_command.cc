@@ -20,18 +20,18 @@ int Complain(const base::Error& error) {
   return error.code == base::ErrorCode::kInvalidArgument ? kUsage : kInfrastructure;
 }
 
-// False when the parent is gone already.
+// False if the parent has already ended.
 bool EndWith(pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   return getppid() == parent;
 }
 
-// Of a process that ends the ORB is not taken down: a thread of its own that is late finds it gone,
-// and the process dies (omniORB 4.2.5, seen after a minute of mutated requests). Sanitizers tell
-// what was lost, and coverage what ran, when all is taken down.
+// Ends the process without destroying the ORB. A late thread of the ORB would use the destroyed ORB
+// and crash (omniORB 4.2.5, seen after a minute of mutated requests). Under sanitizers and coverage
+// the ORB is destroyed, so that they report leaks and executed lines.
 int End(Broker& broker, int exit_code) {
   broker.Close();
-  // The broker's reference goes to stdout. A client that reads it there did not get it.
+  // The reference goes to stdout. If that failed, no client has received it.
   const bool is_lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
   if (is_lost && exit_code == kOk) exit_code = kInfrastructure;
 #if !defined(GSV_SANITIZED) && !defined(GSV_COVERAGE)
@@ -45,7 +45,7 @@ int End(Broker& broker, int exit_code) {
 }  // namespace
 
 int BrokerMain(const BrokerCommand& command) {
-  // Blocked before a thread starts, so that only sigwait() sees them.
+  // Blocks the signals before threads start, so that only sigwait() receives them.
   sigset_t ends;
   sigemptyset(&ends);
   sigaddset(&ends, SIGINT);

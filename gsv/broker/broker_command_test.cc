@@ -17,7 +17,7 @@
 namespace gsv::broker {
 namespace {
 
-// A port that nobody listens on at the moment.
+// A port on which no process listens now.
 std::string FreePort() {
   const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   sockaddr_in address{};
@@ -40,7 +40,7 @@ TEST(Broker, EndsOnSignalsWithAnExitCode) {
   EXPECT_EQ(interrupted.Wait(), 130);
 }
 
-TEST(Broker, SaysThatItsPortIsInUse) {
+TEST(Broker, ReportsThatItsPortIsInUse) {
   BrokerProcess first;
   BrokerProcess second({first.port()});
   EXPECT_EQ(second.reference(), "");

@@ -21,7 +21,7 @@ using scenario::YamlPlace;
 constexpr double kMaxNumber = 1e9;
 constexpr std::size_t kMaxParameters = 64, kMaxValues = 100'000;
 
-// Where "robots[0].x" leads to; the last key of a mapping may be new.
+// Sets the value at a path such as "robots[0].x"; the last key of a mapping may be new.
 bool SetAt(YAML::Node node, const std::string& path, const std::string& value) {
   std::size_t at = 0;
   for (;;) {
@@ -115,7 +115,7 @@ class ParameterReader {
           "from and to are required, the smaller first, with at most 100,000 values");
       return;
     }
-    // To be spared the last bit of a sum: the end counts if it is met but for rounding.
+    // The tolerance allows for rounding, so that the range includes its end.
     const auto count = static_cast<int>(std::floor((*to - *from) / stride + 1e-9)) + 1;
     for (int i = 0; i < count; ++i)
       parameter.values.push_back(fmt::format("{}", *from + i * stride));
@@ -143,7 +143,7 @@ std::string Drawn(std::uint64_t seed, const Parameter& parameter, std::size_t ru
   return fmt::format("{}", value);
 }
 
-// Each value by itself, so that a mistake is told before anything runs.
+// Tries each value on its own, so that errors are reported before anything runs.
 void TryValues(const Campaign& campaign, const std::string& file, base::Problems& problems) {
   Campaign alone = campaign;
   for (const Parameter& parameter : campaign.parameters) {

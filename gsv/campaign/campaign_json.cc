@@ -1,4 +1,4 @@
-// A campaign as JSON: what waits in a queue must not change with the file that it came from.
+// A campaign as JSON, so that a queued campaign does not change when its file changes.
 #include <nlohmann/json.hpp>
 
 #include "gsv/campaign/campaign.h"

@@ -65,7 +65,7 @@ TEST_F(CampaignTest, ListsMakeAGridAndDrawsFollowTheSeed) {
   EXPECT_EQ(scenario->expect.size(), 1u);
 }
 
-TEST_F(CampaignTest, MistakesAreToldBeforeAnythingRuns) {
+TEST_F(CampaignTest, ReportsErrorsBeforeAnythingRuns) {
   const std::pair<const char*, const char*> bad[]{
       {"parameters: {seed: [1]}", "the key scenario is required"},
       {"scenario: s.yaml\nparameters: {seed: []}", "c.yaml:2:20: the list is empty"},
@@ -98,7 +98,7 @@ LocalEngine EngineThatTakes(std::vector<std::atomic<int>>& taken, std::size_t mo
   return engine;
 }
 
-TEST_F(CampaignTest, WhatADriverLeftIsDoneByTheNextAndEachRunCountsOnce) {
+TEST_F(CampaignTest, ADriverContinuesTheRunsOfAnotherAndEachRunCountsOnce) {
   const auto campaign = Read("scenario: s.yaml\nparameters: {seed: {from: 0, to: 299}}");
   ASSERT_TRUE(campaign && problems_.empty());
   std::vector<std::atomic<int>> taken(300);

@@ -27,7 +27,7 @@ std::string Names() {
   return names;
 }
 
-// The engine's mapping in the file, with the command line's options in it.
+// The engine's mapping in the file, merged with the command line's options.
 YAML::Node WithOptions(YAML::Node node, const EngineType& type, const EngineRequest& request) {
   if (!node.IsMap()) return node;
   for (const EngineOption& option : type.options) {

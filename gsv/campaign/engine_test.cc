@@ -55,13 +55,13 @@ TEST_F(EngineTest, CommandLineGoesBeforeTheFile) {
   EXPECT_EQ(engine.type->name, "ssh");
   EXPECT_EQ(engine.runs_per_task, 3u);
   EXPECT_EQ(Problems(), "");
-  // With no mapping in the file, the command line's options are the whole of it.
+  // Without a mapping in the file, only the command line's options count.
   EXPECT_TRUE(Read("{}", request).make_queue);
   EXPECT_EQ(Problems(), "");
   EXPECT_FALSE(Read("engine: slurm", {.name = "local"}).make_queue);
 }
 
-TEST_F(EngineTest, ComplaintsNameThePlaceOfEachMistake) {
+TEST_F(EngineTest, ProblemsNameThePlaceOfEachError) {
   const std::pair<const char*, const char*> bad[]{
       {"engine: pbs", "c.yaml:1:9: there is no engine \"pbs\"; take local, slurm or ssh"},
       {"slurm: {queue: short}", "c.yaml:1:9: there is no key \"queue\" here"},
@@ -88,7 +88,7 @@ TEST_F(EngineTest, ComplaintsNameThePlaceOfEachMistake) {
   }
 }
 
-TEST_F(EngineTest, OptionsOnAMalformedMappingAreAComplaintAndNoCrash) {
+TEST_F(EngineTest, OptionsOnAMalformedMappingAreAProblem) {
   EngineRequest request{.name = "slurm"};
   request.options["--partition"] = {"short"};
   request.options["--sbatch"] = {"--mem=2G"};

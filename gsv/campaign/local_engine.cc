@@ -20,7 +20,7 @@ class Work {
   }
   ~Work() { is_cancelled_ = true; }
 
-  // What has been done since the last time; waits for something, but not for long.
+  // The results since the last call. Waits for a result, but not for long.
   std::vector<RunResult> Collect() {
     base::MutexLock lock(mutex_);
     changed_.wait_for(lock, kWritePeriod,

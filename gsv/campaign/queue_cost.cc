@@ -31,7 +31,7 @@ std::optional<QueueCost> CostOf(const std::vector<Attempt>& attempts) {
     changes.emplace(attempt.ended, -attempt.at_once);
   }
   if (cost.tasks == 0) return std::nullopt;
-  // At one instant those that end make room first.
+  // At one instant, tasks that end free their slots first.
   int in_use = 0, most = 0;
   for (auto change = changes.begin(); change != changes.end();) {
     const auto [begin, end] = changes.equal_range(change->first);

@@ -13,11 +13,11 @@ namespace {
 using DriverClock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kGatherPeriod{500};
-constexpr auto kSilence = std::chrono::seconds(30);  // after which it is said why nothing comes
+constexpr auto kSilence = std::chrono::seconds(30);  // then the missing progress is explained
 constexpr std::size_t kFewTasks = 1000;
 constexpr std::size_t kMaxAttempts = 3;     // at a run during which its task ends
-constexpr int kGone = 2;                    // looks in a row that do not find a task
-constexpr std::size_t kMaxLogBytes = 1000;  // bytes that are shown of it
+constexpr int kGone = 2;                    // number of consecutive queries that do not find a task
+constexpr std::size_t kMaxLogBytes = 1000;  // bytes of the log that are shown
 
 std::string EndOf(const std::filesystem::path& file) {
   std::ostringstream text;
@@ -54,7 +54,7 @@ class Drive {
   }
 
  private:
-  // Gathers, and learns what is done.
+  // Collects results and updates the state of the runs.
   base::Status TakeIn() {
     const auto gathered = Gather(spool_, results_);
     if (!gathered) return base::Fail(gathered.error());
@@ -81,7 +81,7 @@ class Drive {
     const std::vector<Batch> open = OpenBatches();
     auto tasks = settings_.queue.TasksOf(open);
     if (!tasks) {
-      // What it holds is not known, so that nothing can be handed out; what runs goes on.
+      // The queue's content is unknown, so that nothing can be submitted; running tasks continue.
       if (!has_looked_ || tasks.error().code == base::ErrorCode::kNotFound)
         return base::Fail(tasks.error());
       if (!std::exchange(is_silent_, true))
@@ -97,7 +97,7 @@ class Drive {
       }
     }
     SayWhyNothingComes(*tasks);
-    // What a task that is gone has left may have come between gathering and looking.
+    // A task may have left results between collecting and querying.
     if (auto ok = TakeIn(); !ok) return ok;
     if (auto ok = DropBatchesThatCameToNothing(); !ok) return ok;
     auto missing = MissingRuns();
@@ -107,7 +107,7 @@ class Drive {
     return HandOut(*std::move(missing), tasks->size());
   }
 
-  // Those with runs that are not done.
+  // Batches with runs that are not done.
   std::vector<Batch> OpenBatches() const {
     std::vector<Batch> open;
     for (const Batch& batch : batches_) {
@@ -123,15 +123,15 @@ class Drive {
     return looks != looks_without_.end() && looks->second >= kGone;
   }
 
-  // Of a task that one look did not find, the next one decides.
+  // If one query did not find a task, the next one decides.
   bool IsAllHandedOut() const {
     return !is_waiting_to_hand_out_ &&
            std::none_of(looks_without_.begin(), looks_without_.end(),
                         [](const auto& looks) { return looks.second > 0 && looks.second < kGone; });
   }
 
-  // A batch that left the queue before any of its runs had begun: one of an earlier driver may have
-  // been cancelled, or never been submitted. With one of our own something is wrong.
+  // Drops batches that left the queue before any run began. An earlier driver may have cancelled
+  // one, never submitted it. If this driver submitted it, that is an error.
   base::Status DropBatchesThatCameToNothing() {
     for (const Batch& batch : OpenBatches()) {
       bool came_to_nothing = true;
@@ -165,8 +165,8 @@ class Drive {
     return false;
   }
 
-  // Neither done nor in the queue; those last during which a task has ended already. One that went
-  // so too often becomes an error.
+  // Runs that are neither done nor in the queue. Those during which a task has ended come last. One
+  // with too many such ends becomes an error.
   base::Result<std::vector<std::int64_t>> MissingRuns() {
     std::set<std::int64_t> queued;
     for (const Batch& batch : OpenBatches()) {
@@ -251,7 +251,7 @@ class Drive {
     Batch batch;
     batch.number = batches_.empty() ? 1 : batches_.back().number + 1;
     batch.submitted = UnixSeconds();
-    // Unlike any other, though somebody removes the spool and starts again.
+    // A unique name, even if somebody removes the spool and starts again.
     batch.name = fmt::format("gsv-{}-{}-{:x}", spool_.campaign().Identity().substr(0, 8),
                              batch.number, static_cast<std::int64_t>(1e3 * batch.submitted));
     batch.runs_per_task = runs_per_task;
@@ -280,11 +280,11 @@ class Drive {
   const DriverClock::time_point start_ = DriverClock::now();
   DriverClock::time_point last_news_ = start_;
   std::vector<Batch> batches_;  // by number
-  std::set<int> ours_;          // that this driver handed out
+  std::set<int> ours_;          // batches that this driver submitted
   std::set<std::int64_t> done_;
-  std::size_t done_before_ = 0;  // this driver
+  std::size_t done_before_ = 0;  // when this driver started
   Progress progress_;
-  std::map<std::string, int> looks_without_;  // by share, since it was last in the queue
+  std::map<std::string, int> looks_without_;  // queries without it, by share
   bool has_looked_ = false, is_silent_ = false, is_waiting_to_hand_out_ = false;
   std::size_t tasks_at_refusal_ = 0;
   std::string last_said_;

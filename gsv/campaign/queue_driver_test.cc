@@ -1,4 +1,4 @@
-// The driver of job queues, with a queue and nodes that the test plays.
+// The driver of job queues, with a queue and nodes that the test simulates.
 #include "gsv/campaign/queue_driver.h"
 
 #include <deque>
@@ -76,7 +76,7 @@ class QueueDriverTest : public ::testing::Test {
   void DoAll() {
     while (!queue_.held.empty()) Do(queue_.held.begin()->first);
   }
-  // What happens meanwhile, one each time that the driver waits. It is interrupted after the last.
+  // Adds an event that occurs while the driver waits. After the last one the driver is interrupted.
   void Then(std::function<void()> event) { events_.push_back(std::move(event)); }
 
   base::Status Drive(const std::function<void(QueueDriver&)>& set = {}) {
@@ -111,7 +111,7 @@ class QueueDriverTest : public ::testing::Test {
   int attempts_ = 0;
 };
 
-TEST_F(QueueDriverTest, RunsGoOutInBatchesOfAsManyTasksAsTheQueueTakes) {
+TEST_F(QueueDriverTest, RunsAreSubmittedInBatchesOfTheQueuesMaximumLength) {
   queue_.max_tasks = 3;
   Then([this] { DoAll(); });
   ASSERT_TRUE(Drive());
@@ -131,7 +131,7 @@ TEST_F(QueueDriverTest, RunsOfATaskAreChosenSoThatOneBatchTakesAll) {
   EXPECT_EQ(queue_.submitted[0].runs_per_task, 4u);  // ⌈10 / 3⌉
 }
 
-TEST_F(QueueDriverTest, RunsOfALostTaskGoOutAgainAfterTwoLooksThoseThatEndedATaskLast) {
+TEST_F(QueueDriverTest, RunsOfALostTaskAreSubmittedAgainAfterTwoQueriesThoseThatEndedATaskLast) {
   Then([this] {
     Do("batch-0001-task-0000", 0, true);  // ended while it did run 0
     queue_.held.erase("batch-0001-task-0003");
@@ -167,7 +167,7 @@ TEST_F(QueueDriverTest, ARunThatEndsItsTaskThreeTimesIsAnError) {
   EXPECT_EQ(*results_->NotPassed(), 1u);
 }
 
-TEST_F(QueueDriverTest, WhatAnEarlierDriverHandedOutIsNotHandedOutAgain) {
+TEST_F(QueueDriverTest, RunsSubmittedByAnEarlierDriverAreNotSubmittedAgain) {
   ASSERT_TRUE(Drive());  // interrupted at once
   ASSERT_EQ(queue_.submitted.size(), 1u);
   Then([this] { Do("batch-0001-task-0000"); });
@@ -177,7 +177,7 @@ TEST_F(QueueDriverTest, WhatAnEarlierDriverHandedOutIsNotHandedOutAgain) {
   EXPECT_EQ(Done(), 10u);
 }
 
-TEST_F(QueueDriverTest, ABatchOfAnEarlierDriverThatCameToNothingIsForgotten) {
+TEST_F(QueueDriverTest, AnAbortedBatchOfAnEarlierDriverIsForgotten) {
   ASSERT_TRUE(Drive());
   queue_.held.clear();  // cancelled
   Then([] {});
@@ -188,7 +188,7 @@ TEST_F(QueueDriverTest, ABatchOfAnEarlierDriverThatCameToNothingIsForgotten) {
   EXPECT_EQ(spool_.Batches()->size(), 1u);
 }
 
-TEST_F(QueueDriverTest, AJobOfItsOwnThatCameToNothingEndsItWithWhatTheLogSays) {
+TEST_F(QueueDriverTest, AnAbortedBatchOfThisDriverEndsItWithTheLog) {
   Then([this] {
     std::ofstream(spool_.LogOf(queue_.submitted[0], "0")) << "gsv: no such folder\n";
     queue_.held.clear();
@@ -202,7 +202,7 @@ TEST_F(QueueDriverTest, AJobOfItsOwnThatCameToNothingEndsItWithWhatTheLogSays) {
       HasSubstr("The queue: job job 1 ended before any of its runs started: gsv: no such folder"));
 }
 
-TEST_F(QueueDriverTest, ARefusalWhileTasksAreQueuedIsTriedAgainOnceTheQueueIsShorter) {
+TEST_F(QueueDriverTest, ARefusalWhileTasksAreQueuedIsRetriedWhenTheQueueIsShorter) {
   queue_.max_tasks = 3;
   queue_.room = 3;
   Then([this] {
@@ -228,7 +228,7 @@ TEST_F(QueueDriverTest, ARefusalByAnEmptyQueueEndsIt) {
   EXPECT_THAT(*spool_.Batches(), IsEmpty());
 }
 
-TEST_F(QueueDriverTest, AQueueThatDoesNotAnswerIsAskedAgainButNotAtFirst) {
+TEST_F(QueueDriverTest, AQueueThatStopsAnsweringIsQueriedAgain) {
   queue_.failure = base::Error{base::ErrorCode::kUnavailable, "no answer", "squeue"};
   EXPECT_FALSE(Drive());
   queue_.failure.reset();
@@ -252,7 +252,7 @@ TEST_F(QueueDriverTest, AQueueThatIsGoneForGoodEndsIt) {
   EXPECT_EQ(ended.error().Sentence(), "ssh: no host");
 }
 
-TEST_F(QueueDriverTest, WithoutWaitingItEndsOnceAllIsHandedOut) {
+TEST_F(QueueDriverTest, WithoutWaitingItEndsAfterSubmittingAllRuns) {
   ASSERT_TRUE(Drive([](QueueDriver& driver) { driver.waits = false; }));
   EXPECT_EQ(queue_.held.size(), 5u);
   EXPECT_EQ(Done(), 0u);

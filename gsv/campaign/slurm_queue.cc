@@ -1,4 +1,4 @@
-// The engine `slurm`: job arrays by Slurm's own commands, sbatch, squeue and scontrol
+// The engine `slurm`: job arrays, with Slurm's own commands sbatch, squeue and scontrol
 // (slurm.schedmd.com; 20.11 or newer). Accounting (sacct) is not needed.
 #include <charconv>
 #include <sstream>
@@ -14,11 +14,11 @@ namespace {
 constexpr std::size_t kMaxTasks = 1001;  // Slurm's own default for MaxArraySize
 
 struct SlurmOptions {
-  std::string partition, time_limit;  // of a task, as sbatch has it; empty: the queue's own
-  std::vector<std::string> options;   // more of sbatch's
+  std::string partition, time_limit;  // of a task, as for sbatch; empty: the queue's default
+  std::vector<std::string> options;   // further options of sbatch
 };
 
-// The last line that says something, without the program's name: "sbatch: error: Batch job
+// The last line with a message, without the program's name: "sbatch: error: Batch job
 // submission failed: Invalid partition name specified".
 std::string Complaint(const std::string& output) {
   std::istringstream lines(output);
@@ -39,7 +39,7 @@ bool IsNumber(const std::string& text) {
          text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// "17" or "17;cluster", after what sbatch may have remarked.
+// The job id from "17" or "17;cluster", after any other output of sbatch.
 std::string JobIn(const std::string& output) {
   std::istringstream lines(output);
   std::string job;
@@ -129,7 +129,7 @@ class SlurmQueue final : public JobQueue {
   }
 
  private:
-  // What a command has printed.
+  // The output of a command.
   base::Result<std::string> Ask(const std::vector<std::string>& command) {
     auto outcome = commands_.Run(command);
     if (!outcome) {
@@ -146,8 +146,7 @@ class SlurmQueue final : public JobQueue {
                         "the cluster, or with --engine local",
                         command.front());
     }
-    // Only a command that ended by itself has refused; of one that was killed nobody knows what it
-    // has done.
+    // Only a command that ended by itself has refused. If it was killed, its effect is unknown.
     const bool has_refused = outcome->ending.starts_with("exit code");
     return base::Fail(has_refused ? base::ErrorCode::kNotRunning : base::ErrorCode::kUnavailable,
                       has_refused ? Complaint(outcome->output) : "it ended with " + outcome->ending,

@@ -1,4 +1,4 @@
-// The engine `slurm`, by a sbatch, squeue and scontrol that the test answers for.
+// The engine `slurm`, with sbatch, squeue and scontrol replaced by the test.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -84,7 +84,7 @@ TEST_F(SlurmQueueTest, SubmitsABatchAsOneArrayWithTheFilesOptionsBeforeTheComman
               "--node \"$SLURMD_NODENAME\" --jobs \"${SLURM_CPUS_PER_TASK:-1}\"")));
 }
 
-TEST_F(SlurmQueueTest, ARefusalGivesSlurmsOwnWords) {
+TEST_F(SlurmQueueTest, ARefusalHasSlurmsMessage) {
   Answer("sbatch: error: Batch job submission failed: Invalid partition name specified\n",
          "exit code 1");
   const auto job = Queue()->Submit(spool_, TwoTasks());
@@ -108,7 +108,7 @@ TEST_F(SlurmQueueTest, AnSbatchThatWasKilledMayHaveSubmitted) {
             "sbatch: it printed no job number: Submitted");
 }
 
-TEST_F(SlurmQueueTest, MissingCommandsAndTimeoutsSayWhatToDo) {
+TEST_F(SlurmQueueTest, MissingCommandsAndTimeoutsAreReportedWithARemedy) {
   Answer("", "exit code 127");
   EXPECT_THAT(Queue()->MaxTasks().error().Sentence(),
               HasSubstr("scontrol: the commands of Slurm are not on the PATH"));

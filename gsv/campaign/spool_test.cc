@@ -68,7 +68,7 @@ TEST_F(SpoolTest, ThePlanIsTheCampaign) {
   EXPECT_EQ(Spool::Open(folder_).error().code, base::ErrorCode::kCorrupt);
 }
 
-TEST_F(SpoolTest, ABatchIsReadAsItWasWritten) {
+TEST_F(SpoolTest, ABatchIsReadUnchanged) {
   const auto spool = Spool::Make(folder_, FourRuns());
   ASSERT_TRUE(spool);
   const Batch batch{2, "gsv-x-2", "17", 1e9 + 0.25, 3, {5, 7, 9, 11}, 12.5, "/f"};
@@ -89,7 +89,7 @@ TEST_F(SpoolTest, ABatchIsReadAsItWasWritten) {
               HasSubstr("this machine can read the folder"));
 }
 
-TEST_F(SpoolTest, AJournalIsReadWhileItGrowsAndATornLineCountsForNothing) {
+TEST_F(SpoolTest, AJournalIsReadWhileItGrowsAndATornLineIsIgnored) {
   auto spool = Spool::Make(folder_, FourRuns());
   ASSERT_TRUE(spool);
   const auto journal = JournalWriter::Create(spool->journals(), AttemptAt("s"));
@@ -105,7 +105,7 @@ TEST_F(SpoolTest, AJournalIsReadWhileItGrowsAndATornLineCountsForNothing) {
   EXPECT_EQ(results->front().metrics, Result(2).metrics);
   EXPECT_EQ(results->front().wall_time, 0.25);
   EXPECT_TRUE(reader.open_runs().empty());
-  // What the kill of a task, a full disk or two machines' caches leave.
+  // A killed task, a full disk, or the caches of two machines leave such files.
   ASSERT_TRUE((*journal)->Add(Result(3)));
   ASSERT_EQ(spool->Collect()->size(), 1u);
   const std::string whole = text(reader.file());
@@ -135,7 +135,7 @@ TEST_F(SpoolTest, ARunThatSeveralAttemptsDidCountsOnce) {
     ASSERT_TRUE((*journal)->End());
   }
   ASSERT_TRUE(Gather(*spool, **results));
-  // A reader that comes later finds the same and adds nothing.
+  // A later reader finds the same results and adds nothing.
   auto later = Spool::Open(folder_);
   ASSERT_TRUE(Gather(*later, **results));
   EXPECT_THAT(*(*results)->DoneRuns(), ElementsAre(0, 1));

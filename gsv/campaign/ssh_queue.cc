@@ -1,11 +1,11 @@
 // The engine `ssh`: a list of hosts, each with a number of slots, on which the program `ssh` starts
 // tasks. The hosts see the campaign's folder under the same path as this machine.
 //
-// The queue lives in the driver: tasks that wait for a slot are kept here, and a task that runs
-// ends when its connection does, because its stdin closes. A host that cannot be reached, or on
-// which a task ends before its journal is there, has failed: its task goes to another host, and the
-// host rests for a while, longer after each failure. A task that ends later without success is
-// dropped, and the driver hands out what is left of its runs.
+// The queue is in the driver, which keeps tasks that wait for a slot. A running task ends with its
+// connection, because its stdin closes. A host has failed if it is unreachable, or if a task ends
+// there before its journal exists. Its task goes to another host, and the host rests for a while,
+// longer after each failure. A task that ends later without success is dropped, and the driver
+// submits the rest of its runs again.
 #include <algorithm>
 #include <charconv>
 #include <deque>
@@ -25,9 +25,9 @@ using std::chrono::seconds;
 
 constexpr int kMaxSlots = 256;
 constexpr std::size_t kMaxHosts = 1000;
-constexpr std::size_t kTasksPerSlot = 8;   // so that slots end at about the same time
+constexpr std::size_t kTasksPerSlot = 8;   // so that all slots end at about the same time
 constexpr std::size_t kMaxConnecting = 8;  // to one host: sshd drops more (MaxStartups 10)
-constexpr int kMaxFailures = 3;            // in a row of every host; then there is no host left
+constexpr int kMaxFailures = 3;            // in a row on every host; then no host is left
 constexpr seconds kFirstRest{5}, kMaxRest{60};
 constexpr seconds kStartPatience{60};  // from the start of ssh to the begin of the task
 constexpr seconds kEndPatience{60};    // beyond the time that the task's runs may take
@@ -40,7 +40,7 @@ struct SshOptions {
   std::vector<Host> hosts;
   std::string ssh = "ssh";
   std::vector<std::string> options;
-  std::string program;  // gsv on the hosts; empty: as here
+  std::string program;  // path of gsv on the hosts; empty: as here
 };
 
 class SshQueue final : public JobQueue {
@@ -90,7 +90,7 @@ class SshQueue final : public JobQueue {
  private:
   struct Host {
     SshOptions::Host settings;
-    std::size_t running = 0, connecting = 0;  // tasks; those of them that have not begun
+    std::size_t running = 0, connecting = 0;  // tasks; those that have not begun
     int failures = 0;                         // in a row
     SshClock::time_point rests_until{};
     std::string complaint;
@@ -98,7 +98,7 @@ class SshQueue final : public JobQueue {
   struct Task {
     std::string job, share, number;
     std::string batch_file, log;
-    seconds patience;  // once it has begun
+    seconds patience;  // from its begin
   };
   struct Running {
     Task task;
@@ -110,7 +110,7 @@ class SshQueue final : public JobQueue {
 
   void TakeEnded() {
     for (auto running = running_.begin(); running != running_.end();) {
-      // Read always: a program whose output nobody reads would stop.
+      // Always reads the output: a program whose output is not read would block.
       const std::string output = running->program->Output();
       if (!running->has_begun && output.find(kTaskBegins) != std::string::npos) Begin(*running);
       std::string ending = running->program->Ending();
@@ -143,7 +143,7 @@ class SshQueue final : public JobQueue {
       return;
     }
     const std::string last = LastLine(output);
-    const bool is_lost = !running.has_begun || ending == "exit code 255";  // by ssh itself
+    const bool is_lost = !running.has_begun || ending == "exit code 255";  // ssh itself failed
     if (is_lost) Fail(host, last.empty() ? ending : last);
     if (!running.has_begun) waiting_.push_back(std::move(running.task));
   }
@@ -169,7 +169,7 @@ class SshQueue final : public JobQueue {
     }
   }
 
-  // A host that has failed is tried with one task.
+  // A host that has failed gets one task at first.
   std::size_t FreeSlots(const Host& host) const {
     if (context_.now() < host.rests_until || host.connecting >= kMaxConnecting) return 0;
     const std::size_t slots = host.failures > 0 ? 1 : host.settings.slots;
@@ -220,7 +220,7 @@ class SshQueue final : public JobQueue {
   std::list<Running> running_;
 };
 
-// "HOST" or "HOST:SLOTS", as mpirun has it.
+// "HOST" or "HOST:SLOTS", as for mpirun.
 std::optional<SshOptions::Host> HostIn(const std::string& text) {
   SshOptions::Host host;
   const std::size_t colon = text.find(':');

@@ -1,4 +1,4 @@
-// The engine `ssh`, by an ssh and a clock that the test plays.
+// The engine `ssh`, with an ssh and a clock that the test controls.
 #include <fstream>
 #include <sstream>
 
@@ -17,7 +17,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// One started ssh. The test holds it as long as the queue does.
+// One started ssh. The test may use it even after the queue has dropped it.
 struct Session {
   std::vector<std::string> command;
   std::string output, ending;
@@ -68,7 +68,7 @@ class SshQueueTest : public ::testing::Test {
                                 [this](const std::string& text) { said_.push_back(text); },
                                 [this] { return now_; }});
   }
-  // One task a run.
+  // One task per run.
   void Submit(std::size_t tasks) {
     Batch batch;
     batch.name = "gsv-x-1";
@@ -79,7 +79,7 @@ class SshQueueTest : public ::testing::Test {
     ASSERT_TRUE(job);
     EXPECT_EQ(*job, batch.name);
   }
-  // Looks at the queue; its tasks as "0:RUNNING", by their numbers, or the error.
+  // Queries the queue. Returns its tasks as "0:RUNNING", by their numbers, or the error.
   std::vector<std::string> Look() {
     const auto tasks = queue_->TasksOf({});
     if (!tasks) return {tasks.error().Sentence()};
@@ -124,7 +124,7 @@ TEST_F(SshQueueTest, ATaskIsOneCommandOverSsh) {
 
 TEST_F(SshQueueTest, TasksFillTheSlotsEvenlyAndTheRestWaits) {
   MakeQueue("{hosts: [n1, 'n2:2']}");
-  EXPECT_EQ(*queue_->MaxTasks(), 24u);  // eight a slot
+  EXPECT_EQ(*queue_->MaxTasks(), 24u);  // eight per slot
   Submit(5);
   EXPECT_THAT(Look(), ElementsAre("0:RUNNING", "1:RUNNING", "2:RUNNING", "3:PENDING", "4:PENDING"));
   EXPECT_THAT(Hosts(), ElementsAre("n2", "n1", "n2"));
@@ -134,7 +134,7 @@ TEST_F(SshQueueTest, TasksFillTheSlotsEvenlyAndTheRestWaits) {
   EXPECT_THAT(Hosts(), ElementsAre("n2", "n1", "n2", "n1"));
 }
 
-TEST_F(SshQueueTest, AtMostEightTasksAHostConnectAtOnce) {
+TEST_F(SshQueueTest, AtMostEightTasksPerHostConnectAtOnce) {
   MakeQueue("{hosts: ['n1:20']}");
   Submit(20);
   Look();
@@ -159,7 +159,7 @@ TEST_F(SshQueueTest, TasksOfAHostThatCannotBeReachedGoToAnother) {
   session(1).End("exit code 0");
   EXPECT_THAT(Look(), ElementsAre("0:RUNNING", "2:PENDING", "3:RUNNING"));
   EXPECT_EQ(Hosts().back(), "n2");
-  // After its rest the host is tried with one task, and with all slots once that has begun.
+  // After its pause the host gets one task, and tasks for all slots once that has begun.
   now_ += seconds(5);
   EXPECT_THAT(Look(), ElementsAre("0:RUNNING", "2:RUNNING", "3:RUNNING"));
   EXPECT_EQ(Hosts().back(), "n1");
@@ -174,11 +174,11 @@ TEST_F(SshQueueTest, TasksOfAHostThatCannotBeReachedGoToAnother) {
   EXPECT_EQ(ssh_.sessions.size(), 7u);
 }
 
-TEST_F(SshQueueTest, AHostOnWhichNoTaskBeginsRestsLongerEachTime) {
+TEST_F(SshQueueTest, AHostOnWhichNoTaskBeginsIsPausedLongerEachTime) {
   MakeQueue("{hosts: [n1, n2]}");
   Submit(2);
   Look();
-  session(0).Begin();  // n1 stays at work
+  session(0).Begin();  // n1 continues to work
   for (const int rest : {5, 10, 20, 40, 60}) {
     ASSERT_EQ(Hosts().back(), "n2");
     ssh_.sessions.back()->End("exit code 127", "sh: 1: exec: /usr/bin/gsv: not found\n");
@@ -194,7 +194,7 @@ TEST_F(SshQueueTest, AHostOnWhichNoTaskBeginsRestsLongerEachTime) {
   }
 }
 
-TEST_F(SshQueueTest, WhereNoHostTakesATaskItEndsWithTheWordsOfEach) {
+TEST_F(SshQueueTest, IfNoHostAcceptsATaskItEndsWithTheErrorOfEach) {
   MakeQueue("{hosts: [n1, n2]}");
   Submit(1);
   for (int failure = 0; failure < 6; ++failure) {
@@ -210,7 +210,7 @@ TEST_F(SshQueueTest, WhereNoHostTakesATaskItEndsWithTheWordsOfEach) {
   EXPECT_EQ(queue_->TasksOf({}).error().code, base::ErrorCode::kNotFound);
 }
 
-TEST_F(SshQueueTest, AConnectionThatBreaksLosesTheTaskAndRestsTheHost) {
+TEST_F(SshQueueTest, ABrokenConnectionLosesTheTaskAndPausesTheHost) {
   MakeQueue("{hosts: [n1]}");
   Submit(2);
   Look();
@@ -223,7 +223,7 @@ TEST_F(SshQueueTest, AConnectionThatBreaksLosesTheTaskAndRestsTheHost) {
   EXPECT_THAT(log.str(), HasSubstr("server n1 not responding"));
 }
 
-TEST_F(SshQueueTest, ATaskThatIsKilledIsLostAndItsHostGoesOn) {
+TEST_F(SshQueueTest, AKilledTaskIsLostAndItsHostContinues) {
   MakeQueue("{hosts: [n1]}");
   Submit(2);
   Look();
@@ -247,7 +247,7 @@ TEST_F(SshQueueTest, ATaskThatDoesNotBeginInTimeFailsItsHost) {
   EXPECT_THAT(said_, ElementsAre(HasSubstr("host n1 failed: no response in time")));
 }
 
-TEST_F(SshQueueTest, ATaskThatTakesLongerThanItsRunsMayIsEnded) {
+TEST_F(SshQueueTest, ATaskThatExceedsTheTimeOfItsRunsIsEnded) {
   MakeQueue("{hosts: [n1]}");
   Submit(1);
   Look();

@@ -1,4 +1,4 @@
-// What is wrong with a file is said in a sentence that names the place.
+// The reader reports each error in a file with a sentence that names the place.
 #include <gmock/gmock.h>
 
 #include "gsv/base/test_folder.h"
@@ -20,7 +20,7 @@ class BadInputTest : public testing::Test {
     EXPECT_EQ(world.error().code, ErrorCode::kBadModel);
     return world.error();
   }
-  // The warnings, and no errors, of a model that is read none the less.
+  // The warnings for a model that is read without errors.
   std::vector<std::string> WarningsIn(const std::string& model_content) {
     problems_.clear();
     const auto model =
@@ -43,7 +43,7 @@ class BadInputTest : public testing::Test {
   base::Problems problems_;
 };
 
-TEST_F(BadInputTest, RefusesFilesThatAreNoWorlds) {
+TEST_F(BadInputTest, RefusesFilesThatAreNotWorlds) {
   EXPECT_THAT(
       ModelLibrary().ReadWorld(folder_.path() / "absent.world", problems_).error().Sentence(),
       HasSubstr("absent.world: there is no such file"));
@@ -75,7 +75,7 @@ TEST_F(BadInputTest, RefusesFilesBeyondTheLimits) {
               HasSubstr("limit of 1 models"));
 }
 
-TEST_F(BadInputTest, LeavesOutTheIncludeThatClosesACircle) {
+TEST_F(BadInputTest, LeavesOutTheIncludeThatClosesACycle) {
   const auto including = [](const std::string& other) {
     return "<sdf version='1.9'><model name='m'><link name='l'/><include><uri>model://" + other +
            "</uri></include></model></sdf>";
@@ -95,7 +95,7 @@ TEST_F(BadInputTest, LeavesOutTheIncludeThatClosesACircle) {
               AllOf(HasSubstr("b/model.sdf:1"), HasSubstr("the includes go round")));
 }
 
-TEST_F(BadInputTest, ComplainsOfMassesAndInertiasThatNoBodyHas) {
+TEST_F(BadInputTest, ReportsImpossibleMassesAndInertias) {
   EXPECT_THAT(WarningsIn("<link name='l'>\n<inertial><mass>-1</mass></inertial></link>"),
               Contains(AllOf(HasSubstr("m.sdf:4"), HasSubstr("mass must be above zero"))));
   EXPECT_THAT(
@@ -105,7 +105,7 @@ TEST_F(BadInputTest, ComplainsOfMassesAndInertiasThatNoBodyHas) {
       Contains(HasSubstr("not positive definite")));
 }
 
-TEST_F(BadInputTest, ComplainsOfJointsThatCannotBe) {
+TEST_F(BadInputTest, ReportsImpossibleJoints) {
   const auto joint = [](const std::string& content) {
     return "<link name='a'/><link name='b'/>\n<joint name='j' "
            "type='revolute'><parent>a</parent><child>b</child><axis>" +
@@ -119,7 +119,7 @@ TEST_F(BadInputTest, ComplainsOfJointsThatCannotBe) {
                    .empty());
 }
 
-TEST_F(BadInputTest, ComplainsOfShapesWithoutSize) {
+TEST_F(BadInputTest, ReportsShapesWithoutSize) {
   for (const char* shape :
        {"<box><size>1 0 1</size></box>", "<sphere><radius>-1</radius></sphere>",
         "<cylinder><radius>0</radius><length>1</length></cylinder>",

@@ -1,5 +1,5 @@
-// Each limit of what files may ask for: met, a file is read; one less, and it is refused, or what is
-// beyond it left out.
+// Each limit on files: a file at the limit is read. With a limit that is one lower, the file is
+// refused, or the part beyond the limit is left out.
 #include <functional>
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ class FileLimitsTest : public testing::Test {
  protected:
   using Reads = std::function<base::Status(const ReadLimits&)>;
 
-  // A limit by its name, which a file needs to be `needed`.
+  // Checks the limit of this name with a file that needs `needed`.
   static void ExpectLimit(const std::string& name, std::size_t needed, const Reads& reads) {
     ReadLimits limits;
     ASSERT_TRUE(SetLimit(name + "=" + std::to_string(needed), limits));
@@ -55,7 +55,7 @@ class FileLimitsTest : public testing::Test {
   base::testing::TestFolder folder_;
 };
 
-TEST_F(FileLimitsTest, OfWorldsAreMetAndNotPassed) {
+TEST_F(FileLimitsTest, LimitsOfWorldsAreEnforced) {
   // sdf, world, model, link.
   const std::string world =
       "<sdf version='1.9'><world name='w'><model name='a'><link name='l'/></model>"
@@ -65,7 +65,7 @@ TEST_F(FileLimitsTest, OfWorldsAreMetAndNotPassed) {
   ExpectLimit("models_in_world", 2, World(world));
 }
 
-TEST_F(FileLimitsTest, OfFilesThatIncludeEachOtherAreMetAndNotPassed) {
+TEST_F(FileLimitsTest, LimitsOfIncludesAreEnforced) {
   const auto model = [](const std::string& content) {
     return "<sdf version='1.9'><model name='m'><link name='l'/>" + content + "</model></sdf>";
   };
@@ -80,14 +80,14 @@ TEST_F(FileLimitsTest, OfFilesThatIncludeEachOtherAreMetAndNotPassed) {
               World("<sdf version='1.9'><world name='w'>" + include("a") + "</world></sdf>"));
 }
 
-TEST_F(FileLimitsTest, OfMeshesAreMetAndNotPassed) {
+TEST_F(FileLimitsTest, LimitsOfMeshesAreEnforced) {
   const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
   ExpectLimit("mesh_bytes", square.size(), Mesh("a.obj", square));
   ExpectLimit("mesh_triangles", 2, Mesh("a.obj", square));
   ExpectLimit("mesh_vertices", 3, Mesh("b.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n"));
 }
 
-TEST_F(FileLimitsTest, OfPicturesAreMetAndNotPassed) {
+TEST_F(FileLimitsTest, LimitsOfImagesAreEnforced) {
   std::string picture(18, '\0');  // TGA: 3 by 2 pixels of 24 bits
   picture[2] = 2, picture[12] = 3, picture[14] = 2, picture[16] = 24;
   picture += std::string(18, 'x');

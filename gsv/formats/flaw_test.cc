@@ -1,4 +1,4 @@
-// One flaw in a file costs one thing, named in a warning; the rest is read.
+// A single error in a file affects one thing, which a warning names; the rest is read.
 #include <filesystem>
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ constexpr char kCube[] = "<geometry><box><size>1 1 1</size></box></geometry>";
 
 class FlawTest : public testing::Test {
  protected:
-  // A world of one sound model and what is given, which begins on line 2.
+  // A world with one valid model and `content`, which begins on line 2.
   model::WorldDescription World(const std::string& content, const std::string& version = "1.9") {
     problems_.clear();
     const auto world = ModelLibrary().ReadWorld(
@@ -44,7 +44,7 @@ class FlawTest : public testing::Test {
   std::shared_ptr<const model::Model> Robot(const std::string& content) {
     return Model("r.urdf", "<robot name='r'>\n" + content + "</robot>");
   }
-  // All of them warnings.
+  // All problems, which must be warnings.
   std::vector<std::string> Said() const {
     std::vector<std::string> said;
     for (const base::Problem& problem : problems_) {
@@ -75,8 +75,8 @@ class FlawTest : public testing::Test {
   base::Problems problems_;
 };
 
-// Each value, and part of the warning.
-TEST_F(FlawTest, AValueThatIsNoneCostsThatValue) {
+// Each value, and a part of the warning.
+TEST_F(FlawTest, AnInvalidValueIsReplaced) {
   const std::pair<const char*, const char*> links[] = {
       {"<pose>1 2 3 0 0</pose>", "6 numbers are expected; 1 2 3 0 0 0 is taken"},
       {"<pose>1 2 3 0 0 north</pose>", "1 2 3 0 0 0 is taken"},
@@ -110,7 +110,7 @@ TEST_F(FlawTest, AFlawOfTheWorldItselfLeavesItsModels) {
   }
 }
 
-TEST_F(FlawTest, AReferenceToNothingCostsThatReference) {
+TEST_F(FlawTest, AReferenceToNothingIsLeftOut) {
   const std::pair<const char*, const char*> contents[] = {
       {"<link name='b'><pose relative_to='nope'>0 0 1 0 0 0</pose></link>", "relative to nope"},
       {"<link name='b'/><frame name='f' attached_to='nope'/>", "attached to nope"},
@@ -163,7 +163,7 @@ TEST_F(FlawTest, AnInertiaIsRepairedUnlessItsModelNeverMoves) {
   const auto world = World("<model name='m'>" + zero);
   EXPECT_EQ(Find(world, "m")->links[0].inertial.mass, 1);
   EXPECT_THAT(Said(), ElementsAre(HasSubstr("1 kg is taken")));
-  // Breaks the triangle inequality alone: used as it stands.
+  // It breaks only the triangle inequality, so it is used unchanged.
   const auto flat = World(
       "<model name='m'><link name='l'><inertial><mass>5</mass><inertia><ixx>0.1</ixx><iyy>0.1"
       "</iyy><izz>0.9</izz></inertia></inertial></link></model>");
@@ -171,7 +171,7 @@ TEST_F(FlawTest, AnInertiaIsRepairedUnlessItsModelNeverMoves) {
   EXPECT_THAT(Said(), IsEmpty());
 }
 
-TEST_F(FlawTest, AStaticModelWithinAnotherStandsStill) {
+TEST_F(FlawTest, AStaticNestedModelDoesNotMove) {
   const std::string shelf = "<model name='shelf'><static>true</static><link name='l'/></model>";
   const auto wrapped = World("<model name='outer'><pose>0 0 2 0 0 0</pose>" + shelf + "</model>");
   EXPECT_TRUE(wrapped.models[1].is_static);
@@ -222,7 +222,7 @@ TEST_F(FlawTest, AFlawInAnIncludedFileIsNamedWithThatFile) {
   EXPECT_THAT(Said(), ElementsAre(HasSubstr("base/model.sdf:2: <pose> holds \"1 2 3\"")));
 }
 
-TEST_F(FlawTest, AnIncludeThatCannotBeReadCostsItselfAlone) {
+TEST_F(FlawTest, AnUnreadableIncludeIsLeftOutAlone) {
   folder_.Write("walker/model.sdf",
                 "<sdf version='1.6'><actor name='w'><skin><filename>w.dae"
                 "</filename></skin></actor></sdf>");
@@ -287,7 +287,7 @@ TEST_F(FlawTest, LinksWithoutInertiaKeepTheirJointsShapesAndChildren) {
   }
 }
 
-TEST_F(FlawTest, ARobotWithoutAnyMassIsThere) {
+TEST_F(FlawTest, ARobotWithoutMassIsRead) {
   const auto robot =
       Robot(UrdfLink("base") + UrdfLink("arm") + UrdfJoint("j", "continuous", "base", "arm"));
   EXPECT_THAT(LinksOf(*robot), UnorderedElementsAre("base", "arm"));
@@ -324,7 +324,7 @@ TEST_F(FlawTest, AFloatingJointBetweenLinksIsFixed) {
   EXPECT_THAT(Said(), ElementsAre(HasSubstr("\"float\" is fixed")));
 }
 
-TEST_F(FlawTest, AFlawOfAUrdfCostsOneThing) {
+TEST_F(FlawTest, AnErrorInAUrdfAffectsOnePart) {
   const std::string base = UrdfLink("base", kMassive);
   const auto with = [&](const std::string& content) {
     return UrdfLink("base", kMassive + content);

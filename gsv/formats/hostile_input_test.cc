@@ -1,5 +1,4 @@
-// Files that are made to do harm, or that harm has been done to: read without harm, with a
-// sentence.
+// Malicious and damaged files: the reader is not harmed and reports a sentence.
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -16,7 +15,7 @@ using testing::HasSubstr;
 
 class HostileInputTest : public testing::Test {
  protected:
-  // What is said of a model's file, whether it can be read or not.
+  // The problems of a model's file, whether it can be read or not.
   std::vector<std::string> SaidOf(const std::string& name, const std::string& text) {
     base::Problems problems;
     const auto model = ModelLibrary().ReadModel(folder_.Write(name, text).string(), problems);
@@ -40,7 +39,7 @@ class HostileInputTest : public testing::Test {
   std::shared_ptr<const model::Model> model_;
 };
 
-// Ten names, each of them ten times the one before.
+// Ten entities, each of which expands to ten times the one before.
 TEST_F(HostileInputTest, EntitiesAreNotExpanded) {
   std::string text = "<?xml version='1.0'?><!DOCTYPE sdf [<!ENTITY a0 'ha'>";
   for (int i = 1; i < 10; ++i) {
@@ -55,7 +54,7 @@ TEST_F(HostileInputTest, EntitiesAreNotExpanded) {
   }
 }
 
-TEST_F(HostileInputTest, ValuesThatAreNotFiniteAreComplainedOfWithTheirPlace) {
+TEST_F(HostileInputTest, NonFiniteValuesAreReportedWithTheirPlace) {
   for (const char* content :
        {"<link name='l'><inertial><mass>nan</mass></inertial></link>",
         "<link name='l'><inertial><mass>inf</mass></inertial></link>",
@@ -110,7 +109,7 @@ std::string Word(std::uint32_t value) {
   return {reinterpret_cast<const char*>(&value), sizeof value};
 }
 
-// A .glb of `json` and `data`, whose chunks claim to be so much longer than they are.
+// A .glb of `json` and `data`, whose chunks declare that much more length than they have.
 std::string Glb(std::string json, const std::string& data, std::uint32_t more_json = 0,
                 std::uint32_t more_data = 0) {
   json.resize((json.size() + 3) / 4 * 4, ' ');
@@ -135,7 +134,7 @@ std::string TriangleData() {
   return {reinterpret_cast<const char*>(corners), sizeof corners};
 }
 
-// Found by the fuzzer: assimp took 3 GB for a file of 700 bytes.
+// Found by the fuzzer: assimp allocated 3 GB for a file of 700 bytes.
 TEST_F(HostileInputTest, AGlbWhoseChunksReachBeyondItsEndIsRefused) {
   const auto good = Mesh("good.glb", Glb(TriangleJson(), TriangleData()));
   ASSERT_TRUE(good.has_value()) << good.error().Sentence();
@@ -151,7 +150,7 @@ TEST_F(HostileInputTest, AGlbWhoseChunksReachBeyondItsEndIsRefused) {
   }
 }
 
-TEST_F(HostileInputTest, AGltfThatClaimsMoreThanTheLimitsIsRefused) {
+TEST_F(HostileInputTest, AGltfThatDeclaresMoreThanTheLimitsIsRefused) {
   for (const char* claim :
        {R"(,"sparse":{"count":1000000000000})", R"(,"byteOffset":-1)", R"(,"byteOffset":1e300)",
         R"(,"sparse":{"count":1,"indices":{"byteOffset":99999999999999}})"}) {
@@ -159,7 +158,7 @@ TEST_F(HostileInputTest, AGltfThatClaimsMoreThanTheLimitsIsRefused) {
     ASSERT_FALSE(mesh.has_value()) << claim;
     EXPECT_THAT(mesh.error().message, HasSubstr("more values than the limits allow")) << claim;
   }
-  // What is nobody's claim may be any number.
+  // Numbers in "extras" may be anything.
   EXPECT_TRUE(Mesh("extras.glb", Glb(TriangleJson(R"(,"extras":{"count":-1})",
                                                   R"({"count":1e300,"byteLength":-7})"),
                                      TriangleData()))

@@ -1,4 +1,4 @@
-// The worlds and robots other people made load, with warnings only for what is truly absent.
+// Worlds and robots of other authors load, with warnings only about missing parts.
 #include <algorithm>
 #include <chrono>
 #include <set>
@@ -24,7 +24,7 @@ class RealFilesTest : public testing::Test {
   }
 };
 
-// Missing files, and what gsv does not carry out; nothing is misspelt or misplaced in these files.
+// Missing files, and elements that gsv does not support; nothing in these files is misspelt.
 bool IsKnownToBeAbsent(const base::Problem& problem) {
   if (problem.severity != base::Problem::Severity::kWarning) return false;
   for (const char* absent :
@@ -60,7 +60,7 @@ TEST_F(RealFilesTest, EveryWorldLoads) {
   }
 }
 
-// Beside them lie a folder of meshes for others (turtlebot3_common) and a light (sun).
+// The folder also has meshes of other models (turtlebot3_common) and a light (sun).
 TEST_F(RealFilesTest, EveryModelLoads) {
   for (const char* name : {"gazebo_models/bookshelf",
                            "gazebo_models/cafe",
@@ -116,8 +116,8 @@ TEST_F(RealFilesTest, TurtleBot3HouseAndBurgerLackOneMesh) {
       }
     }
   }
-  EXPECT_GT(textured, 90);          // bricks and wood all over
-  EXPECT_LT(pictures.size(), 12u);  // each read once
+  EXPECT_GT(textured, 90);          // bricks and wood everywhere
+  EXPECT_LT(pictures.size(), 12u);  // each is read once
 
   const auto burger =
       library.ReadModel("turtlebot3_burger", problems, turtlebot3 / "worlds/x.world");
@@ -134,12 +134,12 @@ TEST_F(RealFilesTest, TurtleBot3HouseAndBurgerLackOneMesh) {
   EXPECT_EQ((*burger)->drive->linear_acceleration.max, 1);
   ASSERT_THAT((*burger)->sensors, SizeIs(2));
   EXPECT_EQ(model::NumberOr((*burger)->sensors[1].parameters, "scan.horizontal.samples", 0), 360);
-  // The base's visual is absent: its collision box is drawn.
+  // The base's visual is missing, so that its collision box is drawn.
   EXPECT_TRUE(std::holds_alternative<geometry::Box>((*burger)->links[1].visuals.at(0).shape));
 }
 
 TEST_F(RealFilesTest, TurtleBot3WorldStandsUpright) {
-  // Its meshes say Y_UP and lie along z: 0.25 * 200 inches high, beginning 0.3 m below the ground.
+  // Its meshes declare Y_UP but have z up: 0.25 * 200 inches high, from 0.3 m below the ground.
   base::Problems problems;
   const auto world =
       ModelLibrary().ReadWorld(RealFolder() / "turtlebot3/worlds/turtlebot3_world.world", problems);
@@ -166,7 +166,7 @@ TEST_F(RealFilesTest, PioneerIsMeasured) {
   ASSERT_TRUE((*pioneer)->drive.has_value());
   EXPECT_NEAR((*pioneer)->drive->wheel_separation, 0.34, 1e-9);  // wheels at y = ±0.17
   EXPECT_NEAR((*pioneer)->drive->wheel_radius, 0.11, 1e-9);
-  // The axis is given in the model's frame: both wheels turn about y.
+  // The axis is given in the model's frame: both wheels rotate about y.
   for (const auto& joint : (*pioneer)->joints) {
     EXPECT_NEAR((joint.model_from_joint.orientation * joint.axis).y, 1, 1e-9);
   }

@@ -1,4 +1,4 @@
-// Actors in worlds, and in files of their own.
+// Actors in worlds, and in their own files.
 #include <memory>
 
 #include <gmock/gmock.h>
@@ -60,13 +60,13 @@ TEST_F(SdfActor, ReadsTheScriptInTheOrderOfItsTrajectories) {
   ASSERT_EQ(script->trajectories.size(), 2u);
   const auto& first = script->trajectories[0];
   EXPECT_EQ(first.tension, 0.6);
-  // The first pose holds from the start on.
+  // The first pose applies from the start on.
   ASSERT_EQ(first.waypoints.size(), 3u);
   EXPECT_EQ(first.waypoints[0].time.count(), 0);
   EXPECT_EQ(first.waypoints[0].pose, first.waypoints[1].pose);
   EXPECT_EQ(first.waypoints[1].time, std::chrono::milliseconds(500));
   EXPECT_EQ(first.waypoints[2].pose.position, (Vector3{2, 0, 1}));
-  // It starts where its trajectory does.
+  // It starts where its trajectory starts.
   EXPECT_EQ(world.models[0].world_from_model.position, (Vector3{11, 0, 1}));
 }
 
@@ -108,7 +108,7 @@ TEST_F(SdfActor, KeepsItsOwnLinks) {
   EXPECT_TRUE(std::holds_alternative<geometry::Box>(actor.links[0].collisions[0].shape));
 }
 
-TEST_F(SdfActor, StandsInAFileThatIsIncluded) {
+TEST_F(SdfActor, CanBeInAnIncludedFile) {
   std::filesystem::create_directories(folder_.path() / "walker");
   folder_.Write("walker/model.config",
                 "<model><name>walker</name><sdf version='1.6'>model.sdf</sdf></model>");
@@ -142,7 +142,7 @@ TEST_F(SdfActor, MovesTheBonesOfItsSkin) {
   const model::Animation& animation = *actor.script->animation;
   EXPECT_EQ(animation.length, std::chrono::seconds(1));
   ASSERT_EQ(animation.frame_count(), 30);
-  // Half way bone B is turned by 45 degrees about x.
+  // Half-way, bone B is rotated by 45 degrees about x.
   EXPECT_NEAR(animation.positions[15 * 12 + 11], 3.14159265358979323846 / 4, 1e-5);
 }
 
@@ -155,7 +155,7 @@ TEST_F(SdfActor, KeepsTheShapeOfASkinWithoutBones) {
   EXPECT_EQ(world.models[0].model->links.at(0).visuals.size(), 1u);
 }
 
-TEST_F(SdfActor, ReadsWhatItCanOfWaypointsThatMakeNoSense) {
+TEST_F(SdfActor, ReadsTheValidPartOfInvalidWaypoints) {
   const auto world = World(R"(<actor name='a'><script><auto_start>false</auto_start>
       <trajectory id='0' type='walk' tension='3'>
       <waypoint><time>0</time><pose>1 2 3 0 0 0</pose></waypoint>

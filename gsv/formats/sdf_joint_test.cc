@@ -1,4 +1,4 @@
-// Joints, what controllers tell them, and what surfaces and links say of forces.
+// Joints, their controllers, and the parameters of surfaces and links for forces.
 #include <gmock/gmock.h>
 
 #include "gsv/base/test_folder.h"
@@ -89,7 +89,7 @@ TEST_F(SdfJointTest, AScrewHasItsPitchInMetresARadian) {
   EXPECT_THAT(problems_[0].message, HasSubstr("must have a pitch"));
 }
 
-TEST_F(SdfJointTest, ReadsWhatGazebosControllersTellJoints) {
+TEST_F(SdfJointTest, ReadsTheTargetsOfGazebosControllers) {
   const auto model = Read(
       "<link name='a'/><link name='b'/><link name='c'/>"
       "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz>"
@@ -112,7 +112,7 @@ TEST_F(SdfJointTest, ReadsWhatGazebosControllersTellJoints) {
   EXPECT_FALSE(model->drive.has_value());
 }
 
-TEST_F(SdfJointTest, ComplainsOfControllersOfJointsThatAreNotThere) {
+TEST_F(SdfJointTest, ReportsControllersOfMissingJoints) {
   (void)Read(
       "<link name='a'/>\n<plugin filename='gz-sim-joint-controller-system' name='x'>"
       "<joint_name>nowhere</joint_name></plugin>");
@@ -134,7 +134,7 @@ TEST_F(SdfJointTest, TakesTheFirstFrictionInEveryDirectionWithoutASecond) {
   }
 }
 
-TEST_F(SdfJointTest, ReadsBothFrictionsAndTheirDirectionAndWhoHasNoGravity) {
+TEST_F(SdfJointTest, ReadsBothFrictionsAndTheirDirectionAndLinksWithoutGravity) {
   const auto model = Read(
       "<link name='a'><gravity>0</gravity><collision name='c'><geometry><sphere><radius>1</radius>"
       "</sphere></geometry><surface><friction><ode><mu>0.5</mu><mu2>0.1</mu2><fdir1>0 2 0</fdir1>"

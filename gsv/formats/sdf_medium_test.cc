@@ -1,4 +1,4 @@
-// What pushes bodies, and which of them meet: bitmasks, wind, fluids, decay, kinematic links,
+// Effects on bodies, and collision filters: bitmasks, wind, fluids, decay, kinematic links,
 // automatic inertia, joints that follow others.
 #include <gmock/gmock.h>
 
@@ -54,7 +54,7 @@ TEST_F(SdfMedium, ABitmaskIsCategoryAsWellUnlessThereIsOne) {
   for (const base::Problem& problem : problems_) ADD_FAILURE() << problem.Sentence();
 }
 
-TEST_F(SdfMedium, ACollisionWithoutContactMeetsNothingUnlessABitmaskSaysSo) {
+TEST_F(SdfMedium, ACollisionWithoutContactCollidesWithNothingUnlessABitmaskAllowsIt) {
   EXPECT_EQ(FilterOf("<collide_without_contact>true</collide_without_contact>"),
             model::kMeetsNothing);
   EXPECT_EQ(FilterOf("<collide_without_contact>true</collide_without_contact>"
@@ -62,7 +62,7 @@ TEST_F(SdfMedium, ACollisionWithoutContactMeetsNothingUnlessABitmaskSaysSo) {
             (model::CollisionFilter{1, 1}));
 }
 
-TEST_F(SdfMedium, LinksAreReadWithWhatMovesThem) {
+TEST_F(SdfMedium, LinksAreReadWithWindKinematicAndDecay) {
   const auto model = ModelOf(
       "<enable_wind>true</enable_wind><link name='a'><kinematic>true</kinematic></link>"
       "<link name='b'><enable_wind>false</enable_wind><velocity_decay><linear>0.1</linear>"
@@ -77,7 +77,7 @@ TEST_F(SdfMedium, LinksAreReadWithWhatMovesThem) {
   EXPECT_TRUE(problems_.empty());
 }
 
-TEST_F(SdfMedium, ADecayThatIsNoShareIsLeftOut) {
+TEST_F(SdfMedium, ADecayOutsideOfZeroToOneIsLeftOut) {
   const auto model =
       ModelOf("<link name='a'><velocity_decay><linear>1.5</linear></velocity_decay></link>");
   EXPECT_EQ(model.links.at(0).linear_decay, 0);
@@ -141,7 +141,7 @@ TEST_F(SdfMedium, InertiaIsMadeOfShapes) {
   EXPECT_DOUBLE_EQ(inertial.izz, 3000 * 5.0 / 12);
 }
 
-// Two cubes of 1 m³ at x = ±2, one three times as dense: their centre is at 1, and about it they
+// Two cubes of 1 m³ at x = ±2, one three times as dense. Their centre is at 1, and about it they
 // add m d² with d = 1 and 3.
 TEST_F(SdfMedium, InertiaAddsUpShapesOfDifferentDensity) {
   const auto cube = [](const std::string& name, const std::string& x, const std::string& density) {

@@ -127,14 +127,14 @@ class ModelLibrary::Reader {
     const fs::path file = xml.named;
     auto model = ModelOf(store_.Take(std::move(xml), std::exchange(problems, {})), file, problems);
     if (!model) return Fail(model.error());
-    XmlFile xml;
-    xml.path = file;
-    xml.version = "1.9";
-    xml.document = std::make_unique<tinyxml2::XMLDocument>();
+    XmlFile environment;
+    environment.path = file;
+    environment.version = "1.9";
+    environment.document = std::make_unique<tinyxml2::XMLDocument>();
     const std::string_view text = EnvironmentWorld(!HasPlaneToCollideWith(**model));
-    xml.document->Parse(text.data(), text.size());
-    xml.root = xml.document->RootElement();
-    auto world = formats::ReadWorld(xml, store_, problems);
+    environment.document->Parse(text.data(), text.size());
+    environment.root = environment.document->RootElement();
+    auto world = formats::ReadWorld(environment, store_, problems);
     if (!world) return world;
     world->name = (*model)->name;
     std::string name = (*model)->name;
@@ -149,7 +149,7 @@ class ModelLibrary::Reader {
 
   base::Mutex mutex_;
   const std::map<std::string, std::string> drives_;
-  // Models with the drives that were chosen for them, by the model as its file has it.
+  // Models with the chosen drives, by the model as in its file.
   std::map<std::shared_ptr<const Model>, std::shared_ptr<const Model>> driven_
       GSV_GUARDED_BY(mutex_);
   ModelStore store_ GSV_GUARDED_BY(mutex_);

@@ -53,7 +53,7 @@ class SdfReaderTest : public testing::Test {
   base::Problems problems_;
 };
 
-TEST_F(SdfReaderTest, ReadsWhereOnTheEarthAWorldLies) {
+TEST_F(SdfReaderTest, ReadsTheLocationOfAWorldOnTheEarth) {
   EXPECT_FALSE(World("<world name='w'/>").origin);
   const auto world = World(R"(<world name='w'><magnetic_field>1e-5 2e-5 -3e-5</magnetic_field>
     <spherical_coordinates><surface_model>EARTH_WGS84</surface_model>
@@ -206,7 +206,7 @@ TEST_F(SdfReaderTest, FlattensNestedModels) {
   const model::Joint& elbow = model->joints[1];
   EXPECT_EQ(elbow.name, "left::elbow");
   EXPECT_EQ(elbow.kind, model::JointKind::kContinuous);
-  ExpectNear(elbow.axis, {0, 1, 0});  // in the joint's frame, turned like the arm
+  ExpectNear(elbow.axis, {0, 1, 0});  // in the joint's frame, rotated like the arm
   ExpectNear(elbow.model_from_joint.orientation * elbow.axis, {-1, 0, 0});
   EXPECT_EQ(model->joints[0].parent, 0);
   EXPECT_EQ(model->joints[0].child, 1);
@@ -539,8 +539,9 @@ TEST_F(SdfReaderTest, TakesTwoFreeWheelsOfAUrdfAsADifferentialDrive) {
   EXPECT_THAT(Sentences(), IsEmpty());
 }
 
-// SDFormat's cone (1.11), <light_on> (1.9) and <screw_thread_pitch> (1.10), by no reader of 1.9.
-TEST_F(SdfReaderTest, ReadsWhatVersionsSince110Bring) {
+// SDFormat's cone (1.11), <light_on> (1.9) and <screw_thread_pitch> (1.10), which a reader of 1.9
+// lacks.
+TEST_F(SdfReaderTest, ReadsElementsOfVersionsSince110) {
   for (const char* version : {"1.10", "1.11", "1.12"}) {
     problems_.clear();
     const auto world = World(R"(<world name='w'>

@@ -1,4 +1,4 @@
-// Drives and sensors as robots' files describe them.
+// Drives and sensors in the files of robots.
 #include <gmock/gmock.h>
 
 #include "gsv/base/test_folder.h"
@@ -13,7 +13,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-// A base with four wheels of radius 0.15 at x = ±0.4, y = ±0.3, each turning about y.
+// A base with four wheels of radius 0.15 at x = ±0.4, y = ±0.3, each rotating about y.
 std::string Robot(const std::string& more, const std::string& base_more = "") {
   std::string sdf = "<sdf version='1.9'><model name='r'><link name='base'>" + base_more + "</link>";
   for (const auto& [name, x, y] :
@@ -73,7 +73,7 @@ TEST_F(SdfRobotTest, ReadsGazebosDiffDriveWithItsLimits) {
   EXPECT_THAT(problems_, IsEmpty());
 }
 
-TEST_F(SdfRobotTest, MeasuresWhatTheFileLeavesOut) {
+TEST_F(SdfRobotTest, MeasuresMissingValues) {
   const auto drive = DriveOf(Plugin(
       "libDiffDrivePlugin.so", "diff_drive",
       "<left_joint>fl_joint</left_joint><right_joint>fr_joint</right_joint><torque>5</torque>"));
@@ -167,7 +167,7 @@ TEST_F(SdfRobotTest, GuessesInsteadOfADriveThatCannotWork) {
   EXPECT_THAT(problems_[2].Sentence(), HasSubstr("names no joint"));
 }
 
-TEST_F(SdfRobotTest, MeasuresInsteadOfNumbersThatCannotBe) {
+TEST_F(SdfRobotTest, MeasuresInsteadOfImpossibleNumbers) {
   EXPECT_TRUE(DriveOf(Plugin("gz-sim-diff-drive-system", "DiffDrive",
                              "<left_joint>fl_joint</left_joint><right_joint>fr_joint</"
                              "right_joint><wheel_radius>-1</wheel_radius>"
@@ -263,7 +263,7 @@ TEST_F(SdfRobotTest, ReadsSensorsOfKnownAndUnknownTypes) {
   EXPECT_EQ(model::TextOr(where.parameters, "frame_id", ""), "map");
 }
 
-TEST_F(SdfRobotTest, ReadsWhatSdformatHasNoElementForByOurPrefix) {
+TEST_F(SdfRobotTest, ReadsGsvElementsByTheirPrefix) {
   const auto model = Read(Robot("", R"(
     <sensor name='echo' type='sonar'><sonar><gsv:beam>cone</gsv:beam><max>4</max></sonar></sensor>
     <sensor name='feel' type='imu'><imu><angular_velocity><x><noise type='gaussian'><stddev>0.01</stddev>
@@ -305,7 +305,7 @@ TEST_F(SdfRobotTest, GivesSensorsOfOneNameDifferentNames) {
   EXPECT_EQ(model->sensors[1].name, "b::s");
 }
 
-TEST_F(SdfRobotTest, ReadsWhatMovesTheModel) {
+TEST_F(SdfRobotTest, ReadsTheMovementOfTheModel) {
   EXPECT_EQ(Read(Robot(""))->movement, model::Movement::kPlanar);
   EXPECT_EQ(Read(Robot("<gsv:movement>rigid</gsv:movement>"))->movement, model::Movement::kRigid);
   EXPECT_THAT(problems_, IsEmpty());
@@ -314,7 +314,7 @@ TEST_F(SdfRobotTest, ReadsWhatMovesTheModel) {
   EXPECT_THAT(problems_[0].message, HasSubstr("planar or rigid"));
 }
 
-TEST_F(SdfRobotTest, WheelsMayBeOthersThanTheDriveBelieves) {
+TEST_F(SdfRobotTest, WheelsMayDifferFromTheDrivesAssumption) {
   const auto drive =
       DriveOf(Plugin("gz-sim-diff-drive-system", "gz::sim::systems::DiffDrive",
                      "<left_joint>fl_joint</left_joint><right_joint>fr_joint</right_joint>"
@@ -325,7 +325,7 @@ TEST_F(SdfRobotTest, WheelsMayBeOthersThanTheDriveBelieves) {
   EXPECT_EQ(drive->right_wheel_scale, 1);
 }
 
-TEST_F(SdfRobotTest, TakesTheDriveThatIsChosenForItsModel) {
+TEST_F(SdfRobotTest, UsesTheDriveChosenForItsModel) {
   const auto file = folder_.Write("r.sdf", Robot(""));
   ReadOptions options;
   options.drives = {{"r", "diff,left=fl_joint,right=fr_joint"}, {"other", "omni"}};

@@ -50,7 +50,7 @@ TEST_F(WorldStateTest, PutsModelsAndLightsWhereTheyWereSaved) {
   EXPECT_EQ(world.lights[0].world_from_light.position, (Vector3{1, 2, 3}));
 }
 
-// Gazebo Classic writes the pose of each link in the world; the link has the last word.
+// Gazebo Classic writes the pose of each link in the world; the link's pose takes precedence.
 TEST_F(WorldStateTest, PutsAModelWhereItsLinkWas) {
   const auto world = World("<model name='a'>" + std::string(kSavedBox) +
                            "<state world_name='w'><model name='a'><pose>7 7 7 0 0 0</pose>"
@@ -59,7 +59,7 @@ TEST_F(WorldStateTest, PutsAModelWhereItsLinkWas) {
   EXPECT_EQ(world.models[0].world_from_model.position, (Vector3{2, 3, 4}));
 }
 
-// The hinge is in the base: turned by 0.5, the hand is at (cos 0.5, sin 0.5) before it.
+// The hinge is in the base: rotated by 0.5, the hand is at (cos 0.5, sin 0.5) before it.
 TEST_F(WorldStateTest, TurnsJointsToWhereTheirLinksWere) {
   const auto world = World(std::string(kSavedArm) +
                            "<state world_name='w'><model name='arm'><pose>5 0 0 0 0 0</pose>"
@@ -93,7 +93,7 @@ TEST_F(WorldStateTest, InsertsAndDeletesModels) {
   EXPECT_EQ(world.models[1].world_from_model.position, (Vector3{9, 0, 0}));
 }
 
-TEST_F(WorldStateTest, OfAnotherWorldIsLeftOut) {
+TEST_F(WorldStateTest, LeavesOutTheStateOfAnotherWorld) {
   const auto world = World("<model name='a'>" + std::string(kSavedBox) +
                            "<state world_name='default'><model name='a'><pose>7 7 7 0 0 0</pose>"
                            "</model></state>");
@@ -102,7 +102,7 @@ TEST_F(WorldStateTest, OfAnotherWorldIsLeftOut) {
   EXPECT_THAT(problems_[0].Sentence(), HasSubstr("one of the world \"default\""));
 }
 
-TEST_F(WorldStateTest, NamesWhatTheWorldDoesNotHave) {
+TEST_F(WorldStateTest, NamesModelsThatTheWorldDoesNotHave) {
   World("<model name='a'>" + std::string(kSavedBox) +
         "<state world_name='w'><deletions><name>gone</name></deletions>"
         "<model name='nobody'><pose>1 0 0 0 0 0</pose></model>"

@@ -74,7 +74,7 @@ TEST_F(GatewayTest, ViewersCommandTheSimulationByServices) {
   EXPECT_EQ(simulation_->status().phase, simulation::Phase::kStopped);
   EXPECT_TRUE(viewer.CallService("reset").first);
   EXPECT_EQ(simulation_->status().phase, simulation::Phase::kCreated);
-  // A page from elsewhere gets as little by this way as by the other.
+  // A page of another origin is refused by this protocol as well.
   EXPECT_THROW(Viewer(port(), "/ws", "foxglove.sdk.v1", "http://evil.example"), std::runtime_error);
 }
 
@@ -101,7 +101,7 @@ TEST_F(GatewayTest, ModelsInTheSceneAreGlbFiles) {
     EXPECT_EQ(glb.status, 200);
     ASSERT_GE(glb.body.size(), 20u);
     EXPECT_EQ(glb.body.substr(0, 4), "glTF");
-    std::uint32_t length = 0;  // the whole file's, in its header
+    std::uint32_t length = 0;  // the length of the whole file, in its header
     std::memcpy(&length, &glb.body[8], 4);
     EXPECT_EQ(length, glb.body.size());
   }
@@ -167,7 +167,7 @@ TEST_F(GatewayTest, EachSimulationHasItsOwnStream) {
   EXPECT_THROW(Viewer(port(), "/ws?simulation=third"), std::runtime_error);
 }
 
-TEST_F(GatewayTest, ASlowCameraHoldsUpNothingElse) {
+TEST_F(GatewayTest, ASlowCameraDelaysNothingElse) {
   std::mutex gate;
   std::unique_lock closed(gate);
   simulation_->set_on_watch([&](const std::string& sensor) -> base::Status {
@@ -187,7 +187,7 @@ TEST_F(GatewayTest, ASlowCameraHoldsUpNothingElse) {
   viewer.ReceiveData(1);
 }
 
-TEST_F(GatewayTest, ViewersOfASimulationThatIsDestroyedAreTold) {
+TEST_F(GatewayTest, ViewersOfADestroyedSimulationAreNotified) {
   Viewer viewer(port());
   viewer.Subscribe(1, "/gsv/poses");
   viewer.ReceiveData(1);
@@ -198,7 +198,7 @@ TEST_F(GatewayTest, ViewersOfASimulationThatIsDestroyedAreTold) {
   EXPECT_EQ(viewer.close_reason(), "the simulation 'arena' is gone");
 }
 
-TEST_F(GatewayTest, WithoutASimulationThereIsNothingToConnectTo) {
+TEST_F(GatewayTest, WithoutASimulationAConnectionIsRefused) {
   directory_->Remove("arena");
   EXPECT_EQ(Fetch(port(), "GET", "/api/simulations").body, "[]");
   const HttpReply refusal = Fetch(port(), "GET", "/ws",
@@ -210,7 +210,7 @@ TEST_F(GatewayTest, WithoutASimulationThereIsNothingToConnectTo) {
             "there is no simulation yet; create one, then connect again");
 }
 
-TEST_F(GatewayTest, APortThatIsTakenIsAnError) {
+TEST_F(GatewayTest, APortInUseIsAnError) {
   GatewayOptions options;
   options.port = port();
   const auto other = Gateway::Start(options, directory_);
@@ -218,7 +218,7 @@ TEST_F(GatewayTest, APortThatIsTakenIsAnError) {
   EXPECT_NE(other.error().message.find("--port 0"), std::string::npos);
 }
 
-TEST_F(GatewayTest, StopsWhileEverybodyWatches) {
+TEST_F(GatewayTest, StopsWithManyViewers) {
   simulation_->Advance(std::chrono::seconds(1));
   Viewer first(port()), second(port());
   for (Viewer* viewer : {&first, &second}) {

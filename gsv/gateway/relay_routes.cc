@@ -1,5 +1,5 @@
-// The routes of another instance that is relayed. What it answers, it answers; the permissions that
-// requests take are known here as well, as the relay's own tokens give them.
+// The routes of a relay for another instance, which answers the requests. The relay checks their
+// permissions, too, by its own tokens.
 #include <map>
 #include <thread>
 #include <utility>
@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kSocket = "/ws";
 constexpr std::size_t kMaxStreams = 64;
 constexpr std::chrono::seconds kProbeTime{5};
-// A reset waits for behaviours, a large model is written once.
+// A reset waits for behaviours; a large model is written once.
 constexpr std::chrono::seconds kRequestTime{60};
 
 base::Status Probe(const upstream::Address& address) {
@@ -56,7 +56,7 @@ class RelayRoutes final : public RouteSet {
       base::Result<Response> answer = upstream::Fetch(address_, request, kRequestTime);
       return answer ? *std::move(answer) : ErrorResponse(answer.error());
     };
-    // Whether another viewer holds control is known there.
+    // The other instance checks whether another viewer holds control.
     std::vector<Route> routes{
         {"GET", "/api/{path...}", kWatch, false, kReaders, forward},
         {"POST", "/api/{path...}", kControl, false, kCommanders, forward},
@@ -91,7 +91,7 @@ class RelayRoutes final : public RouteSet {
   }
 
  private:
-  // `socket`: where it is streamed there.
+  // `socket`: path of the stream at the other instance.
   base::Result<std::shared_ptr<Hub>> FindHub(const Request& request, const std::string& socket) {
     const auto& query = request.target.query;
     const auto found = query.find("simulation");
@@ -104,7 +104,7 @@ class RelayRoutes final : public RouteSet {
       return base::Fail(base::ErrorCode::kUnavailable,
                         "too many simulations are open through this relay; restart it");
     }
-    // A replay of one's own is moved over HTTP.
+    // A replay session is controlled over HTTP.
     auto operations = socket == kSocket ? std::make_shared<upstream::RelayedOperations>(
                                               address_, name, commanders_)
                                         : nullptr;
@@ -118,7 +118,7 @@ class RelayRoutes final : public RouteSet {
   boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{
       io_.get_executor()};
   base::Mutex mutex_;
-  // By socket and name; "": the first.
+  // By socket and name; "": the first simulation.
   std::map<std::pair<std::string, std::string>, std::shared_ptr<upstream::Stream>> streams_
       GSV_GUARDED_BY(mutex_);
   std::thread thread_;

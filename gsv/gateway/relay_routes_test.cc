@@ -26,7 +26,7 @@ using testing::HttpReply;
 using testing::ScriptedSimulation;
 using testing::Viewer;
 
-TEST(UpstreamAddress, IsWhatAViewersUrlSays) {
+TEST(UpstreamAddress, IsReadFromAViewersUrl) {
   EXPECT_EQ(upstream::ParseAddress("http://127.0.0.1:8080/")->Authority(), "127.0.0.1:8080");
   EXPECT_EQ(upstream::ParseAddress("http://robot.lan")->Authority(), "robot.lan:80");
   EXPECT_EQ(upstream::ParseAddress("http://[::1]:99")->Authority(), "[::1]:99");
@@ -38,7 +38,7 @@ TEST(UpstreamAddress, IsWhatAViewersUrlSays) {
   }
 }
 
-TEST(UpstreamProtocol, RefusesWhatIsNone) {
+TEST(UpstreamProtocol, RefusesOtherProtocols) {
   for (const char* bad :
        {"", "[]", R"({"op":"advertise"})", R"({"op":"advertise","channels":[{}]})",
         R"({"op":"advertise","channels":[{"id":-1}]})",
@@ -76,12 +76,12 @@ class RelayTest : public ::testing::Test {
   std::shared_ptr<testing::SimulationList> directory_ = std::make_shared<testing::SimulationList>();
   std::unique_ptr<Gateway> gateway_;
   std::unique_ptr<Gateway> relay_;
-  // Empty: HTTP.
+  // Empty for HTTP.
   TlsFiles tls_;
   std::string authority_;
 };
 
-// Of an instance that speaks HTTPS.
+// The other instance uses HTTPS.
 class SecureRelayTest : public RelayTest {
  protected:
   void SetUp() override {
@@ -138,7 +138,7 @@ TEST_F(RelayTest, ServicesArePassedOn) {
             "a relay cannot set parameters; set them at the other instance");
 }
 
-TEST_F(RelayTest, SixtyFourSimulationsArePassedOnAndNoMore) {
+TEST_F(RelayTest, AtMostSixtyFourSimulationsArePassedOn) {
   std::vector<std::unique_ptr<Viewer>> viewers;
   for (int i = 0; i < 65; ++i) {
     const std::string name = "arena_" + std::to_string(i);
@@ -158,7 +158,7 @@ TEST_F(RelayTest, SixtyFourSimulationsArePassedOnAndNoMore) {
     EXPECT_NE(refused.body.find("too many simulations are open"), std::string::npos)
         << refused.body;
   }
-  // One of them is still watched by others.
+  // Others still view one of them.
   Viewer another(port(), "/ws?simulation=arena_7");
   another.ReceiveText("serverInfo");
 }
@@ -212,7 +212,7 @@ TEST_F(RelayTest, WaitsForAnInstanceThatIsRestarted) {
   EXPECT_EQ(Decoded<SimulationStatus>(viewer.ReceiveData(7)).state, "created");
 }
 
-TEST_F(RelayTest, ViewersOfASimulationThatIsGoneAreTold) {
+TEST_F(RelayTest, ViewersOfADestroyedSimulationAreNotified) {
   Viewer stranger(port(), "/ws?simulation=nobody");
   while (stranger.Receive()) {
   }
@@ -255,7 +255,7 @@ TEST_F(SecureRelayTest, WaitsForAnInstanceThatIsRestarted) {
   viewer.ReceiveText("advertise");
 }
 
-TEST_F(SecureRelayTest, WhoIsNotTrustedIsASentence) {
+TEST_F(SecureRelayTest, AnUntrustedInstanceGivesASentence) {
   ASSERT_TRUE(tls::MakeAuthority(folder_.path() / "other", {}));
   const auto refusal = [&](const std::string& url, const std::string& authority) {
     const auto relay = Gateway::StartRelay({}, {url, "", authority});
@@ -274,14 +274,14 @@ TEST_F(SecureRelayTest, WhoIsNotTrustedIsASentence) {
   EXPECT_NE(refusal("http://127.0.0.1:" + port, "").find("HTTPS only"), std::string::npos);
 }
 
-TEST_F(RelayTest, OneThatSpeaksNoTlsIsASentence) {
+TEST_F(RelayTest, AnInstanceWithoutTlsGivesASentence) {
   const auto relay = Gateway::StartRelay({}, {"https" + gateway_->url().substr(4)});
   ASSERT_FALSE(relay);
   EXPECT_NE(relay.error().Sentence().find("the TLS connection failed"), std::string::npos)
       << relay.error().Sentence();
 }
 
-TEST(Relay, NothingThereIsAnError) {
+TEST(Relay, AMissingInstanceIsAnError) {
   const auto silent = Gateway::StartRelay({}, {"http://127.0.0.1:1/"});
   ASSERT_FALSE(silent);
   EXPECT_EQ(silent.error().code, base::ErrorCode::kUnavailable);

@@ -1,4 +1,4 @@
-// The routes of a recording that is replayed.
+// The routes for the replay of a recording.
 #include <optional>
 #include <utility>
 

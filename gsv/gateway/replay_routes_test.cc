@@ -24,7 +24,7 @@ using testing::ReceiveEach;
 using testing::ReplayGatewayTest;
 using testing::Viewer;
 
-TEST_F(ReplayGatewayTest, LooksLikeTheSimulationThatWasRecorded) {
+TEST_F(ReplayGatewayTest, LooksLikeTheRecordedSimulation) {
   const json list = json::parse(Get("/api/simulations").body);
   ASSERT_EQ(list.size(), 1u);
   EXPECT_EQ(list[0]["name"], "simulation");
@@ -51,7 +51,7 @@ TEST_F(ReplayGatewayTest, ServesTheSceneAndItsModels) {
   EXPECT_EQ(Get("/api/models/0123456789abcdef.glb").status, 404);
 }
 
-TEST_F(ReplayGatewayTest, AViewerIsToldHowThingsStandBeforeItPlays) {
+TEST_F(ReplayGatewayTest, AViewerGetsTheStateBeforeThePlayback) {
   Viewer viewer(port());
   viewer.Subscribe(1, "/gsv/poses");
   viewer.Subscribe(2, "/gsv/status");
@@ -65,7 +65,7 @@ TEST_F(ReplayGatewayTest, AViewerIsToldHowThingsStandBeforeItPlays) {
   EXPECT_EQ(status.robots[0].name, "robot");
 }
 
-// Asks until the whole of it is read.
+// Requests the curve until it was read completely.
 json WholeCurve(std::uint16_t port, const std::string& query) {
   const std::string target = "/api/simulations/simulation/curve?" + query;
   for (;;) {
@@ -76,7 +76,7 @@ json WholeCurve(std::uint16_t port, const std::string& query) {
   }
 }
 
-TEST_F(ReplayGatewayTest, TellsAValueOverTheWholeRecording) {
+TEST_F(ReplayGatewayTest, ReturnsAValueOverTheWholeRecording) {
   const json x = WholeCurve(port(), "robot=robot&key=x");
   EXPECT_EQ(x["is_whole"], true);
   EXPECT_EQ(x["problem"], "");
@@ -86,7 +86,7 @@ TEST_F(ReplayGatewayTest, TellsAValueOverTheWholeRecording) {
   ASSERT_EQ(times.size(), places.size());
   ASSERT_GT(times.size(), 30u);
   EXPECT_EQ(times.back(), 2.0);
-  // It drives at 0.5 m/s from its first or second step on.
+  // The robot drives at 0.5 m/s from its first or second step on.
   for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(places[i], 0.5 * times[i], 0.011);
   const json speed = WholeCurve(port(), "robot=robot&key=speed&most=4");
   EXPECT_EQ(speed["is_whole"], false);
@@ -95,7 +95,7 @@ TEST_F(ReplayGatewayTest, TellsAValueOverTheWholeRecording) {
   EXPECT_EQ(WholeCurve(port(), "key=late_steps")["values"].back(), 0);
 }
 
-TEST_F(ReplayGatewayTest, RefusesACurveThatIsNotThere) {
+TEST_F(ReplayGatewayTest, RefusesAMissingCurve) {
   const std::string path = "/api/simulations/simulation/curve";
   EXPECT_EQ(Get(path).status, 400);
   EXPECT_EQ(Get(path + "?robot=other&key=x").status, 404);
@@ -104,7 +104,7 @@ TEST_F(ReplayGatewayTest, RefusesACurveThatIsNotThere) {
   EXPECT_EQ(Post("curve", "{}").status, 405);
 }
 
-TEST_F(ReplayGatewayTest, TellsTheWholeLog) {
+TEST_F(ReplayGatewayTest, ReturnsTheWholeLog) {
   const json log = json::parse(Get("/api/simulations/simulation/log").body);
   ASSERT_EQ(log.size(), 2u);
   EXPECT_EQ(log[0]["text"], "started");
@@ -114,8 +114,8 @@ TEST_F(ReplayGatewayTest, TellsTheWholeLog) {
   EXPECT_EQ(log[1]["time_s"], 2.0);
 }
 
-// A page may ask before anything has been played.
-TEST_F(ReplayGatewayTest, TellsOfTheRobotsFromTheFirstMoment) {
+// A page may send a request before the replay has played.
+TEST_F(ReplayGatewayTest, ListsTheRobotsFromTheStart) {
   for (int i = 0; i < 50; ++i) {
     const auto player = ReplayPlayer::Open(PathFor("run"), {});
     ASSERT_TRUE(player) << player.error().Sentence();
@@ -144,7 +144,7 @@ TEST_F(ReplayGatewayTest, PlaysToTheEnd) {
   EXPECT_EQ(Decoded<Poses>(viewer.ReceiveData(1)).step, 0u);
 }
 
-TEST_F(ReplayGatewayTest, HasTheServicesAndParametersOfItsOwn) {
+TEST_F(ReplayGatewayTest, HasItsOwnServicesAndParameters) {
   Viewer viewer(port());
   EXPECT_TRUE(viewer.CallService("start").first);
   EXPECT_TRUE(viewer.CallService("pause").first);
@@ -161,7 +161,7 @@ TEST_F(ReplayGatewayTest, HasTheServicesAndParametersOfItsOwn) {
   EXPECT_EQ(values["parameters"][0]["value"], 4.0);
   EXPECT_EQ(values["parameters"][1]["value"], false);
   Post("replay", R"({"loop":true})");
-  // It may be told together with the change of speed.
+  // It may come together with the change of speed.
   json loop;
   while (loop.is_null()) {
     values = viewer.ReceiveText("parameterValues");
@@ -172,7 +172,7 @@ TEST_F(ReplayGatewayTest, HasTheServicesAndParametersOfItsOwn) {
   EXPECT_EQ(loop, true);
 }
 
-TEST_F(ReplayGatewayTest, TellsTheEventsOfTheRun) {
+TEST_F(ReplayGatewayTest, ReturnsTheEventsOfTheRun) {
   const json events = json::parse(Get("/api/simulations/simulation/events").body);
   ASSERT_FALSE(events.empty());
   EXPECT_EQ(events.back()["event"], "finished");
@@ -180,7 +180,7 @@ TEST_F(ReplayGatewayTest, TellsTheEventsOfTheRun) {
   EXPECT_EQ(Post("events").status, 405);
 }
 
-TEST_F(ReplayGatewayTest, TellsARobotsTopics) {
+TEST_F(ReplayGatewayTest, ReturnsARobotsTopics) {
   const auto topics = [&](const std::string& robot) {
     return Get("/api/simulations/simulation/robots/" + robot + "/topics");
   };
@@ -196,7 +196,7 @@ TEST_F(ReplayGatewayTest, TellsARobotsTopics) {
   EXPECT_EQ(Post("robots/" + robot + "/topics").status, 405);
 }
 
-TEST_F(ReplayGatewayTest, ARecordingWithoutASceneSaysSo) {
+TEST_F(ReplayGatewayTest, ARecordingWithoutASceneIsReported) {
   const std::string path = PathFor("bare");
   const recording::Bytes bytes = recording::ThreeChunks();
   auto sink = recording::FileSink::Create(path, true).value();
@@ -215,12 +215,12 @@ TEST_F(ReplayGatewayTest, ARecordingWithoutASceneSaysSo) {
   std::filesystem::remove(path);
 }
 
-TEST_F(ReplayGatewayTest, AFileThatIsNoRecordingIsAnError) {
+TEST_F(ReplayGatewayTest, AFileThatIsNotARecordingIsAnError) {
   EXPECT_EQ(ReplayPlayer::Open("/nowhere.mcap", {}).error().code, base::ErrorCode::kNotFound);
   EXPECT_EQ(ReplayPlayer::Open("/proc/self/exe", {}).error().code, base::ErrorCode::kCorrupt);
 }
 
-TEST_F(ReplayGatewayTest, StopsWhileSomebodyWatches) {
+TEST_F(ReplayGatewayTest, StopsWithAViewer) {
   Viewer viewer(port());
   viewer.Subscribe(1, "/gsv/poses");
   viewer.ReceiveData(1);

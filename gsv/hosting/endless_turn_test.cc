@@ -1,4 +1,4 @@
-// A behaviour in process that does not return cannot be interrupted. Nobody may wait for it.
+// A behaviour in process that does not return cannot be interrupted. No thread may wait for it.
 #include <future>
 
 #include "gsv/hosting/hosted_behaviour.h"
@@ -35,7 +35,7 @@ void Wait(gsv::Robot& robot) {
   }
 }
 
-// A simulation among whose robots one has a turn that ends when the test says so.
+// A simulation with one robot whose turn ends when the test decides.
 class EndlessTurn : public ::testing::TestWithParam<Mode> {
  public:
   EndlessTurn() {
@@ -55,11 +55,11 @@ class EndlessTurn : public ::testing::TestWithParam<Mode> {
 
  protected:
   void AddRobots(const EndlessBehaviour::Body& body) {
-    for (int i = 0; i < 40; ++i) {  // enough for the turns to be shared out
+    for (int i = 0; i < 40; ++i) {  // enough for several threads to share the turns
       const std::string name = "robot_" + std::to_string(i);
       const int column = i % 10, row = i / 10;
       auto behaviour = HostedEndless("patient", Wait);
-      // Held by the simulation as long as it lives.
+      // The simulation owns it.
       if (i == 20)
         behaviour = HostedEndless("endless", [body, held = token_](auto& r) { body(r); });
       ASSERT_TRUE(
@@ -71,7 +71,7 @@ class EndlessTurn : public ::testing::TestWithParam<Mode> {
     released_ = true;
     released_.notify_all();
   }
-  // With robot_20 in a turn that does not end, and the simulation aware of it.
+  // Waits until robot_20 is in an endless turn, and the simulation has noticed.
   void GetStuck() {
     AddRobots([this](gsv::Robot& robot) {
       robot.SleepFor(100ms);
@@ -109,7 +109,7 @@ TEST_P(EndlessTurn, FailsTheSimulationAndNamesTheBehaviour) {
   EXPECT_EQ(events, 1);
 }
 
-TEST_P(EndlessTurn, WhatNeedsTheWorldIsRefused) {
+TEST_P(EndlessTurn, RequestsThatNeedTheWorldAreRefused) {
   GetStuck();
   EXPECT_EQ(simulation_->state_hash(), "");
   const auto added = simulation_->AddRobot(simulation::Robot("late", 1, 3));
@@ -122,7 +122,7 @@ TEST_P(EndlessTurn, WhatNeedsTheWorldIsRefused) {
   EXPECT_EQ(simulation_->snapshot()->state.time, 100ms);
 }
 
-// Who began to wait before it was known gets an answer as well.
+// A caller that began to wait earlier gets an answer as well.
 TEST_P(EndlessTurn, AResetThatWaitsForItIsRefused) {
   std::promise<void> entered;
   AddRobots([&](gsv::Robot& robot) {
@@ -136,14 +136,14 @@ TEST_P(EndlessTurn, AResetThatWaitsForItIsRefused) {
   EXPECT_FALSE(simulation_->Reset());
 }
 
-TEST_P(EndlessTurn, ItsSimulationIsLeftToItself) {
+TEST_P(EndlessTurn, ItsSimulationIsAbandoned) {
   GetStuck();
   const int before = Simulation::AbandonedSimulations();
   simulation_.reset();
   EXPECT_EQ(Simulation::AbandonedSimulations(), before + 1);
 }
 
-TEST_P(EndlessTurn, OneThatEndsAfterAllLetsTheSimulationBeReset) {
+TEST_P(EndlessTurn, AfterALateEndTheSimulationCanBeReset) {
   GetStuck();
   Release();
   const auto give_up = std::chrono::steady_clock::now() + kTimeout;
@@ -153,7 +153,7 @@ TEST_P(EndlessTurn, OneThatEndsAfterAllLetsTheSimulationBeReset) {
   EXPECT_EQ(simulation_->status().failure, "");
 }
 
-TEST_P(EndlessTurn, OneThatDoesNotHeedItsEndIsLeftBehind) {
+TEST_P(EndlessTurn, ABehaviourThatIgnoresItsEndIsAbandoned) {
   AddRobots([this](gsv::Robot& robot) {
     robot.SleepFor(1h);
     AwaitRelease();

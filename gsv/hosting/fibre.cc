@@ -10,10 +10,10 @@ namespace {
 
 using Stacks = boost::context::protected_fixedsize_stack;
 
-// Of address space; only what is touched costs memory. A page that may not be touched lies below.
+// Address space; only used pages cost memory. Below the stack is a guard page.
 constexpr std::size_t kStackBytes = 256u << 10;
 
-// Leaves the stack when the body has returned, or is unwound.
+// Leaves the stack after the body has returned, or was unwound.
 struct Departure {
   SanitizerStack& stack;
   ~Departure() { stack.BeforeLeavingForGood(); }
@@ -54,7 +54,7 @@ void Fibre::Resume() {
 }
 
 void Fibre::Suspend() {
-  // Also where an exception comes instead: the body is unwound.
+  // Also entered by an exception, which then unwinds the body.
   struct Arrival {
     SanitizerStack& stack;
     ~Arrival() { stack.AfterEntering(); }

@@ -8,7 +8,7 @@
 namespace gsv::hosting {
 namespace {
 
-TEST(Fibre, IsLeftAndGoneOnWith) {
+TEST(Fibre, IsSuspendedAndResumed) {
   std::vector<int> seen;
   Fibre* self = nullptr;
   Fibre fibre([&] {
@@ -28,7 +28,7 @@ TEST(Fibre, IsLeftAndGoneOnWith) {
   EXPECT_TRUE(fibre.has_ended());
 }
 
-TEST(Fibre, MayGoOnOnAnotherThread) {
+TEST(Fibre, CanBeResumedOnAnotherThread) {
   Fibre* self = nullptr;
   int sum = 0;
   Fibre fibre([&] {
@@ -42,7 +42,7 @@ TEST(Fibre, MayGoOnOnAnotherThread) {
   EXPECT_EQ(sum, 55);
 }
 
-TEST(Fibre, OneThatIsGivenUpUnwindsItsStack) {
+TEST(Fibre, UnwindsItsStackWhenItIsAbandoned) {
   auto held = std::make_shared<int>(1);
   {
     Fibre* self = nullptr;

@@ -17,7 +17,7 @@ using simulation::RunToEnd;
 using simulation::Simulation;
 using simulation::StatusOf;
 
-// A behaviour made of a function.
+// A behaviour that calls a function.
 class Scripted final : public Behaviour {
  public:
   using Body = std::function<void(gsv::Robot&, Sonar&)>;
@@ -41,7 +41,7 @@ std::shared_ptr<HostedBehaviour> Hosted(Scripted::Body body) {
                                            [body] { return std::make_unique<Scripted>(body); });
 }
 
-// Drives towards the wall, the slower the nearer.
+// Drives towards the wall, slower when nearer.
 class Approach final : public Controller {
  public:
   Approach() : Controller(50ms) {}
@@ -51,7 +51,7 @@ class Approach final : public Controller {
   }
 };
 
-// The same with its waits written out, on a fibre.
+// The same with explicit waits, on a fibre.
 void ApproachInALoop(gsv::Robot& robot, Sonar&) {
   std::vector<Reading> readings;
   DriveCommand command;
@@ -87,13 +87,13 @@ TEST(HostedBehaviour, ReadsAtTheInstantsAtWhichItIsWoken) {
                           } while (robot.SleepFor(50ms));
                         }))));
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
-  // The wall's face is at x = 2.9; at 1 m/s the range falls by 0.05 m each 50 ms.
+  // The wall's face is at x = 2.9; at 1 m/s the range decreases by 0.05 m every 50 ms.
   ASSERT_EQ(ranges.size(), 4u);
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(ranges[i], 2.9 - 0.05 * i, 1e-9);
   EXPECT_EQ(StatusOf(*simulation, "robot").readings["sonar"], 4u);
 }
 
-TEST(HostedBehaviour, AControllerDoesWhatItsLoopDoesOnAFibre) {
+TEST(HostedBehaviour, AControllerEqualsItsLoopOnAFibre) {
   const auto as_controller = [](int) {
     return std::make_shared<HostedBehaviour>("approach",
                                              [] { return std::make_unique<Approach>(); });
@@ -102,8 +102,8 @@ TEST(HostedBehaviour, AControllerDoesWhatItsLoopDoesOnAFibre) {
   EXPECT_EQ(HashOfACrowd(3, 1, as_controller), HashOfACrowd(3, 1, as_loop));
 }
 
-// The same on a thread of its own, through the calls that a remote behaviour's servants make.
-TEST(HostedBehaviour, HasTheHashOfABehaviourThatIsCalledFromOutside) {
+// The same on its own thread, through the calls that a remote behaviour's servants make.
+TEST(HostedBehaviour, HasTheHashOfTheSameRemoteBehaviour) {
   auto outside = simulation::Make(Lockstep(2s));
   auto behaviour = std::make_shared<simulation::ThreadBehaviour>(
       [](simulation::Agent& agent, simulation::ClockId clock) {
@@ -124,7 +124,7 @@ TEST(HostedBehaviour, HasTheHashOfABehaviourThatIsCalledFromOutside) {
   EXPECT_EQ(outside->state_hash(), HashOfACrowd(1, 1, [](int) { return Hosted(ApproachInALoop); }));
 }
 
-TEST(HostedBehaviour, TheNumberOfThreadsLeavesNoTrace) {
+TEST(HostedBehaviour, TheNumberOfThreadsDoesNotMatter) {
   const auto mixed = [](int robot) {
     return robot % 2 == 0 ? Hosted(ApproachInALoop)
                           : std::make_shared<HostedBehaviour>(
@@ -143,7 +143,7 @@ TEST(HostedBehaviour, ACrowdOfControllersIsTheSameOnAnyNumberOfThreads) {
   EXPECT_EQ(HashOfACrowd(60, 7, controller), HashOfACrowd(60, 1, controller));
 }
 
-TEST(HostedBehaviour, OneThatThrowsEndsAndTheOthersGoOn) {
+TEST(HostedBehaviour, AnExceptionEndsOneBehaviourAndTheOthersContinue) {
   auto simulation = simulation::Make(Lockstep(500ms));
   ASSERT_TRUE(
       simulation->AddRobot(simulation::Robot("bad", 0, 0, Hosted([](gsv::Robot& robot, Sonar&) {
@@ -163,7 +163,7 @@ TEST(HostedBehaviour, OneThatThrowsEndsAndTheOthersGoOn) {
   EXPECT_THAT(bad.detail, ::testing::HasSubstr("the behaviour threw: out of ideas"));
 }
 
-TEST(HostedBehaviour, OneThatGivesUpEndsTheRunAsOneOutsideDoesWhereThePolicySaysSo) {
+TEST(HostedBehaviour, AFailureEndsTheRunIfThePolicyRequiresIt) {
   auto specification = Lockstep(500ms);
   specification.on_failure = simulation::FailurePolicy::kFail;
   const auto hash_of = [&](std::shared_ptr<simulation::BehaviourPort> behaviour) {
@@ -189,7 +189,7 @@ TEST(HostedBehaviour, OneThatGivesUpEndsTheRunAsOneOutsideDoesWhereThePolicySays
   EXPECT_EQ(inside, outside);
 }
 
-TEST(HostedBehaviour, OneWhoseWorkIsDoneHasFinished) {
+TEST(HostedBehaviour, ABehaviourThatReturnsHasFinished) {
   auto simulation = simulation::Make(Lockstep(500ms));
   ASSERT_TRUE(simulation->AddRobot(simulation::Robot(
       "robot", 0, 0, Hosted([](gsv::Robot& robot, Sonar&) { robot.SleepFor(100ms); }))));
@@ -198,7 +198,7 @@ TEST(HostedBehaviour, OneWhoseWorkIsDoneHasFinished) {
   EXPECT_EQ(StatusOf(*simulation, "robot").phase, simulation::AgentPhase::kFinished);
 }
 
-TEST(HostedBehaviour, AfterAResetARunIsAsAfterAFreshStart) {
+TEST(HostedBehaviour, ARunAfterAResetEqualsTheFirst) {
   auto simulation = simulation::Make(Lockstep(300ms));
   ASSERT_TRUE(simulation->AddRobot(simulation::Robot("robot", 0, 0, Hosted(ApproachInALoop))));
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
@@ -224,7 +224,7 @@ TEST(HostedBehaviour, AStopInTheMiddleLetsItReturn) {
   has_returned.wait(false);
 }
 
-TEST(HostedBehaviour, OneThatWaitsForThePastAgainAndAgainIsGivenUp) {
+TEST(HostedBehaviour, ABehaviourThatWaitsForThePastAgainAndAgainIsEnded) {
   auto specification = Lockstep(100ms);
   specification.deadline = 50ms;
   auto simulation = simulation::Make(specification);
@@ -237,7 +237,7 @@ TEST(HostedBehaviour, OneThatWaitsForThePastAgainAndAgainIsGivenUp) {
   EXPECT_EQ(StatusOf(*simulation, "robot").phase, simulation::AgentPhase::kUnresponsive);
 }
 
-// A sensor that takes its time, as a camera does: gives the simulated milliseconds.
+// A slow sensor, like a camera: its reading is the simulated time in milliseconds.
 class Slow final : public sensing::Sensor {
  public:
   using Sensor::Sensor;
@@ -249,7 +249,7 @@ class Slow final : public sensing::Sensor {
   bool TakesLong() const override { return true; }
 };
 
-TEST(HostedBehaviour, ASensorThatTakesItsTimeIsReadAtTheInstantItWasAskedFor) {
+TEST(HostedBehaviour, ASlowSensorIsReadAtTheInstantOfTheRequest) {
   auto sensors = std::make_shared<sensing::SensorRegistry>();
   sensing::AddBuiltInSensors(*sensors);
   sensing::SensorType slow;

@@ -1,4 +1,4 @@
-// Joints as behaviours command and read them, inside the simulation and from outside.
+// Behaviours command and read joints, inside the simulation and from outside.
 #include <gmock/gmock.h>
 
 #include "gsv/hosting/hosted_behaviour.h"
@@ -21,7 +21,7 @@ model::Link Box(const std::string& name, const geometry::Vector3& size, double z
   return link;
 }
 
-// A box with a lift on top, which weighs 19.6 N.
+// A box with a lift on top, whose weight is 19.6 N.
 std::shared_ptr<const model::Model> Lift(model::Movement movement) {
   auto model = std::make_shared<model::Model>();
   model->name = "lift";
@@ -81,7 +81,7 @@ std::shared_ptr<HostedBehaviour> Hosted(Lifting::Body body) {
                                            [body] { return std::make_unique<Lifting>(body); });
 }
 
-TEST(LocalJoint, GoesWhereItIsTold) {
+TEST(LocalJoint, MovesToItsTarget) {
   auto simulation = OnGround(4s);
   std::vector<double> positions, velocities;
   ASSERT_TRUE(simulation->AddRobot(LiftWith(Hosted([&](gsv::Robot& robot, Joint& joint) {
@@ -96,7 +96,7 @@ TEST(LocalJoint, GoesWhereItIsTold) {
     after(2s);
     joint.MoveAt(0.1);
     after(1s);
-    // Lets it fall, no faster than its velocity limit.
+    // The lift falls, at most at its velocity limit.
     joint.Release();
     after(500ms);
   }))));
@@ -119,11 +119,11 @@ TEST(LocalJoint, AnEffortLiftsAgainstGravity) {
     if (robot.SleepFor(500ms)) velocity = joint.Read().velocity;
   }))));
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
-  // One newton too much for 2 kg.
+  // The force is one newton too large for 2 kg.
   EXPECT_NEAR(velocity, 0.25, 0.005);
 }
 
-TEST(LocalJoint, HasTheHashOfOneThatIsCommandedFromOutside) {
+TEST(LocalJoint, HasTheHashOfAJointCommandedRemotely) {
   auto inside = OnGround(2s), outside = OnGround(2s);
   ASSERT_TRUE(inside->AddRobot(LiftWith(Hosted([](gsv::Robot& robot, Joint& joint) {
     joint.MoveTo(0.2);
@@ -146,7 +146,7 @@ TEST(LocalJoint, HasTheHashOfOneThatIsCommandedFromOutside) {
   EXPECT_EQ(inside->state_hash(), outside->state_hash());
 }
 
-TEST(LocalJoint, GoesAtItsLimitOfVelocityWhereTheDriveAloneMovesTheRobot) {
+TEST(LocalJoint, MovesAtItsVelocityLimitOnAPlanarRobot) {
   auto simulation = OnGround(4s);
   std::vector<JointState> reached;
   ASSERT_TRUE(simulation->AddRobot(LiftWith(Hosted([&](gsv::Robot& robot, Joint& joint) {
@@ -175,7 +175,7 @@ TEST(LocalJoint, GoesAtItsLimitOfVelocityWhereTheDriveAloneMovesTheRobot) {
   }
 }
 
-TEST(LocalJoint, IsNotPushedWhereForcesDoNotMoveTheRobot) {
+TEST(LocalJoint, RefusesAnEffortOnAPlanarRobot) {
   auto simulation = OnGround(1s);
   std::string error;
   ASSERT_TRUE(simulation->AddRobot(LiftWith(Hosted([&](gsv::Robot& robot, Joint& joint) {
@@ -187,7 +187,7 @@ TEST(LocalJoint, IsNotPushedWhereForcesDoNotMoveTheRobot) {
   EXPECT_THAT(error, HasSubstr("--movement lift=rigid"));
 }
 
-TEST(LocalJoint, ThereIsNoneOfAnotherName) {
+TEST(LocalJoint, RefusesAnUnknownName) {
   auto simulation = OnGround(1s);
   auto robot = LiftWith(std::make_shared<HostedBehaviour>(
       "lifting", [] { return std::make_unique<Lifting>([](gsv::Robot&, Joint&) {}); }));

@@ -78,7 +78,7 @@ class LocalPort final : public SensorPort {
 }  // namespace
 
 void LocalRobot::Note(const base::Error& error) {
-  // The end of a run is no error.
+  // The end of a run is not an error.
   if (is_running_.exchange(false) && error.code != base::ErrorCode::kEnded) {
     error_ = error.Sentence();
   }
@@ -119,7 +119,7 @@ base::Status LocalRobot::CommandDevice(const MountedSensor& actuator,
 
 base::Result<sensing::Reading> LocalRobot::ReadBlocked(const MountedSensor& sensor) {
   GSV_CHECK(suspend_);
-  // The behaviour may be ended while the picture is under way: then nobody waits for it here.
+  // The behaviour may end while the image is being made: then this frame no longer exists.
   auto reading = std::make_shared<base::Result<sensing::Reading>>();
   turn_->Block([reading, agent = agent_, name = sensor.name()] { *reading = agent->Read(name); });
   suspend_();

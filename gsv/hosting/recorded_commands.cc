@@ -5,7 +5,7 @@
 namespace gsv::hosting {
 namespace {
 
-// After the last command it waits for ever: whether a behaviour goes on is part of a run, too.
+// It waits for ever after the last command: whether a behaviour continues is part of a run, too.
 constexpr base::SimTime kNever = base::SimTime::max() / 2;
 
 }  // namespace
@@ -47,7 +47,7 @@ void RecordedCommands::TakeTurn(simulation::Turn& turn) {
   turn.WaitUntil(next_ < commands_.size() ? commands_[next_].time : kNever);
 }
 
-// What cannot be given any more is left out: the run then shows that it differs.
+// A command that can no longer be given is left out: the run then differs visibly.
 void RecordedCommands::Give(const TimedCommand& command, simulation::Turn& turn) const {
   if (const auto* drive = std::get_if<world::DriveCommand>(&command.command)) {
     turn.Command(*drive);

@@ -1,5 +1,5 @@
-// Programs that record are killed (SIGKILL) at two hundred random moments, several at once. What
-// each had handed to its recorder a second before, by the wall clock, must be in its file.
+// Kills recording programs (SIGKILL) at two hundred random moments, several at once. Messages that
+// a program gave to its recorder more than a second before must be in its file.
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
@@ -25,14 +25,13 @@ namespace gsv::recording {
 namespace {
 
 constexpr int kMoments = 200;
-// Fewer where each is slow: those that wait for a processor too long do not count, the long lives
-// first.
+// Fewer on slow machines: programs that wait too long for a processor do not count, and these are
+// mostly long lives.
 constexpr std::size_t kAtOnce = base::kSlowdown > 1 ? 6 : 20;
 constexpr std::int64_t kMillisecond = 1'000'000;  // ns
 constexpr std::int64_t kPromised = 1000 * kMillisecond;
 constexpr std::int64_t kMaxLifetime = 2500 * kMillisecond;
-// A process that got no processor for so long cannot keep a promise about time: its moment is
-// tried again.
+// A process that got no processor for this long cannot keep a time limit: the attempt is repeated.
 constexpr std::int64_t kStall = 250 * kMillisecond;
 constexpr int kMaxRepeats = 200;
 
@@ -65,7 +64,7 @@ class Victim {
   int pipe() const { return pipe_; }
   std::int64_t dies_at() const { return dies_at_; }
 
-  // One read's worth; false at the end.
+  // Reads once; false at the end.
   bool Listen() {
     HandOver batch[256];
     const ssize_t size = read(pipe_, batch, sizeof batch);
@@ -83,7 +82,8 @@ class Victim {
     close(pipe_);
   }
 
-  // After Kill(): up to which simulated time all must be there; nothing: it was too short a life.
+  // After Kill(): the simulated time up to which all messages must exist; nothing: it lived too
+  // briefly.
   std::optional<base::SimTime> promised() const {
     std::optional<base::SimTime> newest;
     for (const HandOver& each : told_) {
@@ -119,7 +119,7 @@ std::map<std::string, std::set<base::SimTime>> TimesByTopic(const McapReader& re
   return times;
 }
 
-// Recovers what the victim left behind, and looks whether all that was promised is in it.
+// Recovers the victim's file, and checks that all required messages are in it.
 void Judge(const Victim& victim) {
   const std::string mended = victim.path() + ".mended";
   const auto recovery = Recover(victim.path(), mended);
@@ -150,7 +150,7 @@ class Killing {
  public:
   explicit Killing(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  // Goes on until kMoments have been judged.
+  // Continues until kMoments were checked.
   void Run() {
     while (judged_ < kMoments && !testing::Test::HasFatalFailure()) {
       while (victims_.size() < kAtOnce && started_ - again_ < kMoments) Start();
@@ -213,7 +213,7 @@ TEST(Promise, KillingLosesASecondOfARecordingAtMost) {
   ASSERT_TRUE(folder);
   Killing killing(folder->path());
   killing.Run();
-  // Lives are as long as 2.5 s, so that most had something to lose.
+  // Lives last up to 2.5 s, so that most had data that must survive.
   EXPECT_GT(killing.with_a_promise(), kMoments / 4);
 }
 

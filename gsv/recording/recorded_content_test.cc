@@ -1,4 +1,4 @@
-// What a recording of a simulation holds, and what of it can be chosen.
+// The content of a simulation's recording, and the selection of topics.
 #include <map>
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ TEST_F(SimulationRecorderTest, BeamsAloneAreThoseOfSensorsWithoutATopic) {
   EXPECT_EQ(beams.back().markers[0].points.size(), 4u);  // front and back
 }
 
-// A sensor whose picture is one pixel, sent as "jpeg" without data.
+// A sensor whose image is one pixel, sent as "jpeg" without data.
 sensing::SensorType PixelCamera() {
   class Pixel final
       : public sensing::SensorOf<readings::Camera, messages::sensor_msgs::CompressedImage> {
@@ -84,7 +84,7 @@ sensing::SensorType PixelCamera() {
   return type;
 }
 
-TEST_F(SimulationRecorderTest, PicturesCanBePng) {
+TEST_F(SimulationRecorderTest, ImagesCanBePng) {
   auto types = std::make_shared<sensing::SensorRegistry>();
   sensing::AddBuiltInSensors(*types);
   ASSERT_TRUE(types->Add(PixelCamera()));
@@ -109,7 +109,7 @@ TEST_F(SimulationRecorderTest, PicturesCanBePng) {
   EXPECT_EQ(pictures[0].format, "png");
   EXPECT_EQ(pictures[0].data, (std::vector<std::uint8_t>{1, 2, 3}));
   EXPECT_EQ(pictures[0].header.frame_id, "robot/eye");
-  // What goes with them comes with each, at its instant.
+  // The companion messages come with each image, at its instant.
   const auto infos = Read<messages::sensor_msgs::CameraInfo>("/robot/eye/camera_info");
   ASSERT_EQ(infos.size(), pictures.size());
   EXPECT_EQ(infos.back().header.stamp.nanosec, pictures.back().header.stamp.nanosec);
@@ -120,7 +120,7 @@ TEST_F(SimulationRecorderTest, ReadingsAreThoseOfTheirInstant) {
   Record(1.0);
   const auto readings = Read<messages::sensor_msgs::Range>("/robot/front");
   ASSERT_EQ(readings.size(), 21u);
-  // From the origin at 1 m/s towards a face at 2.9 m.
+  // From the origin at 1 m/s towards a wall at 2.9 m.
   for (std::size_t i = 0; i < readings.size(); ++i) {
     EXPECT_NEAR(readings[i].range, 2.9 - 0.05 * static_cast<double>(i), 1e-6) << i;
     EXPECT_EQ(readings[i].header.frame_id, "robot/front");
@@ -148,7 +148,7 @@ TEST_F(SimulationRecorderTest, ALidarOfSeveralRowsIsRecordedWithAllOfThemAndAsPo
   EXPECT_EQ(clouds[0].width * clouds[0].height, 15u);
 }
 
-// The sensors of what stands in the world without a drive.
+// The sensors of bodies in the world without a drive.
 TEST_F(SimulationRecorderTest, AStationsSensorsAreRecordedLikeARobots) {
   simulation::Specification specification = simulation::Lockstep(100ms);
   auto world = std::make_shared<model::WorldDescription>(*specification.world);
@@ -172,7 +172,7 @@ TEST_F(SimulationRecorderTest, AStationsSensorsAreRecordedLikeARobots) {
   EXPECT_EQ(scene["bodies"][0]["sensors"].size(), 1u);
 }
 
-TEST_F(SimulationRecorderTest, TheSceneSaysWhatThePosesMean) {
+TEST_F(SimulationRecorderTest, TheSceneDescribesThePoses) {
   Record(0.5);
   const auto scenes = Attachments("scene.json");
   ASSERT_EQ(scenes.size(), 2u);  // with "back" and before

@@ -9,9 +9,9 @@
 namespace gsv::recording {
 namespace {
 
-// Wall time: how soon it is seen that the simulation is gone or the disk has failed, and after
-// which time what was recorded is written. Together they stay well below the second that is
-// promised, so that a busy machine keeps the promise, too.
+// Wall-clock times: the period of checks for a destroyed simulation or a failed disk, and the age
+// at which messages are written. Together they are well below the promised second, so that also a
+// busy machine keeps it.
 constexpr std::chrono::milliseconds kPollPeriod{100};
 constexpr std::chrono::milliseconds kFlushAge{500};
 
@@ -35,7 +35,7 @@ MetadataRecord Describe(const Simulation& simulation, const StringMap& further) 
   return record;
 }
 
-// How the run stands at the end of its recording.
+// The state of the run at the end of its recording.
 StringMap ResultOf(const Simulation& simulation) {
   const simulation::SimulationStatus status = simulation.status();
   return {{"phase", ToString(status.phase)},
@@ -110,7 +110,7 @@ base::Status SimulationRecorder::Stop() {
     const std::shared_ptr<Simulation> simulation = simulation_.lock();
     if (simulation) {
       if (!feed_->was_reset()) result_ = ResultOf(*simulation);
-      // A run is known to be over somewhat earlier than its last snapshot is handed out.
+      // A run is known to be over before its last snapshot is delivered.
       feed_->CloseAtLatest();
       simulation->RemoveObserver(feed_);
     }
@@ -144,12 +144,12 @@ void SimulationRecorder::Record(const Occurrence& occurrence) {
 
 void SimulationRecorder::Record(const Observation& observation) {
   const world::Snapshot& snapshot = *observation.snapshot;
-  // The first and the last are taken from the simulation itself, and may be handed out as well.
+  // The first and the last snapshot come from the simulation itself, and may also be delivered.
   if (latest_ && snapshot.state.step <= latest_->state.step) {
     if (observation.status) states_.RecordStatus(*observation.status);
     return;
   }
-  // The last: who came without taking a step is no part of it.
+  // The last snapshot: a robot that was added without a step is not part of it.
   if (latest_ && snapshot.layout != latest_->layout && !observation.sensors) return;
   if (observation.sensors) {
     scene_.Attach(snapshot, *observation.sensors);
@@ -162,7 +162,7 @@ void SimulationRecorder::Record(const Observation& observation) {
   latest_ = observation.snapshot;
 }
 
-// A replay ends with what was seen last.
+// A replay ends with the last observed state.
 void SimulationRecorder::WriteEnd() {
   if (writer_->failed()) return;
   states_.RecordNow(*latest_);

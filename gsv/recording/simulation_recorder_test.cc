@@ -15,14 +15,14 @@ namespace {
 
 using simulation::Phase;
 
-TEST_F(SimulationRecorderTest, RunsThatGoAlikeHaveTheSameContentHoweverSlowTheBehaviourIs) {
+TEST_F(SimulationRecorderTest, EqualRunsHaveTheSameContentForFastAndSlowBehaviours) {
   const std::string first = Record(0.5).content_hash;
   EXPECT_EQ(first.size(), 16u);
   EXPECT_EQ(Record(0.5, 500us).content_hash, first);
   EXPECT_NE(Record(0.4).content_hash, first);
 }
 
-TEST_F(SimulationRecorderTest, LeavesNoTraceInTheSimulation) {
+TEST_F(SimulationRecorderTest, DoesNotAffectTheSimulation) {
   Record(0.5);
   auto simulation = MakeSimulation(1s, Drives(0.5));
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
@@ -32,7 +32,7 @@ TEST_F(SimulationRecorderTest, LeavesNoTraceInTheSimulation) {
 TEST_F(SimulationRecorderTest, EachTopicKeepsItsRateInSimulatedTime) {
   std::map<std::string, std::uint64_t> counts;
   for (const auto& channel : Record(0.5).channels) counts[channel.topic] = channel.messages;
-  // Over one second, both ends counted: 50, 20, 10 and 5 Hz. "back" is there from the first step
+  // Over one second, including both ends: 50, 20, 10 and 5 Hz. "back" exists from the first step
   // on.
   EXPECT_EQ(counts["/clock"], 51u);
   EXPECT_EQ(counts["/gsv/poses"], 51u);
@@ -48,7 +48,7 @@ TEST_F(SimulationRecorderTest, EachTopicKeepsItsRateInSimulatedTime) {
   EXPECT_EQ(counts["/diagnostics"], 2u);
 }
 
-TEST_F(SimulationRecorderTest, TellsWhoMetWhomAndHowHard) {
+TEST_F(SimulationRecorderTest, RecordsContactsWithTheirClosingSpeed) {
   Record(4.0);
   const auto contacts = Read<messages::gsv_msgs::Contact>("/gsv/contacts");
   ASSERT_EQ(contacts.size(), 1u);
@@ -59,7 +59,7 @@ TEST_F(SimulationRecorderTest, TellsWhoMetWhomAndHowHard) {
   EXPECT_NEAR(contacts[0].closing_speed, 4, 1e-9);
 }
 
-TEST_F(SimulationRecorderTest, TellsWhoSaidWhatToWhomByRadio) {
+TEST_F(SimulationRecorderTest, RecordsRadioMessages) {
   auto simulation = simulation::Make(simulation::Lockstep(200ms));
   const auto with_radio = [](std::string name, double x, std::string says) {
     auto robot = simulation::Robot(std::move(name), x, 0);
@@ -90,10 +90,10 @@ TEST_F(SimulationRecorderTest, TellsWhoSaidWhatToWhomByRadio) {
   EXPECT_EQ(said[0].receiver, "");
   EXPECT_EQ(std::string(said[0].content.begin(), said[0].content.end()), "hello");
   EXPECT_EQ(said[0].heard_by, (std::vector<std::string>{"b", "d"}));
-  EXPECT_EQ(said[0].stamp.nanosec, 60'000'000u);  // heard with the step after 50 ms
+  EXPECT_EQ(said[0].stamp.nanosec, 60'000'000u);  // received with the step after 50 ms
 }
 
-TEST_F(SimulationRecorderTest, TheMetadataSayHowToRunItAgainAndHowItEnded) {
+TEST_F(SimulationRecorderTest, TheMetadataHaveTheSettingsAndTheResult) {
   auto info = Record(0.5);
   std::map<std::string, StringMap> metadata;
   for (const MetadataRecord& record : info.metadata) metadata[record.name] = record.values;
@@ -106,7 +106,7 @@ TEST_F(SimulationRecorderTest, TheMetadataSayHowToRunItAgainAndHowItEnded) {
   EXPECT_EQ(metadata["gsv.result"]["dropped_snapshots"], "0");
 }
 
-TEST_F(SimulationRecorderTest, ARobotThatComesLaterBringsItsScene) {
+TEST_F(SimulationRecorderTest, ARobotThatIsAddedLaterHasItsScene) {
   auto simulation = MakeSimulation(1s, Drives(0.5));
   auto recorder = Start(simulation);
   ASSERT_TRUE(simulation->RunUntil(500ms));
@@ -125,8 +125,8 @@ TEST_F(SimulationRecorderTest, ARobotThatComesLaterBringsItsScene) {
   EXPECT_EQ(scenes.back().log_time, 510ms);  // the first step with it
 }
 
-// What it was told is done again by `gsv replay --resimulate --commands`.
-TEST_F(SimulationRecorderTest, ARobotThatComesAgainWasToldNothingYet) {
+// `gsv replay --resimulate --commands` repeats the recorded commands.
+TEST_F(SimulationRecorderTest, ARobotThatIsAddedAgainHasNoCommandYet) {
   auto simulation = MakeSimulation(1s, Drives(0.5));
   auto recorder = Start(simulation);
   ASSERT_TRUE(simulation->RunUntil(500ms));
@@ -137,7 +137,7 @@ TEST_F(SimulationRecorderTest, ARobotThatComesAgainWasToldNothingYet) {
   ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
   ASSERT_TRUE(recorder->Stop());
   const auto commands = Read<messages::gsv_msgs::Command>("/gsv/commands");
-  EXPECT_EQ(commands.size(), 10u);  // every 50 ms, until it was removed
+  EXPECT_EQ(commands.size(), 10u);  // every 50 ms, until its removal
   for (const auto& command : commands) EXPECT_EQ(command.linear_m_s, 0.5);
 }
 
@@ -208,7 +208,7 @@ TEST_F(SimulationRecorderTest, AResetEndsTheRecording) {
   EXPECT_EQ(Read<messages::gsv_msgs::LifecycleEvent>("/gsv/events").back().event, "finished");
 }
 
-TEST_F(SimulationRecorderTest, ASimulationThatGoesAwayLeavesAWholeFile) {
+TEST_F(SimulationRecorderTest, ADestroyedSimulationLeavesACompleteFile) {
   auto simulation = MakeSimulation(200ms, Drives(0.5));
   auto recorder = Start(simulation);
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);

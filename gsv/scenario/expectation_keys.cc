@@ -11,7 +11,7 @@ namespace {
 using FormulaKind = Formula::Kind;
 using QuantityKind = Quantity::Kind;
 
-constexpr double kMax = 1e9;                    // of any measured number
+constexpr double kMax = 1e9;                    // limit of any measured number
 constexpr double kNear = 0.25;                  // m
 constexpr double kYawNear = 0.261799387799149;  // rad, 15 degrees
 
@@ -37,7 +37,7 @@ class FormulaReader {
  public:
   explicit FormulaReader(const YamlPlace& place) : place_(place) {}
 
-  // `mapping` is a formula's: one operator, and what goes with it.
+  // `mapping` is a formula: one operator, and its arguments.
   Formula Read(YamlMapping& mapping, int depth) {
     Formula formula;
     if (is_too_large()) return formula;
@@ -69,7 +69,7 @@ class FormulaReader {
     return formula;
   }
 
-  // It has been told; there is no use in reading on.
+  // The problem was reported already, so reading can stop.
   bool is_too_large() const { return count_ > kMaxFormulas; }
 
  private:
@@ -143,7 +143,7 @@ class FormulaReader {
   Formula Until(const YAML::Node& node, YamlMapping& m, const std::string& key, int depth) {
     return Joined(FormulaKind::kUntil, Several(node, m, key, depth, 2));
   }
-  // Not the second until the first, without the second, has come.
+  // The second does not occur before the first has occurred without the second.
   Formula Before(const YAML::Node& node, YamlMapping& m, const std::string& key, int depth) {
     auto parts = Several(node, m, key, depth, 2);
     Formula none_of_second = Not(parts[1]);
@@ -151,7 +151,7 @@ class FormulaReader {
     return Joined(FormulaKind::kUntil, {std::move(none_of_second), std::move(first_alone)});
   }
 
-  // A robot's or an object's name.
+  // The name of a robot or object.
   std::string Body(YamlMapping& m) {
     const auto name = m.Text("robot");
     if (m.is_mapping() && (!name || name->empty()))
@@ -259,7 +259,7 @@ class FormulaReader {
     return Joined(FormulaKind::kAlways, {std::move(atom)});
   }
 
-  // A name, or two of them.
+  // One name, or two of them.
   Formula Contact(const YAML::Node& node, YamlMapping& m, const std::string& key, int) {
     Formula atom = Atom(QuantityKind::kContact, "", 1, 1);
     const bool is_pair =

@@ -82,7 +82,7 @@ TEST(TestKeys, EverythingIsReadAndWrittenBack) {
   EXPECT_EQ(again.expect[0].name, "there in time: #1");
 }
 
-TEST(TestKeys, MistakesInFaultsAreToldWithTheirPlace) {
+TEST(TestKeys, ErrorsInFaultsAreReportedWithTheirPlace) {
   EXPECT_THAT(
       ComplaintsOf("faults:\n"
                    "  - {sensor: scout/front}\n"
@@ -104,7 +104,7 @@ TEST(TestKeys, MistakesInFaultsAreToldWithTheirPlace) {
                   HasSubstr("t.yaml:9:24: there is no key \"fails\" here; known are at, sensor")));
 }
 
-TEST(TestKeys, MistakesInExpectationsAreToldWithTheirPlace) {
+TEST(TestKeys, ErrorsInExpectationsAreReportedWithTheirPlace) {
   EXPECT_THAT(
       ComplaintsOf("duration: 10\n"
                    "expect:\n"
@@ -138,7 +138,7 @@ TEST(TestKeys, MistakesInExpectationsAreToldWithTheirPlace) {
                           "duration"));
 }
 
-TEST(TestKeys, AThousandFaultsAndExpectationsAreTakenAndNoMore) {
+TEST(TestKeys, AtMostAThousandFaultsAndExpectationsAreAccepted) {
   std::string faults = "duration: 60\nfaults:\n", expect = "duration: 60\nexpect:\n";
   for (int i = 0; i < 1000; ++i) {
     faults += "  - {at: 5, behaviour: r}\n";

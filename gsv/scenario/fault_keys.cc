@@ -4,7 +4,7 @@
 namespace gsv::scenario {
 namespace {
 
-// What a fault is about, by its key.
+// The target of a fault, by its key.
 enum class Subject { kSensor, kBehaviour, kMotor, kMove, kJoint };
 constexpr std::pair<const char*, Subject> kSubjects[]{{"sensor", Subject::kSensor},
                                                       {"behaviour", Subject::kBehaviour},
@@ -12,7 +12,7 @@ constexpr std::pair<const char*, Subject> kSubjects[]{{"sensor", Subject::kSenso
                                                       {"move", Subject::kMove},
                                                       {"joint", Subject::kJoint}};
 
-// "scout/front" as "scout" and "front".
+// Splits "scout/front" into "scout" and "front".
 void Split(const std::string& text, Fault& fault) {
   const std::size_t slash = std::min(text.find('/'), text.size());
   fault.body = text.substr(0, slash);

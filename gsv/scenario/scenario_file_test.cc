@@ -22,7 +22,7 @@ std::vector<std::string> Sentences(const base::Problems& problems) {
   return sentences;
 }
 
-// What is wrong with a text, one sentence each.
+// The problems of a text, one sentence each.
 std::vector<std::string> Complaints(const std::string& text) {
   base::Problems problems;
   const auto scenario = ParseScenario(text, "room.yaml", problems);
@@ -38,7 +38,7 @@ Scenario Parsed(const std::string& text) {
   return scenario.value_or(Scenario());
 }
 
-TEST(ScenarioFile, ReadsWhatPeopleWrite) {
+TEST(ScenarioFile, ReadsAllKeys) {
   const Scenario scenario = Parsed(R"(
 # A room with two robots.
 world: office
@@ -102,7 +102,7 @@ TEST(ScenarioFile, TheFormerNameOfTheRealTimeFactorIsAccepted) {
   EXPECT_THAT(problems[0].message, ::testing::HasSubstr("is the former name of real_time_factor"));
 }
 
-TEST(ScenarioFile, WhatIsWrittenIsReadBackToTheBit) {
+TEST(ScenarioFile, AWrittenScenarioIsReadBackBitByBit) {
   Scenario scenario;
   scenario.world = "my worlds/room: \"2\" #1.sdf";
   scenario.name = "true";
@@ -136,7 +136,7 @@ TEST(ScenarioFile, WhatIsWrittenIsReadBackToTheBit) {
   EXPECT_EQ(Parsed(ToYaml(Scenario())), Scenario());
 }
 
-TEST(ScenarioFile, EachMistakeIsNamedWithLineAndColumn) {
+TEST(ScenarioFile, EachErrorHasLineAndColumn) {
   EXPECT_THAT(
       Complaints("world: office\n"
                  "wrold: office\n"
@@ -172,7 +172,7 @@ TEST(ScenarioFile, EachMistakeIsNamedWithLineAndColumn) {
                   HasSubstr("room.yaml:2:1: there is no key \"wrold\" here; known are world, ")));
 }
 
-TEST(ScenarioFile, NamesWhatIsWrongWithPedestrians) {
+TEST(ScenarioFile, ReportsErrorsOfPedestrians) {
   EXPECT_THAT(Complaints("pedestrians:\n"
                          "  - {count: 3}\n"
                          "  - {route: [{x: 1}], speed: 11}\n"
@@ -198,7 +198,7 @@ TEST(ScenarioFile, ANumberInQuotesIsAText) {
                           "\"true\""));
 }
 
-TEST(ScenarioFile, ARecordingIsNamedNotWished) {
+TEST(ScenarioFile, TrueIsNotTheNameOfARecording) {
   EXPECT_THAT(Complaints("record: true\n"),
               ElementsAre("room.yaml:1:9: record must be a file, NAME.mcap, or a folder, found "
                           "\"true\""));
@@ -214,7 +214,7 @@ TEST(ScenarioFile, ABehaviourIsChosenByNameOrByConstraint) {
                           "both"));
 }
 
-TEST(ScenarioFile, WhatIsNoScenarioIsRefused) {
+TEST(ScenarioFile, AFileThatIsNotAScenarioIsRefused) {
   EXPECT_THAT(Complaints(""), ElementsAre(HasSubstr("room.yaml: it is empty")));
   EXPECT_THAT(Complaints("world: a\nrobots: ]\n"),
               ElementsAre("room.yaml:2:9: it is no YAML: illegal flow end"));
@@ -227,9 +227,9 @@ TEST(ScenarioFile, WhatIsNoScenarioIsRefused) {
   EXPECT_THAT(Complaints(std::string(100'000, '[')), ElementsAre(HasSubstr("it is no YAML")));
 }
 
-TEST(ScenarioFile, WhatStandsBehindTheScenarioEndsTheReading) {
+TEST(ScenarioFile, ContentAfterTheScenarioIsRefused) {
   EXPECT_THAT(Complaints("world: a\n, b\n"), ::testing::Not(IsEmpty()));
-  // Found by the fuzzer: a reader of all documents found this one again and again.
+  // Found by the fuzzer: a reader of all documents would find this one again and again.
   EXPECT_THAT(Complaints(", [b: |\n  two\n  *a\nror\nwoe: !!str 0\nm]]\n\n"),
               ::testing::Not(IsEmpty()));
 }
@@ -272,7 +272,7 @@ TEST(ScenarioFile, ASmallFileMakesNoLargeScenario) {
               ElementsAre(HasSubstr("robots has at most 100000 entries")));
 }
 
-TEST(ScenarioFile, IsTakenUpToItsLimitsAndNotBeyond) {
+TEST(ScenarioFile, IsLimited) {
   const std::string padded = "world: a\n#";
   EXPECT_THAT(Complaints(padded + std::string(kMaxScenarioBytes - padded.size(), 'x')),
               ElementsAre());

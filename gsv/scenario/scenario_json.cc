@@ -6,7 +6,7 @@
 namespace gsv::scenario {
 namespace {
 
-// JSON is YAML, but for texts that YAML would not have (a key of a thousand letters).
+// JSON is YAML, except for texts that YAML does not allow (a key of a thousand letters).
 template <typename Read>
 auto ReadJson(const std::string& json, base::Problems& problems, const Read& read) {
   const YamlPlace place(YamlPlace::Naming::kFields, "", problems);

@@ -84,7 +84,7 @@ std::vector<model::PedestrianGroup> ReadPedestrianGroups(YamlMapping& mapping) {
     group.radius = keys.Number("radius", 0.05, 1).value_or(group.radius);
     group.height = keys.Number("height", 0.2, 3).value_or(group.height);
     const auto ok = model::Check(group);
-    // What is said already is not said twice.
+    // Avoids reporting a problem twice.
     if (!ok && mapping.place().problem_count() == problem_count && keys.is_mapping()) {
       keys.AddProblem(ok.error().message);
     }
@@ -104,7 +104,7 @@ std::map<std::string, double> ReadRates(YamlMapping& mapping) {
   return rates;
 }
 
-// `factor` is the former name of the key.
+// `factor` is the deprecated name of the key.
 std::optional<double> ReadRealTimeFactor(YamlMapping& mapping) {
   const auto factor = mapping.Number("real_time_factor", kMinRealTimeFactor, kMaxRealTimeFactor);
   const auto former = mapping.Number("factor", kMinRealTimeFactor, kMaxRealTimeFactor);
@@ -114,7 +114,7 @@ std::optional<double> ReadRealTimeFactor(YamlMapping& mapping) {
   return factor ? factor : former;
 }
 
-// 0: the world's, as without one.
+// 0: the world's step, also the default.
 std::optional<double> ReadStep(YamlMapping& mapping) {
   const auto step = mapping.Number("step", 0, 10);
   if (step == 0.0) return std::nullopt;
@@ -125,7 +125,7 @@ std::optional<double> ReadStep(YamlMapping& mapping) {
   return step;
 }
 
-// What a person asks a server for is no name.
+// A request to a server may have true or false here, which is not a file name.
 std::string ReadRecord(YamlMapping& mapping) {
   const std::string record = mapping.Text("record").value_or("");
   if (record == "true" || record == "false") {

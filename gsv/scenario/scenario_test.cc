@@ -31,7 +31,7 @@ TEST(ParseRobot, AnAtSignInAFolderDoesNotEndTheModel) {
   EXPECT_EQ(robot->model, "/home/me@lab/burger");
 }
 
-TEST(ParseRobot, RefusesWhatIsNoPlaceWithTheExpectedForm) {
+TEST(ParseRobot, RefusesAnInvalidPlaceWithTheExpectedForm) {
   for (const char* text :
        {"b@", "b@1", "b@1,2,3,4", "b@1,x", "b@1,nan", "b@1,2,3degrees", "@1,2", ""}) {
     const auto robot = ParseRobot(text);
@@ -48,7 +48,7 @@ TEST(ParsePedestrians, TakesACountAndARoute) {
   EXPECT_EQ(group->route, (std::vector<model::PedestrianGoal>{{-4, 0, 1.5}, {4, -10, 0}}));
 }
 
-TEST(ParsePedestrians, RefusesWhatIsNoRouteWithTheExpectedForm) {
+TEST(ParsePedestrians, RefusesAnInvalidRouteWithTheExpectedForm) {
   for (const char* text : {"", "20", "20@", "0@1,2", "1.5@1,2", "20@1", "20@1,2,3,4",
                            "20@1,2:", "20@1,2,-1", "x@1,2", "200000@1,2"}) {
     const auto group = ParsePedestrians(text);

@@ -16,7 +16,7 @@ bool IsPlainCharacter(char c) {
          std::string_view("_./-+").find(c) != std::string_view::npos;
 }
 
-// What YAML readers take for something else than a text.
+// Texts that YAML readers do not read as text.
 bool IsReserved(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -50,7 +50,7 @@ std::string Text(const std::string& text) {
   return quoted + "\"";
 }
 
-// The shortest that reads back as the same.
+// The shortest number that reads back as the same value.
 std::string Number(double value) {
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
@@ -181,7 +181,7 @@ std::string Rates(const std::map<std::string, double>& rates) {
 
 std::string OneLineYaml(const YAML::Node& node) {
   if (node.IsScalar()) {
-    // What looks like a number in quotes would not be one without.
+    // A number in quotes would not be a text without them.
     const bool is_number = node.Tag() != "!" && ParseNumber(node.Scalar());
     return is_number ? node.Scalar() : Text(node.Scalar());
   }
@@ -218,7 +218,7 @@ std::string ToYaml(const Scenario& scenario) {
   writer.PutFaults(scenario.faults);
   writer.PutExpectations(scenario.expect);
   const std::string yaml = writer.Take();
-  return yaml.empty() ? "{}\n" : yaml;  // an empty file would be none
+  return yaml.empty() ? "{}\n" : yaml;  // an empty file is not a mapping
 }
 
 }  // namespace gsv::scenario

@@ -1,5 +1,5 @@
-// What robots tell their lamps and speakers: when it acts, and that it leaves the same state
-// whoever is quick or slow.
+// Commands of robots to their lamps and speakers: the instant at which they take effect, and the
+// same final state for fast and slow behaviours.
 #include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::simulation {
@@ -27,7 +27,7 @@ double BrightnessOf(Simulation& simulation, const std::string& robot,
   return reading ? reading->values[0] : -1;
 }
 
-TEST(Actuators, ActFromTheInstantAtWhichTheyAreTold) {
+TEST(Actuators, ApplyACommandFromItsInstantOn) {
   std::vector<double> seen;
   auto simulation = Make(Lockstep(100ms));
   auto behaviour = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
@@ -47,7 +47,7 @@ TEST(Actuators, ActFromTheInstantAtWhichTheyAreTold) {
   EXPECT_EQ(snapshot->state.devices->front()->followed()->since, 20ms);
 }
 
-TEST(Actuators, WhatCannotBeToldIsRefusedWithASentence) {
+TEST(Actuators, RefuseAnInvalidCommandWithASentence) {
   auto simulation = Make(Lockstep(20ms));
   std::vector<std::string> why;
   auto behaviour = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId) {
@@ -70,7 +70,7 @@ TEST(Actuators, WhatCannotBeToldIsRefusedWithASentence) {
   EXPECT_EQ(simulation->snapshot()->state.devices, nullptr);
 }
 
-TEST(Actuators, LeaveTheSameHashWhoeverIsSlow) {
+TEST(Actuators, GiveTheSameHashForFastAndSlowBehaviours) {
   const auto hash_of = [](std::chrono::microseconds first, std::chrono::microseconds second) {
     const auto blinks = [](std::chrono::microseconds dawdling) {
       return std::make_shared<ThreadBehaviour>([=](Agent& agent, ClockId clock) {
@@ -132,7 +132,7 @@ TEST(Actuators, GoWithTheirRobotAndWithASensorThatIsTakenOff) {
   ASSERT_TRUE(simulation->AddRobot(RobotWithLamp("other", 1, nullptr, {{"brightness", 1.0}})));
   ASSERT_TRUE(simulation->RunUntil(50ms));
   ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
-  // Its own lamp goes on shining, also when nobody has it open.
+  // The lamp of the model stays on, even if no behaviour has it open.
   ASSERT_EQ(simulation->snapshot()->state.devices->size(), 2u);
   EXPECT_EQ(BrightnessOf(*simulation, "robot"), 1);
   ASSERT_TRUE(simulation->RemoveRobot("robot"));

@@ -1,4 +1,4 @@
-// The real-time factor, changed in mid-run.
+// Changes of the real-time factor during a run.
 #include <cmath>
 #include <limits>
 
@@ -9,7 +9,7 @@
 namespace gsv::simulation {
 namespace {
 
-// Ten steps of 10 ms, of which each takes ten seconds.
+// Ten steps of 10 ms, each of which takes ten seconds.
 Specification Slow() {
   Specification specification = Lockstep(100ms);
   specification.mode = Mode::kRealTime;
@@ -17,7 +17,7 @@ Specification Slow() {
   return specification;
 }
 
-TEST(Factor, ARunThatCrawlsIsMadeToHurry) {
+TEST(Factor, ASlowRunIsSpedUp) {
   const auto simulation = Make(Slow());
   ASSERT_TRUE(simulation->Start());
   ASSERT_TRUE(simulation->SetRealTimeFactor(1000));
@@ -33,7 +33,7 @@ TEST(Factor, ARunThatCrawlsIsMadeToHurry) {
   EXPECT_EQ(simulation->real_time_factor(), 1000);
 }
 
-TEST(Factor, WhatCannotBeSetIsRefused) {
+TEST(Factor, RefusesInvalidFactors) {
   const auto simulation = Make(Slow());
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const double bad : {0.0, -1.0, 2e6, std::nan(""), kInfinity}) {

@@ -1,4 +1,4 @@
-// What goes wrong because a scenario says so.
+// Faults in scenarios.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ TEST(Faults, AMotorThatFailsLeavesTheRobotWhereItIs) {
   EXPECT_EQ(RunToEnd(*simulation), Phase::kFinished);
   EXPECT_NEAR(XAtTheEnd(*simulation), 0.5, 0.006);
   const std::string hash = simulation->state_hash();
-  // Once more, from a reset: at its time it fails again.
+  // After a reset, it fails again at its time.
   ASSERT_TRUE(simulation->Reset());
   EXPECT_EQ(RunToEnd(*simulation), Phase::kFinished);
   EXPECT_EQ(simulation->state_hash(), hash);
@@ -81,7 +81,7 @@ TEST(Faults, APartOfTheWorldMovesAndIsBackAfterAReset) {
   EXPECT_EQ(simulation->state_hash(), hash);
 }
 
-TEST(Faults, OneThatCannotHappenFailsTheRunWithItsPlace) {
+TEST(Faults, AnImpossibleFaultFailsTheRunWithItsPlace) {
   Fault onto = At(1, Fault::Kind::kBodyMoves, "wall");
   onto.place = {0.5, 0, 0, 0};
   const auto simulation = WithFault(onto);
@@ -90,7 +90,7 @@ TEST(Faults, OneThatCannotHappenFailsTheRunWithItsPlace) {
   EXPECT_THAT(simulation->status().failure, HasSubstr("t.yaml:1:1: the fault cannot happen: "));
 }
 
-// A box with an arm on a joint, which forces move.
+// A box with an arm on a joint, with rigid-body dynamics.
 RobotSpecification RobotWithAnArm() {
   auto model = std::make_shared<model::Model>(*Disc(0.2));
   model->links.emplace_back().name = "arm";
@@ -118,7 +118,7 @@ TEST(Faults, TheMotorOfAJointThatIsGoneFailsTheRunWithItsPlace) {
   EXPECT_THAT(simulation->status().failure, HasSubstr("the joint is gone: hinge"));
 }
 
-TEST(Faults, OfWhoIsNotThereTheStartIsRefused) {
+TEST(Faults, AFaultOfAMissingRobotPreventsTheStart) {
   for (const Fault& fault :
        {At(1, Fault::Kind::kMotorFails, "nobody"), At(1, Fault::Kind::kMotorFails, "wall"),
         At(1, Fault::Kind::kBehaviourDies, "r"), At(1, Fault::Kind::kJointMoves, "r", "hinge")}) {

@@ -13,11 +13,11 @@ class LimitsTest : public ::testing::Test {
   ~LimitsTest() override { ProcessLimits() = {}; }
 };
 
-TEST_F(LimitsTest, RobotsAreTakenUpToTheirNumberAndNotBeyond) {
+TEST_F(LimitsTest, RobotsAreLimited) {
   ProcessLimits().robots = 3;
   const auto simulation = Make(Lockstep(0s));
   ASSERT_TRUE(simulation->AddRobot(Robot("a", 0, -2)));
-  // Two at once, of which only one fits: neither comes.
+  // Two robots are added together, but only one fits: neither is added.
   std::vector<RobotSpecification> crowd;
   for (const char* name : {"b", "c", "d"}) {
     crowd.push_back(Robot(name, 0, static_cast<double>(crowd.size())));
@@ -34,8 +34,8 @@ TEST_F(LimitsTest, RobotsAreTakenUpToTheirNumberAndNotBeyond) {
   EXPECT_TRUE(simulation->AddRobot(Robot("d", 0, 2)));
 }
 
-TEST_F(LimitsTest, SensorsAreTakenUpToTheirNumberAndNotBeyond) {
-  ProcessLimits().sensors_of_a_robot = 2;  // the model has one
+TEST_F(LimitsTest, SensorsAreLimited) {
+  ProcessLimits().sensors_of_a_robot = 2;  // the model has one already
   const auto simulation = Make(Lockstep(0s));
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0)));
   model::SensorDescription sonar = Disc(0.2)->sensors.front();
@@ -47,13 +47,13 @@ TEST_F(LimitsTest, SensorsAreTakenUpToTheirNumberAndNotBeyond) {
   EXPECT_NE(refused.error().message.find("at most 2 sensors"), std::string::npos);
 }
 
-TEST_F(LimitsTest, ClocksAreOpenedUpToTheirNumberAndNotBeyond) {
+TEST_F(LimitsTest, ClocksAreLimited) {
   auto simulation = Make(Lockstep(100ms));
   std::vector<bool> opened;
   std::string refusal;
   ASSERT_TRUE(simulation->AddRobot(
       Robot("robot", 0, 0, std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId) {
-              std::vector<ClockId> more;  // it has one
+              std::vector<ClockId> more;  // it has one already
               for (int i = 2; i <= 64; ++i) {
                 const auto clock = agent.OpenClock();
                 opened.push_back(clock.has_value());
@@ -72,7 +72,7 @@ TEST_F(LimitsTest, ClocksAreOpenedUpToTheirNumberAndNotBeyond) {
   EXPECT_EQ(refusal, "an agent has at most 64 clocks open");
 }
 
-TEST_F(LimitsTest, TenThousandEventsAreKeptAndTheOldestGo) {
+TEST_F(LimitsTest, TenThousandEventsAreKept) {
   Specification specification = Lockstep(0s);
   specification.mode = Mode::kRealTime;
   const auto simulation = Make(specification);
@@ -83,7 +83,7 @@ TEST_F(LimitsTest, TenThousandEventsAreKeptAndTheOldestGo) {
   ASSERT_TRUE(simulation->SetRealTimeFactor(4));
   const auto newest = simulation->events(0);
   ASSERT_EQ(newest.size(), 10'000u);
-  // The first is gone, the second comes first; numbers count on.
+  // The first event was dropped, so that the second comes first; the numbers continue.
   EXPECT_EQ(newest.front().detail, all[1].detail);
   EXPECT_EQ(newest.back().kind, "factor_set");
   EXPECT_NE(newest.back().detail, all.back().detail);

@@ -1,5 +1,5 @@
-// Sensors of motion in a world that moves: what they read against what the motion must make them
-// read. docs/fidelity.md lists what is expected.
+// Compares sensors of motion with the values that follow from the motion. docs/fidelity.md lists
+// the expected values.
 
 #include "gsv/base/test_within.h"
 #include "gsv/geometry/constants.h"
@@ -11,8 +11,8 @@ namespace {
 using geometry::kPi;
 constexpr double kRadius = 0.1, kSeparation = 0.3;
 
-// A disc on two wheels whose true radii are `left` and `right` times what the drive takes them for,
-// with one sensor named after its type, 0.15 m ahead.
+// A disc on two wheels with one sensor named after its type, 0.15 m ahead. The true radii of the
+// wheels are `left` and `right` times those that the drive assumes.
 std::shared_ptr<model::Model> Rover(const std::string& sensor, double left = 1, double right = 1) {
   auto model = std::make_shared<model::Model>(*Disc(0.2));
   for (const double side : {1.0, -1.0}) {
@@ -46,7 +46,7 @@ struct Leg {
   SimTime duration;
 };
 
-// Drives the legs and gives the sensor's reading and the robot's pose at the end.
+// Drives the legs and returns the sensor's reading and the robot's pose at the end.
 struct Driven {
   std::vector<double> values;
   std::shared_ptr<const std::vector<std::string>> labels;
@@ -84,13 +84,13 @@ std::vector<Leg> AroundTheSquare() {
 }
 
 TEST(MotionSensors, AnOdometerClosesTheSquareThatUnequalWheelsMiss) {
-  // The square of planar_fidelity_test.cc, with sides of 2 m: where wheels differ by the ratio E
-  // the robot misses its start by 2 L beta, beta = L / (b/2 (E + 1) / (E - 1)); the wheels do not
-  // know.
+  // The square of planar_fidelity_test.cc, with sides of 2 m. If the wheels differ by the ratio E,
+  // the robot misses its start by 2 L beta, with beta = L / (b/2 (E + 1) / (E - 1)). The odometry
+  // does not notice it.
   const double ratio = 1.001, left = 2 / (1 + ratio), right = 2 * ratio / (1 + ratio);
   const Driven driven = Drive(Rover("odometry", left, right), AroundTheSquare());
   ASSERT_EQ(driven.values.size(), 6u);
-  EXPECT_EQ(driven.values[5], 0);  // sideways: this drive cannot
+  EXPECT_EQ(driven.values[5], 0);  // sideways: this drive cannot move
   EXPECT_WITHIN(driven.values[0], 0, 1e-9, "m");
   EXPECT_WITHIN(driven.values[1], 0, 1e-9, "m");
   EXPECT_NEAR(geometry::WrapAngle(driven.values[2]), 0, 1e-9);
@@ -99,7 +99,7 @@ TEST(MotionSensors, AnOdometerClosesTheSquareThatUnequalWheelsMiss) {
   EXPECT_WITHIN_PERCENT(driven.pose.position.y, -expected, 5);
 }
 
-TEST(MotionSensors, AnImuOnASpinningRobotFeelsItsCentripetalForce) {
+TEST(MotionSensors, AnImuOnASpinningRobotReadsCentripetalAcceleration) {
   const Driven driven = Drive(Rover("imu"), {{{0, 0, 2}, 1s}});
   ASSERT_EQ(driven.values.size(), 10u);
   EXPECT_NEAR(driven.values[2], 2, 1e-9);
@@ -108,15 +108,15 @@ TEST(MotionSensors, AnImuOnASpinningRobotFeelsItsCentripetalForce) {
   EXPECT_WITHIN(driven.values[5], 9.8, 1e-9, "m/s²");
 }
 
-TEST(MotionSensors, AnImuOnARobotThatCirclesFeelsTheCircle) {
-  // At 0.5 m/s and 0.5 rad/s: 0.25 m/s² to the left, less what the step of 10 ms blurs.
+TEST(MotionSensors, AnImuOnACirclingRobotReadsCentripetalAcceleration) {
+  // At 0.5 m/s and 0.5 rad/s: 0.25 m/s² to the left, minus the effect of the 10 ms step.
   const Driven driven = Drive(Rover("imu"), {{{0.5, 0, 0.5}, 1s}});
   ASSERT_EQ(driven.values.size(), 10u);
   EXPECT_WITHIN(driven.values[4], 0.25, 1e-3, "m/s²");
   EXPECT_WITHIN(driven.values[3], -0.5 * 0.5 * 0.15, 2e-3, "m/s²");
 }
 
-TEST(MotionSensors, AnImuOnAFallingRobotFeelsNothing) {
+TEST(MotionSensors, AnImuInFreeFallReadsZero) {
   auto model = Rover("imu");
   model->movement = model::Movement::kRigid;
   auto simulation = Make(Lockstep(300ms));
@@ -141,7 +141,7 @@ TEST(MotionSensors, JointEncodersSeeTheWheelsRoll) {
   EXPECT_WITHIN(driven.values[1], 0.5 / kRadius, 1e-9, "rad");
 }
 
-TEST(MotionSensors, ABumperFeelsTheWall) {
+TEST(MotionSensors, ABumperDetectsTheWall) {
   // The wall's face is at 2.9 m, the robot's radius is 0.2 m.
   const Driven before = Drive(Rover("contact"), {{{0.5, 0, 0}, 1s}});
   EXPECT_TRUE(before.values.empty());

@@ -1,4 +1,4 @@
-// Pedestrians as a simulation places and keeps them.
+// Simulations place pedestrians, and keep them when the world is edited.
 #include <gtest/gtest.h>
 
 #include "gsv/simulation/testing/test_simulation.h"
@@ -15,7 +15,7 @@ model::PedestrianGroup Walkers(int count, std::vector<model::PedestrianGoal> rou
   return group;
 }
 
-// About the wall at x = 3, which is 10 m long.
+// Pedestrians around the wall at x = 3, which is 10 m long.
 Specification WithWalkers(int count, int threads = 0) {
   Specification specification = Lockstep(2s);
   specification.seed = 3;
@@ -53,7 +53,7 @@ TEST(Pedestrians, RepeatWhateverTheThreads) {
   EXPECT_EQ(run(4), alone);
 }
 
-TEST(Pedestrians, ComeOutTheSameAfterAReset) {
+TEST(Pedestrians, AreTheSameAfterAReset) {
   const auto simulation = Make(WithWalkers(20));
   RunToEnd(*simulation);
   const std::string first = simulation->state_hash();
@@ -78,7 +78,7 @@ TEST(Pedestrians, KeepTheirDrawsWhenMoreAreAdded) {
   EXPECT_NE(speed(many, "walker_1"), speed(many, "walker_2"));
 }
 
-TEST(Pedestrians, AreRefusedWithoutRoomOrRoute) {
+TEST(Pedestrians, AreRefusedWithoutSpaceOrRoute) {
   Specification crowded = WithWalkers(1);
   crowded.pedestrians = {Walkers(50, {{-6, 0, 0.5}})};
   Specification lost = WithWalkers(1);
@@ -91,7 +91,7 @@ TEST(Pedestrians, AreRefusedWithoutRoomOrRoute) {
   }
 }
 
-TEST(Pedestrians, GoOnWhenARobotIsAdded) {
+TEST(Pedestrians, ContinueWhenARobotIsAdded) {
   const auto simulation = Make(WithWalkers(10));
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", -20, 0)));
   EXPECT_EQ(RunToEnd(*simulation), Phase::kFinished);

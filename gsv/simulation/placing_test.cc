@@ -1,4 +1,4 @@
-// Who stands in a simulation, and where, is changed while it stands still.
+// Changes of the bodies and their poses while the simulation is paused.
 #include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::simulation {
@@ -13,7 +13,7 @@ void RunUntilPaused(Simulation& simulation, SimTime instant) {
   ASSERT_EQ(simulation.WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
 }
 
-TEST(Placing, BeforeTheFirstStepItIsWhereABodyStarts) {
+TEST(Placing, BeforeTheFirstStepItSetsTheInitialPose) {
   auto simulation = Make(Lockstep(100ms));
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0)));
   ASSERT_TRUE(simulation->PlaceBody("robot", PlanarPose(1, -2, 0, 0.5), true));
@@ -25,7 +25,7 @@ TEST(Placing, BeforeTheFirstStepItIsWhereABodyStarts) {
   EXPECT_NEAR(geometry::Yaw(pose.orientation), 0.5, 1e-12);
 }
 
-TEST(Placing, InAPauseARobotGoesOnFromThereAndAResetBringsItBack) {
+TEST(Placing, DuringAPauseARobotContinuesFromThereAndAResetRestoresIt) {
   auto simulation = Make(Lockstep(1s));
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, Drives(0.5))));
   RunUntilPaused(*simulation, 500ms);
@@ -39,7 +39,7 @@ TEST(Placing, InAPauseARobotGoesOnFromThereAndAResetBringsItBack) {
   EXPECT_EQ(PositionOf(*simulation, "robot"), (geometry::Vector3{0, 0, 0}));
 }
 
-TEST(Placing, WhereSomethingStandsIsRefusedAndNothingMoves) {
+TEST(Placing, AnOccupiedPlaceIsRefusedAndNothingMoves) {
   auto simulation = Make(Lockstep(0s));
   ASSERT_TRUE(simulation->AddRobot(Robot("first", 0, 0)));
   ASSERT_TRUE(simulation->AddRobot(Robot("second", 1, 0)));
@@ -48,11 +48,11 @@ TEST(Placing, WhereSomethingStandsIsRefusedAndNothingMoves) {
   EXPECT_NE(into_another.error().Sentence().find("\"first\""), std::string::npos);
   EXPECT_FALSE(simulation->PlaceBody("second", PlanarPose(3, 0, 0, 0), true));
   EXPECT_EQ(PositionOf(*simulation, "second"), (geometry::Vector3{1, 0, 0}));
-  // Its own place is free for it.
+  // Its own place counts as free for it.
   EXPECT_TRUE(simulation->PlaceBody("second", PlanarPose(1.05, 0, 0, 0), true));
 }
 
-TEST(Placing, WhatIsFixedOrAbsentOrRunsIsRefused) {
+TEST(Placing, IsRefusedForStaticAndMissingBodiesAndWhileRunning) {
   auto simulation = Make(Lockstep(0s));
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0)));
   const auto wall = simulation->PlaceBody("wall", PlanarPose(1, 0, 0, 0), true);
@@ -66,7 +66,7 @@ TEST(Placing, WhatIsFixedOrAbsentOrRunsIsRefused) {
   EXPECT_TRUE(simulation->Stop());
 }
 
-TEST(Placing, ARobotThatCameInAPauseDrivesAfterIt) {
+TEST(Placing, ARobotAddedDuringAPauseDrivesAfterIt) {
   auto simulation = Make(Lockstep(1s));
   ASSERT_TRUE(simulation->AddRobot(Robot("first", 0, 0, Drives(0.5))));
   RunUntilPaused(*simulation, 500ms);

@@ -1,5 +1,5 @@
-// Messages between robots: when they come, in which order, and that they leave the same state
-// whoever is quick or slow.
+// Messages between robots: their time and order, and the same final state for fast and slow
+// behaviours.
 #include <set>
 
 #include "gsv/base/base64.h"
@@ -45,7 +45,7 @@ Inbox Listen(Agent& agent) {
   return inbox;
 }
 
-// Opens its radio and does `what` 100 ms later, once.
+// Opens its radio and calls `what` 100 ms later, once.
 std::shared_ptr<ThreadBehaviour> Speaks(std::function<void(Agent&)> what) {
   return std::make_shared<ThreadBehaviour>([what](Agent& agent, ClockId clock) {
     ASSERT_TRUE(agent.OpenSensor("radio"));
@@ -62,7 +62,7 @@ std::shared_ptr<ThreadBehaviour> Says(std::vector<std::string> words, std::strin
   });
 }
 
-// Opens its radio and keeps what is in its inbox at each of the instants.
+// Opens its radio and stores its inbox at each of the instants.
 std::shared_ptr<ThreadBehaviour> Hears(std::vector<SimTime> instants,
                                        std::map<SimTime, Inbox>& heard) {
   return std::make_shared<ThreadBehaviour>([=, &heard](Agent& agent, ClockId clock) {
@@ -74,10 +74,10 @@ std::shared_ptr<ThreadBehaviour> Hears(std::vector<SimTime> instants,
   });
 }
 
-TEST(Radio, IsHeardWithTheNextStepInTheOrderOfSenders) {
+TEST(Radio, DeliversWithTheNextStepInTheOrderOfSenders) {
   std::map<SimTime, Inbox> heard;
   auto simulation = Make(Lockstep(300ms));
-  // Added in another order than that of their names; the first to speak is the last in name.
+  // The order differs from that of the names; the first sender is the last by name.
   ASSERT_TRUE(simulation->AddRobot(RobotWithRadio("zoe", 0, 2, Says({"z1", "z2"}))));
   ASSERT_TRUE(
       simulation->AddRobot(RobotWithRadio("ear", 0, 0, Hears({100ms, 110ms, 200ms}, heard))));
@@ -89,7 +89,7 @@ TEST(Radio, IsHeardWithTheNextStepInTheOrderOfSenders) {
   EXPECT_EQ(heard[200ms], all);
 }
 
-TEST(Radio, ReachesOneOrAllButNotTheSenderAndNotWhoIsTooFar) {
+TEST(Radio, ReachesOneOrAllButNotTheSenderAndNotDistantRobots) {
   std::map<SimTime, Inbox> near, addressed, far;
   auto simulation = Make(Lockstep(200ms));
   ASSERT_TRUE(
@@ -109,9 +109,9 @@ TEST(Radio, ReachesOneOrAllButNotTheSenderAndNotWhoIsTooFar) {
   EXPECT_EQ(simulation->Watch("speaker", "radio")->values.size(), 0u);
 }
 
-TEST(Radio, DoesNotPassAWallThatTakesAll) {
+TEST(Radio, DoesNotPassAWallThatAbsorbsAll) {
   std::map<SimTime, Inbox> before, behind;
-  auto simulation = Make(Lockstep(200ms));  // its wall stands at x = 3
+  auto simulation = Make(Lockstep(200ms));  // the wall is at x = 3
   ASSERT_TRUE(simulation->AddRobot(
       RobotWithRadio("speaker", 2, 0, Says({"hello"}), {{"wall_loss", 1000.0}})));
   ASSERT_TRUE(simulation->AddRobot(RobotWithRadio("before", -4, 0, Hears({150ms}, before))));
@@ -131,7 +131,7 @@ TEST(Radio, KeepsTheLastMessagesAndCountsAll) {
   EXPECT_EQ(heard[150ms], (Inbox{{"a", "4", 4}, {"a", "5", 5}}));
 }
 
-TEST(Radio, HearsOnlyWhileItIsOpen) {
+TEST(Radio, ReceivesOnlyWhileItIsOpen) {
   Inbox at_first, after_all;
   auto simulation = Make(Lockstep(400ms));
   ASSERT_TRUE(simulation->AddRobot(RobotWithRadio("a", 0, 0, Says({"early"}))));
@@ -151,7 +151,7 @@ TEST(Radio, HearsOnlyWhileItIsOpen) {
   EXPECT_EQ(simulation->snapshot()->state.devices->size(), 2u);
 }
 
-TEST(Radio, RefusesWhatIsTooLongTooMuchOrNoRadio) {
+TEST(Radio, RefusesLongMessagesTooManyMessagesAndOtherSensors) {
   auto simulation = Make(Lockstep(200ms));
   ASSERT_TRUE(simulation->AddRobot(RobotWithRadio(
       "a", 0, 0, Speaks([](Agent& agent) {
@@ -168,7 +168,7 @@ TEST(Radio, RefusesWhatIsTooLongTooMuchOrNoRadio) {
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
 }
 
-TEST(Radio, ForgetsAllOnResetAndWhoLeaves) {
+TEST(Radio, ForgetsMessagesOnResetAndOfRemovedRobots) {
   auto simulation = Make(Lockstep(200ms));
   std::map<SimTime, Inbox> heard;
   ASSERT_TRUE(simulation->AddRobot(RobotWithRadio("a", 0, 0, Says({"hello"}))));
@@ -184,7 +184,7 @@ TEST(Radio, ForgetsAllOnResetAndWhoLeaves) {
   EXPECT_EQ(simulation->snapshot()->state.devices->front()->robot(), "a");
 }
 
-// Everybody says how often it was spoken to, and drives accordingly.
+// Every robot sends the number of messages that it got, and drives accordingly.
 std::shared_ptr<ThreadBehaviour> Chats(std::chrono::microseconds dawdling) {
   return std::make_shared<ThreadBehaviour>([=](Agent& agent, ClockId clock) {
     ASSERT_TRUE(agent.OpenSensor("radio"));
@@ -199,7 +199,7 @@ std::shared_ptr<ThreadBehaviour> Chats(std::chrono::microseconds dawdling) {
   });
 }
 
-TEST(Radio, LeavesTheSameStateWhoeverIsSlow) {
+TEST(Radio, GivesTheSameStateForFastAndSlowBehaviours) {
   std::set<std::string> hashes;
   for (const int slow : {-1, 0, 3}) {
     auto simulation = Make(Lockstep(400ms));
@@ -209,13 +209,13 @@ TEST(Radio, LeavesTheSameStateWhoeverIsSlow) {
                                                       {{"range", 2.2}, {"inbox", 3.0}})));
     }
     ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
-    EXPECT_GT(simulation->Watch("robot0", "radio")->values[6], 10);  // the newest one's number
+    EXPECT_GT(simulation->Watch("robot0", "radio")->values[6], 10);  // number of the newest message
     hashes.insert(simulation->state_hash());
   }
   EXPECT_EQ(hashes.size(), 1u);
 }
 
-TEST(Radio, MakesADifferenceToTheHash) {
+TEST(Radio, AffectsTheHash) {
   const auto hash_of = [](const std::string& word) {
     auto simulation = Make(Lockstep(200ms));
     EXPECT_TRUE(simulation->AddRobot(RobotWithRadio("a", 0, 0, Says({word}))));

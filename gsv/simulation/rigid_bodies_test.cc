@@ -1,4 +1,4 @@
-// Bodies that move by forces, as a simulation has them.
+// Rigid-body dynamics in a simulation.
 #include <gtest/gtest.h>
 
 #include "gsv/simulation/testing/test_simulation.h"
@@ -14,7 +14,7 @@ std::shared_ptr<model::Model> ModelOf(const std::string& name, const geometry::S
   return model;
 }
 
-// A hand on a slider that hangs from the world and is held by friction.
+// A hand on a prismatic joint to the world, held by friction.
 std::shared_ptr<const model::Model> Slider() {
   auto model = ModelOf("slider", geometry::Sphere{0.1});
   model::Joint joint;
@@ -25,7 +25,7 @@ std::shared_ptr<const model::Model> Slider() {
   return model;
 }
 
-// A box half a metre above the ground, and a slider out of everybody's way.
+// A box half a metre above the ground, and a slider that collides with nothing.
 Specification WithBox() {
   Specification specification = Lockstep(1s);
   auto world = std::make_shared<model::WorldDescription>(*specification.world);
@@ -42,13 +42,13 @@ world::BodyState BodyOf(const Simulation& simulation, const std::string& name) {
   return snapshot->state.bodies[snapshot->layout->Find(name)];
 }
 
-TEST(RigidBodies, WhatIsNotStaticFalls) {
+TEST(RigidBodies, DynamicBodiesFall) {
   const auto simulation = Make(WithBox());
   EXPECT_EQ(RunToEnd(*simulation), Phase::kFinished);
   EXPECT_NEAR(BodyOf(*simulation, "box").world_from_model.position.z, 0.2, 1e-4);
 }
 
-TEST(RigidBodies, AfterAResetTheSameComesOut) {
+TEST(RigidBodies, ARunAfterAResetEqualsTheFirst) {
   const auto simulation = Make(WithBox());
   RunToEnd(*simulation);
   const std::string first = simulation->state_hash();
@@ -57,7 +57,7 @@ TEST(RigidBodies, AfterAResetTheSameComesOut) {
   EXPECT_EQ(simulation->state_hash(), first);
 }
 
-TEST(RigidBodies, ARobotThatComesAndGoesElsewhereLeavesNoTrace) {
+TEST(RigidBodies, ARobotThatIsAddedAndRemovedElsewhereDoesNotMatter) {
   const auto alone = Make(WithBox()), visited = Make(WithBox());
   RunToEnd(*alone);
   ASSERT_TRUE(visited->RunUntil(200ms));
@@ -71,7 +71,7 @@ TEST(RigidBodies, ARobotThatComesAndGoesElsewhereLeavesNoTrace) {
   EXPECT_EQ(visited->state_hash(), alone->state_hash());
 }
 
-TEST(RigidBodies, AJointDoesWhatItIsTold) {
+TEST(RigidBodies, AJointAppliesItsCommand) {
   using Kind = world::JointCommand::Kind;
   const auto simulation = Make(WithBox());
   EXPECT_FALSE(simulation->CommandJoint("box", "slide", {Kind::kPosition, 1}));

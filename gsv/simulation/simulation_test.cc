@@ -7,12 +7,12 @@
 namespace gsv::simulation {
 namespace {
 
-TEST(Simulation, ACommandActsFromTheInstantAtWhichItIsGiven) {
+TEST(Simulation, ACommandIsAppliedFromItsInstantOn) {
   auto simulation = Make(Lockstep(1s));
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, Drives(0.5))));
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
   EXPECT_EQ(simulation->status().step, 100);
-  // Commanded at t = 0 and without a limit on acceleration: 0.5 m/s for a whole second.
+  // The command applies from t = 0, without a limit on acceleration: 0.5 m/s for a whole second.
   EXPECT_NEAR(StatusOf(*simulation, "robot").world_from_robot.position.x, 0.5, 1e-9);
 }
 
@@ -29,7 +29,7 @@ TEST(Simulation, TheHashDoesNotDependOnHowSlowABehaviourIs) {
   EXPECT_EQ(hashes[0], hashes[2]);
 }
 
-TEST(Simulation, TheOrderInWhichRobotsAreAddedLeavesNoTrace) {
+TEST(Simulation, TheOrderInWhichRobotsAreAddedDoesNotMatter) {
   std::vector<std::string> hashes;
   for (const bool reversed : {false, true}) {
     auto simulation = Make(Lockstep(300ms));
@@ -43,7 +43,7 @@ TEST(Simulation, TheOrderInWhichRobotsAreAddedLeavesNoTrace) {
   EXPECT_EQ(hashes[0], hashes[1]);
 }
 
-TEST(Simulation, AfterAResetARunIsAsAfterAFreshStart) {
+TEST(Simulation, ARunAfterAResetEqualsTheFirst) {
   auto simulation = Make(Lockstep(300ms));
   auto behaviour = Drives(0.5);
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, behaviour)));
@@ -57,7 +57,7 @@ TEST(Simulation, AfterAResetARunIsAsAfterAFreshStart) {
   EXPECT_EQ(simulation->state_hash(), first);
 }
 
-TEST(Simulation, AReadingIsAFunctionOfTheInstantForBehaviourAndWatcherAlike) {
+TEST(Simulation, AReadingIsAFunctionOfTheInstantForBehaviourAndViewer) {
   auto simulation = Make(Lockstep(200ms));
   std::vector<double> ranges;
   auto behaviour = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
@@ -70,7 +70,7 @@ TEST(Simulation, AReadingIsAFunctionOfTheInstantForBehaviourAndWatcherAlike) {
   });
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, behaviour)));
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
-  // The wall's face is at x = 2.9; at 1 m/s the range falls by 0.05 m each 50 ms.
+  // The wall's face is at x = 2.9; at 1 m/s the range decreases by 0.05 m every 50 ms.
   ASSERT_EQ(ranges.size(), 4u);
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(ranges[i], 2.9 - 0.05 * i, 1e-9);
   const auto watched = simulation->Watch("robot", "front");
@@ -86,7 +86,7 @@ TEST(Simulation, ExchangeAnswersWithTheReadingsAtItsInstantAndCommandsOnce) {
     ASSERT_TRUE(agent.OpenSensor("front"));
     for (std::uint64_t cycle = 1;; ++cycle) {
       const SimTime until = static_cast<std::int64_t>(cycle) * 50ms;
-      // A short lease, so that repetitions with the same cycle number are certain to come.
+      // With a short lease, calls are certainly repeated with the same cycle number.
       base::Result<Exchanged> exchanged = Exchanged{};
       while (exchanged && exchanged->wait == Wait::kNotYet) {
         exchanged = agent.Exchange(clock, cycle, world::DriveCommand{1.0, 0, 0}, until, 1ms);
@@ -99,11 +99,11 @@ TEST(Simulation, ExchangeAnswersWithTheReadingsAtItsInstantAndCommandsOnce) {
   });
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, behaviour)));
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
-  ASSERT_EQ(ranges.size(), 3u);  // nobody is woken at the final instant
+  ASSERT_EQ(ranges.size(), 3u);  // no agent is woken at the final instant
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(ranges[i], 2.85 - 0.05 * i, 1e-9);
 }
 
-// Waits for one instant, an hour away.
+// Waits for one instant, one hour later.
 std::shared_ptr<ThreadBehaviour> Sleeps() {
   return std::make_shared<ThreadBehaviour>([](Agent& agent, ClockId clock) {
     while (SleepFor(agent, clock, 1h)) {
@@ -111,7 +111,7 @@ std::shared_ptr<ThreadBehaviour> Sleeps() {
   });
 }
 
-// Counts the steps that are taken.
+// Counts the steps.
 class StepCounter final : public Observer {
  public:
   void OnSnapshot(const std::shared_ptr<const world::Snapshot>&) override {
@@ -163,8 +163,9 @@ TEST(Simulation, AfterTheEndOfTheRunAgentsCallsEnd) {
   EXPECT_EQ(command.error().code, base::ErrorCode::kEnded);
 }
 
-// Waits have leases: who asked again at such a pause ran on, and the paused state's hash changed.
-TEST(Simulation, AWaitForTheInstantOfAPauseEndsWhenItGoesOn) {
+// Waits have leases. A wait that was repeated at such a pause continued, and changed the state's
+// hash.
+TEST(Simulation, AWaitForTheInstantOfAPauseEndsWithTheResume) {
   auto simulation = Make(Lockstep(0s));
   std::atomic<int> leases = 0;
   std::atomic<bool> has_reached = false;
@@ -193,7 +194,7 @@ TEST(Simulation, AWaitForTheInstantOfAPauseEndsWhenItGoesOn) {
   EXPECT_TRUE(has_reached);
 }
 
-TEST(Simulation, PauseFreezesTheClockAndTellsTheBehaviours) {
+TEST(Simulation, PauseStopsTheClockAndNotifiesTheBehaviours) {
   auto simulation = Make(Lockstep(0s));
   std::atomic<int> waits = 0;
   auto behaviour = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
@@ -210,9 +211,9 @@ TEST(Simulation, PauseFreezesTheClockAndTellsTheBehaviours) {
   ASSERT_TRUE(simulation->Start());
   ASSERT_EQ(simulation->WaitForPhase({Phase::kRunning}, kTimeout), Phase::kRunning);
   ASSERT_TRUE(simulation->Pause());
-  (void)simulation->state_hash();  // waits for a step that was under way when the pause came
+  (void)simulation->state_hash();  // waits for a step in progress
   const std::int64_t step = simulation->status().step;
-  for (int i = 0; i < 5; ++i) waits.wait(waits);  // in a run that goes on a step at least each
+  for (int i = 0; i < 5; ++i) waits.wait(waits);  // in a running simulation, a step at least every
   EXPECT_EQ(simulation->status().step, step);
   ASSERT_TRUE(simulation->Step(7));
   ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
@@ -237,9 +238,9 @@ TEST(Simulation, ActionsThatThePhaseDoesNotAllowAreRefusedWithASentence) {
   EXPECT_FALSE(simulation->Step(1));
 }
 
-TEST(Simulation, ABehaviourThatNeverWaitsIsDeclaredUnresponsiveAndTheRunGoesOn) {
+TEST(Simulation, ABehaviourThatNeverWaitsIsDeclaredUnresponsiveAndTheRunContinues) {
   Specification specification = Lockstep(200ms);
-  specification.deadline = 500ms;  // which a busy machine's good behaviour keeps
+  specification.deadline = 500ms;  // a correct behaviour on a busy machine meets it
   auto simulation = Make(specification);
   std::atomic<bool> release = false;
   auto stuck = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId) {
@@ -257,7 +258,7 @@ TEST(Simulation, ABehaviourThatNeverWaitsIsDeclaredUnresponsiveAndTheRunGoesOn) 
   release.notify_all();
 }
 
-TEST(Simulation, WhoGivesUpIsDeadAtThatInstantAndTheReasonIsToldOnOneLine) {
+TEST(Simulation, ABehaviourThatGivesUpIsDeadAtThatInstantWithItsReasonOnOneLine) {
   auto simulation = Make(Lockstep(500ms));
   const auto quitter = std::make_shared<ThreadBehaviour>([](Agent& agent, ClockId clock) {
     EXPECT_TRUE(agent.Command({1.0, 0, 0}));
@@ -270,7 +271,7 @@ TEST(Simulation, WhoGivesUpIsDeadAtThatInstantAndTheReasonIsToldOnOneLine) {
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
   const RobotStatus status = StatusOf(*simulation, "quitter");
   EXPECT_EQ(status.phase, AgentPhase::kDead);
-  EXPECT_NEAR(status.distance, 0.1, 1e-9);  // it stood still from then on
+  EXPECT_NEAR(status.distance, 0.1, 1e-9);  // it did not move after that
   EXPECT_NEAR(StatusOf(*simulation, "other").distance, 0.5, 1e-9);
   EXPECT_THAT(status.detail, ::testing::HasSubstr("its run ended with an error: no\\nidea!!!"));
   EXPECT_LT(status.detail.size(), 1200u);
@@ -281,7 +282,7 @@ TEST(Simulation, WhoGivesUpIsDeadAtThatInstantAndTheReasonIsToldOnOneLine) {
   EXPECT_EQ(told, std::vector<std::string>{"quitter (test on here:1): " + status.detail});
 }
 
-TEST(Simulation, ADeadBehaviourEndsTheRunWhereThePolicySaysSo) {
+TEST(Simulation, ADeadBehaviourEndsTheRunIfThePolicyRequiresIt) {
   Specification specification = Lockstep(0s);
   specification.on_failure = FailurePolicy::kFail;
   auto simulation = Make(specification);
@@ -307,7 +308,7 @@ TEST(Simulation, RobotsCannotBePlacedInsideEachOtherOrAWall) {
   EXPECT_TRUE(simulation->AddRobot(Robot("second", 1, 0)));
 }
 
-TEST(Simulation, ARobotWhoseBehaviourFailsInInitIsNotThere) {
+TEST(Simulation, ARobotWhoseBehaviourFailsInInitIsNotAdded) {
   auto simulation = Make(Lockstep(0s));
   auto behaviour = Drives(1);
   behaviour->init_error = base::Error{base::ErrorCode::kBehaviour, "threw in init", "test"};
@@ -345,7 +346,7 @@ TEST(Simulation, RemovingARobotEndsItsBehavioursCalls) {
   EXPECT_GE(behaviour->stops, 1);
 }
 
-TEST(Simulation, InRealTimeNobodyIsWaitedFor) {
+TEST(Simulation, InRealTimeTheSimulationDoesNotWaitForBehaviours) {
   Specification specification = Lockstep(100ms);
   specification.mode = Mode::kRealTime;
   specification.factor = 10;
@@ -370,11 +371,11 @@ TEST(Simulation, AnAvatarIsSteeredWithoutABehaviour) {
   EXPECT_TRUE(StatusOf(*simulation, "person").is_avatar);
 }
 
-TEST(Simulation, ResumingDuringAFewStepsGoesOnBeyondThem) {
+TEST(Simulation, ResumingDuringAFewStepsContinuesBeyondThem) {
   auto simulation = Make(Lockstep(0s));
   std::atomic<bool> release = false;
   auto slow = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
-    release.wait(false);  // the steps cannot be over before the resume comes
+    release.wait(false);  // the steps cannot end before the resume
     while (SleepFor(agent, clock, 10ms)) {
     }
   });
@@ -388,10 +389,10 @@ TEST(Simulation, ResumingDuringAFewStepsGoesOnBeyondThem) {
   EXPECT_EQ(simulation->status().phase, Phase::kRunning);
 }
 
-// It had paused at its end, and going on took one step too many.
+// A run was paused at its end, and after resuming took one step too many.
 TEST(Simulation, ARunPausedDuringItsLastStepHasNoStepBeyondIt) {
   auto simulation = Make(Lockstep(20ms));
-  // So many that the pause mostly comes while the last step is under way.
+  // So many attempts that the pause usually comes during the last step.
   for (int i = 0; i < 400; ++i) {
     const int row = i / 20;
     ASSERT_TRUE(simulation->AddRobot(Robot("", -1 - row, i % 20)));
@@ -427,7 +428,7 @@ TEST(Simulation, ASonarIsMountedAtAPose) {
   EXPECT_FALSE(agent->Read("ahead"));
 }
 
-TEST(Simulation, ARobotKnowsWhereItIs) {
+TEST(Simulation, ARobotReadsItsPose) {
   auto simulation = Make(Lockstep(0s));
   RobotSpecification robot = Robot("robot", 1, -2);
   robot.world_from_robot = PlanarPose(1, -2, 0, 0.5);
@@ -451,7 +452,7 @@ TEST(Simulation, RobotsAppearInEachOthersSonars) {
   EXPECT_NEAR(simulation->agent("behind")->Read("front")->values.at(0), 1.3, 1e-9);
 }
 
-TEST(Simulation, ARobotThatTouchesAWallStartsBesideItAndSaysSo) {
+TEST(Simulation, ARobotThatTouchesAWallStartsBesideItWithAnEvent) {
   auto simulation = Make(Lockstep(0s));
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 2.85, 0)));  // the wall's face is at x = 2.9
   const auto status = StatusOf(*simulation, "robot");
@@ -462,7 +463,7 @@ TEST(Simulation, ARobotThatTouchesAWallStartsBesideItAndSaysSo) {
   EXPECT_NE(events.front().detail.find("wall"), std::string::npos);
 }
 
-// Tells the heading: a type that nothing in the tree knows.
+// Measures the heading. No other code knows this type.
 class Compass final : public sensing::Sensor {
  public:
   using Sensor::Sensor;

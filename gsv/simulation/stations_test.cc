@@ -1,4 +1,4 @@
-// Bodies with sensors that nobody drives.
+// Bodies with sensors but without a drive.
 #include <gtest/gtest.h>
 
 #include "gsv/simulation/testing/test_simulation.h"
@@ -14,7 +14,7 @@ std::shared_ptr<model::Model> Post() {
   return post;
 }
 
-// A post that came with the world, 2 m to the left of the origin; the wall's face is at x = 2.9 m.
+// A post in the world, 2 m to the left of the origin; the wall's face is at x = 2.9 m.
 std::shared_ptr<Simulation> WorldWithPost(SimTime duration = 1s) {
   Specification specification = Lockstep(duration);
   auto world = std::make_shared<model::WorldDescription>(*specification.world);
@@ -50,7 +50,7 @@ TEST(Stations, MayHaveABehaviourWhichDrivesNothing) {
   EXPECT_EQ(StatusOf(*simulation, "post").distance, 0);
 }
 
-TEST(Stations, ComeAndGoAsObjects) {
+TEST(Stations, AreAddedAndRemovedAsObjects) {
   const auto simulation = WorldWithPost();
   ObjectSpecification object;
   object.model = Post();

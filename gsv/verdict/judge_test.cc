@@ -21,8 +21,8 @@ scenario::Scenario ScenarioOf(const std::string& expect, const std::string& more
   return scenario.value_or(scenario::Scenario());
 }
 
-// A disc of radius 0.2 drives at 0.5 m/s from x = 0 to a wall whose face is at 2.9; a second one
-// stands at (0, 2).
+// A disc of radius 0.2 drives at 0.5 m/s from x = 0 to a wall whose face is at 2.9; a second one is
+// at (0, 2).
 std::vector<Finding> Judged(const std::string& expect, const std::string& more = "") {
   const scenario::Scenario scenario = ScenarioOf(expect, more);
   Specification specification = Lockstep(8s);
@@ -54,7 +54,7 @@ TEST(Judge, ARobotReachesAPlaceWhenItComesNearEnough) {
 }
 
 TEST(Judge, ACollisionIsTheFirstContact) {
-  // The disc touches when its middle is at 2.7: at 5.4 s.
+  // The disc touches when its centre is at 2.7: at 5.4 s.
   const Finding collides = One("{never_collides: scout}");
   EXPECT_FALSE(collides.holds);
   EXPECT_NEAR(base::ToSeconds(collides.time), 5.4, 0.021);
@@ -88,7 +88,7 @@ TEST(Judge, FaultsAreSeenAtTheirInstant) {
   EXPECT_NEAR(base::ToSeconds(ended.time), 2, 0.06);
   EXPECT_TRUE(One("{never_collides: scout}", dies).holds);
   const std::string silent = "faults: [{at: 2, sensor: scout/front}]\n";
-  // 1.9 m to the wall then, and so it stays.
+  // Then 1.9 m remain to the wall, for ever.
   EXPECT_TRUE(
       One("{always: {sensor: {of: scout/front, at_least: 1.89, at_most: 1.91}}, from: 2.01}",
           silent)
@@ -99,7 +99,7 @@ TEST(Judge, FaultsAreSeenAtTheirInstant) {
   EXPECT_EQ(lost.time, 2010ms);
 }
 
-TEST(Judge, WhatIsNotThereIsRefusedWithItsPlace) {
+TEST(Judge, AMissingRobotOrSensorIsRefusedWithItsPlace) {
   const auto simulation = Make(Lockstep(1s));
   ASSERT_TRUE(simulation->AddRobot(Robot("scout", 0, 0)));
   const std::pair<const char*, const char*> refused[]{

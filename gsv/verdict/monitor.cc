@@ -9,8 +9,8 @@ namespace gsv::verdict {
 
 using base::SimTime;
 
-// A formula in negation normal form. Of the four that are about time, `from` and `by` count from
-// the instant at which it is judged, or, once it is, are instants.
+// A formula in negation normal form. For the four temporal operators, `from` and `by` count from
+// the instant of evaluation; after that they are instants.
 class Obligation {
  public:
   enum class Kind { kFalse, kTrue, kAtom, kAll, kAny, kAlways, kEventually, kUntil, kRelease };
@@ -36,7 +36,7 @@ ObligationPtr Constant(bool value) {
   return value ? always_true : always_false;
 }
 
-// An order in which equal obligations are neighbours.
+// Equal obligations are neighbours in this order.
 int Compare(const ObligationPtr& a, const ObligationPtr& b) {
   if (a == b) return 0;
   const auto key = [](const Obligation& o) {
@@ -49,14 +49,14 @@ int Compare(const ObligationPtr& a, const ObligationPtr& b) {
   return 0;
 }
 
-// Of two windows that are open already, over the same, one says what the other does and more.
+// Whether both are open windows over the same formula: then one implies the other.
 bool OpenOverTheSame(const ObligationPtr& a, const ObligationPtr& b, Kind kind, SimTime now) {
   return a->kind == kind && b->kind == kind && a->is_judged && b->is_judged && a->from <= now &&
          b->from <= now && Compare(a->parts[0], b->parts[0]) == 0;
 }
 
-// Leaves of several windows the tightest (for `all`) or the widest (for `any`), so that what is
-// left to be shown does not grow with the run.
+// Keeps only the tightest (for `all`) or the widest (for `any`) of several windows, so that the
+// rest of the obligation does not grow with the run.
 void MergeWindows(Kind join, SimTime now, std::vector<ObligationPtr>& parts) {
   for (const Kind kind : {Kind::kEventually, Kind::kAlways}) {
     const bool keep_earlier = (join == Kind::kAll) == (kind == Kind::kEventually);
@@ -146,7 +146,7 @@ ObligationPtr Normal(const scenario::Formula& formula, bool is_negated,
   return std::make_shared<const Obligation>(std::move(obligation));
 }
 
-// One step: what is left of an obligation for the states after this one.
+// One step: the rest of an obligation, for the states after this one.
 class Progression {
  public:
   Progression(SimTime now, SimTime step, const std::function<bool(int)>& holds)

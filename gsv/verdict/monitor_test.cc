@@ -30,7 +30,7 @@ Formula Of(MonitorKind kind, std::vector<Formula> parts, double from = 0,
   return formula;
 }
 
-// What the operators mean, word by word (docs/testing.md).
+// Evaluates the operators by their definition (docs/testing.md).
 bool Means(const Formula& f, const Trace& trace, std::size_t at) {
   const auto in_window = [&](std::size_t i) {
     const SimTime since = static_cast<std::int64_t>(i - at) * kStep;
@@ -69,7 +69,7 @@ bool Means(const Formula& f, const Trace& trace, std::size_t at) {
 
 struct MonitorVerdict {
   bool holds = false;
-  std::size_t at = 0;  // the step at which it was certain
+  std::size_t at = 0;  // the step at which it became certain
 };
 
 MonitorVerdict RunMonitor(const Formula& formula, const Trace& trace) {
@@ -111,7 +111,7 @@ TEST(Monitor, EventuallyIsViolatedAtTheLastStateOfItsWindow) {
   Expect(eventually, TraceOf("000011"), false, 3);
   Expect(eventually, TraceOf("000111"), true, 3);
   Expect(Of(MonitorKind::kEventually, {AtomNumber(0)}), TraceOf("0000"), false, 3);
-  // No state lies between 0.21 and 0.29 s.
+  // No state is between 0.21 and 0.29 s.
   Expect(Of(MonitorKind::kEventually, {AtomNumber(0)}, 0.21, 0.29), TraceOf("111111"), false, 2);
 }
 
@@ -159,7 +159,7 @@ Formula RandomFormula(std::mt19937& random, int depth) {
   }
 }
 
-TEST(Monitor, AgreesWithWhatTheOperatorsMean) {
+TEST(Monitor, AgreesWithTheDefinitionOfTheOperators) {
   std::mt19937 random(7);
   for (int i = 0; i < 20'000; ++i) {
     const Formula formula = RandomFormula(random, 3);
@@ -169,7 +169,7 @@ TEST(Monitor, AgreesWithWhatTheOperatorsMean) {
     }
     const MonitorVerdict judged = RunMonitor(formula, trace);
     ASSERT_EQ(judged.holds, Means(formula, trace, 0)) << "formula " << i;
-    // What was certain early is so however the run goes on.
+    // An early result stays, however the run continues.
     for (std::size_t length = judged.at + 1; length < trace.size(); ++length) {
       const Trace shorter(trace.begin(), trace.begin() + static_cast<std::ptrdiff_t>(length));
       ASSERT_EQ(Means(formula, shorter, 0), judged.holds) << "formula " << i;
@@ -177,7 +177,7 @@ TEST(Monitor, AgreesWithWhatTheOperatorsMean) {
   }
 }
 
-TEST(Monitor, WhatIsOwedDoesNotGrowWithTheRun) {
+TEST(Monitor, ItsObligationsDoNotGrowWithTheRun) {
   const Formula answered =
       Of(MonitorKind::kAlways, {Of(MonitorKind::kEventually, {AtomNumber(0)}, 0, 1000)});
   Monitor monitor(answered, [](const Formula&) { return 0; });

@@ -16,7 +16,7 @@ DeviceStatePtr Commanded(std::string robot, std::string device, FollowedCommand 
       DeviceMount{std::move(robot), std::move(device), 0, {}}, std::move(followed));
 }
 
-// A device that follows no command; its hash is its robot's name.
+// A device without commands; its hash is its robot's name.
 class Listener final : public DeviceState {
  public:
   using DeviceState::DeviceState;
@@ -53,7 +53,7 @@ TEST(DeviceHash, HasEachFieldOfACommand) {
   }
 }
 
-// Recordings hold hashes: the order of fields is part of their format.
+// Recordings contain hashes: the order of fields is part of their format.
 TEST(DeviceHash, BeginsWithDevicesThatFollowNoCommand) {
   base::Hash hash, expected;
   AddToHash({Commanded("a", "lamp", {{{0.5}, "w"}, 7ns}),
@@ -65,9 +65,9 @@ TEST(DeviceHash, BeginsWithDevicesThatFollowNoCommand) {
   expected.Add(0.5);
   expected.Add(std::string_view("w"));
   expected.Add(0.0);                                                     // a gripper's opening,
-  expected.Add(std::string_view());                                      // what it holds,
-  for (const double value : {0, 0, 0, 1, 0, 0, 0}) expected.Add(value);  // where
-  expected.Add(0.0);                                                     // and how wide that is
+  expected.Add(std::string_view());                                      // the attached body,
+  for (const double value : {0, 0, 0, 1, 0, 0, 0}) expected.Add(value);  // its pose,
+  expected.Add(0.0);                                                     // and its width
   EXPECT_EQ(hash.Digest(), expected.Digest());
 }
 

@@ -25,7 +25,7 @@ TEST(KindOf, FollowsDriveMovementAndCollisions) {
       {true, true, Movement::kPlanar, BodyKind::kPlanarBase},
       {true, true, Movement::kRigid, BodyKind::kRigidBody},
       {true, false, Movement::kPlanar, BodyKind::kPlanarBase},
-      {true, false, Movement::kRigid, BodyKind::kPlanarBase},  // would have nothing to stand on
+      {true, false, Movement::kRigid, BodyKind::kPlanarBase},  // cannot stand on the ground
       {false, true, Movement::kPlanar, BodyKind::kRigidBody},
       {false, true, Movement::kRigid, BodyKind::kRigidBody},
       {false, false, Movement::kPlanar, BodyKind::kUnmoved},
@@ -38,7 +38,7 @@ TEST(KindOf, FollowsDriveMovementAndCollisions) {
   }
 }
 
-TEST(KindOf, IsStaticWhereTheWorldOrTheModelSaysSo) {
+TEST(KindOf, IsStaticIfTheWorldOrTheModelIs) {
   model::Model model = ModelWith(false, true);
   const auto kind_of = [&](bool is_placed_static) {
     return KindOf({"box", std::make_shared<model::Model>(model), {}, is_placed_static});

@@ -12,7 +12,7 @@ namespace {
 
 using geometry::Vector2;
 
-// Steps of the stream: 0 for what a pedestrian is like, then goals, then attempts to start.
+// Steps of the stream: 0 for a pedestrian's properties, then goals, then attempts to start.
 constexpr std::uint64_t kFirstGoal = 1;
 constexpr std::uint64_t kFirstAttempt = 1ULL << 40;
 

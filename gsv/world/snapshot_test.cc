@@ -12,7 +12,7 @@ using geometry::Vector3;
 
 using geometry::kPi;
 
-// A mast that turns about z at (1, 0, 0) and carries, through a slider along its x axis, a hand at
+// A mast that rotates about z at (1, 0, 0). A prismatic joint along its x axis carries a hand at
 // (2, 0, 0).
 model::Model Arm() {
   model::Model arm;
@@ -45,7 +45,7 @@ TEST(LinkPoses, AreAsDescribedAtZero) {
 }
 
 TEST(LinkPoses, AChildFollowsItsParentsJoint) {
-  // Turned by 90° the hand hangs at (1, 1, 0); slid out by 0.5 along the turned axis, at (1, 1.5,
+  // Rotated by 90° the hand is at (1, 1, 0); moved out by 0.5 along the rotated axis, at (1, 1.5,
   // 0).
   const auto poses = LinkPoses(Arm(), std::vector<double>{kPi / 2, 0.5});
   ExpectNear(poses[1].position, {1, 0, 0});
@@ -64,12 +64,12 @@ TEST(LinkPose, AgreesWithLinkPosesInTheWorld) {
   snapshot.state = InitialState(*snapshot.layout);
   snapshot.state.joint_positions = {kPi / 2, 0.5};
   ExpectNear(LinkPose(snapshot, 0, 2).position, {9, -1.5, 0});
-  // The two multiply in another order: equal but for rounding.
+  // The two functions multiply in different orders: equal up to rounding.
   ExpectNear(LinkPose(snapshot, 0, 2).position, LinkPoses(snapshot, 0)[2].position);
 }
 
 TEST(Contacts, AreAsHardAsTheirPointsApproachEachOther) {
-  // One goes ahead at 2 m/s and turns at 3 rad/s about z, the other recedes at 0.5 m/s.
+  // One goes ahead at 2 m/s and turns at 3 rad/s about z, the other moves away at 0.5 m/s.
   State state;
   state.bodies.resize(2);
   state.bodies[0].world_from_model.position = {1, 0, 0};
@@ -80,14 +80,14 @@ TEST(Contacts, AreAsHardAsTheirPointsApproachEachOther) {
   std::vector<Acceleration> kept;
   KeepVelocities(state, kept);
   state.bodies[0].linear_velocity = {};  // the step has stopped it
-  // Where they meet, 0.4 to the right of the first one's middle, its turning adds 1.2 m/s.
+  // At their contact, 0.4 to the right of the first one's centre, its rotation adds 1.2 m/s.
   std::vector<Contact> contacts(3, {0, 1, {2, -0.4, 0}, {1, 0, 0}, 0.01, true});
   contacts[1].began = false;
   contacts[2].normal = {-1, 0, 0};
   FinishContacts(state, kept, contacts);
   EXPECT_NEAR(contacts[0].closing_speed, 2 + 1.2 - 0.5, 1e-12);
   EXPECT_EQ(contacts[1].closing_speed, 0);  // they touched before
-  EXPECT_EQ(contacts[2].closing_speed, 0);  // they part
+  EXPECT_EQ(contacts[2].closing_speed, 0);  // they move apart
 }
 
 TEST(MovingLinks, AreThoseBelowAJointThatMoves) {

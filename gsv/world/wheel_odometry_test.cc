@@ -13,7 +13,7 @@ namespace {
 using geometry::kPi;
 constexpr double kRadius = 0.1, kSeparation = 0.4, kStep = 0.01;
 
-// Two wheels; the right one's axis points to the right, so that it turns forwards by going down.
+// Two wheels; the right one's axis points to the right, so that its angle decreases forwards.
 std::shared_ptr<const Layout> Robot(model::DriveKind kind) {
   auto model = std::make_shared<model::Model>();
   model->links.resize(3);
@@ -53,7 +53,7 @@ Odometry AfterRolling(double left, double right, int steps) {
   return state.bodies[0].odometry;
 }
 
-TEST(WheelOdometry, GoesStraightByWhatTheWheelsRoll) {
+TEST(WheelOdometry, GoesStraightByTheDistanceOfTheWheels) {
   const Odometry odometry = AfterRolling(0.02, 0.02, 50);
   EXPECT_NEAR(odometry.place.x, 1, 1e-12);
   EXPECT_EQ(odometry.place.y, 0);
@@ -74,7 +74,7 @@ TEST(WheelOdometry, FollowsAnArcExactlyWhateverTheStep) {
   }
 }
 
-TEST(WheelOdometry, OfOtherDrivesIsWhatTheDriveDoes) {
+TEST(WheelOdometry, FollowsTheActualVelocityOfOtherDrives) {
   const auto layout = Robot(model::DriveKind::kMecanum);
   WheelOdometry wheels;
   wheels.SetLayout(*layout);

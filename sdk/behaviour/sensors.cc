@@ -5,7 +5,7 @@
 namespace gsv {
 namespace {
 
-constexpr double kSonarMaximum = 5;  // m, where its parameters do not say
+constexpr double kSonarMaximum = 5;  // m, if its parameters do not set it
 
 }  // namespace
 

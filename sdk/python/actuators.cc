@@ -1,4 +1,4 @@
-// Lamps, grippers, speakers and microphones: what is refused is raised.
+// Lamps, grippers, speakers and microphones. A refused command raises an exception.
 #include "sdk/behaviour/actuators.h"
 
 #include "sdk/python/kinds.h"

@@ -1,4 +1,4 @@
-// Robotic applications in Python: simulations on servers that a broker knows.
+// Robotic applications in Python: simulations on servers that a broker offers.
 #include <pybind11/stl.h>
 
 #include "sdk/application.h"
@@ -25,7 +25,7 @@ class PythonSimulation {
   std::unique_ptr<RemoteSimulation> simulation_;
 };
 
-// `behaviour` is the name of an offer, a class or what makes one when it is called, or None.
+// `behaviour` is the name of an offer, a class or another callable that makes one, or None.
 std::string Add(const PythonSimulation& simulation, const std::string& model, double x, double y,
                 double yaw, const py::object& behaviour, const std::string& name) {
   RobotRequest request{model, x, y, yaw, "", name, {}};
@@ -38,7 +38,7 @@ std::string Add(const PythonSimulation& simulation, const std::string& model, do
   return ValueOrRaise(simulation.Get().AddRobot(request));
 }
 
-// Ends early, with what Python raises for the signal, when one has come.
+// Ends early if a signal came, with the exception that Python raises for it.
 void RunUntil(const PythonSimulation& simulation, double instant, double patience) {
   const base::SimTime until = TimeFrom(instant);
   const auto limit = std::chrono::duration_cast<std::chrono::seconds>(TimeFrom(patience));
@@ -56,7 +56,7 @@ void RunUntil(const PythonSimulation& simulation, double instant, double patienc
   ValueOrRaise(std::move(status));
 }
 
-// A member of RemoteSimulation, called without the GIL.
+// Calls a member of RemoteSimulation without the GIL.
 template <typename T, typename... Arguments>
 auto Calling(base::Result<T> (RemoteSimulation::*member)(Arguments...)) {
   return [member](const PythonSimulation& simulation, Arguments... arguments) {
@@ -100,7 +100,7 @@ void BindState(py::module_& module) {
       });
 }
 
-// Numbers, flags and texts as sba::NameValue has them.
+// Numbers, flags and texts in the form of sba::NameValue.
 std::string TextOf(const py::handle& value) {
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
   return py::str(value);

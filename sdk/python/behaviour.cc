@@ -1,4 +1,4 @@
-// Behaviours written in Python: one is any object with init(robot) and run(robot).
+// Behaviours in Python: a behaviour is any object with init(robot) and run(robot).
 #include <sys/prctl.h>
 
 #include <csignal>
@@ -30,7 +30,7 @@ class PythonBehaviour final : public Behaviour {
       if (py::hasattr(*object_, event)) object_->attr(event)();
     });
   }
-  // Python may keep the robot for as long as it likes.
+  // Python may keep the robot for any time.
   static py::object ForPython(Robot& robot) {
     return py::cast(dynamic_cast<sdk::RemoteRobot&>(robot).shared_from_this());
   }

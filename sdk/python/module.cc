@@ -1,4 +1,4 @@
-// The module gsv._native: the SDK in Python. The package gsv (sdk/python/gsv) is what users import.
+// The module gsv._native, the SDK in Python. Users import the package gsv (sdk/python/gsv).
 #include "gsv/base/log.h"
 #include "sdk/python/values.h"
 

@@ -55,7 +55,7 @@ void CallPython(const std::function<void()>& call) {
     call();
     return;
   } catch (const py::error_already_set& error) {
-    // "ZeroDivisionError: division by zero", as the last line of the traceback says.
+    // "ZeroDivisionError: division by zero", like the last line of the traceback.
     raised = py::str(error.type().attr("__name__")).cast<std::string>() + ": " +
              py::str(error.value()).cast<std::string>();
     const py::object trace = error.trace() ? error.trace() : py::none();

@@ -18,8 +18,7 @@ std::string GsvProgram() {
   return program != nullptr ? program : "gsv";
 }
 
-// A program that ends with this one; what it says on stdout, and with `with_errors` on stderr, can
-// be read.
+// A program that ends with this one. Its stdout, and with `with_errors` its stderr, can be read.
 class Program {
  public:
   Program(std::vector<std::string> arguments, bool with_errors) {
@@ -54,7 +53,7 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  // Empty when there is none any more.
+  // Empty at the end.
   std::string ReadLine() {
     char* line = nullptr;
     std::size_t size = 0;
@@ -63,7 +62,7 @@ class Program {
     free(line);
     return text;
   }
-  // Its exit code; -1: it did not end by itself.
+  // Its exit code; -1 if it did not end by itself.
   int AwaitEnd() {
     int status = 0;
     if (process_ > 0 && waitpid(process_, &status, 0) == process_) process_ = 0;

@@ -1,4 +1,4 @@
-// The fixtures of sdk/testing, as somebody else's tests use them.
+// Uses the fixtures of sdk/testing like the tests of a user.
 #include "sdk/testing/scenario_test.h"
 
 #include <cstdlib>
@@ -40,7 +40,7 @@ TEST(ScenarioFixture, AScenarioIsATest) {
 
 using ASimulator = SimulatorTest;
 
-TEST_F(ASimulator, RunsWhatATestAsksFor) {
+TEST_F(ASimulator, RunsTheScenarioOfATest) {
   auto simulation = simulator().Create({.world = "playground"});
   ASSERT_TRUE(simulation) << simulation.error().Sentence();
   ASSERT_TRUE((*simulation)->AddRobot({.model = "pebble", .x = 1, .y = 2}));
@@ -51,7 +51,7 @@ TEST_F(ASimulator, RunsWhatATestAsksFor) {
   EXPECT_EQ(state->time, std::chrono::seconds(1));
 }
 
-// Says on `seen` how wide the picture of its wide-angle camera is.
+// Sends the width of the image of its wide-angle camera to `seen`.
 class Looks final : public Behaviour {
  public:
   explicit Looks(std::promise<int>& seen) : seen_(seen) {}

@@ -1,4 +1,4 @@
-// `gsv bench broker`: how fast a broker with many offers is, in this process and over TCP.
+// `gsv bench broker`: speed of a broker with many offers, in this process and over TCP.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -37,9 +37,9 @@ using nlohmann::ordered_json;
 constexpr int kClients = 64;
 constexpr const char* kType = "BenchRobot";
 constexpr const char* kScan = "floor > 2 and battery >= 0.25 and speed < 4.5";
-constexpr std::size_t kShown = 10;  // offers of an answer that a client looks at
+constexpr std::size_t kShown = 10;  // offers of an answer that a client reads
 
-// Ten properties, the same for the same number.
+// Ten properties, which are equal for equal numbers.
 std::vector<Property> PropertiesOf(std::uint32_t n) {
   const double unit = static_cast<double>(n * 2654435761u) / 4294967296.0;
   return {{"battery", Value::Float(static_cast<float>(unit))},
@@ -58,7 +58,7 @@ std::vector<Property> PropertiesOf(std::uint32_t n) {
 
 std::string Serial(std::uint32_t n) { return "serial == " + std::to_string(n); }
 
-// What is measured; each call may be made by many threads.
+// The measured operations; many threads may make each call.
 struct Target {
   std::function<base::Status(int client, std::uint32_t number)> export_one;
   std::function<base::Status(int client, const std::string& constraint,
@@ -66,7 +66,7 @@ struct Target {
       query;
 };
 
-// Calls `work` for 0 … count-1 from `clients` threads; how long it took. Stops at an error.
+// Calls `work` for 0 … count-1 from `clients` threads; returns the duration. Stops at an error.
 base::Result<Clock::duration> Spread(
     int clients, std::uint32_t count,
     const std::function<base::Status(int client, std::uint32_t n)>& work) {
@@ -89,7 +89,8 @@ base::Result<Clock::duration> Spread(
   return Clock::now() - start;
 }
 
-// The value that the fraction `q` of all do not exceed (nearest rank), in milliseconds.
+// The smallest value that at least the fraction `q` does not exceed (nearest rank), in
+// milliseconds.
 double Quantile(std::vector<Clock::duration> durations, double q) {
   std::sort(durations.begin(), durations.end());
   const auto rank = static_cast<std::size_t>(q * static_cast<double>(durations.size()));
@@ -110,7 +111,7 @@ base::Result<std::vector<Clock::duration>> Time(
   return durations;
 }
 
-// Exports, then asks. `bytes_used` says what the broker takes.
+// Exports offers, then queries. `bytes_used` returns the broker's memory.
 base::Status Measure(const Target& target, std::uint32_t offers,
                      const std::function<double()>& bytes_used, ordered_json& figures) {
   const double before = bytes_used();
@@ -122,7 +123,7 @@ base::Status Measure(const Target& target, std::uint32_t offers,
   const auto equal = [&](int client, std::uint32_t n) {
     return target.query(client, Serial((n * 7919) % offers), "");
   };
-  if (auto indexed = equal(0, 0); !indexed) return indexed;  // the first makes the index
+  if (auto indexed = equal(0, 0); !indexed) return indexed;  // the first query makes the index
   const auto alone = Time(1, 2000, equal);
   if (!alone) return base::Fail(alone.error());
   figures["query_indexed_p50_ms"] = Quantile(*alone, 0.50);
@@ -197,7 +198,7 @@ double ResidentBytes(pid_t pid) {
   return resident * 4096;
 }
 
-// A broker in a process of its own, with a client for each thread.
+// A broker in its own process, with one client per thread.
 struct Remote {
   std::unique_ptr<ChildProcess> process{};
   std::vector<broker::BrokerClient> clients{};

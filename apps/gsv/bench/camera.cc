@@ -32,7 +32,7 @@ struct CameraArguments {
   bool opengl = false, json = false;
 };
 
-// Hands over snapshots and times the intervals between them.
+// Provides snapshots and measures the intervals between them.
 class SnapshotWatch final : public simulation::Observer {
  public:
   void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) override {
@@ -45,7 +45,7 @@ class SnapshotWatch final : public simulation::Observer {
   }
   void OnEvent(const simulation::Event&) override {}
 
-  // The latest, once there is one that was not handed over before; null when none comes.
+  // The latest snapshot that was not returned before; null if there is none in time.
   std::shared_ptr<const world::Snapshot> Next() {
     base::MutexLock lock(mutex_);
     const bool came = is_new_.wait_for(lock, std::chrono::seconds(10), [&]() GSV_REQUIRES(mutex_) {
@@ -71,13 +71,13 @@ class SnapshotWatch final : public simulation::Observer {
   std::vector<double> intervals_ GSV_GUARDED_BY(mutex_);
 };
 
-// Refuses pictures of nothing and pictures that were there before.
+// Fails for blank images, and for images that repeat earlier ones.
 class PictureCheck {
  public:
   base::Status Check(const Pictures& pictures) {
     if (std::all_of(pictures.begin(), pictures.end(), IsBlank)) return Fail("pictures are blank");
     for (std::size_t i = 0; i < pictures.size(); ++i) {
-      if (IsBlank(pictures[i])) continue;  // a robot stands before a wall
+      if (IsBlank(pictures[i])) continue;  // a robot is close to a wall
       if (i < last_.size() && last_[i]->pixels == pictures[i]->pixels)
         return Fail("a moving camera's picture is the same as the one before");
       if (i > 0 && pictures[i]->pixels == pictures[i - 1]->pixels)
@@ -88,7 +88,7 @@ class PictureCheck {
   }
 
  private:
-  // Looks no further than it must: the time counts as that of drawing.
+  // Stops as early as possible, since its time counts as rendering time.
   static bool IsBlank(const std::shared_ptr<const model::Image>& picture) {
     constexpr int kMinImages = 8;
     std::bitset<256> seen;
@@ -154,7 +154,7 @@ base::Result<Figures> Measure(const CameraArguments& arguments,
                                           : scene->RobotViews(*snapshot, arguments.cameras, camera);
     return (*renderer)->Draw(snapshot, views, std::chrono::minutes(5));
   };
-  // What is done once for a world is not measured.
+  // Work that is done once for a world is not measured.
   const auto first = draw(simulation.snapshot());
   if (!first) return base::Fail(first.error());
   if (!arguments.save.empty()) {
@@ -166,7 +166,7 @@ base::Result<Figures> Measure(const CameraArguments& arguments,
   PictureCheck check;
   Clock::time_point start;
   double processor_start = 0;
-  // The first two rounds tell what moves.
+  // The first two rounds find out what moves.
   for (int round = -2;
        round <= 0 || Clock::now() - start < std::chrono::duration<double>(arguments.duration);
        ++round) {

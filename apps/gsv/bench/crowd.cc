@@ -40,10 +40,10 @@ struct CrowdRow {
   std::uint64_t readings = 0, collisions = 0;
   std::int64_t steps = 0;
   std::string state_hash;
-  std::shared_ptr<CrowdCheck> check;  // null unless it is verified
+  std::shared_ptr<CrowdCheck> check;  // null without --verify
 };
 
-// Resident now, not at its peak: rows of one run come one after the other.
+// The current resident size, not its maximum: rows of one run come one after the other.
 double ResidentMebibytes() {
   std::ifstream statm("/proc/self/statm");
   double pages = 0, resident = 0;
@@ -51,7 +51,7 @@ double ResidentMebibytes() {
   return resident * 4096 / (1 << 20);
 }
 
-// Shows the check what the controller was given.
+// Passes the controller's data to the check.
 class CheckedController final : public CrowdController {
  public:
   CheckedController(std::shared_ptr<CrowdCheck> check,
@@ -152,7 +152,7 @@ nlohmann::ordered_json ToJson(const CrowdRow& row) {
   return json;
 }
 
-// The slope of log(time a step) against log(robots), by least squares: 1 is linear growth.
+// The slope of log(time per step) against log(robots), by least squares: 1 is linear growth.
 double GrowthExponent(const std::vector<CrowdRow>& rows) {
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (const CrowdRow& row : rows) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kReadingTolerance = 1e-9;  // m
-// The mover lets bodies come as near as they can; they may seem to overlap by its rounding.
+// The mover lets bodies touch; by its rounding they may seem to overlap.
 constexpr double kOverlapTolerance = 1e-6;  // m
 constexpr std::uint64_t kOneIn = 100;
 
@@ -23,7 +23,7 @@ struct Point {
   double x, y;
 };
 
-// A point of the world in the frame of an upright box.
+// A point in the world, in the frame of an upright box.
 Point InBox(const geometry::Pose& box, Point p) {
   const double yaw = geometry::Yaw(box.orientation), c = std::cos(yaw), s = std::sin(yaw);
   const double x = p.x - box.position.x, y = p.y - box.position.y;
@@ -34,7 +34,8 @@ const geometry::Vector3& BoxSize(const world::Body& body) {
   return std::get<geometry::Box>(body.model->links[0].collisions[0].shape).size;
 }
 
-// Where a ray in the plane (unit direction) enters a disc, or leaves it if it starts inside.
+// The distance at which a ray in the plane (unit direction) enters a disc, or leaves it from
+// inside.
 double RayToDisc(Point from, Point along, Point centre, double radius) {
   const double x = centre.x - from.x, y = centre.y - from.y;
   const double b = x * along.x + y * along.y;
@@ -66,7 +67,7 @@ double RayToBox(Point from, Point along, const geometry::Pose& pose,
   return enter >= 0 ? enter : leave;
 }
 
-// By how much a robot's disc reaches into a box; negative: the gap.
+// The depth of a robot's disc in a box; negative: the gap.
 double DepthInBox(Point centre, const geometry::Pose& pose, const geometry::Vector3& size) {
   const Point p = InBox(pose, centre);
   const double out_x = std::abs(p.x) - size.x / 2, out_y = std::abs(p.y) - size.y / 2;

@@ -18,7 +18,7 @@ namespace {
 using Stopwatch = std::chrono::steady_clock;
 using Readings = std::vector<sensing::Reading>;
 
-// Where the robots' own drums are behind it.
+// The robots' own drums are below this height.
 constexpr double kScannerHeight = 0.4;  // m
 
 struct LidarArguments {
@@ -30,7 +30,7 @@ struct LidarArguments {
   bool json = false;
 };
 
-// Refuses scans of nothing, scans that were there before, and robots that stand still.
+// Fails for empty scans, scans that repeat earlier ones, and robots that do not move.
 class ScanCheck {
  public:
   base::Status Check(const world::Snapshot& snapshot, const std::vector<std::string>& robots,
@@ -70,9 +70,9 @@ struct ScanFigures {
   std::uint64_t triangles = 0;
   Solids solids;
   std::int64_t scans = 0, rays = 0;
-  double wall = 0, processor = 0;  // s that readings took, ray scenes included
+  double wall = 0, processor = 0;  // s for readings, including the ray scenes
   double least_processor = 1e9;    // s, of one instant
-  std::vector<double> instants;    // ms that the readings of one instant took
+  std::vector<double> instants;    // ms for the readings of one instant
 };
 
 base::Result<std::unique_ptr<sensing::Sensor>> MakeLidar(const simulation::Simulation& simulation,
@@ -86,14 +86,14 @@ base::Result<std::unique_ptr<sensing::Sensor>> MakeLidar(const simulation::Simul
   return simulation.sensor_types().Find("lidar")->create(description);
 }
 
-// All robots' readings at one instant, as an exchange of each would take them.
+// The readings of all robots at one instant, as exchanges would take them.
 class Scanning {
  public:
   Scanning(const sensing::Sensor& lidar, std::vector<std::string> robots, base::ThreadTeam& team)
       : lidar_(lidar), robots_(std::move(robots)), team_(team), readings_(robots_.size()) {}
 
   const Readings& Scan(const std::shared_ptr<const world::Snapshot>& snapshot) {
-    const auto scene = rays_.At(snapshot, &team_);  // held until all have read
+    const auto scene = rays_.At(snapshot, &team_);  // kept until all have read
     team_.ParallelFor(robots_.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const sensing::Sampling sampling(snapshot, snapshot->layout->Find(robots_[i]), 1, rays_);
@@ -132,7 +132,7 @@ base::Result<ScanFigures> MeasureScans(const LidarArguments& arguments) {
   figures.triangles = TrianglesIn(*simulation.snapshot()->layout);
   figures.solids = SolidsIn(*simulation.snapshot()->layout);
   ScanCheck check;
-  // What is done once for a world is not measured, and the robots get going.
+  // Work that is done once for a world is not measured, and the robots accelerate.
   constexpr int kStepsToBegin = 100;
   for (int round = -1; figures.wall < arguments.duration; ++round) {
     const auto snapshot = NextSnapshot(simulation, round < 0 ? kStepsToBegin : 1);

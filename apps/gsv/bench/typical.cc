@@ -40,7 +40,7 @@ class Durations {
                            : std::accumulate(values_.begin(), values_.end(), 0.0) /
                                  static_cast<double>(values_.size());
   }
-  // The value that the fraction `q` of all do not exceed (nearest rank).
+  // The smallest value that at least the fraction `q` does not exceed (nearest rank).
   double quantile(double q) const {
     const base::MutexLock lock(mutex_);
     if (values_.empty()) return 0;
@@ -55,7 +55,7 @@ class Durations {
   std::vector<double> values_ GSV_GUARDED_BY(mutex_);
 };
 
-// Times the intervals between state updates.
+// Measures the intervals between state updates.
 class UpdateTimer final : public simulation::Observer {
  public:
   void OnSnapshot(const std::shared_ptr<const world::Snapshot>&) override {
@@ -71,7 +71,7 @@ class UpdateTimer final : public simulation::Observer {
   Clock::time_point last_;  // stepping thread only
 };
 
-// A camera that notes how long each picture took, from request to picture.
+// A camera that measures the time of each image, from request to image.
 class TimedSensor final : public sensing::ForwardingSensor {
  public:
   TimedSensor(std::unique_ptr<sensing::Sensor> sensor, std::shared_ptr<Durations> times)
@@ -104,7 +104,7 @@ struct Row {
   std::shared_ptr<Durations> pictures = std::make_shared<Durations>();
 };
 
-// A few in the office, many on the square of `gsv bench crowd`, unless a world is given.
+// A few robots in the office, many on the square of `gsv bench crowd`, unless a world is given.
 base::Status PlaceRobots(const TypicalArguments& arguments, int robots, RunOptions& options) {
   const bool on_the_square = arguments.world.empty() && robots > kMaxOfficeRobots;
   if (on_the_square) {
@@ -168,7 +168,7 @@ base::Result<Row> RunTypical(const TypicalArguments& arguments, int robots) {
   return row;
 }
 
-// Control cycles of eight sonars: what the behaviours got done, beside the simulation's own pace.
+// The behaviours' control cycles, with eight sonars each, per robot and second.
 double CyclesPerRobotSecond(const Row& row) {
   double sonars = 0;
   for (const simulation::RobotStatus& robot : row.status.robots) {

@@ -12,10 +12,10 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr std::chrono::seconds kCommandPatience{60};
-constexpr std::size_t kMaxOutput = 1 << 20;  // bytes that are kept
+constexpr std::size_t kMaxOutput = 1 << 20;  // bytes that are stored
 constexpr int kMaxLines = 1000;              // read at a time
 
-// The shell looks for the program on the PATH, and merges stderr into stdout.
+// The shell finds the program on the PATH, and merges stderr into stdout.
 base::Result<std::unique_ptr<ChildProcess>> StartMerged(const std::vector<std::string>& command,
                                                         ChildProcess::Input input) {
   std::vector<std::string> line{"/bin/sh", "-c", "exec \"$@\" 2>&1", "sh"};

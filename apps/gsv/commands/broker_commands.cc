@@ -20,8 +20,8 @@ std::chrono::milliseconds Milliseconds(double seconds) {
   return std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000));
 }
 
-// The default of --data. Only a broker with a fixed port has one: nobody finds a broker again whose port
-// the system chose. Empty when there is no folder for it.
+// The default of --data. Only a broker with a fixed port has one, as clients cannot find a broker
+// again on a port that the system chose. Empty if there is no folder for it.
 std::string DefaultDataFile(int port) {
   const char* data = std::getenv("XDG_DATA_HOME");
   const char* home = std::getenv("HOME");
@@ -34,7 +34,7 @@ std::string DefaultDataFile(int port) {
     return {};
   }
   folder /= "gsv";
-  std::error_code ignored;  // opening the file says what is wrong
+  std::error_code ignored;  // opening the file reports the error
   std::filesystem::create_directories(folder, ignored);
   return folder / ("broker-" + std::to_string(port) + ".db");
 }

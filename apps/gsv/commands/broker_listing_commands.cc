@@ -20,14 +20,14 @@ namespace {
 
 constexpr const char* kBrokerGroup = "Commands for brokers";
 
-// A command that lists by default; `list`, `add` and `remove` are its subcommands.
+// A command that lists by default, with the subcommands `list`, `add` and `remove`.
 struct Listing {
   CLI::App* list = nullptr;
   CLI::App* add = nullptr;
   CLI::App* remove = nullptr;
   std::string broker;
   bool json = false;
-  std::string name;  // of what is added or removed
+  std::string name;  // of the added or removed object
 };
 
 struct Actions {
@@ -66,7 +66,7 @@ std::shared_ptr<Arguments> AddListing(const CommandLine& line, const char* name,
   return arguments;
 }
 
-// `print` and `print_json` write what was listed.
+// `print` and `print_json` write the listed objects.
 template <typename Listed, typename Print>
 base::Status Show(const base::Result<Listed>& listed, bool json, const Print& print,
                   const Print& print_json) {

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using campaign::Campaign;
 using campaign::RunResult;
 
-constexpr std::chrono::seconds kLockPatience{5};  // with a `status` that gathers
+constexpr std::chrono::seconds kLockPatience{5};  // for a `status` that collects results
 
 struct CampaignArguments {
   std::string file, results, csv, svg, html, shard;
@@ -32,14 +32,14 @@ struct CampaignArguments {
   TaskArguments task;
 };
 
-// FILE.yaml has its results in FILE.sqlite.
+// The results of FILE.yaml are in FILE.sqlite.
 std::string ResultsFile(const CampaignArguments& arguments) {
   if (!arguments.results.empty()) return arguments.results;
   const fs::path file = arguments.file;
   return file.extension() == ".sqlite" ? file : fs::path(file).replace_extension(".sqlite");
 }
 
-// Returns kOk, or the exit code after the errors are printed.
+// Returns kOk, or prints the errors and returns the exit code.
 int ReadCampaignFile(const std::string& file, Campaign& campaign,
                      const campaign::EngineRequest& request, campaign::Engine& engine) {
   base::Problems problems;
@@ -52,7 +52,7 @@ int ReadCampaignFile(const std::string& file, Campaign& campaign,
   return problems.empty() ? kOk : kBadModel;
 }
 
-// Prints the state of the campaign; returns the exit code: 1 when a run has not passed.
+// Prints the state of the campaign. Returns the exit code: 1 if a run has not passed.
 int TellStatus(campaign::Results& results, bool json) {
   const auto all = results.All();
   const auto planned = results.PlannedRuns();
@@ -171,7 +171,7 @@ int ShowRun(const CampaignArguments& arguments) {
 
 using Arguments = std::shared_ptr<CampaignArguments>;
 
-// The options of `--engine`, of job queues in general and of each engine. Returns --engine.
+// Adds `--engine`, the options of all job queues, and those of each engine. Returns --engine.
 CLI::Option* AddEngineOptions(CLI::App* run, const Arguments& arguments) {
   EngineOptions& options = arguments->options;
   campaign::EngineRequest& engine = arguments->engine;
@@ -181,7 +181,7 @@ CLI::Option* AddEngineOptions(CLI::App* run, const Arguments& arguments) {
     names.push_back(type.name);
     help += (help.empty() ? "" : "; ") + type.name + ": " + type.help;
     for (const campaign::EngineOption& option : type.options) {
-      if (engine.options.contains(option.flag)) continue;  // two engines may share it
+      if (engine.options.contains(option.flag)) continue;  // two engines may share the option
       CLI::Option* added = run->add_option(option.flag, engine.options[option.flag], option.help)
                                ->allow_extra_args(false)
                                ->group(type.title);

@@ -1,4 +1,4 @@
-// gsv certificates: a small authority, and certificates that it has signed.
+// gsv certificates: a small certificate authority, and certificates signed by it.
 #include <cstdio>
 
 #include <CLI/CLI.hpp>
@@ -23,7 +23,7 @@ tls::Validity ValidityOf(int days) {
   return validity;
 }
 
-// The names of a server if --host gives none.
+// The default names of a server, without --host.
 std::vector<std::string> UsualHosts() {
   std::vector<std::string> hosts{"localhost", "127.0.0.1", "::1"};
   if (const std::string name = base::HostName(); name != hosts.front()) hosts.push_back(name);
@@ -32,7 +32,7 @@ std::vector<std::string> UsualHosts() {
 
 base::Status MakeCertificates(const CertificatesArguments& arguments) {
   if (!tls::HasAuthority(arguments.folder)) {
-    // It outlives what it signs.
+    // It is valid longer than the certificates that it signs.
     constexpr int kTimesAsLong = 10;
     if (auto ok = tls::MakeAuthority(arguments.folder, ValidityOf(kTimesAsLong * arguments.days));
         !ok) {

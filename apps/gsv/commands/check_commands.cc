@@ -24,7 +24,7 @@ struct CheckArguments {
   std::vector<std::string> model_path, sensor_plugins;
   formats::ReadLimits limits;
   Confinement confinement;
-  std::int64_t confined_seconds = 0;  // 0: not at all
+  std::int64_t confined_seconds = 0;  // 0: no sandbox
   bool json = false;
   bool strict = false;
 };
@@ -37,7 +37,7 @@ std::string Listed(const std::vector<std::string>& names) {
   return list.empty() ? "none" : list;
 }
 
-// How the model drives as a robot, and what <ros2_control> says about its joints.
+// The drive of the model as a robot, and the joints in <ros2_control>.
 Notes RobotNotes(const std::shared_ptr<const model::Model>& model) {
   Notes notes;
   if (const auto robot = model::AsRobot(model, "")) {
@@ -55,7 +55,7 @@ Notes RobotNotes(const std::shared_ptr<const model::Model>& model) {
   return notes;
 }
 
-// Places of one message that are printed in text; JSON has all.
+// Places of one message that are printed as text; JSON has all.
 constexpr std::size_t kPlacesPrinted = 10;
 
 void Print(const CheckArguments& arguments, const char* severity, const std::string& where,
@@ -73,7 +73,7 @@ void Print(const CheckArguments& arguments, const char* severity, const std::str
 
 const char* SeverityName(bool is_error) { return is_error ? "error" : "warning"; }
 
-// Prints each problem once; returns the exit code: 3 when there are errors.
+// Prints each problem once. Returns the exit code: 3 if there are errors.
 int Report(const CheckArguments& arguments, const base::Problems& problems, const Notes& notes,
            const base::Status& read) {
   int errors = read ? 0 : 1;
@@ -115,7 +115,7 @@ void AddCheck(const CommandLine& line, const char* group, const char* what, Read
   command->add_flag("--json", arguments->json, "print one JSON object per line");
   command->add_flag("--strict", arguments->strict,
                     "treat warnings as errors, such as elements that are not supported");
-  // For TryToRead(), and in no help.
+  // For TryToRead() only; hidden from help.
   command->add_option("--confined-memory", arguments->confinement.memory_bytes)->group("");
   command->add_option("--confined-time", arguments->confined_seconds)->group("");
   command->callback([arguments, line, read] {

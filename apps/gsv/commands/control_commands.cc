@@ -1,4 +1,4 @@
-// Lists and controls simulations that run in other processes.
+// Lists and controls simulations in other processes.
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
@@ -26,7 +26,7 @@ using simulation::Phase;
 
 constexpr const char* kControlGroup = "Commands to control running simulations";
 
-// The object that the viewer gets too, with the server in front and the state's hash at the end.
+// The same object as for the viewer, plus the server at the begin and the state's hash at the end.
 std::string Json(const FoundSimulation& simulation) {
   const RemoteServer& server = simulation.server;
   nlohmann::ordered_json json = {{"server",
@@ -38,7 +38,7 @@ std::string Json(const FoundSimulation& simulation) {
   const auto hash = orb::Call(server.Describe(), [&] {
     return std::string(CORBA::String_var(simulation.reference->state_hash()));
   });
-  json["state_hash"] = hash.value_or("");  // it may have ended since
+  json["state_hash"] = hash.value_or("");  // it may have ended meanwhile
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
@@ -67,10 +67,10 @@ struct Arguments {
   bool json = false;
   std::uint64_t steps = 1;
   double factor = 1;
-  std::map<std::string, std::string> texts;  // of commands of the table, by parameter
+  std::map<std::string, std::string> texts;  // of commands in the table, by parameter
 };
 
-// The simulations of servers of this user that were killed.
+// Lists the simulations of this user's servers that were killed.
 int ListLost(const Arguments& arguments) {
   int count = 0;
   for (const LostSimulation& lost : LostSimulationsNoted(arguments.selection.broker)) {
@@ -109,7 +109,7 @@ int List(const Arguments& arguments) {
 
 using Call = std::function<void(sba::Simulation_ptr, const Arguments&)>;
 
-// Until the steps are taken; a behaviour may make that as long as it likes. False: interrupted.
+// Waits until the steps are done. A behaviour may take any time for them. False: interrupted.
 base::Result<bool> AwaitRest(const FoundSimulation& simulation, Signals& signals) {
   auto phase = sba::PHASE_STARTING;
   while (phase == sba::PHASE_STARTING || phase == sba::PHASE_RUNNING) {
@@ -134,7 +134,8 @@ int Steer(const Arguments& arguments, const Call& call, bool awaits_rest, Signal
     if (!rested) return Complain(rested.error());
     if (!*rested) return kInterrupted;
   }
-  // A `gsv run` without a viewer ends when its simulation is stopped; then the last known status serves.
+  // A `gsv run` without a viewer ends when its simulation is stopped; then the last known status is
+  // used.
   if (const auto status = StatusOf(*simulation)) {
     simulation->status = *status;
   } else {
@@ -155,7 +156,7 @@ std::shared_ptr<Arguments> AddSelection(CLI::App& command) {
   return arguments;
 }
 
-// `add_value` adds what is given before the simulation's name.
+// `add_value` adds the argument before the simulation's name.
 void AddSteering(const CommandLine& line, const char* name, const char* description, Call call,
                  const std::function<void(CLI::App&, Arguments&)>& add_value = {},
                  bool awaits_rest = false) {
@@ -182,7 +183,7 @@ void AddFactor(CLI::App& command, Arguments& arguments) {
       ->required();
 }
 
-// set_gravity is spelt set-gravity here.
+// The name with dashes: set-gravity for set_gravity.
 std::string Dashed(std::string_view name) {
   std::string text(name);
   std::replace(text.begin(), text.end(), '_', '-');
@@ -205,7 +206,7 @@ void AddParameter(const simulation::Parameter& parameter, CLI::App& command, Arg
       ->required(parameter.is_required());
 }
 
-// A command as the table describes it: its parameters are options.
+// A command as described by the table, with its parameters as options.
 void AddFromTable(const CommandLine& line, const simulation::Command& command) {
   const auto call = [&command](sba::Simulation_ptr simulation, const Arguments& given) {
     const model::Parameters texts(given.texts.begin(), given.texts.end());

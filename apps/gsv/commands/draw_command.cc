@@ -63,11 +63,11 @@ base::Result<std::shared_ptr<const world::Snapshot>> FirstInstant(
   return snapshot;
 }
 
-// From the front, the right and above, as near as shows all.
+// A view from the front, right and above, at the smallest distance that shows everything.
 rendering::CameraView ViewOfAll(const std::vector<Vector3>& corners, int width, int height) {
   constexpr double kYaw = 0.75 * std::numbers::pi, kPitch = 0.6, kMargin = 1.05;
   constexpr double kFieldOfView = 0.8;
-  constexpr double kMaxCoordinate = 1e6;  // m that a renderer takes
+  constexpr double kMaxCoordinate = 1e6;  // m: limit of a renderer
   const geometry::Quaternion turn = geometry::FromRollPitchYaw({0, kPitch, kYaw});
   const double across = std::tan(kFieldOfView / 2) / kMargin, up = across * height / width;
   constexpr double kEndless = std::numeric_limits<double>::infinity();
@@ -80,7 +80,7 @@ rendering::CameraView ViewOfAll(const std::vector<Vector3>& corners, int width, 
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   const Vector3 middle = (low + high) * 0.5;
-  double back = 0;  // from the middle
+  double back = 0;  // distance from the centre
   for (const Vector3& p : turned) {
     const Vector3 q = p - middle;
     back = std::max({back, std::abs(q.y) / across - q.x, std::abs(q.z) / up - q.x});

@@ -21,7 +21,7 @@ struct RecordArguments {
 int StartRecording(const RecordArguments& arguments) {
   const auto simulation = FindOneSimulation(arguments.selection);
   if (!simulation) return Complain(simulation.error());
-  // The other process may stand in another folder, and on another machine.
+  // The other process may have another working directory, or be on another machine.
   std::error_code error;
   const std::string path = std::filesystem::absolute(arguments.file, error).string();
   const auto done = orb::Call(simulation->server.Describe(),

@@ -39,7 +39,7 @@ struct RecordingArguments {
   }
 };
 
-// A recording that is not there is no bad model.
+// A missing recording has the exit code of a missing file, not of a bad model.
 int Refuse(const base::Error& error) {
   const int code = Complain(error);
   return error.code == base::ErrorCode::kNotFound ? kInfrastructure : code;
@@ -63,7 +63,7 @@ int Recover(const RecordingArguments& arguments) {
   return kOk;
 }
 
-// A part that cannot hold anything, because its ends or its topics are wrong.
+// Refuses a selection that cannot have content, because its ends or its topics are wrong.
 base::Status CheckSelection(const RecordingArguments& arguments,
                             const recording::McapReader& reader) {
   if (arguments.from > arguments.to) {
@@ -98,7 +98,7 @@ int Filter(const RecordingArguments& arguments) {
   return kOk;
 }
 
-// One JSON object a line.
+// Prints one JSON object per line.
 int Cat(const RecordingArguments& arguments) {
   const auto reader = recording::McapReader::Open(arguments.file);
   if (!reader) return Refuse(reader.error());
@@ -120,7 +120,7 @@ int Cat(const RecordingArguments& arguments) {
         {"type", (*message)->type},
         {"message", recording::WithInfinitiesAsText(std::move((*message)->content))}};
     std::puts(line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-    if (std::ferror(stdout) != 0) return kInfrastructure;  // nobody reads on
+    if (std::ferror(stdout) != 0) return kInfrastructure;  // the reader of the pipe has ended
   }
 }
 
@@ -171,7 +171,7 @@ int Export(const RecordingArguments& arguments) {
                    "cannot write the file; check the folder and the free space", arguments.output});
 }
 
-// Of several that have the name, the last.
+// If several attachments have the name, extracts the last.
 int Extract(const RecordingArguments& arguments) {
   const auto reader = recording::McapReader::Open(arguments.file);
   if (!reader) return Refuse(reader.error());
@@ -225,11 +225,11 @@ struct ReplayArguments {
   bool paused = false;
   bool json = false;
   bool resimulate = false;
-  std::string broker;     // of a resimulation
-  bool commands = false;  // of a resimulation
+  std::string broker;     // of a repeated simulation
+  bool commands = false;  // of a repeated simulation
 };
 
-// Reads the whole file, every message in its turn, and tells what a replay would have shown.
+// Reads the whole file, message by message, and reports what a replay would show.
 int CheckReplay(const ReplayArguments& arguments) {
   const auto info = recording::ReadInfo(arguments.file);
   if (!info) return Refuse(info.error());
@@ -269,7 +269,7 @@ base::Result<std::unique_ptr<gateway::Gateway>> StartGateway(const ReplayArgumen
   options.web_root = ShareFolder() / "web";
   options.docs_root = ShareFolder() / "docs";
   std::error_code error;
-  // What was opened is there, and has a name.
+  // The file was opened, so it exists and has a name.
   const std::filesystem::path file = std::filesystem::canonical(arguments.file, error);
   options.recordings_folder = file.parent_path();
   options.only_recording = file.filename();
@@ -298,7 +298,7 @@ int Replay(const ReplayArguments& arguments, Signals& signals) {
   if (!gateway) return Complain(gateway.error());
   std::printf("viewer: %s\n", (*gateway)->url().c_str());
   std::fflush(stdout);
-  if (!arguments.paused) (void)(*player)->Start();  // it stands at the beginning
+  if (!arguments.paused) (void)(*player)->Start();  // it is paused at the beginning
   signals.Wait();
   return kOk;
 }

@@ -27,7 +27,7 @@ struct TestArguments {
   bool json = false, no_record = false;
 };
 
-// Runs all cases, so many at a time, each on a thread of its own that waits for its child.
+// Runs all cases, a limited number at a time, each on its own thread, which waits for its child.
 class TestSession {
  public:
   TestSession(std::vector<TestCase> cases, const TestOptions& options, bool is_talkative)
@@ -88,7 +88,7 @@ class TestSession {
     }
   }
 
-  // On the terminal.
+  // Shows the progress on the terminal.
   void ShowProgress() GSV_REQUIRES(mutex_) {
     if (!shows_progress_) return;
     std::string names;
@@ -140,7 +140,7 @@ int RunTests(const TestArguments& arguments, Signals& signals) {
   options.record = !arguments.no_record;
   auto share = ShareOf(*std::move(cases), *shard);
   const int jobs = JobsFor(arguments, share.size());
-  // Runs beside one another do not help each other with more threads.
+  // Concurrent runs are not faster with more threads.
   if (jobs > 1) options.threads = 1;
   TestSession session(std::move(share), options, !arguments.json);
   const std::vector<TestResult> results = session.Run(jobs, signals);
@@ -165,7 +165,7 @@ int RunTests(const TestArguments& arguments, Signals& signals) {
   }
   if (session.is_cancelled()) return kInterrupted;
   if (passed == results.size()) return kOk;
-  // All that did not pass had files that are missing or cannot be used.
+  // True if every case that did not pass had missing or invalid files.
   const bool is_bad_input = std::all_of(results.begin(), results.end(), [](const auto& result) {
     return result.is_bad_input || result.status == TestResult::Status::kPassed;
   });

@@ -16,7 +16,7 @@ constexpr int kRobots = 4;
 constexpr int kCameras = 16;
 constexpr double kMeasured = 1.5;  // s
 
-// Pictures of 320x240 a second, of robots that drive about the office.
+// Images of 320x240 per second, of robots that drive in the office.
 base::Result<double> PictureRate(rendering::Renderer& renderer) {
   MovingSceneOptions options;
   options.robots = kRobots;
@@ -30,7 +30,7 @@ base::Result<double> PictureRate(rendering::Renderer& renderer) {
     return pictures ? base::Status() : base::Fail(pictures.error());
   };
   if (auto ok = scene->simulation->Start(); !ok) return base::Fail(ok.error());
-  if (auto ok = draw(); !ok) return base::Fail(ok.error());  // what is done once for a world
+  if (auto ok = draw(); !ok) return base::Fail(ok.error());  // work that is done once for a world
   const auto start = std::chrono::steady_clock::now();
   double seconds = 0;
   int drawn = 0;
@@ -42,7 +42,7 @@ base::Result<double> PictureRate(rendering::Renderer& renderer) {
   return drawn / seconds;
 }
 
-// True when pictures can be taken.
+// True if images can be rendered.
 bool LookAtCameras(bool has_worlds) {
   const auto renderer = rendering::Renderer::Start();
   if (!renderer) {

@@ -10,7 +10,7 @@ using ::testing::HasSubstr;
 
 const Listener kOpen{"0.0.0.0", 8080}, kLocal{"127.0.0.1", 8080};
 
-TEST(Exposure, OnThisMachineOnlyIsNeverComplainedOf) {
+TEST(Exposure, ListeningOnThisMachineOnlyGivesNoWarning) {
   for (const Speaks speaks :
        {Speaks::kHttp, Speaks::kHttps, Speaks::kCorba, Speaks::kCorbaTls, Speaks::kUnknown}) {
     EXPECT_EQ(Complaint(kLocal, {speaks}), "");
@@ -36,7 +36,7 @@ TEST(Exposure, CorbaBeyondThisMachineNeedsCertificates) {
   EXPECT_EQ(Complaint(kOpen, exposure), "");
 }
 
-TEST(Exposure, WhatDoesNotAnswerIsSuspect) {
+TEST(Exposure, AListenerThatDoesNotAnswerGivesAWarning) {
   EXPECT_THAT(Complaint(kOpen, {Speaks::kUnknown}), HasSubstr("it does not respond"));
 }
 

@@ -23,7 +23,7 @@
 namespace gsv::app {
 namespace {
 
-// A hundred behaviours and as many viewers, and what the program has open by itself.
+// For a hundred behaviours, as many viewers, and the program's own files.
 constexpr rlim_t kEnoughDescriptors = 512;
 constexpr double kEnoughRoom = 1;  // GB, for recordings
 
@@ -42,7 +42,7 @@ bool CheckDescriptors() {
   return false;
 }
 
-// In real time, steps go before behaviours where that is allowed.
+// In real time, steps have priority over behaviours if the system allows that.
 void CheckPriority() {
   rlimit limit{};
   getrlimit(RLIMIT_NICE, &limit);
@@ -158,7 +158,7 @@ bool CheckBroker(const std::string& broker) {
   }
   std::printf("broker: does not respond: %s; start one with `gsv broker --port N`\n",
               reached.error().Sentence().c_str());
-  return broker.empty();  // who is not named may just have ended
+  return broker.empty();  // an instance without a name may just have ended
 }
 
 }  // namespace gsv::app

@@ -17,7 +17,7 @@ using simulation::Phase;
 
 constexpr std::chrono::milliseconds kPeriod{500};
 
-// The simulated time of the last message that can be read; nothing for what is no recording.
+// The simulated time of the last readable message; nothing if the file is no recording.
 std::optional<double> WholeUntil(const std::string& path) {
   const auto reader = recording::McapReader::Open(path);
   if (!reader) return std::nullopt;
@@ -67,7 +67,7 @@ void LostSimulations::TakeOver(const fs::path& folder) {
   }
   Keep(std::move(lost));
   Write();
-  if (!could_write_) return;  // another server may, and is to find them
+  if (!could_write_) return;  // another server may be able to, and must find them
   std::error_code ignored;
   for (const fs::path& file : done) fs::remove(file, ignored);
 }
@@ -82,7 +82,7 @@ void LostSimulations::Keep(std::vector<LostSimulation> lost) {
 
 void LostSimulations::Examine(const std::stop_token& stop) {
   for (auto& [number, simulation] : List()) {
-    // A server that ends at once tells of all of them still, without having looked.
+    // A server that ends at once still reports all of them, without reading their recordings.
     if (!simulation.recording.empty() && !stop.stop_requested()) {
       simulation.whole_until_s = WholeUntil(simulation.recording);
     }

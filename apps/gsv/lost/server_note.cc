@@ -49,7 +49,7 @@ NoteJson ToJson(const std::vector<LostSimulation>& simulations) {
   return list;
 }
 
-// Reads what is there; Ok() says whether all was of its kind.
+// Reads the fields that exist; Ok() returns whether all had the right type.
 class Fields {
  public:
   explicit Fields(const NoteJson& object) : object_(object), ok_(object.is_object()) {}

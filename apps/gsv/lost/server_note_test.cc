@@ -26,7 +26,7 @@ LostSimulation Arena() {
 
 class ServerNoteTest : public ::testing::Test {
  protected:
-  // The note in the folder, after `change` to its JSON.
+  // The note in the folder, after `change` of its JSON.
   NotesFound Changed(const std::function<void(nlohmann::json&)>& change) const {
     ServerNote note;
     note.simulations = {Arena()};
@@ -42,9 +42,9 @@ class ServerNoteTest : public ::testing::Test {
   const base::testing::TestFolder folder_{};
 };
 
-TEST_F(ServerNoteTest, IsReadAsItWasWritten) {
+TEST_F(ServerNoteTest, IsReadUnchanged) {
   ServerNote note = NewNote();
-  note.server = "caf\xe9";  // no UTF-8
+  note.server = "caf\xe9";  // invalid UTF-8
   note.broker = "IOR:01";
   note.recordings = "/r";
   note.simulations = {Arena()};
@@ -81,7 +81,7 @@ TEST_F(ServerNoteTest, AWriterIsAliveWhileItsProcessIs) {
   EXPECT_TRUE(IsOfTheLiving(note)) << "nobody here can tell";
 }
 
-TEST_F(ServerNoteTest, AFileThatIsNoNoteIsReportedAndNamedAsBroken) {
+TEST_F(ServerNoteTest, AnInvalidFileIsReportedAndRenamedAsBroken) {
   for (const char* text : {"", "{", "[]", "{\"pid\": 1}", "null"}) {
     const auto file = folder_.Write("7-7.json", text);
     const NotesFound found = ReadNotes(folder_.path());
@@ -91,7 +91,7 @@ TEST_F(ServerNoteTest, AFileThatIsNoNoteIsReportedAndNamedAsBroken) {
   }
 }
 
-TEST_F(ServerNoteTest, EveryFieldMustBeOfItsKind) {
+TEST_F(ServerNoteTest, EveryFieldMustHaveItsType) {
   EXPECT_THAT(Changed([](auto&) {}).notes, SizeIs(1));
   for (const char* key : {"pid", "started", "boot", "host", "server", "broker", "recordings",
                           "simulations", "lost"}) {
@@ -115,7 +115,7 @@ TEST_F(ServerNoteTest, OtherFilesAndFoldersAreLeftAlone) {
   EXPECT_THAT(ReadNotes(folder_.path() / "none").problems, IsEmpty());
 }
 
-TEST(LostSimulationSentence, SaysWhatIsLeft) {
+TEST(LostSimulationSentence, NamesTheRecordingAndItsEnd) {
   LostSimulation lost = Arena();
   const std::string begin =
       "arena on gsv (process 123) was lost at about 12.3 s (running), when its server was killed; ";

@@ -18,7 +18,7 @@
 namespace gsv::app {
 namespace {
 
-// What becomes of a confined process that does `what`: its waitpid() status.
+// The waitpid() status of a sandboxed process that calls `what`.
 int RunConfined(const std::function<int()>& what) {
   const pid_t child = fork();
   if (child == 0) {

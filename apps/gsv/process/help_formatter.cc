@@ -10,9 +10,9 @@ constexpr std::size_t kWidth = 80;
 constexpr std::size_t kColumn = 28;         // where descriptions begin
 constexpr std::size_t kCommandColumn = 16;  // of commands
 constexpr const char* kUngrouped = "Options";
-constexpr char kUnbreakable = '\x01';  // a blank at which no line is broken
+constexpr char kUnbreakable = '\x01';  // a blank without a line break
 
-// One entry: the left column, then the words of the text, wrapped.
+// One entry: the left column, then the wrapped text.
 std::string Entry(const std::string& left, const std::string& text, std::size_t column) {
   std::string entry = "  " + left;
   std::size_t at = entry.size();
@@ -62,7 +62,7 @@ std::pair<std::string, std::string> TypeAndRange(const CLI::Option& option) {
   return {type.substr(0, colon), range};
 }
 
-// A short and a long name. A second long name is a former one, which the details mention.
+// A short and a long name. A second long name is a deprecated one, which the details mention.
 std::string NamesOf(const CLI::Option& option) {
   if (option.get_positional()) return option.get_name(true);
   const auto& short_names = option.get_snames();
@@ -124,7 +124,7 @@ std::string OptionSections(const CLI::App& app, bool is_full) {
   }),
                                  is_full);
   std::vector<std::string> groups = app.get_groups();
-  // The options of no group, such as --help, come last.
+  // Options without a group, such as --help, come last.
   std::stable_partition(groups.begin(), groups.end(),
                         [](const std::string& group) { return group != kUngrouped; });
   for (const std::string& group : groups) {

@@ -10,7 +10,7 @@ using testing::ElementsAre;
 
 constexpr auto kWarning = Problem::Severity::kWarning;
 
-TEST(ProblemReport, TellsTheSameInManyPlacesOnce) {
+TEST(ProblemReport, ReportsAProblemInManyPlacesOnce) {
   const base::Problems problems = {{kWarning, "no wind", "w.sdf:3"},
                                    {kWarning, "no fog", "w.sdf:4"},
                                    {kWarning, "no wind", "w.sdf:9"},
@@ -23,7 +23,7 @@ TEST(ProblemReport, TellsTheSameInManyPlacesOnce) {
               ElementsAre("w.sdf:5: no mass"));
 }
 
-TEST(ProblemReport, CountsWhatItLeavesOut) {
+TEST(ProblemReport, CountsOmittedPlaces) {
   EXPECT_THAT(Shortened({"a", "b", "c"}, 2, "see"), ElementsAre("a", "b", "c"));
   EXPECT_THAT(Shortened({"a", "b", "c", "d"}, 2, "see"),
               ElementsAre("a", "b", "2 more warnings; see"));

@@ -26,7 +26,7 @@ struct Ending {
   std::string errors;
 };
 
-// Writes `text` only once standard error is captured, for capturing flushes every stream.
+// Writes `text` only after standard error is captured, as capturing flushes every stream.
 Ending EndOf(std::FILE* output, const char* text, int exit_code) {
   testing::internal::CaptureStderr();
   std::fputs(text, output);
@@ -64,7 +64,7 @@ TEST(StandardOutput, ThatIsLostKeepsTheExitCodeOfAnotherFailure) {
   EXPECT_EQ(EndOf(output.get(), "text\n", kAssertionFailed).exit_code, kAssertionFailed);
 }
 
-TEST(StandardOutput, ThatNobodyReadsFailsWithoutASentence) {
+TEST(StandardOutput, WithoutAReaderFailsWithoutASentence) {
   std::signal(SIGPIPE, SIG_IGN);
   int ends[2];
   ASSERT_EQ(pipe(ends), 0);

@@ -28,7 +28,7 @@ std::string AtInstant(base::SimTime time) {
   return fmt::format("at {:.3f} s", base::ToSeconds(time));
 }
 
-// Of what was recorded before the edits themselves were.
+// Whether the event is an edit, for recordings from before edits were recorded.
 bool IsEdit(const std::string& event) {
   return event == "body_placed" || event == "robot_removed" || event == "robot_added" ||
          event == "avatar_added";
@@ -79,12 +79,12 @@ class EditMaker {
   }
 
   base::Result<std::shared_ptr<const model::Model>> ReadModel(const std::string& model) {
-    base::Problems problems;  // were told when it was added first
+    base::Problems problems;  // were reported when it was added first
     return runtime_.host().library().ReadModel(model, problems,
                                                simulation_.specification().world->source);
   }
 
-  // The world's own robot that came back was read from the world's file, or from its own.
+  // A robot of the world that was added again was read from the world's file, or from its own.
   base::Result<std::shared_ptr<const model::Model>> ReadRobot(const Edit& edit) {
     const auto own = ModelInWorld(simulation_, edit.body);
     const bool is_own =
@@ -144,7 +144,7 @@ bool AwaitHalt(Simulation& simulation, Signals& signals) {
   }
 }
 
-// Has it stand still where the edit is to be made.
+// Runs the simulation to the instant of the edit and pauses there.
 base::Status GoTo(const Edit& edit, Simulation& simulation) {
   const simulation::SimulationStatus status = simulation.status();
   if (edit.moment == Edit::Moment::kAfterTurns) return simulation.RunThrough(edit.time);
@@ -167,7 +167,7 @@ base::Result<RecordedDoings> ReadDoings(const recording::McapReader& reader,
   using messages::gsv_msgs::LifecycleEvent;
   const recording::Summary& summary = reader.summary();
   RecordedDoings doings;
-  std::vector<LifecycleEvent> told;  // events that tell of edits
+  std::vector<LifecycleEvent> told;  // events about edits
   bool has_finished = false;
   recording::MessageCursor cursor = reader.Messages();
   for (;;) {

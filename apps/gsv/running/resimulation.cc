@@ -41,10 +41,10 @@ base::Error NotOfARun(const std::string& file) {
           file};
 }
 
-// How the recorded run was called.
+// The command line of the recorded run.
 struct RecordedCall {
   std::vector<std::string> arguments;  // without the program and "run"
-  std::string folder;                  // that relative paths start from
+  std::string folder;                  // base of relative paths
 };
 
 base::Result<RecordedCall> CallOf(const recording::RecordingInfo& info) {
@@ -65,7 +65,7 @@ base::Result<RecordedCall> CallOf(const recording::RecordingInfo& info) {
   return base::Fail(NotOfARun(info.path));
 }
 
-// The same run, but for what does not bear on its course.
+// The same run, without options that do not affect it.
 base::Result<RunOptions> OptionsOf(const RecordedCall& call, const std::string& file) {
   CLI::App app;
   RunArguments arguments;
@@ -86,7 +86,7 @@ base::Result<RunOptions> OptionsOf(const RecordedCall& call, const std::string& 
   return Understand(arguments);
 }
 
-// What a robot was told, and whether its radios were on.
+// The commands of a robot, and the state of its radios.
 struct RecordedActs {
   hosting::TimedCommands commands;
   bool uses_radio = false;
@@ -117,7 +117,7 @@ base::Status Take(const messages::gsv_msgs::ActuatorCommand& message, RecordedRo
   return {};
 }
 
-// It was sent a step before it was heard.
+// A message was sent a step before it was received.
 base::Status Take(const messages::gsv_msgs::Transmission& message, RecordedRobots& robots) {
   const base::SimTime heard = messages::ToSimTime(message.stamp);
   const auto step = static_cast<std::int64_t>(message.step);
@@ -139,7 +139,7 @@ base::Status TakeFrom(const recording::MessageRecord& record, RecordedRobots& ro
   return Take(*message, robots);
 }
 
-// Has every robot do what it did then.
+// Makes every robot repeat its recorded commands.
 base::Status UseRecordedCommands(const recording::McapReader& reader, RunOptions& run) {
   using namespace messages::gsv_msgs;
   const std::map<std::string_view, decltype(&TakeFrom<Command>)> takers = {
@@ -167,7 +167,7 @@ base::Status UseRecordedCommands(const recording::McapReader& reader, RunOptions
                                 base::SimTime from) {
     const RecordedActs& acts = (*robots)[robot];
     hosting::TimedCommands commands = acts.commands;
-    // One of the same name may have been there before, and was removed.
+    // A removed robot may have had the same name before.
     std::erase_if(commands, [&](const hosting::TimedCommand& each) { return each.time < from; });
     return std::make_shared<hosting::RecordedCommands>(behaviour, std::move(commands),
                                                        acts.uses_radio);
@@ -175,7 +175,7 @@ base::Status UseRecordedCommands(const recording::McapReader& reader, RunOptions
   return {};
 }
 
-// All topics of both, but those that tell what people did.
+// All topics of both, except those about the actions of people.
 std::vector<std::string> TopicsWithoutPeople(const recording::McapReader& first,
                                              const recording::McapReader& second) {
   std::set<std::string> topics;
@@ -186,7 +186,7 @@ std::vector<std::string> TopicsWithoutPeople(const recording::McapReader& first,
   return {topics.begin(), topics.end()};
 }
 
-// What was not recorded cannot be done once more.
+// A run that was not recorded completely cannot be repeated.
 base::Status CheckThatItIsWhole(const recording::RecordingInfo& info) {
   const auto refuse = [&](const std::string& reason) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
@@ -204,7 +204,7 @@ base::Status CheckThatItIsWhole(const recording::RecordingInfo& info) {
   return {};
 }
 
-// Snapshots and messages that a recorder of a run in real time left out, since it did not keep up.
+// Snapshots and messages that a recorder of a run in real time dropped, because it was too slow.
 std::uint64_t LeftOut(const recording::RecordingInfo& info) {
   std::uint64_t sum = 0;
   for (const recording::MetadataRecord& record : info.metadata) {
@@ -220,7 +220,7 @@ std::uint64_t LeftOut(const recording::RecordingInfo& info) {
   return sum;
 }
 
-// Until when it is to run once more. Where people are left out, so is what they did as it ended.
+// The time at which the repeated run ends. If people's actions are left out, so is their end.
 base::Result<base::SimTime> EndOf(const recording::RecordingInfo& info,
                                   const recording::McapReader& reader, bool with_people) {
   if (with_people) return info.end;
@@ -268,7 +268,7 @@ base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signal
   auto folder = base::TemporaryFolder::Make("gsv-again");
   if (!folder) return base::Fail(folder.error());
 
-  // Paths of the recorded command start from the folder in which it was given.
+  // Paths of the recorded command are relative to its working directory.
   std::error_code error;
   std::filesystem::current_path(call->folder, error);
   if (error) {
@@ -279,7 +279,7 @@ base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signal
   auto run = OptionsOf(*call, options.file);
   if (!run) return base::Fail(run.error());
   run->runtime.broker = options.broker;
-  run->scenario.expect.clear();  // it was judged then
+  run->scenario.expect.clear();  // they were evaluated then
   run->record = (folder->path() / "again.mcap").string();
   const bool had_people = doings->was_held_up || !doings->edits.empty();
   const auto end = EndOf(*info, **recorded, !options.commands && !had_people);

@@ -23,7 +23,7 @@ base::Result<RunOptions> Parse(Words words) {
   CLI::App app;
   RunArguments arguments;
   AddRunOptions(app, arguments);
-  std::reverse(words.begin(), words.end());  // as CLI11 wants them
+  std::reverse(words.begin(), words.end());  // CLI11 takes them in reverse
   try {
     app.parse(words);
   } catch (const CLI::ParseError& error) {
@@ -101,11 +101,11 @@ TEST(RunOptions, RecordingIsChosenByTopicsRatesAndFormat) {
   EXPECT_THAT(options->recording.topics, UnorderedElementsAre("/gsv/poses", "/scout/"));
   EXPECT_EQ(options->recording.poses_rate, 10);
   EXPECT_EQ(options->recording.beams_rate, 0.5);
-  EXPECT_EQ(options->recording.readings_rate, 20);  // as --help says
+  EXPECT_EQ(options->recording.readings_rate, 20);  // the default in --help
   EXPECT_TRUE(options->recording.png);
 }
 
-TEST(RunOptions, EachMistakeNamesItsOption) {
+TEST(RunOptions, EachErrorNamesItsOption) {
   const std::pair<Words, const char*> bad[]{
       {{"--behaviour", "=wander"}, "--behaviour =wander: expected NAME or ROBOT=NAME"},
       {{"--behaviour", "r="}, "--behaviour r=: expected NAME or ROBOT=NAME"},

@@ -19,17 +19,17 @@ using geometry::Vector3;
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kFullTurn = 2 * std::numbers::pi + 1e-6;  // rad
-constexpr double kFar = 20;         // m beyond the size of all that stands in the world
-constexpr double kFloorTop = 0.1;   // m: what ends below is a floor, not a wall
+constexpr double kFar = 20;         // m beyond the extent of the world's bodies
+constexpr double kFloorTop = 0.1;   // m: a body that ends below this is a floor, not a wall
 constexpr double kRayHeight = 0.3;  // m above the floor, of rays that look for walls
 constexpr int kDirections = 64;
-constexpr double kEnclosed = 0.9;  // of the directions end at a wall
+constexpr double kEnclosed = 0.9;  // fraction of the directions that end at a wall
 constexpr double kOutside = 0.75;
 constexpr double kMaxDrop = 100;  // m down to look for a floor
 constexpr double kSight = 1000;   // m
-constexpr int kMaxChecked = 200;  // robots: of a crowd the first ones tell
+constexpr int kMaxChecked = 200;  // robots: for a crowd, only the first are checked
 
-// The extent over the ground of all that stands in the world but robots, floors and planes.
+// The extent over the ground of all bodies except robots, floors and planes.
 struct Extent {
   double min_x = kUnbounded, min_y = kUnbounded, max_x = -kUnbounded, max_y = -kUnbounded;
 
@@ -128,7 +128,7 @@ class StartCheck {
         Rays().Range({{start.x, start.y, z + kRayHeight}, {0, 0, -1}, kMaxDrop}, body));
   }
 
-  // The part of the directions from there in which something stands.
+  // The fraction of the directions with an obstacle, from this place.
   double Walls(double x, double y, int ignored_body) {
     int hits = 0;
     for (int i = 0; i < kDirections; ++i) {
@@ -139,7 +139,7 @@ class StartCheck {
     return static_cast<double>(hits) / kDirections;
   }
 
-  // The surface above is the one that is seen from above: there is a solid, or a thin roof.
+  // The surface above is seen from above: there is a solid, or a thin roof.
   bool IsInSolid(double x, double y) {
     const double up = Rays().Range({{x, y, kRayHeight}, {0, 0, 1}, kSight}, -1);
     if (!std::isfinite(up)) return false;

@@ -35,7 +35,7 @@ std::vector<world::Body> Walls() {
   return bodies;
 }
 
-// The sentences about a robot that starts there.
+// The warnings about a robot that starts there.
 std::vector<std::string> Warnings(std::vector<world::Body> bodies, double x, double y, double yaw,
                                   world::BodyKind kind = world::BodyKind::kPlanarBase) {
   world::Body robot;
@@ -60,7 +60,7 @@ std::vector<std::string> Warnings(std::vector<world::Body> bodies, double x, dou
   return sentences;
 }
 
-TEST(StartChecks, AStartAmongWallsIsNoProblem) {
+TEST(StartChecks, AStartBetweenWallsIsNoProblem) {
   EXPECT_THAT(Warnings(Walls(), 3, -4, 3.1), IsEmpty());
 }
 
@@ -77,7 +77,7 @@ TEST(StartChecks, AStartFarFromEverythingIsNamed) {
   EXPECT_THAT(Warnings(Walls(), 300, 0, 0), ElementsAre(HasSubstr("295 m away from all objects")));
 }
 
-TEST(StartChecks, AStartBesideThingsThatEncloseNothingIsNoProblem) {
+TEST(StartChecks, AStartBesideBodiesThatEncloseNothingIsNoProblem) {
   std::vector<world::Body> one = Walls();
   one.resize(1);
   EXPECT_THAT(Warnings(one, 0, 0, 0), IsEmpty());

@@ -23,10 +23,10 @@ using base::ErrorCode;
 using base::Fail;
 using messages::sensor_msgs::CompressedImage;
 
-// A bound on what a recording with a wild time stamp can ask for.
+// A limit for recordings with wrong time stamps.
 constexpr std::uint64_t kMaxFrames = 10'000'000;
 
-// ffmpeg, taking pictures from its standard input.
+// ffmpeg, which reads images from its standard input.
 class Encoder {
  public:
   static base::Result<std::unique_ptr<Encoder>> Start(const VideoOptions& options,
@@ -37,7 +37,7 @@ class Encoder {
         options.ffmpeg, "-hide_banner", "-loglevel", "error", "-n", "-f", "image2pipe",
         "-framerate", fmt::format("{}", options.frames_a_second), "-c:v",
         format == "png" ? "png" : "mjpeg", "-i", "-",
-        // Most players want even sides and this form of colour.
+        // Most players require even sides and this pixel format.
         "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", options.output};
     std::vector<char*> pointers;
     pointers.reserve(arguments.size() + 1);
@@ -64,7 +64,7 @@ class Encoder {
   Encoder(const Encoder&) = delete;
   Encoder& operator=(const Encoder&) = delete;
 
-  // False when it takes no more.
+  // False if it accepts no more.
   bool Write(const std::vector<std::uint8_t>& bytes) {
     for (std::size_t done = 0; done < bytes.size();) {
       const ssize_t size = write(input_, bytes.data() + done, bytes.size() - done);
@@ -75,7 +75,7 @@ class Encoder {
     return true;
   }
 
-  // Waits until the video is written; whether it was.
+  // Waits until the video is written; returns whether it was.
   bool Finish() {
     if (input_ >= 0) close(std::exchange(input_, -1));
     if (pid_ >= 0) waitpid(std::exchange(pid_, -1), &status_, 0);
@@ -84,7 +84,7 @@ class Encoder {
 
  private:
   Encoder(pid_t pid, int input) : pid_(pid), input_(input) {
-    std::signal(SIGPIPE, SIG_IGN);  // its end shows as an error of write()
+    std::signal(SIGPIPE, SIG_IGN);  // its end appears as an error of write()
   }
 
   pid_t pid_;
@@ -138,7 +138,7 @@ class Exporter {
       return Fail(ErrorCode::kInvalidArgument,
                   "the video would be too long; select a part with --from and --to");
     }
-    // Those before this picture's instant; a little early counts as it.
+    // Frames before this image's instant; slightly earlier counts as equal.
     for (; static_cast<double>(frames_) < due - 1e-6; ++frames_) {
       if (!encoder_->Write(shown_)) return NotFinished();
     }
@@ -157,7 +157,7 @@ class Exporter {
   std::unique_ptr<Encoder> encoder_;
   base::SimTime start_{};
   std::string format_;
-  std::vector<std::uint8_t> shown_;  // the picture of the next frame
+  std::vector<std::uint8_t> shown_;  // the image of the next frame
   std::uint64_t frames_ = 0;         // written
 };
 

@@ -18,7 +18,7 @@ namespace {
 using messages::sensor_msgs::CompressedImage;
 using std::chrono::milliseconds;
 
-// Pictures are single letters, and in place of ffmpeg stands a program that keeps what it is told.
+// Images are single letters, and a program that stores its input replaces ffmpeg.
 class VideoExportTest : public testing::Test {
  protected:
   VideoExportTest() {
@@ -67,7 +67,7 @@ class VideoExportTest : public testing::Test {
   VideoOptions options_;
 };
 
-TEST_F(VideoExportTest, AFrameShowsTheNewestPictureByItsInstant) {
+TEST_F(VideoExportTest, AFrameShowsTheNewestImageAtItsInstant) {
   Record({{milliseconds(1000), 'a'}, {milliseconds(1250), 'b'}, {milliseconds(1300), 'c'}});
   // Frames at 1.0, 1.1, 1.2 and 1.3 s.
   EXPECT_EQ(Export().value(), 4u);
@@ -76,14 +76,14 @@ TEST_F(VideoExportTest, AFrameShowsTheNewestPictureByItsInstant) {
   EXPECT_NE(arguments.find("-framerate 10 -c:v mjpeg -i -"), std::string::npos) << arguments;
 }
 
-TEST_F(VideoExportTest, TakesPngAndATimeOfIts) {
+TEST_F(VideoExportTest, AcceptsPngAndATimeRange) {
   Record({{milliseconds(0), 'a'}, {milliseconds(100), 'b'}, {milliseconds(200), 'c'}}, "png");
   EXPECT_EQ(Export({{"/robot/camera"}, milliseconds(100), milliseconds(150)}).value(), 1u);
   EXPECT_EQ(Text(options_.output), "b");
   EXPECT_NE(Text(options_.output + ".arguments").find("-c:v png"), std::string::npos);
 }
 
-TEST_F(VideoExportTest, WithoutFfmpegASentenceSaysSo) {
+TEST_F(VideoExportTest, WithoutFfmpegASentenceReportsIt) {
   Record({{milliseconds(0), 'a'}});
   options_.ffmpeg = "gsv-there-is-no-such-program";
   const auto frames = Export();
@@ -92,13 +92,13 @@ TEST_F(VideoExportTest, WithoutFfmpegASentenceSaysSo) {
   EXPECT_NE(frames.error().Sentence().find("Install it"), std::string::npos);
 }
 
-TEST_F(VideoExportTest, AnFfmpegThatFailsIsTold) {
+TEST_F(VideoExportTest, AFailureOfFfmpegIsReported) {
   Record({{milliseconds(0), 'a'}});
   options_.ffmpeg = "false";
   EXPECT_NE(Export().error().Sentence().find("could not write the video"), std::string::npos);
 }
 
-TEST_F(VideoExportTest, RefusesWhatHoldsNoPicturesAndFilesThatAreThere) {
+TEST_F(VideoExportTest, RefusesTopicsWithoutImagesAndExistingFiles) {
   Record({});
   EXPECT_NE(Export().error().Sentence().find("has no images"), std::string::npos);
   EXPECT_NE(Export({{"/clock"}}).error().Sentence().find("rosgraph_msgs/msg/Clock"),

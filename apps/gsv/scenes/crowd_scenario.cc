@@ -16,8 +16,8 @@ constexpr double kBoxSide = 1;        // m
 constexpr double kWallHeight = 1;     // m
 constexpr double kWallThickness = 0.2;
 
-// The raster on whose fields the robots stand; boxes stand on every second of its
-// inner corners.
+// The grid whose cells are the places of the robots; boxes are on every second of its inner
+// corners.
 struct Raster {
   explicit Raster(int robots)
       : columns(static_cast<int>(std::ceil(std::sqrt(robots)))),

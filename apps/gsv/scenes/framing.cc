@@ -15,10 +15,11 @@ using geometry::Pose;
 using geometry::Vector3;
 
 constexpr double kBoundless = std::numeric_limits<double>::infinity();
-// A body is too far away if its distance exceeds kFarRadii radii of all nearer bodies, and kFarMetres.
+// A body is too far away if its distance exceeds kFarRadii radii of all nearer bodies, and
+// kFarMetres.
 constexpr double kFarRadii = 20, kFarMetres = 100;
-// A body is ground if its height is at most kFlat of its width, and its area at least kMuchMore times
-// that of the bodies that stand.
+// A body is ground if its height is at most kFlat of its width, and its area is at least kMuchMore
+// times that of the other bodies.
 constexpr double kFlat = 0.02, kMuchMore = 4;
 
 Bounds Nothing() {
@@ -37,7 +38,7 @@ void Grow(Bounds& bounds, const Bounds& other) {
   Grow(bounds, other.max);
 }
 
-// Of one visual, in the world.
+// The bounds of one visual, in the world.
 struct Seen {
   std::vector<Vector3> corners;
   Bounds bounds = Nothing();
@@ -80,7 +81,7 @@ struct SeenBody {
   double radius() const { return Norm(bounds.max - bounds.min) / 2; }
 };
 
-// The median of their centres, axis by axis; of fewer than three bodies the origin.
+// The median of their centres, axis by axis; the origin for fewer than three bodies.
 Vector3 MiddleOf(const std::vector<SeenBody>& bodies) {
   if (bodies.size() < 3) return {};
   const auto median = [&](double Vector3::*axis) {
@@ -98,10 +99,10 @@ void DropFarAway(std::vector<SeenBody>& bodies) {
   const auto distance = [&](const SeenBody& body) { return Norm(body.centre() - middle); };
   std::stable_sort(bodies.begin(), bodies.end(),
                    [&](const SeenBody& a, const SeenBody& b) { return distance(a) < distance(b); });
-  double radius = 0;  // about the middle, of the bodies so far
+  double radius = 0;  // about the centre, of the bodies so far
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const double nearest = distance(bodies[i]) - bodies[i].radius();
-    // Those that are nearer must not be the few.
+    // At least half of the bodies must be nearer.
     if (nearest > kFarRadii * radius + kFarMetres && 2 * i >= bodies.size()) {
       bodies.resize(i);
       return;
@@ -110,7 +111,7 @@ void DropFarAway(std::vector<SeenBody>& bodies) {
   }
 }
 
-// Without ground, where there is more than ground.
+// The bodies without the ground, unless there is only ground.
 std::vector<const Seen*> WhatStands(const std::vector<SeenBody>& bodies) {
   std::vector<const Seen*> all, standing;
   Bounds of_all = Nothing(), of_standing = Nothing();
@@ -127,7 +128,7 @@ std::vector<const Seen*> WhatStands(const std::vector<SeenBody>& bodies) {
   return standing.empty() || !is_ground_large ? all : standing;
 }
 
-// In the model's frame, at zero joint positions.
+// The lowest visible point in the model's frame, at zero joint positions.
 double LowestToSee(const model::Model& model) {
   double lowest = kBoundless;
   for (const model::Link& link : model.links) {

@@ -21,7 +21,7 @@ world::Body BoxAt(const char* name, const Vector3& size, const Vector3& centre) 
   return body;
 }
 
-// The box that a picture of these bodies shows.
+// The box that an image of these bodies shows.
 geometry::Bounds Shown(std::vector<world::Body> bodies) {
   world::Snapshot snapshot;
   snapshot.layout =
@@ -38,7 +38,7 @@ geometry::Bounds Shown(std::vector<world::Body> bodies) {
   return bounds;
 }
 
-TEST(Framing, ShowsAllThatStandsThere) {
+TEST(Framing, ShowsAllBodies) {
   const auto shown =
       Shown({BoxAt("a", {1, 1, 1}, {2, 0, 0.5}), BoxAt("b", {1, 1, 1}, {-30, 0, 0.5})});
   EXPECT_EQ(shown.min, (Vector3{-30.5, -0.5, 0}));
@@ -55,14 +55,14 @@ TEST(Framing, LeavesOutABodyFarAway) {
   EXPECT_EQ(more.min, (Vector3{499'999.5, -0.5, 0}));
 }
 
-TEST(Framing, LeavesOutGroundThatReachesFarBeyondWhatStandsOnIt) {
+TEST(Framing, LeavesOutGroundThatReachesFarBeyondTheBodiesOnIt) {
   const auto shown =
       Shown({BoxAt("ground", {100, 100, 0.1}, {0, 0, -0.05}), BoxAt("a", {2, 2, 2}, {1, 1, 1})});
   EXPECT_EQ(shown.min, (Vector3{0, 0, 0}));
   EXPECT_EQ(shown.max, (Vector3{2, 2, 2}));
 }
 
-TEST(Framing, ShowsGroundThatIsAsLargeAsWhatStandsOnIt) {
+TEST(Framing, ShowsGroundThatIsAsLargeAsTheBodiesOnIt) {
   const auto shown =
       Shown({BoxAt("floor", {10, 10, 0.1}, {0, 0, -0.05}), BoxAt("a", {8, 8, 2}, {0, 0, 1})});
   EXPECT_EQ(shown.max.x, 5);

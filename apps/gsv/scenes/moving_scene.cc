@@ -31,7 +31,7 @@ std::shared_ptr<simulation::BehaviourPort> Circles() {
       "circles", [] { return std::make_unique<DriveInCircles>(); });
 }
 
-// What is only collided with becomes visible, on a floor.
+// Makes collision shapes visible, on a floor.
 std::shared_ptr<const model::WorldDescription> VisibleSquare(int robots) {
   auto world = std::make_shared<model::WorldDescription>(*CrowdWorld(robots, 1));
   for (model::PlacedModel& placed : world->models) {
@@ -59,7 +59,7 @@ void CollideWithVisuals(model::WorldDescription& world) {
     if (!placed.is_static) continue;
     auto model = std::make_shared<model::Model>(*placed.model);
     for (model::Link& link : model->links) {
-      // Those without an end would be drawn as far as they are long, and are met everywhere.
+      // Removes infinite shapes, which would be drawn at their full size, and collide everywhere.
       std::erase_if(link.collisions, [](const model::Collision& collision) {
         return !std::holds_alternative<geometry::Plane>(collision.shape);
       });
@@ -165,7 +165,7 @@ std::vector<rendering::CameraView> MovingScene::Overviews(
         snapshot.state.bodies[static_cast<std::size_t>(body)].world_from_model.position;
     radius = std::max(radius, std::hypot(p.x, p.y));
   }
-  // From 45° above, the narrower of the two fields of view holds the circle of the robots.
+  // From 45° above, the smaller of the two fields of view covers the circle of the robots.
   const double half_height = std::min(1.0, static_cast<double>(camera.height) / camera.width) *
                              std::tan(0.5 * camera.horizontal_fov);
   const double distance = radius / std::sin(std::atan(half_height));

@@ -17,9 +17,9 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr std::size_t kMaxScenarioServers = 1000;
-constexpr int kMaxLostServers = 5;  // servers, one after the other, with the same run
+constexpr int kMaxLostServers = 5;  // lost one after the other with the same run
 constexpr seconds kRefreshPeriod{1}, kSilence{10}, kAvoidLost{30}, kWithoutServers{60};
-constexpr milliseconds kServerCallTimeout{5000};  // a wait for the end is answered after two
+constexpr milliseconds kServerCallTimeout{5000};  // the server answers a wait for the end after two
 
 base::Error NoServers(const std::string& broker, const std::string& constraint) {
   return {base::ErrorCode::kUnavailable,
@@ -29,13 +29,14 @@ base::Error NoServers(const std::string& broker, const std::string& constraint) 
           broker};
 }
 
-// Whether a server that was heard is to be given up.
+// Decides whether a server is lost.
 class Patience {
  public:
   bool IsOverAfter(const base::Error& error) {
     ++failures_;
-    if (error.code == base::ErrorCode::kEnded) return true;  // it was restarted, or gave the run up
-    // A connection that broke tells little, a port that refuses then that the process has ended.
+    if (error.code == base::ErrorCode::kEnded) return true;  // it was restarted, or dropped the run
+    // A broken connection is no proof, but a port that then refuses connections is: the process has
+    // ended.
     if (error.code != base::ErrorCode::kTimeout && failures_ > 1) return true;
     return Clock::now() - heard_ >= kSilence;
   }
@@ -89,7 +90,7 @@ ScenarioServers::~ScenarioServers() {
 base::Status ScenarioServers::Refresh() {
   auto offers = broker_.Query(broker::ScenarioServiceType().name, constraint_, "min load",
                               kMaxScenarioServers);
-  // A broker that no such server has ever registered with does not know the type.
+  // A broker with which no such server has ever registered does not know the type.
   if (!offers && offers.error().code == base::ErrorCode::kNotFound) offers.emplace();
   const base::MutexLock lock(mutex_);
   is_refreshing_ = false;
@@ -139,7 +140,7 @@ std::shared_ptr<ScenarioServers::Server> ScenarioServers::Acquire(
     if (!is_refreshing_ && Clock::now() - refreshed_ >= kRefreshPeriod) {
       is_refreshing_ = true;
       lock.unlock();
-      (void)Refresh();  // a broker that is away for a while: with the servers that are known
+      (void)Refresh();  // if the broker is away, uses the known servers
       lock.lock();
     }
     if (auto server = Roomiest()) {
@@ -227,7 +228,7 @@ ScenarioServers::Ending ScenarioServers::RunAt(Server& server, const std::string
     patience.Renew();
     if (*outcome == nullptr) continue;
     result = std::move(**outcome);
-    (void)orb::Call(server.name, [&] { run->destroy(); });  // else it forgets it by itself
+    (void)orb::Call(server.name, [&] { run->destroy(); });  // otherwise it is dropped after a time
     return Ending::kDone;
   }
   (void)orb::Call(server.name, [&] { run->destroy(); });

@@ -23,10 +23,10 @@ using RunClock = std::chrono::steady_clock;
 using RunSeconds = std::chrono::duration<double>;
 
 constexpr std::chrono::milliseconds kRunLease{2000};
-constexpr double kDefaultTimeout = 300, kDefaultAbandoned = 60;  // s of wall time
-constexpr std::size_t kMaxKept = 1000;  // runs, those included whose outcome nobody has fetched
+constexpr double kDefaultTimeout = 300, kDefaultAbandoned = 60;  // s of wall-clock time
+constexpr std::size_t kMaxKept = 1000;  // runs, including those whose outcome nobody has fetched
 
-// What a server runs for others; Refused says what is wrong with anything else.
+// Checks that a server can run the scenario; otherwise throws Refused with the reason.
 void RefuseUnlessRunnable(const std::string& text) {
   base::Problems problems;
   const auto scenario = orb::ValueOrThrow(scenario::ParseScenario(text, "scenario", problems),
@@ -112,7 +112,7 @@ class ScenarioRunServant final : public POA_sba::ScenarioRun {
   }
 
  private:
-  // What the server has given up has no outcome.
+  // A run that the server has dropped has no outcome.
   void RaiseIfGivenUp() const GSV_REQUIRES(mutex_) {
     if (result_->status == TestResult::Status::kInterrupted)
       throw sba::Ended("the server aborted the scenario");
@@ -197,7 +197,7 @@ int ScenarioServiceServant::under_way() const {
 void ScenarioServiceServant::Forget(ScenarioRunServant* run) {
   {
     const base::MutexLock lock(mutex_);
-    if (runs_.erase(run) == 0) return;  // somebody else has
+    if (runs_.erase(run) == 0) return;  // another thread has
   }
   const PortableServer::ObjectId_var id = poa_->servant_to_id(run);
   poa_->deactivate_object(id);
@@ -218,7 +218,7 @@ void ScenarioServiceServant::EndAbandoned() {
       run->Cancel();
       Forget(run.in());
     }
-    abandoned.clear();  // waits for its end
+    abandoned.clear();  // waits for the end of the runs
     lock.lock();
   }
 }

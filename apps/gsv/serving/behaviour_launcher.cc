@@ -21,8 +21,8 @@ constexpr std::chrono::seconds kStartTimeout{60};
 constexpr int kMaxPrograms = 64;
 
 struct FoundProgram {
-  std::string path;         // empty: there is none that can be started
-  std::string unstartable;  // the first of that name that cannot be executed
+  std::string path;         // empty: there is no program that can be started
+  std::string unstartable;  // the first file of that name that is not executable
 };
 
 FoundProgram FindProgram(const std::string& name) {

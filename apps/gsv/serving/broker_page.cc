@@ -22,9 +22,9 @@ using gateway::Response;
 using nlohmann::ordered_json;
 
 constexpr std::chrono::seconds kTimeout{3};
-constexpr std::size_t kShown = 200;  // offers of one kind, those that match and the others
+constexpr std::size_t kShown = 200;  // offers of one kind: those that match, and the others
 
-// What `print` writes, a JSON value a line.
+// The output of `print`, one JSON value per line.
 template <typename Print>
 ordered_json Values(const Print& print) {
   std::stringstream lines;
@@ -123,7 +123,7 @@ Response BrokerPage::Offers(const gateway::Target& target) const {
 
 Response BrokerPage::Links() const {
   const auto links = broker::BrokerAdministration(broker_, kTimeout).ListLinks();
-  // Not every trader has them.
+  // Not every trader has links.
   if (!links) return Answer({{"links", ordered_json::array()}});
   return Answer({{"links", Values([&](std::ostream& out) { PrintLinksJson(*links, out); })}});
 }

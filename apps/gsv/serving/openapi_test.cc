@@ -1,4 +1,5 @@
-// docs/api.yaml, which every program serves as the description of its API, against the routes.
+// Compares docs/api.yaml, which every program serves as the description of its API, with the
+// routes.
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
@@ -47,7 +48,7 @@ using Operations = std::map<std::string, Operation>;
 
 const std::string kFile = std::string(std::getenv("GSV_SOURCE_DIR")) + "/docs/api.yaml";
 
-// The path's parameters that a description declares, and that are required.
+// The path parameters that a description declares as required.
 void AddDeclared(const YAML::Node& file, const YAML::Node& parameters,
                  std::set<std::string>& declared) {
   for (const YAML::Node& each : parameters) {
@@ -88,7 +89,7 @@ const char* Spelling(Permission permission) {
                                             : "control";
 }
 
-// "{path...}" is {path} in a description, which knows no more than one segment.
+// "{path...}" is {path} in a description, whose parameters are single segments.
 std::string AddressOf(const Route& route) {
   return route.method + " " + std::regex_replace(route.pattern, std::regex(R"(\.\.\.\})"), "}");
 }
@@ -111,7 +112,7 @@ class NoRecordings final : public gateway::RecordingSwitch {
   State RecordingOf(const std::string&) override { return {}; }
 };
 
-// A gateway of each of the three sets of routes, with everything that programs serve.
+// A gateway for each of the three sets of routes, with everything that programs serve.
 class OpenApiTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -166,7 +167,7 @@ TEST_F(OpenApiTest, DescribesEveryRouteAndNothingElse) {
   }
 }
 
-TEST_F(OpenApiTest, AReplayOfOnesOwnHasTheRoutesOfAReplayAndTakesThePermissionToWatch) {
+TEST_F(OpenApiTest, AReplaySessionHasTheRoutesOfAReplayAndNeedsThePermissionToWatch) {
   const std::string below = "/replays/{session}";
   std::set<std::string> own, shared;
   for (const Route& route : live_->router().routes()) {

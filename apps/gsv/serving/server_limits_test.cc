@@ -28,7 +28,7 @@ TEST(ServerLimits, EachNameCanBeSet) {
   EXPECT_FALSE(IsServerLimit(""));
 }
 
-TEST(ServerLimits, AreSetWhereTheyAreNeeded) {
+TEST(ServerLimits, AreAppliedWhereTheyAreUsed) {
   ServerLimits limits;
   for (const char* text : {"robots=500", "connections=7", "reading_seconds=3", "upload_bytes=9"})
     ASSERT_TRUE(SetServerLimit(text, limits)) << text;
@@ -39,7 +39,7 @@ TEST(ServerLimits, AreSetWhereTheyAreNeeded) {
   EXPECT_EQ(limits.web.upload_bytes, 9u);
 }
 
-TEST(ServerLimits, RefuseWhatIsNoNumberOrTooLarge) {
+TEST(ServerLimits, RefuseInvalidAndLargeNumbers) {
   for (const char* number : {"", "0", "-1", "1.5", "1x", " 1", "1e3", "99999999999999999999"})
     EXPECT_THAT(Refusal(std::string("simulations=") + number),
                 HasSubstr("simulations must be a whole number from 1 to 10000, not \""))

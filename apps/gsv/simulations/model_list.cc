@@ -23,8 +23,8 @@ bool IsRobot(const model::Model& model) {
          model::GuessDrive(model).kind != model::DriveKind::kNone;
 }
 
-// A drive is a plugin's (or a URDF's, which has its own element for it): a library of furniture is
-// not read to the last mesh.
+// A drive needs a plugin (or a URDF, which has its own element for it), so that a library of
+// furniture need not be read completely.
 bool MayHaveDrive(const fs::path& folder) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
@@ -47,7 +47,7 @@ std::vector<std::string> FindRobotModels(formats::ModelLibrary& library,
     std::error_code ignored;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
       if (!entry.is_directory(ignored) || !MayHaveDrive(entry.path())) continue;
-      base::Problems problems;  // told when the model is used
+      base::Problems problems;  // reported when the model is used
       const auto model = library.ReadModel(entry.path(), problems);
       if (model && IsRobot(**model)) names.insert(entry.path().filename());
     }

@@ -14,14 +14,14 @@ using simulation::Simulation;
 
 constexpr int kPlacesTried = 400;
 
-// Names the list's element before the field that is wrong with it.
+// Adds the list's element to the path of the invalid field.
 tl::unexpected<FieldError> WrongIn(const char* list, std::size_t i, FieldError wrong) {
   std::string element = std::string(list) + "[" + std::to_string(i) + "]";
   wrong.field = wrong.field.empty() ? element : element + "." + wrong.field;
   return tl::make_unexpected(std::move(wrong));
 }
 
-// The nth place of a spiral about the origin, about a metre from its neighbours.
+// The nth place of a spiral about the origin, with about a metre between neighbours.
 scenario::Place SpiralPlace(int n) {
   const double turns = std::sqrt(static_cast<double>(n));
   const double angle = turns * std::numbers::pi * 2 / 1.8;
@@ -60,7 +60,7 @@ FieldResult<RobotSpecification> Specify(const Simulation& simulation,
   return robot;
 }
 
-// Sets the entry's name and place to those that it gets.
+// Sets the entry's name and place to the actual ones.
 base::Status AddAtFreePlace(Simulation& simulation, RobotSpecification robot,
                             scenario::RobotEntry& entry) {
   base::Error refusal;
@@ -78,8 +78,7 @@ base::Status AddAtFreePlace(Simulation& simulation, RobotSpecification robot,
   return base::Fail(refusal);
 }
 
-// Those that have a place all at once (a crowd is not put together robot by robot), then the
-// others.
+// Adds all robots with a place at once (a crowd is not added robot by robot), then the others.
 class ListPlacing {
  public:
   ListPlacing(Simulation& simulation, formats::ModelLibrary& library, const char* list,
@@ -139,7 +138,7 @@ class ListPlacing {
     return {};
   }
 
-  // Which one it was is known by its name; one that was to be named after its model has none yet.
+  // The error names the robot. A robot that gets the name of its model has no name yet.
   FieldError BlameFor(const base::Error& error) const {
     for (const Waiting& each : with_place_) {
       if (each.placed.entry.name != error.where) continue;
@@ -238,7 +237,7 @@ FieldResult<std::string> AddOneObject(Simulation& simulation, formats::ModelLibr
     auto name = simulation.AddObject(object);
     if (name) return *std::move(name);
     refusal = name.error();
-    // Elsewhere it would be the same: its name, its model, or that the simulation runs.
+    // Another place would not help: the error is about its name or model, or the simulation runs.
     if (refusal.code != base::ErrorCode::kBadModel) break;
   }
   return WrongField("", refusal);

@@ -49,7 +49,7 @@ TEST(RecordingRate, IsSetByKind) {
   }
 }
 
-TEST_F(RecordingsTest, TheFileSaysWhichProgramWroteIt) {
+TEST_F(RecordingsTest, TheFileNamesTheProgramThatWroteIt) {
   ASSERT_TRUE(recordings_.Start(simulation_, path_));
   ASSERT_EQ(recording::RunToEnd(*simulation_), simulation::Phase::kFinished);
   ASSERT_TRUE(recordings_.Stop("simulation"));
@@ -61,7 +61,7 @@ TEST_F(RecordingsTest, TheFileSaysWhichProgramWroteIt) {
   EXPECT_FALSE(metadata["gsv.simulation"]["gsv_version"].empty());
   EXPECT_NE(metadata["gsv.simulation"]["command"].find(program_invocation_short_name),
             std::string::npos);
-  // The scenario, the scene, and the models of the disc and the wall: looks and collision shapes.
+  // The scenario, the scene, and the models of the disc and the wall: visuals and collision shapes.
   ASSERT_EQ(info->attachments.size(), 6u);
   EXPECT_EQ(info->attachments[0].name, "scenario.yaml");
   EXPECT_TRUE(info->attachments[2].name.starts_with("models/"));
@@ -113,12 +113,12 @@ TEST_F(RecordingsTest, ANameWithoutMcapBecomesAFolderWithMetadata) {
   std::filesystem::remove_all(folder);
 }
 
-TEST_F(RecordingsTest, WhatIsNotRecordedCannotBeStopped) {
+TEST_F(RecordingsTest, ASimulationWithoutARecordingCannotBeStopped) {
   EXPECT_EQ(recordings_.Stop("simulation").error().code, base::ErrorCode::kNotFound);
   EXPECT_TRUE(recordings_.StopAll());
 }
 
-TEST_F(RecordingsTest, StoppingAllTellsThatTheDiskWasFull) {
+TEST_F(RecordingsTest, StoppingAllReportsThatTheDiskWasFull) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
   ASSERT_TRUE(recordings_.Start(simulation_, "/dev/full"));
   ASSERT_EQ(recording::RunToEnd(*simulation_), simulation::Phase::kFinished);

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kWorldsKept = 4;
 constexpr std::size_t kMaxOffers = 200;
 
-// Each once, in order; the same in many places is told once.
+// Adds each sentence once, in order, even if it is about several places.
 void AddSentences(const base::Problems& problems, std::vector<std::string>& sentences) {
   for (const auto severity : {base::Problem::Severity::kError, base::Problem::Severity::kWarning}) {
     for (std::string& sentence : GroupedSentences(problems, severity)) {
@@ -41,11 +41,11 @@ simulation::Specification SpecificationOf(const scenario::Scenario& scenario) {
   specification.duration = base::FromSeconds(scenario.duration.value_or(0));
   specification.seed = scenario.seed.value_or(0);
   specification.pedestrians = scenario.pedestrians;
-  specification.keep = true;  // the page that created it may be closed
+  specification.keep = true;  // its page may be closed
   return specification;
 }
 
-// A world that ships with gsv.
+// A built-in world.
 bool IsWorldOfOurs(const fs::path& file) {
   std::error_code ignored;
   return fs::equivalent(file.parent_path(), ShareFolder() / "worlds", ignored);
@@ -146,7 +146,7 @@ FieldResult<SimulationBuilder::Preview> SimulationBuilder::Show(const Simulation
   if (!world) return tl::make_unexpected(world.error());
   simulation::Specification specification = SpecificationOf(request.scenario);
   specification.name = "preview";
-  specification.mode = simulation::Mode::kRealTime;  // on one thread: it takes no step
+  specification.mode = simulation::Mode::kRealTime;  // on one thread: it takes no steps
   auto driven = WithDrives(world->world, request.scenario);
   if (!driven) return WrongField("robots", driven.error());
   specification.world = *std::move(driven);
@@ -168,7 +168,7 @@ FieldResult<std::shared_ptr<Simulation>> SimulationBuilder::Create(
   auto driven = WithDrives(world->world, request.scenario);
   if (!driven) return WrongField("robots", driven.error());
   specification.world = *std::move(driven);
-  base::Problems problems;  // those of the world were told with its preview
+  base::Problems problems;  // the world's problems were reported with its preview
   auto created = host_.Create(std::move(specification), {}, problems);
   if (!created) return WrongField("name", created.error());
   const std::string name = (*created)->specification().name;

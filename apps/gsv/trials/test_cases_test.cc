@@ -46,7 +46,7 @@ TEST_F(TestCasesTest, AFileThatIsNamedTwiceIsOneCase) {
   EXPECT_THAT(Names({b, path(), a}), ElementsAre("b", "a"));
 }
 
-TEST_F(TestCasesTest, WhatIsNotThereIsAnError) {
+TEST_F(TestCasesTest, AMissingFileIsAnError) {
   EXPECT_THAT(
       Names({path() + "/none.yaml"}),
       ElementsAre(HasSubstr("none.yaml: there is no scenario file or folder of this name")));

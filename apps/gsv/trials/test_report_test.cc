@@ -32,7 +32,7 @@ TEST(TestReport, TextOfAPassedScenarioIsOneLine) {
   EXPECT_EQ(ToText(Passed()), "PASS  s/a  1.2 s (2.5 s simulated, 2 times)\n");
 }
 
-TEST(TestReport, TextOfAFailureSaysWhyAndHowToSeeItAgain) {
+TEST(TestReport, TextOfAFailureHasTheReasonAndTheCommandToRepeatIt) {
   EXPECT_EQ(ToText(Failed()),
             "FAIL  b  0.5 s\n      \"x\" < 1 & <y>\n      second line\x01\n"
             "      see /f/b/README.txt\n      again: gsv run b.yaml\n");
@@ -51,7 +51,7 @@ TEST(TestReport, JUnitCountsAndEscapes) {
   EXPECT_THAT(xml, Not(HasSubstr("\x01"))) << "XML 1.0 cannot hold it";
 }
 
-TEST(TestReport, JsonHoldsWhatTheRunsReported) {
+TEST(TestReport, JsonHasTheReportsOfTheRuns) {
   const auto json = nlohmann::json::parse(ToJson({Passed(), Failed(), Interrupted()}, 2));
   EXPECT_EQ(json["passed"], 1);
   EXPECT_EQ(json["failed"], 1);
@@ -65,7 +65,7 @@ TEST(TestReport, JsonHoldsWhatTheRunsReported) {
   EXPECT_EQ(json["results"][2]["status"], "interrupted");
 }
 
-TEST(TestReport, JsonReplacesWhatIsNoUtf8) {
+TEST(TestReport, JsonReplacesInvalidUtf8) {
   TestResult result = Failed();
   result.message = "caf\xe9";
   EXPECT_EQ(nlohmann::json::parse(ToJson({result}, 0))["results"][0]["message"], "caf\ufffd");

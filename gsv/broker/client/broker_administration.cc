@@ -22,7 +22,7 @@ using base::ErrorCode;
 using Repository = CosTradingRepos::ServiceTypeRepository;
 
 constexpr unsigned long kPingMs = 1000;
-constexpr std::uint32_t kAskedAtOnce = 16;  // links whose targets are asked whether they answer
+constexpr std::uint32_t kAskedAtOnce = 16;  // links whose targets are called at the same time
 
 template <typename Interface>
 typename Interface::_var_type Resolve(CORBA::ORB_ptr orb, const std::string& reference,
@@ -80,7 +80,7 @@ bool Answers(CosTrading::Lookup_ptr target) {
   }
 }
 
-// Calls `work` with 0 … count-1, a few at a time. Throws what one of them threw.
+// Calls `work` with 0 … count-1, a few at a time. Rethrows an exception of one of them.
 template <typename Work>
 void ForEach(std::uint32_t count, const Work& work) {
   std::atomic<std::uint32_t> next = 0;
@@ -94,7 +94,7 @@ void ForEach(std::uint32_t count, const Work& work) {
   for (auto& worker : workers) worker.get();
 }
 
-// Nothing when the link was removed meanwhile.
+// Nothing if the link was removed meanwhile.
 std::optional<LinkDescription> Describe(CORBA::ORB_ptr orb, CosTrading::Link_ptr link,
                                         const char* name) {
   try {
@@ -139,7 +139,7 @@ base::Status BrokerAdministration::AddLink(const std::string& name, const std::s
         return base::Fail(ErrorCode::kUnavailable, "the object at this address is not a broker",
                           *reference);
       }
-      // The reference that it knows itself by, rather than the one that led to it.
+      // The trader's own reference, rather than the one that led to it.
       const CosTrading::Lookup_var itself = other->lookup_if();
       return Guarded(broker_, [&]() -> base::Status {
         link->add_link(name.c_str(), itself, static_cast<CosTrading::FollowOption>(def_pass_on),

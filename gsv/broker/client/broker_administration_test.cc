@@ -37,7 +37,7 @@ TEST(BrokerAdministration, AddsListsAndRemovesLinks) {
   EXPECT_TRUE(administration.ListLinks()->empty());
 }
 
-// Says that it lives when so many are asked at once.
+// Answers only when this many calls are in progress at the same time.
 class Sociable : public POA_CosTradingDynamic::DynamicPropEval {
  public:
   explicit Sociable(std::latch& others) : others_(others) {}
@@ -80,7 +80,7 @@ TEST(BrokerAdministration, AsksTheTargetsOfLinksAtTheSameTime) {
   for (const LinkDescription& link : *links) EXPECT_TRUE(link.answers) << link.name;
 }
 
-TEST(BrokerAdministration, SaysWhatIsWrongWithALink) {
+TEST(BrokerAdministration, ReportsTheErrorOfALink) {
   TestOrb();
   BrokerProcess broker;
   const BrokerAdministration administration(broker.reference());
@@ -128,7 +128,7 @@ TEST(BrokerAdministration, AddsAndRemovesTypesAndOffers) {
   EXPECT_EQ(administration.RemoveServiceType("Robot").error().code, base::ErrorCode::kNotFound);
 }
 
-TEST(PropertyTexts, RefuseWhatDoesNotFit) {
+TEST(PropertyTexts, RefuseValuesThatDoNotFit) {
   const ServiceType type{.name = "T",
                          .properties = {*ParsePropertyDefinition("short a"),
                                         *ParsePropertyDefinition("unsigned long b"),

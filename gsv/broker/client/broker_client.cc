@@ -32,7 +32,7 @@ CosTrading::PropertySeq ToCorba(const std::vector<Property>& properties) {
   return result;
 }
 
-// Another trader might send a name twice; the last one counts.
+// Another trader might send a name twice; the last value counts.
 PropertyList ToList(const CosTrading::PropertySeq& properties) {
   return PropertyList::LastOfEachName(ToProperties(properties));
 }
@@ -53,7 +53,7 @@ bool SameDefinition(ServiceType a, ServiceType b) {
                     b.properties.end(), same);
 }
 
-// What -ORBInitRef says; nil when it says nothing.
+// The value of -ORBInitRef; nil if it is not set.
 CORBA::Object_ptr InitialReference(CORBA::ORB_ptr orb) {
   try {
     return orb->resolve_initial_references("TradingService");
@@ -71,7 +71,7 @@ void AppendOffers(const CosTrading::OfferSeq& offers, std::size_t limit,
   }
 }
 
-// A service on this host's loopback cannot be reached from a broker elsewhere.
+// A broker on another host cannot reach a service on this host's loopback.
 base::Status CheckReachable(CORBA::ORB_ptr orb, CORBA::Object_ptr object,
                             const std::string& broker) {
   const std::string broker_host = HostOf(broker);
@@ -121,7 +121,7 @@ base::Status BrokerClient::Resolve(CORBA::ORB_ptr orb, unsigned long timeout_ms)
                       "no broker is given; use --broker corbaloc::1.2@HOST:PORT/TradingService or "
                       "-ORBInitRef TradingService=...");
   }
-  // The time-out is the reference's own: it holds for the narrow as well.
+  // The time-out belongs to the reference, so that it also applies to the narrow.
   SetTimeout(object, timeout_ms);
   lookup_ = CosTrading::Lookup::_narrow(object);
   if (CORBA::is_nil(lookup_)) {

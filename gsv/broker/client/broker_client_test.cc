@@ -55,7 +55,7 @@ TEST_F(BrokerClientTest, FollowsIteratorsUpToTheLimit) {
   EXPECT_EQ(client_.OfferIds()->size(), 250u);
 }
 
-TEST_F(BrokerClientTest, IsContentWithAnEqualTypeAndNotWithAnother) {
+TEST_F(BrokerClientTest, AcceptsAnEqualTypeAndRefusesAnother) {
   ASSERT_TRUE(client_.EnsureServiceType(kRobot));
   ServiceType same = kRobot;
   std::swap(same.properties[0], same.properties[1]);
@@ -69,7 +69,7 @@ TEST_F(BrokerClientTest, IsContentWithAnEqualTypeAndNotWithAnother) {
       broker_.reference() + ": the service type Robot exists already with another definition");
 }
 
-TEST_F(BrokerClientTest, SaysWhereAConstraintIsWrong) {
+TEST_F(BrokerClientTest, ReportsWhereAConstraintIsWrong) {
   ASSERT_TRUE(client_.EnsureServiceType(kRobot));
   const auto refused = client_.Query("Robot", "speed =< 1", "", 1);
   ASSERT_FALSE(refused);
@@ -86,7 +86,7 @@ TEST_F(BrokerClientTest, SaysWhereAConstraintIsWrong) {
             "'random' or 'first'");
 }
 
-TEST_F(BrokerClientTest, SaysWhatIsWrongWithAnOffer) {
+TEST_F(BrokerClientTest, ReportsTheErrorOfAnOffer) {
   const auto unknown = client_.Query("Robot", "", "", 1);
   EXPECT_EQ(unknown.error().code, ErrorCode::kNotFound);
   EXPECT_EQ(unknown.error().message, "the broker knows no service type Robot");
@@ -133,7 +133,7 @@ TEST_F(BrokerClientTest, ListsOffersAndTypes) {
             "\"mandatory\":false}]}\n");
 }
 
-TEST_F(BrokerClientTest, SaysThatABrokerStoppedAnswering) {
+TEST_F(BrokerClientTest, ReportsThatABrokerStoppedAnswering) {
   ASSERT_TRUE(client_.EnsureServiceType(kRobot));
   auto hasty =
       BrokerClient::Connect(TestOrb(), broker_.reference(), std::chrono::milliseconds(200));
@@ -146,7 +146,7 @@ TEST_F(BrokerClientTest, SaysThatABrokerStoppedAnswering) {
   EXPECT_EQ(late.error().Sentence(), broker_.reference() + ": the broker did not respond in time");
 }
 
-TEST_F(BrokerClientTest, SaysThatABrokerIsGone) {
+TEST_F(BrokerClientTest, ReportsThatABrokerIsGone) {
   broker_.Send(SIGKILL);
   EXPECT_EQ(broker_.Wait(), -SIGKILL);
   const auto gone = client_.Query("Robot", "", "", 1);
@@ -160,7 +160,7 @@ TEST_F(BrokerClientTest, SaysThatABrokerIsGone) {
       broker_.reference() + ": no broker responds at this address; start one with `gsv broker`");
 }
 
-TEST(BrokerClient, RefusesWhatIsNoBroker) {
+TEST(BrokerClient, RefusesAReferenceThatIsNotABroker) {
   EXPECT_EQ(BrokerClient::Connect(TestOrb(), "localhost:1234").error().code,
             ErrorCode::kInvalidArgument);
   const CORBA::String_var ior = TestOrb()->object_to_string(TestService());

@@ -18,8 +18,8 @@ using Repository = CosTradingRepos::ServiceTypeRepository;
 constexpr ErrorCode kWrong = ErrorCode::kInvalidArgument;
 constexpr ErrorCode kMissing = ErrorCode::kNotFound;
 
-// The exception says only what was refused; where it is wrong we find out ourselves. It may be
-// right in form, and wrong in type.
+// The exception has only the refused text. Parsing it again finds the error, unless the text is
+// correct and has a wrong type.
 std::string WhyRefused(const base::Status& parsed) {
   return parsed ? "its operands do not have the types that the service type declares"
                 : parsed.error().Sentence();

@@ -67,7 +67,7 @@ CORBA::TypeCode_ptr SimpleTypeCode(Scalar scalar) {
   return CORBA::_tc_null;
 }
 
-// "sequence<octet>", "struct IDL:acme/Place:1.0": equal for types that CORBA calls equivalent.
+// "sequence<octet>", "struct IDL:acme/Place:1.0": equal for types that CORBA defines as equivalent.
 std::string OtherSpelling(CORBA::TypeCode_ptr type, int depth = 0) {
   constexpr int kDepth = 16;
   if (depth > kDepth) return "…";

@@ -55,7 +55,7 @@ TEST_F(CorbaTypesTest, ScalarsAndTheirSequencesArePlainData) {
   }
 }
 
-TEST_F(CorbaTypesTest, AliasesAreClassifiedAsWhatTheyName) {
+TEST_F(CorbaTypesTest, AliasesAreClassifiedAsTheirTarget) {
   for (const ScalarCase& each : ScalarCases()) {
     EXPECT_EQ(Classify(AliasOf(each.type)), (PropertyType{.scalar = each.scalar}));
     EXPECT_EQ(Classify(AliasOf(AliasOf(SequenceOf(AliasOf(each.type))))),
@@ -93,7 +93,7 @@ TEST_F(CorbaTypesTest, OtherTypesAreSpeltAsInIdl) {
   }
 }
 
-TEST_F(CorbaTypesTest, ComeBackAsTheyWere) {
+TEST_F(CorbaTypesTest, AreUnchangedAfterEncoding) {
   std::vector<CORBA::TypeCode_var> types = {Struct(), AliasOf(Struct()), AliasOf(CORBA::_tc_long),
                                             SequenceOf(SequenceOf(CORBA::_tc_string))};
   for (const ScalarCase& each : ScalarCases()) {

@@ -101,7 +101,7 @@ Value ReadSequence(Scalar element, cdrStream& stream) {
   return Value::SequenceOf(element, std::move(elements));
 }
 
-// Null for a value that is no dynamic property.
+// The declared type of a dynamic property; null for any other value.
 std::shared_ptr<const PropertyType> PromisedType(const CORBA::Any& any) {
   const CosTradingDynamic::DynamicProp* dynamic = nullptr;
   if (!(any >>= dynamic)) return nullptr;
@@ -122,7 +122,7 @@ std::optional<Value> ExtractAs(const CORBA::Any& any, const Make& make) {
   return make(content);
 }
 
-// Without a copy of what the Any holds. Nothing where its type is not one of the simple ones.
+// Converts without copying the content of the Any. Nothing if its type is not a simple type.
 std::optional<Value> SimpleValue(const CORBA::Any& any) {
   switch (any.NP_type()->kind()) {
     case CORBA::tk_boolean:

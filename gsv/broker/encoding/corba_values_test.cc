@@ -55,7 +55,7 @@ std::vector<ValueCase> ScalarValues() {
   };
 }
 
-// `Sequence`: one of omniORB's typedefs of sequences, so that aliases are tried, too.
+// `Sequence` is one of omniORB's typedefs of sequences, so that aliases are tested, too.
 template <typename Sequence, typename Element>
 CORBA::Any SequenceAny(const std::vector<Element>& elements) {
   Sequence sequence;
@@ -103,14 +103,14 @@ TEST_F(CorbaValuesTest, ReadsSequencesBehindAliases) {
   }
 }
 
-// What any of the type holds, as CDR without alignment to anything before it.
+// The content of an Any of this type, as CDR without alignment to earlier data.
 std::string Content(const CORBA::Any& any) {
   cdrMemoryStream stream;
   any.NP_marshalDataOnly(stream);
   return {static_cast<const char*>(stream.bufPtr()), stream.bufSize()};
 }
 
-TEST_F(CorbaValuesTest, WritesWhatCorbaWrites) {
+TEST_F(CorbaValuesTest, WritesTheSameBytesAsCorba) {
   for (const auto& values : {ScalarValues(), SequenceValues()}) {
     for (const ValueCase& each : values) {
       const CORBA::Any any = ToAny(each.value);
@@ -162,7 +162,7 @@ TEST_F(CorbaValuesTest, PropertiesKeepTheirOrderInBothDirections) {
   EXPECT_EQ(again[1].value, Value::String("x"));
 }
 
-TEST_F(CorbaValuesTest, ServiceTypesComeBackAsTheyWere) {
+TEST_F(CorbaValuesTest, ServiceTypesAreUnchangedAfterEncoding) {
   const ServiceType type{.name = "Arm",
                          .interface_name = "IDL:acme/Arm:1.0",
                          .properties = {{"reach", {.scalar = Scalar::kDouble}},

@@ -58,7 +58,7 @@ TEST_F(RecordEncodingTest, RefusesPropertiesThatAreCutOff) {
   }
 }
 
-TEST_F(RecordEncodingTest, RefusesBytesThatAreNoProperties) {
+TEST_F(RecordEncodingTest, RefusesBytesThatAreNotProperties) {
   const struct {
     const char* what;
     RawCdr bytes;
@@ -88,7 +88,7 @@ TEST_F(RecordEncodingTest, RefusesTwoPropertiesOfOneName) {
   EXPECT_EQ(properties.error().message, "an offer has two properties of one name");
 }
 
-TEST_F(RecordEncodingTest, PoliciesComeBackAsTheyWere) {
+TEST_F(RecordEncodingTest, PoliciesAreUnchangedAfterEncoding) {
   const auto policies = DecodePolicies(OneProperty().bytes());
   ASSERT_TRUE(policies);
   ASSERT_EQ(policies->length(), 1u);
@@ -101,7 +101,7 @@ TEST_F(RecordEncodingTest, PoliciesComeBackAsTheyWere) {
   EXPECT_FALSE(DecodePolicies("no policies"));
 }
 
-TEST_F(RecordEncodingTest, ServiceTypesComeBackAsTheyWere) {
+TEST_F(RecordEncodingTest, ServiceTypesAreUnchangedAfterEncoding) {
   const ServiceType type{.name = "Arm",
                          .interface_name = "IDL:acme/Arm:1.0",
                          .properties = {{"reach", {.scalar = Scalar::kDouble}}},

@@ -1,5 +1,5 @@
-// Any text as a constraint and as a preference: it is refused or evaluated, and the evaluator
-// agrees with the naive one.
+// Any text as a constraint and as a preference. It is refused, or the evaluator agrees with the
+// naive one.
 #include <cstdint>
 #include <string>
 

@@ -1,6 +1,6 @@
-// Any bytes as the properties of an offer, as they come in a message or from a file: they are
-// refused, or are the same after they were written and read again (but for the padding between
-// them, which omniORB does not set).
+// Any bytes as the properties of an offer, from a message or a file. They are refused, or they are
+// unchanged after writing and reading them (except the padding between them, which omniORB does not
+// set).
 #include <cstdint>
 #include <string>
 

@@ -7,7 +7,7 @@
 namespace gsv::broker {
 namespace {
 
-// Strings are looked at, never copied.
+// Strings are views, never copies.
 using Operand = std::variant<std::monostate, bool, std::int64_t, double, std::string_view>;
 
 constexpr std::monostate kNoValue{};
@@ -83,7 +83,7 @@ double RealResult(Operator op, double a, double b) {
   }
 }
 
-// Exact; nothing on overflow.
+// Computes exactly; nothing on overflow.
 std::optional<std::int64_t> IntegerResult(Operator op, std::int64_t a, std::int64_t b) {
   std::int64_t result = 0;
   switch (op) {
@@ -98,8 +98,8 @@ std::optional<std::int64_t> IntegerResult(Operator op, std::int64_t a, std::int6
   }
 }
 
-// Numeric promotion as in IDL's constant expressions and C: of two integers an integer (a quotient
-// is cut towards zero), of an integer and a real a real. An integer result beyond 64 bits is real.
+// Numeric promotion as in IDL's constant expressions and C: two integers give an integer (quotients
+// are truncated), an integer and a real a real. An integer result beyond 64 bits becomes a real.
 Operand Calculate(Operator op, const Operand& left, const Operand& right) {
   const auto a = ToNumber(left);
   const auto b = ToNumber(right);
@@ -169,7 +169,7 @@ class Evaluator {
     return !*truth;
   }
 
-  // `or` is decided by a left operand that is TRUE, `and` by one that is FALSE.
+  // A left operand that is TRUE decides `or`; one that is FALSE decides `and`.
   Operand Decide(const Node& node, bool deciding) const {
     const Operand left = Left(node);
     const auto* truth = std::get_if<bool>(&left);

@@ -91,7 +91,7 @@ class Generator {
     return Below(2) == 0 ? "(" + plain + ")" : plain;
   }
 
-  // Now and then of a type that does not fit.
+  // Sometimes the type does not fit.
   std::string Operand(int depth) {
     switch (Below(5)) {
       case 0:
@@ -145,7 +145,7 @@ TEST(EvaluationProperty, AgreesWithTheNaiveEvaluator) {
     ASSERT_EQ(Matches(*constraint, offer), expected) << "round " << round << ": " << text;
     matches += expected ? 1 : 0;
   }
-  // The constraints are worth something only when both outcomes are common.
+  // The test is significant only if both outcomes are frequent.
   EXPECT_GT(matches, kRounds / 10);
   EXPECT_LT(matches, kRounds * 9 / 10);
 }

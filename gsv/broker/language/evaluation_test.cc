@@ -87,7 +87,7 @@ TEST(Evaluation, FindsElementsInSequences) {
   EXPECT_TRUE(Holds("not ('A4' in nothing)")) << "an empty sequence is a sequence";
 }
 
-TEST(Evaluation, TellsWhatExists) {
+TEST(Evaluation, ReportsWhichPropertiesExist) {
   EXPECT_TRUE(Holds("exist cost"));
   EXPECT_TRUE(Holds("exist place")) << "of any type";
   EXPECT_FALSE(Holds("exist weight"));
@@ -103,7 +103,7 @@ TEST(Evaluation, IsFalseAsAWholeWhereAPropertyIsMissing) {
   EXPECT_FALSE(Holds("not ('A4' in weight)"));
 }
 
-TEST(Evaluation, DoesNotLookAtWhatIsDecidedAlready) {
+TEST(Evaluation, StopsWhenTheResultIsKnown) {
   EXPECT_TRUE(Holds("colour or weight > 3"));
   EXPECT_TRUE(Holds("not (exist weight and weight > 3)"));
   EXPECT_TRUE(Holds("not exist weight or weight > 3"));

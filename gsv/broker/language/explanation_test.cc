@@ -13,7 +13,7 @@ std::vector<TermOutcome> Outcomes(const std::string& constraint) {
   return Explain(*ParseConstraint(constraint, {}), kRobotOffer);
 }
 
-TEST(Explanation, LooksAtEachTermByItself) {
+TEST(Explanation, EvaluatesEachTermSeparately) {
   const auto outcomes = Outcomes("speed > 1 and speed > 3 and range < 5 and 'r' ~ name");
   ASSERT_EQ(outcomes.size(), 4u);
   EXPECT_EQ(outcomes[0].result, TermResult::kTrue);

@@ -1,5 +1,5 @@
 // The OMG constraint language: OMG Trading Object Service (formal/00-06-27), annex B. Each rule
-// below bears the name of the standard's production, which is quoted beside it.
+// below has the name of the standard's production, which is quoted beside it.
 #include <charconv>
 #include <cmath>
 
@@ -75,7 +75,7 @@ struct Minus : Token<peg::one<'-'>> {};
 struct Times : Token<peg::one<'*'>> {};
 struct Over : Token<peg::one<'/'>> {};
 
-// ---- Expressions, the loosest binding first
+// ---- Expressions, the lowest precedence first
 
 struct bool_or;
 
@@ -151,7 +151,7 @@ struct PreferenceExpr : peg::must<Space, PreferenceBody, EndOfText> {};
 struct Building {
   const ExpressionLimits& limits;
   Expression expression{};
-  std::vector<std::size_t> operands{};  // nodes without an operator as yet
+  std::vector<std::size_t> operands{};  // nodes that have no operator yet
   std::size_t depth = 0;
   Preference::Kind preference = Preference::Kind::kFirst;
 
@@ -208,7 +208,7 @@ struct Building {
   }
 };
 
-// An integer where it is written as one and fits, else a double.
+// A literal is an integer if it is written as one and fits, else a double.
 template <typename Input>
 ScalarValue ToNumber(const Input& in) {
   const std::string text = in.string();
@@ -366,7 +366,7 @@ struct Action<Close> {
   static void apply0(Building& building) { --building.depth; }
 };
 
-// ---- Saying what was expected
+// ---- Descriptions of what was expected
 
 template <typename Rule>
 constexpr const char* kExpected = "an operand (a property, a literal, 'exist', 'not' or '(')";

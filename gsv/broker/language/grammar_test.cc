@@ -93,7 +93,7 @@ TEST(Grammar, ReadsLiteralsOfEveryForm) {
   for (const auto& [text, expected] : kCases) EXPECT_EQ(Parsed(text), expected) << text;
 }
 
-TEST(Grammar, TellsKeywordsFromNamesThatBeginLikeThem) {
+TEST(Grammar, DistinguishesKeywordsFromNamesThatBeginLikeThem) {
   EXPECT_EQ(Parsed("order or android"), "or(order android)");
   EXPECT_EQ(Parsed("not notes"), "not(notes)");
   EXPECT_EQ(Parsed("exist existing"), "exist(existing)");
@@ -107,7 +107,7 @@ TEST(Grammar, TakesTheEmptyTextForTrue) {
   EXPECT_EQ(Parsed("  \n"), "TRUE");
 }
 
-TEST(Grammar, SaysWhereAndWhatWasExpected) {
+TEST(Grammar, ReportsTheExpectedTokenAndItsPosition) {
   constexpr const char* kOperand =
       "expected an operand (a property, a literal, 'exist', 'not' or '(')";
   const std::pair<const char*, std::string> kCases[] = {
@@ -133,7 +133,7 @@ TEST(Grammar, SaysWhereAndWhatWasExpected) {
   for (const auto& [text, expected] : kCases) EXPECT_EQ(Parsed(text), expected) << text;
 }
 
-TEST(Grammar, RefusesWhatGoesBeyondTheLimits) {
+TEST(Grammar, RefusesExpressionsBeyondTheLimits) {
   EXPECT_EQ(Parsed("((((a))))"), "a");
   EXPECT_EQ(Parsed("(((((a)))))"), "character 5: parentheses are nested deeper than 4");
   EXPECT_EQ(Parsed("(a) or (b) or (c) or (d) or (e) or (f)"), "or(or(or(or(or(a b) c) d) e) f)")
@@ -158,7 +158,7 @@ TEST(Grammar, ReadsEveryPreference) {
   }
 }
 
-TEST(Grammar, RefusesWhatIsNoPreference) {
+TEST(Grammar, RefusesInvalidPreferences) {
   EXPECT_EQ(ParsePreference("cheapest", kLimits).error().Sentence(),
             "character 1: expected 'min', 'max', 'with', 'random' or 'first'");
   EXPECT_EQ(ParsePreference("first cost", kLimits).error().Sentence(),

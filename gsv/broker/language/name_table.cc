@@ -20,7 +20,7 @@ void NameTable::Share(PropertyList& properties) {
   if (known_.size() > enough_) ForgetUnused();
 }
 
-// What nobody but the table has, nobody can get meanwhile.
+// If only the table holds a name list, no other thread can get it meanwhile.
 void NameTable::ForgetUnused() {
   std::erase_if(known_, [](const Names& names) { return names.use_count() == 1; });
   enough_ = std::max(enough_, 2 * known_.size());

@@ -25,7 +25,7 @@ TEST(NameTable, ListsWithTheSameNamesShareThem) {
   EXPECT_EQ(*c.names(), PropertyNames{"name"});
 }
 
-TEST(NameTable, AListThatChangesLeavesTheOthersAsTheyAre) {
+TEST(NameTable, AChangedListLeavesTheOthersUnchanged) {
   NameTable table;
   PropertyList a = WithNames({"speed", "name"});
   PropertyList b = a;
@@ -39,14 +39,14 @@ TEST(NameTable, AListThatChangesLeavesTheOthersAsTheyAre) {
   EXPECT_EQ(*b.Find("floor"), Value::Short(2));
 }
 
-TEST(PropertyList, OfOneNameTheLastCounts) {
+TEST(PropertyList, TheLastOfEqualNamesCounts) {
   const PropertyList list = PropertyList::LastOfEachName(
       {{"b", Value::Long(1)}, {"a", Value::Long(2)}, {"b", Value::Long(3)}});
   EXPECT_EQ(*list.names(), (PropertyNames{"a", "b"}));
   EXPECT_EQ(*list.Find("b"), Value::Long(3));
 }
 
-TEST(NameTable, ForgetsNamesThatNobodyUses) {
+TEST(NameTable, ForgetsUnusedNames) {
   NameTable table;
   PropertyList kept = WithNames({"kept"});
   table.Share(kept);

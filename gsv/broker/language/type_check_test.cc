@@ -28,7 +28,7 @@ std::string Verdict(std::string_view text) {
   return status ? "fits" : status.error().Sentence();
 }
 
-TEST(TypeCheck, LetsFittingOperandsPass) {
+TEST(TypeCheck, AcceptsFittingOperands) {
   for (const char* text :
        {"cost < 3 and ppm >= 10", "name == 'x' or 'x' ~ name", "colour and not (ppm == 1)",
         "'A4' in paper", "'x' in grades", "grade in grades", "grade == 'A'", "'A' == grade",
@@ -66,7 +66,7 @@ TEST(TypeCheck, RefusesOperandsThatNeverFit) {
   for (const auto& [text, expected] : kCases) EXPECT_EQ(Verdict(text), expected) << text;
 }
 
-TEST(TypeCheck, DemandsWhatAPreferenceOrdersBy) {
+TEST(TypeCheck, RequiresAnOrderedTypeForAPreference) {
   const auto fits = [](std::string_view text) {
     return CheckPreferenceTypes(*ParsePreference(text, {}), Declared).has_value();
   };

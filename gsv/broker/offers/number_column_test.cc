@@ -1,4 +1,4 @@
-// Queries over many offers, whose numbers stand in columns, find what looking at each offer finds.
+// Queries that use number columns find the same offers as an evaluation of each offer.
 #include <algorithm>
 #include <limits>
 #include <random>
@@ -84,7 +84,7 @@ std::vector<std::uint64_t> OneByOne(const Trader& trader, const std::string& tex
   return OfferNumbers(matching);
 }
 
-TEST(NumberColumns, FindWhatLookingAtEachFinds) {
+TEST(NumberColumns, FindTheSameAsAnEvaluationOfEachOffer) {
   RandomOffers random;
   Trader trader(TraderLimits{}, 1, 1);
   ASSERT_TRUE(trader.AddType({.name = "Robot"}));
@@ -97,7 +97,7 @@ TEST(NumberColumns, FindWhatLookingAtEachFinds) {
   for (int round = 0; round < 100; ++round) {
     const std::string text = random.Constraint();
     const std::vector<std::uint64_t> expected = OneByOne(trader, text);
-    // The columns are made by the second.
+    // The second query makes the columns.
     for (int i = 0; i < 3; ++i) {
       const auto found = trader.Find({.type = "Robot", .constraint = text});
       ASSERT_TRUE(found) << text;
@@ -111,7 +111,7 @@ TEST(NumberColumns, FindWhatLookingAtEachFinds) {
   }
 }
 
-// The offers with a number in `property`, the least (or greatest) first, then the others.
+// The offers with a number in `property`, smallest (or largest) first, then the others.
 std::vector<std::uint64_t> OneByOneInOrder(const Trader& trader, const std::string& property,
                                            bool greatest_first) {
   const auto expression = ParseConstraint(property, {});
@@ -130,7 +130,7 @@ std::vector<std::uint64_t> OneByOneInOrder(const Trader& trader, const std::stri
   return numbers;
 }
 
-TEST(NumberColumns, OrderAsAskingEachOrders) {
+TEST(NumberColumns, OrderLikeAnEvaluationOfEachOffer) {
   RandomOffers random;
   Trader trader(TraderLimits{}, 1, 1);
   ASSERT_TRUE(trader.AddType({.name = "Robot"}));
@@ -144,14 +144,14 @@ TEST(NumberColumns, OrderAsAskingEachOrders) {
       ASSERT_TRUE(found);
       EXPECT_EQ(OfferNumbers(found->offers), OneByOneInOrder(trader, "b", greatest_first));
     }
-    // Other offers: the column is made by the second query that sees them.
+    // These are other offers: the second query for them makes the column.
     if (round % 2 == 1) {
       ASSERT_TRUE(trader.Export("Robot", "IOR:00", random.Properties()));
     }
   }
 }
 
-// Answers 5.
+// A service that answers 5.
 class Five : public DynamicEvaluator {
  public:
   std::optional<Value> Evaluate(const std::string&, const OtherValue&, Clock::time_point) override {
@@ -172,7 +172,7 @@ TEST(NumberColumns, OrderDynamicPropertiesAmongTheOthers) {
     DynamicValues values(&five, std::chrono::seconds(1));
     const auto found = trader.Find({.type = "Robot", .preference = "min b"}, values);
     ASSERT_TRUE(found);
-    // The offers 1, 11, … have 0; those with 1 to 4 come before the dynamic one, but for its own.
+    // Offers 1, 11, … have 0; those with 1 to 4 come before the dynamic one, which has 5.
     EXPECT_EQ(found->offers[0]->number, 1u);
     EXPECT_EQ(found->offers[200 + 200 + 200 + 199 + 200]->number, 4u);
   }

@@ -23,7 +23,7 @@ std::size_t Digit(std::uint64_t key, int digit) {
   return (key >> (kDigitBits * digit)) % kDigitValues;
 }
 
-// Grows with the number, and is the same for both zeros.
+// The key grows with the number, and is equal for both zeros.
 std::uint64_t KeyOf(double number) {
   if (std::isnan(number)) return std::numeric_limits<std::uint64_t>::max();
   constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
@@ -31,7 +31,7 @@ std::uint64_t KeyOf(double number) {
   return (bits & kSign) != 0 ? ~bits : bits | kSign;
 }
 
-// By its digits from the last one on.
+// Sorts by the digits of the key, the last one first (radix sort).
 void SortByKey(std::vector<Keyed>& entries) {
   std::array<std::vector<std::uint32_t>, kDigits> places;
   for (auto& place : places) place.resize(kDigitValues);
@@ -69,7 +69,7 @@ std::vector<std::uint32_t> AscendingOrder(const std::vector<long double>& number
   } else {
     SortByKey(entries);
   }
-  // Rounding keeps the order, but makes some equal that are not.
+  // Rounding keeps the order, but makes some different numbers equal.
   for (auto run = entries.begin(); !exact && run != entries.end();) {
     const auto end = std::upper_bound(run, entries.end(), *run, by_key);
     std::stable_sort(run, end, [&](const Keyed& a, const Keyed& b) {

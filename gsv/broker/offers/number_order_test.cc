@@ -18,19 +18,19 @@ using Order = std::vector<std::uint32_t>;
 constexpr long double kInfinity = std::numeric_limits<long double>::infinity();
 constexpr long double kNone = std::numeric_limits<long double>::quiet_NaN();
 
-TEST(NumberOrder, EqualNumbersKeepTheirOrderAndWhatIsNoneComesLast) {
+TEST(NumberOrder, EqualNumbersKeepTheirOrderAndNanComesLast) {
   EXPECT_EQ(AscendingOrder({}), Order());
   EXPECT_EQ(AscendingOrder({2, kNone, -1, 2, kInfinity, -kInfinity, kNone, 0}),
             (Order{5, 2, 7, 0, 3, 4, 1, 6}));
   EXPECT_EQ(AscendingOrder({0.0L, -0.0L, 0.0L}), (Order{0, 1, 2}));
 }
 
-TEST(NumberOrder, TellsIntegersApartThatADoubleCannot) {
+TEST(NumberOrder, DistinguishesIntegersThatADoubleCannot) {
   const long double large = std::numeric_limits<std::int64_t>::max();
   EXPECT_EQ(AscendingOrder({large, large - 2, large - 1, large - 2, 1}), (Order{4, 1, 3, 2, 0}));
 }
 
-// Judged by the standard library's sort.
+// The standard library's sort gives the expected order.
 TEST(NumberOrder, IsThatOfAComparisonForManyNumbers) {
   std::mt19937_64 random(7);
   for (const bool large : {false, true}) {

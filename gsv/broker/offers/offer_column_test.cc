@@ -34,7 +34,7 @@ TEST(OfferColumn, KeepsTheOrderOfNumbers) {
   EXPECT_EQ(column.size(), 4u);
 }
 
-TEST(OfferColumn, AViewStaysAsItWas) {
+TEST(OfferColumn, AViewDoesNotChange) {
   OfferColumn column;
   column.Put(Numbered(1, "before"));
   column.Put(Numbered(2));
@@ -48,7 +48,7 @@ TEST(OfferColumn, AViewStaysAsItWas) {
   EXPECT_EQ(column.View().chunks()[0]->offers()[0]->type, "after");
 }
 
-// Judged by a sorted list.
+// A sorted list gives the expected order.
 TEST(OfferColumn, IsASortedListHoweverManyComeAndGo) {
   std::mt19937 random(3);
   OfferColumn column;
@@ -84,7 +84,7 @@ TEST(OfferColumn, IsASortedListHoweverManyComeAndGo) {
   check();
 }
 
-// What is known of numbers elsewhere stays.
+// The number columns of other chunks stay.
 TEST(OfferColumn, AChangeTouchesOneChunk) {
   OfferColumn column;
   for (std::uint64_t number = 1; number <= 3000; ++number) column.Put(Numbered(number));

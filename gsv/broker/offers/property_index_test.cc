@@ -1,4 +1,4 @@
-// What is found by an index is what looking through all offers finds.
+// An index finds the same offers as an evaluation of each offer.
 #include "gsv/broker/offers/property_index.h"
 
 #include <cmath>
@@ -19,7 +19,7 @@ class RandomValues {
 
   std::size_t Below(std::size_t bound) { return random_() % bound; }
 
-  // Values that are equal though their types differ, and some that are equal to nothing.
+  // Values of different types that are equal, and some that equal no other value.
   Value AnyValue() {
     const auto small = static_cast<std::int32_t>(Below(4));
     switch (Below(9)) {
@@ -87,7 +87,7 @@ class RandomValues {
   std::mt19937_64 random_;
 };
 
-TEST(PropertyIndex, FindsWhatLookingThroughAllFinds) {
+TEST(PropertyIndex, FindsTheSameAsAnEvaluationOfEachOffer) {
   RandomValues random(20261121);
   Trader trader(TraderLimits{}, 1, 1);
   ASSERT_TRUE(trader.AddType({.name = "Robot"}));
@@ -144,7 +144,7 @@ TEST(PropertyIndex, KeepsTheCardinalities) {
   EXPECT_EQ(count({.match_card = 7}), 7u);
 }
 
-TEST(PropertyIndex, KeepsProxiesThatMatchWhateverIsAsked) {
+TEST(PropertyIndex, KeepsProxiesThatMatchEveryQuery) {
   Trader trader(TraderLimits{}, 1, 1);
   ASSERT_TRUE(trader.AddType({.name = "Robot"}));
   for (std::int32_t i = 0; i < 1000; ++i) {

@@ -19,7 +19,7 @@ const PropertyList kProperties({{"flag", Value::Boolean(false)},
                                 {"real", Value::Double(0.1)},
                                 {"strange", Value::Double(std::nan(""))}});
 
-TEST(Recipe, PutsInTheConstraintAndTheValues) {
+TEST(Recipe, InsertsTheConstraintAndTheValues) {
   const auto follow = [](const char* recipe) {
     return FollowRecipe(recipe, kProperties, "a < 1 or $b");
   };
@@ -43,7 +43,7 @@ TEST(Recipe, IsRefusedWhenItCannotBeFollowed) {
   }
 }
 
-// The literal is read as the very value that it stands for.
+// The literal is read as exactly the same value.
 TEST(Recipe, WritesLiteralsThatTheConstraintLanguageReads) {
   const std::vector<Value> values = {Value::Double(1e300),
                                      Value::Double(-1e-300),

@@ -10,7 +10,7 @@
 namespace gsv::broker {
 namespace {
 
-// Answers `value`, a double, unless it is told to fail, to answer a string, or to hang.
+// Answers `value`, a double, or fails, answers a string or hangs, as the test requests.
 class Evaluator : public POA_CosTradingDynamic::DynamicPropEval {
  public:
   enum class Mood { kAnswer, kFail, kWrongType, kHang };
@@ -67,7 +67,7 @@ class DynamicPropertiesTest : public BrokerFixture {
   }
 
  protected:
-  // A property "speed" that is the evaluator's value and `added`.
+  // A property "speed" with the evaluator's value plus `added`.
   CosTrading::PropertySeq Speed(double added = 0, CORBA::TypeCode_ptr type = CORBA::_tc_double) {
     CosTradingDynamic::DynamicProp dynamic;
     dynamic.eval_if = CosTradingDynamic::DynamicPropEval::_duplicate(reference_);
@@ -110,7 +110,7 @@ TEST_F(DynamicPropertiesTest, TakePartInConstraintPreferenceAndAnswer) {
   EXPECT_EQ(evaluator_->calls, 3) << "each once, for constraint, preference and answer";
 }
 
-TEST_F(DynamicPropertiesTest, AreAskedForOnlyWhenNeeded) {
+TEST_F(DynamicPropertiesTest, AreEvaluatedOnlyWhenNeeded) {
   ExportSpeed();
   Lookup::SpecifiedProps none;
   none._d(Lookup::none);
@@ -118,8 +118,8 @@ TEST_F(DynamicPropertiesTest, AreAskedForOnlyWhenNeeded) {
   EXPECT_EQ(evaluator_->calls, 0);
 }
 
-// The broker of this test remembers an answer for a second; a query that finds the new value comes
-// some time after one that found the old.
+// The broker of this test caches an answer for a second. Therefore a query that finds the new value
+// comes some time after a query that found the old one.
 TEST_F(DynamicPropertiesTest, AreRememberedForTheirLifetime) {
   ExportSpeed();
   EXPECT_EQ(SpeedOf(Query("Robot").offers[0]), 5);
@@ -130,10 +130,10 @@ TEST_F(DynamicPropertiesTest, AreRememberedForTheirLifetime) {
 }
 
 TEST_F(DynamicPropertiesTest, AFailureMakesTheConstraintFalseAndLeavesThePropertyOut) {
-  // It raises DPEvalFailure, or answers another type than it promised.
+  // The service raises DPEvalFailure, or answers with a type that it did not declare.
   for (const auto mood : {Evaluator::Mood::kFail, Evaluator::Mood::kWrongType}) {
     evaluator_->Be(mood);
-    // Other information, so that nothing is remembered of it.
+    // The extra information differs, so that no cached value applies.
     const std::string id = ExportSpeed(static_cast<double>(mood));
     EXPECT_EQ(Query("Robot", "speed > 0").offers->length(), 0u);
     EXPECT_EQ(Query("Robot", "not (speed > 0)").offers->length(), 0u);
@@ -167,7 +167,7 @@ TEST_F(DynamicPropertiesTest, OffersThatHaveThemCanBeLeftOut) {
   EXPECT_STREQ(Raised<CosTrading::PropertyTypeMismatch>([&] { ExportSpeed(); }).prop.name, "speed");
 }
 
-TEST_F(DynamicPropertiesTest, AreDescribedAsTheyAre) {
+TEST_F(DynamicPropertiesTest, AreDescribedUnchanged) {
   const Register::OfferInfo_var info = register_->describe(ExportSpeed(2).c_str());
   const CosTradingDynamic::DynamicProp* dynamic = nullptr;
   ASSERT_TRUE(info->properties[0].value >>= dynamic);
@@ -179,7 +179,7 @@ TEST_F(DynamicPropertiesTest, AreDescribedAsTheyAre) {
   EXPECT_EQ(evaluator_->calls, 0);
 }
 
-TEST_F(DynamicPropertiesTest, WithdrawUsingAConstraintAsksForThem) {
+TEST_F(DynamicPropertiesTest, WithdrawUsingAConstraintEvaluatesThem) {
   ExportSpeed(1);
   ExportSpeed(2);
   register_->withdraw_using_constraint("Robot", "speed == 6");

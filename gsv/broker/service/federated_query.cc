@@ -12,7 +12,7 @@
 namespace gsv::broker {
 namespace {
 
-// What the importer wants to see, and what is needed to order it.
+// The properties that the importer requests, and those that are needed to order the offers.
 DesiredProperties WithThoseOf(const Preference& preference, DesiredProperties desired) {
   if (desired.all) return desired;
   for (const Node& node : preference.expression.nodes) {
@@ -25,7 +25,7 @@ DesiredProperties WithThoseOf(const Preference& preference, DesiredProperties de
   return desired;
 }
 
-// Each name once.
+// Adds each name once.
 void AddLimit(std::string_view name, MatchingOffers& matches) {
   auto& limits = matches.limits_applied;
   if (!IsIdentifier(name) || std::find(limits.begin(), limits.end(), name) != limits.end()) return;
@@ -34,7 +34,7 @@ void AddLimit(std::string_view name, MatchingOffers& matches) {
 
 struct Destinations {
   std::vector<QueryDestination> all{};
-  std::vector<std::string_view> policies{};  // which of them each one's silence concerns
+  std::vector<std::string_view> policies{};  // by destination: the policy to report if it is silent
 
   void Add(QueryDestination destination, std::string_view policy) {
     all.push_back(std::move(destination));
@@ -61,7 +61,7 @@ void AddLinks(TradingObjects& objects, const FederatedQuery& query,
   }
 }
 
-// A proxy is no hop of the query's, but its target must not take more time than there is.
+// A proxy does not count as a hop, but its target must answer within the remaining time.
 void AddProxies(TradingObjects& objects, const FederatedQuery& query, std::uint32_t hops,
                 MatchingOffers& matches, DynamicValues& values, Destinations& destinations) {
   const std::size_t most = objects.trader.limits().federation.proxies;
@@ -119,7 +119,7 @@ CosTrading::Lookup_ptr StartingTrader(TradingObjects& objects, const ImportPolic
   }
   const CORBA::Object_var object = objects.orb->string_to_object(link->target.c_str());
   CosTrading::Lookup_var lookup = CosTrading::Lookup::_unchecked_narrow(object);
-  // One step for the trader that is asked, one for each name, and those that the query may make.
+  // One step for the called trader, one for each name, and those that the query may make.
   const auto steps =
       1 + import.starting_trader.size() + EffectiveHopCount(import, objects.trader.attributes());
   omniORB::setClientCallTimeout(lookup,

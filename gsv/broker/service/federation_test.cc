@@ -1,4 +1,4 @@
-// Several brokers that are linked, each in a process of its own.
+// Several linked brokers, each in its own process.
 #include <csignal>
 #include <filesystem>
 #include <iterator>
@@ -72,8 +72,8 @@ class FederationTest : public testing::Test {
   std::vector<std::unique_ptr<BrokerNode>> nodes_;
 };
 
-// A ring in both directions with chords: many ways lead to each broker, and back.
-TEST_F(FederationTest, TenBrokersInCirclesReturnEachOfferOnce) {
+// A ring in both directions with chords: many paths lead to each broker, and back.
+TEST_F(FederationTest, TenBrokersInCyclesReturnEachOfferOnce) {
   Start(10);
   for (std::size_t i = 0; i < 10; ++i) {
     Connect(i, (i + 1) % 10);
@@ -89,7 +89,7 @@ TEST_F(FederationTest, TenBrokersInCirclesReturnEachOfferOnce) {
   }
 }
 
-TEST_F(FederationTest, AQueryGoesAsManyHopsAsItMay) {
+TEST_F(FederationTest, AQueryMakesAtMostItsNumberOfHops) {
   Start(4);
   for (std::size_t i = 0; i < 3; ++i) Connect(i, i + 1);
   const auto count_with = [&](CORBA::ULong hops, const Names& limits) {
@@ -107,7 +107,7 @@ TEST_F(FederationTest, AQueryGoesAsManyHopsAsItMay) {
   EXPECT_EQ(count_with(3, {"hop_count"}), 2u);
 }
 
-TEST_F(FederationTest, LinksAreFollowedAsTheRulesSay) {
+TEST_F(FederationTest, LinksAreFollowedByTheRules) {
   Start(2);
   Node(0).LinkTo(Node(1), "other", CosTrading::local_only, CosTrading::if_no_local);
   EXPECT_EQ(Node(0).Query("Robot").offers->length(), 1u) << "there is one here";
@@ -123,7 +123,7 @@ TEST_F(FederationTest, LinksAreFollowedAsTheRulesSay) {
             0u);
 }
 
-// Without the importer's word the next trader is asked what the link says.
+// If the importer sets no rule, the link's default goes to the next trader.
 TEST_F(FederationTest, TheLinksDefaultIsPassedOn) {
   Start(3);
   Node(0).LinkTo(Node(1), "near", CosTrading::local_only);
@@ -133,7 +133,7 @@ TEST_F(FederationTest, TheLinksDefaultIsPassedOn) {
   EXPECT_EQ(Node(0).Query("Robot", "n == 2").offers->length(), 1u);
 }
 
-TEST_F(FederationTest, APreferenceOrdersByPropertiesThatAreNotAskedFor) {
+TEST_F(FederationTest, APreferenceOrdersByPropertiesThatAreNotRequested) {
   Start(3);
   Connect(0, 1);
   Connect(0, 2);
@@ -239,7 +239,7 @@ TEST_F(FederationTest, ARequestThatComesAgainIsNotAnsweredAgain) {
                "request_id");
 }
 
-TEST_F(FederationTest, AKilledTraderIsMissedAndNoted) {
+TEST_F(FederationTest, AKilledTraderIsReported) {
   Start(3);
   Connect(0, 1);
   Connect(0, 2);
@@ -255,7 +255,7 @@ TEST_F(FederationTest, AKilledTraderIsMissedAndNoted) {
   EXPECT_NE(output.find("does not respond"), std::string::npos) << output;
 }
 
-// One that stands still in the middle of the way: those before it still answer in time.
+// One trader on the way is stopped: those before it still answer in time.
 TEST_F(FederationTest, AHangingTraderCostsAQueryItsTimeOutAtMost) {
   Start(4, {"0", "per_hop_ms=250"});
   Connect(0, 1);
@@ -280,9 +280,9 @@ std::size_t DescriptorsOf(pid_t process) {
   return static_cast<std::size_t>(std::distance(begin(all), end(all)));
 }
 
-// The call would go on for seven seconds, two more than the ORB waits for it before it takes itself
+// The call would take seven seconds, two more than the ORB waits for it before it shuts itself
 // down.
-TEST_F(FederationTest, ABrokerThatIsToldToEndWhileACallWaitsForAnotherEndsInOrder) {
+TEST_F(FederationTest, ABrokerStopsInOrderWhileACallWaitsForAnother) {
   Start(2, {"0", "per_hop_ms=1400"});
   Connect(0, 1);
   Node(1).broker_.Stop();
@@ -292,7 +292,7 @@ TEST_F(FederationTest, ABrokerThatIsToldToEndWhileACallWaitsForAnotherEndsInOrde
       Node(0).Query("Robot", "", "",
                     {Follow(CosTrading::always), BrokerNode::Policy("hop_count", ULong(5))});
     } catch (const CORBA::Exception&) {
-      // Nobody answers it any more.
+      // The broker ends: the query gets no answer.
     }
   });
   while (DescriptorsOf(Node(0).broker_.pid()) == before) {

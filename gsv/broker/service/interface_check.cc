@@ -26,7 +26,7 @@ std::string PathOfScopedName(std::string_view name) {
   return path;
 }
 
-// A scoped name leaves out the prefix ("omg.org") that an identifier has.
+// A scoped name does not have the prefix ("omg.org") that an identifier has.
 bool EndsWithPath(std::string_view path, std::string_view end) {
   return path == end || (path.size() > end.size() && path.ends_with(end) &&
                          path[path.size() - end.size() - 1] == '/');

@@ -61,7 +61,7 @@ TEST_F(LinkServantTest, RaisesForWrongNames) {
   }
 }
 
-TEST_F(LinkServantTest, RaisesForATargetThatIsNone) {
+TEST_F(LinkServantTest, RaisesForAnInvalidTarget) {
   const auto nil = Raised<CosTrading::InvalidLookupRef>(
       [&] { node_.link_->add_link("north", CosTrading::Lookup::_nil(), always, always); });
   EXPECT_TRUE(CORBA::is_nil(nil.target));
@@ -107,7 +107,7 @@ TEST_F(LinkServantTest, KnowsItsComponentsAndAttributes) {
   EXPECT_EQ(after[0], 7);
 }
 
-TEST_F(LinkServantTest, TakesAsManyLinksAsItMay) {
+TEST_F(LinkServantTest, AcceptsLinksUpToTheLimit) {
   for (int i = 0; i < 100; ++i) Add(("link" + std::to_string(i)).c_str());
   Raised<CORBA::IMP_LIMIT>([&] { Add("one_more"); });
   EXPECT_EQ(Names().size(), 100u);

@@ -30,7 +30,7 @@ bool IsConnectionRefused(const addrinfo& address, int timeout_ms) {
   return error == ECONNREFUSED;
 }
 
-// omniORB calls every connection that fails the same.
+// omniORB reports all failures of a connection with the same exception.
 bool NobodyListens(const std::string& reference, std::chrono::milliseconds timeout) {
   const auto service = ReadReference(reference);
   if (!service || service->host.empty()) return false;

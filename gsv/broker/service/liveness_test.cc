@@ -1,4 +1,4 @@
-// Offers of real services that die, hang and come back.
+// Offers of real services that die, hang and return.
 #include <chrono>
 #include <csignal>
 #include <thread>
@@ -37,7 +37,7 @@ class ImpatientLivenessTest : public LivenessTest {
   ImpatientLivenessTest() : LivenessTest("500") {}
 };
 
-TEST_F(LivenessTest, TheOfferOfAKilledProgramGoesAwayAndNoOther) {
+TEST_F(LivenessTest, OnlyTheOfferOfAKilledProgramIsWithdrawn) {
   ServiceProcess living(broker_.reference());
   ServiceProcess killed(broker_.reference());
   ASSERT_TRUE(IsOffered(killed.offer_id()));
@@ -48,7 +48,7 @@ TEST_F(LivenessTest, TheOfferOfAKilledProgramGoesAwayAndNoOther) {
   EXPECT_EQ(Query("Service").offers->length(), 1u);
 }
 
-TEST_F(LivenessTest, TheOfferOfAnObjectThatIsGoneGoesAway) {
+TEST_F(LivenessTest, TheOfferOfADestroyedObjectIsWithdrawn) {
   ServiceProcess living(broker_.reference());
   const CORBA::Object_var root = TestOrb()->resolve_initial_references("RootPOA");
   const PortableServer::POA_var poa = PortableServer::POA::_narrow(root);
@@ -58,8 +58,8 @@ TEST_F(LivenessTest, TheOfferOfAnObjectThatIsGoneGoesAway) {
   EXPECT_TRUE(IsOffered(living.offer_id()));
 }
 
-// Others are killed while the first stands still; each that is gone was asked in another round.
-TEST_F(LivenessTest, TheOfferOfAProgramThatStandsStillStaysForAWhile) {
+// Others are killed while the first is stopped; each dead service was called in another round.
+TEST_F(LivenessTest, TheOfferOfAStoppedProgramStaysForAWhile) {
   ServiceProcess still(broker_.reference());
   still.Stop();
   for (int i = 0; i < 3; ++i) {
@@ -72,7 +72,7 @@ TEST_F(LivenessTest, TheOfferOfAProgramThatStandsStillStaysForAWhile) {
   still.Send(SIGCONT);
 }
 
-TEST_F(ImpatientLivenessTest, TheOfferOfAProgramThatStandsStillTooLongGoesAway) {
+TEST_F(ImpatientLivenessTest, TheOfferOfAProgramThatIsStoppedTooLongIsWithdrawn) {
   ServiceProcess still(broker_.reference());
   still.Stop();
   AwaitWithdrawal(still.offer_id());

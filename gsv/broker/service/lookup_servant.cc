@@ -34,7 +34,7 @@ bool IsDesired(const DesiredProperties& desired, const std::string& name) {
          std::find(desired.names.begin(), desired.names.end(), name) != desired.names.end();
 }
 
-// Before dynamic properties are evaluated: no value is larger than `dynamic_bytes`.
+// The size before dynamic properties are evaluated; no value has more than `dynamic_bytes`.
 std::size_t EncodedSize(const OfferPtr& offer, const DesiredProperties& desired,
                         std::size_t dynamic_bytes) {
   constexpr std::size_t kOverhead = 32;
@@ -47,7 +47,7 @@ std::size_t EncodedSize(const OfferPtr& offer, const DesiredProperties& desired,
   return size;
 }
 
-// A dynamic property whose value cannot be had is left out.
+// Leaves out a dynamic property whose value is not available.
 CosTrading::Offer ToCorba(CORBA::ORB_ptr orb, const Offer& offer, const DesiredProperties& desired,
                           DynamicValues& values) {
   CosTrading::Offer result;
@@ -82,14 +82,14 @@ CosTrading::PolicyNameSeq* ToCorba(const std::vector<std::string>& names) {
   return result._retn();
 }
 
-// A trader that waits for this one's answer must not do so for long.
+// Another trader that waits for this one's answer must not wait long.
 std::chrono::milliseconds DynamicBudget(const TraderLimits& limits, const ImportPolicies& import) {
   if (!import.request_id) return limits.dynamic.query_budget;
   return std::min(limits.dynamic.query_budget, limits.federation.per_hop / 2);
 }
 
-// Runs `query`, which asks the trader that the importer named. That it cannot be reached must not
-// look as if this one could not: an ORB would try again.
+// Runs `query`, which calls the trader that the importer named. If that trader is unavailable, the
+// error must not look as if this one could not: the client's ORB would retry.
 template <typename Call>
 void AskInstead(const Call& query) {
   try {

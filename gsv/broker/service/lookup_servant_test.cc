@@ -81,7 +81,7 @@ TEST_F(LookupServantTest, RaisesWithTheTextThatIsWrong) {
                "least n");
 }
 
-TEST_F(LookupServantTest, ObeysCardinalityPolicies) {
+TEST_F(LookupServantTest, AppliesCardinalityPolicies) {
   ExportNumbered(10);
   Answer searched = Query("Robot", "", "", {Policy("search_card", ULong(4))});
   EXPECT_EQ(searched.offers->length(), 4u);
@@ -100,7 +100,7 @@ TEST_F(LookupServantTest, ObeysCardinalityPolicies) {
   EXPECT_EQ(Query("Robot", "", "", {Policy("return_card", ULong(8))}).offers->length(), 3u);
 }
 
-TEST_F(LookupServantTest, ObeysExactTypeMatch) {
+TEST_F(LookupServantTest, AppliesExactTypeMatch) {
   AddType("Rover", {}, {"Robot"});
   Export("Robot");
   Export("Rover");
@@ -109,7 +109,7 @@ TEST_F(LookupServantTest, ObeysExactTypeMatch) {
             1u);
 }
 
-TEST_F(LookupServantTest, ObeysUseModifiableProperties) {
+TEST_F(LookupServantTest, AppliesUseModifiableProperties) {
   AddType("Fixed", {Define("a", CORBA::_tc_long, Repository::PROP_READONLY)});
   Export("Fixed", {{"a", Value::Long(1)}});
   Export("Fixed", {{"a", Value::Long(1)}, {"b", Value::Long(1)}});
@@ -173,7 +173,7 @@ TEST_F(LookupServantTest, RaisesForWrongPolicies) {
   EXPECT_STREQ(invalid.the_policy.name, "starting_trader");
 }
 
-TEST_F(LookupServantTest, HandsTheRestOutThroughAnIterator) {
+TEST_F(LookupServantTest, ReturnsTheRestThroughAnIterator) {
   ExportNumbered(10);
   Answer answer = Query("Robot", "", "max n", {}, 3);
   ASSERT_EQ(answer.offers->length(), 3u);
@@ -196,7 +196,7 @@ TEST_F(LookupServantTest, HandsTheRestOutThroughAnIterator) {
   Raised<CORBA::OBJECT_NOT_EXIST>([&] { answer.rest->destroy(); });
 }
 
-TEST_F(LookupServantTest, ReturnsEverythingThroughTheIteratorWhenNoneIsAskedFor) {
+TEST_F(LookupServantTest, ReturnsEverythingThroughTheIteratorIfHowManyIsZero) {
   ExportNumbered(2);
   Answer answer = Query("Robot", "", "", {}, 0);
   EXPECT_EQ(answer.offers->length(), 0u);
@@ -219,7 +219,7 @@ TEST_F(LookupServantTest, KeepsEachReplyWithinAMessage) {
   EXPECT_EQ(count, 20u);
 }
 
-TEST_F(LookupServantTest, ObeysMaxList) {
+TEST_F(LookupServantTest, AppliesMaxList) {
   ExportNumbered(5);
   admin_->set_max_list(2);
   Answer answer = Query("Robot");
@@ -268,7 +268,7 @@ class IteratorLimitTest : public BrokerFixture {
   IteratorLimitTest() : BrokerFixture({"0", "iterators=2"}) {}
 };
 
-TEST_F(IteratorLimitTest, LetsTheOldestIteratorGo) {
+TEST_F(IteratorLimitTest, RemovesTheOldestIterator) {
   AddType("Robot");
   for (int i = 0; i < 4; ++i) Export("Robot");
   Answer first = Query("Robot", "", "", {}, 1);

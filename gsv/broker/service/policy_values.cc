@@ -27,7 +27,7 @@ bool ExtractBoolean(const CosTrading::Policy& policy) {
 
 constexpr CORBA::ULong kMaxRequestIdLength = 1024;
 
-// Whether a type is FollowOption but for its repository identifier, which an ORB may leave out.
+// Whether a type is FollowOption except for its repository identifier, which an ORB may omit.
 bool IsAnonymousFollowOption(CORBA::TypeCode_ptr type) {
   if (type->kind() != CORBA::tk_enum || *type->id() != '\0' || type->member_count() != 3) {
     return false;

@@ -23,7 +23,7 @@ CORBA::Any Boolean(bool value) {
   return any;
 }
 
-// A broker that holds proxies for another, which offers robots with n from 0 to 4.
+// A broker that has proxies for another, which offers robots with n from 0 to 4.
 class ProxyServantTest : public testing::Test {
  protected:
   ProxyServantTest() : proxy_(near_.lookup_->proxy_if()) {
@@ -50,7 +50,7 @@ class ProxyServantTest : public testing::Test {
   CosTrading::Proxy_var proxy_;
 };
 
-TEST_F(ProxyServantTest, DescribesWhatWasExportedAndWithdrawsIt) {
+TEST_F(ProxyServantTest, DescribesAndWithdrawsAnExport) {
   const std::string id = Add("site == $(site) and $*", {{"site", Value::String("hall")}}, true,
                              {BrokerNode::Policy("search_card", ULong(3))});
   const Proxy::ProxyInfo_var info = proxy_->describe_proxy(id.c_str());
@@ -131,7 +131,7 @@ TEST_F(ProxyServantTest, RaisesForWrongTargetsRecipesAndPolicies) {
   Add(std::string(8192, ' '));
 }
 
-TEST_F(ProxyServantTest, TellsOffersAndProxiesApart) {
+TEST_F(ProxyServantTest, DistinguishesOffersFromProxies) {
   const std::string proxy = Add("$*");
   const std::string offer = near_.Export("Robot", {{"n", Value::Long(9)}});
   const auto& registry = near_.register_;
@@ -199,7 +199,7 @@ TEST_F(ProxyServantTest, AProxyForItsOwnTraderEnds) {
   EXPECT_EQ(Found(""), 1u);
 }
 
-TEST_F(ProxyServantTest, ATargetThatIsGoneIsMissedAndNoted) {
+TEST_F(ProxyServantTest, AMissingTargetIsReported) {
   Add("$*");
   near_.Export("Robot");
   far_.broker_.Send(SIGKILL);

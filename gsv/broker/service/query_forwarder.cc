@@ -19,11 +19,11 @@ using Deadline = std::chrono::steady_clock::time_point;
 
 constexpr CORBA::ULong kForwardedBatch = 500;
 
-// Tells offers of other traders from those of this one, whose numbers count from 1.
+// Distinguishes offers of other traders from those of this one, whose numbers count from 1.
 constexpr std::uint64_t kFirstForeignNumber = std::uint64_t{1} << 63;
 
-// Gives the next call on `reference`, which nobody else calls, what is left of the time.
-// Errors  throws CORBA::TIMEOUT when nothing is.
+// Limits the next call on `reference`, which no other thread uses, to the remaining time.
+// Errors  throws CORBA::TIMEOUT if no time remains.
 void LimitCall(CORBA::Object_ptr reference, Deadline deadline) {
   const auto left =
       std::chrono::duration_cast<milliseconds>(deadline - std::chrono::steady_clock::now());
@@ -44,21 +44,21 @@ Lookup::SpecifiedProps ToCorba(const DesiredProperties& desired) {
   return props;
 }
 
-// Another trader might send a name twice: the last one counts. It has evaluated what is dynamic.
+// Another trader might send a name twice: the last value counts. Dynamic values are evaluated.
 PropertyList PropertiesOf(const CosTrading::PropertySeq& properties) {
   std::vector<Property> taken = ToProperties(properties);
   std::erase_if(taken, [](const Property& property) { return IsDynamic(property.value); });
   return PropertyList::LastOfEachName(std::move(taken));
 }
 
-// Takes what another trader answers until there is enough of it.
+// Collects the answers of another trader until the limit.
 class Collector {
  public:
   Collector(CORBA::ORB_ptr orb, std::size_t offers, std::size_t bytes)
       : orb_(orb), offers_left_(offers), bytes_left_(bytes) {}
 
   bool full() const { return offers_left_ == 0 || bytes_left_ == 0; }
-  // True when something was left.
+  // True if offers were left out.
   bool cut() const { return cut_; }
 
   void Take(const CosTrading::OfferSeq& offers, bool more, Offers& taken) {
@@ -107,7 +107,7 @@ std::vector<ForwardedAnswer> QueryForwarder::Ask(
     try {
       threads.emplace_back(ask, i);
     } catch (const std::system_error&) {
-      break;  // no memory for another thread: those that are left count as silent
+      break;  // no memory for another thread: the remaining traders count as silent
     }
   }
   if (!destinations.empty()) ask(0);
@@ -141,7 +141,7 @@ ForwardedAnswer QueryForwarder::AskOne(CORBA::ORB_ptr orb, const ForwardedQuery&
     if (collector.cut()) answer.limits_applied.emplace_back("return_card");
     answer.complete = true;
   } catch (const CORBA::UserException&) {
-    // It does not know the type, or a property of the constraint: it has no such offers.
+    // The trader does not know the type, or a property of the constraint: it has no such offers.
     answer.complete = true;
   } catch (const CORBA::SystemException&) {
     answered = false;

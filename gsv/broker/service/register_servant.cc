@@ -11,7 +11,7 @@
 namespace gsv::broker {
 namespace {
 
-// The standard knows no exception for a service that cannot be asked: its reference is as good as
+// The standard has no exception for a service that cannot be called, so its reference counts as
 // invalid.
 void CheckService(CORBA::Object_ptr reference, const std::string& ior, const ServiceType& type) {
   if (type.interface_name.empty()) return;
@@ -67,7 +67,7 @@ void RegisterServant::withdraw_using_constraint(const char* type, const char* co
   ValueOrRaise(objects_.trader.WithdrawMatching(type, constr, &objects_.dynamic));
 }
 
-// The first name leads to a trader of ours, the others from there on.
+// The first name leads to a linked trader, the others continue from there.
 CosTrading::Register_ptr RegisterServant::resolve(const CosTrading::TraderName& name) {
   bool legal = name.length() > 0;
   for (CORBA::ULong i = 0; i < name.length(); ++i) {

@@ -39,7 +39,7 @@ class RegisterServantTest : public BrokerFixture {
   }
 };
 
-TEST_F(RegisterServantTest, DescribesWhatWasExported) {
+TEST_F(RegisterServantTest, DescribesExports) {
   const std::string id = Export("Robot", MinimalAnd({"speed", Value::Double(1.5)}));
   const Register::OfferInfo_var info = register_->describe(id.c_str());
   EXPECT_STREQ(info->type, "Robot");
@@ -51,7 +51,7 @@ TEST_F(RegisterServantTest, DescribesWhatWasExported) {
   EXPECT_EQ(speed, 1.5);
 }
 
-TEST_F(RegisterServantTest, CarriesValuesOfEveryTypeThereAndBack) {
+TEST_F(RegisterServantTest, ReturnsValuesOfEveryTypeUnchanged) {
   CosTrading::Property structure;
   structure.name = "structure";
   CosTrading::Policy content;
@@ -179,12 +179,12 @@ TEST_F(RegisterServantTest, ComparesTheInterface) {
   const auto mismatch = Raised<Register::InterfaceTypeMismatch>([&] { Export("Broker"); });
   EXPECT_STREQ(mismatch.type, "Broker");
   EXPECT_TRUE(mismatch.reference->_is_equivalent(TestService()));
-  // A derived interface: only the service itself knows.
+  // A derived interface, which only the service itself knows.
   const CORBA::String_var id = register_->_cxx_export(lookup_, "Broker", {});
   EXPECT_STRNE(id, "");
 }
 
-TEST_F(RegisterServantTest, RaisesForAServiceThatCannotBeAsked) {
+TEST_F(RegisterServantTest, RaisesForAServiceThatDoesNotAnswer) {
   AddType("Evaluator", {}, {}, kServiceInterface);
   // Port 1 refuses connections.
   const CORBA::Object_var nobody = TestOrb()->string_to_object("corbaloc::1.2@127.0.0.1:1/Nobody");

@@ -1,4 +1,4 @@
-// What survives the end of a real broker.
+// Offers survive the end of a real broker.
 #include <array>
 #include <atomic>
 #include <csignal>
@@ -50,7 +50,7 @@ class Broker : public BrokerFixture {
   }
 };
 
-// Four clients export until the broker is killed in the midst of it.
+// Four clients export offers while the broker is killed.
 TEST(Durability, EveryOfferThatWasAnsweredSurvivesAKill) {
   constexpr std::size_t kEnough = 400;
   const Folder folder;

@@ -68,7 +68,7 @@ void OfferFile::Close() {
   works_ = false;
   waiting_.clear();
   written_.notify_all();
-  (void)database_.Run("PRAGMA wal_checkpoint(TRUNCATE)");  // else the next to open it does so
+  (void)database_.Run("PRAGMA wal_checkpoint(TRUNCATE)");  // else the next Open() does it
 }
 
 base::Result<TraderState> OfferFile::Load() {
@@ -246,7 +246,7 @@ base::Status OfferFile::WriteAll(const std::vector<StateChange>& changes) {
   for (const StateChange& change : changes) {
     const base::Status ok = std::visit([this](const auto& each) { return Apply(each); }, change);
     if (ok) continue;
-    (void)database_.Run("ROLLBACK");  // what failed first is told
+    (void)database_.Run("ROLLBACK");  // the first error is returned
     return ok;
   }
   return statements_.commit.Run();

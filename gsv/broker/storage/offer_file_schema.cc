@@ -8,9 +8,9 @@
 namespace gsv::broker {
 namespace {
 
-// "GSVB": tells a broker's file from every other database.
+// "GSVB": identifies a broker's file.
 constexpr int kApplication = 0x47535642;
-// Version 1 kept neither links, proxies nor attributes.
+// Version 1 had no links, proxies or attributes.
 constexpr int kVersion = 2;
 
 constexpr std::string_view kAddedInVersion2 =
@@ -66,7 +66,7 @@ base::Status Create(Database& database, const std::string& path, std::uint32_t s
   return {};
 }
 
-// A file that an earlier gsv wrote.
+// Upgrades a file of an earlier version of gsv.
 base::Status BringUpToDate(Database& database, const std::string& path) {
   const std::string sql =
       fmt::format("BEGIN; {} PRAGMA user_version = {}; COMMIT", kAddedInVersion2, kVersion);
@@ -112,7 +112,7 @@ base::Result<Database> OpenOfferDatabase(const std::string& path, std::uint32_t 
                           "); choose another with --data, or use --memory",
                       path);
   }
-  // The lock is kept from the first access on; the kernel lets go of it when the process ends.
+  // SQLite holds the lock from the first access on; the kernel releases it when the process ends.
   if (!database->Run("PRAGMA locking_mode = EXCLUSIVE")) {
     return base::Fail(Unusable(*database, path));
   }

@@ -21,7 +21,7 @@ class OfferFileTest : public testing::Test {
 
   std::string Path() const { return folder_.path() / "broker.db"; }
 
-  // Everything that an earlier trader left in the file.
+  // A trader with the state that an earlier trader left in the file.
   std::unique_ptr<Trader> Reopen(std::uint32_t stem = kOwnStem) const {
     auto trader = std::make_unique<Trader>(TraderLimits{}, stem, 1);
     auto file = OfferFile::Open(Path(), stem);
@@ -72,7 +72,7 @@ TEST_F(OfferFileTest, KeepsEveryKindOfValue) {
   }
 }
 
-TEST_F(OfferFileTest, KeepsTypesWithAllThatIsKnownOfThem) {
+TEST_F(OfferFileTest, KeepsTypesWithAllTheirMembers) {
   auto trader = Reopen();
   ASSERT_TRUE(trader->AddType({.name = "Vehicle",
                                .interface_name = "IDL:acme/Vehicle:1.0",
@@ -100,7 +100,7 @@ TEST_F(OfferFileTest, KeepsTypesWithAllThatIsKnownOfThem) {
   EXPECT_EQ(car.properties[0].mode, PropertyMode::kMandatoryReadonly);
 }
 
-TEST_F(OfferFileTest, KeepsWhatWasModifiedAndForgetsWhatWasWithdrawn) {
+TEST_F(OfferFileTest, KeepsModifiedOffersAndForgetsWithdrawnOnes) {
   auto trader = Reopen();
   ASSERT_TRUE(trader->AddType({.name = "Robot"}));
   const std::string kept = *trader->Export("Robot", "IOR:01", {{"n", Value::Long(1)}});
@@ -167,7 +167,7 @@ TEST_F(OfferFileTest, KeepsProxies) {
   EXPECT_GT(*trader->Export("Robot", "IOR:02", {}), gone);
 }
 
-// A file of format 1, which knew neither links nor attributes.
+// A file of format 1, which had neither links nor attributes.
 TEST_F(OfferFileTest, TakesOverAFileOfAnEarlierFormat) {
   auto trader = Reopen();
   ASSERT_TRUE(trader->AddType({.name = "Robot"}));
@@ -182,7 +182,7 @@ TEST_F(OfferFileTest, TakesOverAFileOfAnEarlierFormat) {
   EXPECT_EQ(Reopen()->links().size(), 1u);
 }
 
-TEST_F(OfferFileTest, OnceClosedHoldsWhatWasAnsweredAndRefusesChanges) {
+TEST_F(OfferFileTest, KeepsAcknowledgedChangesAndRefusesOthersOnceClosed) {
   auto trader = Reopen();
   ASSERT_TRUE(trader->AddType({.name = "Robot"}));
   const auto id = trader->Export("Robot", "IOR:00", {});
@@ -205,7 +205,7 @@ TEST_F(OfferFileTest, IsForOneBrokerAtATime) {
       Path() + ": another broker uses this file; stop it, or choose another file with --data");
 }
 
-TEST_F(OfferFileTest, RefusesWhatIsNotItsOwn) {
+TEST_F(OfferFileTest, RefusesOtherFiles) {
   std::ofstream(Path()) << "These are the notes of a friend, and nothing for a broker to read. "
                            "They go on for a while so that they are longer than a header.";
   EXPECT_EQ(OpenError().message,
@@ -227,7 +227,7 @@ TEST_F(OfferFileTest, RefusesWhatIsNotItsOwn) {
   EXPECT_FALSE(OfferFile::Open(folder_.path() / "absent" / "broker.db", kOwnStem));
 }
 
-TEST_F(OfferFileTest, SaysThatItIsDamaged) {
+TEST_F(OfferFileTest, ReportsDamage) {
   auto trader = Reopen();
   ASSERT_TRUE(trader->AddType({.name = "Robot"}));
   for (int i = 0; i < 100; ++i) ASSERT_TRUE(trader->Export("Robot", std::string(500, 'x'), {}));
@@ -243,7 +243,7 @@ TEST_F(OfferFileTest, SaysThatItIsDamaged) {
   EXPECT_TRUE(error.message.starts_with("the file is damaged")) << error.message;
 }
 
-TEST_F(OfferFileTest, SaysThatARecordCannotBeDecoded) {
+TEST_F(OfferFileTest, ReportsARecordThatCannotBeDecoded) {
   auto trader = Reopen();
   ASSERT_TRUE(trader->AddType({.name = "Robot"}));
   ASSERT_TRUE(trader->Export("Robot", "IOR:00", {{"n", Value::Long(1)}}));
@@ -252,8 +252,8 @@ TEST_F(OfferFileTest, SaysThatARecordCannotBeDecoded) {
   EXPECT_EQ(OpenError().Sentence(), Path() + ": an offer cannot be decoded (MARSHAL)");
 }
 
-// A disk that is full: SQLite refuses to let the file grow.
-TEST_F(OfferFileTest, RefusesChangesThatItCannotKeepAndGoesOnAnswering) {
+// A full disk: SQLite cannot enlarge the file.
+TEST_F(OfferFileTest, RefusesChangesThatItCannotStoreAndStillAnswersQueries) {
   auto trader = Reopen();
   ASSERT_TRUE(trader->AddType({.name = "Robot"}));
   const std::string kept = *trader->Export("Robot", "IOR:00", {});

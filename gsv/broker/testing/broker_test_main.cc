@@ -1,4 +1,4 @@
-// A broker in a process of its own, for tests: prints its reference, serves until its parent ends.
+// A broker in its own process, for tests: prints its reference and serves until its parent ends.
 #include <cstdlib>
 #include <cstring>
 #include <string>

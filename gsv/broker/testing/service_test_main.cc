@@ -1,5 +1,5 @@
-// The service of an offer in a process of its own, for tests: offers itself as a "Service" at the
-// broker that its argument names, prints the offer's id, and serves until its parent ends.
+// The service of an offer in its own process, for tests. It exports itself as a "Service" at the
+// broker in its argument, prints the offer's id, and serves until its parent ends.
 #include <csignal>
 #include <cstdio>
 

@@ -42,7 +42,7 @@ TEST_F(CursorTableTest, KeepsABatchWithinItsBytesButNeverEmpty) {
   EXPECT_TRUE(table_.Take(key, 0, 5, TenBytes)->entries.empty());
 }
 
-TEST_F(CursorTableTest, ForgetsWhatIsNotUsed) {
+TEST_F(CursorTableTest, ForgetsUnusedCursors) {
   const std::uint64_t used = table_.Open({1}, "");
   const std::uint64_t unused = table_.Open({1}, "");
   now_ += seconds(10);
@@ -54,7 +54,7 @@ TEST_F(CursorTableTest, ForgetsWhatIsNotUsed) {
   EXPECT_FALSE(table_.Left(unused));
 }
 
-TEST_F(CursorTableTest, LetsTheLeastRecentlyUsedGoForANewOne) {
+TEST_F(CursorTableTest, RemovesTheLeastRecentlyUsedForANewOne) {
   const std::uint64_t a = table_.Open({1}, "");
   now_ += seconds(1);
   const std::uint64_t b = table_.Open({1}, "");

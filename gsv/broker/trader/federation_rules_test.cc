@@ -11,7 +11,7 @@ namespace {
 constexpr FollowOption kAll[] = {FollowOption::kLocalOnly, FollowOption::kIfNoLocal,
                                  FollowOption::kAlways};
 
-// Every combination against the standard's words: "min" of the rules that take part.
+// Compares every combination with the standard: the minimum of the rules that apply.
 TEST(Federation, FollowsAndPassesOnTheLeastPermissiveRule) {
   for (const FollowOption def : kAll) {
     for (const FollowOption most : kAll) {
@@ -60,7 +60,7 @@ class RequestHistoryTest : public testing::Test {
   RequestHistory history_{3, std::chrono::seconds(60), [this] { return now_; }};
 };
 
-TEST_F(RequestHistoryTest, KnowsARequestThatComesAgain) {
+TEST_F(RequestHistoryTest, RecognisesARepeatedRequest) {
   EXPECT_TRUE(history_.Remember("a"));
   EXPECT_TRUE(history_.Remember("b"));
   EXPECT_FALSE(history_.Remember("a"));
@@ -95,7 +95,7 @@ TEST(AttributeTexts, AreReadAsTheyWereWritten) {
   EXPECT_FALSE(read.supports_dynamic_properties);
 }
 
-TEST(AttributeTexts, PassOverWhatIsNoValue) {
+TEST(AttributeTexts, IgnoreInvalidValues) {
   TraderAttributes read;
   SetAttribute("max_list", "many", read);
   SetAttribute("max_list", "5000000000", read);

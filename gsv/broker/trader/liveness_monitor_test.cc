@@ -10,7 +10,7 @@ namespace {
 using std::chrono::hours;
 using std::chrono::milliseconds;
 
-// Services that answer as they are told, and count what they are asked.
+// Services with prescribed answers, which count the calls.
 class Services {
  public:
   Liveness Ask(const std::string& reference) {
@@ -18,7 +18,7 @@ class Services {
     ++asked_[reference];
     most_underway_ = std::max(most_underway_, ++underway_);
     changed_.notify_all();
-    // Everyone stays until the house is full, so that one more would be seen.
+    // Each call waits until enough others are in progress, so that one too many would be seen.
     changed_.wait(lock, [this] { return most_underway_ >= wait_for_; });
     --underway_;
     const auto found = pulses_.find(reference);
@@ -90,7 +90,7 @@ class LivenessMonitorTest : public testing::Test {
   std::optional<LivenessMonitor> monitor_;
 };
 
-TEST_F(LivenessMonitorTest, WithdrawsEveryOfferOfAServiceThatIsGone) {
+TEST_F(LivenessMonitorTest, WithdrawsEveryOfferOfADeadService) {
   const std::string other = *trader_.Export("Robot", "IOR:01", {});
   ASSERT_TRUE(trader_.Export("Robot", "IOR:02", {}));
   ASSERT_TRUE(trader_.Export("Robot", "IOR:02", {}));
@@ -114,8 +114,8 @@ TEST_F(LivenessMonitorTest, SilenceIsDeathOnlyWhenItLasts) {
   AwaitOffers(0);
 }
 
-// Had the service been asked at both its references, the other would have been asked as often.
-TEST_F(LivenessMonitorTest, AsksASilentAddressOnceARound) {
+// If the monitor called both references of the service, it would call the other one as often.
+TEST_F(LivenessMonitorTest, CallsASilentAddressOncePerRound) {
   const std::string first = Reference(4321, 'a');
   const std::string second = Reference(4321, 'b');
   const std::string elsewhere = Reference(4322, 'a');
@@ -133,7 +133,7 @@ TEST_F(LivenessMonitorTest, AsksASilentAddressOnceARound) {
   EXPECT_EQ(services_.Asked(second), 0);
 }
 
-TEST_F(LivenessMonitorTest, HasNoMoreQuestionsUnderwayThanItMay) {
+TEST_F(LivenessMonitorTest, LimitsConcurrentCalls) {
   for (int i = 0; i < 50; ++i) {
     ASSERT_TRUE(trader_.Export("Robot", "IOR:" + std::to_string(i), {}));
   }

@@ -28,14 +28,14 @@ std::optional<std::string> FromHex(std::string_view digits) {
   return bytes;
 }
 
-// A string that may lack its null.
+// Reads a string that may lack its terminating null.
 std::string ReadText(base::CdrReader& in) {
   std::string_view text = in.Octets();
   if (!text.empty() && text.back() == '\0') text.remove_suffix(1);
   return std::string(text);
 }
 
-// `profile` is at its object key. `result` stays as it is where there is no port for TLS.
+// `profile` is at its object key. Leaves `result` unchanged if there is no port for TLS.
 void ReadTlsPort(base::CdrReader& profile, ServiceReference& result) {
   profile.Octets();  // the key
   const std::uint32_t components = profile.ULong();
@@ -43,8 +43,8 @@ void ReadTlsPort(base::CdrReader& profile, ServiceReference& result) {
     const std::uint32_t tag = profile.ULong();
     base::CdrReader component = base::CdrReader::OfEncapsulation(profile.Octets());
     if (tag != kSslComponent) continue;
-    component.UShort();  // what the target supports and
-    component.UShort();  // what it requires
+    component.UShort();  // supported options of the target, and
+    component.UShort();  // required options
     const std::uint16_t port = component.UShort();
     if (!component.ok() || port == 0) return;
     result.port = port;

@@ -34,22 +34,22 @@ TEST(ServiceReference, ReadsTypeHostAndPort) {
 }
 
 TEST(ServiceReference, RefusesEveryTruncation) {
-  // The last three bytes belong to nothing that is read.
+  // No field ends in the last three bytes.
   for (std::size_t length = 0; length + 6 < kBigEndian.size(); ++length) {
     const auto reference = ReadReference(kBigEndian.substr(0, length));
     EXPECT_FALSE(reference) << length;
   }
 }
 
-TEST(ServiceReference, RefusesWhatIsNoReference) {
+TEST(ServiceReference, RefusesInvalidReferences) {
   for (const char* text :
        {"", "IOR", "IOR:0", "IOR:zz", "corbaloc::h:1/K", "IOR:00000000ffffffff"}) {
     EXPECT_FALSE(ReadReference(text)) << text;
   }
 }
 
-// The same for TLS: port 0, and a component TAG_SSL_SEC_TRANS with the port 0x1235 behind one of
-// another kind.
+// The same for TLS: port 0, and a component TAG_SSL_SEC_TRANS with port 0x1235 after a component
+// of another kind.
 constexpr std::string_view kTls =
     "IOR:"
     "00000000"                      // byte order, padding
@@ -72,7 +72,7 @@ constexpr std::string_view kTls =
     "00000014"                      // TAG_SSL_SEC_TRANS
     "00000008"                      // its size
     "00000066"                      // byte order, padding, what it supports
-    "00661235";                     // what it requires, port
+    "00661235";                     // required options, port
 
 TEST(ServiceReference, ReadsThePortOfTls) {
   const auto reference = ReadReference(kTls);
@@ -86,7 +86,7 @@ TEST(ServiceReference, ReadsThePortOfTls) {
   }
 }
 
-TEST(Corbaloc, SaysWhetherTheBrokerTakesTls) {
+TEST(Corbaloc, ReturnsWhetherTheBrokerTakesTls) {
   EXPECT_EQ(*NormaliseReference("corbaloc:ssliop:h:1/TradingService"),
             "corbaloc:ssliop:1.2@h:1/TradingService");
   EXPECT_EQ(*NormaliseReference("corbaloc:ssliop:1.2@h:1/TradingService"),
@@ -98,7 +98,7 @@ TEST(Corbaloc, SaysWhetherTheBrokerTakesTls) {
   EXPECT_FALSE(TakesTls(kBigEndian));
 }
 
-TEST(Corbaloc, PutsTheVersionInWhereItLacks) {
+TEST(Corbaloc, AddsAMissingVersion) {
   EXPECT_EQ(*NormaliseReference("corbaloc::h:1/TradingService"),
             "corbaloc::1.2@h:1/TradingService");
   EXPECT_EQ(*NormaliseReference("corbaloc:iiop:h:1/TradingService"),
@@ -108,7 +108,7 @@ TEST(Corbaloc, PutsTheVersionInWhereItLacks) {
   EXPECT_EQ(*NormaliseReference(kBigEndian), kBigEndian);
 }
 
-TEST(Corbaloc, RefusesWhatIsNoAddressAndShowsOne) {
+TEST(Corbaloc, RefusesAnInvalidAddressAndShowsAValidOne) {
   for (const char* text : {"", "localhost:2809", "corbaloc::h:1", "corbaloc::/K", "corbaloc::h:1/",
                            "IOR:12", "http://h/"}) {
     const auto refused = NormaliseReference(text);

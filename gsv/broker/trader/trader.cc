@@ -176,7 +176,7 @@ TradingResult<void> Trader::Modify(const std::string& id, Modification modificat
     }
     const auto offer = FindOffer(id);
     if (!offer) return Refuse(offer.error());
-    // The type of a living offer may have been removed meanwhile; it then demands nothing.
+    // The type of an existing offer may have been removed; it then has no requirements.
     const ServiceType type =
         types_.FullyDescribe((*offer)->type).value_or(ServiceType{.name = (*offer)->type});
     auto modified = CheckModification(type, (*offer)->properties, std::move(modification),

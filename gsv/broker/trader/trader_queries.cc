@@ -13,10 +13,10 @@
 namespace gsv::broker {
 namespace {
 
-// As many steps of an evaluation are over soon.
+// Evaluations with fewer steps end soon and need no turn.
 constexpr std::size_t kWorthATurn = 20'000;
 
-// Fewer offers are looked through as fast as they are found in an index.
+// With fewer offers, a scan is as fast as an index.
 constexpr std::size_t kWorthAnIndex = 256;
 
 bool IsReadonlyIn(const ServiceType& type, const std::string& name) {
@@ -39,7 +39,7 @@ bool IsMatch(const Expression& constraint, const Offer& offer, DynamicValues& va
 
 }  // namespace
 
-// The offers to be searched, without those that the policies leave out.
+// The offers to be searched, without those that the policies exclude.
 struct Trader::Candidates {
   std::vector<OfferView> views{};
   Cardinalities cardinalities{};
@@ -48,9 +48,9 @@ struct Trader::Candidates {
   bool with_proxies = true;
   bool with_dynamic = true;
   bool with_modifiable = true;
-  std::map<std::string, ServiceType> types{};  // described if without modifiable ones
+  std::map<std::string, ServiceType> types{};  // described if not with_modifiable
 
-  // What it may take to look through them.
+  // An estimate of the steps to search them.
   std::size_t Steps(const Expression& constraint) const;
   bool Admit(const Offer& offer) const {
     return (with_proxies || offer.proxy == nullptr) &&
@@ -59,7 +59,7 @@ struct Trader::Candidates {
   }
 };
 
-// One query's way through the candidates.
+// The search of one query through the candidates.
 class Trader::Search {
  public:
   Search(const Candidates& candidates, const Expression& constraint, DynamicValues& values,
@@ -81,9 +81,9 @@ class Trader::Search {
   }
 
  private:
-  // False when enough was searched or found.
+  // False if enough offers were searched or found.
   bool LookThrough(const OfferChunk& chunk) {
-    // What is cut off depends on every offer before it.
+    // A limit depends on every offer before it.
     const std::vector<Choice> choices =
         candidates_.cut ? std::vector<Choice>() : chunk.Choose(terms_.terms);
     const auto order = ordered_by_ != nullptr ? chunk.ColumnOf(*ordered_by_) : nullptr;
@@ -108,7 +108,7 @@ class Trader::Search {
       matches_.proxies.push_back(offer);
       return;
     }
-    // Those after one whose number is not known are asked for it.
+    // After one offer without a known number, the others are evaluated.
     if (number && matches_.known.size() == matches_.offers.size()) {
       matches_.known.push_back(*number);
     }
@@ -222,7 +222,7 @@ TradingResult<std::size_t> Trader::WithdrawMatching(const std::string& type,
   const auto compiled = CompileConstraint(constraint, *described, limits_.expression);
   if (!compiled) return Refuse(compiled.error());
 
-  // Services are asked for dynamic properties without the lock.
+  // Calls services for dynamic properties without the lock.
   const std::vector<OfferView> views = [&] {
     const base::ReaderLock lock(mutex_);
     return offers_.OfTypes(types_.WithSubTypes(type).value_or(std::vector<std::string>{}));
@@ -241,7 +241,7 @@ TradingResult<std::size_t> Trader::WithdrawMatching(const std::string& type,
   return Change([&]() GSV_REQUIRES(mutex_) -> TradingResult<std::size_t> {
     OffersRemoved removed;
     for (const OfferPtr& offer : matching) {
-      // One that was modified meanwhile may not match any more.
+      // An offer that was modified meanwhile may no longer match.
       if (offers_.Find(offer->number) != offer) continue;
       offers_.Remove(offer->number);
       removed.numbers.push_back(offer->number);

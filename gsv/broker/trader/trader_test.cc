@@ -71,7 +71,7 @@ TEST_F(TraderTest, OrdersByPreferenceWithOffersOfNoValueLast) {
       << "-1, 0 (cut from -1/2), 1, and a division by zero";
 }
 
-TEST_F(TraderTest, ShufflesEveryRandomQueryAnew) {
+TEST_F(TraderTest, ShufflesEveryRandomQuery) {
   Strings names;
   for (char name = 'a'; name <= 'z'; ++name) {
     names.emplace_back(1, name);
@@ -84,7 +84,7 @@ TEST_F(TraderTest, ShufflesEveryRandomQueryAnew) {
   EXPECT_NE(first, second);
 }
 
-TEST_F(TraderTest, AppliesCardinalitiesAndSaysWhich) {
+TEST_F(TraderTest, AppliesCardinalitiesAndNamesThem) {
   for (int i = 0; i < 10; ++i) Export("Printer", std::to_string(i), i);
   EXPECT_EQ(Find("").limits_applied, Strings{});
 
@@ -145,7 +145,7 @@ TEST_F(TraderTest, RefusesWrongQueriesWithTheText) {
   EXPECT_EQ(preference.name, "min name");
 }
 
-TEST_F(TraderTest, ChecksWhatIsExported) {
+TEST_F(TraderTest, ChecksExports) {
   const Property name = {"name", Value::String("x")};
   const Property ppm = {"ppm", Value::Long(1)};
   const auto refused = [&](const std::string& type, std::vector<Property> properties) {
@@ -205,7 +205,7 @@ TEST_F(TraderTest, ModifiesAllOrNothing) {
   EXPECT_EQ(refused({}).refusal, Refusal::kNotImplemented);
 }
 
-TEST_F(TraderTest, TellsForgedOldAndUnknownIdsApart) {
+TEST_F(TraderTest, DistinguishesForgedOldAndUnknownIds) {
   const std::string id = Export("Printer", "p", 1);
   EXPECT_EQ(trader_.Withdraw("printer 1").error().refusal, Refusal::kIllegalOfferId);
   EXPECT_EQ(trader_.Withdraw("").error().refusal, Refusal::kIllegalOfferId);
@@ -216,7 +216,7 @@ TEST_F(TraderTest, TellsForgedOldAndUnknownIdsApart) {
   EXPECT_EQ(trader_.Describe(id).error().name, id);
 }
 
-TEST_F(TraderTest, WithdrawsWhatMatches) {
+TEST_F(TraderTest, WithdrawsMatchingOffers) {
   Export("Printer", "a", 1);
   Export("Laser", "b", 2);
   Export("Printer", "c", 3);

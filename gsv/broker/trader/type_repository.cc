@@ -20,7 +20,7 @@ const PropertyDefinition* FindDefinition(const std::vector<PropertyDefinition>& 
   return found != definitions.end() ? &*found : nullptr;
 }
 
-// The first of `names` that occurs earlier as well.
+// The first of `names` that also occurs earlier.
 template <typename Range, typename Name>
 const std::string* FirstDuplicate(const Range& range, Name name) {
   std::set<std::string_view> seen;
@@ -39,7 +39,7 @@ std::size_t DescriptionSize(const ServiceType& type) {
   return size;
 }
 
-// A definition may only tighten what it inherits.
+// A definition may only strengthen an inherited one.
 bool Refines(const PropertyDefinition& derived, const PropertyDefinition& base) {
   return derived.type == base.type && Stronger(derived.mode, base.mode) == derived.mode;
 }
@@ -115,8 +115,8 @@ TradingResult<void> TypeRepository::CheckSuperTypes(const ServiceType& type) con
   for (const std::string& name : type.super_types) {
     const auto super_type = Find(name);
     if (!super_type) return Refuse(super_type.error());
-    // Without an interface repository only this much can be told: an interface that is any at
-    // all does not derive from a certain one.
+    // Without an interface repository, only this can be checked: an empty interface name (any
+    // interface) does not derive from a certain interface.
     const std::string& base_interface = (*super_type)->interface_name;
     if (IsAnyInterface(type.interface_name) && !IsAnyInterface(base_interface)) {
       return Refuse(
@@ -250,7 +250,7 @@ std::vector<const ServiceType*> TypeRepository::Ancestors(const ServiceType& typ
   std::set<std::string_view> seen;
   const auto add_parents = [&](const ServiceType& child) {
     for (const std::string& name : child.super_types) {
-      // A type is only added after, and removed before, its super types.
+      // A type is added only after its super types, and removed before them.
       if (seen.insert(name).second) ancestors.push_back(&types_.at(name));
     }
   };

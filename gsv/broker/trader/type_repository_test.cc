@@ -103,7 +103,7 @@ TEST_F(TypeRepositoryTest, RefusesSuperTypesThatContradictEachOther) {
   EXPECT_EQ(added.error().redefinition->type_2, "Q");
 }
 
-TEST_F(TypeRepositoryTest, RefusesWhatElseIsWrongWithAType) {
+TEST_F(TypeRepositoryTest, RefusesOtherErrorsOfAType) {
   ASSERT_TRUE(Add("A", {}, {}, "IDL:acme/A:1.0"));
   EXPECT_EQ(Add("A").error().refusal, Refusal::kServiceTypeExists);
   EXPECT_EQ(Add("X", {}, {"Nowhere"}).error().refusal, Refusal::kUnknownServiceType);
@@ -125,7 +125,7 @@ TEST_F(TypeRepositoryTest, RefusesWhatElseIsWrongWithAType) {
   EXPECT_EQ(mismatch.error().interfaces->derived_service, "X");
 }
 
-TEST_F(TypeRepositoryTest, RemovesOnlyWhatNothingDerivesFrom) {
+TEST_F(TypeRepositoryTest, RemovesOnlyTypesWithoutSubTypes) {
   ASSERT_TRUE(Add("A"));
   ASSERT_TRUE(Add("B", {}, {"A"}));
   const auto refused = repository_.Remove("A");

@@ -21,10 +21,10 @@ using SteadyClock = std::chrono::steady_clock;
 constexpr std::size_t kMessageBytes = 65'536;  // giopMaxMsgSize, without the header
 constexpr std::chrono::seconds kMessageTime{3};
 
-// How many requests are worked on at once: about as many as there are processors. Dozens of threads
-// that wait for the ORB's one lock and the trader's would change places at each lock. A request
-// that has waited for a millisecond continues anyway, so that one that waits for another broker
-// delays nobody.
+// Limits the number of requests in progress to about the number of processors. Dozens of threads
+// that wait for the ORB's one lock and the trader's would switch at each lock. A request that has
+// waited for a millisecond continues anyway, so that a request that waits for another broker does
+// not delay others.
 //
 // Threads  any.
 class RequestTurns {
@@ -38,8 +38,8 @@ class RequestTurns {
 
 class ClientConnection;
 
-// The open connections of clients. Those without a thread of their own wait here for the rest of
-// their messages.
+// The open connections of clients. A connection without a thread waits here for the rest of its
+// message.
 //
 // Threads  any.
 class ConnectionTable {
@@ -48,14 +48,14 @@ class ConnectionTable {
 
   void Add(orb::ConnectionControl* control, ClientConnection* connection);
   void Remove(orb::ConnectionControl* control);
-  // Bytes have come: whether the ORB shall read now. If not, they were taken, and more are needed.
+  // Bytes have come. True if the ORB shall read now; false if they were read and more must follow.
   bool Readable(orb::ConnectionControl* control);
   RequestTurns& turns() { return turns_; }
 
  private:
   struct Entry {
     ClientConnection* connection = nullptr;
-    SteadyClock::time_point incomplete{};  // since when its message has been coming, or the epoch
+    SteadyClock::time_point incomplete{};  // when its message began, or the epoch
   };
 
   void EndLate(SteadyClock::time_point now) GSV_REQUIRES(mutex_);
@@ -78,7 +78,7 @@ class ClientConnection final : public orb::ConnectionHooks {
     table_->Remove(&control_);
   }
 
-  void OnWait() override { GiveTurn(); }  // the request before wanted no reply
+  void OnWait() override { GiveTurn(); }  // the request before had no reply
   void OnBytes() override { Hear(); }
   void OnMessage(std::string& message) override {
     TakeTurn();
@@ -86,12 +86,12 @@ class ClientConnection final : public orb::ConnectionHooks {
   }
   void OnSend(std::string_view /*bytes*/) override { GiveTurn(); }
 
-  // When bytes came last, or the connection.
+  // The time of the last received bytes, or of the connection.
   SteadyClock::time_point heard() const {
     return SteadyClock::time_point(SteadyClock::duration(heard_.load()));
   }
-  // Ends it because it has been silent. The ORB destroys it later; the next time another one is the
-  // most silent.
+  // Ends the silent connection. The ORB destroys it later; until then another one is the most
+  // silent.
   void EndAsSilent() {
     Hear();
     control_.End();

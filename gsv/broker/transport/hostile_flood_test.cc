@@ -1,4 +1,4 @@
-// A broker that is flooded: it answers others, and does not grow.
+// A flooded broker still answers other clients, and does not grow.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -26,17 +26,17 @@ using orb::RawRequest;
 
 using Clock = std::chrono::steady_clock;
 
-// Another client, which asks all the time and must be answered each time.
+// Another client, which calls all the time and must get each answer.
 class Bystander {
  public:
   explicit Bystander(CosTrading::Lookup_ptr lookup) {
-    // A reference of its own, since a time limit is one of the reference.
+    // It has its own reference, as a time limit belongs to a reference.
     const CORBA::String_var name = TestOrb()->object_to_string(lookup);
     lookup_ = CosTrading::Lookup::_narrow(CORBA::Object_var(TestOrb()->string_to_object(name)));
     omniORB::setClientCallTimeout(lookup_, 10'000);
     thread_ = std::jthread([this](const std::stop_token& stop) { Ask(stop); });
   }
-  // The longest of 99 in 100 waits, in milliseconds.
+  // The 99th percentile of the waits, in milliseconds.
   double End() {
     thread_.request_stop();
     thread_.join();
@@ -75,7 +75,7 @@ class HostileFloodTest : public BrokerFixture {
     Export("Robot", {{"n", Value::Long(1)}});
   }
 
-  // -1 when the broker takes no more.
+  // -1 if the broker accepts no more.
   int Connect() {
     const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_in address{};
@@ -93,7 +93,7 @@ class HostileFloodTest : public BrokerFixture {
     close(socket);
   }
 
-  // What happened to the bystander and to the broker's size.
+  // Checks the bystander's answers and the broker's size.
   void Judge(Bystander& bystander, const char* what) {
     const double wait_ms = bystander.End();
     std::ifstream statm("/proc/" + std::to_string(broker_.pid()) + "/statm");
@@ -107,13 +107,13 @@ class HostileFloodTest : public BrokerFixture {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     EXPECT_LT(mib, 200u);
 #endif
-    // Another client that comes now is served as well.
+    // Another client that connects now is served as well.
     const CORBA::Object_var object = TestOrb()->string_to_object(broker_.reference().c_str());
     EXPECT_FALSE(object->_non_existent());
   }
 };
 
-// A header that is right, most often, and a body that is not.
+// A header that is usually valid, and a random body.
 std::string RandomMessage(std::mt19937& random) {
   const std::size_t size = random() % 600;
   std::string message = "GIOP";
@@ -138,7 +138,7 @@ TEST_F(HostileFloodTest, RandomMessages) {
   Judge(bystander, "random_messages");
 }
 
-// omniORB 4.2.5 by itself keeps such a text for ever: 240 MB here.
+// omniORB 4.2.5 alone would keep such a text for ever: 240 MB here.
 TEST_F(HostileFloodTest, TextsThatDoNotEnd) {
   Bystander bystander(lookup_);
   const std::string text = RawCdr().Octets(std::string(60'000, 'a')).bytes();
@@ -150,7 +150,7 @@ TEST_F(HostileFloodTest, TextsThatDoNotEnd) {
   Judge(bystander, "texts");
 }
 
-// omniORB 4.2.5 is told to skip the rest: else it hangs up, and keeps 9 kB each time.
+// omniORB 4.2.5 alone would close the connection and keep 9 kB each time; here it skips the rest.
 TEST_F(HostileFloodTest, RequestsWithMoreThanTheirArguments) {
   Bystander bystander(lookup_);
   const std::string body =
@@ -177,7 +177,7 @@ TEST_F(HostileFloodTest, TenThousandConnections) {
   Judge(bystander, "connections");
 }
 
-// More connections than the broker keeps: it lets go of those that have been silent longest.
+// More connections than the broker keeps: it closes those that have been silent longest.
 TEST_F(HostileFloodTest, ConnectionsThatAreHeld) {
   rlimit descriptors{};
   getrlimit(RLIMIT_NOFILE, &descriptors);
@@ -210,7 +210,7 @@ TEST_F(HostileFloodTest, SlowSenders) {
   for (const int socket : slow) close(socket);
 }
 
-// More slow connections than the broker has threads for, and yet who comes after them is served.
+// More slow connections than the broker has threads, but later clients are served.
 TEST_F(HostileFloodTest, SlowSendersBeyondTheThreads) {
   Bystander bystander(lookup_);
   constexpr int kSenders = 700;
@@ -239,14 +239,14 @@ TEST_F(HostileFloodTest, SlowSendersBeyondTheThreads) {
   for (const int socket : slow) close(socket);
 }
 
-// Those who ask for much again and again.
+// Clients that repeat expensive queries.
 TEST_F(HostileFloodTest, GreedyQueries) {
   for (std::int32_t i = 0; i < 2000; ++i) Export("Robot", {{"n", Value::Long(i)}});
   std::string constraint = "n + 1 == 0";
   for (int i = 0; i < 150; ++i) constraint += " or n * 2 == -1";
   Bystander bystander(lookup_);
   constexpr int kClients = 4, kQueries = 5;
-  // They wait for each other, and on a slow machine longer than the ORB lets other clients wait.
+  // The queries wait for each other, on a slow machine longer than the ORB's limit for clients.
   omniORB::setClientCallTimeout(lookup_, 300'000);
   std::atomic<int> answered{0};
   std::vector<std::jthread> greedy;

@@ -1,4 +1,4 @@
-// What a broker does with requests that are meant to hurt it: it refuses them and answers on.
+// The broker refuses malicious requests and continues to serve.
 #include <array>
 #include <csignal>
 #include <memory>
@@ -54,7 +54,7 @@ class HostileInputTest : public BrokerFixture {
     const CORBA::String_var id = register_->_cxx_export(TestService(), "Robot", properties);
   }
 
-  // A connection to the broker that knows nothing of CORBA.
+  // A plain TCP connection to the broker.
   int Connect() {
     const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_in address{};
@@ -93,7 +93,7 @@ TEST_F(HostileInputTest, RefusesConstraintsThatAreTooLongOrTooDeep) {
   ExpectAlive();
 }
 
-// Each limit of a constraint, reached and gone beyond by one.
+// Each limit of a constraint is reached, and exceeded by one.
 TEST_F(HostileInputTest, TakesConstraintsUpToTheirLimits) {
   const auto padded = [](std::size_t length) { return "TRUE" + std::string(length - 4, ' '); };
   EXPECT_NO_THROW(Query("Robot", padded(8192)));
@@ -111,7 +111,7 @@ TEST_F(HostileInputTest, TakesConstraintsUpToTheirLimits) {
   Raised<CosTrading::IllegalConstraint>([&] { Query("Robot", thousand + " or TRUE"); });
 }
 
-TEST_F(HostileInputTest, TakesAsManyPropertiesAsItMay) {
+TEST_F(HostileInputTest, AcceptsPropertiesUpToTheLimit) {
   constexpr int kMaxInteger = 128;
   std::vector<Property> properties;
   properties.reserve(kMaxInteger + 1);
@@ -138,7 +138,7 @@ TEST_F(HostileInputTest, RefusesOffersThatAreTooLarge) {
   ExpectAlive();
 }
 
-TEST_F(HostileInputTest, AnswersOthersWhileConnectionsSendRubbishOrNothing) {
+TEST_F(HostileInputTest, ServesOthersWhileConnectionsSendGarbageOrNothing) {
   std::array<int, 40> silent{};
   for (int& socket : silent) socket = Connect();
   const std::string half_a_header = "GIOP\x01\x02";
@@ -159,7 +159,7 @@ TEST_F(HostileInputTest, AnswersOthersWhileConnectionsSendRubbishOrNothing) {
   ExpectAlive();
 }
 
-// omniORB takes one for the end of another call on its connection.
+// omniORB takes a cancel request for the end of another call on its connection.
 TEST_F(HostileInputTest, LeavesOutRequestsToCancelAndEndsInOrder) {
   BrokerProcess broker;
   const std::string cancel = RawMessage(MessageType::kCancelRequest, RawCdr().ULong(1).bytes());
@@ -204,7 +204,7 @@ class ScarceMemoryTest : public HostileInputTest {
   ScarceMemoryTest() : HostileInputTest({"0", "address_space_mib=256"}) {}
 };
 
-TEST_F(ScarceMemoryTest, OutlivesOffersThatWantMoreMemoryThanThereIs) {
+TEST_F(ScarceMemoryTest, SurvivesOffersThatNeedMoreMemoryThanItHas) {
   if (base::kReservesAddressSpace) GTEST_SKIP() << "this sanitizer leaves no bound on addresses";
   const std::vector<Property> large = {{"text", Value::String(std::string(32'000, 'x'))}};
   constexpr std::size_t kMoreThanFit = 12'000;
@@ -212,7 +212,7 @@ TEST_F(ScarceMemoryTest, OutlivesOffersThatWantMoreMemoryThanThereIs) {
   Raised<CORBA::NO_MEMORY>([&] {
     while (ids.size() < kMoreThanFit) ids.push_back(Export("Robot", large));
   });
-  // Whoever asks is answered, also over connections that are new. An iterator would keep offers.
+  // All clients get answers, also over new connections. An iterator would keep offers.
   CORBA::Any one;
   one <<= CORBA::ULong(1);
   const std::vector<CosTrading::Policy> only_one = {Policy("search_card", one)};
@@ -226,7 +226,7 @@ TEST_F(ScarceMemoryTest, OutlivesOffersThatWantMoreMemoryThanThereIs) {
   }
   for (std::thread& client : clients) client.join();
   Raised<CORBA::NO_MEMORY>([&] { register_->modify(ids[0].c_str(), {}, Sequence(large)); });
-  // What goes makes room.
+  // Withdrawn offers free memory for others.
   constexpr std::size_t kRoom = 1000;
   ASSERT_GT(ids.size(), kRoom);
   for (std::size_t i = 0; i < kRoom; ++i) register_->withdraw(ids[i].c_str());

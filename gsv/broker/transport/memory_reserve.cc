@@ -11,12 +11,12 @@
 namespace gsv::broker {
 namespace {
 
-// A range of addresses, which threads' stacks can have as well as objects.
+// A range of addresses, which both objects and stacks of threads can use.
 class Reserve {
  public:
   explicit Reserve(std::size_t bytes) : bytes_(bytes) { (void)PutBy(); }
 
-  // Whether it is there, now at the latest, or as much is free among what is in use.
+  // Reserves the range if necessary. True if it is reserved, or as much memory is free in the heap.
   bool PutBy() {
     const base::MutexLock lock(mutex_);
     if (range_ != MAP_FAILED) return true;
@@ -25,7 +25,7 @@ class Reserve {
     return range_ != MAP_FAILED || mallinfo2().fordblks >= bytes_;
   }
 
-  // Whether it was there.
+  // Frees the range. False if it was not reserved.
   bool Spend() {
     const base::MutexLock lock(mutex_);
     if (range_ == MAP_FAILED) return false;

@@ -22,7 +22,7 @@ std::string Checked(std::string message) {
   return message;
 }
 
-TEST(MessageCheckTest, LeavesGoodRequestsAsTheyAre) {
+TEST(MessageCheckTest, LeavesValidRequestsUnchanged) {
   const RawCdr arguments =
       RawCdr().String("T").String("x > 1").String("").ULong(1).String("p").ULong(3).ULong(5);
   const std::string query =
@@ -40,7 +40,7 @@ TEST(MessageCheckTest, CutsOffArgumentsThatAreRefused) {
   EXPECT_EQ(Checked(RawRequest("TradingService", "query", too_many.bytes())), good_part);
 }
 
-TEST(MessageCheckTest, KnowsWhatRepliesAnswer) {
+TEST(MessageCheckTest, KnowsTheRequestOfAReply) {
   orb::ReplyCheck check(TradingSignatures());
   const std::string request = RawRequest("E", "evalDP", "", 7);
   check.Sending(request);
@@ -49,7 +49,7 @@ TEST(MessageCheckTest, KnowsWhatRepliesAnswer) {
   std::string reply = RawReply(7, good.bytes());
   check.Check(reply);
   EXPECT_EQ(reply, RawReply(7, good.bytes()));
-  // Nobody waits for a second one.
+  // No request waits for a second one.
   check.Check(reply);
   EXPECT_EQ(reply, RawReply(7, ""));
 

@@ -1,5 +1,5 @@
-// Holds the signatures that are made from trading.idl to the stubs that come with omniORB: what the
-// stubs send has the types of the signatures to the last byte, and so has what they can read.
+// Compares the signatures generated from trading.idl with omniORB's stubs. The messages that the
+// stubs send, and those that they can read, have the types of the signatures to the last byte.
 #include <cstring>
 #include <map>
 #include <mutex>
@@ -23,7 +23,7 @@ using orb::RawCdr;
 using orb::RawMessage;
 using orb::Signature;
 
-// Takes any requests, keeps the last one, and gives all the same reply.
+// Accepts any request, keeps the last one, and always sends the same reply.
 class Parrot {
  public:
   Parrot() : listener_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
@@ -72,7 +72,7 @@ class Parrot {
     }
     const std::lock_guard lock(mutex_);
     if (message[7] == kRequest) request_ = message;
-    // The zero stands for the header's last four bytes, for the alignment.
+    // The zero is in the place of the header's last four bytes, for the alignment.
     RawCdr reply = RawCdr().ULong(0).ULong(id).ULong(status_).ULong(0);
     return RawMessage(orb::MessageType::kReply, reply.Align(8).Raw(body_).bytes().substr(4));
   }

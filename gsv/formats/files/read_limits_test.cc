@@ -15,7 +15,7 @@ TEST(ReadLimits, AreSetByName) {
   EXPECT_EQ(limits.texture_side, 16384);
 }
 
-TEST(ReadLimits, RefuseWhatIsNone) {
+TEST(ReadLimits, RefuseInvalidTexts) {
   for (const char* text : {"mesh_triangles", "mesh_triangles=", "mesh_triangles=0",
                            "mesh_triangles=-1", "texture_side=3000000000", "xml_depth=7 levels"}) {
     ReadLimits limits;

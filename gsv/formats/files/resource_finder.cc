@@ -17,8 +17,8 @@ using base::ErrorCode;
 
 constexpr int kParentsSearched = 5;
 constexpr std::size_t kLongestName = 4096;
-constexpr int kPackageParents = 4;       // folders around a file that may belong to its workspace
-constexpr std::size_t kMaxGroups = 200;  // folders looked into beside each of these
+constexpr int kPackageParents = 4;       // parent folders of a file that may be its workspace
+constexpr std::size_t kMaxGroups = 200;  // folders to search beside each of these
 constexpr std::uintmax_t kLargestPackageFile = 1u << 20;
 
 bool StartsWith(std::string_view text, std::string_view prefix) {
@@ -50,8 +50,8 @@ std::vector<fs::path> PathFromEnvironment() {
   return folders;
 }
 
-// The models that ship with this program: assets/models of the source tree or share/gsv/models of
-// an installation, seen from where the program lies.
+// The built-in models: assets/models of the source tree or share/gsv/models of an installation,
+// found from the program's path.
 std::vector<fs::path> BuiltInModels() {
   std::error_code ignored;
   fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
@@ -64,7 +64,7 @@ std::vector<fs::path> BuiltInModels() {
   return {};
 }
 
-// `folder`/`relative` as it stands or, failing that, with names that differ in case only.
+// `folder`/`relative`, or else a path whose names differ only in case.
 std::optional<fs::path> FindBelow(const fs::path& folder, const fs::path& relative) {
   if (Exists(folder / relative)) return (folder / relative).lexically_normal();
   fs::path found = folder;
@@ -91,7 +91,7 @@ bool ClimbsOut(const fs::path& relative) {
   return normal.is_absolute() || (!normal.empty() && *normal.begin() == "..");
 }
 
-// "%20" and its like, as web tools write them into file names.
+// Decodes "%20" and the like, which web tools write into file names.
 std::string PercentDecoded(const std::string& text) {
   std::string decoded;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -119,7 +119,7 @@ std::string Trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(kBlanks) - first + 1));
 }
 
-// Of https://fuel.gazebosim.org/1.0/OWNER/models/NAME[/VERSION[/files/REST]]: "NAME/REST". Empty for
+// "NAME/REST" of https://fuel.gazebosim.org/1.0/OWNER/models/NAME[/VERSION[/files/REST]]. Empty for
 // other addresses.
 std::string ModelOfWebAddress(const std::string& address) {
   constexpr char kModels[] = "/models/";
@@ -134,7 +134,7 @@ std::string ModelOfWebAddress(const std::string& address) {
   return name + "/" + path.substr(files + sizeof kFiles - 1);
 }
 
-// The name that a folder's package.xml gives it; empty without one.
+// The name in a folder's package.xml; empty without one.
 std::string PackageName(const fs::path& folder) {
   const fs::path file = folder / "package.xml";
   std::error_code error;
@@ -148,8 +148,8 @@ std::string PackageName(const fs::path& folder) {
   return name == nullptr || name->GetText() == nullptr ? "" : Trimmed(name->GetText());
 }
 
-// "PACKAGE/REST" in the ROS package around the naming file whose package.xml has that name, whatever
-// its folder is called, or in a package beside one of the folders around it.
+// Finds "PACKAGE/REST" in the ROS package around the naming file whose package.xml has that name,
+// or in a package beside one of the folders around the file. The folder may have any name.
 std::optional<fs::path> FindInPackage(const fs::path& path, const fs::path& naming_file) {
   if (naming_file.empty() || path.empty()) return std::nullopt;
   const fs::path package = *path.begin();
@@ -175,7 +175,7 @@ std::optional<fs::path> FindInPackage(const fs::path& path, const fs::path& nami
   return std::nullopt;
 }
 
-// Version "1.5" as 105; 0 if it is none.
+// Version "1.5" as 105; 0 if it is not a version.
 int VersionNumber(const char* text) {
   int major = 0, minor = 0;
   if (text == nullptr || std::sscanf(text, "%d.%d", &major, &minor) != 2) return 0;
@@ -302,7 +302,7 @@ base::Result<fs::path> ModelFileIn(const fs::path& folder) {
       const char* name = sdf->GetText();
       const int version = VersionNumber(sdf->Attribute("version"));
       if (name == nullptr || ClimbsOut(name) || version < kOldest) continue;
-      // Newer than any this program knows only where there is nothing else.
+      // A version newer than any that this program knows is used only if there is no other.
       const int rank = version <= kNewest ? version : 1;
       if (rank > best_version && Exists(folder / name)) {
         best_version = rank;

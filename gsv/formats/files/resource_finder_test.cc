@@ -25,7 +25,7 @@ TEST(ResourceFinder, FindsModelsBesideTheFileInItsParentsAndTheirModelsFolders) 
   EXPECT_EQ(finder.Find("file://desk/model.sdf", world).value(), inner);
 }
 
-TEST(ResourceFinder, SearchesTheGivenPathAfterTheFilesSurroundings) {
+TEST(ResourceFinder, SearchesTheGivenPathAfterTheFoldersAroundTheFile) {
   const base::testing::TestFolder here, library;
   const auto world = here.Write("w.sdf", "");
   library.Write("chair/model.sdf", "");
@@ -44,7 +44,7 @@ TEST(ResourceFinder, AcceptsBackslashesAndNamesThatDifferInCase) {
   EXPECT_EQ(finder.Find("meshes\\wheel.stl", model).value(), mesh);
 }
 
-TEST(ResourceFinder, RefusesNamesThatClimbOut) {
+TEST(ResourceFinder, RefusesNamesThatLeaveTheFolder) {
   const base::testing::TestFolder folder;
   folder.Write("secret.txt", "");
   folder.Write("a/other/mesh.stl", "");
@@ -66,7 +66,7 @@ TEST(ResourceFinder, RefusesAbsolutePathsWhereTheyAreNotAllowed) {
   EXPECT_FALSE(ResourceFinder({}, false).Find("file://" + mesh.string()).has_value());
 }
 
-TEST(ResourceFinder, SaysThatTheWebIsNotLookedAt) {
+TEST(ResourceFinder, ReportsThatTheWebIsNotSearched) {
   const auto found = ResourceFinder().Find("https://fuel.gazebosim.org/1.0/x/models/Cone");
   ASSERT_FALSE(found.has_value());
   EXPECT_THAT(found.error().message, HasSubstr("on the web"));

@@ -1,4 +1,4 @@
-// Any bytes as a mesh, the first of them telling its format: refused, or a mesh that keeps its
+// Any bytes as a mesh; the first byte selects its format. The mesh is refused, or it keeps its
 // invariants.
 #include "gsv/base/check.h"
 #include "gsv/formats/fuzz/scratch_file.h"

@@ -1,4 +1,4 @@
-// Any text as a world, a model or a URDF: it is refused, or what comes of it can be simulated.
+// Any text as a world, a model or a URDF. It is refused, or the result can be simulated.
 #include <cmath>
 #include <set>
 

@@ -1,4 +1,4 @@
-// Any text as a xacro file: it is refused with a sentence, or what comes of it is XML.
+// Any text as a xacro file. It is refused with a sentence, or the result is XML.
 #include "gsv/base/check.h"
 #include "gsv/formats/fuzz/scratch_file.h"
 #include "gsv/formats/xacro/xacro.h"

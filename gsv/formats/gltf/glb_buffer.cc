@@ -73,7 +73,7 @@ std::vector<std::uint8_t> GlbBuffer::Finish(Json document) const {
     document["bufferViews"] = views_;
     if (!accessors_.empty()) document["accessors"] = accessors_;
   }
-  // Names are of any bytes; what is no UTF-8 in them is replaced.
+  // Names may have any bytes; invalid UTF-8 is replaced.
   const std::string text = document.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::vector<std::uint8_t> json(text.begin(), text.end());
   Pad(json, ' ');

@@ -1,4 +1,4 @@
-// Judged by assimp's glTF reader, which is not ours.
+// Reads the files with assimp's independent glTF reader.
 #include "gsv/formats/gltf/gltf_writer.h"
 
 #include <cmath>
@@ -75,7 +75,7 @@ model::Model Robot() {
   return robot;
 }
 
-// Where a node's frame puts a point, through all its parents.
+// Transforms a point from a node's frame through all its parents.
 aiVector3D ToScene(const aiNode* node, aiVector3D point) {
   for (; node != nullptr; node = node->mParent) point = node->mTransformation * point;
   return point;
@@ -92,7 +92,7 @@ TEST(WriteGlb, HasANodeForEachLinkInOrder) {
   }
 }
 
-TEST(WriteGlb, PutsEveryVisualWhereItsLinkHasIt) {
+TEST(WriteGlb, PlacesEveryVisualAtItsLink) {
   Assimp::Importer importer;
   const aiScene* scene = Read(Glb(Robot()), importer);
   ASSERT_NE(scene, nullptr);
@@ -194,7 +194,7 @@ TEST(WriteGlb, MaterialsKeepTheirLook) {
 
 TEST(WriteGlb, EqualModelsGiveEqualBytes) { EXPECT_EQ(Glb(Robot()), Glb(Robot())); }
 
-TEST(WriteGlb, OfAModelWithNothingToSeeIsStillReadable) {
+TEST(WriteGlb, AModelWithoutVisualsIsReadable) {
   model::Model model;
   model.name = "ghost \xff";  // not UTF-8
   model.links.resize(1);
@@ -204,7 +204,7 @@ TEST(WriteGlb, OfAModelWithNothingToSeeIsStillReadable) {
   EXPECT_EQ(JsonOf(glb)["nodes"].size(), 1u);
 }
 
-TEST(EncodeForWeb, ScalesLargePicturesDown) {
+TEST(EncodeForWeb, ScalesLargeImagesDown) {
   const WebTexture texture = EncodeForWeb(*Picture(3000, 100), true);
   EXPECT_EQ(texture.mime_type, "image/jpeg");
   // A JPEG's frame header (T.81, B.2.2): FF C0, length, precision, height, width.
@@ -216,11 +216,11 @@ TEST(EncodeForWeb, ScalesLargePicturesDown) {
   EXPECT_EQ(b[at + 7] * 256 + b[at + 8], 1024);
 }
 
-TEST(EncodeForWeb, KeepsWhatIsSeeThrough) {
+TEST(EncodeForWeb, KeepsTransparency) {
   EXPECT_EQ(EncodeForWeb(*Picture(4, 4, 4), true).mime_type, "image/png");
 }
 
-TEST(EncodeForWeb, TakesTheOriginalFileAsItIs) {
+TEST(EncodeForWeb, UsesTheOriginalFileUnchanged) {
   const std::filesystem::path path =
       std::filesystem::path(testing::TempDir()) / "encode_for_web_test.png";
   const WebTexture png = EncodeForWeb(*Picture(4, 4, 4), true);
@@ -230,12 +230,12 @@ TEST(EncodeForWeb, TakesTheOriginalFileAsItIs) {
   image->source = path.string();
   EXPECT_EQ(EncodeForWeb(*image, true).bytes, png.bytes);
   EXPECT_EQ(EncodeForWeb(*image, false).mime_type, "image/jpeg");
-  image->width = 2, image->height = 8;  // not what the file holds
+  image->width = 2, image->height = 8;  // not the size of the file's image
   EXPECT_EQ(EncodeForWeb(*image, true).mime_type, "image/jpeg");
   std::filesystem::remove(path);
 }
 
-TEST(EncodeForWeb, RefusesAPictureWithoutPixels) {
+TEST(EncodeForWeb, RefusesAnImageWithoutPixels) {
   EXPECT_TRUE(EncodeForWeb(model::Image{}, true).mime_type.empty());
 }
 

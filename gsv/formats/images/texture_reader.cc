@@ -12,7 +12,7 @@
 #include "gsv/formats/images/stb_copy.h"
 #include "gsv/formats/images/tiff_reader.h"
 
-// Several parts of the program may decode pictures: this copy is private to this file.
+// Other parts of the program may decode images: this copy is private to this file.
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_NO_STDIO
@@ -58,7 +58,7 @@ bool IsJpeg(const unsigned char* bytes, std::size_t size) {
   return size > 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
 }
 
-// Images above the limit are decoded up to this many pixels, and then scaled down.
+// Larger images than the limit are decoded up to this many pixels, and then scaled down.
 constexpr std::int64_t kMostOversizedPixels = 128 << 20;
 
 // Fails for an image without pixels or with more than kMostOversizedPixels.
@@ -74,7 +74,7 @@ base::Status CheckSize(int width, int height, const std::string& source, const R
               source);
 }
 
-// Every pixel the mean of a square of them, so that no side is longer than the limit.
+// Each pixel becomes the mean of a square of pixels, so that no side exceeds the limit.
 std::shared_ptr<Image> ScaledDown(std::shared_ptr<Image> image, const ReadLimits& limits) {
   const int longest = std::max(image->width, image->height);
   if (longest <= limits.texture_side) return image;
@@ -121,7 +121,7 @@ base::Result<std::shared_ptr<const Image>> DecodeJpeg(const unsigned char* bytes
   image->pixels.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   const int failed = tjDecompress2(decoder.get(), bytes, size, image->pixels.data(), width, 0,
                                    height, TJPF_RGB, TJFLAG_LIMITSCANS);
-  // After a warning, as of a file that ends early, the picture is there none the less.
+  // After a warning, for example about a truncated file, the image is still valid.
   if (failed != 0 && tjGetErrorCode(decoder.get()) != TJERR_WARNING) {
     return Fail(ErrorCode::kBadModel,
                 std::string("the picture is damaged: ") + tjGetErrorStr2(decoder.get()), source);
@@ -214,7 +214,7 @@ std::shared_ptr<const Image> TextureReader::Combine(const std::shared_ptr<const 
   auto image = std::make_shared<Image>(Image{size.width, size.height, 3, {}, size.source});
   image->pixels.reserve(static_cast<std::size_t>(size.width) *
                         static_cast<std::size_t>(size.height) * 3);
-  // The nearest pixel's first channel: both maps are grey.
+  // The first channel of the nearest pixel: both maps are grey.
   const auto sample = [&](const Image* map, int x, int y) -> std::uint8_t {
     if (map == nullptr) return 255;
     const int column = x * map->width / size.width, row = y * map->height / size.height;

@@ -23,7 +23,7 @@ std::string Tga(int width, int height, const std::string& pixels, int bits) {
   return tga + pixels;
 }
 
-TEST(TextureReader, ReadsPixelsFromTheTopAndKeepsThePicture) {
+TEST(TextureReader, ReadsPixelsFromTheTopAndKeepsTheFile) {
   const base::testing::TestFolder folder;
   const auto path = folder.Write("a.tga", Tga(2, 1, "\x03\x02\x01\x06\x05\x04", 24));
   TextureReader reader{ReadLimits{}};
@@ -35,7 +35,7 @@ TEST(TextureReader, ReadsPixelsFromTheTopAndKeepsThePicture) {
   EXPECT_EQ(reader.Read(path).value(), *image);
 }
 
-// The format allows it, wherever data may stand.
+// The format allows empty chunks.
 TEST(TextureReader, ReadsAPngWithAnEmptyChunk) {
   const auto chunk = [](const std::string& type, const std::string& data) {
     return std::string(3, '\0') + static_cast<char>(data.size()) + type + data + "sum?";
@@ -60,7 +60,7 @@ TEST(TextureReader, DropsAnAlphaChannelThatHidesNothing) {
   EXPECT_EQ((*reader.Read(folder.Write("h.tga", Tga(1, 1, half, 32))))->channels, 4);
 }
 
-TEST(TextureReader, RefusesPicturesThatAreTooLargeOrLieAboutTheirSize) {
+TEST(TextureReader, RefusesImagesThatAreTooLargeOrDeclareAWrongSize) {
   const base::testing::TestFolder folder;
   TextureReader reader{ReadLimits{}};
   const auto large = reader.Read(folder.Write("large.tga", Tga(30000, 30000, "", 24)));

@@ -15,7 +15,7 @@ namespace {
 
 using base::ErrorCode;
 
-// GeoTIFF 1.1 (OGC 19-008r4), and GDAL's mark of what is unknown.
+// GeoTIFF 1.1 (OGC 19-008r4), and GDAL's value for unknown heights.
 constexpr ttag_t kPixelScaleTag = 33550, kTiePointTag = 33922, kGeoKeysTag = 34735;
 constexpr ttag_t kNoDataTag = 42113;
 constexpr std::uint16_t kModelTypeKey = 1024, kGeographic = 2;
@@ -43,7 +43,7 @@ void PrepareLibrary() {
 
 using Tiff = std::unique_ptr<TIFF, void (*)(TIFF*)>;
 
-// BytesInMemory in memory as libtiff wants a file.
+// An open file in memory, for libtiff's callbacks.
 struct BytesInMemory {
   const unsigned char* data;
   toff_t size;
@@ -99,7 +99,7 @@ base::Result<Size> SizeOf(TIFF* tiff, const std::string& source, const ReadLimit
   return size;
 }
 
-// How a height is written.
+// The encoding of a height.
 struct Sample {
   std::uint16_t bits = 1, format = SAMPLEFORMAT_UINT, per_pixel = 1, layout = PLANARCONFIG_CONTIG;
 
@@ -139,7 +139,7 @@ Sample SampleOf(TIFF* tiff) {
   return sample;
 }
 
-// The first band; false when a part of it cannot be read.
+// Reads the first band. False if a part of it cannot be read.
 bool ReadRows(TIFF* tiff, const Sample& sample, HeightGrid& grid) {
   std::vector<unsigned char> row(static_cast<std::size_t>(TIFFScanlineSize(tiff)));
   if (row.size() < static_cast<std::size_t>(grid.width) * sample.Stride()) return false;
@@ -184,7 +184,7 @@ bool ReadTiles(TIFF* tiff, const Sample& sample, HeightGrid& grid) {
   return true;
 }
 
-// Metres between neighbours. Degrees are taken on a sphere, at the file's upper edge.
+// Metres between neighbours. Degrees are converted on a sphere, at the file's upper edge.
 std::optional<geometry::Vector2> SpacingOf(TIFF* tiff) {
   std::uint32_t count = 0;
   double* scale = nullptr;
@@ -212,7 +212,7 @@ void FillUnknown(TIFF* tiff, HeightGrid& grid) {
   char* text = nullptr;
   const bool has_mark = TIFFGetField(tiff, kNoDataTag, &text) == 1 && text != nullptr;
   const double mark = has_mark ? std::strtod(text, nullptr) : 0;
-  constexpr double kHighest = 1e5;  // m; what lies beyond on either side is a mark of another kind
+  constexpr double kHighest = 1e5;  // m; larger magnitudes mark unknown heights
   const auto is_known = [&](double height) {
     return std::isfinite(height) && std::abs(height) < kHighest && !(has_mark && height == mark);
   };

@@ -54,7 +54,7 @@ std::string MimeTypeOf(const std::vector<std::uint8_t>& bytes) {
   return "";
 }
 
-// The picture's own file; empty unless it is there, of a browser's format and of the same size.
+// The image's own file; empty if it does not exist, browsers do not read it, or its size differs.
 WebTexture Original(const Image& image) {
   std::ifstream file(image.source, std::ios::binary | std::ios::ate);
   if (!file || file.tellg() <= 0 || file.tellg() > kMostFileBytes) return {};
@@ -71,7 +71,7 @@ WebTexture Original(const Image& image) {
   return texture;
 }
 
-// Scaled down so that no side is above `max_side`.
+// Scales the image down so that no side exceeds `max_side`.
 Image Reduced(const Image& image, int max_side) {
   const double scale = static_cast<double>(max_side) / std::max(image.width, image.height);
   Image reduced;

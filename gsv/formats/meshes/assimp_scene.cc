@@ -34,8 +34,8 @@ std::string LowerExtension(const fs::path& path) {
   return extension;
 }
 
-// Blanks at the start of a COLLADA <color> make assimp refuse the file: they move to the tag's
-// side, where they do no harm and no offset changes.
+// assimp refuses COLLADA files with blanks at the start of a <color>. The blanks move into the tag,
+// where they do no harm and no offset changes.
 void MoveBlanksOutOfColours(std::string& text) {
   for (std::size_t tag = text.find("<color"); tag != std::string::npos;
        tag = text.find("<color", tag + 1)) {
@@ -50,7 +50,7 @@ void MoveBlanksOutOfColours(std::string& text) {
   }
 }
 
-// Serves the mesh itself from memory, and others only from its folder and that one's parent.
+// Reads the mesh itself from memory, and other files only from its folder and the parent of that.
 class MeshFolder : public Assimp::DefaultIOSystem {
  public:
   MeshFolder(fs::path file, std::string text)
@@ -110,8 +110,8 @@ base::Result<std::string> ReadBytes(const fs::path& path, std::size_t limit) {
   return bytes;
 }
 
-// A binary STL says in its header how many triangles follow, 50 bytes each. Where fewer do, the
-// header is made to say so.
+// The header of a binary STL has the number of triangles, which have 50 bytes each. If there are
+// fewer, the header gets the actual number.
 void CountTriangles(std::string& stl, std::vector<std::string>& changes) {
   constexpr std::size_t kHeader = 84, kTriangle = 50, kCount = 80;
   if (stl.size() < kHeader || stl.compare(0, 5, "solid") == 0) return;
@@ -127,7 +127,7 @@ void CountTriangles(std::string& stl, std::vector<std::string>& changes) {
 
 std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-// Reads `bytes` as the file; gives the reason where that fails, and then leaves the scene null.
+// Reads `bytes` as the file. Returns the reason if that fails; the scene is null then.
 std::string Import(const fs::path& path, const std::string& bytes, AssimpScene& result) {
   result.importer = std::make_unique<Assimp::Importer>();
   KeepOnlyNamedImporters(*result.importer);
@@ -174,7 +174,7 @@ base::Result<AssimpScene> OpenScene(const fs::path& given, const ReadLimits& lim
     const auto status = CheckGltf(*bytes, extension == ".glb", limits, path.string());
     if (!status) return Fail(status.error());
   }
-  // assimp's OBJ reader runs past a last line that does not end.
+  // assimp's OBJ reader reads beyond a last line without a newline.
   if (extension == ".obj") *bytes += '\n';
   if (extension == ".stl") CountTriangles(*bytes, result.changes);
   std::string reason = Import(path, *bytes, result);

@@ -37,15 +37,15 @@ bool IsListOfIndices(const XMLElement& element) {
          std::strcmp(name, "v") == 0 || std::strcmp(name, "h") == 0;
 }
 
-// Which values of which array are read: COLLADA 1.4.1, 5-16 (accessor) and 5-56 (float_array).
+// The values of an array that are read: COLLADA 1.4.1, 5-16 (accessor) and 5-56 (float_array).
 struct Accessor {
   std::string array;  // its id
-  double values = 0;  // how many the array must hold; more than any holds where no count is given
+  double values = 0;  // number of values that the array must have; infinite if there is no count
   int line = 0;
 };
 
-// Of an attribute that is absent: `absent`; of one that is more than digits, which assimp reads in
-// another way than others do: `odd`.
+// The count in an attribute: `absent` if there is none, and `odd` if it has anything but digits,
+// which assimp reads differently from other programs.
 double CountIn(const XMLElement& element, const char* attribute, double absent, double odd) {
   const char* text = element.Attribute(attribute);
   if (text == nullptr) return absent;
@@ -94,7 +94,7 @@ class Checker : public tinyxml2::XMLVisitor {
     return wrong == nullptr;
   }
 
-  // Once all is visited: arrays may stand behind their accessors.
+  // Call it at the end, as arrays may come after their accessors.
   void CheckAccessors() {
     for (const Accessor& accessor : accessors_) {
       const auto array = arrays_.find(accessor.array);
@@ -109,7 +109,7 @@ class Checker : public tinyxml2::XMLVisitor {
 
  private:
   double bytes_;
-  std::map<std::string, double> arrays_;  // by id: how many values, of several of a name the fewest
+  std::map<std::string, double> arrays_;  // by id: number of values (the smallest, if several)
   std::vector<Accessor> accessors_;
 };
 

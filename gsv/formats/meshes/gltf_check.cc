@@ -13,7 +13,7 @@ namespace {
 
 using base::ErrorCode;
 
-constexpr int kDeepest = 64;  // glTF itself nests about ten deep; the rest is for "extras"
+constexpr int kDeepest = 64;  // glTF itself has about ten levels; the rest is for "extras"
 
 std::uint32_t WordAt(std::string_view bytes, std::size_t place) {
   std::uint32_t word = 0;
@@ -21,7 +21,7 @@ std::uint32_t WordAt(std::string_view bytes, std::size_t place) {
   return word;
 }
 
-// The JSON of a .glb; nothing where one of the two chunks that assimp reads reaches beyond the end.
+// The JSON of a .glb; nothing if one of the two chunks that assimp reads reaches beyond the end.
 std::optional<std::string_view> JsonOf(std::string_view glb) {
   constexpr std::size_t kFileHeader = 12, kChunkHeader = 8;
   if (glb.size() < kFileHeader + kChunkHeader) return std::nullopt;
@@ -38,7 +38,7 @@ std::optional<std::string_view> JsonOf(std::string_view glb) {
   return json;
 }
 
-// Hears of each value in turn; keeps none.
+// Receives each value in turn, and stores none.
 class ClaimChecker : public nlohmann::json_sax<nlohmann::json> {
  public:
   explicit ClaimChecker(const ReadLimits& limits)
@@ -50,14 +50,14 @@ class ClaimChecker : public nlohmann::json_sax<nlohmann::json> {
       claims_ = name == "buffers" || name == "bufferViews" || name == "accessors";
     }
     if (depth_ == kInElement) is_sparse_ = name == "sparse";
-    // Elsewhere, and in an element's "extras", such a name means something else.
+    // Elsewhere, and in an element's "extras", such a name has another meaning.
     if (!claims_ || !(depth_ == kInElement || (depth_ > kInElement && is_sparse_))) return true;
     if (name == "byteLength" || name == "byteOffset" || name == "byteStride") most_ = most_bytes_;
     if (name == "count") most_ = most_values_;
     return true;
   }
   bool number_unsigned(number_unsigned_t value) override { return Take(value <= most_); }
-  bool number_integer(number_integer_t) override { return Take(most_ == kNoMost); }  // below zero
+  bool number_integer(number_integer_t) override { return Take(most_ == kNoMost); }  // negative
   bool number_float(number_float_t, const string_t&) override { return Take(most_ == kNoMost); }
   bool null() override { return Take(true); }
   bool boolean(bool) override { return Take(true); }
@@ -93,9 +93,9 @@ class ClaimChecker : public nlohmann::json_sax<nlohmann::json> {
   }
 
   const std::size_t most_bytes_, most_values_;
-  std::size_t most_ = kNoMost;  // what the next number may be
+  std::size_t most_ = kNoMost;  // limit of the next number
   int depth_ = 0;
-  bool claims_ = false, is_sparse_ = false;  // where the parser is
+  bool claims_ = false, is_sparse_ = false;  // state of the parser
 };
 
 }  // namespace
@@ -114,7 +114,7 @@ base::Status CheckGltf(const std::string& bytes, bool is_binary, const ReadLimit
     }
     json = *chunk;
   }
-  // Some writers fill the chunk up with zeros, where assimp's reader stops.
+  // Some writers pad the chunk with zeros, where assimp's reader stops.
   json = json.substr(0, json.find('\0'));
   ClaimChecker checker(limits);
   nlohmann::json::sax_parse(json, &checker);

@@ -7,7 +7,7 @@ namespace {
 
 using geometry::Vector3;
 
-// Between the grid's points by bilinear interpolation.
+// Interpolates bilinearly between the grid's points.
 double HeightAt(const HeightGrid& grid, double x, double y) {
   const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
   const int x1 = std::min(x0 + 1, grid.width - 1), y1 = std::min(y0 + 1, grid.height - 1);
@@ -20,7 +20,7 @@ double HeightAt(const HeightGrid& grid, double x, double y) {
          v * ((1 - u) * point(x0, y1) + u * point(x1, y1));
 }
 
-// The first channel in [0, 1].
+// The first channel as values in [0, 1].
 HeightGrid GreysOf(const model::Image& image) {
   HeightGrid grid{image.width, image.height, {}, {}};
   const auto channels = static_cast<std::size_t>(image.channels);
@@ -30,7 +30,7 @@ HeightGrid GreysOf(const model::Image& image) {
   return grid;
 }
 
-// `scale` times the height above `lowest`.
+// The height of a vertex is `scale` times the height above `lowest`.
 geometry::TriangleMesh MeshOf(const HeightGrid& grid, const Vector3& size, double lowest,
                               double scale, int max_vertices) {
   const int columns = std::clamp(grid.width, 2, max_vertices);
@@ -51,7 +51,7 @@ geometry::TriangleMesh MeshOf(const HeightGrid& grid, const Vector3& size, doubl
   };
   for (int row = 0; row + 1 < rows; ++row) {
     for (int column = 0; column + 1 < columns; ++column) {
-      // Rows run towards -y: this order is counter-clockwise from above.
+      // Rows go towards -y: this order is counter-clockwise from above.
       mesh.triangles.push_back({at(column, row), at(column, row + 1), at(column + 1, row)});
       mesh.triangles.push_back({at(column + 1, row), at(column, row + 1), at(column + 1, row + 1)});
     }

@@ -27,7 +27,7 @@ TEST(Heightmap, SpansItsSizeAndRisesWithGrey) {
   for (const auto& n : mesh.normals) EXPECT_NEAR(n.x / n.z, -0.2, 1e-9);
 }
 
-TEST(Heightmap, SamplesLargePicturesDown) {
+TEST(Heightmap, SamplesLargeImagesDown) {
   const auto mesh = HeightmapMesh(Ramp(256, 256), {1, 1, 1}, 17);
   EXPECT_EQ(mesh.positions.size(), 17u * 17);
 }

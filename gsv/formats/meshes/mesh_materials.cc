@@ -36,7 +36,7 @@ class MaterialReader {
     ReadGloss(source, material);
     material.base_colour_map = FirstMap(source, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
     if (material.base_colour_map != nullptr && !IsGltf(source)) {
-      // A picture replaces the diffuse colour.
+      // An image replaces the diffuse colour.
       material.base_colour = {1, 1, 1, material.base_colour.a};
     }
     ReadSeeThrough(source, material);
@@ -66,12 +66,13 @@ class MaterialReader {
     }
     ai_real opacity = 1;
     if (!IsGltf(source) && source.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS) {
-      // Zero is what exporters write that mean the opposite: a mesh nobody can see is no use.
+      // Some exporters write zero and mean the opposite, since an invisible mesh is useless.
       material.base_colour.a = opacity > 0 ? Unit(static_cast<double>(opacity)) : 1.0;
     }
   }
 
-  // A colour map's alpha counts where the file says so: many hold one that means nothing.
+  // A colour map's alpha is used only if the file requests it, as many files have a meaningless
+  // alpha.
   void ReadSeeThrough(const aiMaterial& source, Material& material) {
     std::string mode = source.GetTextureCount(aiTextureType_OPACITY) > 0 ? "MASK" : "OPAQUE";
     if (IsGltf(source)) {
@@ -131,7 +132,7 @@ class MaterialReader {
     std::replace(path.begin(), path.end(), '\\', '/');
     if (path.rfind(kFileScheme, 0) == 0) path.erase(0, sizeof kFileScheme - 1);
     const std::string file_name = std::filesystem::path(path).filename().string();
-    // Only beside the mesh: a bare name must not be found in another model.
+    // Searches only beside the mesh: a bare name must not match a file of another model.
     for (const std::string& candidate :
          {path, "../materials/textures/" + file_name, "../textures/" + file_name,
           "../../materials/textures/" + file_name, file_name}) {

@@ -18,7 +18,7 @@ Vector3 ToVector(const aiVector3D& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
-// No area beyond rounding: the sine of the angle between two edges vanishes.
+// The area is zero up to rounding: the sine of the angle between two edges vanishes.
 bool IsDegenerate(const Vector3& a, const Vector3& b, const Vector3& c) {
   const Vector3 ab = b - a, ac = c - a, normal = geometry::Cross(ab, ac);
   constexpr double kSine = 1e-12;
@@ -26,7 +26,7 @@ bool IsDegenerate(const Vector3& a, const Vector3& b, const Vector3& c) {
            kSine * kSine * geometry::Dot(ab, ab) * geometry::Dot(ac, ac));
 }
 
-// Gathers the meshes of a scene's nodes, one part each, into one mesh in the file's root frame.
+// Joins the meshes of a scene's nodes into one mesh in the file's root frame, with one part each.
 class Gatherer {
  public:
   Gatherer(const AssimpScene& opened, const std::string& submesh, const ReadLimits& limits)
@@ -96,7 +96,7 @@ class Gatherer {
   }
 
   void AddVertices(const aiMesh& part, const aiMatrix4x4& root_from_node) {
-    // Normals turn with the inverse transpose.
+    // Normals transform by the inverse transpose.
     aiMatrix3x3 normal_matrix(root_from_node);
     normal_matrix.Inverse().Transpose();
     all_have_normals_ = all_have_normals_ && part.HasNormals();
@@ -137,7 +137,7 @@ class Gatherer {
     mesh_.triangles.push_back(corners);
   }
 
-  // What only some parts have is of use to none; and no vertex may be infinite, used or not.
+  // Drops attributes that only some parts have, and replaces infinite vertices.
   void DropIncompleteAttributes() {
     if (!all_have_normals_) mesh_.normals.clear();
     if (!any_has_coordinates_) mesh_.texture_coordinates.clear();
@@ -148,7 +148,7 @@ class Gatherer {
 
   const aiScene& scene_;
   const std::string& submesh_;
-  std::set<std::string> submesh_ids_;  // of what has that name
+  std::set<std::string> submesh_ids_;  // ids of the nodes and geometries with that name
   const ReadLimits& limits_;
   TriangleMesh mesh_;
   bool all_have_normals_ = true;

@@ -14,7 +14,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-// One triangle (0,0,0) (1,0,0) (0,0,2) of material "red" in a node turned and shifted by `matrix`.
+// One triangle (0,0,0) (1,0,0) (0,0,2) of material "red" in a node transformed by `matrix`.
 std::string Collada(const std::string& asset, const std::string& colour,
                     const std::string& matrix = "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1") {
   return R"(<?xml version="1.0"?>
@@ -84,17 +84,17 @@ TEST_F(MeshReaderTest, AppliesTheUnitOfColladaAndLeavesItsAxes) {
 }
 
 TEST_F(MeshReaderTest, AppliesTheNodesOfTheScene) {
-  // Turned by a quarter about z and moved by (10, 0, 0): x becomes y.
+  // Rotated by a quarter turn about z and moved by (10, 0, 0): x becomes y.
   const auto mesh = Read(
       "a.dae", Collada("<unit meter='1'/>", "1 0 0 1", "0 -1 0 10  1 0 0 0  0 0 1 0  0 0 0 1"));
   ASSERT_TRUE(mesh.has_value());
   EXPECT_NEAR(BoundsOf(mesh).min.x, 10, 1e-6);
   EXPECT_NEAR(BoundsOf(mesh).max.y, 1, 1e-6);
-  // The face (0,0,0) (1,0,0) (0,0,2) looks to -y, and after the turn to +x.
+  // The face (0,0,0) (1,0,0) (0,0,2) has the normal -y, and after the rotation +x.
   for (const Vector3& normal : mesh->triangles->normals) EXPECT_NEAR(normal.x, 1, 1e-6);
 }
 
-TEST_F(MeshReaderTest, TurnsTrianglesOfMirroredNodesRound) {
+TEST_F(MeshReaderTest, ReversesTrianglesOfMirroredNodes) {
   const auto mesh =
       Read("a.dae", Collada("<unit meter='1'/>", "1 0 0 1", "-1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1"));
   ASSERT_TRUE(mesh.has_value());
@@ -146,7 +146,7 @@ TEST_F(MeshReaderTest, ReadsSubmeshesAndCentresThem) {
   EXPECT_THAT(absent.error().Sentence(), HasSubstr("no submesh \"middle\""));
 }
 
-// assimp's reader went round for ever on a last line without an end.
+// assimp's reader did not terminate on a last line without a newline.
 TEST_F(MeshReaderTest, ReadsObjWhoseLastLineDoesNotEnd) {
   const auto mesh = Read("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf -1 -2  ");
   ASSERT_TRUE(mesh.has_value()) << mesh.error().Sentence();
@@ -164,8 +164,8 @@ TEST_F(MeshReaderTest, WarnsOfTexturesThatAreAbsent) {
 // A TGA of one red pixel whose alpha is zero.
 const std::string kSeeThrough{"\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x20\x28\0\0\xff\0", 22};
 
-// Gazebo's model of the Create has a picture whose alpha is zero nearly everywhere.
-TEST_F(MeshReaderTest, TheAlphaOfAPictureCountsWhereTheMaterialSaysSo) {
+// Gazebo's model of the Create has an image whose alpha is zero nearly everywhere.
+TEST_F(MeshReaderTest, TheAlphaOfAnImageCountsIfTheMaterialUsesIt) {
   folder_.Write("red.tga", kSeeThrough);
   folder_.Write("a.mtl", "newmtl green\nmap_Kd red.tga\n");
   const auto opaque = Read("a.obj", kObj);
@@ -182,7 +182,7 @@ TEST_F(MeshReaderTest, TheAlphaOfAPictureCountsWhereTheMaterialSaysSo) {
   EXPECT_TRUE(net.alpha_mask);
 }
 
-// A triangle whose picture is one red pixel of alpha zero.
+// A triangle with an image of one red pixel with alpha zero.
 std::string Gltf(const std::string& alpha_mode) {
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
 "meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0}]}],
@@ -239,7 +239,7 @@ std::string Replaced(std::string text, const std::string& from, const std::strin
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-TEST_F(MeshReaderTest, ReadsColladaWithAFlawThatAssimpRefuses) {
+TEST_F(MeshReaderTest, ReadsColladaWithAnErrorThatAssimpRefuses) {
   const std::string sound = Collada("<unit meter='1'/>", "1 0 0 1");
   const std::string animation =
       "<library_animations><animation id='a'><source id='t'><float_array id='ta' count='1'>x"
@@ -274,7 +274,7 @@ TEST_F(MeshReaderTest, FindsASubmeshByTheNameOrIdOfItsNodeOrGeometry) {
   EXPECT_FALSE(Read("a.dae", content, "nobody").has_value());
 }
 
-TEST_F(MeshReaderTest, RefusesWhatIsDamagedOrBeyondTheLimits) {
+TEST_F(MeshReaderTest, RefusesDamagedFilesAndThoseBeyondTheLimits) {
   const struct {
     const char *name, *says;
     std::string content;
@@ -289,7 +289,7 @@ TEST_F(MeshReaderTest, RefusesWhatIsDamagedOrBeyondTheLimits) {
        std::string(Collada("<unit meter='1'/>", "1 0 0 1"))
            .replace(Collada("<unit meter='1'/>", "1 0 0 1").find("count=\"9\""), 9,
                     "count=\"4000000000\"")},
-      // Found by the fuzzer: assimp read what lay behind the array.
+      // Found by the fuzzer: assimp read memory behind the array.
       {"beyond.dae", "more values than its array holds",
        std::string(Collada("<unit meter='1'/>", "1 0 0 1"))
            .replace(Collada("<unit meter='1'/>", "1 0 0 1").find("count=\"9\""), 9, "xount=\"9\"")},

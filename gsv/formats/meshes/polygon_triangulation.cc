@@ -39,8 +39,8 @@ std::size_t Rightmost(const Ring& ring) {
       ring.begin());
 }
 
-// Whether the way from the ring's corner i to `p` starts inside the ring. Of corners that coincide,
-// as bridges make them, this tells which one faces p.
+// Whether the segment from the ring's corner i to `p` starts inside the ring. If bridges have made
+// coincident corners, this finds the one that faces p.
 bool Faces(const Ring& ring, std::size_t i, const Vector2& p) {
   const std::size_t n = ring.size();
   const Vector2 &before = ring[(i + n - 1) % n].point, &here = ring[i].point;
@@ -50,8 +50,8 @@ bool Faces(const Ring& ring, std::size_t i, const Vector2& p) {
   return Turn(before, here, after) > 0 ? left_of_both : left_of_either;
 }
 
-// Where the ray from `eye`, a point inside the ring, to +x first meets an edge, and that edge's
-// right end.
+// The first intersection of a ray with an edge, and the right end of that edge. The ray goes from
+// `eye`, a point inside the ring, to +x.
 struct Hit {
   double x = std::numeric_limits<double>::infinity();
   std::size_t corner = 0;
@@ -68,9 +68,9 @@ Hit FirstHit(const Ring& ring, const Vector2& eye) {
   return hit;
 }
 
-// The corner of `ring` that sees `eye`: the right end of the edge that the ray meets, unless reflex
-// corners lie between; of those the one at the least angle to the ray, and the nearest of several.
-// ring.size() if there is none.
+// The corner of `ring` that is visible from `eye`. It is the right end of the edge that the ray
+// meets, unless reflex corners are between them; then it is the one with the smallest angle to the
+// ray, and of those the nearest. ring.size() if there is none.
 std::size_t VisibleCorner(const Ring& ring, const Vector2& eye) {
   const Hit hit = FirstHit(ring, eye);
   if (std::isinf(hit.x)) return ring.size();
@@ -92,7 +92,7 @@ std::size_t VisibleCorner(const Ring& ring, const Vector2& eye) {
   return best;
 }
 
-// Cuts the ring open at the corner that sees the hole and walks round the hole.
+// Inserts the hole into the ring, by a bridge from the visible corner.
 bool JoinHole(Ring& ring, const Ring& hole) {
   const std::size_t start = Rightmost(hole);
   const std::size_t corner = VisibleCorner(ring, hole[start].point);
@@ -138,7 +138,7 @@ base::Result<std::vector<std::array<std::uint32_t, 3>>> Triangulate(
     hole_rings.push_back(ToRing(hole, first));
     first += static_cast<std::uint32_t>(hole.size());
   }
-  // From right to left, so that each hole sees either the outline or a hole already joined.
+  // From right to left, so that each hole sees either the outline or a hole that is already joined.
   std::sort(hole_rings.begin(), hole_rings.end(), [](const Ring& a, const Ring& b) {
     return a[Rightmost(a)].point.x > b[Rightmost(b)].point.x;
   });

@@ -14,7 +14,7 @@ namespace {
 using geometry::Vector2;
 using geometry::Vector3;
 
-// By the divergence theorem; right only if the surface is closed and faces outwards.
+// By the divergence theorem; correct only if the surface is closed and faces outwards.
 double Volume(const geometry::TriangleMesh& mesh) {
   double six_volumes = 0;
   for (const auto& t : mesh.triangles) {
@@ -70,7 +70,7 @@ TEST(ExtrudeOutlines, KeepsTheAreaOfARing) {
   EXPECT_NEAR(Volume(ExtrudeOutlines({circle(2, 60), circle(1, 60)}, 1).value()), 3 * unit, 1e-9);
 }
 
-TEST(ExtrudeOutlines, RefusesWhatBoundsNoArea) {
+TEST(ExtrudeOutlines, RefusesOutlinesWithoutArea) {
   EXPECT_FALSE(ExtrudeOutlines({}, 1).has_value());
   EXPECT_FALSE(ExtrudeOutlines({{{0, 0}, {1, 0}}}, 1).has_value());
   EXPECT_FALSE(ExtrudeOutlines({{{0, 0}, {1, 0}, {2, 0}}}, 1).has_value());
@@ -80,7 +80,7 @@ TEST(ExtrudeOutlines, RefusesWhatBoundsNoArea) {
 }
 
 TEST(ExtrudeOutlines, EndsOnOutlinesThatCrossThemselves) {
-  // A bow tie whose halves differ in size; either answer is fine, a hang is not.
+  // A bow tie whose halves differ in size: either result is acceptable, but it must end.
   const auto mesh = ExtrudeOutlines({{{0, 0}, {2, 2}, {2, 0}, {0, 3}}}, 1);
   EXPECT_TRUE(!mesh.has_value() || !mesh->triangles.empty());
 }

@@ -24,7 +24,7 @@ Vector3 PointOf(const aiVector3D& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
-// Without its scale and shear.
+// The pose without scale and shear.
 Pose RigidPartOf(const aiMatrix4x4& matrix) {
   aiVector3D scale, position;
   aiQuaternion turn;
@@ -34,7 +34,7 @@ Pose RigidPartOf(const aiMatrix4x4& matrix) {
                                 static_cast<double>(turn.y), static_cast<double>(turn.z)})};
 }
 
-// The key before `time` and the one after it, and how far it is from one to the other.
+// The keys before and after `time`, and the fraction of the interval.
 template <typename Key>
 std::pair<std::pair<unsigned, unsigned>, float> KeysAround(const Key* keys, unsigned count,
                                                            double time) {
@@ -55,7 +55,7 @@ aiVector3D VectorAt(const aiVectorKey* keys, unsigned count, double time,
   return keys[pair.first].mValue + (keys[pair.second].mValue - keys[pair.first].mValue) * part;
 }
 
-// A skeleton's nodes, as their animation has them at a time.
+// The nodes of a skeleton, at the poses of their animation.
 class Skeleton {
  public:
   struct Node {
@@ -67,7 +67,7 @@ class Skeleton {
 
   explicit Skeleton(const aiScene& scene) { Add(*scene.mRootNode, -1, kDeepestBone); }
 
-  // False: it moves none of the nodes.
+  // False if the animation moves none of the nodes.
   bool Animate(const aiScene& motion) {
     bool any = false;
     for (unsigned a = 0; a < motion.mNumAnimations; ++a) {
@@ -89,13 +89,13 @@ class Skeleton {
   double length() const { return length_; }
   const std::vector<Node>& nodes() const { return nodes_; }
 
-  // Index of the node of that name, or -1.
+  // The index of the node of that name, or -1.
   int Find(const std::string& name) const {
     const auto found = by_name_.find(name);
     return found == by_name_.end() ? -1 : found->second;
   }
 
-  // root_from_node of every node.
+  // The root_from_node of every node.
   std::vector<aiMatrix4x4> PosesAt(double seconds) const {
     std::vector<aiMatrix4x4> poses;
     for (const Node& node : nodes_) {
@@ -133,14 +133,14 @@ class Skeleton {
   double length_ = 0;
 };
 
-// Shares the triangles of a skin out to the nodes of its skeleton.
+// Assigns the triangles of a skin to the nodes of its skeleton.
 class BoneCutter {
  public:
   BoneCutter(const aiScene& scene, const Skeleton& skeleton, const ReadLimits& limits)
       : scene_(scene), skeleton_(skeleton), limits_(limits), pieces_(skeleton.nodes().size()) {}
 
-  // Triangles by node, in the frame of the root as the skeleton has them at the rest poses. False:
-  // there are more than the limit.
+  // The triangles by node, in the root's frame with the skeleton at its rest poses. False if there
+  // are more than the limit.
   bool Cut(const std::vector<aiMatrix4x4>& rest) {
     for (std::size_t n = 0; n < skeleton_.nodes().size(); ++n) {
       const aiNode& node = *skeleton_.nodes()[n].node;
@@ -167,13 +167,13 @@ class BoneCutter {
  private:
   struct Driver {
     int node = 0;
-    aiMatrix4x4 offset;  // node_from_mesh, at the skin's rest
+    aiMatrix4x4 offset;  // node_from_mesh, at the skin's rest pose
   };
   // Faces of one mesh that one node moves.
   struct Piece {
     const aiMesh* mesh;
     aiMatrix4x4 offset;
-    int node;  // that the offset is for
+    int node;  // the node of the offset
     std::vector<unsigned> faces;
   };
 
@@ -292,13 +292,13 @@ void IntoFrame(const Pose& root_from_bone, double scale, TriangleMesh& mesh) {
   Vector3 spare;
   for (const auto& corners : mesh.triangles) spare = mesh.positions[corners[0]];
   for (Vector3& position : mesh.positions) {
-    if (!geometry::IsFinite(position)) position = spare;  // no triangle has it
+    if (!geometry::IsFinite(position)) position = spare;  // no triangle uses it
     position = scale * (bone_from_root * position);
   }
   for (Vector3& normal : mesh.normals) normal = bone_from_root.orientation * normal;
 }
 
-// The node that all bones hang from: the first that is one.
+// The common ancestor of all bones: the first node that is one.
 std::size_t RootOf(const Skeleton& skeleton, const std::vector<TriangleMesh>& meshes) {
   for (std::size_t n = 0; n < meshes.size(); ++n) {
     if (skeleton.nodes()[n].channel != nullptr) return n;

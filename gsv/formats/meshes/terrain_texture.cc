@@ -10,7 +10,7 @@ namespace {
 using Rgb = std::array<double, 3>;
 
 constexpr double kGreyLevel = 128;
-// A pixel is the mean of so many samples a side, at most.
+// A pixel is the mean of at most this many samples per side.
 constexpr int kMaxSamples = 8;
 
 // The heights of a mesh whose vertices are rows of a grid.
@@ -43,7 +43,7 @@ class GridHeights {
 
 double Fraction(double value) { return value - std::floor(value); }
 
-// The pixel at a point, in metres from the terrain's lower left corner.
+// The colour at a point, in metres from the terrain's lower left corner.
 Rgb PixelAt(const TerrainLayer& layer, double x, double y) {
   if (layer.image == nullptr) return {kGreyLevel, kGreyLevel, kGreyLevel};
   const model::Image& image = *layer.image;
@@ -58,7 +58,7 @@ Rgb PixelAt(const TerrainLayer& layer, double x, double y) {
           static_cast<double>(pixel[2])};
 }
 
-// The mean over a square of a side in metres, about a point.
+// The mean colour of a square with this side, in metres, about a point.
 Rgb MeanAt(const TerrainLayer& layer, double x, double y, double side) {
   const double pixels =
       layer.image == nullptr ? 1 : side / layer.tile * static_cast<double>(layer.image->width);
@@ -75,14 +75,14 @@ Rgb MeanAt(const TerrainLayer& layer, double x, double y, double side) {
   return sum;
 }
 
-// How much a layer covers at a height.
+// The fraction that a layer covers at a height.
 double ShareAt(const TerrainLayer& layer, double height) {
   if (height < layer.min_height) return 0;
   if (!(layer.fade_distance > 0)) return 1;
   return std::min((height - layer.min_height) / layer.fade_distance, 1.0);
 }
 
-// So many that no tile's pixel is lost, within the limit.
+// A side so large that no pixel of a tile is lost, within the limit.
 int SideFor(geometry::Vector2 size, const std::vector<TerrainLayer>& layers) {
   double side = 1;
   for (const TerrainLayer& layer : layers) {

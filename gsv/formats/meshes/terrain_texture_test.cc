@@ -20,13 +20,13 @@ std::shared_ptr<const model::Image> ImageOf(int width, int height,
   return image;
 }
 
-// Rises along x from 0 to 10 m, over 10 m.
+// A ramp that rises along x from 0 to 10 m, over 10 m.
 geometry::TriangleMesh Ramp() {
   model::Image grey{2, 2, 3, {0, 0, 0, 255, 255, 255, 0, 0, 0, 255, 255, 255}, "ramp"};
   return HeightmapMesh(grey, {10, 10, 10}, 100);
 }
 
-// Of the terrain's point, in metres from its lower left corner.
+// The pixel at a point of the terrain, in metres from its lower left corner.
 Pixel At(const model::Image& image, double x, double y) {
   const auto column = static_cast<std::size_t>(x / 10 * image.width);
   const auto row = static_cast<std::size_t>((1 - y / 10) * image.height);
@@ -54,7 +54,7 @@ TEST(TerrainTexture, BlendsLayersByHeight) {
   const model::Image image = TerrainTexture(Ramp(), {10, 10}, {{low, 1, 0, 0}, {high, 1, 4, 4}});
   EXPECT_EQ(At(image, 1, 5), kRed);
   EXPECT_EQ(At(image, 9, 5), kBlue);
-  // Half of the fading distance above the height where it begins.
+  // In the middle of the fading distance above the height where it begins.
   EXPECT_NEAR(At(image, 6, 5)[0], 100, 3);
   EXPECT_NEAR(At(image, 6, 5)[2], 100, 3);
 }

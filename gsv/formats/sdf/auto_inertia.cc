@@ -23,7 +23,7 @@ void AddMassOf(const model::Collision& collision, double density, MassMoments& s
   const Vector3 centre = collision.link_from_collision * solid.centroid;
   sum.mass += mass;
   sum.first += mass * centre;
-  // R S R^T: the rows of R are where the link's axes lie in the collision's frame.
+  // R S R^T: the rows of R are the link's axes in the collision's frame.
   const auto turned = [&](const Vector3& axis) {
     const Vector3 v = Inverse(turn) * axis;
     return turn * Vector3{solid.xx * v.x + solid.xy * v.y + solid.xz * v.z,

@@ -30,7 +30,7 @@ constexpr std::string_view kGroundAndSunWorld =
 #undef GSV_GROUND_PLANE
 #undef GSV_SUN
 
-// "Ground%20Plane", "ground_plane" and "Ground Plane/2" are one name.
+// Maps "Ground%20Plane", "ground_plane" and "Ground Plane/2" to one name.
 std::string PlainName(std::string_view uri) {
   while (!uri.empty() &&
          (uri.back() == '/' || std::isdigit(static_cast<unsigned char>(uri.back())))) {

@@ -21,7 +21,7 @@ using tinyxml2::XMLElement;
 
 constexpr char kScope[] = "::";
 
-// A text as elements, and whether they were changed.
+// A text as elements, with a flag that they were changed.
 struct Tree {
   SdfText* text;
   std::unique_ptr<tinyxml2::XMLDocument> document;
@@ -74,7 +74,7 @@ std::string NameIn(const XMLElement& element) {
          (name == nullptr ? "" : " \"" + std::string(name) + "\"");
 }
 
-// The texts between brackets: "link with name[a] already exists" has "a".
+// The texts in brackets: "a" for "link with name[a] already exists".
 std::vector<std::string> Bracketed(const std::string& message) {
   std::vector<std::string> texts;
   for (std::size_t open = message.find('['); open != std::string::npos;
@@ -86,7 +86,7 @@ std::vector<std::string> Bracketed(const std::string& message) {
   return texts;
 }
 
-// The word before `after`: "specified by link with name[" has "link" before " with name[".
+// The word before `after`: "link" for "specified by link with name[" and " with name[".
 std::string WordBefore(const std::string& message, const std::string& after, std::size_t from = 0) {
   const std::size_t end = message.find(after, from);
   if (end == std::string::npos) return "";
@@ -108,7 +108,7 @@ class DocumentRepair {
   bool After(const sdf::Errors& errors) {
     if (trees_.empty()) return false;
     for (const sdf::Error& error : errors) AfterMeaning(error.Message());
-    // An element that cannot be read stops the reading: the first such error names it.
+    // An element that cannot be read stops the reader: the first such error names it.
     for (const sdf::Error& error : errors) {
       if (error.XmlPath() && !error.XmlPath()->empty() && LeaveOut(error)) break;
     }
@@ -121,7 +121,8 @@ class DocumentRepair {
         {base::Problem::Severity::kWarning, message, PlaceOf(tree.text->path, element)});
   }
 
-  // Calls `change` for the elements of a kind and name; it says whether it changed something.
+  // Calls `change` for the elements of a kind and name. It returns whether it has changed
+  // something.
   void ForNamed(const std::string& kind, const std::string& name,
                 const std::function<bool(Tree&, XMLElement&)>& change) {
     for (Tree& tree : trees_) {
@@ -174,7 +175,7 @@ class DocumentRepair {
     });
   }
 
-  // A pose relative to something that is not there is taken as relative to what holds it.
+  // A pose relative to a missing frame becomes relative to its parent.
   void MakeOwn(const std::string& kind, const std::string& name, const std::string& missing) {
     ForNamed(kind, name, [&](Tree& tree, XMLElement& element) {
       XMLElement* pose = element.FirstChildElement("pose");
@@ -210,7 +211,7 @@ class DocumentRepair {
     });
   }
 
-  // Gives all but the first of those beside each other that share a name one of their own.
+  // Renames all but the first of siblings with the same name.
   void NameApart(const std::string& kind, const std::string& name) {
     for (Tree& tree : trees_) {
       std::set<const tinyxml2::XMLNode*> parents;
@@ -288,8 +289,8 @@ class DocumentRepair {
     }
   }
 
-  // "/sdf/world[@name="w"]/model[@name="m"]/link": the element, or the nearest around it that is
-  // there.
+  // The element at a path such as "/sdf/world[@name="w"]/model[@name="m"]/link", or the nearest
+  // existing element around it.
   static XMLElement* Follow(XMLElement* root, const std::string& path, int line) {
     XMLElement* at = nullptr;
     std::size_t from = 0;
@@ -315,7 +316,7 @@ class DocumentRepair {
       at = child;
       if (from == std::string::npos) break;
     }
-    // If several elements are alike, the error means the one on its line.
+    // If several elements match, the error is about the one on its line.
     for (XMLElement* same = at; same != nullptr && line > 0;
          same = same->NextSiblingElement(at->Name())) {
       if (same->GetLineNum() == line) return same;
@@ -340,7 +341,7 @@ class DocumentRepair {
     return false;
   }
 
-  // Without these nothing is left.
+  // Removing such an element would leave nothing.
   static bool IsTop(const XMLElement& element) {
     const auto* parent = element.Parent()->ToElement();
     return parent == nullptr || std::strcmp(parent->Name(), "sdf") == 0;

@@ -92,7 +92,7 @@ std::optional<Material> GazeboMaterial(std::string_view name) {
   if (name.substr(0, kPrefix.size()) != kPrefix) return std::nullopt;
   name.remove_prefix(kPrefix.size());
   if (auto plain = Plain(name)) return plain;
-  // "RedGlow" shines by itself, "RedTransparent" is half see-through.
+  // "RedGlow" is emissive, "RedTransparent" is half transparent.
   const bool glows = DropSuffix(name, "Glow");
   const bool transparent =
       !glows && (DropSuffix(name, "TransparentOverlay") || DropSuffix(name, "Transparent"));

@@ -15,7 +15,7 @@ using base::ErrorCode;
 using base::Problem;
 using tinyxml2::XMLElement;
 
-// Begins the names that libsdformat asks for.
+// The prefix of the names that libsdformat requests.
 constexpr char kIncluded[] = "gsv-included://";
 
 bool IsModelPart(const XMLElement& element) {
@@ -95,7 +95,7 @@ base::Result<std::string> IncludeScan::Enter(const fs::path& file) {
   return done_.emplace(path, name).first->second;
 }
 
-// The text of a file that is included, without what cannot be read in it.
+// The text of an included file, without the parts that cannot be read.
 base::Result<std::string> IncludeScan::TextOf(XmlFile& file) {
   if (file.dialect == XmlDialect::kUrdf) return UrdfText(file, problems_);
   XMLElement* model = file.root->FirstChildElement("model");

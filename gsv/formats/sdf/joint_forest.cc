@@ -18,7 +18,7 @@ class Forest {
   Forest(std::size_t links, std::vector<Joint>& joints)
       : joints_(joints), joint_above_(links, kNone) {}
 
-  // False when the joint closes a loop.
+  // False if the joint closes a loop.
   bool Add(std::size_t index) {
     Joint& joint = joints_[index];
     if (joint.parent >= 0 && RootOf(joint.parent) == RootOf(joint.child)) return false;
@@ -54,7 +54,7 @@ class Forest {
 
   bool HangsFromWorld(int link) const { return ParentOf(RootOf(link)) == -1; }
 
-  // Turns round every joint between the link and its root.
+  // Reverses every joint between the link and its root.
   void MakeRoot(int link) {
     std::size_t joint = std::exchange(joint_above_[Link(link)], kNone);
     while (joint != kNone) {

@@ -18,7 +18,7 @@ Joint Between(const char* name, int parent, int child) {
   return joint;
 }
 
-TEST(JointForest, LeavesAForestAsItIs) {
+TEST(JointForest, LeavesAForestUnchanged) {
   std::vector<Joint> joints = {Between("a", -1, 0), Between("b", 0, 1), Between("c", 0, 2)};
   EXPECT_THAT(MakeForest(3, joints), IsEmpty());
   EXPECT_EQ(joints[1].parent, 0);
@@ -26,8 +26,8 @@ TEST(JointForest, LeavesAForestAsItIs) {
   EXPECT_EQ(joints[1].axis, (geometry::Vector3{0, 0, 1}));
 }
 
-// 0 -> 1 <- 2: the second joint turns round, and its axis with it, so that its position stays.
-TEST(JointForest, TurnsAJointRoundWhereALinkHasTwoParents) {
+// 0 -> 1 <- 2: the second joint is reversed, and its axis with it, so that its position stays.
+TEST(JointForest, ReversesAJointIfALinkHasTwoParents) {
   std::vector<Joint> joints = {Between("a", 0, 1), Between("b", 2, 1)};
   EXPECT_THAT(MakeForest(3, joints), IsEmpty());
   EXPECT_EQ(joints[1].parent, 1);
@@ -35,8 +35,8 @@ TEST(JointForest, TurnsAJointRoundWhereALinkHasTwoParents) {
   EXPECT_EQ(joints[1].axis, (geometry::Vector3{0, 0, -1}));
 }
 
-// 0 -> 1 and 3 -> 2 -> 1: the whole chain above the second joint turns round.
-TEST(JointForest, TurnsAChainRound) {
+// 0 -> 1 and 3 -> 2 -> 1: the whole chain above the second joint is reversed.
+TEST(JointForest, ReversesAChain) {
   std::vector<Joint> joints = {Between("a", 0, 1), Between("b", 3, 2), Between("c", 2, 1)};
   EXPECT_THAT(MakeForest(4, joints), IsEmpty());
   EXPECT_EQ(joints[2].parent, 1);
@@ -45,7 +45,7 @@ TEST(JointForest, TurnsAChainRound) {
   EXPECT_EQ(joints[1].child, 3);
 }
 
-// 0 -> 1, and world -> 2 -> 1: what hangs from the world cannot turn round, so the other side does.
+// 0 -> 1, and world -> 2 -> 1: a joint to the world cannot be reversed, so the other side is.
 TEST(JointForest, KeepsTheWorldAtTheTop) {
   std::vector<Joint> joints = {Between("a", 0, 1), Between("w", -1, 2), Between("b", 2, 1)};
   EXPECT_THAT(MakeForest(3, joints), IsEmpty());

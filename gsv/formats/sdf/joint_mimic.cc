@@ -33,7 +33,7 @@ class MimicReader {
     }
   }
 
-  // Of joints that follow each other in a circle nobody leads.
+  // Joints that follow each other in a cycle have no leader.
   void DropCircles() {
     for (model::Joint& joint : model_.joints) {
       if (!joint.mimic) continue;
@@ -74,7 +74,7 @@ class MimicReader {
                      Number(*mimic, "reference", 0)};
   }
 
-  // An attribute of URDF, an element of SDFormat.
+  // The value is an attribute in URDF, an element in SDFormat.
   double Number(const XMLElement& mimic, const char* name, double otherwise) {
     const char* text = mimic.Attribute(name);
     if (const auto* child = mimic.FirstChildElement(name)) text = child->GetText();

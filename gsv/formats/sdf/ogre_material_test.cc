@@ -34,7 +34,7 @@ material Derived/Two : Base/One { technique { pass { diffuse 1 0 0 } } }
   EXPECT_EQ(materials.at("Derived/Two").texture, "First.png");
 }
 
-TEST(OgreMaterials, TakesWhatThereIsOfADamagedScript) {
+TEST(OgreMaterials, ReadsTheIntactPartOfADamagedScript) {
   EXPECT_TRUE(ParseOgreMaterials("").empty());
   EXPECT_TRUE(ParseOgreMaterials("}}}{{{ material").empty());
   const auto materials = ParseOgreMaterials("material A { technique { pass { diffuse red 0 0");

@@ -52,7 +52,7 @@ class ActorReader {
  private:
   std::string Place(const XMLElement& element) const { return PlaceOf(context_.source, element); }
 
-  // A number from 0 to the longest script, or `otherwise` with a problem.
+  // A number from 0 to the maximum length of a script; or `otherwise`, with a problem.
   double NumberOf(const XMLElement& parent, const char* name, double otherwise) const {
     const XMLElement* element = parent.FirstChildElement(name);
     if (element == nullptr) return otherwise;
@@ -117,7 +117,7 @@ class ActorReader {
     const char* type = element.Attribute("type");
     const auto animation = follows_way_.find(type == nullptr ? "" : type);
     trajectory.animated_by_distance = animation != follows_way_.end() && animation->second;
-    // Of two at one time the later in the file counts, as in Gazebo.
+    // Of two waypoints at one time the later one in the file counts, as in Gazebo.
     std::map<SimTime, Pose> waypoints;
     for (auto* child = element.FirstChildElement("waypoint"); child != nullptr;
          child = child->NextSiblingElement("waypoint")) {
@@ -169,7 +169,7 @@ class ActorReader {
     mesh->InsertNewChildElement("scale")->SetText((number + " " + number + " " + number).c_str());
   }
 
-  // That of the first trajectory's type, else the first. Null: there is none.
+  // The animation of the first trajectory's type, else the first one. Null if there is none.
   const XMLElement* AnimationToShow() const {
     const XMLElement* script = actor_.FirstChildElement("script");
     const XMLElement* trajectory =
@@ -191,7 +191,7 @@ class ActorReader {
     return chosen;
   }
 
-  // False, with a warning: the skin keeps its shape.
+  // False, with a warning, if the skin is not animated.
   bool ReadSkin(const XMLElement& animation, const std::filesystem::path& skin, double scale) {
     const auto refuse = [&](const std::string& why) {
       context_.Warn("the animation is not carried out, and the skin keeps its shape: " + why,
@@ -214,7 +214,8 @@ class ActorReader {
   }
 
   // A cylinder with a head, 1.75 m tall. Skins such as Gazebo's have their origin in the hip, and
-  // waypoints at its height: then the figure's feet are as far below the first one.
+  // the waypoints have its height: then the figure's feet are at that distance below the first
+  // waypoint.
   void AddFigure(const Pose& start) {
     const double height = start.position.z;
     const double feet = height > 0.5 && height < 1.5 ? -height : 0;
@@ -242,8 +243,8 @@ class ActorReader {
   std::shared_ptr<const SkinnedMesh> skin_;
 };
 
-// Hangs a bone's triangles from the first link, by joints that slide along x, y and z, and then turn
-// about z, y and x.
+// Attaches a bone's triangles to the first link, with prismatic joints along x, y and z and
+// revolute joints about z, y and x.
 void AddBone(const SkinnedMesh& skin, const SkinnedMesh::Bone& bone, model::Model& actor) {
   struct Freedom {
     const char* name;
@@ -278,7 +279,7 @@ void AddBone(const SkinnedMesh& skin, const SkinnedMesh::Bone& bone, model::Mode
   actor.links.back().visuals.push_back(std::move(visual));
 }
 
-// The lowest corner of any bone's box, in the skin, at the first frame.
+// The lowest corner of the boxes of all bones, in the skin's frame, at the first frame.
 double LowestOf(const SkinnedMesh& skin) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const SkinnedMesh::Bone& bone : skin.bones) {
@@ -289,9 +290,9 @@ double LowestOf(const SkinnedMesh& skin) {
   return lowest;
 }
 
-// Along a trajectory the root bone keeps to the actor's frame. Only its height stays where the feet
-// are then nearer to the ground, the world's z = 0: some skins have their origin at the feet, and
-// waypoints there.
+// Along a trajectory the root bone stays at the actor's frame. It keeps only its height, and only
+// if the feet are then nearer to the ground (z = 0 in the world): some skins have their origin at
+// the feet, and so have the waypoints.
 std::shared_ptr<const model::Animation> AnimationOf(const SkinnedMesh& skin,
                                                     const model::Script& script, int first_joint) {
   const bool follows = !script.trajectories.empty();
@@ -318,7 +319,7 @@ std::shared_ptr<const model::Animation> AnimationOf(const SkinnedMesh& skin,
   return animation;
 }
 
-// The box around all visuals, in the model's frame; nothing if there are none.
+// The box around all visuals, in the model's frame. False if there are no visuals.
 bool BoundsOfVisuals(const model::Model& model, geometry::Bounds& bounds) {
   bool any = false;
   for (const model::Link& link : model.links) {
@@ -342,7 +343,7 @@ bool BoundsOfVisuals(const model::Model& model, geometry::Bounds& bounds) {
   return any;
 }
 
-// Widens `bounds` by the skin at its first frame.
+// Extends `bounds` by the skin at its first frame.
 void Include(const SkinnedMesh& skin, const model::Animation& animation, int first_joint, bool& any,
              geometry::Bounds& bounds) {
   for (std::size_t b = 0; b < skin.bones.size(); ++b) {

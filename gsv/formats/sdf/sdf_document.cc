@@ -21,14 +21,14 @@ namespace {
 
 using base::Problem;
 
-constexpr int kMaxRepairs = 64;  // of one document, each of which takes another reading
+constexpr int kMaxRepairs = 64;  // of one document; each needs another reading
 constexpr std::size_t kLongestMessage = 300;
 
-// libsdformat names text that came from no file "<data-string>" or "<urdf-string>", and numbers no
-// lines of the latter.
+// libsdformat names text that is not from a file "<data-string>" or "<urdf-string>", and does not
+// number the lines of the latter.
 bool IsNoFile(const std::string& file) { return file.empty() || file.front() == '<'; }
 
-// Keeps what urdfdom says is wrong with a robot: libsdformat does not pass it on.
+// Stores the errors of urdfdom: libsdformat does not pass them on.
 class ReasonKeeper : public console_bridge::OutputHandler {
  public:
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
@@ -54,11 +54,11 @@ std::string Shortened(std::string text) {
   return text;
 }
 
-// One reading of the texts as they stand.
+// One reading of the current texts.
 struct Reading {
   std::unique_ptr<sdf::Root> root = std::make_unique<sdf::Root>();
   sdf::Errors errors;
-  std::string exception;  // what libsdformat threw
+  std::string exception;  // message of an exception of libsdformat
 
   bool HasContent() const {
     return root->WorldCount() > 0 || root->Model() != nullptr || root->Light() != nullptr ||
@@ -66,8 +66,7 @@ struct Reading {
   }
 };
 
-// Below the first include libsdformat 12 forgets the configuration it was given, and asks the
-// global one.
+// Below the first include, libsdformat 12 does not use its configuration but the global one.
 void ConfigureBy(IncludedFileServer& server) {
   sdf::ParserConfig& config = sdf::ParserConfig::GlobalConfig();
   config.SetFindCallback([&server](const std::string& uri) { return server.Find(uri); });
@@ -76,7 +75,7 @@ void ConfigureBy(IncludedFileServer& server) {
   config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::LOG);
 }
 
-// An element of a text in memory is said to stand in the file that the text came from.
+// Errors of an element in memory then name the file from which the text came.
 void NameSources(const sdf::ElementPtr& element, const IncludedFileServer& server) {
   if (element == nullptr) return;
   if (const auto* source = server.SourceOf(element->FilePath())) {
@@ -87,8 +86,8 @@ void NameSources(const sdf::ElementPtr& element, const IncludedFileServer& serve
   }
 }
 
-// An <sdf> element without content, ready to be read into. Its descriptions are those of the
-// schema: libsdformat copies a description before it fills an element in.
+// An <sdf> element without content, ready for reading. It shares the descriptions of the schema, as
+// libsdformat copies a description before it fills an element.
 sdf::SDFPtr EmptyDocument(const sdf::Element& schema) {
   const auto root = std::make_shared<sdf::Element>();
   root->SetName(schema.GetName());
@@ -108,7 +107,7 @@ sdf::SDFPtr EmptyDocument(const sdf::Element& schema) {
   return document;
 }
 
-// As sdf::Root::LoadSdfString, which builds the schema again for each text.
+// Like sdf::Root::LoadSdfString, which builds the schema again for each text.
 sdf::Errors Load(const std::string& text, sdf::Root& root) GSV_REQUIRES(SdformatMutex()) {
   const sdf::ParserConfig& config = sdf::ParserConfig::GlobalConfig();
   const sdf::SDFPtr document = EmptyDocument(*SdfSchema());
@@ -130,7 +129,7 @@ Reading ReadOnce(const std::string& text, const IncludedFiles& includes)
   Reasons().reasons.clear();
   try {
     reading.errors = Load(text, *reading.root);
-  } catch (const sdf::Exception& exception) {  // no std::exception
+  } catch (const sdf::Exception& exception) {  // it is not a std::exception
     reading.exception = exception.GetErrorStr();
   } catch (const std::exception& exception) {
     reading.exception = exception.what();
@@ -166,8 +165,8 @@ bool BreaksFrames(const sdf::Error& error) {
          code == sdf::ErrorCode::POSE_RELATIVE_TO_GRAPH_ERROR;
 }
 
-// What libsdformat complains of but this program lives with, or finds out by itself: sensors of
-// types that it does not know are welcome, a script needs no <uri>, summaries say nothing.
+// Errors of libsdformat that do not matter here, or that this program finds itself: sensors of
+// unknown types are accepted, a script needs no <uri>, and summaries have no content.
 bool IsChecked(const sdf::Error& error) {
   const sdf::ErrorCode code = error.Code();
   for (const char* start : {"Attempting to load a Sensor", "Failed to load a",
@@ -178,7 +177,7 @@ bool IsChecked(const sdf::Error& error) {
          code == sdf::ErrorCode::ATTRIBUTE_DEPRECATED ||
          code == sdf::ErrorCode::LINK_INERTIA_INVALID ||
          code == sdf::ErrorCode::MODEL_WITHOUT_LINK ||
-         code == sdf::ErrorCode::STRING_READ;  // holds the whole text
+         code == sdf::ErrorCode::STRING_READ;  // contains the whole text
 }
 
 void Collect(const sdf::Errors& errors, const std::filesystem::path& source,
@@ -192,7 +191,7 @@ void Collect(const sdf::Errors& errors, const std::filesystem::path& source,
   }
 }
 
-// Why nothing could be read.
+// The reason why nothing could be read.
 tl::unexpected<base::Error> Refusal(const Reading& reading, const std::filesystem::path& source) {
   constexpr auto kBadModel = base::ErrorCode::kBadModel;
   std::string reasons;
@@ -214,7 +213,7 @@ tl::unexpected<base::Error> Refusal(const Reading& reading, const std::filesyste
   return base::Fail(kBadModel, "there is no world or model inside", source.string());
 }
 
-// Repairs and reads again, until nothing is wrong that can be repaired.
+// Repairs and reads again, until there is no error that can be repaired.
 void ReadRepaired(SdfText document, IncludedFiles includes, Reading& reading,
                   base::Problems& problems) GSV_REQUIRES(SdformatMutex()) {
   for (int round = 0; round < kMaxRepairs; ++round) {

@@ -145,7 +145,7 @@ class DriveReader {
     drive_.wheel_radius = diameter && *diameter > 0
                               ? *diameter / 2
                               : Positive({"wheel_radius", "wheelRadius"}, MeasuredRadius());
-    // Ours, for wheels that are not what the drive takes them for.
+    // GSV's own parameters, for wheels that differ from the drive's assumption.
     drive_.left_wheel_scale =
         Positive({"left_wheel_radius"}, drive_.wheel_radius) / drive_.wheel_radius;
     drive_.right_wheel_scale =
@@ -154,7 +154,7 @@ class DriveReader {
     drive_.steering_limit = Positive({"steering_limit"}, drive_.steering_limit);
   }
 
-  // A limit on both sides; a lone maximum holds backwards as well, as in Gazebo.
+  // A limit in both directions; a lone maximum also applies backwards, as in Gazebo.
   model::Range Limits(const std::string& what) const {
     model::Range range;
     const auto max = Number({("max_" + what).c_str()});
@@ -188,7 +188,7 @@ class DriveReader {
 
   const Joint& JointAt(int index) const { return model_.joints[static_cast<std::size_t>(index)]; }
 
-  // The middle of the wheel's collision shapes, or its joint when it has none.
+  // The centre of the wheel's collision shapes, or its joint if it has none.
   Vector3 WheelCentre(int joint) const {
     const model::Link& wheel = model_.links[static_cast<std::size_t>(JointAt(joint).child)];
     if (wheel.collisions.empty()) return JointAt(joint).model_from_joint.position;
@@ -238,7 +238,7 @@ class DriveReader {
     return std::nullopt;
   }
 
-  // From the foremost to the hindmost wheel.
+  // From the front wheel to the rear wheel.
   double MeasuredWheelBase() const {
     double front = -std::numeric_limits<double>::infinity();
     double rear = std::numeric_limits<double>::infinity();

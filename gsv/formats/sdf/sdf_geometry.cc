@@ -55,7 +55,7 @@ bool IsElevationModel(const std::filesystem::path& file) {
   return extension == ".tif" || extension == ".tiff";
 }
 
-// The textures of a visual's heightmap, each after the first with the blend that leads to it.
+// The textures of a visual's heightmap, each but the first with its blend.
 std::vector<TerrainLayer> ReadLayers(const sdf::Heightmap& heightmap,
                                      const std::filesystem::path& file,
                                      const ReadingContext& context) {
@@ -70,7 +70,7 @@ std::vector<TerrainLayer> ReadLayers(const sdf::Heightmap& heightmap,
       layer.min_height = heightmap.BlendByIndex(i - 1)->MinHeight();
       layer.fade_distance = heightmap.BlendByIndex(i - 1)->FadeDistance();
     } else if (i > 0) {
-      break;  // nothing says where it begins
+      break;  // the height where it begins is missing
     }
     const std::string place = texture.Element() == nullptr
                                   ? context.source.string()
@@ -90,7 +90,7 @@ std::vector<TerrainLayer> ReadLayers(const sdf::Heightmap& heightmap,
   return layers;
 }
 
-// A picture, or as Gazebo has it an elevation model in TIFF, which may give its own size.
+// An image, or an elevation model in TIFF, which may have its own size, as in Gazebo.
 base::Result<SdfShape> ReadHeightmap(const sdf::Heightmap& heightmap,
                                      const std::filesystem::path& file, bool is_drawn,
                                      const ReadingContext& context) {
@@ -153,7 +153,7 @@ base::Result<SdfShape> ReadPlane(const sdf::Plane& plane) {
                  {size.x, size.y});
 }
 
-// SDFormat has cones since 1.11: an older reader keeps the element as it stands.
+// SDFormat has cones since 1.11: an older reader keeps the element unchanged.
 base::Result<SdfShape> ReadCone(const sdf::ElementPtr& geometry) {
   const sdf::ElementPtr cone = geometry->GetElement("cone");
   const double radius = cone->Get<double>("radius", 0.5).first;

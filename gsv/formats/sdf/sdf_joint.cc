@@ -20,7 +20,7 @@ double LimitOrInfinity(double value) {
   return std::abs(value) >= kNoLimit ? std::copysign(INFINITY, value) : value;
 }
 
-// A positive upper bound; SDFormat says -1 for "none".
+// A positive upper bound; SDFormat uses -1 for "none".
 double BoundOrInfinity(double value) { return value >= 0 && value < kNoLimit ? value : INFINITY; }
 
 void ReadAxis(const sdf::JointAxis& axis, const std::string& place, const ReadingContext& context,
@@ -53,8 +53,8 @@ void ReadAxis(const sdf::JointAxis& axis, const std::string& place, const Readin
   }
 }
 
-// <screw_thread_pitch> is in metres a turn; <thread_pitch>, its elder, in radians a metre and of a
-// left-handed thread (SDFormat 1.10).
+// <screw_thread_pitch> is in metres per turn. The older <thread_pitch> is in radians per metre and
+// of a left-handed thread (SDFormat 1.10).
 double ThreadPitch(const sdf::Joint& source) {
   const sdf::ElementPtr element = source.Element();
   if (element != nullptr && element->HasElement("screw_thread_pitch")) {
@@ -63,7 +63,7 @@ double ThreadPitch(const sdf::Joint& source) {
   return -1 / source.ThreadPitch();
 }
 
-// One that may turn about each of the joint's axes in turn.
+// Copies of the joint, one for each axis.
 std::vector<Joint> InARow(const sdf::Joint& source, const Joint& joint, const std::string& place,
                           const ReadingContext& context) {
   std::vector<Joint> row;

@@ -14,7 +14,7 @@ namespace {
 using model::Joint;
 using model::JointTarget;
 
-// In lower case, without "-" and "_".
+// The text in lower case, without "-" and "_".
 std::string Plain(const std::string& text) {
   std::string plain;
   for (const char c : text) {
@@ -52,9 +52,9 @@ class TargetReader {
     return otherwise;
   }
 
-  // What a position controller may do at most.
+  // The limit of a position controller's effort.
   void Limit(Joint& joint) const {
-    const double most = Number("cmd_max", -1);  // as Gazebo's: without one, no limit
+    const double most = Number("cmd_max", -1);  // as in Gazebo: default: no limit
     if (!(most > 0)) return;
     const bool by_velocity = plugin_->HasElement("use_velocity_commands") &&
                              plugin_->Get<std::string>("use_velocity_commands") != "false" &&

@@ -25,7 +25,7 @@ using model::Visual;
 constexpr double kMissingMeshGrey = 0.5;
 constexpr std::size_t kLongestReason = 200;
 
-// A child's value along a path of elements, if each is there.
+// The value of a child along a path of elements, if each exists.
 template <typename T>
 std::optional<T> ValueAt(sdf::ElementPtr element, std::initializer_list<const char*> path) {
   for (const char* name : path) {
@@ -35,7 +35,7 @@ std::optional<T> ValueAt(sdf::ElementPtr element, std::initializer_list<const ch
   return element->Get<T>();
 }
 
-// A collision that makes no contact forces meets nothing; <collide_bitmask> is stronger.
+// A collision without contact forces collides with nothing; <collide_bitmask> overrides it.
 model::CollisionFilter ReadFilter(const sdf::ElementPtr& collision) {
   const auto bits = [&](const char* name) -> std::optional<std::uint16_t> {
     const auto value = ValueAt<unsigned int>(collision, {"surface", "contact", name});
@@ -64,8 +64,8 @@ model::Surface ReadSurface(const sdf::ElementPtr& collision, const ReadingContex
                    PlaceOf(*collision, context.source));
     }
   };
-  // One that has no second friction has the first in every direction, as in gz-sim, whose own test
-  // of boxes on an incline gives <mu> alone.
+  // A single friction applies in all directions, as in gz-sim, whose own test of boxes on a slope
+  // sets only <mu>.
   const auto take_both = [&](const char* engine, const char* first, const char* second) {
     take(surface.friction, {"surface", "friction", engine, first});
     if (ValueAt<double>(collision, {"surface", "friction", engine, first})) {
@@ -90,8 +90,8 @@ model::Surface ReadSurface(const sdf::ElementPtr& collision, const ReadingContex
   return surface;
 }
 
-// By Sylvester's criterion. The triangle inequality of physical bodies is not asked for: real files
-// round it away.
+// Checks by Sylvester's criterion. The triangle inequality is not checked: real files violate it by
+// rounding.
 bool IsPositiveDefinite(const model::Inertial& i) {
   const double second = i.ixx * i.iyy - i.ixy * i.ixy;
   const double determinant = i.ixx * (i.iyy * i.izz - i.iyz * i.iyz) -
@@ -100,7 +100,7 @@ bool IsPositiveDefinite(const model::Inertial& i) {
   return i.ixx > 0 && second > 0 && determinant > 0;
 }
 
-// Of a link that never moves nothing is used, and nothing can be wrong.
+// The inertia of a link that never moves is not used, so that nothing is checked.
 model::Inertial ReadInertial(const sdf::Link& link, bool is_static, const ReadingContext& context) {
   model::Inertial inertial;
   const sdf::ElementPtr element = link.Element();
@@ -134,7 +134,7 @@ sdf::ElementPtr GeometryElement(const sdf::ElementPtr& element) {
                                                                : nullptr;
 }
 
-// A density in kg/m³ that an element has, or `otherwise`.
+// An element's density in kg/m³, or `otherwise`.
 double DensityOf(const sdf::ElementPtr& element, double otherwise, const ReadingContext& context) {
   if (element == nullptr || !element->HasElement("density")) return otherwise;
   const auto [density, is_number] = element->Get<double>("density", otherwise);
@@ -144,7 +144,7 @@ double DensityOf(const sdf::ElementPtr& element, double otherwise, const Reading
   return otherwise;
 }
 
-// The densities of the link's collisions.
+// Reads the link's collisions; returns their densities.
 std::vector<double> ReadCollisions(const sdf::Link& source, model::Link& link,
                                    const ReadingContext& context) {
   std::vector<double> densities;
@@ -173,7 +173,7 @@ std::vector<double> ReadCollisions(const sdf::Link& source, model::Link& link,
   return densities;
 }
 
-// libsdformat 12 knows no @auto; ValueRepair keeps it under a name of ours.
+// libsdformat 12 does not know @auto; ValueRepair keeps it under another name.
 void MakeInertialOfShapes(const sdf::Link& source, const std::vector<double>& densities,
                           bool is_static, const ReadingContext& context, model::Link& link) {
   if (source.Element() == nullptr || !source.Element()->HasElement("inertial")) return;
@@ -190,7 +190,7 @@ void MakeInertialOfShapes(const sdf::Link& source, const std::vector<double>& de
     link.inertial = {};
     return;
   }
-  // A <mass> beside it scales the rest, as in SDFormat 1.12.
+  // A <mass> beside it scales the inertia, as in SDFormat 1.12.
   const double scale =
       element->HasElement("mass") && link.inertial.mass > 0 ? link.inertial.mass / made->mass : 1;
   link.inertial = *made;
@@ -201,7 +201,7 @@ void MakeInertialOfShapes(const sdf::Link& source, const std::vector<double>& de
   }
 }
 
-// A share of the velocity.
+// A fraction of the velocity.
 double ReadDecay(const sdf::Link& source, const char* name, const ReadingContext& context) {
   const double decay = ValueAt<double>(source.Element(), {"velocity_decay", name}).value_or(0.0);
   if (decay >= 0 && decay <= 1) return decay;
@@ -254,7 +254,7 @@ std::vector<Visual> CollisionsAsVisuals(const model::Link& link) {
   return visuals;
 }
 
-// As Gazebo's thermal system has it; nothing where the visual has none.
+// The temperature of Gazebo's thermal system; nothing if the visual has none.
 std::optional<double> TemperatureOf(const sdf::ElementPtr& visual, const ReadingContext& context) {
   if (!visual->HasElement("plugin")) return std::nullopt;
   for (auto plugin = visual->GetElement("plugin"); plugin != nullptr;

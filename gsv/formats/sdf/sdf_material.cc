@@ -168,7 +168,7 @@ class MaterialOfVisual {
     return scripts;
   }
 
-  // A picture in the folders of the visual's script, as OGRE finds it: by its name alone.
+  // An image in the folders of the visual's script, found by its name alone, as by OGRE.
   std::optional<fs::path> FindBesideScripts(const std::string& name) const {
     for (const fs::path& place : script_places_) {
       for (const fs::path& folder : {place, place.parent_path(), place / "../textures",
@@ -189,7 +189,7 @@ class MaterialOfVisual {
     if (ogre.emissive) material_.emissive = *ogre.emissive;
     if (ogre.specular) material_.roughness = RoughnessOf(*ogre.specular, ogre.shininess);
     if (ogre.texture.empty()) return;
-    // A picture without a colour beside it shows as it is.
+    // An image without a colour beside it is not tinted.
     if (!ogre.diffuse) material_.base_colour = {};
     const auto file = FindBesideScripts(ogre.texture);
     const auto image =
@@ -207,7 +207,7 @@ class MaterialOfVisual {
   sdf::ElementPtr element_;
   fs::path file_;
   std::string place_;
-  std::vector<fs::path> script_places_;  // files and folders that its <script> names
+  std::vector<fs::path> script_places_;  // files and folders in its <script>
   const ReadingContext& context_;
   Material material_;
 };

@@ -18,7 +18,7 @@ using tinyxml2::XMLElement;
 
 constexpr std::size_t kMaxLayers = 1000;
 
-// Whether the plugin's file or class has such a name, in lower case without "-" and "_".
+// Whether the plugin's file or class has one of these names, in lower case without "-" and "_".
 bool IsPlugin(const XMLElement& plugin, std::initializer_list<std::string_view> parts) {
   for (const char* attribute : {"filename", "name"}) {
     std::string plain;
@@ -38,7 +38,7 @@ class MediumReader {
  public:
   explicit MediumReader(const ReadingContext& context) : context_(context) {}
 
-  // A number of at least `least` in a child of that name; `otherwise` without one.
+  // A child's number, which is at least `least`; `otherwise` if there is no child.
   double Number(const XMLElement& parent, const char* name, double otherwise, double least) const {
     const XMLElement* element = parent.FirstChildElement(name);
     return element == nullptr ? otherwise : NumberOf(*element, otherwise, least);

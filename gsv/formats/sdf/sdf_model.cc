@@ -67,7 +67,7 @@ class ModelReader {
     return element == nullptr ? context_.source.string() : PlaceOf(*element, context_.source);
   }
 
-  // Links, frames and nested models; what refers to links waits until all are there.
+  // Links, frames and nested models. Elements that refer to links are added when all links exist.
   void AddParts(const sdf::Model& source, const std::string& scope, const Pose& root_from_model,
                 int levels_left, bool is_in_static) {
     if (levels_left == 0) {
@@ -145,7 +145,7 @@ class ModelReader {
     return it == model_.links.end() ? -1 : static_cast<int>(it - model_.links.begin());
   }
 
-  // The link an end of a joint belongs to; it may be named by a frame that hangs on it.
+  // The link at an end of a joint. The end may also be a frame that is attached to a link.
   void AddJoint(const sdf::Joint& source, const std::string& scope, const std::string& place) {
     std::string parent, child;
     if (!source.ResolveParentLink(parent).empty()) parent = source.ParentLinkName();
@@ -164,7 +164,7 @@ class ModelReader {
     formats::AddJoint(source, std::move(joint), place, context_, model_);
   }
 
-  // Links of a nested model that is static stand in the world as this model places them.
+  // The links of a static nested model are fixed in the world at their pose in this model.
   void FixStaticLinks() {
     if (model_.is_static || static_links_.empty()) return;
     if (static_links_.size() == model_.links.size()) {
@@ -209,7 +209,8 @@ class ModelReader {
     context_.Warn(sentence, place);
   }
 
-  // A contact sensor feels the collisions that it names, so that a wrong name makes it numb.
+  // A contact sensor detects the collisions that it names, so that with a wrong name it detects
+  // none.
   void CheckCollisionNames(const model::SensorDescription& sensor, const std::string& place) const {
     if (sensor.type != "contact" && sensor.type != "bumper") return;
     for (const std::string& name : model::CollisionNamesOf(sensor)) {
@@ -220,7 +221,7 @@ class ModelReader {
     }
   }
 
-  // `frame` is the link or the joint that holds the sensor; a joint's sensor sits on its child.
+  // `frame` is the link or joint with the sensor; a joint's sensor is on its child link.
   void AddSensor(const sdf::ElementPtr& element, const std::string& frame) {
     model::SensorDescription sensor = ReadSensor(element);
     const std::string place = PlaceOfElement(element);
@@ -277,7 +278,7 @@ class ModelReader {
     return geometry::Inverse(model_from_owner) * it->second * raw;
   }
 
-  // Two links may each have a "camera": the later one is named with its link.
+  // Two links may each have a "camera": the later one gets the name of its link as prefix.
   std::string UniqueSensorName(const std::string& name, const std::string& owner) {
     if (sensor_names_.insert(name).second) return name;
     std::string unique = owner + "::" + name;
@@ -297,7 +298,7 @@ class ModelReader {
     model_.drive = std::move(drive);
   }
 
-  // Ours: <gsv:movement>planar or rigid</gsv:movement>.
+  // GSV's own element: <gsv:movement>planar or rigid</gsv:movement>.
   void ReadMovement(const sdf::ElementPtr& element) {
     if (element == nullptr || !element->HasElement("gsv:movement")) return;
     const auto text = element->GetElement("gsv:movement")->Get<std::string>();
@@ -338,7 +339,7 @@ class ModelReader {
   std::vector<std::pair<sdf::ElementPtr, std::string>> pending_sensors_;
   std::vector<std::pair<sdf::ElementPtr, std::string>> pending_plugins_;
   std::set<std::string> sensor_names_;
-  std::set<std::string> static_links_;  // of static models within this one, or of this one
+  std::set<std::string> static_links_;  // of static models inside this one, or of this one
 };
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 using model::Parameters;
 using model::ParameterValue;
 
-// What SDFormat has no element for stands in a namespace of ours: <gsv:dropout>.
+// The prefix of elements that SDFormat does not define: <gsv:dropout>.
 constexpr std::string_view kOurs = "gsv:";
 
 bool IsWrapper(const std::string& name) {
@@ -54,14 +54,14 @@ ParameterValue ValueOf(sdf::Param& param, bool defined_by_sdformat) {
   return defined_by_sdformat ? ParameterValue(text) : FromText(text);
 }
 
-// An element SDFormat knows is described by its parent.
+// The parent describes an element that SDFormat defines.
 bool IsDefined(const sdf::Element& element) {
   const sdf::ElementPtr parent = element.GetParent();
   return parent != nullptr && parent->HasElementDescription(element.GetName());
 }
 
-// Of repeated elements the first counts, except for the collisions of a contact sensor, all of
-// whose names it feels.
+// Of repeated elements the first counts, except that a contact sensor uses the names of all its
+// collisions.
 void AddParameter(const std::string& path, ParameterValue value, Parameters& parameters) {
   const auto [known, is_new] = parameters.emplace(path, value);
   if (is_new || path != model::kCollisionNames) return;

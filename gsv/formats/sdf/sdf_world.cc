@@ -39,7 +39,7 @@ void ReadPhysics(const sdf::Physics& physics, const ReadingContext& context,
   } else {
     context.Warn("<max_step_size> must lie between 1e-6 s and 1 s; 0.001 s is taken", place);
   }
-  // Not above zero: as fast as it goes, which is the caller's to choose.
+  // Not positive: as fast as possible, which the caller decides.
   if (physics.RealTimeFactor() > 0) world.real_time_factor = physics.RealTimeFactor();
 }
 
@@ -77,7 +77,7 @@ model::Light ReadLight(const sdf::Light& source, const ReadingContext& context) 
   }
   light.diffuse = FromIgnition(source.Diffuse());
   light.intensity = std::max(source.Intensity(), 0.0);
-  // SDFormat has <light_on> since 1.9; libsdformat 12 keeps the element as it stands.
+  // SDFormat has <light_on> since 1.9; libsdformat 12 keeps the element unchanged.
   if (source.Element() != nullptr && source.Element()->HasElement("light_on") &&
       !source.Element()->Get<bool>("light_on", true).first) {
     light.intensity = 0;
@@ -124,7 +124,7 @@ void ReadPhysicsAndScene(const sdf::World& source, const ReadingContext& context
   world.scene.ambient = FromIgnition(scene->Ambient());
   world.scene.shadows = scene->Shadows();
   world.scene.sky = scene->Sky() != nullptr;
-  // A scene that names no background keeps ours.
+  // A scene without a background keeps GSV's default.
   if (scene->Element() != nullptr && scene->Element()->HasElement("background")) {
     world.scene.background = FromIgnition(scene->Background());
   }

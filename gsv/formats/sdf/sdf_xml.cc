@@ -81,7 +81,7 @@ base::Status CheckVersion(XmlFile& file, base::Problems& problems) {
   return {};
 }
 
-// Gives each element, in the order of the document, its source as user data.
+// Sets the source of each element, in the order of the document, as its user data.
 void NameSources(XMLElement& element, std::vector<ElementSource>& sources, std::size_t& next) {
   if (next == sources.size()) return;
   element.SetUserData(&sources[next++]);
@@ -105,8 +105,8 @@ base::Status TakeExpanded(xacro::Expansion expanded, XmlFile& file) {
   return {};
 }
 
-// What comes of a failure decides the file's name: a robot description that is not named .xacro may
-// hold remains of xacro, which other programs ignore.
+// The effect of a failure depends on the file's name: a robot description that is not named .xacro
+// may have remains of xacro, which other programs ignore.
 base::Status Expand(const ResourceFinder& finder, const ReadLimits& limits,
                     const std::map<std::string, std::string>& arguments, base::Problems& problems,
                     XmlFile& file) {
@@ -125,12 +125,12 @@ base::Status Expand(const ResourceFinder& finder, const ReadLimits& limits,
   return {};
 }
 
-// XML allows its declaration only at the beginning. Where something stands before it, parsers refuse
-// the file; the declaration says nothing that is needed. Returns whether it was blanked.
+// XML allows its declaration only at the beginning. If anything comes before it, parsers refuse the
+// file. The declaration is not needed. Returns whether it was blanked.
 bool BlankLateDeclaration(std::string& text) {
   const std::size_t start = text.find("<?xml ");
   if (start == std::string::npos || start == 0) return false;
-  if (text.find_first_not_of(" \t\r\n") == start) return false;  // tinyxml2 reads that
+  if (text.find_first_not_of(" \t\r\n") == start) return false;  // tinyxml2 accepts that
   const std::size_t end = text.find("?>", start);
   if (end == std::string::npos) return false;
   std::replace_if(
@@ -222,7 +222,7 @@ void LineKeepingPrinter::Escaped(const char* text) {
       case '"':
         out_ += "&quot;";
         break;
-      // Breaks within a text would shift what follows; to SDFormat all blanks are alike.
+      // A newline in a text would shift later lines; for SDFormat all blanks are equal.
       case '\n':
       case '\r':
         out_ += ' ';

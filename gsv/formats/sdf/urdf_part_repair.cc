@@ -18,12 +18,12 @@ using tinyxml2::XMLElement;
 constexpr double kBallRadius = 0.05;     // m
 constexpr char kNoUrdfLimit[] = "1e16";  // as SDFormat writes it
 
-// What urdfdom wants of an attribute, and what is taken where it holds something else.
+// The requirement of urdfdom for an attribute, and the value that replaces an invalid one.
 struct Attribute {
   const char* element;
   const char* name;
-  const char* type;       // as value_text.h has them
-  const char* otherwise;  // null: the element cannot do without
+  const char* type;       // see value_text.h
+  const char* otherwise;  // null: the element needs the attribute
 };
 
 constexpr Attribute kAttributes[] = {
@@ -123,7 +123,7 @@ class UrdfPartRepair {
     element.Parent()->DeleteChild(&element);
   }
 
-  // A number without which its element is nothing keeps its wrong text, and is seen to later.
+  // A number that its element needs keeps its wrong text, and is handled later.
   void RepairNumbers(XMLElement& element) {
     for (const Attribute& known : kAttributes) {
       if (!Is(element, known.element)) continue;
@@ -233,12 +233,12 @@ class UrdfPartRepair {
         if (name == nullptr)
           LeaveOut(*material, "it has no name");
         else
-          robot.DeleteChild(material);  // says nothing; its users are told of
+          robot.DeleteChild(material);  // it is empty; its users are reported
       } else if (!materials_.insert(name).second) {
         LeaveOut(*material, "there is one of that name already");
       }
     }
-    // Those that a visual defines hold for all others.
+    // A material that a visual defines is available to all visuals.
     for (auto* link = robot.FirstChildElement("link"); link != nullptr;
          link = link->NextSiblingElement("link")) {
       for (auto* visual = link->FirstChildElement("visual"); visual != nullptr;

@@ -19,9 +19,9 @@ namespace {
 using tinyxml2::XMLElement;
 
 constexpr double kDefaultMass = 0.1;  // kg
-constexpr double kLightest = 1e-6;    // kg; to libsdformat less is no mass
+constexpr double kLightest = 1e-6;    // kg; for libsdformat a smaller mass is none
 constexpr std::size_t kMaxNamed = 8;  // in one message
-constexpr char kWorld[] = "world";    // libsdformat takes a link of this name as the world itself
+constexpr char kWorld[] = "world";    // libsdformat treats a link of this name as the world
 
 struct UrdfJoint {
   XMLElement* element;
@@ -138,12 +138,12 @@ class UrdfRepair {
     return link;
   }
 
-  // Links that no joint connects to the others: urdfdom wants one tree.
+  // Keeps only the largest tree of links that joints connect, as urdfdom requires one tree.
   void KeepLargestTree() {
     std::map<std::string, std::vector<std::string>> trees;  // links by root
     for (const auto& [name, link] : links_) trees[RootOf(name)].push_back(name);
     if (trees.size() < 2) return;
-    // Of equal ones the first by line.
+    // If they are equal, the first by line.
     const auto rank = [&](const auto& tree) {
       return std::make_pair(tree.second.size(), -links_.at(tree.first)->GetLineNum());
     };
@@ -159,7 +159,7 @@ class UrdfRepair {
     }
   }
 
-  // The link and the joint above it.
+  // Removes the link and the joint above it.
   void Remove(const std::string& link) {
     const auto joint = std::find_if(joints_.begin(), joints_.end(),
                                     [&](const UrdfJoint& each) { return each.child == link; });
@@ -185,7 +185,7 @@ class UrdfRepair {
     return true;
   }
 
-  // A root that only stands for the world: the robot may go anywhere without it.
+  // Removes a root that only represents the world, so that the robot can move freely.
   void FreeFloatingRoots() {
     for (bool is_changed = true; is_changed;) {
       is_changed = false;
@@ -212,7 +212,7 @@ class UrdfRepair {
     }
   }
 
-  // Whether libsdformat makes one link of the two.
+  // Whether libsdformat merges the two links.
   bool IsLumped(const UrdfJoint& joint) const {
     if (!joint.Is("fixed") || joint.parent == kWorld) return false;
     for (const auto* gazebo = robot_.FirstChildElement("gazebo"); gazebo != nullptr;
@@ -231,10 +231,10 @@ class UrdfRepair {
     return true;
   }
 
-  // libsdformat drops what has no mass, with its joint and all below. What is fixed together needs
-  // one mass.
+  // libsdformat drops a link without mass, with its joint and everything below. Links that are
+  // fixed together need one mass.
   void GiveMass() {
-    std::map<std::string, bool> has_mass;  // by the link at the top of what is fixed together
+    std::map<std::string, bool> has_mass;  // by the top link of links that are fixed together
     std::vector<std::string> order;
     for (auto* link = robot_.FirstChildElement("link"); link != nullptr;
          link = link->NextSiblingElement("link")) {
@@ -271,7 +271,7 @@ class UrdfRepair {
     return link;
   }
 
-  // Whether the link has a mass above zero; an <inertial> without one is taken away.
+  // Whether the link has a positive mass. Removes an <inertial> without one.
   static bool KeepMass(XMLElement& link) {
     XMLElement* inertial = link.FirstChildElement("inertial");
     if (inertial == nullptr) return false;

@@ -24,7 +24,7 @@ sdf::ElementPtr Schema() {
   return SdfSchema();
 }
 
-// A model within a model is described as any other.
+// A nested model has the same description as any other.
 sdf::ElementPtr DescriptionOf(const char* name, const sdf::ElementPtr& parent) {
   if (parent == nullptr || !parent->HasElementDescription(name)) return nullptr;
   if (std::strcmp(name, "model") == 0 && parent->GetName() == "model") {
@@ -74,7 +74,7 @@ class ValueRepair {
     }
   }
 
-  // Removes an element that nothing can be made of.
+  // Removes an element that cannot be used.
   bool IsLeftOut(XMLElement& element) {
     std::string reason;
     if (std::strcmp(element.Name(), "joint") == 0) {
@@ -122,7 +122,7 @@ class ValueRepair {
     element.SetAttribute(key.c_str(), value.c_str());
   }
 
-  // A name that none of its kind beside it has.
+  // A name that no sibling of this kind has.
   static std::string FreeName(const XMLElement& element) {
     std::set<std::string> names;
     const auto* parent = element.Parent()->ToElement();
@@ -136,7 +136,7 @@ class ValueRepair {
     return name;
   }
 
-  // Types that are words of a list.
+  // Checks types that are one word of a list.
   void CheckKind(XMLElement& element) {
     static const std::set<std::string> joints = {"revolute", "continuous", "prismatic",
                                                  "gearbox",  "revolute2",  "ball",

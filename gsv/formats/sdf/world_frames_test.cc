@@ -58,7 +58,7 @@ TEST(WorldFrames, PlacesAModelByAFrameWithinIt) {
   EXPECT_EQ(frames.WorldFrom("lamp")->position, (Vector3{5, 0, 2}));
 }
 
-TEST(WorldFrames, RefusesCirclesAndUnknownNames) {
+TEST(WorldFrames, RefusesCyclesAndUnknownNames) {
   WorldFrames frames;
   frames.Add("a", {{}, "b"});
   frames.Add("b", {{}, "a"});

@@ -75,12 +75,12 @@ class WorldReader {
     WrittenPose at;
     std::string placement_frame;
     std::optional<bool> is_static;
-    bool poses_itself = false;                 // by the pose that its file gives it
+    bool poses_itself = false;                 // by the pose in its file
     std::size_t distinct = 0;                  // inline: index into distinct_
     std::shared_ptr<const StoredFile> stored;  // included
   };
 
-  // Inline models that are alike but for name and pose.
+  // Inline models that differ only in name and pose.
   struct Distinct {
     XMLElement* element;
     std::optional<FramedModel> framed;
@@ -111,7 +111,7 @@ class WorldReader {
     return {};
   }
 
-  // From here on an actor is a model with a script.
+  // Converts actors to models with a script.
   void TakeScripts(XMLElement& world) {
     for (auto* child = world.FirstChildElement("actor"); child != nullptr;) {
       auto* const next = child->NextSiblingElement("actor");
@@ -120,7 +120,7 @@ class WorldReader {
     }
   }
 
-  // Includes are read from the store; those that are built in stay, as their text.
+  // Reads includes from the store; built-in models stay as their text.
   base::Status TakeIncludes(XMLElement& world) {
     XMLElement* next = nullptr;
     for (auto* child = world.FirstChildElement("include"); child != nullptr; child = next) {
@@ -139,7 +139,7 @@ class WorldReader {
     return {};
   }
 
-  // Puts a built-in model where its include stands, with the name and pose the include gives.
+  // Replaces an include by a built-in model, with the name and pose of the include.
   static void Substitute(XMLElement& include, std::string_view text) {
     tinyxml2::XMLDocument document;
     document.Parse(text.data(), text.size());
@@ -242,7 +242,7 @@ class WorldReader {
 
     element.SetAttribute("name", "");
     const auto script = scripts_.find(&element);
-    const std::string own = script == scripts_.end() ? "" : placement.name;  // no two are alike
+    const std::string own = script == scripts_.end() ? "" : placement.name;  // no two are equal
     const auto [it, is_new] =
         distinct_by_text_.emplace(PrintCompact(element) + own, distinct_.size());
     element.SetAttribute("name", placement.name.c_str());
@@ -275,7 +275,7 @@ class WorldReader {
     }
   }
 
-  // What is wrong with one model must not reach the others: then each is read by itself.
+  // An error in one model must not affect the others: then each is read separately.
   void ParseModels(std::size_t first, std::size_t end) {
     base::Problems problems;
     const auto document =
@@ -316,7 +316,7 @@ class WorldReader {
     return name == nullptr ? "" : name;
   }
 
-  // The elements in the order of their lines, as the printer wants them.
+  // The elements in the order of their lines, as the printer requires.
   std::string Document(std::size_t first, std::size_t end, bool with_surroundings) const {
     std::vector<const XMLElement*> elements;
     if (with_surroundings) elements.assign(surroundings_.begin(), surroundings_.end());
@@ -326,7 +326,7 @@ class WorldReader {
     });
     LineKeepingPrinter printer;
     printer.Text("<sdf version='" + file_.version + "'><world name=\"");
-    // libsdformat keeps these names to itself.
+    // libsdformat reserves these names.
     const bool reserved = world_.name == "world" || world_.name.find("::") != std::string::npos ||
                           world_.name.rfind("__", 0) == 0;
     printer.Escaped(reserved ? "unnamed" : world_.name.c_str());
@@ -442,7 +442,7 @@ class WorldReader {
   std::vector<Placement> placements_;
   std::deque<Distinct> distinct_;
   std::map<std::string, std::size_t> distinct_by_text_;
-  // Of those elements that were actors; never walked through.
+  // By the elements that were actors; never iterated.
   std::map<const XMLElement*, ActorParts> scripts_;
   std::vector<PlacedLight> lights_;
   std::vector<XMLElement*> surroundings_;

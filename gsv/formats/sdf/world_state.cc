@@ -18,7 +18,7 @@ using model::JointKind;
 using tinyxml2::XMLElement;
 
 constexpr int kDeepestState = 32;
-// rad or m: a joint so close to zero is at zero, so that models stay shared.
+// rad or m: a joint this close to zero is set to zero, so that models stay shared.
 constexpr double kAtZero = 1e-9;
 
 std::string NameAttribute(const XMLElement& element) {
@@ -59,7 +59,7 @@ std::optional<double> PositionOf(const XMLElement& joint) {
                                                   : number.value;
 }
 
-// How far a joint has moved its child's frame against its parent's.
+// The displacement of a joint's child frame against its parent frame.
 double Displacement(const model::Joint& joint, const Pose& joint_from_moved) {
   if (joint.kind == JointKind::kPrismatic) return Dot(joint.axis, joint_from_moved.position);
   const auto& q = joint_from_moved.orientation;

@@ -23,7 +23,7 @@ std::string Tag(std::string_view name) { return "<" + std::string(name) + ">"; }
 
 std::string Spaced(const std::string& sentence) { return sentence.empty() ? "" : " " + sentence; }
 
-// A sensor of a type that SDFormat does not have takes whatever elements its type defines.
+// A sensor whose type SDFormat does not define accepts all elements of its own type.
 bool IsSensorOfOurs(const XMLElement& element) {
   static constexpr std::string_view kTypes[] = {"air_flow",
                                                 "air_pressure",
@@ -94,7 +94,7 @@ class ElementAudit {
                          PlaceOf(file_.path, element) + ": " + PathOf(element)});
   }
 
-  // The reader takes the first world, else the first model, else a light.
+  // The reader uses the first world, else the first model, else a light.
   void VisitRoot(const ElementSupport& root) {
     const XMLElement* taken = nullptr;
     for (const char* kind : {"world", "model", "light"}) {
@@ -222,7 +222,7 @@ class ElementAudit {
     return support.otherwise && SaysTheSame(text == nullptr ? "" : text, *support.otherwise);
   }
 
-  // Whether all that the element and what is in it say holds without it, too.
+  // Whether the element and its content have only default values.
   static bool SaysNothing(const XMLElement& element, const ElementSupport& support) {
     for (const XMLAttribute* attribute = element.FirstAttribute(); attribute != nullptr;
          attribute = attribute->Next()) {

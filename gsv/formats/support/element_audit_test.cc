@@ -48,7 +48,7 @@ TEST(ElementAudit, NamesFileLineAndPathOfUnknownElements) {
                   "of <link>; it is ignored. Did you mean <collision>?"));
 }
 
-TEST(ElementAudit, SaysWhereMisplacedElementsBelong) {
+TEST(ElementAudit, ReportsWhereMisplacedElementsBelong) {
   EXPECT_THAT(AuditOfJoint("<parent>a</parent><limit><lower>0</lower></limit>"),
               ElementsAre(EndsWith("It belongs in <axis>.")));
   EXPECT_THAT(AuditOfLink("<collision name='c'><surface><friction><mu>1</mu></friction></surface>"
@@ -79,7 +79,7 @@ TEST(ElementAudit, NamesSecondsAndElementsOfOlderVersions) {
   EXPECT_THAT(AuditOfJoint(axis, 7), ElementsAre(HasSubstr("ended with SDFormat 1.6")));
 }
 
-TEST(ElementAudit, NamesWhatIsNotCarriedOutUnlessItSaysTheDefault) {
+TEST(ElementAudit, NamesUnsupportedElementsUnlessTheyHaveTheDefault) {
   const auto contact = [](const std::string& content) {
     return AuditOfLink("<collision name='c'><surface><contact>" + content +
                        "</contact></surface></collision>");
@@ -93,7 +93,7 @@ TEST(ElementAudit, NamesWhatIsNotCarriedOutUnlessItSaysTheDefault) {
   EXPECT_THAT(AuditOfLink("<self_collide>false</self_collide>"), IsEmpty());
 }
 
-TEST(ElementAudit, LeavesAloneWhatBelongsToOthersOrHasNoEffect) {
+TEST(ElementAudit, IgnoresForeignElementsAndThoseWithoutEffect) {
   EXPECT_THAT(
       AuditOf("<sdf version='1.9' xmlns:gz='x'><world name='w'><gui><minimal/></gui>"
               "<gz:policies><mine/></gz:policies><model name='m' gz:mark='1'><link name='l'>"
@@ -108,7 +108,7 @@ TEST(ElementAudit, LeavesElementsOfSensorsOfOtherTypesAlone) {
   EXPECT_THAT(AuditOfLink("<sensor name='s' type='imu'><noise/></sensor>"), SizeIs(1));
 }
 
-TEST(ElementAudit, NamesPluginsThatNobodyCarriesOut) {
+TEST(ElementAudit, NamesUnsupportedPlugins) {
   const auto plugin = [](const std::string& text) {
     return AuditOf("<sdf version='1.9'><model name='m'>" + text + "</model></sdf>");
   };
@@ -142,7 +142,7 @@ TEST(ElementAudit, ComparesUrdfWithItsOwnElements) {
                   HasSubstr("<colour> is no element of <gazebo>")));
 }
 
-TEST(ElementAudit, CountsWhatItDoesNotName) {
+TEST(ElementAudit, CountsProblemsBeyondTheLimit) {
   std::string many;
   for (int i = 0; i < kMaxFindings + 7; ++i) many += "<wing/>";
   const auto sentences = AuditOfLink(many);

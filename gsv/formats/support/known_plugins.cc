@@ -1,4 +1,4 @@
-// Plugins that GSV carries out, or whose work it does anyway.
+// Plugins that GSV supports, or that it does not need.
 #include "gsv/formats/support/element_tables.h"
 
 namespace gsv::formats {

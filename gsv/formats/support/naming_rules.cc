@@ -46,12 +46,12 @@ bool IsReserved(const std::string& name) {
          (name.size() >= 4 && name.substr(0, 2) == "__" && name.substr(name.size() - 2) == "__");
 }
 
-// The names beside each other in a model or in a world.
+// The names of siblings in a model or in a world.
 struct Scope {
   std::map<std::string, const XMLElement*> names;
-  bool is_open = false;  // an include brings names that are not known here
+  bool is_open = false;  // an include adds names that are not known here
 
-  // Whether something of that name may be there. Names of nested models' parts are not followed.
+  // Whether an element of that name may exist. Names of parts of nested models are not checked.
   bool Has(const std::string& name) const {
     if (is_open || name.empty() || IsReserved(name)) return true;
     return names.count(name.substr(0, name.find("::"))) != 0;
@@ -162,7 +162,7 @@ class NamingRules {
     }
   }
 
-  // Parts of a link have names that differ from others' of their kind.
+  // The parts of a link have different names within each kind.
   void CheckLink(const XMLElement& link, const Scope& scope) {
     std::set<std::pair<std::string, std::string>> names;
     for (auto* child = link.FirstChildElement(); child != nullptr;
@@ -204,7 +204,7 @@ class NamingRules {
     Report("its " + std::string(what) + " names \"" + name + "\", which is not there", element);
   }
 
-  // The link that a frame or joint of that name hangs on; empty if it cannot be said.
+  // The link to which a frame or joint of that name is attached; empty if it is not known.
   static std::string LinkOf(std::string name, const Scope& scope) {
     for (int step = 0; step < kMostSteps; ++step) {
       const XMLElement* element = scope.Find(name);
@@ -222,7 +222,7 @@ class NamingRules {
     return {};
   }
 
-  // What the pose, or with `attachment` the motion, of an element is given by.
+  // The reference of an element's pose or, with `attachment`, of its motion.
   static std::string Next(const XMLElement& element, bool attachment) {
     const std::string_view kind = element.Name();
     const std::string relative_to = attachment ? std::string() : RelativeTo(element);
@@ -232,7 +232,7 @@ class NamingRules {
     return {};
   }
 
-  // Reports the elements whose frames lead back to themselves. Each name is passed once.
+  // Reports elements whose frames form a cycle. Visits each name once.
   void CheckCircles(const Scope& scope) {
     std::set<std::string> reported;
     for (const bool attachment : {false, true}) {

@@ -33,7 +33,7 @@ std::string JointOf(const std::string& parent, const std::string& child) {
          "</child></joint>";
 }
 
-TEST(NamingRules, WantNamesThatDifferBesideEachOther) {
+TEST(NamingRules, RequireDifferentNamesOfSiblings) {
   EXPECT_THAT(
       ErrorsOfModel("<link name='a'/>"),
       ElementsAre(HasSubstr("f.sdf:1: model[m]/link[a]: the name \"a\" is that of a <link>")));
@@ -59,7 +59,7 @@ TEST(NamingRules, AllowPartsOfDifferentKindsOrLinksToShareAName) {
               ElementsAre(HasSubstr("a second <visual> \"c\"")));
 }
 
-TEST(NamingRules, WantJointsOfTwoLinks) {
+TEST(NamingRules, RequireJointsOfTwoLinks) {
   EXPECT_THAT(ErrorsOfModel(JointOf("a", "b")), IsEmpty());
   EXPECT_THAT(ErrorsOfModel(JointOf("world", "b")), IsEmpty());
   EXPECT_THAT(ErrorsOfModel(JointOf("a", "c")), ElementsAre(HasSubstr("child names \"c\"")));
@@ -69,7 +69,7 @@ TEST(NamingRules, WantJointsOfTwoLinks) {
               ElementsAre(HasSubstr("the same link, \"b\"")));
 }
 
-TEST(NamingRules, WantReferencesThatAreThereAndNoCircles) {
+TEST(NamingRules, RequireExistingReferencesWithoutCycles) {
   EXPECT_THAT(ErrorsOfModel("<frame name='f' attached_to='a'/><frame name='g' attached_to='f'/>"),
               IsEmpty());
   EXPECT_THAT(ErrorsOfModel("<frame name='f' attached_to='nowhere'/>"),
@@ -81,7 +81,7 @@ TEST(NamingRules, WantReferencesThatAreThereAndNoCircles) {
               ElementsAre(HasSubstr("canonical_link names \"x\"")));
 }
 
-TEST(NamingRules, TrustIncludesToBringNames) {
+TEST(NamingRules, AssumeThatIncludesDefineNames) {
   EXPECT_THAT(ErrorsOfModel("<include><uri>x</uri></include>" + JointOf("x::l", "b")), IsEmpty());
   EXPECT_THAT(ErrorsOfModel("<include><name>n</name><uri>x</uri></include>" + JointOf("n::l", "b")),
               IsEmpty());

@@ -11,7 +11,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// Parameters of drives and controllers, by their own name or Gazebo's; see sdf_drive.cc.
+// Parameters of drives and controllers, by GSV's names or Gazebo's; see sdf_drive.cc.
 constexpr std::string_view kParameters[] = {
     "left_joint",
     "right_joint",
@@ -73,7 +73,7 @@ constexpr std::string_view kParameters[] = {
     "angular_velocity",
 };
 
-// Elements of a model and parameters of sensors that are GSV's own.
+// GSV's own elements of models and parameters of sensors.
 constexpr std::string_view kOurs[] = {
     "movement",
     "beam",

@@ -1,4 +1,4 @@
-// SDFormat's elements of sensors, and which of them GSV carries out.
+// SDFormat's elements of sensors, and their support in GSV.
 #include "gsv/formats/support/element_tables.h"
 
 namespace gsv::formats {

@@ -32,7 +32,7 @@ std::string_view Likeliest(std::string_view written, const std::set<std::string_
   return best;
 }
 
-// The way down from `parent` to an element of that name, such as "<axis>"; the shortest is taken.
+// The shortest path from `parent` down to an element of that name, such as "<axis>".
 std::string WayDown(std::string_view written, const ElementSupport& parent, int levels) {
   if (levels == 0) return {};
   std::set<std::string_view> names;

@@ -45,8 +45,8 @@ TEST(SupportTable, KnowsPluginsByFileOrClass) {
   EXPECT_EQ(table.Plugin("libmine.so", "mine"), nullptr);
 }
 
-// The description files that libsdformat brings: each element and attribute of each version must
-// be in the table, and what the table takes for a default must be one.
+// The description files of libsdformat. Each element and attribute of each version must be in the
+// table, and each default in the table must be the description's.
 class InstalledSchemaTest : public testing::TestWithParam<int> {
  protected:
   void SetUp() override {
@@ -86,7 +86,7 @@ class InstalledSchemaTest : public testing::TestWithParam<int> {
     EXPECT_LE(known->since, GetParam()) << path;
     EXPECT_TRUE(known->until == 0 || known->until >= GetParam()) << path;
     const char* otherwise = described.Attribute("default");
-    // gsv's cones fall off linearly, as by 1.
+    // GSV's cones fall off linearly, as with 1.
     if (path == "light/spot/falloff") return;
     if (GetParam() == 9 && known->otherwise && otherwise != nullptr) {
       EXPECT_TRUE(SaysTheSame(*known->otherwise, otherwise)) << path << ": " << otherwise;
@@ -105,7 +105,7 @@ TEST_P(InstalledSchemaTest, IsAllInTheTable) {
     const std::string name = entry.path().stem();
     if (described.RootElement()->FirstChildElement("element") == nullptr &&
         described.RootElement()->FirstChildElement("attribute") == nullptr) {
-      continue;  // it says nothing of what is inside
+      continue;  // it does not describe its content
     }
     Compare(*described.RootElement(), SupportTable::Get().Definition(name), name);
   }

@@ -1,4 +1,4 @@
-// URDF's elements, and which of them GSV carries out.
+// URDF's elements, and their support in GSV.
 #include "gsv/formats/support/element_tables.h"
 
 namespace gsv::formats {

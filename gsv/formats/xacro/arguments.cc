@@ -6,7 +6,7 @@
 namespace gsv::formats::xacro {
 namespace {
 
-// Where the arguments begin: behind the question mark; npos: there are none.
+// The position of the question mark before the arguments; npos if there are none.
 std::size_t ArgumentsAt(const std::string& name) {
   constexpr std::size_t kLength = 7;
   const std::size_t at = name.find(".xacro?");
@@ -40,7 +40,7 @@ NamedFile SplitArguments(const std::string& name) {
     const std::string pair = name.substr(from, end - from);
     const std::size_t equals = std::min(pair.find('='), pair.size());
     std::string key = pair.substr(0, equals);
-    if (key.ends_with(':')) key.pop_back();  // as xacro itself has it: name:=value
+    if (key.ends_with(':')) key.pop_back();  // the notation of xacro itself: name:=value
     if (!key.empty()) {
       named.arguments[Decoded(key)] = Decoded(pair.substr(std::min(equals + 1, pair.size())));
     }

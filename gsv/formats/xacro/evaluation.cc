@@ -10,9 +10,9 @@ namespace {
 
 using Kind = Expression::Kind;
 
-constexpr std::size_t kMaxValues = 20'000;  // in a list, with all that its items hold
+constexpr std::size_t kMaxValues = 20'000;  // in a list, including the values in its items
 
-// Counts down by the values within; lists may share items, so that few bytes may hold very many.
+// Counts down by the values inside. Lists may share items, so that a few bytes may hold very many.
 bool Fits(const Value& value, std::size_t& room) {
   if (room == 0) return false;
   --room;
@@ -81,7 +81,7 @@ class Evaluator {
     return Refuse("\"" + name + "\" is not defined");
   }
 
-  // "pi" of `math.pi`: modules are no values.
+  // "pi" of `math.pi`: a module is not a value.
   static bool IsModule(const Expression& node) {
     return node.kind == Kind::kName &&
            (node.text == "math" || node.text == "xacro" || node.text == "python");

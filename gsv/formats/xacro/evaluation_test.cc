@@ -21,7 +21,7 @@ std::string TextOf(const std::string& expression) {
   return value ? ToText(*value) : "refused: " + value.error().message;
 }
 
-// What Python 3.11 prints for the same expressions.
+// Python 3.11 prints these values for the same expressions.
 TEST(Evaluation, GivesWhatPythonGives) {
   const std::pair<const char*, const char*> cases[] = {
       {"1 + 2 * 3", "7"},
@@ -130,7 +130,7 @@ TEST(Evaluation, KnowsProperties) {
   EXPECT_EQ(TextOf("1 if True else unknown"), "1");
 }
 
-TEST(Evaluation, RefusesInASentence) {
+TEST(Evaluation, RefusesWithASentence) {
   const std::pair<const char*, const char*> cases[] = {
       {"unknown + 1", "\"unknown\" is not defined"},
       {"1 / 0", "division by zero"},
@@ -162,7 +162,7 @@ TEST(Evaluation, RefusesInASentence) {
   }
 }
 
-TEST(Evaluation, RefusesWhatIsNestedTooDeep) {
+TEST(Evaluation, RefusesExpressionsNestedTooDeeply) {
   const std::string brackets(5000, '(');
   EXPECT_THAT(TextOf(brackets + "1"), HasSubstr("refused"));
   EXPECT_THAT(TextOf(std::string(3000, '-') + "1"), HasSubstr("nested too deep"));

@@ -23,7 +23,7 @@ bool IsIdentifier(const std::string& name) {
                      [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c >= 0x80; });
 }
 
-// Elements of robot descriptions that no macro can stand for without the prefix.
+// Elements of robot descriptions that a macro without the prefix cannot replace.
 bool IsOfUrdf(const std::string& name) {
   for (const char* known :
        {"link",   "joint",    "visual",   "collision", "inertial",     "inertia",
@@ -50,7 +50,7 @@ std::string Stripped(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
-// Counts the levels of what is being expanded.
+// Counts the levels of the expansion.
 class Level {
  public:
   explicit Level(int& levels) : levels_(levels) { ++levels_; }
@@ -119,7 +119,7 @@ Expander::Handler Expander::HandlerOf(const Node& node, bool takes_plain_names) 
   struct Known {
     const char* name;
     Handler handler;
-    std::vector<const char*> attributes;  // that it has when it is written without the prefix
+    std::vector<const char*> attributes;  // of the form without the prefix
   };
   static const std::vector<Known> kKnown{
       {"property", &Expander::OnProperty, {"name", "value"}},
@@ -150,7 +150,7 @@ Expander::Handler Expander::HandlerOf(const Node& node, bool takes_plain_names) 
 base::Status Expander::Element(const NodePtr& node, Node& parent, Context& context) {
   const bool is_prefixed = node->text.starts_with("xacro:");
   const std::string name = WithoutPrefix(node->text);
-  // As xacro has it, a macro named "call" hides the element.
+  // As in xacro, a macro named "call" hides the element.
   if (is_prefixed || (takes_plain_names_ && !IsOfUrdf(name))) {
     const auto [macro, home] = context.space.FindMacro(name);
     const bool is_call = macro != nullptr && (is_prefixed || LooksLikeCall(*node, *macro));
@@ -163,7 +163,7 @@ base::Status Expander::Element(const NodePtr& node, Node& parent, Context& conte
   return Plain(node->text, *node, parent, context);
 }
 
-// A file that is missing may define the macro: then the call costs only itself.
+// A missing file may define the macro. Then only this call fails.
 base::Status Expander::UnknownMacro(const std::string& name, const Node& call) {
   if (missing_file_.empty()) return Unfit("there is no macro \"" + name + "\"");
   problems_.push_back({base::Problem::Severity::kWarning,
@@ -173,7 +173,7 @@ base::Status Expander::UnknownMacro(const std::string& name, const Node& call) {
   return {};
 }
 
-// Without the prefix a name alone says little: <camera> in a macro "camera" is an element.
+// Without the prefix a name is not sufficient: <camera> in a macro "camera" is an element.
 bool Expander::LooksLikeCall(const Node& node, const Macro& macro) const {
   if (active_.contains(macro.definition.get())) return false;
   if (!macro.definition->text.starts_with("xacro:")) return true;
@@ -326,7 +326,7 @@ base::Status Expander::OnInsertBlock(const NodePtr& node, Node& parent, Context&
   if (!name) return base::Fail(name.error());
   const Block* const found = context.scope.FindBlock(*name);
   if (found == nullptr) return Unfit("there is no block \"" + *name + "\"");
-  const Block block = *found;  // what is expanded may define another of that name
+  const Block block = *found;  // the expansion may define another block of that name
   if (block.is_expanded) {
     steps_ += static_cast<int>(block.nodes.size());
     parent.children.insert(parent.children.end(), block.nodes.begin(), block.nodes.end());
@@ -366,7 +366,7 @@ base::Status Expander::OnAttribute(const NodePtr& node, Node& parent, Context& c
 
 base::Status Expander::CallMacro(const Macro& macro, Space& home, const NodePtr& node, Node& parent,
                                  Context& context) {
-  const NodePtr definition = macro.definition;  // the body may define the macro anew
+  const NodePtr definition = macro.definition;  // the body may redefine the macro
   Scope inner(&home == &main_ || &home == &context.space ? &context.scope : &home.scope, resolve_);
   if (auto ok = BindValues(macro, node, context, inner); !ok) return ok;
   if (auto ok = BindBlocks(macro, node, context, inner); !ok) return ok;
@@ -498,7 +498,7 @@ base::Result<Value> Expander::Command(const std::string& command, const Node& at
     if (missing_packages_.insert(rest).second) {
       problems_.push_back({base::Problem::Severity::kWarning, folder.error().message, at.place()});
     }
-    return Value{"package://" + rest};  // what names a file in it then says what is missing
+    return Value{"package://" + rest};  // the user of the name then reports what is missing
   }
   if (name == "dirname") return Value{at.file->parent_path().string()};
   if (name == "eval") {

@@ -1,4 +1,4 @@
-// What xacro makes of a file, as its documentation describes it; expected values by hand.
+// Expands xacro files as xacro's documentation describes it; expected values are by hand.
 #include <gmock/gmock.h>
 
 #include "gsv/base/test_folder.h"
@@ -14,7 +14,7 @@ using testing::SizeIs;
 
 class ExpanderTest : public testing::Test {
  protected:
-  // The root's content, on one line; "refused: …" with the place otherwise.
+  // The root's content, on one line; or "refused: …" with the place.
   std::string Expanded(const std::string& content, std::map<std::string, std::string> args = {}) {
     const auto file = folder_.Write("robot.xacro", "<robot>" + content + "</robot>");
     tinyxml2::XMLDocument document;
@@ -41,14 +41,14 @@ class ExpanderTest : public testing::Test {
 TEST_F(ExpanderTest, PutsPropertiesIntoAttributesAndTexts) {
   EXPECT_EQ(Expanded("<xacro:property name='r' value='0.5'/><a d='${2 * r}' e='x${r}y'>z ${r}</a>"),
             "<a d=\"1.0\" e=\"x0.5y\">z 0.5</a>");
-  // Numbers keep their type: an integer has no point.
+  // Numbers keep their type: an integer has no decimal point.
   EXPECT_EQ(Expanded("<xacro:property name='n' value='100'/><a n='${n}' m='${n / 2}'/>"),
             "<a n=\"100\" m=\"50.0\"/>");
-  // Properties are evaluated when they are needed, where they were defined.
+  // Properties are evaluated on first use, in the scope of their definition.
   EXPECT_EQ(Expanded("<xacro:property name='b' value='${2 * a}'/>"
                      "<xacro:property name='a' value='21'/><x b='${b}'/>"),
             "<x b=\"42\"/>");
-  // A text that only looks like arithmetic stays one.
+  // A text that only looks like arithmetic stays a text.
   EXPECT_EQ(Expanded("<xacro:property name='p' value='5 -2'/><a p='${p}'/>"), "<a p=\"5 -2\"/>");
 }
 
@@ -84,7 +84,7 @@ TEST_F(ExpanderTest, InsertsBlocks) {
   EXPECT_EQ(Expanded("<xacro:property name='b'><i v='${k}'/></xacro:property>"
                      "<xacro:property name='k' value='7'/><xacro:insert_block name='b'/>"),
             "<i v=\"7\"/>");
-  // A block passed on through another macro.
+  // A block is passed on through another macro.
   EXPECT_EQ(Expanded("<xacro:macro name='in' params='*b'><i><xacro:insert_block name='b'/></i>"
                      "</xacro:macro><xacro:macro name='out' params='*b'><o><xacro:in>"
                      "<xacro:insert_block name='b'/></xacro:in></o></xacro:macro>"
@@ -124,7 +124,7 @@ TEST_F(ExpanderTest, GoesInOrder) {
             "<a p=\"1\" q=\"3\"/>");
 }
 
-TEST_F(ExpanderTest, KeepsWhatConditionsAllow) {
+TEST_F(ExpanderTest, KeepsElementsWhoseConditionIsTrue) {
   EXPECT_EQ(Expanded("<xacro:if value='true'><a/></xacro:if><xacro:if value='0'><b/></xacro:if>"
                      "<xacro:unless value='${1 == 2}'><c/></xacro:unless>"
                      "<xacro:if value='${3 * 0.1}'><d/></xacro:if>"
@@ -158,14 +158,14 @@ TEST_F(ExpanderTest, IncludesFilesBesideItAndInNamespaces) {
   EXPECT_THAT(problems_, SizeIs(1));
 }
 
-TEST_F(ExpanderTest, PassesOnWhatAFileSays) {
+TEST_F(ExpanderTest, PassesOnTheMessagesOfAFile) {
   EXPECT_EQ(Expanded("\n<a>${xacro.warning('no inertia of', 3)}</a>"), "<a/>");
   ASSERT_THAT(problems_, SizeIs(1));
   EXPECT_THAT(problems_[0].Sentence(), HasSubstr("robot.xacro:2: no inertia of 3"));
   EXPECT_THAT(Expanded("<a>${xacro.fatal('no such arm')}</a>"), HasSubstr("refused"));
 }
 
-TEST_F(ExpanderTest, LeavesOutWhatAMissingFileWouldBring) {
+TEST_F(ExpanderTest, LeavesOutCallsOfMacrosInAMissingFile) {
   EXPECT_EQ(Expanded("\n<xacro:include filename='absent.xacro'/>\n<xacro:lidar name='l'/><a/>"),
             "<a/>");
   ASSERT_THAT(problems_, SizeIs(2));
@@ -173,7 +173,7 @@ TEST_F(ExpanderTest, LeavesOutWhatAMissingFileWouldBring) {
               HasSubstr("robot.xacro:2: the include of absent.xacro is left out: cannot find"));
   EXPECT_THAT(problems_[1].Sentence(),
               HasSubstr("robot.xacro:3: the call of the macro \"lidar\" is left out"));
-  // A value that is missing cannot be left out.
+  // A missing value cannot be left out.
   EXPECT_THAT(Expanded("<xacro:include filename='absent.xacro'/><a b='${height}'/>"),
               HasSubstr("(absent.xacro is missing)"));
 }
@@ -196,7 +196,7 @@ TEST_F(ExpanderTest, KeepsTheSourceOfEachElement) {
   }
   EXPECT_EQ(places, (std::vector<std::string>{"robot.xacro:1", "robot.xacro:3", "part.xacro:3",
                                               "robot.xacro:5"}));
-  // In the text <b/> stands on the line of the call.
+  // In the text <b/> is on the line of the call.
   tinyxml2::XMLDocument plain;
   ASSERT_EQ(plain.Parse(expanded->xml.c_str()), tinyxml2::XML_SUCCESS);
   EXPECT_EQ(plain.RootElement()->FirstChildElement("b")->GetLineNum(), 4);
@@ -254,7 +254,7 @@ TEST_F(ExpanderTest, TakesTheOldFormWithoutPrefixInRobotDescriptions) {
             "<t n=\"2\"/><a/><include><uri>model://x</uri></include>");
 }
 
-TEST_F(ExpanderTest, TellsElementsFromMacrosOfTheirName) {
+TEST_F(ExpanderTest, DistinguishesElementsFromMacrosOfTheSameName) {
   EXPECT_EQ(Expanded("<xacro:macro name='camera' params='name'><sensor><camera name='${name}'/>"
                      "</sensor></xacro:macro><xacro:camera name='front'/>"),
             "<sensor><camera name=\"front\"/></sensor>");
@@ -271,7 +271,7 @@ TEST_F(ExpanderTest, CallsMacrosOfThemselves) {
               HasSubstr("nested deeper than 500"));
 }
 
-TEST_F(ExpanderTest, EndsWhatGrowsWithoutEnd) {
+TEST_F(ExpanderTest, EndsEndlessExpansion) {
   limits_.xml_bytes = 1u << 20;
   const std::string doubling =
       "<xacro:macro name='m' params='n *b'><xacro:if value='${n > 0}'><xacro:m n='${n - 1}'><x>"
@@ -285,7 +285,7 @@ TEST_F(ExpanderTest, EndsWhatGrowsWithoutEnd) {
   EXPECT_THAT(Expanded(forking), HasSubstr("steps"));
 }
 
-TEST_F(ExpanderTest, SaysWhereAMistakeStandsAndWhereItsMacroWasCalled) {
+TEST_F(ExpanderTest, ReportsThePlaceOfAnErrorAndOfTheMacrosCall) {
   EXPECT_THAT(Expanded("<xacro:macro name='m'>\n<a b='${1 / 0}'/>\n</xacro:macro>\n<xacro:m/>"),
               AllOf(HasSubstr("robot.xacro:2: division by zero in ${1 / 0}"),
                     HasSubstr("in the macro m called at"), HasSubstr("robot.xacro:4")));

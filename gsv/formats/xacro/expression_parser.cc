@@ -17,7 +17,7 @@ constexpr std::size_t kMaxTokens = 4096;
 struct Token {
   enum class Kind { kEnd, kName, kNumber, kString, kSymbol };
   Kind kind = Kind::kEnd;
-  std::string text;  // of a string: its content
+  std::string text;  // of a string: the content
 };
 
 bool IsNameStart(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
@@ -138,7 +138,7 @@ class Parser {
   }
 
  private:
-  // After an error all answers are null, and nothing is read any more.
+  // After an error all results are null, and nothing more is read.
   ParsedPtr Refuse(const std::string& why) {
     if (error_.empty()) error_ = why;
     at_ = tokens_.size() - 1;

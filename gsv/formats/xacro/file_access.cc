@@ -21,7 +21,7 @@ tl::unexpected<base::Error> NoFile(const std::string& why, const std::string& wh
   return base::Fail(base::ErrorCode::kBadModel, why, where);
 }
 
-// Of a file that is not there; all other refusals are kBadModel.
+// The error for a missing file; all other errors are kBadModel.
 tl::unexpected<base::Error> Missing(const std::string& why) {
   return base::Fail(base::ErrorCode::kNotFound, why);
 }

@@ -48,7 +48,7 @@ const std::map<std::string, Curve>& Curves() {
       {"log10", [](double x) { return std::log10(x); }},
       {"log2", [](double x) { return std::log2(x); }},
       {"fabs", [](double x) { return std::abs(x); }},
-      // As CPython computes them.
+      // The same operations as in CPython.
       {"radians", [](double x) { return x * (std::numbers::pi / 180); }},
       {"degrees", [](double x) { return x * (180 / std::numbers::pi); }},
   };
@@ -87,7 +87,7 @@ base::Result<Value> Extreme(const Arguments& given, const char* word) {
   return *best;
 }
 
-// To the nearest, halves to even numbers.
+// Rounds to the nearest integer, halves to even.
 base::Result<Value> Round(const Arguments& a) {
   if (a.empty() || a.size() > 2 || !a[0].is_number()) return Misuse("round() takes a number");
   if (a.size() == 1) return Whole(std::nearbyint(Real(a[0])));
@@ -95,7 +95,7 @@ base::Result<Value> Round(const Arguments& a) {
   if (digits == nullptr || *digits < -300 || *digits > 300) {
     return Misuse("round() takes a number of digits");
   }
-  // Through the decimal text, as Python, so that 2.675 becomes 2.67.
+  // Uses the decimal text, as Python does, so that 2.675 becomes 2.67.
   if (*digits >= 0 && a[0].as<double>() != nullptr && std::abs(Real(a[0])) < 1e17) {
     char text[400];
     std::snprintf(text, sizeof text, "%.*f", static_cast<int>(*digits), Real(a[0]));
@@ -202,7 +202,7 @@ bool AreNumbers(const Arguments& a) {
   return std::all_of(a.begin(), a.end(), [](const Value& value) { return value.is_number(); });
 }
 
-// A real result of real arguments; Python raises where the mathematics give none.
+// A real result of real arguments; an error where Python raises an exception.
 base::Result<Value> RealResult(const std::string& name, double result, const Arguments& a) {
   const bool are_finite =
       std::all_of(a.begin(), a.end(), [](const Value& v) { return std::isfinite(Real(v)); });

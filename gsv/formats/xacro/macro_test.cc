@@ -5,7 +5,7 @@
 namespace gsv::formats::xacro {
 namespace {
 
-TEST(ParseParameters, TellsValuesBlocksAndDefaultsApart) {
+TEST(ParseParameters, DistinguishesValuesBlocksAndDefaults) {
   const auto parameters =
       ParseParameters("a  b:=1\n c=x d:=^ e:=^|2 f:='x y' g:=${1 + 2} *h **i j := 3");
   ASSERT_EQ(parameters.size(), 10u);

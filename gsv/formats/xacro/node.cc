@@ -20,7 +20,8 @@ void AppendEscaped(const std::string& text, std::string& xml) {
       case '"':
         xml += "&quot;";
         break;
-      // Breaks within a text would shift what follows; to XML's readers here all blanks are alike.
+      // A newline in a text would shift later lines; for the readers of this XML all blanks are
+      // equal.
       case '\n':
       case '\r':
         xml += ' ';

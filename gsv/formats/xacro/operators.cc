@@ -31,7 +31,7 @@ double NumberIn(const Value& value) {
 
 base::Result<Value> Power(std::int64_t base, std::int64_t exponent) {
   std::int64_t power = 1;
-  // |base| >= 2 leaves 64 bits after 63 rounds.
+  // |base| >= 2 exceeds 64 bits after 63 iterations.
   if (base == 0 || base == 1) return Value{exponent == 0 ? std::int64_t{1} : base};
   if (base == -1) return Value{std::int64_t{exponent % 2 == 0 ? 1 : -1}};
   for (std::int64_t i = 0; i < exponent; ++i) {

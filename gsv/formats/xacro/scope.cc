@@ -37,7 +37,7 @@ base::Result<std::optional<Value>> Scope::Find(const std::string& name) {
 }
 
 std::optional<Value> Scope::Member(const std::string& name) const {
-  // A lazy property is evaluated at most once; which moment that is makes no difference.
+  // A lazy property is evaluated at most once; the time of evaluation does not matter.
   auto found = const_cast<Scope*>(this)->Find(name);
   return found ? *found : std::nullopt;
 }

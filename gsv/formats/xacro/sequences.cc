@@ -41,7 +41,7 @@ base::Result<Value> Sorted(const List& a) {
   if (items.size() > kMaxSorted) {
     return Misfit("sorted() takes at most " + std::to_string(kMaxSorted) + " values");
   }
-  // By insertion, which takes comparisons that fail or contradict each other.
+  // Insertion sort, as comparisons may fail or contradict each other.
   for (std::size_t i = 1; i < items.size(); ++i) {
     for (std::size_t k = i; k > 0; --k) {
       const auto is_less = Compare("<", items[k], items[k - 1]);
@@ -85,7 +85,7 @@ base::Result<Value> All(const List& a) {
   return Value{std::all_of(a[0].items()->begin(), a[0].items()->end(), &IsTrue)};
 }
 
-// Of lists: one each, but for zip().
+// Functions of lists; each takes one list, except zip().
 const std::map<std::string, base::Result<Value> (*)(const List&)>& OfLists() {
   static const std::map<std::string, base::Result<Value> (*)(const List&)> functions{
       {"sorted", &Sorted}, {"reversed", &Reversed}, {"enumerate", &Enumerated},

@@ -6,7 +6,8 @@ namespace {
 constexpr std::size_t kLongestSubstitution = 1u << 20;
 constexpr int kDeepestSubstitution = 8;  // ${…} in $(…) in ${…}
 
-// Where the bracket at `open` closes, strings and inner brackets apart; npos: nowhere.
+// The position where the bracket at `open` closes, except in strings and inner brackets; npos:
+// none.
 std::size_t ClosingOf(const std::string& text, std::size_t open) {
   const char opening = text[open], closing = opening == '{' ? '}' : ')';
   int depth = 0;
@@ -24,7 +25,7 @@ std::size_t ClosingOf(const std::string& text, std::size_t open) {
       return i;
     }
   }
-  // An apostrophe in an expression is a mistake, and not the end of the world.
+  // An unclosed apostrophe in an expression is ignored.
   return quote == 0 ? std::string::npos : text.find(closing, open);
 }
 
@@ -45,7 +46,7 @@ class Substitution {
       const bool has_bracket =
           bracket != std::string::npos && (text[bracket] == '{' || text[bracket] == '(');
       if (!has_bracket || bracket - dollar > 1) {
-        // One of several dollars in front of a bracket is taken away.
+        // Of several dollars in front of a bracket, one is removed.
         if (bracket == std::string::npos) bracket = text.size();
         const std::size_t first = has_bracket ? dollar + 1 : dollar;
         const std::size_t end = has_bracket ? bracket + 1 : bracket;

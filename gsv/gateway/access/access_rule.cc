@@ -19,7 +19,7 @@ bool Contains(const std::vector<std::string>& list, const std::string& value) {
   return std::find(list.begin(), list.end(), value) != list.end();
 }
 
-// What a stranger sent, short enough to be repeated to them.
+// Text from an untrusted client, short enough to repeat in a message.
 std::string Quoted(std::string_view text) { return "'" + std::string(text.substr(0, 100)) + "'"; }
 
 }  // namespace
@@ -42,7 +42,7 @@ AccessRule::AccessRule(std::string_view host, std::uint16_t port,
   names.insert(names.end(), more_hosts.begin(), more_hosts.end());
   for (const std::string& name : names) {
     hosts_.push_back(LowerCase(Authority(name, port)));
-    // Browsers leave out the usual port.
+    // Browsers omit the default port.
     if (port == usual_port_) hosts_.push_back(hosts_.back().substr(0, hosts_.back().rfind(':')));
   }
   for (const std::string& allowed : hosts_) origins_.push_back(scheme_ + allowed);

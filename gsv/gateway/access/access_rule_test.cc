@@ -36,7 +36,7 @@ TEST(AccessRule, RefusesPagesFromElsewhere) {
   }
 }
 
-TEST(AccessRule, WhoListensOnAllAddressesIsReachedByEachButByNoNameThatPointsThere) {
+TEST(AccessRule, AServerOnAllAddressesAcceptsEachAddressButNoNameForIt) {
   const AccessRule rule("lab-pc", 8080, {}, {}, true);
   for (const char* host : {"192.168.1.7:8080", "[fe80::1]:8080", "lab-pc:8080"}) {
     EXPECT_TRUE(rule.Check(host, "")) << host;

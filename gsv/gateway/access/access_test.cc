@@ -1,4 +1,4 @@
-// Who may do what over HTTP and WebSocket: tokens, and control.
+// Permissions over HTTP and WebSocket: tokens, and control.
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -19,7 +19,7 @@ using testing::Viewer;
 constexpr const char* kControl = "control-token-0123456789";
 constexpr const char* kWatch = "watching-token-0123456789";
 
-TEST(Tokens, AreComparedWhole) {
+TEST(Tokens, AreComparedCompletely) {
   EXPECT_TRUE(EqualsSecret("abc", "abc"));
   for (const char* other : {"", "ab", "abd", "abcd", "Abc"})
     EXPECT_FALSE(EqualsSecret(other, "abc"));
@@ -27,7 +27,7 @@ TEST(Tokens, AreComparedWhole) {
   EXPECT_EQ(BearerToken("Basic abc"), "");
 }
 
-TEST(Tokens, ThatCouldBeGuessedOrStandInNoHeaderAreRefused) {
+TEST(Tokens, AreRefusedIfTheyAreShortOrNotAllowedInAHeader) {
   EXPECT_TRUE(CheckToken(kControl));
   for (const std::string& bad :
        {std::string(), std::string("short"), std::string("with blanks in it"),
@@ -60,7 +60,7 @@ TEST(Permissions, FollowTheRoute) {
   options.factory = &factory;
   options.recordings_folder = ::testing::TempDir();
   const auto gateway = Gateway::Start(options, directory).value();
-  // With the simulation of which nobody else may hold control, or "".
+  // The permission, and the simulation on which no other viewer may hold control, or "".
   using Taken = std::pair<Permission, std::string>;
   const auto taken = [&](const char* method, const char* target) {
     const Router::Match match = gateway->router().Find(method, ParseTarget(target).value());
@@ -82,12 +82,12 @@ TEST(Permissions, FollowTheRoute) {
   EXPECT_EQ(taken("DELETE", "/api/simulations/a%20b"), Taken(control, "a b"));
   EXPECT_EQ(taken("POST", "/%61pi/simulations/a/pause"), Taken(control, "a"));
   EXPECT_EQ(taken("POST", "/api/simulations/a/bodies/b/place"), Taken(control, "a"));
-  // What there is not is as secret as what there is.
+  // Routes that do not exist are as protected as those that do.
   for (const char* method : {"GET", "POST", "PATCH", "NONSENSE"}) {
     EXPECT_EQ(taken(method, "/api/simulations/a/b/c"), Taken(watch, "")) << method;
     EXPECT_EQ(taken(method, "/replays/1"), Taken(watch, "")) << method;
   }
-  // Everything that changes something for others takes control.
+  // Every request that affects others needs control.
   for (const Route& route : gateway->router().routes()) {
     const bool is_private = route.pattern.starts_with("/replays/") ||
                             route.pattern.starts_with("/api/recordings") ||
@@ -137,7 +137,7 @@ class AccessTest : public ::testing::Test {
   std::unique_ptr<Gateway> gateway_;
 };
 
-TEST_F(AccessTest, WithoutATokenNobodyListensBeyondThisMachine) {
+TEST_F(AccessTest, WithoutATokenTheServerListensOnlyOnThisMachine) {
   for (const char* host : {"0.0.0.0", "::"}) {
     GatewayOptions options;
     options.host = host;
@@ -148,7 +148,7 @@ TEST_F(AccessTest, WithoutATokenNobodyListensBeyondThisMachine) {
   }
 }
 
-TEST_F(AccessTest, WatchingIsFreeHereAndActingTakesTheControlToken) {
+TEST_F(AccessTest, WatchingIsFreeOnThisMachineAndControlNeedsTheToken) {
   Start({kControl, ""});
   EXPECT_EQ(Send("GET", "/api/simulations").status, 200);
   const HttpReply missing = Send("POST", "/api/simulations/arena/start");
@@ -162,7 +162,7 @@ TEST_F(AccessTest, WatchingIsFreeHereAndActingTakesTheControlToken) {
   EXPECT_EQ(simulation_->status().phase, simulation::Phase::kRunning);
 }
 
-TEST_F(AccessTest, FromElsewhereEvenWatchingTakesAToken) {
+TEST_F(AccessTest, AViewerFromAnotherMachineNeedsATokenToWatch) {
   Start({kControl, kWatch}, "0.0.0.0");
   EXPECT_EQ(Send("GET", "/healthz").status, 200);
   EXPECT_EQ(Send("GET", "/api/simulations").status, 401);
@@ -180,7 +180,7 @@ TEST_F(AccessTest, FromElsewhereEvenWatchingTakesAToken) {
   EXPECT_TRUE(acts.CallService("start").first);
 }
 
-TEST_F(AccessTest, WithAWatchTokenOnlyNobodyActs) {
+TEST_F(AccessTest, AWatchTokenDoesNotAllowControl) {
   Start({"", kWatch});
   EXPECT_EQ(Send("GET", "/api/simulations").status, 401);
   const HttpReply refused = Send("POST", "/api/simulations/arena/start", Bearer(kWatch));
@@ -188,9 +188,9 @@ TEST_F(AccessTest, WithAWatchTokenOnlyNobodyActs) {
   EXPECT_NE(refused.body.find("allows no control"), std::string::npos);
 }
 
-TEST_F(AccessTest, OneHoldsControlAndTheOthersAsk) {
+TEST_F(AccessTest, OneViewerHoldsControlAndOthersRequestIt) {
   Start({});
-  EXPECT_EQ(Reset(), 200);  // nobody holds it
+  EXPECT_EQ(Reset(), 200);  // no viewer holds control
   const std::string ada = Enter("Ada <b>"), bob = Enter("Bob");
   const json taken =
       json::parse(Send("POST", "/api/viewers/me/control", As(ada), R"({"wants":true})").body);
@@ -208,7 +208,7 @@ TEST_F(AccessTest, OneHoldsControlAndTheOthersAsk) {
   const json told = json::parse(Send("GET", "/api/viewers", As(ada)).body);
   EXPECT_EQ(told["viewers"][1]["asks"], 1);
   EXPECT_GT(told["viewers"][1]["passes_in_s"], 0);
-  EXPECT_EQ(told.dump().find(bob), std::string::npos);  // keys are nobody else's
+  EXPECT_EQ(told.dump().find(bob), std::string::npos);  // keys are secret
   EXPECT_EQ(Send("POST", "/api/viewers/me/answer", As(ada), R"({"grants":true})").status, 200);
   EXPECT_EQ(Reset(As(bob)), 200);
   EXPECT_TRUE(looks.CallService("start").first);
@@ -216,7 +216,7 @@ TEST_F(AccessTest, OneHoldsControlAndTheOthersAsk) {
   EXPECT_EQ(Reset(), 200);
 }
 
-TEST_F(AccessTest, TwoSimulationsAreHeldByTwoPeople) {
+TEST_F(AccessTest, TwoViewersHoldControlOfTwoSimulations) {
   directory_->Add(std::make_shared<testing::ScriptedSimulation>("other", 1));
   Start({});
   const std::string ada = Enter("Ada"), bob = Enter("Bob");
@@ -231,14 +231,14 @@ TEST_F(AccessTest, TwoSimulationsAreHeldByTwoPeople) {
   EXPECT_EQ(reset(bob, "other"), 200);
   EXPECT_EQ(reset(ada, "other"), 409);
   EXPECT_EQ(reset(bob, "arena"), 409);
-  // By its WebSocket each acts on what that one shows, whatever they say they look at.
+  // A viewer acts on the simulation that its WebSocket shows, whatever it claims to view.
   Viewer stranger(gateway_->port(), "/ws?simulation=other&viewer=" + ada);
   EXPECT_NE(stranger.CallRefusedService("start").find("Bob has control"), std::string::npos);
   Viewer holder(gateway_->port(), "/ws?simulation=arena&viewer=" + ada);
   EXPECT_TRUE(holder.CallService("start").first);
 }
 
-TEST_F(AccessTest, WhoWatchesIsToldAtOnceWhoHoldsControl) {
+TEST_F(AccessTest, AViewerGetsTheHolderOfControlAtOnce) {
   Start({});
   const std::string ada = Enter("Ada");
   Viewer viewer(gateway_->port(), "/ws?simulation=arena&viewer=" + ada);
@@ -248,10 +248,10 @@ TEST_F(AccessTest, WhoWatchesIsToldAtOnceWhoHoldsControl) {
   Send("POST", "/api/viewers/me/control", As(ada), R"({"wants":true})");
   const std::string told = heard();
   EXPECT_NE(told.find(R"("holds_control":true)"), std::string::npos);
-  EXPECT_EQ(told.find(ada), std::string::npos);  // keys are nobody else's
+  EXPECT_EQ(told.find(ada), std::string::npos);  // keys are secret
 }
 
-TEST_F(AccessTest, WhatIsNoRequestIsRefusedWithASentence) {
+TEST_F(AccessTest, AnInvalidRequestIsRefusedWithASentence) {
   Start({});
   const std::string ada = Enter("Ada");
   for (const char* body : {"", "[]", "{}", R"({"name":1})", "{"}) {
@@ -267,7 +267,7 @@ TEST_F(AccessTest, WhatIsNoRequestIsRefusedWithASentence) {
   EXPECT_EQ(Send("POST", "/api/viewers/me/answer", As(ada), R"({"grants":true})").status, 409);
 }
 
-TEST_F(AccessTest, ARelayShowsItsTokenForThoseWhoComeToIt) {
+TEST_F(AccessTest, ARelaySendsItsTokenForItsViewers) {
   Start({kControl, kWatch});
   EXPECT_FALSE(Gateway::StartRelay({}, {gateway_->url()}));
   const auto relay = Gateway::StartRelay({}, {gateway_->url(), kControl});

@@ -1,4 +1,4 @@
-// Authenticators that answer later, and permissions that end.
+// Authenticators that answer later, and permissions that expire.
 #include "gsv/gateway/access/authenticator.h"
 
 #include <condition_variable>
@@ -46,7 +46,7 @@ class Desk final : public Authenticator {
   std::vector<std::pair<std::string, Answer>> questions_;
 };
 
-// Permits everything at once, for a while.
+// Grants everything at once, for a limited time.
 class Brief final : public Authenticator {
  public:
   void Authenticate(const Credentials&, Answer answer) override {

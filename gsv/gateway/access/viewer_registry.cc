@@ -15,7 +15,7 @@ std::string NewKey() {
   return fmt::format("{:08x}{:08x}{:08x}{:08x}", random(), random(), random(), random());
 }
 
-// One line, not too long, and no half of a character at its end.
+// One line of limited length, without a partial character at its end.
 std::string CleanName(const std::string& name) {
   std::string clean;
   for (const char c : name) {
@@ -218,7 +218,7 @@ void ViewerRegistry::ReleaseControl(const std::string& key) {
   ++version_;
 }
 
-// The next question is a new holder's to answer.
+// A new holder of control answers the next request.
 void ViewerRegistry::PassControl(Control& control, Time now) {
   control.holder = control.questions.front().key;
   control.questions.pop_front();

@@ -9,10 +9,10 @@ namespace {
 
 using std::chrono::seconds;
 
-// Two viewers and a clock that is set by hand.
-class ControlDeskTest : public ::testing::Test {
+// Two viewers and a clock that the test sets.
+class ViewerRegistryTest : public ::testing::Test {
  protected:
-  // Both keep asking how things stand until then.
+  // Both viewers send requests until then.
   void WaitUntil(int second) {
     for (; now_ < start_ + seconds(second); now_ += seconds(1)) {
       registry_.List(ada_.key, now_);
@@ -37,7 +37,7 @@ class ControlDeskTest : public ::testing::Test {
   const ViewerRegistry::Admission bob_ = registry_.Enter("  Bob\n", "arena", now_).value();
 };
 
-TEST_F(ControlDeskTest, WhileNobodyHoldsControlAllMayAct) {
+TEST_F(ViewerRegistryTest, WithoutAHolderAllViewersHaveControl) {
   EXPECT_TRUE(CheckControl(ada_.key));
   EXPECT_TRUE(CheckControl(""));
   const auto standing = registry_.List(ada_.key, now_);
@@ -47,7 +47,7 @@ TEST_F(ControlDeskTest, WhileNobodyHoldsControlAllMayAct) {
   EXPECT_EQ(Holder(), 0u);
 }
 
-TEST_F(ControlDeskTest, WhoHoldsItActsAlone) {
+TEST_F(ViewerRegistryTest, OnlyTheHolderHasControl) {
   ASSERT_TRUE(registry_.RequestControl(ada_.key, now_));
   EXPECT_EQ(Holder(), ada_.number);
   EXPECT_TRUE(CheckControl(ada_.key));
@@ -60,7 +60,7 @@ TEST_F(ControlDeskTest, WhoHoldsItActsAlone) {
   EXPECT_TRUE(CheckControl(bob_.key));
 }
 
-TEST_F(ControlDeskTest, AHolderGrantsOrKeepsIt) {
+TEST_F(ViewerRegistryTest, AHolderGrantsOrKeepsControl) {
   ASSERT_TRUE(registry_.RequestControl(ada_.key, now_));
   ASSERT_TRUE(registry_.RequestControl(bob_.key, now_));
   EXPECT_EQ(Bob().asks, 1u);
@@ -71,10 +71,10 @@ TEST_F(ControlDeskTest, AHolderGrantsOrKeepsIt) {
   ASSERT_TRUE(registry_.RequestControl(bob_.key, now_));
   ASSERT_TRUE(registry_.Answer(ada_.key, true, now_));
   EXPECT_EQ(Holder(), bob_.number);
-  EXPECT_FALSE(registry_.Answer(bob_.key, true, now_));  // nobody asks
+  EXPECT_FALSE(registry_.Answer(bob_.key, true, now_));  // nobody requests control
 }
 
-TEST_F(ControlDeskTest, ItPassesWhenTheHolderDoesNotAnswer) {
+TEST_F(ViewerRegistryTest, ControlPassesWhenTheHolderDoesNotAnswer) {
   ASSERT_TRUE(registry_.RequestControl(ada_.key, now_));
   ASSERT_TRUE(registry_.RequestControl(bob_.key, now_));
   WaitUntil(19);
@@ -84,7 +84,7 @@ TEST_F(ControlDeskTest, ItPassesWhenTheHolderDoesNotAnswer) {
   EXPECT_EQ(Holder(), bob_.number);
 }
 
-TEST_F(ControlDeskTest, ItPassesWhenTheHolderLeavesOrIsSilent) {
+TEST_F(ViewerRegistryTest, ControlPassesWhenTheHolderLeavesOrIsSilent) {
   ASSERT_TRUE(registry_.RequestControl(ada_.key, now_));
   ASSERT_TRUE(registry_.RequestControl(bob_.key, now_));
   ASSERT_TRUE(registry_.Leave(ada_.key, now_));
@@ -96,7 +96,7 @@ TEST_F(ControlDeskTest, ItPassesWhenTheHolderLeavesOrIsSilent) {
   EXPECT_EQ(registry_.Rename(bob_.key, "Bob", now_).error().code, base::ErrorCode::kNotFound);
 }
 
-TEST_F(ControlDeskTest, EachSimulationHasAHolderOfItsOwn) {
+TEST_F(ViewerRegistryTest, EachSimulationHasItsOwnHolder) {
   ASSERT_TRUE(registry_.RequestControl(ada_.key, now_));
   ASSERT_TRUE(registry_.SelectSimulation(bob_.key, "other", now_));
   ASSERT_TRUE(registry_.RequestControl(bob_.key, now_));
@@ -108,17 +108,17 @@ TEST_F(ControlDeskTest, EachSimulationHasAHolderOfItsOwn) {
   EXPECT_TRUE(registry_.CheckControl(bob_.key, "a third", now_));
 }
 
-TEST_F(ControlDeskTest, WhoTurnsToAnotherSimulationLetsGo) {
+TEST_F(ViewerRegistryTest, AHolderWhoSelectsAnotherSimulationReleasesControl) {
   ASSERT_TRUE(registry_.RequestControl(ada_.key, now_));
   ASSERT_TRUE(registry_.RequestControl(bob_.key, now_));
-  ASSERT_TRUE(registry_.SelectSimulation(ada_.key, "arena", now_));  // she looks at it already
+  ASSERT_TRUE(registry_.SelectSimulation(ada_.key, "arena", now_));  // she views it already
   EXPECT_EQ(Holder(), ada_.number);
   ASSERT_TRUE(registry_.SelectSimulation(ada_.key, "", now_));
   EXPECT_EQ(Holder(), bob_.number);
   EXPECT_EQ(registry_.RequestControl(ada_.key, now_).error().code, base::ErrorCode::kNotRunning);
 }
 
-TEST_F(ControlDeskTest, ItsVersionTellsThatSomethingIsOtherwise) {
+TEST_F(ViewerRegistryTest, TheVersionGrowsWithEachChange) {
   std::uint64_t version = registry_.Version(now_);
   const auto is_news = [&] {
     const std::uint64_t before = std::exchange(version, registry_.Version(now_));
@@ -136,7 +136,7 @@ TEST_F(ControlDeskTest, ItsVersionTellsThatSomethingIsOtherwise) {
   EXPECT_FALSE(is_news());
 }
 
-TEST_F(ControlDeskTest, NamesAreShortAndOnOneLine) {
+TEST_F(ViewerRegistryTest, NamesAreShortAndOnOneLine) {
   std::string name;
   for (int i = 0; i < 40; ++i) name += "ä";
   ASSERT_TRUE(registry_.Rename(ada_.key, name, now_));
@@ -147,7 +147,7 @@ TEST_F(ControlDeskTest, NamesAreShortAndOnOneLine) {
   EXPECT_EQ(registry_.List("", now_).viewers[0].name, "viewer 1");
 }
 
-TEST_F(ControlDeskTest, NoMoreThanAThousandAreThere) {
+TEST_F(ViewerRegistryTest, AtMostAThousandViewersAreKept) {
   for (std::size_t i = 2; i < ViewerRegistry::kMaxViewers; ++i)
     ASSERT_TRUE(registry_.Enter("", "arena", now_));
   EXPECT_EQ(registry_.Enter("", "arena", now_).error().code, base::ErrorCode::kUnavailable);

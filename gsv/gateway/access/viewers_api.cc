@@ -14,7 +14,7 @@ std::string Text(const ViewersJson& json) {
   return json.dump(-1, ' ', false, ViewersJson::error_handler_t::replace);
 }
 
-// A simulation's name is no longer than an address that it stands in.
+// A simulation's name is at most as long as an address that contains it.
 constexpr std::size_t kMaxSimulationNameLength = 1024;
 
 template <typename T>
@@ -35,7 +35,7 @@ base::Error Expected(const std::string& body) {
 std::vector<Route> ViewersApi::Routes() {
   using enum Permission;
   using enum Pool;
-  // Changes something of the viewer that asks, and answers how things stand then.
+  // Changes the viewer that sends the request, and returns its new state.
   const auto changing = [this](base::Status (ViewersApi::*change)(const Request&)) {
     return [this, change](const Request& request) {
       const base::Status done = (this->*change)(request);

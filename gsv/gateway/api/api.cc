@@ -88,7 +88,7 @@ Response Api::Scene(const SimulationPointer& simulation) {
       200, presentation::SceneJson(*simulation, models_.identify(), models_.identify_collisions()));
 }
 
-// Looking changes nothing of the simulation; what is listed concerns those who look.
+// A read-only request does not change the simulation; the list is for viewers.
 Response Api::Topics(const SimulationPointer& simulation, const std::string& robot) const {
   if (simulation->snapshot()->layout->Find(robot) < 0) {
     return ErrorResponse(404, "there is no robot '" + robot + "'");

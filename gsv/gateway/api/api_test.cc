@@ -48,7 +48,7 @@ class ApiTest : public ::testing::Test {
   const std::string path_ = "/api/simulations/first%20light";
 };
 
-// Remembers what it was told.
+// Remembers the commands that it got.
 class FakeRecordings final : public RecordingSwitch {
  public:
   Totals totals() override { return {}; }
@@ -93,7 +93,7 @@ TEST_F(ApiTest, SwitchesTheRecordingOnAndOff) {
             "this server cannot record simulations");
 }
 
-TEST_F(ApiTest, TellsARobotsTopicsAndHasThemListed) {
+TEST_F(ApiTest, ReturnsARobotsTopicsAndHasThemListed) {
   std::vector<std::string> listed;
   Api api(directory_, nullptr, nullptr, nullptr, false,
           [&](const auto& simulation, const std::string& robot) {
@@ -124,7 +124,7 @@ TEST_F(ApiTest, ListsTheSimulations) {
                                      "time_s":0,"real_time_factor":0,"robots":3})"));
 }
 
-TEST_F(ApiTest, TellsTheStatus) {
+TEST_F(ApiTest, ReturnsTheStatus) {
   simulation_->Advance(std::chrono::seconds(5));
   const json status = AskJson("GET", path_, 200);
   EXPECT_EQ(status["step"], 500);
@@ -161,7 +161,7 @@ TEST_F(ApiTest, TheFactorIsSet) {
   }
   EXPECT_EQ(simulation_->real_time_factor(), 2.5);
   EXPECT_EQ(Ask("GET", path).allow, "POST");
-  // The former names of the route and of its parameter.
+  // The deprecated names of the route and of its parameter.
   EXPECT_EQ(AskJson("POST", path_ + "/factor", 200, R"({"factor":0.5})")["target_factor"], 0.5);
 }
 
@@ -189,7 +189,7 @@ TEST_F(ApiTest, CommandsAreDescribedAndTakeTheirArguments) {
   EXPECT_EQ(simulation_->gravity(), std::nullopt);
 }
 
-TEST_F(ApiTest, WhatThePhaseDoesNotAllowIsAConflict) {
+TEST_F(ApiTest, ARequestThatThePhaseDoesNotAllowIsAConflict) {
   EXPECT_EQ(AskJson("POST", path_ + "/resume", 409)["error"],
             "the simulation is created and cannot be resumed");
 }
@@ -233,7 +233,7 @@ TEST_F(ApiTest, UnknownAddressesAndMethods) {
   EXPECT_EQ(Ask("GET", path_ + "/robots/avatar").allow, "DELETE");
 }
 
-TEST_F(ApiTest, TheSceneDescribesWhatStandsThere) {
+TEST_F(ApiTest, TheSceneDescribesAllBodies) {
   const json scene = AskJson("GET", path_ + "/scene", 200);
   EXPECT_EQ(scene["layout_version"], 1);
   EXPECT_EQ(scene["name"], "arena");
@@ -255,7 +255,7 @@ TEST_F(ApiTest, TheSceneDescribesWhatStandsThere) {
   EXPECT_EQ(scene["lights"][0]["kind"], "directional");
 }
 
-TEST_F(ApiTest, TheSceneIsAsLargeAsWhatStandsInItWithoutTheFloor) {
+TEST_F(ApiTest, TheSceneIsAsLargeAsItsBodiesWithoutTheFloor) {
   const geometry::Bounds bounds = presentation::SceneBounds(*simulation_->snapshot());
   EXPECT_NEAR(bounds.min.x, -4.5, 1e-12);
   EXPECT_NEAR(bounds.max.y, 4.5, 1e-12);

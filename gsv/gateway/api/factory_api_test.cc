@@ -36,7 +36,7 @@ class FactoryApiTest : public ::testing::Test {
   const Router router_{api_.Routes()};
 };
 
-TEST_F(FactoryApiTest, TellsWhatTheServerCanDo) {
+TEST_F(FactoryApiTest, ReturnsTheCapabilitiesOfTheServer) {
   EXPECT_EQ(Ask("GET", "/api/server", 200),
             (FactoryTestJson{{"creates", true}, {"records", false}, {"recordings", false}}));
   Api none(list_, &FactoryApiTest::Glb);
@@ -50,7 +50,7 @@ TEST_F(FactoryApiTest, TellsWhatTheServerCanDo) {
   EXPECT_EQ(testing::Answer(routes_of_none, request).status, 404);
 }
 
-TEST_F(FactoryApiTest, ListsWhatThereIsToChooseFrom) {
+TEST_F(FactoryApiTest, ListsTheAvailableChoices) {
   EXPECT_EQ(Ask("GET", "/api/worlds", 200)["worlds"][1]["name"], "<b>office</b>");
   const auto models = Ask("GET", "/api/models", 200)["models"];
   EXPECT_EQ(models[0], (FactoryTestJson{{"name", "avatar"}, {"is_avatar", true}}));
@@ -79,7 +79,7 @@ TEST_F(FactoryApiTest, CreatesAndDestroys) {
   Ask("DELETE", "/api/simulations/a%20b", 404);
 }
 
-TEST_F(FactoryApiTest, WhatIsRefusedNamesItsField) {
+TEST_F(FactoryApiTest, ARefusalNamesTheField) {
   const auto malformed = Ask("POST", "/api/simulations", 400, R"({"world": "w", "seed": -1})");
   EXPECT_EQ(malformed["field"], "seed");
   EXPECT_FALSE(malformed["error"].get<std::string>().empty());
@@ -123,7 +123,7 @@ TEST_F(FactoryApiTest, ObjectsAreAddedOfAModelOrAsACopy) {
   EXPECT_NEAR((pose.orientation * geometry::Vector3{0, 1, 0}).z, 1, 1e-12);
 }
 
-TEST_F(FactoryApiTest, AnObjectThatMakesNoSenseNamesItsField) {
+TEST_F(FactoryApiTest, AnInvalidObjectNamesItsField) {
   list_->Add(std::make_shared<ScriptedSimulation>("run", 1));
   const std::string objects = "/api/simulations/run/objects";
   const std::pair<const char*, const char*> wrong[]{

@@ -16,7 +16,7 @@ using ModelPointer = std::shared_ptr<const model::Model>;
 
 ModelPointer Crate() { return std::make_shared<model::Model>(testing::CrateModel()); }
 
-TEST(ModelIdentity, IsAFunctionOfWhatIsSeen) {
+TEST(ModelIdentity, IsAFunctionOfTheVisuals) {
   const std::string id = ModelIdentity(testing::CrateModel());
   EXPECT_EQ(id, ModelIdentity(testing::CrateModel()));
   EXPECT_EQ(id.size(), 16u);
@@ -39,7 +39,7 @@ TEST(ModelIdentity, IsAFunctionOfWhatIsSeen) {
   with_map.links[0].visuals[0].materials[0].base_colour_map = map;
   EXPECT_NE(ModelIdentity(with_map), id);
 
-  // What is felt, but not seen, is of no account.
+  // Parts that collide but are invisible do not matter.
   model::Model heavier = testing::CrateModel();
   heavier.links[0].inertial.mass = 100;
   heavier.links[0].collisions.clear();
@@ -61,7 +61,7 @@ TEST(ModelStore, WritesEachModelOnce) {
   EXPECT_EQ(written, 1);
 }
 
-TEST(ModelStore, ForgetsModelsThatAreGone) {
+TEST(ModelStore, ForgetsDestroyedModels) {
   ModelStore store([](const model::Model&) -> base::Result<std::vector<std::uint8_t>> {
     return std::vector<std::uint8_t>{1};
   });
@@ -73,7 +73,7 @@ TEST(ModelStore, ForgetsModelsThatAreGone) {
   EXPECT_EQ(store.Glb("0123").error().code, base::ErrorCode::kNotFound);
 }
 
-TEST(ModelStore, ASlowModelHoldsUpNoOther) {
+TEST(ModelStore, ASlowModelDelaysNoOther) {
   std::promise<void> release, begun;
   ModelStore store([&](const model::Model& model) -> base::Result<std::vector<std::uint8_t>> {
     if (model.name == "crate") {
@@ -91,7 +91,7 @@ TEST(ModelStore, ASlowModelHoldsUpNoOther) {
   writer.join();
 }
 
-TEST(ModelStore, AFailureIsToldToAllWhoAsk) {
+TEST(ModelStore, AFailureIsReturnedToAllRequests) {
   ModelStore store([](const model::Model&) -> base::Result<std::vector<std::uint8_t>> {
     return base::Fail(base::ErrorCode::kBadModel, "too large for a GLB");
   });
@@ -101,7 +101,7 @@ TEST(ModelStore, AFailureIsToldToAllWhoAsk) {
   EXPECT_EQ(store.Glb(id).error().message, "too large for a GLB");
 }
 
-TEST(ModelStore, ShowsWhatAModelCollidesWith) {
+TEST(ModelStore, ShowsTheCollisionShapes) {
   std::vector<model::Model> written;
   ModelStore store([&](const model::Model& model) -> base::Result<std::vector<std::uint8_t>> {
     written.push_back(model);
@@ -115,7 +115,7 @@ TEST(ModelStore, ShowsWhatAModelCollidesWith) {
   EXPECT_NE(id, store.Identify(model));
   ASSERT_TRUE(store.Glb(id));
   ASSERT_EQ(written.size(), 1u);
-  ASSERT_EQ(written[0].links[0].visuals.size(), 1u);  // a plane has no end
+  ASSERT_EQ(written[0].links[0].visuals.size(), 1u);  // a plane is infinite
   const model::Visual& shown = written[0].links[0].visuals[0];
   EXPECT_EQ(std::get<geometry::Sphere>(shown.shape).radius, 0.25);
   EXPECT_EQ(shown.link_from_visual.position.z, 0.5);

@@ -18,7 +18,7 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::size_t kDefaultCurvePoints = 4000;
-constexpr double kLatest = 9e9;  // s: what nanoseconds can hold
+constexpr double kLatest = 9e9;  // s: limit of a time in nanoseconds
 
 std::string JsonText(const OrderedJson& json) {
   return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
@@ -84,7 +84,7 @@ curves::CurveRequest CurveRequestOf(const Target& target) {
     const auto parsed =
         std::from_chars(value.data(), value.data() + value.size(), request.max_points);
     const bool is_number = parsed.ec == std::errc() && parsed.ptr == value.data() + value.size();
-    if (!is_number) request.max_points = 0;  // is refused with the others that are out of range
+    if (!is_number) request.max_points = 0;  // is refused, like other values out of range
   }
   return request;
 }
@@ -163,7 +163,7 @@ Response CurveOf(const Replay& replay, const Request& request) {
   OrderedJson times = OrderedJson::array(), values = OrderedJson::array();
   for (const curves::Point& point : curve->points) {
     times.push_back(base::ToSeconds(point.time));
-    values.push_back(point.value);  // what is not finite becomes null
+    values.push_back(point.value);  // non-finite values become null
   }
   return JsonResponse(200, JsonText({{"time_s", std::move(times)},
                                      {"values", std::move(values)},
@@ -185,7 +185,7 @@ Response RefuseEdit(const Replay&, const Request&) {
 
 using ReplayHandler = std::function<Response(const Replay&, const Request&)>;
 
-// Finds the replay for `handler`; 404 when there is none, or it is not of the simulation {name}.
+// Finds the replay for `handler`. 404 if there is none, or if it is not of the simulation {name}.
 Route::Handler OfReplay(const FindReplay& find, ReplayHandler handler) {
   return [find, handler = std::move(handler)](const Request& request) {
     const base::Result<Replay> replay = find(request);
@@ -200,7 +200,7 @@ Route::Handler OfReplay(const FindReplay& find, ReplayHandler handler) {
   };
 }
 
-// A request that simulations take and a replay refuses.
+// A request that simulations accept and a replay refuses.
 struct RefusedRequest {
   const char* method;
   const char* below;  // /api/simulations/{name}
@@ -222,7 +222,7 @@ std::vector<Route> ReplayRoutes(const FindReplay& find) {
     routes.push_back({"GET", std::move(pattern), Permission::kWatch, false, Pool::kReaders,
                       OfReplay(find, handler), std::move(summary)});
   };
-  // Nothing that is done to a replay takes long, so readers do it.
+  // No change of a replay takes long, so readers do it.
   const auto change = [&](std::string method, std::string_view below, ReplayHandler handler,
                           std::string_view summary) {
     routes.push_back({std::move(method), simulation + std::string(below), Permission::kControl,

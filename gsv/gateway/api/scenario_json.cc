@@ -27,7 +27,7 @@ FieldResult<ScenarioJson> ParseRequestObject(std::string_view body) {
   return json;
 }
 
-// Takes a member out that the scenario's reader does not know.
+// Removes a member that the scenario's reader does not know.
 FieldResult<bool> TakeFlag(ScenarioJson& json, const char* name) {
   const ScenarioJson value = json.value(name, ScenarioJson());
   json.erase(name);
@@ -54,7 +54,7 @@ FieldResult<std::string> TakeName(ScenarioJson& json, const char* name) {
   return value.get<std::string>();
 }
 
-// The first of what is wrong.
+// The first problem.
 template <typename T>
 FieldResult<T> Judged(T value, const base::Problems& problems) {
   if (problems.empty()) return value;
@@ -65,7 +65,7 @@ FieldResult<void> RefuseWhatIsNotForViewers(const ScenarioJson& json) {
   constexpr std::string_view kKnown[]{"name",    "world",      "mode", "real_time_factor",
                                       "step",    "duration",   "seed", "robots",
                                       "avatars", "pedestrians"};
-  constexpr std::string_view kFormer = "factor";  // of real_time_factor
+  constexpr std::string_view kFormer = "factor";  // the deprecated name of real_time_factor
   for (const auto& [name, value] : json.items()) {
     if (name != kFormer &&
         std::find(std::begin(kKnown), std::end(kKnown), name) == std::end(kKnown)) {
@@ -85,7 +85,7 @@ FieldResult<void> RefuseWhatIsNotForViewers(const ScenarioJson& json) {
   return {};
 }
 
-// Robots of the world's own are chosen by a file; in a request each has a model.
+// A file chooses the robots of a world; in a request each robot has a model.
 FieldResult<void> RequireModels(const scenario::Scenario& scenario) {
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
     if (!scenario.robots[i].model.empty()) continue;
@@ -115,8 +115,8 @@ FieldResult<RobotToAdd> ParseRobotRequest(std::string_view body) {
   if (!json) return tl::make_unexpected(json.error());
   const auto is_avatar = TakeFlag(*json, "avatar");
   if (!is_avatar) return tl::make_unexpected(is_avatar.error());
-  // Without a model it is the robot of that name which came with the world. In a scenario such a
-  // one has no place of its own; here it has.
+  // A robot without a model is the one of that name in the world. In a scenario such a robot has no
+  // pose of its own; here it has one.
   const bool is_of_world = !json->contains("model") && json->contains("name");
   if (is_of_world) (*json)["model"] = "the world's";
   base::Problems problems;

@@ -15,7 +15,7 @@ TEST(ScenarioJson, AWorldAloneIsEnough) {
   EXPECT_FALSE(request->record);
 }
 
-TEST(ScenarioJson, EveryKeyIsTaken) {
+TEST(ScenarioJson, EveryKeyIsRead) {
   const auto request = ParseSimulationRequest(R"({
     "name": "run", "world": "maze", "mode": "lockstep", "real_time_factor": 2.5, "step": 0.01,
     "duration": 60, "seed": 18446744073709551615, "record": true,
@@ -54,7 +54,7 @@ struct Refused {
   const char* field;
 };
 
-TEST(ScenarioJson, WhatIsWrongIsRefusedWithItsField) {
+TEST(ScenarioJson, AnErrorIsRefusedWithItsField) {
   const Refused refused[]{
       {R"({})", "world"},
       {R"({"world": ["w"]})", "world"},
@@ -102,7 +102,7 @@ TEST(ScenarioJson, AnUnknownFieldIsRefusedWithThoseThatAreKnown) {
             "robots, avatars, pedestrians, record");
 }
 
-TEST(ScenarioJson, MoreRobotsThanAnybodyTypesAreRefused) {
+TEST(ScenarioJson, TooManyRobotsAreRefused) {
   std::string body = R"({"world": "w", "robots": [{"model": "m"})";
   for (int i = 1; i < 1000; ++i) body += R"(,{"model": "m"})";
   const auto most = ParseSimulationRequest(body + "]}");

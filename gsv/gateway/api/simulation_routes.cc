@@ -29,7 +29,7 @@ SimulationHandler Applying(const simulation::Command& command) {
   };
 }
 
-// Robots with a behaviour are steered by that alone.
+// Only the behaviour drives a robot that has one.
 Response Drive(const SimulationPointer& simulation, const Request& request) {
   const std::string& robot = request.Parameter("robot");
   const std::shared_ptr<simulation::Agent> agent = simulation->agent(robot);

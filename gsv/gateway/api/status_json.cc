@@ -7,7 +7,7 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-// Names and messages may hold bytes that are not UTF-8; they are replaced.
+// Names and messages may have bytes that are not UTF-8; they are replaced.
 std::string Dump(const OrderedJson& json) {
   return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }

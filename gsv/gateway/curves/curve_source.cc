@@ -20,7 +20,7 @@ namespace {
 
 using recording::MessageRecord;
 
-constexpr base::SimTime kMaxGap = std::chrono::seconds(1);  // between poses that give a speed
+constexpr base::SimTime kMaxGap = std::chrono::seconds(1);  // between poses for a speed
 constexpr std::size_t kMaxKeyLength = 200;
 
 using ChannelIds = std::set<std::uint16_t>;
@@ -70,7 +70,7 @@ base::Result<std::unique_ptr<CurveSource>> MakeFieldSource(const recording::Mcap
   return std::make_unique<FieldSource>(std::move(definitions), request.key);
 }
 
-// What /gsv/status says of a robot, or of the simulation.
+// Values of a robot, or of the simulation, in /gsv/status.
 class StatusSource final : public CurveSource {
  public:
   StatusSource(ChannelIds channels, const CurveRequest& request)
@@ -127,7 +127,7 @@ class PoseSource final : public CurveSource {
     return Rate(*before, now) / base::ToSeconds(elapsed);
   }
 
-  // What changed between two poses: metres, or radians the short way round.
+  // The change between two poses: metres, or radians by the shorter way round.
   double Rate(const Numbers& before, const Numbers& now) const {
     if (key_ == "speed") {
       return std::hypot(now[0] - before[0], now[1] - before[1], now[2] - before[2]);

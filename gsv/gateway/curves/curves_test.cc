@@ -41,7 +41,7 @@ TEST(CurvePoints, LosesNoSpikeWhenTheyDoNotFit) {
   for (std::size_t i = 1; i < kept.size(); ++i) EXPECT_LT(kept[i - 1].time, kept[i].time);
 }
 
-TEST(CurvePoints, TellsOfStretchesWithoutAFiniteSample) {
+TEST(CurvePoints, KeepsAPointOfBinsWithoutAFiniteSample) {
   CurvePoints points(0ms, 100ms, 4);
   for (int i = 0; i < 100; ++i) points.Add(i * 1ms, i < 50 ? 2 : kInfinity);
   const std::vector<Point> expected{{0ms, 2}, {50ms, kInfinity}};
@@ -54,7 +54,7 @@ TEST(CurvePoints, StaysBoundedWhateverTheTimes) {
   EXPECT_LE(points.Points().size(), 10u);
 }
 
-TEST(FieldValue, FindsWhatTheViewerLists) {
+TEST(FieldValue, FindsTheValuesThatTheViewerLists) {
   const ordered_json message = ordered_json::parse(R"({
     "range": 1.5, "touched": true, "text": "2", "none": [],
     "pose": {"position": {"x": 3, "y": 4, "z": 5},
@@ -90,7 +90,7 @@ TEST(FieldValue, FindsWhatTheViewerLists) {
   }
 }
 
-TEST(FieldValue, LeavesOutWhatIsNotFinite) {
+TEST(FieldValue, LeavesOutNonFiniteValues) {
   ordered_json message;
   message["ranges"] = ordered_json::array();
   for (int i = 0; i < 9; ++i) message["ranges"].push_back(i == 4 ? 2.5 : kInfinity);
@@ -100,7 +100,7 @@ TEST(FieldValue, LeavesOutWhatIsNotFinite) {
   EXPECT_TRUE(std::isnan(FieldValue(message, "ranges.min").value()));
 }
 
-// Ranges of 1 m and one millimetre more each 10 ms, in chunks of a tenth of a second.
+// Ranges from 1 m, which grow by one millimetre every 10 ms, in chunks of a tenth of a second.
 recording::Bytes TenSeconds() {
   recording::Bytes bytes;
   recording::MemorySink sink(bytes);
@@ -123,7 +123,7 @@ recording::Bytes TenSeconds() {
 
 class RecordedCurvesTest : public ::testing::Test {
  protected:
-  // Asks until it is read.
+  // Requests the curve until it was read.
   static Curve Whole(RecordedCurves& curves, const CurveRequest& request) {
     for (;;) {
       auto curve = curves.Get(request).value();
@@ -137,7 +137,7 @@ class RecordedCurvesTest : public ::testing::Test {
   const RecordedScene scene_{*reader_};
 };
 
-TEST_F(RecordedCurvesTest, ReadsAllOfAShortOne) {
+TEST_F(RecordedCurvesTest, ReadsAllSamplesOfAShortCurve) {
   RecordedCurves curves(*reader_, scene_);
   const Curve curve =
       Whole(curves, {.topic = "/robot/sonar", .robot = {}, .key = "range", .max_points = 1000});
@@ -149,7 +149,7 @@ TEST_F(RecordedCurvesTest, ReadsAllOfAShortOne) {
   EXPECT_NEAR(curve.points[250].value, 1.25, 1e-6);
 }
 
-TEST_F(RecordedCurvesTest, ThinsOutALongOneFromEndToEnd) {
+TEST_F(RecordedCurvesTest, ReducesALongCurveOverItsWholeLength) {
   RecordedCurves curves(*reader_, scene_);
   const Curve curve =
       Whole(curves, {.topic = "/robot/sonar", .robot = {}, .key = "range", .max_points = 50});
@@ -163,7 +163,7 @@ TEST_F(RecordedCurvesTest, ThinsOutALongOneFromEndToEnd) {
   }
 }
 
-TEST_F(RecordedCurvesTest, GivesUpAfterItsTimeAndSaysSo) {
+TEST_F(RecordedCurvesTest, EndsAtItsTimeLimitAndReportsIt) {
   RecordedCurves curves(*reader_, scene_, std::chrono::milliseconds(-1));
   const Curve curve =
       Whole(curves, {.topic = "/robot/sonar", .robot = {}, .key = "range", .max_points = 1000});
@@ -171,7 +171,7 @@ TEST_F(RecordedCurvesTest, GivesUpAfterItsTimeAndSaysSo) {
   EXPECT_NE(curve.problem.find("too long"), std::string::npos) << curve.problem;
 }
 
-TEST_F(RecordedCurvesTest, KeepsAFewAndReadsAgainWhatItForgot) {
+TEST_F(RecordedCurvesTest, KeepsAFewAndReadsForgottenOnesAgain) {
   RecordedCurves curves(*reader_, scene_);
   for (std::size_t max_points = 2; max_points < 60; ++max_points) {
     (void)curves.Get(
@@ -182,7 +182,7 @@ TEST_F(RecordedCurvesTest, KeepsAFewAndReadsAgainWhatItForgot) {
             1000u);
 }
 
-TEST_F(RecordedCurvesTest, RefusesWhatIsNotThere) {
+TEST_F(RecordedCurvesTest, RefusesMissingTopicsAndValues) {
   RecordedCurves curves(*reader_, scene_);
   const auto code = [&](const CurveRequest& request) {
     const auto curve = curves.Get(request);

@@ -8,7 +8,7 @@ namespace gsv::gateway::curves {
 namespace {
 
 constexpr std::size_t kMaxCurves = 16;
-constexpr int kMessagesBetweenLooks = 256;  // at the clock, and whether anybody still wants it
+constexpr int kMessagesBetweenLooks = 256;  // between checks of the clock and of is_dropped
 
 }  // namespace
 
@@ -21,7 +21,7 @@ struct RecordedCurves::Job {
         read_to(summary.start) {}
 
   const CurveRequest request;
-  const std::unique_ptr<CurveSource> source;  // of the thread that reads
+  const std::unique_ptr<CurveSource> source;  // used only by the reading thread
   std::atomic<bool> is_dropped = false;
 
   base::Mutex mutex;
@@ -116,7 +116,7 @@ void RecordedCurves::Read(Job& job) {
       }
     }
     const auto message = cursor.Next();
-    if (!message) {  // the next call goes on behind the damage
+    if (!message) {  // the next call continues after the damage
       const base::MutexLock lock(job.mutex);
       job.problem = message.error().Sentence();
       continue;

@@ -9,9 +9,9 @@ namespace {
 using foxglove::Parameter;
 using foxglove::StatusLevel;
 
-constexpr int kMaxCalls = 8;              // of one client, under way
-constexpr std::size_t kMaxProblems = 10;  // about one request
-// Of each client its own; told to who asks for it by this name.
+constexpr int kMaxCalls = 8;              // of one client, in progress
+constexpr std::size_t kMaxProblems = 10;  // in one request
+// Each client has its own value; a client gets it if it requests this name.
 constexpr const char* kDroppedUpdates = "/gsv/dropped_updates";
 
 std::vector<Parameter> Named(std::vector<Parameter> all, const std::vector<std::string>& names) {
@@ -102,7 +102,7 @@ void ClientRequests::Take(const std::shared_ptr<Client>& client,
     if (set || ++complaints > kMaxProblems) continue;
     client->SendStatus(StatusLevel::kError, set.error().Sentence());
   }
-  // What they are now, set or not.
+  // Sends the current values, whether they were set or not.
   if (request.request.empty() || names.empty()) return;
   SendParameters(*client, Named(operations_->parameters(), names), request.request);
 }

@@ -17,7 +17,7 @@ using nlohmann::json;
 using testing::RecordingClient;
 
 // One service, whose answer the test gives; two parameters, of which /speed can be set; a playback
-// that stands at 5 ns.
+// at 5 ns.
 class FakeOperations final : public Operations {
  public:
   std::vector<foxglove::Service> services() const override {
@@ -48,7 +48,7 @@ class FakeOperations final : public Operations {
   double speed = 1;
 };
 
-class RequestDeskTest : public ::testing::Test {
+class ClientRequestsTest : public ::testing::Test {
  protected:
   std::shared_ptr<RecordingClient> Join(const char* subprotocol = "foxglove.sdk.v1") {
     auto client = std::make_shared<RecordingClient>();
@@ -70,18 +70,18 @@ class RequestDeskTest : public ::testing::Test {
   Hub hub_{{"test", {"time"}, {}, "1", foxglove::TimeRange{0, 9}}, [] {}, operations_};
 };
 
-TEST_F(RequestDeskTest, ANewClientIsToldWhatItCanDo) {
+TEST_F(ClientRequestsTest, ANewClientGetsTheCapabilities) {
   const auto client = Join();
   ASSERT_EQ(client->texts().size(), 3u);
   EXPECT_EQ(client->texts()[0]["capabilities"],
             json({"time", "connectionGraph", "services", "parameters", "parametersSubscribe",
                   "playbackControl"}));
   EXPECT_EQ(client->texts()[2]["services"][0]["name"], "/gsv/stop");
-  ASSERT_EQ(client->answers().size(), 1u);  // how the playback stands
+  ASSERT_EQ(client->answers().size(), 1u);  // the state of the playback
   EXPECT_EQ(client->answers()[0].front(), '\x05');
 }
 
-TEST_F(RequestDeskTest, WhoSpeaksTheOlderProtocolHearsOfNoPlayback) {
+TEST_F(ClientRequestsTest, AClientOfTheOlderProtocolGetsNoPlaybackState) {
   const auto client = Join("foxglove.websocket.v1");
   const json info = client->texts()[0];
   EXPECT_FALSE(info.contains("dataStartTime"));
@@ -91,7 +91,7 @@ TEST_F(RequestDeskTest, WhoSpeaksTheOlderProtocolHearsOfNoPlayback) {
   EXPECT_TRUE(client->answers().empty());
 }
 
-TEST_F(RequestDeskTest, ACallIsAnsweredWheneverItIsDone) {
+TEST_F(ClientRequestsTest, ACallIsAnsweredWhenItIsDone) {
   const auto client = Join("foxglove.websocket.v1");
   CallStop(*client, 7);
   CallStop(*client, 8);
@@ -107,7 +107,7 @@ TEST_F(RequestDeskTest, ACallIsAnsweredWheneverItIsDone) {
   EXPECT_EQ(client->answers()[0], std::string("\x03\x01\0\0\0\x07\0\0\0\x03\0\0\0cdr\0\0", 18));
 }
 
-TEST_F(RequestDeskTest, AnAnswerToWhoHasLeftIsDropped) {
+TEST_F(ClientRequestsTest, AnAnswerToAFormerClientIsDropped) {
   auto client = Join();
   CallStop(*client, 7);
   hub_.Remove(client.get());
@@ -115,7 +115,7 @@ TEST_F(RequestDeskTest, AnAnswerToWhoHasLeftIsDropped) {
   operations_->answers[0](std::vector<std::byte>(2));
 }
 
-TEST_F(RequestDeskTest, OneClientsCallsAreBounded) {
+TEST_F(ClientRequestsTest, TheCallsOfAClientAreLimited) {
   const auto client = Join(), other = Join();
   for (char call = 0; call < 20; ++call) CallStop(*client, call);
   EXPECT_EQ(operations_->answers.size(), 8u);
@@ -128,7 +128,7 @@ TEST_F(RequestDeskTest, OneClientsCallsAreBounded) {
   EXPECT_EQ(operations_->answers.size(), 10u);
 }
 
-TEST_F(RequestDeskTest, ACallInAnotherEncodingFails) {
+TEST_F(ClientRequestsTest, ACallInAnotherEncodingFails) {
   const auto client = Join();
   EXPECT_TRUE(
       hub_.ReceiveBytes(client.get(), std::string("\x02\x01\0\0\0\x07\0\0\0\x04\0\0\0json", 17)));
@@ -136,7 +136,7 @@ TEST_F(RequestDeskTest, ACallInAnotherEncodingFails) {
   EXPECT_EQ(client->texts().back()["message"], "services are called in the encoding 'cdr' only");
 }
 
-TEST_F(RequestDeskTest, WhoAsksIsToldHowManyUpdatesWereDropped) {
+TEST_F(ClientRequestsTest, AClientCanReadItsDroppedUpdates) {
   const auto client = Join();
   const json request{
       {"op", "getParameters"}, {"parameterNames", {"/gsv/dropped_updates"}}, {"id", "a"}};
@@ -145,7 +145,7 @@ TEST_F(RequestDeskTest, WhoAsksIsToldHowManyUpdatesWereDropped) {
                 {"name":"/gsv/dropped_updates","value":7.0,"type":"float64"}])"));
 }
 
-TEST_F(RequestDeskTest, ParametersAreReadSetAndWatched) {
+TEST_F(ClientRequestsTest, ParametersAreReadSetAndWatched) {
   const auto client = Join(), watcher = Join();
   SetDriveState(*client, {{"op", "getParameters"}, {"parameterNames", json::array()}, {"id", "a"}});
   EXPECT_EQ(client->texts().back(), json::parse(R"({"op":"parameterValues","id":"a","parameters":[
@@ -161,7 +161,7 @@ TEST_F(RequestDeskTest, ParametersAreReadSetAndWatched) {
   EXPECT_EQ(texts.back()["parameters"][0]["value"], "arena");
   EXPECT_EQ(texts.back()["parameters"][1]["value"], 3.0);
   hub_.PublishChanges();
-  hub_.PublishChanges();  // tells nothing twice
+  hub_.PublishChanges();  // sends nothing twice
   EXPECT_EQ(watcher->texts().size(), 4u);
   EXPECT_EQ(watcher->texts().back()["parameters"],
             json::parse(R"([{"name":"/speed","value":3.0,"type":"float64"}])"));
@@ -172,7 +172,7 @@ TEST_F(RequestDeskTest, ParametersAreReadSetAndWatched) {
   EXPECT_EQ(watcher->texts().size(), 4u);
 }
 
-TEST_F(RequestDeskTest, AFloodOfMistakesIsAnsweredWithTenComplaints) {
+TEST_F(ClientRequestsTest, ManyErrorsGiveTenWarnings) {
   const auto client = Join();
   const std::size_t before = client->texts().size();
   json parameters = json::array();
@@ -181,7 +181,7 @@ TEST_F(RequestDeskTest, AFloodOfMistakesIsAnsweredWithTenComplaints) {
   EXPECT_EQ(client->texts().size(), before + 10);
 }
 
-TEST_F(RequestDeskTest, APlaybackIsControlledAndEverybodyHears) {
+TEST_F(ClientRequestsTest, APlaybackIsControlledAndAllClientsGetItsState) {
   const auto client = Join(), other = Join();
   // Play, at speed 2, from 3 ns.
   EXPECT_TRUE(hub_.ReceiveBytes(
@@ -196,7 +196,7 @@ TEST_F(RequestDeskTest, APlaybackIsControlledAndEverybodyHears) {
   EXPECT_EQ(other->answers().size(), before);
 }
 
-TEST_F(RequestDeskTest, TheGraphNamesPublishersViewersAndServices) {
+TEST_F(ClientRequestsTest, TheGraphNamesPublishersViewersAndServices) {
   const auto channels = hub_.Advertise(
       {{0, "/a", "cdr", "p/msg/N", "ros2msg", ""}, {0, "/b", "cdr", "p/msg/N", "ros2msg", ""}});
   hub_.SetPublishers(channels[1], {"robot"});
@@ -224,7 +224,7 @@ TEST_F(RequestDeskTest, TheGraphNamesPublishersViewersAndServices) {
   EXPECT_EQ(watcher->texts().size(), told + 1);  // of the topic itself
 }
 
-// Commands by name, and what their services make of requests.
+// Commands by name, and the conversion of requests by their services.
 class CommandServicesTest : public ::testing::Test {
  protected:
   base::Result<std::function<CommandServices::Response()>> Prepare(std::uint32_t service,
@@ -262,7 +262,7 @@ class CommandServicesTest : public ::testing::Test {
   simulation::Arguments::Values lifted_;
 };
 
-TEST_F(CommandServicesTest, ATriggerTakesNothingHoweverNothingIsWritten) {
+TEST_F(CommandServicesTest, ATriggerTakesAnEmptyRequestInEveryEncoding) {
   for (const std::string& nothing :
        {std::string(), std::string("\0\1\0\0", 4), std::string("\0\1\0\0\0", 5)}) {
     count_ = -1;
@@ -272,7 +272,7 @@ TEST_F(CommandServicesTest, ATriggerTakesNothingHoweverNothingIsWritten) {
   EXPECT_FALSE(Prepare(1, std::string("\0\1\0\0 too much", 13)));
 }
 
-TEST_F(CommandServicesTest, AStepTakesACountAndTellsThatItWasRefused) {
+TEST_F(CommandServicesTest, AStepTakesACountAndReportsARefusal) {
   const std::string header("\0\1\0\0", 4);
   const CommandServices::Response response =
       (*Prepare(2, header + std::string("\x07\0\0\0\0\0\0\0", 8)))();
@@ -318,7 +318,7 @@ TEST_F(CommandServicesTest, EachParameterIsAFieldOfTheRequest) {
             "lift_up: 'height' must be a number from -2 to 2 m, and it is 2.5");
 }
 
-TEST_F(CommandServicesTest, AServiceThatIsNotThereIsNamed) {
+TEST_F(CommandServicesTest, AMissingServiceIsNamed) {
   EXPECT_EQ(Prepare(0, "").error().Sentence(), "there is no service 0");
   EXPECT_EQ(Prepare(4, "").error().Sentence(), "there is no service 4");
 }

@@ -35,7 +35,7 @@ Json ToJson(const Parameter& parameter) {
   return json;
 }
 
-// The entries of `after` that `before` has not, or has with other parties.
+// The entries of `after` that are missing in `before`, or have other parties there.
 Json Changed(const ConnectionGraph::Parties& before, const ConnectionGraph::Parties& after,
              const char* parties_name) {
   Json list = Json::array();
@@ -84,7 +84,7 @@ class BytesWriter {
 std::string AdvertiseServicesText(std::span<const Service> services) {
   Json list = Json::array();
   for (const Service& service : services) {
-    // The schemas come twice: clients of the older protocol look at the latter two only.
+    // The schemas are sent twice: clients of the older protocol read only the latter two.
     list.push_back({{"id", service.id},
                     {"name", service.name},
                     {"type", service.type},
@@ -118,7 +118,7 @@ std::string GraphUpdateText(const ConnectionGraph& before, const ConnectionGraph
             {"advertisedServices", Changed(before.providers, after.providers, "providerIds")},
             {"removedTopics", Removed(before.publishers, after.publishers)},
             {"removedServices", Removed(before.providers, after.providers)}};
-  // A topic without subscribers any more has an empty list of them.
+  // A topic that has lost its last subscriber has an empty list.
   for (const auto& [topic, subscribers] : before.subscribers) {
     if (after.subscribers.contains(topic) || !after.publishers.contains(topic)) continue;
     json["subscribedTopics"].push_back({{"name", topic}, {"subscriberIds", Json::array()}});

@@ -54,14 +54,14 @@ TEST(Foxglove, ReadsSubscriptions) {
   EXPECT_EQ(std::get<Unsubscribe>(*end).subscriptions, (std::vector<SubscriptionId>{0, 9}));
 }
 
-TEST(Foxglove, KnowsWhatItDoesNotOffer) {
+TEST(Foxglove, RecognisesOperationsThatItDoesNotSupport) {
   const auto message = ParseClientMessage(R"({"op":"fetchAsset","uri":"x","requestId":1})");
   ASSERT_TRUE(message);
   EXPECT_EQ(std::get<Unsupported>(*message).op, "fetchAsset");
   EXPECT_EQ(std::get<Unsupported>(ParseClientBytes("\x01").value()).op, "message data");
 }
 
-TEST(Foxglove, ReadsWhatIsSaidOfParameters) {
+TEST(Foxglove, ReadsParameterRequests) {
   const auto get = ParseClientMessage(R"({"op":"getParameters","parameterNames":["/a"],"id":"7"})");
   EXPECT_EQ(std::get<GetParameters>(get.value()).names, (std::vector<std::string>{"/a"}));
   EXPECT_EQ(std::get<GetParameters>(get.value()).request, "7");
@@ -97,7 +97,7 @@ TEST(Foxglove, ReadsServiceCalls) {
   EXPECT_FALSE(ParseClientBytes(std::string("\x02\0\0\0\0\0\0\0\0\xff\xff\xff\xff", 13)));
 }
 
-TEST(Foxglove, ReadsWhatIsAskedOfAPlayback) {
+TEST(Foxglove, ReadsPlaybackRequests) {
   // Pause, at speed 1.5, at 1 s.
   const std::string bytes("\x03\x01\0\0\xc0\x3f\x01\0\xca\x9a\x3b\0\0\0\0\x02\0\0\0id", 21);
   const auto message = ParseClientBytes(bytes);
@@ -130,7 +130,7 @@ TEST(Foxglove, WritesAnswersToCallsAndAPlaybacksState) {
             std::string("\x05\x03\0\xca\x9a\x3b\0\0\0\0\0\0\xc0\x3f\x01\x02\0\0\0id", 21));
 }
 
-TEST(Foxglove, AGraphsUpdateHoldsWhatHasChanged) {
+TEST(Foxglove, AGraphUpdateHasTheChanges) {
   const ConnectionGraph before{
       {{"/a", {"gsv"}}, {"/b", {"gsv"}}}, {{"/a", {"viewer 1"}}}, {{"/gsv/stop", {"gsv"}}}};
   ConnectionGraph after = before;
@@ -154,7 +154,7 @@ TEST(Foxglove, APlaybackIsDeclaredWithItsTimes) {
   EXPECT_EQ(info["dataEndTime"], (json{{"sec", 3}, {"nsec", 1}}));
 }
 
-TEST(Foxglove, RefusesWhatIsNoMessage) {
+TEST(Foxglove, RefusesInvalidMessages) {
   for (const char* bad : {"",
                           "{",
                           "[]",

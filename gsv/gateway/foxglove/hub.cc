@@ -30,7 +30,7 @@ Hub::Hub(foxglove::ServerInfo info, std::function<void()> on_demand,
 }
 
 void Hub::Add(std::shared_ptr<Client> client, std::string_view subprotocol) {
-  // The older protocol knows no playbacks.
+  // The older protocol has no playbacks.
   const bool knows_playback = subprotocol == foxglove::kSubprotocols.front();
   {
     const base::MutexLock lock(mutex_);

@@ -31,7 +31,7 @@ Hub::Message Message(std::uint64_t time, const std::string& text) {
   return {time, SharedBytes(text)};
 }
 
-TEST_F(HubTest, ANewClientIsToldWhatThereIs) {
+TEST_F(HubTest, ANewClientGetsAllChannels) {
   const auto channel = Advertise("/a");
   const auto client = Join();
   const auto texts = client->texts();
@@ -41,7 +41,7 @@ TEST_F(HubTest, ANewClientIsToldWhatThereIs) {
   EXPECT_EQ(client->ChannelOf("/a"), channel);
 }
 
-TEST_F(HubTest, WhoComesLaterHearsTheNewestComplaints) {
+TEST_F(HubTest, LaterClientsGetTheNewestWarnings) {
   for (int i = 0; i < 30; ++i) {
     hub_.SendStatus(foxglove::StatusLevel::kWarning, "complaint " + std::to_string(i));
   }
@@ -55,7 +55,7 @@ TEST_F(HubTest, EvenWithoutChannelsThereIsAnAdvertisement) {
   EXPECT_EQ(Join()->texts().at(1)["channels"].size(), 0u);
 }
 
-TEST_F(HubTest, OnlySubscribersAreSentDataEachUnderItsOwnNumber) {
+TEST_F(HubTest, OnlySubscribersGetDataEachWithItsOwnNumber) {
   const auto a = Advertise("/a"), b = Advertise("/b");
   const auto first = Join(), second = Join();
   ASSERT_TRUE(hub_.Receive(first.get(), SubscribeText(7, a)));
@@ -71,7 +71,7 @@ TEST_F(HubTest, OnlySubscribersAreSentDataEachUnderItsOwnNumber) {
   EXPECT_EQ(hub_.SubscribedChannels(), (std::vector<foxglove::ChannelId>{a, b}));
 }
 
-TEST_F(HubTest, WhoLeavesOrUnsubscribesGetsNothingMore) {
+TEST_F(HubTest, AClientThatLeavesOrUnsubscribesGetsNothingMore) {
   const auto a = Advertise("/a");
   const auto first = Join(), second = Join();
   ASSERT_TRUE(hub_.Receive(first.get(), SubscribeText(1, a)));
@@ -86,7 +86,7 @@ TEST_F(HubTest, WhoLeavesOrUnsubscribesGetsNothingMore) {
   EXPECT_EQ(demands_, 6);
 }
 
-TEST_F(HubTest, AWelcomeReachesNewcomersAndThemOnlyOnce) {
+TEST_F(HubTest, AWelcomeReachesEachNewClientOnce) {
   const auto a = Advertise("/a");
   const auto old = Join();
   ASSERT_TRUE(hub_.Receive(old.get(), SubscribeText(1, a)));
@@ -104,7 +104,7 @@ TEST_F(HubTest, AWelcomeReachesNewcomersAndThemOnlyOnce) {
   EXPECT_EQ(late->data(1)[1].payload, "second");
 }
 
-TEST_F(HubTest, MistakesAreNamedAndDoNoHarm) {
+TEST_F(HubTest, ErrorsAreReportedAndDoNoHarm) {
   const auto a = Advertise("/a"), b = Advertise("/b");
   const auto client = Join();
   const auto complaint = [&] { return client->texts().back().value("message", ""); };
@@ -140,7 +140,7 @@ TEST_F(HubTest, AWithdrawnChannelFreesTheSubscriptionAndItsNumberIsNotUsedAgain)
   EXPECT_EQ(client->data(1)[0].payload, "new");
 }
 
-TEST_F(HubTest, AClosedHubTurnsNewClientsAway) {
+TEST_F(HubTest, AClosedHubRefusesNewClients) {
   const auto before = Join();
   hub_.Close(CloseCode::kGoingAway, "the simulation is gone");
   EXPECT_EQ(before->close_reason(), "the simulation is gone");

@@ -1,6 +1,6 @@
-// Any messages from a viewer, one a line, to the hub of a simulation: texts, or binary ones where
-// the line begins with a tab ('\\' and 'n' within are escaped as \\ and \n). And any messages from
-// another instance, to whoever relays it.
+// Any messages from a viewer to the hub of a simulation, one per line: texts, or binary messages if
+// the line begins with a tab ('\\' and 'n' in it are escaped as \\ and \n). Also any messages from
+// another instance to its relay.
 #include <atomic>
 #include <cstdint>
 #include <set>
@@ -16,7 +16,7 @@ using namespace gsv::gateway;
 
 namespace {
 
-// Counts what it is sent, and looks whether it is what a viewer could take.
+// Counts its messages, and checks that a viewer could read them.
 class CountingClient final : public Client {
  public:
   void SendText(SharedBytes text) override { bytes += text.size(); }
@@ -27,7 +27,7 @@ class CountingClient final : public Client {
   }
   void Close(CloseCode, std::string) override {}
 
-  std::atomic<std::size_t> bytes = 0;  // services answer from a thread of their own
+  std::atomic<std::size_t> bytes = 0;  // services answer from their own thread
 };
 
 std::string Unescaped(std::string_view line) {

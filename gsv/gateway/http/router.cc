@@ -24,17 +24,17 @@ std::vector<std::string_view> SegmentsOf(std::string_view pattern) {
 
 }  // namespace
 
-// What the routes have in common whose paths begin with the same segments.
+// The routes whose paths begin with the same segments.
 struct Router::Node {
-  // Made where there is none yet.
+  // Finds or makes the child node.
   Node* Child(std::string_view segment_of_pattern);
-  // Where a path goes on; null: nowhere. Sets the parameter that the segment is, if it is one.
+  // The node for the rest of a path; null: none. Sets the parameter if the segment is one.
   const Node* Next(const std::string& segment, Match& match) const;
 
   std::map<std::string, std::unique_ptr<Node>, std::less<>> literals;
   std::unique_ptr<Node> parameter, rest;
   std::string name, suffix;                 // of the parameter that leads here
-  std::vector<const Route*> routes;         // that end here
+  std::vector<const Route*> routes;         // routes that end here
   Permission least = Permission::kControl;  // of the routes here and below
 };
 

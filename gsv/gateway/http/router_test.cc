@@ -40,7 +40,7 @@ TEST(Router, PrefersLiteralsToParametersAndThoseToTheRest) {
   EXPECT_EQ(PatternOf("PUT", "/files/1/a/b"), "/files/{set}/{path...}");
 }
 
-TEST(Router, TellsTheParameters) {
+TEST(Router, ReturnsTheParameters) {
   const auto parameters = [](const char* method, const char* target) {
     return Routes().Find(method, ParseTarget(target).value()).parameters;
   };
@@ -51,7 +51,7 @@ TEST(Router, TellsTheParameters) {
   EXPECT_EQ(parameters("PUT", "/files/1/a/b"), (Parameters{{"set", "1"}}));
 }
 
-TEST(Router, AnswersWhatNoRouteIsFor) {
+TEST(Router, AnswersRequestsWithoutARoute) {
   const auto answer = [](const char* method, const char* target) {
     return NoRoute(Routes().Find(method, ParseTarget(target).value()));
   };
@@ -65,7 +65,7 @@ TEST(Router, AnswersWhatNoRouteIsFor) {
   }
 }
 
-TEST(Router, WhatIsNotThereTakesTheLeastPermissionOfItsNeighbours) {
+TEST(Router, AMissingRouteNeedsTheLowestPermissionOfItsNeighbours) {
   const auto permission = [](const char* method, const char* target) {
     return Routes().Find(method, ParseTarget(target).value()).permission;
   };

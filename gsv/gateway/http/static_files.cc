@@ -12,7 +12,7 @@ namespace gsv::gateway {
 namespace fs = std::filesystem;
 namespace {
 
-// A viewer's file is far smaller; what is larger was put there by mistake.
+// The viewer's files are far smaller; a larger file is there by mistake.
 constexpr std::uintmax_t kMaxFileBytes = 256u << 20;
 
 constexpr auto kContentTypes = std::to_array<std::pair<std::string_view, std::string_view>>({
@@ -43,7 +43,7 @@ bool LiesUnder(const fs::path& file, const fs::path& root) {
   return std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first == root.end();
 }
 
-// The file that the segments name under `root`, if it is one and lies there.
+// The file that the segments name under `root`; nothing if there is none, or it is outside.
 std::optional<fs::path> Resolve(const fs::path& root, const std::vector<std::string>& segments) {
   fs::path path = root;
   for (const std::string& segment : segments) {
@@ -143,7 +143,7 @@ Response StaticFiles::Get(const Request& request) const {
     return segments.empty() ? Explain()
                             : ErrorResponse(404, "there is no resource at this address");
   }
-  // The build gives files under assets/ names that change with their content.
+  // The names of files under assets/ change with their content.
   if (found->status < 400 && !segments.empty() && segments.front() == "assets") {
     found->cache_control = "public, max-age=31536000, immutable";
   }
@@ -176,11 +176,11 @@ Response Documentation::Get(const Request& request) const {
   const std::string_view path =
       std::string_view(request.raw_target).substr(0, request.raw_target.find('?'));
   if (segments.empty() && !path.ends_with('/')) {
-    // The links of the pages are relative to "/docs/".
+    // Links in the pages are relative to "/docs/".
     return PageResponse(200, "<meta http-equiv=\"refresh\" content=\"0; url=docs/\">");
   }
   if (std::optional<Response> found = files_.Find(segments, request.if_none_match)) {
-    found->allows_own_frames = true;  // doxygen's pages show what a search found in a frame
+    found->allows_own_frames = true;  // doxygen's pages show search results in a frame
     return *std::move(found);
   }
   if (!segments.empty()) return ErrorResponse(404, "the documentation has no page of this name");

@@ -33,7 +33,7 @@ class StaticFilesTest : public ::testing::Test {
   const fs::path place_ = folder_.path();
 };
 
-TEST_F(StaticFilesTest, RootIsTheIndexAndIsCheckedAnewEachTime) {
+TEST_F(StaticFilesTest, RootIsTheIndexAndIsCheckedEachTime) {
   const Response response = Get("/");
   EXPECT_EQ(response.status, 200);
   EXPECT_EQ(response.body.view(), "<p>viewer");
@@ -106,7 +106,7 @@ TEST_F(DocumentationTest, ServesThePagesOfItsFolder) {
   EXPECT_EQ(Get("/docs/..%2fsecret.txt").status, 404);
 }
 
-TEST_F(DocumentationTest, TheAddressWithoutASlashLeadsToTheOneWithIt) {
+TEST_F(DocumentationTest, TheAddressWithoutASlashRedirectsToTheOneWithIt) {
   folder_.Write("docs/index.html", "<p>start");
   const Response response = Get("/docs");
   EXPECT_EQ(response.status, 200);

@@ -28,7 +28,7 @@ TEST(Target, KeepsEmptySegmentsButNotAFinalSlash) {
   EXPECT_EQ(ParseTarget("/a//b/")->segments, (Segments{"a", "", "b"}));
 }
 
-TEST(Target, RefusesWhatIsNoTarget) {
+TEST(Target, RefusesInvalidTargets) {
   for (const std::string& bad : {std::string(), std::string("api"), std::string("http://h/x"),
                                  std::string("/%"), std::string("/%4"), std::string("/%zz"),
                                  std::string("/a?b=%-1"), "/" + std::string(5000, 'a')}) {
@@ -38,7 +38,7 @@ TEST(Target, RefusesWhatIsNoTarget) {
   }
 }
 
-TEST(Target, IsTakenUpTo4096BytesAndNotBeyond) {
+TEST(Target, HasAtMost4096Bytes) {
   EXPECT_EQ(ParseTarget("/" + std::string(4095, 'a'))->segments, Segments{std::string(4095, 'a')});
   EXPECT_FALSE(ParseTarget("/" + std::string(4096, 'a')));
 }

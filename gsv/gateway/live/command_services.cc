@@ -15,7 +15,7 @@ using simulation::ArgumentValue;
 using simulation::Command;
 using simulation::ParameterType;
 
-// The encapsulation header, and the octet that ROS 2 puts into an empty message.
+// The encapsulation header, and the octet that ROS 2 writes for an empty message.
 constexpr std::size_t kMaxEmptyBytes = 8;
 
 constexpr const char* kResponse = "bool success\nstring message\n";
@@ -47,7 +47,7 @@ const char* FieldType(const simulation::Parameter& parameter) {
   return "";
 }
 
-// What a field says to leave the argument to its default.
+// The value of a field that leaves the argument at its default.
 bool IsAbsent(const simulation::Parameter& parameter, const ArgumentValue& value) {
   if (parameter.is_required()) return false;
   if (const auto* number = std::get_if<double>(&value)) return std::isnan(*number);
@@ -106,7 +106,7 @@ ArgumentValue ReadValue(const simulation::Parameter& parameter, messages::CdrRea
       if (number <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) {
         return static_cast<std::int64_t>(number);
       }
-      return static_cast<double>(number);  // no integer of ours, so it is refused
+      return static_cast<double>(number);  // too large for an integer, so it is refused
     }
     case ParameterType::kFlag:
       return ReadField<bool>(reader);

@@ -8,7 +8,7 @@
 namespace gsv::gateway {
 namespace {
 
-// So that a crowd's commands leave room for other data in a viewer's queue.
+// This leaves space for other data in a viewer's queue, even with a crowd of robots.
 constexpr int kMaxPerRound = 64;
 
 }  // namespace

@@ -42,8 +42,8 @@ void EventTopics::Publish(const simulation::Simulation& simulation) {
 
 std::vector<simulation::Event> EventTopics::TakeNew(const simulation::Simulation& simulation) {
   if (simulation.events(next_).empty()) return {};
-  // The simulation forgets its oldest events, so that their number says where we are: read before
-  // the events themselves, it is not ahead of them.
+  // The simulation drops its oldest events, so that the count of all events gives the position. It
+  // is read before the events, so that it is not ahead of them.
   const std::uint64_t count = simulation.status().events;
   std::vector<simulation::Event> events = simulation.events(next_);
   next_ = std::max(next_ + events.size(), count);

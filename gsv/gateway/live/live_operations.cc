@@ -17,7 +17,7 @@ base::Result<std::string> Gone() {
   return base::Fail(base::ErrorCode::kEnded, "the simulation was removed");
 }
 
-// Answers with where it is recorded.
+// Returns the path of the recording.
 base::Result<std::string> Record(const std::shared_ptr<Simulation>& simulation,
                                  RecordingSwitch& recordings, bool begins) {
   const std::string& name = simulation->specification().name;
@@ -52,7 +52,7 @@ std::vector<foxglove::Parameter> ParametersOf(const Simulation& simulation) {
   return {{"/gsv/name", specification.name},
           {"/gsv/world", specification.world->name},
           {"/gsv/mode", std::string(ToString(specification.mode))},
-          // As a text: a number of JSON need not have so many digits.
+          // A text, since a JSON number need not have that many digits.
           {"/gsv/seed", std::to_string(specification.seed)},
           {"/gsv/duration_s", base::ToSeconds(specification.duration)},
           {"/gsv/step_size_s",

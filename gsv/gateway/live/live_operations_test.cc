@@ -13,7 +13,7 @@ namespace {
 
 using testing::ScriptedSimulation;
 
-// Keeps what it is told; one recording, /tmp/arena.mcap.
+// Remembers its commands; it has one recording, /tmp/arena.mcap.
 class OneRecording final : public RecordingSwitch {
  public:
   Totals totals() override { return {}; }
@@ -49,7 +49,7 @@ class LiveOperationsTest : public ::testing::Test {
  protected:
   void TearDown() override { workers_.Stop(); }
 
-  // What a service of this name answers, or that there is none.
+  // The answer of the service of this name, or that there is none.
   Reply Call(LiveOperations& operations, const std::string& name) const {
     for (const foxglove::Service& service : operations.services()) {
       if (service.name != name) continue;
@@ -98,7 +98,7 @@ TEST_F(LiveOperationsTest, TheFactorCanBeSet) {
   EXPECT_TRUE(operations.Set({"/gsv/factor", 2.5}));
 }
 
-TEST_F(LiveOperationsTest, WhatCannotBeSetIsRefusedWithASentence) {
+TEST_F(LiveOperationsTest, AnInvalidParameterIsRefusedWithASentence) {
   LiveOperations operations(simulation_, workers_, nullptr);
   EXPECT_EQ(Refusal(operations, {"/gsv/real_time_factor", std::string("fast")}),
             "the parameter '/gsv/real_time_factor' must be a number");
@@ -125,7 +125,7 @@ TEST_F(LiveOperationsTest, ARecordingIsSwitchedOnAndOff) {
   EXPECT_EQ(ValueOf(operations, "/gsv/recording"), foxglove::ParameterValue(false));
 }
 
-TEST_F(LiveOperationsTest, AServerThatDoesNotRecordOffersNoSuchService) {
+TEST_F(LiveOperationsTest, AServerWithoutRecordingHasNoSuchService) {
   LiveOperations operations(simulation_, workers_, nullptr);
   EXPECT_EQ(Call(operations, "/gsv/start_recording").message,
             "there is no service /gsv/start_recording");

@@ -12,7 +12,7 @@ namespace {
 
 namespace topics = presentation::topics;
 
-constexpr double kRefreshRate = 1;  // Hz: how often new sensors are looked for
+constexpr double kRefreshRate = 1;  // Hz: rate of looking for new sensors
 
 foxglove::ServerInfo InfoOf(const simulation::Simulation& simulation) {
   const auto started = std::chrono::system_clock::now().time_since_epoch();
@@ -70,7 +70,7 @@ void LiveStream::FollowLayout(simulation::Simulation& simulation, const world::S
     layout_ = snapshot.layout;
     pose_list_ = presentation::PoseListOf(*layout_);
   }
-  // Sensors can be mounted without a change of the layout.
+  // Sensors can be mounted without changing the layout.
   if (!is_new && !sensors_->has_requests() && !refresh_pacing_.IsDue(now)) return;
   sensors_->Refresh(simulation, snapshot);
   refresh_pacing_.Done(now);

@@ -27,7 +27,7 @@ using testing::RecordingClient;
 
 TEST_F(LiveStreamTest, AdvertisesTheTopicsThatTheTableCallsLive) {
   for (const presentation::Topic& topic : presentation::Topics()) {
-    // Viewers are told of where somebody can hold control.
+    // The viewers topic exists only if viewers can hold control.
     const bool is_there = topic.is_live && topic.name != presentation::topics::kViewers.name;
     EXPECT_EQ(client_->ChannelOf(std::string(topic.name)) != 0, is_there) << topic.name;
   }
@@ -51,13 +51,13 @@ TEST_F(LiveStreamTest, PosesAreThoseOfTheSnapshotInTheListsOrder) {
   const double yaw = 0.6 + std::numbers::pi / 2;
   EXPECT_NEAR(robot[5], std::sin(yaw / 2), 1e-12);
   EXPECT_NEAR(robot[6], std::cos(yaw / 2), 1e-12);
-  // The left wheel stands 0.17 m to the left, which on this circle is towards the middle.
+  // The left wheel is 0.17 m to the left, which on this circle is towards the middle.
   EXPECT_NEAR(robot[7 + 0], 0.83 * std::cos(0.6), 1e-12);
   EXPECT_NEAR(robot[7 + 1], 0.83 * std::sin(0.6), 1e-12);
   EXPECT_NEAR(robot[7 + 2], 0.1, 1e-12);
 }
 
-TEST_F(LiveStreamTest, NothingIsSentThatDidNotChange) {
+TEST_F(LiveStreamTest, UnchangedDataIsNotSent) {
   Subscribe(1, "/gsv/poses");
   Subscribe(2, "/clock");
   Round();
@@ -72,7 +72,7 @@ TEST_F(LiveStreamTest, NothingIsSentThatDidNotChange) {
   EXPECT_EQ(client_->times(), (std::vector<std::uint64_t>{0, 10'000'000}));
 }
 
-TEST_F(LiveStreamTest, PosesComeAtMostThirtyTimesASecond) {
+TEST_F(LiveStreamTest, PosesAreSentAtMostThirtyTimesPerSecond) {
   Subscribe(1, "/gsv/poses");
   for (int i = 0; i < 1000; ++i) {
     simulation_->Advance(milliseconds(1));
@@ -82,7 +82,7 @@ TEST_F(LiveStreamTest, PosesComeAtMostThirtyTimesASecond) {
   EXPECT_LE(client_->data(1).size(), 31u);
 }
 
-TEST_F(LiveStreamTest, ALateViewerOfAPausedSimulationGetsThePresentAtOnce) {
+TEST_F(LiveStreamTest, ALateViewerOfAPausedSimulationGetsTheStateAtOnce) {
   Subscribe(1, "/gsv/poses");
   Subscribe(2, "/gsv/status");
   simulation_->Advance(seconds(1));
@@ -99,7 +99,7 @@ TEST_F(LiveStreamTest, ALateViewerOfAPausedSimulationGetsThePresentAtOnce) {
   EXPECT_EQ(client_->data(2).size(), 1u);
 }
 
-TEST_F(LiveStreamTest, AChangeOfPhaseIsToldAtOnce) {
+TEST_F(LiveStreamTest, AChangeOfPhaseIsSentAtOnce) {
   Subscribe(1, "/gsv/status");
   Round();
   EXPECT_EQ(Decoded<SimulationStatus>(client_->data(1).at(0)).state, "created");
@@ -113,7 +113,7 @@ TEST_F(LiveStreamTest, AChangeOfPhaseIsToldAtOnce) {
   EXPECT_EQ(status.robots[1].behaviour, "circle");
 }
 
-TEST_F(LiveStreamTest, StatusComesAtMostFiveTimesASecond) {
+TEST_F(LiveStreamTest, StatusIsSentAtMostFiveTimesPerSecond) {
   Subscribe(1, "/gsv/status");
   for (int i = 0; i < 1000; ++i) {
     simulation_->Advance(milliseconds(1));
@@ -123,7 +123,7 @@ TEST_F(LiveStreamTest, StatusComesAtMostFiveTimesASecond) {
   EXPECT_LE(client_->data(1).size(), 6u);
 }
 
-TEST_F(LiveStreamTest, EventsReachEverybodyOnceAndLateViewersFromTheBeginning) {
+TEST_F(LiveStreamTest, EventsReachEachViewerOnceAndLateViewersFromTheBeginning) {
   simulation_->AddEvent("one");
   Subscribe(1, "/gsv/events");
   Round();
@@ -152,7 +152,7 @@ TEST_F(LiveStreamTest, EventsAreALogForOtherTools) {
   EXPECT_EQ(Decoded<messages::rcl_interfaces::Log>(client_->data(1)[1]).msg, "two three");
 }
 
-TEST_F(LiveStreamTest, DiagnosticsComeOnceASecondAndWithAChangeOfPhase) {
+TEST_F(LiveStreamTest, DiagnosticsAreSentOncePerSecondAndWithAChangeOfPhase) {
   Subscribe(1, "/diagnostics");
   for (int i = 0; i < 300; ++i) {
     simulation_->Advance(milliseconds(10));

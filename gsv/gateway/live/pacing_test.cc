@@ -25,11 +25,11 @@ TEST(Pacing, KeepsItsMeanRateWhateverTheRounds) {
        {microseconds(1000), microseconds(33'333), microseconds(99'999)}) {
     EXPECT_NEAR(CountIn(std::chrono::seconds(10), round, start), 100, 1) << round.count();
   }
-  // Rounds that are slower than the rate are each used.
+  // Rounds that are slower than the rate are all used.
   EXPECT_EQ(CountIn(std::chrono::seconds(10), milliseconds(250), start), 40);
 }
 
-TEST(Pacing, MakesUpForNothing) {
+TEST(Pacing, DoesNotCatchUp) {
   Pacing pacing(10);
   const WallTime start = WallTime{} + std::chrono::hours(5);
   pacing.Done(start);

@@ -6,7 +6,7 @@
 namespace gsv::gateway {
 namespace {
 
-constexpr double kDirectoryRate = 2;  // Hz: how soon it is seen that a simulation was destroyed
+constexpr double kDirectoryRate = 2;  // Hz: rate of checks for destroyed simulations
 
 }  // namespace
 

@@ -19,11 +19,11 @@ using testing::LiveStreamTest;
 using testing::ReceivedData;
 using testing::RecordingClient;
 
-TEST_F(LiveStreamTest, CommandsAreToldWhenTheyChangeAndToNewcomers) {
+TEST_F(LiveStreamTest, CommandsAreSentWhenTheyChangeAndToNewSubscribers) {
   simulation_->AddOneRobot();
   Subscribe(1, "/gsv/commands");
   Round();
-  EXPECT_TRUE(client_->data(1).empty());  // nobody was told anything
+  EXPECT_TRUE(client_->data(1).empty());  // no message yet
   simulation_->Advance(seconds(1));
   simulation_->SetDriveState("robot_1", {0.5, 0, 0.25}, milliseconds(990));
   Round();
@@ -42,14 +42,14 @@ TEST_F(LiveStreamTest, CommandsAreToldWhenTheyChangeAndToNewcomers) {
   EXPECT_EQ(late->data(1).size(), 1u);
 }
 
-TEST_F(LiveStreamTest, EachMeetingIsToldOnceToThoseWhoListen) {
+TEST_F(LiveStreamTest, EachContactIsSentOnceToSubscribers) {
   simulation_->AddOneRobot();
   simulation_->Meet("robot_0", "robot_1");
   Round();
-  EXPECT_EQ(simulation_->observers(), 0u);  // nobody listens, nobody looks
+  EXPECT_EQ(simulation_->observers(), 0u);  // without subscribers, nothing observes
   Subscribe(1, "/gsv/contacts");
   Round();
-  EXPECT_TRUE(client_->data(1).empty());  // what was before is not told
+  EXPECT_TRUE(client_->data(1).empty());  // earlier events are not sent
   simulation_->Meet("robot_1", "avatar");
   simulation_->Meet("robot_0", "robot_1");
   Round();
@@ -64,7 +64,7 @@ TEST_F(LiveStreamTest, EachMeetingIsToldOnceToThoseWhoListen) {
   EXPECT_NEAR(contact.point.x, std::cos(0.2 * 0.03), 1e-12);
 }
 
-TEST_F(LiveStreamTest, MeetingsAreNotKeptForThoseWhoHaveGone) {
+TEST_F(LiveStreamTest, ContactsAreNotKeptForFormerSubscribers) {
   Subscribe(1, "/gsv/contacts");
   Round();
   EXPECT_EQ(simulation_->observers(), 1u);
@@ -79,7 +79,7 @@ TEST_F(LiveStreamTest, MeetingsAreNotKeptForThoseWhoHaveGone) {
   EXPECT_EQ(simulation_->observers(), 0u);
 }
 
-TEST_F(LiveStreamTest, OfManyMeetingsTheNewestAreTold) {
+TEST_F(LiveStreamTest, TheNewestOfManyContactsAreSent) {
   Subscribe(1, "/gsv/contacts");
   Round();
   for (int i = 0; i < 100; ++i) simulation_->Meet("robot_0", "avatar");

@@ -16,14 +16,14 @@ namespace {
 constexpr double kBeamsRate = 15;  // Hz
 constexpr double kReadingsRate = 15;
 constexpr double kPicturesRate = 5;
-// A reading that takes long, as a picture of a thousand robots does, is taken so seldom that it
-// keeps the processors busy for a tenth of the time: those who watch must not slow what they watch,
-// nor the page that shows it on the same machine.
+// Sensors that take long, such as an image of a thousand robots, are read so rarely that they use a
+// tenth of the processors' time. Viewers must not slow down the simulation, nor the page that shows
+// it on the same machine.
 constexpr int kShareOfProcessors = 10;
 
 }  // namespace
 
-// One sensor on one robot. What a worker uses of it is never changed, or atomic.
+// One sensor of one robot. The members that workers use are constant or atomic.
 struct SensorTopics::Sensor {
   using Made = base::Result<std::shared_ptr<const sensing::Sensor>>;
 
@@ -40,22 +40,22 @@ struct SensorTopics::Sensor {
   const model::SensorDescription description;
   const sensing::SensorType* const type;
   const sensing::SensorMessages messages;
-  const Made made;  // which writes its messages
+  const Made made;  // writes the sensor's messages
   std::string frame() const { return presentation::FrameOf(robot, description.name); }
-  // The companion is read with the sensor, not only once by whoever comes.
+  // Whether the companion is read with the sensor, rather than sent once to each new subscriber.
   bool has_companion_of_readings() const {
     return messages.companion && messages.companion->of_readings;
   }
 
   foxglove::ChannelId channel = 0;            // 0: none
   foxglove::ChannelId companion_channel = 0;  // the same
-  bool is_wanted = false;                     // it has them because somebody wanted the robot's
+  bool is_wanted = false;                     // it has channels because its robot is requested
   Pacing pacing;
-  std::optional<std::int64_t> asked_at_step;  // of the latest snapshot when it was last read
+  std::optional<std::int64_t> asked_at_step;  // step of the latest snapshot when it was last read
   WallTime asked_at{};
   std::atomic<std::chrono::nanoseconds> took{};  // the last reading
   std::atomic<bool> is_busy{false};
-  std::atomic<std::int64_t> published_step{-1};  // of the last reading that went out
+  std::atomic<std::int64_t> published_step{-1};  // step of the last published reading
   std::atomic<bool> has_complained{false};
 };
 
@@ -93,7 +93,7 @@ void SensorTopics::Refresh(simulation::Simulation& simulation, const world::Snap
   transforms_changed_ = true;
 }
 
-// The sensors that are there now; those that were there already keep their state.
+// The sensors that exist now; those that existed before keep their state.
 SensorTopics::Sensors SensorTopics::Found(simulation::Simulation& simulation,
                                           const world::Layout& layout) {
   if (!made_) made_.emplace(simulation.sensor_types());
@@ -131,7 +131,7 @@ void SensorTopics::Withdraw(const Sensors& found) {
   hub_->Unadvertise(gone);
 }
 
-// For the robots that are wanted now.
+// For the robots that are requested now.
 void SensorTopics::EvictUnheard(Sensors& found) {
   const std::set<std::string> forgotten = wanted_.EvictUnheard([this] { return RobotsHeard(); });
   if (forgotten.empty()) return;
@@ -141,7 +141,7 @@ void SensorTopics::EvictUnheard(Sensors& found) {
     for (const foxglove::ChannelId channel : {sensor->channel, sensor->companion_channel}) {
       if (channel != 0) gone.push_back(channel);
     }
-    // Another one: a worker may have this one.
+    // Makes a new object, since a worker may use the old one.
     sensor =
         std::make_shared<Sensor>(sensor->robot, sensor->description, sensor->type, sensor->made);
   }
@@ -195,7 +195,7 @@ void SensorTopics::Advertise(Sensors& found) {
 void SensorTopics::Publish(const std::shared_ptr<simulation::Simulation>& simulation,
                            const std::shared_ptr<const world::Snapshot>& snapshot, WallTime now) {
   PublishTransforms(*snapshot);
-  // By what is listened to: a thousand robots have thousands of sensors.
+  // Loops over the subscribed channels, as a thousand robots have thousands of sensors.
   for (const foxglove::ChannelId channel : hub_->SubscribedChannels()) {
     const auto found = by_channel_.find(channel);
     if (found == by_channel_.end()) continue;
@@ -224,8 +224,8 @@ void SensorTopics::PublishTransforms(const world::Snapshot& snapshot) {
   transforms_changed_ = false;
 }
 
-// What goes with readings is the same each time: who comes gets it, whether or not anybody wants
-// the readings.
+// A companion of the description never changes: each new subscriber gets it, whether the readings
+// are subscribed or not.
 void SensorTopics::SendCompanion(const world::Snapshot& snapshot, const Sensor& sensor) {
   if (!hub_->HasNewSubscribers(sensor.companion_channel)) return;
   if (!sensor.made) return hub_->Welcome(sensor.companion_channel, {});
@@ -255,7 +255,7 @@ void SensorTopics::PublishReading(const std::shared_ptr<simulation::Simulation>&
     sensor->is_busy = false;
   });
   if (!accepted) {
-    sensor->is_busy = false;  // the workers are behind: it is tried again next round
+    sensor->is_busy = false;  // the workers are late: the next round tries again
     return;
   }
   sensor->asked_at_step = snapshot.state.step;
@@ -265,7 +265,7 @@ void SensorTopics::PublishReading(const std::shared_ptr<simulation::Simulation>&
 
 void SensorTopics::TakeReading(simulation::Simulation& simulation, Sensor& sensor) {
   const auto refuse = [&](const base::Error& error) {
-    hub_->Welcome(sensor.channel, {});  // or they would be asked for every round
+    hub_->Welcome(sensor.channel, {});  // otherwise it would be requested every round
     if (sensor.has_companion_of_readings()) hub_->Welcome(sensor.companion_channel, {});
     if (sensor.has_complained.exchange(true)) return;
     hub_->SendStatus(foxglove::StatusLevel::kWarning, error.Sentence());

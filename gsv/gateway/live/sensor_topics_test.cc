@@ -25,7 +25,7 @@ using std::chrono::seconds;
 using testing::Decoded;
 using testing::LiveStreamTest;
 
-TEST_F(LiveStreamTest, AReadingIsTakenOnlyForThoseWhoWatchAndOnlyWhenTimeHasPassed) {
+TEST_F(LiveStreamTest, AReadingIsTakenOnlyForSubscribersAndOnlyWhenTimeHasPassed) {
   std::atomic<int> readings{0};
   simulation_->set_on_watch([&](const std::string&) -> base::Status {
     ++readings;
@@ -36,7 +36,7 @@ TEST_F(LiveStreamTest, AReadingIsTakenOnlyForThoseWhoWatchAndOnlyWhenTimeHasPass
   Subscribe(1, "/robot_0/front_sonar");
   const auto range = Decoded<messages::sensor_msgs::Range>(RoundUntil(1, 1));
   EXPECT_EQ(range.header.frame_id, "robot_0/front_sonar");
-  // From (1, 0) northwards there is nothing for 5 m.
+  // From (1, 0) northwards there is no obstacle for 5 m.
   EXPECT_FLOAT_EQ(range.range, 5);
   Round(seconds(1));
   simulation_->Advance(milliseconds(10));
@@ -56,7 +56,7 @@ class ManySensorsTest : public LiveStreamTest {
     Round(seconds(2));
   }
 
-  // How many of those there are at present, by robot.
+  // The current number of sensor topics, by robot.
   std::map<std::string, std::size_t> TopicsByRobot() const {
     std::map<std::uint64_t, std::string> robots;  // by channel
     for (const auto& text : client_->texts()) {
@@ -77,7 +77,7 @@ class ManySensorsTest : public LiveStreamTest {
   }
   std::size_t Topics(const std::string& robot) const { return TopicsByRobot()[robot]; }
 
-  // As the API does for somebody who has chosen the robot.
+  // Requests the robot, as the API does if a viewer has chosen it.
   void Want(const std::string& robot) {
     stream_.WantSensorsOf(robot);
     Round();
@@ -88,17 +88,17 @@ class ManySensorsTest : public LiveStreamTest {
       "others when their robot is asked for (docs/formats/live.md)";
 };
 
-TEST_F(ManySensorsTest, TwoThousandHaveATopicAndTheOthersAreTold) {
+TEST_F(ManySensorsTest, TwoThousandHaveATopicAndTheRestIsReported) {
   Mount("robot_0", 0, 1000);
   EXPECT_EQ(Topics("robot_0"), 1000u);
   EXPECT_EQ(WarningCount(complaint_), 0u);
-  Mount("robot_0", 1000, 2000);  // those that it has besides make it more
+  Mount("robot_0", 1000, 2000);  // more, with the sensors that it has already
   EXPECT_LT(Topics("robot_0"), 2000u);
   EXPECT_GT(Topics("robot_0"), 1980u);
   EXPECT_EQ(WarningCount(complaint_), 1u);
 }
 
-TEST_F(ManySensorsTest, BeyondThemARobotsHaveTheirsWhenItIsWanted) {
+TEST_F(ManySensorsTest, FurtherSensorsGetATopicWhenTheirRobotIsRequested) {
   simulation_->AddOneRobot();
   Mount("robot_0", 0, 2000);
   Mount("robot_1", 0, 3);
@@ -108,13 +108,13 @@ TEST_F(ManySensorsTest, BeyondThemARobotsHaveTheirsWhenItIsWanted) {
   Subscribe(1, "/robot_1/many_2");
   EXPECT_EQ(Decoded<messages::sensor_msgs::Range>(RoundUntil(1, 1)).header.frame_id,
             "robot_1/many_2");
-  Mount("robot_1", 3, 5);  // what is mounted later as well
+  Mount("robot_1", 3, 5);  // sensors mounted later as well
   EXPECT_EQ(Topics("robot_1"), 5u);
   Want("nobody");
   workers_.Stop();
 }
 
-TEST_F(ManySensorsTest, OfTheWantedWhoWasWantedFirstGoesUnlessSomebodyListens) {
+TEST_F(ManySensorsTest, TheFirstRequestedRobotIsRemovedFirstUnlessSubscribed) {
   const int count = static_cast<int>(kMaxWantedRobots) + 2;
   for (int i = 1; i <= count; ++i) simulation_->AddOneRobot();
   Mount("robot_0", 0, 2000);
@@ -140,7 +140,7 @@ TEST_F(ManySensorsTest, OfTheWantedWhoWasWantedFirstGoesUnlessSomebodyListens) {
   workers_.Stop();
 }
 
-TEST_F(LiveStreamTest, PicturesComeAtMostFiveTimesASecond) {
+TEST_F(LiveStreamTest, ImagesAreSentAtMostFiveTimesPerSecond) {
   Round();
   Subscribe(1, "/robot_0/camera");
   const WallTime asked = now_;
@@ -149,8 +149,8 @@ TEST_F(LiveStreamTest, PicturesComeAtMostFiveTimesASecond) {
       simulation_->Advance(milliseconds(10));
       Round(milliseconds(10));
     }
-    // A reading that was due while the one before was taken is asked for in a later round, and one
-    // that took long later still.
+    // A reading that became due during the one before is taken in a later round, and after a slow
+    // reading later still.
     RoundUntil(1, fifth);
   }
   workers_.Stop();
@@ -158,7 +158,7 @@ TEST_F(LiveStreamTest, PicturesComeAtMostFiveTimesASecond) {
   EXPECT_LE(client_->data(1).size(), fifths + 1);
 }
 
-TEST_F(LiveStreamTest, AReadingThatTakesLongIsTakenMoreSeldom) {
+TEST_F(LiveStreamTest, ASlowReadingIsTakenLessOften) {
   constexpr auto kLong = milliseconds(20);
   std::atomic<int> readings{0};
   simulation_->set_on_watch([&](const std::string&) -> base::Status {
@@ -172,7 +172,7 @@ TEST_F(LiveStreamTest, AReadingThatTakesLongIsTakenMoreSeldom) {
   const WallTime asked = now_;
   RoundUntil(1, 1);
   simulation_->Advance(milliseconds(10));
-  // By its rate alone another would be due, but a tenth of the time is the most.
+  // By its rate another would be due, but it may use only a tenth of the time.
   now_ = asked;
   Round(9 * kLong);
   simulation_->Advance(milliseconds(10));
@@ -182,7 +182,7 @@ TEST_F(LiveStreamTest, AReadingThatTakesLongIsTakenMoreSeldom) {
   EXPECT_EQ(readings, 2);
 }
 
-TEST_F(LiveStreamTest, WhatGoesWithPicturesComesWithoutThemAndWithEach) {
+TEST_F(LiveStreamTest, CompanionsOfImagesComeAtOnceAndWithEachImage) {
   std::atomic<int> readings{0};
   simulation_->set_on_watch([&](const std::string&) -> base::Status {
     ++readings;
@@ -192,7 +192,7 @@ TEST_F(LiveStreamTest, WhatGoesWithPicturesComesWithoutThemAndWithEach) {
   Subscribe(1, "/robot_0/camera/camera_info");
   const auto info = Decoded<messages::sensor_msgs::CameraInfo>(RoundUntil(1, 1));
   EXPECT_EQ(info.header.frame_id, "robot_0/camera");
-  EXPECT_EQ(readings, 0);  // no picture is taken for that
+  EXPECT_EQ(readings, 0);  // no image is taken for that
   Subscribe(2, "/robot_0/camera");
   const auto picture = Decoded<messages::sensor_msgs::CompressedImage>(RoundUntil(2, 1));
   const auto beside = Decoded<messages::sensor_msgs::CameraInfo>(RoundUntil(1, 2));
@@ -208,8 +208,8 @@ TEST_F(LiveStreamTest, BeamsAreLinesFromTheSensorAsLongAsTheReading) {
   EXPECT_EQ(robot.ns, "robot_0");
   EXPECT_EQ(robot.type, messages::visualization_msgs::Marker::kLineList);
   EXPECT_EQ(robot.header.frame_id, "map");
-  // Ahead, from (1, 0.25) five metres north; to the left, from (1, 0) west to the avatar's wheel
-  // or body, whose nearest surface is 0.25 m from the origin.
+  // Ahead, the wall is five metres north of (1, 0.25). To the left, west of (1, 0), is the avatar's
+  // wheel or body, whose nearest surface is 0.25 m from the origin.
   bool found_front = false, found_left = false;
   for (std::size_t i = 0; i + 1 < robot.points.size(); i += 2) {
     const auto &from = robot.points[i], &to = robot.points[i + 1];

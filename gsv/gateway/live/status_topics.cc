@@ -8,8 +8,8 @@
 namespace gsv::gateway {
 namespace {
 
-constexpr double kStatusRate = 5;       // Hz, of wall time
-constexpr double kDiagnosticsRate = 1;  // what ROS's own publishers keep to
+constexpr double kStatusRate = 5;       // Hz, of wall-clock time
+constexpr double kDiagnosticsRate = 1;  // the rate of ROS's own publishers
 
 SharedBytes EncodedStatus(const simulation::SimulationStatus& status) {
   return Encoded(presentation::StatusMessage(status));

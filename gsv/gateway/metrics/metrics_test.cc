@@ -24,11 +24,11 @@ using testing::Viewer;
 
 struct Family {
   std::string help, type;
-  std::map<std::string, double> samples;  // by their labels as they stand: {phase="running"}
+  std::map<std::string, double> samples;  // by the text of their labels: {phase="running"}
 };
 
-// Reads the text format 0.0.4 strictly, and independently of what wrote it: each family has its
-// HELP, its TYPE and its samples in this order and in one place, no sample comes twice.
+// Reads the text format 0.0.4 strictly, and independently of the writer: each family has its HELP,
+// its TYPE and its samples in this order and in one place, and no sample comes twice.
 std::map<std::string, Family> ParseStrictly(const std::string& text) {
   static const std::regex kHelp(R"(# HELP ([a-zA-Z_:][a-zA-Z0-9_:]*) (\S.*))");
   static const std::regex kType(R"(# TYPE ([a-zA-Z_:][a-zA-Z0-9_:]*) (counter|gauge))");
@@ -75,7 +75,7 @@ TEST(Exposition, EscapesWhatTheFormatEscapes) {
   EXPECT_EQ(ParseStrictly(out.text()).at("a_metric").samples.size(), 2u);
 }
 
-TEST(Exposition, KnowsNumbersThatAreNone) {
+TEST(Exposition, WritesNonFiniteNumbers) {
   Exposition out;
   out.Put("a", Exposition::Kind::kGauge, "none", std::nan(""));
   out.Put("b", Exposition::Kind::kGauge, "large", -HUGE_VAL);
@@ -96,7 +96,7 @@ TEST(ProcessUsage, IsThatOfThisProcess) {
   std::fclose(file);
 }
 
-TEST(ProcessUsage, TellsWhatIsAllocatedWhateverItsSize) {
+TEST(ProcessUsage, CountsAllocationsOfAnySize) {
   if (base::kReservesAddressSpace) GTEST_SKIP() << "a sanitizer's own malloc does not tell";
   for (const std::size_t size : {std::size_t{1000}, std::size_t{64} << 20}) {
     constexpr std::size_t kTotal = std::size_t{64} << 20;
@@ -146,7 +146,7 @@ class MetricsTest : public ::testing::Test {
   std::unique_ptr<Gateway> gateway_;
 };
 
-TEST_F(MetricsTest, CountWhatThereIs) {
+TEST_F(MetricsTest, CountSimulationsRobotsAndCalls) {
   Start();
   EXPECT_EQ(Value("gsv_simulations", "{phase=\"created\"}"), 1);
   EXPECT_EQ(Value("gsv_simulations", "{phase=\"running\"}"), 0);
@@ -160,7 +160,7 @@ TEST_F(MetricsTest, CountWhatThereIs) {
   EXPECT_EQ(families.at("gsv_real_time_factor").samples.size(), 2u);
 }
 
-TEST_F(MetricsTest, CountViewersAndWhatTheyAreSent) {
+TEST_F(MetricsTest, CountViewersAndSentBytes) {
   Start();
   EXPECT_EQ(Value("gsv_viewers"), 0);
   const double sent = Value("gsv_sent_bytes_total");
@@ -170,7 +170,7 @@ TEST_F(MetricsTest, CountViewersAndWhatTheyAreSent) {
   EXPECT_EQ(Value("gsv_http_answers_total", "{status=\"4xx\"}"), refused + 1);
   {
     Viewer viewer(gateway_->port());
-    ASSERT_TRUE(viewer.Receive());  // so it is there
+    ASSERT_TRUE(viewer.Receive());  // so the viewer is connected
     EXPECT_EQ(Value("gsv_viewers"), 1);
     EXPECT_GE(Value("gsv_connections"), 2);
     viewer.Close();
@@ -178,7 +178,7 @@ TEST_F(MetricsTest, CountViewersAndWhatTheyAreSent) {
     }
   }
   EXPECT_GT(Value("gsv_sent_bytes_total"), sent);
-  // The server learns of the end by its own thread; each look is a request that it answers later.
+  // The server's own thread notices the end; each check is a request that it answers afterwards.
   for (int i = 0; i < 1000 && Value("gsv_viewers") > 0; ++i) {
   }
   EXPECT_EQ(Value("gsv_viewers"), 0);
@@ -197,14 +197,14 @@ TEST_F(MetricsTest, HaveNoLabelThatPeopleChoose) {
   }
 }
 
-TEST_F(MetricsTest, AreForThoseWhoMayWatch) {
+TEST_F(MetricsTest, NeedThePermissionToWatch) {
   const std::string control = "control-token-0123456789", watch = "watching-token-0123456789";
   Start({control, watch});
   EXPECT_EQ(Ask("/metrics").status, 401);
   EXPECT_EQ(Ask("/metrics", "Authorization: Bearer wrong-token-0123456789\r\n").status, 403);
   EXPECT_EQ(Ask("/metrics", "Authorization: Bearer " + watch + "\r\n").status, 200);
   EXPECT_EQ(Ask("/metrics", "Authorization: Bearer " + control + "\r\n").status, 200);
-  // Whether it answers at all is no secret.
+  // /healthz needs no token.
   EXPECT_EQ(Ask("/healthz").body, R"({"ok":true})");
   EXPECT_EQ(testing::Fetch(gateway_->port(), "POST", "/metrics",
                            "Authorization: Bearer " + control + "\r\n")

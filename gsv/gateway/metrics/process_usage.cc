@@ -13,7 +13,7 @@
 namespace gsv::gateway::metrics {
 namespace {
 
-// Fields of /proc/self/stat, numbered as in proc(5); the second one may hold blanks.
+// Fields of /proc/self/stat, numbered as in proc(5); the second one may have blanks.
 constexpr int kFirstAfterName = 3, kUserTime = 14, kSystemTime = 15, kThreads = 20, kStart = 22,
               kResidentPages = 24;
 
@@ -53,7 +53,7 @@ ProcessUsage ReadProcessUsage() {
        each.increment(error)) {
     ++usage.descriptors;
   }
-  if (usage.descriptors > 0) --usage.descriptors;  // the one that was just used to count
+  if (usage.descriptors > 0) --usage.descriptors;  // the one that counted them
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) == 0) usage.max_descriptors = limit.rlim_cur;
   return usage;

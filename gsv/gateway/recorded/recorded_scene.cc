@@ -25,7 +25,7 @@ const Json& MemberOf(const Json& object, const char* name) {
   return object.is_object() && found != object.end() ? *found : kNull;
 }
 
-// Of the entries of "poses" that are bodies, not links.
+// The entries of "poses" that are bodies, not links.
 std::map<std::string, std::size_t> BodyPosesOf(const Json& scene) {
   std::map<std::string, std::size_t> places;
   const Json& bodies = MemberOf(scene, "bodies");

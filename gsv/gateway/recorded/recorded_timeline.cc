@@ -16,7 +16,7 @@ constexpr std::size_t kMaxEvents = 1000;
 constexpr std::size_t kMaxLines = 5000;
 constexpr std::size_t kMaxBytes = 1 << 20;
 
-// A block without an index may hold anything.
+// A block without an index may have messages of any channel.
 bool MayHold(const MessageBlock& block, const std::set<std::uint16_t>& channels) {
   return block.channels.empty() ||
          std::any_of(block.channels.begin(), block.channels.end(),
@@ -54,7 +54,7 @@ base::SimTime RecordedTimeline::PoseBeside(base::SimTime time, std::int64_t coun
     return nearest(*a) < nearest(*b);
   });
   const auto wanted = static_cast<std::size_t>(std::abs(count));
-  std::set<base::SimTime> distances;  // of poses, the nearest first; no more than are wanted
+  std::set<base::SimTime> distances;  // of poses, the nearest first; at most as many as needed
   for (const MessageBlock* block : blocks) {
     if (distances.size() == wanted && nearest(*block) > *distances.rbegin()) break;
     const base::Result<recording::BlockMessages> content = reader_.Messages(*block);

@@ -34,7 +34,7 @@ messages::gsv_msgs::LifecycleEvent Event(const std::string& event, const std::st
   return message;
 }
 
-// Poses each 20 ms from 0 to 980 ms, in chunks of a tenth of a second; clocks each 5 ms between
+// Poses every 20 ms from 0 to 980 ms, in chunks of a tenth of a second; clocks every 5 ms between
 // them; two events.
 recording::Bytes OneSecond() {
   recording::Bytes bytes;
@@ -69,7 +69,7 @@ TEST_F(RecordedTimelineTest, FindsPosesAheadAndBehind) {
   EXPECT_EQ(timeline_.PoseBeside(505ms, -1), 500ms);
 }
 
-TEST_F(RecordedTimelineTest, FindsThemOverManyChunks) {
+TEST_F(RecordedTimelineTest, FindsPosesOverManyChunks) {
   EXPECT_EQ(timeline_.PoseBeside(500ms, 10), 700ms);
   EXPECT_EQ(timeline_.PoseBeside(500ms, -10), 300ms);
   EXPECT_EQ(timeline_.PoseBeside(0ms, 49), 980ms);
@@ -82,7 +82,7 @@ TEST_F(RecordedTimelineTest, EndsWhereTheRecordingDoes) {
   EXPECT_EQ(timeline_.PoseBeside(40ms, -3), 0ms);
 }
 
-TEST_F(RecordedTimelineTest, TellsWhatHappenedWhen) {
+TEST_F(RecordedTimelineTest, ReturnsEventsWithTheirTimes) {
   const std::vector<RecordedEvent>& events = timeline_.Events();
   ASSERT_EQ(events.size(), 2u);
   EXPECT_EQ(events[0].time, 15ms);

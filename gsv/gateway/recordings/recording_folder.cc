@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxListed = 1000;
 
-// A finished file ends as it begins. Whatever else ends would have to be read whole.
+// A finished file ends with the magic bytes. Any other file would have to be read as a whole.
 bool IsFinished(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::array<char, recording::kMagic.size()> end{};
@@ -83,7 +83,7 @@ RecordingLine RecordingFolder::Look(const std::string& name, const fs::path& fil
   line.name = name;
   std::error_code error;
   line.size = fs::file_size(file, error);
-  if (error) line.size = 0;  // it has just gone
+  if (error) line.size = 0;  // the file was just removed
   const auto modified = fs::last_write_time(file, error);
   if (!error) {
     line.modified = std::chrono::time_point_cast<std::chrono::system_clock::duration>(

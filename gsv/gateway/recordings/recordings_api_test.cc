@@ -18,7 +18,7 @@ using nlohmann::json;
 using testing::HttpReply;
 using testing::Viewer;
 
-// A folder with one recording of two seconds, served with no simulation.
+// A folder with one recording of two seconds, served without a simulation.
 class RecordingsApiTest : public ::testing::Test {
  protected:
   class NoSimulations final : public SimulationDirectory {
@@ -47,7 +47,7 @@ class RecordingsApiTest : public ::testing::Test {
   HttpReply Post(const std::string& target, const std::string& body = "{}") const {
     return testing::Fetch(gateway_->port(), "POST", target, "", body);
   }
-  // Below which a replay of one's own is served: "/replays/1/".
+  // The path below which a replay session is served: "/replays/1/".
   std::string OpenReplay() const {
     return "/" +
            json::parse(Post("/api/recordings/run.mcap/replay").body)["base"].get<std::string>();
@@ -59,7 +59,7 @@ class RecordingsApiTest : public ::testing::Test {
   std::unique_ptr<Gateway> gateway_;
 };
 
-TEST_F(RecordingsApiTest, ListsWhatTheFolderHolds) {
+TEST_F(RecordingsApiTest, ListsTheRecordingsOfTheFolder) {
   std::ofstream(folder_ / "junk.mcap") << "not a recording, but longer than eight bytes";
   std::ofstream(folder_ / "notes.txt") << "no recording by its name";
   std::ofstream(folder_ / ".hidden.mcap") << "hidden";
@@ -79,8 +79,8 @@ TEST_F(RecordingsApiTest, ListsWhatTheFolderHolds) {
   EXPECT_EQ(json::parse(Get("/api/server").body)["recordings"], true);
 }
 
-TEST_F(RecordingsApiTest, AFileThatIsDamagedSaysSo) {
-  // It ends as a recording does, and is none.
+TEST_F(RecordingsApiTest, ADamagedFileIsReported) {
+  // It ends with the magic bytes of a recording, but is none.
   std::ofstream(folder_ / "bad.mcap") << "XXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXX\x89MCAP0\r\n";
   const json listed = json::parse(Get("/api/recordings").body)["recordings"];
   const auto bad = std::find_if(listed.begin(), listed.end(),
@@ -103,7 +103,7 @@ TEST_F(RecordingsApiTest, NothingOutsideOfTheFolderIsOpened) {
             std::string::npos);
 }
 
-TEST_F(RecordingsApiTest, TwoViewersOfOneRecordingStandAtDifferentInstants) {
+TEST_F(RecordingsApiTest, TwoViewersOfOneRecordingAreAtDifferentInstants) {
   const std::string a = OpenReplay();
   const std::string b = OpenReplay();
   ASSERT_NE(a, b);
@@ -135,7 +135,7 @@ TEST_F(RecordingsApiTest, ARelayPassesRecordingsOn) {
   EXPECT_EQ(testing::Decoded<messages::gsv_msgs::Poses>(viewer.ReceiveData(1)).step, 100u);
 }
 
-TEST_F(RecordingsApiTest, AReplayThatNobodyWatchesEnds) {
+TEST_F(RecordingsApiTest, AReplayWithoutViewersEnds) {
   ReplaySessions sessions({.sessions = 2, .unwatched = std::chrono::milliseconds(0)});
   const std::string file = folder_ / "run.mcap";
   const std::string watched = sessions.Open(file, "run.mcap").value();
@@ -144,10 +144,10 @@ TEST_F(RecordingsApiTest, AReplayThatNobodyWatchesEnds) {
   EXPECT_TRUE(sessions.FindHub(watched));
   sessions.Stop();
   EXPECT_FALSE(sessions.Open(file, "run.mcap"));
-  hub->Remove(nullptr);  // a viewer that leaves late finds its replay still there
+  hub->Remove(nullptr);  // a viewer that disconnects late finds its replay still there
 }
 
-TEST_F(RecordingsApiTest, NoMoreThanTheLimitAreWatchedAtOnce) {
+TEST_F(RecordingsApiTest, ReplaySessionsAreLimited) {
   ReplaySessions sessions({.sessions = 2, .unwatched = std::chrono::hours(1)});
   const std::string file = folder_ / "run.mcap";
   EXPECT_TRUE(sessions.Open(file, "run.mcap"));

@@ -32,7 +32,7 @@ std::map<std::string, ReplaySessions::Entry> ReplaySessions::TakeUnwatched() {
   const base::MutexLock lock(mutex_);
   for (auto entry = sessions_.begin(); entry != sessions_.end();) {
     const auto next = std::next(entry);
-    // Who watches it, or asks it something, holds it as well.
+    // A viewer that watches it or sends a request holds it as well.
     if (entry->second.replay.player.use_count() > 1) {
       entry->second.used = now;
     } else if (now - entry->second.used > limits_.unwatched) {

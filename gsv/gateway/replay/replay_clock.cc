@@ -8,7 +8,7 @@ namespace {
 
 using simulation::Phase;
 
-// A round that comes later than this slows the replay down; it does not leap.
+// A round that comes later than this slows the replay down; the replay does not skip.
 constexpr std::chrono::milliseconds kMaxRoundTime{200};
 
 base::Status Refuse(const char* action, const char* needed, Phase phase) {

@@ -28,7 +28,7 @@ TEST(ReplayClock, ARoundThatComesLateSlowsItDown) {
   EXPECT_EQ(clock.position(), 200ms);
 }
 
-TEST(ReplayClock, StandsStillWhilePaused) {
+TEST(ReplayClock, DoesNotAdvanceWhilePaused) {
   ReplayClock clock(0s, 10s, 1, false);
   ASSERT_TRUE(clock.Start());
   clock.Advance(kNow);
@@ -49,7 +49,7 @@ TEST(ReplayClock, EndsFinishedAtTheEnd) {
   EXPECT_EQ(clock.phase(), Phase::kFinished);
 }
 
-TEST(ReplayClock, BeginsAnewWithLoop) {
+TEST(ReplayClock, RestartsWithLoop) {
   ReplayClock clock(0s, 100ms, 1, true);
   ASSERT_TRUE(clock.Start());
   clock.Advance(kNow);
@@ -58,7 +58,7 @@ TEST(ReplayClock, BeginsAnewWithLoop) {
   EXPECT_EQ(clock.phase(), Phase::kRunning);
 }
 
-TEST(ReplayClock, StepsAndStandsStill) {
+TEST(ReplayClock, StepsAndPauses) {
   ReplayClock clock(0s, 100ms, 1, false);
   ASSERT_TRUE(clock.Step(30ms));
   EXPECT_EQ(clock.position(), 30ms);
@@ -79,7 +79,7 @@ TEST(ReplayClock, SeeksWithinTheRecording) {
   EXPECT_EQ(clock.position(), 1s);
 }
 
-TEST(ReplayClock, AnotherSpeedHoldsFromHereOn) {
+TEST(ReplayClock, AnotherSpeedAppliesFromHereOn) {
   ReplayClock clock(0s, 10s, 1, false);
   ASSERT_TRUE(clock.Start());
   clock.Advance(kNow);
@@ -89,7 +89,7 @@ TEST(ReplayClock, AnotherSpeedHoldsFromHereOn) {
   EXPECT_EQ(clock.position(), 600ms);
 }
 
-TEST(ReplayClock, StandsStillAtAnInstant) {
+TEST(ReplayClock, PausesAtAnInstant) {
   ReplayClock clock(1s, 2s, 1, false);
   ASSERT_TRUE(clock.Start());
   clock.StandAt(3s);
@@ -97,7 +97,7 @@ TEST(ReplayClock, StandsStillAtAnInstant) {
   EXPECT_EQ(clock.phase(), Phase::kPaused);
 }
 
-TEST(ReplayClock, RefusesWhatThePhaseDoesNotAllow) {
+TEST(ReplayClock, RefusesRequestsThatThePhaseDoesNotAllow) {
   ReplayClock clock(0s, 1s, 1, false);
   EXPECT_FALSE(clock.Pause());
   EXPECT_FALSE(clock.Resume());

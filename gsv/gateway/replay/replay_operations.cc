@@ -38,7 +38,7 @@ PlaybackState::Status StatusOf(Phase phase) {
   return phase == Phase::kFinished ? PlaybackState::Status::kEnded : PlaybackState::Status::kPaused;
 }
 
-// To the state that is wanted, from wherever it stands.
+// Starts playing, from any state.
 base::Status Play(ReplayPlayer& player) {
   switch (player.clock().phase()) {
     case Phase::kCreated:

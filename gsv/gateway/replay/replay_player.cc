@@ -39,7 +39,7 @@ AgentPhase ParseAgentPhase(const std::string& text) {
   return AgentPhase::kNone;
 }
 
-// Number `index` of the poses in a message; the identity if there are fewer.
+// Pose number `index` in a message; the identity if there are fewer.
 geometry::Pose PoseAt(const messages::gsv_msgs::Poses& message, std::size_t index) {
   geometry::Pose pose;
   if (message.poses.size() / 7 <= index) return pose;
@@ -78,7 +78,7 @@ ReplayPlayer::ReplayPlayer(std::unique_ptr<recording::McapReader> reader, const 
           *reader_, name_, [this] { Wake(); }, std::make_shared<ReplayOperations>(*this)) {
   problems_.insert(problems_.end(), scene_.problems().begin(), scene_.problems().end());
   ReadMetadata();
-  // Whoever asks first is told of the robots too.
+  // The first request also gets the robots.
   stream_.JumpTo(clock_.position());
   thread_ = std::thread([this] { Run(); });
 }

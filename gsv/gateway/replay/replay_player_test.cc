@@ -32,7 +32,7 @@ TEST_F(ReplayGatewayTest, SeeksForwardsAndBack) {
   viewer.Subscribe(2, "/robot/front");
   viewer.Subscribe(3, "/gsv/beams");
   ReceiveEach(viewer, {1, 2, 3});
-  // The face is at 2.9 m, the robot at 0.5 m/s times the time.
+  // The wall is at 2.9 m, the robot at 0.5 m/s times the time.
   for (const double time : {1.5, 0.25, 1.0}) {
     const HttpReply reply = Post("seek", json{{"time_s", time}}.dump());
     EXPECT_EQ(reply.status, 200);
@@ -43,7 +43,7 @@ TEST_F(ReplayGatewayTest, SeeksForwardsAndBack) {
     const Poses poses = Decoded<Poses>(received.at(1));
     EXPECT_NEAR(poses.poses[0], 0.5 * time, 0.5 * 0.02);  // recorded at 50 Hz
     const auto range = Decoded<messages::sensor_msgs::Range>(received.at(2));
-    EXPECT_NEAR(range.range, 2.9 - 0.5 * time, 1e-6);  // each is an instant of 20 Hz
+    EXPECT_NEAR(range.range, 2.9 - 0.5 * time, 1e-6);  // each is an instant of the 20 Hz sensor
     const auto beams = Decoded<messages::visualization_msgs::MarkerArray>(received.at(3));
     ASSERT_EQ(beams.markers.size(), 1u);
     EXPECT_FALSE(beams.markers[0].points.empty());
@@ -64,10 +64,10 @@ TEST_F(ReplayGatewayTest, StepsAndPauses) {
   EXPECT_EQ(json::parse(Post("stop").body)["phase"], "created");
 }
 
-TEST_F(ReplayGatewayTest, TheStatusOfEveryStandstillComes) {
+TEST_F(ReplayGatewayTest, TheStatusOfEveryPauseIsSent) {
   Viewer viewer(port());
   viewer.Subscribe(1, "/gsv/status");
-  for (const double time : {1.5, 0.25, 1.0, 0.5}) {  // sooner than statuses follow each other
+  for (const double time : {1.5, 0.25, 1.0, 0.5}) {  // closer than the period of the status
     Post("seek", json{{"time_s", time}}.dump());
     SimulationStatus status;
     do {
@@ -84,7 +84,7 @@ TEST_F(ReplayGatewayTest, StepsOverRecordedPoses) {
   viewer.ReceiveData(1);
   Post("seek", R"({"time_s":1})");
   viewer.ReceiveData(1);
-  // 50 poses a second, two steps of the simulation each.
+  // 50 poses per second, with two steps of the simulation each.
   const auto step = [&](const char* body) {
     return json::parse(Post("step", body).body)["time_s"].get<double>();
   };
@@ -97,7 +97,7 @@ TEST_F(ReplayGatewayTest, StepsOverRecordedPoses) {
   }
 }
 
-TEST_F(ReplayGatewayTest, AStepOverPosesStopsWhatPlays) {
+TEST_F(ReplayGatewayTest, AStepOverPosesStopsThePlayback) {
   Post("start");
   EXPECT_EQ(json::parse(Post("step", R"({"poses":1})").body)["phase"], "paused");
 }
@@ -116,7 +116,7 @@ TEST_F(ReplayGatewayTest, SpeedAndLoopCanBeChanged) {
   }
 }
 
-// Opcode 3: what a viewer asks of the playback, written by hand.
+// Opcode 3, a viewer's request to the playback, written by hand.
 std::string ControlBytes(bool play, float speed, std::optional<std::uint64_t> seek_ns) {
   std::string bytes = "\x03";
   const auto put = [&](const auto& value) {
@@ -130,7 +130,7 @@ std::string ControlBytes(bool play, float speed, std::optional<std::uint64_t> se
   return bytes + "me";
 }
 
-// Opcode 5: how the playback stands.
+// Opcode 5, the state of the playback.
 struct StateReceived {
   int status = 0;
   std::uint64_t time_ns = 0;
@@ -149,7 +149,7 @@ StateReceived ReceiveState(Viewer& viewer) {
   return state;
 }
 
-// What answers a request: what changes is told to all, maybe before that.
+// The answer to a request. Changes go to all viewers, and may come before the answer.
 StateReceived ReceiveAnswer(Viewer& viewer) {
   for (;;) {
     StateReceived state = ReceiveState(viewer);
@@ -180,7 +180,7 @@ TEST_F(ReplayGatewayTest, FoxglovesPlaybackControlMovesIt) {
   EXPECT_FALSE(state.did_seek);
   do {
     state = ReceiveState(viewer);
-  } while (state.status != 3);  // the end, which nobody asked for
+  } while (state.status != 3);  // the end, which no request caused
   EXPECT_EQ(state.time_ns, 2'000'000'000u);
   EXPECT_EQ(state.request, "");
 
@@ -188,11 +188,11 @@ TEST_F(ReplayGatewayTest, FoxglovesPlaybackControlMovesIt) {
   EXPECT_EQ(viewer.ReceiveText("status")["message"], "'speed' must be from 0.001 to 1000");
 }
 
-TEST_F(ReplayGatewayTest, AJumpTellsNoOldEventsAsNews) {
+TEST_F(ReplayGatewayTest, ASeekDoesNotSendOldEventsAsNew) {
   Viewer viewer(port());
   viewer.Subscribe(1, "/gsv/events");
   viewer.Subscribe(2, "/gsv/poses");
-  ReceiveEach(viewer, {1, 2});  // how things stand
+  ReceiveEach(viewer, {1, 2});  // the current state
   Post("seek", R"({"time_s":2})");
   for (;;) {
     const auto frame = viewer.Receive();
@@ -215,7 +215,7 @@ TEST_F(ReplayGatewayTest, ASeekWithoutATimeIsRefused) {
   EXPECT_EQ(timeline["end_s"], 2.0);
 }
 
-TEST_F(ReplayGatewayTest, BeginsAnewWithLoop) {
+TEST_F(ReplayGatewayTest, RestartsWithLoop) {
   Open(PathFor("run"), {.speed = 50, .loop = true});
   Viewer viewer(port());
   viewer.Subscribe(1, "/gsv/poses");

@@ -27,12 +27,12 @@ foxglove::ServerInfo InfoOf(const std::string& name, const recording::Summary& s
       foxglove::TimeRange{base::NanosecondsOf(summary.start), base::NanosecondsOf(summary.end)}};
 }
 
-// What belongs to the whole simulation goes first, lest the limit leave it out.
+// Topics of the whole simulation come first, so that the limit does not exclude them.
 bool IsCommon(const std::string& topic) {
   return topic.starts_with("/gsv/") || presentation::FindTopic(topic) != nullptr;
 }
 
-// "pebble" of "/pebble/camera"; of other topics something that is no robot's name.
+// "pebble" of "/pebble/camera"; for other topics, a text that is no robot's name.
 std::string RobotOf(const std::string& topic) {
   const std::size_t end = topic.find('/', 1);
   return end == std::string::npos ? std::string() : topic.substr(1, end - 1);
@@ -166,7 +166,7 @@ void ReplayStream::ReadNext() {
       next_ = *next;
       return;
     }
-    Warn(next.error().Sentence());  // the next call goes on behind the damage
+    Warn(next.error().Sentence());  // the next call continues after the damage
   }
 }
 
@@ -189,7 +189,7 @@ void ReplayStream::Publish(base::SimTime time, simulation::Phase phase, WallTime
   AdvertiseWanted();
   hub_->PublishChanges(std::exchange(has_jumped_, false));
   const bool has_moved = published_time_ != time;
-  // Only while it plays does another status follow one that came too soon.
+  // Another status follows one that came too early only while the replay plays.
   const bool is_paced = phase == simulation::Phase::kRunning;
   const bool is_due =
       published_phase_ != phase || (has_moved && (!is_paced || status_pacing_.IsDue(now)));

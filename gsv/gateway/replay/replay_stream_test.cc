@@ -29,7 +29,7 @@ constexpr int kRobots = kListed + kWanted + 2;
 
 std::string Robot(int i) { return "robot_" + std::to_string(i); }
 
-// A recording of more sensors than are listed, with one reading each, and who replays it.
+// A recording with more sensors than are listed, with one reading each, and its replay.
 class CrowdReplayTest : public ::testing::Test {
  public:
   CrowdReplayTest() {
@@ -68,7 +68,7 @@ class CrowdReplayTest : public ::testing::Test {
     stream_->Want(Robot(robot));
     Round();
   }
-  // The robots whose last sensor is listed now.
+  // The robots whose last sensor is currently listed.
   std::set<std::string> Listed() const {
     std::map<std::uint64_t, std::string> topics;
     for (const nlohmann::json& text : client_->texts()) {
@@ -96,7 +96,7 @@ class CrowdReplayTest : public ::testing::Test {
   std::shared_ptr<RecordingClient> client_ = std::make_shared<RecordingClient>();
 };
 
-TEST_F(CrowdReplayTest, BeyondTwoThousandTopicsARobotsAreListedWhenItIsWanted) {
+TEST_F(CrowdReplayTest, BeyondTwoThousandTopicsARobotsTopicsAreListedOnRequest) {
   EXPECT_TRUE(IsListed(kListed - 1));
   EXPECT_FALSE(IsListed(kListed));
   Want(kListed);
@@ -109,7 +109,7 @@ TEST_F(CrowdReplayTest, BeyondTwoThousandTopicsARobotsAreListedWhenItIsWanted) {
   EXPECT_EQ(testing::Decoded<Range>(client_->data(1)[0]).range, static_cast<float>(kListed));
 }
 
-TEST_F(CrowdReplayTest, OfTheWantedWhoWasWantedFirstGoesUnlessSomebodyListens) {
+TEST_F(CrowdReplayTest, TheFirstRequestedRobotIsRemovedFirstUnlessSubscribed) {
   Want(kListed);
   const auto channel = client_->ChannelOf("/" + Robot(kListed) + "/sonar_0");
   ASSERT_TRUE(stream_->hub()->Receive(client_.get(), testing::SubscribeText(1, channel)));

@@ -31,7 +31,7 @@ std::string Text(const http::request<http::string_body>& request, http::field fi
   return std::string(View(request[field]));
 }
 
-// What is wrong with bytes that are not an acceptable request; empty: the connection is just gone.
+// The response to bytes that are not an acceptable request; empty: the connection was closed.
 std::optional<Response> ResponseTo(error_code error, std::uint64_t header_limit,
                                    std::uint64_t body_limit) {
   if (error == http::error::header_limit || error == http::error::buffer_overflow) {
@@ -49,10 +49,10 @@ std::optional<Response> ResponseTo(error_code error, std::uint64_t header_limit,
   return std::nullopt;
 }
 
-// For one file to arrive.
+// Time limit for receiving one file.
 constexpr std::chrono::minutes kUploadTime{5};
 
-// For a client to begin TLS, and for one to take leave.
+// Time limit for a client to begin TLS, and to close the connection.
 constexpr std::chrono::seconds kLeaveTime{1};
 constexpr std::chrono::milliseconds kHandshakeTime{10'000};  // or a request's, if that is shorter
 
@@ -66,7 +66,7 @@ using KeepTrack = std::function<void(std::weak_ptr<Connection>)>;
 
 class HttpSession final : public Connection, public std::enable_shared_from_this<HttpSession> {
  public:
-  // `buffer`: what has been read already.
+  // `buffer`: bytes that were read already.
   HttpSession(ByteStream stream, beast::flat_buffer buffer, std::shared_ptr<ServerContext> context,
               std::unique_ptr<ConnectionSlot> slot, KeepTrack keep_track)
       : stream_(std::move(stream)),
@@ -92,7 +92,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     is_head_ = false;
     parser_.emplace();
     parser_->header_limit(limits().header_bytes);
-    // OnHeader() limits it. Boost 1.74 takes boost::none for zero.
+    // OnHeader() sets the limit. Boost 1.74 takes boost::none for zero.
     parser_->body_limit(std::numeric_limits<std::uint64_t>::max());
     tcp().expires_after(limits().request_time);
     is_idle_ = true;
@@ -113,13 +113,13 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   beast::tcp_stream& tcp() { return stream_.tcp(); }
   const ServerLimits& limits() const { return context_->options.limits; }
 
-  // What is too long is refused before it is read, and a file whose sender lacks permission.
+  // Refuses a body that is too long, and a file without permission, before reading it.
   void OnHeader(error_code error) {
     if (error) return Complain(error);
     const auto& request = parser_->get();
     version_ = request.version();
     is_head_ = request.method() == http::verb::head;
-    keep_alive_ = false;  // for answers before all is read
+    keep_alive_ = false;  // for answers before the whole request was read
     principal_.reset();
     target_ = ParseTarget(View(request.target()));
     match_ = target_ ? context_->handler.router().Find(Method(), *target_) : Router::Match();
@@ -172,7 +172,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     return is_head_ ? std::string_view("GET") : View(parser_->get().method_string());
   }
 
-  // Of the query, for WebSockets: a page cannot set their headers.
+  // A parameter of a WebSocket's query: a page cannot set its headers.
   std::string SocketQuery(const std::string& name) const {
     const bool is_socket = match_.route != nullptr && match_.route->find_hub != nullptr;
     const auto found = target_->query.find(name);
@@ -187,14 +187,14 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   using Next = void (*)(HttpSession&);
 
   // Calls `next`, now or later on this session's thread, if the client has the permission that the
-  // request takes; else answers why not.
+  // request needs; otherwise sends the reason.
   void Authorise(Next next) {
     if (match_.permission == Permission::kNone) return next(*this);
     if (principal_) return Permit(next);
     const std::string authorization = Text(parser_->get(), http::field::authorization);
     access::Credentials credentials{std::string(access::BearerToken(authorization))};
     if (credentials.token.empty()) credentials.token = SocketQuery("token");
-    tcp().expires_never();  // the authenticator has a limit of its own
+    tcp().expires_never();  // the authenticator has its own limit
     context_->authenticator->Authenticate(
         credentials, [self = shared_from_this(), next](const access::Principal& principal) {
           boost::asio::dispatch(self->stream_.get_executor(), [self, next, principal] {
@@ -209,7 +209,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     const access::Principal& principal = *principal_;
     if (principal.permission < match_.permission) {
       const std::string why = context_->authenticator->Refusal(principal, match_.permission);
-      // The path alone: a query may hold a token.
+      // Logs only the path, as a query may have a token.
       spdlog::info("refused {} {}: {}", View(parser_->get().method_string()), PathOf(*target_),
                    why);
       return Write(ErrorResponse(principal.showed_credentials ? 403 : 401, why));
@@ -231,7 +231,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     if (match_.route == nullptr) return Write(NoRoute(match_));
     if (is_upgrade) return Upgrade();
     upload_.reset();
-    tcp().expires_never();  // handlers have limits of their own
+    tcp().expires_never();  // handlers have their own limits
     context_->handler.Handle(
         *match_.route, TakeRequest(), [self = shared_from_this()](Response response) mutable {
           auto executor = self->stream_.get_executor();
@@ -307,7 +307,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     return message;
   }
 
-  // `bytes` is what the message's body points to.
+  // `bytes` is the data of the message's body.
   template <typename Body>
   void Send(http::response<Body> response, SharedBytes bytes) {
     auto message = std::make_shared<http::response<Body>>(std::move(response));
@@ -333,7 +333,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     Drain();
   }
 
-  // Takes what the client still sends, so that closing does not destroy our answer on its way.
+  // Reads what the client still sends, so that closing does not discard the answer on its way.
   void Drain() {
     is_idle_ = true;
     tcp().expires_after(kLeaveTime);
@@ -350,11 +350,11 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   std::shared_ptr<ServerContext> context_;
   std::unique_ptr<ConnectionSlot> slot_;
   KeepTrack keep_track_;
-  // Of the request that is read or answered:
+  // Of the request that is being read or answered:
   base::Result<Target> target_{};
   Router::Match match_;
-  std::optional<access::Principal> principal_;  // once it is known
-  std::unique_ptr<UploadSlot> upload_;          // while one is read
+  std::optional<access::Principal> principal_;  // nothing until it is known
+  std::unique_ptr<UploadSlot> upload_;          // during an upload
   std::uint64_t body_limit_ = 0;
   unsigned version_ = 11;
   bool keep_alive_ = false;
@@ -362,8 +362,8 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   bool is_idle_ = false;  // waits for bytes that may never come
 };
 
-// Looks at a connection's first bytes: TLS goes on by TLS; who speaks plain HTTP is told where to
-// go, and nothing else.
+// Reads a connection's first bytes. TLS continues by TLS. A client that uses plain HTTP gets the
+// address of the TLS server, and nothing else.
 class TlsDoor final : public Connection, public std::enable_shared_from_this<TlsDoor> {
  public:
   TlsDoor(boost::asio::ip::tcp::socket socket, std::shared_ptr<ServerContext> context,
@@ -408,7 +408,7 @@ class TlsDoor final : public Connection, public std::enable_shared_from_this<Tls
                              });
   }
 
-  // As HttpSession does.
+  // See HttpSession::Drain().
   void Drain() {
     tcp().expires_after(kLeaveTime);
     buffer_.clear();

@@ -22,9 +22,9 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 using boost::system::error_code;
 
-// How long Stop() waits for clients to take leave.
+// Time limit for clients to close their connections after Stop().
 constexpr std::chrono::seconds kLastAnswers{1};
-// After the system ran out of descriptors: how long until it is tried again.
+// Delay before the next attempt after the system has run out of descriptors.
 constexpr std::chrono::milliseconds kBreath{100};
 
 base::Result<tcp::endpoint> EndpointOf(const ServerOptions& options) {
@@ -69,7 +69,7 @@ base::Status Listen(tcp::acceptor& acceptor, const tcp::endpoint& endpoint,
   return {};
 }
 
-// Tells one client too many so, without waiting for it.
+// Informs a client above the limit, without waiting for it.
 void TurnAway(tcp::socket& socket) {
   static constexpr std::string_view kAnswer =
       "HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\nContent-Type: application/json\r\n"
@@ -132,7 +132,7 @@ class BeastServer final : public Server {
   void Stop() override {
     if (!thread_.joinable()) return;
     asio::post(io_, [this] { SayGoodbye(); });
-    // The thread ends by itself when the last connection has.
+    // The thread ends when the last connection has ended.
     finished_.get_future().wait_for(kLastAnswers);
     io_.stop();
     thread_.join();
@@ -184,14 +184,14 @@ class BeastServer final : public Server {
 
   ServerOptions options_;
   std::shared_ptr<asio::ssl::context> tls_;
-  std::string name_;  // under which others reach it
+  std::string name_;  // the address for clients
   Handler* handler_ = nullptr;
   std::shared_ptr<ServerContext> context_;
   std::uint16_t port_ = 0;
   asio::io_context io_{1};
   tcp::acceptor acceptor_;
   asio::steady_timer pause_;
-  std::vector<std::weak_ptr<Connection>> connections_;  // may hold some that have ended
+  std::vector<std::weak_ptr<Connection>> connections_;  // some may have ended
   std::promise<void> finished_;
   std::thread thread_;
 };

@@ -45,7 +45,7 @@ TEST_F(ServerTest, AConnectionServesManyRequests) {
   EXPECT_TRUE(connection.IsClosed());
 }
 
-TEST_F(ServerTest, RefusesStrangersByNameAndOrigin) {
+TEST_F(ServerTest, RefusesOtherNamesAndOrigins) {
   Start();
   EXPECT_EQ(Fetch(port(), "GET", "/", "Host: evil.example\r\n").status, 403);
   EXPECT_EQ(Fetch(port(), "GET", "/", "Origin: http://evil.example\r\n").status, 403);
@@ -55,7 +55,7 @@ TEST_F(ServerTest, RefusesStrangersByNameAndOrigin) {
   EXPECT_THROW(Viewer(port(), "/ws", "foxglove.sdk.v1", "http://evil.example"), std::runtime_error);
 }
 
-TEST_F(ServerTest, RefusesWhatIsNoRequest) {
+TEST_F(ServerTest, RefusesInvalidRequests) {
   Start();
   for (const std::string& bytes :
        {std::string("\x16\x03\x01 hello\r\n\r\n"), std::string("GET\r\n\r\n"),
@@ -80,7 +80,7 @@ TEST_F(ServerTest, LimitsHeadersAndBodies) {
   EXPECT_TRUE(connection.IsClosed());
 }
 
-TEST_F(ServerTest, HangsUpOnWhoeverDoesNotFinishARequest) {
+TEST_F(ServerTest, DisconnectsAClientThatDoesNotFinishARequest) {
   ServerOptions options;
   options.limits.request_time = std::chrono::milliseconds(50);
   Start(options);
@@ -89,7 +89,7 @@ TEST_F(ServerTest, HangsUpOnWhoeverDoesNotFinishARequest) {
   EXPECT_TRUE(connection.IsClosed());
 }
 
-TEST_F(ServerTest, TurnsAwayOneConnectionTooMany) {
+TEST_F(ServerTest, RefusesOneConnectionTooMany) {
   ServerOptions options;
   options.limits.connections = 2;
   Start(options);
@@ -98,7 +98,7 @@ TEST_F(ServerTest, TurnsAwayOneConnectionTooMany) {
   second.ReceiveText("serverInfo");
   HttpConnection third(port());
   EXPECT_EQ(third.Receive()->status, 503);
-  // The second stays, and the first makes room by leaving.
+  // The second client stays, and the first one leaves.
   second.Subscribe(1, "/numbers");
   echo_.WaitUntil([&] { return echo_.hub().IsSubscribed(echo_.channel()); });
   first.Close();
@@ -109,7 +109,7 @@ TEST_F(ServerTest, TurnsAwayOneConnectionTooMany) {
   EXPECT_EQ(status, 200);
 }
 
-TEST_F(ServerTest, APortThatIsTakenIsNamed) {
+TEST_F(ServerTest, APortInUseIsNamed) {
   Start();
   ServerOptions options;
   options.port = port();
@@ -122,11 +122,11 @@ TEST_F(ServerTest, APortThatIsTakenIsNamed) {
           ": another program uses the port; choose another port, or --port 0 for any free one");
 }
 
-TEST_F(ServerTest, AnAddressThatIsNoneIsNamed) {
+TEST_F(ServerTest, AnInvalidAddressIsNamed) {
   ServerOptions options;
   options.host = "nowhere.example";
   EXPECT_EQ(Server::Start(options, echo_).error().code, base::ErrorCode::kInvalidArgument);
-  options.host = "203.0.113.7";  // documentation's own: no machine has it
+  options.host = "203.0.113.7";  // reserved for documentation: no machine has it
   options.tokens.watch = "a-token-that-nobody-guesses";
   EXPECT_EQ(Server::Start(options, echo_).error().code, base::ErrorCode::kUnavailable);
 }

@@ -1,5 +1,5 @@
-// The server over TLS: judged by OpenSSL's own client side (in Boost.Beast), which knows the
-// authority alone.
+// The server over TLS, tested with OpenSSL's client side (in Boost.Beast), which knows only the
+// authority.
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl.hpp>
 #include <boost/asio/write.hpp>
@@ -47,7 +47,7 @@ class TlsTest : public testing::ServerTest {
   }
 
   struct Client {
-    // `authority` empty: whom the system trusts.
+    // `authority` empty: the system's authorities.
     Client(std::uint16_t port, const std::string& authority, const std::string& host) {
       if (!authority.empty()) context.load_verify_file(authority);
       stream.set_verify_mode(asio::ssl::verify_peer);
@@ -60,7 +60,7 @@ class TlsTest : public testing::ServerTest {
     beast::ssl_stream<beast::tcp_stream> stream{io, context};
   };
 
-  // The answer's status and body; throws boost::system::system_error.
+  // The answer's status and body. Throws boost::system::system_error.
   std::pair<int, std::string> FetchSecurely(const std::string& more_headers = "",
                                             int version = 0) const {
     Client client(port(), folder() + "/ca.pem", "127.0.0.1");
@@ -72,7 +72,7 @@ class TlsTest : public testing::ServerTest {
     beast::flat_buffer buffer;
     http::response<http::string_body> response;
     http::read(client.stream, buffer, response);
-    // The end is told by TLS, so that nobody can cut an answer short unnoticed.
+    // TLS signals the end, so that nobody can truncate an answer unnoticed.
     error_code error;
     char byte = 0;
     client.stream.read_some(asio::buffer(&byte, 1), error);
@@ -83,18 +83,18 @@ class TlsTest : public testing::ServerTest {
   const base::TemporaryFolder folder_ = *base::TemporaryFolder::Make("gsv-tls");
 };
 
-TEST_F(TlsTest, HangsUpOnWhoeverDoesNotBegin) {
+TEST_F(TlsTest, DisconnectsAClientThatDoesNotBegin) {
   ServerOptions options;
   options.tls = Files("server");
   options.limits.request_time = std::chrono::milliseconds(50);
   Start(options);
   testing::HttpConnection silent(port()), halting(port());
-  halting.Send("\x16\x03\x01");  // of a handshake
+  halting.Send("\x16\x03\x01");  // the begin of a handshake
   EXPECT_TRUE(silent.IsClosed());
   EXPECT_TRUE(halting.IsClosed());
 }
 
-TEST_F(TlsTest, AnswersThoseWhoKnowItsAuthority) {
+TEST_F(TlsTest, AnswersClientsThatTrustItsAuthority) {
   StartSecure();
   EXPECT_EQ(server_->url(), "https://127.0.0.1:" + std::to_string(port()) + "/");
   const auto [status, body] = FetchSecurely();
@@ -102,7 +102,7 @@ TEST_F(TlsTest, AnswersThoseWhoKnowItsAuthority) {
   EXPECT_EQ(body, "GET /hello ");
 }
 
-TEST_F(TlsTest, OthersDoNotTrustIt) {
+TEST_F(TlsTest, OtherClientsDoNotTrustIt) {
   StartSecure();
   ASSERT_TRUE(tls::MakeAuthority(folder_.path() / "other", {}));
   const auto greet = [&](const std::string& authority, const std::string& host) {
@@ -129,7 +129,7 @@ TEST_F(TlsTest, OldVersionsAreRefused) {
   EXPECT_THROW(FetchSecurely("", TLS1_1_VERSION), boost::system::system_error);
 }
 
-TEST_F(TlsTest, WhoSpeaksPlainHttpIsToldSoAndNothingElse) {
+TEST_F(TlsTest, APlainHttpClientGetsOnlyTheTlsAddress) {
   StartSecure();
   const testing::HttpReply reply = testing::Fetch(port(), "GET", "/hello");
   EXPECT_EQ(reply.status, 400);
@@ -139,7 +139,7 @@ TEST_F(TlsTest, WhoSpeaksPlainHttpIsToldSoAndNothingElse) {
   EXPECT_EQ(FetchSecurely().first, 200);
 }
 
-TEST_F(TlsTest, RubbishHurtsNobody) {
+TEST_F(TlsTest, GarbageDoesNoHarm) {
   StartSecure();
   for (const char* bytes : {"\x16\x03\x01", "\x16\x03\x01\xff\xff\x01\x00\xff\xff", "\x80"}) {
     testing::HttpConnection connection(port());
@@ -148,7 +148,7 @@ TEST_F(TlsTest, RubbishHurtsNobody) {
   EXPECT_EQ(FetchSecurely().first, 200);
 }
 
-TEST_F(TlsTest, AViewerFollowsOverIt) {
+TEST_F(TlsTest, AViewerWatchesOverIt) {
   StartSecure();
   Client client(port(), folder() + "/ca.pem", "127.0.0.1");
   client.stream.handshake(asio::ssl::stream_base::client);

@@ -18,9 +18,9 @@ namespace websocket = beast::websocket;
 using boost::system::error_code;
 using HttpRequest = beast::http::request<beast::http::string_body>;
 
-// Bytes taken from the socket at a time.
+// Bytes read from the socket at a time.
 constexpr std::size_t kReadSize = 16u << 10;
-// How long a client may take to receive what waits for it before it is cut off after all.
+// Time limit for a client to receive pending messages before the connection is closed.
 constexpr std::chrono::seconds kFarewell{2};
 
 // A close frame's payload is at most 125 bytes, two of them the code.
@@ -59,7 +59,7 @@ class WebSocketSession final : public Client,
           response.set(beast::http::field::sec_websocket_protocol, name);
         }));
     stream_.auto_fragment(false);
-    stream_.read_message_max(0);  // OnRead() limits it, with a sentence
+    stream_.read_message_max(0);  // OnRead() limits it, and sends a sentence
     stream_.async_accept(request_, [self = shared_from_this()](error_code error) {
       if (!error) self->OnAccepted();
     });
@@ -140,7 +140,7 @@ class WebSocketSession final : public Client,
     } else if (stream_.is_message_done()) {
       TakeMessage();
     }
-    Read();  // also while closing: the client's answer must be read
+    Read();  // also while closing: the client's close frame must be read
   }
 
   void TakeMessage() {
@@ -152,14 +152,14 @@ class WebSocketSession final : public Client,
     buffer_.clear();
   }
 
-  // The sentence goes out twice: whole as a status message, and as the reason, which is short.
+  // Sends the sentence twice: complete as a status message, and as the short reason.
   void Refuse(CloseCode code, const std::string& sentence) {
     buffer_.clear();
     SendStatus(foxglove::StatusLevel::kError, sentence);
     BeginClose(code, sentence);
   }
 
-  // Any thread: sees to it that the queue is written out. At most one post is under way.
+  // Any thread: starts writing the queue. At most one post is pending.
   void Wake() {
     if (is_woken_.exchange(true)) return;
     boost::asio::post(stream_.get_executor(), [self = shared_from_this()] {
@@ -171,7 +171,7 @@ class WebSocketSession final : public Client,
   void WriteNext() {
     if (!is_open_ || is_writing_) return;
     std::optional<Outgoing> message = queue_.Pop();
-    // What is not control is of no use to somebody who leaves.
+    // A client that is leaving gets only control messages.
     while (close_reason_ && message && message->is_data) message = queue_.Pop();
     if (message) return Write(std::move(*message));
     if (close_reason_) SendCloseFrame();
@@ -215,7 +215,7 @@ class WebSocketSession final : public Client,
     expiry_.cancel();
     if (std::exchange(has_left_, true)) return;
     if (is_counted_) --context_->traffic->viewers;
-    stream_.next_layer().tcp().close();  // a write that hangs ends, too
+    stream_.next_layer().tcp().close();  // also ends a blocked write
     hub_->Remove(this);
   }
 
@@ -235,7 +235,7 @@ class WebSocketSession final : public Client,
   bool is_open_ = false;  // accepted, and no close frame was sent
   bool is_writing_ = false;
   bool has_left_ = false;
-  bool is_counted_ = false;  // among the viewers
+  bool is_counted_ = false;  // it counts as a viewer
 };
 
 }  // namespace

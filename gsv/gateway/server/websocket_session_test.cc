@@ -55,7 +55,7 @@ TEST_F(ServerTest, ClosesWithASentenceOnNonsense) {
   EXPECT_EQ(binary.close_code(), 1008);
 }
 
-TEST_F(ServerTest, PublishingIsRefusedAndTheConnectionGoesOn) {
+TEST_F(ServerTest, PublishingIsRefusedAndTheConnectionStays) {
   Start();
   Viewer publisher(port());
   publisher.SendBinary("\x01xxxx");
@@ -100,19 +100,19 @@ TEST_F(ServerTest, AFrameThatLiesAboutItsLengthEndsItsOwnConnectionOnly) {
   EXPECT_EQ(other.ReceiveText("serverInfo")["name"], "echo");
 }
 
-TEST_F(ServerTest, AReaderThatStallsLosesTheOldestAndCostsNobodyElse) {
+TEST_F(ServerTest, AStalledReaderLosesTheOldestDataAndDelaysNobodyElse) {
   ServerOptions options;
   options.limits.send.data_messages = 4;
-  options.limits.idle_time = std::chrono::minutes(10);  // who reads nothing reads no pings
+  options.limits.idle_time = std::chrono::minutes(10);  // it reads nothing, so it misses pings
   Start(options);
   Viewer stalled(port()), healthy(port());
   stalled.Subscribe(1, "/numbers");
   healthy.Subscribe(1, "/numbers");
-  // More than the system's socket buffers hold.
+  // More than the system's socket buffers can hold.
   constexpr std::uint64_t kMessages = 400;
   const std::string ballast(64 << 10, 'x');
   for (std::uint64_t i = 0; i < kMessages; ++i) {
-    // Before the first message both must be subscribed.
+    // Both must be subscribed before the first message.
     if (i == 0) {
       healthy.SendText(R"({"op":"unsubscribe","subscriptionIds":[77]})");
       stalled.SendText(R"({"op":"unsubscribe","subscriptionIds":[77]})");
@@ -131,12 +131,12 @@ TEST_F(ServerTest, AReaderThatStallsLosesTheOldestAndCostsNobodyElse) {
   EXPECT_LT(seen.size(), kMessages);
 }
 
-TEST_F(ServerTest, AStalledReaderAmongFiftyTakesNothingFromTheOthers) {
+TEST_F(ServerTest, AStalledReaderAmongFiftyDoesNotDelayTheOthers) {
   ServerOptions options;
   options.limits.send.data_messages = 4;
-  options.limits.idle_time = std::chrono::minutes(10);  // it reads no pings either
+  options.limits.idle_time = std::chrono::minutes(10);  // it does not read pings either
   Start(options);
-  // It subscribes, and reads no more.
+  // It subscribes, and does not read any more.
   Viewer stalled(port());
   stalled.Subscribe(1, "/numbers");
   std::vector<std::unique_ptr<Viewer>> others;
@@ -144,7 +144,7 @@ TEST_F(ServerTest, AStalledReaderAmongFiftyTakesNothingFromTheOthers) {
     others.push_back(std::make_unique<Viewer>(port()));
     others.back()->Subscribe(1, "/numbers");
     others.back()->SendText(R"({"op":"unsubscribe","subscriptionIds":[77]})");
-    others.back()->ReceiveText("status");  // what was sent before has been taken, too
+    others.back()->ReceiveText("status");  // earlier messages were sent, too
   }
   constexpr std::uint64_t kMessages = 60;
   const SharedBytes ballast(std::string(256 << 10, 'x'));
@@ -160,7 +160,7 @@ TEST_F(ServerTest, AStalledReaderAmongFiftyTakesNothingFromTheOthers) {
   EXPECT_LT(seen.size(), kMessages);
 }
 
-TEST_F(ServerTest, AReaderThatTakesNoControlTextsIsCutOff) {
+TEST_F(ServerTest, AReaderThatReadsNoControlTextsIsDisconnected) {
   ServerOptions options;
   options.limits.send.control_bytes = 1 << 20;
   Start(options);
@@ -172,16 +172,16 @@ TEST_F(ServerTest, AReaderThatTakesNoControlTextsIsCutOff) {
   EXPECT_EQ(Fetch(port(), "GET", "/still").body, "GET /still ");
 }
 
-TEST_F(ServerTest, AViewerThatAnswersNoPingIsGone) {
+TEST_F(ServerTest, AViewerThatAnswersNoPingIsDisconnected) {
   ServerOptions options;
   options.limits.idle_time = std::chrono::milliseconds(100);
   Start(options);
-  Viewer silent(port());  // reads nothing, so it answers no ping
+  Viewer silent(port());  // reads nothing, so that it does not answer pings
   echo_.WaitUntil([&] { return echo_.hub().has_clients(); });
   echo_.WaitUntil([&] { return !echo_.hub().has_clients(); });
 }
 
-TEST_F(ServerTest, StopSaysGoodbye) {
+TEST_F(ServerTest, StopClosesConnectionsInOrder) {
   Start();
   Viewer viewer(port());
   HttpConnection idle(port());

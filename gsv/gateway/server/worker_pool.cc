@@ -42,7 +42,7 @@ void WorkerPool::Work() {
     jobs_.pop_front();
     lock.unlock();
     job();
-    job = nullptr;  // what it holds ends before the lock is taken
+    job = nullptr;  // destroys what it holds before locking
     lock.lock();
   }
 }

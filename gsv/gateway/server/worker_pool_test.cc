@@ -26,7 +26,7 @@ TEST(WorkerPool, RefusesJobsBeyondItsLimit) {
   EXPECT_TRUE(pool.Submit([] {}));
 }
 
-TEST(WorkerPool, StopWaitsForWhatRunsAndDropsTheRest) {
+TEST(WorkerPool, StopWaitsForRunningJobsAndDropsTheRest) {
   std::atomic<int> done{0};
   std::promise<void> begun;
   std::promise<void> release;
@@ -39,7 +39,7 @@ TEST(WorkerPool, StopWaitsForWhatRunsAndDropsTheRest) {
   begun.get_future().wait();
   ASSERT_TRUE(pool.Submit([&] { done += 100; }));
   std::thread stopper([&] { pool.Stop(); });
-  // Once the queue was dropped nothing is accepted any more.
+  // Once the queue was dropped, no job is accepted.
   while (pool.Submit([&] { done += 100; })) std::this_thread::yield();
   release.set_value();
   stopper.join();

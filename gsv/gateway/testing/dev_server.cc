@@ -1,5 +1,5 @@
-// gateway_dev_server: the gateway with a scripted simulation behind it, to develop and test viewers
-// against. Prints its address, serves until it is interrupted or its standard input ends.
+// gateway_dev_server: the gateway with a scripted simulation, for developing and testing viewers.
+// Prints its address, and serves until it is interrupted or its standard input ends.
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -21,7 +21,7 @@ using gsv::gateway::testing::SimulationList;
 
 constexpr std::int64_t kStepsBetweenMeetings = 50;
 
-// Time passes while the simulation runs, and twice a second two meet.
+// While the simulation runs, time passes, and two robots meet twice per second.
 void Drive(const std::shared_ptr<ScriptedSimulation>& simulation, std::stop_token stop) {
   const auto step = std::chrono::milliseconds(10);
   auto next = std::chrono::steady_clock::now();

@@ -171,7 +171,7 @@ void ScriptedSimulation::SetDriveState(const std::string& robot, const world::Dr
   PublishSnapshot();
 }
 
-// Of all that happens observers are told only of this.
+// Observers get only this event.
 void ScriptedSimulation::Meet(const std::string& first, const std::string& second) {
   Advance(specification_.world->max_step_size);
   const std::lock_guard lock(mutex_);
@@ -350,7 +350,7 @@ Phase ScriptedSimulation::WaitForPhase(const std::vector<Phase>& phases,
 std::shared_ptr<simulation::Agent> ScriptedSimulation::agent(const std::string& robot) const {
   const std::lock_guard lock(mutex_);
   const int body = layout_->Find(robot);
-  // One agent for all: what it is told shows in avatar_command().
+  // All robots share one agent; avatar_command() returns its commands.
   return body >= 0 && layout_->bodies[body].is_robot() ? avatar_ : nullptr;
 }
 

@@ -41,7 +41,7 @@ HttpConnection::HttpConnection(std::uint16_t port) : impl_(std::make_unique<Impl
 HttpConnection::~HttpConnection() = default;
 
 void HttpConnection::Send(const std::string& bytes) {
-  error_code ignored;  // the server may hang up in the middle: its answer says why
+  error_code ignored;  // the server may close the connection meanwhile: its answer has the reason
   asio::write(impl_->socket, asio::buffer(bytes), ignored);
 }
 
@@ -129,7 +129,7 @@ void Viewer::SendBinary(const std::string& bytes) {
 }
 
 void Viewer::SendRaw(const std::string& bytes) {
-  error_code ignored;  // the server may hang up in the middle
+  error_code ignored;  // the server may close the connection meanwhile
   asio::write(impl_->stream.next_layer(), asio::buffer(bytes), ignored);
 }
 

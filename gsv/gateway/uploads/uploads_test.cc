@@ -19,7 +19,7 @@ std::string ContentOf(const fs::path& file) {
   return text.str();
 }
 
-TEST(UploadFolder, KeepsFilesAsTheyLayAndTakesThemAwayAtItsEnd) {
+TEST(UploadFolder, KeepsRelativePathsAndRemovesFilesAtItsEnd) {
   fs::path world;
   {
     UploadFolder folder;
@@ -34,7 +34,7 @@ TEST(UploadFolder, KeepsFilesAsTheyLayAndTakesThemAwayAtItsEnd) {
   EXPECT_FALSE(fs::exists(world));
 }
 
-TEST(UploadFolder, NoNameLeadsOutOfIt) {
+TEST(UploadFolder, NoNameLeavesTheFolder) {
   UploadFolder folder;
   const std::string set = folder.Begin().value();
   const std::vector<std::vector<std::string>> bad{{},
@@ -82,7 +82,7 @@ TEST_F(UploadsTest, TwoGigabytesAreRefusedBeforeTheyAreSent) {
   EXPECT_NE(answer->body.find("67108864 bytes"), std::string::npos);
 }
 
-TEST_F(UploadsTest, AMegabyteIsTakenHereAndNowhereElse) {
+TEST_F(UploadsTest, AMegabyteIsAcceptedOnlyHere) {
   Start();
   const std::string megabyte(1 << 20, 'x');
   const auto taken = testing::Fetch(port(), "PUT", "/api/uploads/1/a.sdf", "", megabyte);
@@ -91,7 +91,7 @@ TEST_F(UploadsTest, AMegabyteIsTakenHereAndNowhereElse) {
   EXPECT_EQ(testing::Fetch(port(), "PUT", "/api/simulations", "", megabyte).status, 413);
 }
 
-TEST_F(UploadsTest, WhoMayNotActIsRefusedBeforeTheFileIsSent) {
+TEST_F(UploadsTest, AClientWithoutPermissionIsRefusedBeforeTheFileIsSent) {
   ServerOptions options;
   options.tokens.control = "a-token-that-nobody-guesses";
   Start(options);

@@ -12,7 +12,7 @@ using foxglove::ChannelId;
 
 namespace {
 
-// What a hostile server may make us hold.
+// Limit of what an untrusted server can make the relay store.
 constexpr std::size_t kMaxChannels = 10'000;
 
 }  // namespace

@@ -30,7 +30,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using WebSocket = websocket::stream<transport::ByteStream>;
 
-// A big picture, or the list of two thousand channels with their definitions.
+// A large image, or the list of two thousand channels with their definitions.
 constexpr std::size_t kMaxMessageBytes = 64u << 20;
 constexpr seconds kConnectTime{10};
 constexpr seconds kIdleTime{30};
@@ -44,8 +44,8 @@ foxglove::ServerInfo InfoOf(const Address& address, const std::string& simulatio
           std::to_string(std::chrono::duration_cast<std::chrono::microseconds>(now).count())};
 }
 
-// One attempt, from looking up the name to the end of the connection. What is under way keeps it
-// alive; whatever comes of an attempt that is not the present one is not heard.
+// One attempt to connect, from resolving the name to the end of the connection. Pending operations
+// keep it alive. The results of an attempt that is not the current one are ignored.
 struct Attempt {
   explicit Attempt(asio::io_context& io) : resolver(io), socket(io) {}
 
@@ -56,7 +56,7 @@ struct Attempt {
 
   tcp::resolver resolver;
   WebSocket socket;
-  websocket::response_type answer;  // to the handshake
+  websocket::response_type answer;  // the answer to the handshake
   beast::flat_buffer incoming;
   std::deque<std::string> outgoing;  // the front is being written
 };
@@ -89,7 +89,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
   }
 
  private:
-  // Any thread: somebody came, went, subscribed or unsubscribed.
+  // Any thread: a client came, left, subscribed or unsubscribed.
   void OnDemand() {
     if (is_called_.exchange(true)) return;
     asio::post(io_, [self = shared_from_this()] {
@@ -108,7 +108,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
     channels_->ServeNewSubscribers();
   }
 
-  // A handler that does nothing once its attempt is over.
+  // A handler that does nothing after the end of its attempt.
   template <typename Then>
   auto ForThis(Then then) {
     return [ self = shared_from_this(), attempt = attempt_, then ]<typename... Results>(
@@ -201,7 +201,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
   }
 
   void OnMessage() {
-    const AttemptPointer attempt = attempt_;  // what is taken may end it
+    const AttemptPointer attempt = attempt_;  // handling the message may end the attempt
     const auto data = attempt->incoming.cdata();
     const std::string_view bytes(static_cast<const char*>(data.data()), data.size());
     const base::Status taken = attempt->socket.got_text() ? TakeText(bytes) : TakeData(bytes);
@@ -286,7 +286,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
                                            : "the simulation '" + simulation_ + "' is gone");
   }
 
-  // kPausing: until the next attempt. kIdle: nobody watches.
+  // kPausing: until the next attempt. kIdle: no viewer.
   enum class State { kIdle, kConnecting, kOpen, kPausing };
 
   asio::io_context& io_;

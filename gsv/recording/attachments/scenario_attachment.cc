@@ -13,7 +13,7 @@ scenario::Place PlaceOf(const geometry::Pose& pose) {
   return {pose.position.x, pose.position.y, pose.position.z, geometry::Yaw(pose.orientation)};
 }
 
-// The shortest number that is the same time.
+// The shortest number for the same time.
 double ShortSeconds(std::chrono::nanoseconds time) {
   return static_cast<double>(time.count()) / 1e9;
 }
@@ -71,7 +71,7 @@ scenario::Scenario ScenarioOf(const Simulation& simulation) {
 std::vector<simulation::Edit> EditsBeforeStart(const Simulation& simulation) {
   if (simulation.status().phase != simulation::Phase::kCreated) return {};
   const model::WorldDescription& world = *simulation.specification().world;
-  std::set<std::string> of_scenario;  // robots, also those that were removed again
+  std::set<std::string> of_scenario;  // robots, including removed ones
   std::vector<simulation::Edit> edits;
   for (const simulation::Event& event : simulation.events(0)) {
     if (event.kind == "reset") edits.clear();

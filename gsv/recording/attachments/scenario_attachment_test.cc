@@ -12,7 +12,7 @@
 namespace gsv::recording {
 namespace {
 
-// A robot that stands at (1, -2), turned by a right angle, and an avatar.
+// A robot at (1, -2) with a yaw of 90 degrees, and an avatar.
 std::shared_ptr<simulation::Simulation> Room() {
   simulation::Specification specification = simulation::Lockstep(3s);
   specification.seed = 9;
@@ -26,7 +26,7 @@ std::shared_ptr<simulation::Simulation> Room() {
   return simulation;
 }
 
-TEST(ScenarioAttachment, TellsWhatASimulationWasMadeOf) {
+TEST(ScenarioAttachment, HasTheScenarioOfASimulation) {
   const auto simulation = Room();
   const scenario::Scenario scenario = ScenarioOf(*simulation);
   EXPECT_EQ(scenario.world, simulation->specification().world->name);
@@ -50,7 +50,7 @@ TEST(ScenarioAttachment, TellsWhatASimulationWasMadeOf) {
   EXPECT_EQ(scenario.avatars[0].name, "Ann");
 }
 
-// What the recording at `path` was told; it is removed.
+// Returns the attached scenario of the recording at `path`, and removes the file.
 std::string AttachedTo(const std::string& path) {
   const auto reader = McapReader::Open(path);
   EXPECT_TRUE(reader);
@@ -86,7 +86,7 @@ TEST(ScenarioAttachment, EachRecordingHasOneThatReadsBack) {
   EXPECT_EQ(*scenario, ScenarioOf(*simulation));
 }
 
-TEST(ScenarioAttachment, WhoKnowsBetterSaysSo) {
+TEST(ScenarioAttachment, IsTheScenarioOfTheOptionsIfGiven) {
   const std::string path = ::testing::TempDir() + "gsv_scenario_told.mcap";
   RecorderOptions options = Options();
   options.scenario = scenario::DefaultScenario();

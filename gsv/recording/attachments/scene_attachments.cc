@@ -10,7 +10,7 @@
 namespace gsv::recording {
 namespace {
 
-// All that a scene says of its sensors.
+// The names of all sensors in the scene.
 std::set<std::string> Names(const SensorLists& lists) {
   std::set<std::string> names;
   for (const auto& [robot, list] : lists) {

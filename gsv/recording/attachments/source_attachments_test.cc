@@ -26,7 +26,7 @@ class SourceAttachmentsTest : public testing::Test {
     return path.string();
   }
 
-  // Records a step of a world that was read from `world`, with robots read from these files.
+  // Records one step of a world that was read from `world`, with robots read from these files.
   std::map<std::string, std::string> Record(const std::string& world,
                                             const std::vector<std::string>& robots) const {
     simulation::Specification specification = simulation::Lockstep(10ms);

@@ -1,5 +1,5 @@
-// Any bytes as a recording: refused, or read as far as they make sense, and recovered into a
-// recording without a fault.
+// Any bytes as a recording. They are refused, or read as far as they are valid, and recovered into
+// a recording without errors.
 #include <cstdint>
 
 #include "gsv/base/check.h"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kMaxMessages = 100'000;
 
-// By time, from the middle on and from the beginning: each message is of a channel that is there.
+// By time, from the middle and from the beginning: the channel of each message exists.
 std::uint64_t CountInOrder(const McapReader& reader, base::SimTime from) {
   MessageCursor cursor = reader.Messages(from);
   base::SimTime last = base::SimTime::min();

@@ -7,8 +7,8 @@
 namespace gsv::recording {
 namespace {
 
-// The summary section as it will stand at `start`: groups of records of one kind, then where each
-// group is.
+// The summary section at offset `start`: groups of records of one kind, then the offset of each
+// group.
 class SummaryBuilder {
  public:
   explicit SummaryBuilder(std::uint64_t start) : start_(start) {}
@@ -26,7 +26,7 @@ class SummaryBuilder {
     PutBytes(bytes_, records);
   }
 
-  // The section, the footer whose checksum covers it, and the final magic.
+  // The section, the footer with its checksum, and the final magic.
   Bytes Finish() {
     const std::uint64_t offset_start = start_ + bytes_.size();
     for (const SummaryOffsetRecord& offset : offsets_) Append(bytes_, offset);
@@ -154,7 +154,7 @@ base::Status McapFileWriter::Close() {
     WriteEnd();
     if (status_) status_ = sink_.Sync();
   } else if (ends_in_a_record_ && position_ > 0) {
-    // What the failed record had taken up may be enough for the summary. The reason stays.
+    // The space that the failed record had used may suffice for the summary. The reason stays.
     base::Status reason = std::exchange(status_, base::Status{});
     WriteEnd();
     status_ = std::move(reason);

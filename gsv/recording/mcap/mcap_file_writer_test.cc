@@ -13,7 +13,7 @@ using testing::ElementsAre;
 using testing::ElementsAreArray;
 using testing::HasSubstr;
 
-// A disk with room for so many bytes.
+// A disk with space for this number of bytes.
 class SmallDisk : public ByteSink {
  public:
   SmallDisk(Bytes& out, std::size_t room) : out_(out), room_(room) {}
@@ -73,7 +73,7 @@ TEST(McapFileWriter, ClosesAChunkWhenItIsLargeEnough) {
   ASSERT_TRUE(writer.AddSchema(SchemaOfClock()));
   ASSERT_TRUE(writer.AddChannel(ChannelOf(0, "/clock")));
   const Bytes data = ClockMessage(0ms);
-  // A message's record is 9 + 22 + 12 bytes: three of them pass 100.
+  // A message's record has 9 + 22 + 12 bytes: three of them exceed 100.
   for (int i = 0; i < 7; ++i) ASSERT_TRUE(writer.Write({0, 0, 0ms, 0ms, data}));
   ASSERT_TRUE(writer.Close());
   const auto reader = Open(bytes);
@@ -82,8 +82,8 @@ TEST(McapFileWriter, ClosesAChunkWhenItIsLargeEnough) {
   EXPECT_EQ((*reader)->summary().message_count, 7U);
 }
 
-// Whatever the disk has room for, the first error is told and stays, and all chunks that were
-// whole by then can be read.
+// For every size of the disk, the first error is reported and stays, and all chunks that were
+// complete by then can be read.
 TEST(McapFileWriter, KeepsWhatItHasWrittenWhenTheDiskIsFull) {
   const std::size_t needed = ThreeChunks().size();
   std::size_t read_with_a_summary = 0;

@@ -22,7 +22,7 @@ std::string AllProblems(const Summary& summary) {
   return text;
 }
 
-// The head of a file, a schema and the channel 0, for files that our writer does not write.
+// The head of a file, a schema and the channel 0, for files unlike those of our writer.
 Bytes HeadOfForeignFile() {
   Bytes bytes(kMagic.begin(), kMagic.end());
   Append(bytes, HeaderRecord{"", "foreign"});
@@ -31,7 +31,7 @@ Bytes HeadOfForeignFile() {
   return bytes;
 }
 
-TEST(McapReader, TellsWhatARecordingHolds) {
+TEST(McapReader, ReadsTheContentOfARecording) {
   const Bytes bytes = ThreeChunks();
   const auto reader = Open(bytes);
   ASSERT_TRUE(reader) << reader.error().Sentence();
@@ -124,7 +124,7 @@ TEST(McapReader, FindsTheSameWithoutTheSummary) {
   EXPECT_EQ(a.metadata[0].offset, b.metadata[0].offset);
 }
 
-TEST(McapReader, ReadsMessagesThatStandOutsideOfChunks) {
+TEST(McapReader, ReadsMessagesOutsideOfChunks) {
   Bytes bytes = HeadOfForeignFile();
   for (const auto time : {30ms, 10ms, 20ms}) Append(bytes, MessageRecord{0, 0, time, time, {}});
   Append(bytes, DataEndRecord{});
@@ -149,7 +149,7 @@ TEST(McapReader, ReadsChunksWithoutCompressionThatDefineTheirChannels) {
   EXPECT_THAT(TimesIn(**reader).times, ElementsAre(10ms));
 }
 
-TEST(McapReader, SaysWhichCompressionItCannotRead) {
+TEST(McapReader, ReportsAnUnknownCompression) {
   Bytes bytes = HeadOfForeignFile();
   Append(bytes, ChunkRecord{0ms, 0ms, 10, 0, "lz4", AsBytes("whatever")});
   const auto reader = Open(bytes);
@@ -157,7 +157,7 @@ TEST(McapReader, SaysWhichCompressionItCannotRead) {
   EXPECT_THAT(AllProblems((*reader)->summary()), HasSubstr("found 'lz4'"));
 }
 
-TEST(McapReader, RefusesWhatIsNoRecording) {
+TEST(McapReader, RefusesFilesThatAreNotRecordings) {
   for (const std::string_view text : {"", "\x89MCAP", "<sdf version='1.9'/>"}) {
     const auto reader = Open(AsBytes(text));
     ASSERT_FALSE(reader) << text;
@@ -176,7 +176,7 @@ TEST(McapReader, AllocatesNoMoreThanItsLimitsForAChunkThatUnpacksHuge) {
   ASSERT_LT(packed.size(), zeros.size() / 1000);
   Bytes bytes = HeadOfForeignFile();
   Append(bytes, ChunkRecord{0ms, 0ms, zeros.size(), 0, "zstd", packed});
-  // One that says it is small.
+  // A chunk that declares a small size.
   Append(bytes, ChunkRecord{0ms, 0ms, 100, 0, "zstd", packed});
   const auto reader = Open(bytes, {.record_size = 1 << 20});
   ASSERT_TRUE(reader);
@@ -210,7 +210,7 @@ TEST(McapReader, StopsWhereAFileIsFilledWithZeros) {
   EXPECT_THAT(AllProblems((*reader)->summary()), HasSubstr("holds no records from here on"));
 }
 
-TEST(McapReader, GoesOnBehindADamagedChunk) {
+TEST(McapReader, ContinuesAfterADamagedChunk) {
   Bytes bytes = ThreeChunks();
   const std::vector<Place> places = PlacesIn(bytes);
   ASSERT_EQ(places[9].opcode, Opcode::kChunk);
@@ -223,7 +223,7 @@ TEST(McapReader, GoesOnBehindADamagedChunk) {
   EXPECT_THAT(found.times, SizeIs(20));
 }
 
-// Any single bit may be wrong: the messages that are read are then some of those written.
+// If any single bit is wrong, all messages that can be read are among the written ones.
 TEST(McapReader, SurvivesAnyFlippedBit) {
   Bytes bytes = ThreeChunks();
   for (std::size_t bit = 0; bit < bytes.size() * 8; ++bit) {

@@ -5,7 +5,7 @@
 namespace gsv::recording {
 namespace {
 
-// Writes the frame of a record around what is appended while it lives.
+// Writes the frame of a record around the data that is appended during its lifetime.
 class RecordFrame {
  public:
   RecordFrame(Bytes& out, Opcode opcode) : out_(out) {
@@ -19,7 +19,7 @@ class RecordFrame {
 
   std::size_t content() const { return content_; }
 
-  // Stores how many bytes follow `start` in the Length right before it.
+  // Stores the number of bytes after `start` in the Length before it.
   template <typename Length>
   static void PatchLength(Bytes& out, std::size_t start) {
     const auto length = static_cast<Length>(out.size() - start);
@@ -215,7 +215,7 @@ void Append(Bytes& out, const DataEndRecord& record) {
   Put(out, record.data_crc);
 }
 
-// In the braces of an initialiser list, reads happen in the order in which they are written.
+// In a braced initialiser list, reads occur in the order in which they are written.
 
 template <>
 std::optional<HeaderRecord> Parse(std::span<const std::byte> content) {

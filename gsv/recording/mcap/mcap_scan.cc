@@ -1,5 +1,5 @@
-// Finds what a recording holds without its summary: reads record by record, as far as they make
-// sense.
+// Finds the content of a recording without its summary: reads record by record, as far as they are
+// valid.
 #include <algorithm>
 #include <set>
 
@@ -8,13 +8,13 @@
 namespace gsv::recording {
 namespace {
 
-// Messages outside of chunks are taken together in blocks of about this size.
+// Messages outside of chunks are grouped in blocks of about this size.
 constexpr std::uint64_t kLooseBlockSize = std::uint64_t{4} << 20;
-// Enough of an attachment to hold its name and media type.
+// Enough bytes of an attachment for its name and media type.
 constexpr std::uint64_t kAttachmentHeadSize = std::uint64_t{64} << 10;
 constexpr std::size_t kMaxProblems = 100;
 
-// A part of the file kept in memory, so that small records are not read one by one.
+// A part of the file in memory, so that small records need no separate reads.
 class Window {
  public:
   explicit Window(const ByteSource& source) : source_(source) {}
@@ -96,7 +96,7 @@ class Scanner {
     }
   }
 
-  // Empty, which is no valid record of any kind, if it is too large.
+  // Empty, which is invalid for every kind of record, if it is too large.
   std::span<const std::byte> Content() {
     const std::uint64_t length = length_ - kRecordHeaderSize;
     if (length > limits_.record_size) return {};

@@ -7,8 +7,8 @@
 namespace gsv::recording {
 namespace {
 
-// Reads the summary at the end of a file. Any damage makes all of it unusable: the reason is
-// returned, or nothing if all is well.
+// Reads the summary at the end of a file. Any damage makes it unusable. Returns the reason, or
+// nothing if it is valid.
 class SummaryReader {
  public:
   using Reason = std::optional<std::string>;
@@ -52,7 +52,7 @@ class SummaryReader {
     base::Result<Bytes> section = source_.Read(start_, section_end - start_);
     if (!section) return section.error().Sentence();
     section_ = std::move(*section);
-    // The checksum goes as far as itself.
+    // The checksum covers the bytes before it.
     const auto footer_head = std::span(*end).first(kFooterSize - sizeof(std::uint32_t));
     if (footer->summary_crc != 0 && footer->summary_crc != Crc32(footer_head, Crc32(section_))) {
       return "its summary's checksum is wrong";
@@ -123,7 +123,7 @@ class SummaryReader {
     if (summary_.message_count > 0 && blocks.empty()) return "its summary has no chunks";
     std::sort(blocks.begin(), blocks.end(),
               [](const MessageBlock& a, const MessageBlock& b) { return a.offset < b.offset; });
-    // Chunks that lay over each other could be many times larger than the file.
+    // Overlapping chunks could be many times larger than the file.
     std::uint64_t free_from = kMagic.size();
     for (const MessageBlock& block : blocks) {
       if (block.offset < free_from || block.offset > start_ ||

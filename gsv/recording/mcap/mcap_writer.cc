@@ -11,10 +11,10 @@
 namespace gsv::recording {
 namespace {
 
-// The writer's thread is woken when so much waits for it, not for each message.
+// The writer's thread is woken when this much is queued, not for each message.
 constexpr std::size_t kWorthWaking = std::size_t{256} << 10;
 
-// Takes apart what Append() put together.
+// Separates the records that Append() has joined.
 void WriteBatch(McapFileWriter& file, std::span<const std::byte> batch) {
   while (const std::optional<RawRecord> record = TakeRecord(batch)) {
     switch (record->opcode) {
@@ -103,7 +103,7 @@ void McapWriter::Write(ChannelId channel, base::SimTime log_time, std::span<cons
   base::MutexLock lock(mutex_);
   GSV_CHECK(channel < sequences_.size());
   if (queued() >= options_.queue_size && options_.when_full == WhenFull::kDrop) {
-    ++sequences_[channel];  // so that the gap shows
+    ++sequences_[channel];  // the gap in the sequence is then visible
     ++progress_.dropped;
     return;
   }

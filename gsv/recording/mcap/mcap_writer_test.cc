@@ -19,7 +19,7 @@ using messages::sensor_msgs::Range;
 using testing::AllOf;
 using testing::HasSubstr;
 
-// Writes to memory, once the test lets it, and tells when it was told to sync.
+// Writes to memory when the test allows it, and reports calls of Sync().
 class GatedSink : public ByteSink {
  public:
   GatedSink(Bytes& out, std::shared_future<void> open, std::promise<void>* synced = nullptr)
@@ -50,7 +50,7 @@ std::shared_future<void> Opened() {
   return promise.get_future().share();
 }
 
-TEST(McapWriter, RecordsWhatSeveralThreadsWrite) {
+TEST(McapWriter, RecordsTheMessagesOfSeveralThreads) {
   Bytes bytes;
   McapWriter writer(std::make_unique<GatedSink>(bytes, Opened()), {});
   std::vector<ChannelId> channels;
@@ -109,13 +109,13 @@ TEST(McapWriter, FlushesWithoutBeingClosed) {
   writer.FlushIfOlderThan(std::chrono::hours(1));  // not yet
   writer.FlushIfOlderThan(std::chrono::seconds(0));
   synced.get_future().wait();
-  const Bytes on_disk = bytes;  // the writer's thread waits for more to do
+  const Bytes on_disk = bytes;  // the writer's thread waits for more
   const auto reader = Open(on_disk);
   ASSERT_TRUE(reader);
   EXPECT_THAT(TimesIn(**reader).times, testing::ElementsAre(5ms));
 }
 
-TEST(McapWriter, DropsAndCountsWhatASlowDiskCannotTake) {
+TEST(McapWriter, DropsAndCountsMessagesIfTheDiskIsSlow) {
   Bytes bytes;
   std::promise<void> open;
   McapWriter writer(std::make_unique<GatedSink>(bytes, open.get_future().share()),
@@ -137,7 +137,7 @@ TEST(McapWriter, DropsAndCountsWhatASlowDiskCannotTake) {
   EXPECT_EQ(metadata->values.at("dropped_messages"), std::to_string(progress.dropped));
 }
 
-TEST(McapWriter, WaitsForASlowDiskIfSoAsked) {
+TEST(McapWriter, WaitsForASlowDiskIfConfigured) {
   Bytes bytes;
   std::promise<void> open;
   McapWriter writer(std::make_unique<GatedSink>(bytes, open.get_future().share()),
@@ -161,7 +161,7 @@ TEST(McapWriter, TopicsAloneCanFillTheQueueAndAreWritten) {
   for (int i = 0; i < 50; ++i) {
     channel = *writer.AddChannel("/topic" + std::to_string(i), SchemaOf<Clock>());
   }
-  writer.Write(channel, 0ms, ClockMessage(0ms));  // waits for room
+  writer.Write(channel, 0ms, ClockMessage(0ms));  // waits for space
   ASSERT_TRUE(writer.Close());
   EXPECT_EQ(Open(bytes).value()->summary().channels.size(), 50U);
   EXPECT_EQ(Open(bytes).value()->summary().message_count, 1U);
@@ -179,7 +179,7 @@ TEST(McapWriter, EndsTheRecordingIfTheDiskHangs) {
   EXPECT_FALSE(writer.Close());
 }
 
-TEST(McapWriter, AFullDiskEndsTheRecordingAndTellsWhy) {
+TEST(McapWriter, AFullDiskEndsTheRecordingWithAnError) {
   auto writer = McapWriter::Create("/dev/full");
   ASSERT_TRUE(writer) << writer.error().Sentence();
   const ChannelId channel = *(*writer)->AddChannel("/clock", SchemaOf<Clock>());
@@ -191,7 +191,7 @@ TEST(McapWriter, AFullDiskEndsTheRecordingAndTellsWhy) {
             "/dev/full: cannot write the recording: No space left on device; free some space and "
             "start another recording");
   EXPECT_TRUE((*writer)->failed());
-  const std::uint64_t accepted = (*writer)->progress().messages;  // 0 or 1: as fast as it failed
+  const std::uint64_t accepted = (*writer)->progress().messages;  // 0 or 1
   (*writer)->Write(channel, 1ms, ClockMessage(1ms));              // discarded
   EXPECT_EQ((*writer)->progress().messages, accepted);
 }
@@ -207,7 +207,7 @@ TEST(McapWriter, NeverReplacesARecordingUnasked) {
   EXPECT_TRUE(McapWriter::Create(path, {.replace = true}));
 }
 
-TEST(McapWriter, SaysWhereItCannotCreateAFile) {
+TEST(McapWriter, ReportsAFileThatItCannotCreate) {
   const auto writer = McapWriter::Create("/nonexistent/run.mcap");
   ASSERT_FALSE(writer);
   EXPECT_EQ(writer.error().Sentence(),

@@ -36,7 +36,7 @@ std::string Text(const ordered_json& json) {
   return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-// The first place where two values differ, depth first.
+// Finds the first difference between two values, depth first.
 bool FindDifference(const ordered_json& a, const ordered_json& b, const std::string& path,
                     Difference& found) {
   if (a == b) return false;
@@ -53,8 +53,8 @@ bool FindDifference(const ordered_json& a, const ordered_json& b, const std::str
   return true;
 }
 
-// All messages of one instant that count, by (topic, number). Where some are missing they are
-// numbered from 0 at each instant.
+// All compared messages of one instant, by (topic, number). If some are missing, they are numbered
+// from 0 at each instant.
 class InstantReader {
  public:
   InstantReader(const McapReader& reader, const Selection& selection, Gaps gaps)
@@ -90,7 +90,7 @@ class InstantReader {
     return base::Fail(base::ErrorCode::kNotFound, "there is no such topic", topic);
   }
 
-  // Leaves out topics of which the other has not as many.
+  // Removes topics of which the other has a different number of messages.
   void KeepCommon(InstantReader& other) {
     std::map<std::string, std::int64_t> more;
     for (const auto& [key, data] : messages) ++more[key.first];
@@ -145,7 +145,7 @@ base::Result<Difference> Compare(const InstantReader& first, const InstantReader
   const auto decoded_b = second.Decode(topic, b);
   if (!decoded_b) return base::Fail(decoded_b.error());
   if (!FindDifference(*decoded_a, *decoded_b, "", difference)) {
-    // What decoding leaves out: pictures, padding.
+    // Decoding leaves out images and padding.
     difference.field = "bytes";
     difference.in_first = fmt::format("{} bytes", a.size());
     difference.in_second = fmt::format("{} others", b.size());

@@ -12,7 +12,7 @@
 namespace gsv::recording {
 namespace {
 
-// Two topics of ten clocks each, 10 ms apart; the fifth message of /b can be another.
+// Two topics of ten clocks each, 10 ms apart; the fifth message of /b may differ.
 Bytes TwoTopics(base::SimTime fifth, bool is_reproducible = true) {
   Bytes bytes;
   MemorySink sink(bytes);
@@ -52,15 +52,15 @@ TEST(FirstDifference, NamesTimeTopicAndField) {
             "0.050000 s, /b, clock.nanosec: 50000000 in the first, 51000000 in the second");
 }
 
-TEST(FirstDifference, IsNotInWhatTellsOfTheWallClock) {
+TEST(FirstDifference, IgnoresMessagesThatDependOnTheWallClock) {
   EXPECT_FALSE(DifferenceOf(TwoTopics(50ms, false), TwoTopics(51ms, false)));
 }
 
-TEST(FirstDifference, OfARecordingAndItselfThereIsNone) {
+TEST(FirstDifference, IsNoneBetweenARecordingAndItself) {
   EXPECT_FALSE(DifferenceOf(ThreeChunks(), ThreeChunks()));
 }
 
-TEST(FirstDifference, AMessageThatIsMissingIsOne) {
+TEST(FirstDifference, IsAMissingMessage) {
   const Bytes whole = TwoTopics(50ms);
   Bytes part;
   MemorySink sink(part);
@@ -74,7 +74,7 @@ TEST(FirstDifference, AMessageThatIsMissingIsOne) {
   EXPECT_EQ(difference->in_second, "missing");
 }
 
-// Each tenth of a second but the ones left out; what is recorded at `other` differs.
+// Every tenth of a second except those in `left_out`; the message at `other` differs.
 Bytes ClocksWithout(const std::set<base::SimTime>& left_out, base::SimTime other = -1ms) {
   Bytes bytes;
   MemorySink sink(bytes);
@@ -91,7 +91,7 @@ Bytes ClocksWithout(const std::set<base::SimTime>& left_out, base::SimTime other
   return bytes;
 }
 
-TEST(FirstDifference, OfARecordingWithGapsIsInWhatItHolds) {
+TEST(FirstDifference, IgnoresGapsInARecording) {
   const auto difference = [](const Bytes& a, const Bytes& b) {
     const auto first = Open(a), second = Open(b);
     return FirstDifference(**first, **second, {}, Gaps::kInFirst).value();
@@ -120,7 +120,7 @@ TEST(DecodedMessages, AreThoseOfTheSelection) {
   EXPECT_EQ(nanoseconds, (std::vector<std::int64_t>{30'000'000, 40'000'000, 50'000'000}));
 }
 
-TEST(DecodedMessages, ATopicThatIsNotThereIsAnError) {
+TEST(DecodedMessages, AMissingTopicIsAnError) {
   const Bytes bytes = ThreeChunks();
   const auto reader = Open(bytes);
   const auto messages = DecodedMessages::Open(**reader, {{"/nowhere"}});
@@ -139,7 +139,7 @@ TEST(ToCsv, HasARowForEachMessageAndAColumnForEachValue) {
             "0.010000000,0,10000000\r\n");
 }
 
-// A range too near, one of nothing, and one that is no number.
+// A range that is too near, one without an echo, and NaN.
 Bytes Infinities() {
   const messages::Schema& schema = messages::SchemaOf<messages::sensor_msgs::LaserScan>();
   Bytes bytes, scan;
@@ -156,14 +156,14 @@ Bytes Infinities() {
   return bytes;
 }
 
-TEST(ToCsv, TellsNumbersThatAreNotFiniteApart) {
+TEST(ToCsv, DistinguishesNonFiniteNumbers) {
   const Bytes bytes = Infinities();
   const auto csv = ToCsv(**Open(bytes), {{"/scan"}});
   ASSERT_TRUE(csv);
   EXPECT_TRUE(csv->ends_with(",-inf,inf,nan,1.5\r\n")) << *csv;
 }
 
-TEST(DecodedMessages, BecomeJsonInWhichInfinitiesAreTexts) {
+TEST(DecodedMessages, BecomeJsonWithInfinitiesAsTexts) {
   const Bytes bytes = Infinities();
   const auto reader = Open(bytes);
   auto messages = DecodedMessages::Open(**reader, {{"/scan"}});

@@ -59,7 +59,7 @@ class LastingSearch {
     for (const MessageBlock& block : reader_.summary().blocks) {
       if (block.start < time_ && MayHoldOne(block)) Look(block);
     }
-    // By place in the file, whatever the key.
+    // By place in the file, for all keys.
     std::vector<std::pair<std::uint64_t, LastingMessage>> found;
     for (auto& [key, each] : newest_) found.emplace_back(each.place, std::move(each.message));
     std::sort(found.begin(), found.end(),

@@ -34,7 +34,7 @@ Bytes CommandTo(const std::string& robot, double linear) {
   return Encoded(command);
 }
 
-// Messages of many kinds, of which those after 100 ms repeat.
+// Messages of many kinds; those after 100 ms are repeated.
 class RecordingOfAllKinds {
  public:
   RecordingOfAllKinds() : sink_(bytes_), writer_(sink_, {}) {
@@ -75,7 +75,7 @@ class RecordingOfAllKinds {
   std::map<std::uint16_t, std::uint32_t> sequences_;
 };
 
-TEST(LastingMessages, AreKnownByTopicsThatThereAre) {
+TEST(LastingMessages, TheirTopicsExist) {
   for (const char* topic : {"/gsv/commands", "/gsv/actuators", "/gsv/edits", "/tf_static"}) {
     EXPECT_NE(presentation::FindTopic(topic), nullptr) << topic;
   }

@@ -15,7 +15,7 @@ class Search {
     for (const MessageBlock& block : reader_.summary().blocks) {
       if (block.start <= time_) blocks.push_back(&block);
     }
-    // What ends last may hold the newest.
+    // The block that ends last may have the newest message.
     std::stable_sort(blocks.begin(), blocks.end(),
                      [](const MessageBlock* a, const MessageBlock* b) { return a->end > b->end; });
     for (const MessageBlock* block : blocks) {

@@ -32,7 +32,7 @@ TEST(NewestMessages, ThereAreNoneBeforeTheStart) {
   EXPECT_TRUE(TimesAt(*Open(bytes).value(), base::SimTime(-1)).empty());
 }
 
-// One early message on a channel of its own, then a hundred chunks of another.
+// One early message on its own channel, then a hundred chunks of another channel.
 Bytes OneEarly() {
   Bytes bytes;
   MemorySink sink(bytes);
@@ -50,14 +50,14 @@ Bytes OneEarly() {
   return bytes;
 }
 
-TEST(NewestMessages, OfAQuietChannelLiesFarBack) {
+TEST(NewestMessages, OfAQuietChannelIsFarBack) {
   const Bytes bytes = OneEarly();
   EXPECT_EQ(TimesAt(*Open(bytes).value(), 1000ms), (Times{{0, 1000ms}, {1, 5ms}}));
 }
 
 TEST(NewestMessages, BlocksThatCannotHoldThemAreNotRead) {
   Bytes bytes = OneEarly();
-  // Damage the fiftieth chunk: whoever reads it complains.
+  // Damages the fiftieth chunk, so that reading it fails.
   int chunks = 0;
   for (const Place& place : PlacesIn(bytes)) {
     if (place.opcode == Opcode::kChunk && ++chunks == 50) bytes[place.end - 1] ^= std::byte{1};
@@ -67,7 +67,7 @@ TEST(NewestMessages, BlocksThatCannotHoldThemAreNotRead) {
   EXPECT_EQ(newest.by_channel.size(), 2u);
   EXPECT_TRUE(newest.problems.empty());
   EXPECT_EQ(FindNewestMessages(*reader, 500ms).problems.size(), 1u);
-  EXPECT_EQ(TimesAt(*reader, 500ms), (Times{{0, 490ms}, {1, 5ms}}));  // what is left of it
+  EXPECT_EQ(TimesAt(*reader, 500ms), (Times{{0, 490ms}, {1, 5ms}}));  // the rest of it
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A loss of power, at two hundred moments, of a disk that writes its cache back in any order.
+// Power failures at two hundred moments, on a disk that writes its cache back in any order.
 #include <algorithm>
 #include <random>
 
@@ -12,8 +12,7 @@ namespace {
 
 constexpr std::size_t kSector = 512;
 
-// A disk with a cache: what was synchronised is safe; of what came since, each sector may have
-// been written or not.
+// A disk with a cache. Synchronised data is safe; each later sector may have been written or not.
 class CachingDisk : public ByteSink {
  public:
   base::Status Write(std::span<const std::byte> bytes) override {
@@ -34,7 +33,7 @@ class CachingDisk : public ByteSink {
     for (std::size_t begin = safe_; begin < written_.size();) {
       const std::size_t end = std::min(written_.size(), (begin / kSector + 1) * kSector);
       if (random() % 2 == 0) {
-        left.resize(end);  // zeros, where a sector before it is missing
+        left.resize(end);  // zeros, if a sector before it is missing
         std::copy(written_.begin() + static_cast<std::ptrdiff_t>(begin),
                   written_.begin() + static_cast<std::ptrdiff_t>(end),
                   left.begin() + static_cast<std::ptrdiff_t>(begin));

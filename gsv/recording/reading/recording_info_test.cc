@@ -40,7 +40,7 @@ std::string HashOf(const std::vector<Entry>& entries, std::size_t chunk_size = 1
   return ContentHash(**Open(bytes)).value();
 }
 
-TEST(ContentHash, DependsOnWhatIsSaidAndNotOnHowItWasWritten) {
+TEST(ContentHash, DependsOnTheContentAndNotOnTheLayoutOfTheFile) {
   const std::vector<Entry> entries{{0, 1ms, "x"}, {1, 1ms, "y"}, {0, 2ms, "z"}, {0, 2ms, "w"}};
   const std::string hash = HashOf(entries);
   EXPECT_EQ(hash.size(), 16U);
@@ -70,8 +70,8 @@ class RecordingInfoTest : public testing::Test {
   const base::TemporaryFolder folder_ = base::TemporaryFolder::Make("gsv-test").value();
 };
 
-// A simulation that somebody stops may take a step meanwhile.
-TEST(EndOfSteps, IsWhereWhatCanBeRepeatedEnds) {
+// While somebody stops it, a simulation may take a step.
+TEST(EndOfSteps, IsTheEndOfWhatCanBeRepeated) {
   Bytes bytes;
   MemorySink sink(bytes);
   McapFileWriter writer(sink, {});
@@ -90,7 +90,7 @@ TEST(EndOfSteps, IsWhereWhatCanBeRepeatedEnds) {
   EXPECT_EQ(EndOfSteps(**Open(bytes)).value(), base::SimTime(70ms));
 }
 
-TEST_F(RecordingInfoTest, TellsTheSameAsJsonAndAsText) {
+TEST_F(RecordingInfoTest, PrintsTheSameAsJsonAndAsText) {
   const Bytes bytes = ThreeChunks();
   const std::string path = Save(bytes, bytes.size());
   const auto info = ReadInfo(path);
@@ -121,7 +121,7 @@ TEST_F(RecordingInfoTest, TellsTheSameAsJsonAndAsText) {
   EXPECT_THAT(text, HasSubstr("gsv: seed = 7"));
 }
 
-TEST_F(RecordingInfoTest, SaysWhatIsWrongWithARecordingThatWasCutOff) {
+TEST_F(RecordingInfoTest, ReportsTheDamageOfATruncatedRecording) {
   const Bytes bytes = ThreeChunks();
   const auto info = ReadInfo(Save(bytes, bytes.size() / 2));
   ASSERT_TRUE(info) << info.error().Sentence();
@@ -130,7 +130,7 @@ TEST_F(RecordingInfoTest, SaysWhatIsWrongWithARecordingThatWasCutOff) {
                                        "it was not closed"));
 }
 
-TEST_F(RecordingInfoTest, PrintsValidJsonWhateverNamesAFileHolds) {
+TEST_F(RecordingInfoTest, PrintsValidJsonForAnyNames) {
   Bytes bytes;
   MemorySink sink(bytes);
   McapFileWriter writer(sink, {});

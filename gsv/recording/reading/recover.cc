@@ -56,7 +56,7 @@ class Copier {
     ++recovery_.attachments;
   }
 
-  // They are told at the start of the part, with the time at which they were published.
+  // They are written at the start of the part, with their original publish time.
   void CopyLasting() {
     LastingMessages lasting = FindLastingMessages(reader_, selection_.from);
     for (const LastingMessage& message : lasting.messages) {
@@ -65,7 +65,7 @@ class Copier {
                    message.data});
       ++recovery_.messages;
     }
-    // A block that cannot be read is a problem of CopyMessages(), too, and told once.
+    // CopyMessages() also finds a block that cannot be read, and reports it once.
   }
 
   void CopyMessages(const MessageBlock& block) {
@@ -93,7 +93,7 @@ std::string Count(std::uint64_t number, const char* noun) {
   return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
 }
 
-// The name of the output while it is written; removed unless it has been renamed by the end.
+// The name of the output during writing. Removes the file unless it was renamed.
 class PartialFile {
  public:
   explicit PartialFile(std::string path) : path_(std::move(path)) {}
@@ -128,7 +128,7 @@ base::Result<Recovery> RecoverToFile(const std::string& input, const std::string
   return recovery;
 }
 
-// As a recording's folder is: a file and its metadata.yaml.
+// The output has the form of a recording's folder: a file and its metadata.yaml.
 base::Result<Recovery> RecoverToFolder(const std::string& input, const std::string& output,
                                        const Selection& selection, const Limits& limits) {
   const auto file = MakeBagFolder(output);

@@ -29,7 +29,7 @@ Bytes Recovered(std::span<const std::byte> bytes, Recovery& recovery) {
   return out;
 }
 
-TEST(Recover, GivesAnIndexedFileWithEachChunkThatIsWhole) {
+TEST(Recover, WritesAnIndexedFileWithEachCompleteChunk) {
   const Bytes bytes = ThreeChunks();
   std::vector<std::size_t> chunk_ends;
   for (const Place& place : PlacesIn(bytes)) {
@@ -66,7 +66,7 @@ TEST(Recover, KeepsAllOfARecordingThatLacksOnlyItsEnd) {
   EXPECT_THAT(json["warnings"][0], HasSubstr("it was not closed"));
 }
 
-TEST(Recover, SaysWhatADamagedChunkCost) {
+TEST(Recover, ReportsTheLossOfADamagedChunk) {
   Bytes bytes = ThreeChunks();
   for (const Place& place : PlacesIn(bytes)) {
     if (place.opcode == Opcode::kChunk) bytes[place.end - 5] ^= std::byte{1};

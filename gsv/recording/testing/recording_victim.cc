@@ -1,6 +1,6 @@
-// recording_victim FILE MICROSECONDS: records a simulation, whose behaviour takes so long for each
-// of its turns, until it is killed. Writes a HandOver to stdout after each snapshot that the
-// recorder has taken.
+// recording_victim FILE MICROSECONDS: records a simulation until it is killed. Each turn of its
+// behaviour takes this time. Writes a HandOver to stdout after each snapshot that the recorder has
+// taken.
 #include <csignal>
 #include <cstdlib>
 
@@ -31,7 +31,7 @@ int Run(const char* path, std::chrono::microseconds dawdling) {
   };
   const auto recorder = SimulationRecorder::Start(simulation, path, std::move(options));
   if (!recorder) return 1;
-  simulation->AddObserver(std::make_shared<Teller>());  // is told after the recorder
+  simulation->AddObserver(std::make_shared<Teller>());  // comes after the recorder
   if (!simulation->Start()) return 1;
   for (;;) pause();
 }

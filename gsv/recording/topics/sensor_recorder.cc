@@ -12,12 +12,12 @@
 namespace gsv::recording {
 namespace {
 
-// Of sensors that take long, such as cameras: so many are waited for at once (the renderer draws
-// them together), and so many readings are held.
+// For slow sensors, such as cameras: the number of readings that are taken at once (the renderer
+// makes one batch of them), and that are stored.
 constexpr int kSlowAtOnce = 16;
 constexpr std::size_t kMaxSlowSensors = 64;
 
-// Every n-th instant of the sensor, n as small as `rate` allows.
+// Every n-th instant of the sensor, with the smallest n that `rate` allows.
 base::SimTime PeriodOf(const model::SensorDescription& description, double rate) {
   if (description.update_rate <= 0) return base::FromSeconds(1 / rate);
   const base::SimTime own = base::FromSeconds(1 / description.update_rate);
@@ -32,12 +32,12 @@ struct SensorRecorder::Sensor {
   sensing::SensorMessages messages;
   std::shared_ptr<const sensing::Sensor> sensor;
   Instants instants;
-  bool is_wanted = true;                       // its readings are
-  bool has_companion = false;                  // and it is wanted
-  bool has_beams = false;                      // and they are wanted
-  std::optional<ChannelId> channel;            // once there was a reading
+  bool is_wanted = true;                       // its readings are recorded
+  bool has_companion = false;                  // and it is recorded
+  bool has_beams = false;                      // and they are recorded
+  std::optional<ChannelId> channel;            // nothing before the first reading
   std::optional<ChannelId> companion_channel;  // the same
-  std::optional<sensing::Reading> newest;      // of what has beams
+  std::optional<sensing::Reading> newest;      // only for sensors with beams
   bool has_failed = false;
 
   const model::SensorDescription& description() const { return sensor->description(); }

@@ -5,7 +5,7 @@
 namespace gsv::recording {
 namespace {
 
-// Mounting a sensor changes no layout, so they are looked at now and again.
+// Mounting a sensor does not change the layout, so the lists are checked regularly.
 constexpr base::SimTime kSensorPeriod = std::chrono::seconds(1);
 constexpr std::size_t kMaxEvents = 10'000;
 
@@ -90,7 +90,7 @@ void SimulationFeed::CloseAtLatest() {
   {
     const base::MutexLock lock(mutex_);
     if (!closed_) {
-      // Taken last of all: the simulation may be running.
+      // Taken last: the simulation may be running.
       queue_.emplace_back(Observation{simulation_.snapshot(), nullptr, status});
       ++snapshots_;
     }

@@ -18,7 +18,7 @@ TEST(Instants, AreTakenAtTheFirstSnapshotAtOrAfterThem) {
   EXPECT_EQ(taken, (std::vector<int>{0, 40, 60, 100, 120}));  // for 0, 30, 60, 90, 120 ms
 }
 
-TEST(Instants, TheFirstSnapshotTellsOfNoInstantBeforeIt) {
+TEST(Instants, TheFirstSnapshotHasNoInstantBeforeIt) {
   Instants instants(50ms);
   EXPECT_FALSE(instants.Pass(70ms));
   EXPECT_FALSE(instants.Pass(90ms));
@@ -37,7 +37,7 @@ class SimulationFeedTest : public testing::Test {
   const std::shared_ptr<simulation::Simulation> simulation_ = MakeSimulation(1s, nullptr);
 };
 
-TEST_F(SimulationFeedTest, WhatFindsNoRoomInRealTimeIsDroppedAndCounted) {
+TEST_F(SimulationFeedTest, InRealTimeExcessSnapshotsAreDroppedAndCounted) {
   SimulationFeed feed(*simulation_, {.when_full = WhenFull::kDrop, .capacity = 2});
   for (int i = 0; i < 5; ++i) feed.OnSnapshot(simulation_->snapshot());
   EXPECT_EQ(feed.dropped(), 3u);
@@ -46,7 +46,7 @@ TEST_F(SimulationFeedTest, WhatFindsNoRoomInRealTimeIsDroppedAndCounted) {
   EXPECT_FALSE(feed.Next(0ms));
 }
 
-TEST_F(SimulationFeedTest, InLockstepTheStepWaitsForRoom) {
+TEST_F(SimulationFeedTest, InLockstepTheStepWaitsForSpace) {
   SimulationFeed feed(*simulation_, {.when_full = WhenFull::kWait, .capacity = 1});
   feed.OnSnapshot(simulation_->snapshot());
   auto second = std::async(std::launch::async, [&] { feed.OnSnapshot(simulation_->snapshot()); });
@@ -56,7 +56,7 @@ TEST_F(SimulationFeedTest, InLockstepTheStepWaitsForRoom) {
   EXPECT_EQ(feed.dropped(), 0u);
 }
 
-TEST_F(SimulationFeedTest, ClosingLetsTheStepGoOn) {
+TEST_F(SimulationFeedTest, ClosingReleasesTheWaitingStep) {
   SimulationFeed feed(*simulation_, {.when_full = WhenFull::kWait, .capacity = 1});
   feed.OnSnapshot(simulation_->snapshot());
   auto second = std::async(std::launch::async, [&] { feed.OnSnapshot(simulation_->snapshot()); });
@@ -67,7 +67,7 @@ TEST_F(SimulationFeedTest, ClosingLetsTheStepGoOn) {
   EXPECT_TRUE(feed.is_over());
 }
 
-TEST_F(SimulationFeedTest, SensorsAreToldWhenTheyAreNewAndOnceASecond) {
+TEST_F(SimulationFeedTest, SensorsAreListedWhenTheyAreNewAndOncePerSecond) {
   SimulationFeed feed(*simulation_, {});
   feed.OnSnapshot(simulation_->snapshot());
   feed.OnSnapshot(simulation_->snapshot());
@@ -81,7 +81,7 @@ TEST_F(SimulationFeedTest, SensorsAreToldWhenTheyAreNewAndOnceASecond) {
   EXPECT_EQ(std::get<Observation>(*second).sensors, nullptr);
 }
 
-TEST_F(SimulationFeedTest, AtItsEndComesTheSimulationAsItStands) {
+TEST_F(SimulationFeedTest, TheLastSnapshotIsTheCurrentState) {
   SimulationFeed feed(*simulation_, {.capacity = 1});
   feed.OnEvent({0, base::SimTime(0), "started", "", ""});
   feed.CloseAtLatest();
@@ -94,7 +94,7 @@ TEST_F(SimulationFeedTest, AtItsEndComesTheSimulationAsItStands) {
   EXPECT_TRUE(feed.is_over());
 }
 
-TEST_F(SimulationFeedTest, AResetClosesItBehindWhatIsQueued) {
+TEST_F(SimulationFeedTest, AResetClosesItAfterTheQueuedSnapshots) {
   SimulationFeed feed(*simulation_, {});
   feed.OnSnapshot(simulation_->snapshot());
   feed.OnEvent({0, base::SimTime(0), "reset", "", ""});

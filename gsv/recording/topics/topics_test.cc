@@ -36,7 +36,7 @@ TEST(Topics, AreThoseThatARecordingOfEverythingHolds) {
   std::filesystem::remove(path);
 }
 
-TEST(Topics, APatternStandsForItsTopicOrForAllBelowIt) {
+TEST(Topics, APatternSelectsItsTopicOrAllBelowIt) {
   const std::vector<std::string> topics{"/clock", "/gsv/poses", "/robot/front"};
   EXPECT_THAT(UnmatchedPatterns(topics, {"/clock", "/gsv/", "/robot/", "/robot/front"}), IsEmpty());
   EXPECT_THAT(UnmatchedPatterns(topics, {"/robot", "/clock", "/robot/front/", "/rob"}),

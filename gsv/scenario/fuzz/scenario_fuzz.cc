@@ -1,5 +1,5 @@
-// Scenarios by anybody: no crash, and what was read without a complaint is written so that it reads
-// back as the same.
+// Any scenarios: no crash. A scenario without problems is equal to itself after writing and reading
+// it again.
 #include <cstdint>
 #include <cstdlib>
 #include <string>

@@ -44,7 +44,7 @@ TEST(ArgumentReader, TakesWholeNumbersOfEitherKind) {
   EXPECT_EQ(read->Get<std::int64_t>("count"), 7);
 }
 
-TEST(ArgumentReader, NamesCommandAndParameterOfWhatItRefuses) {
+TEST(ArgumentReader, NamesCommandAndParameterOfARefusedValue) {
   const struct {
     Arguments::Values given;
     const char* sentence;

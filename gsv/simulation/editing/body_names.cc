@@ -30,7 +30,7 @@ base::Status NameRobots(const world::Layout& layout, std::vector<RobotSpecificat
                         robot.name);
     }
   }
-  std::map<std::string, int> next_number;  // by model: a crowd need not count from two each time
+  std::map<std::string, int> next_number;  // by model: crowds do not count from two each time
   for (RobotSpecification& robot : robots) {
     if (!robot.name.empty()) continue;
     const std::string& model = robot.model->name;

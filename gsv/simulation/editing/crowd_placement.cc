@@ -15,9 +15,9 @@ namespace {
 
 using geometry::Vector2;
 
-constexpr double kGap = 0.05;      // m that is left between two
-constexpr double kCell = 2;        // m: wider than two pedestrians of the largest radius
-constexpr double kOverlap = 1e-3;  // m that counts for nothing
+constexpr double kGap = 0.05;      // m between two pedestrians
+constexpr double kCell = 2;        // m: larger than two pedestrians of the largest radius
+constexpr double kOverlap = 1e-3;  // m of overlap that is ignored
 constexpr std::uint32_t kAttempts = 400;
 constexpr int kRounds = 40;
 
@@ -33,7 +33,7 @@ class CrowdPlacement {
       do {
         body.name = group->name + "_" + std::to_string(++numbers_[group->name]);
       } while (layout_.Find(body.name) >= 0);
-      // A sensor's stream is named by its robot and itself: no sensor shares this one.
+      // A sensor's stream is named after its robot and itself: no sensor uses this one.
       const std::uint64_t stream = base::StableId("pedestrian " + body.name);
       body.model = looks[stream % looks.size()];
       body.kind = world::BodyKind::kPedestrian;
@@ -105,7 +105,7 @@ class CrowdPlacement {
     return false;
   }
 
-  // Members that overlap something, which give up their places.
+  // Members that overlap a body, and therefore lose their places.
   std::vector<std::size_t> TakeOverlapping(dynamics::Engine& engine) {
     const auto layout = MakeLayout();
     const world::State state = world::InitialState(*layout);
@@ -133,11 +133,10 @@ class CrowdPlacement {
 
   const world::Layout& layout_;
   const std::uint64_t seed_;
-  std::map<std::string, int> numbers_;  // given, by group name
+  std::map<std::string, int> numbers_;  // numbers in use, by group name
   std::vector<world::Body> members_;
-  std::vector<std::uint32_t> attempts_;  // as members_
-  std::map<Cell, std::vector<std::size_t>>
-      taken_;  // members that have a place; never walked through
+  std::vector<std::uint32_t> attempts_;             // by index in members_
+  std::map<Cell, std::vector<std::size_t>> taken_;  // members with a place; never iterated
 };
 
 }  // namespace

@@ -16,13 +16,13 @@ int FindOverlap(dynamics::Engine& engine, const world::Layout& layout, const wor
   int found = -1;
   for (const world::Contact& overlap : engine.OverlapsOf(state, body, kPlacingTolerance)) {
     found = overlap.first == body ? overlap.second : overlap.first;
-    // A robot is the harder case, so it goes into the error first.
+    // A robot is the more difficult case, so it is the first in the error.
     if (layout.bodies[static_cast<std::size_t>(found)].is_robot()) return found;
   }
   return found;
 }
 
-// Moves the body to the nearest free place, no farther than its own radius. False: none is there.
+// Moves the body to the nearest free place, at most by its own radius. False if there is none.
 bool PushOut(dynamics::Engine& engine, const world::Layout& layout, int body, world::State& state) {
   constexpr double kStride = 0.01;  // m
   constexpr int kDirections = 16;
@@ -38,7 +38,7 @@ bool PushOut(dynamics::Engine& engine, const world::Layout& layout, int body, wo
   for (double distance = kStride; distance <= farthest; distance += kStride) {
     for (int i = 0; i < kDirections; ++i) {
       const double direction = 2 * std::numbers::pi * i / kDirections;
-      // The second place leaves it room to turn away from the wall.
+      // The second place leaves it space to turn away from the wall.
       if (is_free_at(distance, direction) && is_free_at(distance + 2 * kStride, direction)) {
         return true;
       }
@@ -47,8 +47,8 @@ bool PushOut(dynamics::Engine& engine, const world::Layout& layout, int body, wo
   return false;
 }
 
-// By body: it overlaps no other. Most of a crowd do not, and who is pushed out is pushed into
-// nobody.
+// By body: whether it overlaps no other body. Most bodies of a crowd do not, and PushOut() moves a
+// body only to a free place.
 std::vector<bool> StandFree(dynamics::Engine& engine, const world::Layout& layout,
                             const world::State& state) {
   std::vector<bool> stand_free(layout.bodies.size(), true);
@@ -81,10 +81,10 @@ base::Result<std::vector<PushedOut>> ResolvePlacement(dynamics::Engine& engine,
     const int overlapped = FindOverlap(engine, layout, state, index);
     if (overlapped < 0) continue;
     const world::Body& other = layout.bodies[static_cast<std::size_t>(overlapped)];
-    // Of two newcomers at one place the second is the one too many.
+    // Of two new bodies at one place, the second one is refused.
     if (std::find(name + 1, placed.end(), other.name) != placed.end()) continue;
     const std::string wanted = PlaceText(body.initial_pose);
-    // A robot that stands more outside of a wall than in it is placed beside the wall.
+    // A robot that is more outside of a wall than in it is placed beside the wall.
     if (body.is_robot() && !other.is_robot() && PushOut(engine, layout, index, state)) {
       const geometry::Pose& now = state.bodies[static_cast<std::size_t>(index)].world_from_model;
       pushed_out.push_back({*name, "starts at " + PlaceText(now) + ", since at " + wanted +

@@ -94,7 +94,7 @@ base::Status FaultInjector::Apply(const Fault& fault) {
     agent->LoseMotor();
   } else {
     const world::Body& body = world_.layout()->bodies[static_cast<std::size_t>(agent->body())];
-    // A robot of another model may have taken the name since the faults were checked.
+    // A robot of another model may have got the name after the faults were checked.
     const int joint = model::FindJoint(body.model->joints, fault.part);
     if (joint < 0 || !body.is_rigid()) {
       return RefuseFault(base::ErrorCode::kNotFound, fault, "the joint is gone: " + fault.part);

@@ -78,7 +78,7 @@ TEST(EventLog, NotifiesObserversUntilTheyAreRemoved) {
   EXPECT_THAT(second->steps, ElementsAre(1, 2));
 }
 
-// Asks the log from within a call, as observers may ask the simulation then.
+// Reads the log from within a callback, as observers may do.
 class Asker final : public Observer {
  public:
   explicit Asker(const EventLog& log) : log_(log) {}

@@ -31,7 +31,7 @@ TEST(SnapshotHistory, AnInstantIsTakenAtTheFirstStepAtOrAfterIt) {
   }
 }
 
-TEST(SnapshotHistory, WhatHasALatencyIsReadThatMuchLater) {
+TEST(SnapshotHistory, ASensorWithALatencyIsReadThatMuchLater) {
   // Instants at 0, 20, 40, … ms can be read from 35, 55, 75, … ms on: at 40, 60, 80, … ms.
   SnapshotHistory history(At(0, 10ms));
   const Cadence late{20ms, 35ms};
@@ -50,7 +50,7 @@ TEST(SnapshotHistory, WhatHasALatencyIsReadThatMuchLater) {
   EXPECT_EQ(history.At(late)->state.step, 10);
 }
 
-TEST(SnapshotHistory, AfterARestartNothingOlderIsHandedOut) {
+TEST(SnapshotHistory, AfterARestartNothingOlderIsReturned) {
   SnapshotHistory history(At(0, 10ms));
   history.At({1s});
   history.Publish(At(1, 10ms));

@@ -36,7 +36,7 @@ TEST(Pacer, ALaterStepIsCountedAndShiftsTheScheduleWithoutABurst) {
 }
 
 TEST(Pacer, AnotherFactorHoldsFromTheStepThatIsDueNext) {
-  Pacer pacer(milliseconds(10), 0.001);  // a step each ten seconds
+  Pacer pacer(milliseconds(10), 0.001);  // a step every ten seconds
   const WallTime start = WallNow();
   pacer.Restart(start);
   EXPECT_FALSE(pacer.StepStarts(start));

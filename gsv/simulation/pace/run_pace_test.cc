@@ -15,7 +15,7 @@ TEST(RunPace, TheFirstStepAfterAResumeIsDueAtOnce) {
   EXPECT_LE(start, WallNow());
   pace.StepStarts(start);
   EXPECT_EQ(pace.due(), start + 1h);
-  pace.RestartIfResumed();  // it runs on: nothing changes
+  pace.RestartIfResumed();  // it continues: nothing changes
   EXPECT_EQ(pace.due(), start + 1h);
   pace.SetRunning(false, 1h);
   pace.SetRunning(true, 1h);

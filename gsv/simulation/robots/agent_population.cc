@@ -58,7 +58,7 @@ std::vector<AgentPopulation::AgentPtr> AgentPopulation::WithBehaviour() const {
 void AgentPopulation::CallAll(const char* what, base::Status (BehaviourPort::*call)()) {
   for (const AgentPtr& agent : WithBehaviour()) {
     caller_.Post(agent->robot(), [this, agent, behaviour = agent->behaviour(), what, call] {
-      // A behaviour that does not hear of a pause may live on: the clock stands still anyway.
+      // A behaviour that does not handle the pause may continue: the clock stops anyway.
       if (const auto status = (behaviour.get()->*call)(); !status) {
         events_.Emit("behaviour_silent", agent->robot(),
                      std::string(what) + ": " + status.error().Sentence());

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::chrono::seconds kLong(60);
 
-TEST(WaitEvent, LetsPassOnlyThoseWhoCameBeforeItWasOpened) {
+TEST(WaitEvent, ReleasesOnlyEarlierWaiters) {
   WaitEvent wait_event;
   const std::uint64_t before = wait_event.signals();
   wait_event.Open();
@@ -18,7 +18,7 @@ TEST(WaitEvent, LetsPassOnlyThoseWhoCameBeforeItWasOpened) {
   EXPECT_FALSE(wait_event.WaitAfter(wait_event.signals(), WallNow()));
 }
 
-// Few are opened by the caller, many by the opener's thread, and what is left by its destructor.
+// The caller opens a few, the opener's thread opens many, and its destructor opens the rest.
 class GateOpenerOf : public testing::TestWithParam<int> {};
 
 TEST_P(GateOpenerOf, OpensEachGateOnce) {

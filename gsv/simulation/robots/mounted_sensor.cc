@@ -6,7 +6,7 @@
 namespace gsv::simulation {
 namespace {
 
-// Samples under way at one moment: each holds a snapshot of the whole world.
+// Concurrent samples: each holds a snapshot of the whole world.
 constexpr double kMaxUnderWay = 100;
 
 // The parameter `latency` (s, 0) is common to all types.

@@ -9,7 +9,7 @@ namespace gsv::simulation {
 namespace {
 
 constexpr int kMaxClocks = 64;
-// Bytes that a behaviour may say of why it gave up.
+// Maximum bytes of the reason that a behaviour gives for ending.
 constexpr std::size_t kLongestReason = 1000;
 
 base::Error NotRunning(const std::string& robot) {
@@ -90,7 +90,7 @@ base::Result<ClockId> RobotAgent::OpenClock() {
 base::Status RobotAgent::CloseClock(ClockId clock) {
   AgentCallLock lock(*shared_);
   if (auto ok = CheckClock(clock); !ok) return ok;
-  if (has_given_up_) return CheckAlive();  // its clocks stay as they were then
+  if (has_given_up_) return CheckAlive();  // its clocks keep that state
   clocks_.Close(clock);
   wait_event_.Open();
   UpdateRunningCount();
@@ -275,7 +275,7 @@ base::Status RobotAgent::CloseSensor(const std::string& name) {
   const auto sensor = rack_.Find(name);
   if (auto ok = rack_.Close(name); !ok) return ok;
   auto device = (*sensor)->device();
-  // An actuator of the model continues with its command.
+  // An actuator of the model keeps its command.
   const bool ends = device != nullptr && (device->IsOnWhileOpen() || !rack_.Find(name));
   if (ends && CheckAlive()) {
     Commands().Add({DeviceAction::Kind::kSwitchOff, std::move(device)});
@@ -386,8 +386,8 @@ void RobotAgent::MakeReady() {
   shared_->ready.push_back(this);
 }
 
-// The index of the body changes only under the world's lock, which the stepping thread holds, and
-// the behaviour only before the run has started.
+// The index of the body changes only under the world's lock, which the stepping thread holds. The
+// behaviour changes only before the run has started.
 void RobotAgent::TakeTurn(const Turn::Instant& instant,
                           sensing::Sampling& sampling) GSV_NO_THREAD_SAFETY_ANALYSIS {
   sampling.MoveTo(body_);

@@ -62,7 +62,7 @@ TEST(RobotCommands, MergedCommandsComeLast) {
   EXPECT_EQ(commands.drive()->command.linear, 4);
 }
 
-TEST(RobotCommands, LastCommandOfAnActuatorHolds) {
+TEST(RobotCommands, LastCommandOfAnActuatorApplies) {
   const MountedSensor lamp = Mounted("lamp");
   RobotCommands commands, later;
   commands.Add(Shines(lamp, 0.25));
@@ -72,7 +72,7 @@ TEST(RobotCommands, LastCommandOfAnActuatorHolds) {
   EXPECT_EQ(commands.devices().front().command.values[0], 0.5);
 }
 
-TEST(RobotCommands, DeviceThatIsRemovedAndCreatedAgainStartsAnew) {
+TEST(RobotCommands, DeviceThatIsRemovedAndCreatedAgainStartsFresh) {
   const MountedSensor lamp = Mounted("lamp");
   RobotCommands commands;
   commands.Add(Shines(lamp, 0.25));

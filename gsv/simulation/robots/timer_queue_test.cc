@@ -26,7 +26,7 @@ TEST(TimerQueue, WakesInTheOrderOfInstantsAndEntries) {
   EXPECT_TRUE(Due(calendar, 25ms).empty());
 }
 
-TEST(TimerQueue, OneWhoIsWokenMayEnterItselfAgain) {
+TEST(TimerQueue, AWokenAgentMayEnterItselfAgain) {
   int one = 1;
   TimerQueue<int> calendar;
   calendar.Add(10ms, &one);

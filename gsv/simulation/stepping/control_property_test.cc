@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 using namespace life_cycle;
 
 constexpr SimTime kStepSize = 10ms;
-constexpr auto kChangeTimeout = 20s;  // wall time in which every expected change must have come
+constexpr auto kChangeTimeout = 20s;  // wall-clock time limit of every expected change
 
 std::shared_ptr<const model::Model> VelocityDisc() {
   auto model = std::make_shared<model::Model>();
@@ -123,7 +123,8 @@ base::Status Perform(Simulation& simulation, const Request& request) {
 }
 
 Observed Look(const Simulation& simulation) {
-  // Both at once: a last step between two looks would be seen as a pause at the end of the run.
+  // Reads both at once. Otherwise a last step in between would look like a pause at the end of the
+  // run.
   const SimulationStatus status = simulation.status();
   return {status.phase == Phase::kStarting ? Phase::kRunning : status.phase, status.step};
 }
@@ -154,7 +155,7 @@ Request RandomRequest(Dice& dice, std::int64_t step) {
                                          Action::kStart,    Action::kReset, Action::kStop};
   const Action action = kFrequent[dice.Below(std::size(kFrequent))];
   if (action == Action::kStep) return {action, dice.Below(12)};
-  // A few lie in the past.
+  // A few instants are in the past.
   if (action == Action::kRunUntil && dice.Below(4) == 0) return {action, 0};
   if (action == Action::kRunUntil) return {action, step + 1 + dice.Below(40)};
   return {action, 0};
@@ -163,7 +164,7 @@ Request RandomRequest(Dice& dice, std::int64_t step) {
 constexpr auto kRest = {Phase::kCreated, Phase::kPaused, Phase::kStopped, Phase::kFinished,
                         Phase::kFailed};
 
-// What a fresh simulation comes to after `steps`, which must not pass its end.
+// The state hash of a new simulation after `steps`, which must not exceed its duration.
 std::string HashAfter(Simulation& simulation, std::int64_t steps) {
   EXPECT_TRUE(simulation.RunUntil(steps * kStepSize));
   EXPECT_EQ(simulation.WaitForPhase({Phase::kPaused}, kChangeTimeout), Phase::kPaused);
@@ -211,7 +212,7 @@ TEST(LifeCycleProperty, EverySequenceOfRequestsFitsTheModel) {
   }
 }
 
-// People, programs and the viewer ask at once: nothing hangs, and the simulation is as good as new.
+// Several threads send requests at once: nothing hangs, and the simulation stays usable.
 TEST(LifeCycleProperty, RequestsFromSeveralThreadsLeaveItUsable) {
   const Scene scene{.mode = Mode::kLockstep, .duration = 0, .behaviours = 2};
   const std::string fresh = HashAfter(*Make(scene), 20);

@@ -1,4 +1,4 @@
-// Requests that change who stands in a simulated world, and the record of them.
+// Requests that change the bodies of a simulated world, and the record of these edits.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -11,7 +11,8 @@
 namespace gsv::simulation {
 namespace {
 
-// Wall-clock time that behaviours elsewhere have to end the turn during which somebody paused.
+// Wall-clock time limit for behaviours in other processes to end the turn during which somebody
+// paused.
 constexpr std::chrono::seconds kTurnPatience{2};
 
 base::Status CheckBehaviour(const BehaviourPort& behaviour, Mode mode, const std::string& robot) {
@@ -69,7 +70,7 @@ Edit EditOf(const ObjectSpecification& object, const std::string& name) {
   return edit;
 }
 
-// Reads back as the same number.
+// The text that reads back as the same number.
 std::string ShortestText(double number) {
   char text[32];
   const auto [end, error] = std::to_chars(text, text + sizeof text, number);
@@ -190,7 +191,7 @@ base::Status SteppingSimulation::RemoveRobots(const std::vector<std::string>& na
     const SimulationLock lock(*shared_);
     for (const std::string& name : names) agents_.Remove(name);
   }
-  // No step is taken meanwhile, and whoever calls for an agent need not wait for the engine.
+  // No step is taken meanwhile, and threads that look up an agent need not wait for the engine.
   (void)editor_.Remove(names);  // fewer bodies always fit
   AssignBodies();
   shared_->changed.notify_all();

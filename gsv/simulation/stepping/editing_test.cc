@@ -1,5 +1,4 @@
-// Objects come, go and are turned while the world stands still; and what was done by hand is done
-// once more.
+// Objects are added, removed and rotated while the world is paused, and the edits are repeated.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -66,7 +65,7 @@ std::vector<Edit> EditsOf(const Simulation& simulation) {
   return edits;
 }
 
-TEST(Editing, AnObjectThatComesStandsOnTheFloorUnderAFreeName) {
+TEST(Editing, AnAddedObjectStandsOnTheFloorWithAFreeName) {
   auto simulation = Make(Room(0s));
   const auto name = simulation->AddObject(Thing(Crate(0.6), 1, 1));
   ASSERT_TRUE(name) << name.error().Sentence();
@@ -75,21 +74,21 @@ TEST(Editing, AnObjectThatComesStandsOnTheFloorUnderAFreeName) {
   EXPECT_EQ(EditsOf(*simulation).back().kind, Edit::Kind::kAddObject);
 }
 
-TEST(Editing, AnObjectPutInTheAirFalls) {
+TEST(Editing, AnObjectPlacedInTheAirFalls) {
   auto simulation = Make(Room(2s));
   ObjectSpecification crate = Thing(Crate(), 0, 0, "high");
   crate.world_from_object.position.z = 1.2;
   crate.on_ground = false;
   ASSERT_TRUE(simulation->AddObject(crate));
   PauseAt(*simulation, 300ms);
-  // Free fall, by steps of a millisecond at the coarsest.
+  // Free fall, with steps of at most a millisecond.
   EXPECT_NEAR(PoseOf(*simulation, "high").position.z, 1.2 - 9.8 * 0.3 * 0.3 / 2, 9.8 * 0.3 * 1e-3);
   ASSERT_TRUE(simulation->Resume());
   ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
   EXPECT_NEAR(PoseOf(*simulation, "high").position.z, 0.2, 1e-3);
 }
 
-TEST(Editing, WhatIsTurnedOnItsEdgeStandsOnItsLowestPoint) {
+TEST(Editing, AnObjectRotatedOntoItsEdgeStandsOnItsLowestPoint) {
   auto simulation = Make(Room(0s));
   geometry::Pose tilted = PlanarPose(0, -2, 0, 0);
   tilted.orientation = geometry::FromAxisAngle({1, 0, 0}, std::numbers::pi / 4);
@@ -97,7 +96,7 @@ TEST(Editing, WhatIsTurnedOnItsEdgeStandsOnItsLowestPoint) {
   EXPECT_NEAR(PoseOf(*simulation, "crate").position.z, 0.2 * std::numbers::sqrt2, 1e-6);
 }
 
-TEST(Editing, WhatWasRemovedIsGoneAndACopyOfItComesBack) {
+TEST(Editing, ARemovedObjectIsGoneAndCanBeRestored) {
   auto simulation = Make(Room(1s));
   PauseAt(*simulation, 100ms);
   ASSERT_TRUE(simulation->RemoveObject("crate"));
@@ -113,19 +112,19 @@ TEST(Editing, WhatWasRemovedIsGoneAndACopyOfItComesBack) {
   EXPECT_NEAR(PoseOf(*simulation, "crate").position.y, 2, 1e-6);
 }
 
-TEST(Editing, WhatIsFixedButCameByHandCanBeMovedAndRemoved) {
+TEST(Editing, AStaticObjectThatWasAddedCanBeMovedAndRemoved) {
   auto simulation = Make(Room(0s));
   ASSERT_TRUE(simulation->AddObject(Thing(Crate(0.5, true), 1, 1, "shelf")));
   ASSERT_TRUE(simulation->PlaceBody("shelf", PlanarPose(1, -1, 0, 0), true));
   EXPECT_NEAR(PoseOf(*simulation, "shelf").position.y, -1, 1e-12);
-  // A robot cannot stand in it there, and can where it was.
+  // A robot does not fit there, but fits where the object was before.
   EXPECT_FALSE(simulation->AddRobot(Robot("robot", 1, -1)));
   EXPECT_TRUE(simulation->AddRobot(Robot("robot", 1, 1)));
   EXPECT_TRUE(simulation->RemoveObject("shelf"));
   EXPECT_FALSE(simulation->RemoveObject("wall"));
 }
 
-TEST(Editing, InAnotherThingThereIsNoRoom) {
+TEST(Editing, AnObjectDoesNotFitInsideAnother) {
   auto simulation = Make(Room(0s));
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 1, 1)));
   const auto refusal = [&](double x, double y) {
@@ -139,11 +138,11 @@ TEST(Editing, InAnotherThingThereIsNoRoom) {
   EXPECT_EQ(Find(*simulation, "new"), -1);
   EXPECT_FALSE(simulation->PlaceBody("crate", PlanarPose(3, 0, 0, 0), true));
   EXPECT_FALSE(simulation->AddObject(Thing(Crate(0.5, true), 0.1, -2, "new")));
-  // Side by side they touch, and that is no harm.
+  // Side by side they touch, which is allowed.
   EXPECT_EQ(refusal(0.4, -2), "");
 }
 
-TEST(Editing, WhatCannotBeIsRefusedWithASentence) {
+TEST(Editing, AnImpossibleEditIsRefusedWithASentence) {
   auto simulation = Make(Room(0s));
   const auto refusal = [&](ObjectSpecification object) {
     const auto added = simulation->AddObject(std::move(object));
@@ -164,7 +163,7 @@ TEST(Editing, WhatCannotBeIsRefusedWithASentence) {
   EXPECT_TRUE(simulation->Stop());
 }
 
-TEST(Editing, RunThroughLetsThoseWhoWakeHaveTheirTurnAndTakesNoStep) {
+TEST(Editing, RunThroughExecutesTheTurnsOfItsInstantWithoutAStep) {
   auto simulation = Make(Lockstep(1s));
   std::atomic<int> turns = 0;
   const auto counts = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
@@ -184,7 +183,7 @@ TEST(Editing, RunThroughLetsThoseWhoWakeHaveTheirTurnAndTakesNoStep) {
   EXPECT_TRUE(simulation->Stop());
 }
 
-TEST(Editing, TellsWhetherTheTurnsWereOver) {
+TEST(Editing, RecordsWhetherTheTurnsWereOver) {
   auto simulation = Make(Room(1s));
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, Drives(0.1))));
   EXPECT_FALSE(simulation->was_edited());
@@ -203,7 +202,7 @@ TEST(Editing, TellsWhetherTheTurnsWereOver) {
   EXPECT_TRUE(simulation->Stop());
 }
 
-// A run that was edited at two instants, in pauses before and after the turns at these.
+// A run with edits at two instants, in pauses before and after the turns at these.
 std::string HashOfAnEditedRun(SimTime first, SimTime second) {
   auto simulation = Make(Room(1s));
   EXPECT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, Drives(0.3))));
@@ -228,7 +227,7 @@ TEST(Editing, GravityActsFromTheInstantOnAtWhichItIsSet) {
   PauseAt(*simulation, 200ms);
   ASSERT_TRUE(simulation->SetGravity(-1.62));
   PauseAt(*simulation, 500ms);
-  // z0 + v0 t + g t² / 2 before and after, by steps of a millisecond at the coarsest.
+  // z0 + v0 t + g t² / 2 before and after, with steps of at most a millisecond.
   const double then = 3 - 9.8 * 0.2 * 0.2 / 2;
   const double now = then - 9.8 * 0.2 * 0.3 - 1.62 * 0.3 * 0.3 / 2;
   EXPECT_NEAR(PoseOf(*simulation, "high").position.z, now, 9.8 * 0.5 * 1e-3);

@@ -1,5 +1,5 @@
-// RunControl against the model of the life cycle: every sequence of requests and steps up to a
-// length, without threads.
+// Compares RunControl with the model of the life cycle: every sequence of requests and steps up to
+// a certain length, without threads.
 #include "gsv/simulation/stepping/run_control.h"
 
 #include <cmath>
@@ -17,11 +17,11 @@ using life_cycle::Observed;
 using life_cycle::Request;
 using Change = RunControl::Change;
 
-// A run without a world: a step is one nanosecond. It does what LifeCycle and StepLoop do with a
-// RunControl, on one thread.
+// A run without a world: a step is one nanosecond. It uses a RunControl like LifeCycle and
+// StepLoop, on one thread.
 class BareRun {
  public:
-  // `starts`: behaviours that are started with the run, and answer when a test says so.
+  // `starts`: behaviours that start with the run, and answer when a test decides.
   BareRun(std::int64_t duration, int starts) : run_("run", SimTime(duration)), starts_(starts) {}
 
   RunControl& control() { return run_; }
@@ -56,7 +56,7 @@ class BareRun {
     ++step_;
     return run_.EndStep(now());
   }
-  // Takes steps until the run comes to rest. False: it does not within 100 steps.
+  // Takes steps until the run rests. False if it does not within 100 steps.
   bool ApplyTurn() {
     while (has_pending_start()) AnswerStart();
     if (is_in_step_) EndStep();
@@ -117,11 +117,11 @@ constexpr Request kRequests[] = {
 
 constexpr const char* kNames[] = {"start", "pause", "resume", "step", "run_until", "stop", "reset"};
 
-// Tries every continuation of a sequence. Each must fit the model, and come to rest where the model
-// says so.
+// Tries every continuation of a sequence. Each must match the model, and rest where the model
+// rests.
 class Explorer {
  public:
-  // The first sequence that does not fit, or nothing.
+  // The first sequence that does not match, or nothing.
   std::string Explore(const BareRun& run, const LifeCycleModel& model, int length) {
     if (std::string problem = CheckRest(run, model); !problem.empty()) return problem;
     if (length == 0) return {};
@@ -215,7 +215,7 @@ void TakeSteps(BareRun& run, int count) {
   }
 }
 
-TEST(RunControl, PausesAfterTheStepsThatWereAskedFor) {
+TEST(RunControl, PausesAfterTheRequestedSteps) {
   BareRun run(0, 0);
   ASSERT_TRUE(run.Perform({Action::kStep, 3}));
   TakeSteps(run, 2);
@@ -300,7 +300,7 @@ TEST(RunControl, NamesTheAllowedPhasesWhenItRefuses) {
   EXPECT_EQ(resumed.error().Sentence(), "office: to resume it must be paused, and it is created");
 }
 
-TEST(RunControl, TellsBeforeWhichTurnsAnEditIsMade) {
+TEST(RunControl, RecordsBeforeWhichTurnsAnEditIsMade) {
   BareRun run(0, 0);
   EXPECT_EQ(run.control().MomentOfEdit(true), Edit::Moment::kBeforeTurns);
   ASSERT_TRUE(run.Perform({Action::kStep, 1}));

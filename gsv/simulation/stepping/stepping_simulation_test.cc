@@ -8,7 +8,7 @@
 namespace gsv::simulation {
 namespace {
 
-// The world's engine, and a call before each layout that it is given.
+// The world's engine, with a callback before each new layout.
 class ObservedEngine final : public dynamics::Engine {
  public:
   base::Status SetLayout(std::shared_ptr<const world::Layout> layout) override {

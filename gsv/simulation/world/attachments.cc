@@ -9,7 +9,7 @@ namespace {
 
 using dynamics::Attachment;
 
-// By the robots that hold, then their devices.
+// By the robots with grippers, then their devices.
 std::vector<Attachment> HeldIn(const world::Layout& layout, const world::State& state) {
   std::vector<Attachment> held;
   if (state.devices == nullptr) return held;
@@ -47,7 +47,7 @@ void Attachments::Follow(const world::Layout& layout, const world::State& state,
     if (!Contains(held, each)) engine.Detach(each.held_body);
   }
   for (const Attachment& each : held) {
-    // Grippers hold dynamic bodies alone, each of which one gripper holds.
+    // Grippers hold only dynamic bodies, and each body is held by one gripper.
     if (!Contains(attached_, each)) GSV_CHECK(engine.Attach(each, state));
   }
   attached_ = std::move(held);
