@@ -1,5 +1,5 @@
-// The benches of `gsv bench`: each adds its subcommand. All but the broker's run the step loop of
-// `gsv run`.
+// The benchmarks of `gsv bench`, each with its own subcommand. All except the broker's run the step
+// loop of `gsv run`.
 #pragma once
 
 #include <algorithm>
@@ -28,14 +28,14 @@ inline double Milliseconds(std::chrono::nanoseconds duration) {
   return std::chrono::duration<double, std::milli>(duration).count();
 }
 
-// Of all threads of this process, s.
+// The processor time of all threads of this process, s.
 inline double ProcessorTime() {
   timespec now;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// The value that the fraction `q` of all do not exceed (nearest rank); 0 of none.
+// The smallest value that at least the fraction `q` does not exceed (nearest rank); 0 if empty.
 inline double QuantileOf(std::vector<double> values, double q) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
@@ -43,7 +43,7 @@ inline double QuantileOf(std::vector<double> values, double q) {
   return values[std::min(rank, values.size() - 1)];
 }
 
-// To stdout: as one JSON object, or a line each.
+// Prints to stdout, as one JSON object or one line per figure.
 inline void PrintFigures(const nlohmann::ordered_json& figures, bool as_json) {
   if (as_json) {
     std::printf("%s\n", figures.dump().c_str());

@@ -1,7 +1,7 @@
-// Holds a crowd's run against brute force: every overlap after each step, and one reading in a
-// hundred, both from the definitions of shapes, with none of the code that the run uses.
+// Compares a crowd's run with brute force: every overlap after each step, and one reading in a
+// hundred. Both are computed from the definitions of shapes, without the code that the run uses.
 //
-// Threads  readings: any; overlaps: the stepping thread's.
+// Threads  readings: any; overlaps: the stepping thread.
 #pragma once
 
 #include <atomic>
@@ -15,11 +15,11 @@ namespace gsv::app {
 
 class CrowdCheck final : public simulation::Observer {
  public:
-  // `readings` of the robot's eight rays at the snapshot.
+  // `readings`: the robot's eight rays at the snapshot.
   void TakeReadings(const world::Snapshot& snapshot, const std::string& robot,
                     const std::vector<double>& readings);
 
-  // Pairs that overlap.
+  // Counts overlapping pairs.
   void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) override;
   void OnEvent(const simulation::Event&) override {}
 

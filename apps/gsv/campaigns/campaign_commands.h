@@ -1,4 +1,4 @@
-// A job queue's commands, as child processes of this one.
+// Runs a job queue's commands as child processes.
 #pragma once
 
 #include "gsv/campaign/commands.h"

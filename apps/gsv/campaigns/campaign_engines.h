@@ -1,5 +1,5 @@
-// How `gsv campaign run` has a campaign's runs done: here, by servers, by a job queue, or a share
-// of them for another queue. Each gives the exit code, after having told what went wrong.
+// Executes the runs of a campaign for `gsv campaign run`: here, on servers, by a job queue, or a
+// share of them for another queue. Each function prints errors and returns the exit code.
 #pragma once
 
 #include <filesystem>
@@ -14,29 +14,29 @@ namespace gsv::app {
 
 struct EngineOptions {
   campaign::Engine engine;
-  int jobs = 0;          // runs at once; 0: one a processor, or as many as the servers take
-  double timeout = 300;  // wall seconds a run
-  double poll = 0;       // seconds between questions to the queue; 0: as the engine has it
-  bool waits = true;     // for what was handed to the queue
-  std::string failures;  // a folder; empty: nothing is recorded
-  std::string broker;    // whose servers do the runs; empty: this machine
-  std::string servers;   // a constraint that they fulfil; empty: any
+  int jobs = 0;          // concurrent; 0: one per processor, or as the servers allow
+  double timeout = 300;  // of a run, s of wall-clock time
+  double poll = 0;       // s between queries of the queue; 0: the engine's default
+  bool waits = true;     // waits for the submitted runs
+  std::string failures;  // a folder; empty: failed runs are not recorded
+  std::string broker;    // the broker of the servers for the runs; empty: this machine
+  std::string servers;   // a constraint on the servers; empty: any
 };
 
-// NAME.sqlite has its spool in NAME.runs.
+// The spool of NAME.sqlite is NAME.runs.
 std::filesystem::path SpoolOf(const std::string& results_file);
 
-// Adds to the results what lies in the spool, if there is one. Where there are no results yet it
-// makes them. Leaves alone what another driver is about to gather.
+// Adds the results in the spool, if there is one; creates the results file if necessary. Leaves
+// those that another driver is about to collect.
 int GatherSpool(const std::string& results_file);
 
-// Until all runs are done, a signal comes, or there is no server any more.
+// Returns when all runs are done, after a signal, or when no server is left.
 int RunHere(const campaign::Campaign& campaign, campaign::Results& results,
             const EngineOptions& options, Signals& signals);
 int RunByQueue(const campaign::Campaign& campaign, campaign::Results& results,
                const std::string& results_file, const EngineOptions& options, Signals& signals);
 
-// The share's runs, into the spool. What an earlier attempt at it has done is left out.
+// Executes the share's runs into the spool, except those that an earlier attempt has done.
 int RunShard(const campaign::Campaign& campaign, const std::string& results_file,
              const Shard& shard, const EngineOptions& options, Signals& signals);
 
@@ -45,8 +45,8 @@ struct TaskArguments {
   std::string batch_file;
   std::size_t task = 0;
   std::string job = "none", node;   // for the journal; node: empty: this machine's name
-  int jobs = 1;                     // runs at once
-  bool until_stdin_closes = false;  // it ends then as by a signal
+  int jobs = 1;                     // concurrent runs
+  bool until_stdin_closes = false;  // then it ends as after a signal
 };
 int RunTask(const TaskArguments& arguments, Signals& signals);
 

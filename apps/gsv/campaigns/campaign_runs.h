@@ -1,4 +1,4 @@
-// The runs of a campaign, each taken in a child process of its own, here or by a server.
+// Executes the runs of a campaign, each in its own child process, here or on a server.
 #pragma once
 
 #include <atomic>
@@ -11,16 +11,16 @@
 
 namespace gsv::app {
 
-// Threads  Take() any number at once, on threads that live until it returns.
+// Threads  Take() from any number at once, on threads that live until it returns.
 class RunTaker {
  public:
-  // `folder`: for what it needs in between. `failures`: where failed runs leave their recordings;
-  // empty: nothing is recorded. `timeout`: wall seconds a run. `servers`: that do the runs, and
-  // outlive this; null: this machine does.
+  // `folder`: for temporary files. `failures`: folder for the recordings of failed runs; empty:
+  // they are not recorded. `timeout`: s of wall-clock time per run. `servers`: execute the runs,
+  // and must outlive this; null: this machine executes them.
   RunTaker(const campaign::Campaign& campaign, std::filesystem::path folder,
            std::filesystem::path failures, double timeout, ScenarioServers* servers = nullptr);
 
-  // Nothing when it was cancelled.
+  // Nothing if the run was cancelled.
   std::optional<campaign::RunResult> Take(std::int64_t run,
                                           const std::atomic<bool>& is_cancelled) const;
 

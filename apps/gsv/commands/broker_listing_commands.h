@@ -1,4 +1,4 @@
-// `gsv offers`, `gsv types` and `gsv links`: what a broker has, listed, added to and removed from.
+// `gsv offers`, `gsv types` and `gsv links`: list, add and remove a broker's entries.
 #pragma once
 
 #include "apps/gsv/commands/commands.h"

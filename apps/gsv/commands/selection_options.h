@@ -1,4 +1,4 @@
-// The options with which commands choose a simulation that runs in another process.
+// The options by which commands select a simulation in another process.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,9 +7,9 @@
 
 namespace gsv::app {
 
-// --broker and --server. `selection` outlives the command line.
+// Adds --broker and --server. `selection` must outlive the command line.
 void AddInstanceOptions(CLI::App& command, Selection& selection);
-// The simulation's name, as the next argument.
+// Adds the simulation's name as the next argument.
 void AddSimulationName(CLI::App& command, Selection& selection);
 
 }  // namespace gsv::app

@@ -1,11 +1,11 @@
-// `gsv doctor`: what this machine lacks, and how fast it draws.
+// `gsv doctor`: reports what is missing on this machine, and the speed of rendering.
 #pragma once
 
 #include <string>
 
 namespace gsv::app {
 
-// Prints a line for each thing it looks at; gives the exit code. `broker`: see CheckBroker().
+// Prints one line per check. Returns the exit code. `broker`: see CheckBroker().
 int Doctor(const std::string& broker);
 
 }  // namespace gsv::app

@@ -1,16 +1,17 @@
-// What a machine has to offer to simulations: limits, ports, libraries, room, a broker.
+// Checks whether this machine is ready for simulations: limits, ports, libraries, disk space, a
+// broker.
 //
-// Each check prints one line; where something lacks, with what to do.
+// Each check prints one line, with a remedy if something is missing.
 #pragma once
 
 #include <string>
 
 namespace gsv::app {
 
-// False where something is missing without which simulations do not run as they should.
+// False if a part is missing that simulations need.
 bool CheckMachine();
-// `broker` empty: that of the newest instance of this user, if there is one. False when one is
-// named and does not answer.
+// `broker` empty: that of this user's newest instance, if there is one. False if a broker is named
+// that does not answer.
 bool CheckBroker(const std::string& broker);
 
 }  // namespace gsv::app

@@ -1,6 +1,6 @@
-// What servers before this one have lost, over HTTP:
+// Crash reports of earlier servers, over HTTP:
 //   GET    /api/lost          the list
-//   DELETE /api/lost/NUMBER   one was noticed; it is shown no more
+//   DELETE /api/lost/NUMBER   dismisses one, which is not shown again
 //
 // Threads  any.
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace gsv::app {
 
-// `lost` outlives the handlers.
+// `lost` must outlive the handlers.
 std::vector<gateway::Route> LostRoutes(LostSimulations& lost);
 
 }  // namespace gsv::app

@@ -1,10 +1,10 @@
-// What servers before this one have lost: a server that was killed left a note of what it ran
-// (server_note.h), which the next one with the same folder of recordings takes over. Keeps the note
-// of this server, too.
+// The simulations that earlier servers lost. A server that was killed left a note of its
+// simulations (server_note.h), which the next server with the same folder of recordings takes over.
+// This class also keeps the note of this server.
 //
-// Threads  any. A thread of its own writes the note when what is run has changed, up to twice a
-//          second; another looks into the recordings, which may take long.
-// Bounded  kMaxKept, the newest.
+// Threads  any. One thread writes the note after changes, at most twice a second; another reads the
+//          recordings, which may take long.
+// Bounded  keeps the newest kMaxKept.
 #pragma once
 
 #include <filesystem>
@@ -31,18 +31,18 @@ class LostSimulations {
     std::filesystem::path recordings;
   };
 
-  // Takes over, and tells the log of each. Where the state folder cannot be used, it says so and
-  // what runs here would not be missed. `host` and `recordings` outlive it.
+  // Takes over the notes, and logs each simulation. If the state folder cannot be used, logs that a
+  // crash of this server would not be reported. `host` and `recordings` must outlive this.
   LostSimulations(const Server& server, services::SimulationHost& host,
                   gateway::RecordingSwitch& recordings);
-  // A clean end: nothing was lost, and what was told of has been told.
+  // A regular end: nothing was lost, and the crash reports end as well.
   ~LostSimulations();
 
-  // By their numbers, which stay as long as this server.
+  // By number; the numbers stay for the lifetime of this server.
   std::map<int, LostSimulation> List() const;
-  // Of its recording, if that lies in this server's folder; else empty.
+  // The name of its recording, if that is in this server's folder; else empty.
   std::string NameInFolder(const LostSimulation& lost) const;
-  // Forgets one. False: there is none of that number.
+  // Dismisses one. False if there is none of that number.
   bool Dismiss(int number);
 
  private:
@@ -55,8 +55,8 @@ class LostSimulations {
 
   services::SimulationHost& host_;
   gateway::RecordingSwitch& recordings_;
-  std::filesystem::path file_;  // this server's note; empty: it cannot be kept
-  ServerNote note_;             // as it was written last; the watching thread's
+  std::filesystem::path file_;  // this server's note; empty: it cannot be written
+  ServerNote note_;             // as it was written last; used by the watching thread
   bool could_write_ = true;
   mutable base::Mutex mutex_;  // guards lost_ and next_
   std::condition_variable_any changed_;

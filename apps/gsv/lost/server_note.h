@@ -1,8 +1,8 @@
-// What a server runs, noted in this user's state folder, so that whoever comes after one that was
-// killed can tell what was lost: $XDG_STATE_HOME/gsv/servers (~/.local/state), one small file for
-// each server, which goes with its clean end.
+// A note of a server's simulations in this user's state folder, by which a later server reports
+// what a killed one has lost: $XDG_STATE_HOME/gsv/servers (~/.local/state), one small file per
+// server, which is removed at a regular end.
 //
-// Input    hostile: a note is as a power cut, or somebody else, left it.
+// Input    untrusted: a power failure, or another user, may have damaged a note.
 // Threads  any.
 #pragma once
 
@@ -22,11 +22,11 @@ namespace gsv::app {
 
 struct LostSimulation {
   std::string name, world, phase;
-  double time_s = 0;                    // simulated, when it was noted last
-  std::int64_t noted = 0;               // that instant, s since 1970
+  double time_s = 0;                    // simulated, at the last update
+  std::int64_t noted = 0;               // time of the last update, s since 1970
   std::string recording;                // a file or folder; empty: it was not recorded
-  std::optional<double> whole_until_s;  // the recording's last message, once it was looked at
-  std::string server;                   // who ran it: "gsv (process 123)"
+  std::optional<double> whole_until_s;  // the recording's last message, after it was read
+  std::string server;                   // the server that ran it: "gsv (process 123)"
 };
 
 // "arena on gsv (process 123) was lost at about 12.3 s, when its server ended without a word;
@@ -48,18 +48,17 @@ struct ServerNote {
   std::vector<LostSimulation> lost;         // by those before it
 };
 
-// Of this process.
+// The note of this process.
 ServerNote NewNote();
-// Whether the process that wrote it still runs, as far as can be told from here: one of another
-// host does.
+// Whether the process that wrote it still runs. A process of another host counts as running.
 bool IsOfTheLiving(const ServerNote& note);
 
-// Made when it is not there.
+// Created if it does not exist.
 base::Result<std::filesystem::path> NotesFolder();
-// Where this process's note goes.
+// The path of this process's note.
 std::filesystem::path NoteFile(const std::filesystem::path& folder, const ServerNote& note);
 
-// Renamed into place, so that nobody reads half of it.
+// Written to a temporary file and renamed, so that no reader gets a part of it.
 base::Status WriteNote(const std::filesystem::path& file, const ServerNote& note);
 
 struct NoteFound {
@@ -68,13 +67,13 @@ struct NoteFound {
 };
 struct NotesFound {
   std::vector<NoteFound> notes;               // at most a thousand
-  base::Problems problems;                    // a file that is no note
+  base::Problems problems;                    // for example a file that is not a note
   std::vector<std::filesystem::path> broken;  // those files
 };
 NotesFound ReadNotes(const std::filesystem::path& folder);
 
-// What is lost, as the notes tell: all that those ran who are dead, and what the living have taken
-// over from them. `broker`: only of servers at that one; empty: of all.
+// All lost simulations in the notes: those of ended processes, and those that running processes
+// have taken over from them. `broker`: only of servers at that broker; empty: of all.
 std::vector<LostSimulation> LostSimulationsNoted(const std::string& broker);
 
 }  // namespace gsv::app

@@ -1,4 +1,4 @@
-// Bounds for a process that reads what strangers made: memory, time, files, network.
+// A sandbox for a process that reads untrusted input: limits on memory, time, files and network.
 #pragma once
 
 #include <chrono>
@@ -13,13 +13,13 @@ struct Confinement {
   std::chrono::seconds processor_time{60};
 };
 
-// With which a confined process ends that wants more memory.
+// The exit code of a sandboxed process that exceeds its memory.
 inline constexpr int kWantsMoreMemory = 70;
 
-// For this process, from now on and for good: who wants more memory ends, who takes more time is
-// killed; nothing is written to files, no socket is opened, no program is started (seccomp(2), and
-// setrlimit(2)). Files can be read. Call it before threads start. Fails where the kernel has no
-// such filters.
+// Sandboxes this process for the rest of its life. It ends if it exceeds its memory, and is killed
+// if it exceeds its time. It cannot write files, open sockets or start programs (seccomp(2),
+// setrlimit(2)). It can read files. Call it before threads start. Fails if the kernel has no such
+// filters.
 base::Status Confine(const Confinement& bounds);
 
 }  // namespace gsv::app

@@ -1,4 +1,4 @@
-// Where the parts of this installation lie.
+// The folders of this installation.
 #pragma once
 
 #include <filesystem>
@@ -13,18 +13,18 @@ std::filesystem::path ProgramPath();  // this executable
 std::filesystem::path ProgramFolder();
 std::filesystem::path ShareFolder();  // worlds, models, the viewer
 
-// The worlds that ship with gsv, by name: "maze", "office"...
+// The names of the built-in worlds: "maze", "office"...
 std::vector<std::string> OurWorlds();
 
-// A world's file as somebody names it: a path, or the name of one of ours. Fails with kNotFound,
-// and the names there are, where a bare name is neither; of a path that leads nowhere the reader
-// complains.
+// The file of a world, given by path or by the name of a built-in world. Fails with kNotFound, and
+// the known names, if a bare name is neither. Does not check whether a path exists; the reader
+// reports that.
 base::Result<std::string> FindWorld(const std::string& world);
 
-// A warning for each folder of a model path that is not there, or is no folder.
+// A warning for each entry of a model path that is not an existing folder.
 base::Problems CheckModelPath(const std::vector<std::string>& model_path);
 
-// "wander --no-pictures" as its words, cut at blanks.
+// Splits a command such as "wander --no-pictures" at blanks.
 std::vector<std::string> SplitWords(const std::string& text);
 
 }  // namespace gsv::app

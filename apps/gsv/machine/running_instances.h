@@ -1,5 +1,5 @@
-// Which gsv processes of this user can be asked, and through which broker: one small file for each,
-// in $XDG_RUNTIME_DIR/gsv or, without that, /tmp/gsv-UID.
+// The gsv processes of this user and their brokers: one small file for each process, in
+// $XDG_RUNTIME_DIR/gsv or, if that is not set, /tmp/gsv-UID.
 //
 // Threads  any.
 #pragma once
@@ -17,20 +17,20 @@
 
 namespace gsv::app {
 
-// When a process was started, in clock ticks after the machine's start; nothing when there is none
-// of that number.
+// The start time of a process, in clock ticks after the machine's start; nothing if there is no
+// process of that number.
 std::optional<std::uint64_t> ProcessStart(pid_t pid);
 
 struct Instance {
   pid_t pid = 0;
-  std::uint64_t started = 0;  // clock ticks after the machine's start; tells a reused pid
+  std::uint64_t started = 0;  // clock ticks after the machine's start; detects a reused pid
   std::string broker;         // its reference
 };
 
-// This process's file; it goes when this does.
+// This process's file, which the destructor removes.
 class InstanceRecord {
  public:
-  // Fails when the folder cannot be written, or is not this user's alone.
+  // Fails if the folder cannot be written, or other users can write to it.
   static base::Result<std::unique_ptr<InstanceRecord>> Write(const std::string& broker);
   ~InstanceRecord();
   InstanceRecord(const InstanceRecord&) = delete;
@@ -42,7 +42,7 @@ class InstanceRecord {
   const std::filesystem::path file_;
 };
 
-// The newest first. Files of processes that have ended are ignored, and removed.
+// The newest first. Ignores and removes the files of processes that have ended.
 std::vector<Instance> RunningInstances();
 
 }  // namespace gsv::app

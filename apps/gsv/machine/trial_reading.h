@@ -1,8 +1,8 @@
-// Reads a stranger's world in a process of its own first: what crashes there, hangs, or takes too
-// much does no harm here, and is told in a sentence.
+// Reads an untrusted world in a sandboxed process first. If that crashes, hangs or exceeds its
+// limits, this process is not harmed and gets an error.
 //
-// The trial's outcome is not used, only that it came to an end: what is then read here is what was
-// read there. See docs/security.md for what this stops, and what it does not.
+// Only the regular end of the trial is used: the file is then read again here. docs/security.md
+// describes what this protects against, and what not.
 #pragma once
 
 #include <chrono>
@@ -19,8 +19,8 @@ struct TrialLimits {
   std::chrono::seconds wall_time{120};
 };
 
-// kBadModel: it did not come to an end. `model_path`: where models are looked for.
-// Threads  any; takes as long as reading does.
+// kBadModel: the trial did not end regularly. `model_path`: folders to search for models.
+// Threads  any; takes as long as reading.
 base::Status TryToRead(const std::string& world,
                        const std::vector<std::filesystem::path>& model_path,
                        const TrialLimits& limits);

@@ -1,4 +1,4 @@
-// The exit codes of every gsv command, and how errors become them.
+// The exit codes of all gsv commands, and the mapping from errors to them.
 #pragma once
 
 #include "gsv/base/error.h"
@@ -18,7 +18,7 @@ enum ExitCode {
 
 ExitCode ExitCodeFor(base::ErrorCode code);
 
-// Prints the one sentence on stderr and gives the code to exit with.
+// Prints the error's sentence on stderr and returns its exit code.
 int Complain(const base::Error& error);
 
 }  // namespace gsv::app

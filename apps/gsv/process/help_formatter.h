@@ -1,10 +1,10 @@
-// The layout of `--help`: 80 columns, one option a line where it fits, options in groups.
+// The layout of `--help`: 80 columns, one line per option if it fits, options in groups.
 //
 //   --port PORT               port of the viewer (default: 8080) [env: GSV_PORT]
 //
-// An option's description is a short line, and behind a newline, if there is more to say, sentences for
-// its manual page. `--help-all` prints those too, with ranges and with the options that an option needs or
-// excludes: tools/make_man_pages and tools/make_completion read it.
+// An option's description is a short line, and behind a newline, if there is more to say, sentences
+// for its manual page. `--help-all` prints those too, with ranges and with the options that an
+// option needs or excludes: tools/make_man_pages and tools/make_completion read it.
 #pragma once
 
 #include <string>
@@ -20,7 +20,8 @@ class HelpFormatter : public CLI::Formatter {
                         CLI::AppFormatMode mode) const override;
 };
 
-// Sets the formatter, -h/--help and the hidden --help-all. Subcommands that are added later inherit them.
+// Sets the formatter, -h/--help and the hidden --help-all. Subcommands that are added later inherit
+// them.
 void UseHelpFormatter(CLI::App& app);
 
 }  // namespace gsv::app

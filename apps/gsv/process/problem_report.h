@@ -1,4 +1,4 @@
-// Problems of files as lines for people: the same in many places is told once.
+// Formats problems of files as lines for users. A problem in many places is printed once.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 namespace gsv::app {
 
 // The problems of that severity in the order of their first place: "where: message", with
-// "(and in 41 more places)" where others have the same message.
+// "(and in 41 more places)" if others have the same message.
 std::vector<std::string> GroupedSentences(const base::Problems& problems,
                                           base::Problem::Severity severity);
 
-// The first `count` of the sentences, and one that counts the rest and says how to see them.
+// The first `count` sentences, and one that counts the rest and names the command that shows them.
 std::vector<std::string> Shortened(std::vector<std::string> sentences, std::size_t count,
                                    const std::string& how_to_see_all);
 

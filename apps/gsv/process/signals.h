@@ -1,5 +1,5 @@
-// The signals that end a program (SIGINT, SIGTERM, and SIGHUP of a terminal that is closed) as
-// something to ask for: no handler interrupts anything.
+// Waits for the signals that end a program (SIGINT, SIGTERM, and SIGHUP of a closed terminal),
+// without signal handlers.
 #pragma once
 
 #include <csignal>
@@ -8,12 +8,12 @@ namespace gsv::app {
 
 class Signals {
  public:
-  // Blocks them for this thread and all that it starts later: call first in main(). SIGHUP stays
-  // ignored where it is, as by nohup.
+  // Blocks them for this thread and all threads that it starts later: call it first in main().
+  // SIGHUP stays ignored if it is ignored, as by nohup.
   Signals();
-  // The signal that has come; 0: none within `milliseconds`.
+  // The received signal; 0: none within `milliseconds`.
   int WaitFor(int milliseconds);
-  void Wait();  // for one
+  void Wait();  // for one signal
 
  private:
   sigset_t set_;

@@ -1,4 +1,4 @@
-// What --drive says, put into a run.
+// Applies --drive to a run.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace gsv::app {
 
-// Puts what --drive says into the scenario's robots, and reads `world` into the specification when a
-// model of the world is to be a robot. kInvalidArgument when there is no robot of a name.
+// Sets the drives of --drive in the scenario's robots. Reads `world` into the specification if a
+// model of the world becomes a robot. kInvalidArgument if there is no robot of a name.
 base::Status PrepareDrives(const std::string& world, formats::ModelLibrary& library,
                            RunOptions& options, base::Problems& problems);
 

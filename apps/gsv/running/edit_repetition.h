@@ -1,4 +1,4 @@
-// What people did by hand in a recorded run, done once more.
+// Repeats the edits that people made during a recorded run.
 #pragma once
 
 #include <vector>
@@ -10,20 +10,21 @@
 
 namespace gsv::app {
 
-// What a recording tells of people's doings.
+// The actions of people in a recording.
 struct RecordedDoings {
   std::vector<simulation::Edit> edits;  // in the order in which they were made
-  bool was_held_up = false;             // paused, resumed, ended early, or its pace changed
+  bool was_held_up = false;             // the run was paused, resumed, ended early, or slowed
 };
 
-// Fails, naming `file`, where they cannot be repeated: what came before the recording is not known,
-// an edit came while behaviours ran (with recorded commands, `by_commands`, that is no matter).
+// Fails, with the name of `file`, if the edits cannot be repeated: the actions before the recording
+// are unknown, or an edit came while behaviours ran (which is allowed with recorded commands,
+// `by_commands`).
 base::Result<RecordedDoings> ReadDoings(const recording::McapReader& reader,
                                         const std::string& file, bool by_commands);
 
-// Starts a simulation that was just populated, halts it at each of `options.edits` to make it, and
-// has it go on. An edit at or after its end is left out. Gives kOk, or kInterrupted after a signal,
-// with the simulation stopped. Fails when an edit is refused or its model is gone.
+// Starts a populated simulation, pauses it at each of `options.edits` to make the edit, and resumes
+// it. Leaves out edits at or after its end. Returns kOk, or kInterrupted after a signal, with the
+// simulation stopped. Fails if an edit is refused or its model is missing.
 base::Result<int> RunWithEdits(Runtime& runtime, simulation::Simulation& simulation,
                                const RunOptions& options, Signals& signals);
 

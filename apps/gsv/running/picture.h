@@ -1,4 +1,4 @@
-// Pictures as files, of what people asked to see.
+// Renders images to files for users.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace gsv::app {
 
-// A sentence when it does not end with .jpg, .jpeg or .png; else empty.
+// A sentence if the name does not end with .jpg, .jpeg or .png; else empty.
 std::string CheckPictureName(const std::string& path);
 
 base::Status WritePicture(const model::Image& picture, const std::string& path);
 
-// A body and what is about it, from behind and above.
+// Renders a body and its environment, from behind and above.
 base::Status DrawAround(const std::shared_ptr<const world::Snapshot>& snapshot,
                         const std::string& body, const std::string& path);
 

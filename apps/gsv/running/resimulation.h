@@ -1,4 +1,4 @@
-// Runs what a recording of `gsv run` tells of once more, and compares.
+// Repeats the recorded run of `gsv run`, and compares the results.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@ namespace gsv::app {
 
 struct ResimulationOptions {
   std::string file;
-  std::string broker;     // empty: one of its own
-  bool commands = false;  // the recorded ones instead of live behaviours
+  std::string broker;     // empty: its own broker
+  bool commands = false;  // recorded commands instead of live behaviours
   bool json = false;
 };
 
-// Lockstep, from the recorded command and its folder, to the recorded end. Compares all topics, or
-// how bodies moved if the robots get recorded commands (nobody then asks for pictures or mounts
-// sensors). Prints where the two first differ; the exit code is 1 if they do. kInvalidArgument when
-// the recording does not say how it was made.
+// Runs in lockstep, with the recorded command line and folder, to the recorded end. Compares all
+// topics; with recorded commands only the motion of bodies, as no behaviour then requests images or
+// mounts sensors. Prints the first difference, and returns exit code 1 if there is one.
+// kInvalidArgument if the recording has no command line.
 base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signals);
 
 }  // namespace gsv::app

@@ -1,4 +1,4 @@
-// One run of a simulation, from its start to its end.
+// One run of a simulation, from start to end.
 #pragma once
 
 #include "apps/gsv/process/signals.h"
@@ -6,8 +6,8 @@
 
 namespace gsv::app {
 
-// Gives the exit code. Progress and the report go to stdout and stderr as `gsv run` prints them;
-// `is_quiet` leaves out what is not a warning or an error.
+// Returns the exit code. Prints progress and the report to stdout and stderr like `gsv run`;
+// `is_quiet` leaves out everything except warnings and errors.
 base::Result<int> Run(const RunOptions& options, Signals& signals, bool is_quiet = false);
 
 }  // namespace gsv::app

@@ -1,4 +1,4 @@
-// What `gsv run` says at the end.
+// The report of `gsv run` at the end.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ std::string JsonReport(const simulation::Simulation& simulation,
                        const std::vector<std::string>& warnings,
                        const std::vector<verdict::Finding>& findings);
 
-// The same for people.
+// The same as text.
 std::string TextReport(const simulation::Simulation& simulation,
                        const std::vector<verdict::Finding>& findings);
 

@@ -1,4 +1,4 @@
-// Starts of robots and avatars that can be carried out and most likely are not what was meant.
+// Finds starts of robots and avatars that are possible but most likely wrong.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,9 @@
 namespace gsv::app {
 
 // Warns of a heading beyond a full turn (degrees given as radians), a start far from everything in
-// the world, one outside of walls that enclose the rest, and, of rigid bodies, one with nothing
-// below. `snapshot` is the world as it is with them; entries without a start are not looked at, nor
-// those whose name is not in the world. Each sentence is about one entry.
+// the world, a start outside of walls that enclose the rest, and a rigid robot without ground
+// below. `snapshot` is the world with the robots. Ignores entries without a start, and those whose
+// name is not in the world. Each sentence is about one entry.
 base::Problems CheckStarts(const std::shared_ptr<const world::Snapshot>& snapshot,
                            const scenario::Scenario& scenario);
 

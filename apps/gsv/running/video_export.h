@@ -1,7 +1,7 @@
-// The pictures of one topic of a recording as a video, made by ffmpeg.
+// Exports the images of one topic of a recording as a video, with ffmpeg.
 //
-// Errors  kUnavailable when there is no ffmpeg; kInvalidArgument when the topic holds no pictures,
-//         or the file is there already.
+// Errors  kUnavailable if there is no ffmpeg; kInvalidArgument if the topic has no images, or if
+//         the file exists already.
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@
 namespace gsv::app {
 
 struct VideoOptions {
-  std::string output;  // the ending says which kind: .mp4
+  std::string output;  // the extension selects the format: .mp4
   double frames_a_second = 25;
-  std::string ffmpeg = "ffmpeg";  // looked for in PATH
+  std::string ffmpeg = "ffmpeg";  // found in PATH
 };
 
-// A frame shows the newest picture by its instant, so that a recorded second is one in the video.
-// Returns how many frames there are.
+// A frame shows the newest image at its instant, so that a recorded second is a second of video.
+// Returns the number of frames.
 base::Result<std::uint64_t> ExportVideo(const recording::McapReader& reader,
                                         const recording::Selection& selection,
                                         const VideoOptions& options);

@@ -1,5 +1,5 @@
-// The crowd that other simulators were measured with: robots that wander about a walled square with
-// 10 m² for each and a box of 1 m for every four.
+// The crowd with which other simulators were measured: robots that wander on a walled square with
+// 10 m² per robot and a box of 1 m for every four.
 #pragma once
 
 #include <memory>
@@ -9,18 +9,18 @@
 
 namespace gsv::app {
 
-// Of a crowd's robot, a disc.
+// A robot of the crowd is a disc.
 inline constexpr double kCrowdRobotRadius = 0.175;  // m
-inline constexpr double kCrowdRange = 5;            // m that its eight rays reach
+inline constexpr double kCrowdRange = 5;            // m: length of its eight rays
 inline constexpr double kCrowdRayHeight = 0.15;     // m
 inline constexpr int kCrowdRays = 8;
 
-// Walls, boxes and ground.
+// The world with walls, boxes and ground.
 std::shared_ptr<const model::WorldDescription> CrowdWorld(int robots, std::uint64_t seed);
 // The robots in it, without behaviours.
 std::vector<simulation::RobotSpecification> CrowdRobots(int robots, std::uint64_t seed);
 
-// Reads the eight rays each 50 ms; goes forward where there is room, else turns to the freer side.
+// Reads the eight rays every 50 ms. Drives forward if there is space, else turns to the freer side.
 class CrowdController : public Controller {
  public:
   CrowdController() : Controller(std::chrono::milliseconds(50)) {}

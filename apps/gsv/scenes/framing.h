@@ -1,4 +1,4 @@
-// What of a world a picture of all of it shows.
+// The part of a world that an overview image shows.
 #pragma once
 
 #include <vector>
@@ -8,16 +8,15 @@
 
 namespace gsv::app {
 
-// The corners, in the world, of the boxes around what stands there and can be seen. Left out are
-// planes, which have no end; ground that reaches far beyond all that stands on it; and bodies so far
-// away from the others that with them nothing could be made out. A box of 2 m about the origin
-// where there is nothing else. Never empty.
+// The corners, in the world, of the boxes around all visible bodies. Left out are infinite planes,
+// ground that reaches far beyond the bodies on it, and bodies so far away that the others would be
+// too small to see. If nothing is left, a box of 2 m about the origin. Never empty.
 std::vector<geometry::Vector3> CornersToShow(const world::Snapshot& snapshot);
 
-// Whether a world is a model alone, as it is read where a world is wanted: beside it there is a
-// ground at most.
+// Whether a world is a single model, as it is read if a model is given as a world: it has at most a
+// ground besides.
 bool IsModelAlone(const model::WorldDescription& world);
-// Puts such a model onto the ground: the origin of a model may be anywhere in it.
+// Places such a model on the ground, since the origin of a model may be anywhere in it.
 void StandModelOnGround(model::WorldDescription& world);
 
 }  // namespace gsv::app

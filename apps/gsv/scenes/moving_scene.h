@@ -1,5 +1,5 @@
-// What `gsv bench camera` and `gsv bench lidar` look at: robots that drive in circles about a
-// world, and the cameras that look at them.
+// The scene of `gsv bench camera` and `gsv bench lidar`: robots that drive in circles in a world,
+// and cameras.
 #pragma once
 
 #include <memory>
@@ -12,24 +12,25 @@
 namespace gsv::app {
 
 struct MovingSceneOptions {
-  std::string world = "office";  // as of `gsv run`, or "square": that of the crowd, with a floor
+  std::string world = "office";  // as for `gsv run`, or "square": that of the crowd, with a floor
   std::string model = "b21r";
   int robots = 50;
   simulation::Mode mode = simulation::Mode::kRealTime;
-  // What stands still is collided with as it is drawn, mesh by mesh, instead of by the simpler
-  // shapes that stand for it.
+  // Static bodies collide with their visuals, mesh by mesh, instead of their simpler collision
+  // shapes.
   bool collide_with_visuals = false;
 };
 
 struct MovingScene {
-  // Robots get the first free places on a spiral about the origin, on the square those of the
+  // Robots get the first free places on a spiral about the origin; on the square, those of the
   // crowd.
   static base::Result<MovingScene> Create(const MovingSceneOptions& options);
 
-  // From the robots' heads, looking about; a robot with several cameras looks several ways.
+  // Views from the robots' heads in changing directions; several cameras of a robot look several
+  // ways.
   std::vector<rendering::CameraView> RobotViews(const world::Snapshot& snapshot, int count,
                                                 const rendering::CameraParameters& camera) const;
-  // From above, circling, so far away that all robots are in view.
+  // Circling views from above, at such a distance that all robots are in view.
   std::vector<rendering::CameraView> Overviews(const world::Snapshot& snapshot, int count,
                                                const rendering::CameraParameters& camera) const;
 
@@ -37,9 +38,9 @@ struct MovingScene {
   std::vector<std::string> robots;
 };
 
-// Of all that can be seen.
+// The number of visible triangles.
 std::uint64_t TrianglesIn(const world::Layout& layout);
-// What rays can meet: the triangles of meshes, and the shapes that are none.
+// The objects that rays can hit: the triangles of meshes, and other shapes.
 struct Solids {
   std::uint64_t triangles = 0, shapes = 0;
 };

@@ -1,11 +1,11 @@
-// Servers that run scenarios for others, found through a broker: for a campaign that has more runs
-// than one machine is to do.
+// Servers that run scenarios for others, found through a broker: for campaigns with more runs than
+// one machine can do.
 //
-// Who joins or leaves while it works is noticed: the broker is asked again about once a second. A
-// server that is killed, or that nobody reaches for ten seconds, is lost, and what was under way
-// there is given to another.
+// Servers may join and leave during the work: the broker is queried about once a second. A server
+// that was killed, or that cannot be reached for ten seconds, is lost, and its runs in progress are
+// given to another server.
 //
-// Threads  any number call Run(), each for a run of its own.
+// Threads  any number call Run(), each for its own run.
 #pragma once
 
 #include <atomic>
@@ -24,27 +24,27 @@ namespace gsv::app {
 class ScenarioServers {
  public:
   // `constraint`: over the properties of gsv::ScenarioService (docs/services.md); empty: any.
-  // kUnavailable when there is none. Starts this process's ORB.
+  // kUnavailable if there is none. Starts this process's ORB.
   static base::Result<std::unique_ptr<ScenarioServers>> Find(const std::string& broker,
                                                              const std::string& constraint);
   ~ScenarioServers();
 
-  // Runs it where there is most room, waiting for room, and comes back with its outcome: status,
-  // message, report, wall time. kInterrupted when it was cancelled or there are no servers any
-  // more.
+  // Runs the scenario on the server with most free slots, and waits for a slot. Returns the
+  // outcome: status, message, report, wall-clock time. kInterrupted if the run was cancelled or no
+  // servers are left.
   TestResult Run(const std::string& scenario, double timeout,
                  const std::atomic<bool>& is_cancelled);
 
-  // Why it gave up: there was no server for a minute. Empty: it did not.
+  // The reason for giving up: there was no server for a minute. Empty: it has not given up.
   std::string failure() const;
 
  private:
   using Clock = std::chrono::steady_clock;
   struct Server {
-    std::string key, name;  // its reference; what people call it
+    std::string key, name;  // its reference; its name for users
     sba::ScenarioService_var service;
     int slots = 0, given = 0;
-    Clock::time_point avoided_until{};  // it was lost, or has no room
+    Clock::time_point avoided_until{};  // it was lost, or has no free slot
   };
   enum class Ending { kDone, kNoRoom, kLost };
 
@@ -54,7 +54,7 @@ class ScenarioServers {
   base::Status Refresh();
   void Merge(const std::vector<broker::FoundOffer>& offers) GSV_REQUIRES(mutex_);
   std::shared_ptr<Server> Acquire(const std::atomic<bool>& is_cancelled);
-  std::shared_ptr<Server> Roomiest() GSV_REQUIRES(mutex_);  // null: none has room
+  std::shared_ptr<Server> Roomiest() GSV_REQUIRES(mutex_);  // null: none has a free slot
   void Release(Server& server, Ending ending);
   Ending RunAt(Server& server, const std::string& scenario, double timeout,
                const std::atomic<bool>& is_cancelled, TestResult& result);
@@ -65,10 +65,10 @@ class ScenarioServers {
   mutable base::Mutex mutex_;
   base::ConditionVariable room_;
   std::vector<std::shared_ptr<Server>> servers_
-      GSV_GUARDED_BY(mutex_);  // as the broker orders them
+      GSV_GUARDED_BY(mutex_);  // in the order of the broker
   bool is_refreshing_ GSV_GUARDED_BY(mutex_) = false;
   Clock::time_point refreshed_ GSV_GUARDED_BY(mutex_){},
-      served_{};  // served_: when there last was a server
+      served_{};  // served_: when a server existed last
   std::string failure_ GSV_GUARDED_BY(mutex_);
 };
 

@@ -1,6 +1,6 @@
-// sba::ScenarioService: whole scenarios, each run in a child process as `gsv test` does.
+// Implements sba::ScenarioService: whole scenarios, each run in a child process, as by `gsv test`.
 //
-// Threads  ORB threads; one more a run, and one that ends those that nobody asks about.
+// Threads  ORB threads; one more per run, and one that ends abandoned runs.
 #pragma once
 
 #include <set>
@@ -16,14 +16,14 @@ class ScenarioRunServant;
 
 class ScenarioServiceServant final : public POA_sba::ScenarioService {
  public:
-  // `capacity`: how many at once; 0: none.
+  // `capacity`: number of concurrent runs; 0: none.
   ScenarioServiceServant(PortableServer::POA_ptr poa, int capacity);
   ~ScenarioServiceServant() override;
 
   sba::ScenarioRun_ptr run(const char* scenario, const sba::NameValues& options) override;
 
   int under_way() const;
-  // Ends all runs; calls on their references find nothing any more.
+  // Ends all runs; later calls on their references fail.
   void Close();
 
  private:

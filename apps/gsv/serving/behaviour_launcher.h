@@ -1,6 +1,6 @@
-// Starts the behaviour programs that ship with gsv, for behaviours that nobody offers yet.
+// Starts the behaviour programs of gsv, for behaviours that are not offered yet.
 //
-// Threads  the thread that made it.
+// Threads  the thread that created it.
 #pragma once
 
 #include <chrono>
@@ -15,20 +15,20 @@ namespace gsv::app {
 
 class BehaviourLauncher {
  public:
-  // `broker` outlives it.
+  // `broker` must outlive this.
   explicit BehaviourLauncher(broker::BrokerClient& broker) : broker_(broker) {}
-  // Ends the programs: SIGTERM to all at once, and SIGKILL to those that are still there when the
-  // patience is over.
+  // Ends the programs: SIGTERM to all at once, and SIGKILL to those that still run after the time
+  // limit.
   ~BehaviourLauncher();
   BehaviourLauncher(const BehaviourLauncher&) = delete;
   BehaviourLauncher& operator=(const BehaviourLauncher&) = delete;
 
-  // Wall time that all programs together have to end (default: 2 s).
+  // Wall-clock time limit for all programs together to end (default: 2 s).
   void SetPatience(std::chrono::milliseconds patience) { patience_ = patience; }
 
-  // Sees to it that the behaviour is offered. If it is not, starts `programs` of the program
-  // gsv-NAME, which lies beside this one or on PATH, and waits until they offer it. `behaviour` is
-  // a name and, after blanks, options for the program: it is offered under the whole of that.
+  // Makes sure that the behaviour is offered. If it is not, starts `programs` processes of
+  // gsv-NAME, which is beside this program or on PATH, and waits until they offer it. `behaviour`
+  // is a name and, after blanks, options for the program; the whole text is the name of the offer.
   base::Status Ensure(const std::string& behaviour, int programs);
 
  private:

@@ -1,7 +1,7 @@
-// What the viewer's broker page asks, over HTTP:
+// The requests of the viewer's broker page, over HTTP:
 //   GET /api/broker/types   the service types
 //   GET /api/broker/offers?type=&constraint=&preference=
-//                           offers of a type: which match and, of the others, which term failed
+//                           offers of a type: matches, and for the others the term that failed
 //   GET /api/broker/links   the links, and whether they answer
 //
 // Threads  any.

@@ -1,7 +1,7 @@
-// What the viewer's page "Join" asks, over HTTP:
+// The request of the viewer's page "Join", over HTTP:
 //   GET /api/instances   every gsv that the broker knows, and its simulations
 //
-// Threads  any. One question is put to the others at a time; whoever asks meanwhile gets the last
+// Threads  any. One query of the instances runs at a time; other requests meanwhile get the last
 //          answer.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace gsv::app {
 
-// `place` is this program's own "host:pid".
+// `place` is this program's "host:pid".
 std::vector<gateway::Route> InstancesRoutes(CORBA::ORB_ptr orb, const std::string& broker,
                                             const std::string& place);
 

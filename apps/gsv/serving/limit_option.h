@@ -1,4 +1,4 @@
-// --limit, of every command that reads worlds and models.
+// The option --limit of all commands that read worlds and models.
 #pragma once
 
 #include "apps/gsv/serving/server_limits.h"
@@ -11,9 +11,9 @@ class Option;
 
 namespace gsv::app {
 
-// `limits` outlives the parsing.
+// `limits` must outlive the parsing.
 CLI::Option* AddLimitOption(CLI::App& command, formats::ReadLimits& limits);
-// The same, where simulations are served.
+// The same for commands that serve simulations.
 CLI::Option* AddLimitOption(CLI::App& command, formats::ReadLimits& limits, ServerLimits& server);
 
 }  // namespace gsv::app

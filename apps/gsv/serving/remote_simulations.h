@@ -1,4 +1,4 @@
-// The simulations that run on the servers of some brokers, found for the command line.
+// Finds the simulations on the servers of brokers, for the command line.
 //
 // Errors   see broker::BrokerClient.
 // Threads  one at a time. Starts this process's ORB.
@@ -18,7 +18,7 @@ struct RemoteServer {
   std::string place;  // "host:pid"
   std::string pid;
   std::string viewer_url;  // empty: none
-  std::string broker;      // where it is offered
+  std::string broker;      // the broker that offers it
 
   std::string Describe() const { return name + " (" + place + ")"; }
 };
@@ -26,37 +26,37 @@ struct RemoteServer {
 struct FoundSimulation {
   RemoteServer server;
   sba::Simulation_var reference;
-  simulation::SimulationStatus status;  // as it was when it was found
+  simulation::SimulationStatus status;  // at the time of the search
 };
 
-// Which simulations are meant.
+// Selects simulations.
 struct Selection {
-  std::string broker;      // empty: those of this user's running instances, the newest first
+  std::string broker;      // empty: the brokers of this user's running instances, the newest first
   std::string server;      // empty: any; else an offer's name, its pid or "host:pid"
   std::string simulation;  // empty: any
 };
 
-// Servers that do not answer are told in `silent`, a sentence each. A broker that does not answer
-// is an error when it was named.
+// Adds a sentence to `silent` for each server that does not answer. A broker that does not answer
+// is an error if it was named.
 base::Result<std::vector<FoundSimulation>> FindSimulations(const Selection& selection,
                                                            std::vector<std::string>& silent);
 
-// The one that is meant. When nothing narrows the choice: that of the newest instance.
+// The selected simulation. Without a selection: that of the newest instance.
 base::Result<FoundSimulation> FindOneSimulation(const Selection& selection);
 
-// The instance that is meant, whether or not it runs a simulation. When nothing narrows the choice:
-// the newest of this user's.
+// The selected instance, whether it runs a simulation or not. Without a selection: this user's
+// newest.
 base::Result<RemoteServer> FindOneInstance(const Selection& selection);
 
-// A server that a broker knows, and what runs there.
+// A server that a broker offers, and its simulations.
 struct RemoteInstance {
   RemoteServer server;
   std::vector<simulation::SimulationStatus> simulations;
-  std::string problem;  // why nothing is known of them; empty: all is well
+  std::string problem;  // why they are not known; empty: no problem
 };
 
-// Asks all servers that are offered at a broker, at most 64, at the same time. Takes a few seconds
-// where some do not answer. May be called from any thread.
+// Queries all servers that a broker offers, at most 64, at the same time. Takes a few seconds if
+// some do not answer. Any thread.
 base::Result<std::vector<RemoteInstance>> ListInstances(CORBA::ORB_ptr orb,
                                                         const std::string& broker);
 

@@ -1,4 +1,4 @@
-// What a server that runs simulations holds at most; docs/limits.md lists the names.
+// The limits of a server that runs simulations; docs/limits.md lists the names.
 #pragma once
 
 #include <cstddef>
@@ -20,12 +20,12 @@ struct ServerLimits {
   gateway::recordings::SessionLimits replays;
 };
 
-// Whether there is one of that name.
+// Whether there is a limit of that name.
 bool IsServerLimit(const std::string& name);
 std::string ServerLimitNames();
 
-// Sets one of them: "robots=500". kInvalidArgument: the number is not above zero, or larger than
-// what a number of these can be raised to. IsServerLimit() of what stands before "=".
+// Sets a limit: "robots=500", for which IsServerLimit("robots") must hold. kInvalidArgument: the
+// number is not positive, or larger than the maximum of that limit.
 base::Status SetServerLimit(const std::string& text, ServerLimits& limits);
 
 }  // namespace gsv::app

@@ -1,4 +1,4 @@
-// Behaviours that run inside this process, by name.
+// Behaviours that run in this process, by name.
 #pragma once
 
 #include <memory>
@@ -9,9 +9,9 @@
 
 namespace gsv::app {
 
-// From the plug-in gsv-NAME.so in ../lib/gsv beside this program's folder, or in a folder of
-// GSV_PLUGIN_PATH (separated by colons). `behaviour` is a name and, after blanks, its options. One
-// instance: for one robot.
+// Loads the plug-in gsv-NAME.so from ../lib/gsv beside this program's folder, or from a folder of
+// GSV_PLUGIN_PATH (separated by colons). `behaviour` is a name and, after blanks, its options.
+// Returns one instance, for one robot.
 base::Result<std::shared_ptr<simulation::BehaviourPort>> InProcessBehaviour(
     const std::string& behaviour);
 

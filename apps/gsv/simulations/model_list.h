@@ -1,4 +1,4 @@
-// Which models there are, and which of them can be robots.
+// Lists the available models, and those that can be robots.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,12 @@
 
 namespace gsv::app {
 
-// The names of the models in these folders that have a drive, in order, each once. Reads those that
-// may have one, so the first call takes its time; the library keeps what it has read.
+// The sorted names of the models in these folders that have a drive. Reads models that may have
+// one, so that the first call takes some time; the library keeps what it has read.
 std::vector<std::string> FindRobotModels(formats::ModelLibrary& library,
                                          const std::vector<std::filesystem::path>& folders);
 
-// The names of all models in these folders, in order, each once; nothing is read.
+// The sorted names of all models in these folders; reads no model.
 std::vector<std::string> FindModels(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace gsv::app

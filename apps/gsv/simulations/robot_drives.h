@@ -1,4 +1,4 @@
-// The drives of robots whose files name none.
+// The drives of robots whose files define none.
 #pragma once
 
 #include <map>
@@ -13,15 +13,15 @@
 
 namespace gsv::app {
 
-// The world with drives for those of its models that the scenario lists as robots: the one that the
-// entry chooses, else the guessed one. The same world where nothing changes.
+// The world with drives for those of its models that the scenario lists as robots: the drive in the
+// entry, else a guessed one. Returns the same world if nothing changes.
 base::Result<std::shared_ptr<const model::WorldDescription>> WithDrives(
     std::shared_ptr<const model::WorldDescription> world, const scenario::Scenario& scenario);
 
-// The choices of --drive, ROBOT=KIND[,KEY=VALUE]…, by robot. kInvalidArgument with the option.
+// Parses --drive, ROBOT=KIND[,KEY=VALUE]…, by robot. kInvalidArgument with the option.
 base::Result<std::map<std::string, std::string>> ParseDrives(const std::vector<std::string>& texts);
 
-// "NAME: drive: …", once for each model of a robot whose drive no file names.
+// "NAME: drive: …", once for each model of a robot whose file defines no drive.
 std::vector<std::string> DriveNotes(const simulation::Simulation& simulation);
 
 }  // namespace gsv::app

@@ -1,7 +1,7 @@
-// Puts together the simulations that people ask for over HTTP: worlds and models from files,
-// behaviours from the broker.
+// Builds simulations for requests over HTTP: worlds and models from files, behaviours from the
+// broker.
 //
-// Threads  any. Several may be under way at once.
+// Threads  any. Several may be in progress at once.
 #pragma once
 
 #include <filesystem>
@@ -22,8 +22,8 @@ namespace gsv::app {
 
 class SimulationBuilder final : public gateway::SimulationFactory {
  public:
-  // All outlive it. `model_path`: folders whose models are shown besides ours. `reading`: for
-  // worlds that are not ours.
+  // All must outlive this. `model_path`: folders with further models. `reading`: for worlds that
+  // are not built in.
   SimulationBuilder(services::SimulationHost& host, services::BrokerBehaviours& behaviours,
                     broker::BrokerClient& broker, Recordings& recordings,
                     std::vector<std::filesystem::path> model_path, const TrialLimits& reading = {})
@@ -34,7 +34,7 @@ class SimulationBuilder final : public gateway::SimulationFactory {
         model_path_(std::move(model_path)),
         reading_(reading) {}
 
-  // What is created from now on is in that service's list as well; null: no longer.
+  // Simulations that are created later are also listed in that service; null: no longer.
   void OfferThrough(services::SimulationServiceServant* service);
 
   std::vector<std::string> Worlds() override;
@@ -54,7 +54,7 @@ class SimulationBuilder final : public gateway::SimulationFactory {
 
  private:
   using SimulationPointer = std::shared_ptr<simulation::Simulation>;
-  // A world that was read lately: whoever fills a world with robots asks for it again and again.
+  // A recently read world: filling a world with robots requests it again and again.
   struct KnownWorld {
     std::string file;
     std::filesystem::file_time_type changed;

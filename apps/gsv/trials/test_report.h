@@ -1,4 +1,4 @@
-// What `gsv test` says of its results.
+// The output of `gsv test`.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace gsv::app {
 
-// One line, and for a failure what is wrong and where to look.
+// One line, and for a failure the reason and where to look.
 std::string ToText(const TestResult& result);
 
-// JUnit's XML as Jenkins and GitLab read it: one <testcase> a scenario, <failure> for what was
-// expected and did not come, <error> for what could not be found out.
+// JUnit's XML for Jenkins and GitLab: one <testcase> per scenario, <failure> for violated
+// expectations, <error> for runs without a result.
 std::string ToJUnit(const std::vector<TestResult>& results, double wall_seconds);
 
 // {passed, failed, errors, wall_s, results: [{scenario, file, status, message, folder, command,
-// wall_s, state_hashes, report}]}; `report` is what `gsv run --json` says.
+// wall_s, state_hashes, report}]}; `report` is the output of `gsv run --json`.
 std::string ToJson(const std::vector<TestResult>& results, double wall_seconds);
 
 std::size_t Count(const std::vector<TestResult>& results, TestResult::Status status);
