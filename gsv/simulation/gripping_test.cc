@@ -1,4 +1,4 @@
-// Grippers: what they take hold of, where it goes, and when they let go.
+// Grippers: which bodies they grasp, how these move, and when they are released.
 #include "gsv/base/test_within.h"
 #include "gsv/simulation/testing/test_simulation.h"
 
@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kWidth = 0.06;  // m, of the post
 
-// A loose post to be gripped.
+// A dynamic post for the gripper.
 model::PlacedModel Post(const std::string& name, double x, double y) {
   auto model = std::make_shared<model::Model>();
   model->name = "post";
@@ -31,7 +31,7 @@ std::shared_ptr<Simulation> WithPosts(SimTime duration, std::vector<model::Place
   return Make(specification);
 }
 
-// A disc of 0.2 m with jaws of 0.08 m before it.
+// A disc of 0.2 m with a gripper that opens to 0.08 m in front of it.
 RobotSpecification Gripping(std::string name, double x, double y,
                             std::shared_ptr<BehaviourPort> behaviour = nullptr, double yaw = 0) {
   RobotSpecification robot = Robot(std::move(name), x, y, std::move(behaviour));
@@ -56,7 +56,7 @@ void RunTo(Simulation& simulation, SimTime instant) {
   ASSERT_EQ(simulation.WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
 }
 
-// Closes at once; drives from 1 s to 2 s; opens then, if it is to, and drives away.
+// Closes at once, and drives from 1 s to 2 s. Then opens, if `opens`, and drives away.
 std::shared_ptr<ThreadBehaviour> Fetches(world::DriveCommand drive, bool opens = true,
                                          std::chrono::microseconds dawdling = 0us) {
   return std::make_shared<ThreadBehaviour>([=](Agent& agent, ClockId clock) {
@@ -75,7 +75,7 @@ std::shared_ptr<ThreadBehaviour> Fetches(world::DriveCommand drive, bool opens =
   });
 }
 
-TEST(Gripping, WhatIsBetweenTheJawsGoesWithTheRobotUntilTheyOpen) {
+TEST(Gripping, ABodyBetweenTheFingersMovesWithTheRobotUntilTheyOpen) {
   auto simulation = WithPosts(5s, {Post("post", 0.25, 0.01)});
   ASSERT_TRUE(simulation->AddRobot(Gripping("robot", 0, 0, Fetches({-0.3, 0.1, 0.8}))));
   const geometry::Pose start = PoseOf(*simulation, "post");
@@ -102,7 +102,7 @@ TEST(Gripping, WhatIsBetweenTheJawsGoesWithTheRobotUntilTheyOpen) {
   EXPECT_GT(Norm(PoseOf(*simulation, "robot").position - left.position), 0.3);
 }
 
-TEST(Gripping, JawsCloseOnNothingWhereNothingLooseStands) {
+TEST(Gripping, ClosesWithoutGraspingWhereNoDynamicBodyIs) {
   auto simulation = WithPosts(0s, {Post("post", -1, 0)});
   ASSERT_TRUE(simulation->AddRobot(Gripping("at_wall", 2.65, 0, Fetches({}, false))));
   ASSERT_TRUE(simulation->AddRobot(Gripping("robots", 0, 2, Fetches({}, false))));
@@ -116,16 +116,16 @@ TEST(Gripping, JawsCloseOnNothingWhereNothingLooseStands) {
   }
 }
 
-TEST(Gripping, WhatIsHeldIsStoppedByAWall) {
+TEST(Gripping, AWallStopsAGraspedBody) {
   auto simulation = WithPosts(4s, {Post("post", 2.25, 0)});
   ASSERT_TRUE(simulation->AddRobot(Gripping("robot", 2, 0, Fetches({1, 0, 0}, false))));
   RunTo(*simulation, 1900ms);
   EXPECT_EQ(HeldBy(*simulation, "robot"), "post");
-  // The wall's face stands at x = 2.9.
+  // The wall's face is at x = 2.9.
   EXPECT_WITHIN(PoseOf(*simulation, "post").position.x + kWidth / 2, 2.9, 1e-4, "m");
 }
 
-TEST(Gripping, ARobotThatForcesMoveHoldsAsWell) {
+TEST(Gripping, ARigidRobotGraspsAsWell) {
   auto simulation = WithPosts(4s, {Post("post", 0.25, 0)});
   RobotSpecification robot = Gripping("robot", 0, 0, Fetches({-0.3, 0, 0.4}));
   robot.movement = model::Movement::kRigid;
@@ -142,7 +142,7 @@ TEST(Gripping, ARobotThatForcesMoveHoldsAsWell) {
   EXPECT_EQ(HeldBy(*simulation, "robot"), "");
 }
 
-TEST(Gripping, OfTwoThatCloseOnOneThingTheFirstInNameGetsIt) {
+TEST(Gripping, TheFirstByNameOfTwoGrippersGetsTheBody) {
   auto simulation = WithPosts(3s, {Post("post", 0.25, 0)});
   ASSERT_TRUE(simulation->AddRobot(Gripping("b", 0.5, 0, Fetches({}, false), std::numbers::pi)));
   ASSERT_TRUE(simulation->AddRobot(Gripping("a", 0, 0, Fetches({}, false))));
@@ -151,7 +151,7 @@ TEST(Gripping, OfTwoThatCloseOnOneThingTheFirstInNameGetsIt) {
   EXPECT_EQ(HeldBy(*simulation, "b"), "");
 }
 
-TEST(Gripping, LeavesTheSameHashWhoeverIsSlow) {
+TEST(Gripping, GivesTheSameHashForFastAndSlowBehaviours) {
   const auto hash_of = [](std::chrono::microseconds first, std::chrono::microseconds second) {
     auto simulation = WithPosts(4s, {Post("one", 0.25, 0), Post("two", 0.25, 1)});
     EXPECT_TRUE(simulation->AddRobot(Gripping("a", 0, 0, Fetches({-0.2, 0, 0.3}, true, first))));
@@ -164,7 +164,7 @@ TEST(Gripping, LeavesTheSameHashWhoeverIsSlow) {
   EXPECT_EQ(hash_of(5000us, 0us), hash);
 }
 
-TEST(Gripping, WhatIsHeldMovesWithARobotThatIsPutElsewhereAndIsLetGoWhenItIsPutItself) {
+TEST(Gripping, AGraspedBodyMovesWithAPlacedRobotAndIsReleasedWhenItIsPlaced) {
   auto simulation = WithPosts(0s, {Post("post", 0.25, 0)});
   ASSERT_TRUE(simulation->AddRobot(Gripping("robot", 0, 0, Fetches({}, false))));
   RunTo(*simulation, 1s);

@@ -1,22 +1,23 @@
-// Finds the files that worlds and robots name.
+// Finds the files that worlds and robots refer to.
 //
 // A name is `model://NAME/REST`, `package://NAME/REST`, `file://PATH`, a bare path, or an address
-// on the web. A relative path is looked for beside the file that names it. `model://NAME/REST` is
-// looked for, in this order:
+// on the web. A relative path is searched beside the file that names it. `model://NAME/REST` is
+// searched in this order:
 //   1. beside the naming file, in each of its parent folders (five up), and in the `models` folder
 //      of each of these;
-//   2. on the search path the caller gave;
+//   2. on the search path of the caller;
 //   3. on GZ_SIM_RESOURCE_PATH, SDF_PATH, IGN_GAZEBO_RESOURCE_PATH and GAZEBO_MODEL_PATH;
-//   4. among the models that ship with this program.
-//   5. in the ROS package of that name (package.xml) around the naming file, or in one that lies in a
-//      folder beside it.
-// "%20" and the like are decoded where no name fits as written. Of an address on the web the model's
-// name is looked for as model://NAME. Backslashes count as slashes; where no name fits exactly, one that differs only in case does.
+//   4. among the built-in models;
+//   5. in the ROS package of that name (package.xml) around the naming file, or in one in a folder
+//      beside it.
+// "%20" and the like are decoded if no name matches unchanged. For an address on the web, the
+// model's name is searched as model://NAME. Backslashes count as slashes. Case is ignored if no
+// name matches.
 //
-// Safety   a name that climbs out of the folder it is looked for in (`..`) is refused; a relative
-//          path may climb as far as the parent of the naming file's folder, where sibling models
-//          lie. Absolute paths are refused unless `allow_absolute_paths`.
-// Errors   kNotFound with a sentence that repeats the name.
+// Safety   a name that leaves the folder in which it is searched (`..`) is refused; a relative path
+//          may lead to the parent of the naming file's folder, where sibling models are. Absolute
+//          paths are refused unless `allow_absolute_paths`.
+// Errors   kNotFound with a sentence that has the name.
 // Threads  const members may run concurrently.
 #pragma once
 
@@ -34,7 +35,7 @@ class ResourceFinder {
   explicit ResourceFinder(std::vector<std::filesystem::path> search_path = {},
                           bool allow_absolute_paths = true);
 
-  // `naming_file` is the file in which the name stands; empty: the current folder.
+  // `naming_file` is the file that contains the name; empty: the current folder.
   base::Result<std::filesystem::path> Find(std::string_view name,
                                            const std::filesystem::path& naming_file = {}) const;
   bool allows_absolute_paths() const { return allow_absolute_paths_; }
@@ -57,7 +58,7 @@ base::Result<std::filesystem::path> FindBeside(const std::string& name,
 // http:// or https://.
 bool IsWebAddress(std::string_view name);
 
-// The file of `folder` to read: of those its model.config lists, the newest that SDFormat 1.9
+// The file of `folder` to read: the newest in its model.config of a version that SDFormat 1.9
 // includes; without a model.config, model.sdf.
 base::Result<std::filesystem::path> ModelFileIn(const std::filesystem::path& folder);
 

@@ -1,4 +1,4 @@
-// Where an XML text is malformed, and what to do about it.
+// Finds the place where XML is malformed, and suggests a remedy.
 #pragma once
 
 #include <optional>
@@ -12,11 +12,11 @@ struct XmlFault {
   std::string sentence;      // the fault and a remedy: "<model> is not closed. Add </model>."
 };
 
-// The first fault in tags, attributes, comments and what else structures the text. Nothing if the
-// text has none of these faults; entities and characters are not looked at.
+// The first error in tags, attributes, comments and other markup. Nothing if there is none;
+// entities and characters are not checked.
 std::optional<XmlFault> FindXmlFault(std::string_view text);
 
-// "FILE:LINE:COLUMN" and the sentence of an error for a text that a parser refused on `line`.
+// "FILE:LINE:COLUMN" and the sentence of an error, for a text that a parser refused on `line`.
 struct XmlErrorText {
   std::string place, message;
 };

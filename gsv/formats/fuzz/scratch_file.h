@@ -1,4 +1,4 @@
-// A file of this process, for readers that take no bytes: written anew for each input.
+// A file of this process, for readers that do not take bytes: written for each input.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,7 @@
 
 namespace gsv::formats {
 
-// In a folder of its own, two below the temporary one, so that names which climb out of it find
-// nothing.
+// In its own folder, two below the temporary one, so that names that leave the folder find nothing.
 inline std::filesystem::path ScratchFile(const std::string& name, const std::uint8_t* data,
                                          std::size_t size) {
   static const base::TemporaryFolder outer = base::TemporaryFolder::Make("gsv-fuzz").value();

@@ -1,4 +1,4 @@
-// The binary part of a GLB file and the JSON that says what lies where in it.
+// The binary part of a GLB file, and the JSON that describes it.
 //
 // Format  glTF 2.0 specification, sections 3.6 (buffers, accessors) and 4 (GLB).
 #pragma once
@@ -23,7 +23,7 @@ class GlbBuffer {
 
   std::size_t size() const { return bytes_.size(); }
 
-  // Completes `document` with what was added and puts both into one file.
+  // Completes `document` with the added parts and joins both into one file.
   std::vector<std::uint8_t> Finish(Json document) const;
 
  private:

@@ -1,9 +1,9 @@
-// Reads images (PNG, JPEG, TGA, BMP, TIFF) and keeps each for all who use it. An image with sides
+// Reads images (PNG, JPEG, TGA, BMP, TIFF), and keeps each for all users. An image with sides
 // beyond the limit is scaled down.
 //
-// Errors   a sentence for a file that is absent, larger than the limits, or not an image. The size
-//          an image claims is checked before memory is taken: at most 128 million pixels of one that
-//          is to be scaled down.
+// Errors   a sentence for a file that is missing, larger than the limits, or not an image. The size
+//          in an image is checked before memory is allocated: at most 128 million pixels for an
+//          image that is scaled down.
 // Threads  one at a time.
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace gsv::formats {
 
-// `source` is for messages. An image none of whose pixels is see-through has 3 channels.
+// `source` is for messages. An image without transparent pixels has 3 channels.
 base::Result<std::shared_ptr<const model::Image>> DecodeImage(const unsigned char* bytes,
                                                               std::size_t size,
                                                               const std::string& source,
@@ -29,11 +29,11 @@ class TextureReader {
   explicit TextureReader(const ReadLimits& limits) : limits_(limits) {}
   base::Result<std::shared_ptr<const model::Image>> Read(const std::filesystem::path& path);
 
-  // Gloss as glTF wants it: G from `roughness`, B from `metalness`; either may be null.
+  // Gloss in the form of glTF: G from `roughness`, B from `metalness`; either may be null.
   std::shared_ptr<const model::Image> Combine(const std::shared_ptr<const model::Image>& roughness,
                                               const std::shared_ptr<const model::Image>& metalness);
 
-  // The same image with 3 channels, for a material that does not let its alpha count.
+  // The same image with 3 channels, for a material that ignores its alpha.
   std::shared_ptr<const model::Image> Opaque(const std::shared_ptr<const model::Image>& image);
 
  private:

@@ -1,8 +1,8 @@
-// Reads TIFF files: images, and heights (GeoTIFF, as digital elevation models are kept).
+// Reads TIFF files: images, and heights (GeoTIFF, the format of digital elevation models).
 //
-// Not read  heights in more than one band (the first counts), in complex numbers, or in projections
-//           other than metres and degrees.
-// Errors    a sentence for what is absent, damaged or larger than the limits.
+// Not read  heights in more than one band (the first is used), in complex numbers, or in
+//           projections other than metres and degrees.
+// Errors    a sentence for a file that is missing, damaged or larger than the limits.
 // Threads   concurrently.
 #pragma once
 
@@ -18,12 +18,12 @@
 
 namespace gsv::formats {
 
-// A grid of heights, rows from the north, in the file's unit (metres for a DEM). Finite: what the
-// file marks as unknown is as low as the lowest.
+// A grid of heights, rows from the north, in the file's unit (metres for a DEM). All are finite:
+// heights that the file marks as unknown get the lowest height.
 struct HeightGrid {
   int width = 0, height = 0;
   std::vector<double> heights;               // width * height
-  std::optional<geometry::Vector2> spacing;  // metres from one to the next, where the file says so
+  std::optional<geometry::Vector2> spacing;  // metres between neighbours, if the file has it
 };
 
 bool IsTiff(const unsigned char* bytes, std::size_t size);

@@ -1,5 +1,5 @@
-// Opens mesh files with assimp: only the importers this program names, and no file beyond the
-// mesh's own folder and its parent.
+// Opens mesh files with assimp, with a few importers only, and reads no file outside of the mesh's
+// own folder and its parent.
 #pragma once
 
 #include <filesystem>
@@ -19,13 +19,13 @@ namespace gsv::formats {
 struct AssimpScene {
   std::unique_ptr<Assimp::Importer> importer;  // owns the scene
   const aiScene* scene = nullptr;              // triangles only, never null
-  std::vector<std::string> changes;            // a sentence for each thing that was left out
-  // COLLADA: the ids under which assimp knows nodes and geometries, by their names.
+  std::vector<std::string> changes;            // a sentence for each part that was left out
+  // COLLADA: assimp's ids of nodes and geometries, by their names.
   std::multimap<std::string, std::string> ids_of;
 };
 
-// OpenScene repairs or leaves out what makes the file unreadable, where that is known to help: see
-// collada_repair.h. It reads the complete triangles of a binary STL that ends early.
+// OpenScene() repairs or leaves out parts that make the file unreadable, see collada_repair.h. It
+// reads the complete triangles of a truncated binary STL.
 base::Result<AssimpScene> OpenScene(const std::filesystem::path& path, const ReadLimits& limits);
 
 }  // namespace gsv::formats

@@ -1,12 +1,13 @@
 // Reads meshes (COLLADA, OBJ, STL, glTF) with their materials; each file is read once.
 //
 // Units    metres: COLLADA's <unit> is applied.
-// Axes     the file's own: like Gazebo and RViz, COLLADA's <up_axis> is ignored, because models
-//          are made for those (TurtleBot3's arena says Y_UP and stands along z). glTF's y is up by
-//          its definition and is likewise kept.
+// Axes     the file's own. Like Gazebo and RViz, this ignores COLLADA's <up_axis>, because models
+//          are made for those (TurtleBot3's arena declares Y_UP, but has z up). The y axis of glTF
+//          is up by definition, and is kept as well.
 // Repairs  triangles without area, and those that name vertices that do not exist, are dropped.
-// Errors   a sentence for a file that is absent, beyond the limits, unreadable or without
-// triangles. Threads  one at a time.
+// Errors   a sentence for a file that is missing, beyond the limits, unreadable or without
+//          triangles.
+// Threads  one at a time.
 #pragma once
 
 #include <filesystem>
@@ -25,7 +26,7 @@ namespace gsv::formats {
 
 struct MeshFile {
   std::shared_ptr<const geometry::TriangleMesh> triangles;
-  std::vector<model::Material> materials;  // as the mesh's parts name them
+  std::vector<model::Material> materials;  // of the mesh's parts, by index
 };
 
 class MeshReader {
@@ -33,9 +34,9 @@ class MeshReader {
   MeshReader(const ReadLimits& limits, TextureReader& textures)
       : limits_(limits), textures_(textures) {}
 
-  // `submesh` empty: all of it; `centred`: moved so that the box around it has its middle at the
-  // origin. A submesh is named by the name or id of its node or geometry. Textures that cannot be
-  // read, and what was left out of the mesh, are warnings.
+  // `submesh` empty: the whole mesh; `centred`: moved so that the centre of its bounding box is at
+  // the origin. A submesh is named by the name or id of its node or geometry. Textures that cannot
+  // be read, and parts of the mesh that were left out, give warnings.
   base::Result<MeshFile> Read(const std::filesystem::path& path, const std::string& submesh,
                               bool centred, base::Problems& problems);
 

@@ -1,4 +1,4 @@
-// Prisms over outlines, as SDFormat's <polyline> describes them.
+// Makes prisms over outlines, for SDFormat's <polyline>.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace gsv::formats {
 
-// The outlines, each closed by itself and of either sense of rotation, bound an area by the
-// even-odd rule: an outline inside another is a hole. The prism over it runs from z = 0 to
-// `height`. Units: metres. Refuses outlines with less than three distinct points, without area, or
-// that cannot be cut into triangles because they cross themselves.
+// The outlines, which are closed and of either sense of rotation, bound an area by the even-odd
+// rule: an outline inside another is a hole. The prism over the area goes from z = 0 to `height`.
+// Units: metres. Refuses outlines with less than three distinct points or without area, and
+// outlines that cross themselves so that they cannot be cut into triangles.
 base::Result<geometry::TriangleMesh> ExtrudeOutlines(
     const std::vector<std::vector<geometry::Vector2>>& outlines, double height);
 

@@ -1,4 +1,4 @@
-// One image for a whole terrain, put together from the tiled textures of SDFormat's <heightmap>.
+// Combines the tiled textures of SDFormat's <heightmap> into one image for the whole terrain.
 #pragma once
 
 #include <memory>
@@ -13,17 +13,18 @@ namespace gsv::formats {
 struct TerrainLayer {
   std::shared_ptr<const model::Image> image;  // null: an even grey
   double tile = 10;                           // m: a tile's side
-  // It covers the layers before it from this height upwards, evenly more of them over a distance.
-  // Of the first layer both are ignored.
+  // It covers the layers before it from this height upwards, increasingly over a distance. Ignored
+  // for the first layer.
   double min_height = 0, fade_distance = 0;  // m
 };
 
-// Pixels a side, at most.
+// Maximum of pixels per side.
 inline constexpr int kTerrainTextureSide = 1024;
 
-// The layers over a mesh of HeightmapMesh() that is `size.x` by `size.y` metres, as its texture
-// coordinates want it. A tile's lower left corner lies in that of the terrain. Where tiles are finer
-// than the image, each pixel is the mean of what it covers. `layers` must not be empty.
+// Combines the layers over a mesh of HeightmapMesh() with `size.x` by `size.y` metres, for its
+// texture coordinates. The lower left corner of a tile is at that of the terrain. If tiles are
+// finer than the image, each pixel is the mean of the area that it covers. `layers` must not be
+// empty.
 model::Image TerrainTexture(const geometry::TriangleMesh& mesh, geometry::Vector2 size,
                             const std::vector<TerrainLayer>& layers);
 

@@ -1,15 +1,15 @@
-// Models that worlds include from the web and that this program therefore knows by itself.
+// Models on the web that worlds often include, and that are therefore built in.
 #pragma once
 
 #include <string_view>
 
 namespace gsv::formats {
 
-// SDFormat text of what the last part of a web address or of a model:// name stands for: Ground
-// Plane (a <model>) or Sun (a <light>), however it is spelt; empty for any other.
+// SDFormat text for the last part of a web address or of a model:// name: Ground Plane (a <model>)
+// or Sun (a <light>), in any spelling; empty for any other.
 std::string_view BuiltInModel(std::string_view uri);
 
-// A world with a ground plane and a sun, or with the sun alone.
+// A world with a ground plane and a sun, or only with a sun.
 std::string_view EnvironmentWorld(bool with_ground_plane);
 
 }  // namespace gsv::formats

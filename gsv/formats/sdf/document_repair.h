@@ -1,4 +1,4 @@
-// Repairs documents by what libsdformat says is wrong with them.
+// Repairs documents by the errors of libsdformat.
 #pragma once
 
 #include <sdf/Types.hh>
@@ -10,13 +10,14 @@ namespace gsv::formats {
 
 // Changes the document, or a file that it includes, so that libsdformat's errors go away. It leaves
 // out elements that cannot be read and joints between missing links. It drops references to missing
-// frames, and changes names that are taken or reserved. Each change is a warning. False when there was nothing that it could repair; URDF is never changed.
+// frames, and changes names that are in use or reserved. Each change gives a warning. False if it
+// could repair nothing; URDF is never changed.
 bool RepairAfter(const sdf::Errors& errors, SdfText& document, IncludedFiles& includes,
                  base::Problems& problems);
 
-// Gazebo Classic saves a model that was put together from others with links named "INNER::LINK".
-// libsdformat takes these apart, and throws where their poses are relative to something outside.
-// Writes "INNER.LINK" instead, with a warning. False when there is no such name.
+// Gazebo Classic saves a model that was assembled from others with links named "INNER::LINK".
+// libsdformat splits these names, and throws if their poses are relative to something outside.
+// Writes "INNER.LINK" instead, with a warning. False if there is no such name.
 bool SeparateNames(SdfText& document, IncludedFiles& includes, base::Problems& problems);
 
 }  // namespace gsv::formats

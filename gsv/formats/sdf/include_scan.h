@@ -1,5 +1,5 @@
-// Finds, reads and repairs what a file includes before libsdformat sees it, so that each include is
-// found from where it is written, and one that cannot be read costs no more than itself.
+// Finds, reads and repairs included files before libsdformat reads them. Each include is found from
+// the file that contains it, and an unreadable one is left out alone.
 #pragma once
 
 #include <filesystem>
@@ -22,17 +22,17 @@ class IncludeScan {
   IncludeScan(const ResourceFinder& finder, const ReadLimits& limits, base::Problems& problems)
       : finder_(finder), limits_(limits), problems_(problems) {}
 
-  // Looks for every <include> below `element` of `file`, and for those of the files that it names.
-  // Their <uri> then names one of files(). Ground Plane and Sun take the place of their include where
-  // no file is found. An include is taken out with a warning when its file is not there, cannot be
-  // read, holds no model, or when the includes go round or deeper than the limit.
+  // Visits every <include> below `element` of `file`, and those of the included files. Their <uri>
+  // then names one of files(). Ground Plane and Sun replace their include if no file is found. An
+  // include is removed with a warning if its file is missing, cannot be read or holds no model, or
+  // if includes form a cycle or exceed the depth limit.
   void Scan(tinyxml2::XMLElement& element, const std::filesystem::path& file);
 
-  // The file an <include> names; looked for once.
+  // The file of an <include>; searched once.
   base::Result<std::filesystem::path> FileOf(const std::string& uri,
                                              const std::filesystem::path& naming_file);
 
-  // The repaired texts of all files that were found.
+  // The repaired texts of all found files.
   const IncludedFiles& files() const { return files_; }
 
  private:
@@ -48,14 +48,14 @@ class IncludeScan {
   IncludedFiles files_;
   std::map<std::pair<std::string, std::string>, base::Result<std::filesystem::path>> found_;
   std::vector<std::filesystem::path> open_;  // the chain of files being visited
-  // For each file: its name in files_, or why there is none.
+  // For each file: its name in files_, or the reason why it has none.
   std::map<std::filesystem::path, base::Result<std::string>> done_;
 };
 
-// The text of <include><uri>, without blanks around it.
+// The text of <include><uri>, without surrounding blanks.
 std::string UriOf(const tinyxml2::XMLElement& include);
 
-// Why an include that was not found is left out, as a sentence.
+// The reason, as a sentence, for leaving out an include that was not found.
 std::string IncludeLeftOut(const std::string& uri, const base::Error& error);
 
 }  // namespace gsv::formats

@@ -1,5 +1,5 @@
-// The files that a document includes, as libsdformat is to read them: as repaired text that lies in
-// memory, under names of our own.
+// Provides the files that a document includes to libsdformat, as repaired texts in memory with
+// names of our own.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace gsv::formats {
 
-// A text, and the file it comes from. Its lines are the file's.
+// A text, and the file from which it comes, with the same line numbers.
 struct SdfText {
   std::filesystem::path path;
   std::string text;
@@ -16,10 +16,10 @@ struct SdfText {
 
 using IncludedFiles = std::map<std::string, SdfText>;  // by what an <include>'s <uri> names
 
-// Hands texts out as files. libsdformat reads an included file by its name only, so each text gets
-// one that exists in memory, for as long as this object lives.
+// Provides texts as files. libsdformat reads an included file only by its name, so that each text
+// gets the name of a memory file, for the lifetime of this object.
 //
-// Errors   a text that memory has no room for is read from its own file.
+// Errors   if there is no memory for a text, its own file is read.
 class IncludedFileServer {
  public:
   explicit IncludedFileServer(const IncludedFiles& files) : files_(files) {}
@@ -27,10 +27,10 @@ class IncludedFileServer {
   IncludedFileServer(const IncludedFileServer&) = delete;
   IncludedFileServer& operator=(const IncludedFileServer&) = delete;
 
-  // The name under which the text for `uri` can be read; empty when there is none.
+  // The name under which the text for `uri` can be read; empty if there is none.
   std::string Find(const std::string& uri);
 
-  // The file for which a name that Find() gave stands; null for other names.
+  // The file of a name that Find() returned; null for other names.
   const std::filesystem::path* SourceOf(const std::string& name) const;
 
  private:

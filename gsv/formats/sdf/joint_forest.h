@@ -1,4 +1,4 @@
-// Turns the joints of a file into a forest.
+// Converts the joints of a file into a forest.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,10 @@
 
 namespace gsv::formats {
 
-// SDFormat lets a link be the child of several joints; model::Model does not. Joints keep their
-// direction where they can; elsewhere parent and child change places and the axis its sign, which
-// leaves the joint's position as it was. Joints that would close a loop are taken out; their names
-// are returned.
+// In SDFormat a link may be the child of several joints; in model::Model it may not. Joints keep
+// their direction if possible. Otherwise parent and child are exchanged and the axis is reversed,
+// so that the joint's position stays. Joints that would close a loop are removed; returns their
+// names.
 std::vector<std::string> MakeForest(std::size_t links, std::vector<model::Joint>& joints);
 
 }  // namespace gsv::formats

@@ -1,4 +1,4 @@
-// Joints that follow others: <mimic> of URDF, and of SDFormat since 1.11.
+// Reads joints that follow others: <mimic> of URDF, and of SDFormat since 1.11.
 #pragma once
 
 #include <filesystem>
@@ -12,8 +12,8 @@
 
 namespace gsv::formats {
 
-// The same model with the <mimic> elements of its <robot> or <model>, which libsdformat 12 drops.
-// One that names no joint, or a joint that follows itself, is left out with a warning.
+// The same model with the <mimic> elements of its <robot> or <model>, which libsdformat 12 drops. A
+// <mimic> without an existing joint, or of a joint that follows itself, is left out with a warning.
 std::shared_ptr<const model::Model> WithMimics(const tinyxml2::XMLElement& element,
                                                const std::filesystem::path& file,
                                                std::shared_ptr<const model::Model> model,

@@ -1,4 +1,4 @@
-// <ros2_control>: the joints of a robot with their command and state interfaces.
+// Reads <ros2_control>: the joints of a robot with their command and state interfaces.
 //
 // Source  ros2_control, "Hardware components" of its documentation.
 #pragma once
@@ -14,14 +14,14 @@
 
 namespace gsv::formats {
 
-// Of the <ros2_control> elements that are children of `element` (<robot>, or <model>). A joint that
-// `model` does not have is left out with a warning.
+// Reads the <ros2_control> children of `element` (<robot>, or <model>). A joint that `model` does
+// not have is left out with a warning.
 std::vector<model::ControlSystem> ReadControlSystems(const tinyxml2::XMLElement& element,
                                                      const std::filesystem::path& file,
                                                      const model::Model& model,
                                                      base::Problems& problems);
 
-// The model with these, or itself when there are none.
+// The model with these, or the same model if there are none.
 std::shared_ptr<const model::Model> WithControlSystems(const tinyxml2::XMLElement& element,
                                                        const std::filesystem::path& file,
                                                        std::shared_ptr<const model::Model> model,

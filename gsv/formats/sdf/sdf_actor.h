@@ -1,10 +1,10 @@
-// SDFormat's <actor>: a model with a skin, and a script that moves it.
+// Reads SDFormat's <actor>: a model with a skin, and a script that moves it.
 //
-// Its animation moves the skin's bones (skinned_mesh.h): each is a link that hangs from the first
-// one by six joints, whose positions the script writes.
+// Its animation moves the skin's bones (skinned_mesh.h). Each bone is a link that six joints
+// connect to the first link; the script sets their positions.
 //
-// Not carried out: whatever <plugin>s would do, animations in BVH files, and all animations of an
-// actor but one. Warnings say so.
+// Not supported: <plugin>s, animations in BVH files, and more than one animation of an actor.
+// Warnings report them.
 #pragma once
 
 #include <memory>
@@ -23,14 +23,14 @@ struct ActorParts {
   std::shared_ptr<const SkinnedMesh> skin;      // null: the skin keeps its shape, or there is none
 };
 
-// Turns an <actor> into the <model> that it amounts to, and returns what a model has not: a skin
-// without animation becomes a visual of the first link, which is added if there is none. The element's own <pose> is left where
-// it is: it is that of the trajectory.
+// Turns an <actor> into a <model>, and returns the parts that a model does not have. A skin without
+// animation becomes a visual of the first link, which is added if there is none. The element's
+// <pose> stays: it is the pose of the trajectory.
 ActorParts MakeModelOfActor(tinyxml2::XMLElement& actor, const ReadingContext& context);
 
-// The model that came of it, with its parts. If its links have no collisions it gets one: an upright
-// cylinder within the box around the visuals, as thick as that box's narrower side, since arms stick
-// out.
+// The converted model with its parts. If its links have no collisions, it gets an upright cylinder
+// in the bounding box of the visuals, with the diameter of the box's smaller side, as arms
+// protrude.
 std::shared_ptr<const model::Model> ActorOf(const model::Model& model, const ActorParts& parts);
 
 }  // namespace gsv::formats

@@ -1,4 +1,4 @@
-// The drive a model's plugin element asks for.
+// Reads the drive in a model's plugin element.
 #pragma once
 
 #include <optional>
@@ -15,11 +15,11 @@ namespace gsv::formats {
 // <wheel_joint> and take <wheel_radius>. All take max/min_[linear_|angular_](velocity|
 // acceleration) and <command_timeout> (seconds). None for any other plugin.
 //
-// Joints are those of `model`, named within `scope` ("" or "inner::"). Separation, radius and wheel
-// base that the file leaves out are measured: between the wheel's joints, and on the collision
-// shapes of the wheels. A drive that names joints which are not there, or no wheels, is guessed
+// Joints are those of `model`, named within `scope` ("" or "inner::"). If the file leaves out
+// separation, radius or wheel base, they are measured: between the wheels' joints, and on the
+// collision shapes of the wheels. A drive that names missing joints, or no wheels, is guessed
 // instead (model/drive_guess.h), with a warning. AckermannSteering with <steering_only> names no
-// wheels: they are guessed; without any the base stands still and its joints take commands.
+// wheels: they are guessed; without any, the base does not move and its joints take commands.
 std::optional<model::Drive> ReadDrive(const sdf::ElementPtr& plugin, const model::Model& model,
                                       const std::string& scope, const ReadingContext& context);
 

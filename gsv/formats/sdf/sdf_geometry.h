@@ -1,4 +1,4 @@
-// The <geometry> of visuals and collisions.
+// Reads the <geometry> of visuals and collisions.
 #pragma once
 
 #include <vector>
@@ -13,12 +13,12 @@ namespace gsv::formats {
 
 struct SdfShape {
   geometry::Shape shape;
-  geometry::Pose visual_from_shape;        // a heightmap stands where its <pos> says
-  std::vector<model::Material> materials;  // a mesh's own; else empty
+  geometry::Pose visual_from_shape;        // a heightmap is at its <pos>
+  std::vector<model::Material> materials;  // of a mesh; else empty
 };
 
-// kNotFound: a file is absent; kBadModel: the shape makes no sense, or is of no known kind.
-// `element` is the <geometry> itself.
+// kNotFound: a file is missing; kBadModel: the shape is invalid or of unknown kind. `element` is
+// the <geometry> itself.
 base::Result<SdfShape> ReadGeometry(const sdf::Geometry& geometry, const sdf::ElementPtr& element,
                                     const ReadingContext& context);
 

@@ -1,9 +1,9 @@
-// Reads what a model's own controllers tell its joints from the start: Gazebo's JointController
-// and JointPositionController plugins.
+// Reads the initial targets of joints from a model's controllers: Gazebo's JointController and
+// JointPositionController plugins.
 //
-// Elements  <joint_name> (several, in newer files), <initial_velocity> and <initial_position>. Of a
-//           position controller <cmd_max> bounds the joint's effort and, with
-//           <use_velocity_commands>, its velocity. Gains are not read: our servo has its own, see
+// Elements  <joint_name> (several, in newer files), <initial_velocity> and <initial_position>. For
+//           a position controller, <cmd_max> limits the joint's effort and, with
+//           <use_velocity_commands>, its velocity. Gains are not read: gsv's servo has its own, see
 //           docs/fidelity.md.
 #pragma once
 
@@ -17,8 +17,8 @@
 
 namespace gsv::formats {
 
-// Adds to `model` what `plugin` says; nothing if it is no such controller. `scope` is that of the
-// names in it ("inner::").
+// Adds the targets in `plugin` to `model`; ignores other plugins. `scope` is that of the names in
+// it ("inner::").
 void ReadJointTargets(const sdf::ElementPtr& plugin, const std::string& scope,
                       const ReadingContext& context, model::Model& model);
 

@@ -1,4 +1,4 @@
-// From libsdformat's Link to ours.
+// Converts links from libsdformat.
 #pragma once
 
 #include <sdf/Link.hh>
@@ -8,13 +8,14 @@
 
 namespace gsv::formats {
 
-// The name and the pose are the caller's. A visual whose mesh is absent is replaced by the link's
-// collision shapes in grey, once; a collision whose mesh is absent is left out. `is_static`: its
-// inertia is of no use, so that nothing in it is wrong.
+// The caller sets name and pose. If the mesh of a visual is missing, the link's collision shapes
+// replace it, once, in grey. A collision without its mesh is left out. `is_static`: the inertia is
+// not used, so that it is not checked.
 model::Link ReadLink(const sdf::Link& source, bool is_static, const ReadingContext& context);
 
-// A pose resolved by libsdformat in the frame of its parent element, or in `resolve_to`. One that
-// cannot be resolved is a warning, and taken as written; one that is not finite is the identity.
+// A pose resolved by libsdformat in the frame of its parent element, or in `resolve_to`. A pose
+// that cannot be resolved gives a warning, and is used as written. A non-finite pose becomes the
+// identity.
 geometry::Pose Resolve(const sdf::SemanticPose& pose, const std::string& resolve_to,
                        const std::string& place, const ReadingContext& context);
 

@@ -1,4 +1,4 @@
-// The look of an SDFormat <visual>.
+// Reads the material of an SDFormat <visual>.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,9 @@
 
 namespace gsv::formats {
 
-// The visual's own material; none when it has none, or one that says nothing. Colours: <diffuse>,
-// else the script's, else <ambient>. A script's name is looked for among its <uri>s, then among
-// Gazebo's own. Transparency is not applied.
+// The visual's own material; none if it has none, or an empty one. Colours: <diffuse>, else the
+// script's, else <ambient>. A script's name is searched in its <uri>s, then among Gazebo's own.
+// Transparency is not applied.
 std::optional<model::Material> ReadVisualMaterial(const sdf::Visual& visual,
                                                   const ReadingContext& context);
 

@@ -1,4 +1,4 @@
-// Reads what surrounds the bodies of a world: <wind>, and the fluid of Gazebo's Buoyancy plugin.
+// Reads the media around bodies: <wind>, and the fluid of Gazebo's Buoyancy plugin.
 #pragma once
 
 #include <tinyxml2.h>
@@ -8,8 +8,8 @@
 
 namespace gsv::formats {
 
-// Reads <wind>, its WindEffects plugin and the Buoyancy plugin of a <world>. What cannot be used is
-// a warning.
+// Reads <wind>, its WindEffects plugin and the Buoyancy plugin of a <world>. Invalid parts give
+// warnings.
 void ReadMedium(const tinyxml2::XMLElement& world, const ReadingContext& context,
                 model::WorldDescription& description);
 

@@ -1,4 +1,4 @@
-// From libsdformat's Model to ours.
+// Converts models from libsdformat.
 #pragma once
 
 #include <map>
@@ -12,14 +12,14 @@
 
 namespace gsv::formats {
 
-// A model and the frames in it that others may refer to: links, joints, frames, nested models.
+// A model and its frames to which others may refer: links, joints, frames, nested models.
 struct FramedModel {
   std::shared_ptr<const model::Model> model;
   std::map<std::string, geometry::Pose> model_from_frame;
 };
 
-// Fails when the model has no link, or one that is not finite; what else is wrong is appended to
-// the context's problems. Model::default_pose counts the placement frame in.
+// Fails if the model has no link, or a non-finite one. Appends other problems to those of the
+// context. Model::default_pose includes the placement frame.
 base::Result<FramedModel> ReadModel(const sdf::Model& source, const ReadingContext& context);
 
 }  // namespace gsv::formats

@@ -1,4 +1,4 @@
-// `<gsv:pedestrians>` of a world: people who walk about in it (docs/people.md).
+// Reads `<gsv:pedestrians>` of a world: people who walk in it (docs/people.md).
 #pragma once
 
 #include <tinyxml2.h>
@@ -8,7 +8,7 @@
 
 namespace gsv::formats {
 
-// Null, with a problem, for a group that makes no sense.
+// Null, with a problem, for an invalid group.
 std::shared_ptr<const model::PedestrianGroup> ReadPedestrians(const tinyxml2::XMLElement& element,
                                                               const ReadingContext& context);
 

@@ -1,4 +1,4 @@
-// The XML of a model or world file, before libsdformat sees it.
+// The XML of a model or world file, before libsdformat reads it.
 #pragma once
 
 #include <filesystem>
@@ -19,30 +19,30 @@ enum class XmlDialect { kSdf, kUrdf };
 
 struct XmlFile {
   std::filesystem::path path;
-  std::filesystem::path named;         // with the arguments for xacro that ReadXml() was given
-  std::vector<ElementSource> sources;  // of a xacro file: what the elements' user data point to
+  std::filesystem::path named;         // with the arguments for xacro, as given to ReadXml()
+  std::vector<ElementSource> sources;  // of a xacro file: the user data of its elements
   std::unique_ptr<tinyxml2::XMLDocument> document;
   tinyxml2::XMLElement* root = nullptr;  // <sdf> or <robot>
   XmlDialect dialect = XmlDialect::kSdf;
   std::string version;    // of <sdf>, no newer than 1.9
-  int minor_version = 0;  // 11 of an <sdf> that says 1.11; 0 of <robot>
+  int minor_version = 0;  // 11 for an <sdf> of version 1.11; 0 for <robot>
 };
 
-// Reads and checks the frame of a file: its size, its XML, its root and version. A newer version
-// than 1.9 is read as 1.9: ReportUnsupported() names what that loses. A xacro file is expanded
-// (xacro/xacro.h); its arguments may stand in the path (xacro/arguments.h).
+// Reads a file and checks its size, its XML, its root and version. A version newer than 1.9 is read
+// as 1.9: ReportUnsupported() names what is lost. A xacro file is expanded (xacro/xacro.h); its
+// path may have arguments (xacro/arguments.h).
 base::Result<XmlFile> ReadXml(const std::filesystem::path& path, const ResourceFinder& finder,
                               const ReadLimits& limits, base::Problems& problems);
 
-// Adds a warning for each element and attribute that is unknown or not carried out, see
+// Adds a warning for each element and attribute that is unknown or unsupported, see
 // gsv/formats/support/element_audit.h. Call it before the file's elements are changed.
 void ReportUnsupported(const XmlFile& file, base::Problems& problems);
 
-// Writes elements so that each stands on the line it has in its file: what libsdformat says about
-// lines then holds. Elements must come in the order of their lines.
+// Prints elements so that each is on the same line as in its file. Lines in libsdformat's errors
+// are then right. Elements must come in the order of their lines.
 class LineKeepingPrinter {
  public:
-  void Text(const std::string& text);  // markup, as it is
+  void Text(const std::string& text);  // markup, unchanged
   void Escaped(const char* text);      // text or an attribute's value, on one line
   void Element(const tinyxml2::XMLElement& element);
   std::string Take() { return std::move(out_); }

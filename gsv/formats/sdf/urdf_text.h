@@ -1,4 +1,4 @@
-// URDF text, ready for libsdformat.
+// Prepares URDF text for libsdformat.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace gsv::formats {
 
-// The file's text, repaired as urdf_repair.h has it.
+// The file's text, repaired by urdf_repair.h.
 std::string UrdfText(const XmlFile& file, base::Problems& problems);
 
 }  // namespace gsv::formats

@@ -1,5 +1,5 @@
-// Repairs the values in an SDFormat file before libsdformat reads it: to libsdformat one word where a
-// number belongs is reason enough to refuse the whole file.
+// Repairs the values in an SDFormat file before libsdformat reads it, since libsdformat refuses the
+// whole file for one word in the place of a number.
 #pragma once
 
 #include <filesystem>
@@ -10,15 +10,15 @@
 
 namespace gsv::formats {
 
-// Compares `element` (a <world>, <model>, <light>, <actor>, <sensor> or <sdf>) and all below it with
-// libsdformat's description of SDFormat 1.9, and changes what libsdformat would refuse. Each change
-// is a warning:
-//   numbers          what can be read of them is taken, otherwise the default
+// Compares `element` (a <world>, <model>, <light>, <actor>, <sensor> or <sdf>) and all below it
+// with libsdformat's description of SDFormat 1.9, and changes values that libsdformat would refuse.
+// Each change gives a warning:
+//   numbers          the readable part is used, otherwise the default
 //   <pose>           of fewer than six numbers: the position, without rotation (as Gazebo Classic)
 //   colours          components above 1 are taken as parts of 255 (as Gazebo Classic), or as 1
 //   flags            the default, unless they are true, false, 1 or 0
-//   attributes       names that are missing are made up, others take their default
-//   joints           without a parent or child are left out; of an unknown type are fixed
+//   attributes       missing names are made up, others get their default
+//   joints           without a parent or child are left out; those of unknown type become fixed
 //   sensors          without a type are left out
 void RepairValues(tinyxml2::XMLElement& element, const std::filesystem::path& file,
                   base::Problems& problems);

@@ -1,4 +1,4 @@
-// Values as they are written in SDFormat and URDF files, and what is taken where they are wrong.
+// The values in SDFormat and URDF files, and the replacements of invalid ones.
 #pragma once
 
 #include <string>
@@ -7,8 +7,7 @@
 
 namespace gsv::formats {
 
-// A value's text that can be used, and what was wrong with the written one; `wrong` is empty where
-// nothing was.
+// A valid text of a value, and the problem with the original; `wrong` is empty if there was none.
 struct RepairedText {
   std::string text;
   std::string wrong;
@@ -17,17 +16,17 @@ struct RepairedText {
 // The words of a text, without blanks and without commas at their ends.
 std::vector<std::string> WordsOf(std::string_view text);
 
-// The number that a word begins with, and whether it holds nothing else.
+// The number at the begin of a word, and whether it is all of the word.
 struct LeadingNumber {
   double value = 0;
-  bool is_number = false;  // it begins with one
+  bool is_number = false;  // it begins with a number
   bool is_all = false;
 };
 LeadingNumber LeadingNumberOf(const std::string& word);
 
-// `type` is libsdformat's name for it: "bool", "double", "int", "unsigned int", "pose", "color",
-// "vector3" and so on; texts of other types are right as they stand. `has_quaternion`: the pose is
-// written as x y z qx qy qz qw.
+// `type` is libsdformat's name of it: "bool", "double", "int", "unsigned int", "pose", "color",
+// "vector3" and so on; texts of other types are always valid. `has_quaternion`: the pose has the
+// form x y z qx qy qz qw.
 RepairedText RepairText(const std::string& type, const std::string& text,
                         const std::string& otherwise, bool has_quaternion = false);
 

@@ -1,4 +1,4 @@
-// The frames of a world: where models and lights stand that are placed relative to one another.
+// The frames of a world: resolves the poses of models and lights that are relative to each other.
 #pragma once
 
 #include <map>
@@ -11,24 +11,24 @@
 
 namespace gsv::formats {
 
-// A <pose> as written.
+// A <pose> as in the file.
 struct WrittenPose {
   geometry::Pose pose;
   std::string relative_to;  // empty: the world
 };
 
-// The <pose> of an element; none written: the identity. Six numbers, with @degrees, or seven with
+// The <pose> of an element; default: the identity. Six numbers, with @degrees, or seven with
 // @rotation_format "quat_xyzw". A malformed or infinite one is an error.
 base::Result<WrittenPose> ReadPose(const tinyxml2::XMLElement& element);
 
 class WorldFrames {
  public:
-  // `frame_from_origin` takes the model's (or frame's) own origin to the frame that `at` places:
-  // the inverse of a placement frame's pose in the model.
+  // `frame_from_origin` transforms from the model's (or frame's) own origin to the frame that `at`
+  // places: the inverse of a placement frame's pose in the model.
   void Add(const std::string& name, WrittenPose at, geometry::Pose frame_from_origin = {},
            const std::map<std::string, geometry::Pose>* inner_frames = nullptr);
 
-  // The pose of an added thing's origin in the world. Fails for names that are not there, or that
+  // The pose of an added element's origin in the world. Fails for missing names, and for poses that
   // are relative to each other.
   base::Result<geometry::Pose> WorldFrom(const std::string& name) const;
   base::Result<geometry::Pose> WorldFrom(const WrittenPose& pose) const;

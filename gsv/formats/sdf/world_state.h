@@ -1,8 +1,8 @@
-// The <state> of a world: where its models and lights were when Gazebo Classic saved it.
+// Reads the <state> of a world: the poses of models and lights when Gazebo Classic saved it.
 //
-// The rules are Gazebo Classic's. Poses of models, links and lights are those in the world. Links
-// have the last word: joints start where the poses of their links put them. Joint positions count
-// where the links' poses are not written. Velocities are not read.
+// The rules are those of Gazebo Classic. Poses of models, links and lights are in the world. The
+// poses of links take precedence: joints start at the positions that they imply. Joint positions
+// are used if the poses of links are missing. Velocities are not read.
 #pragma once
 
 #include <map>
@@ -19,19 +19,19 @@ namespace gsv::formats {
 
 class WorldState {
  public:
-  // Takes the states out of a <world>. What they insert becomes part of the world; a state of another
-  // world's name is left out with a warning.
+  // Removes the states from a <world>. Inserted models become part of the world. A state with
+  // another world's name is left out with a warning.
   void Read(tinyxml2::XMLElement& world, const ReadingContext& context);
 
-  // Whether the state says that this model or light was deleted.
+  // Whether the state deletes this model or light.
   bool IsDeleted(const std::string& name) const { return deleted_.count(name) != 0; }
 
-  // Puts a model where the state has it, and its joints.
+  // Places a model and its joints by the state.
   void Apply(model::PlacedModel& placed) const;
   std::optional<geometry::Pose> LightPose(const std::string& name) const;
 
-  // Warns of each model, link, joint and light of the states that `world`, once it is complete, does
-  // not have.
+  // Warns of each model, link, joint and light in the states that the complete `world` does not
+  // have.
   void ReportMissing(const model::WorldDescription& world, const ReadingContext& context) const;
 
  private:

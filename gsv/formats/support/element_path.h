@@ -1,4 +1,4 @@
-// Where an element stands, for messages.
+// The places of elements, for messages.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 
 namespace gsv::formats {
 
-// Where an element was written. An element that a xacro file was expanded to may come from a macro
-// or from an included file; then its user data (XMLNode::GetUserData) points to its ElementSource.
-// Nothing else sets the user data of elements.
+// The origin of an element. An element from the expansion of a xacro file may come from a macro or
+// an included file; then its user data (XMLNode::GetUserData) points to its ElementSource. Nothing
+// else sets the user data of elements.
 struct ElementSource {
   std::shared_ptr<const std::filesystem::path> file;
   int line = 0;
@@ -20,7 +20,7 @@ struct ElementSource {
 // "file:line" of an element: that of its ElementSource, or else its line in `file`.
 std::string PlaceOf(const std::filesystem::path& file, const tinyxml2::XMLNode& node);
 
-// "world/model[box]/link[l]": names distinguish what stands beside each other.
+// "world/model[box]/link[l]": names distinguish siblings.
 std::string PathOf(const tinyxml2::XMLElement& element);
 
 }  // namespace gsv::formats

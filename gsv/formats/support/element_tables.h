@@ -1,16 +1,16 @@
-// Which elements of SDFormat and URDF there are, and which of them GSV carries out: one row each.
+// The elements of SDFormat and URDF, and their support in GSV: one row each.
 //
-// tools/make_support_page reads these tables, too, and makes docs/formats/sdf-support.md of them.
+// tools/make_support_page also reads these tables, and makes docs/formats/sdf-support.md from them.
 //
 // Element tables
 //   [box_shape]                        a definition: the elements and attributes below its element
 //   size + 1.4- =1 1 1 ; why           a row: path, sign, versions, default, note
 //   Path      element names, joined by "/"; "@name" is an attribute; "*" at the end: may be
-//             repeated; ":model" at the end: what is below it is the definition [model].
-//   Sign      "+" carried out, "~" in part, "-" not, "." without effect on a simulation.
-//   Versions  the first of 1.4 to 1.12 that has it, and the last where a later one dropped it.
+//             repeated; ":model" at the end: the content is that of the definition [model].
+//   Sign      "+" supported, "~" in part, "-" not, "." without effect on a simulation.
+//   Versions  the first of 1.4 to 1.12 that has it, and the last if a later one dropped it.
 //             URDF has none.
-//   Default   text that says the same as no element at all.
+//   Default   text with the same meaning as a missing element.
 //   Note      what GSV does instead, as a clause.
 //
 // Plugin table

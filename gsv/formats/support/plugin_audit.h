@@ -9,7 +9,7 @@
 
 namespace gsv::formats {
 
-// Sentences about a <plugin>: nobody does its work, or a parameter of a drive looks misspelt.
+// Sentences about a <plugin>: it is not supported, or a parameter of a drive looks misspelt.
 std::vector<std::string> AboutPlugin(const tinyxml2::XMLElement& plugin);
 
 // A sentence about an element such as <gsv:beem> that looks misspelt; empty about all others.

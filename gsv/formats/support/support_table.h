@@ -16,16 +16,16 @@ enum class Support {
   kFull,
   kPartial,
   kNone,
-  kNoEffect,  // says nothing that a simulation could carry out, such as settings of a window
+  kNoEffect,  // without effect on a simulation, such as settings of a window
 };
 
-// An element or attribute, and what may stand below it.
+// An element or attribute, and its content.
 struct ElementSupport {
   std::string name;  // without "@"
   Support support = Support::kFull;
-  int since = 0, until = 0;  // minor versions of SDFormat 1; until 0: there to this day
+  int since = 0, until = 0;  // minor versions of SDFormat 1; until 0: still exists
   bool is_repeatable = false;
-  std::optional<std::string_view> otherwise;  // text that says the same as no element
+  std::optional<std::string_view> otherwise;  // text with the same meaning as a missing element
   std::string_view note;
 
   // The element or attribute of that name; null if SDFormat has none there.
@@ -34,21 +34,21 @@ struct ElementSupport {
 
   using ByName = std::map<std::string, std::unique_ptr<ElementSupport>, std::less<>>;
   ByName children, attributes;
-  const ElementSupport* definition = nullptr;  // that lists what stands below, too
+  const ElementSupport* definition = nullptr;  // that lists more content
 
-  // Of a definition that takes whatever others have (URDF's <gazebo>).
+  // For a definition that accepts the elements of others (URDF's <gazebo>).
   std::vector<const ElementSupport*> borrowed;
 };
 
 struct PluginSupport {
   Support support;
-  std::string_view part;  // of its file's or class's name, in lower case without "-" and "_"
+  std::string_view part;  // a part of its file's or class's name, in lower case without "-" and "_"
   std::string_view note;
 };
 
 class SupportTable {
  public:
-  // The one table. Aborts if a row cannot be read.
+  // The table of this program. Aborts if a row cannot be read.
   static const SupportTable& Get();
 
   const ElementSupport& sdf() const { return Definition("root"); }

@@ -1,5 +1,5 @@
-// A COLLADA file of two triangles. Bone A holds the one that stands on the origin. Bone B holds the
-// other, above and beside it; B's joint is at z = 1 and turns from 0 to 90 degrees about x in 1 s.
+// A COLLADA file of two triangles. Bone A has the one at the origin. Bone B has the other, above
+// and beside it; B's joint is at z = 1 and rotates from 0 to 90 degrees about x in 1 s.
 #pragma once
 
 namespace gsv::formats {

@@ -8,7 +8,7 @@ namespace gsv::formats::xacro {
 
 struct NamedFile {
   std::string file;
-  std::map<std::string, std::string> arguments;  // empty for any file that is no xacro file
+  std::map<std::string, std::string> arguments;  // empty for any file that is not a xacro file
 };
 
 // The name without its arguments.

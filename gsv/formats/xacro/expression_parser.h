@@ -40,7 +40,7 @@ struct Expression {
   std::vector<std::string> words;
 };
 
-// kBadModel with what is wrong; the place is the caller's to add.
+// kBadModel with the reason; the caller adds the place.
 base::Result<std::unique_ptr<Expression>> ParseExpression(const std::string& text);
 
 }  // namespace gsv::formats::xacro

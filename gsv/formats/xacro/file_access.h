@@ -1,4 +1,4 @@
-// The files that a xacro file may name, and no others.
+// Restricts the files that a xacro file may name.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@ class FileAccess {
   FileAccess(const ResourceFinder& finder, const ReadLimits& limits)
       : finder_(finder), limits_(limits) {}
 
-  // The root of an included file, and the values of a YAML file; `name` stands in the file `in`.
+  // The root of an included file, and the values of a YAML file; the file `in` contains `name`.
   // kNotFound: there is no such file or package; kBadModel: it cannot be used.
   base::Result<NodePtr> ReadIncluded(const std::string& name, const std::filesystem::path& in);
   base::Result<Value> ReadYaml(const std::string& name, const std::filesystem::path& in);

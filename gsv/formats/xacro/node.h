@@ -1,4 +1,4 @@
-// A file's elements and texts, each with the place where it stands.
+// The elements and texts of a file, each with its place.
 #pragma once
 
 #include <filesystem>
@@ -20,22 +20,22 @@ struct Node {
   std::vector<std::shared_ptr<const Node>> children;
   std::shared_ptr<const std::filesystem::path> file;
   int line = 0;       // in `file`
-  int call_line = 0;  // in the main file: its own, or that of the call or include it came by
+  int call_line = 0;  // in the main file: its own, or that of the call or include
 
-  // Null where there is none.
+  // Null if there is none.
   const std::string* attribute(const std::string& name) const;
   std::string place() const;  // "file:line"
 };
 
 using NodePtr = std::shared_ptr<const Node>;
 
-// Comments are left out, and texts of blanks only.
+// Leaves out comments, and texts of blanks.
 NodePtr ToNode(const tinyxml2::XMLElement& element,
                const std::shared_ptr<const std::filesystem::path>& file);
 
-// XML in which each element stands on its node's call line, or below where that would be going
-// back, and the source of each element in the order of the document. Ends soon after `max_bytes`:
-// nodes may share children, so that few nodes may be very long a text.
+// XML in which each element is on its node's call line, or below if lines would go back, and the
+// source of each element in the order of the document. Ends soon after `max_bytes`: nodes may share
+// children, so that a few nodes can be a very long text.
 Expansion ToXml(const Node& node, std::size_t max_bytes);
 
 }  // namespace gsv::formats::xacro

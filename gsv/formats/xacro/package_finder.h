@@ -1,4 +1,4 @@
-// $(find package): the folder of a ROS package without a ROS installation.
+// Finds $(find package): the folder of a ROS package without a ROS installation.
 #pragma once
 
 #include <filesystem>

@@ -16,13 +16,13 @@ namespace gsv::formats::xacro {
 
 class Scope;
 
-// A property. A lazy one holds a text, which is evaluated where it was defined when it is first
-// asked for.
+// A property. A lazy one has a text, which is evaluated in the scope of its definition on first
+// use.
 struct Property {
   Value value;
   NodePtr defined_at;
   bool is_lazy = false;
-  bool is_resolving = false;  // to find properties that need themselves
+  bool is_resolving = false;  // to detect properties that need themselves
 };
 
 // The nodes that <xacro:insert_block> inserts.
@@ -35,13 +35,13 @@ using Resolve = std::function<base::Result<Value>(const std::string& text, const
 
 class Scope final : public Names {
  public:
-  // `parent` outlives this scope; null: the outermost.
+  // `parent` must outlive this scope; null: the outermost.
   Scope(Scope* parent, const Resolve& resolve) : parent_(parent), resolve_(resolve) {}
 
   Scope* parent() { return parent_; }
   Scope& outermost() { return parent_ == nullptr ? *this : parent_->outermost(); }
 
-  // A text becomes a number or truth value where it is one.
+  // Converts a text that is a number or truth value.
   void Set(const std::string& name, const Value& value, const NodePtr& at, bool is_lazy);
   void Remove(const std::string& name) { properties_.erase(name); }
   bool Has(const std::string& name) const;
@@ -58,7 +58,7 @@ class Scope final : public Names {
   std::map<std::string, Block> blocks_;
 };
 
-// Macros, and the namespaces of included files. Members stay where they are.
+// Macros, and the namespaces of included files. Pointers to members stay valid.
 struct Space {
   Space(Space* outer_space, Scope* outer_scope, const Resolve& resolve)
       : outer(outer_space), scope(outer_scope, resolve) {}

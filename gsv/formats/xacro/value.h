@@ -1,4 +1,4 @@
-// Values of xacro's expressions: those of Python that robot descriptions use.
+// The values of xacro's expressions: those types of Python that robot descriptions use.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct Value;
 using List = std::vector<Value>;
 using Dictionary = std::vector<std::pair<Value, Value>>;  // in the order of insertion
 
-// The namespace of an included file, into which `name.member` looks.
+// The namespace of an included file, for `name.member`.
 class Names {
  public:
   virtual ~Names() = default;
@@ -57,15 +57,15 @@ bool IsTrue(const Value& value);
 // As Python's ==: numbers by value, other types differ.
 bool AreEqual(const Value& a, const Value& b);
 
-// A property's or a parameter's text as a number or truth value where it is one: "2" is 2, "2.0" a
-// float, "true" a bool. A text in single quotes loses them; one with "_" stays a text.
+// Converts a property's or a parameter's text to a number or truth value if it is one: "2" is 2,
+// "2.0" a float, "true" a bool. A text in single quotes loses them; one with "_" stays a text.
 Value FromLiteral(const std::string& text);
 
-// Python's int() and float() of a text; none where that would fail.
+// Python's int() and float() of a text; none if that would fail.
 std::optional<std::int64_t> ParseInteger(const std::string& text);
 std::optional<double> ParseFloat(const std::string& text);
 
-// The truth value of a condition as <xacro:if> takes it; none if it is neither true nor false.
+// The truth value of a condition for <xacro:if>; none if it is neither true nor false.
 std::optional<bool> ConditionOf(const Value& value);
 
 }  // namespace gsv::formats::xacro

@@ -5,11 +5,11 @@
 //            xacro:call, insert_block, include (relative, $(find package), ns, optional), if, unless,
 //            arg, element, attribute; $(arg), $(find), $(eval), $(dirname), $(optenv) by its default;
 //            xacro.load_yaml. The old form without the prefix "xacro:" as well.
-// Refused    $(env), $(anon), $(cwd), patterns in the names of included files, and what
-//            expression_parser.h and operators.h do not know: with a sentence, file and line.
+// Refused    $(env), $(anon), $(cwd), patterns in the names of included files, and expressions that
+//            expression_parser.h and operators.h do not support: with a sentence, file and line.
 // Limits     1,000,000 steps, 500 levels, 512 includes; sizes and depth as of ReadLimits.
 // Source     the behaviour of ros/xacro, processing in order.
-// Threads    may run concurrently. Nothing but the files read decides on the outcome.
+// Threads    may run concurrently. The result depends only on the files.
 #pragma once
 
 #include <filesystem>
@@ -26,7 +26,7 @@
 
 namespace gsv::formats::xacro {
 
-// Whether a file is to be expanded: its name ends in .xacro, or it has elements of xacro.
+// Whether a file must be expanded: its name ends in .xacro, or it has elements of xacro.
 bool NeedsExpansion(const tinyxml2::XMLElement& root, const std::filesystem::path& file);
 
 struct ExpandOptions {
@@ -36,14 +36,14 @@ struct ExpandOptions {
 };
 
 struct Expansion {
-  // An element stands on the line of the main file that it came from; an element of a macro or of
-  // an included file on the line of the call.
+  // An element is on the line of the main file from which it came; an element of a macro or of an
+  // included file is on the line of the call.
   std::string xml;
-  // Where each element was written, in the order of the document.
+  // The origin of each element, in the order of the document.
   std::vector<ElementSource> sources;
 };
 
-// Expands the elements below `root`, those of `file`. Errors: kBadModel with file and line.
+// Expands the elements below `root`, the root of `file`. Errors: kBadModel with file and line.
 base::Result<Expansion> Expand(const tinyxml2::XMLElement& root, const std::filesystem::path& file,
                                const ExpandOptions& options, base::Problems& problems);
 
