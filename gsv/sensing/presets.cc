@@ -9,6 +9,9 @@ namespace {
 
 constexpr const char* kPreset = "preset";
 
+// Of the small 40 kHz transducers, 16 mm wide.
+constexpr double kSmallTransducer = 0.008, kSmallThreshold = 0.12, kSmallGainRange = 1.5;
+
 model::Parameters ImuParameters(double gyro_density, double gyro_instability, double gyro_walk,
                                 double accelerometer_density, double accelerometer_instability,
                                 double accelerometer_walk) {
@@ -23,49 +26,46 @@ model::Parameters ImuParameters(double gyro_density, double gyro_instability, do
 std::vector<Preset> MakePresets() {
   return {
       {"imu", "adis16448",
-       "Analog Devices' data sheet (rev. E): gyroscope 0.0135 deg/s/rtHz and 14.5 deg/h, "
-       "accelerometer 0.23 mg/rtHz and 0.25 mg; random walks of usual calibrations",
-       ImuParameters(2.36e-4, 7.0e-5, 4.0e-6, 2.26e-3, 2.45e-3, 4.0e-5)},
+       "noise model of the VI-Sensor's ADIS16448 in the EuRoC MAV data sets (Burri and others "
+       "2016, "
+       "mav0/imu0/sensor.yaml); it names no bias instability",
+       ImuParameters(1.6968e-4, 0, 1.9393e-5, 2.0e-3, 0, 3.0e-3)},
       {"imu", "mpu6050",
-       "InvenSense's data sheet (rev. 3.4): gyroscope 0.005 deg/s/rtHz, accelerometer 400 ug/rtHz; "
-       "instabilities and random walks of usual Allan plots",
-       ImuParameters(8.7e-5, 4.8e-5, 2.0e-5, 3.9e-3, 5.0e-4, 6.0e-5)},
+       "InvenSense's product specification PS-MPU-6000A-00, rev. 3.4, sections 6.1 and 6.2: "
+       "gyroscope 0.005 deg/s per root hertz, accelerometer 400 ug per root hertz; it names no "
+       "bias "
+       "instability and no random walk",
+       ImuParameters(8.727e-5, 0, 0, 3.923e-3, 0, 0)},
       {"lidar",
        "hokuyo_urg",
-       "data sheet of the URG-04LX: 682 beams over 240 deg, 10 Hz, 20 mm to 4.095 m, 1 mm steps, "
-       "error below 10 mm up to 1 m and below 1 % beyond; a beam at rest scatters by 2 to 4 mm in "
-       "a "
-       "published arena log",
+       "Hokuyo's SCIP 2.0 document C-42-03320B for the URG-04LX: steps 44 to 725 of 1024 a turn, "
+       "step 384 ahead, 20 mm to 5.6 m (4.095 m with two-character data), 1 mm; beam of at most 40 "
+       "mm at 4 m by the data sheet; scatter of the beams at rest in a published arena log",
        {{"scan.horizontal.samples", 682.0},
-        {"scan.horizontal.min_angle", -2.0944},
-        {"scan.horizontal.max_angle", 2.0944},
+        {"scan.horizontal.min_angle", -2.08621},
+        {"scan.horizontal.max_angle", 2.09235},
         {"range.min", 0.02},
         {"range.max", 4.095},
         {"noise.stddev", 0.002},
         {"noise.precision", 0.001},
         {"range_noise", 0.0012},
-        {"incidence_noise", 0.0005},
-        {"beam_divergence", 0.006},
-        {"reach", 5.5}}},
+        {"beam_divergence", 0.01}}},
       {"lidar",
        "rplidar_a2",
-       "Slamtec's data sheet of the RPLIDAR A2M8: 400 beams a turn, 0.15 to 12 m, resolution below "
-       "1 % of the distance",
-       {{"scan.horizontal.samples", 400.0},
+       "Slamtec's data sheet of the RPLIDAR A2M8, rev. 2.5: 8000 samples a second, 10 turns a "
+       "second, up to 12 m; resolution 0.5 mm below 1.5 m and 1 % of the distance at most, taken "
+       "as "
+       "three standard deviations; minimum of its sibling A1M8",
+       {{"scan.horizontal.samples", 800.0},
         {"range.min", 0.15},
         {"range.max", 12.0},
-        {"noise.stddev", 0.003},
         {"noise.precision", 0.0005},
-        {"range_noise", 0.004},
-        {"incidence_noise", 0.002},
-        {"beam_divergence", 0.008},
-        {"reach", 16.0}}},
+        {"range_noise", 0.0033}}},
       {"lidar",
        "sick_lms",
-       "data sheet of the LMS 200: 180 deg, 1 deg, up to 81.83 m, 10 mm steps, error typically 5 "
-       "mm "
-       "up to 20 m; scatter and shares of beams fitted to one half of a published log of a "
-       "corridor",
+       "data sheet of the LMS 200: 180 deg, 1 deg, up to 81.83 m, 10 mm steps; scatter and shares "
+       "of "
+       "beams fitted to one half of a published log of a corridor",
        {{"scan.horizontal.samples", 180.0},
         {"scan.horizontal.min_angle", -1.562070},
         {"scan.horizontal.max_angle", 1.562070},
@@ -75,8 +75,7 @@ std::vector<Preset> MakePresets() {
         {"noise.precision", 0.01},
         {"noise.dropout_probability", 0.012},
         {"range_noise", 0.0002},
-        {"beam_divergence", 0.0044},
-        {"reach", 90.0}}},
+        {"beam_divergence", 0.0044}}},
       {"odometry",
        "irobot_create",
        "fitted to robots 1 and 2 of data set 6 of UTIAS' multi-robot data sets "
@@ -86,19 +85,26 @@ std::vector<Preset> MakePresets() {
         {"random.linear_per_metre", 0.0735},
         {"random.angular_per_metre", 0.081},
         {"random.angular_per_radian", 0.085}}},
+      {"ranging",
+       "uwb_indoor",
+       "fitted to one half of the log Indoor_UWB of libRSF (TU Chemnitz); see docs/reality.md",
+       {{"max", 50.0},
+        {"noise.mean", 0.0708},
+        {"bias_per_metre", 0.0314},
+        {"noise.stddev", 0.0853},
+        {"range_noise", 0.0245}}},
       {"sonar",
        "hc_sr04",
-       "published beam tests of an HC-SR04 before a panel, a rule and a small sheet; range and "
-       "step "
-       "of its data sheet",
+       "fitted to one half of published beam tests of an HC-SR04, see docs/reality.md; range and "
+       "step of its data sheet",
        {{"beam", std::string("cone")},
         {"min", 0.02},
         {"max", 4.0},
         {"field_of_view", 0.89},
-        {"transducer_radius", 0.008},
+        {"transducer_radius", kSmallTransducer},
         {"frequency", 40000.0},
-        {"threshold", 0.14},
-        {"gain_range", 1.55},
+        {"threshold", kSmallThreshold},
+        {"gain_range", kSmallGainRange},
         {"specular_width", 0.05},
         {"target_size", true},
         {"second_reflections", true},
@@ -106,16 +112,16 @@ std::vector<Preset> MakePresets() {
         {"noise.precision", 0.003}}},
       {"sonar",
        "mb1010",
-       "MaxBotix' data sheet of the LV-MaxSonar-EZ1: 42 kHz, 6 to 254 inches in steps of one inch; "
-       "a beam half as wide as that of the HC-SR04",
+       "MaxBotix' data sheet of the LV-MaxSonar-EZ1: 42 kHz, 6 to 254 inches in steps of one inch, "
+       "transducer of 16.4 mm; its beam patterns are drawings without figures, so that threshold "
+       "and gain_range are those of hc_sr04",
        {{"beam", std::string("cone")},
         {"min", 0.1524},
         {"max", 6.45},
-        {"field_of_view", 0.6},
-        {"transducer_radius", 0.008},
+        {"transducer_radius", 0.0082},
         {"frequency", 42000.0},
-        {"threshold", 0.4},
-        {"gain_range", 3.0},
+        {"threshold", kSmallThreshold},
+        {"gain_range", kSmallGainRange},
         {"specular_width", 0.05},
         {"target_size", true},
         {"second_reflections", true},
@@ -123,15 +129,16 @@ std::vector<Preset> MakePresets() {
       {"sonar",
        "polaroid_6500",
        "SensComp's data sheets of the 6500 module and the 600 transducer: 49.4 kHz, 6 inches to 35 "
-       "feet, error 1 %",
+       "feet, a gain that grows with time; steps of 10 mm and a scatter of 1.2 mm as in a "
+       "published "
+       "log of a ring of sonars at rest",
        {{"beam", std::string("cone")},
         {"min", 0.15},
         {"max", 10.7},
         {"threshold", 0.02},
-        {"gain_range", 6.0},
         {"target_size", true},
         {"second_reflections", true},
-        {"noise.stddev", 0.005},
+        {"noise.stddev", 0.0012},
         {"noise.precision", 0.01}}},
   };
 }

@@ -16,6 +16,7 @@
 #include "gsv/sensing/devices/odometer.h"
 #include "gsv/sensing/devices/positioning.h"
 #include "gsv/sensing/devices/radio.h"
+#include "gsv/sensing/devices/ranging.h"
 #include "gsv/sensing/devices/sonar.h"
 #include "gsv/sensing/devices/speaker.h"
 
@@ -25,7 +26,7 @@ void AddBuiltInSensors(SensorRegistry& registry) {
   for (SensorType (*make)() :
        {SonarType, LidarType, PositioningType, ImuType, OdometerType, NavsatType, MagnetometerType,
         AltimeterType, BumperType, JointEncodersType, BatteryType, LogicalCameraType, RadioType,
-        GripperType, LampType, SpeakerType, MicrophoneType}) {
+        GripperType, LampType, SpeakerType, MicrophoneType, RangingType}) {
     GSV_CHECK(registry.Add(make()));
   }
 }

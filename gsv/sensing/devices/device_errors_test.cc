@@ -73,7 +73,9 @@ testing::Placed Wall(double distance, double width, double height, double yaw = 
 
 TEST_F(DeviceErrors, EveryPresetMakesASensorAndNamesItsSource) {
   for (const Preset& preset : Presets()) {
-    EXPECT_NE(Create(preset.type, {{"preset", preset.name}}), nullptr) << preset.name;
+    model::Parameters parameters = {{"preset", preset.name}};
+    if (preset.type == "ranging") parameters["anchor"] = std::string("anchor");
+    EXPECT_NE(Create(preset.type, parameters), nullptr) << preset.name;
     EXPECT_GT(preset.source.size(), 20u) << preset.name;
   }
 }
@@ -214,9 +216,11 @@ TEST_F(DeviceErrors, OfOdometryAddUpAsTheRobotDrives) {
 }
 
 TEST_F(DeviceErrors, AWideTransducerHearsAPanelThatStandsAside) {
-  const auto sonar =
-      Create("sonar",
-             {{"preset", std::string("hc_sr04")}, {"noise.stddev", 0.0}, {"noise.precision", 0.0}});
+  const auto sonar = Create("sonar", {{"preset", std::string("hc_sr04")},
+                                      {"threshold", 0.14},
+                                      {"gain_range", 1.55},
+                                      {"noise.stddev", 0.0},
+                                      {"noise.precision", 0.0}});
   for (const double angle : {0.0, 20.0, 32.0}) {
     testing::Placed panel = Wall(0, 0.267, 1.22);
     panel.pose = PlanarPose(1.005 * std::cos(angle * kDegree), 1.005 * std::sin(angle * kDegree), 0,
@@ -231,7 +235,9 @@ TEST_F(DeviceErrors, ASmallTargetIsHeardLessFar) {
   const double wave_length = 343.0 / 40e3;
   const auto is_heard = [&](double distance) {
     Place({Wall(distance, 0.025, 2)});
-    return Read(*Create("sonar", {{"preset", std::string("hc_sr04")}}))[0] < 3.9;
+    return Read(*Create("sonar", {{"preset", std::string("hc_sr04")},
+                                  {"threshold", 0.14},
+                                  {"gain_range", 1.55}}))[0] < 3.9;
   };
   // Part = threshold max(1, distance / gain range)
   double expected = 0.1;
@@ -279,6 +285,47 @@ TEST_F(DeviceErrors, SonarsThatFireTogetherHearEachOther) {
   robot_->sensors[1].parameters["firing_slot"] = 2.0;
   Place({Wall(1, 10, 10)});
   EXPECT_EQ(Read(**registry_.Find("sonar")->create(left))[0], 5);
+}
+
+testing::Placed AnchorAt(double x) {
+  return {"anchor", testing::ModelOf(geometry::Box{{0.1, 0.1, 0.1}}), PlanarPose(x, 0, 0, 0), true};
+}
+
+TEST_F(DeviceErrors, RangingAddsABiasForEachMetreAndEachWall) {
+  const model::Parameters parameters = {{"anchor", std::string("anchor")},
+                                        {"noise.mean", 0.1},
+                                        {"bias_per_metre", 0.02},
+                                        {"wall_delay", 0.3}};
+  Place({AnchorAt(5)});
+  EXPECT_WITHIN(Read(*Create("ranging", parameters))[0], 5 + 0.1 + 5 * 0.02, 1e-12, "m");
+  testing::Placed wall = Wall(2, 3, 3);
+  Place({AnchorAt(5), wall});
+  EXPECT_WITHIN(Read(*Create("ranging", parameters))[0], 5 + 0.1 + 5 * 0.02 + 0.3, 1e-12, "m");
+}
+
+TEST_F(DeviceErrors, RangingHearsNothingThatIsTooFarOrNotThere) {
+  Place({AnchorAt(5)});
+  EXPECT_TRUE(
+      std::isinf(Read(*Create("ranging", {{"anchor", std::string("anchor")}, {"max", 4.0}}))[0]));
+  EXPECT_TRUE(std::isinf(Read(*Create("ranging", {{"anchor", std::string("other")}}))[0]));
+  Place({AnchorAt(5), Wall(2, 3, 3)});
+  EXPECT_TRUE(std::isinf(
+      Read(*Create("ranging", {{"anchor", std::string("anchor")}, {"max_walls", 0.0}}))[0]));
+}
+
+TEST_F(DeviceErrors, RangingScattersMoreWithDistance) {
+  Place({AnchorAt(10)});
+  const auto sensor =
+      Create("ranging",
+             {{"anchor", std::string("anchor")}, {"noise.stddev", 0.03}, {"range_noise", 0.004}});
+  double sum = 0, squares = 0;
+  constexpr int kReadings = 2000;
+  for (int i = 0; i < kReadings; ++i) {
+    const double off = Read(*sensor, i)[0] - 10;
+    sum += off, squares += off * off;
+  }
+  EXPECT_WITHIN(sum / kReadings, 0, 0.005, "m");
+  EXPECT_WITHIN(std::sqrt(squares / kReadings), 0.05, 0.003, "m");  // of 0.03 and 0.04
 }
 
 }  // namespace

@@ -327,7 +327,7 @@ TEST(SensorRegistry, FindsTypesByNameAndAlias) {
             (std::vector<std::string>{"altimeter", "battery", "contact", "gripper", "imu",
                                       "joint_encoders", "lamp", "lidar", "logical_camera",
                                       "magnetometer", "microphone", "navsat", "odometry",
-                                      "positioning", "radio", "sonar", "speaker"}));
+                                      "positioning", "radio", "ranging", "sonar", "speaker"}));
   EXPECT_EQ(BuiltInSensors().Find("gpu_ray"), BuiltInSensors().Find("lidar"));
   EXPECT_EQ(BuiltInSensors().Find("telepathy"), nullptr);
   EXPECT_EQ(BuiltInSensors().Find("sonar")->schema->name, "sensor_msgs/msg/Range");
