@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "gsv/base/mutex.h"
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/sensing/devices/sound_cone.h"
 #include "gsv/sensing/noise.h"
@@ -78,16 +79,27 @@ class Sonar final : public SensorOf<readings::Sonar, messages::sensor_msgs::Rang
   std::vector<SoundCone::Sender> Others(const Sampling& sampling) const {
     std::vector<SoundCone::Sender> others;
     if (settings_.sound->firing_slot == 0) return others;
-    for (const model::SensorDescription& other : sampling.robot().model->sensors) {
+    const std::shared_ptr<const model::Model>& model = sampling.robot().model;
+    const base::MutexLock lock(mutex_);
+    if (others_of_ != model) FindOthers(model);
+    for (const auto& [place, sound] : others_) {
+      others.push_back({sampling.WorldFromSensor(model->sensors[place]), sound});
+    }
+    return others;
+  }
+
+  void FindOthers(const std::shared_ptr<const model::Model>& model) const GSV_REQUIRES(mutex_) {
+    others_.clear();
+    for (std::size_t i = 0; i < model->sensors.size(); ++i) {
+      const model::SensorDescription& other = model->sensors[i];
       if (other.type != readings::Sonar::kType || other.name == description().name) continue;
       const auto whole = WithPreset(readings::Sonar::kType, other);
       if (!whole) continue;
       ParameterReader reader(*whole);
       const SoundSettings sound = ReadSound(reader);
-      if (sound.firing_slot != settings_.sound->firing_slot) continue;
-      others.push_back({sampling.WorldFromSensor(other), sound});
+      if (sound.firing_slot == settings_.sound->firing_slot) others_.emplace_back(i, sound);
     }
-    return others;
+    others_of_ = model;
   }
 
   Message ToMessage(const Values& sonar, const Reading&, const std::string&) const override {
@@ -106,6 +118,10 @@ class Sonar final : public SensorOf<readings::Sonar, messages::sensor_msgs::Rang
 
   const SonarSettings settings_;
   std::optional<SoundCone> cone_;
+  // The sonars of the last robot's model that fire together with this one: places in its sensors.
+  mutable base::Mutex mutex_;
+  mutable std::shared_ptr<const model::Model> others_of_ GSV_GUARDED_BY(mutex_);
+  mutable std::vector<std::pair<std::size_t, SoundSettings>> others_ GSV_GUARDED_BY(mutex_);
 };
 
 }  // namespace

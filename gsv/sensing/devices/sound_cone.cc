@@ -18,6 +18,7 @@ using geometry::kPi;
 constexpr double kSpeedOfSound = 343;  // m/s, in air of 20 degrees
 constexpr double kMaxConeAngle = 0.6;  // rad: what sends wider than this is cut off here
 constexpr int kMaxRings = 24;
+constexpr double kMaxSpacing = 0.1;  // rad
 
 }  // namespace
 
@@ -42,7 +43,8 @@ double Directivity(const SoundSettings& sound, double angle) {
 }
 
 SoundCone::SoundCone(const SoundSettings& sound)
-    : sound_(sound), spacing_(std::max(sound.specular_width, kMaxConeAngle / kMaxRings)) {
+    : sound_(sound),
+      spacing_(std::clamp(sound.specular_width, kMaxConeAngle / kMaxRings, kMaxSpacing)) {
   // Rings of rays, close enough for one of them to be nearly perpendicular to any surface.
   beams_.push_back({{1, 0, 0}, 1});
   for (int ring = 1; ring * spacing_ <= kMaxConeAngle; ++ring) {
@@ -198,6 +200,7 @@ void SoundCone::AddSecondReflections(const Sampling& sampling, std::span<const R
 void SoundCone::AddCrosstalk(const Sender& sender, std::span<const Ray> rays,
                              std::span<const std::optional<Hit>> hits,
                              std::vector<Echo>& echoes) const {
+  static const double kLeastCosine = std::cos(kMaxConeAngle);
   const Vector3 axis = sender.world_from_sonar.orientation * Vector3{1, 0, 0};
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (!hits[i]) continue;
@@ -206,15 +209,17 @@ void SoundCone::AddCrosstalk(const Sender& sender, std::span<const Ray> rays,
     const double length = Norm(way);
     if (length < 1e-6) continue;
     const Vector3 out = (1 / length) * way;
-    const double sent =
-        std::abs(Directivity(sender.sound, std::acos(std::clamp(Dot(out, axis), -1.0, 1.0))));
+    const double along = Dot(out, axis);
+    if (along < kLeastCosine) continue;  // beyond the sender's lobe
     const double heard = std::sqrt(beams_[i].strength);
     const Vector3 half = geometry::Normalized(out + rays[i].direction);
     const double cosine = std::clamp(-Dot(half, hits[i]->normal), -1.0, 1.0);
-    const double strength = sent * heard *
-                            ((1 - sound_.roughness) * Mirrored(std::acos(cosine)) +
-                             sound_.roughness * std::max(cosine, 0.0));
+    const double returned = heard * ((1 - sound_.roughness) * Mirrored(std::acos(cosine)) +
+                                     sound_.roughness * std::max(cosine, 0.0));
     const double distance = (length + hits[i]->distance) / 2;
+    if (!IsHeard(returned, distance)) continue;  // not even on the sender's axis
+    const double strength =
+        returned * std::abs(Directivity(sender.sound, std::acos(std::min(along, 1.0))));
     if (IsHeard(strength, distance)) echoes.push_back({distance, strength, rays[i], *hits[i]});
   }
 }
