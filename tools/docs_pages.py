@@ -25,7 +25,7 @@ SECTIONS = (
                 "testing.md", "campaigns.md")),
     ("Services", ("services.md", "broker.md")),
     ("Operation", ("security.md", "limits.md", "monitoring.md", "reliability.md", "performance.md")),
-    ("Accuracy", ("fidelity.md", "determinism.md")),
+    ("Accuracy", ("fidelity.md", "reality.md", "determinism.md")),
     ("Formats", ("formats/*",)),
     ("Reference", ("reference.md",)),
     ("Development", ("architecture.md", "extending.md", "contributing.md", "web.md", "requirements.md",

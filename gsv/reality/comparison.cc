@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "gsv/geometry/constants.h"
-#include "gsv/reality/localization.h"
-#include "gsv/reality/maps/map_world.h"
 #include "gsv/reality/odometry_comparison.h"
+#include "gsv/reality/radio_comparison.h"
+#include "gsv/reality/scan_placing.h"
 #include "gsv/reality/simulated_device.h"
 #include "gsv/reality/statistics.h"
 #include "gsv/reality/world_fit.h"
@@ -28,16 +28,6 @@ bool HasOdometry(const Log& log) {
          (!log.odometry.empty() || !log.wheels.empty() || !log.commands.empty());
 }
 
-// A log may have several devices, and a preset is of one type: others go without.
-std::string PresetOf(const std::string& type, const CompareOptions& options) {
-  for (const sensing::Preset& preset : sensing::Presets()) {
-    if (preset.type == type && preset.name == options.preset) return preset.name;
-  }
-  return "";
-}
-
-std::string ScannerOf(const Log& log) { return log.is_sonar ? "sonar" : "lidar"; }
-
 bool HasScans(const Log& log) { return !log.scans.empty() && log.scans.front().base; }
 
 base::Status CheckPreset(const Log& log, const CompareOptions& options) {
@@ -45,6 +35,7 @@ base::Status CheckPreset(const Log& log, const CompareOptions& options) {
   std::vector<std::string> types;
   if (HasOdometry(log)) types.emplace_back("odometry");
   if (HasScans(log)) types.push_back(ScannerOf(log));
+  if (!log.radio.empty()) types.emplace_back("ranging");
   for (const std::string& type : types) {
     if (!PresetOf(type, options).empty()) return {};
   }
@@ -124,68 +115,20 @@ base::Status CompareOdometry(const Log& log, const CompareOptions& options, Comp
   return {};
 }
 
-// A simulated reading at the maximum, or beyond, is no echo.
-void MarkMissing(std::vector<double>& ranges, double max_range) {
-  for (double& range : ranges) {
-    if (!(range < max_range - 1e-9)) range = geometry::kInfinity;
-    if (range < 0) range = geometry::kInfinity;
-  }
-}
-
-std::vector<model::SensorDescription> AskedSensors(const Log& log, const CompareOptions& options) {
-  auto sensors =
-      SensorsOf(log, PresetOf(ScannerOf(log), options), options.parameters, options.height);
-  for (std::size_t i = 0; i < std::min(sensors.size(), options.beam_parameters.size()); ++i) {
-    for (const auto& [name, value] : options.beam_parameters[i]) {
-      sensors[i].parameters[name] = value;
-    }
-  }
-  return sensors;
-}
-
-base::Result<std::vector<ScanPair>> PairsIn(const model::WorldDescription& world, const Log& log,
-                                            const CompareOptions& options,
-                                            const std::vector<RangeScan>& scans) {
-  auto device = SimulatedDevice::Create(world, AskedSensors(log, options), options.seed);
-  if (!device) return base::Fail(device.error());
-  auto exact = SimulatedDevice::Create(world, SensorsOf(log, "", {}, options.height), 1);
-  if (!exact) return base::Fail(exact.error());
-  std::vector<ScanPair> pairs;
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    if (!scans[i].base) continue;
-    ScanPair pair{*scans[i].base, scans[i].ranges, {}, {}};
-    pair.simulated = device->Read(pair.pose, static_cast<std::int64_t>(i));
-    pair.exact = exact->Read(pair.pose, 0);
-    MarkMissing(pair.simulated, log.max_range);
-    MarkMissing(pair.exact, log.max_range);
-    pairs.push_back(std::move(pair));
-  }
-  return pairs;
-}
-
-std::vector<RangeScan> Thinned(std::vector<RangeScan> scans, std::size_t most) {
-  const std::size_t stride = std::max<std::size_t>(1, (scans.size() + most - 1) / most);
-  std::vector<RangeScan> thinned;
-  for (std::size_t i = 0; i < scans.size(); i += stride) thinned.push_back(std::move(scans[i]));
-  return thinned;
-}
-
-// The scans with their poses in the world.
-base::Result<std::vector<RangeScan>> PlacedScans(const Log& log, const CompareOptions& options) {
-  std::vector<RangeScan> scans = log.scans;
-  if (log.is_sonar || !log.truth.empty()) return scans;
-  const auto map = MapOfWorld(*options.world, {0.1, options.height, 1});
-  if (!map) return base::Fail(map.error());
-  const std::size_t stride =
-      std::max<std::size_t>(1, (scans.size() + options.max_scans - 1) / options.max_scans);
-  const auto poses = Localize(log, LikelihoodField(*map), options.start, stride);
-  if (!poses) return base::Fail(poses.error());
-  std::vector<RangeScan> placed;
-  for (std::size_t i = 0; i < poses->size(); ++i) {
-    placed.push_back(scans[i * stride]);
-    placed.back().base = (*poses)[i];
-  }
-  return placed;
+void AddScanMedians(const std::string& device, const std::vector<ScanPair>& pairs,
+                    Comparison& result) {
+  const std::vector<double> medians = MedianDifferences(pairs);
+  if (medians.empty()) return;
+  const auto below =
+      std::count_if(medians.begin(), medians.end(), [](double m) { return m < 0.01; });
+  const double nothing = std::nan("");
+  result.rows.push_back(
+      {device, "median difference of a scan, middle", "m", Quantile(medians, 0.5), nothing, 0});
+  result.rows.push_back(
+      {device, "median difference of a scan, largest", "m", Quantile(medians, 1), nothing, 0});
+  result.rows.push_back({device, "share of scans with a median difference below 10 mm", "",
+                         static_cast<double>(below) / static_cast<double>(medians.size()), nothing,
+                         0});
 }
 
 void CompareScans(const Log& log, const std::vector<ScanPair>& pairs, Comparison& result) {
@@ -248,9 +191,16 @@ void CompareScans(const Log& log, const std::vector<ScanPair>& pairs, Comparison
                          k95 / std::sqrt(std::max(1.0, count))});
   result.rows.push_back({device, "Kolmogorov-Smirnov distance of ranges", "", 0,
                          KolmogorovSmirnov(ranges.real, ranges.simulated), 0});
+  if (!log.is_sonar) AddScanMedians(device, pairs, result);
   const Mixture real_mix = MixtureOf(pairs, true, kTolerance);
   const Mixture mix = MixtureOf(pairs, false, kTolerance);
   const double beams = count * static_cast<double>(real.size());
+  double heard = 0, simulated_heard = 0;
+  for (std::size_t i = 0; i < real.size(); ++i) {
+    heard += real[i] / static_cast<double>(real.size());
+    simulated_heard += simulated[i] / static_cast<double>(real.size());
+  }
+  share("share of all beams at the maximum", 1 - heard, 1 - simulated_heard, beams);
   share("share of hits", real_mix.hit, mix.hit, beams);
   share("share of shorter readings", real_mix.shorter, mix.shorter, beams);
   share("share without an echo", real_mix.none, mix.none, beams);
@@ -279,52 +229,39 @@ void CompareAtRest(const Log& log, const model::WorldDescription& world,
                          k95 * b.deviation / std::sqrt(2.0 * static_cast<double>(b.count) + 1)});
 }
 
-void CompareRadio(const Log& log, Comparison& result) {
-  std::vector<double> errors;
-  for (const RadioRange& range : log.radio) errors.push_back(range.measured - range.reference);
-  const Summary real = Summarize(errors);
-  const double nothing = std::nan("");
-  result.rows.push_back({"radio", "mean error of ranges", "m", real.mean, nothing, 0});
-  result.rows.push_back({"radio", "deviation of errors", "m", real.deviation, nothing, 0});
-}
-
-struct Placed {
-  model::WorldDescription world;
-  std::vector<RangeScan> scans;
-};
-
-// The world, given or fitted, and the scans to judge.
-base::Result<Placed> PlaceScans(const Log& log, const CompareOptions& options, bool for_fitting) {
-  if (options.world) {
-    auto scans = PlacedScans(log, options);
-    if (!scans) return base::Fail(scans.error());
-    std::erase_if(*scans,
-                  [&](const RangeScan& scan) { return IsForFitting(scan.time) != for_fitting; });
-    return Placed{*options.world, Thinned(*std::move(scans), options.max_scans)};
+base::Status CompareRadio(const Log& log, const CompareOptions& options, Comparison& result) {
+  const auto simulated = SimulatedRanges(log, options);
+  if (!simulated) return base::Fail(simulated.error());
+  std::vector<RadioErrors> errors;
+  for (std::size_t i = 0; i < log.radio.size(); ++i) {
+    const RadioRange& range = log.radio[i];
+    if (IsForFitting(range.time)) continue;
+    errors.push_back({range.anchor, range.reference, range.measured - range.reference,
+                      (*simulated)[i] - range.reference});
   }
-  std::vector<RangeScan> for_world = ScansFor(log, true), to_read = ScansFor(log, for_fitting);
-  if (for_fitting) {
-    // A device is fitted to readings that the world has not seen either: otherwise the world would
-    // answer for the device.
-    std::erase_if(for_world, [](const RangeScan& scan) { return IsLateInBlock(scan.time); });
-    std::erase_if(to_read, [](const RangeScan& scan) { return !IsLateInBlock(scan.time); });
+  Series series{"error of a range", "m", {}, {}};
+  for (const RadioGroup& group : Grouped(errors)) {
+    const Summary real = Summarize(group.real), other = Summarize(group.simulated);
+    const double root = std::sqrt(std::max<double>(1, static_cast<double>(other.count)));
+    result.rows.push_back({"ranging", "bias " + group.name, "m", real.mean, other.mean,
+                           k95 * other.deviation / root});
+    result.rows.push_back({"ranging", "scatter " + group.name, "m", real.deviation, other.deviation,
+                           k95 * other.deviation / (root * std::sqrt(2.0))});
   }
-  const auto map = FitMap(log, for_world, 0.1);
-  if (!map) return base::Fail(map.error());
-  return Placed{WallsOf(*map, 1), Thinned(std::move(to_read), options.max_scans)};
+  for (const RadioErrors& error : errors) {
+    series.real.push_back(error.real);
+    if (std::isfinite(error.simulated)) series.simulated.push_back(error.simulated);
+  }
+  result.rows.push_back({"ranging", "Kolmogorov-Smirnov distance of the errors", "", 0,
+                         KolmogorovSmirnov(series.real, series.simulated), 0});
+  result.series.push_back(std::move(series));
+  return {};
 }
 
 }  // namespace
 
-base::Result<std::vector<ScanPair>> PairScans(const Log& log, const CompareOptions& options,
-                                              bool for_fitting) {
-  if (auto ok = CheckPreset(log, options); !ok) return base::Fail(ok.error());
-  auto placed = PlaceScans(log, options, for_fitting);
-  if (!placed) return base::Fail(placed.error());
-  return PairsIn(placed->world, log, options, placed->scans);
-}
-
-base::Result<Comparison> Compare(const Log& log, const CompareOptions& options) {
+base::Result<Comparison> Compare(const Log& given, const CompareOptions& options) {
+  const Log log = WithBases(given, options);
   Comparison result;
   if (auto ok = CheckPreset(log, options); !ok) return base::Fail(ok.error());
   if (HasOdometry(log)) {
@@ -333,14 +270,16 @@ base::Result<Comparison> Compare(const Log& log, const CompareOptions& options) 
   if (HasScans(log)) {
     const auto placed = PlaceScans(log, options, false);
     if (!placed) return base::Fail(placed.error());
-    const auto pairs = PairsIn(placed->world, log, options, placed->scans);
+    const auto pairs = PairScans(*placed, log, options);
     if (!pairs) return base::Fail(pairs.error());
     if (!pairs->empty()) {
       CompareScans(log, *pairs, result);
       CompareAtRest(log, placed->world, options, pairs->front().pose, result);
     }
   }
-  if (!log.radio.empty()) CompareRadio(log, result);
+  if (!log.radio.empty()) {
+    if (auto ok = CompareRadio(log, options, result); !ok) return base::Fail(ok.error());
+  }
   if (result.rows.empty()) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "the log has nothing to compare: it needs scans with poses, odometry or "

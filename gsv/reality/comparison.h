@@ -35,8 +35,11 @@ struct Comparison {
 
 struct CompareOptions {
   std::optional<model::WorldDescription> world;  // none: fitted to every other block of the log
-  std::string preset;                            // of the log's scanner or odometry
-  model::Parameters parameters;                  // win over the preset
+  // The world's walls are updated by the scans of every other block: doors that are open now, and
+  // what stands elsewhere.
+  bool update_world = false;
+  std::string preset;            // of the log's scanner or odometry
+  model::Parameters parameters;  // win over the preset
   // Of single sonars of a ring, by beam; win over `parameters`. May be empty.
   std::vector<model::Parameters> beam_parameters;
   std::optional<TimedPose> start;  // of the first scan in the world
@@ -51,11 +54,6 @@ struct CompareOptions {
 // another type and for parameters that are refused.
 base::Result<Comparison> Compare(const Log& log, const CompareOptions& options);
 
-// The scans of the log's even blocks (`for_fitting`) or of its odd ones, and what is read at their
-// poses.
-base::Result<std::vector<ScanPair>> PairScans(const Log& log, const CompareOptions& options,
-                                              bool for_fitting);
-
 // One parameter that fits the log, and half the width of its interval of 95 %.
 struct FittedParameter {
   std::string name, unit;
@@ -65,7 +63,7 @@ struct FittedDevice {
   std::string type, name;
   std::vector<FittedParameter> parameters;
 };
-// Fitted to the even blocks; of odometry to all windows. Of a ring of sonars one device a beam, in
+// Fitted to the readings of the even blocks; of odometry to all windows. Of a ring of sonars one device a beam, in
 // their order. kInvalidArgument as Compare().
 base::Result<std::vector<FittedDevice>> Fit(const Log& log, const CompareOptions& options);
 

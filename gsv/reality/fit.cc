@@ -1,12 +1,14 @@
 // Parameters of simulated devices from a log, see comparison.h.
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <map>
 
 #include <fmt/format.h>
 
 #include "gsv/reality/comparison.h"
 #include "gsv/reality/odometry_comparison.h"
+#include "gsv/reality/radio_comparison.h"
+#include "gsv/reality/scan_placing.h"
 #include "gsv/reality/statistics.h"
 #include "gsv/reality/world_fit.h"
 
@@ -17,14 +19,7 @@ constexpr double kFitWindow = 5;       // s
 constexpr double kFitTolerance = 0.5;  // m
 constexpr double kInterval = 1.96;
 
-// The jackknife (Efron 1982): the estimate without each of `kParts` parts of the data.
-constexpr std::size_t kParts = 10;
-double JackknifeInterval(const std::vector<double>& without) {
-  const Summary summary = Summarize(without);
-  const auto count = static_cast<double>(without.size());
-  if (count < 2) return 0;
-  return kInterval * summary.deviation * (count - 1) / std::sqrt(count);
-}
+constexpr std::size_t kParts = 10;  // of the data, for jackknife intervals
 
 template <typename T>
 std::vector<T> Without(const std::vector<T>& all, std::size_t part) {
@@ -129,12 +124,23 @@ class SonarFit {
   SonarFit(const Log& log, const CompareOptions& options) : log_(log), options_(options) {}
 
   base::Result<std::vector<FittedDevice>> Run() {
-    std::vector<Searched> searched = {{"roughness", "", 0.1, {0.2, 0.5, 2, 4}, 1e-3, 1},
+    // The simulated shares are taken at the poses of the odd blocks, where the world has seen nothing;
+    // the real ones are those of the even blocks. Readings of the odd blocks are not used.
+    auto placed = PlaceScans(log_, options_, false);
+    if (!placed) return base::Fail(placed.error());
+    placed_ = *std::move(placed);
+    std::vector<ScanPair> fitted;
+    for (const RangeScan& scan : ScansFor(log_, true)) fitted.push_back({{}, scan.ranges, {}, {}});
+    real_ = EchoShares(fitted, true);
+    // The slopes of a rough surface are normally distributed, and specular_width is their deviation
+    // (Kirchhoff's approximation): walls with mouldings return sound that meets them obliquely.
+    std::vector<Searched> searched = {{"specular_width", "rad", 0.1, {0.5, 2, 3, 4.5}, 0.01, 0.8},
+                                      {"roughness", "", 0.1, {0.2, 0.5, 2, 4}, 1e-3, 1},
                                       {"threshold", "", 0.02, {0.5, 2, 4}, 1e-3, 0.9},
                                       {"gain_range", "m", 3, {0.5, 0.75, 1.4, 2}, 0.2, 50}};
     auto best = Cost(searched);
     if (!best) return base::Fail(best.error());
-    for (int round = 0; round < 3; ++round) {
+    for (int round = 0; round < 4; ++round) {
       for (Searched& each : searched) {
         const double from = each.value;
         for (const double factor : each.tries) {
@@ -168,7 +174,7 @@ class SonarFit {
                                                      const FittedDevice& shared) {
     const auto pairs = PairsWith(searched);
     if (!pairs) return base::Fail(pairs.error());
-    const std::vector<double> real = EchoShares(*pairs, true);
+    const std::vector<double>& real = real_;
     const std::vector<double> simulated = EchoShares(*pairs, false);
     std::vector<FittedDevice> devices;
     for (std::size_t i = 0; i < real.size(); ++i) {
@@ -187,14 +193,14 @@ class SonarFit {
   base::Result<std::vector<ScanPair>> PairsWith(const std::vector<Searched>& searched) {
     CompareOptions options = options_;
     for (const Searched& each : searched) options.parameters[each.name] = each.value;
-    return PairScans(log_, options, true);
+    return PairScans(placed_, log_, options);
   }
 
   // Chi squared of the echo shares, in units of their own deviations.
   base::Result<double> Cost(const std::vector<Searched>& searched) {
     const auto pairs = PairsWith(searched);
     if (!pairs) return base::Fail(pairs.error());
-    const std::vector<double> real = EchoShares(*pairs, true);
+    const std::vector<double>& real = real_;
     const std::vector<double> simulated = EchoShares(*pairs, false);
     double cost = 0;
     for (std::size_t i = 0; i < real.size(); ++i) {
@@ -220,11 +226,14 @@ class SonarFit {
 
   const Log& log_;
   const CompareOptions& options_;
+  PlacedScans placed_;
+  std::vector<double> real_;  // shares of echoes, by sonar
 };
 
 }  // namespace
 
-base::Result<std::vector<FittedDevice>> Fit(const Log& log, const CompareOptions& options) {
+base::Result<std::vector<FittedDevice>> Fit(const Log& given, const CompareOptions& options) {
+  const Log log = WithBases(given, options);
   std::vector<FittedDevice> devices;
   if (log.truth_has_yaw && log.truth.size() > 1 &&
       (!log.odometry.empty() || !log.wheels.empty() || !log.commands.empty())) {
@@ -236,16 +245,19 @@ base::Result<std::vector<FittedDevice>> Fit(const Log& log, const CompareOptions
       if (!sonars) return base::Fail(sonars.error());
       devices.insert(devices.end(), sonars->begin(), sonars->end());
     } else {
-      const auto pairs = PairScans(log, options, true);
+      const auto placed = PlaceScans(log, options, true);
+      if (!placed) return base::Fail(placed.error());
+      const auto pairs = PairScans(*placed, log, options);
       if (!pairs) return base::Fail(pairs.error());
       if (!pairs->empty()) devices.push_back(FitLidar(log, *pairs));
     }
   }
+  if (!log.radio.empty()) devices.push_back(FitRanging(log));
   if (devices.empty()) {
     return base::Fail(
         base::ErrorCode::kInvalidArgument,
         "the log has nothing to fit a device to: it needs scans with poses, or odometry "
-        "or commands beside a reference");
+        "or commands beside a reference, or radio ranges");
   }
   return devices;
 }
@@ -254,18 +266,20 @@ std::string ToSdf(const std::vector<FittedDevice>& devices) {
   std::string sdf;
   for (const FittedDevice& device : devices) {
     sdf += fmt::format("<sensor name=\"{}\" type=\"{}\">\n", device.name, device.type);
+    // Parameters of one group ("noise.mean", "noise.stddev") share its element.
+    std::map<std::string, std::string> groups;
     for (const FittedParameter& parameter : device.parameters) {
-      std::string open, close;
-      std::string rest = parameter.name;
-      while (!rest.empty()) {
-        const std::size_t dot = rest.find('.');
-        const std::string part = rest.substr(0, dot);
-        open += "<gsv:" + part + ">";
-        close = "</gsv:" + part + ">" + close;
-        rest = dot == std::string::npos ? "" : rest.substr(dot + 1);
-      }
-      sdf += fmt::format("  {}{:.4g}{}  <!-- ± {:.2g} {} -->\n", open, parameter.value, close,
-                         parameter.confidence, parameter.unit);
+      const std::size_t dot = parameter.name.find('.');
+      const bool is_grouped = dot != std::string::npos;
+      const std::string name = is_grouped ? parameter.name.substr(dot + 1) : parameter.name;
+      const std::string line =
+          fmt::format("{}<gsv:{}>{:.4g}</gsv:{}>  <!-- ± {:.2g}{} -->\n",
+                      is_grouped ? "    " : "  ", name, parameter.value, name, parameter.confidence,
+                      parameter.unit.empty() ? "" : " " + parameter.unit);
+      (is_grouped ? groups[parameter.name.substr(0, dot)] : sdf) += line;
+    }
+    for (const auto& [group, lines] : groups) {
+      sdf += fmt::format("  <gsv:{}>\n{}  </gsv:{}>\n", group, lines, group);
     }
     sdf += "</sensor>\n";
   }

@@ -78,13 +78,13 @@ std::vector<double> RestDifferences(const std::vector<ScanPair>& pairs) {
   return differences;
 }
 
-std::vector<double> MedianResiduals(const std::vector<ScanPair>& pairs) {
+std::vector<double> MedianDifferences(const std::vector<ScanPair>& pairs) {
   std::vector<double> medians;
   for (const ScanPair& pair : pairs) {
     std::vector<double> off;
-    for (std::size_t i = 0; i < std::min(pair.real.size(), pair.exact.size()); ++i) {
-      if (std::isfinite(pair.real[i]) && std::isfinite(pair.exact[i])) {
-        off.push_back(std::abs(pair.real[i] - pair.exact[i]));
+    for (std::size_t i = 0; i < std::min(pair.real.size(), pair.simulated.size()); ++i) {
+      if (std::isfinite(pair.real[i]) && std::isfinite(pair.simulated[i])) {
+        off.push_back(std::abs(pair.real[i] - pair.simulated[i]));
       }
     }
     if (!off.empty()) medians.push_back(Quantile(std::move(off), 0.5));

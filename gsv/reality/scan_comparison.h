@@ -29,7 +29,7 @@ std::vector<double> RestDifferences(const std::vector<RangeScan>& scans);
 // The same of simulated readings; pairs must follow each other in time.
 std::vector<double> RestDifferences(const std::vector<ScanPair>& pairs);
 
-// The median distance between real and exact ranges of each scan.
-std::vector<double> MedianResiduals(const std::vector<ScanPair>& pairs);
+// The median distance between real and simulated ranges of each scan.
+std::vector<double> MedianDifferences(const std::vector<ScanPair>& pairs);
 
 }  // namespace gsv::reality

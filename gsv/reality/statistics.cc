@@ -32,6 +32,14 @@ double RobustDeviation(std::vector<double> values) {
   return 1.4826 * Quantile(std::move(values), 0.5);
 }
 
+double JackknifeInterval(const std::vector<double>& without) {
+  constexpr double k95 = 1.96;
+  const Summary summary = Summarize(without);
+  const auto count = static_cast<double>(without.size());
+  if (count < 2) return 0;
+  return k95 * summary.deviation * (count - 1) / std::sqrt(count);
+}
+
 double KolmogorovSmirnov(std::vector<double> first, std::vector<double> second) {
   if (first.empty() || second.empty()) return 1;
   std::sort(first.begin(), first.end());

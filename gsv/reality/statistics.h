@@ -20,6 +20,10 @@ double Quantile(std::vector<double> values, double part);
 // moved by a few wild ones.
 double RobustDeviation(std::vector<double> values);
 
+// Half the width of the 95 % interval of an estimate, by the jackknife (Efron 1982): `without` are
+// the estimates without each of several equal parts of the data. 0 of less than two.
+double JackknifeInterval(const std::vector<double>& without);
+
 // The largest distance between the two distribution functions, in [0, 1]; 1 if one is empty.
 double KolmogorovSmirnov(std::vector<double> first, std::vector<double> second);
 

@@ -14,7 +14,8 @@ constexpr double kMargin = 6;             // m around the path
 constexpr double kMaxFittedCells = 25e6;
 constexpr double kFurthest = 50;  // m: echoes from beyond say nothing here
 constexpr double kWidest = 1000;  // m
-constexpr double kFree = -0.4, kOccupied = 0.9;
+constexpr double kFree = -0.4, kOccupied = 0.9, kKnown = 1.5;
+constexpr double kPerhaps = 0.5, kSeenTwice = 1.2;  // least odds of a wall
 constexpr double kWall = 10;  // more than all the long echoes that a smooth wall mirrors away say
 
 // A sonar that looks to the side passes along a wall: two of its echoes that lie on one are joined.
@@ -42,10 +43,17 @@ class LogOdds {
     }
   }
 
-  void Finish() {
+  // Takes the map's own cells for known.
+  void AddKnown() {
+    for (std::size_t i = 0; i < odds_.size(); ++i) {
+      if (map_.cells[i] == Cell::kOccupied) odds_[i] += kKnown;
+    }
+  }
+
+  void Finish(double least) {
     for (std::size_t i = 0; i < odds_.size(); ++i) {
       map_.cells[i] =
-          odds_[i] > 0.5 ? Cell::kOccupied : (odds_[i] < 0 ? Cell::kFree : Cell::kUnknown);
+          odds_[i] > least ? Cell::kOccupied : (odds_[i] < 0 ? Cell::kFree : Cell::kUnknown);
     }
   }
 
@@ -66,16 +74,27 @@ void JoinWalls(const Log& log, const std::vector<RangeScan>& scans, LogOdds& odd
   for (std::size_t i = 0; i < log.beam_angles.size(); ++i) {
     if (std::abs(log.beam_angles[i]) < kSideways) continue;
     double x = 0, y = 0, range = geometry::kInfinity;  // of the last echo
+    TimedPose from;                                    // where it was heard
+    bool is_lost = false;                              // nothing was heard since
     for (const RangeScan& scan : scans) {
-      if (!scan.base || i >= scan.ranges.size() || !std::isfinite(scan.ranges[i])) continue;
+      if (!scan.base || i >= scan.ranges.size()) continue;
+      if (!std::isfinite(scan.ranges[i])) {
+        is_lost = true;
+        continue;
+      }
       const double angle = scan.base->yaw + log.beam_angles[i];
       const double next_x = scan.base->x + scan.ranges[i] * std::cos(angle);
       const double next_y = scan.base->y + scan.ranges[i] * std::sin(angle);
+      const double moved_x = scan.base->x - from.x, moved_y = scan.base->y - from.y;
       if (std::abs(scan.ranges[i] - range) < kSameWall &&
           std::hypot(next_x - x, next_y - y) < kLongestGap) {
         odds.AddWall(x, y, next_x, next_y);
+      } else if (std::isfinite(range) && !is_lost && std::hypot(moved_x, moved_y) < kLongestGap) {
+        // Two walls: each goes on, along the way, to the middle.
+        odds.AddWall(x, y, x + moved_x / 2, y + moved_y / 2);
+        odds.AddWall(next_x - moved_x / 2, next_y - moved_y / 2, next_x, next_y);
       }
-      x = next_x, y = next_y, range = scan.ranges[i];
+      x = next_x, y = next_y, range = scan.ranges[i], from = *scan.base, is_lost = false;
     }
   }
 }
@@ -143,7 +162,24 @@ base::Result<OccupancyMap> FitMap(const Log& log, const std::vector<RangeScan>& 
     }
   }
   if (log.is_sonar) JoinWalls(log, scans, odds);
-  odds.Finish();
+  odds.Finish(kPerhaps);
+  return map;
+}
+
+OccupancyMap UpdatedMap(OccupancyMap map, const Log& log, const std::vector<RangeScan>& scans) {
+  LogOdds odds(map);
+  odds.AddKnown();
+  for (const RangeScan& scan : scans) {
+    if (!scan.base) continue;
+    const double x = scan.base->x + log.sensor_forward * std::cos(scan.base->yaw);
+    const double y = scan.base->y + log.sensor_forward * std::sin(scan.base->yaw);
+    for (std::size_t i = 0; i < std::min(scan.ranges.size(), log.beam_angles.size()); ++i) {
+      // A beam without an echo says little: a dark surface has none either.
+      if (!std::isfinite(scan.ranges[i])) continue;
+      odds.Add(x, y, scan.base->yaw + log.beam_angles[i], scan.ranges[i], kFurthest);
+    }
+  }
+  odds.Finish(kSeenTwice);
   return map;
 }
 

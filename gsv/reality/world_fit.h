@@ -23,6 +23,10 @@ std::vector<RangeScan> ScansFor(const Log& log, bool for_fitting);
 base::Result<OccupancyMap> FitMap(const Log& log, const std::vector<RangeScan>& scans,
                                   double resolution);
 
+// The map with the evidence of a laser's scans: a cell that is known to be occupied becomes free
+// when beams pass through it, and a free one becomes occupied where beams end.
+OccupancyMap UpdatedMap(OccupancyMap map, const Log& log, const std::vector<RangeScan>& scans);
+
 // Walls on nothing, to be sensed only.
 model::WorldDescription WallsOf(const OccupancyMap& map, double height);
 

@@ -153,6 +153,10 @@ std::shared_ptr<CompareArguments> AddOptions(CLI::App& command) {
   command.add_option("--world", arguments->world,
                      "world in which the robot drove (default: fitted to every other 4 s)");
   command
+      .add_flag("--update-world", arguments->options.update_world,
+                "update the walls of --world by every other 4 s of a laser's log")
+      ->needs(command.get_option("--world"));
+  command
       .add_option("--start", arguments->start,
                   "pose of the first scan in the world: X Y YAW, m and rad (default: searched)")
       ->expected(3);
@@ -169,7 +173,7 @@ std::shared_ptr<CompareArguments> AddOptions(CLI::App& command) {
       ->check(CLI::Range(-100.0, 100.0));
   command.add_option("--seed", arguments->options.seed, "seed of the simulated devices")
       ->capture_default_str();
-  command.add_option("--model-path", arguments->model_path, "a folder to look for models in");
+  command.add_option("--model-path", arguments->model_path, "folder to look for models in");
   command.add_flag("--json", arguments->json, "one JSON object");
   return arguments;
 }

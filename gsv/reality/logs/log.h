@@ -43,6 +43,7 @@ struct RadioRange {
   double time = 0;
   int anchor = 0;
   double measured = 0, reference = 0;
+  double anchor_x = 0, anchor_y = 0;
 };
 
 struct Log {

@@ -212,7 +212,7 @@ base::Result<Log> ReadUwb(const fs::path& path, base::Problems& problems) {
     const auto tag = PoseAt(log.truth, v[0]);
     if (!tag) continue;
     log.radio.push_back(
-        {v[0], static_cast<int>(v[5]), v[1], std::hypot(tag->x - v[3], tag->y - v[4])});
+        {v[0], static_cast<int>(v[5]), v[1], std::hypot(tag->x - v[3], tag->y - v[4]), v[3], v[4]});
   }
   if (auto done = rows->Finish(log.radio.size()); !done) return base::Fail(done.error());
   return log;

@@ -1,0 +1,32 @@
+// Ranges to radio anchors, measured and simulated.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gsv/reality/comparison.h"
+
+namespace gsv::reality {
+
+// The readings of the options' ranging sensor for each of log.radio: from where the reference system saw
+// the robot, to the anchor. Infinite: not heard. Walls count only in a given world.
+base::Result<std::vector<double>> SimulatedRanges(const Log& log, const CompareOptions& options);
+
+// The errors (m) of one range, by the reference system.
+struct RadioErrors {
+  int anchor = 0;
+  double distance = 0;
+  double real = 0, simulated = 0;
+};
+// The errors of one anchor ("to anchor 105"), or at some distances ("from 1 to 2 m").
+struct RadioGroup {
+  std::string name;
+  std::vector<double> real, simulated;  // without what was not heard
+};
+// By anchor, then by metres of distance; groups of less than 20 ranges are left out.
+std::vector<RadioGroup> Grouped(const std::vector<RadioErrors>& errors);
+
+// A ranging sensor whose bias and scatter are linear in the distance, fitted to the even blocks.
+FittedDevice FitRanging(const Log& log);
+
+}  // namespace gsv::reality

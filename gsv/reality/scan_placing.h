@@ -1,0 +1,44 @@
+// Where the scans of a log were taken, in a world that is given or fitted, and what the simulated
+// device reads there.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gsv/reality/comparison.h"
+
+namespace gsv::reality {
+
+// The scans that are read, and the world that they are read in.
+struct PlacedScans {
+  model::WorldDescription world;
+  std::vector<RangeScan> scans;  // each with `base`
+};
+
+// The log with the poses of its scans, where they follow from its wheels alone.
+Log WithBases(Log log, const CompareOptions& options);
+
+// The scans of the log's even blocks (`for_fitting`) or of its odd ones. A world that is fitted or
+// updated has seen the even blocks; for fitting, the first half of each of them, and the second
+// halves are read. Otherwise the world would answer for the device.
+// kInvalidArgument where no world or no path can be found.
+base::Result<PlacedScans> PlaceScans(const Log& log, const CompareOptions& options,
+                                     bool for_fitting);
+
+// The same scans as the simulated device reads them.
+base::Result<std::vector<ScanPair>> PairScans(const PlacedScans& placed, const Log& log,
+                                              const CompareOptions& options);
+
+// The device that the options ask for.
+std::vector<model::SensorDescription> AskedSensors(const Log& log, const CompareOptions& options);
+
+// Readings at the maximum, or beyond, become infinite: no echo.
+void MarkMissing(std::vector<double>& ranges, double max_range);
+
+// "sonar" or "lidar".
+std::string ScannerOf(const Log& log);
+// The options' preset, if it is one of this type; else empty. A log may have several devices, and a
+// preset is of one type.
+std::string PresetOf(const std::string& type, const CompareOptions& options);
+
+}  // namespace gsv::reality
