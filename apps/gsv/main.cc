@@ -73,7 +73,7 @@ void AddCorbaOptions(CLI::App& app, CorbaArguments& corba) {
                "the same.");
 }
 
-// Where orb::PrepareAccess() looks, and programs that this one starts.
+// Sets the variables for orb::PrepareAccess(), and for programs that this one starts.
 void UseCorbaOptions(const CorbaArguments& corba) {
   const auto set = [](const char* name, const std::string& path) {
     if (!path.empty()) setenv(name, std::filesystem::absolute(path).c_str(), 1);
@@ -96,7 +96,7 @@ void StartLog(const LogArguments& log, bool verbose) {
 
 // One sentence, as for every error. CLI11 reports an unknown command as a missing one.
 std::string UsageSentence(const CLI::App* app, const CLI::Error& error) {
-  const CLI::App* typed = app;  // as far as it is a command
+  const CLI::App* typed = app;  // the part that is a command
   std::string words = app->get_name();
   while (!typed->get_subcommands().empty()) {
     typed = typed->get_subcommands().front();
@@ -114,7 +114,7 @@ std::string UsageSentence(const CLI::App* app, const CLI::Error& error) {
   return "gsv: " + what + ". See " + words + " --help\n";
 }
 
-// Sets the groups of commands that set none themselves.
+// Sets the groups of commands that do not set one themselves.
 void GroupCommands(CLI::App& app) {
   const std::pair<const char*, std::vector<const char*>> groups[]{
       {"Commands to run simulations", {"run", "serve", "view", "test", "campaign"}},

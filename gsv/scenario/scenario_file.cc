@@ -14,7 +14,7 @@
 namespace gsv::scenario {
 namespace {
 
-// Takes no notice of what is read, but for where documents start.
+// Ignores everything except the starts of documents.
 class Starts final : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark& mark) override { latest = mark; }
@@ -33,8 +33,8 @@ class Starts final : public YAML::EventHandler {
   YAML::Mark latest;
 };
 
-// Whatever stands behind the first document, be it one or not. (YAML::LoadAll() of yaml-cpp 0.7
-// does not end where something cannot begin a document: it finds it again and again.)
+// The place after the first document, whatever is there. (YAML::LoadAll() of yaml-cpp 0.7 does not
+// end at a place where no document can begin: it finds the place again and again.)
 std::optional<YAML::Mark> SecondDocument(const std::string& text) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
@@ -43,7 +43,7 @@ std::optional<YAML::Mark> SecondDocument(const std::string& text) {
   return starts.latest;
 }
 
-// How many bytes a character has that begins with this one; 0: none does.
+// The number of bytes of a character with this first byte; 0: invalid.
 std::size_t LengthOfCharacter(unsigned char first) {
   if (first < 0x80) return 1;
   if (first >= 0xc2 && first < 0xe0) return 2;
@@ -51,7 +51,7 @@ std::size_t LengthOfCharacter(unsigned char first) {
   return first >= 0xf0 && first < 0xf5 ? 4 : 0;
 }
 
-// The first, counted from 1.
+// The first line that is not UTF-8, counted from 1.
 std::optional<std::size_t> LineThatIsNotUtf8(const std::string& text) {
   std::size_t line = 1;
   for (std::size_t i = 0; i < text.size();) {
@@ -66,8 +66,8 @@ std::optional<std::size_t> LineThatIsNotUtf8(const std::string& text) {
   return std::nullopt;
 }
 
-// The first line, counted from 1, with a character that YAML leaves out: a control character other
-// than tabulator and line ends. Readers of YAML take them for this or that.
+// The first line, counted from 1, with a character that YAML forbids: a control character other
+// than tabs and newlines. Readers of YAML interpret them differently.
 std::optional<std::size_t> LineWithControlCharacter(const std::string& text) {
   const auto is_control = [](unsigned char c) {
     return (c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7f;
@@ -77,7 +77,7 @@ std::optional<std::size_t> LineWithControlCharacter(const std::string& text) {
   return 1 + static_cast<std::size_t>(std::count(text.begin(), found, '\n'));
 }
 
-// Seen from the file's folder, if it is there.
+// The absolute path of a name in the file's folder, if it exists; else the name.
 std::string SeenFrom(const std::filesystem::path& folder, const std::string& name) {
   std::error_code ignored;
   const std::string file = formats::xacro::FilePart(name);
@@ -97,7 +97,7 @@ base::Result<Scenario> ParseScenario(const std::string& text, const std::string&
   if (text.size() > kMaxScenarioBytes) {
     return refuse("a scenario has at most " + std::to_string(kMaxScenarioBytes) + " bytes", file);
   }
-  // A name of other bytes would come back as another name.
+  // A name with other bytes would be read back as another name.
   if (const auto line = LineThatIsNotUtf8(text)) {
     return refuse("the text is not UTF-8", file + ":" + std::to_string(*line));
   }
@@ -114,7 +114,7 @@ base::Result<Scenario> ParseScenario(const std::string& text, const std::string&
                     file);
     }
     Scenario scenario = ReadScenarioKeys(document, place);
-    // yaml-cpp reads each of these as one byte, 0x85 and 0xa0, which is no UTF-8.
+    // yaml-cpp reads each of these as one byte, 0x85 or 0xa0, which is not UTF-8.
     const bool has_them = text.find("\\N") != text.npos || text.find("\\_") != text.npos;
     if (has_them && LineThatIsNotUtf8(ToYaml(scenario))) {
       return refuse("\\N and \\_ are not read rightly in quoted texts; write \\u0085 and \\u00a0",

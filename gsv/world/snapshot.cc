@@ -11,7 +11,7 @@ using geometry::Pose;
 
 bool Moves(model::JointKind kind) { return kind != model::JointKind::kFixed; }
 
-// The joint that each link hangs from, or -1.
+// The parent joint of each link, or -1.
 std::vector<int> ParentJoints(const model::Model& model) {
   std::vector<int> parent_joint(model.links.size(), -1);
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
@@ -20,7 +20,7 @@ std::vector<int> ParentJoints(const model::Model& model) {
   return parent_joint;
 }
 
-// How a joint at `position` displaces what hangs from it, in the model's frame.
+// The displacement by a joint at `position` of the links below it, in the model's frame.
 Pose Displacement(const model::Joint& joint, double position) {
   if (!Moves(joint.kind) || position == 0.0) return {};
   Pose motion;
@@ -35,7 +35,7 @@ Pose Displacement(const model::Joint& joint, double position) {
   return joint.model_from_joint * motion * Inverse(joint.model_from_joint);
 }
 
-// The joint that one link hangs from, or -1.
+// The parent joint of one link, or -1.
 int ParentJoint(const model::Model& model, int link) {
   for (std::size_t j = model.joints.size(); j-- > 0;) {
     if (model.joints[j].child == link) return static_cast<int>(j);
@@ -43,7 +43,7 @@ int ParentJoint(const model::Model& model, int link) {
   return -1;
 }
 
-// `parent_joint` tells the joint that a link hangs from, or -1.
+// `parent_joint` returns the parent joint of a link, or -1.
 template <class Parent>
 Pose LinkDisplacement(const model::Model& model, std::span<const double> joint_positions, int link,
                       const Parent& parent_joint) {

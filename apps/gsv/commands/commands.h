@@ -1,4 +1,4 @@
-// The subcommands of gsv. Each adds itself to the command line; its callback sets the exit code.
+// The subcommands of gsv. Each function adds one; its callback sets the exit code.
 #pragma once
 
 #include "apps/gsv/process/signals.h"

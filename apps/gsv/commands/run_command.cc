@@ -29,7 +29,7 @@ namespace {
 using simulation::Phase;
 using simulation::Simulation;
 
-// Kinds of warnings that are printed; `gsv world check` has all.
+// The number of different warnings that are printed; `gsv world check` prints all.
 constexpr std::size_t kWarningsPrinted = 10;
 
 bool TellErrors(const base::Problems& problems) {
@@ -46,7 +46,7 @@ void OpenBrowser(const std::string& url) {
   }
 }
 
-// Stopped for good: a reset stops it on its way back to the start.
+// Whether it was stopped for good: a reset also stops it on its way back to the start.
 bool WasStopped(const Simulation& simulation) {
   const auto events = simulation.events(0);
   const auto last = std::find_if(events.rbegin(), events.rend(), [](const auto& event) {
@@ -55,7 +55,7 @@ bool WasStopped(const Simulation& simulation) {
   return last != events.rend() && last->kind == "stopped";
 }
 
-// Until the run is over or somebody interrupts it; gives the exit code so far.
+// Waits until the run is over or somebody interrupts it. Returns the exit code so far.
 int Await(Runtime& runtime, Simulation& simulation, const RunOptions& options, Signals& signals) {
   using Clock = std::chrono::steady_clock;
   const auto give_up = Clock::now() + std::chrono::duration_cast<Clock::duration>(
@@ -83,7 +83,7 @@ int Await(Runtime& runtime, Simulation& simulation, const RunOptions& options, S
   }
 }
 
-// Whose end the scenario asked for: it has the behaviour die, or a sensor fail that it reads.
+// Whether the scenario requires this end: it kills the behaviour, or a sensor that it reads.
 bool WasToDie(const Simulation& simulation, const std::string& robot) {
   const auto& faults = simulation.specification().faults;
   return std::any_of(faults.begin(), faults.end(), [&](const scenario::Fault& fault) {
@@ -92,7 +92,7 @@ bool WasToDie(const Simulation& simulation, const std::string& robot) {
   });
 }
 
-// What the behaviours' ends make of the exit code; each end is told.
+// Prints the ends of the behaviours; returns the exit code with them.
 int JudgeBehaviours(const Simulation& simulation, int exit_code) {
   const auto status = simulation.status();
   for (const auto& robot : status.robots) {
@@ -115,12 +115,12 @@ void Warn(const std::vector<std::string>& sentences) {
   }
 }
 
-// Of topics that were asked for and never came: what is wrong with them. A robot that was added in
-// mid-run may have brought what was not there at the start.
+// Problems with selected topics that never existed. A robot that was added during the run may have
+// brought topics that did not exist at the start.
 std::vector<std::string> ComplaintsAtTheEnd(const RunOptions& options,
                                             std::vector<std::string> topics_at_start) {
   const auto recorded = recording::McapReader::Open(options.record);
-  if (!recorded) return {};  // the disk failed, and that has been told
+  if (!recorded) return {};  // the disk failed, which was reported already
   for (const auto& [id, channel] : (*recorded)->summary().channels) {
     topics_at_start.push_back(channel.topic);
   }
@@ -130,7 +130,7 @@ std::vector<std::string> ComplaintsAtTheEnd(const RunOptions& options,
   return ComplaintsAbout(options.recording, topics_at_start);
 }
 
-// Tells what was expected and did not come, with a picture of the first time.
+// Prints the violated expectations, and renders an image at the first violation.
 int JudgeExpectations(verdict::Judge& judge, const RunOptions& options,
                       std::vector<verdict::Finding>& findings, int exit_code) {
   findings = judge.Finish();
@@ -215,7 +215,7 @@ base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) 
     if (const std::string why = access->Exposure(); !why.empty()) Warn({why});
   }
   std::fflush(notes);
-  std::vector<std::string> topics;  // that can be recorded
+  std::vector<std::string> topics;  // topics that can be recorded
   if (!options.record.empty()) {
     topics = recording::TopicsOf(**simulation);
     Warn(ComplaintsAbout(options.recording, topics));
@@ -257,10 +257,10 @@ void AddRunCommand(const CommandLine& line) {
     const auto result = Run(*options, line.signals);
     line.exit_code = result ? *result : Complain(result.error());
   });
-  // For `gsv test` and campaigns, which start it; in no list of commands.
+  // For `gsv test` and campaigns, which start it; hidden in lists of commands.
   CLI::App* server =
       line.app.add_subcommand("run-server", "Run simulations as stdin asks for them")->group("");
-  server->allow_extras();  // room for the command line that a run shows
+  server->allow_extras();  // space for the command line of a run
   server->callback([line] { line.exit_code = ServeRuns(line.signals); });
 }
 

@@ -25,7 +25,7 @@ constexpr timeval kPatience{2, 0};
 class Connection {
  public:
   explicit Connection(const Listener& listener) {
-    // What listens on all addresses is asked on loopback.
+    // A socket on all addresses is tested on loopback.
     const bool is_ipv6 = listener.address.find(':') != std::string::npos;
     descriptor_ = socket(is_ipv6 ? AF_INET6 : AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     setsockopt(descriptor_, SOL_SOCKET, SO_RCVTIMEO, &kPatience, sizeof kPatience);
@@ -54,7 +54,7 @@ class Connection {
 
   int descriptor() const { return descriptor_; }
 
-  // What is answered, as far as it comes in one piece; empty: nothing.
+  // The first part of the answer; empty: none.
   std::string Exchange(const std::string& request) const {
     if (!is_open_ || send(descriptor_, request.data(), request.size(), MSG_NOSIGNAL) < 0) return {};
     std::string answer(4096, '\0');
@@ -83,7 +83,7 @@ int StatusOf(const std::string& answer) {
   return answer.starts_with("HTTP/1.1 ") && answer.size() > 12 ? std::atoi(answer.c_str() + 9) : 0;
 }
 
-// GIOP 1.0, little-endian: where is an object of that key? (CORBA 3.0, 15.4.5)
+// A LocateRequest of GIOP 1.0, little-endian, for some object key (CORBA 3.0, 15.4.5)
 std::string AskingForAnObject() {
   const char request[] = "GIOP\1\0\1\3\x0c\0\0\0\1\0\0\0\4\0\0\0none";
   return {request, sizeof request - 1};
@@ -137,7 +137,7 @@ std::optional<std::string> Option(const ListeningProcess& process, const std::st
   return std::nullopt;
 }
 
-// Folders whose files can be fetched from it, as far as its command line tells.
+// The folders whose files can be downloaded from it, by its command line.
 std::vector<std::string> FoldersServed(const ListeningProcess& process, bool has_viewer) {
   if (!has_viewer) return {};
   std::vector<std::string> folders{(ShareFolder() / "web").string()};
@@ -154,12 +154,12 @@ Exposure Probe(const Listener& listener) {
     exposure.speaks = Speaks::kCorba;
     return exposure;
   }
-  if (listener.is_dds) {  // DDS asks nobody who he is
+  if (listener.is_dds) {  // DDS does not authenticate
     exposure.speaks = Speaks::kRos2;
     return exposure;
   }
   const std::string look = Asking(listener, "GET", "/api/server", "");
-  // A control request that changes nothing: it asks what a scenario would look like.
+  // A control request without effect: a preview of a scenario.
   const std::string act = Asking(listener, "POST", "/api/preview", "{}");
   const std::string answer = Connection(listener).Exchange(look);
   if (StatusOf(answer) == 0 &&

@@ -1,7 +1,8 @@
-// `gsv doctor --security`: what of GSV can be reached on this machine, by whom, and what it takes.
+// `gsv doctor --security`: the open ports of GSV on this machine, and the credentials that they
+// need.
 //
-// Each listening socket is asked, as a stranger would ask it: nothing is believed that an option
-// said. Nothing is changed by asking.
+// Each listening socket is tested like by an unknown client, whatever the options of its process
+// are. The tests change nothing.
 #pragma once
 
 #include <string>
@@ -14,16 +15,16 @@ enum class Speaks { kHttp, kHttps, kCorba, kCorbaTls, kRos2, kUnknown };
 
 struct Exposure {
   Speaks speaks = Speaks::kUnknown;
-  bool watching_takes_token = false;  // of HTTP and HTTPS
+  bool watching_takes_token = false;  // for HTTP and HTTPS
   bool acting_takes_token = false;
-  bool takes_certificate = false;  // of CORBA by TLS
+  bool takes_certificate = false;  // for CORBA by TLS
 };
 
 Exposure Probe(const Listener& listener);
-// Why this should not stay as it is, and what to do; empty: it may.
+// The reason for a change, and the remedy; empty: no change is needed.
 std::string Complaint(const Listener& listener, const Exposure& exposure);
 
-// Prints a line for each socket. kOk when nothing is complained of.
+// Prints one line per socket. Returns kOk if there is no warning.
 int TellExposure(bool json);
 
 }  // namespace gsv::app

@@ -1,4 +1,4 @@
-// A program started by this one, which ends with it.
+// A program that this one starts, and that ends with it.
 //
 // Threads  one at a time. The thread that starts it must live as long as this process: the kernel
 //          ends the child when that thread ends.
@@ -19,26 +19,26 @@ namespace gsv::app {
 
 class ChildProcess {
  public:
-  // What the child reads: the end of the file at once, or nothing until this object is destroyed.
+  // The child's stdin: empty, or open until this object is destroyed.
   enum class Input { kEmpty, kOpen };
 
-  // `arguments[0]` is the program's path. Its stdout can be read here; stderr is ours, or nobody's
-  // when `quiet`.
+  // `arguments[0]` is the program's path. Its stdout can be read here. It has this process's
+  // stderr, or none if `quiet`.
   static base::Result<std::unique_ptr<ChildProcess>> Start(std::vector<std::string> arguments,
                                                            bool quiet, Input input = Input::kEmpty);
-  // SIGTERM, and SIGKILL for one that is still there two seconds later.
+  // Sends SIGTERM, and SIGKILL if the child still runs two seconds later.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   pid_t pid() const { return pid_; }
-  // To its stdin, which must be kOpen. kUnavailable: it has ended, or closed its stdin.
+  // Writes to its stdin, which must be kOpen. kUnavailable: it has ended, or closed its stdin.
   base::Status Write(std::string_view text);
-  // Its next line on stdout, without the end of line. Nothing when it ends or the time is over.
+  // Its next line on stdout, without the newline. Nothing after its end or the time limit.
   std::optional<std::string> ReadLine(std::chrono::milliseconds timeout);
-  // How it ended ("exit code 5", "signal 11"); empty while it runs.
+  // The way in which it ended ("exit code 5", "signal 11"); empty while it runs.
   std::string Ending();
-  // The same, once it has ended or the time is over.
+  // Waits for its end or the time limit, and returns the same.
   std::string AwaitEnd(std::chrono::milliseconds timeout);
   void Signal(int signal);
 

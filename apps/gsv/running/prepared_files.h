@@ -17,12 +17,12 @@ namespace gsv::app {
 
 class PreparedFiles {
  public:
-  // Reads the world and the models of a run with these options, and puts them into the options. The
-  // run itself reads what cannot be read here, and reports what is wrong with it.
+  // Reads the world and the models of a run with these options, and sets them in the options. The
+  // run itself reads the files that cannot be read here, and reports their problems.
   void Provide(RunOptions& options);
 
  private:
-  // How files are read; what was read in another way is no use.
+  // Options for reading; files that were read with other options are not used.
   struct Key {
     std::vector<std::filesystem::path> model_path;
     std::map<std::string, std::string> drives;
@@ -34,7 +34,7 @@ class PreparedFiles {
   std::shared_ptr<const PreparedWorld> WorldAt(const std::string& file);
 
   Key key_;
-  std::shared_ptr<formats::ModelLibrary> library_;  // null: nothing was read yet
+  std::shared_ptr<formats::ModelLibrary> library_;                      // null: nothing was read
   std::map<std::string, std::shared_ptr<const PreparedWorld>> worlds_;  // by file
 };
 

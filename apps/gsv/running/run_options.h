@@ -1,4 +1,4 @@
-// What `gsv run` was asked for.
+// The options of `gsv run`.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,7 @@ class App;
 
 namespace gsv::app {
 
-// A world that was read before its run, and what there is to say about its files.
+// A world that was read before its run, and the problems of its files.
 struct PreparedWorld {
   std::shared_ptr<const model::WorldDescription> description;
   base::Problems problems;
@@ -28,31 +28,30 @@ struct PreparedWorld {
 
 struct RunOptions {
   RuntimeOptions runtime;
-  scenario::Scenario scenario;                         // as it was told, overrides included
+  scenario::Scenario scenario;                         // with the options that override it
   base::Problems problems;                             // of the scenario's file
-  std::string behaviour;                               // of all robots that have none of their own
+  std::string behaviour;                               // of robots without their own behaviour
   std::map<std::string, std::string> behaviour_of;     // by robot
   std::map<std::string, model::Movement> movement_of;  // by robot
-  std::map<std::string, std::string> drive_of;         // by robot: as model/drive_choice.h has it
+  std::map<std::string, std::string> drive_of;         // by robot: see model/drive_choice.h
   bool in_process = false;                             // behaviours are plug-ins, not programs
-  // Makes the behaviour of a robot that comes at that time, in place of the one that is named, when
-  // it is set.
+  // If set, makes the behaviour of a robot that is added at that time, instead of the named one.
   std::function<std::shared_ptr<simulation::BehaviourPort>(
       const std::string& robot, const std::string& behaviour, base::SimTime from)>
       make_behaviour;
-  std::vector<simulation::Edit> edits;  // to be made in mid-run, in this order
+  std::vector<simulation::Edit> edits;  // made during the run, in this order
   simulation::Specification specification;
   std::shared_ptr<const PreparedWorld> prepared_world;  // null: the run reads it
   std::string record;                                   // a file; empty: no recording
   RecordingChoice recording;
   double wall_timeout = 0;      // s; 0: none
-  std::string failure_picture;  // a file to draw the first violation to; empty: none
+  std::string failure_picture;  // file for an image of the first violation; empty: none
   bool open_browser = false;
   bool json = false;
-  bool is_strict = false;  // warnings about the files refuse the run
+  bool is_strict = false;  // refuse the run if files have warnings
 };
 
-// The options as they stand on the command line, before they are understood.
+// The options as on the command line, before they are parsed.
 struct RunArguments {
   std::string world;
   std::vector<std::string> robots, avatars, pedestrians, behaviours, movements, drives, model_path,
@@ -61,7 +60,7 @@ struct RunArguments {
   ServerLimits server_limits;
   std::string broker, name, mode_on_failure, record, record_pictures, failure_picture;
   std::vector<std::string> record_topics, record_rates;
-  // Those that a scenario's file may say as well are empty where they were not given.
+  // Options that a scenario's file may also have are empty if they were not given.
   std::optional<double> duration, step, factor, deadline;
   std::optional<std::uint64_t> seed;
   double wall_timeout = 0;

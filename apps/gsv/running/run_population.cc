@@ -16,7 +16,7 @@ namespace {
 
 using simulation::Simulation;
 
-// What is there under this name stays what it is from another folder.
+// An absolute path, if a file of this name exists.
 std::string Whole(const std::string& name) {
   std::error_code ignored;
   const std::string file = formats::xacro::FilePart(name);
@@ -25,7 +25,7 @@ std::string Whole(const std::string& name) {
          name.substr(file.size());
 }
 
-// What --movement says goes over what the scenario says.
+// --movement overrides the scenario.
 base::Status OverrideMovements(const RunOptions& options, const Simulation& simulation,
                                formats::ModelLibrary& library, base::Problems& problems,
                                scenario::Scenario& scenario) {
@@ -51,7 +51,8 @@ base::Status OverrideMovements(const RunOptions& options, const Simulation& simu
                     "--movement " + *left.begin());
 }
 
-// The behaviour a robot is to have: its own on the command line, that of all there, its scenario's.
+// Sets the behaviour of each robot: its own on the command line, that for all robots, or the
+// scenario's.
 base::Status OverrideBehaviours(const RunOptions& options, std::vector<PlacedRobot>& robots) {
   std::set<std::string> names;
   for (PlacedRobot& robot : robots) {
@@ -69,7 +70,7 @@ base::Status OverrideBehaviours(const RunOptions& options, std::vector<PlacedRob
   return {};
 }
 
-// Those of the world that no entry is about may still be given a behaviour.
+// The world's robots without an entry may still get a behaviour.
 void AddThoseOfTheWorld(const Simulation& simulation, std::vector<PlacedRobot>& robots,
                         const std::vector<std::string>& of_world) {
   for (const std::string& name : of_world) {
@@ -82,11 +83,11 @@ void AddThoseOfTheWorld(const Simulation& simulation, std::vector<PlacedRobot>& 
 
 class RunBehaviours {
  public:
-  // `from`: when their robots come.
+  // `from`: the time at which the robots are added.
   RunBehaviours(Runtime& runtime, const RunOptions& options, base::SimTime from = {})
       : runtime_(runtime), options_(options), from_(from) {}
 
-  // Starts programs where nobody offers what is wanted.
+  // Starts programs for behaviours that are not offered.
   base::Status Ensure(const std::vector<PlacedRobot>& robots) {
     if (options_.in_process || options_.make_behaviour) return {};
     std::map<std::string, int> programs;
@@ -128,7 +129,7 @@ class RunBehaviours {
   const base::SimTime from_;
 };
 
-// Robots that no place was asked for stand where there was room.
+// The scenario in which robots without a place have their actual one.
 scenario::Scenario StartsOf(const Population& population, const scenario::Scenario& asked) {
   scenario::Scenario starts;
   const auto add = [](const std::vector<PlacedRobot>& placed,
@@ -143,7 +144,7 @@ scenario::Scenario StartsOf(const Population& population, const scenario::Scenar
   return starts;
 }
 
-// The scenario as it came to be.
+// The actual scenario.
 scenario::Scenario Told(const Simulation& simulation, const RunOptions& options,
                         const Population& population) {
   scenario::Scenario told = recording::ScenarioOf(simulation);
@@ -190,7 +191,7 @@ base::Result<scenario::Scenario> PopulateRun(Runtime& runtime, Simulation& simul
   formats::ModelLibrary& library = runtime.host().library();
   std::vector<std::string> of_world;
   for (const auto& robot : simulation.status().robots) {
-    // A behaviour for all is for robots; a station gets one by its name.
+    // The behaviour for all applies to robots; a station gets one only by its name.
     if (!robot.is_station || options.behaviour_of.contains(robot.name)) {
       of_world.push_back(robot.name);
     }

@@ -29,7 +29,7 @@ std::string ReadWhole(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// "0100007F" and its like: 32-bit words of the address as this machine holds them in memory.
+// Converts "0100007F" and the like: 32-bit words of the address in this machine's byte order.
 std::string AddressText(std::string_view hex) {
   std::array<std::uint32_t, 4> words{};
   const std::size_t count = hex.size() / 8;
@@ -43,7 +43,7 @@ std::string AddressText(std::string_view hex) {
   return text.data();
 }
 
-// Sockets of the file system that listen, as /proc/net/unix has them.
+// Adds the listening Unix domain sockets in a table of the form of /proc/net/unix.
 void AddUnixSockets(std::string_view table, SocketsByInode& sockets) {
   constexpr std::string_view kAcceptsConnections = "00010000";
   std::istringstream lines{std::string(table)};

@@ -1,5 +1,5 @@
-// Which programs of GSV run on this machine as this user, and where they listen: as the kernel
-// knows it (/proc, proc(5)), whatever their options said.
+// Finds the running programs of GSV of this user, and the addresses on which they listen, in /proc
+// (proc(5)).
 #pragma once
 
 #include <sys/types.h>
@@ -12,8 +12,8 @@
 namespace gsv::app {
 
 struct Listener {
-  std::string address;     // "127.0.0.1", "0.0.0.0", "::"; of a socket of the file system its path
-  std::uint16_t port = 0;  // 0: a socket of the file system
+  std::string address;     // "127.0.0.1", "0.0.0.0", "::"; or the path of a Unix domain socket
+  std::uint16_t port = 0;  // 0: a Unix domain socket
   bool is_dds = false;     // a UDP socket of ROS 2
 
   bool IsLocal() const;  // only this machine can reach it
@@ -22,17 +22,17 @@ struct Listener {
 struct ListeningProcess {
   pid_t pid = 0;
   std::vector<std::string> arguments;  // without tokens
-  std::string folder;                  // in which it was started
+  std::string folder;                  // its working directory
   std::vector<Listener> listeners;
 };
 
-// By pid. Others' processes are not seen, nor those that end meanwhile.
+// By pid. Processes of other users are not found, nor those that end meanwhile.
 std::vector<ListeningProcess> FindListeningProcesses();
 
-// The listening sockets of a table as /proc/net/tcp and tcp6 have it, by inode.
+// The listening sockets in a table of the form of /proc/net/tcp and tcp6, by inode.
 std::vector<std::pair<std::uint64_t, Listener>> ParseSocketTable(std::string_view table);
-// The sockets at ports of DDS that a table as /proc/net/udp has, by inode. Those of domains above 101 lie
-// among the ports that the kernel gives to anybody, and are left out.
+// The sockets at ports of DDS in a table of the form of /proc/net/udp, by inode. Ports of domains
+// above 101 are left out, as they are among the kernel's ephemeral ports.
 std::vector<std::pair<std::uint64_t, Listener>> ParseDdsSockets(std::string_view table);
 
 }  // namespace gsv::app

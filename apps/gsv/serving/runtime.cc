@@ -27,9 +27,9 @@
 namespace gsv::app {
 namespace {
 
-// It takes 0.1 s. What counts is that a machine which is very busy gets the same verdict.
+// It takes 0.1 s, but must also succeed on a very busy machine.
 constexpr std::chrono::seconds kBrokerStartTimeout{60};
-// For behaviours' programs to end where somebody waits for it.
+// Time limit for the programs of behaviours to end if somebody waits for it.
 constexpr std::chrono::milliseconds kHurriedPrograms{500};
 
 std::vector<broker::Property> WithLoad(std::vector<broker::Property> properties,
@@ -123,7 +123,7 @@ base::Status Runtime::StartBroker(const RuntimeOptions& options) {
   if (!normalised) return base::Fail(normalised.error());
   orb::OrbOptions orb_options;
   orb_options.local_socket = true;
-  orb_options.check_request = &broker::CheckRequest;  // its load is asked for by evalDP
+  orb_options.check_request = &broker::CheckRequest;  // evalDP requests the load
   if (const std::string host = broker::HostOf(*normalised); !host.empty()) {
     auto local = orb::LocalAddressTowards(host);
     if (!local) return base::Fail(local.error());
@@ -242,7 +242,7 @@ void Runtime::EndSoon() {
 
 Runtime::~Runtime() {
   record_.reset();
-  for (const std::string& offer : offers_) (void)broker_->Withdraw(offer);  // it may be gone
+  for (const std::string& offer : offers_) (void)broker_->Withdraw(offer);  // it may have ended
   if (scenarios_.in() != nullptr) scenarios_->Close();
   gateway_.reset();
   ros2_.reset();
@@ -251,10 +251,10 @@ Runtime::~Runtime() {
     for (const auto& simulation : host_->List()) (void)simulation->Stop();
   }
   if (recordings_ != nullptr) recordings_->StopAll();
-  lost_.reset();  // from here on nothing is lost any more
+  lost_.reset();  // from here on nothing is reported as lost
   if (service_.in() != nullptr) service_->Close();
   if (host_ != nullptr) {
-    // Ending a simulation tells its behaviours, so it comes before their programs end.
+    // Ending a simulation calls its behaviours, so it comes before their programs end.
     for (const auto& simulation : host_->List())
       (void)host_->Remove(simulation->specification().name);
   }

@@ -1,7 +1,7 @@
-// What a gsv process that runs simulations consists of: an ORB, a broker (its own or one that is
-// there), sensors with a renderer, simulations, behaviours, the services, the gateway.
+// The parts of a gsv process that runs simulations: an ORB, a broker (its own or an existing one),
+// sensors with a renderer, simulations, behaviours, the services, the gateway.
 //
-// Threads  made and destroyed on the main thread.
+// Threads  created and destroyed on the main thread.
 #pragma once
 
 #include <filesystem>
@@ -33,10 +33,10 @@ class SimulationBuilder;
 
 struct RuntimeOptions {
   std::string broker;      // empty: a broker of its own, on loopback, for as long as this lives
-  bool has_broker = true;  // without: no behaviours over CORBA, no services, no viewer
+  bool has_broker = true;  // false: no behaviours over CORBA, no services, no viewer
   std::vector<std::filesystem::path> model_path;
-  std::map<std::string, std::string> drives;  // by model, as ReadOptions::drives
-  // That has read files already, in the way that these options say; null: a new one.
+  std::map<std::string, std::string> drives;  // by model, see ReadOptions::drives
+  // A library that has read files already, with these options; null: a new one.
   std::shared_ptr<formats::ModelLibrary> library;
   SensorTypeOptions sensors;
   formats::ReadLimits limits;
@@ -44,8 +44,7 @@ struct RuntimeOptions {
   bool viewer = true;
   ViewerOptions web;
   std::optional<ros2::Options> ros2;  // empty: no ROS 2
-  // Of a server that is to tell, when it is started again, what it ran when it was killed; empty:
-  // it is not noted.
+  // The name of a server whose crash is reported by the next start; empty: no crash reports.
   std::string noted_as;
 };
 
@@ -62,12 +61,12 @@ class Runtime {
   Ros2Access* ros2() { return ros2_.get(); }                     // null: no ROS 2
   const std::string& viewer_url() const { return viewer_url_; }  // empty: none
 
-  // Registers sba::SimulationService, with the simulations that are there, with the broker until
-  // this ends, and notes for this user's other commands where it is. Besides, sba::ScenarioService
-  // for so many `scenarios` at once, if there are any.
+  // Registers sba::SimulationService, with the existing simulations, at the broker for the lifetime
+  // of this. Writes a note for this user's other commands. If `scenarios` > 0, also registers
+  // sba::ScenarioService for that number of concurrent scenarios.
   base::Status OfferService(const std::string& name, int scenarios = 0);
 
-  // The process is told to end: behaviours that do not return have a second from now on.
+  // Call it when the process must end: behaviours that do not return have one more second.
   void EndSoon();
 
  private:
@@ -82,7 +81,7 @@ class Runtime {
   std::unique_ptr<broker::BrokerClient> broker_;
   std::shared_ptr<services::SimulationHost> host_;
   std::unique_ptr<Recordings> recordings_;
-  std::unique_ptr<LostSimulations> lost_;  // null: nothing is noted
+  std::unique_ptr<LostSimulations> lost_;  // null: no crash reports
   std::unique_ptr<services::BrokerBehaviours> behaviours_;
   std::unique_ptr<BehaviourLauncher> launcher_;
   std::unique_ptr<SimulationBuilder> builder_;

@@ -77,7 +77,7 @@ recording::RecorderOptions Options(const RecordingChoice& choice, bool is_of_com
 
 constexpr double kMinRate = 0.001, kMaxRate = 10'000;
 
-// What is there and no folder is a file, or a device.
+// Any existing path that is not a folder is a file, or a device.
 bool NamesAFile(const std::string& path) {
   std::error_code ignored;
   return path.ends_with(".mcap") ||
@@ -91,7 +91,7 @@ std::vector<std::string> ComplaintsAbout(const RecordingChoice& choice,
   constexpr std::size_t kMaxListed = 24;
   std::vector<std::string> sentences;
   for (const std::string& pattern : recording::UnmatchedPatterns(topics, choice.topics)) {
-    // Whoever names a robot, or /gsv, means what is below.
+    // The name of a robot, or /gsv, selects the topics below it.
     const bool is_folder = recording::UnmatchedPatterns(topics, {pattern + "/"}).empty();
     const std::size_t listed = std::min(topics.size(), kMaxListed);
     std::string there = fmt::format("{}", fmt::join(topics.begin(), topics.begin() + listed, ", "));
@@ -226,7 +226,8 @@ Recordings::Totals Recordings::totals() {
   const base::MutexLock lock(mutex_);
   Totals totals = ended_;
   for (const auto& [name, recording] : recordings_) Add(StateOf(recording), totals);
-  // One that is being finished counts among neither for a moment; what was told is not taken back.
+  // A recording that is being finished counts in neither for a moment, but totals must not
+  // decrease.
   told_ = {totals.under_way, std::max(totals.messages, told_.messages),
            std::max(totals.dropped, told_.dropped), std::max(totals.bytes, told_.bytes)};
   return told_;

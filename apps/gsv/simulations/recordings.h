@@ -1,7 +1,7 @@
-// The recordings under way in this process, one a simulation at most.
+// The current recordings of this process, at most one per simulation.
 //
-// Threads  any; starting writes the models, stopping waits for the disk. Whoever asks how a
-//          recording stands waits for neither.
+// Threads  any. Starting writes the models, and stopping waits for the disk. Queries of the state
+//          wait for neither.
 #pragma once
 
 #include <filesystem>
@@ -23,37 +23,37 @@ class SimulationRecorder;
 
 namespace gsv::app {
 
-// Keys of the metadata record "gsv.simulation": how the recording program was called, as a JSON
-// array of its arguments, and in which folder.
+// Keys of the metadata record "gsv.simulation": the command line of the recording program, as a
+// JSON array of its arguments, and its working directory.
 inline constexpr std::string_view kArgumentsKey = "arguments";
 inline constexpr std::string_view kFolderKey = "folder";
 
-// What is recorded, and how; rates in Hz of simulated time.
+// The selection of topics and rates; rates in Hz of simulated time.
 struct RecordingChoice {
-  std::vector<std::string> topics;  // empty: all; one that ends in "/" stands for all below it
+  std::vector<std::string> topics;  // empty: all; a topic with a trailing "/" selects all below it
   double poses_rate = 50, readings_rate = 20, pictures_rate = 1, beams_rate = 10;
-  bool png = false;  // pictures, else JPEG
-  // What is attached as the scenario; without it what can be seen of the simulation.
+  bool png = false;  // images as PNG, else JPEG
+  // The scenario to attach; default: derived from the simulation.
   std::optional<scenario::Scenario> scenario{};
 };
 
-// A command line as it may be told to others: without tokens.
+// A command line without tokens, so that it may be published.
 std::vector<std::string> WithoutSecrets(std::vector<std::string> arguments);
 
-// Of a choice of topics that some would stand for none of `topics`: a sentence for each such one,
-// with what there is instead.
+// A sentence for each pattern in a selection that matches none of `topics`, with the topics that
+// there are.
 std::vector<std::string> ComplaintsAbout(const RecordingChoice& choice,
                                          const std::vector<std::string>& topics);
 
 // Sets one rate, from "KIND=HZ" with poses, readings, pictures or beams.
 base::Status SetRate(const std::string& text, RecordingChoice& choice);
 
-// The folder that is meant, whole; empty: the current one. kInvalidArgument: it is none.
+// The absolute path of a folder; empty: the current one. kInvalidArgument: it is not a folder.
 base::Result<std::filesystem::path> RecordingsFolder(const std::filesystem::path& folder);
 
 class Recordings final : public gateway::RecordingSwitch {
  public:
-  // `folder`: where recordings go that are switched on in the viewer.
+  // `folder`: for recordings that are started in the viewer.
   explicit Recordings(std::filesystem::path folder);
   ~Recordings() override;
 
@@ -61,30 +61,32 @@ class Recordings final : public gateway::RecordingSwitch {
   // run`, with which the recording can be simulated again.
   void SetSimulationOfCommand(const std::shared_ptr<simulation::Simulation>& simulation);
 
-  // `path` ends in ".mcap": a bare file; else a folder that rosbag2 opens. kInvalidArgument when
-  // the simulation is being recorded, or something of that name is there already.
+  // `path` ends in ".mcap": a single file; else a folder for rosbag2. kInvalidArgument if the
+  // simulation is being recorded, or the path exists already.
   base::Status Start(std::shared_ptr<simulation::Simulation> simulation, const std::string& path,
                      const RecordingChoice& choice = {});
   const std::filesystem::path& folder() const { return folder_; }
 
-  // To NAME-TIME.mcap in that folder, with what is recorded if nothing else is said.
+  // Records to NAME-TIME.mcap in that folder, with the default selection.
   base::Status Record(const std::shared_ptr<simulation::Simulation>& simulation) override;
   base::Status StopRecording(const std::string& simulation) override { return Stop(simulation); }
   State RecordingOf(const std::string& simulation) override;
   Totals totals() override;
-  // kNotFound when that simulation is not recorded. Another error is why the recording ended early.
+  // kNotFound if that simulation is not recorded. Any other error is that which ended the
+  // recording.
   base::Status Stop(const std::string& simulation);
-  // The first error, if there is one; the others are logged.
+  // Returns the first error, if there is one; logs the others.
   base::Status StopAll();
 
  private:
   struct Recording {
     std::weak_ptr<simulation::Simulation> simulation;
     std::string path;
-    std::string bag;  // the file in a rosbag2 folder; empty: a bare file
+    std::string bag;  // the file in a rosbag2 folder; empty: a single file
     std::unique_ptr<recording::SimulationRecorder> recorder;
   };
-  // Makes room for a new one. kInvalidArgument when the simulation is being recorded.
+  // Finishes an ended recording before a new one. kInvalidArgument if the simulation is being
+  // recorded.
   base::Status FinishThatWhichIsOver(const std::shared_ptr<simulation::Simulation>& simulation);
   static base::Status Finish(Recording& recording);
   static State StateOf(const Recording& recording);
@@ -93,12 +95,12 @@ class Recordings final : public gateway::RecordingSwitch {
 
   const std::filesystem::path folder_;
   base::Mutex starting_;  // one at a time; taken before mutex_
-  base::Mutex mutex_;     // never held while the disk is waited for
+  base::Mutex mutex_;     // never held while waiting for the disk
   std::map<std::string, Recording> recordings_ GSV_GUARDED_BY(mutex_);  // by the simulation's name
   std::map<std::string, State> last_
-      GSV_GUARDED_BY(mutex_);            // that ended, by the simulation's name
-  Totals ended_ GSV_GUARDED_BY(mutex_);  // of those that ended
-  Totals told_ GSV_GUARDED_BY(mutex_);   // last
+      GSV_GUARDED_BY(mutex_);            // ended ones, by the simulation's name
+  Totals ended_ GSV_GUARDED_BY(mutex_);  // of the ended ones
+  Totals told_ GSV_GUARDED_BY(mutex_);   // as returned last
   std::weak_ptr<simulation::Simulation> of_command_ GSV_GUARDED_BY(mutex_);
 };
 

@@ -1,7 +1,7 @@
 // Runs of scenarios, each in a process that is forked from one that has read the files.
 //
-// A run costs what it simulates: the program is linked, and worlds and models are read, once for
-// all runs. Files are not read again while this object lives.
+// Each run costs only its simulation: the program is linked, and worlds and models are read, once
+// for all runs. Files are not read again while this object lives.
 //
 // Threads  one at a time. The thread that makes it must live as long (machine/child_process.h).
 #pragma once
@@ -22,10 +22,10 @@ class PreparedRuns {
   // Begins `gsv run` with these arguments; stdout and stderr go to files. One run at a time.
   base::Status Start(const std::vector<std::string>& arguments, const std::filesystem::path& output,
                      const std::filesystem::path& errors);
-  // How the run ended ("exit code 5", "signal 11"), once it has or the time is over; empty while
-  // it runs. The process that serves runs may end as well: then that is how the run ended.
+  // The end of the run ("exit code 5", "signal 11"), or empty at the time limit. If the process
+  // that serves runs ends, that is the end of the run as well.
   std::string AwaitEnd(std::chrono::milliseconds timeout);
-  // Ends the run that is under way, if there is one.
+  // Ends the current run, if there is one.
   void Stop() { server_.reset(); }
 
  private:

@@ -1,4 +1,4 @@
-// One scenario, run in a child process: what crashes there ends nothing here.
+// Runs one scenario in a child process, so that a crash affects nothing else.
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -21,9 +21,9 @@ using Seconds = std::chrono::duration<double>;
 using TestClock = std::chrono::steady_clock;
 
 constexpr auto kPollPeriod = std::chrono::milliseconds(100);
-constexpr double kSecondsAfter = 1;  // simulated, that a recording goes on behind the failure
-constexpr double kPatience = 30;     // wall seconds behind the child's own time-out
-constexpr std::size_t kMaxErrorLength = 4000;  // characters of what the child complained of
+constexpr double kSecondsAfter = 1;  // s of simulated time in the recording after the failure
+constexpr double kPatience = 30;     // s of wall-clock time after the child's own time-out
+constexpr std::size_t kMaxErrorLength = 4000;  // characters of the child's errors
 
 struct ChildOutcome {
   std::string ending;  // "exit code 0"; empty: it was cancelled
@@ -93,7 +93,7 @@ base::Result<ChildOutcome> RunChild(const TestCase& test, const TestOptions& opt
   return outcome;
 }
 
-// When the first expectation was violated, and who it is about.
+// The time of the first violation, and its robot.
 double FailureTime(const nlohmann::ordered_json& report) {
   double first = report.value("sim_time_s", 0.0);
   for (const auto& expectation : report.value("expectations", nlohmann::ordered_json::array())) {
@@ -122,8 +122,8 @@ std::string Message(const ChildOutcome& outcome) {
   return outcome.errors.empty() ? message : message + "\n" + outcome.errors;
 }
 
-// Leaves in options.failures what shows the failure: the last seconds of the recording, the
-// picture, what was said, and how to see it again.
+// Keeps the files of a failure in options.failures: the last seconds of the recording, the image,
+// the output, and the command that repeats it.
 void KeepFailure(const fs::path& folder, const TestOptions& options, const ChildOutcome& outcome,
                  TestResult& result) {
   std::string name = result.test.name;

@@ -12,12 +12,12 @@ namespace {
 // Turns that one thread takes at a time: some tens of microseconds of work.
 constexpr std::size_t kTurnsAPiece = 16;
 
-// Why a run pauses by itself.
+// Reason for a pause without a request.
 constexpr const char* kAsFarAsTold = "as far as it was told to run";
 
-// The calling thread runs before those of a crowd of behaviours, which all want to run at the
-// instant of a step. The system may refuse: a higher priority needs CAP_SYS_NICE or a limit
-// (ulimit -e) of 30 or more.
+// The calling thread has priority over a crowd of behaviours, which all want to run at the instant
+// of a step. The system may refuse: a higher priority needs CAP_SYS_NICE or a limit (ulimit -e) of
+// 30 or more.
 void RaiseThreadPriority() { (void)setpriority(PRIO_PROCESS, 0, -10); }
 
 }  // namespace
@@ -104,7 +104,7 @@ void StepLoop::WakeAgents() {
   if (!has_reported_deaths && !shared.sleepers.HasDue(shared.now)) return;
   const WallTime wall_now = WallNow();
   const auto wake = [&](RobotAgent& agent) {
-    simulation_mutex.AssertHeld();  // by this function
+    simulation_mutex.AssertHeld();  // this function holds it
     const RobotAgent::Woken woken = agent.Wake(shared.now, wall_now);
     if (woken.has_passed && !agent.is_hosted()) woken_.push_back(agent.wait_event());
     if (woken.has_died && parts_.specification.on_failure == FailurePolicy::kFail &&
@@ -133,11 +133,11 @@ void StepLoop::TakeTurns() {
     for (std::size_t i = begin; i < end; ++i) turns_[i]->TakeTurn(instant_, sampling);
   });
   const SimulationLock lock(shared);
-  parts_.world.lock().SetStuck(false);  // it came back after all
+  parts_.world.lock().SetStuck(false);  // it has returned after all
   const WallTime deadline = WallNow() - parts_.specification.deadline;
   for (RobotAgent* agent : turns_) {
     if (auto work = agent->ApplyTurn()) PostBlocked(agent->shared_from_this(), std::move(work));
-    // It may have waited for instants that were here already, again and again.
+    // It may have waited for past instants again and again.
     if (agent->BlocksStep() && agent->running_since() < deadline) GiveUpOn(*agent);
   }
   turns_.clear();
@@ -196,13 +196,13 @@ bool StepLoop::IsDue(SimulationLock& lock) {
 // One step, from t to t + h:
 //
 //   lock the world
-//     return if the run has been halted, or if an agent has begun to act since the last check
-//     apply the commands of agents: drives and joints           they act from t on
+//     return if the run has been paused, or if an agent has resumed since the last check
+//     apply the commands of agents: drives and joints           they apply from t on
 //     apply their commands of devices, by robot and name;
 //       then each device takes its part in the step             it sees the snapshot at t
-//     attach and detach what devices have grasped and released
+//     attach and detach the bodies that devices grasp and release
 //     move bodies and joints by h                               dynamics::Engine
-//     devices move what they hold; odometry, contacts and accelerations follow
+//     devices move attached bodies; odometry, contacts and accelerations follow
 //     publish the snapshot at t + h, and with it the phase
 //       that the run enters at its end                          RunControl
 //   pass the snapshot to the observers, without a lock
@@ -234,8 +234,8 @@ bool StepLoop::BeginStep(WallTime start) {
   SharedState& shared = *parts_.shared;
   const SimulationLock lock(shared);
   if (!run_.is_running()) return false;
-  // Somebody may have come between the check and the locks: a robot was added, a clock opened, or
-  // the last agent that ran has given up.
+  // Between the check and the locks, a robot may have been added, a clock opened, or the last
+  // running agent may have ended.
   if (shared.mode == Mode::kLockstep && (shared.running > 0 || shared.has_reported_deaths))
     return false;
   ApplyCommands();
@@ -268,7 +268,7 @@ void StepLoop::EndStep(const std::shared_ptr<const world::Snapshot>& snapshot, W
   SharedState& shared = *parts_.shared;
   const WallTime end = WallNow();
   const SimulationLock lock(shared);
-  // The snapshot and the phase that comes of it appear together: see Simulation::status().
+  // The snapshot and its phase become visible together: see Simulation::status().
   shared.history.Publish(snapshot);
   shared.now = snapshot->state.time;
   parts_.life_cycle.pace().StepEnds(start, end, shared.now);

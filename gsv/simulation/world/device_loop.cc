@@ -5,7 +5,7 @@
 namespace gsv::simulation {
 namespace {
 
-// The rays of a snapshot's scene, which is made when the first of them is cast.
+// The rays of a snapshot's scene, which is made for the first of them.
 class SnapshotRays final : public world::RayCaster {
  public:
   SnapshotRays(std::shared_ptr<const world::Snapshot> snapshot, sensing::RaySceneCache& cache,
@@ -24,7 +24,7 @@ class SnapshotRays final : public world::RayCaster {
   mutable std::shared_ptr<const sensing::RayScene> scene_;
 };
 
-// The devices of a state, copied when the first of them changes.
+// The devices of a state, copied at the first change.
 class ChangingDevices {
  public:
   explicit ChangingDevices(world::State& state) : state_(state) {}
@@ -35,7 +35,7 @@ class ChangingDevices {
   }
   void Replace(std::size_t place, world::DeviceStatePtr next) { Own()[place] = std::move(next); }
 
-  // Puts `next` in the place of that device's state; null: it has none.
+  // Replaces that device's state by `next`; null: removes it.
   void Set(const std::string& robot, const std::string& device, world::DeviceStatePtr next) {
     world::DeviceStates& states = Own();
     const std::size_t place = world::PlaceOf(states, robot, device);
