@@ -1,4 +1,4 @@
-// Wanders about as wander does, without pictures and in one round trip a control cycle: sonars in,
+// Wanders like wander, without images, and with one round trip per control cycle: sonars in,
 // command out.
 #include "behaviours/wander_rule.h"
 #include "sdk/behaviour/module.h"

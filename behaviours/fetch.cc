@@ -1,5 +1,5 @@
-// Drives ahead until something is between its jaws, takes it to a point given in the world and
-// leaves it there. Its LED shows how it goes: yellow, green with what it holds, red without.
+// Drives ahead until a body is between its gripper fingers, and carries it to a point in the world.
+// Its LED shows the state: yellow while searching, green with a body, red without.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,7 +18,7 @@ constexpr double kBackOff = 0.3;          // m
 constexpr double kBackOffSpeed = 0.15;    // m/s
 
 struct FetchGoal {
-  double x = 0, y = 0;      // m, world: where it stands when it lets go
+  double x = 0, y = 0;      // m, world: the place where it releases the body
   double tolerance = 0.05;  // m
 };
 
@@ -68,7 +68,7 @@ class Fetch final : public Behaviour {
     return robot.IsRunning();
   }
 
-  // Until the jaws hold something or are shut.
+  // Until the fingers hold a body or are closed.
   bool Take(Robot& robot) {
     (void)gripper_->Grasp();
     for (;;) {

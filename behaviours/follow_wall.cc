@@ -1,5 +1,5 @@
-// Follows the wall on its right at a constant distance; turns left where the way ahead is blocked,
-// right around corners that open.
+// Follows the wall on its right at a constant distance. Turns left if the way ahead is blocked, and
+// right around open corners.
 #include <algorithm>
 #include <numbers>
 

@@ -1,4 +1,4 @@
-// Drives to a point given in the world, around what stands in between; then it has finished.
+// Drives to a point in the world, around obstacles; then it has finished.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -47,8 +47,8 @@ class GoTo final : public Behaviour {
   }
 
  private:
-  // The vector field histogram in its simplest form: of the directions in which there is room, the
-  // one nearest to the goal, with a preference for the side that was taken last.
+  // The vector field histogram in its simplest form: of the free directions, the one nearest to the
+  // goal, with a preference for the side of the last cycle.
   DriveCommand Decide(double radius, double distance, double bearing,
                       const std::vector<SonarRing::Echo>& echoes) {
     const double room = std::min(radius + 0.5, distance + radius);
@@ -73,7 +73,7 @@ class GoTo final : public Behaviour {
   const Goal goal_;
   SonarRing sonars_;
   std::unique_ptr<PositioningSystem> positioning_;
-  double last_ = 0;  // rad: the direction taken in the last cycle
+  double last_ = 0;  // rad: direction of the last cycle
 };
 
 BehaviourFactory Configure(CLI::App& app) {

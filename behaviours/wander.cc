@@ -1,5 +1,5 @@
-// Wanders about: goes forward where the eight sonars leave room, else turns to the freer side;
-// takes a picture every second.
+// Wanders: drives forward if the eight sonars have space, else turns to the freer side; takes an
+// image every second.
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -21,7 +21,7 @@ class Wander final : public Behaviour {
     sonars_ = *std::move(sonars);
     if (!takes_pictures_) return {};
     auto camera = OpenOrMountCamera(robot);
-    if (camera) camera_ = *std::move(camera);  // a robot that cannot have one wanders without
+    if (camera) camera_ = *std::move(camera);  // a robot without a camera wanders without it
     return {};
   }
 

@@ -1,13 +1,14 @@
-// A robot behind sba::Hardware with no simulator anywhere: finds a behaviour in the broker, hands
-// it hardware of its own, and lets it drive for a while.
+// A robot behind sba::Hardware without a simulator: finds a behaviour at the broker, gives it its
+// own hardware, and lets it drive for a while.
 //
-// Its "hardware" is a cart on a straight track before a wall, told by the wall clock: the sonar
-// measures the distance that is left. A real robot's driver would read its devices here.
+// Its "hardware" is a cart on a straight track in front of a wall, in wall-clock time: the sonar
+// measures the remaining distance. A real robot's driver would read its devices here.
 //
 //   gsv-wander --broker REF &
 //   example-real-robot --broker REF
 //
-// Exits 0 when the behaviour read the sonar, drove, and kept away from the wall; 1 when it did not.
+// Exits with 0 if the behaviour read the sonar, drove, and stayed away from the wall; otherwise
+// with 1.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -34,7 +35,7 @@ constexpr double kStartDistance = 1.5;  // m from the wall
 
 double Seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
-// The cart: goes towards the wall when it faces it.
+// The cart, which moves towards the wall when it faces it.
 class Cart {
  public:
   void Drive(double linear, double angular) {
@@ -43,7 +44,7 @@ class Cart {
     linear_ = linear, angular_ = angular;
     ++commands_;
   }
-  // What a sonar that looks at `bearing` from straight ahead measures.
+  // The reading of a sonar at `bearing` from straight ahead.
   double Range(double bearing) {
     const std::lock_guard lock(mutex_);
     Advance();
@@ -105,7 +106,7 @@ sba::Measurement Measured(const std::string& name, double value, std::int64_t no
   return measurement;
 }
 
-// The object adapter keeps what was handed out, for as long as the program runs.
+// The object adapter owns the created objects until the program ends.
 template <class Servant>
 auto HandedOut(PortableServer::Servant_var<Servant> servant) {
   return servant->_this();
@@ -139,7 +140,7 @@ class CartSonar final : public POA_sba::Sonar {
   const double bearing_;
 };
 
-// It has no sensors built in; sonars can be plugged in, and nothing else.
+// It has no built-in sensors; only sonars can be created.
 class CartSensors final : public POA_sba::SensorFactory {
  public:
   explicit CartSensors(Cart& cart) : cart_(cart) {}
@@ -246,7 +247,7 @@ base::Status DriveFor(double seconds, CORBA::ORB_ptr orb, const std::string& bro
     return base::Fail(base::ErrorCode::kNotFound, "the behaviour is not offered there",
                       broker->reference());
   }
-  // The ORB holds on to its servants until it is destroyed.
+  // The ORB keeps its servants until it is destroyed.
   const PortableServer::Servant_var<CartHardware> hardware(new CartHardware(cart));
   const auto status = orb::Call(behaviour_name, [&] {
     const sba::AgentBehaviourFactory_var factory =

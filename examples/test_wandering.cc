@@ -1,11 +1,11 @@
-// A robotic application: tests the wander behaviour in a real world. Finds a simulator by
-// constraint in the broker, creates a simulation, adds robots with behaviours, runs 30 simulated
-// seconds in lockstep, and checks that every robot got about and that nobody hit anything.
+// A robotic application that tests the wander behaviour in a real world. It finds a simulator by a
+// constraint at the broker, creates a simulation, adds robots with behaviours, runs 30 simulated
+// seconds in lockstep, and checks that every robot moved and that none hit anything.
 //
 //   gsv serve --broker REF &   gsv-wander --broker REF &
 //   example-test-wandering --broker REF [--world FILE --robot MODEL …]
 //
-// Exits 0 when the verdict is good, 1 when it is not, 5 when it could not be found out.
+// Exits with 0 if the test passed, 1 if it failed, 5 if there is no result.
 #include <cstdio>
 
 #include <CLI/CLI.hpp>

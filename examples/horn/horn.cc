@@ -1,11 +1,11 @@
-// An actuator type from outside the tree: a horn, which honks for a time. Microphones hear it.
+// An actuator type outside of the source tree: a horn, which honks for a time. Microphones hear it.
 //
 //   cmake -S examples/horn -B /tmp/horn -D GSV_SOURCE_DIR=$PWD -D GSV_BUILD_DIR=$PWD/build/release
 //   cmake --build /tmp/horn
 //   gsv run WORLD --robot MODEL --sensor-plugin /tmp/horn/gsv-sensor-horn.so
 //
-// Command     how long it honks (s, at most 60); 0: it falls silent.
-// Reading     how long it will still honk (s); 0 while it is silent.
+// Command     duration of the honk (s, at most 60); 0: silence.
+// Reading     remaining duration of the honk (s); 0 while it is silent.
 // Parameters  loudness (105 dB re 20 µPa, 1 m away), frequency (420 Hz)
 // Message     gsv_msgs/Speaker
 #include "gsv/messages/gsv_msgs.h"
@@ -26,7 +26,7 @@ world::Sound ReadHorn(sensing::ParameterReader& reader) {
   return sound;
 }
 
-// What others hear of a horn that follows a command.
+// The sound of a horn, which follows its command.
 class HornState final : public world::ActuatorState {
  public:
   HornState(world::DeviceMount mount, world::FollowedCommand followed, world::Sound sound)

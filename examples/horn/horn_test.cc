@@ -1,4 +1,5 @@
-// A horn is heard, recorded in the state and stops by itself, without a word about it in GSV.
+// Microphones hear a horn, the state includes it, and it stops by itself, without code for it in
+// GSV.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -46,7 +47,7 @@ TEST(Horn, IsHeardForAsLongAsItHonks) {
   EXPECT_NEAR(simulation->Watch("car", "horn")->values[0], 0.05, 1e-12);
   const auto heard = simulation->Watch("ear", "microphone");
   ASSERT_TRUE(heard);
-  // 105 dB at 1 m fall by 20 dB over 10 m; the place itself has 30 dB.
+  // 105 dB at 1 m decrease by 20 dB over 10 m; the ambient noise is 30 dB.
   EXPECT_NEAR(heard->values[0], 10 * std::log10(std::pow(10, 8.5) + 1e3), 1e-9);
   EXPECT_EQ(heard->values[1], 420);
   EXPECT_EQ(heard->labels->front(), "car/horn");

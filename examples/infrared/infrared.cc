@@ -1,12 +1,12 @@
-// A sensor type from outside the tree: an infrared proximity sensor, which throws light ahead and
-// measures how much comes back.
+// A sensor type outside of the source tree: an infrared proximity sensor, which emits light and
+// measures the reflection.
 //
 //   cmake -S examples/infrared -B /tmp/infrared \
 //         -D GSV_SOURCE_DIR=$PWD -D GSV_BUILD_DIR=$PWD/build/release
 //   cmake --build /tmp/infrared
 //   gsv run WORLD --robot MODEL --sensor-plugin /tmp/infrared/gsv-sensor-infrared.so
 //
-// Frame       sensor frame: the light goes along x.
+// Frame       sensor frame: the light points along x.
 // Model       by triangulation, as in Sharp's GP2Y0A21: the voltage is scale / (distance + offset).
 // Parameters  min (0.1) and max (0.8), m; scale (0.27, V m) and offset (0.015, m); noise (m).
 // Readings    Proximity, below. As a message: sensor_msgs/Range, infrared.

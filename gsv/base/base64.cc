@@ -45,7 +45,7 @@ std::optional<std::string> FromBase64(std::string_view text) {
       bytes.push_back(static_cast<char>(three >> (16 - 8 * k) & 255));
     }
   }
-  // Bits that the padding leaves over are zero in what we write.
+  // The unused bits before the padding are zero in our encoding.
   if (ToBase64(bytes) != text) return std::nullopt;
   return bytes;
 }

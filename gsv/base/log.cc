@@ -27,7 +27,7 @@ struct Shared {
   std::atomic<std::uint64_t> written{0}, suppressed{0};
 };
 
-// Lives as long as anything may be logged.
+// Never destroyed, so that anything can be logged at any time.
 Shared& TheLog() {
   static Shared* const log = new Shared;
   return *log;
@@ -66,7 +66,7 @@ class BoundedSink final : public spdlog::sinks::base_sink<std::mutex> {
 
  private:
   void sink_it_(const spdlog::details::log_msg& message) override {
-    // What floods the log must not hide that something failed.
+    // A flood of messages must not hide errors.
     const bool is_error = message.level >= spdlog::level::err;
     LogRateLimiter& budget = is_error ? errors_ : others_;
     if (!budget.Take(message.time.time_since_epoch())) {
@@ -78,7 +78,7 @@ class BoundedSink final : public spdlog::sinks::base_sink<std::mutex> {
                            Secrets()));
   }
 
-  // A warning of its own, so that the count can be believed.
+  // A separate warning, so that the count is reliable.
   void TellSuppressed(spdlog::log_clock::time_point time) {
     if (time < next_telling_) return;
     const std::uint64_t lines = errors_.TakeSuppressed() + others_.TakeSuppressed();

@@ -16,7 +16,7 @@ using std::chrono::seconds;
 TEST(LogLine, IsOneLineWhateverAMessageHolds) {
   EXPECT_EQ(LogLine("plain: ä € 𝄞", 100, {}), "plain: ä € 𝄞");
   EXPECT_EQ(LogLine("a\nb\tc\rd", 100, {}), "a\\nb\\tc\\rd");
-  // What would colour a terminal, or change its title.
+  // Control sequences that would colour a terminal, or change its title.
   EXPECT_EQ(LogLine("\x1b[31m\x07", 100, {}), "\\x1b[31m\\x07");
   EXPECT_EQ(LogLine("\xc2\x9b", 100, {}), "\\xc2\\x9b");
   EXPECT_EQ(LogLine(std::string("a\0b", 3), 100, {}), "a\\x00b");
@@ -38,7 +38,7 @@ TEST(LogLine, ShowsNoSecret) {
   const std::vector<std::string> secrets{"hunter2hunter2"};
   EXPECT_EQ(LogLine("token=hunter2hunter2&a=hunter2hunter2", 100, secrets),
             "token=(hidden)&a=(hidden)");
-  // Not half of one either.
+  // Not even half of a secret.
   EXPECT_EQ(LogLine("token=hunter2hunter2", 10, secrets), "token=(hid (and 4 bytes more)");
 }
 
@@ -85,7 +85,7 @@ TEST(Log, SuppressesAFloodAndTellsHowMuch) {
   EXPECT_NE(log.find("this matters\n"), std::string::npos);
   EXPECT_NE(log.find(" more lines were suppressed"), std::string::npos) << log;
   const LogCounts after = ProcessLogCounts();
-  // Every line is counted: as written or as suppressed; the count of them is a line as well.
+  // Every line is counted, as written or as suppressed; the count itself is a line as well.
   const std::uint64_t lines = static_cast<std::uint64_t>(std::count(log.begin(), log.end(), '\n'));
   EXPECT_EQ(after.written - counts.written, lines);
   EXPECT_GE(after.suppressed - counts.suppressed, 900u);

@@ -7,7 +7,7 @@
 namespace gsv::base {
 namespace {
 
-// The length of the UTF-8 sequence that `text` begins with; 0: it begins with none (RFC 3629).
+// The length of the UTF-8 sequence at the begin of `text`; 0 if it is invalid (RFC 3629).
 std::size_t SequenceLength(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -52,7 +52,7 @@ std::string WithoutSecrets(std::string text, const std::vector<std::string>& sec
 
 std::string LogLine(std::string_view message, std::size_t max_bytes,
                     const std::vector<std::string>& secrets) {
-  // Before anything is cut: half a secret is one as well.
+  // Before anything is cut off, as half of a secret is also secret.
   const std::string whole = WithoutSecrets(std::string(message), secrets);
   std::string_view rest = whole;
   std::string line;

@@ -9,8 +9,8 @@
 namespace gsv::base {
 namespace {
 
-// Work often comes in quick succession: a worker looks for it so many times before it sleeps, a few
-// microseconds, since to be woken costs more than that.
+// Jobs often come in quick succession. A worker checks for one this many times, a few microseconds,
+// before it sleeps, as waking it would take longer.
 constexpr int kLooks = 400;
 
 }  // namespace
@@ -50,7 +50,7 @@ void ThreadTeam::Run(const Job& job) {
   WaitForWorkers();
 }
 
-// They are mostly about to be done; but one whose piece lasts must not cost a second processor.
+// They usually finish soon, but a long piece must not occupy a second processor.
 void ThreadTeam::WaitForWorkers() {
   for (int i = 0; i < kLooks; ++i) {
     if (state_.load(std::memory_order_acquire) == 0) return;
@@ -70,8 +70,8 @@ void ThreadTeam::RunPieces(std::size_t self) {
       job_.call(job_.work, begin, std::min(begin + job_.grain, part.end));
     }
   }
-  // None is left: whoever sees that first closes the job, lest others join it again and again while
-  // the last pieces are being done.
+  // No piece is left. The first thread that notices closes the job, so that others do not join it
+  // again while the last pieces are in progress.
   state_.fetch_and(~kOpen, std::memory_order_relaxed);
 }
 

@@ -61,7 +61,7 @@ TEST(ThreadTeam, ManyJobsInARowAreAllDone) {
   EXPECT_EQ(sum, 20'000u * 6);
 }
 
-// Which of this process's threads sleep, by the kernel's states; the caller does not count.
+// The threads of this process that sleep, by the kernel's states; the caller does not count.
 bool AllOthersSleep() {
   const std::string self = std::to_string(gettid());
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
@@ -74,10 +74,10 @@ bool AllOthersSleep() {
   return true;
 }
 
-// Sixteen threads once drew four cameras' pictures with all sixteen processors busy.
+// Sixteen threads once rendered the images of four cameras with all sixteen processors busy.
 TEST(ThreadTeam, AThreadWithoutAPieceSleeps) {
   constexpr int kLooks =
-      200;  // in a row: a thread that looks for work again and again may rest once
+      200;  // in a row: a thread that checks for work again and again may rest once
   constexpr auto kTimeout = std::chrono::seconds(30);
   std::latch begun(2), end(1);
   std::thread job([&] {

@@ -18,7 +18,7 @@ TEST(Quaternion, TurnsXToYByAQuarterTurnAboutZ) {
 }
 
 TEST(Quaternion, RollPitchYawTurnsAboutTheFixedAxesInThatOrder) {
-  // Rolled by 90° the y axis points up; yawed by 90° afterwards it still does.
+  // After a roll of 90° the y axis points up; after a yaw of 90° it still does.
   const Quaternion q = FromRollPitchYaw({kPi / 2, 0, kPi / 2});
   ExpectNear(q * Vector3{0, 1, 0}, {0, 0, 1});
   ExpectNear(q * Vector3{1, 0, 0}, {0, 1, 0});

@@ -10,8 +10,8 @@
 namespace gsv::geometry {
 namespace {
 
-// A point of the profile that is turned about z: its distance from the axis, its height, its
-// normal in that half-plane, and the texture's height there.
+// A point of the profile that is rotated about z: its distance from the axis, its height, its
+// normal in that half-plane, and the height in the texture.
 struct ProfilePoint {
   double radius = 0, z = 0;
   double normal_out = 0, normal_up = 0;
@@ -30,12 +30,12 @@ std::uint32_t NextVertex(const TriangleMesh& mesh) {
 }
 
 Vector2 Direction(int step, int segments) {
-  // The last step is the first again, to the bit, so that the seam is closed.
+  // The last step equals the first bit by bit, so that the seam is closed.
   const double angle = 2 * kPi * (step % segments) / segments;
   return {std::cos(angle), std::sin(angle)};
 }
 
-// Turns a profile, given from bottom to top, about z. Rings at the axis become points.
+// Rotates a profile, given from bottom to top, about z. Rings at the axis become points.
 void AddRevolution(std::span<const ProfilePoint> profile, int segments, TriangleMesh& mesh) {
   const std::uint32_t first = NextVertex(mesh);
   const auto columns = static_cast<std::uint32_t>(segments) + 1;
@@ -89,8 +89,8 @@ void AddRectangle(const Vector3& centre, const Vector3& right, const Vector3& up
   mesh.triangles.push_back({first, first + 2, first + 3});
 }
 
-// Points of a quarter circle in the profile's half-plane, about (0, centre_z), from one latitude
-// to another, both included.
+// Points of a quarter circle in the profile's half-plane, about (0, centre_z), from one latitude to
+// another, including both.
 std::vector<ProfilePoint> Arc(double radius, double centre_z, double from, double to, int steps) {
   std::vector<ProfilePoint> points;
   for (int i = 0; i <= steps; ++i) {
@@ -102,7 +102,7 @@ std::vector<ProfilePoint> Arc(double radius, double centre_z, double from, doubl
   return points;
 }
 
-// Sets the texture's height proportional to the way along the profile.
+// Sets the height in the texture proportional to the distance along the profile.
 void SpreadTexture(std::vector<ProfilePoint>& profile) {
   double length = 0;
   for (std::size_t i = 1; i < profile.size(); ++i) {
@@ -114,11 +114,11 @@ void SpreadTexture(std::vector<ProfilePoint>& profile) {
   for (ProfilePoint& p : profile) p.v /= length;
 }
 
-// The two half axes of a plane's rectangle. They are x and y where the normal is z.
+// The two half axes of a plane's rectangle. They are x and y if the normal is z.
 std::pair<Vector3, Vector3> HalfAxes(const Plane& plane) {
   const Vector3 n = Normalized(plane.normal);
   const Vector3 z{0, 0, 1};
-  // The shortest turn that takes z to the normal; upside down it is a half turn about x.
+  // The smallest rotation from z to the normal; for the opposite normal a half turn about x.
   const Quaternion turn = n.z < -1 + 1e-12
                               ? Quaternion{0, 1, 0, 0}
                               : Normalized(Quaternion{1 + n.z, Cross(z, n).x, Cross(z, n).y, 0});
@@ -189,7 +189,7 @@ struct Tessellator {
     mesh = *shape.triangles;
     const Vector3& s = shape.scale;
     const double mirrored = s.x * s.y * s.z < 0 ? -1 : 1;
-    // Normals go with the cofactors of the scale.
+    // Normals transform with the cofactors of the scale.
     const Vector3 cofactors = mirrored * Vector3{s.y * s.z, s.x * s.z, s.x * s.y};
     for (Vector3& p : mesh.positions) p = Scaled(p, s);
     for (Vector3& n : mesh.normals) n = Normalized(Scaled(n, cofactors));

@@ -26,7 +26,7 @@ double Area(const TriangleMesh& mesh) {
   return area;
 }
 
-// The volume that outward triangles enclose (divergence theorem); negative when they face inward.
+// The volume inside the triangles (divergence theorem); negative if they face inwards.
 double Volume(const TriangleMesh& mesh) {
   double volume = 0;
   for (const Triangle& t : mesh.triangles) {
@@ -35,8 +35,9 @@ double Volume(const TriangleMesh& mesh) {
   return volume;
 }
 
-// Vertices - edges + faces of the surface, vertices at one place taken as one. Also checks that
-// every edge is walked once in each direction: the surface is closed and consistently wound.
+// Vertices - edges + faces of the surface, with vertices at the same place counted once. Also
+// checks that every edge occurs once in each direction: the surface is closed and consistently
+// oriented.
 int EulerCharacteristic(const TriangleMesh& mesh) {
   using Place = std::tuple<long, long, long>;
   std::map<Place, int> vertex_at;

@@ -10,7 +10,7 @@ namespace {
 
 using std::numbers::pi;
 
-// A solid that is alike on both sides of each coordinate plane, but for where its centroid lies.
+// A solid that is symmetric to each coordinate plane, except for the position of its centroid.
 SolidMoments Symmetric(double volume, const Vector3& centroid, double xx, double yy, double zz) {
   SolidMoments moments;
   moments.volume = volume;
@@ -38,7 +38,7 @@ SolidMoments Of(const Cylinder& cylinder) {
   return Symmetric(pi * r * r * l, {}, r * r / 4, r * r / 4, l * l / 12);
 }
 
-// A cylinder between two halves of a ball, whose centroids lie 3/8 of the radius outside of it.
+// A cylinder between two half balls, whose centroids are 3/8 of the radius outside of it.
 SolidMoments Of(const Capsule& capsule) {
   const double r = capsule.radius, l = capsule.length;
   const SolidMoments middle = Of(Cylinder{r, l}), ball = Of(Sphere{r});
@@ -57,7 +57,7 @@ SolidMoments Of(const Cone& cone) {
 
 SolidMoments Of(const Plane&) { return {}; }
 
-// Of a tetrahedron with a corner in the origin: the integral of x_i x_j over it is
+// For a tetrahedron with a corner at the origin, the integral of x_i x_j is
 // V/20 (sum of v_i v_j over the other corners v + (sum of v_i) (sum of v_j)).
 void AddTetrahedron(const Vector3& a, const Vector3& b, const Vector3& c, SolidMoments& sum) {
   const double volume = Dot(a, Cross(b, c)) / 6;
@@ -77,7 +77,7 @@ void AddTetrahedron(const Vector3& a, const Vector3& b, const Vector3& c, SolidM
 
 SolidMoments Of(const Mesh& mesh) {
   const auto& positions = mesh.triangles->positions;
-  // About the first corner: a mesh that lies far from its origin loses no digits.
+  // Relative to the first corner, so that a mesh far from its origin loses no digits.
   const Vector3 origin = positions.empty() ? Vector3{} : Scaled(positions[0], mesh.scale);
   SolidMoments sum;
   for (const auto& t : mesh.triangles->triangles) {
@@ -112,7 +112,7 @@ SolidMoments MomentsOf(const Shape& shape) {
 }
 
 VolumeBelow BelowHeight(const TriangleMesh& mesh, const Pose& world_from_mesh, double height) {
-  // Points are taken relative to one of the plane.
+  // Points are relative to a point of the plane.
   const Vector3 origin{world_from_mesh.position.x, world_from_mesh.position.y, height};
   VolumeBelow sum;
   for (const auto& triangle : mesh.triangles) {

@@ -47,7 +47,7 @@ TEST(SolidMoments, OfAMirroredMeshAreThoseOfItsMirrorImage) {
   ExpectNear(MomentsOf(mesh), expected, 1e-9);
 }
 
-// Fine meshes of round shapes come close to the closed forms.
+// Fine meshes of round shapes are close to the closed forms.
 TEST(SolidMoments, OfRoundShapesAreThoseOfTheirMeshes) {
   for (const Shape& shape : {Shape(Sphere{0.7}), Shape(Cylinder{0.5, 2}), Shape(Capsule{0.4, 1}),
                              Shape(Ellipsoid{{0.3, 0.5, 0.8}}), Shape(Cone{0.6, 1.5})}) {
@@ -66,7 +66,7 @@ TEST(BelowHeight, CutsABoxAtTheSurface) {
   EXPECT_NEAR(below.first_moment.z / below.volume, (-0.5 + 0.25) / 2, 1e-12);
 }
 
-// Turned by 45° about x, a cube of edge 1 shows a triangle of half the diagonal below its middle.
+// Rotated by 45° about x, a cube of edge 1 has a triangle of half the diagonal below its centre.
 TEST(BelowHeight, CutsATurnedCubeAtTheSurface) {
   const Mesh cube = MeshOf(Box{{1, 1, 1}});
   const Pose turned{{}, FromAxisAngle({1, 0, 0}, pi / 4)};

@@ -37,7 +37,7 @@ CdrReader::CdrReader(std::span<const std::byte> bytes) {
     return;
   }
   bytes_ = bytes.subspan(kEncapsulation.size());
-  // The last two bytes are options, which say nothing about how to read the rest.
+  // The last two bytes are options, which do not affect reading.
   if (bytes[0] != kEncapsulation[0] || bytes[1] != kEncapsulation[1]) {
     Fail("expected little-endian CDR (encapsulation 00 01)");
   }

@@ -40,7 +40,7 @@ std::vector<std::string> Words(std::string_view line) {
   return words;
 }
 
-// A number that is all of the text.
+// The number if the whole text is one.
 std::optional<std::size_t> Number(std::string_view text) {
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -56,7 +56,7 @@ base::Result<Definition> Definition::Parse(std::string_view name, std::string_vi
   std::string type = definition.root_;
   std::size_t begin = 0;
   while (begin <= text.size()) {
-    // Types are parted by a line of '=' and one that names the next.
+    // A line of '=' and a line with the name of the next type separate types.
     std::size_t end = text.find("\n====", begin);
     if (end == std::string_view::npos) end = text.size();
     if (auto ok = definition.AddStruct(type, text.substr(begin, end - begin)); !ok) {
@@ -125,7 +125,7 @@ base::Status Definition::AddStruct(const std::string& type, std::string_view tex
 }
 
 base::Status Definition::Check() const {
-  // A type that holds itself would have no end: structs may be nested only so deep.
+  // A type that contains itself would be infinite: the nesting of structs is limited.
   std::vector<std::pair<std::string, int>> open{{root_, 0}};
   std::map<std::string, int> deepest;
   while (!open.empty()) {
@@ -144,7 +144,7 @@ base::Status Definition::Check() const {
   return {};
 }
 
-// Goes through the bytes of one message.
+// Reads the bytes of one message.
 class Decoder {
  public:
   Decoder(const Definition& definition, std::span<const std::byte> cdr)
@@ -152,7 +152,7 @@ class Decoder {
         in_({reinterpret_cast<const char*>(cdr.data()) + 4, cdr.size() - 4},
             cdr[1] == std::byte{1}) {}
 
-  // False when the bytes do not fit the type.
+  // False if the bytes do not fit the type.
   bool Read(const std::string& type, ordered_json& out) {
     out = ordered_json::object();
     for (const Definition::Field& field : definition_.structs_.at(type)) {
@@ -168,7 +168,7 @@ class Decoder {
   bool ReadField(const Definition::Field& field, ordered_json& out) {
     if (field.shape == Shape::kSingle) return ReadOne(field, out);
     const std::size_t count = field.shape == Shape::kSequence ? in_.ULong() : field.length;
-    // Even empty structs take a value of the bound.
+    // Empty structs also count as values.
     if (!in_.ok() || count > kMostValues || values_ + count > kMostValues) return false;
     if (field.kind == Kind::kUnsigned && field.size == 1) {
       out = {{"bytes", count}};

@@ -63,7 +63,7 @@ TEST(Definition, OctetsAreCounted) {
   EXPECT_EQ((*message)["last"], 9);
 }
 
-// Our own types, as the generated code writes them: each must be read to the end, and not beyond.
+// Each of our own types, as encoded by the generated code, must be read exactly to its end.
 TEST(Definition, ReadsEveryTypeOfOurs) {
   ForEachType([](const Schema& schema, auto message) {
     const Definition definition = Parsed(schema.name, schema.text);
@@ -83,14 +83,14 @@ TEST(Definition, ReadsEveryTypeOfOurs) {
 
 TEST(Definition, SchemasThatCannotBeAreRefused) {
   EXPECT_FALSE(Definition::Parse("a/A", "b/B thing\n"));     // lacks b/B
-  EXPECT_FALSE(Definition::Parse("a/A", "A[] children\n"));  // holds itself
+  EXPECT_FALSE(Definition::Parse("a/A", "A[] children\n"));  // contains itself
   EXPECT_FALSE(Definition::Parse("a/A", "wstring wide\n"));
 }
 
 TEST(Definition, LengthsThatLieAreRefused) {
   const Definition numbers = Parsed("a/A", "float64[] values\n");
   EXPECT_FALSE(numbers.Decode(Cdr({0, 1, 0, 0, 0xff, 0xff, 0xff, 0xff})));
-  // An empty struct takes no bytes: its number is bounded all the same.
+  // An empty struct has no bytes, but the number of them is limited.
   const Definition nothings = Parsed("a/A", "B[] values\n====\nMSG: a/B\n");
   EXPECT_FALSE(nothings.Decode(Cdr({0, 1, 0, 0, 0xff, 0xff, 0xff, 0x7f})));
   EXPECT_FALSE(nothings.Decode({}));

@@ -1,4 +1,4 @@
-// Every message type, written and read back, whole and damaged.
+// Every message type is written and read back, complete and damaged.
 #include <gtest/gtest.h>
 
 #include "gsv/messages/sample_filler.h"
@@ -37,7 +37,7 @@ TEST(RoundTrip, NoTypeReadsBackFromPartOfItsBytes) {
   });
 }
 
-// Whatever a flipped bit makes of lengths and counts, the answer is a message or an error.
+// Whatever a flipped bit changes in lengths and counts, the result is a message or an error.
 TEST(RoundTrip, AFlippedBitNeverReadsOutsideTheMessage) {
   ForEachType([](const Schema& schema, auto message) {
     Bytes bytes = Sample(message, 3);

@@ -1,5 +1,5 @@
-// Prints messages of every type for interop_test.mjs: a line for each, its fields apart by a
-// blank: the type's name, its schema in hexadecimal, the seed, the message in hexadecimal.
+// Prints messages of every type for interop_test.mjs, one per line with fields separated by blanks:
+// the type's name, its schema in hexadecimal, the seed, the message in hexadecimal.
 #include <cstdio>
 #include <span>
 #include <string>
@@ -19,7 +19,7 @@ std::string Hex(std::span<const std::byte> bytes) {
   return text;
 }
 
-// Every count and string length of the series comes to stand at every alignment.
+// With these seeds, every count and string length occurs at every alignment.
 constexpr std::uint32_t kSeeds = 56;
 
 }  // namespace

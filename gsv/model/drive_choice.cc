@@ -130,7 +130,7 @@ base::Status FindJoints(const Model& model, const std::vector<std::string>& name
   return {};
 }
 
-// The drive to start from: the model's own or the guessed one, if it has that kind; else its wheels.
+// The initial drive: the model's own or the guessed one, if it has that kind; else its wheels.
 Drive StartFrom(const Model& model, DriveKind kind) {
   if (model.drive && model.drive->kind == kind) return *model.drive;
   Drive guess = GuessDrive(model);

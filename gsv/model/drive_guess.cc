@@ -26,7 +26,7 @@ const Joint& JointAt(const Model& model, int joint) {
 
 double Width(const Range& range) { return range.max - range.min; }
 
-// Horizontal distance from the swivel to the wheel, across the wheel's axis.
+// The horizontal distance from the swivel to the wheel, perpendicular to the wheel's axis.
 double Trail(const Model& model, const Wheel& wheel) {
   const Vector3 arm = wheel.centre - JointAt(model, *wheel.swivel).model_from_joint.position;
   const Vector3 forward = Normalized(Cross(wheel.axis, {0, 0, 1}));
@@ -83,7 +83,7 @@ void KeepDriven(const Model& model, std::vector<Wheel>& wheels) {
   }
 }
 
-// The wheels to the left and to the right of the line halfway between the outermost.
+// The wheels to the left and to the right of the centre between the outermost ones.
 bool AddSides(const std::vector<Wheel>& wheels, Drive& drive) {
   if (wheels.empty()) return false;
   const auto [right, left] =
@@ -100,7 +100,7 @@ bool AddSides(const std::vector<Wheel>& wheels, Drive& drive) {
   return true;
 }
 
-// Rollers at 45° slide along the diagonal: the direction of friction shows them.
+// Rollers at 45° slide along the diagonal, as the direction of friction shows.
 bool HasDiagonalRollers(const Model& model, const Wheel& wheel) {
   if (IsNamed(model, wheel, {"mecanum"})) return true;
   const Link& link = model.links[static_cast<std::size_t>(JointAt(model, wheel.joint).child)];
@@ -144,7 +144,7 @@ double MeanY(const Model& model, const std::vector<int>& joints) {
 
 void MeasureSteering(const Model& model, Drive& drive) {
   if (drive.steered.empty()) return;
-  // As the kinematics take it: from the rearmost wheel's joint to the joints that steer.
+  // By the definition of the kinematics: from the rearmost wheel's joint to the steering joints.
   double rear = std::numeric_limits<double>::infinity();
   for (const auto* wheels : {&drive.left_wheels, &drive.right_wheels}) {
     for (const int joint : *wheels) {

@@ -1,4 +1,4 @@
-// Robots as public descriptions of well-known kinds have them, put together from shapes.
+// Robots of well-known kinds, as in public descriptions, assembled from shapes.
 #include "gsv/model/drive_guess.h"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ using testing::UnorderedElementsAre;
 constexpr double kQuarter = std::numbers::pi / 2;
 const geometry::Quaternion kAxisLeft = geometry::FromAxisAngle({1, 0, 0}, -kQuarter);
 
-// A box as a base, and what is mounted on it.
+// A box as a base, with mounted parts.
 class Robot {
  public:
   Robot() {
@@ -59,7 +59,7 @@ class Robot {
     return AddJoint(name + "_joint", parent, link, JointKind::kContinuous, kAxisLeft);
   }
 
-  // A link that turns about the vertical, and a wheel in it.
+  // A link that rotates about the vertical, with a wheel in it.
   void AddSwivel(const std::string& name, double x, double y, double trail, Range range,
                  double radius = 0.1) {
     const int yoke = AddLink(name + "_yoke", {x + trail, y, radius}, std::nullopt);

@@ -20,7 +20,7 @@ Visual PartOf(const char* name, const geometry::Shape& shape, double z, const Co
   return visual;
 }
 
-// A limb that hangs from `top` and is swung forwards by so many radians.
+// A limb below `top` that is swung forwards by an angle in radians.
 Visual LimbOf(const char* name, const geometry::Vector3& top, double length, double radius,
               double swing, const Colour& colour) {
   Visual visual;

@@ -20,7 +20,7 @@ constexpr double kLevel = 0.35;    // sine of an axis' slope: wheels may have ca
 constexpr double kUpright = 0.9;   // cosine between a swivel and the vertical
 constexpr double kManyTurns = 20;  // rad
 
-// How far a shape reaches along a direction of its own frame, from its origin.
+// The extent of a shape along a direction of its own frame, from its origin.
 struct Reach {
   Vector3 d;  // unit length
 
@@ -55,7 +55,7 @@ struct Reach {
   }
 };
 
-// The reach of shapes about an axis through `origin`: in directions across it, and along it.
+// The extent of shapes about an axis through `origin`: in directions across it, and along it.
 class Extent {
  public:
   Extent(const Vector3& origin, const Vector3& axis) : origin_(origin), axis_(axis) {
@@ -106,7 +106,7 @@ int JointInto(const Model& model, int link) {
   return -1;
 }
 
-// The link and those that fixed joints hold to it.
+// The link and all links that fixed joints connect to it.
 std::vector<int> RigidPart(const Model& model, int link) {
   std::vector<int> part{link};
   for (std::size_t i = 0; i < part.size(); ++i) {

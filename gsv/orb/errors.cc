@@ -8,8 +8,8 @@ namespace {
 
 using base::ErrorCode;
 
-// A reason may begin with the name of what it is about, which `where` gives already, or with one of
-// its parts: then the reason says more.
+// A reason may begin with the name that `where` has already, or with a part of it: then only the
+// reason is kept.
 void NameOnce(base::Error& error) {
   if (error.where.empty() || !error.message.starts_with(error.where)) return;
   const std::string rest = error.message.substr(error.where.size());
@@ -17,7 +17,7 @@ void NameOnce(base::Error& error) {
   if (rest.starts_with("/")) error.where.clear();
 }
 
-// sba exceptions all carry one member, the reason.
+// All sba exceptions have one member, the reason.
 template <typename Exception>
 bool Matches(const CORBA::UserException& exception, const std::string& where, ErrorCode code,
              base::Error& error) {

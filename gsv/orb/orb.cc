@@ -51,12 +51,12 @@ base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
   const std::string message_time =
       std::to_string(std::chrono::milliseconds(options.message_time).count());
   const std::string call_timeout = std::to_string(options.call_timeout.count());
-  // It stands in for the call's where a call has to connect first.
+  // It replaces the call's limit if a call has to connect first.
   const std::string connect_timeout =
       std::to_string(std::min<std::int64_t>(options.call_timeout.count(), 5000));
   const std::string connections = std::to_string(options.max_connections_per_server);
-  // A client closes an idle connection (60 s) before the server does (180 s); a message that
-  // stops half-way is given up after 30 s.
+  // A client closes an idle connection (60 s) before the server does (180 s). A message that stops
+  // half-way is dropped after 30 s.
   std::string local_endpoint;
   if (options.local_socket) {
     if (const auto socket = NewLocalSocket()) local_endpoint = "giop:unix:" + socket->native();
@@ -78,8 +78,8 @@ base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
       {"oneCallPerConnection", "1"},
       {"supportPerThreadTimeOut", "1"},
       {"lcdMode", "0"},
-      // What follows a request's arguments is skipped. Strictly it ends the connection, and omniORB
-      // 4.2.5 then forgets to give back some 9 kB.
+      // Bytes after a request's arguments are skipped. The strict mode closes the connection, and
+      // omniORB 4.2.5 then leaks about 9 kB.
       {"strictIIOP", "0"},
       {"traceLevel", "0"},
       {"unixTransportPermission", "0600"},
@@ -135,7 +135,7 @@ base::Result<std::string> LocalAddressTowards(const std::string& host) {
     return base::Fail(base::ErrorCode::kUnavailable, "there is no host of that name", host);
   }
   const std::unique_ptr<addrinfo, void (*)(addrinfo*)> addresses(found, freeaddrinfo);
-  // Connecting a datagram socket sends nothing; it only chooses the way.
+  // Connecting a datagram socket sends nothing; it only selects the route.
   const int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in local{};
   socklen_t length = sizeof local;

@@ -19,14 +19,14 @@ constexpr Edit::Kind kKinds[]{Edit::Kind::kAddRobot, Edit::Kind::kAddAvatar, Edi
                               Edit::Kind::kRemove,   Edit::Kind::kPlace,     Edit::Kind::kCommand};
 constexpr Edit::Moment kMoments[]{Edit::Moment::kBeforeTurns, Edit::Moment::kAfterTurns,
                                   Edit::Moment::kAmidTurns};
-const std::string kDrive = " drive ";  // what follows is a choice, as model/drive_choice.h has it
+const std::string kDrive = " drive ";  // followed by a choice, see model/drive_choice.h
 constexpr model::Movement kMovements[]{model::Movement::kPlanar, model::Movement::kRigid};
 
 const char* ToString(model::Movement movement) {
   return movement == model::Movement::kRigid ? "rigid" : "planar";
 }
 
-// Which of them has that name.
+// The value with that name.
 template <typename Value, std::size_t kCount>
 std::optional<Value> Named(const std::string& name, const Value (&values)[kCount]) {
   const auto found = std::find_if(std::begin(values), std::end(values),
@@ -36,7 +36,7 @@ std::optional<Value> Named(const std::string& name, const Value (&values)[kCount
 
 using Texts = std::map<std::string, std::string>;
 
-// "z=-1.62", one argument a line.
+// One argument per line, such as "z=-1.62".
 std::string Lines(const Texts& arguments) {
   std::string lines;
   for (const auto& [name, value] : arguments) lines += name + "=" + value + "\n";
@@ -84,7 +84,7 @@ base::Result<simulation::Edit> EditFrom(const messages::gsv_msgs::Edit& message)
   const auto kind = Named(message.kind, kKinds);
   const auto moment = Named(message.moment, kMoments);
   simulation::Edit edit;
-  // A field of its own would make older recordings unreadable (ADR 034).
+  // A separate field would make older recordings unreadable (ADR 034).
   const std::size_t drive = message.movement.find(kDrive);
   const std::string movement = message.movement.substr(0, drive);
   if (drive != std::string::npos) edit.drive = message.movement.substr(drive + kDrive.size());

@@ -9,7 +9,7 @@
 namespace gsv::presentation {
 namespace {
 
-// To be raised when the same model is written in another way, so that browsers fetch it anew.
+// Increase it when the same model is written differently, so that browsers fetch it again.
 constexpr std::uint64_t kWriterVersion = 1;
 
 class Identity {
@@ -36,7 +36,7 @@ class Identity {
     Add(q.w), Add(q.x), Add(q.y), Add(q.z);
   }
 
-  // Scalars without padding between them, as they lie in memory.
+  // Scalars without padding between them, in their memory representation.
   template <typename Element>
   void AddBlock(const std::vector<Element>& block) {
     static_assert(std::is_trivially_copyable_v<Element>);

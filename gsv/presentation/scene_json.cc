@@ -79,7 +79,7 @@ Json LookJson(const model::SceneLook& look) {
           {"sky", look.sky}};
 }
 
-// `known` gives the sensors' frustums.
+// `known` provides the sensors' frustums.
 Json SensorsJson(const SceneSource& source, const world::Body& body, sensing::SensorSet& known) {
   Json sensors = Json::array();
   if (!world::HasAgent(body)) return sensors;
@@ -93,7 +93,7 @@ Json SensorsJson(const SceneSource& source, const world::Body& body, sensing::Se
               {"overlay", OverlayName(type->overlay)},
               {"link", body.model->links[sensor.link].name},
               {"topic", SensorTopic(body.name, sensor.name)}};
-    // By the path of a field in the sensor's message; a path stands for all below it.
+    // By the path of a field in the sensor's message; a path includes all fields below it.
     if (auto units = type->layout.Units(); !units.empty()) json["units"] = std::move(units);
     const auto made = known.Of(sensor);
     if (const auto frustum = made ? (*made)->frustum() : std::nullopt) {
@@ -105,8 +105,8 @@ Json SensorsJson(const SceneSource& source, const world::Body& body, sensing::Se
   return sensors;
 }
 
-// Those that can move, each in the frame of the link that it moves if that has poses of its own
-// (`moving`), else in the model's.
+// The joints that can move, each in the frame of its child link if that has its own pose
+// (`moving`), else in the model's frame.
 Json JointsJson(const model::Model& model, const std::set<int>& moving) {
   Json joints = Json::array();
   for (const model::Joint& joint : model.joints) {
@@ -126,7 +126,7 @@ Json JointsJson(const model::Model& model, const std::set<int>& moving) {
   return joints;
 }
 
-// Came with the world and never moves: what nobody can take away.
+// A static body of the world file, which cannot be removed.
 bool IsFixed(const world::Layout& layout, const world::Body& body) {
   const auto& models = layout.description->models;
   return body.is_static() &&
@@ -135,7 +135,7 @@ bool IsFixed(const world::Layout& layout, const world::Body& body) {
          });
 }
 
-// Came with the world, so that no model of its own has to be found when it is to come back.
+// A body of the world file: its model is known if it is added again.
 bool IsOfWorld(const world::Layout& layout, const world::Body& body) {
   const auto& models = layout.description->models;
   return std::any_of(models.begin(), models.end(), [&](const model::PlacedModel& placed) {
@@ -186,7 +186,7 @@ void Grow(std::optional<Bounds>& bounds, const Vector3& point) {
                  std::max(bounds->max.z, point.z)};
 }
 
-// Grows `bounds` by the corners of `box`.
+// Extends `bounds` by the corners of `box`.
 void Grow(std::optional<Bounds>& bounds, const Pose& target_from_box, const Bounds& box) {
   for (const Vector3& corner : geometry::CornersOf(box)) Grow(bounds, target_from_box * corner);
 }
@@ -210,7 +210,7 @@ std::optional<Bounds> VisibleBounds(const model::Model& model) {
 }  // namespace
 
 Bounds SceneBounds(const world::Snapshot& snapshot) {
-  std::map<const model::Model*, std::optional<Bounds>> of_model;  // one model may stand often
+  std::map<const model::Model*, std::optional<Bounds>> of_model;  // a model may be used often
   std::optional<Bounds> bounds;
   for (std::size_t i = 0; i < snapshot.layout->bodies.size(); ++i) {
     const model::Model* model = snapshot.layout->bodies[i].model.get();

@@ -15,7 +15,7 @@ using simulation::Agent;
 using AgentPtr = std::shared_ptr<Agent>;
 using GroupPtr = std::shared_ptr<ServantGroup>;
 
-// Wall time after which a wait is answered NOT_YET.
+// Wall-clock time after which a wait is answered with NOT_YET.
 constexpr std::chrono::milliseconds kLease{2000};
 constexpr unsigned kReadingRaises = orb::kNotRunning | orb::kEnded | orb::kFailed;
 
@@ -148,12 +148,12 @@ class ClockServant final : public POA_sba::Clock {
   }
 
   void close() override {
-    (void)agent_->CloseClock(clock_);  // closed twice is closed
+    (void)agent_->CloseClock(clock_);  // closing twice has no effect
     group_->Deactivate(this);
   }
 
   void give_up(const char* reason) override {
-    (void)agent_->GiveUp(clock_, reason);  // who is dead already is not told twice
+    (void)agent_->GiveUp(clock_, reason);  // no effect if it is dead already
     group_->Deactivate(this);
   }
 

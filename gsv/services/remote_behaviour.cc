@@ -8,13 +8,13 @@
 namespace gsv::services {
 namespace {
 
-// Wall time that a behaviour has to answer a call; init may read files.
+// Wall-clock time limit for a behaviour to answer a call; init may read files.
 constexpr std::chrono::milliseconds kCallTimeout = StopTimeout::kNormal;
 constexpr std::chrono::milliseconds kPingTimeout{1500};
 
-// Limits the calls of this thread for as long as it lives.
+// Limits the calls of this thread during its lifetime.
 class ThreadTimeout {
-  // The ORB keeps the limit with its own notion of this thread, which a std::thread lacks.
+  // The ORB stores the limit in its own object for this thread, which a std::thread does not have.
   omni_thread::ensure_self self_;
 
  public:
@@ -69,7 +69,7 @@ base::Status RemoteBehaviour::Start() {
 }
 
 base::Status RemoteBehaviour::Stop() {
-  // The reference's own limit goes before that of a thread.
+  // The limit of the reference takes precedence over that of the thread.
   orb::LimitCalls(behaviour_, stop_timeout_->limit());
   auto stopped = Call("stop", [this] { behaviour_->stop(); });
   orb::LimitCalls(behaviour_, kCallTimeout);
@@ -86,18 +86,18 @@ base::Status RemoteBehaviour::Resume() {
 }
 
 void RemoteBehaviour::Destroy() {
-  // The process ends, and the behaviour, which is still in its run, would not answer.
+  // The process is ending, and the behaviour, which is still running, would not answer.
   const bool is_of_no_use = has_not_stopped_ && stop_timeout_->is_shortened();
   if (!is_of_no_use) {
     orb::LimitCalls(behaviour_, stop_timeout_->limit());
-    (void)Call("destroy", [this] { behaviour_->destroy(); });  // it may be gone already
+    (void)Call("destroy", [this] { behaviour_->destroy(); });  // it may be gone
   }
   ReplaceHardware(nullptr);
 }
 
 bool RemoteBehaviour::IsDead() {
   const ThreadTimeout timeout(kPingTimeout);
-  // A connection that broke tells nothing about a process that may accept another: ask twice.
+  // A broken connection proves nothing about a process that may accept another one: call twice.
   for (int attempt = 0; attempt < 2; ++attempt) {
     try {
       return behaviour_->_non_existent();

@@ -19,7 +19,7 @@ sba::Placement PlacementToIdl(const readings::Placement& p) {
   return {p.x, p.y, p.z, p.roll, p.pitch, p.yaw};
 }
 
-// `to`, which is a sequence of an IDL module, holds what `convert` makes of each of `from`.
+// Sets `to`, a sequence of an IDL module, to the results of `convert` for each element of `from`.
 template <typename Sequence, typename List, typename Convert>
 Sequence* ToSequence(const List& from, Convert convert) {
   auto* const sequence = new Sequence;

@@ -31,12 +31,12 @@ void ServantGroup::DeactivateId(const std::string& id) {
     std::memcpy(object_id.get_buffer(), id.data(), id.size());
     poa_->deactivate_object(object_id);
   } catch (const CORBA::Exception&) {
-    // It was deactivated by another call at the same moment.
+    // Another call has deactivated it at the same moment.
   }
 }
 
 CORBA::Object_ptr ServantGroup::Adopt(PortableServer::ServantBase* servant, const char* type) {
-  const PortableServer::ServantBase_var owned(servant);  // the POA holds on to it
+  const PortableServer::ServantBase_var owned(servant);  // the POA keeps a reference
   const base::MutexLock lock(mutex_);
   if (closed_) throw sba::Ended("the robot is gone");
   const PortableServer::ObjectId_var id = poa_->activate_object(servant);
@@ -53,7 +53,7 @@ void ServantGroup::Deactivate(PortableServer::ServantBase* servant) {
     }
     DeactivateId(Key(id));
   } catch (const CORBA::Exception&) {
-    // It was deactivated by another call at the same moment.
+    // Another call has deactivated it at the same moment.
   }
 }
 

@@ -17,7 +17,7 @@
 namespace gsv::services {
 namespace {
 
-constexpr double kAbandonedAfter = 60;  // s of wall time, unless the specification says otherwise
+constexpr double kAbandonedAfter = 60;  // s of wall-clock time, by default
 constexpr std::chrono::milliseconds kAwaitLease{2000};
 
 using simulation::Phase;
@@ -231,7 +231,7 @@ void SimulationServant::stop_recording() {
   orb::ValueOrThrow(service_.hooks().stop_recording(simulation_->specification().name));
 }
 
-// One that is destroyed already stays so.
+// No effect if it was destroyed before.
 void SimulationServant::destroy() { (void)service_.Destroy(simulation_->specification().name); }
 
 SimulationServiceServant::SimulationServiceServant(PortableServer::POA_ptr poa,
@@ -312,7 +312,7 @@ sba::Simulations* SimulationServiceServant::list() {
 }
 
 base::Status SimulationServiceServant::Destroy(const std::string& simulation) {
-  SimulationServant* servant = nullptr;  // whoever takes it from the list lets go of it
+  SimulationServant* servant = nullptr;  // the thread that removes it from the list releases it
   {
     const base::MutexLock lock(mutex_);
     const auto found = servants_.extract(simulation);
@@ -343,10 +343,10 @@ void SimulationServiceServant::RunJanitor() {
       if (servant->IsAbandoned()) abandoned.push_back(servant->simulation());
     }
     const bool may_trim = std::exchange(has_destroyed_, false) || ++round % kTrimmingRounds == 0;
-    // Stopping one may take long, as when it is being reset: nobody else waits for that.
+    // Stopping may take long, for example during a reset: it must not block others.
     lock.unlock();
-    // What simulations, viewers and messages took lies free in the arenas of many threads, of which
-    // glibc by itself gives back no more than the tops.
+    // Memory of simulations, viewers and messages is free in the arenas of many threads. glibc
+    // alone returns only their tops to the system.
     if (may_trim) malloc_trim(0);
     for (const auto& simulation : abandoned) {
       const Phase phase = simulation->status().phase;

@@ -53,7 +53,7 @@ base::Error CannotRead(const fs::path& file, const char* what) {
           file};
 }
 
-// What OpenSSL refuses although nobody did anything wrong: no memory, no entropy.
+// An internal failure of OpenSSL: no memory, or no entropy.
 base::Status Failed() { return base::Fail(ErrorCode::kUnavailable, "OpenSSL does not work here"); }
 
 File CreateFile(const fs::path& path, mode_t mode) {
@@ -75,7 +75,7 @@ base::Result<Certificate> ReadCertificate(const fs::path& path) {
 
 base::Result<Key> ReadKey(const fs::path& path) {
   const File file = OpenFile(path);
-  // A key with a password is none that a program can use by itself.
+  // A program cannot use a key with a password.
   const auto no_password = [](char*, int, int, void*) { return -1; };
   Key read(file ? PEM_read_PrivateKey(file.get(), nullptr, no_password, nullptr) : nullptr);
   if (!read) return base::Fail(CannotRead(path, "a key without a password"));
@@ -103,7 +103,7 @@ bool Extend(X509* certificate, X509* issuer, int extension, const std::string& v
   return is_added;
 }
 
-// 127 random bits: two of an authority are never alike (RFC 5280, 4.1.2.2).
+// 127 random bits, so that serial numbers of an authority are unique (RFC 5280, 4.1.2.2).
 bool SetSerial(X509* certificate) {
   std::array<unsigned char, 16> bytes{};
   if (RAND_bytes(bytes.data(), bytes.size()) != 1) return false;
@@ -114,7 +114,7 @@ bool SetSerial(X509* certificate) {
   return is_set;
 }
 
-// Not yet signed, nor issued by anybody.
+// Neither signed nor issued yet.
 Certificate Begin(EVP_PKEY* key, const std::string& name, const Validity& validity) {
   Certificate made(X509_new());
   X509_NAME* const subject = X509_get_subject_name(made.get());
@@ -191,7 +191,7 @@ base::Status MakeAuthority(const fs::path& folder, const Validity& validity) {
   const Certificate made = key ? Begin(key.get(), "gsv authority", validity) : nullptr;
   if (!made) return Failed();
   X509_set_issuer_name(made.get(), X509_get_subject_name(made.get()));
-  // It signs servers and callers, and no further authorities.
+  // It signs servers and clients, but no further authorities.
   if (!Extend(made.get(), made.get(), NID_basic_constraints, "critical,CA:TRUE,pathlen:0") ||
       !Extend(made.get(), made.get(), NID_key_usage, "critical,keyCertSign,cRLSign") ||
       !Extend(made.get(), made.get(), NID_subject_key_identifier, "hash") ||

@@ -23,7 +23,7 @@ class CertificatesTest : public ::testing::Test {
   base::Status Check(const std::string& name) const {
     return CheckKeyPair(folder() / (name + ".pem"), folder() / (name + "-key.pem"));
   }
-  // The openssl program, as an independent reader. Its exit code.
+  // Runs the openssl program, as an independent reader. Returns its exit code.
   int OpenSsl(const std::string& arguments) const {
     return std::system(
         ("cd " + folder().string() + " && openssl " + arguments + " >/dev/null 2>&1").c_str());

@@ -1,5 +1,5 @@
-// The first octet chooses a type, the rest are its bytes: refused, or decoded to a message whose
-// encoding decodes to the same.
+// The first octet selects a type, the rest are its bytes. They are refused, or the encoding of the
+// decoded message decodes to the same message.
 #include <cstdint>
 
 #include "gsv/base/check.h"
@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto again = messages::Decode<Message>(once);
     GSV_CHECK(again.has_value());
     messages::Encode(*again, twice);
-    GSV_CHECK(once == twice);  // bytes, since a number may be none
+    GSV_CHECK(once == twice);  // compares bytes, as NaN is not equal to itself
   });
   return 0;
 }

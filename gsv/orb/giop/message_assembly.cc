@@ -6,9 +6,9 @@
 namespace gsv::orb {
 namespace {
 
-// Memory is taken as bytes come, not as they are announced.
+// Memory is allocated for received bytes, not for the declared length.
 constexpr std::size_t kPiece = 8192;
-// More than this is not kept for the next message.
+// A larger buffer is freed before the next message.
 constexpr std::size_t kKept = 1024;
 
 constexpr std::size_t kFragmentHeaderBytes = kGiopHeaderBytes + 4;

@@ -11,7 +11,7 @@
 namespace gsv::orb {
 namespace {
 
-// Feeds all bytes, `piece` at a time; the messages that came out, "refused" at the end of them.
+// Feeds all bytes in pieces of `piece`. Returns the messages, with "refused" at their end.
 std::vector<std::string> Assembled(std::string_view bytes, std::size_t piece) {
   MessageAssembly assembly(65'536);
   std::vector<std::string> messages;

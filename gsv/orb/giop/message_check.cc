@@ -9,17 +9,17 @@
 namespace gsv::orb {
 namespace {
 
-// Requests without a reply that are remembered.
+// The number of requests without a reply that are remembered.
 constexpr std::size_t kPending = 1024;
 
-// Empty for a name that is not there.
+// Empty for an unknown name.
 std::string_view TypesOf(std::span<const Signature> signatures, std::string_view name) {
   const auto found = std::ranges::find(signatures, name, &Signature::name);
   return found != signatures.end() ? found->types : std::string_view();
 }
 
-// Takes from the front of `types` what stands before the first `end` that is in no brackets, and
-// the `end` with it.
+// Removes from `types` the part before the first `end` outside of brackets, and `end`, and returns
+// the part.
 std::string_view TakeUntil(std::string_view& types, char end) {
   std::size_t size = 0;
   for (int depth = 0; depth > 0 || types.at(size) != end; ++size) {
@@ -31,7 +31,7 @@ std::string_view TakeUntil(std::string_view& types, char end) {
   return taken;
 }
 
-// Reads values of the types that a signature names.
+// Reads values of the types in a signature.
 class ValueCheck {
  public:
   explicit ValueCheck(CdrReader& in) : in_(in) {}
@@ -42,7 +42,7 @@ class ValueCheck {
   }
 
  private:
-  // The first type, which it takes from the front.
+  // Reads the first type, and removes it from `types`.
   void Read(std::string_view& types) {
     const char kind = types.front();
     types.remove_prefix(1);
@@ -52,7 +52,7 @@ class ValueCheck {
       case 't':
         return type_codes_.TypeCode(in_);
       case 's':
-        in_.Octets();  // the ORB sees to the null at its end
+        in_.Octets();  // the ORB checks the null at its end
         return;
       case 'o':
         return SkipReference(in_);

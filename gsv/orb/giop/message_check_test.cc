@@ -20,7 +20,7 @@ struct Case {
 
 RawCdr LongLong(RawCdr before) { return before.Align(8).ULong(1).ULong(2); }
 
-// Each with the values that the types name and nothing else.
+// Each has only values of its types.
 const Case kCases[] = {
     {"numbers of each size", "1248", LongLong(RawCdr().Octet(1).UShort(2).ULong(3))},
     {"a string", "s", RawCdr().String("text")},
@@ -40,11 +40,11 @@ const Case kCases[] = {
 };
 
 std::string Encapsulated(const RawCdr& values) {
-  // Alignment counts from the byte order; the values' own begins four bytes later.
+  // Alignment counts from the byte order; that of the values begins four bytes later.
   return std::string("\x01\0\0\0", 4) + values.bytes();
 }
 
-// Types that read the three bytes behind the byte order first.
+// Whether the bytes have these types after the three bytes behind the byte order.
 bool HasTypesOf(const Case& each, const std::string& bytes) {
   return HasTypes(bytes, "111" + std::string(each.types));
 }
@@ -97,11 +97,11 @@ TEST(RequestCheckTest, LeavesOperationsThatAreNotListed) {
   EXPECT_EQ(message, other);
 }
 
-// The reply that is left of `body` after a request of `operation`.
+// The rest of the reply `body` to a request of `operation`.
 std::string CheckedReply(const std::string& operation, const std::string& body) {
   ReplyCheck check(kSignatures);
   const std::string request = RawRequest("key", operation, "", 7);
-  // The header comes in one piece, what follows may not.
+  // The header comes in one piece, the rest possibly not.
   check.Sending(request);
   check.Sent(request.size() - 1);
   check.Sending(request.substr(request.size() - 1));

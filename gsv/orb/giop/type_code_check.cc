@@ -101,7 +101,7 @@ std::size_t TypeCodeCheck::ReadTypeCode(CdrReader& in, std::size_t depth) {
       in.ULong();
       break;
     case kFixed: {
-      // omniORB ends the program over one of more decimals than digits.
+      // omniORB crashes for a type with more decimals than digits.
       type.length = in.UShort();
       const std::uint16_t scale = in.UShort();
       if (type.length == 0 || type.length > 31 || scale > type.length) in.Fail();
@@ -131,7 +131,7 @@ std::size_t TypeCodeCheck::ReadTypeCode(CdrReader& in, std::size_t depth) {
   return types_.size() - 1;
 }
 
-// A type that stood before and is complete.
+// Reads a reference to an earlier, complete type.
 std::size_t TypeCodeCheck::Repeated(CdrReader& in) {
   in.Align(4);
   const char* const here = in.here();
@@ -147,7 +147,7 @@ std::size_t TypeCodeCheck::Repeated(CdrReader& in) {
   return found->second;
 }
 
-// `type.size` is 0 afterwards where they do not fit.
+// Sets `type.size` to 0 if they do not fit.
 void TypeCodeCheck::ReadParameters(Type& type, CdrReader in, std::size_t depth) {
   if (type.kind != kSequence && type.kind != kArray) {
     in.String();
@@ -216,7 +216,7 @@ void TypeCodeCheck::ReadAny(CdrReader& in, std::size_t depth) {
   ReadValue(type, in, depth + 1);
 }
 
-// Of a type that is nothing but its kind, as most are. False for any other, which is not read.
+// Reads a type without parameters, as most are. False for any other, which is not read.
 bool TypeCodeCheck::ReadSimpleAny(CdrReader& in) {
   CdrReader behind = in;
   const std::uint32_t kind = behind.ULong();

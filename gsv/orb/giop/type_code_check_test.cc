@@ -65,7 +65,7 @@ TEST(TypeCodeCheckTest, RefusesMembersThatAreMissing) {
   EXPECT_FALSE(IsTypeCode(RawCdr().ULong(kStruct).ULong(100)));
 }
 
-// A broker would keep an offer with such a type, and could not read it again.
+// A broker would store an offer with such a type, but could not read it again.
 TEST(TypeCodeCheckTest, RefusesNamesWithAZeroInside) {
   const auto named = [](RawCdr id) { return With({}, kAlias, id.String("T").ULong(kLong)); };
   EXPECT_TRUE(IsTypeCode(named(Parameters().Octets("IDL:T:1.0\0"s))));
@@ -80,7 +80,7 @@ TEST(TypeCodeCheckTest, RefusesKindsThatNobodyCanUse) {
   }
 }
 
-// One with a scale of 108 ended the broker.
+// A type with a scale of 108 crashed the broker.
 TEST(TypeCodeCheckTest, RefusesFixedOfMoreDecimalsThanDigits) {
   EXPECT_TRUE(IsTypeCode(RawCdr().ULong(kFixed).UShort(19).UShort(4)));
   EXPECT_TRUE(IsTypeCode(RawCdr().ULong(kFixed).UShort(31).UShort(31)));
@@ -111,7 +111,7 @@ TEST(TypeCodeCheckTest, TakesATypeThatStoodBefore) {
 }
 
 TEST(TypeCodeCheckTest, RefusesATypeThatContainsItself) {
-  // A sequence of what stands 12 bytes before the offset: of itself.
+  // A sequence whose element type is 12 bytes before the offset: itself.
   EXPECT_FALSE(
       IsTypeCode(With({}, kSequence, Parameters().ULong(0xFFFFFFFF).ULong(0u - 16).ULong(0))));
 }

@@ -10,7 +10,7 @@
 namespace gsv::orb {
 namespace {
 
-// A socket that this process connects belongs to no endpoint, and nobody waits for it in poll().
+// A socket that this process connects has no endpoint, and no thread polls it.
 class Unwatched final : public omni::SocketCollection {
   CORBA::Boolean notifyReadable(omni::SocketHolder* /*holder*/) override { return true; }
 };
@@ -19,8 +19,8 @@ omni::SocketCollection& UnwatchedSockets() {
   return collection;
 }
 
-// `ask` is getsockname() or getpeername(). A peer that has gone has no address any more; the ORB
-// wants one all the same.
+// `ask` is getsockname() or getpeername(). A disconnected peer has no address, but the ORB requires
+// one.
 template <typename Ask>
 std::string AddressOfEnd(int socket, const char* scheme, const Ask& ask) {
   sockaddr_storage address{};
@@ -102,8 +102,8 @@ CORBA::Boolean Connection::Peek() { return channel_->HasBytes() || SocketHolder:
 
 int Connection::Send(void* buffer, std::size_t size, const omni_time_t& deadline) {
   if (hooks_ != nullptr) hooks_->OnSend({static_cast<const char*>(buffer), size});
-  // A reply is sent though it may be late, and there is nearly always room for it. A request that
-  // is late is not sent.
+  // A reply is sent even if it is late; there is nearly always space for it. A late request is not
+  // sent.
   int sent = is_accepted_ ? static_cast<int>(channel_->TrySend(buffer, size)) : -1;
   if (sent <= 0) sent = channel_->Send(buffer, size, deadline);
   if (sent > 0 && hooks_ != nullptr) hooks_->OnSent(static_cast<std::size_t>(sent));
@@ -117,7 +117,7 @@ int Connection::Recv(void* buffer, std::size_t size, const omni_time_t& deadline
   if (hooks_ != nullptr && incoming_.assembly().empty()) hooks_->OnWait();
   omni_time_t until = deadline;
   while (!incoming_.IsThere()) {
-    // Clients may be silent between messages, not within one.
+    // Clients may be silent between messages, but not within one.
     if (incoming_.assembly().empty()) {
       until = deadline;
     } else if (!until) {
@@ -133,7 +133,7 @@ int Connection::Recv(void* buffer, std::size_t size, const omni_time_t& deadline
 int Connection::ReadPiece(const omni_time_t& deadline) {
   MessageAssembly& assembly = incoming_.assembly();
   const auto room = assembly.Next();
-  // The rest of a message is mostly there with its header.
+  // The rest of a message usually arrives with its header.
   ssize_t received = assembly.empty() ? -1 : channel_->TryReceive(room.bytes, room.size);
   if (received < 0) received = channel_->Receive(room.bytes, room.size, deadline);
   if (received <= 0) return static_cast<int>(received);
@@ -149,7 +149,7 @@ bool Connection::Gather() {
     const auto room = incoming_.assembly().Next();
     const ssize_t received = channel_->TryReceive(room.bytes, room.size);
     if (received < 0 && errno == EINTR) continue;
-    if (received < 0) return errno != EAGAIN && errno != EWOULDBLOCK;  // the ORB finds out why
+    if (received < 0) return errno != EAGAIN && errno != EWOULDBLOCK;  // the ORB detects the error
     if (hooks_ != nullptr) hooks_->OnBytes();
     incoming_.assembly().Take(static_cast<std::size_t>(received));
   }

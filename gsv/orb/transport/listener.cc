@@ -19,11 +19,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kHandshakeTime{10}, kFarewellTime{1};
-constexpr std::size_t kMaxPendingHandshakes = 256;  // beyond them the one that came first goes
+constexpr std::size_t kMaxPendingHandshakes = 256;  // the oldest is dropped beyond them
 
 }  // namespace
 
-// A client that has not shown its certificate yet, or that was refused and is to read why.
+// A client that has not sent its certificate yet, or that was refused and must read the reason.
 class PendingHandshake : public omni::SocketHolder {
  public:
   PendingHandshake(int socket, omni::SocketCollection& collection,
@@ -41,7 +41,7 @@ class PendingHandshake : public omni::SocketHolder {
 
   TlsChannel::Step Proceed() { return is_refused_ ? ReadToTheEnd() : channel_->Handshake(); }
   std::string failure() const { return channel_->failure(); }
-  // The peer loses what it was sent if its socket is closed while bytes from it are unread.
+  // The peer loses sent data if its socket is closed while bytes from it are unread.
   void Refuse(const std::string& why) {
     constexpr std::string_view kScheme = "giop:ssl:";
     spdlog::warn("refused a CORBA connection from {}: {}", addresses_.peer.substr(kScheme.size()),
@@ -53,7 +53,7 @@ class PendingHandshake : public omni::SocketHolder {
   bool is_refused() const { return is_refused_; }
   bool is_late(Clock::time_point now) const { return now > until_; }
 
-  // The socket then belongs to the caller.
+  // The caller then owns the socket.
   std::unique_ptr<TlsChannel> TakeChannel() {
     Leave();
     return std::move(channel_);
@@ -77,7 +77,7 @@ class PendingHandshake : public omni::SocketHolder {
   bool is_refused_ = false, is_gone_ = false;
 };
 
-// Becomes readable now and then as long as it is set, since Select() may sleep for ever.
+// Becomes readable regularly while it is set, as Select() may sleep for ever.
 class Alarm : public omni::SocketHolder {
  public:
   explicit Alarm(omni::SocketCollection& collection)
@@ -170,7 +170,7 @@ void Listener::Proceed(PendingHandshake* pending) {
       pending->setSelectable(1, false);
       return;
     case TlsChannel::Step::kWantsToWrite:
-      // The few bytes of a handshake always find room, except where the peer means harm.
+      // There is always space for the few bytes of a handshake, except with a malicious peer.
       pending->Refuse("it does not read");
       break;
     case TlsChannel::Step::kFailed:
@@ -184,7 +184,7 @@ void Listener::Proceed(PendingHandshake* pending) {
   pending->setSelectable(1, false);
 }
 
-// Called after the notifications of a round, as some of these may concern newcomers that go.
+// Called after the notifications of a round, as some may be for pending clients that are dropped.
 void Listener::Dismiss() {
   const Clock::time_point now = Clock::now();
   std::size_t surplus =

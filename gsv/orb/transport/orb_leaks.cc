@@ -1,13 +1,12 @@
-// Two functions of omniORB's by which 4.2.5 loses memory, defined anew. The linker is told to take
-// these (CMakeLists.txt), and the ORB's own calls come here too, as calls between shared objects
-// do.
+// Replaces two functions of omniORB 4.2.5 that leak memory. The linker uses these (CMakeLists.txt),
+// also for the ORB's own calls, as for all calls between shared objects.
 #include <dlfcn.h>
 
 #include "gsv/base/check.h"
 #include "gsv/orb/transport/omniorb_internals.h"
 
-// A text that ends with no null is not given back, so that a client takes all memory with some
-// hundred requests (_is_a takes such a text, from anybody and of any object).
+// Frees a text without a terminating null. Otherwise a client could use up all memory with some
+// hundred requests (_is_a takes such a text, from any client and for any object).
 char* cdrStream::unmarshalRawString() {
   const auto refuse = [this](CORBA::ULong minor) {
     throw CORBA::MARSHAL(minor, static_cast<CORBA::CompletionStatus>(completion()));
@@ -22,9 +21,9 @@ char* cdrStream::unmarshalRawString() {
   return text._retn();
 }
 
-// Takes over `ior`, but keeps it for ever where a profile of it does not decode; what is thrown
-// comes from there, before anything else holds it. Any reference among a request's arguments comes
-// here.
+// Takes ownership of `ior`. omniORB leaks it if a profile does not decode; the exception comes from
+// that decoding, before anything else owns `ior`. Every reference in a request's arguments is
+// created here.
 omniObjRef* omni::createObjRef(const char* target, omniIOR* ior, CORBA::Boolean locked,
                                omniIdentity* identity) {
   static const auto of_the_orb = reinterpret_cast<decltype(&omni::createObjRef)>(

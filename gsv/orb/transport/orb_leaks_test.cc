@@ -18,7 +18,7 @@ void PutOctets(cdrStream& stream, const std::string& octets) {
                          static_cast<int>(octets.size()));
 }
 
-// What is in use afterwards and was not before; leaks that AddressSanitizer finds itself.
+// The memory in use afterwards that was not in use before; AddressSanitizer finds leaks itself.
 template <typename Do>
 std::size_t BytesKeptBy(Do repeat) {
   repeat();
@@ -57,8 +57,8 @@ TEST(RawStrings, ThatAreNoneAreRefusedAsTheOrbDoes) {
   EXPECT_EQ(MinorOf(too_short), CORBA::ULong(omni::MARSHAL_PassEndOfMessage));
 }
 
-// omniORB 4.2.5 keeps all of it. (That the ORB's own calls come to us as well, HostileFloodTest
-// sees.)
+// omniORB 4.2.5 leaks all of it. (HostileFloodTest checks that the ORB's own calls use the
+// replacement.)
 TEST(RawStrings, WithoutNullKeepNoMemory) {
   EXPECT_LT(BytesKeptBy([] {
               cdrMemoryStream stream;
@@ -91,7 +91,7 @@ class ObjectReferences : public testing::Test {
 TEST_F(ObjectReferences, OfAProfileThatDoesNotDecodeKeepNoMemory) {
   EXPECT_LT(BytesKeptBy([] {
               cdrMemoryStream stream;
-              PutReference(stream, std::string(kLong.size(), '\2'));  // IIOP 2.2: there is none
+              PutReference(stream, std::string(kLong.size(), '\2'));  // IIOP 2.2 does not exist
               EXPECT_THROW(CORBA::Object::_unmarshalObjRef(stream), CORBA::MARSHAL);
             }),
             kFewBytes);

@@ -16,7 +16,7 @@ namespace {
 
 thread_local std::string last_failure;
 
-// What the peer says of our certificate, RFC 8446, 6.2.
+// Whether the alert of the peer is about our certificate, RFC 8446, 6.2.
 bool IsAboutCertificate(int alert) {
   switch (alert) {
     case SSL_AD_BAD_CERTIFICATE:
@@ -32,7 +32,7 @@ bool IsAboutCertificate(int alert) {
   }
 }
 
-// Of the error that OpenSSL has put in this thread's queue.
+// The reason of the error in OpenSSL's queue of this thread.
 std::string Reason(long verdict) {
   if (verdict == X509_V_ERR_CERT_HAS_EXPIRED) return "its certificate has expired";
   if (verdict != X509_V_OK) {
@@ -148,7 +148,7 @@ int TlsChannel::Receive(void* buffer, std::size_t size, const omni_time_t& deadl
   size = std::min<std::size_t>(size, INT_MAX);
   const int moved = Await(
       [&](std::size_t* count) { return SSL_read_ex(session_, buffer, size, count); }, deadline);
-  // With TLS 1.3 a client learns only here what the server thinks of its certificate.
+  // With TLS 1.3 a client learns only here whether the server accepts its certificate.
   if (moved < 0) last_failure = failure();
   return moved;
 }

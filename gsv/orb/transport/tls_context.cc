@@ -10,7 +10,7 @@
 namespace gsv::orb {
 
 base::Result<std::shared_ptr<const TlsContext>> TlsContext::Read(const CorbaCertificate& files) {
-  // First the one that somebody named; the others' names may follow from it.
+  // First the file that was named; the defaults of the others depend on it.
   if (auto good = tls::CheckKeyPair(files.certificate, files.key); !good) {
     return base::Fail(good.error());
   }

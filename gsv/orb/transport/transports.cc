@@ -64,20 +64,20 @@ class TlsTransport final : public omni::giopTransportImpl {
   const std::shared_ptr<const TlsContext> context_;
 };
 
-// omniORB takes the first transport of a name; its own must give the name up.
+// omniORB uses the first transport of a name; its own must release the name.
 void GiveUpName(const char* address, const char* name) {
   omni::giopTransportImpl* const plain = omni::giopTransportImpl::str2Transport(address);
   GSV_CHECK(plain != nullptr);
   plain->type = name;
 }
 
-// Transports for TLS that were ever used stay, as connections and references of their ORB may.
+// TLS transports are never destroyed, as connections and references of their ORB may use them.
 struct Installed {
   base::Mutex mutex;
   std::unique_ptr<TcpTransport> tcp GSV_GUARDED_BY(mutex);
   std::unique_ptr<LocalTransport> local GSV_GUARDED_BY(mutex);
-  std::vector<std::unique_ptr<TlsTransport>> tls GSV_GUARDED_BY(mutex);  // the last one is in use
-  std::optional<CorbaCertificate> certificate GSV_GUARDED_BY(mutex);     // of that one
+  std::vector<std::unique_ptr<TlsTransport>> tls GSV_GUARDED_BY(mutex);  // the last one is current
+  std::optional<CorbaCertificate> certificate GSV_GUARDED_BY(mutex);     // of the current one
 };
 Installed& InstalledTransports() {
   static auto& installed = *new Installed;  // an ORB may outlive statics

@@ -1,5 +1,4 @@
-// What an ORB of ours takes from those who call it, over a connection that knows nothing of CORBA.
-// Each test starts the process's one ORB.
+// Tests an ORB with raw connections. Each test starts the process's one ORB.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -29,7 +28,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// A factory whose calls stay as long as its door is closed.
+// A factory whose calls block until its door is opened.
 class Doorkeeper final : public POA_sba::AgentBehaviourFactory {
  public:
   sba::AgentBehaviour_ptr create() override {
@@ -99,7 +98,7 @@ class WholeTransportTest : public ::testing::Test {
     connections_.push_back(connection);
     return connection;
   }
-  // By the ORB's socket in the file system.
+  // Connects to the ORB's Unix domain socket.
   int ConnectLocally() {
     const int connection = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_un to{};
@@ -114,17 +113,17 @@ class WholeTransportTest : public ::testing::Test {
     while (sent < bytes.size()) {
       const ssize_t count =
           send(connection, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
-      if (count <= 0) return;  // hung up on
+      if (count <= 0) return;  // closed by the ORB
       sent += static_cast<std::size_t>(count);
     }
   }
-  // Until the ORB, in this process, has begun to read the last `size` bytes.
+  // Waits until the ORB, in this process, has begun to read the last `size` bytes.
   static void AwaitReading(int connection, int size) {
     sockaddr_in own{};
     socklen_t length = sizeof own;
     getsockname(connection, reinterpret_cast<sockaddr*>(&own), &length);
     for (int unread = size; unread >= size; std::this_thread::yield()) {
-      unread = 0;  // it may have hung up
+      unread = 0;  // the ORB may have closed it
       for (int each = 3; each < 200; ++each) {
         sockaddr_in peer{};
         length = sizeof peer;
@@ -134,7 +133,7 @@ class WholeTransportTest : public ::testing::Test {
       }
     }
   }
-  // The number of the request that is answered; nothing: the connection ends.
+  // The number of the answered request; nothing if the connection ends.
   static std::optional<std::uint32_t> Answer(int connection) {
     char header[12];
     if (recv(connection, header, 12, MSG_WAITALL) != 12) return std::nullopt;
@@ -148,7 +147,7 @@ class WholeTransportTest : public ::testing::Test {
     return number;
   }
 
-  // What follows the header of a call of create(), with `padding` bytes that mean nothing.
+  // The bytes after the header of a call of create(), with `padding` bytes without meaning.
   std::string Call(std::uint32_t number, std::size_t padding = 0) const {
     RawCdr body = RawCdr().ULong(number).Octet(3).Octet(0).Octet(0).Octet(0).ULong(0).Octets(key_);
     body.String("create").ULong(padding > 0 ? 1 : 0);
@@ -184,7 +183,7 @@ std::string WholeTransportTest::KeyOf(CORBA::Object_ptr object) {
   return {reinterpret_cast<const char*>(key.get_buffer()), key.length()};
 }
 
-// omniORB 4.2.5 by itself has two threads work on one call then, and dies.
+// omniORB 4.2.5 alone would use two threads for one call then, and crash.
 TEST_F(WholeTransportTest, AFragmentThatComesTwiceDuringItsCallHurtsNobody) {
   Start();
   for (int round = 0; round < 5; ++round) {
@@ -266,7 +265,7 @@ TEST_F(WholeTransportTest, AMessageIsTakenUpToItsLengthAndNotBeyond) {
   EXPECT_EQ(Answer(connection), 1u);
   Send(connection, RawMessage(MessageType::kRequest, Call(2, 10'001 - around)));
   EXPECT_EQ(Answer(connection), std::nullopt);
-  // In fragments it is no shorter.
+  // Fragments do not make it shorter.
   const int another = Connect();
   const std::string call = Call(3, 10'001 - around);
   Send(another, RawMessage(MessageType::kRequest, call.substr(0, 5000), true) +
@@ -282,7 +281,7 @@ TEST_F(WholeTransportTest, AMessageThatStopsHalfWayEndsItsConnection) {
   const int silent = Connect(), halting = Connect();
   Send(halting, RawMessage(MessageType::kRequest, Call(1)).substr(0, 30));
   EXPECT_EQ(Answer(halting), std::nullopt);
-  // Who says nothing between messages may.
+  // Clients may be silent between messages.
   Send(silent, RawMessage(MessageType::kRequest, Call(2)));
   EXPECT_EQ(Answer(silent), 2u);
 }
@@ -296,7 +295,7 @@ TEST_F(WholeTransportTest, SixteenCallsOfAConnectionAreServedAtOnceAndTheOthersW
   door_->AwaitInside(16);
   const int another = Connect();
   Send(another, RawMessage(MessageType::kRequest, Call(1)));
-  door_->AwaitInside(17);  // a connection of its own is not held up
+  door_->AwaitInside(17);  // a separate connection is not delayed
   door_->Open();
   for (int count = 0; count < 20; ++count) EXPECT_TRUE(Answer(connection));
   EXPECT_EQ(door_->most(), 17);
@@ -306,7 +305,7 @@ TEST_F(WholeTransportTest, ACallThatIsNotAnsweredEndsInItsTime) {
   OrbOptions options;
   options.call_timeout = 300ms;
   Start(options);
-  // Somebody who takes connections, and says nothing.
+  // A server that accepts connections, but sends nothing.
   const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   connections_.push_back(listener);
   sockaddr_in here{};
