@@ -8,8 +8,8 @@ namespace {
 
 using base::ErrorCode;
 
-// A reason may begin with the name that `where` has already, or with a part of it: then only the
-// reason is kept.
+// Avoids naming an object twice: removes `where` from the begin of the reason, or clears `where` if
+// the reason names a part of it.
 void NameOnce(base::Error& error) {
   if (error.where.empty() || !error.message.starts_with(error.where)) return;
   const std::string rest = error.message.substr(error.where.size());
