@@ -1,4 +1,4 @@
-// A program of its own: EGL looks for its drivers once a process.
+// A separate program, as EGL searches for its drivers once per process.
 #include <cstdlib>
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What pictures show, against what geometry says they must.
+// Compares images with geometry.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ TEST_F(PICTURE_SUITE, HasTheSizeThatWasAskedFor) {
 TEST_F(PICTURE_SUITE, OfNothingIsTheBackground) {
   scene_.description().scene.background = {0.25, 0.5, 0.75, 1};
   const auto picture = Take({{}, {64, 48, 1, 0.1, 100}});
-  // At the horizon, up to the haze that lightens it.
+  // At the horizon, except for the haze that brightens it.
   const std::uint8_t* p = &picture->pixels[(24 * 64 + 32) * 3];
   EXPECT_NEAR(p[0], 0.25 * 255, 45);
   EXPECT_NEAR(p[1], 0.5 * 255, 30);
@@ -76,7 +76,7 @@ TEST_F(PICTURE_SUITE, APointFallsWhereThePinholeCameraSays) {
   const double f = 160 / std::tan(1.047 / 2);
   for (const Vector3& p :
        {Vector3{3, 0, 0}, Vector3{4, 1.2, 0.8}, Vector3{6, -2.5, -1.5}, Vector3{2, 0.5, -0.6}}) {
-    // A radius of three pixels: its picture's centre is off by less than 0.01 pixels.
+    // A radius of three pixels: the centre of its image is off by less than 0.01 pixels.
     scene_.Add("ball", geometry::Sphere{3 * p.x / f}, {view.world_from_camera * p, {}},
                Glowing(1, 0, 0));
     const Blob ball = FindBlob(*Take(view), 0, 10);
@@ -160,8 +160,8 @@ TEST_F(PICTURE_SUITE, ACutOutTextureShowsWhatIsBehindItsHoles) {
   material.alpha_mask = true;
   scene_.Add("board", Box{{0.1, 1, 1}}, {{2, 0, 0}, {}}, material);
   scene_.Add("lamp", Box{{0.1, 4, 4}}, {{4, 0, 0}, {}}, Glowing(0, 0, 1));
-  // The hole is the lower right quarter: the front's is seen through, and the back's behind the
-  // front's other quarters is not.
+  // The hole is the lower right quarter. The front's is transparent, and the back's behind the
+  // front's other quarters is not visible.
   const auto picture = Take({{}, {160, 120, 0.5, 0.1, 100}});
   const std::uint8_t* hole = &picture->pixels[(75 * 160 + 95) * 3];
   EXPECT_GT(hole[2], 150);
@@ -191,7 +191,7 @@ TEST_F(PICTURE_SUITE, OfAMirroredMeshShowsItsOutside) {
   EXPECT_GT(FindBlob(*plain, 0).pixels, 1000);
 }
 
-// The ground seen from 10 m above, 90° over 100 pixels: 0.2 m a pixel, world x up in the picture.
+// The ground from 10 m above, 90° over 100 pixels: 0.2 m per pixel, with world x up in the image.
 CameraView FromAbove() {
   return {{{0, 0, 10}, geometry::FromAxisAngle({0, 1, 0}, kPi / 2)}, {100, 100, kPi / 2, 0.1, 100}};
 }
@@ -203,7 +203,7 @@ TEST_F(PICTURE_SUITE, AThingCastsItsShadowAwayFromTheSun) {
   scene_.Add("floor", Box{{20, 20, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.7, 0.7, 0.7), true);
   scene_.Add("slab", Box{{2, 2, 0.1}}, {{3, 0, 3}, {}}, Matt(0.7, 0.7, 0.7));
   const auto picture = Take(FromAbove());
-  // The slab at height 3 shades x from -1 to 1, which is the middle of the picture.
+  // The slab at height 3 shades x from -1 to 1, which is the centre of the image.
   const int shade = Brightness(*picture, 50, 50);
   const int light = Brightness(*picture, 50, 85);
   EXPECT_LT(shade, light - 40);
@@ -220,7 +220,7 @@ TEST_F(PICTURE_SUITE, TheShadowOfWhatMovedIsGoneFromWhereItWas) {
   const auto first = std::make_shared<world::Snapshot>(*scene_.Snapshot());
   const auto second = std::make_shared<world::Snapshot>(*first);
   second->state.bodies[first->layout->Find("robot")].world_from_model.position.y = -4;
-  // Seen from the side and from low, so that the shadow is not hidden.
+  // Viewed from the side and from low, so that the shadow is not hidden.
   const CameraView view{{{-9, 0, 4}, geometry::FromRollPitchYaw({0, 0.4, 0})},
                         {160, 120, 1.3, 0.1, 50}};
   const auto before = renderer_->Draw(first, view, std::chrono::seconds(30));
@@ -288,7 +288,7 @@ TEST_F(PICTURE_SUITE, ALampLightsWhatIsWithinItsRange) {
   const Blob lit = FindBlob(*picture, 0, 20);
   EXPECT_NEAR(lit.u, 50, 1);
   EXPECT_NEAR(lit.v, 50, 1);
-  // No farther than its range, 3 m or 15 pixels: a disc of at most pi 15².
+  // At most its range, 3 m or 15 pixels: a disc of at most pi 15².
   EXPECT_GT(lit.pixels, 50);
   EXPECT_LT(lit.pixels, 710);
 }
@@ -311,7 +311,7 @@ TEST_F(PICTURE_SUITE, ASpotLightsItsConeOnly) {
 TEST_F(PICTURE_SUITE, TheGroundReachesTheHorizon) {
   scene_.Add("ground", geometry::Plane{{0, 0, 1}, {20, 20}}, {}, Glowing(1, 0, 0), true);
   const auto picture = Take({{{0, 0, 1}, {}}, {160, 120, 1, 0.1, 100}});
-  // It ends 100 m away, where 1 m below the eye is f / 100 = 1.46 pixels below the middle.
+  // It ends 100 m away, where 1 m below the camera is f / 100 = 1.46 pixels below the centre.
   EXPECT_NEAR(FindBlob(*picture, 0).pixels / 160.0, 60 - 1.46, 0.6);
 }
 
@@ -331,7 +331,7 @@ TEST_F(PICTURE_SUITE, EqualRequestsGiveEqualBytesWhateverElseIsInTheBatch) {
   EXPECT_NE((*batch)[0]->pixels, (*batch)[1]->pixels);
 }
 
-// A camera sees the shadows of things that move, whatever cameras were drawn with it.
+// The shadows of moving objects do not depend on the other cameras in the batch.
 TEST_F(PICTURE_SUITE, ShadowsOfWhatMovesDoNotDependOnTheBatchOrItsOrder) {
   model::Light sun;
   sun.direction = geometry::Normalized(Vector3{-1, 0.3, -0.5});
@@ -367,7 +367,7 @@ TEST_F(PICTURE_SUITE, ShadowsOfWhatMovesDoNotDependOnTheBatchOrItsOrder) {
   }
 }
 
-// A robot before a grey wall, its lamp between the two and in the picture's middle.
+// A robot in front of a grey wall, with its lamp between them, in the centre of the image.
 void BeforeAWall(TestScene& scene) {
   scene.description().scene.shadows = false;
   model::Light moon;
@@ -404,7 +404,7 @@ std::shared_ptr<const model::Image> TakeWith(Renderer& renderer, TestScene& scen
   return picture ? *picture : std::make_shared<const model::Image>();
 }
 
-// Of the wall, in the middle row.
+// The red of the wall, in the middle row.
 int RedAt(const model::Image& picture, int x) {
   return picture.pixels[static_cast<std::size_t>(3 * (60 * 160 + x))];
 }

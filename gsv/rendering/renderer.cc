@@ -19,9 +19,9 @@ using base::Fail;
 using base::Result;
 using Pictures = std::vector<std::shared_ptr<const model::Image>>;
 
-// Pictures drawn before other snapshots get their turn.
+// Images of a batch, before other snapshots get their turn.
 constexpr std::size_t kMaxBatchSize = 64;
-// How long what nobody uses may stay on the card while no picture is asked for.
+// Time after which unused data is removed from the card while no image is requested.
 constexpr std::chrono::seconds kIdleSweep{5};
 
 using Truths = std::vector<std::shared_ptr<const GroundTruth>>;
@@ -29,10 +29,10 @@ using Truths = std::vector<std::shared_ptr<const GroundTruth>>;
 struct Request {
   std::shared_ptr<const world::Snapshot> snapshot;
   std::vector<CameraView> views;
-  bool is_survey = false;  // `truths` is asked for, else `pictures`
+  bool is_survey = false;  // `truths` is requested, else `pictures`
   std::promise<Result<Pictures>> pictures;
   std::promise<Result<Truths>> truths;
-  bool abandoned = false;  // nobody waits any more
+  bool abandoned = false;  // the caller no longer waits
 
   void Fail(const base::Error& error) {
     if (is_survey) {
@@ -168,7 +168,7 @@ class Renderer::RenderThread {
     }
   }
 
-  // Those that wait for the same snapshot as the one that has waited longest.
+  // The requests for the same snapshot as the one that has waited longest.
   Batch TakeBatch() GSV_REQUIRES(mutex_) {
     std::erase_if(queue_, [](const auto& request) { return request->abandoned; });
     Batch batch;
@@ -206,13 +206,14 @@ class Renderer::RenderThread {
     return views;
   }
 
-  // Shares out what was made of the requests' views, one after the other.
+  // Distributes the results for the requests' views, in order.
   template <typename Product>
   static void Serve(std::span<const std::shared_ptr<Request>> requests, Result<Product> made,
                     std::promise<Result<Product>> Request::*promise) {
     std::size_t first = 0;
     for (const auto& request : requests) {
-      // What a request keeps alive goes before its caller continues: he may count what is left.
+      // Releases the request's data before its caller continues, which may count the remaining
+      // copies.
       request->snapshot.reset();
       const std::size_t count = request->views.size();
       if (made) {

@@ -97,7 +97,7 @@ TEST(Renderer, ServesManyThreadsAtOnce) {
     asked.push_back(std::async(std::launch::async, [&, thread] {
       bool good = true;
       for (int i = 0; i < 4; ++i) {
-        // Turned a little to the left or right, so that only one of the boxes is seen.
+        // Rotated slightly to the left or right, so that only one of the boxes is visible.
         const bool left = (thread + i) % 2 == 0;
         const CameraView view{geometry::PlanarPose(0, 0, 0, left ? 0.6 : -0.6),
                               {40 + thread % 2, 30, 0.9, 0.1, 10}};

@@ -1,8 +1,8 @@
-// How fast pictures are: run in a release build.
+// Measures the speed of rendering: run it in a release build.
 //
 // A hundred robots in a building of 20 by 20 m with 25 rooms, a table in each, a sun and four
-// lamps. Some robots' cameras of 320 by 240 pixels look at one instant, then all robots move on,
-// and so forth. A time is that of one instant: shadows, pictures and their way back.
+// lamps. The cameras of some robots, with 320 by 240 pixels, look at one instant; then all robots
+// move, and so on. A time is that of one instant: shadows, images and their readback.
 
 #include <benchmark/benchmark.h>
 
@@ -27,7 +27,7 @@ constexpr int kRooms = 5;                                // along a side
 constexpr double kRoom = 4, kHalf = kRooms * kRoom / 2;  // m
 constexpr double kStep = 0.05;                           // s
 
-// Checked, so that textures are as dear as in worlds that people make.
+// A chequered texture, so that textures cost as much as in realistic worlds.
 std::shared_ptr<const model::Image> Tiles() {
   auto image = std::make_shared<model::Image>();
   image->width = image->height = 256;
@@ -62,7 +62,7 @@ class Office {
 
   std::shared_ptr<const world::Snapshot> snapshot() const { return snapshot_; }
 
-  // Each robot drives on at 0.5 m/s along a circle.
+  // Each robot drives at 0.5 m/s along a circle.
   void Move() {
     auto moved = std::make_shared<world::Snapshot>(*snapshot_);
     ++moved->state.step;
@@ -131,15 +131,15 @@ class Office {
   std::vector<int> robots_;
 };
 
-// Of all threads, in seconds.
+// The processor time of all threads, in seconds.
 double ProcessorTime() {
   timespec now;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// Besides the mean it tells the least processor time of an instant, for machines that do other
-// things as well.
+// Reports the mean, and the minimum processor time of an instant, for machines that also do other
+// work.
 void Pictures(benchmark::State& bench) {
   const int cameras = static_cast<int>(bench.range(0));
   RendererOptions options;
@@ -156,7 +156,7 @@ void Pictures(benchmark::State& bench) {
     const auto pictures = (*renderer)->Draw(office.snapshot(), views, std::chrono::minutes(1));
     GSV_CHECK(pictures.has_value());
   };
-  // All that is done once for a world.
+  // Everything that is done once per world.
   for (int i = 0; i < 3; ++i) draw();
   double least = 1e9;
   for (auto _ : bench) {

@@ -9,7 +9,7 @@
 namespace gsv::rendering {
 namespace {
 
-// Of the picture's width.
+// As a fraction of the image's width.
 constexpr double kSamePlace = 1e-9;
 
 bool IsAboutThePrincipalPoint(const Lens& lens) {

@@ -15,7 +15,7 @@ using base::Fail;
 using base::Result;
 
 constexpr int kJpegQuality = 80;
-constexpr std::size_t kSharedBytes = 64 << 20;  // some 290 pictures of 320 by 240
+constexpr std::size_t kSharedBytes = 64 << 20;  // about 290 images of 320 by 240
 
 class Camera final : public CameraOf<readings::Camera, messages::sensor_msgs::CompressedImage> {
  public:
@@ -46,7 +46,7 @@ class Camera final : public CameraOf<readings::Camera, messages::sensor_msgs::Co
   }
 
  private:
-  // A reading without a picture becomes a message without data.
+  // A reading without an image becomes a message without data.
   Message ToMessage(const Values&, const sensing::Reading& reading,
                     const std::string&) const override {
     Message message;
@@ -69,7 +69,7 @@ base::Status AddCameraSensor(sensing::SensorRegistry& registry,
       registry.Add(MakeCameraType<Camera>(readings::Camera::kType, {}, sensing::Overlay::kPicture,
                                           shared, renderer, std::string("gnomonical")));
   if (!added) return added;
-  // The lens of a wide-angle camera is what SDFormat says it is without a <lens>.
+  // The default lens of a wide-angle camera is that of SDFormat.
   return registry.Add(MakeCameraType<Camera>(
       readings::Camera::kWideAngleType, {"wideanglecamera", "wide_angle_camera"},
       sensing::Overlay::kPicture, shared, renderer, std::string("stereographic")));

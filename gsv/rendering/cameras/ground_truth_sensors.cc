@@ -27,8 +27,8 @@ using sensing::Segment;
 constexpr std::size_t kSharedSurveyBytes = 64 << 20;
 constexpr std::size_t kMaxDrawnPoints = 2000;  // points of a cloud in the viewer
 
-// For one metre along the view; nothing where the lens shows nothing, or what lies straight beside
-// the camera.
+// The point at one metre along the view; nothing if the lens shows nothing there, or if it is
+// directly beside the camera.
 std::optional<Vector3> OneMetreOn(const std::optional<Vector3>& ray) {
   if (!ray || std::abs(ray->x) < 1e-6) return std::nullopt;
   return (1 / ray->x) * *ray;
@@ -224,7 +224,7 @@ class BoundingBoxCamera final
   }
 };
 
-// The temperature of each visual of a body, in the order in which surveys number them.
+// The temperature of each visual of a body, in the order of their numbers in surveys.
 std::vector<double> TemperaturesOf(const world::Body& body, double of_air) {
   std::vector<double> temperatures;
   for (const model::Link& link : body.model->links) {
@@ -250,7 +250,7 @@ class ThermalCamera final
   Reading Read(const sensing::Sampling& sampling, const GroundTruth& truth) const override {
     const world::Layout& layout = *sampling.snapshot()->layout;
     const double of_air = layout.description->temperature;
-    std::map<std::int32_t, std::vector<double>> known;  // by body, of those that are seen
+    std::map<std::int32_t, std::vector<double>> known;  // by body, for visible bodies
     const sensing::NoisyReading noisy(sampling, description());
     std::vector<double> temperature(truth.body.size(), Stepped(of_air));
     for (std::size_t i = 0; i < temperature.size(); ++i) {
@@ -269,7 +269,7 @@ class ThermalCamera final
     return reading;
   }
 
-  // As ROS's image_transport writes mono16.
+  // The same format as mono16 of ROS's image_transport.
   Message ToMessage(const Values& image, const Reading&, const std::string&) const override {
     std::vector<std::uint16_t> steps;
     steps.reserve(image.temperature.size());
@@ -282,7 +282,7 @@ class ThermalCamera final
     return message;
   }
 
-  // What drops out reads as nothing, 0 K.
+  // A dropped pixel reads 0 K.
   double StepsOf(double kelvin) const {
     return std::isfinite(kelvin) ? std::clamp(std::round(kelvin / resolution_), 0.0, kMaxSteps) : 0;
   }
@@ -293,9 +293,10 @@ class ThermalCamera final
 };
 
 // Normals of the surfaces in a depth image. A tangent is the difference between a pixel's point and
-// an adjacent one of the same visual. Of two adjacent pixels, the one whose side of the pixel is
-// closer to a plane is taken, so that a normal near an edge belongs to the pixel's own face. Along a
-// line in the image of a plane the inverse depth is linear: its second difference measures this.
+// an adjacent one of the same visual. Of the two adjacent pixels, that on the side closer to a
+// plane is used, so that a normal near an edge belongs to the pixel's own face. In the image of a
+// plane, the inverse depth is linear along a line: its second difference measures the distance from
+// a plane.
 class SurfaceNormals {
  public:
   SurfaceNormals(const GroundTruth& truth, const Optics& optics) : truth_(truth) {
@@ -307,7 +308,7 @@ class SurfaceNormals {
     }
   }
 
-  // Towards the camera; nothing where it is unknown.
+  // Towards the camera; nothing if it is unknown.
   std::optional<Vector3> At(int x, int y) const {
     if (!points_[Index(x, y)]) return std::nullopt;
     const auto across = Tangent(x, y, 1, 0), down = Tangent(x, y, 0, 1);
@@ -331,7 +332,7 @@ class SurfaceNormals {
            truth_.visual[other] == truth_.visual[pixel];
   }
 
-  // How far three pixels from (x, y) on are from lying on a plane; infinite where one is missing.
+  // The distance of three pixels, from (x, y) on, from a plane; infinite if one is missing.
   double Bend(int x, int y, int dx, int dy) const {
     const std::size_t pixel = Index(x, y);
     if (!IsOfVisualAt(pixel, x + 2 * dx, y + 2 * dy)) {
@@ -353,7 +354,7 @@ class SurfaceNormals {
   }
 
   const GroundTruth& truth_;
-  std::vector<std::optional<Vector3>> points_;  // in the sensor frame; nothing: nothing is hit
+  std::vector<std::optional<Vector3>> points_;  // in the sensor frame; nothing if no surface is hit
 };
 
 class NormalsCamera final

@@ -80,7 +80,7 @@ class SurveyTest : public ::testing::Test {
     if (renderer_) {
       EXPECT_TRUE(AddGroundTruthSensors(registry_, renderer_));
     }
-    // To see and to touch, so that rays can be cast.
+    // With collisions, so that rays can be cast.
     Add("robot", geometry::Box{{0.4, 0.4, 0.4}}, PlanarPose(0, 0, 1, 0));
   }
 
@@ -92,7 +92,7 @@ class SurveyTest : public ::testing::Test {
 };
 
 TEST_F(SurveyTest, DepthOfAPlaneIsThatOfItsEquation) {
-  // A wall whose face passes through (4, 0, 1) and is turned by 0.5 rad.
+  // A wall whose face passes through (4, 0, 1) with a yaw of 0.5 rad.
   const double turn = 0.5;
   const Vector3 normal{-std::cos(turn), -std::sin(turn), 0};
   const Vector3 on_face{4, 0, 1};
@@ -180,7 +180,7 @@ TEST_F(SurveyTest, SegmentationNamesWhatRaysHit) {
       differing += reading.values[2 + y * kSurveyWidth + x] != expected;
     }
   }
-  // The ball is drawn of triangles: at its rim a pixel may miss them.
+  // The ball consists of triangles: at its rim a pixel may miss them.
   EXPECT_WITHIN(differing, 0, 6, "of 3,072 pixels");
 }
 
@@ -207,14 +207,14 @@ TEST_F(SurveyTest, TheColoursOfASegmentationTellItsLabels) {
 }
 
 TEST_F(SurveyTest, ABoundingBoxHoldsWhatIsSeen) {
-  // A box of 1 m whose near face is 3 m from the camera: its edges lie at ± 0.5 / 3 of the focal
-  // length about the middle, shifted by 1/3 to the right.
+  // A box of 1 m whose near face is 3 m from the camera: its edges are at ± 0.5 / 3 of the focal
+  // length about the centre, shifted by 1/3 to the right.
   Add("box", geometry::Box{{1, 1, 1}}, PlanarPose(3.8, -1, 1, 0));
   const auto description = Description("boundingbox_camera");
   const Reading reading = Sample(description);
   EXPECT_EQ(*reading.labels, std::vector<std::string>{"box"});
   ASSERT_EQ(reading.values.size(), 4u);
-  // Its left side is seen as well, which reaches back to 4 m.
+  // Its left side, which reaches back to 4 m, is visible as well.
   EXPECT_WITHIN(reading.values[0], kSurveyWidth / 2.0 + kFocal * 0.5 / 4, 1, "pixel");
   EXPECT_WITHIN(reading.values[1], kSurveyHeight / 2.0 - kFocal * 0.5 / 3, 1, "pixel");
   EXPECT_WITHIN(reading.values[2], kSurveyWidth / 2.0 + kFocal * 1.5 / 3, 1, "pixel");
@@ -257,8 +257,8 @@ INSTANTIATE_TEST_SUITE_P(BackEnds, ThermalCameraTest,
                            return test.param == BackEnd::kOpenGl ? "OpenGl" : "Rasteriser";
                          });
 
-// A body whose face, 2 m wide and 1 m high, stands 4 m before the camera; beside it, to the left,
-// another of its visuals with a face of 1 m by 1 m, and on the right one without a temperature.
+// A body with a face of 2 m by 1 m, 4 m in front of the camera. To the left is another of its
+// visuals with a face of 1 m by 1 m, and to the right one without a temperature.
 TEST_P(ThermalCameraTest, ShowsEachVisualsTemperatureWithinItsOutlineAndTheAirsOutside) {
   Add("oven", geometry::Box{{1, 2, 1}}, {{4.8, 0, 1}, {}});
   std::vector<model::Visual>& visuals = scene_.LinkOf("oven").visuals;
@@ -317,7 +317,7 @@ TEST_P(ThermalCameraTest, TakesItsResolutionAndTheAirFromTheWorld) {
 
 class NormalsCameraTest : public SurveyTest {
  protected:
-  // NaN where the camera does not know.
+  // NaN if the camera does not know it.
   Vector3 NormalAt(const Reading& reading, int x, int y) {
     const auto image = sensing::ValuesOf<readings::NormalImage>(reading, "eye");
     EXPECT_TRUE(image) << image.error().Sentence();
@@ -340,7 +340,7 @@ TEST_F(NormalsCameraTest, ShowsAPlanesNormalAtEveryPixel) {
 }
 
 TEST_F(NormalsCameraTest, KeepsTheFacesBesideAnEdgeApart) {
-  // A box that turns an edge towards the camera: of its faces two are visible.
+  // A box with an edge towards the camera: two of its faces are visible.
   Add("box", geometry::Box{{2, 2, 40}}, {{4, 0, 1}, geometry::FromRollPitchYaw({0, 0, M_PI / 4})});
   const Reading reading = Sample(Description("normals_camera"));
   const double half = std::sqrt(0.5);

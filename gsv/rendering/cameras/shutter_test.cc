@@ -1,4 +1,4 @@
-// Motion blur and rolling shutter of things that move at known speeds.
+// Motion blur and rolling shutter for objects that move at known speeds.
 #include "gsv/rendering/cameras/shutter.h"
 
 #include <cmath>
@@ -65,7 +65,7 @@ class ShutterTest : public testing::Test {
   double turning_ = 0;  // of the robot, rad/s
 };
 
-// Columns from the first to the last that is red in a row.
+// The columns from the first to the last red one in a row.
 struct RedColumns {
   int first = -1, last = -1;
   double middle() const { return 0.5 * (first + last + 1); }
@@ -93,15 +93,15 @@ TEST_F(ShutterTest, WhatMovesIsBlurredAlongItsWay) {
   const RedColumns still = RedIn(Taken({}), kHeight / 2);
   const RedColumns moved =
       RedIn(Taken({{"exposure_time", 0.1}, {"shutter_samples", 32.0}}), kHeight / 2);
-  // In 0.1 s it goes 0.2 m; it came from the right, and is now where it is. The samples are in the
-  // middle of 32 parts.
+  // In 0.1 s it moves by 0.2 m. It came from the right, and is now at its place. The samples are in
+  // the centres of 32 parts.
   const double way = Focal() * 2 * 0.1 / kDistance;
   EXPECT_WITHIN(moved.width() - still.width(), way * 31 / 32, 1.5, "pixel");
   EXPECT_WITHIN(moved.last - still.last, way * 63 / 64, 1.5, "pixel");
   EXPECT_WITHIN(moved.first, still.first, 1.5, "pixel");
 }
 
-// While it is open the light of the thing passes a column for a part of the time.
+// During the exposure, the object's light reaches a column for a part of the time.
 TEST_F(ShutterTest, LightIsSharedOutOverTheWay) {
   AddThing(geometry::Box{{0.01, 0.2, 0.2}}, {0, 2, 0});
   const model::Image blurred = Taken({{"exposure_time", 0.4}, {"shutter_samples", 64.0}});
@@ -109,7 +109,7 @@ TEST_F(ShutterTest, LightIsSharedOutOverTheWay) {
   const auto light_at = [](const model::Image& picture, int column) {
     return LightOf(picture.pixels[3 * (static_cast<std::size_t>(kHeight / 2) * kWidth + column)]);
   };
-  // 0.2 m of 0.8 m: a quarter of the thing's light, else the background's.
+  // 0.2 m of 0.8 m: a quarter of the object's light, else the background's.
   const int column = kWidth / 2 + static_cast<int>(Focal() * 0.4 / kDistance);
   const float expected = 0.25f * light_at(still, kWidth / 2) + 0.75f * light_at(still, column);
   EXPECT_WITHIN(100 * light_at(blurred, column), 100 * expected, 2, "% of white");
@@ -123,7 +123,7 @@ TEST_F(ShutterTest, ATurningCameraBlursWhatStands) {
       RedIn(Taken({{"exposure_time", 0.1}, {"shutter_samples", 32.0}}), kHeight / 2);
   turning_ = 0;
   const RedColumns still = RedIn(Taken({}), kHeight / 2);
-  // It looked 0.1 rad to the right of where it looks now: the thing was to the left.
+  // Before, it looked 0.1 rad to the right of its current view: the object was to the left.
   EXPECT_WITHIN(still.first - turned.first, Focal() * std::tan(0.1 * 63 / 64), 2, "pixel");
   EXPECT_WITHIN(turned.last, still.last, 1.5, "pixel");
 }

@@ -58,7 +58,7 @@ TEST(ClipFromRelative, DepthGoesFromOneAtTheNearPlaneToZeroAtTheFarOne) {
 }
 
 TEST(Frustum, HoldsWhatTheCameraSees) {
-  // A right angle wide, and as high: the sides are the planes |y| = x and |z| = x.
+  // The view is a right angle wide and high: the sides are the planes |y| = x and |z| = x.
   const CameraView view{{{0, 0, 10}, geometry::FromAxisAngle({0, 0, 1}, std::numbers::pi / 2)},
                         {100, 100, std::numbers::pi / 2, 1, 20}};
   const Frustum frustum = FrustumOf(view);

@@ -9,7 +9,7 @@ namespace {
 using geometry::Vector2;
 using geometry::Vector3;
 
-// Newton's method stops at such a step, at a distance of 1; pictures have 4,096 pixels at most.
+// Newton's method stops at such a step, at a distance of 1; images have at most 4,096 pixels.
 constexpr double kCloseEnough = 1e-12;
 constexpr int kMaxSteps = 50;
 
@@ -25,7 +25,7 @@ double Apply(WideView::Function function, double angle) {
   return angle;
 }
 
-// NaN where there is none.
+// NaN if there is none.
 double Invert(WideView::Function function, double value) {
   switch (function) {
     case WideView::Function::kSine:
@@ -110,7 +110,7 @@ Vector2 Lens::Distorted(const Vector2& p) const {
 std::optional<Vector2> Lens::Undistorted(const Vector2& p) const {
   if (distortion_.is_none()) return p;
   const Distortion& d = distortion_;
-  // From the centre outwards, so that it is the innermost solution which is found.
+  // It starts at the centre, so that it finds the innermost solution.
   Vector2 at = centre_;
   const Vector2 whole = p - centre_;
   constexpr int kStations = 4;
@@ -125,7 +125,7 @@ std::optional<Vector2> Lens::Undistorted(const Vector2& p) const {
       const double xy = x * y * slope + 2 * d.p1 * x + 2 * d.p2 * y;
       const double yy = radial + y * y * slope + 6 * d.p1 * y + 2 * d.p2 * x;
       const double determinant = xx * yy - xy * xy;
-      // Where this is not positive the picture folds back on itself.
+      // If this is not positive, the image folds back on itself.
       if (!(determinant > 1e-9 && xx + yy > 0)) return std::nullopt;
       const Vector2 off = goal - Distorted(at);
       const Vector2 move{(yy * off.x - xy * off.y) / determinant,
@@ -169,7 +169,7 @@ std::optional<Vector2> Lens::Project(const Vector3& point) const {
   const Vector2 p{-point.y / point.x, -point.z / point.x};
   const Vector2 at = Distorted(p);
   if (!distortion_.is_none()) {
-    // What the picture folds back over itself is not shown.
+    // The folded part of the image is not shown.
     const auto back = Undistorted(at);
     if (!back || std::hypot(back->x - p.x, back->y - p.y) > 1e-6) return std::nullopt;
   }

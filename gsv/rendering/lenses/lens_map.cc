@@ -16,7 +16,7 @@ using geometry::Vector3;
 // One pinhole image covers directions up to this angle from the view, as a tangent: 72 degrees.
 constexpr double kMaxFaceAngle = 3;
 constexpr double kMaxMagnification = 4;
-// Pixels around what is looked up, so that there is something to mix with on all sides.
+// Pixels around the looked-up place, so that there are neighbours to mix on all sides.
 constexpr double kMargin = 2;
 
 using Rays = std::vector<std::optional<Vector3>>;
@@ -41,9 +41,9 @@ double DensityAt(const Lens& lens, double u, double v) {
   return most;
 }
 
-// As many as it has anywhere, but not many times as many as in the middle.
+// The maximum density, but not many times that of the centre.
 double DensityOf(const Lens& lens) {
-  constexpr int kPlaces = 16;  // looked at along each side
+  constexpr int kPlaces = 16;  // samples along each side
   const double middle = DensityAt(lens, 0.5 * lens.width(), 0.5 * lens.height());
   double most = middle;
   for (int i = 0; i <= kPlaces; ++i) {
@@ -58,7 +58,7 @@ double DensityOf(const Lens& lens) {
 
 double FovOf(double tangent) { return 2 * std::atan(tangent); }
 
-// A square or wide face that shows `right` and `up`, as tangents, to all sides.
+// A square or wide face that covers `right` and `up`, as tangents, on all sides.
 CameraParameters FaceOf(const CameraParameters& camera, double density, double right, double up) {
   CameraParameters face = camera;
   const double most = 0.5 * kMaxImageSide - kMargin;
@@ -83,7 +83,7 @@ constexpr int kMaxMixedSamples = 4;  // places along a side of a pixel
 
 using Light = std::array<float, 3>;  // 0 to 255
 
-// Mixed from the four pixels whose centres are about the place.
+// A mix of the four pixels whose centres surround the place.
 Light LightAt(const model::Image& from, float u, float v) {
   const float x = std::clamp(u - 0.5f, 0.0f, static_cast<float>(from.width - 1));
   const float y = std::clamp(v - 0.5f, 0.0f, static_cast<float>(from.height - 1));
@@ -146,7 +146,7 @@ LensMap::LensMap(const Lens& lens, const CameraParameters& camera)
       const double f = FocalLength(face.camera);
       source.u = static_cast<float>(0.5 * face.camera.width - f * in_face.y / in_face.x);
       source.v = static_cast<float>(0.5 * face.camera.height - f * in_face.z / in_face.x);
-      // Of the pixel that is nearest: what it shows lies on its own ray, not on this one.
+      // For the nearest pixel: its content is on its own ray, not on this one.
       const Vector3 nearest{1, -(std::floor(source.u) + 0.5 - 0.5 * face.camera.width) / f,
                             -(std::floor(source.v) + 0.5 - 0.5 * face.camera.height) / f};
       source.depth_scale = static_cast<float>((face.camera_from_face * nearest).x);
@@ -193,7 +193,7 @@ model::Image LensMap::Join(std::span<const std::shared_ptr<const model::Image>> 
     Light light{};
     if (source.face >= 0) {
       const model::Image& from = *images[static_cast<std::size_t>(source.face)];
-      // As many places as the pixel covers, so that none of what it shows is passed over.
+      // As many samples as the pixel covers, so that nothing is missed.
       const int side = std::clamp(static_cast<int>(std::lround(source.reach)), 1, kMaxMixedSamples);
       for (int i = 0; i < side * side; ++i) {
         const auto off = [&](int k) {
@@ -227,7 +227,7 @@ GroundTruth LensMap::Join(std::span<const std::shared_ptr<const GroundTruth>> tr
     const int y = std::clamp(static_cast<int>(source.v), 0, from.height - 1);
     const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(from.width) +
                            static_cast<std::size_t>(x);
-    // Nothing is nothing behind the camera, too.
+    // Background is also background behind the camera.
     const bool is_something = std::isfinite(from.depth[at]);
     joined.depth.push_back(is_something ? from.depth[at] * source.depth_scale : from.depth[at]);
     joined.body.push_back(from.body[at]);

@@ -1,4 +1,4 @@
-// Where things are in pictures through a lens, against its equations.
+// Compares the places of objects in images through a lens with its equations.
 #include "gsv/rendering/lenses/lens_map.h"
 
 #include <algorithm>
@@ -76,7 +76,7 @@ class LensPicture : public testing::TestWithParam<LensCase> {
   base::Result<std::shared_ptr<Renderer>> renderer_ = Renderer::Start();
 };
 
-// The middle of what a ball covers, by rays about its rim: that is not where its centre is.
+// The centre of the image of a ball, by rays to its rim: it differs from the image of its centre.
 Vector2 MiddleOfBall(const Lens& lens, const Vector3& centre, double radius) {
   const double sine = radius / Norm(centre);
   const Vector3 along = Normalized(centre);
@@ -101,9 +101,9 @@ Vector2 MiddleOfBall(const Lens& lens, const Vector3& centre, double radius) {
   return {u / (3 * area), v / (3 * area)};
 }
 
-// The middle of what a glowing red thing covers: each pixel counts by the part of it that the thing
-// has, of the light of the thing and that of the picture without it (haze makes it brighter towards
-// the horizon).
+// The centre of the image of a glowing red object. Each pixel is weighted by the fraction that the
+// object covers, from the light of the object and that of the image without it (haze is brighter
+// towards the horizon).
 Blob Covered(const model::Image& picture, const model::Image& without) {
   const float full = LightOf(*std::max_element(picture.pixels.begin(), picture.pixels.end()));
   Blob blob;
@@ -123,7 +123,7 @@ Blob Covered(const model::Image& picture, const model::Image& without) {
   return blob;
 }
 
-// Edges are drawn to the pixel: several balls of different sizes tell where their middle is.
+// Edges are rendered to the pixel: several balls of different sizes give the centre.
 TEST_P(LensPicture, ShowsThingsWhereTheEquationsSay) {
   const Optics optics = Read();
   const auto is_inside = [](const Vector2& at) {
@@ -226,7 +226,7 @@ TEST(Optics, RefusesAPictureThroughALensThatIsTooLarge) {
   (void)Optics::Read(too_large);
   ASSERT_FALSE(too_large.status());
   EXPECT_NE(too_large.status().error().message.find("4096 by 1025"), std::string::npos);
-  // Without a lens it is a picture like any other.
+  // Without a lens it is an ordinary image.
   description.parameters.erase("distortion.k1");
   sensing::ParameterReader plain(description);
   (void)Optics::Read(plain);
@@ -237,7 +237,7 @@ TEST(LensMap, LooksNoFurtherThanItsLens) {
   EXPECT_EQ(LensMap(Lens(CameraParameters{}), {}).Views({}).size(), 1u);
   const auto half = Lens::Wide({}, *WideViewNamed("equidistant"), kPi);
   ASSERT_TRUE(half);
-  // All faces but the one behind.
+  // All faces except the one behind.
   EXPECT_EQ(LensMap(*half, {}).Views({}).size(), 5u);
 }
 

@@ -44,7 +44,7 @@ TEST(Lens, DistortsAsThePublishedEquationsDo) {
   EXPECT_FALSE(lens.is_plain());
   const struct {
     Vector3 point;
-    Vector2 expected;  // computed apart from this program
+    Vector2 expected;  // computed independently of this program
   } cases[] = {
       {FromOptical(0.3, -0.2, 1.0), {464.59010909999995, 141.73397581199998}},
       {FromOptical(-1.2, 0.9, 2.5), {101.63808512000003, 407.1937448832}},

@@ -23,7 +23,7 @@ constexpr const char* kRemedy =
     "pictures need OpenGL 4.5 through EGL: install libegl1, libopengl0 and libgl1-mesa-dri, or "
     "your graphics card's driver";
 
-// libepoxy ends the program when it cannot open a library, so whether it can is asked first.
+// libepoxy ends the program if it cannot open a library, so this checks it first.
 Status CheckLibrary(const std::string& name) {
   void* handle = dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (handle == nullptr) {
@@ -33,9 +33,8 @@ Status CheckLibrary(const std::string& name) {
   return {};
 }
 
-// Mesa unloads its drivers as a program exits, and LeakSanitizer looks for leaks after that: who
-// allocated what a driver keeps could then not be named, and not left out
-// (cmake/sanitizers/lsan.supp).
+// Mesa unloads its drivers at exit, and LeakSanitizer looks for leaks after that. The allocations
+// of a driver could then not be attributed to it and suppressed (cmake/sanitizers/lsan.supp).
 int KeepDriver(dl_phdr_info* object, std::size_t, void*) {
   const std::string name = object->dlpi_name;
   if (name.ends_with("_dri.so")) dlopen(name.c_str(), RTLD_NOW | RTLD_NODELETE);
@@ -70,7 +69,7 @@ std::vector<EGLDisplay> DeviceDisplays(const char* client_extensions) {
   return displays;
 }
 
-// In the order in which they are tried: graphics cards, then Mesa without a device.
+// In the order of the attempts: graphics cards, then Mesa without a device.
 std::vector<EGLDisplay> Displays(const EglOptions& options) {
   const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   std::vector<EGLDisplay> displays;
@@ -105,7 +104,7 @@ EGLContext MakeCurrentOn(EGLDisplay display) {
   return nullptr;
 }
 
-// What a card's display gives where the card is present but unusable.
+// The display of a card that is present but unusable gives this renderer.
 bool IsMesaInSoftware(const std::string& renderer_name) {
   return renderer_name.starts_with("llvmpipe") || renderer_name.starts_with("softpipe");
 }
@@ -117,8 +116,8 @@ std::string GlText(unsigned name) {
 
 }  // namespace
 
-// EGL_EXT_device_base is the older name of device_enumeration and device_query together. Where
-// NVIDIA's driver is the only one, it is the only name that is given.
+// EGL_EXT_device_base is the older name of device_enumeration and device_query together. If
+// NVIDIA's driver is the only one, it reports only this name.
 bool ListsDevices(const char* client_extensions) {
   const bool enumerates = Has(client_extensions, "EGL_EXT_device_base") ||
                           (Has(client_extensions, "EGL_EXT_device_enumeration") &&
@@ -145,7 +144,7 @@ Result<std::unique_ptr<EglContext>> EglContext::Create(const EglOptions& options
                   "; " + kRemedy);
 }
 
-// The display stays initialised: it is the process's, and other contexts may live there.
+// The display stays initialised: it belongs to the process, and other contexts may use it.
 EglContext::~EglContext() {
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);

@@ -12,7 +12,7 @@ TEST(EglDevices, AreListedWhereMesaIsInstalled) {
                    "EGL_EXT_platform_wayland EGL_MESA_platform_surfaceless"));
 }
 
-// As driver 580 gives them through libglvnd. The card was passed over.
+// The extensions of driver 580 through libglvnd, with which the card was once not found.
 TEST(EglDevices, AreListedWhereNvidiasDriverIsAlone) {
   EXPECT_TRUE(ListsDevices(
       "EGL_EXT_platform_base EGL_EXT_device_base EGL_KHR_client_get_all_proc_addresses "

@@ -67,7 +67,7 @@ base::Result<Pictures> GlBatchRenderer::Draw(const world::Snapshot& snapshot,
     shadow_map_.Draw(render_list, planned.id, lighting.to_sun(), views, instances_);
     shadow_map_.Bind();
   }
-  // Pictures of one size one after another, so that they are read back together.
+  // Images of equal size are rendered one after another, so that they are read back together.
   std::vector<std::size_t> order(views.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto size = [&](std::size_t i) {

@@ -19,7 +19,7 @@ std::shared_ptr<DrawTexture> UploadTexture(const Image& image) {
   GlTexture texture = CreateTexture2D();
   const unsigned name = texture.name();
   const int levels = std::bit_width(static_cast<unsigned>(std::max(image.width, image.height)));
-  // Four bytes a pixel even without alpha: cards and Mesa sample nothing else as fast.
+  // Four bytes per pixel even without alpha: cards and Mesa sample no other format as fast.
   glTextureStorage2D(name, levels, GL_RGBA8, image.width, image.height);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTextureSubImage2D(name, 0, 0, 0, image.width, image.height,

@@ -14,7 +14,7 @@ namespace {
 
 using geometry::Vector3;
 
-// What a surface program can do; each is a #define of its source.
+// The options of a surface program; each is a #define of its source.
 enum Feature : unsigned {
   kBaseColourMap = 1,
   kNormalMap = 2,
@@ -88,7 +88,7 @@ unsigned ViewPass::ProgramFor(unsigned features) {
 
 void ViewPass::FindVisible(const CameraView& view, const RenderList& render_list,
                            const ShadowMap* shadows) {
-  // Things smaller than this in the picture would only flicker.
+  // Smaller objects would only flicker.
   constexpr double kMinPixels = 0.3;
   const Frustum frustum = FrustumOf(view);
   const double smallest = kMinPixels / FocalLength(view.parameters);

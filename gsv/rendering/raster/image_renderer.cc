@@ -14,10 +14,10 @@ namespace {
 using geometry::Vector3;
 
 constexpr int kTileWidth = 32, kTileHeight = 16;
-// The ground gives way to what lies on it.
+// Objects on the ground have priority over the ground.
 constexpr float kGroundBack = 1 - 2e-4f;
 
-// The coarsest level whose vertices were moved by no more than about a pixel.
+// The coarsest level whose vertices moved by at most about a pixel.
 const Level& LevelFor(const std::vector<Level>& levels, double pixel_in_mesh) {
   const Level* level = &levels.front();
   for (const Level& coarser : levels) {
@@ -79,7 +79,7 @@ void ImageRenderer::Begin(const CameraView& view, const FrameBlock& block) {
   drawn_.clear();
   body_of_.clear();
   visual_of_.clear();
-  // The middle of pixel (x, y) is at (2 x + 1) / width - 1, and so forth.
+  // The centre of pixel (x, y) is at (2 x + 1) / width - 1, and so on.
   for (int i = 0; i < 3; ++i) {
     right_[i] = 2 * block.view_right[i] / static_cast<float>(width_);
     down_[i] = 2 * block.view_down[i] / static_cast<float>(height_);
@@ -91,7 +91,7 @@ void ImageRenderer::Begin(const CameraView& view, const FrameBlock& block) {
 }
 
 void ImageRenderer::FindVisible(const CameraView& view, const RenderList& render_list) {
-  // Things smaller than this in the picture would only flicker.
+  // Smaller objects would only flicker.
   constexpr double kMinPixels = 0.3;
   const Frustum frustum = FrustumOf(view);
   const double pixel = 1 / FocalLength(view.parameters);  // at 1 m
@@ -136,7 +136,7 @@ void ImageRenderer::Cover(const CameraView& view, const RenderList& render_list)
   }
 }
 
-// Whether what is drawn already hides a sphere.
+// Whether objects that were drawn before hide a sphere.
 bool ImageRenderer::IsHidden(const CameraView& view, const Vector3& centre, double radius) const {
   const geometry::Quaternion& q = view.world_from_camera.orientation;
   const double ahead = geometry::Dot(q * Vector3{1, 0, 0}, centre);
@@ -284,7 +284,7 @@ void ImageRenderer::Light(const LightModel& light, const Lamps& lamps, int x, in
   }
   if (sky) colour = Select(ids == 0, light.Sky(ray), colour);
   const I8 rgba = Encoded(colour, SelectInt(ids == 0, SplatInt(0), surfaces.number));
-  // The last pixels of a row leave the next row alone.
+  // The last pixels of a row must not change the next row.
   std::uint32_t* to = &rgba_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
   if (in_picture == 0xff) {
     StoreInt(to, rgba);
@@ -311,7 +311,7 @@ void ImageRenderer::Blend(const CameraView& view, const RenderList& render_list,
             const F8x3 ray = RayAt(x, y);
             Surfaces surfaces;
             FillIn(drawn, t, surface, x, y, visible, true, ray, surfaces);
-            // Few of these pixels are in a picture: all lamps may reach them.
+            // Only a few of these pixels are in an image: all lamps may reach them.
             constexpr double kAnywhere = 1e30;
             const Lamps lamps = light.Reaching({-kAnywhere, -kAnywhere, -kAnywhere},
                                                {kAnywhere, kAnywhere, kAnywhere});

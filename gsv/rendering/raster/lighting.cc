@@ -12,7 +12,7 @@ F8x3 Mixed(const F8x3& a, const F8x3& b, F8 k) {
   return {Mixed(a.x, b.x, k), Mixed(a.y, b.y, k), Mixed(a.z, b.z, k)};
 }
 
-// A surface as the light terms take it.
+// A surface in the form that the light terms need.
 struct Reflector {
   F8x3 normal, to_view;
   F8x3 diffuse, specular;  // specular: reflectance at normal incidence
@@ -20,10 +20,10 @@ struct Reflector {
   F8 n_dot_v;
 };
 
-// What is sent towards the camera of light of strength 1 that comes from `to_light`.
+// The light towards the camera from a source of strength 1 in the direction `to_light`.
 F8x3 Reflected(const Reflector& s, const F8x3& to_light, F8 n_dot_l) {
-  // h, half way between light and view, needs no unit length: with l and v added up, |l + v|² is
-  // 2 + 2 l·v, and v·h is |l + v| / 2.
+  // h, the half vector of light and view, needs no unit length: with the sum of l and v, |l + v|²
+  // is 2 + 2 l·v, and v·h is |l + v| / 2.
   const F8 l_dot_v = Dot(to_light, s.to_view);
   const F8 length2 = Max(Fma(l_dot_v, Splat(2), Splat(2)), Splat(1e-6f));
   const F8 n_dot_sum = Max(Dot(s.normal, to_light) + Dot(s.normal, s.to_view), Splat(0));
@@ -42,7 +42,7 @@ F8x3 Reflected(const Reflector& s, const F8x3& to_light, F8 n_dot_l) {
           channel(s.diffuse.z, s.specular.z)};
 }
 
-// 2^x for x from -30 to 0: by a cubic between whole powers, within 1e-4.
+// 2^x for x from -30 to 0: a cubic between integer powers, within 1e-4.
 F8 Exp2(F8 x) {
   x = Max(x, Splat(-30));
   const F8 whole = Floor(x), f = x - whole;
@@ -55,7 +55,7 @@ F8 Exp2(F8 x) {
 F8x3 Ambient(const FrameBlock& block, const Reflector& s, F8 roughness) {
   const F8x3 below = Splat3(block.ambient_below), above = Splat3(block.ambient_above);
   F8x3 around = Mixed(below, above, Fma(s.normal.z, Splat(0.5f), Splat(0.5f)));
-  // Surfaces that face the sun catch more of what bounces about: shape stays visible in shadow.
+  // Surfaces that face the sun get more indirect light: shapes stay visible in shadow.
   around = around * Fma(Dot(s.normal, Splat3(block.to_sun)), Splat(0.2f), Splat(0.9f));
   const F8 n_dot_v = Dot(s.normal, s.to_view);
   const F8 mirrored_z = Fma(Splat(2) * n_dot_v, s.normal.z, -s.to_view.z);
@@ -97,7 +97,7 @@ F8x3 FromLamp(const LightBlock& lamp, const Reflector& s, const F8x3& position) 
     }
   }
   const F8 n_dot_l = Clamp01(Dot(s.normal, to_light));
-  // Less is not seen in eight bits.
+  // Less is invisible in eight bits.
   const I8 lit = (n_dot_l * strength) > Splat(1e-3f);
   if (Bits(lit) == 0) return Splat(0, 0, 0);
   return Reflected(s, to_light, n_dot_l) * (Splat3(lamp.colour_inner) * strength);
@@ -153,7 +153,7 @@ F8x3 LightModel::Colour(const Surfaces& surface, const F8x3& ray, const Lamps& l
   if (Bits(n_dot_l > Splat(0)) != 0) {
     F8 visible = Splat(1);
     if (shadow_ != nullptr && block_.to_sun[3] > 0) {
-      // Beside the surface, so that it does not shade itself.
+      // Samples beside the surface, so that it does not shade itself.
       const F8 beside = Splat(block_.to_sun[3]) * (Splat(1.5f) - n_dot_l);
       const F8x3 p = Fma(Normalized(surface.face_normal), beside, position);
       const auto& m = block_.shadow_from_relative;
@@ -190,7 +190,7 @@ I8 Encoded(const F8x3& colour, I8 alpha) {
     return bytes;
   }();
   const auto channel = [&](F8 value) {
-    // What is not a number becomes black.
+    // NaN becomes black.
     const F8 at = Min(Max(value, Splat(0)), Splat(1));
     return GatherByte(table.data(), Truncated(Fma(at, Splat(kSteps - 1), Splat(0.5f))));
   };

@@ -68,7 +68,7 @@ std::unique_ptr<ImageRenderer> RasterBatchRenderer::TakeRenderer() {
 }
 
 void RasterBatchRenderer::GiveBack(std::unique_ptr<ImageRenderer> renderer) {
-  // What a picture as large as a wall took is not kept for the next small one.
+  // The memory of a very large image is not kept for the next small one.
   constexpr std::size_t kMaxPixels = 2 << 20;
   if (renderer->pixels() > kMaxPixels) return;
   const base::MutexLock lock(mutex_);

@@ -15,7 +15,7 @@ struct Vertex {
   std::uint16_t surface = 0;
 };
 
-// One chunk's triangles on vertices of its own.
+// The triangles of one chunk, with separate vertices.
 struct Piece {
   std::vector<Vertex> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -44,8 +44,8 @@ Piece PieceOf(const MeshArrays& arrays, const MeshChunk& chunk) {
   return piece;
 }
 
-// Joins what lies within one cell of a grid (Rossignac and Borrel, 1993): all vertices of a cell
-// move to their mean, and those that face the same way become one.
+// Joins vertices in one cell of a grid (Rossignac and Borrel, 1993): all vertices of a cell move to
+// their mean, and those with similar normals become one.
 Piece Coarser(const Piece& fine, float cell) {
   using Cell = std::array<int, 3>;
   const auto cell_of = [&](const Vertex& vertex) {

@@ -46,7 +46,7 @@ RasterTexture::Level AppendHalf(const RasterTexture::Level& from,
 Texels SampleLevel(const RasterTexture& texture, const RasterTexture::Level& level, F8 u, F8 v) {
   const auto axis = [](F8 at, int size, I8& low, I8& high) {
     const F8 extent = Splat(static_cast<float>(size));
-    // What is not a number, in pixels that nobody will see, becomes the first.
+    // NaN, in invisible pixels, becomes the first texel.
     const F8 x =
         Min(Max(Fma(at - Floor(at), extent, Splat(-0.5f)), Splat(-0.5f)), extent - Splat(0.5f));
     const F8 whole = Floor(x);

@@ -59,7 +59,7 @@ TEST(Rasteriser, LeavesNoGapsBetweenTriangles) {
   }
 }
 
-// A wall that passes the camera begins behind it and nearer than the picture does.
+// A wall beside the camera begins behind it and nearer than the near plane.
 TEST(Rasteriser, DrawsWhatReachesBehindTheCamera) {
   TestScene scene;
   scene.Add("wall", geometry::Box{{400, 0.1, 2}}, {{0, -1, 0}, {}}, Glowing(0, 1, 0));

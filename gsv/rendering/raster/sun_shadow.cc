@@ -12,11 +12,11 @@ namespace {
 constexpr int kStride = kShadowSide + 16;
 constexpr int kFirst = kStride + 1;  // of texel (0, 0)
 
-// How fine shadows are, in texels. Those of robots are drawn again for each snapshot; whether a
-// thing has moved must leave no trace in the picture.
+// The resolution of shadows, in texels. The shadows of robots are rendered again for each snapshot;
+// the image must not depend on whether an object has moved.
 struct Fineness {
-  double moved_by;  // vertices of a caster, at most about
-  double smallest;  // radius of what leaves a shadow
+  double moved_by;  // maximum displacement of a caster's vertices, about
+  double smallest;  // minimum radius of a caster
 };
 constexpr Fineness kThing{0.5, 0.5}, kRobot{3, 1.5};
 
@@ -106,8 +106,7 @@ void SunShadow::DrawCaster(const raster::Drawn& caster, const float (&depth_row)
           const float z = row[0] * mesh.x[v] + row[1] * mesh.y[v] + row[2] * mesh.z[v] + row[3];
           a += t.a[i] * z, b += t.b[i] * z, c += t.c[i] * z;
         }
-        // Away from the sun by what the depth changes over a texel, so that no surface shades
-        // itself.
+        // Away from the sun by the change of depth over a texel, so that no surface shades itself.
         c -= 1.5f * std::max(std::abs(a), std::abs(b)) + 2e-7f;
         Scan(t, box, [&](int x, int y, I8 covered, F8) {
           const F8 dx = Splat(static_cast<float>(x) - t.x0) + Steps();
@@ -122,7 +121,7 @@ void SunShadow::DrawCaster(const raster::Drawn& caster, const float (&depth_row)
 }
 
 F8 SunShadow::Lit(F8 x, F8 y, F8 z) const {
-  // Texel (0, 0)'s middle is at 0.5.
+  // The centre of texel (0, 0) is at 0.5.
   const F8 px = x - Splat(0.5f), py = y - Splat(0.5f);
   const F8 whole_x = Floor(px), whole_y = Floor(py);
   const F8 fx = px - whole_x, fy = py - whole_y;
@@ -140,10 +139,10 @@ F8 SunShadow::Lit(F8 x, F8 y, F8 z) const {
 
 F8 SunShadow::Visible(const F8x3& point) const {
   const F8 side = Splat(kShadowSide);
-  // Up to the edge that hides nothing.
+  // Up to the border, which hides nothing.
   const auto inside = [&](F8 at) { return Min(Max(at, Splat(-0.5f)), side + Splat(0.4f)); };
   const F8 x = point.x * side, y = point.y * side;
-  const F8 z = Max(point.z, Splat(0));  // as low as where nothing is
+  const F8 z = Max(point.z, Splat(0));  // as low as the background
   const F8 first = Lit(inside(x - Splat(0.6f)), inside(y - Splat(0.3f)), z);
   const F8 second = Lit(inside(x + Splat(0.6f)), inside(y + Splat(0.3f)), z);
   return Splat(0.5f) * (first + second);

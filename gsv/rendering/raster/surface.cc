@@ -14,7 +14,7 @@ F8 Decoded(F8 c) {
   return c * Fma(c, Fma(c, Splat(0.305306011f), Splat(0.682171111f)), Splat(0.012522878f));
 }
 
-// Weights of the second and third corner, and w.
+// The weights of the second and third corner, and w.
 struct Weights {
   F8 first, second, w;
 };
@@ -32,7 +32,7 @@ F8 Between(const std::vector<float>& values, const Triangle& t, const Weights& k
              Fma(Splat(values[t.corner[2]] - v0), k.second, Splat(v0)));
 }
 
-// About the base two logarithm, from a number's exponent and fraction.
+// An approximation of the binary logarithm, from a number's exponent and fraction.
 float Log2(float value) {
   const auto bits = std::bit_cast<std::uint32_t>(value);
   return static_cast<float>(bits) * (1.0f / (1 << 23)) - 127;
@@ -42,7 +42,7 @@ F8 At(const TriangleSurface::Plane& plane, F8 dx, float dy) {
   return Fma(Splat(plane.a), dx, Splat(plane.c + plane.b * dy));
 }
 
-// The level of a texture of one texel a pixel, from how its coordinates change across a pixel.
+// The mip level for one texel per pixel, from the change of the coordinates across a pixel.
 float LevelAt(const TriangleSurface& s, float dx, float dy, const RasterTexture& texture) {
   const auto at = [&](const TriangleSurface::Plane& p) { return p.c + p.a * dx + p.b * dy; };
   const float inverse_w = at(s.inverse_w);
@@ -128,7 +128,7 @@ TriangleSurface SurfaceOf(const Drawn& drawn, const Triangle& t) {
   }
   s.u = plane(mesh.u[t.corner[0]], mesh.u[t.corner[1]], mesh.u[t.corner[2]]);
   s.v = plane(mesh.v[t.corner[0]], mesh.v[t.corner[1]], mesh.v[t.corner[2]]);
-  // Neighbouring surfaces, and the same one of two things, get different numbers of eight bits.
+  // Adjacent surfaces, and the same surface of two objects, get different numbers of eight bits.
   s.number =
       (97 * mesh.surface[t.corner[0]] + 57 * static_cast<int>(drawn.factors->surface)) % 255 + 1;
   return s;

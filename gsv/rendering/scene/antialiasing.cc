@@ -6,7 +6,7 @@
 namespace gsv::rendering {
 namespace {
 
-// One surface number a pixel, seen along rows or along columns, so that one search finds the edges
+// One surface number per pixel, along rows or along columns, so that one search finds the edges
 // between rows and those between columns.
 struct Surfaces {
   const std::uint8_t* numbers;
@@ -14,9 +14,9 @@ struct Surfaces {
   int At(int line, int i) const { return numbers[static_cast<std::size_t>(line) * length + i]; }
 };
 
-// Which way the edge between `line` and `line` + 1 goes on at its end between pixels `last` (still
-// beside the edge) and `next` (where both lines show the same surface): +1 if one step towards
-// `line`, -1 if one step towards `line` + 1, 0 if it ends, forks or turns a corner.
+// The direction in which the edge between `line` and `line` + 1 continues at its end. Pixel `last`
+// is still beside the edge; at `next` both lines show the same surface. +1: one step towards
+// `line`, -1: one step towards `line` + 1, 0: it ends, forks or turns a corner.
 int StepAt(const Surfaces& s, int line, int last, int next) {
   if (next < 0 || next >= s.length) return 0;
   const int beyond = s.At(line, next);
@@ -58,8 +58,8 @@ class Smoother {
   }
 
  private:
-  // `line_stride` and `stride` are the distances, in pixels of the picture, from a line to the next
-  // and from a pixel of a line to the next.
+  // `line_stride` and `stride` are the distances, in pixels of the image, between lines and between
+  // pixels of a line.
   void FindEdges(const Surfaces& s, int line_stride, int stride) {
     line_stride_ = line_stride, stride_ = stride;
     for (int line = 0; line + 1 < s.lines; ++line) {
@@ -84,8 +84,8 @@ class Smoother {
     return i;
   }
 
-  // The line comes from half a pixel beside the edge at each end that has a step, and meets it in
-  // the middle.
+  // The line starts half a pixel beside the edge at each end that has a step, and meets it in the
+  // middle.
   void Blend(int line, int first, int end, int step_first, int step_end) {
     if (step_first == 0 && step_end == 0) return;
     const float middle = 0.5f * static_cast<float>(end - first);
@@ -102,7 +102,7 @@ class Smoother {
     }
   }
 
-  // Gives `share` of a pixel beside the edge the colour from the other side.
+  // Gives the pixel beside the edge the fraction `share` of the colour of the other side.
   void Mix(int line, int i, int step, float share) {
     if (share <= 0) return;
     const std::size_t before =

@@ -17,7 +17,7 @@ struct Drawn {
   int Red(int x, int y) const { return smooth.pixels[3 * (y * kSide + x)]; }
 };
 
-// White where `inside` holds at a pixel's middle, black elsewhere; surfaces 1 and 2.
+// White if `inside` holds at a pixel's centre, else black; surfaces 1 and 2.
 template <typename Inside>
 Drawn Draw(Inside inside) {
   Drawn drawn;
@@ -70,7 +70,7 @@ TEST(EdgeSmoothing, LeavesTexturesAlone) {
 }
 
 TEST(MeshSurfaces, AreOnePieceUpToASharpEdge) {
-  // Two triangles of a square that share no vertex, and one that stands on the square's edge.
+  // Two triangles of a square that share no vertex, and one on the square's edge.
   std::vector<float> vertices;
   const auto add = [&](float x, float y, float z, float nx, float nz) {
     vertices.insert(vertices.end(), {x, y, z, nx, 0, nz, 0, 0});

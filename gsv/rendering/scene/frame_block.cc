@@ -13,7 +13,7 @@ namespace {
 using geometry::Vector3;
 using Rgb = std::array<double, 3>;
 
-// Colours of light are amounts, not pictures: 0.8 is four fifths of the light of 1.
+// Colours of light are amounts, not colours of an image: 0.8 is four fifths of the light of 1.
 Rgb LightColour(const model::Light& light) {
   const double k = std::max(0.0, light.intensity);
   return {k * light.diffuse.r, k * light.diffuse.g, k * light.diffuse.b};
@@ -39,9 +39,9 @@ Rgb Mix(const Rgb& a, const Rgb& b, double t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
 }
 
-// Light that comes from everywhere, as bright as a picture can do with: some worlds ask for next to
-// none because their authors' tool added some of its own, and would be dark; some ask for all there
-// is, and would have no shadows.
+// Ambient light, limited to a useful brightness. Some worlds have almost none, because their
+// authors' tool added its own, and would be dark. Others have the maximum, and would have no
+// shadows.
 Rgb Ambient(const model::Colour& asked) {
   constexpr double kMin = 0.3, kMax = 0.45;
   const Rgb c{asked.r, asked.g, asked.b};
@@ -107,7 +107,7 @@ void Lighting::AddLamp(const model::Light& light) {
   lamp.position = light.world_from_light.position;
   lamp.range = directional ? std::numeric_limits<double>::infinity() : std::max(light.range, 0.01);
   const double outer = spot ? std::cos(0.5 * light.outer_angle) : -2;
-  // Not sharper than the eye of a picture: the cone's edge keeps some width.
+  // Not too sharp for the image: the edge of the cone keeps some width.
   const double inner = spot ? std::max(std::cos(0.5 * light.inner_angle), outer + 1e-3) : -1;
   lamp.block = {{0, 0, 0, 0},
                 AsFloat4(direction, outer),
@@ -132,7 +132,7 @@ FrameBlock Lighting::BlockFor(const CameraView& view) const {
   block.view_right = AsFloat4(pose.orientation * Vector3{0, -0.5 * view.parameters.width / f, 0});
   block.view_down = AsFloat4(pose.orientation * Vector3{0, 0, -0.5 * view.parameters.height / f});
 
-  // Of the lamps that reach into the picture, those that end nearest to the camera.
+  // Of the lamps that reach into the image, those that end nearest to the camera.
   const Frustum frustum = FrustumOf(view);
   std::vector<std::pair<double, const Lamp*>> near;
   for (const Lamp& lamp : lamps_) {

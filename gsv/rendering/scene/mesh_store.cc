@@ -41,7 +41,7 @@ Arrays WithNormals(const TriangleMesh& mesh, const std::vector<std::uint32_t>& o
   return arrays;
 }
 
-// Faceted: each triangle has vertices of its own, with its normal.
+// Faceted: each triangle has separate vertices with its normal.
 Arrays WithoutNormals(const TriangleMesh& mesh, const std::vector<std::uint32_t>& order) {
   Arrays arrays;
   for (const std::uint32_t triangle : order) {
@@ -116,7 +116,7 @@ DrawShape MeshStore::Find(const Shape& shape) {
 std::shared_ptr<const DrawMesh> MeshStore::FindFileMesh(
     const std::shared_ptr<const TriangleMesh>& triangles) {
   FileMesh& entry = file_meshes_[triangles.get()];
-  // An address may be that of an earlier mesh that is gone.
+  // The address may be that of a destroyed mesh.
   if (entry.mesh == nullptr || entry.triangles.lock() != triangles) {
     entry = {triangles, make_(ArraysOf(*triangles))};
   }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kFloats = 8;
 
-// Sets that can be joined; each is known by one of its members.
+// Disjoint sets that can be joined; one of its members identifies each.
 class Sets {
  public:
   explicit Sets(std::size_t count) : parent_(count) {

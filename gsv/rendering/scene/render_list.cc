@@ -25,8 +25,8 @@ SurfaceFactors FactorsOf(const model::Material& material) {
           0};
 }
 
-// A level rectangle as large as a landscape without a picture on it stands for the ground, which
-// has no end.
+// A horizontal rectangle of the size of a landscape, without a texture, represents the infinite
+// ground.
 geometry::Shape AsDrawn(const model::Visual& visual) {
   constexpr double kLandscape = 20, kHorizon = 2000;
   const auto* plane = std::get_if<geometry::Plane>(&visual.shape);
@@ -42,7 +42,7 @@ class Builder {
  public:
   Builder(MeshStore& meshes, TextureStore& textures) : meshes_(meshes), textures_(textures) {}
 
-  // `part` says whose visual it is.
+  // `part` has the body and link of the visual.
   void Add(const model::Visual& visual, const DrawItem& part) {
     const DrawShape shape = meshes_.Find(AsDrawn(visual));
     const bool plane = std::holds_alternative<geometry::Plane>(visual.shape);

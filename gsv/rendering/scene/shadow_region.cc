@@ -10,13 +10,14 @@ namespace {
 using geometry::Dot;
 using geometry::Vector3;
 
-// Casters larger than this do not widen the map: one floor slab would blur every shadow on it.
+// Larger casters do not enlarge the map: one floor slab would blur every shadow on it.
 constexpr double kMaxRadius = 60;
 
-// A lone robot does not get the whole map: its shadow would be finer than any picture, and slower.
+// The map is not smaller than this: the shadow of a single robot would be finer than needed, and
+// slower.
 constexpr double kMinSide = 10;
 
-// Outward to a multiple of a power of two that is about a sixteenth of the length.
+// Rounds outwards to a multiple of a power of two that is about a sixteenth of the length.
 void RoundOutward(double& min, double& max) {
   const double unit = std::exp2(std::ceil(std::log2((max - min) / 16)));
   min = unit * std::floor(min / unit);
@@ -36,7 +37,7 @@ ShadowRegion::ShadowRegion(const RenderList& render_list, const Vector3& to_sun)
     if (!item.casts_shadow) continue;
     for (int axis = 0; axis < 3; ++axis) {
       const double at = Dot(axes_[axis], render_list.placed()[i].centre);
-      // Along the light everything must be inside, or it would cast no shadow.
+      // Along the light, everything must be inside, or it would cast no shadow.
       const double radius = axis < 2 ? std::min(item.radius, kMaxRadius) : item.radius;
       min[axis] = std::min(min[axis], at - radius);
       max[axis] = std::max(max[axis], at + radius);
@@ -75,9 +76,9 @@ std::vector<std::size_t> ShadowRegion::StillCasters(const RenderList& render_lis
 
 std::vector<std::size_t> ShadowRegion::MovingCasters(const RenderList& render_list,
                                                      const std::vector<CameraView>& views) const {
-  // How far beside itself a surface is looked up: along its normal and by the filter.
+  // The distance at which a surface is looked up beside itself: along its normal and by the filter.
   const double beside = 4 * TexelSize();
-  // A shadow has no end; this is beyond all that any camera sees.
+  // A shadow is infinite; this is beyond the view of any camera.
   const Vector3 shade = -1e7 * axes_[2];
   std::vector<std::pair<Vector3, Frustum>> seen;
   seen.reserve(views.size());
@@ -100,7 +101,7 @@ std::vector<std::size_t> ShadowRegion::MovingCasters(const RenderList& render_li
 
 std::vector<ShadowRegion::Rectangle> ShadowRegion::PartsOf(
     const RenderList& render_list, const std::vector<std::size_t>& items) const {
-  // Past this many a copy of everything is cheaper.
+  // With more parts, a copy of everything is cheaper.
   constexpr std::size_t kMaxParts = 256;
   std::vector<Rectangle> parts;
   int last_body = -1;
