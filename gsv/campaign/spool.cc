@@ -96,7 +96,7 @@ base::Result<Spool> Spool::Make(const fs::path& folder, const Campaign& campaign
   auto spool = Open(whole);
   if (spool && spool->campaign().Identity() != campaign.Identity()) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "has runs of another campaign, or of this one before it was changed; choose "
+                      "has runs of another campaign, or of an earlier version of this one; choose "
                       "another file with --results, or remove the folder",
                       folder);
   }

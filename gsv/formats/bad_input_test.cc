@@ -126,7 +126,7 @@ TEST_F(BadInputTest, ReportsShapesWithoutSize) {
         "<polyline><point>0 0</point><point>1 1</point><height>1</height></polyline>"}) {
     EXPECT_THAT(WarningsIn("<link name='l'><collision name='c'><geometry>" + std::string(shape) +
                            "</geometry></collision></link>"),
-                Contains(HasSubstr("the collision is left out")))
+                Contains(HasSubstr("the collision is ignored")))
         << shape;
   }
 }

@@ -78,18 +78,18 @@ class FlawTest : public testing::Test {
 // Each value, and a part of the warning.
 TEST_F(FlawTest, AnInvalidValueIsReplaced) {
   const std::pair<const char*, const char*> links[] = {
-      {"<pose>1 2 3 0 0</pose>", "6 numbers are expected; 1 2 3 0 0 0 is taken"},
-      {"<pose>1 2 3 0 0 north</pose>", "1 2 3 0 0 0 is taken"},
-      {"<gravity>9.8</gravity>", "true or false is expected; true is taken"},
-      {"<inertial><mass>heavy</mass></inertial>", "a number is expected; 1 is taken"},
-      {"<inertial><mass>2.5kg</mass></inertial>", "one number is expected; 2.5 is taken"},
+      {"<pose>1 2 3 0 0</pose>", "6 numbers are expected; 1 2 3 0 0 0 is used"},
+      {"<pose>1 2 3 0 0 north</pose>", "1 2 3 0 0 0 is used"},
+      {"<gravity>9.8</gravity>", "true or false is expected; true is used"},
+      {"<inertial><mass>heavy</mass></inertial>", "a number is expected; 1 is used"},
+      {"<inertial><mass>2.5kg</mass></inertial>", "one number is expected; 2.5 is used"},
       {"<visual name='v'><material><diffuse>255 0 51 "
        "255</diffuse></material><geometry><box><size>1 "
        "1 1</size></box></geometry></visual>",
-       "numbers between 0 and 1 are expected; 1 0 0.2 1 is taken"},
+       "numbers between 0 and 1 are expected; 1 0 0.2 1 is used"},
       {"<visual><geometry><box><size>1 1 1</size></box></geometry></visual>",
-       "has no @name; \"unnamed_visual\" is taken"},
-      {"<sensor name='s'/>", "<sensor> \"s\" has no type; it is left out"}};
+       "has no @name; \"unnamed_visual\" is used"},
+      {"<sensor name='s'/>", "<sensor> \"s\" has no type; it is ignored"}};
   for (const auto& [link, part] : links) {
     const auto world =
         World("<model name='other'><link name='l'>" + std::string(link) + "</link></model>");
@@ -115,12 +115,12 @@ TEST_F(FlawTest, AReferenceToNothingIsLeftOut) {
       {"<link name='b'><pose relative_to='nope'>0 0 1 0 0 0</pose></link>", "relative to nope"},
       {"<link name='b'/><frame name='f' attached_to='nope'/>", "attached to nope"},
       {"<link name='b'/><joint name='j' type='fixed'><parent>a</parent><child>nope</child></joint>",
-       "\"j\" is left out: it names nope"},
+       "\"j\" is ignored: it names nope"},
       {"<link name='b'/><joint name='j' type='fixed'><parent>a</parent><child>a</child></joint>",
-       "\"j\" is left out: its parent is its child"},
+       "\"j\" is ignored: its parent is its child"},
       {"<link name='b'/><joint name='j' type='fixed'><child>b</child></joint>", "has no <parent>"},
       {"<link name='b'/><joint name='j' type='hinge'><parent>a</parent><child>b</child></joint>",
-       "unknown type \"hinge\"; fixed is taken"},
+       "unknown type \"hinge\"; fixed is used"},
       {"<link name='b'><pose relative_to='c'/></link><link name='c'><pose relative_to='b'/></link>",
        "in a circle"},
       {"<link name='a'/>", "there is a second <link> \"a\"; it is named a_1"},
@@ -137,7 +137,7 @@ TEST_F(FlawTest, AReferenceToNothingIsLeftOut) {
 
 TEST_F(FlawTest, AModelWithoutLinksIsLeftOut) {
   EXPECT_THAT(World("<model name='empty'/>").models, SizeIs(1));
-  EXPECT_THAT(Said(), ElementsAre(HasSubstr("\"empty\" has no links; it is left out")));
+  EXPECT_THAT(Said(), ElementsAre(HasSubstr("\"empty\" has no links; it is ignored")));
 }
 
 TEST_F(FlawTest, LinksThatGazeboClassicFlattenedAreRead) {
@@ -231,7 +231,7 @@ TEST_F(FlawTest, AnUnreadableIncludeIsLeftOutAlone) {
     const auto world = World(IncludeOf(uri) + "<model name='bed'>" + IncludeOf(uri) + "</model>");
     EXPECT_NE(Find(world, "sound"), nullptr) << uri;
     EXPECT_EQ(Find(world, "bed"), nullptr) << uri;
-    EXPECT_THAT(Said(), Contains(HasSubstr("the include of " + std::string(uri) + " is left out")));
+    EXPECT_THAT(Said(), Contains(HasSubstr("the include of " + std::string(uri) + " is ignored")));
   }
   EXPECT_NE(Find(World(IncludeOf("model://walker")), "sound"), nullptr);
 }
@@ -330,7 +330,7 @@ TEST_F(FlawTest, AnErrorInAUrdfAffectsOnePart) {
     return UrdfLink("base", kMassive + content);
   };
   const std::pair<std::string, const char*> robots[] = {
-      {base + UrdfJoint("j", "continuous", "base", "nope"), "child link \"nope\" is not there"},
+      {base + UrdfJoint("j", "continuous", "base", "nope"), "child link \"nope\" does not exist"},
       {base + UrdfLink("lost", kMassive), "no joint connects the link \"lost\""},
       {base + base, "there is one of that name already"},
       {base + UrdfLink("arm", kMassive) + UrdfJoint("j", "revolute", "base", "arm"),
@@ -341,7 +341,7 @@ TEST_F(FlawTest, AnErrorInAUrdfAffectsOnePart) {
       {base + UrdfLink("arm", kMassive) + UrdfJoint("j", "hinge", "base", "arm"), "it is fixed"},
       {base + UrdfLink("arm", kMassive) +
            UrdfJoint("j", "fixed", "base", "arm", "<origin xyz='0 zero 0'/>"),
-       "0 0 0 is taken"},
+       "0 0 0 is used"},
       {with("<visual><geometry/></visual>"), "it has no <geometry> with a shape"},
       {with("<visual><geometry><box size='1 1'/></geometry></visual>"), "its <box> has no @size"},
       {with("<visual><geometry><pyramid/></geometry></visual>"), "<pyramid> is no shape of URDF"},

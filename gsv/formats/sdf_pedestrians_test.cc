@@ -52,7 +52,7 @@ TEST_F(SdfPedestrians, AreLeftOutWhenTheyAreInvalid) {
   EXPECT_TRUE(world.pedestrians.empty());
   ASSERT_EQ(problems_.size(), 7u);
   for (const base::Problem& problem : problems_) {
-    EXPECT_THAT(problem.Sentence(), ::testing::HasSubstr("the pedestrians are left out"));
+    EXPECT_THAT(problem.Sentence(), ::testing::HasSubstr("the pedestrians are ignored"));
   }
 }
 

@@ -470,7 +470,7 @@ TEST_F(SdfReaderTest, ReadsRobotsWithRemainsOfXacroAndALateDeclaration) {
   EXPECT_TRUE(ModelLibrary().ReadModel(remains.string(), problems_).has_value());
   EXPECT_THAT(Sentences(),
               testing::Contains(testing::AllOf(
-                  HasSubstr("remains.urdf:2: the xacro elements of this file are left out"),
+                  HasSubstr("remains.urdf:2: the xacro elements of this file are ignored"),
                   HasSubstr("there is no macro \"pan_tilt\""))));
   problems_.clear();
   const auto late =

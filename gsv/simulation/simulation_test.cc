@@ -421,7 +421,7 @@ TEST(Simulation, ASonarIsMountedAtAPose) {
   // The wall's face is at x = 2.9.
   EXPECT_NEAR(agent->Read("ahead")->values.at(0), 2.4, 1e-9);
   EXPECT_FALSE(agent->CreateSensor(sonar));  // the name is taken
-  sonar.name = "on a link that is not there";
+  sonar.name = "on a link that does not exist";
   sonar.link = 7;
   EXPECT_FALSE(agent->CreateSensor(sonar));
   EXPECT_TRUE(agent->CloseSensor("ahead"));

@@ -109,10 +109,11 @@ base::Status CheckJointCommand(const Body& body, int joint, const JointCommand& 
                       place);
   }
   if (command.kind == JointCommand::Kind::kEffort) {
-    return base::Fail(ErrorCode::kInvalidArgument,
-                      "joints can be pushed where forces move the robot: run it with --movement " +
-                          body.name + "=rigid",
-                      place);
+    return base::Fail(
+        ErrorCode::kInvalidArgument,
+        "only joints of a robot with rigid-body dynamics can be pushed: run it with --movement " +
+            body.name + "=rigid",
+        place);
   }
   return {};
 }

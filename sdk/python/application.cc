@@ -135,7 +135,7 @@ void BindApplications(py::module_& module) {
            }),
            py::arg("broker"));
   py::class_<PythonSimulation, Owned<PythonSimulation>>(
-      module, "Simulation", "A simulation on some server; destroyed with this.")
+      module, "Simulation", "A simulation on a server. It is destroyed together with this object.")
       .def(py::init(&Create), py::arg("application"), py::arg("world"), py::arg("constraint"),
            py::arg("preference"), py::arg("lockstep"), py::arg("factor"), py::arg("step"),
            py::arg("seed"), py::arg("name"), py::arg("options"))

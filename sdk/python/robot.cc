@@ -92,9 +92,8 @@ void BindRing(py::module_& module) {
       .def("read", &SonarRing::Read, LetOthersRun(), "Reads them one after the other.")
       .def("from_readings", &EchoesFrom, py::arg("readings"),
            "Those of an exchange's readings that are the ring's.");
-  module.def(
-      "nearest", &Nearest, py::arg("echoes"), py::arg("bearing"), py::arg("half_angle"),
-      "The least distance of the echoes within half_angle of bearing; inf if there is none.");
+  module.def("nearest", &Nearest, py::arg("echoes"), py::arg("bearing"), py::arg("half_angle"),
+             "The distance to the nearest echo within half_angle of bearing; inf without an echo.");
 }
 
 void BindJoints(py::module_& module) {

@@ -113,7 +113,7 @@ void BindPlainData(py::module_& module) {
 void BindRangeAndVision(py::module_& module, py::class_<Sensor>& sensor) {
   BindKind<Sonar>(module, "Sonar", sensor, "A cone of sound; its nearest echo gives a range.")
       .def("range", &Sonar::Range, LetOthersRun(),
-           "m to the nearest echo; max_range where there is none")
+           "m to the nearest echo; max_range without an echo")
       .def_property_readonly("max_range", &Sonar::max_range);
   BindKind<Lidar>(module, "Lidar", sensor, "A scanning range finder.")
       .def(

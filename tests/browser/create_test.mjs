@@ -81,7 +81,7 @@ test("the environment is chosen, and shown", async () => {
   assert.ok(changedPixels(before, after) > 10_000, "another world looks different");
 });
 
-test("a world that is not there is refused beside the field", async () => {
+test("a world that does not exist is refused beside the field", async () => {
   await field("Environment").selectOption({ label: "A file or folder…" });
   await page.getByLabel("Environment: A file or folder…").fill("no/such.world");
   await page.keyboard.press("Tab");

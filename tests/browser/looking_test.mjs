@@ -301,7 +301,7 @@ test("the status of the simulation, its robots and the server is in a panel", as
   const panel = page.getByRole("region", { name: "Status", exact: true });
   await panel.getByRole("button", { name: "surveyor" }).click();
   await page.getByRole("heading", { name: "surveyor" }).waitFor();
-  await panel.getByText("real-time factor, target").waitFor();
+  await panel.getByText("target real-time factor").waitFor();
   await panel.getByText(new URL(server.url).host).waitFor();
   await settled(page);
   await keepPicture(page, "status");

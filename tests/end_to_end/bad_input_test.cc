@@ -143,7 +143,7 @@ TEST(BadInput, ModelThatCanBeRepairedRunsUnlessStrictRefusesIt) {
       "</mass></inertial></link></model></world></sdf>");
   const Outcome outcome = Headless(world.string(), {});
   EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("the mass must be above zero; 1 kg is taken"));
+  EXPECT_THAT(outcome.err, HasSubstr("the mass must be above zero; 1 kg is used"));
   ExpectOneSentence(Headless(world.string(), {"--strict"}), 3,
                     "the run is refused because of --strict");
 }

@@ -53,7 +53,7 @@ std::string NodeName(int node) { return "n" + std::to_string(node + 1); }
 std::string SlurmCluster::Missing() {
   for (const char* program : kPrograms) {
     if (access(program, X_OK) != 0)
-      return std::string(program) + " is not there; install slurm-wlm (tools/setup does)";
+      return std::string(program) + " does not exist; install slurm-wlm (tools/setup does)";
   }
   return {};
 }

@@ -88,7 +88,7 @@ std::string SshHosts::Missing(Kind kind) {
   for (const char* program : {kSshd, kKeygen, "/usr/bin/ssh"}) {
     if (access(program, X_OK) != 0)
       return std::string(program) +
-             " is not there; install openssh-server, which GSV does not need";
+             " does not exist; install openssh-server, which GSV does not need";
   }
   return {};
 }

@@ -224,8 +224,9 @@ void AddCrowdBench(const CommandLine& bench) {
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(0, 256));
-  command->add_flag("--verify", arguments->verify,
-                    "check overlaps and 1 % of the readings by brute force (exit code 1)");
+  command->add_flag(
+      "--verify", arguments->verify,
+      "check overlaps and 1 % of the readings by brute force; exit with code 1 if they differ");
   command->add_flag("--json", arguments->json, "print one JSON object");
   command->callback([arguments, bench] { bench.exit_code = Crowd(*arguments); });
 }

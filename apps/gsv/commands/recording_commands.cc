@@ -151,9 +151,10 @@ int Export(const RecordingArguments& arguments) {
   if (!reader) return Refuse(reader.error());
   if (auto ok = CheckSelection(arguments, **reader); !ok) return Refuse(ok.error());
   if (IsRecording(arguments.output)) {
-    return Complain({base::ErrorCode::kInvalidArgument,
-                     "is a recording and is not overwritten; choose another output file",
-                     arguments.output});
+    return Complain(
+        {base::ErrorCode::kInvalidArgument,
+         "is an existing recording and will not be overwritten; choose another output file",
+         arguments.output});
   }
   if (arguments.video) return Video(arguments, **reader);
   const auto csv = recording::ToCsv(**reader, arguments.Selection());
@@ -319,7 +320,7 @@ void AddReplayCommand(const CommandLine& line) {
   command->add_flag("--paused", arguments->paused,
                     "wait at the beginning until a viewer starts the replay");
   command->add_flag("--headless", arguments->headless,
-                    "start no viewer; read the whole recording and check it");
+                    "check the whole recording, without a viewer");
   CLI::Option* resimulate = command->add_flag(
       "--resimulate", arguments->resimulate,
       "run the simulation again and print where the result first differs (exit code 1)\n"

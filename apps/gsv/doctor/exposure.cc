@@ -210,7 +210,8 @@ std::string Complaint(const Listener& listener, const Exposure& exposure) {
       return "everyone who can reach it can read all topics, and command robots without a "
              "behaviour; start it with --ros2-range localhost, or use a firewall";
     case Speaks::kUnknown:
-      return "it does not respond, so its exposure is unknown; check whether it is stopped";
+      return "it does not respond, so the addresses it listens on are unknown; check whether it is "
+             "suspended";
   }
   return {};
 }

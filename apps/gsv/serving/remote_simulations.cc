@@ -189,10 +189,10 @@ base::Result<FoundSimulation> FindOneSimulation(const Selection& selection) {
       selection.broker.empty() && selection.server.empty() && selection.simulation.empty();
   if (is_open) KeepThoseOfTheNewestInstance(*found);
   if (found->size() != 1) {
-    return base::Fail(
-        base::ErrorCode::kInvalidArgument,
-        "several simulations match; give one by name, and by --server if names are equal: " +
-            NamesOf(*found));
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "several simulations match; give one by name, and add --server if several "
+                      "have the same name: " +
+                          NamesOf(*found));
   }
   return std::move(found->front());
 }

@@ -24,7 +24,7 @@ void AddViewerOptions(CLI::App& command, ViewerOptions& options) {
   command
       .add_option(
           "--port", options.port,
-          "port of the viewer (default: 8080, else any free)\nWith 0, gsv chooses any free port.")
+          "port of the viewer (default: 8080, or a free port)\nWith 0, gsv chooses any free port.")
       ->check(CLI::Range(0, 65535))
       ->type_name("PORT")
       ->group(kViewerGroup);

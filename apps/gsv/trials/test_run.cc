@@ -195,7 +195,7 @@ TestResult RunTestCase(const TestCase& test, const TestOptions& options,
     result.hashes.push_back(outcome->report.value("state_hash", ""));
     if (result.status == TestResult::Status::kPassed && result.hashes.back() != result.hashes[0]) {
       result.status = TestResult::Status::kFailed;
-      result.message = fmt::format("run {} ended in another state, {}, than the first run, {}",
+      result.message = fmt::format("run {} ended with state {}, but the first run ended with {}",
                                    i + 1, result.hashes.back(), result.hashes[0]);
     } else if (result.status != TestResult::Status::kPassed) {
       result.message = Message(*outcome);

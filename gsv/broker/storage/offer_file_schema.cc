@@ -26,7 +26,8 @@ base::Error Unusable(Database& database, const std::string& path) {
   switch (database.LastCode()) {
     case SQLITE_BUSY:
       return {base::ErrorCode::kUnavailable,
-              "another broker uses this file; stop it, or choose another file with --data", path};
+              "another broker is using this file; stop it, or choose another file with --data",
+              path};
     case SQLITE_NOTADB:
       return {base::ErrorCode::kCorrupt,
               "this is not the file of a broker; choose another with --data, or use --memory",

@@ -101,7 +101,7 @@ class ColladaText {
       if (checked) continue;
       const char* id = each->Attribute("id");
       repair_.changes.push_back("the geometry " + std::string(id == nullptr ? "" : id) +
-                                " is left out: " + checked.error().message);
+                                " is ignored: " + checked.error().message);
       geometries->DeleteChild(each);
       is_changed_ = true;
     }

@@ -145,7 +145,7 @@ class DocumentRepair {
       const std::size_t by = message.find("specified by ");
       MakeOwn(WordBefore(message, " with name[", by), names[1], names[0]);
     } else if (names.size() >= 3 && says("rame with name[") && says("specified by joint")) {
-      LeaveOutJoint(names[1], "it names " + names[0] + ", which is not there");
+      LeaveOutJoint(names[1], "it names " + names[0] + ", which does not exist");
     } else if (names.size() >= 2 && says("Joint with name[") && says("must specify different")) {
       LeaveOutJoint(names[0], "its parent is its child");
     } else if (names.size() >= 4 && says("joint with name[") && says("both resolve to")) {
@@ -169,7 +169,7 @@ class DocumentRepair {
       if (attached == nullptr || missing != attached) return false;
       Warn(tree, element,
            NameIn(element) + " is attached to " + missing +
-               ", which is not there; it is attached to what it stands in");
+               ", which does not exist; it is attached to what it stands in");
       element.DeleteAttribute("attached_to");
       return true;
     });
@@ -184,7 +184,7 @@ class DocumentRepair {
       if (other == nullptr || missing != other) return false;
       Warn(tree, *pose,
            "the pose of " + NameIn(element) + " is relative to " + missing +
-               ", which is not there; it is taken as relative to what holds it");
+               ", which does not exist; it is treated as relative to what holds it");
       pose->DeleteAttribute("relative_to");
       pose->DeleteAttribute("frame");
       return true;
@@ -193,7 +193,7 @@ class DocumentRepair {
 
   void LeaveOutJoint(const std::string& name, const std::string& reason) {
     ForNamed("joint", name, [&](Tree& tree, XMLElement& element) {
-      Warn(tree, element, "the joint \"" + name + "\" is left out: " + reason);
+      Warn(tree, element, "the joint \"" + name + "\" is ignored: " + reason);
       element.Parent()->DeleteChild(&element);
       return true;
     });
@@ -205,7 +205,7 @@ class DocumentRepair {
       if (own == nullptr || link != own) return false;
       Warn(tree, element,
            "the canonical link " + link + " of " + NameIn(element) +
-               " is not there; its first link is taken");
+               " does not exist; its first link is used");
       element.DeleteAttribute("canonical_link");
       return true;
     });
@@ -264,7 +264,7 @@ class DocumentRepair {
         if (pose == nullptr || pose->Attribute("relative_to") == nullptr) return false;
         Warn(tree, *pose,
              "the pose of " + NameIn(element) +
-                 " is relative to itself in a circle; it is taken as relative to what holds it");
+                 " is relative to itself in a circle; it is treated as relative to what holds it");
         pose->DeleteAttribute("relative_to");
         return true;
       });
@@ -281,7 +281,7 @@ class DocumentRepair {
         if (!has_child && (attribute == nullptr || name != attribute)) return;
         Warn(tree, element,
              "there is no frame \"" + name + "\" to place " + NameIn(element) +
-                 " by; its own is taken");
+                 " by; its own is used");
         element.DeleteAttribute("placement_frame");
         if (has_child) element.DeleteChild(child);
         tree.is_changed = true;
@@ -333,7 +333,7 @@ class DocumentRepair {
       XMLElement* element = Follow(tree.root(), *error.XmlPath(), error.LineNumber().value_or(0));
       if (element == nullptr || IsTop(*element)) continue;
       Warn(tree, *element,
-           NameIn(*element) + " cannot be read and is left out: " + error.Message().substr(0, 200));
+           NameIn(*element) + " cannot be read and is ignored: " + error.Message().substr(0, 200));
       element->Parent()->DeleteChild(element);
       tree.is_changed = true;
       return true;

@@ -35,7 +35,7 @@ std::string UriOf(const XMLElement& include) {
 
 std::string IncludeLeftOut(const std::string& uri, const base::Error& error) {
   return "the include of " + (uri.empty() ? std::string("nothing") : uri) +
-         " is left out: " + error.Sentence();
+         " is ignored: " + error.Sentence();
 }
 
 base::Result<fs::path> IncludeScan::FileOf(const std::string& uri, const fs::path& naming_file) {

@@ -83,7 +83,7 @@ class MimicReader {
     if (number.is_number && std::isfinite(number.value)) return number.value;
     problems_.push_back({base::Problem::Severity::kWarning,
                          "<mimic> has " + Quoted(text) + " for its " + name +
-                             ", which is no number; the default is taken",
+                             ", which is not a number; the default is used",
                          PlaceOf(file_, mimic)});
     return otherwise;
   }

@@ -50,7 +50,7 @@ std::vector<model::ControlSystem> ReadControlSystems(const XMLElement& element,
       if (!is_there) {
         problems.push_back({base::Problem::Severity::kWarning,
                             "<ros2_control> names the joint \"" + name +
-                                "\", which the model does not have; it is left out",
+                                "\", which the model does not have; it is ignored",
                             PlaceOf(file, *joint)});
         continue;
       }

@@ -62,7 +62,7 @@ class ActorReader {
       return value;
     }
     context_.Warn("<" + std::string(name) + "> must be a number from 0 to 1e8, found \"" +
-                      TextOf(element) + "\"; " + std::to_string(otherwise) + " is taken",
+                      TextOf(element) + "\"; " + std::to_string(otherwise) + " is used",
                   Place(*element));
     return otherwise;
   }
@@ -111,7 +111,7 @@ class ActorReader {
     model::Trajectory trajectory;
     trajectory.tension = element.DoubleAttribute("tension", 0);
     if (!(trajectory.tension >= 0 && trajectory.tension <= 1)) {
-      context_.Warn("the tension must lie between 0 and 1; 0 is taken", Place(element));
+      context_.Warn("the tension must lie between 0 and 1; 0 is used", Place(element));
       trajectory.tension = 0;
     }
     const char* type = element.Attribute("type");
@@ -123,7 +123,7 @@ class ActorReader {
          child = child->NextSiblingElement("waypoint")) {
       auto pose = ReadPose(*child);
       if (!pose) {
-        context_.Warn("the waypoint is left out: " + pose.error().message, Place(*child));
+        context_.Warn("the waypoint is ignored: " + pose.error().message, Place(*child));
         continue;
       }
       waypoints[base::FromSeconds(NumberOf(*child, "time", 0))] = pose->pose;
@@ -186,7 +186,7 @@ class ActorReader {
     for (auto* each = actor_.FirstChildElement("animation"); each != nullptr;
          each = each->NextSiblingElement("animation")) {
       if (each == chosen) continue;
-      context_.Warn("an actor has one animation; this one is left out", Place(*each));
+      context_.Warn("an actor has one animation; this one is ignored", Place(*each));
     }
     return chosen;
   }

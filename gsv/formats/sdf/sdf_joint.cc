@@ -28,7 +28,7 @@ void ReadAxis(const sdf::JointAxis& axis, const std::string& place, const Readin
   ignition::math::Vector3d xyz;
   if (!axis.ResolveXyz(xyz).empty() || !geometry::IsFinite(FromIgnition(xyz)) ||
       !(xyz.Length() > 0) || !std::isfinite(xyz.Length())) {
-    context.Warn("the joint's axis has no direction; z is taken", place);
+    context.Warn("the joint's axis has no direction; z is used", place);
     xyz = {0, 0, 1};
   }
   joint.axis = geometry::Normalized(FromIgnition(xyz));
@@ -47,7 +47,7 @@ void ReadAxis(const sdf::JointAxis& axis, const std::string& place, const Readin
   joint.friction = axis.Friction();
   if (!(joint.damping >= 0) || !(joint.friction >= 0) || std::isinf(joint.damping) ||
       std::isinf(joint.friction)) {
-    context.Warn("a joint's damping and friction must be finite and not negative; 0 is taken",
+    context.Warn("a joint's damping and friction must be finite and not negative; 0 is used",
                  place);
     joint.damping = joint.friction = 0;
   }

@@ -60,7 +60,7 @@ model::Surface ReadSurface(const sdf::ElementPtr& collision, const ReadingContex
     if (*value >= 0) {
       target = *value;
     } else {
-      context.Warn("friction and bounce must not be negative; the default is taken",
+      context.Warn("friction and bounce must not be negative; the default is used",
                    PlaceOf(*collision, context.source));
     }
   };
@@ -114,13 +114,13 @@ model::Inertial ReadInertial(const sdf::Link& link, bool is_static, const Readin
   inertial.ixy = products.X(), inertial.ixz = products.Y(), inertial.iyz = products.Z();
   const std::string place = PlaceOf(*element->GetElement("inertial"), context.source);
   if (!(inertial.mass > 0) || !std::isfinite(inertial.mass)) {
-    if (!is_static) context.Warn("the mass must be above zero; 1 kg is taken", place);
+    if (!is_static) context.Warn("the mass must be above zero; 1 kg is used", place);
     return {};
   }
   if (!geometry::IsFinite(inertial.link_from_com)) inertial.link_from_com = {};
   if (!IsPositiveDefinite(inertial)) {
     if (!is_static) {
-      context.Warn("the inertia is not positive definite; that of a ball is taken", place);
+      context.Warn("the inertia is not positive definite; the inertia of a ball is used", place);
     }
     const double moment = 0.4 * inertial.mass * 0.1 * 0.1;
     inertial.ixx = inertial.iyy = inertial.izz = moment;
@@ -139,7 +139,7 @@ double DensityOf(const sdf::ElementPtr& element, double otherwise, const Reading
   if (element == nullptr || !element->HasElement("density")) return otherwise;
   const auto [density, is_number] = element->Get<double>("density", otherwise);
   if (is_number && density > 0 && std::isfinite(density)) return density;
-  context.Warn(fmt::format("<density> must be a number above zero; {:g} kg/m³ is taken", otherwise),
+  context.Warn(fmt::format("<density> must be a number above zero; {:g} kg/m³ is used", otherwise),
                PlaceOf(*element, context.source));
   return otherwise;
 }
@@ -161,7 +161,7 @@ std::vector<double> ReadCollisions(const sdf::Link& source, model::Link& link,
     const std::string place = PlaceOf(*element, context.source);
     auto shape = ReadGeometry(*collision.Geom(), geometry, context);
     if (!shape) {
-      context.Warn("the collision is left out: " + shape.error().message, place);
+      context.Warn("the collision is ignored: " + shape.error().message, place);
       continue;
     }
     link.collisions.push_back(
@@ -184,7 +184,7 @@ void MakeInertialOfShapes(const sdf::Link& source, const std::vector<double>& de
     if (!is_static) {
       context.Warn(
           "<inertial auto> needs collision shapes that have a volume (closed meshes); 1 kg "
-          "and 1 kg m² are taken",
+          "and 1 kg m² are used",
           PlaceOf(*element, context.source));
     }
     link.inertial = {};
@@ -206,7 +206,7 @@ double ReadDecay(const sdf::Link& source, const char* name, const ReadingContext
   const double decay = ValueAt<double>(source.Element(), {"velocity_decay", name}).value_or(0.0);
   if (decay >= 0 && decay <= 1) return decay;
   context.Warn("<velocity_decay><" + std::string(name) + "> must lie between 0 and 1, not " +
-                   fmt::format("{:g}", decay) + "; 0 is taken",
+                   fmt::format("{:g}", decay) + "; 0 is used",
                PlaceOf(*source.Element(), context.source));
   return 0;
 }
@@ -301,14 +301,14 @@ geometry::Pose Resolve(const sdf::SemanticPose& semantic, const std::string& res
   ignition::math::Pose3d resolved;
   const sdf::Errors errors = semantic.Resolve(resolved, resolve_to);
   if (!errors.empty()) {
-    context.Warn("the pose cannot be resolved, and is taken as it is written: " +
+    context.Warn("the pose cannot be resolved, and is used as it is written: " +
                      errors.front().Message().substr(0, kLongestReason),
                  place);
     resolved = semantic.RawPose();
   }
   const geometry::Pose pose = FromIgnition(resolved);
   if (!geometry::IsFinite(pose)) {
-    context.Warn("the pose is not finite; the origin is taken", place);
+    context.Warn("the pose is not finite; the origin is used", place);
     return {};
   }
   return pose;

@@ -51,7 +51,7 @@ class MediumReader {
       return number.value;
     }
     const std::string bound = std::isfinite(least) ? fmt::format(" of at least {:g}", least) : "";
-    Warn(element, fmt::format("must be a number{}, not {}; {:g} is taken", bound,
+    Warn(element, fmt::format("must be a number{}, not {}; {:g} is used", bound,
                               Quoted(text == nullptr ? "" : text), otherwise));
     return otherwise;
   }
@@ -77,7 +77,7 @@ class MediumReader {
     if (factor != nullptr && factor->FirstChildElement() == nullptr) {
       wind.drag = NumberOf(*factor, 1, 0);
     } else if (factor != nullptr) {
-      Warn(*factor, "that differs from place to place is not carried out; 1 is taken");
+      Warn(*factor, "that differs from place to place is not carried out; 1 is used");
     }
     for (const char* varying : {"horizontal", "vertical"}) {
       const XMLElement* element = plugin.FirstChildElement(varying);

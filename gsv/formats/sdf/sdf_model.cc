@@ -71,7 +71,7 @@ class ModelReader {
   void AddParts(const sdf::Model& source, const std::string& scope, const Pose& root_from_model,
                 int levels_left, bool is_in_static) {
     if (levels_left == 0) {
-      context_.Warn("models are nested too deep; this one is left out",
+      context_.Warn("models are nested too deep; this one is ignored",
                     PlaceOfElement(source.Element()));
       return;
     }
@@ -101,7 +101,7 @@ class ModelReader {
           Resolve(inner.SemanticPose(), "__model__", PlaceOfElement(inner.Element()), context_);
       frames_[scope + inner.Name()] = root_from_inner;
       if (inner.LinkCount() == 0 && inner.ModelCount() == 0) {
-        context_.Warn("the model \"" + inner.Name() + "\" has no links; it is left out",
+        context_.Warn("the model \"" + inner.Name() + "\" has no links; it is ignored",
                       PlaceOfElement(inner.Element()));
       }
       AddParts(inner, scope + inner.Name() + "::", root_from_inner, levels_left - 1, is_static);
@@ -156,7 +156,8 @@ class ModelReader {
     joint.child = LinkIndex(scope + child);
     if (joint.child < 0 || (joint.parent < 0 && parent != "world")) {
       context_.Warn(
-          "the joint \"" + joint.name + "\" names a link that is not there; it is left out", place);
+          "the joint \"" + joint.name + "\" names a link that does not exist; it is ignored",
+          place);
       return;
     }
     joint.model_from_joint = frames_[joint.name];
@@ -195,7 +196,7 @@ class ModelReader {
   void ReportLoops(const std::vector<std::string>& loops) {
     for (const std::string& name : loops) {
       context_.Warn(
-          "the joint \"" + name + "\" closes a loop, which is not supported; it is left out",
+          "the joint \"" + name + "\" closes a loop, which is not supported; it is ignored",
           context_.source.string());
     }
   }
@@ -237,11 +238,11 @@ class ModelReader {
     sensor.link_from_sensor = geometry::Inverse(model_.links[link].model_from_link) *
                               model_from_owner * owner_from_sensor;
     if (!(sensor.update_rate >= 0) || !std::isfinite(sensor.update_rate)) {
-      context_.Warn("a sensor's update rate must not be negative; 0 is taken", place);
+      context_.Warn("a sensor's update rate must not be negative; 0 is used", place);
       sensor.update_rate = 0;
     }
     if (sensor.type.empty() || sensor.type == "__default__") {
-      context_.Warn("the sensor has no type and is left out", place);
+      context_.Warn("the sensor has no type and is ignored", place);
       return;
     }
     sensor.name = UniqueSensorName(sensor.name, frame);
@@ -271,7 +272,7 @@ class ModelReader {
     const auto it = frames_.find(scope + relative_to);
     if (it == frames_.end()) {
       context_.Warn("the sensor's pose is relative to \"" + relative_to +
-                        "\", which is not there; it is taken as relative to its link",
+                        "\", which does not exist; it is treated as relative to its link",
                     place);
       return raw;
     }
@@ -292,7 +293,7 @@ class ModelReader {
     auto drive = ReadDrive(plugin, model_, scope, context_);
     if (!drive) return;
     if (model_.drive) {
-      context_.Warn("the model has a second drive, which is left out", PlaceOfElement(plugin));
+      context_.Warn("the model has a second drive, which is ignored", PlaceOfElement(plugin));
       return;
     }
     model_.drive = std::move(drive);
@@ -320,7 +321,7 @@ class ModelReader {
       }
     }
     if (!geometry::IsFinite(model_.default_pose)) {
-      context_.Warn("the model's pose is not finite; the origin is taken",
+      context_.Warn("the model's pose is not finite; the origin is used",
                     PlaceOfElement(source.Element()));
       model_.default_pose = {};
     }

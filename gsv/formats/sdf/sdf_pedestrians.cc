@@ -52,7 +52,7 @@ std::shared_ptr<const model::PedestrianGroup> ReadPedestrians(const XMLElement& 
   ReadNumber(element, "gsv:radius", group->radius);
   ReadNumber(element, "gsv:height", group->height);
   if (auto ok = model::Check(*group); !ok) {
-    context.Warn("the pedestrians are left out: " + ok.error().message,
+    context.Warn("the pedestrians are ignored: " + ok.error().message,
                  PlaceOf(context.source, element));
     return nullptr;
   }

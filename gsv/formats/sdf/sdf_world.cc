@@ -37,7 +37,7 @@ void ReadPhysics(const sdf::Physics& physics, const ReadingContext& context,
   if (step >= 1e-6 && step <= 1) {
     world.max_step_size = base::SimTime(std::llround(step * 1e9));
   } else {
-    context.Warn("<max_step_size> must lie between 1e-6 s and 1 s; 0.001 s is taken", place);
+    context.Warn("<max_step_size> must lie between 1e-6 s and 1 s; 0.001 s is used", place);
   }
   // Not positive: as fast as possible, which the caller decides.
   if (physics.RealTimeFactor() > 0) world.real_time_factor = physics.RealTimeFactor();
@@ -71,7 +71,7 @@ model::Light ReadLight(const sdf::Light& source, const ReadingContext& context) 
   if (geometry::IsFinite(direction) && geometry::Norm(direction) > 0) {
     light.direction = geometry::Normalized(direction);
   } else if (light.kind != Light::Kind::kPoint) {
-    context.Warn("the light's <direction> has no length; straight down is taken",
+    context.Warn("the light's <direction> has no length; straight down is used",
                  source.Element() == nullptr ? context.source.string()
                                              : PlaceOf(*source.Element(), context.source));
   }
@@ -98,13 +98,13 @@ void ReadPhysicsAndScene(const sdf::World& source, const ReadingContext& context
   if (geometry::IsFinite(gravity)) {
     world.gravity = gravity;
   } else {
-    context.Warn("<gravity> must be finite; Earth's is taken", context.source.string());
+    context.Warn("<gravity> must be finite; Earth's is used", context.source.string());
   }
   const Vector3 magnetic_field = FromIgnition(source.MagneticField());
   if (geometry::IsFinite(magnetic_field)) {
     world.magnetic_field = magnetic_field;
   } else {
-    context.Warn("<magnetic_field> must be finite; the default is taken", context.source.string());
+    context.Warn("<magnetic_field> must be finite; the default is used", context.source.string());
   }
   if (const auto* coordinates = source.SphericalCoordinates()) {
     ReadOrigin(*coordinates, context, world);
@@ -114,7 +114,7 @@ void ReadPhysicsAndScene(const sdf::World& source, const ReadingContext& context
     if (std::isfinite(kelvin) && kelvin >= 0) {
       world.temperature = kelvin;
     } else {
-      context.Warn("<atmosphere><temperature> must be at least 0 K; the default is taken",
+      context.Warn("<atmosphere><temperature> must be at least 0 K; the default is used",
                    context.source.string());
     }
   }

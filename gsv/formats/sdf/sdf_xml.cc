@@ -118,7 +118,7 @@ base::Status Expand(const ResourceFinder& finder, const ReadLimits& limits,
   }
   if (file.path.extension() == ".xacro") return Fail(expanded.error());
   problems.push_back({Problem::Severity::kWarning,
-                      "the xacro elements of this file are left out, since they cannot be "
+                      "the xacro elements of this file are ignored, since they cannot be "
                       "expanded: " +
                           expanded.error().message,
                       expanded.error().where});

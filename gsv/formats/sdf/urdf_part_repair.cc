@@ -119,7 +119,7 @@ class UrdfPartRepair {
   }
 
   void LeaveOut(XMLElement& element, const std::string& reason) {
-    Warn(element, NameOfPart(element) + " is left out: " + reason);
+    Warn(element, NameOfPart(element) + " is ignored: " + reason);
     element.Parent()->DeleteChild(&element);
   }
 
@@ -141,7 +141,7 @@ class UrdfPartRepair {
       if (repaired.wrong.empty() || repaired.text.empty()) continue;
       Warn(element, "@" + std::string(known.name) + " of <" + element.Name() + "> holds " +
                         Quoted(written) + ": " + repaired.wrong + "; " + repaired.text +
-                        " is taken");
+                        " is used");
       element.SetAttribute(known.name, repaired.text.c_str());
     }
     for (auto* child = element.FirstChildElement(); child != nullptr;
@@ -205,7 +205,7 @@ class UrdfPartRepair {
     XMLElement* inertia = inertial.FirstChildElement("inertia");
     const double kilograms = LeadingNumberOf(mass->Attribute("value")).value;
     if (inertia == nullptr) {
-      Warn(inertial, "<inertial> has no <inertia>; that of a ball is taken");
+      Warn(inertial, "<inertial> has no <inertia>; the inertia of a ball is used");
       inertia = inertial.InsertNewChildElement("inertia");
     }
     const double moment = 0.4 * std::abs(kilograms) * kBallRadius * kBallRadius;
@@ -215,7 +215,7 @@ class UrdfPartRepair {
       if (inertia->Attribute(key) != nullptr ||
           (is_moment && inertia->FirstAttribute() != nullptr)) {
         Warn(*inertia, "<inertia> has no @" + std::string(key) + "; " +
-                           (is_moment ? "that of a ball" : "0") + " is taken");
+                           (is_moment ? "the inertia of a ball" : "0") + " is used");
       }
       inertia->SetAttribute(key, is_moment ? moment : 0.0);
     }

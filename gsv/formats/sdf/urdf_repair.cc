@@ -47,7 +47,7 @@ class UrdfRepair {
   void Repair() {
     robot_.DeleteAttribute("version");
     if (robot_.Attribute("name") == nullptr || *robot_.Attribute("name") == '\0') {
-      Warn(robot_, "<robot> has no name; that of its file is taken");
+      Warn(robot_, "<robot> has no name; the name of its file is used");
       robot_.SetAttribute("name", file_.stem().string().c_str());
     }
     RepairUrdfParts(robot_, file_, problems_);
@@ -64,7 +64,7 @@ class UrdfRepair {
   }
 
   void LeaveOut(XMLElement& element, const std::string& what, const std::string& reason) {
-    Warn(element, what + " is left out: " + reason);
+    Warn(element, what + " is ignored: " + reason);
     robot_.DeleteChild(&element);
   }
 
@@ -122,7 +122,7 @@ class UrdfRepair {
          {std::pair{"parent", joint.parent}, std::pair{"child", joint.child}}) {
       if (name.empty()) return "it has no <" + std::string(end) + "> with @link";
       if (links_.count(name) == 0) {
-        return "its " + std::string(end) + " link \"" + name + "\" is not there";
+        return "its " + std::string(end) + " link \"" + name + "\" does not exist";
       }
     }
     if (above_.count(joint.child) != 0 || RootOf(joint.parent) == joint.child) {
@@ -153,7 +153,7 @@ class UrdfRepair {
     for (const auto& [root, links] : trees) {
       if (root == largest->first) continue;
       Warn(*links_.at(root), "no joint connects the link \"" + root +
-                                 "\" to the robot; it is left out" +
+                                 "\" to the robot; it is ignored" +
                                  (links.size() > 1 ? " with all below it" : ""));
       for (const std::string& name : links) Remove(name);
     }
@@ -260,7 +260,7 @@ class UrdfRepair {
     Warn(*links_.at(given.front()),
          (given.size() == 1 ? "a link has" : std::to_string(given.size()) + " links have") +
              std::string(" no mass (no <inertial>, or a <mass> that is not above zero): ") + list +
-             "; 0.1 kg is taken" + (given.size() == 1 ? "" : " for each"));
+             "; 0.1 kg is used" + (given.size() == 1 ? "" : " for each"));
   }
 
   std::string TopOf(std::string link) const {

@@ -87,7 +87,7 @@ class ValueRepair {
       reason = "has no type";
     }
     if (reason.empty()) return false;
-    Warn(element, NameOf(element) + " " + reason + "; it is left out");
+    Warn(element, NameOf(element) + " " + reason + "; it is ignored");
     element.Parent()->DeleteChild(&element);
     return true;
   }
@@ -105,7 +105,7 @@ class ValueRepair {
       const RepairedText repaired = RepairText(attribute->GetTypeName(), written, otherwise);
       if (repaired.wrong.empty()) continue;
       Warn(element, "@" + key + " of " + NameOf(element) + " holds " + Quoted(written) + ": " +
-                        repaired.wrong + "; " + repaired.text + " is taken");
+                        repaired.wrong + "; " + repaired.text + " is used");
       element.SetAttribute(key.c_str(), repaired.text.c_str());
     }
     CheckKind(element);
@@ -118,7 +118,7 @@ class ValueRepair {
     } else if (value == kNoDefault || value.empty()) {
       value = std::strcmp(element.Name(), "joint") == 0 ? "fixed" : "none";
     }
-    Warn(element, NameOf(element) + " has no @" + key + "; " + Quoted(value) + " is taken");
+    Warn(element, NameOf(element) + " has no @" + key + "; " + Quoted(value) + " is used");
     element.SetAttribute(key.c_str(), value.c_str());
   }
 
@@ -150,7 +150,7 @@ class ValueRepair {
     if ((!is_joint && !is_light) || known.count(type) != 0) return;
     const char* taken = is_joint ? "fixed" : "point";
     Warn(element,
-         NameOf(element) + " is of the unknown type " + Quoted(type) + "; " + taken + " is taken");
+         NameOf(element) + " is of the unknown type " + Quoted(type) + "; " + taken + " is used");
     element.SetAttribute("type", taken);
   }
 
@@ -164,7 +164,7 @@ class ValueRepair {
         RepairText(value->GetTypeName(), written, value->GetDefaultAsString(), has_quaternion);
     if (repaired.wrong.empty()) return;
     Warn(element, Tag(element) + " holds " + Quoted(written) + ": " + repaired.wrong + "; " +
-                      repaired.text + " is taken");
+                      repaired.text + " is used");
     element.SetText(repaired.text.c_str());
   }
 

@@ -302,7 +302,7 @@ class WorldReader {
           document ? base::Error{ErrorCode::kBadModel, "nothing can be read of it", ""}
                    : document.error();
       for (std::size_t i = first; i < end; ++i) {
-        context_.Warn("the model \"" + NameOf(distinct_[i]) + "\" is left out: " + error.Sentence(),
+        context_.Warn("the model \"" + NameOf(distinct_[i]) + "\" is ignored: " + error.Sentence(),
                       Place(*distinct_[i].element));
       }
       return;
@@ -355,7 +355,7 @@ class WorldReader {
   void TakeParsed(const sdf::World& world, Distinct& distinct) {
     const sdf::Model* model = world.ModelByName(NameOf(distinct));
     if (model == nullptr) {
-      context_.Warn("the model \"" + NameOf(distinct) + "\" is left out", Place(*distinct.element));
+      context_.Warn("the model \"" + NameOf(distinct) + "\" is ignored", Place(*distinct.element));
       return;
     }
     auto framed = formats::ReadModel(*model, context_);
@@ -368,7 +368,7 @@ class WorldReader {
           WithMimics(*distinct.element, file_.path, std::move(framed->model), problems_);
       distinct.framed = std::move(*framed);
     } else {
-      context_.Warn(framed.error().message + "; it is left out", Place(*distinct.element));
+      context_.Warn(framed.error().message + "; it is ignored", Place(*distinct.element));
     }
   }
 
@@ -405,7 +405,7 @@ class WorldReader {
       if (framed == nullptr) continue;
       auto world_from_model = frames_.WorldFrom(placement.name);
       if (!world_from_model) {
-        context_.Warn(world_from_model.error().message + "; the origin is taken", placement.place);
+        context_.Warn(world_from_model.error().message + "; the origin is used", placement.place);
       }
       const auto& script = framed->model->script;
       const Pose start = script == nullptr ? Pose{} : model::StartPose(*script);

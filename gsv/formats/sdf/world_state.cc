@@ -30,7 +30,7 @@ std::optional<Pose> StatePose(const XMLElement& element, const ReadingContext& c
   if (element.FirstChildElement("pose") == nullptr) return std::nullopt;
   auto pose = ReadPose(element);
   if (pose) return pose->pose;
-  context.Warn(pose.error().message + "; the state's pose is left out",
+  context.Warn(pose.error().message + "; the state's pose is ignored",
                PlaceOf(context.source, element));
   return std::nullopt;
 }
@@ -74,7 +74,7 @@ void WorldState::Read(XMLElement& world, const ReadingContext& context) {
     const char* name = world.Attribute("name");
     if (of != nullptr && name != nullptr && std::strcmp(of, name) != 0) {
       context.Warn("the <state> is one of the world \"" + std::string(of) +
-                       "\", not of this one; it is left out",
+                       "\", not of this one; it is ignored",
                    PlaceOf(context.source, *state));
     } else {
       ReadState(*state, world, context);

@@ -111,7 +111,7 @@ class ElementAudit {
       } else if (child == taken) {
         Visit(*child, *known);
       } else if (name != "world" && taken != nullptr) {  // the reader reports worlds
-        Report(Tag(name) + " beside a " + Tag(taken->Name()) + " is left out" +
+        Report(Tag(name) + " beside a " + Tag(taken->Name()) + " is ignored" +
                    (std::string_view(taken->Name()) == "world" ? ". It belongs in <world>."
                                                                : "; a file holds one model"),
                *child);
@@ -131,7 +131,7 @@ class ElementAudit {
         shape = child;
       } else if (std::string_view(shape->Name()) != child->Name() && !IsNamespaced(child->Name())) {
         Report("a second shape in <geometry>, " + Tag(child->Name()) +
-                   ", is left out; a geometry holds one",
+                   ", is ignored; a geometry holds one",
                *child);
       }
     }

@@ -57,7 +57,7 @@ TEST(ElementAudit, ReportsWhereMisplacedElementsBelong) {
   EXPECT_THAT(AuditOfLink("<visual name='v'><collision name='c'/></visual>"),
               ElementsAre(EndsWith("It belongs in <link>.")));
   EXPECT_THAT(AuditOf("<sdf version='1.9'><world name='w'/><model name='m'/></sdf>"),
-              ElementsAre(HasSubstr("<model> beside a <world> is left out")));
+              ElementsAre(HasSubstr("<model> beside a <world> is ignored")));
 }
 
 TEST(ElementAudit, NamesUnknownAttributes) {

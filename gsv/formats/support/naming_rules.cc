@@ -201,7 +201,7 @@ class NamingRules {
   void CheckReference(const char* what, const std::string& name, const XMLElement& element,
                       const Scope& scope) {
     if (scope.Has(name)) return;
-    Report("its " + std::string(what) + " names \"" + name + "\", which is not there", element);
+    Report("its " + std::string(what) + " names \"" + name + "\", which does not exist", element);
   }
 
   // The link to which a frame or joint of that name is attached; empty if it is not known.

@@ -167,7 +167,7 @@ base::Status Expander::Element(const NodePtr& node, Node& parent, Context& conte
 base::Status Expander::UnknownMacro(const std::string& name, const Node& call) {
   if (missing_file_.empty()) return Unfit("there is no macro \"" + name + "\"");
   problems_.push_back({base::Problem::Severity::kWarning,
-                       "the call of the macro \"" + name + "\" is left out: " + missing_file_ +
+                       "the call of the macro \"" + name + "\" is ignored: " + missing_file_ +
                            ", which is missing, may define it",
                        call.place()});
   return {};
@@ -285,8 +285,8 @@ base::Status Expander::OnInclude(const NodePtr& node, Node& parent, Context& con
     }
     if (!*is_optional) missing_file_ = *name;
     problems_.push_back({base::Problem::Severity::kWarning,
-                         (*is_optional ? "the optional file is left out: "
-                                       : "the include of " + *name + " is left out: ") +
+                         (*is_optional ? "the optional file is ignored: "
+                                       : "the include of " + *name + " is ignored: ") +
                              root.error().message,
                          node->place()});
     return {};
@@ -515,7 +515,7 @@ base::Result<Value> Expander::Command(const std::string& command, const Node& at
     const std::size_t end = std::min(rest.find(' '), rest.size());
     problems_.push_back({base::Problem::Severity::kWarning,
                          "$(optenv " + rest.substr(0, end) +
-                             ") takes its default: environment variables are not read",
+                             ") uses its default: environment variables are not read",
                          at.place()});
     return Value{Stripped(rest.substr(end))};
   }

@@ -170,7 +170,7 @@ TEST_F(ExpanderTest, LeavesOutCallsOfMacrosInAMissingFile) {
             "<a/>");
   ASSERT_THAT(problems_, SizeIs(2));
   EXPECT_THAT(problems_[0].Sentence(),
-              HasSubstr("robot.xacro:2: the include of absent.xacro is left out: cannot find"));
+              HasSubstr("robot.xacro:2: the include of absent.xacro is ignored: cannot find"));
   EXPECT_THAT(problems_[1].Sentence(),
               HasSubstr("robot.xacro:3: the call of the macro \"lidar\" is left out"));
   // A missing value cannot be left out.
@@ -224,7 +224,7 @@ TEST_F(ExpanderTest, ReachesNoFileOutsideWhereAbsolutePathsAreNotAllowed) {
   allows_absolute_paths_ = false;
   EXPECT_EQ(Expanded("<xacro:include filename='/etc/hostname'/>"), "");
   ASSERT_THAT(problems_, SizeIs(1));
-  EXPECT_THAT(problems_[0].message, HasSubstr("the include of /etc/hostname is left out"));
+  EXPECT_THAT(problems_[0].message, HasSubstr("the include of /etc/hostname is ignored"));
   EXPECT_THAT(Expanded("<a b=\"${xacro.load_yaml('../../../etc/passwd')}\"/>"),
               HasSubstr("climbs out"));
 }

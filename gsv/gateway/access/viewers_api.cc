@@ -50,7 +50,7 @@ std::vector<Route> ViewersApi::Routes() {
        [this](const Request& request) { return Enter(request); },
        "Register as a viewer, with a name"},
       {"POST", "/api/viewers/me", kWatch, false, kReaders, changing(&ViewersApi::Change),
-       "Change the name, or open another simulation, which releases control"},
+       "Change the name, or open another simulation (this releases control)"},
       {"DELETE", "/api/viewers/me", kWatch, false, kReaders, changing(&ViewersApi::Leave),
        "Leave as a viewer, and release control"},
       {"POST", "/api/viewers/me/control", kControl, false, kReaders,

@@ -74,7 +74,7 @@ void TurnAway(tcp::socket& socket) {
   static constexpr std::string_view kAnswer =
       "HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\nContent-Type: application/json\r\n"
       "\r\n"
-      "{\"error\":\"too many connections; close some viewers, try again\"}";
+      "{\"error\":\"too many connections; close some viewers and try again\"}";
   error_code error;
   socket.non_blocking(true, error);
   socket.write_some(asio::buffer(kAnswer.data(), kAnswer.size()), error);

@@ -13,7 +13,7 @@ using Json = nlohmann::json;
 tl::unexpected<base::Error> Malformed(const std::string& what) {
   return base::Fail(
       base::ErrorCode::kCorrupt,
-      "the other instance sent a message that does not follow the Foxglove protocol: " + what);
+      "the other gsv server sent a message that does not follow the Foxglove protocol: " + what);
 }
 
 std::string TextOf(const Json& object, const char* name) {
@@ -49,7 +49,7 @@ base::Result<ServerText> ParseUnadvertise(const Json& json) {
   Unadvertise message;
   for (const Json& entry : *list) {
     const std::optional<std::uint32_t> id = ChannelIdOf(entry);
-    if (!id) return Malformed("a channel's number that is none");
+    if (!id) return Malformed("a channel's number that is invalid");
     message.channels.push_back(*id);
   }
   return message;

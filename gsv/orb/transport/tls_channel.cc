@@ -36,7 +36,7 @@ bool IsAboutCertificate(int alert) {
 std::string Reason(long verdict) {
   if (verdict == X509_V_ERR_CERT_HAS_EXPIRED) return "its certificate has expired";
   if (verdict != X509_V_OK) {
-    return std::string("its certificate is none of this group's authority (") +
+    return std::string("its certificate was not issued by this group's authority (") +
            X509_verify_cert_error_string(verdict) + ")";
   }
   const unsigned long error = ERR_peek_error();

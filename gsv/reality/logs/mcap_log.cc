@@ -152,7 +152,7 @@ class McapLog {
 
   std::string Where(double time) const { return fmt::format("at {} s ", time); }
   void Warn(const std::string& what) {
-    if (++warnings_ <= kMaxSentences) Keep(what + "; it is left out");
+    if (++warnings_ <= kMaxSentences) Keep(what + "; it is ignored");
   }
   void Keep(const std::string& what) {
     problems_.push_back({base::Problem::Severity::kWarning, what, path_.string()});

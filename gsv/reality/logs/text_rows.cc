@@ -104,7 +104,7 @@ std::string TextRows::Here() const { return fmt::format("{}:{}", path_.string(),
 
 void TextRows::LeaveOut(const std::string& why) {
   ++left_out_;
-  Warn(why + "; the row is left out");
+  Warn(why + "; the row is ignored");
 }
 
 void TextRows::Warn(const std::string& what) {

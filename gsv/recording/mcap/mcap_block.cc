@@ -43,7 +43,7 @@ base::Result<Bytes> ReadRecords(const ByteSource& source, const MessageBlock& bl
   std::span<const std::byte> rest = *bytes;
   const std::optional<RawRecord> record = TakeRecord(rest);
   if (!record || record->opcode != Opcode::kChunk || !rest.empty()) {
-    return Damaged(block, "there is none where the index says");
+    return Damaged(block, "there is no record where the index says");
   }
   const auto chunk = Parse<ChunkRecord>(record->content);
   if (!chunk || chunk->uncompressed_size != block.uncompressed_size ||

@@ -24,7 +24,7 @@ WideView ReadWideView(sensing::ParameterReader& reader, const std::string& type)
     } else if (name == "id") {
       view.function = WideView::Function::kIdentity;
     } else if (name != "tan") {
-      reader.Refuse("lens.custom_function.fun is \"" + name + "\"; it is sin, tan or id");
+      reader.Refuse("lens.custom_function.fun is \"" + name + "\"; it must be sin, tan or id");
     }
   } else if (auto known = WideViewNamed(type)) {
     view = *known;

@@ -48,7 +48,7 @@ base::Status SensorRack::Create(model::SensorDescription description, int link_c
   }
   if (description.link < 0 || description.link >= link_count) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "link " + std::to_string(description.link) + " is not there", where);
+                      "link " + std::to_string(description.link) + " does not exist", where);
   }
   if (!geometry::IsFinite(description.link_from_sensor)) {
     return base::Fail(base::ErrorCode::kInvalidArgument, "the mounting pose is not finite", where);

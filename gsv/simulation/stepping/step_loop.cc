@@ -176,7 +176,7 @@ bool StepLoop::AllWait(SimulationLock& lock) {
 }
 
 void StepLoop::GiveUpOn(RobotAgent& agent) {
-  const std::string detail = "neither waited nor returned within " +
+  const std::string detail = "neither called a wait function nor returned within " +
                              std::to_string(parts_.specification.deadline.count()) + " ms";
   agent.MarkUnresponsive(detail);
   parts_.events.Emit("agent_unresponsive", agent.robot(),

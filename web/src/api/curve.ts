@@ -21,7 +21,7 @@ export function parseCurve(json: unknown): WholeCurve {
   const times = listAt(curve.time_s, "curve.time_s").map((each, i) => numberAt(each, `curve.time_s[${i}]`));
   const values = listAt(curve.values, "curve.values");
   if (values.length !== times.length) {
-    throw new Error(`curve.values: expected ${times.length} of them, found ${values.length}`);
+    throw new Error(`curve.values: expected ${times.length} values, found ${values.length}`);
   }
   return {
     times: Float64Array.from(times),

@@ -207,7 +207,7 @@ function parsePoseEntry(value: unknown, bodies: number, where: string): PoseEntr
   const entry = objectAt(value, where);
   const body = numberAt(entry.body, `${where}.body`);
   if (!Number.isInteger(body) || body < 0 || body >= bodies) {
-    throw new Error(`${where}.body: expected the index of one of ${bodies} bodies, found ${body}`);
+    throw new Error(`${where}.body: expected a body index from 0 to ${bodies - 1}, found ${body}`);
   }
   return { body, link: typeof entry.link === "string" ? entry.link : null };
 }

@@ -69,7 +69,7 @@ const GESTURES: [gesture: string, meaning: string][] = [
   ["Mouse wheel, or pinch", "Zoom at the pointer"],
   ["Click a robot", "Select the robot"],
   ["Drag a robot or object, while editing", "Move it; drag the tip of its arrow to turn it"],
-  ["Click the floor, while editing", "Place the selected robot or object there"],
+  ["Click the floor in edit mode", "Place the selected robot or object there"],
 ];
 
 export function createHelpSheet(app: App): HTMLElement {

@@ -209,7 +209,7 @@ function parameterFields(app: App) {
     ["name", textField("Name", "chosen automatically", take("name"))],
     ["mode", mode],
     ["real_time_factor", numberField("Real-time factor (simulated seconds per second)", 1, take("real_time_factor"), { least: "0" })],
-    ["duration", numberField("Duration (s; 0: until stopped)", 0, take("duration"), { least: "0" })],
+    ["duration", numberField("Duration in s (0: until stopped)", 0, take("duration"), { least: "0" })],
     ["step", numberField("Step (s; 0: as the world says)", 0, take("step"), { least: "0" })],
     ["seed", numberField("Seed of all noise", 0, take("seed"), { step: "1", least: "0" })],
     ["record", checkField("Record from the start", take("record"))],

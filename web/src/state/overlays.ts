@@ -27,9 +27,9 @@ export type Shown = Record<OverlayName, boolean>;
 
 export const OVERLAYS: readonly OverlayKind[] = [
   { name: "beams", label: "Beams", key: "1", hint: "Readings of sonars and other range sensors" },
-  { name: "points", label: "Points", key: "2", hint: "Points of lidars and depth cameras" },
+  { name: "points", label: "Points", key: "2", hint: "Lidar and depth camera points" },
   { name: "contacts", label: "Contacts", key: "3", hint: "Contact points of bumpers" },
-  { name: "cameras", label: "Camera views", key: "4", hint: "Frustums of the cameras" },
+  { name: "cameras", label: "Camera views", key: "4", hint: "Camera frustums" },
   { name: "trails", label: "Trails", key: "5", hint: "Paths of the robots" },
   { name: "frames", label: "Frames", key: "6", hint: "Axes of robots, moving links and sensors" },
   { name: "labels", label: "Names", key: "7", hint: "Names of the robots" },
@@ -37,7 +37,7 @@ export const OVERLAYS: readonly OverlayKind[] = [
   { name: "collisions", label: "Collision shapes", key: "9", hint: "Collision shapes used by the physics" },
   { name: "joints", label: "Joints", key: "0", hint: "Axes of the joints" },
   { name: "actuators", label: "Actuators and radio", key: "-", hint: "State of lamps, speakers, grippers and radios" },
-  { name: "sound", label: "Sound", key: "=", hint: "Play the sound of the speakers" },
+  { name: "sound", label: "Sound", key: "=", hint: "Play the sound of the robots' loudspeakers" },
 ];
 
 export const FIRST_SHOWN: Shown = {

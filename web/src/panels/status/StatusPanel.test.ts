@@ -47,8 +47,8 @@ test("the simulation's state is shown as it comes", () => {
     mode: "real time",
     "simulated time": "0:06.00",
     step: "600",
-    "real-time factor, actual": "0.50×",
-    "real-time factor, target": "2.00×",
+    "actual real-time factor": "0.50×",
+    "target real-time factor": "2.00×",
     "late steps": "3",
     "waiting for": "a (wander)",
   });

@@ -49,8 +49,8 @@ function simulationFacts(status: SimulationStatus): Fact[] {
     ["mode", mode === "lockstep" ? "lockstep" : "real time"],
     ["simulated time", formatTime(time)],
     ["step", String(step)],
-    ["real-time factor, actual", formatFactor(realTimeFactor)],
-    ["real-time factor, target", mode === "lockstep" ? "none" : formatFactor(targetFactor)],
+    ["actual real-time factor", formatFactor(realTimeFactor)],
+    ["target real-time factor", mode === "lockstep" ? "none" : formatFactor(targetFactor)],
     ["late steps", String(lateSteps), lateSteps > 0 ? "warning" : ""],
     ["waiting for", waitingFor || "nobody", waitingFor ? "warning" : ""],
   ];
@@ -85,7 +85,7 @@ class RobotTable {
     const table = element("table", {}, element("thead", {}, head), this.body);
     this.element = element(
       "div",
-      { class: "panel-table", tabindex: "0", role: "region", "aria-label": "Status of the robots" },
+      { class: "panel-table", tabindex: "0", role: "region", "aria-label": "Robot status" },
       table,
       this.rest,
     );
