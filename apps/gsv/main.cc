@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -14,6 +15,7 @@
 #include "apps/gsv/process/program_end.h"
 #include "apps/gsv/process/standard_output.h"
 #include "gsv/base/log.h"
+#include "gsv/base/spelling.h"
 
 namespace {
 
@@ -94,6 +96,25 @@ void StartLog(const LogArguments& log, bool verbose) {
   gsv::base::InitLogging(options);
 }
 
+// `words` are what the command does not know, at least one: the first option, else the first word.
+std::string UnknownWord(const CLI::App& command, const std::vector<std::string>& words) {
+  const auto option = std::find_if(words.begin(), words.end(),
+                                   [](const auto& word) { return word.starts_with('-'); });
+  std::vector<std::string> known;
+  if (option != words.end()) {
+    for (const CLI::Option* each : command.get_options()) {
+      for (const std::string& name : each->get_lnames()) known.push_back("--" + name);
+    }
+    const std::string name = option->substr(0, option->find('='));
+    return "there is no option " + name + gsv::base::DidYouMean(name, known);
+  }
+  for (const CLI::App* each : command.get_subcommands([](const CLI::App*) { return true; })) {
+    if (!each->get_group().empty()) known.push_back(each->get_name());
+  }
+  if (known.empty()) return "unexpected argument " + words.front();
+  return "there is no command " + words.front() + gsv::base::DidYouMean(words.front(), known);
+}
+
 // One sentence, as for every error. CLI11 reports an unknown command as a missing one.
 std::string UsageSentence(const CLI::App* app, const CLI::Error& error) {
   const CLI::App* typed = app;  // the part that is a command
@@ -106,12 +127,11 @@ std::string UsageSentence(const CLI::App* app, const CLI::Error& error) {
   const bool is_required = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError);
   if (is_required && typed->get_require_subcommand_min() > 0) {
     const std::vector<std::string> unknown = typed->remaining();
-    const bool is_option = !unknown.empty() && unknown.front().starts_with('-');
-    what = unknown.empty()
-               ? "a command is missing"
-               : (is_option ? "there is no option " : "there is no command ") + unknown.front();
+    what = unknown.empty() ? "a command is missing" : UnknownWord(*typed, unknown);
+  } else if (!typed->remaining().empty()) {
+    what = UnknownWord(*typed, typed->remaining());
   }
-  return "gsv: " + what + ". See " + words + " --help\n";
+  return "gsv: " + what + (what.ends_with('?') ? " See " : ". See ") + words + " --help\n";
 }
 
 // Sets the groups of commands that do not set one themselves.
@@ -119,7 +139,7 @@ void GroupCommands(CLI::App& app) {
   const std::pair<const char*, std::vector<const char*>> groups[]{
       {"Commands to run simulations", {"run", "serve", "view", "test", "campaign"}},
       {"Commands for recordings", {"rec", "replay"}},
-      {"Commands for files", {"world", "model"}},
+      {"Commands for files", {"list", "world", "model"}},
       {"Commands for logs of real robots", {"compare", "fit"}},
       {"Commands for this machine", {"doctor", "bench", "certificates"}}};
   for (const auto& [group, commands] : groups) {
@@ -163,6 +183,7 @@ int main(int argc, char** argv) {
   AddCheckCommands(line);
   AddConvertCommand(line);
   AddDrawCommand(line);
+  AddListCommand(line);
   AddMapCommands(line);
   AddCompareCommands(line);
   AddBrokerCommands(line);

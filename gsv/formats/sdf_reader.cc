@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "gsv/base/mutex.h"
+#include "gsv/base/spelling.h"
 #include "gsv/formats/sdf/builtin_models.h"
 #include "gsv/formats/sdf/model_store.h"
 #include "gsv/formats/sdf/world_reader.h"
@@ -97,7 +98,8 @@ class ModelLibrary::Reader {
     if (!found) {
       return Fail(ErrorCode::kBadModel, "there is no model \"" + name +
                                             "\": neither such a file nor one of that name "
-                                            "beside the world or on the model path");
+                                            "beside the world or on the model path" +
+                                            base::DidYouMean(name, store_.finder().ModelNames()));
     }
     return FileAt(*found);
   }

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cstdio>
 
+#include "gsv/base/spelling.h"
 #include "gsv/scenario/scenario.h"
 
 namespace gsv::scenario {
@@ -75,7 +76,8 @@ YamlMapping::~YamlMapping() {
   for (const std::string& key : known_) known += (known.empty() ? "" : ", ") + key;
   for (const auto& [key, entry] : unread_) {
     place_.AddProblem(entry.mark, FieldOf(key.substr(0, kLongestQuote)),
-                      "there is no key " + Quoted(key) + " here; known are " + known);
+                      "there is no key " + Quoted(key) + " here; known are " + known +
+                          base::DidYouMean(key, known_));
   }
 }
 

@@ -13,6 +13,7 @@ namespace gsv::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
 using Strings = std::vector<std::string>;
 
 Strings RunArguments(Strings more) {
@@ -223,6 +224,11 @@ TEST(CommandLine, ACommandThatDoesNotExistIsNamed) {
   EXPECT_EQ(said({"fly"}), "gsv: there is no command fly. See gsv --help\n");
   EXPECT_EQ(said({"world", "burn"}), "gsv: there is no command burn. See gsv world --help\n");
   EXPECT_EQ(said({"--swim"}), "gsv: there is no option --swim. See gsv --help\n");
+  EXPECT_EQ(said({"rnu"}), "gsv: there is no command rnu. Did you mean run? See gsv --help\n");
+  EXPECT_EQ(said({"run", "--robott", "pebble"}),
+            "gsv: there is no option --robott. Did you mean --robot? See gsv run --help\n");
+  EXPECT_EQ(said({"ps", "office", "again"}),
+            "gsv: unexpected argument office. See gsv ps --help\n");
   EXPECT_EQ(said({"rec"}), "gsv: a command is missing. See gsv rec --help\n");
 }
 
@@ -253,6 +259,32 @@ TEST(CommandLine, DrawWritesAPictureOfAWorldAndSaysWhatItHolds) {
   const Outcome refused = RunProgram("gsv", {"world", "draw", "office", folder.path() / "x.gif"});
   EXPECT_EQ(refused.ending, "exit code 2");
   EXPECT_THAT(refused.err, HasSubstr("x.gif"));
+}
+
+TEST(CommandLine, MisspeltNamesGetASuggestion) {
+  const auto said = [](const Strings& arguments) { return RunProgram("gsv", arguments).err; };
+  EXPECT_THAT(said({"run", "offise"}), HasSubstr("Did you mean office?"));
+  EXPECT_THAT(said(RunArguments({"--robot", "peble"})), HasSubstr("Did you mean pebble?"));
+  EXPECT_THAT(said(RunArguments({"--robot", "pebble", "--behaviour", "wandr"})),
+              HasSubstr("Did you mean wander?"));
+  EXPECT_THAT(said(RunArguments({"--robot", "pebble", "--behaviour", "peble=wander"})),
+              HasSubstr("Did you mean pebble?"));
+  base::testing::TestFolder folder;
+  EXPECT_THAT(said({"run", folder.Write("s.yaml", "world: office\nrobot: []\n")}),
+              HasSubstr("Did you mean robots?"));
+}
+
+TEST(CommandLine, ListsWhatThereIs) {
+  const auto listed = [](const char* kind) {
+    const Outcome outcome = RunProgram("gsv", {"list", kind, "--json"});
+    EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+    return outcome.LastLine().get<Strings>();
+  };
+  EXPECT_THAT(listed("worlds"), IsSupersetOf({"maze", "office"}));
+  EXPECT_THAT(listed("models"), IsSupersetOf({"b21r", "pebble"}));
+  EXPECT_THAT(listed("behaviours"), IsSupersetOf({"follow-wall", "wander"}));
+  EXPECT_THAT(listed("sensors"), IsSupersetOf({"camera", "sonar"}));
+  EXPECT_EQ(RunProgram("gsv", {"list", "dragons"}).ending, "exit code 2");
 }
 
 TEST(CommandLine, DrawsPedestriansAtTheirStarts) {

@@ -30,6 +30,7 @@ void AddCompareCommands(const CommandLine& line);  // compare, fit
 void AddControlCommands(const CommandLine& line);  // ps, and those on a simulation
 void AddBenchCommands(const CommandLine& line);    // bench
 void AddTestCommand(const CommandLine& line);
+void AddListCommand(const CommandLine& line);
 void AddViewCommand(const CommandLine& line);
 void AddRos2Commands(const CommandLine& line);  // ros2 topics, nodes, echo, hz
 

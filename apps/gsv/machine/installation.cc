@@ -4,6 +4,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "gsv/base/spelling.h"
 #include "gsv/formats/xacro/arguments.h"
 
 namespace gsv::app {
@@ -39,9 +40,11 @@ base::Result<std::string> FindWorld(const std::string& world) {
     if (fs::is_regular_file(ours, ignored)) return ours;
   }
   std::string names;
-  for (const std::string& name : OurWorlds()) names += (names.empty() ? "" : ", ") + name;
+  const std::vector<std::string> ours = OurWorlds();
+  for (const std::string& name : ours) names += (names.empty() ? "" : ", ") + name;
   return base::Fail(base::ErrorCode::kNotFound,
-                    "there is no file or built-in world of this name; built-in worlds are " + names,
+                    "there is no file or built-in world of this name; built-in worlds are " +
+                        names + base::DidYouMean(world, ours),
                     world);
 }
 

@@ -8,6 +8,7 @@
 #include "apps/gsv/running/start_checks.h"
 #include "apps/gsv/simulations/in_process.h"
 #include "apps/gsv/simulations/population.h"
+#include "gsv/base/spelling.h"
 #include "gsv/formats/xacro/arguments.h"
 #include "gsv/recording/attachments/scenario_attachment.h"
 
@@ -64,8 +65,10 @@ base::Status OverrideBehaviours(const RunOptions& options, std::vector<PlacedRob
   }
   for (const auto& [robot, behaviour] : options.behaviour_of) {
     if (names.contains(robot)) continue;
-    return base::Fail(base::ErrorCode::kInvalidArgument, "there is no robot of that name",
-                      "--behaviour " + robot + "=" + behaviour);
+    return base::Fail(
+        base::ErrorCode::kInvalidArgument,
+        "there is no robot of that name" + base::DidYouMean(robot, {names.begin(), names.end()}),
+        "--behaviour " + robot + "=" + behaviour);
   }
   return {};
 }

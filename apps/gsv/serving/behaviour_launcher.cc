@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "apps/gsv/machine/installation.h"
+#include "gsv/base/spelling.h"
 #include "gsv/broker/client/gsv_service_types.h"
 #include "gsv/services/behaviour_source.h"
 
@@ -56,11 +57,26 @@ base::Error NoProgram(const std::string& behaviour, const std::string& name,
           : "and the program " + found.unstartable + " is not executable: run chmod +x on it";
   return {base::ErrorCode::kBehaviour,
           "the behaviour is not offered at " + broker + ", " + program +
-              "; see `gsv offers`, or start your program with --broker " + broker,
+              "; see `gsv offers`, or start your program with --broker " + broker +
+              base::DidYouMean(name, BehaviourPrograms()),
           behaviour};
 }
 
 }  // namespace
+
+std::vector<std::string> BehaviourPrograms() {
+  constexpr std::string_view kPrefix = "gsv-";
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(ProgramFolder(), ignored)) {
+    const std::string file = entry.path().filename();
+    if (file.starts_with(kPrefix) && entry.path().extension().empty()) {
+      names.push_back(file.substr(kPrefix.size()));
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
 
 BehaviourLauncher::~BehaviourLauncher() {
   const auto give_up = std::chrono::steady_clock::now() + patience_;

@@ -13,6 +13,9 @@
 
 namespace gsv::app {
 
+// The behaviours whose programs gsv-NAME lie beside this one, in alphabetical order.
+std::vector<std::string> BehaviourPrograms();
+
 class BehaviourLauncher {
  public:
   // `broker` must outlive this.

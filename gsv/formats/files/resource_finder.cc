@@ -207,6 +207,23 @@ ResourceFinder::ResourceFinder(std::vector<fs::path> search_path, bool allow_abs
   }
 }
 
+std::vector<std::string> ResourceFinder::ModelNames() const {
+  constexpr std::size_t kMaxNames = 10'000;
+  std::vector<std::string> names;
+  for (const fs::path& folder : search_path_) {
+    const auto first = static_cast<std::ptrdiff_t>(names.size());
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+      if (names.size() >= kMaxNames) break;
+      if (Exists(entry.path() / "model.config") || Exists(entry.path() / "model.sdf")) {
+        names.push_back(entry.path().filename());
+      }
+    }
+    std::sort(names.begin() + first, names.end());
+  }
+  return names;
+}
+
 base::Result<fs::path> ResourceFinder::Find(std::string_view name,
                                             const fs::path& naming_file) const {
   std::string path = Trimmed(name);

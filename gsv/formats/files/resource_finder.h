@@ -38,6 +38,9 @@ class ResourceFinder {
   // `naming_file` is the file that contains the name; empty: the current folder.
   base::Result<std::filesystem::path> Find(std::string_view name,
                                            const std::filesystem::path& naming_file = {}) const;
+  // The names of the models on the search path and among ours, to suggest one for a misspelt name:
+  // at most 10,000, each folder's in alphabetical order.
+  std::vector<std::string> ModelNames() const;
   bool allows_absolute_paths() const { return allow_absolute_paths_; }
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "gsv/base/spelling.h"
 #include "gsv/formats/support/spelling.h"
 #include "gsv/formats/support/support_table.h"
 
@@ -118,8 +119,9 @@ constexpr std::string_view kOurs[] = {
 template <std::size_t N>
 std::string_view Misspelt(std::string_view written, const std::string_view (&known)[N]) {
   if (std::find(std::begin(known), std::end(known), written) != std::end(known)) return {};
-  const auto meant = std::find_if(std::begin(known), std::end(known),
-                                  [&](std::string_view name) { return LooksLike(written, name); });
+  const auto meant = std::find_if(std::begin(known), std::end(known), [&](std::string_view name) {
+    return base::LooksLike(written, name);
+  });
   return meant == std::end(known) ? std::string_view() : *meant;
 }
 

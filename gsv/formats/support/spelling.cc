@@ -4,11 +4,13 @@
 #include <set>
 #include <vector>
 
+#include "gsv/base/spelling.h"
+
 namespace gsv::formats {
 namespace {
 
 constexpr int kLevelsToSearch = 3;
-constexpr std::size_t kLongestName = 64;
+constexpr std::size_t kMinElementName = 4;
 
 void CollectChildren(const ElementSupport& parent, std::set<std::string_view>& names) {
   for (const auto& [name, child] : parent.children) names.insert(name);
@@ -21,12 +23,17 @@ void CollectAttributes(const ElementSupport& parent, std::set<std::string_view>&
   if (parent.definition != nullptr) CollectAttributes(*parent.definition, names);
 }
 
+// Short names, such as <x> and <a>, are too alike to be mistaken for one another.
+bool LooksLikeElement(std::string_view written, std::string_view name) {
+  return std::min(written.size(), name.size()) >= kMinElementName && base::LooksLike(written, name);
+}
+
 std::string_view Likeliest(std::string_view written, const std::set<std::string_view>& names) {
   std::string_view best;
   int least = 3;
   for (const std::string_view name : names) {
-    if (!LooksLike(written, name)) continue;
-    const int distance = SpellingDistance(written, name, 2);
+    if (!LooksLikeElement(written, name)) continue;
+    const int distance = base::SpellingDistance(written, name, 2);
     if (distance < least) least = distance, best = name;
   }
   return best;
@@ -53,31 +60,6 @@ std::string WayDown(std::string_view written, const ElementSupport& parent, int 
 }
 
 }  // namespace
-
-int SpellingDistance(std::string_view a, std::string_view b, int limit) {
-  const auto far = static_cast<std::size_t>(limit) + 1;
-  if (a.size() > kLongestName || b.size() > kLongestName) return limit + 1;
-  if (std::max(a.size(), b.size()) - std::min(a.size(), b.size()) > far) return limit + 1;
-  std::vector<std::vector<int>> d(a.size() + 1, std::vector<int>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = static_cast<int>(i);
-  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = static_cast<int>(j);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const int change = a[i - 1] == b[j - 1] ? 0 : 1;
-      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + change});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
-        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
-      }
-    }
-  }
-  return std::min(d[a.size()][b.size()], limit + 1);
-}
-
-bool LooksLike(std::string_view written, std::string_view known) {
-  if (written.size() < 4 || known.size() < 4) return false;
-  const int allowed = std::min(written.size(), known.size()) >= 8 ? 2 : 1;
-  return written != known && SpellingDistance(written, known, allowed) <= allowed;
-}
 
 std::string AdviceForElement(std::string_view written, const ElementSupport& parent,
                              std::string_view parent_name) {
