@@ -30,7 +30,7 @@ bool IsKnownToBeAbsent(const base::Problem& problem) {
   for (const char* absent :
        {"bases/burger_base.stl", "bases/waffle_base.stl", "bases/waffle_pi_base.stl",
         "sensors/astra.dae", "models/Construction Cone", "models/Mecanum lift",
-        " is not carried out", "more elements are unknown or not carried out"}) {
+        " is not supported", "more elements are unknown or not supported"}) {
     if (problem.message.find(absent) != std::string::npos) return true;
   }
   return false;

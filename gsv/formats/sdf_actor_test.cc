@@ -150,7 +150,7 @@ TEST_F(SdfActor, KeepsTheShapeOfASkinWithoutBones) {
   WriteSkin();
   const auto world = World(R"(<actor name='a'><skin><filename>skin.obj</filename></skin>
       <animation name='bend'><filename>skin.obj</filename></animation></actor>)");
-  EXPECT_THAT(Sentences(), Contains(HasSubstr("the animation is not carried out")));
+  EXPECT_THAT(Sentences(), Contains(HasSubstr("the animation is not supported")));
   ASSERT_EQ(world.models.size(), 1u);
   EXPECT_EQ(world.models[0].model->links.at(0).visuals.size(), 1u);
 }

@@ -379,7 +379,7 @@ TEST_F(SdfReaderTest, ReadsTemperaturesOfTheAirAndOfVisuals) {
   EXPECT_EQ(model->links[0].visuals[1].temperature, 350);
   EXPECT_EQ(model->links[0].visuals[2].temperature, 310.5);
   EXPECT_EQ(model->links[0].visuals[3].temperature, std::nullopt);
-  EXPECT_THAT(Sentences(), ElementsAre(HasSubstr("the plugin f is not carried out"),
+  EXPECT_THAT(Sentences(), ElementsAre(HasSubstr("the plugin f is not supported"),
                                        HasSubstr("<temperature> must be a number of kelvins")));
 }
 

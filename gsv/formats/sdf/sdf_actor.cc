@@ -194,7 +194,7 @@ class ActorReader {
   // False, with a warning, if the skin is not animated.
   bool ReadSkin(const XMLElement& animation, const std::filesystem::path& skin, double scale) {
     const auto refuse = [&](const std::string& why) {
-      context_.Warn("the animation is not carried out, and the skin keeps its shape: " + why,
+      context_.Warn("the animation is not supported, and the skin keeps its shape: " + why,
                     Place(animation));
       return false;
     };

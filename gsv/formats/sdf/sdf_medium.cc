@@ -77,12 +77,12 @@ class MediumReader {
     if (factor != nullptr && factor->FirstChildElement() == nullptr) {
       wind.drag = NumberOf(*factor, 1, 0);
     } else if (factor != nullptr) {
-      Warn(*factor, "that differs from place to place is not carried out; 1 is used");
+      Warn(*factor, "that differs from place to place is not supported; 1 is used");
     }
     for (const char* varying : {"horizontal", "vertical"}) {
       const XMLElement* element = plugin.FirstChildElement(varying);
       if (element != nullptr && element->FirstChildElement() != nullptr) {
-        Warn(*element, "is not carried out: the wind is constant");
+        Warn(*element, "is not supported: the wind is constant");
       }
     }
   }

@@ -78,7 +78,7 @@ class ElementAudit {
     if (unreported_ > 0) {
       problems_.push_back({base::Problem::Severity::kWarning,
                            std::to_string(unreported_) +
-                               " more elements are unknown or not carried out in this file",
+                               " more elements are unknown or not supported in this file",
                            file_.path.string()});
     }
   }
@@ -150,7 +150,7 @@ class ElementAudit {
                element);
       } else if (known->support == Support::kNone && !SaysDefault(attribute->Value(), *known)) {
         Report("the attribute \"" + std::string(name) + "\" of " + Tag(element.Name()) +
-                   " is not carried out" + NoteOf(*known),
+                   " is not supported" + NoteOf(*known),
                element);
       }
     }
@@ -187,8 +187,8 @@ class ElementAudit {
     if (support.support == Support::kNoEffect) return;
     if (support.support != Support::kFull && !SaysNothing(element, support)) {
       Report(Tag(element.Name()) +
-                 (support.support == Support::kNone ? " is not carried out"
-                                                    : " is carried out in part") +
+                 (support.support == Support::kNone ? " is not supported"
+                                                    : " is supported in part") +
                  NoteOf(support),
              element);
     }

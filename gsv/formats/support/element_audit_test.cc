@@ -86,7 +86,7 @@ TEST(ElementAudit, NamesUnsupportedElementsUnlessTheyHaveTheDefault) {
   };
   EXPECT_THAT(contact("<ode><kp>1e5</kp><kd>1</kd></ode>"),
               ElementsAre(AllOf(StartsWith("f.sdf:1: world/model[m]/link[l]/collision[c]/surface/"
-                                           "contact/ode: <ode> is not carried out"))));
+                                           "contact/ode: <ode> is not supported"))));
   EXPECT_THAT(contact("<ode><kp>1000000000000.0</kp><kd>1.0</kd></ode>"), IsEmpty());
   EXPECT_THAT(contact("<ode><kp>1e12</kp><stiffness>3</stiffness></ode>"), SizeIs(1));
   EXPECT_THAT(AuditOfLink("<self_collide>1</self_collide>"), SizeIs(1));
@@ -113,7 +113,7 @@ TEST(ElementAudit, NamesUnsupportedPlugins) {
     return AuditOf("<sdf version='1.9'><model name='m'>" + text + "</model></sdf>");
   };
   EXPECT_THAT(plugin("<plugin filename='libwings.so' name='wings'/>"),
-              ElementsAre(HasSubstr("the plugin libwings.so is not carried out")));
+              ElementsAre(HasSubstr("the plugin libwings.so is not supported")));
   EXPECT_THAT(plugin("<plugin filename='gz-sim-imu-system' name='gz::sim::systems::Imu'/>"),
               IsEmpty());
   EXPECT_THAT(plugin("<plugin filename='gz-sim-diff-drive-system' name='d'>"
@@ -138,7 +138,7 @@ TEST(ElementAudit, ComparesUrdfWithItsOwnElements) {
               0),
       ElementsAre(HasSubstr("<box> has no attribute \"sise\""),
                   HasSubstr("<axs> is no element of <joint>"),
-                  HasSubstr("robot[r]/gazebo[l]/kp: <kp> is not carried out"),
+                  HasSubstr("robot[r]/gazebo[l]/kp: <kp> is not supported"),
                   HasSubstr("<colour> is no element of <gazebo>")));
 }
 

@@ -136,7 +136,7 @@ std::vector<std::string> AboutPlugin(const XMLElement& plugin) {
   std::vector<std::string> sentences;
   if (known == nullptr || known->support == Support::kNone) {
     sentences.push_back(
-        "the plugin " + std::string(file.empty() ? name : file) + " is not carried out: " +
+        "the plugin " + std::string(file.empty() ? name : file) + " is not supported: " +
         (known == nullptr
              ? "GSV loads no plugins of Gazebo. A behaviour or a plug-in of GSV can do its work"
              : std::string(known->note)));
