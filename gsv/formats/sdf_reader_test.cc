@@ -565,14 +565,14 @@ TEST_F(SdfReaderTest, ReadsElementsOfVersionsSince110) {
   }
 }
 
-TEST_F(SdfReaderTest, NamesWhatIsNewAndNotCarriedOut) {
+TEST_F(SdfReaderTest, NamesWhatIsNewAndNotSupported) {
   (void)World(R"(<world name='w'><model name='m'><link name='a'>
     <inertial><fluid_added_mass><xx>2</xx></fluid_added_mass></inertial></link><link name='b'/>
     <joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz>
     <mimic joint='k' axis='axis2'><multiplier>2</multiplier></mimic></axis></joint></model>
     </world>)",
               "1.12");
-  EXPECT_THAT(Sentences(), testing::IsSupersetOf({HasSubstr("<fluid_added_mass> is not carried"),
+  EXPECT_THAT(Sentences(), testing::IsSupersetOf({HasSubstr("<fluid_added_mass> is not supported"),
                                                   HasSubstr("attribute \"axis\" of <mimic>")}));
   problems_.clear();
   (void)World("<world name='w'/>", "1.13");

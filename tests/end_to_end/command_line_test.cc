@@ -228,7 +228,7 @@ TEST(CommandLine, ACommandThatDoesNotExistIsNamed) {
   EXPECT_EQ(said({"run", "--robott", "pebble"}),
             "gsv: there is no option --robott. Did you mean --robot? See gsv run --help\n");
   EXPECT_EQ(said({"ps", "office", "again"}),
-            "gsv: unexpected argument office. See gsv ps --help\n");
+            "gsv: unexpected argument again. See gsv ps --help\n");
   EXPECT_EQ(said({"rec"}), "gsv: a command is missing. See gsv rec --help\n");
 }
 
