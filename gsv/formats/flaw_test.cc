@@ -162,7 +162,7 @@ TEST_F(FlawTest, AnInertiaIsRepairedUnlessItsModelNeverMoves) {
   EXPECT_THAT(Said(), IsEmpty());
   const auto world = World("<model name='m'>" + zero);
   EXPECT_EQ(Find(world, "m")->links[0].inertial.mass, 1);
-  EXPECT_THAT(Said(), ElementsAre(HasSubstr("1 kg is taken")));
+  EXPECT_THAT(Said(), ElementsAre(HasSubstr("1 kg is used")));
   // It breaks only the triangle inequality, so it is used unchanged.
   const auto flat = World(
       "<model name='m'><link name='l'><inertial><mass>5</mass><inertia><ixx>0.1</ixx><iyy>0.1"

@@ -147,9 +147,10 @@ TEST(Durability, ABrokerWithoutItsFileDoesNotStart) {
   BrokerProcess second(folder.Arguments());
   EXPECT_EQ(second.reference(), "");
   EXPECT_EQ(second.Wait(), 5);
-  EXPECT_EQ(second.Stderr(),
-            folder.Arguments()[1].substr(5) +
-                ": another broker uses this file; stop it, or choose another file with --data\n");
+  EXPECT_EQ(
+      second.Stderr(),
+      folder.Arguments()[1].substr(5) +
+          ": another broker is using this file; stop it, or choose another file with --data\n");
 }
 
 }  // namespace

@@ -202,7 +202,7 @@ TEST_F(OfferFileTest, IsForOneBrokerAtATime) {
   ASSERT_TRUE(first);
   EXPECT_EQ(
       OpenError().Sentence(),
-      Path() + ": another broker uses this file; stop it, or choose another file with --data");
+      Path() + ": another broker is using this file; stop it, or choose another file with --data");
 }
 
 TEST_F(OfferFileTest, RefusesOtherFiles) {

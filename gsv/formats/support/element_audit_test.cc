@@ -147,7 +147,7 @@ TEST(ElementAudit, CountsProblemsBeyondTheLimit) {
   for (int i = 0; i < kMaxFindings + 7; ++i) many += "<wing/>";
   const auto sentences = AuditOfLink(many);
   ASSERT_THAT(sentences, SizeIs(kMaxFindings + 1));
-  EXPECT_THAT(sentences.back(), HasSubstr("7 more elements are unknown or not carried out"));
+  EXPECT_THAT(sentences.back(), HasSubstr("7 more elements are unknown or not supported"));
 }
 
 }  // namespace

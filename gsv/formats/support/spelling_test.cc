@@ -7,21 +7,13 @@ namespace {
 
 const ElementSupport& Definition(const char* name) { return SupportTable::Get().Definition(name); }
 
-TEST(Spelling, CountsLettersToChange) {
-  EXPECT_EQ(SpellingDistance("static", "static", 2), 0);
-  EXPECT_EQ(SpellingDistance("statik", "static", 2), 1);
-  EXPECT_EQ(SpellingDistance("sttaic", "static", 2), 1);  // adjacent letters are swapped
-  EXPECT_EQ(SpellingDistance("colision", "collision", 2), 1);
-  EXPECT_EQ(SpellingDistance("mass", "material", 2), 3);  // limited to `limit` + 1
-}
-
-TEST(Spelling, SuggestsTheIntendedElement) {
+TEST(ElementSpelling, SuggestsTheIntendedElement) {
   EXPECT_EQ(AdviceForElement("colision", Definition("link"), "link"), "Did you mean <collision>?");
   EXPECT_EQ(AdviceForElement("inertail", Definition("link"), "link"), "Did you mean <inertial>?");
   EXPECT_EQ(AdviceForElement("wings", Definition("link"), "link"), "");
 }
 
-TEST(Spelling, SuggestsWhereAnElementBelongs) {
+TEST(ElementSpelling, SuggestsWhereAnElementBelongs) {
   EXPECT_EQ(AdviceForElement("limit", Definition("joint"), "joint"), "It belongs in <axis>.");
   EXPECT_EQ(AdviceForElement("friction", Definition("collision"), "collision"),
             "It belongs in <surface>.");

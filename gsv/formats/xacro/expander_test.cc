@@ -172,7 +172,7 @@ TEST_F(ExpanderTest, LeavesOutCallsOfMacrosInAMissingFile) {
   EXPECT_THAT(problems_[0].Sentence(),
               HasSubstr("robot.xacro:2: the include of absent.xacro is ignored: cannot find"));
   EXPECT_THAT(problems_[1].Sentence(),
-              HasSubstr("robot.xacro:3: the call of the macro \"lidar\" is left out"));
+              HasSubstr("robot.xacro:3: the call of the macro \"lidar\" is ignored"));
   // A missing value cannot be left out.
   EXPECT_THAT(Expanded("<xacro:include filename='absent.xacro'/><a b='${height}'/>"),
               HasSubstr("(absent.xacro is missing)"));
