@@ -89,13 +89,27 @@ void CommandInput::TakeJoints(std::span<const std::byte> sample, const std::vect
                                        joints.size(), values->size())),
                 kTopic);
   }
+  CommandJoints(joints, kind, *values, kTopic);
+}
+
+void CommandInput::CommandPositions(const std::vector<int>& joints,
+                                    const std::vector<double>& positions) {
+  CommandJoints(joints, world::JointCommand::Kind::kPosition, positions, "joint_trajectory");
+}
+
+void CommandInput::CommandJoints(const std::vector<int>& joints, world::JointCommand::Kind kind,
+                                 const std::vector<double>& values, const char* topic) {
   const std::shared_ptr<simulation::Agent> agent = agent_.lock();
   if (agent == nullptr) return;
   base::Status status;
   for (std::size_t i = 0; i < joints.size() && status; ++i) {
-    status = agent->CommandJoint(joints[i], {kind, (*values)[i]});
+    status = agent->CommandJoint(joints[i], {kind, values[i]});
   }
-  Note(status, kTopic);
+  Note(status, topic);
+}
+
+void CommandInput::Refuse(const base::Error& error, const char* topic) {
+  Note(base::Fail(error), topic);
 }
 
 void CommandInput::Note(const base::Status& status, const char* topic) {

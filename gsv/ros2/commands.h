@@ -28,11 +28,18 @@ class CommandInput {
   void TakeJoints(std::span<const std::byte> sample, const std::vector<int>& joints,
                   world::JointCommand::Kind kind);
 
+  // Commands these joints to these positions, in rad or m.
+  void CommandPositions(const std::vector<int>& joints, const std::vector<double>& positions);
+  // Counts a message on a topic that is refused, and logs the first.
+  void Refuse(const base::Error& error, const char* topic);
+
   std::uint64_t taken() const { return taken_; }
   std::uint64_t refused() const { return refused_; }
 
  private:
   void Apply(const world::DriveCommand& command);
+  void CommandJoints(const std::vector<int>& joints, world::JointCommand::Kind kind,
+                     const std::vector<double>& values, const char* topic);
   void Note(const base::Status& status, const char* topic);
 
   const std::weak_ptr<simulation::Agent> agent_;

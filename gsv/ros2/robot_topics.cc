@@ -13,6 +13,7 @@
 #include "gsv/ros2/message_source.h"
 #include "gsv/ros2/names.h"
 #include "gsv/ros2/sensor_source.h"
+#include "gsv/ros2/trajectory_follower.h"
 #include "gsv/world/station.h"
 
 namespace gsv::ros2 {
@@ -160,10 +161,11 @@ void RobotTopics::TakeCommands(const Context& context) {
                           is_stamped ? input->TakeTwistStamped(sample) : input->TakeTwist(sample);
                         });
   }
-  TakeJointCommands(input);
+  TakeJointCommands(context, input);
 }
 
-void RobotTopics::TakeJointCommands(const std::shared_ptr<CommandInput>& input) {
+void RobotTopics::TakeJointCommands(const Context& context,
+                                    const std::shared_ptr<CommandInput>& input) {
   using Kind = world::JointCommand::Kind;
   const std::vector<int> joints = FreeJoints(*model_);
   if (joints.empty()) return;
@@ -177,6 +179,12 @@ void RobotTopics::TakeJointCommands(const std::shared_ptr<CommandInput>& input) 
                       input->TakeJoints(sample, joints, kind);
                     });
   }
+  auto follower =
+      std::make_unique<TrajectoryFollower>(input, body_, model_, joints, context.on_match);
+  node_.Subscribe(
+      "joint_trajectory", "trajectory_msgs/msg/JointTrajectory", kDefaultQos,
+      [&follower = *follower](std::span<const std::byte> sample) { follower.Take(sample); });
+  sources_.push_back(std::move(follower));
 }
 
 void RobotTopics::AppendMovingFrames(const world::Snapshot& snapshot,

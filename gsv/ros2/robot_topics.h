@@ -59,7 +59,7 @@ class RobotTopics {
   void AddImplied(const Context& context);
   void AddSensor(const Context& context, model::SensorDescription description, bool is_only);
   void TakeCommands(const Context& context);
-  void TakeJointCommands(const std::shared_ptr<CommandInput>& input);
+  void TakeJointCommands(const Context& context, const std::shared_ptr<CommandInput>& input);
 
   const std::string body_;
   const std::shared_ptr<const model::Model> model_;
@@ -68,9 +68,9 @@ class RobotTopics {
   const bool takes_commands_;
   const std::vector<model::SensorDescription> sensors_;
   const Frames frames_;
-  std::vector<bool> is_optical_;  // as sensors_
+  std::vector<bool> is_optical_;                  // as sensors_
+  std::vector<std::unique_ptr<Source>> sources_;  // before node_, whose readers call them
   Node node_;
-  std::vector<std::unique_ptr<Source>> sources_;
   dds::Writer* description_ = nullptr;  // null: it was sent, or the participant refuses it
   std::string drive_type_;              // "geometry_msgs/msg/Twist"; empty: takes no cmd_vel
   dds::Reader* drive_reader_ = nullptr;

@@ -1,0 +1,43 @@
+// A trajectory of joints, as MoveIt and ros2_control send it: positions at instants, and between them.
+//
+// Source   trajectory_msgs/msg/JointTrajectory; ros2_controllers, "Trajectory Representation": linear where the
+//          points have no velocities, cubic (Hermite) where they have.
+// Units    rad and rad/s, or m and m/s for sliding joints.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/base/sim_time.h"
+#include "gsv/model/model.h"
+
+namespace gsv::ros2 {
+
+struct JointTrajectory {
+  static constexpr std::size_t kMaxPoints = 100'000;
+
+  struct Point {
+    base::SimTime time{};            // after the start; grows from point to point
+    std::vector<double> positions;   // one for each joint
+    std::vector<double> velocities;  // as many, or none
+  };
+
+  std::optional<base::SimTime> start;  // empty: at once
+  std::vector<int> joints;             // their indices in the model
+  std::vector<Point> points;           // none: the joints stay where they are
+
+  // The positions at a time after the start. Before the first point they go there from `initial`, the
+  // positions at the start; after the last point they stay.
+  std::vector<double> PositionsAt(base::SimTime time, const std::vector<double>& initial) const;
+};
+
+// Reads a JointTrajectory, which is untrusted input, for some of `joints`. Fails with kCorrupt if it does not
+// decode, and with kInvalidArgument if names, counts, times or values are wrong.
+base::Result<JointTrajectory> ReadJointTrajectory(std::span<const std::byte> sample,
+                                                  const model::Model& model,
+                                                  const std::vector<int>& joints);
+
+}  // namespace gsv::ros2

@@ -1,0 +1,54 @@
+// Lets the joints of a robot follow the trajectories that ROS 2 nodes send.
+//
+// Threads  Take() on any thread; the rest on the publisher's.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gsv/base/mutex.h"
+#include "gsv/ros2/commands.h"
+#include "gsv/ros2/joint_trajectory.h"
+#include "gsv/ros2/source.h"
+
+namespace gsv::ros2 {
+
+class TrajectoryFollower final : public Source {
+ public:
+  // `joints`: those of the model that take commands. `on_change` is called when a trajectory comes.
+  TrajectoryFollower(std::shared_ptr<CommandInput> input, std::string body,
+                     std::shared_ptr<const model::Model> model, std::vector<int> joints,
+                     std::function<void()> on_change);
+
+  // A trajectory_msgs/msg/JointTrajectory, which replaces the current trajectory. A bad one is refused.
+  void Take(std::span<const std::byte> sample);
+
+  bool is_wanted() const override;
+  // Commands the joints for this instant.
+  void Publish(const Moment& moment) override;
+
+ private:
+  struct Active {
+    JointTrajectory trajectory;
+    base::SimTime start{};
+    std::vector<double> initial;  // positions at the start
+  };
+
+  void Begin(JointTrajectory trajectory, const world::Snapshot& snapshot, int body);
+
+  const std::shared_ptr<CommandInput> input_;
+  const std::string body_;
+  const std::shared_ptr<const model::Model> model_;
+  const std::vector<int> joints_;
+  const std::function<void()> on_change_;
+  std::optional<Active> active_;
+  mutable base::Mutex mutex_;
+  std::optional<JointTrajectory> next_ GSV_GUARDED_BY(mutex_);
+  bool is_active_ GSV_GUARDED_BY(mutex_) = false;
+};
+
+}  // namespace gsv::ros2
