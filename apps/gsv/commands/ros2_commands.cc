@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "gsv/messages/definition.h"
 #include "gsv/ros2/graph.h"
 #include "gsv/ros2/names.h"
+#include "gsv/ros2/topic_problems.h"
 
 namespace gsv::app {
 namespace {
@@ -31,7 +33,7 @@ struct Ros2CommandArguments {
   long count = 0;      // of messages; 0: until a signal
 };
 
-base::Result<std::unique_ptr<Participant>> Join(const Ros2CommandArguments& arguments) {
+base::Result<ros2::dds::ParticipantOptions> Reach(const Ros2CommandArguments& arguments) {
   ros2::Options options;
   if (!arguments.range.empty()) {
     const auto range = ros2::ParseRange(arguments.range);
@@ -43,6 +45,12 @@ base::Result<std::unique_ptr<Participant>> Join(const Ros2CommandArguments& argu
   auto reach = ros2::ParticipantFor(options, ros2::ProcessEnvironment);
   if (!reach) return base::Fail(reach.error());
   reach->watches_endpoints = true;
+  return reach;
+}
+
+base::Result<std::unique_ptr<Participant>> Join(const Ros2CommandArguments& arguments) {
+  const auto reach = Reach(arguments);
+  if (!reach) return base::Fail(reach.error());
   return MakeParticipant(*reach);
 }
 
@@ -205,6 +213,36 @@ int Hz(const Ros2CommandArguments& arguments, Signals& signals) {
   return kOk;
 }
 
+// Prints the size of the domain, and why publishers and subscriptions do not match.
+int Examine(const Ros2CommandArguments& arguments, Signals& signals) {
+  const auto reach = Reach(arguments);
+  if (!reach) return Complain(reach.error());
+  const auto participant = MakeParticipant(*reach);
+  if (!participant) return Complain(participant.error());
+  std::printf("%s\n", DescribeReach(*reach).c_str());
+  std::fflush(stdout);
+  if (!Look(arguments, signals)) return kInterrupted;
+  const std::vector<Endpoint> endpoints = (*participant)->endpoints();
+  std::set<std::string> participants, topics;
+  for (const Endpoint& endpoint : endpoints) {
+    participants.emplace(endpoint.guid.begin(), endpoint.guid.begin() + 12);
+    topics.insert(endpoint.topic.name);
+  }
+  std::printf("participants: %zu, topics and services: %zu, publishers and subscriptions: %zu\n",
+              participants.size(), topics.size(), endpoints.size());
+  if (participants.empty()) {
+    std::printf(
+        "problem: nobody was found in %g s. Compare ROS_DOMAIN_ID and the range of discovery "
+        "with those of the other nodes\n",
+        arguments.seconds);
+    return kInfrastructure;
+  }
+  const std::vector<std::string> problems = ros2::FindTopicProblems(endpoints);
+  for (const std::string& problem : problems) std::printf("problem: %s\n", problem.c_str());
+  if (problems.empty()) std::printf("no problems found\n");
+  return problems.empty() ? kOk : kInfrastructure;
+}
+
 using Ros2Command = int (*)(const Ros2CommandArguments&, Signals&);
 
 CLI::App* AddOne(CLI::App& parent, const CommandLine& line,
@@ -245,6 +283,8 @@ void AddRos2Commands(const CommandLine& line) {
       ->type_name("N")
       ->check(CLI::PositiveNumber);
   AddOne(*ros2, line, arguments, "hz", "Measure the rate of a topic", true, &Hz);
+  AddOne(*ros2, line, arguments, "doctor", "Find types and QoS that keep nodes apart", false,
+         &Examine);
 }
 
 }  // namespace gsv::app

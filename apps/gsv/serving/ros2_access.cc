@@ -119,11 +119,11 @@ Ros2Access::~Ros2Access() {
   if (watcher_.joinable()) watcher_.join();
 }
 
-std::string Ros2Access::Description() const {
+std::string DescribeReach(const ros2::dds::ParticipantOptions& options) {
   const char* reach = "this machine only";
-  if (reach_.range == ros2::dds::Range::kPeers) reach = "the machines in ROS_STATIC_PEERS";
-  if (reach_.range == ros2::dds::Range::kSubnet) reach = "the whole subnet";
-  return fmt::format("domain {}, {}", reach_.domain, reach);
+  if (options.range == ros2::dds::Range::kPeers) reach = "the machines in ROS_STATIC_PEERS";
+  if (options.range == ros2::dds::Range::kSubnet) reach = "the whole subnet";
+  return fmt::format("domain {}, {}", options.domain, reach);
 }
 
 std::string Ros2Access::Exposure() const {

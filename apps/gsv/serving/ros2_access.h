@@ -41,6 +41,9 @@ base::Result<std::optional<ros2::Options>> Understand(const Ros2Arguments& argum
 base::Result<std::unique_ptr<ros2::dds::Participant>> MakeParticipant(
     const ros2::dds::ParticipantOptions& options);
 
+// The domain and its range: "domain 0, this machine only".
+std::string DescribeReach(const ros2::dds::ParticipantOptions& options);
+
 class Ros2Access {
  public:
   using SimulationPointer = std::shared_ptr<simulation::Simulation>;
@@ -48,8 +51,7 @@ class Ros2Access {
   static base::Result<std::unique_ptr<Ros2Access>> Start(ros2::Options options);
   ~Ros2Access();
 
-  // "domain 0, this machine only"
-  std::string Description() const;
+  std::string Description() const { return DescribeReach(reach_); }
   // Why others can reach it; empty: they cannot.
   std::string Exposure() const;
 
