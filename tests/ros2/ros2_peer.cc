@@ -1,6 +1,8 @@
 // A stranger to GSV's own ROS 2: Cyclone DDS, with types that its idlc generated from IDL.
 //
 //   ros2_peer listen [--count N] TYPE:TOPIC…     prints N samples of each as JSON, one a line
+//   ros2_peer count --seconds S TYPE:TOPIC…      prints how soon each topic had a sample, and how many samples
+//                                                came in S seconds after that
 //   ros2_peer drive --distance M [--stamped] ROBOT   sends cmd_vel until ROBOT/odom shows M metres
 //   ros2_peer disturb ROBOT                      publishes bad commands: another type on cmd_vel, NaN and
 //                                                infinities, and 10,000 commands from a second publisher
@@ -87,7 +89,7 @@ const Type& TypeNamed(const std::string& name) {
 struct Arguments {
   dds_domainid_t domain = 0;
   int count = 1;
-  double timeout = 20, distance = 1;
+  double timeout = 20, distance = 1, seconds = 10;
   bool is_stamped = false, uses_multicast = false;
   std::vector<std::string> words;
 };
@@ -106,6 +108,8 @@ Arguments Parse(int count, char** words) {
       arguments.count = static_cast<int>(value());
     } else if (word == "--timeout") {
       arguments.timeout = value();
+    } else if (word == "--seconds") {
+      arguments.seconds = value();
     } else if (word == "--distance") {
       arguments.distance = value();
     } else if (word == "--stamped") {
@@ -258,6 +262,42 @@ int Listen(const Arguments& arguments) {
   return 0;
 }
 
+// How much comes in, without looking at it.
+int Count(const Arguments& arguments) {
+  Participant participant(arguments);
+  const Clock::time_point begin = Clock::now();
+  std::vector<dds_entity_t> readers;
+  for (const std::string& word : arguments.words) {
+    const std::size_t colon = word.find(':');
+    if (colon == std::string::npos) Die("expected TYPE:TOPIC, found " + word);
+    readers.push_back(participant.Reader(TypeNamed(word.substr(0, colon)), word.substr(colon + 1)));
+    participant.Watch(readers.back());
+  }
+  std::set<dds_entity_t> silent(readers.begin(), readers.end());
+  std::uint64_t count = 0;
+  Clock::time_point all_came{};
+  const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
+  while (!silent.empty() || seconds(Clock::now() - all_came) < arguments.seconds) {
+    if (!participant.WaitForData()) {
+      std::fprintf(stderr, "ros2_peer: %zu topics had no sample\n", silent.size());
+      return 1;
+    }
+    for (const dds_entity_t reader : readers) {
+      while (TakeOne(reader, [](const void*) {})) {
+        ++count;
+        silent.erase(reader);
+      }
+    }
+    if (!silent.empty() || all_came != Clock::time_point{}) continue;
+    all_came = Clock::now();
+    count = 0;
+  }
+  Print({{"first_samples_s", seconds(all_came - begin)},
+         {"samples", count},
+         {"seconds", seconds(Clock::now() - all_came)}});
+  return 0;
+}
+
 // A command goes out with each odometry, so that nothing here depends on time.
 int Drive(const Arguments& arguments) {
   if (arguments.words.size() != 1) Die("drive needs one robot, such as /pebble");
@@ -399,14 +439,15 @@ int Endpoints(const Arguments& arguments) {
 }
 
 int Main(int count, char** words) {
-  if (count < 2) Die("expected listen, drive, disturb or endpoints");
+  if (count < 2) Die("expected listen, count, drive, disturb or endpoints");
   const std::string command = words[1];
   const Arguments arguments = Parse(count, words);
   if (command == "listen") return Listen(arguments);
+  if (command == "count") return Count(arguments);
   if (command == "drive") return Drive(arguments);
   if (command == "disturb") return Disturb(arguments);
   if (command == "endpoints") return Endpoints(arguments);
-  Die("expected listen, drive, disturb or endpoints, found " + command);
+  Die("expected listen, count, drive, disturb or endpoints, found " + command);
 }
 
 }  // namespace
