@@ -280,6 +280,19 @@ TEST_F(SdfRobotTest, ReadsGsvElementsByTheirPrefix) {
   EXPECT_EQ(model::TextOr(feel, "angular_velocity.x.noise.type", ""), "gaussian");
 }
 
+TEST_F(SdfRobotTest, ASensorWithAPresetHasOnlyTheParametersThatItsFileGives) {
+  const auto model = Read(Robot("", R"(
+    <sensor name='scan' type='lidar'><gsv:preset>rplidar_a2</gsv:preset></sensor>
+    <sensor name='near' type='lidar'><gsv:preset>rplidar_a2</gsv:preset>
+      <lidar><range><max>3</max></range></lidar></sensor>)"));
+  EXPECT_THAT(problems_, IsEmpty()) << problems_.front().Sentence();
+  ASSERT_THAT(model->sensors, SizeIs(2));
+  EXPECT_THAT(model->sensors[0].parameters, SizeIs(1));
+  EXPECT_EQ(model::TextOr(model->sensors[0].parameters, "preset", ""), "rplidar_a2");
+  EXPECT_THAT(model->sensors[1].parameters, SizeIs(2));
+  EXPECT_EQ(model::NumberOr(model->sensors[1].parameters, "range.max", 0), 3);
+}
+
 TEST_F(SdfRobotTest, AContactSensorNamesItsCollisions) {
   const auto model = Read(
       "<sdf version='1.9'><model name='r'><link name='a'>"

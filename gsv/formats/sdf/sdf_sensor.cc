@@ -17,6 +17,7 @@ using model::ParameterValue;
 
 // The prefix of elements that SDFormat does not define: <gsv:dropout>.
 constexpr std::string_view kOurs = "gsv:";
+constexpr const char* kPreset = "gsv:preset";
 
 bool IsWrapper(const std::string& name) {
   static const std::set<std::string> wrappers = {
@@ -60,6 +61,11 @@ bool IsDefined(const sdf::Element& element) {
   return parent != nullptr && parent->HasElementDescription(element.GetName());
 }
 
+// Elements that libsdformat adds have its defaults.
+bool IsDefault(const sdf::Element& element) {
+  return IsDefined(element) && element.GetValue() != nullptr && !element.GetValue()->GetSet();
+}
+
 // Of repeated elements the first counts, except that a contact sensor uses the names of all its
 // collisions.
 void AddParameter(const std::string& path, ParameterValue value, Parameters& parameters) {
@@ -70,7 +76,9 @@ void AddParameter(const std::string& path, ParameterValue value, Parameters& par
   if (names != nullptr && name != nullptr) *names += "\n" + *name;
 }
 
-void Flatten(const sdf::ElementPtr& element, const std::string& prefix, Parameters& parameters) {
+// `only_given`: without the elements that SDFormat adds with their defaults.
+void Flatten(const sdf::ElementPtr& element, const std::string& prefix, bool only_given,
+             Parameters& parameters) {
   for (auto child = element->GetFirstElement(); child != nullptr; child = child->GetNextElement()) {
     std::string name = child->GetName();
     if (name.starts_with(kOurs)) name.erase(0, kOurs.size());
@@ -78,7 +86,8 @@ void Flatten(const sdf::ElementPtr& element, const std::string& prefix, Paramete
     const std::string path = prefix.empty() ? name : prefix + "." + name;
     const bool wraps = prefix.empty() && IsWrapper(name);
     const std::string inner = wraps ? "" : path;
-    if (child->GetFirstElement() == nullptr && child->GetValue() != nullptr) {
+    const bool is_left_out = only_given && IsDefault(*child);
+    if (child->GetFirstElement() == nullptr && child->GetValue() != nullptr && !is_left_out) {
       AddParameter(path, ValueOf(*child->GetValue(), IsDefined(*child)), parameters);
     }
     for (const auto& attribute : child->GetAttributes()) {
@@ -86,7 +95,7 @@ void Flatten(const sdf::ElementPtr& element, const std::string& prefix, Paramete
       parameters.emplace((inner.empty() ? "" : inner + ".") + attribute->GetKey(),
                          ValueOf(*attribute, true));
     }
-    Flatten(child, inner, parameters);
+    Flatten(child, inner, only_given, parameters);
   }
 }
 
@@ -98,7 +107,8 @@ model::SensorDescription ReadSensor(const sdf::ElementPtr& sensor) {
   description.type = sensor->Get<std::string>("type");
   description.update_rate = sensor->Get<double>("update_rate", 0.0).first;
   description.visualize = sensor->Get<bool>("visualize", false).first;
-  Flatten(sensor, "", description.parameters);
+  // A preset fills in all that the file does not give.
+  Flatten(sensor, "", sensor->HasElement(kPreset), description.parameters);
   return description;
 }
 
