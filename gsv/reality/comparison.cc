@@ -281,9 +281,12 @@ base::Result<Comparison> Compare(const Log& given, const CompareOptions& options
     if (auto ok = CompareRadio(log, options, result); !ok) return base::Fail(ok.error());
   }
   if (result.rows.empty()) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "the log has nothing to compare: it needs scans with poses, odometry or "
-                      "commands beside a reference, or radio ranges");
+    return base::Fail(
+        base::ErrorCode::kInvalidArgument,
+        HasScans(log) ? "the log is too short: devices are judged by every other 4 s, and it has "
+                        "no scans there"
+                      : "the log has nothing to compare: it needs scans with poses, odometry or "
+                        "commands beside a reference, or radio ranges");
   }
   return result;
 }

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -22,6 +23,7 @@ struct CompareArguments {
   std::string log, format, world, preset, plot;
   std::vector<std::string> parameters, model_path;
   std::vector<double> start;
+  std::optional<double> mount_forward;
   reality::CompareOptions options;
   bool json = false;
 };
@@ -77,6 +79,7 @@ base::Result<Read> ReadAll(const CompareArguments& arguments) {
   }
   if (!log) return base::Fail(log.error());
   read.log = *std::move(log);
+  if (arguments.mount_forward) read.log.sensor_forward = *arguments.mount_forward;
   return read;
 }
 
@@ -145,13 +148,19 @@ int Fit(const CompareArguments& arguments) {
 
 std::shared_ptr<CompareArguments> AddOptions(CLI::App& command) {
   auto arguments = std::make_shared<CompareArguments>();
-  command.add_option("log", arguments->log, "the log's file; its companions lie beside it")
-      ->required();
-  command.add_option("--as", arguments->format, "the log's format")
+  command.add_option("log", arguments->log, "file of the log; its companions lie beside it")
       ->required()
+      ->type_name("FILE");
+  command
+      .add_option("--as", arguments->format,
+                  fmt::format("format of the log: {}", fmt::join(reality::LogFormats(), ", ")))
+      ->required()
+      ->type_name("FORMAT")
       ->check(CLI::IsMember(reality::LogFormats()));
-  command.add_option("--world", arguments->world,
-                     "world in which the robot drove (default: fitted to every other 4 s)");
+  command
+      .add_option("--world", arguments->world,
+                  "world in which the robot drove (default: fitted to every other 4 s)")
+      ->type_name("WORLD");
   command
       .add_flag("--update-world", arguments->options.update_world,
                 "update the walls of --world by every other 4 s of a laser's log")
@@ -159,10 +168,13 @@ std::shared_ptr<CompareArguments> AddOptions(CLI::App& command) {
   command
       .add_option("--start", arguments->start,
                   "pose of the first scan in the world: X Y YAW, m and rad (default: searched)")
-      ->expected(3);
-  command.add_option("--preset", arguments->preset, "preset of the simulated device");
-  command.add_option("--set", arguments->parameters,
-                     "parameter of the simulated device, NAME=VALUE; repeatable");
+      ->expected(3)
+      ->type_name("NUMBER");
+  command.add_option("--preset", arguments->preset, "preset of the simulated device")
+      ->type_name("NAME");
+  command
+      .add_option("--set", arguments->parameters, "parameter of the simulated device; repeatable")
+      ->type_name("NAME=VALUE");
   command
       .add_option("--wheel-distance", arguments->options.wheel_distance,
                   "distance of the wheels of a log with wheel encoders, m")
@@ -171,9 +183,15 @@ std::shared_ptr<CompareArguments> AddOptions(CLI::App& command) {
   command.add_option("--mount-height", arguments->options.height, "height of the scanner, m")
       ->capture_default_str()
       ->check(CLI::Range(-100.0, 100.0));
+  command
+      .add_option(
+          "--mount-forward", arguments->mount_forward,
+          "distance of the scanner ahead of the robot's frame, m (default: the log's, or 0)")
+      ->check(CLI::Range(-100.0, 100.0));
   command.add_option("--seed", arguments->options.seed, "seed of the simulated devices")
       ->capture_default_str();
-  command.add_option("--model-path", arguments->model_path, "folder to look for models in");
+  command.add_option("--model-path", arguments->model_path, "folder to look for models in")
+      ->type_name("FOLDER");
   command.add_flag("--json", arguments->json, "one JSON object");
   return arguments;
 }

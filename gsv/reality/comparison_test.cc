@@ -1,0 +1,97 @@
+// Comparisons and fits of small logs whose errors are known.
+#include "gsv/reality/comparison.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "gsv/base/test_within.h"
+#include "gsv/reality/radio_comparison.h"
+#include "gsv/reality/world_fit.h"
+
+namespace gsv::reality {
+namespace {
+
+using testing::HasSubstr;
+
+// A tag that passes an anchor at the origin, along the x axis.
+Log RangesOf(double bias, double bias_per_metre) {
+  Log log;
+  log.truth_has_yaw = false;
+  for (int i = 0; i < 100; ++i) {
+    const double time = 0.039 * i, distance = 1 + 0.05 * i;
+    log.truth.push_back({time, distance, 0, 0});
+    log.radio.push_back({time, 7, distance * (1 + bias_per_metre) + bias, distance, 0, 0});
+  }
+  return log;
+}
+
+TEST(Comparison, RefusesALogWithoutScansToJudgeBy) {
+  Log log;
+  log.beam_angles = {0};
+  log.max_range = 5;
+  log.scans = {{0.5, {1.0}, TimedPose{}}, {1.5, {1.0}, TimedPose{}}};
+  const auto comparison = Compare(log, {});
+  ASSERT_FALSE(comparison);
+  EXPECT_THAT(comparison.error().Sentence(), HasSubstr("the log is too short"));
+  const auto empty = Compare(Log(), {});
+  ASSERT_FALSE(empty);
+  EXPECT_THAT(empty.error().Sentence(), HasSubstr("the log has nothing to compare"));
+}
+
+TEST(Comparison, FitsTheBiasOfRangesToAnchors) {
+  const auto devices = Fit(RangesOf(0.1, 0.02), {});
+  ASSERT_TRUE(devices) << devices.error().Sentence();
+  ASSERT_EQ(devices->size(), 1u);
+  for (const FittedParameter& parameter : devices->front().parameters) {
+    const double expected = parameter.name == "noise.mean"       ? 0.1
+                            : parameter.name == "bias_per_metre" ? 0.02
+                                                                 : 0;
+    EXPECT_WITHIN(parameter.value, expected, 1e-6, parameter.unit.c_str()) << parameter.name;
+    EXPECT_WITHIN(parameter.confidence, 0, 1e-6, parameter.unit.c_str()) << parameter.name;
+  }
+}
+
+TEST(Comparison, SimulatesRangesFromWhereTheRobotWas) {
+  CompareOptions options;
+  options.parameters = {{"noise.mean", 0.1}, {"max", 4.0}};
+  const Log log = RangesOf(0, 0);
+  const auto ranges = SimulatedRanges(log, options);
+  ASSERT_TRUE(ranges) << ranges.error().Sentence();
+  EXPECT_WITHIN(ranges->at(20), 2.1, 1e-9, "m");
+  EXPECT_TRUE(std::isinf(ranges->at(80)));  // 5 m away
+}
+
+TEST(Comparison, WritesAFitAsOneElementForEachGroup) {
+  const std::string sdf = ToSdf({{"lidar",
+                                  "scan",
+                                  {{"noise.mean", "m", 0.02, 0.001},
+                                   {"short_range", "m", 1, 0},
+                                   {"noise.stddev", "m", 0.003, 0.0001}}}});
+  EXPECT_EQ(sdf,
+            "<sensor name=\"scan\" type=\"lidar\">\n"
+            "  <gsv:short_range>1</gsv:short_range>  <!-- ± 0 m -->\n"
+            "  <gsv:noise>\n"
+            "    <gsv:mean>0.02</gsv:mean>  <!-- ± 0.001 m -->\n"
+            "    <gsv:stddev>0.003</gsv:stddev>  <!-- ± 0.0001 m -->\n"
+            "  </gsv:noise>\n"
+            "</sensor>\n");
+}
+
+TEST(WorldFit, OpensAWallThatBeamsPassAndAddsOneWhereTheyEnd) {
+  OccupancyMap map;
+  map.width = map.height = 20, map.resolution = 0.1;
+  map.cells.assign(400, Cell::kFree);
+  for (int y = 0; y < 20; ++y) map.cells[static_cast<std::size_t>(20 * y + 10)] = Cell::kOccupied;
+  Log log;
+  log.beam_angles = {0};
+  // Along the row 5 from x = 0.15 to 1.75 m.
+  const std::vector<RangeScan> scans(5, {0, {1.6}, TimedPose{0, 0.15, 0.55, 0}});
+  const OccupancyMap updated = UpdatedMap(map, log, scans);
+  EXPECT_NE(updated.at(10, 5), Cell::kOccupied);
+  EXPECT_EQ(updated.at(10, 6), Cell::kOccupied);
+  EXPECT_EQ(updated.at(17, 5), Cell::kOccupied);
+}
+
+}  // namespace
+}  // namespace gsv::reality
