@@ -114,6 +114,8 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/lib/gsv)
 set(CPACK_DEBIAN_GSV_PACKAGE_NAME gsv)
 set(CPACK_DEBIAN_GSV_DESCRIPTION "Simulator of robots: server, broker, recorder, viewer and behaviours")
+# Loaded at the first call, so that dpkg-shlibdeps does not see it.
+set(CPACK_DEBIAN_GSV_PACKAGE_DEPENDS "libsdformat12-12")
 set(CPACK_DEBIAN_GSV_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri, libopengl0")
 set(CPACK_DEBIAN_LIBGSV_PACKAGE_NAME libgsv${GSV_LIBRARY_VERSION})
 set(CPACK_DEBIAN_LIBGSV_DESCRIPTION "What behaviours and applications for GSV run with")

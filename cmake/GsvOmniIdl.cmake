@@ -1,6 +1,20 @@
 # The ORB (omniORB), the COS stubs that Debian ships, and stubs for our own IDL.
 find_package(PkgConfig REQUIRED)
-pkg_check_modules(OMNIORB REQUIRED IMPORTED_TARGET omniORB4 omniDynamic4 omniCOS4 omniCOSDynamic4)
+pkg_check_modules(OMNIORB REQUIRED IMPORTED_TARGET omniORB4 omniDynamic4)
+pkg_check_modules(OMNIORB_COS REQUIRED omniCOS4 omniCOSDynamic4)
+# Of the COS stubs only those of the Trading Service are used. libCOS4.so has those of all services, and linking
+# them at start takes 10 ms; so programs take what they need from the archives. These are no position-independent
+# code as shared libraries need it.
+find_library(OMNIORB_COS_ARCHIVE libCOS4.a)
+find_library(OMNIORB_COS_DYNAMIC_ARCHIVE libCOSDynamic4.a)
+if(OMNIORB_COS_ARCHIVE AND OMNIORB_COS_DYNAMIC_ARCHIVE)
+  set(IS_PROGRAM $<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>)
+  target_link_libraries(PkgConfig::OMNIORB INTERFACE
+    $<${IS_PROGRAM}:${OMNIORB_COS_DYNAMIC_ARCHIVE}> $<${IS_PROGRAM}:${OMNIORB_COS_ARCHIVE}>
+    $<$<NOT:${IS_PROGRAM}>:-lCOSDynamic4> $<$<NOT:${IS_PROGRAM}>:-lCOS4>)
+else()
+  target_link_libraries(PkgConfig::OMNIORB INTERFACE -lCOSDynamic4 -lCOS4)
+endif()
 include(GsvOmniOrbVersion)
 gsv_check_omniorb_version(${OMNIORB_omniORB4_VERSION})
 find_program(OMNIIDL omniidl REQUIRED)

@@ -107,6 +107,27 @@ function(gsv_library NAME)
   set_target_properties(gsv_${NAME} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 endfunction()
 
+# gsv_late_library(TARGET PREFIX) makes the library TARGET, to link to in place of the shared libraries that
+# pkg_check_modules(PREFIX …) found. They are then loaded at the first call of one of their functions; see
+# tools/make_late_library. On processors that it cannot write for, TARGET links to the libraries themselves.
+function(gsv_late_library TARGET PREFIX)
+  if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+    add_library(${TARGET} INTERFACE)
+    target_link_libraries(${TARGET} INTERFACE PkgConfig::${PREFIX})
+    return()
+  endif()
+  find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter)
+  set(SCRIPT ${CMAKE_SOURCE_DIR}/tools/make_late_library)
+  set(SOURCE ${CMAKE_CURRENT_BINARY_DIR}/${TARGET}.s)
+  add_custom_command(OUTPUT ${SOURCE}
+    COMMAND Python3::Interpreter ${SCRIPT} ${SOURCE} ${${PREFIX}_LINK_LIBRARIES}
+    DEPENDS ${SCRIPT} ${${PREFIX}_LINK_LIBRARIES} VERBATIM)
+  add_library(${TARGET} STATIC ${SOURCE})
+  target_include_directories(${TARGET} SYSTEM INTERFACE ${${PREFIX}_INCLUDE_DIRS})
+  target_compile_options(${TARGET} INTERFACE ${${PREFIX}_CFLAGS_OTHER})
+  target_link_libraries(${TARGET} PUBLIC gsv::base)
+endfunction()
+
 # gsv_test(NAME SOURCES FILE[@GROUP] … [DEPENDS …] [LABEL …] [TIMEOUT seconds] [EARLY])
 #
 # Adds the GoogleTest program NAME; each of its tests becomes one ctest test, whose report GoogleTest

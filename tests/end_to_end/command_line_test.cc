@@ -14,6 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
+using ::testing::Not;
 using Strings = std::vector<std::string>;
 
 Strings RunArguments(Strings more) {
@@ -36,6 +37,17 @@ TEST(CommandLine, RunShowsTheDefaultWorldWithFiveRobots) {
   }
   EXPECT_GE(behaviours.size(), 2u);
   EXPECT_EQ(report["warnings"].size(), 0u);
+}
+
+// What takes long to link is loaded by commands that need it; see docs/adr/063.
+TEST(CommandLine, VersionLoadsNoLibraryOfWorldsAndOfOtherServices) {
+  const Outcome outcome =
+      RunProgram("/usr/bin/env", {"LD_DEBUG=files", Program("gsv").string(), "--version"});
+  EXPECT_EQ(outcome.ending, "exit code 0");
+  EXPECT_THAT(outcome.err, HasSubstr("libomniORB4"));
+  for (const char* library : {"libsdformat", "libignition", "libCOS4", "libCOSDynamic4"}) {
+    EXPECT_THAT(outcome.err, Not(HasSubstr(library)));
+  }
 }
 
 TEST(CommandLine, RunTakesWorldRobotsAndBehaviours) {
