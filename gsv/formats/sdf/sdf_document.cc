@@ -1,6 +1,7 @@
 #include "gsv/formats/sdf/sdf_document.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include <sdf/parser.hh>
 
 #include "gsv/formats/sdf/document_repair.h"
+#include "gsv/formats/sdf/sdf_schema.h"
 
 namespace gsv::formats {
 namespace {
@@ -86,6 +88,24 @@ void NameSources(const sdf::ElementPtr& element, const IncludedFileServer& serve
   }
 }
 
+// The schema without elements of many descriptions that the text does not have. For each element that
+// libsdformat reads, it copies the element's description with all descriptions below it. None of these
+// elements is required, and libsdformat makes none of them from others, except from URDF.
+sdf::ElementPtr SchemaFor(const std::string& text) GSV_REQUIRES(SdformatMutex()) {
+  static std::map<std::set<std::string>, sdf::ElementPtr> schemas;  // by what they are without
+  std::set<std::string> absent;
+  if (text.find("<sdf") != std::string::npos) {
+    for (const char* name :
+         {"actor", "joint", "particle_emitter", "population", "sensor", "state"}) {
+      if (text.find("<" + std::string(name)) == std::string::npos) absent.insert(name);
+    }
+  }
+  if (absent.empty()) return SdfSchema();
+  sdf::ElementPtr& schema = schemas[absent];
+  if (schema == nullptr) schema = MakeSdfSchema(absent);
+  return schema;
+}
+
 // An <sdf> element without content, ready for reading. It shares the descriptions of the schema, as
 // libsdformat copies a description before it fills an element.
 sdf::SDFPtr EmptyDocument(const sdf::Element& schema) {
@@ -110,7 +130,7 @@ sdf::SDFPtr EmptyDocument(const sdf::Element& schema) {
 // Like sdf::Root::LoadSdfString, which builds the schema again for each text.
 sdf::Errors Load(const std::string& text, sdf::Root& root) GSV_REQUIRES(SdformatMutex()) {
   const sdf::ParserConfig& config = sdf::ParserConfig::GlobalConfig();
-  const sdf::SDFPtr document = EmptyDocument(*SdfSchema());
+  const sdf::SDFPtr document = EmptyDocument(*SchemaFor(text));
   sdf::Errors errors;
   if (!sdf::readString(text, config, document, errors)) {
     errors.emplace_back(sdf::ErrorCode::STRING_READ, "");
@@ -241,11 +261,7 @@ void SilenceConsoles() {
 }
 
 sdf::ElementPtr SdfSchema() {
-  static const sdf::ElementPtr schema = [] {
-    const sdf::SDFPtr description(new sdf::SDF);
-    sdf::init(description);
-    return description->Root();
-  }();
+  static const sdf::ElementPtr schema = MakeSdfSchema();
   return schema;
 }
 

@@ -32,8 +32,8 @@ base::Result<SdfDocument> ParseSdf(const SdfText& document, const IncludedFiles&
 base::Mutex& SdformatMutex();
 void SilenceConsoles() GSV_REQUIRES(SdformatMutex());
 
-// The description of <sdf> and of all elements below it. Made once, as libsdformat takes longer for
-// it than for reading a small file. Read only.
+// The description of <sdf> and of all elements below it. Made once, as this takes longer than reading a
+// small file. Read only.
 sdf::ElementPtr SdfSchema() GSV_REQUIRES(SdformatMutex());
 
 // The file that contains an element, and "file:line: element path" for messages about it.
