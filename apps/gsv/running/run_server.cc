@@ -72,12 +72,17 @@ Result<RunOptions> OptionsOf(const RunRequest& request) {
   return Understand(arguments);
 }
 
-// Behaviours in process need no broker. Nobody looks for such a run: it is a child of `gsv test` or
-// of a campaign.
+// Behaviours in process need no broker, and robots without behaviours need none. Nobody looks for
+// such a run: it is a child of `gsv test` or of a campaign.
 bool NeedsBroker(const RunOptions& options) {
-  return !options.in_process || !options.edits.empty() || options.runtime.viewer ||
-         std::any_of(options.scenario.robots.begin(), options.scenario.robots.end(),
-                     [](const auto& robot) { return !robot.behaviour_constraint.empty(); });
+  if (!options.edits.empty() || options.runtime.viewer) return true;
+  const bool has_option = !options.behaviour.empty() || !options.behaviour_of.empty();
+  if (has_option && !options.in_process) return true;
+  return std::any_of(options.scenario.robots.begin(), options.scenario.robots.end(),
+                     [&](const scenario::RobotEntry& robot) {
+                       return !robot.behaviour_constraint.empty() ||
+                              (!robot.behaviour.empty() && !options.in_process);
+                     });
 }
 
 bool HasOneThread() {
