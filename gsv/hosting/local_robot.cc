@@ -91,10 +91,10 @@ void LocalRobot::SetTurn(simulation::Turn* turn) {
 
 std::optional<sensing::Reading> LocalRobot::Read(MountedSensor& sensor) {
   if (!is_running_) return std::nullopt;
-  const auto reading = turn_ == nullptr      ? agent_->Read(sensor.name())
-                       : sensor.takes_long() ? ReadBlocked(sensor)
-                                             : turn_->Read(sensor);
-  if (reading && is_running_) return *reading;
+  auto reading = turn_ == nullptr      ? agent_->Read(sensor.name())
+                 : sensor.takes_long() ? ReadBlocked(sensor)
+                                       : turn_->Read(sensor);
+  if (reading && is_running_) return *std::move(reading);
   if (!reading) Note(reading.error());
   return std::nullopt;
 }
