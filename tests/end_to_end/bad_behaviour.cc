@@ -1,4 +1,4 @@
-// A behaviour that goes wrong in the way it is told to, for tests.
+// A behaviour for tests that fails in the requested way.
 #include <csignal>
 #include <stdexcept>
 
@@ -28,9 +28,9 @@ class BadBehaviour final : public Behaviour {
   void Run(Robot& robot) override {
     robot.Drive(0.1, 0);
     if (fault_ == "never-wait") {
-      while (robot.IsRunning()) usleep(1000);  // busy with itself: it never tells the simulation
+      while (robot.IsRunning()) usleep(1000);  // busy: it never calls the simulation
     }
-    while (fault_ == "never-end") usleep(1000);  // not even when the run is over
+    while (fault_ == "never-end") usleep(1000);  // not even after the end of the run
     while (fault_ == "flood" && robot.IsRunning()) (void)sonar_->Range();
     const bool goes_on = robot.SleepFor(200ms);
     if (goes_on && fault_ == "die") raise(SIGKILL);

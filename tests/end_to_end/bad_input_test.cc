@@ -1,5 +1,4 @@
-// Whatever is wrong from outside gets one clear sentence and the right exit code, and nothing
-// hangs.
+// Every error from outside gives one clear sentence and the right exit code, and nothing hangs.
 #include <csignal>
 
 #include <arpa/inet.h>
@@ -204,7 +203,7 @@ TEST(BadInput, BehaviourThatNeverReturnsIsDeclaredUnresponsive) {
       Headless(kPlayground, {"--broker", broker.reference(), "--robot", "pebble@0,0", "--behaviour",
                              "bad", "--deadline", "0.5"});
   ExpectOneSentence(outcome, 4, "unresponsive");
-  EXPECT_DOUBLE_EQ(outcome.LastLine()["sim_time_s"], 1.0);  // the run went on
+  EXPECT_DOUBLE_EQ(outcome.LastLine()["sim_time_s"], 1.0);  // the run continued
   EXPECT_EQ(outcome.LastLine()["robots"][0]["agent"], "unresponsive");
 }
 
@@ -228,7 +227,7 @@ TEST(BadInput, BehaviourThatThrowsIsReportedWithWhatItThrew) {
   EXPECT_DOUBLE_EQ(outcome.LastLine()["sim_time_s"], 1.0);
   const auto robot = outcome.LastLine()["robots"][0];
   EXPECT_EQ(robot["agent"], "dead");
-  EXPECT_NEAR(robot["distance_m"], 0.02, 1e-3);  // 0.2 s at 0.1 m/s, then it stands
+  EXPECT_NEAR(robot["distance_m"], 0.02, 1e-3);  // 0.2 s at 0.1 m/s, then it stops
 }
 
 TEST(BadInput, FailurePolicyEndsTheRun) {
@@ -248,7 +247,7 @@ TEST(BadInput, FullDiskEndsTheRecordingAndNotTheRun) {
   ExpectOneSentence(outcome, 5, "/dev/full");
 }
 
-// A socket that listens, so that its port is taken.
+// A listening socket, so that its port is in use.
 class TakenPort {
  public:
   TakenPort() : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
@@ -289,7 +288,7 @@ TEST(BadInput, BrokerPortInUse) {
   EXPECT_THAT(outcome.err, HasSubstr(taken.port()));
 }
 
-// Pictures come from the rasteriser where no driver can be had.
+// The rasteriser renders images if no driver is available.
 TEST(BadInput, WithoutEglEverythingWorksCamerasIncluded) {
   setenv("EGL_PLATFORM", "nonsense", 1);
   setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent.json", 1);

@@ -1,4 +1,4 @@
-// The behaviours that ship, in our own worlds.
+// The behaviours of gsv, in the built-in worlds.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ TEST(Behaviours, WanderTravels) {
   program.AwaitLine("offered at");
   const auto robot = RobotAfter(broker.reference(), "office", "b21r@-3,0", "wander", 30);
   EXPECT_GT(robot["distance_m"], 3.0);
-  EXPECT_EQ(robot["readings"]["camera"], 30);  // one a second
+  EXPECT_EQ(robot["readings"]["camera"], 30);  // one per second
 }
 
 TEST(Behaviours, OneWhoseLocalSocketIsGoneIsReachedByTcp) {
@@ -50,7 +50,7 @@ TEST(Behaviours, FollowWallKeepsItsDistance) {
       RobotAfter(broker.reference(), "playground", "pebble@3,-4.2,0", "follow-wall", 60);
   EXPECT_GT(robot["distance_m"], 8.0);
   EXPECT_EQ(robot["collisions"], 0);
-  // The square's walls stand 5 m from its middle.
+  // The walls of the square are 5 m from its centre.
   const double x = robot["pose"]["x_m"], y = robot["pose"]["y_m"];
   EXPECT_GT(std::max(std::abs(x), std::abs(y)), 5.0 - 1.5) << robot;
 }

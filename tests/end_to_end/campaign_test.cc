@@ -66,7 +66,7 @@ TEST_F(CampaignCommand, ADriverThatIsKilledIsFollowedByAnotherAndEachRunCountsOn
   const std::string lines = text.str();
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 9) << lines;
   EXPECT_GT(std::filesystem::file_size(html), 1000u);
-  // Nothing is left to do.
+  // No run is left.
   EXPECT_EQ(Campaign("run", {"--json"}).LastLine()["done"], 8);
 }
 
@@ -83,7 +83,7 @@ TEST_F(CampaignCommand, ARunCanBeHadByItself) {
 TEST_F(CampaignCommand, SharesOfAnotherQueueAreGatheredAndGoOnWhereTheyWere) {
   EXPECT_EQ(Campaign("run", {"--shard", "1/3", "--jobs", "1"}).ending, "exit code 0");
   EXPECT_EQ(Campaign("status", {"--json"}).LastLine()["done"], 3);
-  // Again, as a queue would that takes it for lost: nothing is left to do.
+  // The same again, as by a queue that considers it lost: no run is left.
   EXPECT_EQ(Campaign("run", {"--shard", "1/3"}).ending, "exit code 0");
   EXPECT_EQ(Campaign("run", {"--shard", "3/3", "--jobs", "1"}).ending, "exit code 0");
   const Outcome report = Campaign("report", {"--by", "robots[0].x"});
@@ -92,7 +92,7 @@ TEST_F(CampaignCommand, SharesOfAnotherQueueAreGatheredAndGoOnWhereTheyWere) {
   EXPECT_EQ(rest.ending, "exit code 1") << rest.err;
   EXPECT_EQ(rest.LastLine()["done"], 8);
   EXPECT_EQ(rest.LastLine()["failed"], 4);
-  // The results' file can be made again from what the shares left.
+  // The results' file can be recreated from the results of the shares.
   std::filesystem::remove(folder_.path() / "c.sqlite");
   EXPECT_EQ(Campaign("status", {"--json"}).LastLine()["done"], 5);
   EXPECT_EQ(Campaign("run", {"--shard", "4/3"}).ending, "exit code 2");

@@ -1,5 +1,5 @@
-// Talks by radio, for tests: says how often it was spoken to and drives accordingly; fails if it
-// never hears anybody.
+// Talks by radio, for tests: sends the number of messages that it got, and drives accordingly.
+// Fails if it never gets a message.
 #include <stdexcept>
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,5 @@
-// gsv ps, pause, resume, step, real-time-factor, stop and reset against simulations in other processes.
+// gsv ps, pause, resume, step, real-time-factor, stop and reset against simulations in other
+// processes.
 #include <csignal>
 #include <cstdlib>
 
@@ -14,8 +15,8 @@ using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using Strings = std::vector<std::string>;
 
-// Runs that note themselves where no other test's runs do, nor what other tests' servers ran that
-// were killed.
+// Runs that register where no runs of other tests do, without the crash reports of other tests'
+// servers.
 class Control : public ::testing::Test {
  protected:
   Control() {
@@ -24,7 +25,7 @@ class Control : public ::testing::Test {
     unsetenv("GSV_BROKER");
   }
 
-  // In lockstep and without end.
+  // In lockstep, without an end.
   static std::unique_ptr<Running> StartRun(Strings more = {}) {
     Strings arguments{"run",     "playground", "--headless", "--lockstep",
                       "--robot", "pebble@0,0", "--seed",     "3"};
@@ -82,7 +83,7 @@ TEST_F(Control, RecordsARunThatIsUnderWay) {
   Json({"step", "100"});
   const Outcome stopped = Gsv({"rec", "stop"});
   EXPECT_EQ(stopped.ending, "exit code 0") << stopped.err;
-  EXPECT_EQ(Json({"ps"})["step"], from + 100);  // it goes on without
+  EXPECT_EQ(Json({"ps"})["step"], from + 100);  // it continues without it
   const auto info = Json({"rec", "info", path});
   EXPECT_TRUE(info["indexed"]);
   EXPECT_GE(info["duration_s"], 0.1);
@@ -92,7 +93,7 @@ TEST_F(Control, RecordsARunThatIsUnderWay) {
 TEST_F(Control, PausesStepsResumesAndStops) {
   const auto run = StartRun();
   EXPECT_EQ(Json({"pause"})["phase"], "paused");
-  const int step = Json({"step"})["step"];  // the step that was under way when the pause came
+  const int step = Json({"step"})["step"];  // the step in progress during the pause
   EXPECT_EQ(Json({"step", "7"})["step"], step + 7);
   EXPECT_EQ(Json({"ps"})["step"], step + 7);
   EXPECT_EQ(Json({"resume"})["phase"], "running");
@@ -138,7 +139,7 @@ TEST_F(Control, TheFactorOfARunInRealTimeIsSet) {
   ExpectComplaint({"real-time-factor"}, 2, "real_time_factor is required");
   EXPECT_EQ(Json({"ps"})["target_factor"], 2.5);
   EXPECT_EQ(Gsv({"factor", "1000000"}).ending, "exit code 0");
-  EXPECT_EQ(run.AwaitEnd().ending, "exit code 0");  // at its first pace: five and a half hours
+  EXPECT_EQ(run.AwaitEnd().ending, "exit code 0");  // at its first speed: five and a half hours
 }
 
 TEST_F(Control, LockstepHasNoFactorToSet) {
@@ -170,7 +171,7 @@ TEST_F(Control, ARunThatWasKilledIsForgotten) {
   EXPECT_EQ(outcome.ending, "exit code 0");
   EXPECT_EQ(outcome.out, "");
   for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / "gsv"))
-    EXPECT_EQ(entry.path().extension(), ".socket");  // the next to serve removes it
+    EXPECT_EQ(entry.path().extension(), ".socket");  // the next server removes it
 }
 
 TEST_F(Control, ARunThatEndsLeavesNoFile) {

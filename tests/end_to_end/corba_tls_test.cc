@@ -1,5 +1,5 @@
-// CORBA by TLS: who has a certificate of the group's authority may call and be called, from
-// anywhere, and nobody else. With the real programs.
+// CORBA by TLS, with the real programs: only programs with a certificate of the group's authority
+// may call and be called, from anywhere.
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -31,8 +31,8 @@ int PortOf(const std::string& reference) {
   return std::stoi(reference.substr(reference.rfind(':') + 1));
 }
 
-// Whatever comes until the peer closes the connection. recv() waits for that at most as long as a
-// test may.
+// Reads until the peer closes the connection. recv() waits for that at most as long as a test may
+// take.
 std::string ReadToTheEnd(int socket) {
   std::string all;
   char bytes[512];
@@ -61,7 +61,7 @@ class Peer {
   int socket_;
 };
 
-// What is said of a handshake, once it is.
+// Waits for the error output of a handshake.
 std::string AwaitErrors(const Running& program, const std::string& text) {
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
   while (program.errors().find(text) == std::string::npos &&
@@ -70,7 +70,7 @@ std::string AwaitErrors(const Running& program, const std::string& text) {
   return program.errors();
 }
 
-// Sockets of the file system would be taken before TLS: their folder's name is too long for any.
+// Unix domain sockets would be used before TLS: the name of their folder is too long for one.
 class CorbaTls : public ::testing::Test {
  protected:
   CorbaTls() : runtime_("XDG_RUNTIME_DIR", Runtime()) {}
@@ -140,7 +140,7 @@ TEST_F(CorbaTls, EveryProgramSpeaksIt) {
   EXPECT_EQ(ps.ending, "exit code 0") << ps.err;
   EXPECT_THAT(ps.out, HasSubstr("r"));
   EXPECT_EQ(RunProgram("gsv", {"stop", "r", "--broker", broker.reference()}).ending, "exit code 0");
-  // And one that starts its own.
+  // This includes one that starts its own broker.
   EXPECT_EQ(RunProgram("gsv", {"run", "playground", "--headless", "--lockstep", "--duration", "1",
                                "--robot", "pebble", "--behaviour", "wander"})
                 .ending,
@@ -155,7 +155,7 @@ TEST_F(CorbaTls, BeyondThisMachineItTakesACertificate) {
   EXPECT_EQ(refused.ending, "exit code 2");
   EXPECT_THAT(refused.err, HasSubstr("0.0.0.0: other machines can reach this address"));
   EXPECT_THAT(refused.err, HasSubstr("--insecure-corba"));
-  // Nor does a behaviour that its broker would call from elsewhere.
+  // A behaviour that its broker would call from elsewhere is refused as well.
   const std::string& there = everywhere.reference();
   const std::string elsewhere = "corbaloc::1.2@" + there.substr(there.find('@') + 1);
   if (elsewhere.find("@127.") == std::string::npos) {
@@ -171,7 +171,7 @@ TEST_F(CorbaTls, WithoutACertificateNobodyIsServed) {
   const Outcome told = broker.Offers();
   EXPECT_EQ(told.ending, "exit code 5");
   EXPECT_THAT(told.err, HasSubstr("it takes TLS, and a certificate"));
-  // Who tries all the same is not understood.
+  // A client that tries all the same is not understood.
   const std::string plain = "corbaloc::1.2@127.0.0.1:" + std::to_string(broker.port());
   const Outcome cut = RunProgram("gsv", {"offers", "--broker", plain + "/TradingService"});
   EXPECT_EQ(cut.ending, "exit code 5");
@@ -195,7 +195,7 @@ TEST_F(CorbaTls, WhoMeetsAServiceThatTakesACertificateIsToldSo) {
   EXPECT_THAT(refused.err, HasSubstr("it takes TLS, and a certificate"));
 }
 
-// What is beyond this machine, and has none, is not called by who has one.
+// A program with a certificate does not call services without one on other machines.
 TEST_F(CorbaTls, PlainServicesAreCalledOnThisMachineOnly) {
   OtherHost host(1);
   if (!host.refusal().empty()) GTEST_SKIP() << host.refusal();
@@ -219,7 +219,7 @@ TEST_F(CorbaTls, OfAnotherAuthorityNobodyIsServedOrTrusted) {
   const Outcome client = broker.Offers();
   EXPECT_EQ(client.ending, "exit code 5");
   EXPECT_THAT(client.err, HasSubstr("its certificate is none of this group's authority"));
-  // One that trusts the server without being of its group.
+  // A client that trusts the server, but is not of its group.
   const Variable trusting("GSV_CORBA_AUTHORITY", group_.File("ca.pem"));
   const Outcome stranger = broker.Offers();
   EXPECT_EQ(stranger.ending, "exit code 5");
@@ -241,7 +241,7 @@ TEST_F(CorbaTls, AnExpiredCertificateIsRefusedByItsOwnerAndByOthers) {
     return std::system(command.str().c_str());
   };
   EXPECT_EQ(openssl("lab"), 0);
-  (void)openssl("old");  // TLS 1.3 tells a client only when it reads
+  (void)openssl("old");  // with TLS 1.3 a client learns it only when it reads
   EXPECT_THAT(AwaitErrors(broker.program(), "refused"), HasSubstr("its certificate has expired"));
   const Variable old("GSV_CORBA_CERTIFICATE", group_.File("old.pem"));
   const Outcome refused = broker.Offers();
@@ -261,12 +261,12 @@ TEST_F(CorbaTls, FilesThatCannotBeUsedStartNothing) {
   EXPECT_THAT(refusal("GSV_CORBA_KEY", group_.File("none.pem")), HasSubstr("cannot read a key"));
   EXPECT_THAT(refusal("GSV_CORBA_KEY", group_.File("ca-key.pem")), HasSubstr("not the one of"));
   EXPECT_THAT(refusal("GSV_CORBA_AUTHORITY", group_.File("lab.pem")), HasSubstr("no authority's"));
-  if (geteuid() == 0) return;  // who may read everything
+  if (geteuid() == 0) return;  // root may read everything
   fs::permissions(group_.File("lab-key.pem"), fs::perms::none);
   EXPECT_THAT(refusal("GSV_CORBA_KEY", group_.File("lab-key.pem")), HasSubstr("denied"));
 }
 
-// More than the broker has threads, and than handshakes are waited for at once.
+// More connections than the broker has threads, and than pending handshakes.
 TEST_F(CorbaTls, StalledHandshakesHoldUpNobody) {
   BrokerByTls broker;
   std::vector<std::unique_ptr<Peer>> stalled;
@@ -276,7 +276,7 @@ TEST_F(CorbaTls, StalledHandshakesHoldUpNobody) {
   }
   const Outcome offers = broker.Offers();
   EXPECT_EQ(offers.ending, "exit code 0") << offers.err;
-  // The first made room for the last, the last have no more time than others.
+  // The oldest was dropped for the newest; the newest have no more time than others.
   EXPECT_THAT(stalled.front()->AwaitEnd(), IsEmpty());
   (void)stalled.back()->AwaitEnd();
   EXPECT_THAT(AwaitErrors(broker.program(), "finish"), HasSubstr("did not finish the handshake"));
@@ -302,7 +302,7 @@ TEST_F(CorbaTls, RubbishEndsItsOwnConnectionOnly) {
     for (const int port : {broker.port(), service}) {
       const Peer peer(port);
       peer.Send(bytes);
-      // Of some a whole record is missing: those are left alone.
+      // Some lack a whole record: those are not closed.
       if (round % 3 == 0) (void)peer.AwaitEnd();
     }
   }
@@ -316,7 +316,7 @@ std::size_t DescriptorsOf(pid_t pid) {
       fs::directory_iterator("/proc/" + std::to_string(pid) + "/fd"), fs::directory_iterator()));
 }
 
-// They had no address any more when the ORB asked for it, and stayed open.
+// They had no address any more when the ORB requested it, and stayed open.
 TEST_F(CorbaTls, ThoseWhoGoRightAfterTheHandshakeLeaveNothing) {
   BrokerByTls broker;
   EXPECT_EQ(broker.Offers().ending, "exit code 0");
@@ -332,7 +332,7 @@ TEST_F(CorbaTls, ThoseWhoGoRightAfterTheHandshakeLeaveNothing) {
   EXPECT_EQ(broker.Offers().ending, "exit code 0");
 }
 
-// omniORB's own transport ends the program that is greeted so.
+// omniORB's own transport crashes in this case.
 TEST_F(CorbaTls, AServerThatSaysGoodbyeInTheHandshakeEndsACallOnly) {
   const int listener = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   sockaddr_in address = broker::Loopback(0);
@@ -370,7 +370,7 @@ TEST_F(CorbaTls, IsWhatOtherOrbsSpeak) {
   EXPECT_EQ(ask(group_.File("ca.pem"), group_.File("both.pem")), "alive\n");
 }
 
-// What `gsv doctor --security` says of a program's sockets.
+// The report of `gsv doctor --security` about a program's sockets.
 std::vector<nlohmann::json> SocketsOf(pid_t pid) {
   std::istringstream lines(RunProgram("gsv", {"doctor", "--security", "--json"}).out);
   for (std::string line; std::getline(lines, line);) {

@@ -1,6 +1,6 @@
-// Same world, same seed, same behaviours: the same state_hash, whatever happens to the behaviours'
-// processes. See docs/determinism.md. GSV_SOAK says how often each case is run (once in make test,
-// 20 times in make soak); GSV_DEBUG_BUILD_DIR names a debug build to compare with.
+// The same world, seed and behaviours give the same state_hash, whatever happens to the processes
+// of the behaviours. See docs/determinism.md. GSV_SOAK is the number of repetitions of each case (1
+// in make test, 20 in make soak); GSV_DEBUG_BUILD_DIR names a debug build for comparison.
 #include <csignal>
 #include <cstdlib>
 #include <thread>
@@ -30,7 +30,7 @@ nlohmann::json ReportOf(const std::string& broker, const std::string& gsv = "gsv
 
 std::string HashOf(const nlohmann::json& report) { return report.value("state_hash", "none"); }
 
-// What every other run is compared with: nothing happens to the programs.
+// The reference for all other runs: nothing happens to the programs.
 std::string UndisturbedHash() {
   const BrokerProcess broker;
   const Fleet fleet(broker.reference());
@@ -49,7 +49,7 @@ void ExpectSameHash(const Handicap& handicap) {
   }
 }
 
-// All at once that the tests below do one by one, and the run is recorded.
+// Combines the disturbances of the tests below, and records the run.
 TEST(Promise, TheSameSeedGivesTheSameHash) {
   const std::string expected = UndisturbedHash();
   ASSERT_EQ(expected.size(), 16u);
@@ -99,13 +99,13 @@ TEST(Determinism, CallsDelayedAtRandomLeaveNoTrace) {
     const Fleet fleet(broker.reference(), {.wrapper = {"env", fault}});
     const auto report = ReportOf(broker.reference());
     ASSERT_EQ(HashOf(report), expected) << fault;
-    // Twelve cycles of eight readings, two delays of 2 ms on average each: 384 ms for the readings
-    // alone, of which a tenth shows that the delays took place.
+    // Twelve cycles of eight readings, with two delays of 2 ms each on average: 384 ms for the
+    // readings alone. A tenth of it proves that the delays occurred.
     EXPECT_GT(report["wall_time_s"], 0.038);
   }
 }
 
-// 20 ms further away with every round trip, and by TLS.
+// A delay of 20 ms for every round trip, and TLS.
 TEST(Determinism, BehavioursBehindASlowNetworkLeaveNoTrace) {
   const OtherHost host(20);
   if (!host.refusal().empty()) GTEST_SKIP() << host.refusal();
@@ -116,12 +116,12 @@ TEST(Determinism, BehavioursBehindASlowNetworkLeaveNoTrace) {
     const Fleet fleet(broker.reference(), {.wrapper = host.wrapper()});
     const auto report = ReportOf(broker.reference());
     ASSERT_EQ(HashOf(report), expected) << "round " << round;
-    // Twelve cycles of eight readings, each at least 20 ms away.
+    // Twelve cycles of eight readings, each with at least 20 ms.
     EXPECT_GT(report["wall_time_s"], 12 * 8 * 0.020);
   }
 }
 
-// The behaviour waits for an answer all that time, as it would for a picture on a busy machine.
+// The behaviour waits for an answer all the time, as for an image on a busy machine.
 TEST(Determinism, ASimulationThatIsStoppedForTwelveSecondsLeavesNoTrace) {
   const auto hash_of = [](bool is_stopped) {
     Running run("gsv", {"run", "playground", "--robot", "b21r@0,1", "--behaviour", "follow-wall",
@@ -162,7 +162,7 @@ TEST(Determinism, BehavioursInProcessOnAnyNumberOfThreadsLeaveNoTrace) {
 }
 
 TEST(Determinism, ThreadsLeaveNoTraceInACrowd) {
-  // Enough robots for the mover, the rays and the behaviours to be shared out.
+  // Enough robots to split the work of the mover, the rays and the behaviours between threads.
   std::vector<std::string> hashes;
   for (const char* threads : {"1", "2", "5"}) {
     const Outcome outcome = RunProgram("gsv", {"bench", "crowd", "--robots", "800", "--duration",

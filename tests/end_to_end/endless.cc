@@ -1,4 +1,4 @@
-// A behaviour that goes wrong as only one in process can: after 200 ms it never returns from its
+// A behaviour with a fault that is only possible in process: after 200 ms it never returns from its
 // turn.
 #include <CLI/CLI.hpp>
 

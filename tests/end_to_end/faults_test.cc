@@ -1,5 +1,5 @@
-// Behaviours' processes that are stopped, continued and killed in mid-run, and runs that are reset:
-// what comes out, and what is said meanwhile. See docs/determinism.md.
+// Processes of behaviours that are stopped, continued and killed during the run, and runs that are
+// reset: the results and the reports. See docs/determinism.md.
 #include <sys/wait.h>
 
 #include <chrono>
@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 // A server, and a fleet for each test.
 class Faults : public Served {
  protected:
-  // The simulation of FleetRun(). The programs of earlier ones are replaced.
+  // The simulation of FleetRun(). Replaces the programs of earlier ones.
   sba::Simulation_ptr Create(const char* option = "on_failure", const char* value = "go_on") {
     fleet_.reset();
     fleet_.emplace(broker_.reference());
@@ -47,7 +47,7 @@ class Faults : public Served {
     return hash;
   }
   app::ChildProcess& FirstProgram() { return fleet_->program(0).process(); }
-  // A signal takes hold only when its process next runs; until then the program goes on.
+  // A signal takes effect only when its process runs again; until then the program continues.
   void StopFirstProgram() {
     FirstProgram().Signal(SIGSTOP);
     siginfo_t info;
@@ -129,7 +129,7 @@ TEST_F(Faults, OneThatNeitherWaitsNorAnswersFailsTheRunWhereThePolicySaysSo) {
   EXPECT_THAT(outcome.err, HasSubstr("neither waited nor returned within 1 ms"));
 }
 
-// Whether the death is noticed before or after the clock goes on, it takes effect at one instant.
+// Whether the death is noticed before or after the clock continues, it takes effect at one instant.
 TEST_F(Faults, AKilledBehaviourIsReportedAtOnceAndEndsAtItsNextWake) {
   std::vector<std::string> hashes;
   for (int round = 0; round < 2 * Rounds(); ++round) {
@@ -142,8 +142,8 @@ TEST_F(Faults, AKilledBehaviourIsReportedAtOnceAndEndsAtItsNextWake) {
       AwaitState(simulation,
                  [](const auto& state) { return CountOf(state, sba::AGENT_DEAD) == 1; });
       const std::chrono::duration<double> after = std::chrono::steady_clock::now() - killed;
-      std::cout << "reported after " << after.count() << " s\n";  // promised: 2 s
-      // Nothing else has changed: the clock stands still.
+      std::cout << "reported after " << after.count() << " s\n";  // limit: 2 s
+      // Nothing else has changed: the clock has stopped.
       EXPECT_EQ(sba::SimulationState_var(simulation->state())->time_ns, kHalfway * 1e9);
     }
     RunTo(simulation, kFleetSeconds);

@@ -40,7 +40,8 @@ TEST(ForeignOrb, ATclBehaviourTravelsInLockstepAndRepeatsToTheBit) {
     const auto report = run.LastLine();
     EXPECT_EQ(report["robots"][0]["agent"], "waiting");
     EXPECT_GT(report["robots"][0]["distance_m"], 1.0);
-    // At least one reading in each of 20 cycles a second; nobody is woken at the last instant.
+    // At least one reading in each of 20 cycles per second; no behaviour is woken at the last
+    // instant.
     EXPECT_GE(report["robots"][0]["readings"]["sonar"], 200);
     if (first.empty()) first = report["state_hash"];
     ASSERT_EQ(report["state_hash"], first);

@@ -1,5 +1,5 @@
-// Asks an object whether it lives, by omniORB's own transport for TLS: as a program of others does
-// that has a certificate. Options are the ORB's, -ORBsslCAFile and its like, then a reference.
+// Calls an object's _non_existent with omniORB's own TLS transport, like another vendor's program
+// with a certificate. The options are the ORB's, such as -ORBsslCAFile, then a reference.
 #include <cstdio>
 
 #include <omniORB4/CORBA.h>

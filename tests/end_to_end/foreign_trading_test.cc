@@ -1,4 +1,4 @@
-// The broker as another ORB's programs see it: tests/end_to_end/trading_client.tcl, on Combat.
+// The broker as seen by programs of another ORB: tests/end_to_end/trading_client.tcl, on Combat.
 #include <cstdlib>
 #include <string>
 
@@ -19,7 +19,7 @@ TEST(ForeignTrading, ATclClientExportsQueriesLinksAndWithdraws) {
       std::string(std::getenv("GSV_SOURCE_DIR")) + "/tests/end_to_end/trading_client.tcl";
   const Outcome outcome = RunProgram(client, {near.reference(), far.reference()});
   EXPECT_EQ(outcome.ending, "exit code 0") << outcome.out << outcome.err;
-  // The standard's policies, all of them.
+  // All policies of the standard.
   for (const char* policy :
        {"search_card", "match_card", "return_card", "exact_type_match", "use_modifiable_properties",
         "use_dynamic_properties", "use_proxy_offers", "hop_count", "link_follow_rule",

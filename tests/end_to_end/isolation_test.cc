@@ -1,4 +1,4 @@
-// Several simulations in one server: whatever happens in one of them, the others do not notice.
+// Several simulations in one server: whatever happens in one of them does not affect the others.
 #include <algorithm>
 #include <atomic>
 #include <functional>
@@ -16,9 +16,9 @@ namespace gsv::testing {
 namespace {
 
 constexpr double kSeconds = 2;  // 40 control cycles of each robot
-constexpr int kFlooding = 12;   // robots whose behaviours never stop asking
+constexpr int kFlooding = 12;   // robots whose behaviours never stop calling
 
-// Calls `work` again and again on threads of its own.
+// Calls `work` again and again on separate threads.
 class Repeatedly {
  public:
   Repeatedly(int threads, const std::function<void()>& work) {
@@ -52,7 +52,7 @@ class Isolation : public Served {
     flooded->start();
     return flooded._retn();
   }
-  // A program that died would flood nobody any more.
+  // A program that had died would send no calls.
   void ExpectFloodGoesOn(sba::Simulation_ptr flooded) {
     const sba::SimulationState_var state = flooded->state();
     EXPECT_EQ(CountOf(state.in(), sba::AGENT_DEAD) + CountOf(state.in(), sba::AGENT_FINISHED), 0);
@@ -70,7 +70,7 @@ class Isolation : public Served {
   std::unique_ptr<Running> bad_;
 };
 
-// One simulation whose hash is known from its running alone.
+// A simulation whose hash is known from a run without others.
 class OthersHash : public Isolation {
  protected:
   OthersHash() {
@@ -83,7 +83,7 @@ class OthersHash : public Isolation {
     simulation_->reset();
     return hash;
   }
-  // Three times at least, and then until `holds`.
+  // Runs at least three times, and then until `holds`.
   void ExpectUndisturbedUntil(const std::function<bool()>& holds) {
     const auto give_up = std::chrono::steady_clock::now() + kPatience;
     for (int run = 0; run < 3 * Rounds() || !holds(); ++run) {
@@ -129,8 +129,8 @@ TEST_F(OthersHash, IsTheSameInAFloodOfCalls) {
     const sba::SimulationState_var state = flooded->state();
     const sba::Simulations_var all = service_->list();
   });
-  // The behaviours' flood goes on as well, once all of them have started. On a machine that is busy
-  // the first may count as unresponsive by then, for it reads without ever waiting.
+  // The flood of calls also continues, once all behaviours have started. On a busy machine the
+  // first may count as unresponsive by then, because it reads without ever waiting.
   ExpectUndisturbedUntil([&] {
     const sba::SimulationState_var state = flooded->state();
     return asking.count() > 100 && CountOf(state.in(), sba::AGENT_INITIALISED) == 0;
@@ -152,7 +152,7 @@ TEST_F(OthersHash, IsTheSameWhenSimulationsAreDestroyedInMidStep) {
   ExpectUndisturbedUntil([&] { return destroying.count() > 10; });
 }
 
-// Sleeps for 50 ms again and again and notes how long that takes on the wall.
+// Sleeps for 50 ms again and again, and measures the wall-clock time for that.
 class Meter final : public Behaviour {
  public:
   explicit Meter(std::vector<double>& intervals) : intervals_(intervals) {}
@@ -170,8 +170,8 @@ class Meter final : public Behaviour {
   std::vector<double>& intervals_;  // s
 };
 
-// A simulation in real time, and what disturbs it. How late it is depends on the machine and is
-// only told; that it gets to its end does not.
+// A simulation in real time, and disturbances. Its lateness depends on the machine and is only
+// printed; it must reach its end.
 class OthersTime : public Isolation {
  protected:
   void RunAndTell(const char* beside) {
@@ -184,7 +184,7 @@ class OthersTime : public Isolation {
     EXPECT_EQ(state->time_ns, static_cast<CORBA::LongLong>(seconds * 1e9));
     simulation->destroy();  // the meter's run has ended
     ASSERT_GE(intervals_.size(), 2u);
-    intervals_.erase(intervals_.begin());  // the start's
+    intervals_.erase(intervals_.begin());  // that of the start
     std::sort(intervals_.begin(), intervals_.end());
     double sum = 0;
     for (const double interval : intervals_) sum += interval;
@@ -215,7 +215,7 @@ class OthersTime : public Isolation {
 TEST_F(OthersTime, GoesOnAlone) { RunAndTell("nothing"); }
 
 TEST_F(OthersTime, GoesOnBesideLockstepAtFullSpeed) {
-  // As many as leave no processor idle.
+  // So many that no processor is idle.
   std::vector<sba::Simulation_var> rushing(std::thread::hardware_concurrency());
   for (sba::Simulation_var& each : rushing) each = Rush();
   RunAndTell("lockstep at full speed");

@@ -52,7 +52,7 @@ TEST_F(Joints, GoWhereABehaviourTellsThemOverCorbaAndInProcess) {
   EXPECT_EQ(over_corba.LastLine()["state_hash"], in_process.LastLine()["state_hash"]);
 }
 
-// The behaviour asks for a joint that this robot has not.
+// The behaviour requests a joint that this robot does not have.
 TEST_F(Joints, ThatARobotDoesNotHaveAreRefused) {
   const Outcome outcome = Run("pebble", "pebble", {"--in-process"});
   EXPECT_NE(outcome.ending, "exit code 0");

@@ -1,5 +1,5 @@
-// Commands and reads a joint, for tests: the lift goes to 0.3 m, and the behaviour fails if it does
-// not get there.
+// Commands and reads a joint, for tests: the lift moves to 0.3 m, and the behaviour fails if it
+// does not arrive.
 #include <cmath>
 #include <stdexcept>
 

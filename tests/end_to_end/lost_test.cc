@@ -1,5 +1,4 @@
-// What was running when a server was killed, as the one that comes after it tells. With the real
-// program.
+// Crash reports of the simulations of a killed server, from the next server. With the real program.
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -29,7 +28,7 @@ class Lost : public ::testing::Test {
   ~Lost() override { server_.reset(); }
 
  protected:
-  // A server whose recordings lie in that folder.
+  // A server with the recordings in that folder.
   void Serve(const std::string& folder = "recordings") {
     server_.emplace(
         "gsv", std::vector<std::string>{"serve", "--port", "0", "--name", "lab", "--recordings",
@@ -42,7 +41,7 @@ class Lost : public ::testing::Test {
     server_->process().Signal(SIGKILL);
     return server_->AwaitEnd().err;
   }
-  // Ends it, and gives its log.
+  // Ends it, and returns its log.
   std::string End() {
     server_->process().Signal(SIGTERM);
     return server_->AwaitEnd().err;
@@ -61,7 +60,7 @@ class Lost : public ::testing::Test {
     ASSERT_EQ(Ask("POST", "/api/simulations", scenario.dump()).status, 201);
   }
   fs::path notes() const { return folder_.path() / "state/gsv/servers"; }
-  // Until a note says so.
+  // Waits until a note fulfils the condition.
   template <typename Condition>
   void AwaitNoted(Condition holds) const {
     const auto give_up = std::chrono::steady_clock::now() + kPatience;
@@ -76,7 +75,7 @@ class Lost : public ::testing::Test {
     }
     FAIL() << "that was never noted";
   }
-  // Until some have reached the disk: of a recording that has just begun there may be none.
+  // Waits until some messages are on disk: a recording that has just begun may have none.
   static void AwaitMessagesIn(const std::string& recording) {
     const auto give_up = std::chrono::steady_clock::now() + kPatience;
     while (std::chrono::steady_clock::now() < give_up) {
@@ -115,12 +114,12 @@ TEST_F(Lost, WhatAKilledServerRanIsToldByTheNextWithItsRecordingUntilItIsDismiss
   });
   AwaitMessagesIn(file);
   Kill();
-  // As if it had been writing its note just then.
+  // As if it had been writing its note at that moment.
   ASSERT_EQ(std::distance(fs::directory_iterator(notes()), {}), 1);
   const fs::path note = fs::directory_iterator(notes())->path();
   std::ofstream(note.string() + "." + pid + ".draft") << "{";
 
-  // Before anybody is there again.
+  // Before the next server starts.
   const Outcome ps = RunProgram("gsv", {"ps"});
   EXPECT_NE(ps.out.find("arena on lab (process " + pid + ") was lost at about"), std::string::npos)
       << ps.out;
@@ -136,7 +135,7 @@ TEST_F(Lost, WhatAKilledServerRanIsToldByTheNextWithItsRecordingUntilItIsDismiss
   EXPECT_EQ(lost[0]["replay"], fs::path(file).filename().string());
   EXPECT_EQ(lost[1]["name"], "maze");
   EXPECT_EQ(lost[1]["recording"], "");
-  while (!lost[0].contains("whole_until_s")) lost = LostOnes();  // it is being looked at
+  while (!lost[0].contains("whole_until_s")) lost = LostOnes();  // it is being read
   const std::string mended = folder_.path() / "mended.mcap";
   ASSERT_EQ(RunProgram("gsv", {"rec", "recover", file, "-o", mended}).ending, "exit code 0");
   const json info = json::parse(RunProgram("gsv", {"rec", "info", "--json", mended}).out);
@@ -145,13 +144,13 @@ TEST_F(Lost, WhatAKilledServerRanIsToldByTheNextWithItsRecordingUntilItIsDismiss
   EXPECT_EQ(Ask("DELETE", "/api/lost/" + lost[0]["number"].dump()).status, 200);
   EXPECT_EQ(Ask("DELETE", "/api/lost/" + lost[0]["number"].dump()).status, 404);
   ASSERT_EQ(LostOnes().size(), 1u);
-  // What nobody has dismissed outlives the next death as well.
+  // A report that nobody has dismissed survives the next crash as well.
   AwaitNoted([&](const json& noted) { return noted["lost"].size() == 1; });
   Kill();
   Serve();
   ASSERT_EQ(LostOnes().size(), 1u);
   EXPECT_EQ(LostOnes()[0]["name"], "maze");
-  // A clean end is one.
+  // A regular end counts as one.
   EXPECT_NE(End().find("maze on lab (process " + pid + ") was lost at about"), std::string::npos);
   EXPECT_TRUE(fs::is_empty(notes()));
   Serve();
@@ -179,7 +178,7 @@ TEST_F(Lost, ACleanEndLosesNothing) {
   EXPECT_EQ(RunProgram("gsv", {"ps"}).out, "");
 }
 
-// A power cut, or somebody who means harm.
+// After a power failure, or by a malicious user.
 TEST_F(Lost, NotesThatAreNoneAreASentenceAndTheServerStarts) {
   Serve();
   Create("arena");

@@ -1,4 +1,4 @@
-// The worlds that come with gsv, with our own robots in them.
+// The built-in worlds, with the built-in robots.
 #include <gtest/gtest.h>
 
 #include "tests/support/programs.h"

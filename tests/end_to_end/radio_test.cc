@@ -1,4 +1,4 @@
-// Robots that talk by radio, each driven by a program of its own or inside gsv.
+// Robots that communicate by radio, each driven by its own program or in gsv.
 #include "tests/end_to_end/four_robots.h"
 
 namespace gsv::testing {

@@ -1,4 +1,4 @@
-// `gsv replay --resimulate`: a recorded run once more, with live behaviours.
+// `gsv replay --resimulate`: repeats a recorded run, with live behaviours.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -14,7 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// A room with one wall, `thickness` m thick, its middle `x` m ahead of the robot.
+// A room with one wall, `thickness` m thick, its centre `x` m in front of the robot.
 std::string Room(double x, double thickness = 0.2) {
   const std::string box =
       "<geometry><box><size>" + std::to_string(thickness) + " 8 1</size></box></geometry>";
@@ -53,7 +53,7 @@ TEST_F(Resimulation, TellsThatARunRepeats) {
   EXPECT_THAT(again.out, HasSubstr("2.000 s"));
 }
 
-// A ball that lies on the floor rises from the instant on at which gravity points upwards.
+// A ball on the floor rises from the instant at which gravity points upwards.
 TEST_F(Resimulation, SetsGravityAgainWhereItWasSet) {
   setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
   unsetenv("GSV_BROKER");
@@ -102,12 +102,13 @@ TEST_F(Resimulation, NamesTheFirstDifference) {
   EXPECT_EQ(again.ending, "exit code 1") << again.err;
   const auto report = again.LastLine();
   EXPECT_EQ(report["equal"], false);
-  // The first topic by name that tells of the wall.
+  // The first topic by name that depends on the wall.
   EXPECT_EQ(report["first_difference"]["time_s"], 0);
   EXPECT_EQ(report["first_difference"]["topic"], "/gsv/beams");
 }
 
-// The instants of a behaviour in real time are the wall clock's; its commands' are kept.
+// In real time the instants of a behaviour depend on the wall clock; those of its commands are
+// kept.
 TEST_F(Resimulation, ByItsCommandsARunInRealTimeRepeatsToTheBit) {
   const Outcome recorded = Record();
   ASSERT_EQ(recorded.ending, "exit code 0") << recorded.err;

@@ -1,4 +1,4 @@
-// Scenarios as files: `gsv run NAME.yaml`, and the scenario that each recording holds.
+// Scenario files: `gsv run NAME.yaml`, and the scenario in each recording.
 #include <filesystem>
 #include <fstream>
 
@@ -44,7 +44,7 @@ TEST_F(Scenario, AFileSaysWhatOptionsSay) {
   EXPECT_EQ(report["robots"][1]["behaviour"], "wander");
   EXPECT_EQ(report["warnings"].size(), 0u);
 
-  // Options go over what the file says, and add to it.
+  // Options override the file, and add to it.
   const auto longer = Run(file, {"--duration", "2.5", "--robot", "pebble@2,3"}).LastLine();
   EXPECT_EQ(longer["sim_time_s"], 2.5);
   EXPECT_EQ(longer["robots"].size(), 3u);

@@ -1,5 +1,5 @@
-// Several servers at one broker: who asks gets the one that has least to do, and those that die
-// take nothing with them that is not done elsewhere.
+// Several servers at one broker: a client gets the least loaded server. The runs of a server that
+// dies are done by others.
 #include <csignal>
 #include <fstream>
 #include <map>
@@ -31,7 +31,7 @@ std::unique_ptr<Running> Serve(const std::string& broker, const std::string& nam
   return server;
 }
 
-// Until so many of a campaign's runs are in its results.
+// Waits until this number of a campaign's runs is in its results.
 void AwaitDone(Running& driver, const std::string& results, int count) {
   for (int done = 0; done < count && driver.process().Ending().empty();) {
     const auto status = RunProgram("gsv", {"campaign", "status", results, "--json"}).LastLine();
@@ -95,7 +95,7 @@ TEST(Servers, ACampaignOutlivesAServerThatIsKilledAndOneThatIsCutOff) {
   EXPECT_EQ(outcome.LastLine()["done"], 14) << outcome.err;
   EXPECT_EQ(outcome.LastLine()["errors"], 0) << outcome.err;
 
-  // What this machine makes of them is the same, to the bit.
+  // The results on this machine are the same, bit by bit.
   (void)RunProgram("gsv", {"campaign", "run", file, "--results", here});
   const auto runs = RunsOf(there, folder.path() / "there.csv");
   EXPECT_EQ(runs.size(), 14u);
@@ -142,7 +142,7 @@ TEST(Servers, ACampaignWithoutAnyIsToldSo) {
   EXPECT_THAT(one.out, HasSubstr("1 of 1 runs: 1 passed, 0 failed, 0 errors"));
 }
 
-// What runs at which server.
+// The server that runs the simulation.
 std::string ServerOf(const std::string& broker, const std::string& simulation) {
   std::istringstream lines(RunProgram("gsv", {"ps", "--broker", broker, "--json"}).out);
   for (std::string line; std::getline(lines, line);) {
@@ -157,7 +157,7 @@ TEST(Servers, WhoAsksForTheLeastLoadGetsTheIdleOne) {
   const auto one = Serve(broker.reference(), "one", {}), two = Serve(broker.reference(), "two", {});
   auto application = Application::Connect(broker.reference());
   ASSERT_TRUE(application) << application.error().Sentence();
-  auto orb = StartPatientOrb();  // the same: a process has one
+  auto orb = StartPatientOrb();  // the same: a process has only one
   ASSERT_TRUE(orb);
   auto client = broker::BrokerClient::Connect(*orb, broker.reference());
   ASSERT_TRUE(client);
@@ -168,7 +168,7 @@ TEST(Servers, WhoAsksForTheLeastLoadGetsTheIdleOne) {
                                 std::string("name == '") + busy + "'");
     ASSERT_TRUE(running) << running.error().Sentence();
     ASSERT_TRUE((*running)->Start());
-    // The broker remembers a value for a second.
+    // The broker caches a value for a second.
     const std::string is_seen =
         std::string("name == '") + busy + "' and load > 0 and simulations == 1";
     const std::string is_idle = "name == '" + other + "' and load == 0";
@@ -210,9 +210,9 @@ TEST(Servers, ASimulationWhoseServerDiesIsLostAndSaysSo) {
   ASSERT_TRUE(state);
   EXPECT_EQ(state->phase, "lost");
   EXPECT_THAT(state->failure, HasSubstr("no program accepts connections there any more"));
-  ASSERT_EQ(state->robots.size(), 1u);  // as it was when it was last asked for
+  ASSERT_EQ(state->robots.size(), 1u);  // as it was at the last query
   EXPECT_EQ(state->robots[0].place.x, 1);
-  // The application goes on with another.
+  // The application continues with another.
   const auto another = Serve(broker.reference(), "lives", {});
   auto again = (*application)->Create({.world = "playground"}, "", "min load");
   ASSERT_TRUE(again) << again.error().Sentence();

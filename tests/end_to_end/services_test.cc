@@ -1,5 +1,5 @@
-// The services as an application calls them: the real server in a process of its own, our IDL's
-// stubs here.
+// The services as seen by an application: the real server in its own process, and stubs of the IDL
+// here.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -297,7 +297,7 @@ TEST_F(AgentBehaviour, StopWakesAWaitingBehaviour) {
   const CORBA::String_var robot = simulation->add_robot(Pebble(0, 0, "name == 'wander'"));
   ASSERT_EQ(RunTo(simulation, 0.5), sba::PHASE_PAUSED);
   simulation->stop();
-  // The same behaviour runs again: its thread has come back from its wait.
+  // The same behaviour runs again: its thread has returned from its wait.
   simulation->reset();
   EXPECT_EQ(RunTo(simulation, 0.5), sba::PHASE_PAUSED);
 }
@@ -337,7 +337,7 @@ TEST_F(SimulationService, EndsWhenItsCreatorIsGone) {
   specification.options[0].value = "1";
   const OwnSimulation simulation(service_->create_simulation(specification));
   simulation->start();
-  // Watched from outside, which is no sign of life from its creator.
+  // A viewer watches, which does not count as a sign of life of the creator.
   const CORBA::String_var viewer(simulation->viewer_url());
   const std::string url =
       std::string(viewer).substr(0, std::string(viewer).find('?')) + "api/simulations";

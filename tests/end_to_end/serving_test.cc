@@ -1,4 +1,4 @@
-// A server as those see it who watch over it: limits, numbers, the log. With the real program.
+// A server as seen by an operator: limits, metrics, the log. With the real program.
 #include <map>
 #include <optional>
 #include <regex>
@@ -17,7 +17,7 @@ namespace {
 using gateway::testing::HttpReply;
 using nlohmann::json;
 
-// A server on a port of the system's choice.
+// A server on a port chosen by the system.
 class Served {
  public:
   explicit Served(std::vector<std::string> options, const std::vector<std::string>& before = {}) {
@@ -45,7 +45,7 @@ class Served {
     return at == std::string::npos ? -1 : std::stod(text.substr(at + name.size() + 2));
   }
   pid_t pid() { return program_->process().pid(); }
-  // Ends it, and gives its log.
+  // Ends it, and returns its log.
   std::string End() {
     program_->process().Signal(SIGTERM);
     return program_->AwaitEnd().err;
@@ -71,7 +71,7 @@ TEST(Limits, OfSimulationsAndRobotsHoldAndCanBeSet) {
   const HttpReply third = server.Create("");
   EXPECT_GE(third.status, 400);
   EXPECT_NE(third.body.find("already runs 2 simulations"), std::string::npos) << third.body;
-  // What was refused has left nothing.
+  // Refused requests have left nothing behind.
   EXPECT_EQ(json::parse(server.Ask("GET", "/api/simulations").body).size(), 2u);
   const std::string name = json::parse(second.body)["name"];
   EXPECT_EQ(server.Ask("DELETE", PathOf(name)).status, 200);
@@ -103,7 +103,7 @@ TEST(Limits, ThatAreNoneAreRefusedWithThoseThatThereAre) {
   EXPECT_NE(unknown.err.find("sensors_of_a_robot"), std::string::npos) << unknown.err;
 }
 
-// Worlds that are not ours are read in a process of their own first.
+// Worlds that are not built in are read in a separate process first.
 class StrangersWorld : public ::testing::Test {
  protected:
   static HttpReply Show(const Served& server, const std::string& world) {
@@ -134,12 +134,12 @@ TEST_F(StrangersWorld, ThatTakesTooMuchMemoryIsASentenceAndTheServerGoesOn) {
   EXPECT_GE(refused.status, 400) << refused.body;
   EXPECT_NE(refused.body.find("reading it takes more than 30000000 bytes"), std::string::npos)
       << refused.body;
-  EXPECT_EQ(server.Create("").status, 201);  // ours are not tried
+  EXPECT_EQ(server.Create("").status, 201);  // built-in worlds are not tried
 }
 
 TEST_F(StrangersWorld, ThatNeverComesToAnEndIsASentenceAndTheServerGoesOn) {
   const Served server({"--limit", "reading_seconds=2"});
-  // Whoever reads it waits for somebody who writes.
+  // A reader of it waits for a writer.
   const std::string world = folder_.path() / "endless.sdf";
   ASSERT_EQ(mkfifo(world.c_str(), 0600), 0);
   const HttpReply refused = Show(server, world);
@@ -160,7 +160,7 @@ TEST(Metrics, TellOfARealServer) {
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
   while (server.Metric("gsv_steps_total") < 25 && std::chrono::steady_clock::now() < deadline) {
   }
-  // Who has gone still counts.
+  // Former viewers still count.
   ASSERT_EQ(server.Ask("DELETE", PathOf(name)).status, 200);
   EXPECT_EQ(server.Metric("gsv_steps_total"), 25);
   EXPECT_GT(server.Metric("process_resident_memory_bytes"), 1e6);
@@ -171,7 +171,7 @@ TEST(Log, IsOneObjectALineAndShowsNoToken) {
   const std::string control = "control-secret-0123456789", watch = "watching-secret-0123456789";
   Served server({"--control-token", control, "--watch-token", watch},
                 {"--log-level", "trace", "--log-format", "json"});
-  // Everywhere a token, or nearly one, may stand.
+  // All places where a token, or a part of one, may be.
   const std::string bearer = "Authorization: Bearer ";
   EXPECT_EQ(server.Ask("GET", "/api/simulations").status, 401);
   EXPECT_EQ(server.Ask("GET", "/api/simulations", "", bearer + watch).status, 200);
@@ -187,7 +187,7 @@ TEST(Log, IsOneObjectALineAndShowsNoToken) {
   std::istringstream lines(log);
   int refusals = 0;
   for (std::string line; std::getline(lines, line);) {
-    const json event = json::parse(line);  // throws where it is none
+    const json event = json::parse(line);  // throws for anything else
     EXPECT_TRUE(std::regex_match(event.at("time").get<std::string>(),
                                  std::regex(R"(\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z)")));
     EXPECT_TRUE(event.at("level").is_string());
@@ -198,7 +198,7 @@ TEST(Log, IsOneObjectALineAndShowsNoToken) {
   EXPECT_GE(refusals, 5) << log;
 }
 
-// What `gsv doctor --security` says of a process, by what its sockets speak.
+// The report of `gsv doctor --security` about a process, by the protocols of its sockets.
 std::map<std::string, std::vector<json>> ExposureOf(pid_t pid) {
   std::map<std::string, std::vector<json>> sockets;
   std::istringstream lines(RunProgram("gsv", {"doctor", "--security", "--json"}).out);
@@ -247,7 +247,7 @@ TEST(Exposure, WithACertificateAndATokenNothingIsComplainedOf) {
   EXPECT_TRUE(socket["watching_takes_token"]);
   EXPECT_TRUE(socket["acting_takes_token"]);
   EXPECT_EQ(socket["complaint"], "");
-  // Who comes without TLS learns nothing else.
+  // A client without TLS learns nothing else.
   const HttpReply plain = server.Ask("GET", "/api/server");
   EXPECT_EQ(plain.status, 400);
   EXPECT_NE(plain.body.find("https://"), std::string::npos);

@@ -1,4 +1,4 @@
-// Blinks, beeps and listens, for tests: drives as it hears; fails if it never hears anybody.
+// Blinks, beeps and listens, for tests: drives by what it hears. Fails if it never hears a sound.
 #include <stdexcept>
 
 #include "sdk/behaviour/module.h"

@@ -1,4 +1,5 @@
-// `gsv campaign run --engine ssh`, by real sshds that the test starts or by a stand-in for ssh.
+// `gsv campaign run --engine ssh`, with real sshds that the test starts or with a replacement for
+// ssh.
 #include <csignal>
 #include <fstream>
 #include <set>
@@ -18,7 +19,7 @@ constexpr std::chrono::minutes kCampaignPatience{5};
 
 class SshCampaign : public ::testing::Test {
  protected:
-  // Half of its runs fail: at x = 1 the robot stands out of bounds.
+  // Half of its runs fail: at x = 1 the robot is out of bounds.
   void WriteCampaign(const SshHosts& hosts, const std::string& names, int runs,
                      const std::string& duration = "0.1") {
     folder_.Write("s.yaml",
@@ -31,7 +32,7 @@ class SshCampaign : public ::testing::Test {
                                 "  seed: {from: 1, to: " +
                                 std::to_string(runs / 2) + "}\n");
   }
-  // Until so many are done, or the driver has ended.
+  // Waits until this number is done, or the driver has ended.
   void AwaitDone(int runs, Running& driver) const {
     for (int done = 0; done < runs && driver.process().Ending().empty();) {
       const auto status = RunProgram("gsv", {"campaign", "status", file_, "--json"}).LastLine();
@@ -46,7 +47,7 @@ class SshCampaign : public ::testing::Test {
   std::vector<int> Tasks() const {
     return ProcessesWith("campaign task " + (folder_.path() / "c.runs").string());
   }
-  // A task notices about twice a second that its connection is gone.
+  // A task checks about twice a second whether its connection still exists.
   void ExpectTasksEnd() const {
     const auto give_up = std::chrono::steady_clock::now() + kPatience;
     while (!Tasks().empty() && std::chrono::steady_clock::now() < give_up) {

@@ -74,7 +74,7 @@ TEST_F(TestCommand, AFailureLeavesWhatShowsIt) {
   EXPECT_NEAR(info["start_s"].get<double>(), failed - 3, 0.1) << info;
   EXPECT_EQ(RunProgram("gsv", {"replay", "--headless", left / "run.mcap"}).ending, "exit code 0");
   EXPECT_THAT(TextOf(left / "README.txt"), HasSubstr("#t="));
-  // The command that it names fails at the same instant.
+  // The command in the report fails at the same instant.
   const Outcome again = RunProgram("gsv", {"run", file, "--lockstep", "--headless", "--json"});
   EXPECT_EQ(again.ending, "exit code 1");
   EXPECT_EQ(again.LastLine()["expectations"][0]["step"],

@@ -1,5 +1,5 @@
-// A behaviour as in the days before simulated clocks: it sleeps by the wall clock and never waits
-// on the robot's.
+// A behaviour that does not use simulated clocks: it sleeps by the wall clock and never waits for
+// the robot's clock.
 #include <chrono>
 #include <thread>
 

@@ -1,4 +1,4 @@
-// Our own worlds and robots, read as users read them.
+// The built-in worlds and robots, read like by a user.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -106,7 +106,7 @@ TEST_F(Assets, TexturesReachTheMaterials) {
     ASSERT_FALSE(visual.materials.empty()) << visual.name;
     if (visual.materials.front().base_colour_map != nullptr) ++textured;
   }
-  EXPECT_EQ(textured, 5);  // plaster, wood, oak, carpet, tiles; glass has none
+  EXPECT_EQ(textured, 5);  // plaster, wood, oak, carpet, tiles; not glass
 }
 
 }  // namespace

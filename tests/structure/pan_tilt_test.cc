@@ -1,4 +1,4 @@
-// The head of rover4: its camera looks where a behaviour turns the joints.
+// The head of rover4: a behaviour turns its camera by the joints.
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -19,7 +19,7 @@ using geometry::Pose;
 using geometry::Vector3;
 
 constexpr double kPan = 0.7, kTilt = 0.3;
-constexpr double kMounting = 0.1;  // rad that the camera looks down from its bracket
+constexpr double kMounting = 0.1;  // rad that the camera points down from its bracket
 
 class Looks final : public Behaviour {
  public:
@@ -64,7 +64,7 @@ std::shared_ptr<model::Model> Ball() {
   return ball;
 }
 
-// Where a camera of that place sees the way: pan about z, then tilt and the mounting about y.
+// The line of sight of a camera at that place: pan about z, then tilt and the mounting about y.
 Vector3 LineOfSight() {
   const double down = kTilt + kMounting;
   return {std::cos(kPan) * std::cos(down), std::sin(kPan) * std::cos(down), -std::sin(down)};
@@ -82,7 +82,7 @@ void TurnHead(model::Movement movement) {
   auto ground = std::make_shared<model::Model>();
   ground->links.resize(1);
   ground->links[0].collisions.push_back({"ground", {}, geometry::Plane{}, {}});
-  // The head turns about (0.12, 0, 0.4); the ball hangs 0.7 m from there.
+  // The head rotates about (0.12, 0, 0.4); the ball is 0.7 m from there.
   const Vector3 head{0.12, 0, 0.4};
   world->models = {{"ground", ground, {}, true},
                    {"ball", Ball(), {head + 0.7 * LineOfSight(), {}}, true}};
@@ -105,7 +105,7 @@ void TurnHead(model::Movement movement) {
   EXPECT_NEAR(reached[0], kPan, 5e-3);
   EXPECT_NEAR(reached[1], kTilt, 5e-3);
 
-  // The rover stands level on its wheels, give or take what they sink in.
+  // The rover is level on its wheels, except for their penetration.
   const auto snapshot = (*simulation)->snapshot();
   const int body = snapshot->layout->Find("rover");
   for (const model::SensorDescription& sensor : (*simulation)->sensors("rover")) {

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr const char* kPrograms[]{"/usr/sbin/munged", "/usr/sbin/slurmctld", "/usr/sbin/slurmd",
                                   "/usr/bin/sbatch", "/usr/bin/squeue"};
 
-// Ports that nobody listens on; all are held until all are known, so that they differ.
+// Ports on which no process listens. All are held until all are known, so that they differ.
 std::vector<int> FreePorts(int count) {
   std::vector<int> sockets, ports;
   for (int i = 0; i < count; ++i) {
@@ -84,7 +84,7 @@ SlurmCluster::SlurmCluster(const Options& options) {
 SlurmCluster::~SlurmCluster() {
   controller_.reset();
   for (auto& node : nodes_) node.reset();
-  // Tasks and those who watch over them have a life of their own.
+  // Tasks and their supervisors are separate processes.
   for (std::vector<pid_t> left;
        !(left = ProcessesWith("SLURM_CONF=" + configuration_, "")).empty();) {
     left.erase(std::remove(left.begin(), left.end(), munged_->process().pid()), left.end());
@@ -103,7 +103,7 @@ void SlurmCluster::WriteConfiguration(const Options& options) const {
   const std::vector<int> ports = FreePorts(options.nodes + 1);
   fs::create_directory(folder_.path() / "state");
   std::ofstream file(configuration_);
-  // A requeued task waits for as long as credentials last (cred_expire).
+  // A requeued task waits for the lifetime of credentials (cred_expire).
   file << "ClusterName=test\nSlurmctldHost=" << host << "(127.0.0.1)\n"
        << "SlurmctldPort=" << ports[0] << "\n"
        << "AuthType=auth/munge\nCredType=cred/munge\nAuthInfo=socket=" << folder

@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 constexpr const char* kSshd = "/usr/sbin/sshd";
 constexpr const char* kKeygen = "/usr/bin/ssh-keygen";
 
-// ssh [-X | -o VALUE]... HOST COMMAND. A host is there as long as its file is, which holds the
-// processes of its tasks.
+// ssh [-X | -o VALUE]... HOST COMMAND. A host exists while its file exists, which has the processes
+// of its tasks.
 constexpr const char* kStandIn = R"(#!/bin/sh
 while [ "${1#-}" != "$1" ]; do
   [ "$1" = -o ] && shift
@@ -98,7 +98,7 @@ SshHosts::SshHosts(Kind kind, int count) : kind_(kind), port_(FreePort()) {
     const fs::path program = folder_.Write("ssh", kStandIn);
     fs::permissions(program, fs::perms::owner_all);
   } else {
-    if (getuid() == 0) fs::create_directories("/run/sshd");  // which root's sshd insists on
+    if (getuid() == 0) fs::create_directories("/run/sshd");  // the sshd of root requires it
     for (const char* key : {"host", "user"})
       RunProgram(kKeygen, {"-q", "-t", "ed25519", "-N", "", "-f", folder_.path() / key});
   }

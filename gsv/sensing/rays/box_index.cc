@@ -8,11 +8,11 @@ namespace {
 
 using geometry::Bounds;
 
-// So few are looked at one by one.
+// Up to this number, each box is tested.
 constexpr std::size_t kFewBoxes = 8;
 
-// Where more boxes share a column, as when they are stacked or one stands far from a crowd, the
-// tree is quicker.
+// If more boxes share a column, for example when they are stacked or one is far from a crowd, the
+// tree is faster.
 constexpr double kMaxOccupancy = 12;
 
 bool FitsGrid(const Bounds& b) {

@@ -12,7 +12,7 @@ namespace {
 using geometry::Vector3;
 using testing::Random;
 
-// How near a ray comes to a point.
+// The distance of a ray from a point.
 double Gap(const Ray& ray, const Vector3& p) {
   const double along = std::clamp(Dot(p - ray.origin, ray.direction), 0.0, ray.max_distance);
   return Norm(p - (ray.origin + along * ray.direction));
@@ -29,7 +29,7 @@ TEST(CandidateSet, FindEveryBallThatARayTouchesAndFewOthers) {
     const auto count = static_cast<std::size_t>(random.Uniform(0, CandidateSet::kMax));
     for (std::uint32_t i = 0; i < count; ++i) {
       spheres.push_back({place + random.Point(9), random.Uniform(0.01, i % 9 == 0 ? 300 : 1)});
-      if (i % 4 == 0) spheres[i].radius = Gap(ray, spheres[i].centre) + 1e-9;  // hardly touched
+      if (i % 4 == 0) spheres[i].radius = Gap(ray, spheres[i].centre) + 1e-9;  // just touched
       candidates.Add(spheres[i], i, i % 3 != 0);
     }
     ASSERT_TRUE(candidates.Finish());

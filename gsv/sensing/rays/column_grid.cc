@@ -7,10 +7,10 @@ namespace {
 
 using geometry::Bounds;
 
-// So many columns are made for each box, and in so many may boxes be listed on average.
+// The number of columns per box, and the mean number of columns that list a box.
 constexpr double kColumnsPerBox = 2;
 constexpr std::size_t kMaxEntriesPerBox = 8;
-// In one direction: an index fits 16 bits.
+// In each direction: an index has 16 bits.
 constexpr double kMaxColumns = 30'000;
 
 }  // namespace
@@ -65,7 +65,7 @@ void ColumnGrid::Build(std::span<const Bounds> boxes) {
     Divide(cell *= 1.5, width, depth);
   }
 
-  // Each count becomes the end of its column's entries, then, as they are put in, their start.
+  // Each count becomes the end of its column's entries and, when they are inserted, their start.
   double squares = 0;
   std::uint32_t end = 0;
   for (std::uint32_t& start : starts_) {
@@ -94,14 +94,14 @@ bool ColumnGrid::Near(const geometry::Vector3& place, double reach, FoundBoxes& 
   const int right = index(place.x + reach - low_x_, columns_);
   const int front = index(place.y - reach - low_y_, rows_);
   const int back = index(place.y + reach - low_y_, rows_);
-  // Of a box's entries that one counts which is the first in the square of columns.
+  // Of a box's entries, only the first in the square of columns counts.
   std::uint32_t row_mark = 0;
   std::size_t count = found.count;
   for (int row = front; row <= back; ++row, row_mark = kFirstRow) {
     const std::uint32_t* starts = &starts_[std::size_t(row) * (columns_ + 2)];
     const std::uint32_t begin = starts[left], second = starts[left + 1], end = starts[right + 1];
     if (count + (end - begin) > FoundBoxes::kMax) return false;
-    // Which of them count is hard to foresee: they are written without a branch.
+    // It is hard to predict which of them count, so that they are written without a branch.
     for (std::uint32_t i = begin; i < end; ++i) {
       const std::uint32_t mark = row_mark | (i < second ? 0 : kFirstColumn);
       found.boxes[count] = entries_[i] & kBox;

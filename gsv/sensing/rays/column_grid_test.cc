@@ -15,7 +15,7 @@ using testing::Random;
 
 Bounds BoxAt(const Vector3& centre, const Vector3& half) { return {centre - half, centre + half}; }
 
-// Boxes of many sizes, a few of them long as walls.
+// Boxes of many sizes, a few of them as long as walls.
 std::vector<Bounds> RandomBoxes(Random& random, int count) {
   std::vector<Bounds> boxes;
   for (int i = 0; i < count; ++i) {
@@ -52,7 +52,7 @@ TEST(ColumnGrid, FindsEveryBoxThatARayPassesThrough) {
     if (i % 7 == 0) ray.direction = {-0.0, i % 2 ? 1.0 : -1.0, 0};
     if (i % 11 == 0) ray.direction = {0, 0, -1};
     const auto found = Walked(grid, ray);
-    // Point by point along the ray.
+    // Checks points along the ray.
     for (double t = 0; t <= ray.max_distance; t += 0.01) {
       const Vector3 p = ray.origin + t * ray.direction;
       for (std::uint32_t box = 0; box < boxes.size(); ++box) {

@@ -10,12 +10,12 @@ using geometry::Pose;
 using geometry::Quaternion;
 using geometry::Vector3;
 
-// Boxes and sectors are taken wider by so much, which is more than rounding moves them.
-constexpr double kGrown = 1e-6;        // m, and part of the distance
+// Boxes and sectors are extended by this, which is more than their rounding errors.
+constexpr double kGrown = 1e-6;        // m, and a fraction of the distance
 constexpr double kWidened = 1e-7;      // rad
-constexpr double kInTheMiddle = 1e-3;  // m: nearer than this a solid is on all sides
+constexpr double kInTheMiddle = 1e-3;  // m: a solid that is nearer than this is on all sides
 
-// A rotation by its columns, which are the axes that it turns x, y and z into.
+// A rotation by its columns, which are the images of the x, y and z axes.
 struct Rotation {
   Vector3 x, y, z;
 
@@ -30,8 +30,8 @@ struct Rotation {
   Vector3 operator*(const Vector3& v) const { return v.x * x + v.y * y + v.z * z; }
 };
 
-// A point of the fan's plane, along the direction of `ahead` and across it to the left, both times
-// the length of `ahead` in that plane.
+// A point in the fan's plane, along the direction of `ahead` and perpendicular to it on the left,
+// both multiplied by the length of `ahead` in that plane.
 struct Turned {
   double along, across;
 
@@ -41,7 +41,7 @@ struct Turned {
 
 double LengthOf(double x, double y) { return std::sqrt(x * x + y * y); }
 
-// Errs by at most 2e-8 for x in [-1, 1].
+// The error is at most 2e-8 for x in [-1, 1].
 // Source  M. Abramowitz, I. Stegun, "Handbook of mathematical functions", 1964, 4.4.49.
 double QuickArcTangent(double x) {
   const double s = x * x;
@@ -55,7 +55,7 @@ double QuickArcTangent(double x) {
                                                                            s * 0.0028662257))))))));
 }
 
-// The angle with that tangent, and the azimuth of (x, y), as exactly as that.
+// The angle with that tangent, and the azimuth of (x, y), with the same error.
 double QuickAngle(double tangent) {
   if (std::abs(tangent) <= 1) return QuickArcTangent(tangent);
   return std::copysign(std::numbers::pi / 2, tangent) - QuickArcTangent(1 / tangent);
@@ -80,7 +80,7 @@ std::optional<Sector> SectorOf(const Fan& fan, const Pose& box_from_fan, const B
       kGrown * (1 + distance + std::abs(origin.x) + std::abs(origin.y) + std::abs(origin.z));
   if (distance > fan.max_distance + grown) return std::nullopt;
 
-  // The box in the fan's frame: its middle and half of its edges.
+  // The box in the fan's frame: its centre and half of its edges.
   const Rotation fan_from_box(Inverse(box_from_fan.orientation));
   const Vector3 middle = fan_from_box * (0.5 * (box.min + box.max) - origin);
   const Vector3 half = 0.5 * (box.max - box.min) + Vector3{grown, grown, grown};
@@ -88,7 +88,7 @@ std::optional<Sector> SectorOf(const Fan& fan, const Pose& box_from_fan, const B
   const Vector3 b = half.y * fan_from_box.y;
   const Vector3 c = half.z * fan_from_box.z;
 
-  // The rays go from height 0 to that above the box's far end.
+  // The rays go from height 0 to the height above the box's far end.
   double height = 0;
   if (fan.elevation != 0) {
     const double far = LengthOf(middle.x, middle.y) + std::abs(a.x) + std::abs(b.x) +
@@ -115,7 +115,7 @@ std::optional<Sector> SectorOf(const Fan& fan, const Pose& box_from_fan, const B
     sector.is_all = true;
     return sector;
   }
-  // Tangents of the corners' azimuths against that of the nearest point, two corners at a time.
+  // The tangents of the corners' azimuths relative to the nearest point, two corners at a time.
   __m128d least = _mm_setzero_pd(), most = _mm_setzero_pd();
   const __m128d c_along = _mm_set_pd(to_c.along, -to_c.along);
   const __m128d c_across = _mm_set_pd(to_c.across, -to_c.across);

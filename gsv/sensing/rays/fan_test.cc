@@ -1,4 +1,4 @@
-// A scan finds what each of its rays finds alone, and what brute force finds.
+// A scan finds the same as each of its rays alone, and as brute force.
 #include "gsv/sensing/rays/fan.h"
 
 #include <set>
@@ -48,7 +48,7 @@ geometry::Shape AnyShape(Random& random) {
   }
 }
 
-// Shapes of all kinds anywhere, standing and moving, a floor, and a mesh.
+// Shapes of all kinds at any place, static and moving, a floor, and a mesh.
 std::shared_ptr<world::Snapshot> Clutter(Random& random, int count) {
   std::vector<testing::Placed> bodies;
   bodies.reserve(static_cast<std::size_t>(count) + 2);
@@ -70,7 +70,8 @@ struct Scanner {
 };
 
 Scanner AnyScanner(Random& random, int round) {
-  // Level, as on most robots, and any way up; from a sector to more than a turn; up and down.
+  // Level, as on most robots, and in any orientation; from a sector to more than a turn; up and
+  // down.
   const Pose place = round % 2 == 0 ? geometry::PlanarPose(random.Uniform(-4, 4),
                                                            random.Uniform(-4, 4), 0.1, round)
                                     : random.AnyPose(4);
@@ -107,7 +108,7 @@ TEST(Fan, OfAScannerFindsWhatEachRayFinds) {
   EXPECT_GT(hits, 2000);
 }
 
-// More than can be gathered are looked at ray by ray.
+// With more solids than can be gathered, each ray is tested separately.
 TEST(Fan, AmongVeryManySolidsFindsTheSame) {
   Random random(6);
   const auto snapshot = Clutter(random, 700);
@@ -153,7 +154,7 @@ TEST(Fan, SectorsHoldTheirRaysOnce) {
   EXPECT_EQ(RaysIn({0, 2, 2.1, true}, 0, degree, 3), (Set{0, 1, 2}));
 }
 
-// Of a box that a scanner looks at squarely the sector is known.
+// For a box that faces the scanner, the sector is known.
 TEST(Fan, ASectorIsAsWideAsTheBox) {
   const auto directions = DirectionsOf(-1, 0.1, 21, 0);
   const Fan fan{{}, -1, 0.1, 0, 10, directions};

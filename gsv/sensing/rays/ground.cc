@@ -7,7 +7,7 @@ double FloorHeight(const RayScene& scene, double x, double y,
   constexpr double kDeepest = 10;
   constexpr double kSteepest = 0.70710678118654757;
   constexpr double kRounding = 1e-9;  // a floor at kMaxFloorHeight counts
-  constexpr int kMaxBodies = 64;      // that do not count, above one another
+  constexpr int kMaxBodies = 64;      // bodies above one another that do not count
   Ray down{{x, y, kMaxFloorHeight + kRounding}, {0, 0, -1}, kMaxFloorHeight + kDeepest};
   for (int i = 0; i < kMaxBodies; ++i) {
     const std::optional<Hit> hit = scene.Cast(down, -1);

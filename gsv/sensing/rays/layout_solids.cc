@@ -15,7 +15,7 @@ void AddLink(const model::Link& link, const Pose& set_from_link, int body, Solid
   }
 }
 
-// Those parts of a model that are not empty.
+// The parts of a model that are not empty.
 std::vector<Part> MakeParts(const model::Model& model) {
   const std::vector<int> moving = world::MovingLinks(model);
   std::vector<Part> parts(1);
@@ -39,9 +39,9 @@ std::vector<Part> MakeParts(const model::Model& model) {
 }  // namespace
 
 LayoutSolids::LayoutSolids(std::shared_ptr<const world::Layout> of) : layout(std::move(of)) {
-  std::map<const model::Model*, int> known;  // looked up only
+  std::map<const model::Model*, int> known;  // only looked up, never iterated
   std::vector<BodyPart> endless;
-  std::vector<std::pair<int, int>> bodies;  // that move, and their model
+  std::vector<std::pair<int, int>> bodies;  // moving bodies, and their models
   for (std::size_t i = 0; i < layout->bodies.size(); ++i) {
     const world::Body& body = layout->bodies[i];
     if (body.is_static()) {

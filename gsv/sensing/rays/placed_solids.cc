@@ -16,13 +16,14 @@ using geometry::Bounds;
 using geometry::Pose;
 using geometry::Vector3;
 
-// So many parts are placed in one go by a thread.
+// The number of parts that a thread places at a time.
 constexpr std::size_t kPartsAtOnce = 512;
 
-// Of a part with so few shapes all are cast at; of one with more, those that its index finds.
+// Up to this number, rays are cast at all shapes of a part; otherwise at those that its index
+// finds.
 constexpr std::uint32_t kFewShapes = 4;
 
-// Among surroundings the standing shapes are told from moving parts by this bit of their number.
+// In candidate sets, this bit of the number distinguishes static shapes from moving parts.
 constexpr std::uint32_t kStanding = 1u << 31;
 
 bool IsSound(const Ray& ray) {
@@ -40,7 +41,7 @@ Bounds Around(const Ray& ray) {
           {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
 }
 
-// Whether the ray comes within the ball.
+// Whether the ray intersects the bounding sphere.
 bool Passes(const Ray& ray, double length, const BoundingSphere& ball) {
   const Vector3 to_centre = ball.centre - ray.origin;
   const double along = std::clamp(Dot(to_centre, ray.direction), 0.0, length);
@@ -48,7 +49,7 @@ bool Passes(const Ray& ray, double length, const BoundingSphere& ball) {
   return Dot(gap, gap) <= ball.radius * ball.radius;
 }
 
-// Calls cast(batch) for all the rays that for_rays(visit) visits.
+// Calls cast(batch) for all rays that for_rays(visit) visits.
 template <class ForRays, class Cast>
 void InBatches(RayBatch& batch, const ForRays& for_rays, const Cast& cast) {
   batch.count = 0;
@@ -97,7 +98,7 @@ void PlacedSolids::MoveTo(std::shared_ptr<const LayoutSolids> solids,
 }
 
 Bearer PlacedSolids::BearerOf(std::size_t part) const {
-  // Parts of one body are numbered above their primitives.
+  // The numbers of a body's parts come after its primitives.
   return {solids_->moving[part].body, static_cast<int>(part),
           static_cast<std::uint32_t>(parts_[part].part->number) << 24};
 }
@@ -107,7 +108,7 @@ void PlacedSolids::CastAtPart(std::size_t index, const Ray& ray, Nearest& neares
   part->solids.Cast(Moved(part_from_world, ray, nearest.distance), -1, nearest, BearerOf(index));
 }
 
-// Last, since triangles are many and what was hit before shortens the ray.
+// Called last, since there are many triangles, and earlier hits shorten the ray.
 void PlacedSolids::CastAtUnindexed(const Ray& ray, int ignored_body, Nearest& nearest) const {
   for (std::size_t i = solids_->bounded; i < parts_.size(); ++i) {
     if (solids_->moving[i].body != ignored_body) CastAtPart(i, ray, nearest);
@@ -154,7 +155,7 @@ double PlacedSolids::Range(const Ray& ray, int ignored_body) const {
 struct PlacedSolids::Shading {
   Sector sector;
   bool is_standing = false;
-  std::uint32_t number = 0;  // of the standing shape, or of the part
+  std::uint32_t number = 0;  // of the static shape, or of the part
 };
 
 bool PlacedSolids::FindShadings(const Fan& fan, int ignored_body,

@@ -12,7 +12,7 @@
 namespace gsv::sensing {
 namespace {
 
-// Scenes that nobody looks at. It outlives the cache as long as a scene is out.
+// Unused scenes. The pool outlives the cache while a scene is in use.
 struct Pool {
   static constexpr std::size_t kMaxIdle = 4;
   base::Mutex mutex;
@@ -33,8 +33,8 @@ struct Pool {
 
 }  // namespace
 
-// The mutex guards only which scenes there are: they are built outside of it, each by the first who
-// asks for it.
+// The mutex guards only the list of scenes. They are built without it, each by the first thread
+// that needs it.
 class RaySceneCache::Impl {
  public:
   std::shared_ptr<const RayScene> At(const std::shared_ptr<const world::Snapshot>& snapshot,
@@ -46,19 +46,19 @@ class RaySceneCache::Impl {
   }
 
  private:
-  // Readers a few steps behind still find their scene.
+  // Readers that are a few steps late still find their scene.
   static constexpr std::size_t kRecent = 4;
 
   struct Solids {
     std::shared_ptr<const world::Layout> layout;
     std::once_flag is_built;
-    std::shared_ptr<const LayoutSolids> solids;  // null until then
+    std::shared_ptr<const LayoutSolids> solids;  // null before
   };
   struct Entry {
     std::shared_ptr<const world::Snapshot> snapshot;
     std::shared_ptr<Solids> solids;  // of the snapshot's layout
     std::once_flag is_built;
-    std::shared_ptr<const RayScene> scene;  // null until then
+    std::shared_ptr<const RayScene> scene;  // null before
   };
 
   std::shared_ptr<Entry> FindOrAdd(const std::shared_ptr<const world::Snapshot>& snapshot) {

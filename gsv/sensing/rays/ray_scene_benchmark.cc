@@ -1,4 +1,4 @@
-// How fast rays and scenes are: run in a release build.
+// Measures the speed of rays and scenes: run it in a release build.
 
 #include <benchmark/benchmark.h>
 
@@ -12,7 +12,7 @@
 namespace gsv::sensing {
 namespace {
 
-// A hilly sheet, 30 m wide, of 2 side² triangles.
+// A hilly surface, 30 m wide, of 2 side² triangles.
 geometry::Mesh Sheet(int side) {
   auto mesh = std::make_shared<geometry::TriangleMesh>();
   const auto n = static_cast<std::uint32_t>(side);
@@ -32,7 +32,7 @@ geometry::Mesh Sheet(int side) {
   return {mesh, {1, 1, 1}};
 }
 
-// Robots of a body, a mast and two turning wheels, walls, and a ground of 80,000 triangles.
+// Robots with a body, a mast and two turning wheels, walls, and a ground of 80,000 triangles.
 std::shared_ptr<world::Snapshot> MakeWorld(int robots) {
   base::Noise noise(1, 2, 3);
   const auto uniform = [&](double low, double high) {

@@ -22,7 +22,7 @@ using testing::Placed;
 using testing::Random;
 using testing::RandomMesh;
 
-// A base with a wheel on a hinge, and a mast on a slider.
+// A base with a wheel on a hinge, and a mast on a prismatic joint.
 std::shared_ptr<model::Model> Vehicle(Random& random) {
   auto model = ModelOf(geometry::Box{{0.6, 0.4, 0.3}});
   model->links.push_back(ModelOf(geometry::Box{{0.2, 0.05, 0.2}})->links[0]);
@@ -90,8 +90,8 @@ TEST(RayScene, AgreesWithLookingAtEverything) {
   EXPECT_GT(hits, 1000);
 }
 
-// However the boxes are arranged: a grid does not suit those that are stacked, or that stand far
-// from all others.
+// The result does not depend on the arrangement of boxes: a grid is not suited for stacked or
+// distant ones.
 TEST(RayScene, AgreesWithLookingAtEverythingInTowersAndFarAway) {
   Random random(14);
   constexpr int kFloors = 120;
@@ -129,7 +129,7 @@ TEST(RayScene, AgreesWithLookingAtEverythingInTowersAndFarAway) {
 }
 
 TEST(RayScene, OfTwoBodiesAtOneDistanceTheFirstIsHit) {
-  // Side by side, some of them standing; rays run along their common faces.
+  // Side by side, some of them static; rays go along their common faces.
   constexpr int kBoxes = 20;
   std::vector<Placed> bodies;
   bodies.reserve(kBoxes);
@@ -231,7 +231,7 @@ TEST(RayScene, ANearerBodyWinsFromTheNextSnapshotOn) {
   after->state.bodies[0].world_from_model.position.y = 3;
   const auto new_scene = cache.At(after);
   EXPECT_DOUBLE_EQ(new_scene->Cast(ray, -1)->distance, 8.5);
-  EXPECT_DOUBLE_EQ(old_scene->Cast(ray, -1)->distance, 4.5);  // still that of its snapshot
+  EXPECT_DOUBLE_EQ(old_scene->Cast(ray, -1)->distance, 4.5);  // still of its own snapshot
 }
 
 TEST(RayScene, SurvivesItsCache) {

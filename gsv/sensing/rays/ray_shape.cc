@@ -14,21 +14,21 @@ using geometry::Vector3;
 
 using geometry::kInfinity;
 
-// Neighbouring triangles overlap by this part of their edges, so that no ray slips between them.
+// Adjacent triangles overlap by this fraction of their edges, so that no ray passes between them.
 constexpr double kSeam = 1e-12;
 
-// Where a line runs through a convex solid: from where to where.
+// The interval of a line inside a convex solid.
 struct Span {
   double enter = -kInfinity, leave = kInfinity;
 
   Span() = default;
   Span(double from, double to) : enter(from), leave(to) {}
-  // Made as a Chord is, its normals left out.
+  // Constructed like a Chord, without its normals.
   Span(double from, double to, const Vector3&, const Vector3&) : enter(from), leave(to) {}
   bool empty() const { return !(enter <= leave); }
 };
 
-// The same, and the outward normals there (of any length).
+// The same with the outward normals at both ends (of any length).
 struct Chord : Span {
   Vector3 enter_normal, leave_normal;
 
@@ -37,14 +37,14 @@ struct Chord : Span {
       : Span(from, to), enter_normal(from_normal), leave_normal(to_normal) {}
 };
 
-// What follows makes Spans or Chords, C: mostly the distance alone is asked for.
+// The functions below return Spans or Chords, C: usually only the distance is needed.
 
 template <class C>
 C Nothing() {
   return {kInfinity, -kInfinity, {}, {}};
 }
 
-// From where `from` enters to where `to` leaves.
+// From the start of `from` to the end of `to`.
 Span Joined(const Span& from, const Span& to) { return {from.enter, to.leave}; }
 Chord Joined(const Chord& from, const Chord& to) {
   return {from.enter, to.leave, from.enter_normal, to.leave_normal};
@@ -55,7 +55,7 @@ C Intersection(const C& a, const C& b) {
   return Joined(a.enter >= b.enter ? a : b, a.leave <= b.leave ? a : b);
 }
 
-// Of two chords through solids whose union is convex.
+// The union of two chords through solids whose union is convex.
 template <class C>
 C ConvexUnion(const C& a, const C& b) {
   if (a.empty()) return b;
@@ -63,7 +63,7 @@ C ConvexUnion(const C& a, const C& b) {
   return Joined(a.enter <= b.enter ? a : b, a.leave >= b.leave ? a : b);
 }
 
-// Between the planes at ±half along one axis.
+// The chord between the planes at ±half along one axis.
 template <class C>
 C Slab(double origin, double direction, double half, const Vector3& axis) {
   if (direction == 0) return std::abs(origin) <= half ? C{} : Nothing<C>();
@@ -97,7 +97,7 @@ C Along(const Ray& ray, const geometry::Sphere& sphere) {
   return BallChord<C>(ray, {}, sphere.radius);
 }
 
-// The endless cylinder about z.
+// The chord through the infinite cylinder about z.
 template <class C>
 C PipeChord(const Ray& ray, double radius) {
   const Vector3 flat{ray.direction.x, ray.direction.y, 0};
@@ -129,7 +129,7 @@ C Along(const Ray& ray, const geometry::Capsule& capsule) {
 
 template <class C>
 C Along(const Ray& ray, const geometry::Ellipsoid& ellipsoid) {
-  // In coordinates in which it is the unit ball; the parameter along the ray stays the same.
+  // In coordinates in which it is the unit sphere; the parameter along the ray stays the same.
   const Vector3 shrink{1 / ellipsoid.radii.x, 1 / ellipsoid.radii.y, 1 / ellipsoid.radii.z};
   const Vector3 origin = Scaled(ray.origin, shrink), direction = Scaled(ray.direction, shrink);
   const double speed = Dot(direction, direction);
@@ -142,8 +142,8 @@ C Along(const Ray& ray, const geometry::Ellipsoid& ellipsoid) {
           Scaled(nearest + half * direction, shrink)};
 }
 
-// Inside the cone with its apex at +length/2, where x² + y² <= k² w² with w the depth below the
-// apex and k the slope: A t² + 2 B t + C <= 0 along the ray.
+// The chord inside the cone with its apex at +length/2, where x² + y² <= k² w² with the depth w
+// below the apex and the slope k: A t² + 2 B t + C <= 0 along the ray.
 template <class C>
 C Along(const Ray& ray, const geometry::Cone& cone) {
   const double k = cone.radius / cone.length;
@@ -160,7 +160,7 @@ C Along(const Ray& ray, const geometry::Cone& cone) {
     };
     return Intersection(slab, C{from, to, normal(from), normal(to)});
   };
-  if (std::abs(a) < 1e-14) {  // along the side: one crossing
+  if (std::abs(a) < 1e-14) {  // parallel to the side: one crossing
     if (b == 0) return c <= 0 ? slab : Nothing<C>();
     const double t = -c / (2 * b);
     return b > 0 ? side(-kInfinity, t) : side(t, kInfinity);
@@ -171,7 +171,7 @@ C Along(const Ray& ray, const geometry::Cone& cone) {
   double first = q / a, second = q != 0 ? c / q : first;
   if (first > second) std::swap(first, second);
   if (a > 0) return side(first, second);
-  // Steeper than the side: within one half of the double cone before, within the other after.
+  // Steeper than the side: inside one half of the double cone before, inside the other after.
   const C before = side(-kInfinity, first);
   return before.empty() ? side(second, kInfinity) : before;
 }
@@ -181,7 +181,7 @@ Vector3 Against(const Vector3& normal, const Vector3& direction) {
   return Dot(unit, direction) > 0 ? -unit : unit;
 }
 
-// How far along the ray a crossing counts.
+// Whether a crossing at this distance counts.
 bool Counts(double distance, const Ray& ray) {
   return distance >= 0 && distance <= ray.max_distance;
 }

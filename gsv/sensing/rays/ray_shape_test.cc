@@ -67,7 +67,7 @@ TEST(RayShape, HitsATriangleAndItsEdgeButNotBesideIt) {
   EXPECT_FALSE(cast(-1e-9, 0.5));
 }
 
-// Below 0 inside a shape, above 0 outside, 0 on its surface.
+// Negative inside a shape, positive outside, 0 on its surface.
 struct Implicit {
   Vector3 p;
   double operator()(const geometry::Box& b) const {
@@ -93,7 +93,7 @@ struct Implicit {
   double operator()(const geometry::Mesh&) const { return 1; }
 };
 
-// The first change of side along the ray, by steps and bisection; below 0 if the steps see none.
+// The first change of sign along the ray, by steps and bisection; negative if the steps find none.
 double MarchedDistance(const Shape& shape, const Ray& ray) {
   const auto side = [&](double t) {
     return std::visit(Implicit{ray.origin + t * ray.direction}, shape) > 0;
@@ -141,7 +141,7 @@ TEST(RayShape, AgreesWithMarchingAlongRandomRays) {
       ASSERT_LE(Dot(normal, ray.direction), 0) << i;
       ASSERT_NEAR(Norm(normal), 1, 1e-12) << i;
     }
-    if (hit) {  // the surface is there, also where the steps missed a short chord
+    if (hit) {  // the surface exists, even if the steps missed a short chord
       const Vector3 p = ray.origin + *hit * ray.direction;
       ASSERT_WITHIN(std::visit(Implicit{p}, shape), 0, 1e-9, "m") << i;
     }

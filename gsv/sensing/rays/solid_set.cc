@@ -18,10 +18,10 @@ using geometry::Pose;
 using geometry::Shape;
 using geometry::Vector3;
 
-// So few triangles are looked at one by one.
+// Up to this number, each triangle is tested.
 constexpr std::size_t kHandful = 6;
 
-// What rounding may add to a box or a height by far: part of the length, and metres.
+// More than the rounding error of a box or a height: a fraction of the length, and metres.
 constexpr double kPadding = 1e-9;
 
 Bounds BoundsOfTriangle(const Vector3& a, const Vector3& b, const Vector3& c) {
@@ -29,7 +29,7 @@ Bounds BoundsOfTriangle(const Vector3& a, const Vector3& b, const Vector3& c) {
           {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
 }
 
-// Around the shape's own box, turned.
+// The bounds of the shape's own box, rotated.
 Bounds BoundsOfShape(const Shape& shape, const Pose& set_from_shape) {
   const std::array<Vector3, 8> corners = geometry::CornersOf(geometry::BoundsOf(shape));
   Bounds bounds{set_from_shape * corners[0], set_from_shape * corners[0]};
@@ -56,7 +56,7 @@ BoundingSphere Padded(const BoundingSphere& ball) {
   return {ball.centre, ball.radius + kPadding * (1 + ball.radius + Norm(ball.centre))};
 }
 
-// Whether some of the box lies within.
+// Whether a part of the box is inside.
 bool Reaches(const CandidateSet& candidates, const Bounds& box) {
   const Vector3& place = candidates.place();
   const auto gap = [](double low, double x, double high) {
@@ -67,7 +67,7 @@ bool Reaches(const CandidateSet& candidates, const Bounds& box) {
   return Dot(gaps, gaps) <= candidates.reach() * candidates.reach();
 }
 
-// How far from its origin a shape reaches.
+// The extent of a shape from its origin.
 struct Reach {
   double operator()(const geometry::Box& box) const { return 0.5 * Norm(box.size); }
   double operator()(const geometry::Sphere& sphere) const { return sphere.radius; }
@@ -83,7 +83,7 @@ struct Reach {
   double operator()(const geometry::Mesh&) const { return kInfinity; }
 };
 
-// Whether a ray comes through a box; says so also when it passes within rounding.
+// Whether a ray passes through a box; also true if it passes within rounding.
 class BoxTest {
  public:
   explicit BoxTest(const Ray& ray)
@@ -199,8 +199,8 @@ void SolidSet::CastAtShapeFrom(const Vector3& origin_in_shape, RayBatch& rays, s
   }
 }
 
-// What a ray climbs towards a plane on a metre: on its way round a fan the most that the part of
-// the normal in the fan's plane gives, and what the elevation gives.
+// The climb of a ray towards a plane per metre: at most that of the normal's part in the fan's
+// plane, plus that of the elevation.
 bool SolidSet::OthersReach(const Fan& fan) const {
   if (!triangles_.empty()) return true;
   for (const SolidPlane& plane : planes_) {
