@@ -143,8 +143,8 @@ class WorldEngine final : public Engine {
 
 std::unique_ptr<Engine> MakeWorldEngine(std::shared_ptr<base::ThreadTeam> team,
                                         std::unique_ptr<RigidEngine> rigid) {
-  if (rigid == nullptr) rigid = MakeBulletEngine();
   if (team == nullptr) team = std::make_shared<base::ThreadTeam>(1);
+  if (rigid == nullptr) rigid = MakeBulletEngine(team);
   return std::make_unique<WorldEngine>(std::move(team), std::move(rigid));
 }
 

@@ -10,10 +10,12 @@ namespace {
 
 class BulletEngine final : public RigidEngine {
  public:
+  explicit BulletEngine(std::shared_ptr<base::ThreadTeam> team) : team_(std::move(team)) {}
+
   base::Status SetLayout(std::shared_ptr<const world::Layout> layout) override {
     resting_.Forget();
     if (auto ok = scene_.SetLayout(std::move(layout)); !ok) return ok;
-    if (has_bodies() && !kit_) kit_.emplace();
+    if (has_bodies() && !kit_) kit_.emplace(team_.get());
     return {};
   }
 
@@ -39,7 +41,8 @@ class BulletEngine final : public RigidEngine {
   }
 
  private:
-  std::optional<BulletKit> kit_;  // made once there are rigid bodies
+  std::shared_ptr<base::ThreadTeam> team_;  // may be null
+  std::optional<BulletKit> kit_;            // made once there are rigid bodies
   RigidScene scene_;
   RigidContacts contacts_;
   RestingState resting_;
@@ -47,6 +50,8 @@ class BulletEngine final : public RigidEngine {
 
 }  // namespace
 
-std::unique_ptr<RigidEngine> MakeBulletEngine() { return std::make_unique<BulletEngine>(); }
+std::unique_ptr<RigidEngine> MakeBulletEngine(std::shared_ptr<base::ThreadTeam> team) {
+  return std::make_unique<BulletEngine>(std::move(team));
+}
 
 }  // namespace gsv::dynamics

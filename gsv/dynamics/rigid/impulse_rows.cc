@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "gsv/base/check.h"
-#include "gsv/dynamics/rigid/linear_solve.h"
 
 namespace gsv::dynamics {
 namespace {
@@ -18,7 +17,11 @@ std::array<double, 2> WithinCircle(double a0, double a1, double b0, double b1, d
   double length2 = x0 * x0 + x1 * x1;
   if (length2 <= radius * radius) return {x0, x1};
   if (!(radius > 0)) return {0, 0};
-  double shift = 0;
+  // The length is at most |b| / (least a + shift), and at least |b| / (greatest a + shift).
+  double shift = std::max(0.0, std::sqrt(b0 * b0 + b1 * b1) / radius - std::max(a0, a1));
+  x0 = b0 / (a0 + shift);
+  x1 = b1 / (a1 + shift);
+  length2 = x0 * x0 + x1 * x1;
   for (int i = 0; i < 12; ++i) {
     const double length = std::sqrt(length2);
     if (length - radius <= 1e-12 * radius) break;
@@ -252,130 +255,6 @@ double ImpulseRows::RadiusOf(const Cone& cone) const {
   return cone.friction * std::max(impulse(cone.normal_row), 0.0);
 }
 
-void ImpulseRows::CoupleAll() {
-  const std::size_t count = rows_.size();
-  if (couplings_.size() == count * count) return;
-  couplings_.assign(count * count, 0);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      double sum = 0;
-      for (const Block& a : rows_[i].sides) {
-        for (const Block& b : rows_[j].sides) {
-          if (a.count == 0 || b.count == 0 || a.first != b.first) continue;
-          const double* jacobian = jacobians_.data() + a.start;
-          const double* response = responses_.data() + b.start;
-          for (int k = a.begin; k < a.end; ++k) sum += jacobian[k] * response[k];
-        }
-      }
-      couplings_[i * count + j] = couplings_[j * count + i] = sum;
-    }
-  }
-}
-
-// Rows strictly within their bounds or at a bound that they might leave, and cones that stick.
-void ImpulseRows::ChooseFree() {
-  constexpr double kSticks = 1 - 1e-9, kMightLeave = 1e-6;  // m/s
-  free_.clear();
-  place_.assign(rows_.size(), -1);
-  const auto choose = [&](int row) {
-    place_[static_cast<std::size_t>(row)] = static_cast<int>(free_.size());
-    free_.push_back(row);
-  };
-  for (int i = 0; i < static_cast<int>(rows_.size()); ++i) {
-    const Row& row = At(i);
-    if (row.is_in_cone || row.mass_inverse == 0) continue;
-    const bool is_within = row.impulse > row.lower && row.impulse < row.upper;
-    const bool is_bounded = row.lower < row.upper;
-    if (is_within || (is_bounded && std::abs(row.target - VelocityOf(row)) < kMightLeave)) {
-      choose(i);
-    }
-  }
-  slips_.assign(cones_.size(), false);
-  for (std::size_t i = 0; i < cones_.size(); ++i) {
-    const Cone& cone = cones_[i];
-    const Row &a = At(cone.first_row), &b = At(cone.first_row + 1);
-    if (a.mass_inverse == 0 || b.mass_inverse == 0) continue;
-    const double radius = RadiusOf(cone);
-    if (!(radius > 0)) continue;
-    slips_[i] = std::sqrt(a.impulse * a.impulse + b.impulse * b.impulse) >= radius * kSticks;
-    if (slips_[i]) continue;
-    choose(cone.first_row);
-    choose(cone.first_row + 1);
-  }
-}
-
-// Writes the velocity error of each free row, and how much each impulse changes it. The friction of
-// a contact that slips grows with its normal impulse.
-void ImpulseRows::WriteEquations(bool shares_loads) {
-  // Four contacts of a box are one too many: springs of this softness decide among them.
-  constexpr double kRidge = 1e-9;
-  const std::size_t n = free_.size(), count = rows_.size();
-  matrix_.resize(n * n);
-  unknown_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const Row& row = At(free_[i]);
-    const double* couplings = couplings_.data() + static_cast<std::size_t>(free_[i]) * count;
-    for (std::size_t j = 0; j < n; ++j) matrix_[i * n + j] = couplings[free_[j]];
-    matrix_[i * n + i] += row.softness + kRidge * row.mass_inverse;
-    unknown_[i] = row.target - VelocityOf(row) - row.softness * row.impulse;
-    if (shares_loads) unknown_[i] -= kRidge * row.mass_inverse * row.impulse;
-    for (std::size_t c = 0; c < cones_.size(); ++c) {
-      const Cone& cone = cones_[c];
-      const int normal = place_[static_cast<std::size_t>(cone.normal_row)];
-      if (!slips_[c] || normal < 0) continue;
-      const double share = 1 / impulse(cone.normal_row);
-      matrix_[i * n + static_cast<std::size_t>(normal)] +=
-          share * (impulse(cone.first_row) * couplings[cone.first_row] +
-                   impulse(cone.first_row + 1) * couplings[cone.first_row + 1]);
-    }
-  }
-}
-
-void ImpulseRows::TakeSolution() {
-  for (std::size_t i = 0; i < free_.size(); ++i) {
-    Row& row = At(free_[i]);
-    if (row.is_in_cone) continue;
-    row.change = std::clamp(row.impulse + unknown_[i], row.lower, row.upper) - row.impulse;
-  }
-  for (std::size_t c = 0; c < cones_.size(); ++c) {
-    const Cone& cone = cones_[c];
-    Row &a = At(cone.first_row), &b = At(cone.first_row + 1);
-    Row& normal = At(cone.normal_row);
-    const bool normal_changes = place_[static_cast<std::size_t>(cone.normal_row)] >= 0;
-    const double before = normal.impulse;
-    const double after = before + (normal_changes ? normal.change : 0);
-    const double radius = cone.friction * std::max(after, 0.0);
-    const int place = place_[static_cast<std::size_t>(cone.first_row)];
-    if (place >= 0) {
-      double x = a.impulse + unknown_[static_cast<std::size_t>(place)];
-      double y = b.impulse + unknown_[static_cast<std::size_t>(place) + 1];
-      const double length = std::sqrt(x * x + y * y);
-      if (length > radius) {
-        x *= radius / length;
-        y *= radius / length;
-      }
-      Apply(a, x - a.impulse);
-      Apply(b, y - b.impulse);
-    } else if (slips_[c] && before > 0) {
-      Apply(a, a.impulse * (after / before - 1));
-      Apply(b, b.impulse * (after / before - 1));
-    }
-  }
-  for (const int i : free_) {
-    if (!At(i).is_in_cone) Apply(At(i), At(i).change);
-  }
-}
-
-bool ImpulseRows::SolveFree(bool shares_loads) {
-  ChooseFree();
-  if (free_.empty() || free_.size() > static_cast<std::size_t>(kMaxDirect)) return false;
-  CoupleAll();
-  WriteEquations(shares_loads);
-  if (!SolveLinear(matrix_, unknown_)) return false;
-  TakeSolution();
-  return true;
-}
-
 void ImpulseRows::Remember() {
   velocities_before_ = velocities_;
   impulses_before_.clear();
@@ -395,13 +274,15 @@ double ImpulseRows::ChangeOfEnergy() const {
 }
 
 int ImpulseRows::Solve(int max_iterations, double tolerance) {
-  // Iterations between two direct solutions. One that leads away from the solution, since other
-  // rows come to their bounds, is taken back, and the next one tried later. The first shares loads.
-  constexpr int kSweeps = 6;
+  // Iterations between two direct solutions, which cost little for few rows. One that leads away
+  // from the solution, since other rows come to their bounds, is taken back, and the next one tried
+  // later. The first shares loads.
+  constexpr std::size_t kFew = 60;
+  const int sweeps = rows_.size() <= kFew ? 1 : 6;
   Trim();
   couplings_.clear();
   double energy_before = 0, last_energy = 0;
-  int wait = kSweeps, since = 0;
+  int wait = sweeps, since = 0;
   bool is_first = true, is_direct = false;
   for (int iteration = 1; iteration < max_iterations; ++iteration) {
     Sweep(iteration % 2 == 0);

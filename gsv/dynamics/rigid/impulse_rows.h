@@ -10,7 +10,8 @@
 // Method    projected Gauss-Seidel, row by row and cone by cone (each cone is solved exactly), which
 //           finds the rows that are within their bounds. For these, up to kMaxDirect, linear
 //           equations are solved now and then: Silcowitz, Niebur, Erleben, "Projected Gauss-Seidel
-//           subspace minimization method for interactive rigid body dynamics" (GRAPP 2010). Larger
+//           subspace minimization method for interactive rigid body dynamics" (GRAPP 2010). They
+//           hold how friction turns with the slip, too (a semismooth Newton step). Larger
 //           problems are accelerated as a nonsmooth nonlinear conjugate gradient: Silcowitz-Hansen
 //           and others, The Visual Computer 26 (2010). Masses of a thousand to one and long chains
 //           of joints would take Gauss-Seidel alone thousands of iterations.
@@ -104,6 +105,8 @@ class ImpulseRows {
   double RadiusOf(const Cone& cone) const;
   void CoupleAll();
   void ChooseFree();
+  std::array<double, 2> MissingOf(const Cone& cone) const;
+  void WriteSlip(const Cone& cone);
   void WriteEquations(bool shares_loads);
   void TakeSolution();
   bool SolveFree(bool shares_loads);
@@ -120,6 +123,7 @@ class ImpulseRows {
   std::vector<int> free_;                 // rows
   std::vector<int> place_;                // of each row in free_, or -1
   std::vector<bool> slips_;               // of each cone: its friction is at its limit
+  std::vector<bool> turns_;               // of each cone that slips: its rows are free
   std::vector<double> matrix_, unknown_;  // of free_
   std::vector<double> velocities_before_, impulses_before_;
 };

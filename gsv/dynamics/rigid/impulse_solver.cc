@@ -327,23 +327,40 @@ void ImpulseSolver::StoreAll() {
   StoreVelocities();
 }
 
+void ImpulseSolver::SolveIslands(const btContactSolverInfo& info) {
+  // To wake a thread costs as much as some islands of this size.
+  constexpr std::size_t kGrain = 4;
+  const double tolerance = info.m_leastSquaresResidualThreshold;
+  const auto iterations_of = [](const Island& island) {
+    return std::clamp(kIterationsOfAll / island.bodies, kMinIterations, kMaxIterations);
+  };
+  if (info.m_splitImpulse != 0) {
+    for (std::size_t i = 0; i < island_count_; ++i) {
+      PushApart(islands_[i], iterations_of(islands_[i]), tolerance);
+    }
+  }
+  const auto solve = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      islands_[i].rows.Solve(iterations_of(islands_[i]), std::sqrt(tolerance));
+    }
+  };
+  if (team_ == nullptr) {
+    solve(0, island_count_);
+  } else {
+    team_->ParallelFor(island_count_, kGrain, solve);
+  }
+}
+
 btScalar ImpulseSolver::solveGroupCacheFriendlyIterations(
     btCollisionObject** /*bodies*/, int /*body_count*/, btPersistentManifold** /*manifolds*/,
     int /*manifold_count*/, btTypedConstraint** /*constraints*/, int /*constraint_count*/,
     const btContactSolverInfo& info, btIDebugDraw* /*debug*/) {
-  const double tolerance = info.m_leastSquaresResidualThreshold;
   AddNodes();
   JoinNodes();
   NumberIslands();
   AddAllRows();
   AddAllCones(info);
-  for (std::size_t i = 0; i < island_count_; ++i) {
-    Island& island = islands_[i];
-    const int iterations =
-        std::clamp(kIterationsOfAll / island.bodies, kMinIterations, kMaxIterations);
-    if (info.m_splitImpulse != 0) PushApart(island, iterations, tolerance);
-    island.rows.Solve(iterations, std::sqrt(tolerance));
-  }
+  SolveIslands(info);
   StoreAll();
   return 0;
 }

@@ -16,6 +16,7 @@
 
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 
+#include "gsv/base/thread_team.h"
 #include "gsv/dynamics/rigid/impulse_rows.h"
 
 namespace gsv::dynamics {
@@ -27,6 +28,10 @@ struct FrictionAxes {
 };
 
 class ImpulseSolver final : public btMultiBodyConstraintSolver {
+ public:
+  // `team`, which may be null, must outlive the solver. It solves islands, with the same results.
+  explicit ImpulseSolver(base::ThreadTeam* team) : team_(team) {}
+
  protected:
   btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
                                              btPersistentManifold** manifolds, int manifold_count,
@@ -78,6 +83,7 @@ class ImpulseSolver final : public btMultiBodyConstraintSolver {
                 const btContactSolverInfo& info);
   void AddAllCones(const btContactSolverInfo& info);
   void PushApart(const Island& island, int iterations, double tolerance);
+  void SolveIslands(const btContactSolverInfo& info);
   template <typename Rows>
   void Store(Rows& rows, int first);
   template <typename Rows>
@@ -85,6 +91,7 @@ class ImpulseSolver final : public btMultiBodyConstraintSolver {
   void StoreVelocities();
   void StoreAll();
 
+  base::ThreadTeam* team_;
   std::vector<Node> nodes_;
   std::vector<int> node_of_body_, node_of_tree_;  // by index in the pool; by bullets_first; or -1
   std::deque<Island> islands_;                    // memory for as many as there have been

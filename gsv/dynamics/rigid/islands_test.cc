@@ -1,5 +1,7 @@
 // What does not touch does not matter: to the bit.
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -37,10 +39,11 @@ std::shared_ptr<model::Model> Rover() {
   return model;
 }
 
-// A rover that pushes a box ahead, and another box that slides; more than a heap's bodies, if
-// any, lie and fall 20 m away.
-TestWorld WorldWith(int far_bodies) {
-  TestWorld world = testing::WorldOnGround();
+// A rover that pushes a box ahead, and another box that slides. So many bodies fall and lie 20 m
+// away.
+TestWorld WorldWith(int far_bodies, int threads = 1) {
+  TestWorld world(MakeWorldEngine(std::make_shared<base::ThreadTeam>(threads)));
+  world.AddStatic("ground", testing::GroundOf(), {});
   world.AddRigid("rover", Rover(), At(0, 0, 0.15));
   world.AddRigid("pushed", SolidOf(geometry::Box{{0.3, 0.3, 0.3}}, 1), At(0.5, 0.02, 0.15));
   world.AddRigid("sliding", SolidOf(geometry::Box{{0.3, 0.2, 0.1}}, 1), At(-3, 0, 0.05));
@@ -81,6 +84,30 @@ TEST(Islands, BodiesFarAwayChangeNoBit) {
   // The rover has pushed the box, and the other one has come to rest.
   EXPECT_GT(alone.position("pushed").x, 0.55);
   EXPECT_EQ(alone.body("sliding").linear_velocity, geometry::Vector3{});
+}
+
+TEST(Islands, AreSolvedTheSameByAnyNumberOfThreads) {
+  std::vector<std::uint64_t> digests;
+  for (const int threads : {1, 2, 3}) {
+    TestWorld world(MakeWorldEngine(std::make_shared<base::ThreadTeam>(threads)));
+    world.AddStatic("ground", testing::GroundOf(), {});
+    for (int i = 0; i < 12; ++i) {
+      world.AddRigid("rover" + std::to_string(i), Rover(), At(3 * i, 0, 0.15));
+    }
+    ASSERT_TRUE(world.Start());
+    for (int i = 0; i < 12; ++i) {
+      const std::string name = "rover" + std::to_string(i);
+      for (int wheel = 0; wheel < 4; ++wheel) {
+        world.CommandJoint(name, wheel,
+                           {world::JointCommand::Kind::kVelocity, 3.0 + i * (wheel % 2)});
+      }
+    }
+    for (int i = 0; i < 200; ++i) world.Step(kStep);
+    EXPECT_GT(std::abs(world.position("rover5").x - 15), 0.02);
+    digests.push_back(world.Digest());
+  }
+  EXPECT_EQ(digests[0], digests[1]);
+  EXPECT_EQ(digests[0], digests[2]);
 }
 
 }  // namespace

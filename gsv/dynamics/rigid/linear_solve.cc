@@ -37,7 +37,9 @@ bool SolveLinear(std::span<double> a, std::span<double> b) {
     for (std::size_t row = column + 1; row < n; ++row) {
       const double factor = a[row * n + column] / a[column * n + column];
       if (factor == 0) continue;
-      for (std::size_t k = column; k < n; ++k) a[row * n + k] -= factor * a[column * n + k];
+      double* __restrict__ const changed = a.data() + row * n;
+      const double* __restrict__ const taken = a.data() + column * n;
+      for (std::size_t k = column; k < n; ++k) changed[k] -= factor * taken[k];
       b[row] -= factor * b[column];
     }
   }

@@ -142,7 +142,17 @@ void RigidContacts::Read(btDispatcher& dispatcher) {
 }
 
 void RigidContacts::Store(std::vector<world::Contact>& contacts) {
-  contacts.clear();
+  std::size_t count = 0;
+  // The next contact, with the memory of the one that was there.
+  const auto next = [&](const world::Contact& contact) -> world::Contact& {
+    if (count == contacts.size()) contacts.emplace_back();
+    world::Contact& kept = contacts[count++];
+    auto points = std::move(kept.points);
+    points.clear();
+    kept = contact;
+    kept.points = std::move(points);
+    return kept;
+  };
   const auto key_of = [](const Found& found) {
     return std::make_tuple(found.contact.first, found.contact.second, found.contact.supports);
   };
@@ -157,7 +167,7 @@ void RigidContacts::Store(std::vector<world::Contact>& contacts) {
     const int last = std::max_element(begin, end, [](const Found& a, const Found& b) {
                        return a.substep < b.substep;
                      })->substep;
-    world::Contact& contact = contacts.emplace_back(begin->contact);
+    world::Contact& contact = next(begin->contact);
     contact.impulse = 0;
     contact.began = !std::binary_search(at_start_.begin(), at_start_.end(),
                                         BodyPair{contact.first, contact.second});
@@ -168,6 +178,7 @@ void RigidContacts::Store(std::vector<world::Contact>& contacts) {
     }
     begin = end;
   }
+  contacts.resize(count);
 }
 
 }  // namespace gsv::dynamics

@@ -34,7 +34,7 @@ constexpr int kRigid = btBroadphaseProxy::DefaultFilter;
 
 }  // namespace
 
-BulletKit::BulletKit() : dispatcher(&configuration) {
+BulletKit::BulletKit(base::ThreadTeam* team) : dispatcher(&configuration), solver(team) {
   dispatcher.setNearCallback(LookAtPairsThatMayTouch);
   InstallSurfaces();
 }

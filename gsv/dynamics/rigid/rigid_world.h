@@ -24,7 +24,7 @@ namespace gsv::dynamics {
 
 // What may be kept from step to step: settings, and pools of memory.
 struct BulletKit {
-  BulletKit();
+  explicit BulletKit(base::ThreadTeam* team);  // may be null
   CollisionKinds configuration;
   btCollisionDispatcher dispatcher;
   ImpulseSolver solver;

@@ -1,0 +1,188 @@
+// The direct solution of ImpulseRows: linear equations of the rows that are within their bounds.
+#include <algorithm>
+#include <cmath>
+
+#include "gsv/dynamics/rigid/impulse_rows.h"
+#include "gsv/dynamics/rigid/linear_solve.h"
+
+namespace gsv::dynamics {
+namespace {
+
+double Length(const std::array<double, 2>& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1]); }
+
+}  // namespace
+
+void ImpulseRows::CoupleAll() {
+  const std::size_t count = rows_.size();
+  if (couplings_.size() == count * count) return;
+  couplings_.assign(count * count, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      double sum = 0;
+      for (const Block& a : rows_[i].sides) {
+        for (const Block& b : rows_[j].sides) {
+          if (a.count == 0 || b.count == 0 || a.first != b.first) continue;
+          const double* jacobian = jacobians_.data() + a.start;
+          const double* response = responses_.data() + b.start;
+          for (int k = a.begin; k < a.end; ++k) sum += jacobian[k] * response[k];
+        }
+      }
+      couplings_[i * count + j] = couplings_[j * count + i] = sum;
+    }
+  }
+}
+
+// Rows strictly within their bounds or at a bound that they might leave, and cones that stick.
+void ImpulseRows::ChooseFree() {
+  constexpr double kSticks = 1 - 1e-9, kMightLeave = 1e-6;  // m/s
+  free_.clear();
+  place_.assign(rows_.size(), -1);
+  const auto choose = [&](int row) {
+    place_[static_cast<std::size_t>(row)] = static_cast<int>(free_.size());
+    free_.push_back(row);
+  };
+  for (int i = 0; i < static_cast<int>(rows_.size()); ++i) {
+    const Row& row = At(i);
+    if (row.is_in_cone || row.mass_inverse == 0) continue;
+    const bool is_within = row.impulse > row.lower && row.impulse < row.upper;
+    const bool is_bounded = row.lower < row.upper;
+    if (is_within || (is_bounded && std::abs(row.target - VelocityOf(row)) < kMightLeave)) {
+      choose(i);
+    }
+  }
+  slips_.assign(cones_.size(), false);
+  for (std::size_t i = 0; i < cones_.size(); ++i) {
+    const Cone& cone = cones_[i];
+    const Row &a = At(cone.first_row), &b = At(cone.first_row + 1);
+    if (a.mass_inverse == 0 || b.mass_inverse == 0) continue;
+    const double radius = RadiusOf(cone);
+    if (!(radius > 0)) continue;
+    slips_[i] = std::sqrt(a.impulse * a.impulse + b.impulse * b.impulse) >= radius * kSticks;
+    if (slips_[i]) continue;
+    choose(cone.first_row);
+    choose(cone.first_row + 1);
+  }
+  // Where a contact slips, its friction turns with the slip.
+  constexpr double kStands = 1e-9;  // m/s
+  std::size_t turning = 0;
+  for (std::size_t i = 0; i < cones_.size(); ++i) turning += slips_[i] ? 2 : 0;
+  turns_.assign(cones_.size(), false);
+  if (free_.size() + turning > static_cast<std::size_t>(kMaxDirect)) return;
+  for (std::size_t i = 0; i < cones_.size(); ++i) {
+    if (!slips_[i] || !(Length(MissingOf(cones_[i])) > kStands)) continue;
+    turns_[i] = true;
+    choose(cones_[i].first_row);
+    choose(cones_[i].first_row + 1);
+  }
+}
+
+// The change of velocity that a cone's rows still ask for: against the slip.
+std::array<double, 2> ImpulseRows::MissingOf(const Cone& cone) const {
+  const Row &a = rows_[static_cast<std::size_t>(cone.first_row)],
+            &b = rows_[static_cast<std::size_t>(cone.first_row) + 1];
+  return {a.target - VelocityOf(a), b.target - VelocityOf(b)};
+}
+
+// Friction x of a contact that slips is radius * e / |e|, where e is what is missing. Along e it
+// changes with the radius, and across e as e turns: Newton's method on both.
+void ImpulseRows::WriteSlip(const Cone& cone) {
+  const std::size_t n = free_.size(), count = rows_.size();
+  const auto first = static_cast<std::size_t>(place_[static_cast<std::size_t>(cone.first_row)]);
+  const Row &a = At(cone.first_row), &b = At(cone.first_row + 1);
+  const auto [e0, e1] = MissingOf(cone);
+  const double length = Length({e0, e1}), radius = RadiusOf(cone), weight = a.mass_inverse;
+  const double d0 = e0 / length, d1 = e1 / length, stiff = length / radius;
+  const double* of_a = couplings_.data() + static_cast<std::size_t>(cone.first_row) * count;
+  const double* of_b = of_a + count;
+  double* along = matrix_.data() + first * n;
+  double* across = along + n;
+  for (std::size_t j = 0; j < n; ++j) {
+    along[j] = 0;
+    across[j] = d0 * of_b[free_[j]] - d1 * of_a[free_[j]];
+  }
+  along[first] = weight * d0;
+  along[first + 1] = weight * d1;
+  const int normal = place_[static_cast<std::size_t>(cone.normal_row)];
+  if (normal >= 0) along[normal] = -weight * cone.friction;
+  across[first] -= stiff * d1;
+  across[first + 1] += stiff * d0;
+  unknown_[first] = weight * (radius - (d0 * a.impulse + d1 * b.impulse));
+  unknown_[first + 1] = -stiff * (d0 * b.impulse - d1 * a.impulse);
+}
+
+// Writes the velocity error of each free row, and how much each impulse changes it. The friction of
+// a contact that slips grows with its normal impulse.
+void ImpulseRows::WriteEquations(bool shares_loads) {
+  // Four contacts of a box are one too many: springs of this softness decide among them.
+  constexpr double kRidge = 1e-9;
+  const std::size_t n = free_.size(), count = rows_.size();
+  matrix_.resize(n * n);
+  unknown_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Row& row = At(free_[i]);
+    const double* couplings = couplings_.data() + static_cast<std::size_t>(free_[i]) * count;
+    for (std::size_t j = 0; j < n; ++j) matrix_[i * n + j] = couplings[free_[j]];
+    matrix_[i * n + i] += row.softness + kRidge * row.mass_inverse;
+    unknown_[i] = row.target - VelocityOf(row) - row.softness * row.impulse;
+    if (shares_loads) unknown_[i] -= kRidge * row.mass_inverse * row.impulse;
+    for (std::size_t c = 0; c < cones_.size(); ++c) {
+      const Cone& cone = cones_[c];
+      const int normal = place_[static_cast<std::size_t>(cone.normal_row)];
+      if (!slips_[c] || turns_[c] || normal < 0) continue;
+      const double share = 1 / impulse(cone.normal_row);
+      matrix_[i * n + static_cast<std::size_t>(normal)] +=
+          share * (impulse(cone.first_row) * couplings[cone.first_row] +
+                   impulse(cone.first_row + 1) * couplings[cone.first_row + 1]);
+    }
+  }
+  for (std::size_t c = 0; c < cones_.size(); ++c) {
+    if (turns_[c]) WriteSlip(cones_[c]);
+  }
+}
+
+void ImpulseRows::TakeSolution() {
+  for (std::size_t i = 0; i < free_.size(); ++i) {
+    Row& row = At(free_[i]);
+    if (row.is_in_cone) continue;
+    row.change = std::clamp(row.impulse + unknown_[i], row.lower, row.upper) - row.impulse;
+  }
+  for (std::size_t c = 0; c < cones_.size(); ++c) {
+    const Cone& cone = cones_[c];
+    Row &a = At(cone.first_row), &b = At(cone.first_row + 1);
+    Row& normal = At(cone.normal_row);
+    const bool normal_changes = place_[static_cast<std::size_t>(cone.normal_row)] >= 0;
+    const double before = normal.impulse;
+    const double after = before + (normal_changes ? normal.change : 0);
+    const double radius = cone.friction * std::max(after, 0.0);
+    const int place = place_[static_cast<std::size_t>(cone.first_row)];
+    if (place >= 0) {
+      double x = a.impulse + unknown_[static_cast<std::size_t>(place)];
+      double y = b.impulse + unknown_[static_cast<std::size_t>(place) + 1];
+      const double length = std::sqrt(x * x + y * y);
+      if (length > radius) {
+        x *= radius / length;
+        y *= radius / length;
+      }
+      Apply(a, x - a.impulse);
+      Apply(b, y - b.impulse);
+    } else if (slips_[c] && before > 0) {
+      Apply(a, a.impulse * (after / before - 1));
+      Apply(b, b.impulse * (after / before - 1));
+    }
+  }
+  for (const int i : free_) {
+    if (!At(i).is_in_cone) Apply(At(i), At(i).change);
+  }
+}
+
+bool ImpulseRows::SolveFree(bool shares_loads) {
+  ChooseFree();
+  if (free_.empty() || free_.size() > static_cast<std::size_t>(kMaxDirect)) return false;
+  CoupleAll();
+  WriteEquations(shares_loads);
+  if (!SolveLinear(matrix_, unknown_)) return false;
+  TakeSolution();
+  return true;
+}
+
+}  // namespace gsv::dynamics
