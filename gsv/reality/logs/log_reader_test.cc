@@ -69,8 +69,8 @@ TEST_F(LogReaderTest, NamesTheLineOfWhatIsNoNumber) {
   EXPECT_THAT(Read(path, "carmen").odometry, SizeIs(20));
   ASSERT_THAT(problems_, SizeIs(1));
   EXPECT_EQ(Problem(0), path.string() +
-                            ":22: field 2 is \"nan\"; it must be a finite number; the row is left "
-                            "out");
+                            ":22: field 2 is \"nan\"; it must be a finite number; the row is "
+                            "ignored");
 }
 
 TEST_F(LogReaderTest, ReportsTimeThatGoesBackAndAClockThatJumps) {
