@@ -13,26 +13,26 @@ using namespace gsv;
 
 class Wander final : public Behaviour {
  public:
-  explicit Wander(bool takes_pictures) : takes_pictures_(takes_pictures) {}
+  explicit Wander(bool takes_images) : takes_images_(takes_images) {}
 
   base::Status Init(Robot& robot) override {
     auto sonars = SonarRing::Open(robot, 8);
     if (!sonars) return base::Fail(sonars.error());
     sonars_ = *std::move(sonars);
-    if (!takes_pictures_) return {};
+    if (!takes_images_) return {};
     auto camera = OpenOrMountCamera(robot);
     if (camera) camera_ = *std::move(camera);  // a robot without a camera wanders without it
     return {};
   }
 
   void Run(Robot& robot) override {
-    SimTime next_picture = robot.Now();
+    SimTime next_image = robot.Now();
     do {
       const DriveCommand command = rule_.Decide(robot.footprint_radius(), sonars_.Read());
       robot.Drive(command.linear, command.angular);
-      if (camera_ != nullptr && robot.Now() >= next_picture) {
+      if (camera_ != nullptr && robot.Now() >= next_image) {
         camera_->TakeImage();
-        next_picture += 1s;
+        next_image += 1s;
         if (!robot.SleepFor(20ms)) return;
       }
     } while (robot.SleepFor(50ms));
@@ -46,7 +46,7 @@ class Wander final : public Behaviour {
     return robot.CreateCamera("camera", {.x = 0.05, .z = 0.25}, 320, 240, 1.047);
   }
 
-  const bool takes_pictures_;
+  const bool takes_images_;
   SonarRing sonars_;
   std::unique_ptr<Camera> camera_;
   WanderRule rule_;

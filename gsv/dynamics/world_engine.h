@@ -1,10 +1,10 @@
-// The engine of a whole world: planar kinematics for wheeled bases and people, an engine of
-// rigid-body dynamics for all that falls, tips or has joints that forces move.
+// The engine of a whole world: planar kinematics for wheeled bases and people, and an engine of
+// rigid-body dynamics for bodies that fall, tip over or have joints driven by forces.
 //
-// Together    rigid bodies stop planar ones, which push them: with the speed that they want, and a
-//             force of at most their own weight (traction 1). A planar robot gives way to nothing:
-//             what runs into it bounces off. What lies on a robot rides along.
-// Cost        a world without rigid bodies costs what the planar mover costs.
+// Together    Rigid bodies stop planar ones, and planar ones push rigid bodies at their target speed
+//             with a force of at most their own weight (traction 1). A rigid body that hits a planar
+//             robot bounces off and does not move the robot. A body that lies on a robot moves with it.
+// Cost        A world without rigid bodies costs as much as the planar mover alone.
 // Determinism as Engine has it, for both.
 #pragma once
 

@@ -151,9 +151,9 @@ TEST_F(GatewayTest, SeveralViewersWatchSeveralThings) {
   first.Subscribe(1, "/gsv/status");
   second.Subscribe(5, "/robot_0/camera");
   EXPECT_EQ(Decoded<SimulationStatus>(first.ReceiveData(1)).state, "created");
-  const auto picture = Decoded<messages::sensor_msgs::CompressedImage>(second.ReceiveData(5));
-  EXPECT_EQ(picture.format, "jpeg");
-  EXPECT_EQ(picture.header.frame_id, "robot_0/camera");
+  const auto image = Decoded<messages::sensor_msgs::CompressedImage>(second.ReceiveData(5));
+  EXPECT_EQ(image.format, "jpeg");
+  EXPECT_EQ(image.header.frame_id, "robot_0/camera");
   Fetch(port(), "POST", "/api/simulations/arena/start");
   EXPECT_EQ(Decoded<SimulationStatus>(first.ReceiveData(1)).state, "running");
 }

@@ -52,10 +52,10 @@ class LocalPort final : public SensorPort {
   Image TakeImage() override {
     Image image;
     const auto reading = robot_.Read(*sensor_);
-    if (!reading || reading->picture == nullptr) return image;
-    image.width = reading->picture->width;
-    image.height = reading->picture->height;
-    image.rgb = reading->picture->pixels;
+    if (!reading || reading->image == nullptr) return image;
+    image.width = reading->image->width;
+    image.height = reading->image->height;
+    image.rgb = reading->image->pixels;
     return image;
   }
 

@@ -53,7 +53,7 @@ const char* OverlayName(sensing::Overlay overlay) {
       return "lines";
     case sensing::Overlay::kPoints:
       return "points";
-    case sensing::Overlay::kPicture:
+    case sensing::Overlay::kImage:
       return "picture";
   }
   return "none";

@@ -58,11 +58,11 @@ sensing::SensorType PixelCamera() {
         : SensorOf(description) {}
     base::Result<sensing::Reading> Sample(const sensing::Sampling& sampling) const override {
       sensing::Reading reading = sampling.Stamped();
-      auto picture = std::make_shared<model::Image>();
-      picture->width = picture->height = 1;
-      picture->pixels = {1, 2, 3};
+      auto image = std::make_shared<model::Image>();
+      image->width = image->height = 1;
+      image->pixels = {1, 2, 3};
       Fill(Values{1, 1}, reading);
-      reading.picture = std::move(picture);
+      reading.image = std::move(image);
       return reading;
     }
     Bytes EncodeCompanion(base::SimTime time, const std::string& frame) const override {
@@ -97,22 +97,22 @@ TEST_F(SimulationRecorderTest, ImagesCanBePng) {
   robot.model = std::make_shared<const model::Model>(std::move(model));
   ASSERT_TRUE(simulation->AddRobot(robot));
   RecorderOptions options = NamingOptions();
-  options.write_png = [](const model::Image& picture) {
-    return base::Result<std::vector<std::uint8_t>>(picture.pixels);
+  options.write_png = [](const model::Image& image) {
+    return base::Result<std::vector<std::uint8_t>>(image.pixels);
   };
   auto recorder = SimulationRecorder::Start(simulation, path_, std::move(options));
   ASSERT_TRUE(recorder);
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
   ASSERT_TRUE((*recorder)->Stop());
-  const auto pictures = Read<messages::sensor_msgs::CompressedImage>("/robot/eye");
-  ASSERT_FALSE(pictures.empty());
-  EXPECT_EQ(pictures[0].format, "png");
-  EXPECT_EQ(pictures[0].data, (std::vector<std::uint8_t>{1, 2, 3}));
-  EXPECT_EQ(pictures[0].header.frame_id, "robot/eye");
+  const auto images = Read<messages::sensor_msgs::CompressedImage>("/robot/eye");
+  ASSERT_FALSE(images.empty());
+  EXPECT_EQ(images[0].format, "png");
+  EXPECT_EQ(images[0].data, (std::vector<std::uint8_t>{1, 2, 3}));
+  EXPECT_EQ(images[0].header.frame_id, "robot/eye");
   // The companion messages come with each image, at its instant.
   const auto infos = Read<messages::sensor_msgs::CameraInfo>("/robot/eye/camera_info");
-  ASSERT_EQ(infos.size(), pictures.size());
-  EXPECT_EQ(infos.back().header.stamp.nanosec, pictures.back().header.stamp.nanosec);
+  ASSERT_EQ(infos.size(), images.size());
+  EXPECT_EQ(infos.back().header.stamp.nanosec, images.back().header.stamp.nanosec);
   EXPECT_EQ(infos.back().width, 1u);
 }
 

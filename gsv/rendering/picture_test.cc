@@ -39,9 +39,9 @@ class PICTURE_SUITE : public testing::Test {
   static void TearDownTestSuite() { renderer_.reset(); }
 
   std::shared_ptr<const model::Image> Take(const CameraView& view) {
-    auto picture = renderer_->Draw(scene_.Snapshot(), view, std::chrono::seconds(30));
-    EXPECT_TRUE(picture) << picture.error().Sentence();
-    return picture ? *picture : std::make_shared<const model::Image>();
+    auto image = renderer_->Draw(scene_.Snapshot(), view, std::chrono::seconds(30));
+    EXPECT_TRUE(image) << image.error().Sentence();
+    return image ? *image : std::make_shared<const model::Image>();
   }
 
   static std::shared_ptr<Renderer> renderer_;
@@ -52,19 +52,19 @@ std::shared_ptr<Renderer> PICTURE_SUITE::renderer_;
 
 TEST_F(PICTURE_SUITE, HasTheSizeThatWasAskedFor) {
   for (const auto& [width, height] : {std::pair{320, 240}, {1, 1}, {17, 333}}) {
-    const auto picture = Take({{}, {width, height, 1, 0.1, 100}});
-    EXPECT_EQ(picture->width, width);
-    EXPECT_EQ(picture->height, height);
-    EXPECT_EQ(picture->channels, 3);
-    EXPECT_EQ(picture->pixels.size(), static_cast<std::size_t>(3) * width * height);
+    const auto image = Take({{}, {width, height, 1, 0.1, 100}});
+    EXPECT_EQ(image->width, width);
+    EXPECT_EQ(image->height, height);
+    EXPECT_EQ(image->channels, 3);
+    EXPECT_EQ(image->pixels.size(), static_cast<std::size_t>(3) * width * height);
   }
 }
 
 TEST_F(PICTURE_SUITE, OfNothingIsTheBackground) {
   scene_.description().scene.background = {0.25, 0.5, 0.75, 1};
-  const auto picture = Take({{}, {64, 48, 1, 0.1, 100}});
+  const auto image = Take({{}, {64, 48, 1, 0.1, 100}});
   // At the horizon, except for the haze that brightens it.
-  const std::uint8_t* p = &picture->pixels[(24 * 64 + 32) * 3];
+  const std::uint8_t* p = &image->pixels[(24 * 64 + 32) * 3];
   EXPECT_NEAR(p[0], 0.25 * 255, 45);
   EXPECT_NEAR(p[1], 0.5 * 255, 30);
   EXPECT_NEAR(p[2], 0.75 * 255, 15);
@@ -91,27 +91,27 @@ TEST_F(PICTURE_SUITE, LeftIsLeftAndUpIsUp) {
   scene_.Add("left", Box{{0.4, 0.4, 0.4}}, {{3, 1, 0}, {}}, Glowing(1, 0, 0));
   scene_.Add("up", Box{{0.4, 0.4, 0.4}}, {{3, 0, 0.8}, {}}, Glowing(0, 1, 0));
   scene_.Add("behind", Box{{0.4, 0.4, 0.4}}, {{-3, 0, 0}, {}}, Glowing(0, 0, 1));
-  const auto picture = Take({{}, {320, 240, 1.047, 0.1, 100}});
-  const Blob left = FindBlob(*picture, 0), up = FindBlob(*picture, 1);
+  const auto image = Take({{}, {320, 240, 1.047, 0.1, 100}});
+  const Blob left = FindBlob(*image, 0), up = FindBlob(*image, 1);
   ASSERT_GT(left.pixels, 100);
   ASSERT_GT(up.pixels, 100);
   EXPECT_LT(left.u, 100);
   EXPECT_NEAR(left.v, 120, 5);
   EXPECT_LT(up.v, 80);
   EXPECT_NEAR(up.u, 160, 5);
-  EXPECT_EQ(FindBlob(*picture, 2).pixels, 0);
+  EXPECT_EQ(FindBlob(*image, 2).pixels, 0);
 }
 
 TEST_F(PICTURE_SUITE, WhatIsInFrontHidesWhatIsBehind) {
   scene_.Add("near", Box{{0.1, 1, 1}}, {{2, 0, 0}, {}}, Glowing(1, 0, 0));
   scene_.Add("far", Box{{0.1, 1, 1}}, {{3, 0, 0}, {}}, Glowing(0, 1, 0));
   const CameraView ahead{{}, {160, 120, 1, 0.1, 100}};
-  auto picture = Take(ahead);
-  EXPECT_GT(FindBlob(*picture, 0).pixels, 1000);
-  EXPECT_EQ(FindBlob(*picture, 1).pixels, 0);
-  picture = Take({PlanarPose(5, 0, 0, kPi), ahead.parameters});
-  EXPECT_EQ(FindBlob(*picture, 0).pixels, 0);
-  EXPECT_GT(FindBlob(*picture, 1).pixels, 1000);
+  auto image = Take(ahead);
+  EXPECT_GT(FindBlob(*image, 0).pixels, 1000);
+  EXPECT_EQ(FindBlob(*image, 1).pixels, 0);
+  image = Take({PlanarPose(5, 0, 0, kPi), ahead.parameters});
+  EXPECT_EQ(FindBlob(*image, 0).pixels, 0);
+  EXPECT_GT(FindBlob(*image, 1).pixels, 1000);
 }
 
 TEST_F(PICTURE_SUITE, NothingIsDrawnOutsideTheClippingDistances) {
@@ -142,9 +142,8 @@ TEST_F(PICTURE_SUITE, ATextureStandsUpright) {
   model::Material material = Matt(1, 1, 1);
   material.base_colour_map = Quarters(3);
   scene_.Add("board", Box{{0.1, 1, 1}}, {{2, 0, 0}, {}}, material);
-  const auto picture = Take({{}, {160, 120, 1, 0.1, 100}});
-  const Blob red = FindBlob(*picture, 0), green = FindBlob(*picture, 1),
-             blue = FindBlob(*picture, 2);
+  const auto image = Take({{}, {160, 120, 1, 0.1, 100}});
+  const Blob red = FindBlob(*image, 0), green = FindBlob(*image, 1), blue = FindBlob(*image, 2);
   ASSERT_GT(red.pixels, 500);
   EXPECT_LT(red.u, 80);
   EXPECT_LT(red.v, 60);
@@ -162,8 +161,8 @@ TEST_F(PICTURE_SUITE, ACutOutTextureShowsWhatIsBehindItsHoles) {
   scene_.Add("lamp", Box{{0.1, 4, 4}}, {{4, 0, 0}, {}}, Glowing(0, 0, 1));
   // The hole is the lower right quarter. The front's is transparent, and the back's behind the
   // front's other quarters is not visible.
-  const auto picture = Take({{}, {160, 120, 0.5, 0.1, 100}});
-  const std::uint8_t* hole = &picture->pixels[(75 * 160 + 95) * 3];
+  const auto image = Take({{}, {160, 120, 0.5, 0.1, 100}});
+  const std::uint8_t* hole = &image->pixels[(75 * 160 + 95) * 3];
   EXPECT_GT(hole[2], 150);
   EXPECT_LT(hole[0], 60);
 }
@@ -171,9 +170,9 @@ TEST_F(PICTURE_SUITE, ACutOutTextureShowsWhatIsBehindItsHoles) {
 TEST_F(PICTURE_SUITE, SeeThroughThingsAreMixedWithWhatIsBehindThem) {
   scene_.Add("pane", Box{{0.02, 1, 1}}, {{2, 0, 0}, {}}, Matt(1, 0, 0, 0.5));
   scene_.Add("wall", Box{{0.1, 8, 8}}, {{4, 0, 0}, {}}, Glowing(0, 0, 1));
-  const auto picture = Take({{}, {160, 120, 1, 0.1, 100}});
-  const std::uint8_t* pane = &picture->pixels[(60 * 160 + 80) * 3];
-  const std::uint8_t* wall = &picture->pixels[(5 * 160 + 5) * 3];
+  const auto image = Take({{}, {160, 120, 1, 0.1, 100}});
+  const std::uint8_t* pane = &image->pixels[(60 * 160 + 80) * 3];
+  const std::uint8_t* wall = &image->pixels[(5 * 160 + 5) * 3];
   EXPECT_GT(pane[0], wall[0] + 30);
   EXPECT_GT(pane[2], 60);
   EXPECT_LT(pane[2], wall[2] - 30);
@@ -202,10 +201,10 @@ TEST_F(PICTURE_SUITE, AThingCastsItsShadowAwayFromTheSun) {
   scene_.description().lights = {sun};
   scene_.Add("floor", Box{{20, 20, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.7, 0.7, 0.7), true);
   scene_.Add("slab", Box{{2, 2, 0.1}}, {{3, 0, 3}, {}}, Matt(0.7, 0.7, 0.7));
-  const auto picture = Take(FromAbove());
+  const auto image = Take(FromAbove());
   // The slab at height 3 shades x from -1 to 1, which is the centre of the image.
-  const int shade = Brightness(*picture, 50, 50);
-  const int light = Brightness(*picture, 50, 85);
+  const int shade = Brightness(*image, 50, 50);
+  const int light = Brightness(*image, 50, 85);
   EXPECT_LT(shade, light - 40);
   EXPECT_GT(shade, 40);  // but not black
   scene_.description().scene.shadows = false;
@@ -264,16 +263,16 @@ TEST_F(PICTURE_SUITE, BeyondAllThatCastsShadowsTheGroundIsInTheSun) {
   scene_.Add("ground", geometry::Plane{{0, 0, 1}, {100, 100}}, {}, Matt(0.7, 0.7, 0.7), true);
   scene_.Add("post", Box{{0.2, 0.2, 1}}, {{-3, -3, 0.5}, {}}, Matt(0.7, 0.7, 0.7), true);
   // Along the light, where the ground is farther from the sun than the foot of the post.
-  const auto picture = Take({{{0, 0, 2}, {}}, {160, 120, 1, 0.1, 200}});
-  const int near = Brightness(*picture, 80, 115), far = Brightness(*picture, 80, 65);
+  const auto image = Take({{{0, 0, 2}, {}}, {160, 120, 1, 0.1, 200}});
+  const int near = Brightness(*image, 80, 115), far = Brightness(*image, 80, 65);
   EXPECT_NEAR(near, far, 30);
 }
 
 TEST_F(PICTURE_SUITE, AWorldWithoutLightsHasASunAndIsNotDark) {
   scene_.description().scene.ambient = {0, 0, 0, 1};
   scene_.Add("floor", geometry::Plane{{0, 0, 1}, {100, 100}}, {}, Matt(0.7, 0.7, 0.7), true);
-  const auto picture = Take({{{0, 0, 1}, {}}, {160, 120, 1, 0.1, 100}});
-  EXPECT_GT(Brightness(*picture, 80, 110), 120);
+  const auto image = Take({{{0, 0, 1}, {}}, {160, 120, 1, 0.1, 100}});
+  EXPECT_GT(Brightness(*image, 80, 110), 120);
 }
 
 TEST_F(PICTURE_SUITE, ALampLightsWhatIsWithinItsRange) {
@@ -284,8 +283,8 @@ TEST_F(PICTURE_SUITE, ALampLightsWhatIsWithinItsRange) {
   lamp.diffuse = {1, 0, 0, 1};
   scene_.description().lights = {lamp};
   scene_.Add("floor", Box{{20, 20, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.7, 0.7, 0.7), true);
-  const auto picture = Take(FromAbove());
-  const Blob lit = FindBlob(*picture, 0, 20);
+  const auto image = Take(FromAbove());
+  const Blob lit = FindBlob(*image, 0, 20);
   EXPECT_NEAR(lit.u, 50, 1);
   EXPECT_NEAR(lit.v, 50, 1);
   // At most its range, 3 m or 15 pixels: a disc of at most pi 15².
@@ -310,9 +309,9 @@ TEST_F(PICTURE_SUITE, ASpotLightsItsConeOnly) {
 
 TEST_F(PICTURE_SUITE, TheGroundReachesTheHorizon) {
   scene_.Add("ground", geometry::Plane{{0, 0, 1}, {20, 20}}, {}, Glowing(1, 0, 0), true);
-  const auto picture = Take({{{0, 0, 1}, {}}, {160, 120, 1, 0.1, 100}});
+  const auto image = Take({{{0, 0, 1}, {}}, {160, 120, 1, 0.1, 100}});
   // It ends 100 m away, where 1 m below the camera is f / 100 = 1.46 pixels below the centre.
-  EXPECT_NEAR(FindBlob(*picture, 0).pixels / 160.0, 60 - 1.46, 0.6);
+  EXPECT_NEAR(FindBlob(*image, 0).pixels / 160.0, 60 - 1.46, 0.6);
 }
 
 TEST_F(PICTURE_SUITE, EqualRequestsGiveEqualBytesWhateverElseIsInTheBatch) {
@@ -398,15 +397,15 @@ std::shared_ptr<const model::Image> TakeWith(Renderer& renderer, TestScene& scen
   snapshot->state.devices = std::make_shared<const world::DeviceStates>(
       world::DeviceStates{std::make_shared<const GlowingDevice>(
           world::DeviceMount{"robot", "lamp", 0, {{0, -0.6, 0}, {}}}, lamp)});
-  auto picture =
+  auto image =
       renderer.Draw(snapshot, CameraView{{}, {160, 120, 1, 0.05, 100}}, std::chrono::seconds(30));
-  EXPECT_TRUE(picture) << picture.error().Sentence();
-  return picture ? *picture : std::make_shared<const model::Image>();
+  EXPECT_TRUE(image) << image.error().Sentence();
+  return image ? *image : std::make_shared<const model::Image>();
 }
 
 // The red of the wall, in the middle row.
-int RedAt(const model::Image& picture, int x) {
-  return picture.pixels[static_cast<std::size_t>(3 * (60 * 160 + x))];
+int RedAt(const model::Image& image, int x) {
+  return image.pixels[static_cast<std::size_t>(3 * (60 * 160 + x))];
 }
 
 TEST_F(PICTURE_SUITE, AnLedGlowsWhereItIsMountedAndLightsNothing) {
@@ -434,8 +433,8 @@ TEST_F(PICTURE_SUITE, ALampLightsWhatIsNear) {
             bright = RedAt(*TakeWith(*renderer_, scene_, lamp, 1), 40);
   EXPECT_GT(dim, dark + 10);
   EXPECT_GT(bright, dim + 10);
-  const auto picture = TakeWith(*renderer_, scene_, lamp, 1);
-  const std::uint8_t* const p = &picture->pixels[3 * (60 * 160 + 40)];
+  const auto image = TakeWith(*renderer_, scene_, lamp, 1);
+  const std::uint8_t* const p = &image->pixels[3 * (60 * 160 + 40)];
   EXPECT_GT(p[0], p[1] + 40);  // red light
 }
 

@@ -17,7 +17,7 @@ namespace {
 using base::ErrorCode;
 using base::Fail;
 using base::Result;
-using Pictures = std::vector<std::shared_ptr<const model::Image>>;
+using Images = std::vector<std::shared_ptr<const model::Image>>;
 
 // Images of a batch, before other snapshots get their turn.
 constexpr std::size_t kMaxBatchSize = 64;
@@ -29,8 +29,8 @@ using Truths = std::vector<std::shared_ptr<const GroundTruth>>;
 struct Request {
   std::shared_ptr<const world::Snapshot> snapshot;
   std::vector<CameraView> views;
-  bool is_survey = false;  // `truths` is requested, else `pictures`
-  std::promise<Result<Pictures>> pictures;
+  bool is_survey = false;  // `truths` is requested, else `images`
+  std::promise<Result<Images>> images;
   std::promise<Result<Truths>> truths;
   bool abandoned = false;  // the caller no longer waits
 
@@ -38,7 +38,7 @@ struct Request {
     if (is_survey) {
       truths.set_value(base::Fail(error));
     } else {
-      pictures.set_value(base::Fail(error));
+      images.set_value(base::Fail(error));
     }
   }
 };
@@ -66,12 +66,12 @@ class Renderer::RenderThread {
     return name.get();
   }
 
-  Result<Pictures> Draw(std::shared_ptr<const world::Snapshot> snapshot,
-                        std::vector<CameraView> views, std::chrono::milliseconds timeout) {
+  Result<Images> Draw(std::shared_ptr<const world::Snapshot> snapshot,
+                      std::vector<CameraView> views, std::chrono::milliseconds timeout) {
     auto request = std::make_shared<Request>();
     request->snapshot = std::move(snapshot);
     request->views = std::move(views);
-    return Await(request, request->pictures.get_future(), timeout);
+    return Await(request, request->images.get_future(), timeout);
   }
 
   Result<Truths> DrawGroundTruth(std::shared_ptr<const world::Snapshot> snapshot,
@@ -189,12 +189,12 @@ class Renderer::RenderThread {
     const auto surveys = std::stable_partition(
         batch.begin(), batch.end(), [](const auto& request) { return !request->is_survey; });
     const world::Snapshot& snapshot = *batch.front()->snapshot;
-    const std::span pictures(batch.begin(), surveys), truths(surveys, batch.end());
-    Result<Pictures> drawn;
+    const std::span images(batch.begin(), surveys), truths(surveys, batch.end());
+    Result<Images> drawn;
     Result<Truths> surveyed;
-    if (!pictures.empty()) drawn = renderer.Draw(snapshot, ViewsOf(pictures));
+    if (!images.empty()) drawn = renderer.Draw(snapshot, ViewsOf(images));
     if (!truths.empty()) surveyed = renderer.DrawGroundTruth(snapshot, ViewsOf(truths));
-    Serve(pictures, std::move(drawn), &Request::pictures);
+    Serve(images, std::move(drawn), &Request::images);
     Serve(truths, std::move(surveyed), &Request::truths);
   }
 
@@ -261,14 +261,14 @@ Result<std::shared_ptr<Renderer>> Renderer::Start(RendererOptions options) {
 Result<std::shared_ptr<const model::Image>> Renderer::Draw(
     std::shared_ptr<const world::Snapshot> snapshot, const CameraView& view,
     std::chrono::milliseconds timeout) {
-  Result<Pictures> pictures = Draw(std::move(snapshot), std::vector{view}, timeout);
-  if (!pictures) return Fail(pictures.error());
-  return std::move(pictures->front());
+  Result<Images> images = Draw(std::move(snapshot), std::vector{view}, timeout);
+  if (!images) return Fail(images.error());
+  return std::move(images->front());
 }
 
-Result<Pictures> Renderer::Draw(std::shared_ptr<const world::Snapshot> snapshot,
-                                const std::vector<CameraView>& views,
-                                std::chrono::milliseconds timeout) {
+Result<Images> Renderer::Draw(std::shared_ptr<const world::Snapshot> snapshot,
+                              const std::vector<CameraView>& views,
+                              std::chrono::milliseconds timeout) {
   GSV_CHECK(snapshot != nullptr);
   for (const CameraView& view : views) {
     if (base::Status status = Check(view.parameters); !status) return Fail(status.error());

@@ -34,10 +34,9 @@ TEST(Renderer, SaysWhatItDrawsWith) {
 
 TEST(Renderer, RefusesACameraThatCannotBe) {
   const auto renderer = StartRenderer();
-  const auto picture =
-      renderer->Draw(TestScene().Snapshot(), CameraView{{}, {0, 240, 1, 0.1, 100}});
-  ASSERT_FALSE(picture);
-  EXPECT_EQ(picture.error().code, base::ErrorCode::kInvalidArgument);
+  const auto image = renderer->Draw(TestScene().Snapshot(), CameraView{{}, {0, 240, 1, 0.1, 100}});
+  ASSERT_FALSE(image);
+  EXPECT_EQ(image.error().code, base::ErrorCode::kInvalidArgument);
 }
 
 TEST(Renderer, FreesWhatBelongedToARemovedBody) {
@@ -101,9 +100,9 @@ TEST(Renderer, ServesManyThreadsAtOnce) {
         const bool left = (thread + i) % 2 == 0;
         const CameraView view{geometry::PlanarPose(0, 0, 0, left ? 0.6 : -0.6),
                               {40 + thread % 2, 30, 0.9, 0.1, 10}};
-        const auto picture = renderer->Draw(*(snapshots.begin() + i % 2), view, kLong);
-        good = good && picture && FindBlob(**picture, left ? 0 : 1).pixels > 10 &&
-               FindBlob(**picture, left ? 1 : 0).pixels == 0;
+        const auto image = renderer->Draw(*(snapshots.begin() + i % 2), view, kLong);
+        good = good && image && FindBlob(**image, left ? 0 : 1).pixels > 10 &&
+               FindBlob(**image, left ? 1 : 0).pixels == 0;
       }
       return good;
     }));
@@ -119,31 +118,31 @@ TEST(Renderer, DrawsAThousandThingsInOneWorld) {
     scene.Add("box" + std::to_string(i), geometry::Box{{0.05, 0.02, 0.02}},
               {{2.0, 0.05 * (column - 20), 0.05 * (row - 12)}, {}}, Glowing(0, 1, 0));
   }
-  const auto picture =
+  const auto image =
       renderer->Draw(scene.Snapshot(), CameraView{{}, {320, 240, 1.2, 0.1, 100}}, kLong);
-  ASSERT_TRUE(picture);
+  ASSERT_TRUE(image);
   // A front of 0.02 m at 1.975 m is (0.02 f / 1.975)² pixels; its sides add some.
   const double front = std::pow(0.02 * 160 / std::tan(0.6) / 1.975, 2);
-  EXPECT_GT(FindBlob(**picture, 1, 1).pixels, 1000 * front * 0.9);
+  EXPECT_GT(FindBlob(**image, 1, 1).pixels, 1000 * front * 0.9);
 }
 
 TEST(Renderer, TimesOutWithASentence) {
   const auto renderer = StartRenderer();
-  const auto picture =
+  const auto image =
       renderer->Draw(TestScene().Snapshot(), CameraView{{}, {4096, 4096, 1, 0.1, 100}},
                      std::chrono::milliseconds(0));
-  ASSERT_FALSE(picture);
-  EXPECT_EQ(picture.error().code, base::ErrorCode::kTimeout);
+  ASSERT_FALSE(image);
+  EXPECT_EQ(image.error().code, base::ErrorCode::kTimeout);
 }
 
 TEST(Renderer, RefusesMoreThanItsQueueHolds) {
   RendererOptions options;
   options.queue_capacity = 0;
   const auto renderer = StartRenderer(options);
-  const auto picture = renderer->Draw(TestScene().Snapshot(), CameraView{});
-  ASSERT_FALSE(picture);
-  EXPECT_EQ(picture.error().code, base::ErrorCode::kUnavailable);
-  EXPECT_NE(picture.error().message.find("wait already"), std::string::npos);
+  const auto image = renderer->Draw(TestScene().Snapshot(), CameraView{});
+  ASSERT_FALSE(image);
+  EXPECT_EQ(image.error().code, base::ErrorCode::kUnavailable);
+  EXPECT_NE(image.error().message.find("wait already"), std::string::npos);
 }
 
 TEST(Renderer, WithoutALibrarySaysWhichAndWhatToInstall) {

@@ -140,7 +140,7 @@ double ProcessorTime() {
 
 // Reports the mean, and the minimum processor time of an instant, for machines that also do other
 // work.
-void Pictures(benchmark::State& bench) {
+void Images(benchmark::State& bench) {
   const int cameras = static_cast<int>(bench.range(0));
   RendererOptions options;
   options.back_end = BackEnd::kRasteriser;
@@ -153,8 +153,8 @@ void Pictures(benchmark::State& bench) {
     std::vector<CameraView> views;
     views.reserve(static_cast<std::size_t>(cameras));
     for (int i = 0; i < cameras; ++i) views.push_back(office.CameraOf(next++));
-    const auto pictures = (*renderer)->Draw(office.snapshot(), views, std::chrono::minutes(1));
-    GSV_CHECK(pictures.has_value());
+    const auto images = (*renderer)->Draw(office.snapshot(), views, std::chrono::minutes(1));
+    GSV_CHECK(images.has_value());
   };
   // Everything that is done once per world.
   for (int i = 0; i < 3; ++i) draw();
@@ -168,7 +168,7 @@ void Pictures(benchmark::State& bench) {
       static_cast<double>(cameras * bench.iterations()), benchmark::Counter::kIsRate);
   bench.counters["processor_ms_a_picture"] = 1e3 * least / cameras;
 }
-BENCHMARK(Pictures)
+BENCHMARK(Images)
     ->ArgName("cameras")
     ->Arg(1)
     ->Arg(10)

@@ -101,8 +101,8 @@ std::string OpticalFrame(const std::string& frame) {
 SensorOutput ImageMessage(const std::string& base, const std::string& frame) {
   return {base + "/image_raw", kImageType, kSensorDataQos,
           [frame = OpticalFrame(frame)](const Reading& reading, messages::Bytes& out) {
-            if (reading.picture == nullptr) return false;
-            EncodeImage(*reading.picture, reading.time, frame, out);
+            if (reading.image == nullptr) return false;
+            EncodeImage(*reading.image, reading.time, frame, out);
             return true;
           }};
 }

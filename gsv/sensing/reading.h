@@ -15,14 +15,14 @@
 namespace gsv::sensing {
 
 // The sensor type's struct defines the layout of `values` and `labels` (gsv/readings/catalogue.h).
-// `picture` is null for all but cameras, `labels` for types without labels.
+// `image` is null for all but cameras, `labels` for types without labels.
 struct Reading {
   using Values = boost::container::small_vector<double, 1>;  // one value needs no allocation
 
   std::int64_t step = 0;
   base::SimTime time{0};  // the sampling instant
   Values values;
-  std::shared_ptr<const model::Image> picture;
+  std::shared_ptr<const model::Image> image;
   std::shared_ptr<const std::vector<std::string>> labels;
 };
 

@@ -18,7 +18,7 @@
 namespace gsv::sensing {
 
 // How viewers draw a reading.
-enum class Overlay { kNone, kLines, kPoints, kPicture };
+enum class Overlay { kNone, kLines, kPoints, kImage };
 
 // A second message beside a reading, at its instant, on the topic /ROBOT/SENSOR/`topic`.
 // Sensor::EncodeCompanionOf() makes it.

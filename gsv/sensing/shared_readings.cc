@@ -10,7 +10,7 @@ namespace {
 
 std::size_t BytesOf(const Reading& reading) {
   return sizeof(Reading) + reading.values.size() * sizeof(double) +
-         (reading.picture != nullptr ? reading.picture->pixels.size() : 0);
+         (reading.image != nullptr ? reading.image->pixels.size() : 0);
 }
 
 // All that a reading depends on.

@@ -10,7 +10,7 @@
 namespace gsv::sensing {
 namespace {
 
-constexpr std::size_t kPictureBytes = 1000;
+constexpr std::size_t kImageBytes = 1000;
 
 model::SensorDescription Named(const std::string& name) {
   model::SensorDescription description;
@@ -19,7 +19,7 @@ model::SensorDescription Named(const std::string& name) {
   return description;
 }
 
-// Takes as its picture a new one each time it is really asked.
+// Takes as its image a new one each time it is really asked.
 class CountingSensor final : public Sensor {
  public:
   CountingSensor(const std::string& name, std::atomic<int>& taken)
@@ -29,9 +29,9 @@ class CountingSensor final : public Sensor {
     const int number = ++taken_;
     if (fails) return base::Fail(base::ErrorCode::kUnavailable, "no picture today");
     reading.values.push_back(number);
-    auto picture = std::make_shared<model::Image>();
-    picture->pixels.resize(kPictureBytes);
-    reading.picture = std::move(picture);
+    auto image = std::make_shared<model::Image>();
+    image->pixels.resize(kImageBytes);
+    reading.image = std::move(image);
     return reading;
   }
   bool TakesLong() const override { return true; }
@@ -69,7 +69,7 @@ class SharedReadingsTest : public ::testing::Test {
   std::atomic<int> taken_ = 0;
   RaySceneCache rays_;
   std::shared_ptr<SharedReadings> readings_ =
-      std::make_shared<SharedReadings>(3 * (kPictureBytes + sizeof(Reading) + sizeof(double)));
+      std::make_shared<SharedReadings>(3 * (kImageBytes + sizeof(Reading) + sizeof(double)));
 };
 
 TEST_F(SharedReadingsTest, OneIsTakenForAllWhoAskForTheSame) {
@@ -95,7 +95,7 @@ TEST_F(SharedReadingsTest, KeepsTheNewestWithinItsBytes) {
   for (int i = 1; i <= 4; ++i) {
     EXPECT_EQ(Number(*Make("camera " + std::to_string(i)), snapshot), i);
   }
-  EXPECT_EQ(readings_->bytes(), 3 * (kPictureBytes + sizeof(Reading) + sizeof(double)));
+  EXPECT_EQ(readings_->bytes(), 3 * (kImageBytes + sizeof(Reading) + sizeof(double)));
   EXPECT_EQ(Number(*Make("camera 4"), snapshot), 4);
   EXPECT_EQ(Number(*Make("camera 1"), snapshot), 5);
 }
@@ -106,7 +106,7 @@ TEST_F(SharedReadingsTest, NothingStaysOfASnapshotThatIsGone) {
   Number(*camera, snapshot);
   snapshot = TwoRobots();
   Number(*camera, snapshot);
-  EXPECT_EQ(readings_->bytes(), kPictureBytes + sizeof(Reading) + sizeof(double));
+  EXPECT_EQ(readings_->bytes(), kImageBytes + sizeof(Reading) + sizeof(double));
 }
 
 TEST_F(SharedReadingsTest, AFailureIsNotKept) {

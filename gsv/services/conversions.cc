@@ -166,12 +166,12 @@ sba::Measurement ToIdl(const std::string& sensor, const sensing::Reading& readin
     }
   }
   measurement.image_width = measurement.image_height = 0;
-  if (reading.picture != nullptr) {
-    const model::Image& picture = *reading.picture;
-    measurement.image_width = static_cast<CORBA::ULong>(picture.width);
-    measurement.image_height = static_cast<CORBA::ULong>(picture.height);
-    measurement.image.length(static_cast<CORBA::ULong>(picture.pixels.size()));
-    std::memcpy(measurement.image.get_buffer(), picture.pixels.data(), picture.pixels.size());
+  if (reading.image != nullptr) {
+    const model::Image& image = *reading.image;
+    measurement.image_width = static_cast<CORBA::ULong>(image.width);
+    measurement.image_height = static_cast<CORBA::ULong>(image.height);
+    measurement.image.length(static_cast<CORBA::ULong>(image.pixels.size()));
+    std::memcpy(measurement.image.get_buffer(), image.pixels.data(), image.pixels.size());
   }
   return measurement;
 }

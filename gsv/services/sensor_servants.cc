@@ -53,12 +53,12 @@ class CameraServant final : public SensorServant<POA_sba::Camera> {
   using SensorServant::SensorServant;
   sba::Picture* take_picture() override {
     const sba::Measurement measurement = services::ToIdl(description().name, Read());
-    auto* picture = new sba::Picture;
-    picture->width = measurement.image_width;
-    picture->height = measurement.image_height;
-    picture->rgb = measurement.image;
-    picture->time_ns = measurement.time_ns;
-    return picture;
+    auto* reply = new sba::Picture;
+    reply->width = measurement.image_width;
+    reply->height = measurement.image_height;
+    reply->rgb = measurement.image;
+    reply->time_ns = measurement.time_ns;
+    return reply;
   }
 };
 
@@ -231,14 +231,14 @@ class DepthCameraServant final : public SensorServant<POA_sba::DepthCamera> {
   sba::DepthPicture* take_depth() override {
     const Reading reading = Read();
     const auto image = In<readings::DepthImage>(reading);
-    sba::DepthPicture_var picture = new sba::DepthPicture;
-    picture->time_ns = reading.time.count();
-    picture->width = static_cast<CORBA::ULong>(image.width);
-    picture->height = static_cast<CORBA::ULong>(image.height);
-    picture->depth_m.length(static_cast<CORBA::ULong>(image.depth.size()));
-    std::transform(image.depth.begin(), image.depth.end(), picture->depth_m.get_buffer(),
+    sba::DepthPicture_var reply = new sba::DepthPicture;
+    reply->time_ns = reading.time.count();
+    reply->width = static_cast<CORBA::ULong>(image.width);
+    reply->height = static_cast<CORBA::ULong>(image.height);
+    reply->depth_m.length(static_cast<CORBA::ULong>(image.depth.size()));
+    std::transform(image.depth.begin(), image.depth.end(), reply->depth_m.get_buffer(),
                    [](double depth) { return static_cast<CORBA::Float>(depth); });
-    return picture._retn();
+    return reply._retn();
   }
 };
 
@@ -248,15 +248,15 @@ class SegmentationCameraServant final : public SensorServant<POA_sba::Segmentati
   sba::LabelPicture* segment() override {
     const Reading reading = Read();
     const auto image = In<readings::SegmentedImage>(reading);
-    sba::LabelPicture_var picture = new sba::LabelPicture;
-    picture->time_ns = reading.time.count();
-    picture->width = static_cast<CORBA::ULong>(image.width);
-    picture->height = static_cast<CORBA::ULong>(image.height);
-    picture->labels.length(static_cast<CORBA::ULong>(image.pixels.size()));
-    std::transform(image.pixels.begin(), image.pixels.end(), picture->labels.get_buffer(),
+    sba::LabelPicture_var reply = new sba::LabelPicture;
+    reply->time_ns = reading.time.count();
+    reply->width = static_cast<CORBA::ULong>(image.width);
+    reply->height = static_cast<CORBA::ULong>(image.height);
+    reply->labels.length(static_cast<CORBA::ULong>(image.pixels.size()));
+    std::transform(image.pixels.begin(), image.pixels.end(), reply->labels.get_buffer(),
                    [](double label) { return static_cast<CORBA::ULong>(label); });
-    picture->names = services::ToIdl(description().name, reading).labels;
-    return picture._retn();
+    reply->names = services::ToIdl(description().name, reading).labels;
+    return reply._retn();
   }
 };
 
@@ -266,17 +266,17 @@ class ThermalCameraServant final : public SensorServant<POA_sba::ThermalCamera> 
   sba::ThermalImage* take_temperatures() override {
     const Reading reading = Read();
     const auto image = In<readings::ThermalImage>(reading);
-    sba::ThermalImage_var picture = new sba::ThermalImage;
-    picture->time_ns = reading.time.count();
-    picture->width = static_cast<CORBA::ULong>(image.width);
-    picture->height = static_cast<CORBA::ULong>(image.height);
-    picture->resolution_k = image.resolution;
-    picture->pixels.length(static_cast<CORBA::ULong>(image.temperature.size()));
-    std::transform(image.temperature.begin(), image.temperature.end(), picture->pixels.get_buffer(),
+    sba::ThermalImage_var reply = new sba::ThermalImage;
+    reply->time_ns = reading.time.count();
+    reply->width = static_cast<CORBA::ULong>(image.width);
+    reply->height = static_cast<CORBA::ULong>(image.height);
+    reply->resolution_k = image.resolution;
+    reply->pixels.length(static_cast<CORBA::ULong>(image.temperature.size()));
+    std::transform(image.temperature.begin(), image.temperature.end(), reply->pixels.get_buffer(),
                    [&](double kelvin) {
                      return static_cast<CORBA::UShort>(std::lround(kelvin / image.resolution));
                    });
-    return picture._retn();
+    return reply._retn();
   }
 };
 

@@ -239,8 +239,7 @@ TEST(CommandLine, ACommandThatDoesNotExistIsNamed) {
   EXPECT_EQ(said({"rnu"}), "gsv: there is no command rnu. Did you mean run? See gsv --help\n");
   EXPECT_EQ(said({"run", "--robott", "pebble"}),
             "gsv: there is no option --robott. Did you mean --robot? See gsv run --help\n");
-  EXPECT_EQ(said({"ps", "office", "again"}),
-            "gsv: unexpected argument again. See gsv ps --help\n");
+  EXPECT_EQ(said({"ps", "office", "again"}), "gsv: unexpected argument again. See gsv ps --help\n");
   EXPECT_EQ(said({"rec"}), "gsv: a command is missing. See gsv rec --help\n");
 }
 
@@ -255,12 +254,12 @@ TEST(CommandLine, CheckPrintsProblemsAndExitsWithThreeForAnUnfaithfulWorld) {
 
 TEST(CommandLine, DrawWritesAPictureOfAWorldAndSaysWhatItHolds) {
   base::testing::TestFolder folder;
-  const std::string picture = folder.path() / "office.jpg";
+  const std::string image = folder.path() / "office.jpg";
   const Outcome outcome = RunProgram(
-      "gsv", {"world", "draw", "office", picture, "--width", "160", "--height", "120", "--json"});
+      "gsv", {"world", "draw", "office", image, "--width", "160", "--height", "120", "--json"});
   ASSERT_EQ(outcome.ending, "exit code 0") << outcome.err;
   EXPECT_GT(outcome.LastLine()["triangles"], 100);
-  std::ifstream file(picture, std::ios::binary);
+  std::ifstream file(image, std::ios::binary);
   EXPECT_EQ(file.get(), 0xff);  // a JPEG file begins so
   EXPECT_EQ(file.get(), 0xd8);
   const std::string png = folder.path() / "office.png";

@@ -116,7 +116,7 @@ void TurnHead(model::Movement movement) {
   }
   const auto reading = (*simulation)->Watch("rover", "camera");
   ASSERT_TRUE(reading) << reading.error().Sentence();
-  const rendering::Blob ball = rendering::FindBlob(*reading->picture, 0);
+  const rendering::Blob ball = rendering::FindBlob(*reading->image, 0);
   EXPECT_GT(ball.pixels, 500);
   // 0.02 rad are 5.5 pixels.
   EXPECT_NEAR(ball.u, 160, 6);

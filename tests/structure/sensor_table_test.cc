@@ -46,7 +46,7 @@ const char* ShownAs(sensing::Overlay overlay) {
       return "lines";
     case sensing::Overlay::kPoints:
       return "points";
-    case sensing::Overlay::kPicture:
+    case sensing::Overlay::kImage:
       return "image";
   }
   return "";

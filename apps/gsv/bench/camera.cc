@@ -19,7 +19,7 @@ namespace gsv::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Pictures = std::vector<std::shared_ptr<const model::Image>>;
+using Images = std::vector<std::shared_ptr<const model::Image>>;
 
 struct CameraArguments {
   int cameras = 64;
@@ -72,28 +72,28 @@ class SnapshotWatch final : public simulation::Observer {
 };
 
 // Fails for blank images, and for images that repeat earlier ones.
-class PictureCheck {
+class ImageCheck {
  public:
-  base::Status Check(const Pictures& pictures) {
-    if (std::all_of(pictures.begin(), pictures.end(), IsBlank)) return Fail("pictures are blank");
-    for (std::size_t i = 0; i < pictures.size(); ++i) {
-      if (IsBlank(pictures[i])) continue;  // a robot is close to a wall
-      if (i < last_.size() && last_[i]->pixels == pictures[i]->pixels)
+  base::Status Check(const Images& images) {
+    if (std::all_of(images.begin(), images.end(), IsBlank)) return Fail("pictures are blank");
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      if (IsBlank(images[i])) continue;  // a robot is close to a wall
+      if (i < last_.size() && last_[i]->pixels == images[i]->pixels)
         return Fail("a moving camera's picture is the same as the one before");
-      if (i > 0 && pictures[i]->pixels == pictures[i - 1]->pixels)
+      if (i > 0 && images[i]->pixels == images[i - 1]->pixels)
         return Fail("two cameras' pictures are the same");
     }
-    last_ = pictures;
+    last_ = images;
     return {};
   }
 
  private:
   // Stops as early as possible, since its time counts as rendering time.
-  static bool IsBlank(const std::shared_ptr<const model::Image>& picture) {
+  static bool IsBlank(const std::shared_ptr<const model::Image>& image) {
     constexpr int kMinImages = 8;
     std::bitset<256> seen;
     int shades = 0;
-    for (const std::uint8_t shade : picture->pixels) {
+    for (const std::uint8_t shade : image->pixels) {
       if (seen[shade]) continue;
       seen.set(shade);
       if (++shades == kMinImages) return false;
@@ -103,22 +103,22 @@ class PictureCheck {
   static base::Status Fail(const std::string& what) {
     return base::Fail(base::ErrorCode::kUnavailable, what, "bench camera");
   }
-  Pictures last_;
+  Images last_;
 };
 
 struct Figures {
   std::string renderer;
   std::uint64_t triangles = 0;
-  int pictures = 0;
+  int images = 0;
   double wall = 0, processor = 0;  // s
   double least_processor = 1e9;    // s, of a batch
-  std::vector<double> latencies;   // ms from request to pictures
+  std::vector<double> latencies;   // ms from request to images
   std::vector<double> intervals;   // ms from step to step
 };
 
-base::Status Save(const std::string& folder, const Pictures& pictures) {
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    const auto jpeg = rendering::EncodeJpeg(*pictures[i], 95);
+base::Status Save(const std::string& folder, const Images& images) {
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const auto jpeg = rendering::EncodeJpeg(*images[i], 95);
     if (!jpeg) return base::Fail(jpeg.error());
     const std::string path = folder + "/camera_" + std::to_string(i) + ".jpg";
     std::ofstream file(path, std::ios::binary);
@@ -163,7 +163,7 @@ base::Result<Figures> Measure(const CameraArguments& arguments,
   auto watch = std::make_shared<SnapshotWatch>();
   simulation.AddObserver(watch);
   if (auto ok = simulation.Start(); !ok) return base::Fail(ok.error());
-  PictureCheck check;
+  ImageCheck check;
   Clock::time_point start;
   double processor_start = 0;
   // The first two rounds find out what moves.
@@ -177,13 +177,13 @@ base::Result<Figures> Measure(const CameraArguments& arguments,
       return base::Fail(base::ErrorCode::kTimeout, "the simulation stands still", "bench camera");
     const auto asked = Clock::now();
     const double processor_asked = ProcessorTime();
-    const auto pictures = draw(snapshot);
-    if (!pictures) return base::Fail(pictures.error());
+    const auto images = draw(snapshot);
+    if (!images) return base::Fail(images.error());
     if (round < 0) continue;
     figures.latencies.push_back(Milliseconds(Clock::now() - asked));
     figures.least_processor = std::min(figures.least_processor, ProcessorTime() - processor_asked);
-    figures.pictures += arguments.cameras;
-    if (auto ok = check.Check(*pictures); !ok) return base::Fail(ok.error());
+    figures.images += arguments.cameras;
+    if (auto ok = check.Check(*images); !ok) return base::Fail(ok.error());
   }
   figures.wall = std::chrono::duration<double>(Clock::now() - start).count();
   figures.processor = ProcessorTime() - processor_start;
@@ -214,13 +214,13 @@ int Run(const CameraArguments& arguments) {
       {"size", arguments.size},
       {"robots", arguments.robots},
       {"triangles", figures->triangles},
-      {"pictures", figures->pictures},
-      {"pictures_per_s", figures->pictures / figures->wall},
+      {"pictures", figures->images},
+      {"pictures_per_s", figures->images / figures->wall},
       {"p50_ms", QuantileOf(figures->latencies, 0.5)},
       {"p99_ms", QuantileOf(figures->latencies, 0.99)},
       {"step_p50_ms", QuantileOf(figures->intervals, 0.5)},
       {"step_p99_ms", QuantileOf(figures->intervals, 0.99)},
-      {"cpu_ms_a_picture", 1e3 * figures->processor / figures->pictures},
+      {"cpu_ms_a_picture", 1e3 * figures->processor / figures->images},
       {"least_cpu_ms_a_picture", 1e3 * figures->least_processor / arguments.cameras},
       {"renderer", figures->renderer}};
   PrintFigures(json, arguments.json);

@@ -101,7 +101,7 @@ struct Row {
   simulation::SimulationStatus status;
   std::string state_hash;
   std::shared_ptr<UpdateTimer> updates = std::make_shared<UpdateTimer>();
-  std::shared_ptr<Durations> pictures = std::make_shared<Durations>();
+  std::shared_ptr<Durations> images = std::make_shared<Durations>();
 };
 
 // A few robots in the office, many on the square of `gsv bench crowd`, unless a world is given.
@@ -132,7 +132,7 @@ base::Result<Row> RunTypical(const TypicalArguments& arguments, int robots) {
   row.behaviour = arguments.behaviour;
   RunOptions options;
   options.runtime.viewer = false;
-  options.runtime.sensors.adapt_camera = [times = row.pictures](sensing::SensorType& camera) {
+  options.runtime.sensors.adapt_camera = [times = row.images](sensing::SensorType& camera) {
     camera.create = [create = camera.create, times](const model::SensorDescription& description)
         -> base::Result<std::unique_ptr<sensing::Sensor>> {
       auto sensor = create(description);
@@ -187,9 +187,9 @@ nlohmann::ordered_json ToJson(const Row& row) {
             {"median", row.updates->intervals.quantile(0.5)},
             {"p99", row.updates->intervals.quantile(0.99)}}},
           {"step_ms", Milliseconds(row.status.mean_step_time)},
-          {"camera_ms", {{"mean", row.pictures->mean()}, {"p99", row.pictures->quantile(0.99)}}},
+          {"camera_ms", {{"mean", row.images->mean()}, {"p99", row.images->quantile(0.99)}}},
           {"pictures_per_s",
-           static_cast<double>(row.pictures->count()) / base::ToSeconds(row.status.time)},
+           static_cast<double>(row.images->count()) / base::ToSeconds(row.status.time)},
           {"cycles_per_robot_s", CyclesPerRobotSecond(row)},
           {"late_steps", row.status.late_steps}};
 }
@@ -213,7 +213,7 @@ int Typical(const TypicalArguments& arguments) {
     std::printf("%6d  %9.3f  %8.2f %7.2f %7.2f  %9.4f %7.2f %6.2f  %9.1f %7.1f  %6llu\n", robots,
                 row->status.real_time_factor, row->updates->intervals.mean(),
                 row->updates->intervals.quantile(0.5), row->updates->intervals.quantile(0.99),
-                json["step_ms"].get<double>(), row->pictures->mean(), row->pictures->quantile(0.99),
+                json["step_ms"].get<double>(), row->images->mean(), row->images->quantile(0.99),
                 json["pictures_per_s"].get<double>(), CyclesPerRobotSecond(*row),
                 static_cast<unsigned long long>(row->status.late_steps));
     std::fflush(stdout);

@@ -12,7 +12,7 @@
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
-#include "apps/gsv/running/picture.h"
+#include "apps/gsv/running/image_file.h"
 #include "apps/gsv/scenes/framing.h"
 #include "apps/gsv/scenes/moving_scene.h"
 #include "apps/gsv/serving/limit_option.h"
@@ -28,7 +28,7 @@ using geometry::Pose;
 using geometry::Vector3;
 
 struct DrawArguments {
-  std::string file, picture;
+  std::string file, image;
   std::vector<std::string> model_path;
   formats::ReadLimits limits;
   int width = 640, height = 480;
@@ -118,9 +118,9 @@ int Run(const DrawArguments& arguments) {
   auto renderer = rendering::Renderer::Start();
   if (!renderer) return Complain(renderer.error());
   const auto view = ViewOfAll(CornersToShow(*snapshot), arguments.width, arguments.height);
-  const auto picture = (*renderer)->Draw(snapshot, view, std::chrono::minutes(1));
-  if (!picture) return Complain(picture.error());
-  if (auto written = WritePicture(**picture, arguments.picture); !written) {
+  const auto image = (*renderer)->Draw(snapshot, view, std::chrono::minutes(1));
+  if (!image) return Complain(image.error());
+  if (auto written = WriteImage(**image, arguments.image); !written) {
     return Complain(written.error());
   }
   const nlohmann::ordered_json json{{"models", snapshot->layout->bodies.size()},
@@ -133,7 +133,7 @@ int Run(const DrawArguments& arguments) {
   if (arguments.json) {
     std::printf("%s\n", json.dump().c_str());
   } else {
-    std::printf("%s: %zu models, %zu triangles, read in %.2f s\n", arguments.picture.c_str(),
+    std::printf("%s: %zu models, %zu triangles, read in %.2f s\n", arguments.image.c_str(),
                 snapshot->layout->bodies.size(),
                 static_cast<std::size_t>(TrianglesIn(*snapshot->layout)), reading.count());
   }
@@ -148,9 +148,9 @@ void AddDrawCommand(const CommandLine& line) {
   auto arguments = std::make_shared<DrawArguments>();
   command->add_option("file", arguments->file, "file, folder or name of the world or model")
       ->required();
-  command->add_option("picture", arguments->picture, "image to write, .jpg or .png")
+  command->add_option("picture", arguments->image, "image to write, .jpg or .png")
       ->required()
-      ->check(CheckPictureName);
+      ->check(CheckImageName);
   command->add_option("--model-path", arguments->model_path, "folder to search for models")
       ->type_name("FOLDER");
   AddLimitOption(*command, arguments->limits);

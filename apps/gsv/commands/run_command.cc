@@ -12,7 +12,7 @@
 #include "apps/gsv/process/problem_report.h"
 #include "apps/gsv/running/drive_options.h"
 #include "apps/gsv/running/edit_repetition.h"
-#include "apps/gsv/running/picture.h"
+#include "apps/gsv/running/image_file.h"
 #include "apps/gsv/running/run.h"
 #include "apps/gsv/running/run_population.h"
 #include "apps/gsv/running/run_report.h"
@@ -142,12 +142,12 @@ int JudgeExpectations(verdict::Judge& judge, const RunOptions& options,
     if (first == nullptr || finding.step < first->step) first = &finding;
   }
   if (first == nullptr) return exit_code;
-  if (!options.failure_picture.empty()) {
+  if (!options.failure_image.empty()) {
     std::string about;
     for (const auto& measured : first->atoms) {
       if (about.empty()) about = measured.atom.quantity.first;
     }
-    if (auto ok = DrawAround(judge.first_violation(), about, options.failure_picture); !ok)
+    if (auto ok = DrawAround(judge.first_violation(), about, options.failure_image); !ok)
       Warn({ok.error().Sentence()});
   }
   return exit_code == kOk ? kAssertionFailed : exit_code;

@@ -17,17 +17,17 @@ constexpr int kCameras = 16;
 constexpr double kMeasured = 1.5;  // s
 
 // Images of 320x240 per second, of robots that drive in the office.
-base::Result<double> PictureRate(rendering::Renderer& renderer) {
+base::Result<double> ImageRate(rendering::Renderer& renderer) {
   MovingSceneOptions options;
   options.robots = kRobots;
   const auto scene = MovingScene::Create(options);
   if (!scene) return base::Fail(scene.error());
   const auto draw = [&]() -> base::Status {
     const auto snapshot = scene->simulation->snapshot();
-    const auto pictures = renderer.Draw(
+    const auto images = renderer.Draw(
         snapshot, scene->RobotViews(*snapshot, kCameras, {320, 240, 1.047, 0.05, 100}),
         std::chrono::minutes(1));
-    return pictures ? base::Status() : base::Fail(pictures.error());
+    return images ? base::Status() : base::Fail(images.error());
   };
   if (auto ok = scene->simulation->Start(); !ok) return base::Fail(ok.error());
   if (auto ok = draw(); !ok) return base::Fail(ok.error());  // work that is done once for a world
@@ -62,7 +62,7 @@ bool LookAtCameras(bool has_worlds) {
                 driver == name ? "" : " (not used: no graphics card)");
   }
   if (!has_worlds) return true;
-  const auto rate = PictureRate(**renderer);
+  const auto rate = ImageRate(**renderer);
   if (!rate) {
     std::printf("pictures: failed: %s\n", rate.error().Sentence().c_str());
     return false;

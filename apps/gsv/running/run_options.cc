@@ -149,13 +149,13 @@ void AddRecordOptions(CLI::App& command, RunArguments& a) {
       ->delimiter(',')
       ->type_name("KIND=HZ,...")
       ->group(kGroup);
-  command.add_option("--record-pictures", a.record_pictures, "encoding of recorded images")
+  command.add_option("--record-pictures", a.record_images, "encoding of recorded images")
       ->check(CLI::IsMember({"jpeg", "png"}))
       ->default_str("jpeg")
       ->type_name("jpeg|png")
       ->group(kGroup);
   command
-      .add_option("--failure-picture", a.failure_picture,
+      .add_option("--failure-picture", a.failure_image,
                   "image of the first violated expectation (.jpg, .png)")
       ->type_name("FILE")
       ->group(kGroup);
@@ -283,7 +283,7 @@ void Override(scenario::Scenario& scenario, const RunArguments& a) {
   scenario.model_path.insert(scenario.model_path.begin(), a.model_path.begin(), a.model_path.end());
   if (!a.record.empty()) scenario.record = a.record;
   if (!a.record_topics.empty()) scenario.record_topics = a.record_topics;
-  if (!a.record_pictures.empty()) scenario.record_png = a.record_pictures == "png";
+  if (!a.record_images.empty()) scenario.record_png = a.record_images == "png";
 }
 
 // Warns of options that have no effect together with the others or with the scenario file.
@@ -301,7 +301,7 @@ base::Problems CheckOptions(const RunArguments& a, const scenario::Scenario& sce
        "has no effect with --headless: there is no viewer");
   warn(a.headless && !a.web.names.empty(), "--allow-host",
        "has no effect with --headless: there is no viewer");
-  warn(!a.failure_picture.empty() && scenario.expect.empty(), "--failure-picture",
+  warn(!a.failure_image.empty() && scenario.expect.empty(), "--failure-picture",
        "has no effect: only a scenario with expectations can fail one");
   return problems;
 }
@@ -334,7 +334,7 @@ base::Status UnderstandRecording(const RunArguments& a, RunOptions& options) {
   }
   const std::pair<const char*, bool> given[]{{"--record-topics", !a.record_topics.empty()},
                                              {"--record-rate", !a.record_rates.empty()},
-                                             {"--record-pictures", !a.record_pictures.empty()}};
+                                             {"--record-pictures", !a.record_images.empty()}};
   for (const auto& [option, is_given] : given) {
     if (!is_given || !options.record.empty()) continue;
     return base::Fail(base::ErrorCode::kInvalidArgument, "has an effect only with --record NAME",
@@ -406,7 +406,7 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
   if (!ros2) return base::Fail(ros2.error());
   options.runtime.ros2 = *std::move(ros2);
   options.wall_timeout = a.wall_timeout;
-  options.failure_picture = a.failure_picture;
+  options.failure_image = a.failure_image;
   options.open_browser = a.open;
   options.json = a.json;
   options.is_strict = a.strict;

@@ -44,8 +44,8 @@ struct RunOptions {
   std::shared_ptr<const PreparedWorld> prepared_world;  // null: the run reads it
   std::string record;                                   // a file; empty: no recording
   RecordingChoice recording;
-  double wall_timeout = 0;      // s; 0: none
-  std::string failure_picture;  // file for an image of the first violation; empty: none
+  double wall_timeout = 0;    // s; 0: none
+  std::string failure_image;  // file for an image of the first violation; empty: none
   bool open_browser = false;
   bool json = false;
   bool is_strict = false;  // refuse the run if files have warnings
@@ -58,7 +58,7 @@ struct RunArguments {
       sensor_plugins;
   formats::ReadLimits limits;
   ServerLimits server_limits;
-  std::string broker, name, mode_on_failure, record, record_pictures, failure_picture;
+  std::string broker, name, mode_on_failure, record, record_images, failure_image;
   std::vector<std::string> record_topics, record_rates;
   // Options that a scenario's file may also have are empty if they were not given.
   std::optional<double> duration, step, factor, deadline;

@@ -170,7 +170,7 @@ scenario::Scenario Told(const Simulation& simulation, const RunOptions& options,
   const RecordingChoice& choice = options.recording;
   told.record_rates = {{"poses", choice.poses_rate},
                        {"readings", choice.readings_rate},
-                       {"pictures", choice.pictures_rate},
+                       {"pictures", choice.images_rate},
                        {"beams", choice.beams_rate}};
   told.record_png = given.record_png;
   told.expect = given.expect;

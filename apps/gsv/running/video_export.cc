@@ -105,9 +105,9 @@ class Exporter {
       if (!next) return Fail(next.error());
       if (!*next || (*next)->log_time > selection_.to) break;
       if (!selection_.Has(reader_.summary().channels.at((*next)->channel_id).topic)) continue;
-      const auto picture = messages::Decode<CompressedImage>((*next)->data);
-      if (!picture) return Fail(picture.error());
-      if (auto ok = Take((*next)->log_time, *picture); !ok) return Fail(ok.error());
+      const auto image = messages::Decode<CompressedImage>((*next)->data);
+      if (!image) return Fail(image.error());
+      if (auto ok = Take((*next)->log_time, *image); !ok) return Fail(ok.error());
     }
     if (!encoder_) {
       return Fail(ErrorCode::kInvalidArgument,
@@ -119,18 +119,18 @@ class Exporter {
   }
 
  private:
-  base::Status Take(base::SimTime time, const CompressedImage& picture) {
-    if (picture.data.empty()) return {};
+  base::Status Take(base::SimTime time, const CompressedImage& image) {
+    if (image.data.empty()) return {};
     if (!encoder_) {
-      auto encoder = Encoder::Start(options_, picture.format);
+      auto encoder = Encoder::Start(options_, image.format);
       if (!encoder) return Fail(encoder.error());
       encoder_ = *std::move(encoder);
       start_ = time;
-      format_ = picture.format;
+      format_ = image.format;
     }
-    if (picture.format != format_) {
+    if (image.format != format_) {
       return Fail(ErrorCode::kInvalidArgument,
-                  "the pictures change from " + format_ + " to " + picture.format +
+                  "the pictures change from " + format_ + " to " + image.format +
                       "; export the times before and after with --from and --to");
     }
     const double due = base::ToSeconds(time - start_) * options_.frames_a_second;
@@ -142,7 +142,7 @@ class Exporter {
     for (; static_cast<double>(frames_) < due - 1e-6; ++frames_) {
       if (!encoder_->Write(shown_)) return NotFinished();
     }
-    shown_ = picture.data;
+    shown_ = image.data;
     return {};
   }
 

@@ -31,7 +31,7 @@ class VideoExportTest : public testing::Test {
     options_.frames_a_second = 10;
   }
 
-  void Record(const std::vector<std::pair<milliseconds, char>>& pictures,
+  void Record(const std::vector<std::pair<milliseconds, char>>& images,
               const std::string& format = "jpeg") {
     auto writer = recording::McapWriter::Create(path_, {.replace = true}).value();
     const auto clock =
@@ -41,7 +41,7 @@ class VideoExportTest : public testing::Test {
     writer->Write(clock, {}, bytes);
     const auto channel =
         *writer->AddChannel("/robot/camera", messages::SchemaOf<CompressedImage>());
-    for (const auto& [time, letter] : pictures) {
+    for (const auto& [time, letter] : images) {
       CompressedImage message;
       message.format = format;
       message.data = {static_cast<std::uint8_t>(letter)};

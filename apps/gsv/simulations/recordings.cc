@@ -59,7 +59,7 @@ recording::RecorderOptions Options(const RecordingChoice& choice, bool is_of_com
   options.write_glb = &formats::WriteGlb;
   options.topics = choice.topics;
   options.poses_rate = choice.poses_rate;
-  options.sensors = {choice.readings_rate, choice.pictures_rate, choice.beams_rate};
+  options.sensors = {choice.readings_rate, choice.images_rate, choice.beams_rate};
   options.scenario = choice.scenario;
   if (choice.png) options.write_png = &rendering::EncodePng;
   const std::vector<std::string> arguments = WithoutSecrets(ArgumentsOfThisProcess());
@@ -109,7 +109,7 @@ std::vector<std::string> ComplaintsAbout(const RecordingChoice& choice,
 base::Status SetRate(const std::string& text, RecordingChoice& choice) {
   const std::pair<std::string_view, double*> kinds[]{{"poses", &choice.poses_rate},
                                                      {"readings", &choice.readings_rate},
-                                                     {"pictures", &choice.pictures_rate},
+                                                     {"pictures", &choice.images_rate},
                                                      {"beams", &choice.beams_rate}};
   const std::size_t equals = std::min(text.find('='), text.size());
   const std::string_view name = std::string_view(text).substr(0, equals);

@@ -31,7 +31,7 @@ inline constexpr std::string_view kFolderKey = "folder";
 // The selection of topics and rates; rates in Hz of simulated time.
 struct RecordingChoice {
   std::vector<std::string> topics;  // empty: all; a topic with a trailing "/" selects all below it
-  double poses_rate = 50, readings_rate = 20, pictures_rate = 1, beams_rate = 10;
+  double poses_rate = 50, readings_rate = 20, images_rate = 1, beams_rate = 10;
   bool png = false;  // images as PNG, else JPEG
   // The scenario to attach; default: derived from the simulation.
   std::optional<scenario::Scenario> scenario{};
@@ -45,7 +45,7 @@ std::vector<std::string> WithoutSecrets(std::vector<std::string> arguments);
 std::vector<std::string> ComplaintsAbout(const RecordingChoice& choice,
                                          const std::vector<std::string>& topics);
 
-// Sets one rate, from "KIND=HZ" with poses, readings, pictures or beams.
+// Sets one rate, from "KIND=HZ" with poses, readings, images or beams.
 base::Status SetRate(const std::string& text, RecordingChoice& choice);
 
 // The absolute path of a folder; empty: the current one. kInvalidArgument: it is not a folder.

@@ -39,7 +39,7 @@ TEST(RecordingRate, IsSetByKind) {
   EXPECT_TRUE(SetRate("poses=10", choice));
   EXPECT_TRUE(SetRate("pictures=0.5", choice));
   EXPECT_EQ(choice.poses_rate, 10);
-  EXPECT_EQ(choice.pictures_rate, 0.5);
+  EXPECT_EQ(choice.images_rate, 0.5);
   EXPECT_EQ(choice.readings_rate, 20);
   for (const char* bad : {"", "poses", "poses=", "poses=x", "poses=0", "poses=-1", "poses=1e9",
                           "poses=nan", "poses=1 ", "sounds=1", "=1"}) {

@@ -22,7 +22,8 @@ namespace gsv::dynamics {
 inline constexpr double kMaxLinearSpeed = 100;   // m/s
 inline constexpr double kMaxAngularSpeed = 100;  // rad/s
 
-// What a base covered in a step: of its reference point in its own frame, and of its heading.
+// The distance that a base's reference point covered in a step, in the base's frame, and the change of
+// the base's heading.
 struct Travel {
   double forward = 0, left = 0, angle = 0;
 };

@@ -1,4 +1,4 @@
-// The drive of a body that moves by forces, within a step: what its base is to do, substep by
+// The drive of a rigid body within a step: computes the target velocity of the base for each
 // substep.
 #pragma once
 
@@ -14,7 +14,7 @@ class DriveServo {
   DriveServo(const DriveKinematics& kinematics, const world::BodyState& body, base::SimTime now)
       : kinematics_(kinematics), drive_(body.drive), now_(now) {}
 
-  // Goes on by a substep: what the base is to do at its end, within the drive's limits.
+  // Advances by a substep and returns the base's target velocity at its end, within the limits.
   const world::DriveCommand& Advance(double seconds) {
     drive_.actual = kinematics_.Next(drive_, now_, seconds);
     now_ += base::FromSeconds(seconds);
@@ -29,15 +29,15 @@ class DriveServo {
   base::SimTime now_;
 };
 
-// Drives without wheels that Bullet could roll (synchro, mecanum, velocity) take hold of the base
-// itself: its velocity over the ground, in whatever direction, and its turn about the vertical
-// change towards those wanted, by no more than `grip` (m/s², rad/s²) allows in so many seconds.
-// What carries such a base must not rub on it.
+// Some drives have no wheels that Bullet could roll (synchro, mecanum, velocity). They control the
+// base itself: its horizontal velocity and its turn rate about the vertical approach the target
+// velocity, by at most `grip` (m/s², rad/s²) times `seconds`. There must be no friction between
+// such a base and the bodies that carry it.
 void HoldBase(const DriveServo& servo, const geometry::Pose& world_from_model,
               const geometry::Vector3& point, double grip, double seconds,
               geometry::Vector3& velocity_of_point, geometry::Vector3& angular_velocity);
 
-// Whether the drive's wheels are joints that push the base along.
+// Whether the drive's wheels are joints that propel the base.
 bool RollsOnWheels(const model::Model& model);
 
 }  // namespace gsv::dynamics

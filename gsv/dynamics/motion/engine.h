@@ -1,4 +1,4 @@
-// What moves the bodies of a world by one step.
+// An engine moves the bodies of a world by one step.
 //
 // Threads      one thread at a time (the stepping thread).
 // Determinism  Step() is a function of the layout, the attachments (in whatever order they were
@@ -43,11 +43,11 @@ class Engine {
   // The body moves by itself again, from where the state has it. Ignored if it is not attached.
   virtual void Detach(int held_body) = 0;
 
-  // Takes `state`, which fits the layout, from its time t to t + step: drives follow their
-  // commands within their limits, bodies do not enter each other, joints of wheels turn.
-  // state.step and state.time are the caller's. `contacts` becomes those at t + step, in the order
-  // of (first, second, supports), with `began` set by comparing with BodyState::in_contact and the contacts
-  // of the step before; given the same vector again, it keeps its memory.
+  // Advances `state`, which fits the layout, from its time t to t + step: drives follow their
+  // commands within their limits, bodies do not overlap, wheel joints turn. The caller sets
+  // state.step and state.time. Replaces `contacts` by the contacts at t + step, in the order of
+  // (first, second, supports). `began` compares with BodyState::in_contact and the contacts of the
+  // step before. A vector that is passed again keeps its memory.
   virtual void Step(base::SimTime step, world::State& state,
                     std::vector<world::Contact>& contacts) = 0;
 
@@ -55,9 +55,9 @@ class Engine {
   // `tolerance` metres): two robots at one place, a robot inside a wall.
   virtual std::vector<world::Contact> Overlaps(const world::State& state, double tolerance) = 0;
 
-  // Those of them that one body has part in: much cheaper than all. Of an object those as well of
-  // which no robot is a part: objects in each other or in walls. Two that stand still for good may
-  // overlap, and nothing is known of what is inside of a mesh and touches its surface nowhere.
+  // The overlaps of one body, which cost much less than all. For an object they include overlaps
+  // with other objects and with walls. Two static bodies may overlap. A body inside a mesh that does
+  // not touch the mesh's surface is not detected.
   virtual std::vector<world::Contact> OverlapsOf(const world::State& state, int body,
                                                  double tolerance) = 0;
 };

@@ -50,15 +50,16 @@ class RigidEngine {
   // step: poses, velocities, joints, drives, distances. Planar bodies are in `before` where the
   // step starts and in `state` where it ends. Fills in the results of `pushes`.
   //
-  // `contacts` becomes those of rigid bodies in this step, with their points and impulses, in any
-  // order: at most two for each pair, of which the first body is rigid, and `began` if the two did
-  // not touch when the step started. One of the two `supports`: it has the points at which the
-  // second body, static or planar, carries the first from below, as the ground does.
+  // Replaces `contacts` by the contacts of rigid bodies in this step, with their points and
+  // impulses, in any order. The first body of a contact is rigid. `began` says that the two did not
+  // touch when the step started. A pair has at most two contacts. One of them `supports`: it has the
+  // points at which the second body, static or planar, carries the first from below, as the ground
+  // does.
   virtual void Step(base::SimTime step, const world::State& before, std::span<Push> pushes,
                     world::State& state, std::vector<world::Contact>& contacts) = 0;
 
-  // What overlaps `body` in `state` by more than `tolerance` metres, as far as one of the two is
-  // rigid, by (first, second). Only the pair and the depth of each contact are set.
+  // The bodies that overlap `body` in `state` by more than `tolerance` metres, if one of the two is
+  // rigid, ordered by (first, second). Sets only the pair and the depth of each contact.
   virtual std::vector<world::Contact> OverlapsOf(const world::State& state, int body,
                                                  double tolerance) = 0;
 };

@@ -53,7 +53,7 @@ void Crowd::SetLayout(std::shared_ptr<const world::Layout> layout) {
     }
     const double radius =
         body.is_pedestrian() ? body.pedestrian->group->radius : model::FootprintRadius(*body.model);
-    if (radius > 0 && radius <= kWidestOther) {
+    if (radius > 0 && radius <= kMaxRadius) {
       const int walker = body.is_pedestrian() ? static_cast<int>(walkers_.size()) : -1;
       others_.push_back({i, walker, radius, HeightOf(*body.model), {}, {}, 0});
     }

@@ -3,7 +3,7 @@
 // other nor anything else.
 //
 // Others        all that planar kinematics moves, actors, and rigid bodies no wider than
-//               kWidestOther about their origin: as discs about their origins, on the same floor.
+//               kMaxRadius about their origin: as discs about their origins, on the same floor.
 // Walls         the bodies that stand still, sliced between kStep above a pedestrian's feet and
 //               its top: the nearest point of each, but of those that lie within 60 degrees of a
 //               nearer one none, so that a wall of many pieces is one wall.
@@ -30,9 +30,9 @@ namespace gsv::dynamics {
 
 class Crowd {
  public:
-  static constexpr double kWidestOther = 1.5;  // m
-  static constexpr double kStep = 0.15;        // m
-  static constexpr double kArrival = 1;        // m
+  static constexpr double kMaxRadius = 1.5;  // m
+  static constexpr double kStep = 0.15;      // m
+  static constexpr double kArrival = 1;      // m
 
   explicit Crowd(std::shared_ptr<base::ThreadTeam> team) : team_(std::move(team)) {}
 

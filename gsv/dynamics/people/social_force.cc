@@ -50,7 +50,7 @@ double Relaxation(double seconds) { return std::exp(-seconds / kRelaxationTime);
 Vector2 NextVelocity(Vector2 velocity, Vector2 wanted, Vector2 force, double speed, double seconds,
                      double left) {
   Vector2 next = wanted + left * (velocity - wanted) + seconds * force;
-  const double length = Length(next), limit = kFastest * speed;
+  const double length = Length(next), limit = kMaxSpeedFactor * speed;
   if (length > limit) next = (limit / length) * next;
   return next;
 }

@@ -5,15 +5,15 @@
 #include <gtest/gtest.h>
 
 #include "gsv/base/random.h"
-#include "gsv/dynamics/planar/pair_finder.h"
+#include "gsv/dynamics/planar/broad_phase.h"
 #include "gsv/dynamics/shapes/obstacle_field.h"
 
 namespace gsv::dynamics {
 namespace {
 
-TEST(PairFinder, FindsTheSamePairsAsComparingAll) {
+TEST(BroadPhase, FindsTheSamePairsAsComparingAll) {
   base::Noise noise(1, 1, 1);
-  PairFinder finder;
+  BroadPhase finder;
   for (int round = 0; round < 30; ++round) {
     const double extent = round % 3 == 0 ? 2 : round % 3 == 1 ? 30 : 5000;
     std::vector<Vector2> centres;
@@ -22,7 +22,7 @@ TEST(PairFinder, FindsTheSamePairsAsComparingAll) {
       centres.push_back({extent * noise.Uniform() - 7, extent * noise.Uniform() + 100});
       radii.push_back(0.1 + noise.Uniform() * (i % 10 == 0 ? 2 : 0.3));
     }
-    std::vector<PairFinder::Pair> expected;
+    std::vector<BroadPhase::Pair> expected;
     for (std::uint32_t i = 0; i < centres.size(); ++i) {
       for (std::uint32_t k = i + 1; k < centres.size(); ++k) {
         const Vector2 d = centres[i] - centres[k];

@@ -1,4 +1,4 @@
-// Where all movers are within a step, and how they move in its present leg.
+// The positions of all movers within a step, and their motions in the current leg.
 //
 // Units    metres, radians, seconds; positions in the world frame, motions in each base's own.
 // Threads  calls for different movers may run concurrently.
@@ -27,7 +27,7 @@ inline double SpeedOf(const geometry::Twist& twist) {
   return twist.y == 0 ? std::abs(twist.x) : std::sqrt(twist.x * twist.x + twist.y * twist.y);
 }
 
-// What a mover has covered in a step.
+// The path of a mover within a step.
 struct Journey {
   Travel travel;
   double distance = 0;  // of the model's origin
@@ -37,17 +37,17 @@ class MoverMotions {
  public:
   explicit MoverMotions(const PlanarScene& scene) : scene_(scene) {}
 
-  // Makes room for the scene's movers.
+  // Allocates an entry for each of the scene's movers.
   void Resize();
 
-  // Puts a mover where `state` has it.
+  // Sets a mover's position from `state`.
   void Load(std::uint32_t mover, const world::State& state);
-  // Lets it follow its command in a first leg of so many seconds; in one of 0 s everybody stays.
+  // Starts a first leg of `seconds`, in which the mover follows its command; with 0 s it stays.
   void FollowCommand(std::uint32_t mover, const world::State& state, double seconds);
   void SetLeg(std::uint32_t mover, const geometry::Twist& twist, double seconds);
   // Moves it to its leg's end.
   void RunLeg(std::uint32_t mover, Journey& journey);
-  // Writes where it is, how it moves and how its wheels turned to `state`.
+  // Writes the mover's pose, velocity and wheel angles to `state`.
   void Store(std::uint32_t mover, const Journey& journey, double seconds,
              world::State& state) const;
 
@@ -59,15 +59,15 @@ class MoverMotions {
   std::vector<geometry::PlanarPosition> positions;
   std::vector<world::DriveCommand> drives;  // while it moves, and then at the end
   std::vector<geometry::Twist> twists;      // in this leg
-  std::vector<double> times;                // in this leg; 0 for who stands
+  std::vector<double> times;                // in this leg; 0 for a mover at rest
   std::vector<double> reaches;              // how far any part may get in this step
-  std::vector<Vector2> normals;             // of those stopped: to what is in the way
+  std::vector<Vector2> normals;             // of stopped movers: towards the obstacle
 
  private:
   const PlanarScene& scene_;
 };
 
-// What follows is done for each mover in each step, hence inline.
+// The following functions run for each mover in each step, so they are inline.
 
 inline void MoverMotions::Load(std::uint32_t mover, const world::State& state) {
   positions[mover] = PositionOf(state.bodies[scene_.movers()[mover].body].world_from_model);

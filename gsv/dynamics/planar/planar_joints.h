@@ -1,9 +1,9 @@
-// Joints of robots that their drive alone moves, other than its wheels: a head that pans, a lift.
+// Moves the joints of robots with planar movement, other than wheels: a head that pans, a lift.
 //
-// How          A joint that is told a position goes there at its limit of velocity (without one, at
-//              once) and stops; one that is told a velocity moves so. Both keep within its limits.
-//              Nothing stops it, and it pushes nothing: the robot's outline stays that of its
-//              joints at zero.
+// How          A joint with a position command moves there at its velocity limit (without a limit:
+//              at once) and stops. A joint with a velocity command moves at this velocity. Both
+//              stay within the joint's limits. Obstacles do not stop a joint, and a joint pushes
+//              nothing: the robot's footprint stays the one with all joints at zero.
 // Determinism  a function of the layout, the state and the step alone.
 #pragma once
 

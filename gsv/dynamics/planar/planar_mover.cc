@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "gsv/base/check.h"
+#include "gsv/dynamics/planar/mover_collisions.h"
 #include "gsv/dynamics/planar/mover_motions.h"
 #include "gsv/dynamics/planar/near_obstacles.h"
-#include "gsv/dynamics/planar/near_pairs.h"
 #include "gsv/dynamics/planar/planar_scene.h"
 
 namespace gsv::dynamics {
@@ -67,7 +67,7 @@ class TeamMover final : public PlanarMover {
   std::vector<Sight> sights_;  // of the movers, where there are loose bodies
   MoverMotions motions_;
   NearObstacles obstacles_;
-  NearPairs pairs_;
+  MoverCollisions pairs_;
   std::vector<Chunk> chunks_;
   std::vector<BodyPair> touching_;         // at the step's start, ascending
   std::vector<Stopped> stopped_;           // in this step, ascending

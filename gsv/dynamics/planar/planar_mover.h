@@ -1,20 +1,20 @@
 // The mover of wheeled bases on level ground: kinematics, limits and contacts, no forces.
 //
-// Who moves   bodies that are neither static nor rigid and have a drive, and avatars (which without
-//             a drive take any velocity). All others stand where the state has them.
-// How         a base follows its command within its drive's limits (DriveKinematics) along an exact
-//             arc; its z, roll and pitch stay as the caller placed it. Joints that are no wheels
-//             and no steering are not its own (planar_joints.h), and footprints are those at zero
-//             joint positions.
-// Ground      what is lower than a robot can climb is ground to it: see PlanarScene and
+// Bodies      The mover moves bodies that have a drive and are neither static nor rigid, and
+//             avatars (an avatar without a drive accepts any velocity). Others keep their poses.
+// How         A base follows its command within its drive's limits (DriveKinematics) along an exact
+//             arc; its z, roll and pitch stay as the caller placed it. It does not
+//             move joints other than wheels and steering (planar_joints.h). Footprints are those at
+//             zero joint positions.
+// Ground      Obstacles lower than a robot can climb count as ground: see PlanarScene and
 //             ClimbHeight.
-// Contact     a base stops, about half a micrometre away, at what its own motion runs into, at any
-//             speed and step size; its linear motion ends, to start again within its acceleration
-//             limits. What remains of the step it turns on the spot, where its drive can and there
-//             is room; bases that can move sideways slide along. Nobody pushes anybody. The outcome
-//             does not depend on the order of bodies.
-//             A base that starts inside something may leave it, but get no deeper.
-// Mesh        a mesh is its surface: a robot wholly inside a closed one touches nothing.
+// Contact     A base stops about half a micrometre before an obstacle in its way, at any speed and
+//             step size. Its linear motion ends, and starts again within the acceleration limits. In
+//             the rest of the step it turns on the spot, if its drive can and if there is room.
+//             Bases that can move sideways slide along the obstacle. Bases do not push each other.
+//             The result does not depend on the order of bodies.
+//             A base that starts inside an obstacle can leave it, but cannot move deeper.
+// Mesh        A mesh is a surface: a robot wholly inside a closed mesh touches nothing.
 //
 // Errors      SetLayout() refuses drives that make no sense (kBadModel) and poses that are not
 //             finite.

@@ -1,5 +1,4 @@
-// What the planar mover derives from a layout: who moves, with what footprint, past which
-// obstacles.
+// The planar mover's view of a layout: the movers, their footprints and the obstacles.
 //
 // Levels   obstacles are sliced once for each distinct interval of heights that a piece of some
 //          footprint takes up: from what the robot can drive over (ClimbHeight above its lowest
@@ -7,9 +6,9 @@
 //          point. So a floor that a robot stands on, a ground plane and a door sill are no
 //          obstacles, and a table is one only to what reaches its top or its legs. Beyond
 //          kMaxLevels distinct intervals, their ends are rounded up to a grid just coarse enough.
-// Loose    rigid bodies and actors are obstacles of their own: those in some mover's sight are sliced, anew
-//          whenever one has moved. What reaches less than kRides below the top of a piece lies on
-//          the robot and is no obstacle to it.
+// Dynamic  Rigid bodies and actors are separate obstacles. Those in some mover's sight are sliced,
+//          and again when one of them has moved. A body that reaches less than kRides below the top
+//          of a piece lies on the robot and is not an obstacle to it.
 // Caching  slices are kept while obstacles and the heights of robots stay where they are; nothing
 //          depends on whether they were kept.
 #pragma once
@@ -31,7 +30,7 @@ namespace gsv::dynamics {
 inline constexpr double kLookAround = 0.25;
 inline constexpr double kRides = 0.005;
 
-// What movers of one model have in common.
+// The properties that movers of one model share.
 struct MoverKind {
   DriveKinematics kinematics;
   Footprint footprint;
@@ -61,12 +60,12 @@ class PlanarScene {
 
   // Slices the obstacles of `state` for movers at their heights.
   void Slice(const world::State& state);
-  // Slices the loose ones that reach into one of the sights, unless that is done already. Levels
-  // are those of the last Slice().
+  // Slices the dynamic obstacles that reach into one of the sights, if that is not yet done. The
+  // levels are those of the last Slice().
   void SliceLoose(const world::State& state, std::span<const Sight> sights);
-  // Whether anything was sliced, and all that is no mover stands as it was then.
+  // Whether Slice() was called, and all bodies other than movers are where they were then.
   bool StandsAsSliced(const world::State& state) const;
-  // Whether a mover at height z is where it was as sliced last.
+  // Whether a mover at height z is at the height of the last Slice().
   bool IsAsSliced(std::size_t mover, double z) const { return heights_[mover] == z; }
 
   const world::Layout& layout() const { return *layout_; }
@@ -89,15 +88,15 @@ class PlanarScene {
   std::vector<Interval> AssignLevels();
   void SliceLevels(const world::State& state);
   std::vector<double> MarginsOfLevels() const;
-  // Lists in `seen_` the loose bodies that reach into one of the sights.
+  // Lists in `seen_` the dynamic obstacles that reach into one of the sights.
   void LookForLoose(const world::State& state, std::span<const Sight> sights);
 
   std::shared_ptr<const world::Layout> layout_;
   std::vector<MoverKind> kinds_;
   std::vector<Mover> movers_;
   std::vector<int> levels_;
-  std::vector<Interval> intervals_;             // of the levels
-  std::vector<int> standing_;                   // bodies that neither move nor are loose
+  std::vector<Interval> intervals_;  // of the levels
+  std::vector<int> standing_;        // bodies that are neither movers nor dynamic obstacles
   std::vector<geometry::Pose> standing_poses_;  // as sliced
   std::vector<double> heights_;                 // of movers, as sliced
   std::vector<ObstacleField> fields_;

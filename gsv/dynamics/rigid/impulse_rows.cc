@@ -243,7 +243,7 @@ void ImpulseRows::Accelerate(double beta) {
   }
 }
 
-double ImpulseRows::LargestChange() const {
+double ImpulseRows::MaxChange() const {
   double largest = 0;
   for (const Row& row : rows_) {
     largest = std::max(largest, std::abs(row.mass_inverse * row.change));
@@ -287,7 +287,7 @@ int ImpulseRows::Solve(int max_iterations, double tolerance) {
   for (int iteration = 1; iteration < max_iterations; ++iteration) {
     Sweep(iteration % 2 == 0);
     ++since;
-    const bool is_solved = LargestChange() <= tolerance;
+    const bool is_solved = MaxChange() <= tolerance;
     const double energy = ChangeOfEnergy();
     if (is_solved && !is_first) return iteration;
     const bool was_direct = std::exchange(is_direct, false);

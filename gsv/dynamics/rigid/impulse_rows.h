@@ -101,7 +101,7 @@ class ImpulseRows {
   void SolveCone(const Cone& cone);
   void Sweep(bool backwards);
   void Accelerate(double beta);
-  double LargestChange() const;
+  double MaxChange() const;
   double RadiusOf(const Cone& cone) const;
   void CoupleAll();
   void ChooseFree();

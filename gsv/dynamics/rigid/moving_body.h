@@ -17,17 +17,17 @@ class MovingBody {
 
   // Follows commands for the next substep.
   virtual void BeforeSubstep(double seconds) = 0;
-  // What explicit integration leaves out.
+  // Applies what the explicit integration does not.
   virtual void AfterSubstep(double seconds) = 0;
-  // m/s: no point of it moves faster.
+  // m/s: the upper bound of the speed of all points.
   virtual double Speed() const = 0;
-  // m: the least that any of it is thick, from its middle.
+  // m: half of the least thickness of any part.
   virtual double Thickness() const = 0;
   virtual void Bounds(btVector3& low, btVector3& high) const = 0;
   // Null for a tree of links.
   virtual btRigidBody* rigid() { return nullptr; }
 
-  // Writes where it is and how it moves, but for what rested and still rests.
+  // Writes pose and velocity to `state`, except for bodies that were at rest and still are.
   virtual void Store(double seconds, world::State& state) const = 0;
 };
 
@@ -43,9 +43,9 @@ std::unique_ptr<MovingBody> MakeJointTree(const RigidBody& plan,
                                           const world::State& state, std::span<Owner* const> owners,
                                           btMultiBodyDynamicsWorld& world);
 
-// m/s² and rad/s²: a body that neither moves by more than this times the step before a step nor
-// after it keeps its place, so that what is at rest stays there to the bit. It is as if all had a
-// rolling resistance of one per cent: what would start to move on a slope of half a degree stays.
+// m/s² and rad/s²: a body keeps its pose if its speed is below this value times the step, before the
+// step and after it. So bodies at rest keep their poses to the bit. The effect equals a rolling
+// resistance of one per cent: a body that would start to roll on a slope of half a degree stays.
 inline constexpr double kResting = 0.1;
 
 // Velocity of the model's origin, from that of a point of it.

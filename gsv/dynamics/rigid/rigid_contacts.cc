@@ -123,7 +123,7 @@ void RigidContacts::Add(const Owner& first, const Owner& second,
     // The solver leaves out points beyond the threshold: they keep the impulse of a substep before.
     const bool is_solved = point.getDistance() <= manifold.getContactProcessingThreshold();
     contact.impulse = is_solved ? point.getAppliedImpulse() : 0;
-    contact.supports = !second.moves_by_forces && normal.z < -kCarries;
+    contact.supports = !second.is_rigid && normal.z < -kCarries;
   }
 }
 
@@ -134,8 +134,7 @@ void RigidContacts::Read(btDispatcher& dispatcher) {
     auto& a = *static_cast<Owner*>(manifold.getBody0()->getUserPointer());
     auto& b = *static_cast<Owner*>(manifold.getBody1()->getUserPointer());
     a.touches = b.touches = true;
-    const bool in_order =
-        a.moves_by_forces && (!b.moves_by_forces || a.solid->body < b.solid->body);
+    const bool in_order = a.is_rigid && (!b.is_rigid || a.solid->body < b.solid->body);
     Add(in_order ? a : b, in_order ? b : a, manifold);
   }
   ++substep_;

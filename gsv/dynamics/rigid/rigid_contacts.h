@@ -1,10 +1,10 @@
-// What touches what in a Bullet world: surfaces in, contacts out. Private to this folder.
+// Contacts in a Bullet world: passes surfaces to Bullet, and reads contacts. Private to this folder.
 //
-// Surfaces  two that touch have the smaller friction of the two and the product of their
-//           restitutions, as in DART, which Gazebo uses. Where one of them has two frictions, they
-//           act along its direction and across; where both have, that of the more slippery one
-//           counts. A base that its drive holds (HoldBase) glides on what carries it: its traction
-//           is the drive's.
+// Surfaces  A contact has the smaller friction of the two surfaces and the product of their
+//           restitutions, as in DART, which Gazebo uses. If one surface has two frictions, they act
+//           along its direction and across it; if both have, those of the more slippery one count.
+//           A base that its drive controls directly (HoldBase) has no friction with the bodies that
+//           carry it: its traction is the drive's.
 #pragma once
 
 #include <deque>
@@ -16,24 +16,23 @@
 
 namespace gsv::dynamics {
 
-// What a collision object stands for; its user pointer points to one.
+// The body that a collision object belongs to. The object's user pointer points to an Owner.
 struct Owner {
   const Solid* solid = nullptr;
-  std::deque<FrictionAxes>* axes = nullptr;  // where those of its contacts are kept
-  bool moves_by_forces = false;
-  bool is_held = false;  // by a drive, at its base
-  bool touches = false;  // something, in the last substep
+  std::deque<FrictionAxes>* axes = nullptr;  // storage for the axes of its contacts
+  bool is_rigid = false;
+  bool is_held = false;  // its drive controls the base directly
+  bool touches = false;  // in contact in the last substep
 };
 
-// To be called before the first collision is looked for: has Bullet ask for surfaces and filters.
+// Makes Bullet ask for surfaces and filters. Must be called before the first collision detection.
 void InstallSurfaces();
 
 class RigidContacts {
  public:
   // Starts a step.
   void Clear();
-  // Reads what touches after a substep: marks owners, and adds the contacts of what moves by
-  // forces.
+  // Reads the contacts after a substep: marks owners, and adds the contacts of rigid bodies.
   void Read(btDispatcher& dispatcher);
   // `contacts` becomes those of the step: for each pair of bodies one, and one that supports. Each
   // has the deepest of its points, the impulse of all, and the points of the last substep in which
@@ -49,7 +48,7 @@ class RigidContacts {
   void Add(const Owner& first, const Owner& second, const btPersistentManifold& manifold);
 
   std::vector<Found> found_;
-  std::vector<BodyPair> at_start_;  // who touched when the step began
+  std::vector<BodyPair> at_start_;  // pairs that touched when the step began
   int substep_ = 0;
 };
 

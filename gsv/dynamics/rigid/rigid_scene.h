@@ -1,5 +1,5 @@
-// What the rigid engine derives from a layout: who moves by forces, in what shapes, among what.
-// Private to this folder: it includes Bullet.
+// The rigid engine's view of a layout: rigid bodies, their shapes and the other bodies. Private to
+// this folder: it includes Bullet.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@
 
 namespace gsv::dynamics {
 
-// A collision shape with what its surface is like.
+// A collision shape with its surface properties.
 struct Solid {
   int body = 0;                          // index in the layout
   btCollisionShape* shape = nullptr;     // never null
@@ -26,7 +26,7 @@ struct Solid {
   bool bounces() const;
 };
 
-// What moves by forces.
+// A body that rigid-body dynamics moves.
 struct RigidBody {
   int body = 0;
   const model::Model* model = nullptr;
@@ -38,13 +38,13 @@ struct RigidBody {
   bool is_jointed() const { return articulation.parts.size() > 1; }
 };
 
-// What stands where the state has it.
+// A body whose pose in the state does not change.
 struct StandingBody {
   Solid solid;
   geometry::Pose model_from_shape;
 };
 
-// Where a rigid body may get to within a step.
+// The box that a rigid body may reach within a step.
 struct Area {
   btVector3 low, high;
 };
@@ -61,8 +61,8 @@ class RigidScene {
   const world::Layout& layout() const { return *layout_; }
   const std::vector<RigidBody>& bodies() const { return bodies_; }
   const std::vector<StandingBody>& standing() const { return standing_; }
-  // What planar kinematics and scripts move: obstacles to others, in the shapes of their footprints
-  // or, of actors, in those of their collisions.
+  // Bodies that planar kinematics and scripts move. They are obstacles to others, with the shapes of
+  // their footprints (of actors: of their collisions).
   const std::vector<Solid>& planar() const { return planar_; }
 
  private:

@@ -19,8 +19,8 @@ namespace gsv::dynamics {
 
 inline constexpr int kMaxPieces = 32;
 
-// A mesh as Bullet reads it, with what Bullet only points to. Takes long to make: kept from layout
-// to layout.
+// A mesh as Bullet reads it, with the data that Bullet points to. It is slow to make, so it is kept
+// from layout to layout.
 struct StandingMesh {
   std::shared_ptr<const geometry::TriangleMesh> source;
   std::vector<btScalar> positions;
@@ -31,12 +31,12 @@ struct StandingMesh {
 
 class RigidShapes {
  public:
-  // What stands still. Null: nothing to collide with. Lives as long as this object and one more
-  // NextLayout(). A mesh that is not to meet everything is a shape of its own around the triangles,
-  // which others share.
+  // The shape of a static body; null if there is nothing to collide with. It lives as long as this
+  // object, until the second NextLayout(). A mesh with a collision filter has its own shape around
+  // the shared triangles.
   btCollisionShape* Standing(const geometry::Shape& shape, const model::CollisionFilter& filter);
 
-  // What moves: one shape or several, in the frame of `shape`; planes are left out.
+  // The shapes of a moving body, one or several, in the frame of `shape`. Planes have none.
   std::vector<btCollisionShape*> Moving(const geometry::Shape& shape);
 
   // A piece of a footprint from height `low` to its top, in the frame of its model.

@@ -66,8 +66,8 @@ RigidWorld::RigidWorld(BulletKit& kit, const RigidScene& scene, const world::Sta
 
 RigidWorld::~RigidWorld() = default;
 
-Owner& RigidWorld::NewOwner(const Solid& solid, bool moves_by_forces, bool is_held) {
-  return owners_.emplace_back(Owner{&solid, &friction_axes_, moves_by_forces, is_held, false});
+Owner& RigidWorld::NewOwner(const Solid& solid, bool is_rigid, bool is_held) {
+  return owners_.emplace_back(Owner{&solid, &friction_axes_, is_rigid, is_held, false});
 }
 
 void RigidWorld::AddRigid(const RigidBody& body) {

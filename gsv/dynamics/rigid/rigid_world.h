@@ -22,7 +22,7 @@
 
 namespace gsv::dynamics {
 
-// What may be kept from step to step: settings, and pools of memory.
+// Settings and memory pools, which may be kept from step to step.
 struct BulletKit {
   explicit BulletKit(base::ThreadTeam* team);  // may be null
   CollisionKinds configuration;
@@ -32,7 +32,7 @@ struct BulletKit {
 
 class RigidWorld {
  public:
-  // `before` is the state at the step's start; in `after` the planar bodies are where they are at
+  // `before` is the state at the start of the step. In `after`, the planar bodies have the poses of
   // its end.
   RigidWorld(BulletKit& kit, const RigidScene& scene, const world::State& before,
              const world::State& after, double seconds);
@@ -65,7 +65,7 @@ class RigidWorld {
   void StartPushes(std::span<const Push> pushes, double time);
   double SubstepFor(double left) const;
   void TakeSubstep(double time, double substep, RigidContacts& contacts);
-  Owner& NewOwner(const Solid& solid, bool moves_by_forces, bool is_held = false);
+  Owner& NewOwner(const Solid& solid, bool is_rigid, bool is_held = false);
 
   BulletKit& kit_;
   const RigidScene& scene_;

@@ -33,7 +33,7 @@ struct Before {
 
 }  // namespace
 
-std::vector<std::vector<Vector3>> ConnectedPieces(const geometry::Mesh& mesh, int most) {
+std::vector<std::vector<Vector3>> ConnectedPieces(const geometry::Mesh& mesh, int max_pieces) {
   const auto& positions = mesh.triangles->positions;
   Sets sets(positions.size());
   std::map<Vector3, std::size_t, Before> at;  // corners of one place are one
@@ -55,7 +55,7 @@ std::vector<std::vector<Vector3>> ConnectedPieces(const geometry::Mesh& mesh, in
       all.push_back(pieces[it->second].back());
     }
   }
-  if (pieces.size() > static_cast<std::size_t>(most)) return {std::move(all)};
+  if (pieces.size() > static_cast<std::size_t>(max_pieces)) return {std::move(all)};
   return pieces;
 }
 

@@ -1,4 +1,4 @@
-// A mesh taken apart: a table's legs and its top, each by itself.
+// Splits a mesh into its connected pieces, such as a table's legs and its top.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,9 @@
 
 namespace gsv::dynamics {
 
-// The corners (scaled) of each set of triangles that hang together by corners at one place, in the
-// order of the triangles. All in one when there are more than `most` sets.
-std::vector<std::vector<geometry::Vector3>> ConnectedPieces(const geometry::Mesh& mesh, int most);
+// The vertices (scaled) of each set of triangles that share vertex positions, in the order of the
+// triangles. One set of all vertices if there are more than `max_pieces` sets.
+std::vector<std::vector<geometry::Vector3>> ConnectedPieces(const geometry::Mesh& mesh,
+                                                            int max_pieces);
 
 }  // namespace gsv::dynamics

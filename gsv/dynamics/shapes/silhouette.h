@@ -20,14 +20,14 @@ struct Interval {
 // Heights that the shape reaches. Not for a Plane.
 Interval Heights(const geometry::Shape& shape, const geometry::Pose& pose);
 
-// What all of the shape covers; of a mesh, its convex hull. Exact for boxes, spheres, upright and
-// lying cylinders and capsules, upright cones; else the smallest polygon around it with edges in
-// sixteen directions. Not for a Plane.
+// The area that the shape covers seen from above; for a mesh, its convex hull. Exact for boxes,
+// spheres, upright and lying cylinders and capsules, and upright cones. For other shapes: the
+// smallest polygon around the shape with edges in sixteen directions. Not for a Plane.
 ConvexPiece Silhouette(const geometry::Shape& shape, const geometry::Pose& pose);
 
-// Adds what the part of the shape strictly between the two heights covers: one piece for a convex
-// shape (at most 0.5 % of its radius too large where a round shape lies askew and is cut), one for
-// each triangle of a mesh (its surface: a mesh has no inside). Of a Plane nothing is added.
+// Adds the area covered by the part of the shape strictly between the two heights: one piece for a
+// convex shape, one per triangle for a mesh (a mesh is a surface without inside), none for a Plane.
+// The piece of an inclined round shape that is cut may be too large by up to 0.5 % of its radius.
 void Slice(const geometry::Shape& shape, const geometry::Pose& pose, Interval heights,
            std::vector<ConvexPiece>& pieces);
 

@@ -35,9 +35,9 @@ inline void Place(const ConvexPiece& piece, const geometry::PlanarPosition& at,
 
 struct Impact {
   double time = 0;
-  Vector2 normal;                 // from the first to the second
-  bool first_approaches = false;  // whose own motion closes the gap; at least one
-  bool second_approaches = false;
+  Vector2 normal;                  // from the first to the second
+  bool first_approaches = false;   // its own motion closes the gap
+  bool second_approaches = false;  // at least one of the two approaches
 };
 
 // The first contact in [0, end) that the motions would turn into an overlap. `normal` is that of

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kBeamsRate = 15;  // Hz
 constexpr double kReadingsRate = 15;
-constexpr double kPicturesRate = 5;
+constexpr double kImagesRate = 5;
 // Sensors that take long, such as an image of a thousand robots, are read so rarely that they use a
 // tenth of the processors' time. Viewers must not slow down the simulation, nor the page that shows
 // it on the same machine.
@@ -34,7 +34,7 @@ struct SensorTopics::Sensor {
         type(its_type),
         messages(type->MessagesOf(description)),
         made(std::move(its_made)),
-        pacing(type->overlay == sensing::Overlay::kPicture ? kPicturesRate : kReadingsRate) {}
+        pacing(type->overlay == sensing::Overlay::kImage ? kImagesRate : kReadingsRate) {}
 
   const std::string robot;
   const model::SensorDescription description;

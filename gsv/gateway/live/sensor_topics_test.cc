@@ -194,9 +194,9 @@ TEST_F(LiveStreamTest, CompanionsOfImagesComeAtOnceAndWithEachImage) {
   EXPECT_EQ(info.header.frame_id, "robot_0/camera");
   EXPECT_EQ(readings, 0);  // no image is taken for that
   Subscribe(2, "/robot_0/camera");
-  const auto picture = Decoded<messages::sensor_msgs::CompressedImage>(RoundUntil(2, 1));
+  const auto image = Decoded<messages::sensor_msgs::CompressedImage>(RoundUntil(2, 1));
   const auto beside = Decoded<messages::sensor_msgs::CameraInfo>(RoundUntil(1, 2));
-  EXPECT_EQ(beside.header.stamp.nanosec, picture.header.stamp.nanosec);
+  EXPECT_EQ(beside.header.stamp.nanosec, image.header.stamp.nanosec);
   workers_.Stop();
 }
 

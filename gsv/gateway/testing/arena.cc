@@ -69,14 +69,14 @@ class GradientCamera final
       : SensorOf(description) {}
 
   base::Result<sensing::Reading> Sample(const sensing::Sampling& sampling) const override {
-    auto picture = std::make_shared<model::Image>();
-    picture->width = kWidth;
-    picture->height = kHeight;
-    picture->pixels.resize(3u * kWidth * kHeight);
+    auto image = std::make_shared<model::Image>();
+    image->width = kWidth;
+    image->height = kHeight;
+    image->pixels.resize(3u * kWidth * kHeight);
     const auto shade = static_cast<std::uint8_t>(sampling.snapshot()->state.step);
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
-        std::uint8_t* pixel = &picture->pixels[3u * (y * kWidth + x)];
+        std::uint8_t* pixel = &image->pixels[3u * (y * kWidth + x)];
         pixel[0] = static_cast<std::uint8_t>(x * 255 / (kWidth - 1));
         pixel[1] = static_cast<std::uint8_t>(y * 255 / (kHeight - 1));
         pixel[2] = shade;
@@ -84,7 +84,7 @@ class GradientCamera final
     }
     sensing::Reading reading = sampling.Stamped();
     Fill(Values{kWidth, kHeight}, reading);
-    reading.picture = std::move(picture);
+    reading.image = std::move(image);
     return reading;
   }
   std::optional<sensing::Frustum> frustum() const override {
@@ -106,7 +106,7 @@ class GradientCamera final
     unsigned char* jpeg = nullptr;
     unsigned long size = 0;
     const tjhandle compressor = tjInitCompress();
-    tjCompress2(compressor, reading.picture->pixels.data(), kWidth, 0, kHeight, TJPF_RGB, &jpeg,
+    tjCompress2(compressor, reading.image->pixels.data(), kWidth, 0, kHeight, TJPF_RGB, &jpeg,
                 &size, TJSAMP_420, 85, 0);
     message.data.assign(jpeg, jpeg + size);
     tjFree(jpeg);
@@ -164,7 +164,7 @@ model::WorldDescription ArenaDescription() {
 
 sensing::SensorType GradientCameraType() {
   auto type = sensing::MakeSensorType<GradientCamera>(readings::Camera::kType, {},
-                                                      sensing::Overlay::kPicture);
+                                                      sensing::Overlay::kImage);
   type.companion = {"camera_info", &messages::SchemaOf<messages::sensor_msgs::CameraInfo>()};
   return type;
 }

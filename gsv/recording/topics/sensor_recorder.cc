@@ -186,10 +186,10 @@ std::optional<ChannelId> SensorRecorder::AddChannel(const std::string& topic,
 base::Result<std::vector<std::uint8_t>> SensorRecorder::Encode(
     const Sensor& sensor, const sensing::Reading& reading) const {
   using messages::sensor_msgs::CompressedImage;
-  const bool is_picture = sensor.messages.schema == &messages::SchemaOf<CompressedImage>() &&
-                          reading.picture != nullptr && options_.write_png;
-  if (is_picture) {
-    if (auto png = options_.write_png(*reading.picture)) {
+  const bool is_image = sensor.messages.schema == &messages::SchemaOf<CompressedImage>() &&
+                        reading.image != nullptr && options_.write_png;
+  if (is_image) {
+    if (auto png = options_.write_png(*reading.image)) {
       CompressedImage message;
       message.header = sensing::HeaderOf(reading, sensor.frame());
       message.format = "png";

@@ -27,20 +27,20 @@ class Camera final : public CameraOf<readings::Camera, messages::sensor_msgs::Co
 
   Result<sensing::Reading> Sample(const sensing::Sampling& sampling) const override {
     if (!renderer()) return Fail(renderer().error());
-    auto picture = shutter_.Take(sampling.snapshot(), [&](const auto& snapshot) {
+    auto image = shutter_.Take(sampling.snapshot(), [&](const auto& snapshot) {
       const geometry::Pose world_from_link =
           world::LinkPose(*snapshot, sampling.body(), description().link);
       return optics().Draw(**renderer(), snapshot,
                            world_from_link * description().link_from_sensor);
     });
-    if (!picture) return Fail(picture.error());
+    if (!image) return Fail(image.error());
     sensing::Reading reading = sampling.Stamped();
-    Fill(Values{(*picture)->width, (*picture)->height}, reading);
-    reading.picture = std::move(*picture);
+    Fill(Values{(*image)->width, (*image)->height}, reading);
+    reading.image = std::move(*image);
     if (!exposure_.is_neutral()) {
-      auto exposed = std::make_shared<model::Image>(*reading.picture);
+      auto exposed = std::make_shared<model::Image>(*reading.image);
       exposure_.Apply(sampling, description(), *exposed);
-      reading.picture = std::move(exposed);
+      reading.image = std::move(exposed);
     }
     return reading;
   }
@@ -51,8 +51,8 @@ class Camera final : public CameraOf<readings::Camera, messages::sensor_msgs::Co
                     const std::string&) const override {
     Message message;
     message.format = "jpeg";
-    if (reading.picture == nullptr) return message;
-    if (auto jpeg = EncodeJpeg(*reading.picture, kJpegQuality)) message.data = std::move(*jpeg);
+    if (reading.image == nullptr) return message;
+    if (auto jpeg = EncodeJpeg(*reading.image, kJpegQuality)) message.data = std::move(*jpeg);
     return message;
   }
 
@@ -66,13 +66,13 @@ base::Status AddCameraSensor(sensing::SensorRegistry& registry,
                              Result<std::shared_ptr<Renderer>> renderer) {
   const auto shared = std::make_shared<sensing::SharedReadings>(kSharedBytes);
   auto added =
-      registry.Add(MakeCameraType<Camera>(readings::Camera::kType, {}, sensing::Overlay::kPicture,
+      registry.Add(MakeCameraType<Camera>(readings::Camera::kType, {}, sensing::Overlay::kImage,
                                           shared, renderer, std::string("gnomonical")));
   if (!added) return added;
   // The default lens of a wide-angle camera is that of SDFormat.
   return registry.Add(MakeCameraType<Camera>(
       readings::Camera::kWideAngleType, {"wideanglecamera", "wide_angle_camera"},
-      sensing::Overlay::kPicture, shared, renderer, std::string("stereographic")));
+      sensing::Overlay::kImage, shared, renderer, std::string("stereographic")));
 }
 
 }  // namespace gsv::rendering

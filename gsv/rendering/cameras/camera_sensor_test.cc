@@ -46,23 +46,23 @@ TEST(Camera, TakesAPictureFromWhereItIsMounted) {
       sensing::Sampling(snapshot, snapshot->layout->Find("robot"), 1, fixture.rays));
   ASSERT_TRUE(reading) << reading.error().Sentence();
   EXPECT_EQ(reading->values, (sensing::Reading::Values{64, 48}));
-  ASSERT_NE(reading->picture, nullptr);
-  const Blob target = FindBlob(*reading->picture, 0);
+  ASSERT_NE(reading->image, nullptr);
+  const Blob target = FindBlob(*reading->image, 0);
   EXPECT_GT(target.pixels, 10);
   EXPECT_NEAR(target.u, 32, 0.5);
   EXPECT_NEAR(target.v, 24, 0.5);
-  EXPECT_EQ(FindBlob(*reading->picture, 2).pixels, 0);
+  EXPECT_EQ(FindBlob(*reading->image, 2).pixels, 0);
 }
 
 TEST(Camera, BecomesAJpegMessage) {
   Fixture fixture(nullptr);
-  auto picture = std::make_shared<model::Image>();
-  picture->width = 32, picture->height = 16;
-  for (int i = 0; i < 32 * 16; ++i) picture->pixels.insert(picture->pixels.end(), {200, 100, 50});
+  auto image = std::make_shared<model::Image>();
+  image->width = 32, image->height = 16;
+  for (int i = 0; i < 32 * 16; ++i) image->pixels.insert(image->pixels.end(), {200, 100, 50});
   sensing::Reading reading;
   reading.time = std::chrono::milliseconds(1500);
   reading.values = {32, 16};
-  reading.picture = picture;
+  reading.image = image;
   const auto bytes = (*fixture.type().create(Front()))->Encode(reading, "robot/front");
   ASSERT_TRUE(bytes);
   const auto message =
@@ -125,7 +125,7 @@ TEST(Camera, WithANullRendererFailsAsWell) {
 
 TEST(Camera, IsShownAsAPicture) {
   Fixture fixture(nullptr);
-  EXPECT_EQ(fixture.type().overlay, sensing::Overlay::kPicture);
+  EXPECT_EQ(fixture.type().overlay, sensing::Overlay::kImage);
 }
 
 }  // namespace

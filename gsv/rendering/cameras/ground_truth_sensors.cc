@@ -115,8 +115,8 @@ class DepthCamera final
 messages::sensor_msgs::CompressedImage PngOf(const Reading& reading) {
   messages::sensor_msgs::CompressedImage message;
   message.format = "png";
-  if (reading.picture == nullptr) return message;
-  if (auto png = EncodePng(*reading.picture)) message.data = std::move(*png);
+  if (reading.image == nullptr) return message;
+  if (auto png = EncodePng(*reading.image)) message.data = std::move(*png);
   return message;
 }
 
@@ -130,9 +130,9 @@ class SegmentationCamera final
 
  private:
   Reading Read(const sensing::Sampling& sampling, const GroundTruth& truth) const override {
-    auto picture = std::make_shared<model::Image>();
-    picture->width = truth.width, picture->height = truth.height;
-    picture->pixels.reserve(3 * truth.body.size());
+    auto image = std::make_shared<model::Image>();
+    image->width = truth.width, image->height = truth.height;
+    image->pixels.reserve(3 * truth.body.size());
     std::vector<double> pixels;
     pixels.reserve(truth.body.size());
     for (const std::int32_t body : truth.body) {
@@ -140,14 +140,14 @@ class SegmentationCamera final
       const std::uint32_t colour = ColourOf(label);
       pixels.push_back(label);
       for (const int shift : {16, 8, 0}) {
-        picture->pixels.push_back(static_cast<std::uint8_t>(colour >> shift));
+        image->pixels.push_back(static_cast<std::uint8_t>(colour >> shift));
       }
     }
     std::vector<std::string> names;
     for (const world::Body& body : sampling.snapshot()->layout->bodies) names.push_back(body.name);
     Reading reading = sampling.Stamped();
     Fill(Values{truth.width, truth.height, pixels, names}, reading);
-    reading.picture = std::move(picture);
+    reading.image = std::move(image);
     return reading;
   }
 
@@ -375,7 +375,7 @@ class NormalsCamera final
       }
     }
     Reading reading = sampling.Stamped();
-    reading.picture = ImageOf(truth, components);
+    reading.image = ImageOf(truth, components);
     Fill(Values{truth.width, truth.height, components}, reading);
     return reading;
   }
@@ -407,12 +407,12 @@ base::Status AddGroundTruthSensors(sensing::SensorRegistry& registry,
       MakeCameraType<DepthCamera>(readings::DepthImage::kType, {"depth", "rgbd_camera", "rgbd"},
                                   Overlay::kPoints, shared, renderer),
       MakeCameraType<SegmentationCamera>(readings::SegmentedImage::kType, {"segmentation"},
-                                         Overlay::kPicture, shared, renderer),
+                                         Overlay::kImage, shared, renderer),
       MakeCameraType<BoundingBoxCamera>(readings::BoundingBoxes::kType, {"boundingbox"},
                                         Overlay::kLines, shared, renderer),
-      MakeCameraType<ThermalCamera>(readings::ThermalImage::kType, {"thermal"}, Overlay::kPicture,
+      MakeCameraType<ThermalCamera>(readings::ThermalImage::kType, {"thermal"}, Overlay::kImage,
                                     shared, renderer),
-      MakeCameraType<NormalsCamera>(readings::NormalImage::kType, {"normals"}, Overlay::kPicture,
+      MakeCameraType<NormalsCamera>(readings::NormalImage::kType, {"normals"}, Overlay::kImage,
                                     shared, renderer)};
   for (sensing::SensorType& type : types) {
     if (auto ok = registry.Add(std::move(type)); !ok) return ok;

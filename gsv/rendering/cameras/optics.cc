@@ -131,9 +131,9 @@ base::Result<std::shared_ptr<const model::Image>> Optics::Draw(
     Renderer& renderer, const std::shared_ptr<const world::Snapshot>& snapshot,
     const geometry::Pose& world_from_camera) const {
   if (lens_.is_plain()) return renderer.Draw(snapshot, {world_from_camera, camera_});
-  const auto pictures = renderer.Draw(snapshot, Map().Views(world_from_camera));
-  if (!pictures) return base::Fail(pictures.error());
-  return std::make_shared<const model::Image>(Map().Join(*pictures));
+  const auto images = renderer.Draw(snapshot, Map().Views(world_from_camera));
+  if (!images) return base::Fail(images.error());
+  return std::make_shared<const model::Image>(Map().Join(*images));
 }
 
 base::Result<std::shared_ptr<const GroundTruth>> Optics::DrawGroundTruth(

@@ -52,13 +52,13 @@ std::pair<int, int> Shutter::SamplesOf(int row, int height) const {
 
 base::Result<Shutter::ImagePtr> Shutter::Take(const SnapshotPtr& snapshot, const Draw& draw) const {
   if (exposure_time_ == 0 && readout_time_ == 0) return draw(snapshot);
-  std::vector<ImagePtr> pictures;
+  std::vector<ImagePtr> images;
   for (int sample = 0; sample < samples_; ++sample) {
-    auto picture = draw(Earlier(*snapshot, Age(sample)));
-    if (!picture) return picture;
-    pictures.push_back(*std::move(picture));
+    auto image = draw(Earlier(*snapshot, Age(sample)));
+    if (!image) return image;
+    images.push_back(*std::move(image));
   }
-  auto taken = std::make_shared<model::Image>(*pictures.back());
+  auto taken = std::make_shared<model::Image>(*images.back());
   const std::size_t row_size = taken->pixels.size() / static_cast<std::size_t>(taken->height);
   for (int row = 0; row < taken->height; ++row) {
     const auto [first, last] = SamplesOf(row, taken->height);
@@ -66,7 +66,7 @@ base::Result<Shutter::ImagePtr> Shutter::Take(const SnapshotPtr& snapshot, const
     for (std::size_t i = begin; i < begin + row_size; ++i) {
       float light = 0;
       for (int sample = first; sample <= last; ++sample) {
-        light += LightOf(pictures[static_cast<std::size_t>(sample)]->pixels[i]);
+        light += LightOf(images[static_cast<std::size_t>(sample)]->pixels[i]);
       }
       taken->pixels[i] = NumberFor(light / static_cast<float>(last - first + 1));
     }

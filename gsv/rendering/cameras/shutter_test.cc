@@ -54,7 +54,7 @@ class ShutterTest : public testing::Test {
     const auto reading =
         (*sensor)->Sample(sensing::Sampling(snapshot, snapshot->layout->Find("robot"), 1, rays_));
     EXPECT_TRUE(reading) << reading.error().Sentence();
-    return reading ? *reading->picture : model::Image();
+    return reading ? *reading->image : model::Image();
   }
 
   base::Result<std::shared_ptr<Renderer>> renderer_ = Renderer::Start();
@@ -71,11 +71,10 @@ struct RedColumns {
   double middle() const { return 0.5 * (first + last + 1); }
   int width() const { return first < 0 ? 0 : last - first + 1; }
 };
-RedColumns RedIn(const model::Image& picture, int row) {
+RedColumns RedIn(const model::Image& image, int row) {
   RedColumns red;
-  for (int x = 0; x < picture.width; ++x) {
-    const std::uint8_t* p =
-        &picture.pixels[3 * (static_cast<std::size_t>(row) * picture.width + x)];
+  for (int x = 0; x < image.width; ++x) {
+    const std::uint8_t* p = &image.pixels[3 * (static_cast<std::size_t>(row) * image.width + x)];
     if (p[0] < p[1] + 20) continue;
     if (red.first < 0) red.first = x;
     red.last = x;
@@ -106,8 +105,8 @@ TEST_F(ShutterTest, LightIsSharedOutOverTheWay) {
   AddThing(geometry::Box{{0.01, 0.2, 0.2}}, {0, 2, 0});
   const model::Image blurred = Taken({{"exposure_time", 0.4}, {"shutter_samples", 64.0}});
   const model::Image still = Taken({});
-  const auto light_at = [](const model::Image& picture, int column) {
-    return LightOf(picture.pixels[3 * (static_cast<std::size_t>(kHeight / 2) * kWidth + column)]);
+  const auto light_at = [](const model::Image& image, int column) {
+    return LightOf(image.pixels[3 * (static_cast<std::size_t>(kHeight / 2) * kWidth + column)]);
   };
   // 0.2 m of 0.8 m: a quarter of the object's light, else the background's.
   const int column = kWidth / 2 + static_cast<int>(Focal() * 0.4 / kDistance);
@@ -130,11 +129,11 @@ TEST_F(ShutterTest, ATurningCameraBlursWhatStands) {
 
 TEST_F(ShutterTest, ARollingShutterLeansWhatMoves) {
   AddThing(geometry::Box{{0.01, 0.05, 6}}, {0, 4, 0});
-  const model::Image picture = Taken({{"readout_time", 0.05}, {"shutter_samples", 32.0}});
+  const model::Image image = Taken({{"readout_time", 0.05}, {"shutter_samples", 32.0}});
   for (int row = 5; row < kHeight; row += 23) {
     const double age = 0.05 * (1 - (row + 0.5) / kHeight);
     const double expected = kWidth / 2.0 + Focal() * 4 * age / kDistance;
-    EXPECT_WITHIN(RedIn(picture, row).middle(), expected, 1, "pixel") << row;
+    EXPECT_WITHIN(RedIn(image, row).middle(), expected, 1, "pixel") << row;
   }
 }
 

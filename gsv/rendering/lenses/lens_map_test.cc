@@ -104,16 +104,16 @@ Vector2 MiddleOfBall(const Lens& lens, const Vector3& centre, double radius) {
 // The centre of the image of a glowing red object. Each pixel is weighted by the fraction that the
 // object covers, from the light of the object and that of the image without it (haze is brighter
 // towards the horizon).
-Blob Covered(const model::Image& picture, const model::Image& without) {
-  const float full = LightOf(*std::max_element(picture.pixels.begin(), picture.pixels.end()));
+Blob Covered(const model::Image& image, const model::Image& without) {
+  const float full = LightOf(*std::max_element(image.pixels.begin(), image.pixels.end()));
   Blob blob;
   double whole = 0;
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width; ++x) {
-      const std::size_t red = 3 * (static_cast<std::size_t>(y) * picture.width + x);
-      if (picture.pixels[red] <= without.pixels[red]) continue;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const std::size_t red = 3 * (static_cast<std::size_t>(y) * image.width + x);
+      if (image.pixels[red] <= without.pixels[red]) continue;
       const float behind = LightOf(without.pixels[red]);
-      const double part = (LightOf(picture.pixels[red]) - behind) / (full - behind);
+      const double part = (LightOf(image.pixels[red]) - behind) / (full - behind);
       ++blob.pixels;
       whole += part;
       blob.u += part * (x + 0.5), blob.v += part * (y + 0.5);
@@ -151,10 +151,10 @@ TEST_P(LensPicture, ShowsThingsWhereTheEquationsSay) {
         TestScene scene;
         scene.description().scene.background = {0, 0, 0, 1};
         scene.Add("ball", geometry::Sphere{radius}, {centre, {}}, Glowing(1, 0, 0));
-        const auto picture = optics.Draw(**renderer_, scene.Snapshot(), {});
-        ASSERT_TRUE(picture) << picture.error().Sentence();
-        ASSERT_EQ((*picture)->width, 640);
-        const Blob ball = Covered(**picture, **empty);
+        const auto image = optics.Draw(**renderer_, scene.Snapshot(), {});
+        ASSERT_TRUE(image) << image.error().Sentence();
+        ASSERT_EQ((*image)->width, 640);
+        const Blob ball = Covered(**image, **empty);
         EXPECT_GT(ball.pixels, 50);
         const Vector2 expected = MiddleOfBall(optics.lens(), centre, radius);
         error = error + (1.0 / std::size(kSizes)) * (Vector2{ball.u, ball.v} - expected);

@@ -13,7 +13,7 @@
 namespace gsv::rendering {
 namespace {
 
-using Pictures = std::vector<std::shared_ptr<const model::Image>>;
+using Images = std::vector<std::shared_ptr<const model::Image>>;
 
 base::Status CheckCard() {
   const unsigned error = glGetError();
@@ -55,8 +55,8 @@ RenderTarget& GlBatchRenderer::TargetFor(const CameraParameters& camera) {
   return targets_.front();
 }
 
-base::Result<Pictures> GlBatchRenderer::Draw(const world::Snapshot& snapshot,
-                                             const std::vector<CameraView>& views) {
+base::Result<Images> GlBatchRenderer::Draw(const world::Snapshot& snapshot,
+                                           const std::vector<CameraView>& views) {
   PlannedLayout& planned = RenderListFor(snapshot.layout);
   const RenderList& render_list = *planned.render_list;
   const Lighting& lighting = *planned.lighting;
@@ -76,7 +76,7 @@ base::Result<Pictures> GlBatchRenderer::Draw(const world::Snapshot& snapshot,
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return size(a) < size(b); });
 
-  Pictures pictures(views.size());
+  Images images(views.size());
   for (std::size_t done = 0; done < order.size();) {
     RenderTarget& target = TargetFor(views[order[done]].parameters);
     std::size_t end = done;
@@ -88,10 +88,10 @@ base::Result<Pictures> GlBatchRenderer::Draw(const world::Snapshot& snapshot,
       target.Begin();
       view_pass_.Draw(view, render_list, block, shadows ? &shadow_map_ : nullptr, instances_);
     }
-    for (auto& picture : target.Read()) pictures[order[done++]] = std::move(picture);
+    for (auto& image : target.Read()) images[order[done++]] = std::move(image);
   }
   if (base::Status status = CheckCard(); !status) return base::Fail(status.error());
-  return pictures;
+  return images;
 }
 
 base::Result<std::vector<std::shared_ptr<const GroundTruth>>> GlBatchRenderer::DrawGroundTruth(

@@ -41,17 +41,17 @@ void RenderTarget::Begin() {
 }
 
 std::vector<std::shared_ptr<const model::Image>> RenderTarget::Read() {
-  std::vector<std::shared_ptr<const model::Image>> pictures;
+  std::vector<std::shared_ptr<const model::Image>> images;
   rgba_.resize(static_cast<std::size_t>(width_) * height_ * 4);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   for (std::size_t i = 0; i < begun_; ++i) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, layers_[i].frame.name());
     glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba_.data());
-    pictures.push_back(
+    images.push_back(
         std::make_shared<const model::Image>(SmoothAliasedEdges(width_, height_, rgba_.data())));
   }
   begun_ = 0;
-  return pictures;
+  return images;
 }
 
 }  // namespace gsv::rendering

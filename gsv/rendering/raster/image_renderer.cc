@@ -256,9 +256,9 @@ void ImageRenderer::Light(const LightModel& light, const Lamps& lamps, int x, in
   const std::size_t at = At(x, y);
   const I8 ids = LoadInt(&nearest_[at]);
   const F8x3 ray = RayAt(x, y);
-  const int in_picture = x + 8 <= width_ ? 0xff : (1 << (width_ - x)) - 1;
-  int left = Bits(ids != 0) & in_picture;
-  const bool sky = left != in_picture;
+  const int in_image = x + 8 <= width_ ? 0xff : (1 << (width_ - x)) - 1;
+  int left = Bits(ids != 0) & in_image;
+  const bool sky = left != in_image;
   F8x3 colour = Splat(0, 0, 0);
   Surfaces surfaces;
   surfaces.number = SplatInt(0);
@@ -286,7 +286,7 @@ void ImageRenderer::Light(const LightModel& light, const Lamps& lamps, int x, in
   const I8 rgba = Encoded(colour, SelectInt(ids == 0, SplatInt(0), surfaces.number));
   // The last pixels of a row must not change the next row.
   std::uint32_t* to = &rgba_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
-  if (in_picture == 0xff) {
+  if (in_image == 0xff) {
     StoreInt(to, rgba);
   } else {
     const I8 inside = IntSteps() < SplatInt(width_ - x);
@@ -304,8 +304,8 @@ void ImageRenderer::Blend(const CameraView& view, const RenderList& render_list,
         drawn, 0, drawn.group->double_sided, [&](const Triangle& t, const Box& box, bool) {
           const TriangleSurface surface = SurfaceOf(drawn, t);
           Scan(t, box, [&](int x, int y, I8 covered, F8 inverse_w) {
-            const I8 in_picture = IntSteps() < SplatInt(width_ - x);
-            const I8 visible = covered & in_picture & (inverse_w <= near) &
+            const I8 in_image = IntSteps() < SplatInt(width_ - x);
+            const I8 visible = covered & in_image & (inverse_w <= near) &
                                (inverse_w > Load(&inverse_w_[At(x, y)]));
             if (Bits(visible) == 0) return;
             const F8x3 ray = RayAt(x, y);

@@ -28,19 +28,19 @@ base::Result<std::vector<std::shared_ptr<const model::Image>>> RasterBatchRender
   planned.lighting->TakeLamps(snapshot);
   const bool shadows = lighting.sun_casts_shadows();
   if (shadows) shadow_.Draw(render_list, planned.id, lighting.to_sun(), views);
-  std::vector<std::shared_ptr<const model::Image>> pictures(views.size());
+  std::vector<std::shared_ptr<const model::Image>> images(views.size());
   team_.ParallelFor(views.size(), 1, [&](std::size_t begin, std::size_t end) {
     std::unique_ptr<ImageRenderer> renderer = TakeRenderer();
     for (std::size_t i = begin; i < end; ++i) {
       FrameBlock block = lighting.BlockFor(views[i]);
       const bool shaded = shadows && !shadow_.region().IsEmpty();
       if (shaded) shadow_.region().Describe(views[i].world_from_camera.position, block);
-      pictures[i] = std::make_shared<const model::Image>(
+      images[i] = std::make_shared<const model::Image>(
           renderer->Draw(views[i], render_list, block, shaded ? &shadow_ : nullptr));
     }
     GiveBack(std::move(renderer));
   });
-  return pictures;
+  return images;
 }
 
 base::Result<std::vector<std::shared_ptr<const GroundTruth>>> RasterBatchRenderer::DrawGroundTruth(

@@ -51,10 +51,10 @@ TEST(Rasteriser, LeavesNoGapsBetweenTriangles) {
     const CameraView view{{{0.3 * std::cos(i), 0.2 * std::sin(i), 0.1},
                            geometry::FromRollPitchYaw({0.2 * i, 0.3 * i, 0.7 * i})},
                           {320, 240, 1.5, 0.01, 100}};
-    const auto picture = renderer->Draw(scene.Snapshot(), view, kDrawTimeout);
-    ASSERT_TRUE(picture);
-    for (std::size_t p = 0; p < (*picture)->pixels.size(); p += 3) {
-      ASSERT_LT((*picture)->pixels[p], 128) << "view " << i << ", pixel " << p / 3;
+    const auto image = renderer->Draw(scene.Snapshot(), view, kDrawTimeout);
+    ASSERT_TRUE(image);
+    for (std::size_t p = 0; p < (*image)->pixels.size(); p += 3) {
+      ASSERT_LT((*image)->pixels[p], 128) << "view " << i << ", pixel " << p / 3;
     }
   }
 }
@@ -64,15 +64,15 @@ TEST(Rasteriser, DrawsWhatReachesBehindTheCamera) {
   TestScene scene;
   scene.Add("wall", geometry::Box{{400, 0.1, 2}}, {{0, -1, 0}, {}}, Glowing(0, 1, 0));
   const auto renderer = StartRenderer(BackEnd::kRasteriser);
-  const auto picture = renderer->Draw(
+  const auto image = renderer->Draw(
       scene.Snapshot(), CameraView{{}, {200, 100, std::numbers::pi / 2, 0.1, 150}}, kDrawTimeout);
-  ASSERT_TRUE(picture);
+  ASSERT_TRUE(image);
   // f is 100: the wall 0.95 m to the right ends at 150 m, 0.6 pixels right of the middle; at pixel
   // u its upper and lower edges are (u - 100) / 0.95 from the middle row.
   for (int u = 105; u < 200; ++u) {
     const double half = (u + 0.5 - 100) / 0.95;
     int green = 0;
-    for (int v = 0; v < 100; ++v) green += (*picture)->pixels[3 * (v * 200 + u) + 1] > 200;
+    for (int v = 0; v < 100; ++v) green += (*image)->pixels[3 * (v * 200 + u) + 1] > 200;
     EXPECT_NEAR(green, std::min(100.0, 2 * half), 2.1) << u;
   }
 }

@@ -32,12 +32,12 @@ int StepAt(const Surfaces& s, int line, int last, int next) {
 class Smoother {
  public:
   Smoother(int width, int height, const std::uint8_t* rgba) : rgba_(rgba) {
-    picture_.width = width, picture_.height = height, picture_.channels = 3;
+    image_.width = width, image_.height = height, image_.channels = 3;
     const std::size_t pixels = static_cast<std::size_t>(width) * height;
-    picture_.pixels.resize(pixels * 3);
+    image_.pixels.resize(pixels * 3);
     along_rows_.resize(pixels);
     for (std::size_t p = 0; p < pixels; ++p) {
-      std::uint8_t* to = &picture_.pixels[3 * p];
+      std::uint8_t* to = &image_.pixels[3 * p];
       to[0] = rgba[4 * p], to[1] = rgba[4 * p + 1], to[2] = rgba[4 * p + 2];
       along_rows_[p] = rgba[4 * p + 3];
     }
@@ -51,10 +51,10 @@ class Smoother {
   }
 
   model::Image Smooth() {
-    const int width = picture_.width, height = picture_.height;
+    const int width = image_.width, height = image_.height;
     FindEdges({along_rows_.data(), width, height}, width, 1);
     FindEdges({along_columns_.data(), height, width}, 1, width);
-    return std::move(picture_);
+    return std::move(image_);
   }
 
  private:
@@ -109,7 +109,7 @@ class Smoother {
         static_cast<std::size_t>(line) * line_stride_ + static_cast<std::size_t>(i) * stride_;
     const std::size_t after = before + line_stride_;
     const std::size_t target = step > 0 ? before : after, source = step > 0 ? after : before;
-    std::uint8_t* to = &picture_.pixels[3 * target];
+    std::uint8_t* to = &image_.pixels[3 * target];
     for (int c = 0; c < 3; ++c) {
       const float old = to[c];
       to[c] = static_cast<std::uint8_t>(old + share * (rgba_[4 * source + c] - old) + 0.5f);
@@ -117,7 +117,7 @@ class Smoother {
   }
 
   const std::uint8_t* rgba_;
-  model::Image picture_;
+  model::Image image_;
   std::vector<std::uint8_t> along_rows_, along_columns_;
   int line_stride_ = 0, stride_ = 0;
 };

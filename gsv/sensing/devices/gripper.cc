@@ -14,8 +14,8 @@ GripperSetup ReadGripper(ParameterReader& reader) {
   gripper.reach = reader.Number("reach", gripper.reach, 1e-3, 10);
   gripper.height = reader.Number("height", gripper.height, 1e-3, 10);
   gripper.closing_time = reader.Number("closing_time", gripper.closing_time, 1e-3, 1000);
-  gripper.left_jaw = reader.Text("left_jaw", "");
-  gripper.right_jaw = reader.Text("right_jaw", "");
+  gripper.left_finger = reader.Text("left_jaw", "");
+  gripper.right_finger = reader.Text("right_jaw", "");
   return gripper;
 }
 

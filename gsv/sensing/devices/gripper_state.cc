@@ -133,7 +133,7 @@ void GripperState::AfterMove(const world::Layout& layout, base::SimTime time,
 void GripperState::MoveFingers(const world::Body& robot, base::SimTime time,
                                world::State& state) const {
   if (robot.is_rigid()) return;
-  for (const std::string* jaw : {&setup_->left_jaw, &setup_->right_jaw}) {
+  for (const std::string* jaw : {&setup_->left_finger, &setup_->right_finger}) {
     const int joint = jaw->empty() ? -1 : model::FindJoint(robot.model->joints, *jaw);
     if (joint < 0) continue;
     state.joint_positions[static_cast<std::size_t>(robot.first_joint + joint)] =

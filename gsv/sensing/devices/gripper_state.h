@@ -17,10 +17,10 @@ namespace gsv::sensing {
 
 // A gripper's fingers lie along its x axis and close along y.
 struct GripperSetup {
-  double opening = 0.1;                // m, between the open fingers
-  double reach = 0.08, height = 0.03;  // m, of the fingers
-  double closing_time = 0.5;           // s
-  std::string left_jaw, right_jaw;     // joints that show the fingers; empty: none
+  double opening = 0.1;                   // m, between the open fingers
+  double reach = 0.08, height = 0.03;     // m, of the fingers
+  double closing_time = 0.5;              // s
+  std::string left_finger, right_finger;  // joints that show the fingers; empty: none
 };
 using GripperSetupPtr = std::shared_ptr<const GripperSetup>;
 

@@ -1,8 +1,8 @@
-// What a radio has heard since it was switched on.
+// The messages that a radio has received since it was switched on.
 //
-// Determinism  what is heard, and in which order, depends on who sent what since the last step and
-//              where the robots stand, and not on the order in which behaviours ran. What fades
-//              or is lost is keyed by (seed, robot, radio, message, step).
+// Determinism  The received messages and their order depend on the messages sent since the last step
+//              and on the poses of the robots, not on the order in which behaviours ran. The random
+//              numbers of fading and loss are keyed by (seed, robot, radio, message, step).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Which of many discs may touch: a uniform grid, built anew for each question.
+// Broad phase of discs: finds the pairs that may touch, with a uniform grid that each call rebuilds.
 //
 // Determinism  the pairs and their order depend on the discs alone.
 #pragma once
@@ -11,7 +11,7 @@
 
 namespace gsv::dynamics {
 
-class PairFinder {
+class BroadPhase {
  public:
   struct Pair {
     std::uint32_t first, second;  // first < second

@@ -1,13 +1,13 @@
-// Which movers may run into each other, and when they do.
+// Finds the movers that may collide with each other, and when they do.
 //
-// Method       Candidates, the pairs that come close within some steps, are searched for only when
-//              a mover has left the room that it was given for that (a Verlet list). Find() picks
-//              from them those that may meet now. Stop() looks at all of these at once: whoever's
-//              own motion closes a gap is stopped where the pair meets; with the shortened motions
-//              the pairs concerned are looked at again, until nothing changes. So the outcome does
-//              not depend on the order of movers, and every state in between is free of overlaps:
-//              after kRounds rounds those still in conflict stay where they started, which was
-//              free. Nor does it depend on when candidates were searched for: Find() judges.
+// Method       Candidates are pairs that come close within some steps. They are searched for only
+//              when a mover has left its room (a Verlet list). Find() selects the candidates that
+//              may meet now. Stop() handles all of these at once. A mover whose own motion closes a
+//              gap is stopped where the pair meets. The affected pairs are then checked again with
+//              the shortened motions, until nothing changes. So the result does not depend on the
+//              order of movers, and no intermediate state has overlaps: after kIterations
+//              iterations, movers still in conflict stay at their starts, which were free. The
+//              result does not depend on when candidates were searched for, because Find() decides.
 // Units        metres, seconds, world frame. Spans are as long as PlanarScene::movers().
 #pragma once
 
@@ -17,18 +17,18 @@
 #include <vector>
 
 #include "gsv/base/thread_team.h"
-#include "gsv/dynamics/planar/pair_finder.h"
+#include "gsv/dynamics/planar/broad_phase.h"
 #include "gsv/dynamics/planar/planar_scene.h"
 #include "gsv/dynamics/shapes/contact_collector.h"
 #include "gsv/dynamics/shapes/time_of_impact.h"
 
 namespace gsv::dynamics {
 
-class NearPairs {
+class MoverCollisions {
  public:
-  NearPairs(const PlanarScene& scene, base::ThreadTeam& team) : scene_(scene), team_(team) {}
+  MoverCollisions(const PlanarScene& scene, base::ThreadTeam& team) : scene_(scene), team_(team) {}
 
-  // Forgets all; to be called when the scene has been sliced anew.
+  // Drops all pairs. Must be called when the scene has been sliced again.
   void Reset();
 
   // Whether the candidates hold for the mover: no part of it leaves its room if it moves no further
@@ -45,31 +45,32 @@ class NearPairs {
   // Lists the pairs that may meet while no part of mover m moves further than travels[m]. All
   // movers have room.
   void Find(std::span<const geometry::PlanarPosition> starts, std::span<const double> travels);
-  // Lists those of one mover with `others`, in ascending order, as they stand. Nobody needs room.
+  // Lists the pairs of one mover with `others`, in ascending order, at their positions. No mover
+  // needs room.
   void FindOf(std::uint32_t mover, std::span<const std::uint32_t> others,
               std::span<const geometry::PlanarPosition> starts);
 
-  // Stops movers, which start at starts[m] and move for times[m], where they meet: times[m] becomes
-  // when, normals[m] the direction of who is in the way.
+  // Stops movers, which start at starts[m] and move for times[m], where they meet. Sets times[m] to
+  // the time of the meeting, and normals[m] to the direction of the obstacle.
   void Stop(std::span<const geometry::PlanarPosition> starts,
             std::span<const geometry::Twist> twists, std::span<double> times,
             std::span<Vector2> normals);
 
-  // Appends to `touching` who touched whom when found.
+  // Appends to `touching` the pairs that touched when they were found.
   void AddTouching(std::vector<BodyPair>& touching) const;
   // Offers the contacts of movers at `positions`.
   void Collect(std::span<const geometry::PlanarPosition> positions,
                ContactCollector& contacts) const;
 
  private:
-  static constexpr int kRounds = 8;
+  static constexpr int kIterations = 8;
 
   struct PiecePair {
     std::uint32_t first, second;  // pieces of the two footprints
     geometry::PlanarPosition first_found_at, second_found_at;
     Separation separation;  // there
   };
-  struct NearPair {
+  struct MoverPair {
     std::uint32_t first, second;           // movers
     std::uint32_t begin_piece, end_piece;  // its run in near_pieces_
   };
@@ -77,10 +78,10 @@ class NearPairs {
     Vector2 centre;
     double radius = -1;
   };
-  // Of a mover, while it is looked for.
+  // The result for a mover, during the search.
   struct Outcome {
-    double time;           // how far it gets
-    int since, new_since;  // the round that found this, as seen by this round and by the next
+    double time;           // until the mover stops
+    int since, new_since;  // iteration that found this, for this iteration and for the next
   };
   struct Motions {
     std::span<const geometry::PlanarPosition> starts;
@@ -91,28 +92,28 @@ class NearPairs {
   void Clear();
   void AddIfNear(std::uint32_t first, std::uint32_t second,
                  std::span<const geometry::PlanarPosition> starts, double within);
-  Separation SeparationAt(const NearPair& pair, const PiecePair& pieces,
+  Separation SeparationAt(const MoverPair& pair, const PiecePair& pieces,
                           const geometry::PlanarPosition& first_at,
                           const geometry::PlanarPosition& second_at) const;
   void FindImpacts(const Motions& motions, int round);
-  std::optional<Impact> PairImpact(const Motions& motions, const NearPair& pair) const;
-  std::optional<Impact> FirstImpact(const NearPair& pair, MovingPiece a, MovingPiece b,
+  std::optional<Impact> PairImpact(const Motions& motions, const MoverPair& pair) const;
+  std::optional<Impact> FirstImpact(const MoverPair& pair, MovingPiece a, MovingPiece b,
                                     double end) const;
 
   const PlanarScene& scene_;
   base::ThreadTeam& team_;
   std::vector<Room> rooms_;
-  PairFinder finder_;
+  BroadPhase finder_;
   std::vector<Vector2> centres_;
   std::vector<double> radii_;
-  std::vector<PairFinder::Pair> candidates_;
+  std::vector<BroadPhase::Pair> candidates_;
 
-  std::vector<NearPair> pairs_;
+  std::vector<MoverPair> pairs_;
   std::vector<PiecePair> pieces_;
   std::vector<BodyPair> touching_;
 
   std::vector<Outcome> outcomes_;               // of the movers in pairs_
-  std::vector<std::optional<Impact>> impacts_;  // of pairs_, in this round
+  std::vector<std::optional<Impact>> impacts_;  // of pairs_, in this iteration
 };
 
 }  // namespace gsv::dynamics

@@ -1,4 +1,4 @@
-#include "apps/gsv/running/picture.h"
+#include "apps/gsv/running/image_file.h"
 
 #include <fstream>
 
@@ -13,14 +13,14 @@ bool EndsAsPng(const std::string& path) { return path.ends_with(".png"); }
 
 }  // namespace
 
-std::string CheckPictureName(const std::string& path) {
+std::string CheckImageName(const std::string& path) {
   if (EndsAsPng(path) || path.ends_with(".jpg") || path.ends_with(".jpeg")) return {};
   return "the name of an image must end with .jpg, .jpeg or .png, but " + path + " does not";
 }
 
-base::Status WritePicture(const model::Image& picture, const std::string& path) {
+base::Status WriteImage(const model::Image& image, const std::string& path) {
   const auto bytes =
-      EndsAsPng(path) ? rendering::EncodePng(picture) : rendering::EncodeJpeg(picture, 88);
+      EndsAsPng(path) ? rendering::EncodePng(image) : rendering::EncodeJpeg(image, 88);
   if (!bytes) return base::Fail(bytes.error());
   std::ofstream file(path, std::ios::binary);
   file.write(reinterpret_cast<const char*>(bytes->data()),
@@ -47,10 +47,10 @@ base::Status DrawAround(const std::shared_ptr<const world::Snapshot>& snapshot,
   camera.far = 200;
   auto renderer = rendering::Renderer::Start();
   if (!renderer) return base::Fail(renderer.error());
-  const auto picture = (*renderer)->Draw(
+  const auto image = (*renderer)->Draw(
       snapshot, {{pose.position + turn * geometry::Vector3{-kBack, 0, 0}, turn}, camera},
       std::chrono::minutes(1));
-  return picture ? WritePicture(**picture, path) : base::Fail(picture.error());
+  return image ? WriteImage(**image, path) : base::Fail(image.error());
 }
 
 }  // namespace gsv::app

@@ -1,4 +1,4 @@
-#include "gsv/dynamics/planar/pair_finder.h"
+#include "gsv/dynamics/planar/broad_phase.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ using geometry::Vector2;
 
 // Cells are as wide as the widest disc, or wider where that would make many more cells than discs;
 // so whoever overlaps lies in the same cell or in one next to it.
-void PairFinder::Sort(std::span<const Vector2> centres, std::span<const double> radii) {
+void BroadPhase::Sort(std::span<const Vector2> centres, std::span<const double> radii) {
   Vector2 low = centres[0], high = centres[0];
   double widest = 1e-3;
   for (std::size_t i = 0; i < centres.size(); ++i) {
@@ -43,26 +43,26 @@ void PairFinder::Sort(std::span<const Vector2> centres, std::span<const double> 
   }
 }
 
-void PairFinder::AddIfNear(const Entry& a, const Entry& b) {
+void BroadPhase::AddIfNear(const Entry& a, const Entry& b) {
   const double dx = a.x - b.x, dy = a.y - b.y, reach = a.radius + b.radius;
   if (dx * dx + dy * dy > reach * reach) return;
   pairs_.push_back({std::min(a.index, b.index), std::max(a.index, b.index)});
 }
 
-void PairFinder::PairWithin(std::uint32_t begin, std::uint32_t end) {
+void BroadPhase::PairWithin(std::uint32_t begin, std::uint32_t end) {
   for (std::uint32_t i = begin; i < end; ++i) {
     for (std::uint32_t k = i + 1; k < end; ++k) AddIfNear(entries_[i], entries_[k]);
   }
 }
 
-void PairFinder::PairAcross(std::uint32_t begin, std::uint32_t end, std::uint32_t other_begin,
+void BroadPhase::PairAcross(std::uint32_t begin, std::uint32_t end, std::uint32_t other_begin,
                             std::uint32_t other_end) {
   for (std::uint32_t i = begin; i < end; ++i) {
     for (std::uint32_t k = other_begin; k < other_end; ++k) AddIfNear(entries_[i], entries_[k]);
   }
 }
 
-const std::vector<PairFinder::Pair>& PairFinder::Find(std::span<const Vector2> centres,
+const std::vector<BroadPhase::Pair>& BroadPhase::Find(std::span<const Vector2> centres,
                                                       std::span<const double> radii) {
   GSV_CHECK(centres.size() == radii.size());
   pairs_.clear();

@@ -10,9 +10,9 @@
 namespace gsv::app {
 
 // A sentence if the name does not end with .jpg, .jpeg or .png; else empty.
-std::string CheckPictureName(const std::string& path);
+std::string CheckImageName(const std::string& path);
 
-base::Status WritePicture(const model::Image& picture, const std::string& path);
+base::Status WriteImage(const model::Image& image, const std::string& path);
 
 // Renders a body and its environment, from behind and above.
 base::Status DrawAround(const std::shared_ptr<const world::Snapshot>& snapshot,

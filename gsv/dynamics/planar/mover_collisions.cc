@@ -1,4 +1,4 @@
-#include "gsv/dynamics/planar/near_pairs.h"
+#include "gsv/dynamics/planar/mover_collisions.h"
 
 #include <algorithm>
 
@@ -27,20 +27,20 @@ Interval SharedHeights(const Footprint::Piece& a, double height_a, const Footpri
 
 }  // namespace
 
-void NearPairs::Reset() {
+void MoverCollisions::Reset() {
   rooms_.assign(scene_.movers().size(), {});
   candidates_.clear();
   Clear();
 }
 
-void NearPairs::Clear() {
+void MoverCollisions::Clear() {
   pairs_.clear();
   pieces_.clear();
   touching_.clear();
 }
 
-void NearPairs::FindCandidates(std::span<const geometry::PlanarPosition> starts,
-                               std::span<const double> travels) {
+void MoverCollisions::FindCandidates(std::span<const geometry::PlanarPosition> starts,
+                                     std::span<const double> travels) {
   centres_.resize(starts.size());
   radii_.resize(starts.size());
   for (std::size_t m = 0; m < starts.size(); ++m) {
@@ -52,24 +52,24 @@ void NearPairs::FindCandidates(std::span<const geometry::PlanarPosition> starts,
   candidates_.assign(found.begin(), found.end());
 }
 
-void NearPairs::Find(std::span<const geometry::PlanarPosition> starts,
-                     std::span<const double> travels) {
+void MoverCollisions::Find(std::span<const geometry::PlanarPosition> starts,
+                           std::span<const double> travels) {
   Clear();
   for (const auto& [first, second] : candidates_) {
     AddIfNear(first, second, starts, travels[first] + travels[second] + kTouchGap);
   }
 }
 
-void NearPairs::FindOf(std::uint32_t mover, std::span<const std::uint32_t> others,
-                       std::span<const geometry::PlanarPosition> starts) {
+void MoverCollisions::FindOf(std::uint32_t mover, std::span<const std::uint32_t> others,
+                             std::span<const geometry::PlanarPosition> starts) {
   Clear();
   for (const std::uint32_t other : others) {
     AddIfNear(std::min(mover, other), std::max(mover, other), starts, kTouchGap);
   }
 }
 
-void NearPairs::AddIfNear(std::uint32_t first, std::uint32_t second,
-                          std::span<const geometry::PlanarPosition> starts, double within) {
+void MoverCollisions::AddIfNear(std::uint32_t first, std::uint32_t second,
+                                std::span<const geometry::PlanarPosition> starts, double within) {
   const geometry::PlanarPosition &start_a = starts[first], &start_b = starts[second];
   const Footprint &a = scene_.footprint(first), &b = scene_.footprint(second);
   const Vector2 apart{start_b.x - start_a.x, start_b.y - start_a.y};
@@ -104,11 +104,11 @@ void NearPairs::AddIfNear(std::uint32_t first, std::uint32_t second,
   if (touches) touching_.push_back({scene_.movers()[first].body, scene_.movers()[second].body});
 }
 
-void NearPairs::Stop(std::span<const geometry::PlanarPosition> starts,
-                     std::span<const geometry::Twist> twists, std::span<double> times,
-                     std::span<Vector2> normals) {
+void MoverCollisions::Stop(std::span<const geometry::PlanarPosition> starts,
+                           std::span<const geometry::Twist> twists, std::span<double> times,
+                           std::span<Vector2> normals) {
   outcomes_.resize(times.size());
-  for (const NearPair& pair : pairs_) {
+  for (const MoverPair& pair : pairs_) {
     for (const std::uint32_t m : {pair.first, pair.second}) outcomes_[m] = {times[m], 0, 0};
   }
   const Motions motions{starts, twists, times};
@@ -117,7 +117,7 @@ void NearPairs::Stop(std::span<const geometry::PlanarPosition> starts,
     FindImpacts(motions, round);
     any = false;
     const auto stop = [&](std::uint32_t m, double time, Vector2 normal) {
-      if (round >= kRounds) time = 0;
+      if (round >= kIterations) time = 0;
       if (time >= outcomes_[m].time) return;
       outcomes_[m].time = time;
       outcomes_[m].new_since = round + 1;
@@ -130,7 +130,7 @@ void NearPairs::Stop(std::span<const geometry::PlanarPosition> starts,
       if (impact->first_approaches) stop(pairs_[i].first, impact->time, impact->normal);
       if (impact->second_approaches) stop(pairs_[i].second, impact->time, -1.0 * impact->normal);
     }
-    for (const NearPair& pair : pairs_) {
+    for (const MoverPair& pair : pairs_) {
       for (const std::uint32_t m : {pair.first, pair.second}) {
         times[m] = outcomes_[m].time;
         outcomes_[m].since = outcomes_[m].new_since;
@@ -140,11 +140,11 @@ void NearPairs::Stop(std::span<const geometry::PlanarPosition> starts,
 }
 
 // Of the pairs of which one has a new outcome in this round.
-void NearPairs::FindImpacts(const Motions& motions, int round) {
+void MoverCollisions::FindImpacts(const Motions& motions, int round) {
   impacts_.resize(pairs_.size());
   team_.ParallelFor(pairs_.size(), kPairsAtOnce, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const NearPair& pair = pairs_[i];
+      const MoverPair& pair = pairs_[i];
       const bool is_new =
           outcomes_[pair.first].since == round || outcomes_[pair.second].since == round;
       impacts_[i] = is_new ? PairImpact(motions, pair) : std::nullopt;
@@ -152,7 +152,8 @@ void NearPairs::FindImpacts(const Motions& motions, int round) {
   });
 }
 
-std::optional<Impact> NearPairs::PairImpact(const Motions& motions, const NearPair& pair) const {
+std::optional<Impact> MoverCollisions::PairImpact(const Motions& motions,
+                                                  const MoverPair& pair) const {
   const double first_time = motions.times[pair.first], second_time = motions.times[pair.second];
   const double both = std::min(first_time, second_time), end = std::max(first_time, second_time);
   MovingPiece a{nullptr, motions.starts[pair.first], motions.twists[pair.first]};
@@ -169,9 +170,9 @@ std::optional<Impact> NearPairs::PairImpact(const Motions& motions, const NearPa
   return impact;
 }
 
-Separation NearPairs::SeparationAt(const NearPair& pair, const PiecePair& pieces,
-                                   const geometry::PlanarPosition& first_at,
-                                   const geometry::PlanarPosition& second_at) const {
+Separation MoverCollisions::SeparationAt(const MoverPair& pair, const PiecePair& pieces,
+                                         const geometry::PlanarPosition& first_at,
+                                         const geometry::PlanarPosition& second_at) const {
   if (first_at == pieces.first_found_at && second_at == pieces.second_found_at) {
     return pieces.separation;
   }
@@ -181,8 +182,8 @@ Separation NearPairs::SeparationAt(const NearPair& pair, const PiecePair& pieces
   return Separate(first, second);
 }
 
-std::optional<Impact> NearPairs::FirstImpact(const NearPair& pair, MovingPiece a, MovingPiece b,
-                                             double end) const {
+std::optional<Impact> MoverCollisions::FirstImpact(const MoverPair& pair, MovingPiece a,
+                                                   MovingPiece b, double end) const {
   std::optional<Impact> first;
   for (std::uint32_t i = pair.begin_piece; i < pair.end_piece; ++i) {
     const PiecePair& pieces = pieces_[i];
@@ -197,13 +198,13 @@ std::optional<Impact> NearPairs::FirstImpact(const NearPair& pair, MovingPiece a
   return first;
 }
 
-void NearPairs::AddTouching(std::vector<BodyPair>& touching) const {
+void MoverCollisions::AddTouching(std::vector<BodyPair>& touching) const {
   touching.insert(touching.end(), touching_.begin(), touching_.end());
 }
 
-void NearPairs::Collect(std::span<const geometry::PlanarPosition> positions,
-                        ContactCollector& contacts) const {
-  for (const NearPair& pair : pairs_) {
+void MoverCollisions::Collect(std::span<const geometry::PlanarPosition> positions,
+                              ContactCollector& contacts) const {
+  for (const MoverPair& pair : pairs_) {
     const BodyPair bodies{scene_.movers()[pair.first].body, scene_.movers()[pair.second].body};
     for (std::uint32_t i = pair.begin_piece; i < pair.end_piece; ++i) {
       const Interval shared = SharedHeights(
