@@ -29,8 +29,8 @@ bool IsKnownToBeAbsent(const base::Problem& problem) {
   if (problem.severity != base::Problem::Severity::kWarning) return false;
   for (const char* absent :
        {"bases/burger_base.stl", "bases/waffle_base.stl", "bases/waffle_pi_base.stl",
-        "sensors/astra.dae", "models/Construction Cone", "models/Mecanum lift",
-        " is not supported", "more elements are unknown or not supported"}) {
+        "sensors/astra.dae", "models/Construction Cone", "models/Mecanum lift", " is not supported",
+        "more elements are unknown or not supported"}) {
     if (problem.message.find(absent) != std::string::npos) return true;
   }
   return false;

@@ -60,9 +60,10 @@ void AddListCommand(const CommandLine& line) {
       "list", "List the worlds, models, behaviours or sensor types of this installation");
   auto arguments = std::make_shared<ListArguments>();
   command
-      ->add_option("kind", arguments->kind,
-                   "kind of names to list\nModels are those of gsv and of the model path. Behaviours are "
-                   "the programs that gsv can start; `gsv offers` lists running ones.")
+      ->add_option(
+          "kind", arguments->kind,
+          "kind of names to list\nModels are those of gsv and of the model path. Behaviours are "
+          "the programs that gsv can start; `gsv offers` lists running ones.")
       ->required()
       ->check(CLI::IsMember({"worlds", "models", "behaviours", "sensors"}))
       ->type_name("worlds|models|behaviours|sensors");

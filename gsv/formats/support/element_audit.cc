@@ -76,10 +76,10 @@ class ElementAudit {
       VisitRoot(table.sdf());
     }
     if (unreported_ > 0) {
-      problems_.push_back({base::Problem::Severity::kWarning,
-                           std::to_string(unreported_) +
-                               " more elements are unknown or not supported in this file",
-                           file_.path.string()});
+      problems_.push_back(
+          {base::Problem::Severity::kWarning,
+           std::to_string(unreported_) + " more elements are unknown or not supported in this file",
+           file_.path.string()});
     }
   }
 
@@ -186,11 +186,11 @@ class ElementAudit {
   void VisitKnown(const XMLElement& element, const ElementSupport& support) {
     if (support.support == Support::kNoEffect) return;
     if (support.support != Support::kFull && !SaysNothing(element, support)) {
-      Report(Tag(element.Name()) +
-                 (support.support == Support::kNone ? " is not supported"
-                                                    : " is supported in part") +
-                 NoteOf(support),
-             element);
+      Report(
+          Tag(element.Name()) +
+              (support.support == Support::kNone ? " is not supported" : " is supported in part") +
+              NoteOf(support),
+          element);
     }
     if (support.support != Support::kNone) Visit(element, support);
   }
