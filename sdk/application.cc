@@ -245,7 +245,8 @@ class SimulationProxy final : public RemoteSimulation {
     if (!lost_.empty()) return base::Fail(base::ErrorCode::kUnavailable, lost_, server_);
     auto answer = orb::Call(server_, question);
     const bool is_doubtful = !answer && answer.error().code == base::ErrorCode::kUnavailable;
-    if (is_doubtful && IsServerGone()) return Lose("no program accepts connections there any more");
+    if (is_doubtful && IsServerGone())
+      return Lose("no program accepts connections at this address any more");
     return answer;
   }
   // A broken connection is no proof, and there may be several. A refused connection is.

@@ -66,7 +66,7 @@ CORBA::ORB_ptr StartOrb(const orb::OrbAccess& access) {
   };
   orb::SetConnectionPolicy(BrokerConnectionPolicy(MaxConnections()));
   omni_thread::stacksize(kThreadStackBytes);
-  // Threads that query other traders read large answers.
+  // A large stack, because threads that query other traders read large replies.
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
   pthread_attr_setstacksize(&attributes, kThreadStackBytes);

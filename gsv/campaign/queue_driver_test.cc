@@ -146,7 +146,7 @@ TEST_F(QueueDriverTest, RunsOfALostTaskAreSubmittedAgainAfterTwoQueriesThoseThat
   EXPECT_EQ(Done(), 10u);
 }
 
-TEST_F(QueueDriverTest, ARunThatEndsItsTaskThreeTimesIsAnError) {
+TEST_F(QueueDriverTest, ARunThatCrashesItsTaskThreeTimesIsAnError) {
   for (int attempt = 0; attempt < 3; ++attempt) {
     Then([this] {
       while (!queue_.held.empty()) {

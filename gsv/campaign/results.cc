@@ -49,8 +49,10 @@ base::Result<std::unique_ptr<Results>> Results::OpenToAdd(const std::string& fil
   // The kernel releases the lock when the process ends, in whatever way.
   const int lock = open((file + ".lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
   if (lock < 0) {
-    return base::Fail(base::ErrorCode::kUnavailable,
-                      "cannot write files beside it; choose a file in an existing folder", file);
+    return base::Fail(
+        base::ErrorCode::kUnavailable,
+        "cannot write files in its folder; choose a file in a folder that exists and is writable",
+        file);
   }
   const auto give_up = std::chrono::steady_clock::now() + timeout;
   bool is_held = flock(lock, LOCK_EX | LOCK_NB) != 0;

@@ -1,4 +1,4 @@
-// Which collisions meet which: SDFormat's <category_bitmask> and <collide_bitmask>.
+// Which collisions can collide with each other: SDFormat's <category_bitmask> and <collide_bitmask>.
 #pragma once
 
 #include <cstdint>

@@ -441,7 +441,7 @@ PathErrors ErrorsOf(const std::vector<TimedPose>& path, const std::vector<TimedP
 
 // The motor log drives a simulated robot in the rebuilt arena. Its wheel distance and its first
 // heading are those whose path, reckoned by exact arcs, fits the camera best.
-TEST_F(RealLog, WheelsReckonAsInTheArena) {
+TEST_F(RealLog, WheelOdometryMatchesTheArenaLog) {
   const Log log = Read(folder_ / "arena" / "robot4_scan.txt", "arena");
   double best = kInfinity, distance = 0;
   TimedPose start = log.truth.front();

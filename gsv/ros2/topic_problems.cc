@@ -52,7 +52,7 @@ void Compare(const std::string& topic, const Side& writer, const Side& reader,
   }
   if (reader.is_transient_local && !writer.is_transient_local) {
     problems.insert(
-        fmt::format("{}: a subscription asks for transient local durability, a publisher offers "
+        fmt::format("{}: a subscription requests transient local durability, a publisher offers "
                     "volatile. Set the subscription's durability to volatile",
                     topic));
   }

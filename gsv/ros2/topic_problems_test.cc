@@ -40,7 +40,7 @@ TEST(TopicProblems, NameTypesThatDiffer) {
                                     "a subscription geometry_msgs/msg/Twist")));
 }
 
-TEST(TopicProblems, NameHashesThatDiffer) {
+TEST(TopicProblems, ReportMismatchedTypeHashes) {
   EXPECT_THAT(
       FindTopicProblems({EndpointOf(true, kTwist, {}, "typehash=" + HashOfDigits('a') + ";"),
                          EndpointOf(false, kTwist, {}, "typehash=" + HashOfDigits('b') + ";")}),

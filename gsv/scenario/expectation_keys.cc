@@ -293,7 +293,7 @@ class FormulaReader {
       of.AddProblem("of", "of must be a sensor, as in scout/front");
     const auto take = of.Text("take");
     const auto value = of.Number("value", 0, 1e6);
-    if (take && value) of.AddProblem("value", "take or value says which number is meant, not both");
+    if (take && value) of.AddProblem("value", "give either 'take' or 'value', not both");
     if (value) {
       atom.quantity.take = Quantity::Take::kOne;
       atom.quantity.value = static_cast<int>(*value);

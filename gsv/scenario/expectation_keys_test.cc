@@ -93,15 +93,16 @@ TEST(TestKeys, ErrorsInFaultsAreReportedWithTheirPlace) {
                    "  - {at: 1, move: crate, x: 1}\n"
                    "  - {at: 1, joint: gate/hinge}\n"
                    "  - {at: -1, motor: a, fails: error}\n"),
-      ElementsAre("t.yaml:2:5: it says when: at is needed, in seconds",
-                  "t.yaml:3:21: sensor must be as in ROBOT/sensor",
-                  "t.yaml:4:24: behaviour must be one name, found \"scout/front\"",
-                  "t.yaml:5:5: a fault is about one of sensor, behaviour, motor, move and joint",
-                  "t.yaml:6:5: a fault is about one of sensor, behaviour, motor, move and joint",
-                  "t.yaml:7:5: a place needs both x and y",
-                  "t.yaml:8:5: a joint goes to one of position, velocity and effort",
-                  "t.yaml:9:10: at must be a number from 0 to 1e+09, found \"-1\"",
-                  HasSubstr("t.yaml:9:24: there is no key \"fails\" here; known are at, sensor")));
+      ElementsAre(
+          "t.yaml:2:5: it says when: at is needed, in seconds",
+          "t.yaml:3:21: sensor must be as in ROBOT/sensor",
+          "t.yaml:4:24: behaviour must be one name, found \"scout/front\"",
+          "t.yaml:5:5: a fault is about one of sensor, behaviour, motor, move and joint",
+          "t.yaml:6:5: a fault is about one of sensor, behaviour, motor, move and joint",
+          "t.yaml:7:5: a place needs both x and y",
+          "t.yaml:8:5: give exactly one of 'position', 'velocity' and 'effort' for the joint",
+          "t.yaml:9:10: at must be a number from 0 to 1e+09, found \"-1\"",
+          HasSubstr("t.yaml:9:24: there is no key \"fails\" here; known are at, sensor")));
 }
 
 TEST(TestKeys, ErrorsInExpectationsAreReportedWithTheirPlace) {

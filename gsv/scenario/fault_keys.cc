@@ -40,7 +40,8 @@ void ReadTarget(YamlMapping& mapping, Fault& fault) {
     fault.unit = unit;
     fault.target = *target;
   }
-  if (given != 1) mapping.AddProblem("a joint goes to one of position, velocity and effort");
+  if (given != 1)
+    mapping.AddProblem("give exactly one of 'position', 'velocity' and 'effort' for the joint");
 }
 
 Fault ReadFault(YamlMapping& mapping) {

@@ -1,4 +1,4 @@
-// A device: a sensor with a state between steps (world::DeviceState). Radios and all actuators are
+// A device is a sensor that keeps a state between steps (world::DeviceState). Radios and actuators are
 // devices.
 //
 // Threads  const members may run concurrently. The stepping thread calls Apply() and SwitchedOn().

@@ -42,7 +42,7 @@ TEST(Pedestrians, StartOnTheirRouteAndOverlapNothing) {
   EXPECT_GE(snapshot->layout->Find("walker_60"), 0);
 }
 
-TEST(Pedestrians, RepeatWhateverTheThreads) {
+TEST(Pedestrians, AreDeterministicForAnyNumberOfThreads) {
   const auto run = [](int threads) {
     const auto simulation = Make(WithWalkers(150, threads));
     EXPECT_EQ(RunToEnd(*simulation), Phase::kFinished);

@@ -65,7 +65,7 @@ TEST_F(CertificatesTest, AKeyIsItsOwnersAlone) {
   }
 }
 
-TEST_F(CertificatesTest, NothingThatIsThereIsWrittenOver) {
+TEST_F(CertificatesTest, ExistingFilesAreNotOverwritten) {
   ASSERT_TRUE(Make("server"));
   const base::Status again = Make("server");
   ASSERT_FALSE(again);

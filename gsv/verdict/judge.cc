@@ -35,7 +35,7 @@ std::string Told(const MeasuredAtom& measured) {
   if (!measured.was_measured) return what + " could not be had";
   const std::string unit = UnitOf(quantity);
   return what + " was " + InWords(measured.last) + unit + " (" + Bounds(measured.atom) +
-         "; it was from " + InWords(measured.lowest) + " at " + InWords(measured.lowest_at) +
+         "; it ranged from " + InWords(measured.lowest) + " at " + InWords(measured.lowest_at) +
          " s to " + InWords(measured.highest) + " at " + InWords(measured.highest_at) + " s)";
 }
 

@@ -209,7 +209,7 @@ TEST(Servers, ASimulationWhoseServerDiesIsLostAndSaysSo) {
   const auto state = (*simulation)->State();
   ASSERT_TRUE(state);
   EXPECT_EQ(state->phase, "lost");
-  EXPECT_THAT(state->failure, HasSubstr("no program accepts connections there any more"));
+  EXPECT_THAT(state->failure, HasSubstr("no program accepts connections at this address any more"));
   ASSERT_EQ(state->robots.size(), 1u);  // as it was at the last query
   EXPECT_EQ(state->robots[0].place.x, 1);
   // The application continues with another.

@@ -145,7 +145,7 @@ TEST_F(SlurmCampaign, WhatTheQueueLosesIsHandedOutAgain) {
   ExpectEachRunOnce(8);
 }
 
-TEST_F(SlurmCampaign, ARunThatEndsItsTaskThreeTimesIsAnError) {
+TEST_F(SlurmCampaign, ARunThatCrashesItsTaskThreeTimesIsAnError) {
   WriteCampaign(2);
   folder_.Write("c.yaml", "engine: slurm\nscenario: s.yaml\nparameters: {duration: [1e6, 0.1]}\n");
   SlurmCluster cluster({.nodes = 1});

@@ -244,7 +244,8 @@ void AddCameraBench(const CommandLine& bench) {
       ->capture_default_str()
       ->check(CLI::Range(1, 10'000));
   command
-      ->add_option("--world", arguments->world, "world, or \"square\" for the world of bench crowd")
+      ->add_option("--world", arguments->world,
+                   "world, or \"square\" for the world of `gsv bench crowd`")
       ->type_name("WORLD")
       ->capture_default_str();
   command->add_option("--model", arguments->model, "model of the robots")

@@ -67,7 +67,7 @@ double RayToBox(Point from, Point along, const geometry::Pose& pose,
   return enter >= 0 ? enter : leave;
 }
 
-// The depth of a robot's disc in a box; negative: the gap.
+// The penetration depth of a robot's disc in a box; negative: the distance between them.
 double DepthInBox(Point centre, const geometry::Pose& pose, const geometry::Vector3& size) {
   const Point p = InBox(pose, centre);
   const double out_x = std::abs(p.x) - size.x / 2, out_y = std::abs(p.y) - size.y / 2;

@@ -202,7 +202,7 @@ void AddLidarBench(const CommandLine& bench) {
       ->check(CLI::Range(1, 10'000));
   command
       ->add_option("--world", arguments->scene.world,
-                   "world, or \"square\" for the world of bench crowd")
+                   "world, or \"square\" for the world of `gsv bench crowd`")
       ->type_name("WORLD")
       ->capture_default_str();
   command->add_option("--model", arguments->scene.model, "model of the robots")

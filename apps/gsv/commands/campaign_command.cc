@@ -194,8 +194,7 @@ CLI::Option* AddEngineOptions(CLI::App* run, const Arguments& arguments) {
       ->type_name("N")
       ->check(CLI::Range(0, static_cast<int>(campaign::kMaxRuns)))
       ->group("Job queues");
-  run->add_option("--poll", options.poll,
-                  "time between two requests to the queue (default: 10; ssh: 0.5)")
+  run->add_option("--poll", options.poll, "polling interval of the queue (default: 10; ssh: 0.5)")
       ->type_name("SECONDS")
       ->check(CLI::Range(0.1, 3600.0))
       ->group("Job queues");

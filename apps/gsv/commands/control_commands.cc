@@ -242,7 +242,7 @@ void AddControlCommands(const CommandLine& line) {
                 }
               });
   AddSteering(
-      line, "step", "Take some steps of a paused simulation, then pause it again",
+      line, "step", "Advance a paused simulation by a number of steps",
       [](sba::Simulation_ptr simulation, const Arguments& given) { simulation->step(given.steps); },
       &AddStepCount, true);
   AddSteering(

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kMaxWorlds = 16;  // that are kept at a time
 
-// Sensors can be checked without a renderer, which has a thread of its own.
+// Makes no renderer: it would start a thread of its own, and checks of sensors need none.
 base::Result<std::shared_ptr<formats::ModelLibrary>> MakeLibrary(const RuntimeOptions& options) {
   auto sensors = MakeSensorTypes(
       options.sensors, base::Fail(base::ErrorCode::kUnavailable, "files are read without cameras"));

@@ -68,7 +68,7 @@ TEST_F(RecordingsTest, TheFileNamesTheProgramThatWroteIt) {
   EXPECT_GT(info->attachments[2].size, 20u);
 }
 
-TEST_F(RecordingsTest, OnlyTheSimulationOfTheCommandIsRecordedWithItsArguments) {
+TEST_F(RecordingsTest, ArgumentsAreRecordedOnlyForTheSimulationOfTheCommand) {
   const auto keys = [this] {
     EXPECT_TRUE(recordings_.Start(simulation_, path_));
     EXPECT_TRUE(recordings_.StopAll());

@@ -31,7 +31,7 @@ TEST(Explanation, SpellsTermsSoThatTheyMeanTheSame) {
   EXPECT_EQ(Outcomes("")[0].term, "TRUE");
 }
 
-TEST(Explanation, NamesNothingMissingWhereTheTypesDoNotFit) {
+TEST(Explanation, DoesNotReportMissingPropertiesForATypeMismatch) {
   const auto outcomes = Outcomes("name > 3");
   EXPECT_EQ(outcomes[0].result, TermResult::kNoValue);
   EXPECT_TRUE(outcomes[0].missing.empty());

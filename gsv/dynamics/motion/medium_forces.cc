@@ -14,7 +14,7 @@ using geometry::Vector3;
 
 constexpr int kSegmentsAround = 24;
 
-// Mass below a height, and the integral of the position over it.
+// The mass below a height, and its first moment (the integral of the position over the mass).
 struct Displaced {
   double mass = 0;
   Vector3 moment;

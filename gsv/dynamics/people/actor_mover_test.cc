@@ -26,7 +26,7 @@ std::shared_ptr<model::Model> WalkerOf(bool loops) {
   return model;
 }
 
-TEST(ActorMover, TakesAnActorAlongItsWay) {
+TEST(ActorMover, MovesAnActorAlongItsTrajectory) {
   TestWorld world(MakeWorldEngine());
   world.AddActor("walker", WalkerOf(true), PlanarPose(10, 5, 0, 0));
   ASSERT_TRUE(world.Start());

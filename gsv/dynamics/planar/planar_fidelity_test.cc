@@ -54,7 +54,7 @@ TestWorld AroundTheSquare(std::shared_ptr<model::Model> robot, double turn) {
   return world;
 }
 
-TEST(PlanarFidelity, PerfectWheelsCloseTheSquare) {
+TEST(PlanarFidelity, ASquarePathWithoutWheelErrorsEndsAtItsStart) {
   for (const double turn : {1.0, -1.0}) {
     TestWorld world = AroundTheSquare(TwoWheeled(1, 1), turn);
     EXPECT_WITHIN(world.position("robot").x, 0, 1e-9, "m");
@@ -88,7 +88,7 @@ TEST(PlanarFidelity, UnequalWheelsMissItByTheTextbooksError) {
   }
 }
 
-TEST(PlanarFidelity, AnAccelerationLimitIsKept) {
+TEST(PlanarFidelity, AnAccelerationLimitIsRespected) {
   auto robot = TwoWheeled(1, 1);
   robot->drive->linear_acceleration = {-2, 0.5};
   TestWorld world(MakeWorldEngine());

@@ -78,7 +78,7 @@ TEST(ManyAxes, APendulumOnABallGoesRoundInACone) {
 
 // Past the turn at which two of the three angles are one: energy and the turn about the vertical
 // stay as they are.
-TEST(ManyAxes, ABallJointTurnsAnyWay) {
+TEST(ManyAxes, ABallJointRotatesAboutAnyAxis) {
   const auto model = BallPendulum();
   TestWorld world(MakeWorldEngine());
   world.AddRigid("pendulum", model, At(0, 0, 2));

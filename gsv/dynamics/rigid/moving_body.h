@@ -19,7 +19,7 @@ class MovingBody {
   virtual void BeforeSubstep(double seconds) = 0;
   // Applies what the explicit integration does not.
   virtual void AfterSubstep(double seconds) = 0;
-  // m/s: the upper bound of the speed of all points.
+  // An upper bound of the speed of all points, in m/s.
   virtual double Speed() const = 0;
   // m: half of the least thickness of any part.
   virtual double Thickness() const = 0;

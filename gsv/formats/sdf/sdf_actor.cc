@@ -186,7 +186,7 @@ class ActorReader {
     for (auto* each = actor_.FirstChildElement("animation"); each != nullptr;
          each = each->NextSiblingElement("animation")) {
       if (each == chosen) continue;
-      context_.Warn("an actor has one animation; this one is ignored", Place(*each));
+      context_.Warn("GSV plays one animation per actor; this one is ignored", Place(*each));
     }
     return chosen;
   }

@@ -162,8 +162,7 @@ class DriveReader {
     if (max) range = {-std::abs(*max), std::abs(*max)};
     if (min) range.min = *min;
     if (range.min > range.max || range.max < 0 || range.min > 0) {
-      context_.Warn("the limits of " + what + " must have zero between them; they are ignored",
-                    Place());
+      context_.Warn("the limits of " + what + " must include zero; they are ignored", Place());
       return {};
     }
     return range;

@@ -123,7 +123,7 @@ class UrdfPartRepair {
     element.Parent()->DeleteChild(&element);
   }
 
-  // A number that its element needs keeps its wrong text, and is handled later.
+  // Leaves a malformed number unchanged if the element requires it; a later step handles it.
   void RepairNumbers(XMLElement& element) {
     for (const Attribute& known : kAttributes) {
       if (!Is(element, known.element)) continue;

@@ -159,7 +159,7 @@ std::string AboutOurElement(std::string_view name) {
   const std::string_view meant = Misspelt(name.substr(kPrefix.size()), kOurs);
   if (meant.empty()) return {};
   return "<" + std::string(name) +
-         "> is no element of GSV; it is ignored. Did you mean <gsv:" + std::string(meant) + ">?";
+         "> is not a GSV element; it is ignored. Did you mean <gsv:" + std::string(meant) + ">?";
 }
 
 }  // namespace gsv::formats

@@ -137,7 +137,7 @@ void ClientRequests::Take(const std::shared_ptr<Client>& client,
     client->SendText(SharedBytes(foxglove::ServiceFailureText(request.service, request.call, why)));
   };
   if (!operations_) return fail("this server offers no services");
-  if (request.encoding != "cdr") return fail("services are called in the encoding 'cdr' only");
+  if (request.encoding != "cdr") return fail("service requests must use the encoding 'cdr'");
   if (const base::Status may = client->CheckControl(); !may) return fail(may.error().Sentence());
   const std::shared_ptr<std::atomic<int>> calls = BeginCall(client.get());
   if (!calls)

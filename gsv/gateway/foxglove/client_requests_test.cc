@@ -133,7 +133,7 @@ TEST_F(ClientRequestsTest, ACallInAnotherEncodingFails) {
   EXPECT_TRUE(
       hub_.ReceiveBytes(client.get(), std::string("\x02\x01\0\0\0\x07\0\0\0\x04\0\0\0json", 17)));
   EXPECT_EQ(client->texts().back()["op"], "serviceCallFailure");
-  EXPECT_EQ(client->texts().back()["message"], "services are called in the encoding 'cdr' only");
+  EXPECT_EQ(client->texts().back()["message"], "service requests must use the encoding 'cdr'");
 }
 
 TEST_F(ClientRequestsTest, AClientCanReadItsDroppedUpdates) {

@@ -28,7 +28,7 @@ struct Signature {
   std::string_view types;
 };
 
-// Those with an `any` or a TypeCode in them; all others pass unchecked. tools/omniidl/signatures.py
+// The operations that contain an `any` or a TypeCode. Messages of all others are not checked. tools/omniidl/signatures.py
 // makes them from IDL.
 struct Signatures {
   std::span<const Signature> requests;

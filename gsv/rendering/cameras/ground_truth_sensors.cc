@@ -332,7 +332,8 @@ class SurfaceNormals {
            truth_.visual[other] == truth_.visual[pixel];
   }
 
-  // The distance of three pixels, from (x, y) on, from a plane; infinite if one is missing.
+  // The deviation from a plane of the points seen by three pixels, which start at (x, y) and are (dx, dy)
+  // apart; infinite if one of them has no depth.
   double Bend(int x, int y, int dx, int dy) const {
     const std::size_t pixel = Index(x, y);
     if (!IsOfVisualAt(pixel, x + 2 * dx, y + 2 * dy)) {

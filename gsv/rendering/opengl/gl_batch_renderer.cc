@@ -98,7 +98,7 @@ base::Result<std::vector<std::shared_ptr<const GroundTruth>>> GlBatchRenderer::D
     const world::Snapshot& snapshot, const std::vector<CameraView>& views) {
   if (!raster::CanRasterise()) {
     return base::Fail(base::ErrorCode::kUnavailable,
-                      "this processor has no AVX2, which depth and segmentation are made with");
+                      "depth and segmentation cameras need AVX2, which this processor lacks");
   }
   if (ground_truth_renderer_ == nullptr) {
     ground_truth_renderer_ =

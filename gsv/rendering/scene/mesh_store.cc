@@ -41,7 +41,7 @@ Arrays WithNormals(const TriangleMesh& mesh, const std::vector<std::uint32_t>& o
   return arrays;
 }
 
-// Faceted: each triangle has separate vertices with its normal.
+// Flat shading: each triangle has separate vertices with its normal.
 Arrays WithoutNormals(const TriangleMesh& mesh, const std::vector<std::uint32_t>& order) {
   Arrays arrays;
   for (const std::uint32_t triangle : order) {

@@ -80,7 +80,7 @@ TEST_F(DeviceErrors, EveryPresetMakesASensorAndNamesItsSource) {
   }
 }
 
-TEST_F(DeviceErrors, ASensorsOwnParametersWinOverItsPreset) {
+TEST_F(DeviceErrors, ASensorsOwnParametersOverrideItsPreset) {
   model::SensorDescription description;
   description.type = "sonar";
   description.parameters = {{"preset", std::string("hc_sr04")}, {"max", 2.0}};

@@ -21,7 +21,8 @@ Angles ReadAngles(ParameterReader& reader, const std::string& name, int samples,
   const double resolution = reader.Number(name + ".resolution", 1, 1e-6, 1e3);
   const double beams = std::max(1.0, std::floor(fan.count * resolution + 0.5));
   if (beams > kMostBeams) {
-    reader.Refuse(fmt::format("{} asks for {} beams; the most are {}", name, beams, kMostBeams));
+    reader.Refuse(
+        fmt::format("{} asks for {} beams; at most {} are allowed", name, beams, kMostBeams));
   }
   fan.count = static_cast<int>(std::min(beams, double{kMostBeams}));
   fan.first = reader.Number(name + ".min_angle", min_angle, -furthest, furthest);
@@ -41,7 +42,7 @@ LidarSettings ReadLidarSettings(ParameterReader& reader) {
       ReadAngles(reader, "scan.horizontal", 360, -kPi, kPi - 2 * kPi / 360, 4 * kPi);
   settings.vertical = ReadAngles(reader, "scan.vertical", 1, 0, 0, kPi / 2 + 1e-6);
   if (double{1} * settings.horizontal.count * settings.vertical.count > kMostBeams) {
-    reader.Refuse(fmt::format("the scan has {} by {} beams; the most are {}",
+    reader.Refuse(fmt::format("the scan has {} by {} beams; at most {} are allowed",
                               settings.horizontal.count, settings.vertical.count, kMostBeams));
   }
   settings.min = reader.Number("range.min", 0.08, 0, 1e4);

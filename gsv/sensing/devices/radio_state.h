@@ -61,7 +61,7 @@ class RadioState final : public world::DeviceState {
   std::vector<HeardMessage> inbox_;
 };
 
-// The antenna of a radio; its body is -1 if the robot does not stand in the world.
+// The antenna of a radio; its body is -1 if the robot is not in the world.
 world::Antenna AntennaOf(const world::Snapshot& now, const world::DeviceMount& mount,
                          world::RadioSetupPtr setup);
 

@@ -90,7 +90,7 @@ class SolidSet {
   // CastAtShape() for rays from one point in the shape's frame, without an ignored body.
   void CastAtShapeFrom(const geometry::Vector3& origin_in_shape, RayBatch& rays,
                        std::uint32_t shape, const Bearer& bearer = {}) const;
-  // False if CastAtOthers() finds nothing for any ray of a fan in the set's frame.
+  // True if CastAtOthers() may hit something with a ray of the fan, which is in the set's frame.
   bool OthersReach(const Fan& fan) const;
   // Whether a shape may reach into a box; a bounding sphere is loose for long thin shapes.
   bool ShapeReaches(std::uint32_t shape, const geometry::Bounds& into) const {

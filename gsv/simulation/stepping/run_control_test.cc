@@ -300,7 +300,7 @@ TEST(RunControl, NamesTheAllowedPhasesWhenItRefuses) {
   EXPECT_EQ(resumed.error().Sentence(), "office: to resume it must be paused, and it is created");
 }
 
-TEST(RunControl, RecordsBeforeWhichTurnsAnEditIsMade) {
+TEST(RunControl, RecordsTheTurnsThatAnEditPrecedes) {
   BareRun run(0, 0);
   EXPECT_EQ(run.control().MomentOfEdit(true), Edit::Moment::kBeforeTurns);
   ASSERT_TRUE(run.Perform({Action::kStep, 1}));
