@@ -218,14 +218,14 @@ TEST_F(CorbaTls, OfAnotherAuthorityNobodyIsServedOrTrusted) {
   const Group strangers;
   const Outcome client = broker.Offers();
   EXPECT_EQ(client.ending, "exit code 5");
-  EXPECT_THAT(client.err, HasSubstr("its certificate is none of this group's authority"));
+  EXPECT_THAT(client.err, HasSubstr("its certificate was not issued by this group's authority"));
   // A client that trusts the server, but is not of its group.
   const Variable trusting("GSV_CORBA_AUTHORITY", group_.File("ca.pem"));
   const Outcome stranger = broker.Offers();
   EXPECT_EQ(stranger.ending, "exit code 5");
   EXPECT_THAT(stranger.err, HasSubstr("it does not take this program's certificate"));
   EXPECT_THAT(AwaitErrors(broker.program(), "authority"),
-              HasSubstr("its certificate is none of this group's authority"));
+              HasSubstr("its certificate was not issued by this group's authority"));
 }
 
 TEST_F(CorbaTls, AnExpiredCertificateIsRefusedByItsOwnerAndByOthers) {

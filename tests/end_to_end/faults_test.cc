@@ -126,7 +126,7 @@ TEST_F(Faults, OneThatNeitherWaitsNorAnswersFailsTheRunWhereThePolicySaysSo) {
                          "--json", "--on-failure", "fail", "--deadline", "0.001"});
   EXPECT_EQ(outcome.ending, "exit code 4");
   EXPECT_EQ(outcome.LastLine()["phase"], "failed");
-  EXPECT_THAT(outcome.err, HasSubstr("neither waited nor returned within 1 ms"));
+  EXPECT_THAT(outcome.err, HasSubstr("neither called a wait function nor returned within 1 ms"));
 }
 
 // Whether the death is noticed before or after the clock continues, it takes effect at one instant.

@@ -1,4 +1,5 @@
 // `gsv replay --resimulate`: repeats a recorded run, with live behaviours.
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -66,6 +67,10 @@ TEST_F(Resimulation, SetsGravityAgainWhereItWasSet) {
   Running run("gsv", {"run", world_.string(), "--headless", "--lockstep", "--robot", "pebble@0,0",
                       "--record", recording_.string()});
   run.AwaitLine("broker: ");
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (RunProgram("gsv", {"ps", "--json"}).out.find("\"running\"") == std::string::npos) {
+    ASSERT_LT(std::chrono::steady_clock::now(), give_up) << "the run does not start";
+  }
   for (const std::vector<std::string>& command : {std::vector<std::string>{"pause"},
                                                   {"set-gravity", "--z", "2"},
                                                   {"step", "200"},

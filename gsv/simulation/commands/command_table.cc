@@ -59,7 +59,7 @@ std::span<const Command> Commands() {
        {{.name = "z",
          .type = kNumber,
          .unit = "m/s²",
-         .summary = "gravity along z in m/s^2, such as -1.62 on the Moon",
+         .summary = "gravity along z, such as -1.62 on the Moon",
          .minimum = -100,
          .maximum = 100,
          .default_meaning = "the world's own"}},

@@ -11,7 +11,7 @@ test("a curve is read, with gaps where a value was not finite", () => {
 test("what is no curve is refused with its place", () => {
   expect(() => parseCurve([])).toThrow("curve: expected an object");
   expect(() => parseCurve({ time_s: ["x"], values: [1] })).toThrow("curve.time_s[0]: expected a number");
-  expect(() => parseCurve({ time_s: [1, 2], values: [1] })).toThrow("curve.values: expected 2 of them, found 1");
+  expect(() => parseCurve({ time_s: [1, 2], values: [1] })).toThrow("curve.values: expected 2 values, found 1");
 });
 
 test("names are escaped in what is asked", () => {

@@ -71,7 +71,7 @@ test.each([
   [
     "a pose for a body that is not there",
     (d: ReturnType<typeof document>) => (d.poses[1]!.body = 3),
-    "poses[1].body: expected the index of one of 3 bodies, found 3",
+    "poses[1].body: expected a body index from 0 to 2, found 3",
   ],
   [
     "an unknown light",
