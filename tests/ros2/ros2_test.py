@@ -184,7 +184,9 @@ class ForeignPeer(unittest.TestCase):
         # Linux sends nothing with this source to a network.
         self.assertEqual({row[0] for row in rows}, {"127.0.0.1"})
         self.assertLessEqual({row[1] for row in rows}, {"127.0.0.1", "239.255.0.1"})
-        announced = {row[2:] for row in rows if len(row) == len(fields)}
+        # One packet may announce several endpoints: tshark then separates their values by commas.
+        announced = {endpoint for row in rows if len(row) == len(fields)
+                     for endpoint in zip(*(column.split(",") for column in row[2:]))}
         for expected in [("rt/clock", "rosgraph_msgs::msg::dds_::Clock_", reliable),
                          ("rt/tf", "tf2_msgs::msg::dds_::TFMessage_", reliable),
                          ("rt/pebble/odom", "nav_msgs::msg::dds_::Odometry_", reliable),
