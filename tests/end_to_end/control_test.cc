@@ -124,7 +124,7 @@ TEST_F(Control, CommandsOfTheTableTakeTheirParametersAsOptions) {
   ExpectComplaint({"set-gravity", "--z", "-101"}, 2, "'z' must be a number from -100 to 100 m/s²");
   EXPECT_EQ(Json({"set-gravity"})["state_hash"], before);
   EXPECT_THAT(Gsv({"set-gravity", "--help"}).out,
-              HasSubstr("number from -100 to 100 m/s² (default: the world's"));
+              HasSubstr("from -100 to 100 m/s² (default: the world's"));
 }
 
 TEST_F(Control, TheFactorOfARunInRealTimeIsSet) {

@@ -275,8 +275,7 @@ TEST_F(OfferFileTest, RefusesChangesThatItCannotStoreAndStillAnswersQueries) {
   EXPECT_EQ(refused.error().refusal, Refusal::kNotStored);
   EXPECT_EQ(limited.Withdraw(kept).error().refusal, Refusal::kNotStored);
   EXPECT_TRUE(limited.Describe(kept)) << "what is refused changes nothing";
-  EXPECT_EQ(said.find(Path() + ": cannot store offers (database or disk is full)"), 0u)
-      << said;
+  EXPECT_EQ(said.find(Path() + ": cannot store offers (database or disk is full)"), 0u) << said;
 }
 
 }  // namespace
