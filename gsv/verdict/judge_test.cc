@@ -48,8 +48,9 @@ TEST(Judge, ARobotReachesAPlaceWhenItComesNearEnough) {
   const Finding late = One("{reaches: {robot: scout, x: 1.25, y: 0}, by: 1.9}");
   EXPECT_FALSE(late.holds);
   EXPECT_EQ(late.time, 1900ms);
-  EXPECT_THAT(late.Sentence(), HasSubstr("violated at 1.9 s (step 190): the distance of scout "
-                                         "from (1.25, 0) was 0.3 m (at most 0.25; it was from "));
+  EXPECT_THAT(late.Sentence(),
+              HasSubstr("violated at 1.9 s (step 190): the distance of scout "
+                        "from (1.25, 0) was 0.3 m (at most 0.25; it ranged from "));
   EXPECT_FALSE(One("{reaches: {robot: scout, x: 1.25, y: 0, yaw: 90deg}}").holds);
 }
 
