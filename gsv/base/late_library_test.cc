@@ -4,7 +4,7 @@
 
 namespace {
 
-// Of the C library, so that it is on every machine.
+// Uses the C library, which every machine has.
 TEST(LateLibrary, FindsAFunctionOfALibrary) {
   const auto absolute =
       reinterpret_cast<double (*)(double)>(gsv_late_function("libm.so.6", "fabs"));

@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* kPreset = "preset";
 
-// Of the small 40 kHz transducers, 16 mm wide.
+// Radius (m), threshold and gain range of small 40 kHz transducers, which are 16 mm wide.
 constexpr double kSmallTransducer = 0.008, kSmallThreshold = 0.12, kSmallGainRange = 1.5;
 
 model::Parameters ImuParameters(double gyro_density, double gyro_instability, double gyro_walk,

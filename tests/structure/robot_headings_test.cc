@@ -31,8 +31,8 @@ constexpr int kHeadings = 8;
 
 // m, rad: planar kinematics, and bases that their drive holds, follow the command to this.
 constexpr double kExact = 2e-3;
-// Of the command: rolling robots follow Coulomb's law to this, and to what the width of their wheels
-// does. The law leaves open how the two edges of a stiff wheel share its load: the wheels may turn
+// A fraction of the command: rolling robots follow Coulomb's law within it, and within the effect of the
+// width of their wheels. The law leaves open how the two edges of a stiff wheel share its load: the wheels may turn
 // the robot about their inner or their outer edges.
 constexpr double kCoulomb = 0.05;
 // rad: what stands on its wheels leans less.

@@ -159,11 +159,11 @@ std::shared_ptr<CompareArguments> AddOptions(CLI::App& command) {
       ->check(CLI::IsMember(reality::LogFormats()));
   command
       .add_option("--world", arguments->world,
-                  "world in which the robot drove (default: fitted to every other 4 s)")
+                  "world in which the robot drove (default: fitted to half of the log)")
       ->type_name("WORLD");
   command
       .add_flag("--update-world", arguments->options.update_world,
-                "update the walls of --world by every other 4 s of a laser's log")
+                "update the walls of --world by half of a laser's log")
       ->needs(command.get_option("--world"));
   command
       .add_option("--start", arguments->start,

@@ -139,7 +139,7 @@ class Trader {
   TradingResult<MatchingOffers> FindMatching(const Query& query, DynamicValues& values) const;
   QueryResult Rank(MatchingOffers matches, DynamicValues& values) const;
   TradingResult<QueryResult> Find(const Query& query, DynamicValues& values) const;
-  // The same, in which dynamic properties have no value.
+  // As above, but dynamic properties have no value.
   TradingResult<QueryResult> Find(const Query& query) const;
 
  private:

@@ -13,8 +13,8 @@
 namespace gsv::dynamics {
 
 struct Part {
-  // Of the model, that moves it against its parent; -1: the base. Of a ball joint the last of the
-  // three that it is made of.
+  // The joint of the model between the part and its parent; -1 for the base. A ball joint is three
+  // joints, and this is the last of them.
   int joint = -1;
   int parent = -1;  // a part before this one; -1: the base has none
   std::vector<int> links;

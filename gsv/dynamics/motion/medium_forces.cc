@@ -82,7 +82,7 @@ Displaced DisplacedBy(const Displacer& displacer, const Pose& world_from_part,
   return displaced;
 }
 
-// Of the velocity, what is gone after `seconds`.
+// The fraction of the velocity that is lost after `seconds`.
 double ShareLost(double decay, double seconds, double world_step) {
   return decay > 0 ? 1 - std::pow(1 - decay, seconds / world_step) : 0;
 }

@@ -139,7 +139,7 @@ void MoverCollisions::Stop(std::span<const geometry::PlanarPosition> starts,
   }
 }
 
-// Of the pairs of which one has a new outcome in this round.
+// Finds the impacts of the pairs with a mover that has a new outcome in this round.
 void MoverCollisions::FindImpacts(const Motions& motions, int round) {
   impacts_.resize(pairs_.size());
   team_.ParallelFor(pairs_.size(), kPairsAtOnce, [&](std::size_t begin, std::size_t end) {

@@ -266,7 +266,7 @@ void ImpulseRows::GoBack() {
   for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].impulse = impulses_before_[i];
 }
 
-// Of the last iteration, by all rows: how far it was from the solution.
+// The change of energy by all rows in the last iteration: it measures the distance from the solution.
 double ImpulseRows::ChangeOfEnergy() const {
   double energy = 0;
   for (const Row& row : rows_) energy += row.mass_inverse * row.change * row.change;

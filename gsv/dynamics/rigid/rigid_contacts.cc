@@ -77,7 +77,7 @@ bool TakeSurfaces(btManifoldPoint& point, const btCollisionObjectWrapper* first,
   }
   point.m_combinedFriction = std::min(a.friction, b.friction);
   if (IsSlantwise(a) || IsSlantwise(b)) {
-    // Of two that both have a direction, that of the one which slips more.
+    // If both surfaces have a direction, that of the more slippery one is used.
     const bool first_tells =
         IsSlantwise(a) &&
         (!IsSlantwise(b) || std::min(a.friction, a.friction2) <= std::min(b.friction, b.friction2));

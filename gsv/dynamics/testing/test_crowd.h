@@ -72,7 +72,7 @@ class Crowd {
     world_.Step(base::FromSeconds(kStep), contacts_);
     return contacts_.size();
   }
-  // Of the last step.
+  // The contacts of the last step.
   const std::vector<world::Contact>& contacts() const { return contacts_; }
 
   double InContact() {

@@ -117,7 +117,7 @@ class ActorReader {
     const char* type = element.Attribute("type");
     const auto animation = follows_way_.find(type == nullptr ? "" : type);
     trajectory.animated_by_distance = animation != follows_way_.end() && animation->second;
-    // Of two waypoints at one time the later one in the file counts, as in Gazebo.
+    // If two waypoints have the same time, the later one in the file is used, as in Gazebo.
     std::map<SimTime, Pose> waypoints;
     for (auto* child = element.FirstChildElement("waypoint"); child != nullptr;
          child = child->NextSiblingElement("waypoint")) {

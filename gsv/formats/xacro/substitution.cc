@@ -46,7 +46,7 @@ class Substitution {
       const bool has_bracket =
           bracket != std::string::npos && (text[bracket] == '{' || text[bracket] == '(');
       if (!has_bracket || bracket - dollar > 1) {
-        // Of several dollars in front of a bracket, one is removed.
+        // Removes one of the dollar signs before a bracket.
         if (bracket == std::string::npos) bracket = text.size();
         const std::size_t first = has_bracket ? dollar + 1 : dollar;
         const std::size_t end = has_bracket ? bracket + 1 : bracket;

@@ -350,7 +350,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   std::shared_ptr<ServerContext> context_;
   std::unique_ptr<ConnectionSlot> slot_;
   KeepTrack keep_track_;
-  // Of the request that is being read or answered:
+  // The state of the request that is being read or answered:
   base::Result<Target> target_{};
   Router::Match match_;
   std::optional<access::Principal> principal_;  // nothing until it is known

@@ -73,7 +73,7 @@ class McapLog {
   }
 
  private:
-  // Of several topics of one kind the first counts.
+  // Reads only the first topic of each kind, and warns about the others.
   bool IsOfFirstTopic(const std::string& kind, const std::string& topic) {
     const auto [known, is_new] = topics_.emplace(kind, topic);
     if (!is_new && known->second != topic && noted_.emplace(topic, "").second) {

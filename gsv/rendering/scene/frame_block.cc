@@ -132,7 +132,7 @@ FrameBlock Lighting::BlockFor(const CameraView& view) const {
   block.view_right = AsFloat4(pose.orientation * Vector3{0, -0.5 * view.parameters.width / f, 0});
   block.view_down = AsFloat4(pose.orientation * Vector3{0, 0, -0.5 * view.parameters.height / f});
 
-  // Of the lamps that reach into the image, those that end nearest to the camera.
+  // Selects, of all lamps that light a part of the image, those that reach nearest to the camera.
   const Frustum frustum = FrustumOf(view);
   std::vector<std::pair<double, const Lamp*>> near;
   for (const Lamp& lamp : lamps_) {

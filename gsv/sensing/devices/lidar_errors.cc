@@ -13,7 +13,7 @@ using geometry::kInfinity;
 constexpr double kLargestTangent = 20;  // at a grazing angle of 3 degrees
 constexpr double kEdge = 0.1;           // m from one surface to the next: it is another one
 
-// Of the angle of incidence, from the neighbours that lie on the same surface.
+// The tangent of the angle of incidence, from the neighbouring beams that hit the same surface.
 double TangentAt(double before, double range, double after, double step) {
   const bool has_before = std::abs(before - range) < kEdge + 0.1 * range;
   const bool has_after = std::abs(after - range) < kEdge + 0.1 * range;

@@ -11,8 +11,8 @@ namespace gsv::simulation {
 
 std::span<const Command> Commands();
 
-// The same, with a further entry for each command that has a former name, under that name. It is for front
-// ends whose clients choose a command by its name: HTTP routes, Foxglove services.
+// All commands, and again those that have a former name, under that name. For front ends whose
+// clients choose a command by its name: HTTP routes and Foxglove services.
 std::span<const Command> CommandsWithFormerNames();
 
 // Finds a command by its name or its former name. Null if there is none.
