@@ -1,6 +1,5 @@
 #include "apps/gsv/simulations/model_list.h"
 
-#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -50,21 +49,6 @@ std::vector<std::string> FindRobotModels(formats::ModelLibrary& library,
       base::Problems problems;  // reported when the model is used
       const auto model = library.ReadModel(entry.path(), problems);
       if (model && IsRobot(**model)) names.insert(entry.path().filename());
-    }
-  }
-  return {names.begin(), names.end()};
-}
-
-std::vector<std::string> FindModels(const std::vector<fs::path>& folders) {
-  std::set<std::string> names;
-  for (const fs::path& folder : folders) {
-    std::error_code ignored;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-      const fs::directory_iterator files(entry.path(), ignored);
-      if (std::any_of(begin(files), end(files),
-                      [](const fs::directory_entry& file) { return IsModelFile(file.path()); })) {
-        names.insert(entry.path().filename());
-      }
     }
   }
   return {names.begin(), names.end()};

@@ -1,4 +1,4 @@
-// Lists the available models, and those that can be robots.
+// Lists the available models that can be robots.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,5 @@ namespace gsv::app {
 // one, so that the first call takes some time; the library keeps what it has read.
 std::vector<std::string> FindRobotModels(formats::ModelLibrary& library,
                                          const std::vector<std::filesystem::path>& folders);
-
-// The sorted names of all models in these folders; reads no model.
-std::vector<std::string> FindModels(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace gsv::app

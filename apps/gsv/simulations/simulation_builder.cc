@@ -60,15 +60,11 @@ void SimulationBuilder::OfferThrough(services::SimulationServiceServant* service
 
 std::vector<std::string> SimulationBuilder::Worlds() { return OurWorlds(); }
 
-std::vector<fs::path> SimulationBuilder::ModelFolders() const {
-  std::vector<fs::path> folders{ShareFolder() / "models"};
-  folders.insert(folders.end(), model_path_.begin(), model_path_.end());
-  return folders;
-}
-
 std::vector<std::string> SimulationBuilder::Objects() {
-  std::vector<std::string> objects = FindModels(ModelFolders());
-  const std::vector<std::string> robots = FindRobotModels(host_.library(), ModelFolders());
+  std::vector<std::string> objects = finder_.ModelNames();
+  std::sort(objects.begin(), objects.end());
+  objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
+  const std::vector<std::string> robots = FindRobotModels(host_.library(), finder_.search_path());
   std::erase_if(objects, [&](const std::string& name) {
     return std::binary_search(robots.begin(), robots.end(), name);
   });
@@ -77,7 +73,7 @@ std::vector<std::string> SimulationBuilder::Objects() {
 
 std::vector<SimulationBuilder::ModelLine> SimulationBuilder::Models() {
   std::vector<ModelLine> models;
-  for (const std::string& name : FindRobotModels(host_.library(), ModelFolders())) {
+  for (const std::string& name : FindRobotModels(host_.library(), finder_.search_path())) {
     models.push_back({name, name == "avatar"});
   }
   return models;

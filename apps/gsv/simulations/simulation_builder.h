@@ -13,6 +13,7 @@
 #include "apps/gsv/simulations/population.h"
 #include "apps/gsv/simulations/recordings.h"
 #include "gsv/base/mutex.h"
+#include "gsv/formats/files/resource_finder.h"
 #include "gsv/gateway/program/simulation_factory.h"
 #include "gsv/services/broker_behaviours.h"
 #include "gsv/services/simulation_host.h"
@@ -32,6 +33,7 @@ class SimulationBuilder final : public gateway::SimulationFactory {
         broker_(broker),
         recordings_(recordings),
         model_path_(std::move(model_path)),
+        finder_(model_path_),
         reading_(reading) {}
 
   // Simulations that are created later are also listed in that service; null: no longer.
@@ -62,7 +64,6 @@ class SimulationBuilder final : public gateway::SimulationFactory {
     std::vector<std::string> warnings;
   };
 
-  std::vector<std::filesystem::path> ModelFolders() const;
   gateway::FieldResult<KnownWorld> ReadWorld(const std::string& world);
   gateway::FieldResult<std::shared_ptr<simulation::BehaviourPort>> BehaviourFor(
       const scenario::RobotEntry& robot);
@@ -75,6 +76,7 @@ class SimulationBuilder final : public gateway::SimulationFactory {
   broker::BrokerClient& broker_;
   Recordings& recordings_;
   const std::vector<std::filesystem::path> model_path_;
+  const formats::ResourceFinder finder_;
   const TrialLimits reading_;
   base::Mutex mutex_;
   std::vector<KnownWorld> known_ GSV_GUARDED_BY(mutex_);  // the newest last

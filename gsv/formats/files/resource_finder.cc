@@ -182,6 +182,15 @@ int VersionNumber(const char* text) {
   return major * 100 + minor;
 }
 
+bool HoldsAModel(const fs::path& folder) {
+  std::error_code error;
+  const fs::directory_iterator files(folder, error);
+  return std::any_of(begin(files), end(files), [](const fs::directory_entry& file) {
+    const fs::path extension = file.path().extension();
+    return extension == ".sdf" || extension == ".urdf" || extension == ".xacro";
+  });
+}
+
 }  // namespace
 
 bool IsWebAddress(std::string_view name) {
@@ -215,9 +224,7 @@ std::vector<std::string> ResourceFinder::ModelNames() const {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder, error)) {
       if (names.size() >= kMaxNames) break;
-      if (Exists(entry.path() / "model.config") || Exists(entry.path() / "model.sdf")) {
-        names.push_back(entry.path().filename());
-      }
+      if (HoldsAModel(entry.path())) names.push_back(entry.path().filename());
     }
     std::sort(names.begin() + first, names.end());
   }

@@ -41,6 +41,8 @@ class ResourceFinder {
   // The names of the models on the search path and among ours, to suggest one for a misspelt name:
   // at most 10,000, each folder's in alphabetical order.
   std::vector<std::string> ModelNames() const;
+  // The folders in which models are searched, in order: 2, 3 and 4 above.
+  const std::vector<std::filesystem::path>& search_path() const { return search_path_; }
   bool allows_absolute_paths() const { return allow_absolute_paths_; }
 
  private:

@@ -72,6 +72,20 @@ TEST(ResourceFinder, ReportsThatTheWebIsNotSearched) {
   EXPECT_THAT(found.error().message, HasSubstr("on the web"));
 }
 
+TEST(ResourceFinder, NamesTheFoldersThatHoldAModelOfAnyFormat) {
+  const base::testing::TestFolder library;
+  library.Write("chair/model-1_4.sdf", "");
+  library.Write("arm/arm.urdf", "");
+  library.Write("rover/rover.urdf.xacro", "");
+  library.Write("meshes/wheel.stl", "");
+  library.Write("README.sdf", "");
+  const auto names = ResourceFinder({library.path()}).ModelNames();
+  ASSERT_GE(names.size(), 3u);
+  EXPECT_THAT(std::vector(names.begin(), names.begin() + 3),
+              testing::ElementsAre("arm", "chair", "rover"));
+  EXPECT_THAT(names, testing::Not(testing::Contains("meshes")));
+}
+
 TEST(ModelFileIn, TakesTheNewestVersionThatCanBeRead) {
   const base::testing::TestFolder folder;
   for (const char* version : {"1.2", "1.4", "1.9", "1.11"}) {
