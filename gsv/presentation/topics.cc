@@ -21,6 +21,7 @@ std::span<const Topic> Topics() {
   static const std::array table{
       Row(topics::kClock, {.replay = Replay::kByClock}),
       Row(topics::kPoses),
+      Row(topics::kPackedPoses, {.is_recorded = false}),
       Row(topics::kTransforms),
       Row(topics::kSensorTransforms),
       Row(topics::kBeams),

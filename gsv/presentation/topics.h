@@ -49,6 +49,8 @@ namespace topics {
 
 inline constexpr TopicOf<messages::rosgraph_msgs::Clock> kClock{"/clock"};
 inline constexpr TopicOf<messages::gsv_msgs::Poses> kPoses{"/gsv/poses"};
+// The same for viewers, rounded.
+inline constexpr TopicOf<messages::gsv_msgs::PackedPoses> kPackedPoses{"/gsv/packed_poses"};
 inline constexpr TopicOf<messages::tf2_msgs::TFMessage> kTransforms{"/tf"};
 inline constexpr TopicOf<messages::tf2_msgs::TFMessage> kSensorTransforms{"/tf_static"};
 inline constexpr TopicOf<messages::visualization_msgs::MarkerArray> kBeams{"/gsv/beams"};

@@ -1,10 +1,12 @@
 #include "gsv/gateway/live/live_stream.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "gsv/gateway/foxglove/channels.h"
 #include "gsv/gateway/live/live_operations.h"
 #include "gsv/messages/time.h"
+#include "gsv/presentation/packed_poses.h"
 #include "gsv/presentation/state_messages.h"
 
 namespace gsv::gateway {
@@ -30,7 +32,7 @@ LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation
     : hub_(std::make_shared<Hub>(
           InfoOf(*simulation), std::move(on_demand),
           std::make_shared<LiveOperations>(simulation, commanders, recordings))),
-      snapshot_topics_(3),
+      snapshot_topics_(4),
       status_(hub_),
       events_(hub_),
       refresh_pacing_(kRefreshRate),
@@ -38,11 +40,15 @@ LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation
       contacts_(hub_, topics::kContacts, CollectContacts),
       radio_(hub_, topics::kRadio, CollectTransmissions),
       viewers_(hub_, registry) {
-  const std::vector<foxglove::ChannelId> channels = hub_->Advertise(
-      {ChannelFor(topics::kClock), ChannelFor(topics::kPoses), ChannelFor(topics::kTransforms)});
+  const std::vector<foxglove::ChannelId> channels =
+      hub_->Advertise({ChannelFor(topics::kClock), ChannelFor(topics::kPoses),
+                       ChannelFor(topics::kTransforms), ChannelFor(topics::kPackedPoses)});
   snapshot_topics_[0].encode = &LiveStream::EncodeClock;
   snapshot_topics_[1].encode = &LiveStream::EncodePoses;
   snapshot_topics_[2].encode = &LiveStream::EncodeTransforms;
+  snapshot_topics_[3].encode = &LiveStream::EncodePackedPoses;
+  snapshot_topics_[3].rate = kPackedPosesRate;
+  snapshot_topics_[3].lowest_rate = kLowestPackedPosesRate;
   for (std::size_t i = 0; i < channels.size(); ++i) snapshot_topics_[i].channel = channels[i];
   sensors_ = std::make_shared<SensorTopics>(hub_, watchers);
 }
@@ -92,7 +98,14 @@ void LiveStream::Publish(SnapshotTopic& topic, const SnapshotPointer& snapshot, 
   if (!is_due) return hub_->Welcome(topic.channel, {&topic.latest, 1});
   hub_->Publish(topic.channel, topic.latest);
   topic.published = snapshot;
+  topic.pacing.SetRate(RateFor(topic));
   topic.pacing.Done(now);
+}
+
+double LiveStream::RateFor(const SnapshotTopic& topic) {
+  const double size = static_cast<double>(std::max<std::size_t>(1, topic.latest.payload.size()));
+  const double lowest = std::min(topic.lowest_rate, topic.rate);
+  return std::clamp(kMaxPackedBytesPerSecond / size, lowest, topic.rate);
 }
 
 SharedBytes LiveStream::EncodeClock(const world::Snapshot& snapshot) const {
@@ -101,6 +114,10 @@ SharedBytes LiveStream::EncodeClock(const world::Snapshot& snapshot) const {
 
 SharedBytes LiveStream::EncodePoses(const world::Snapshot& snapshot) const {
   return Encoded(presentation::PosesMessage(snapshot, pose_list_));
+}
+
+SharedBytes LiveStream::EncodePackedPoses(const world::Snapshot& snapshot) const {
+  return Encoded(presentation::PackedPosesMessage(snapshot, pose_list_));
 }
 
 SharedBytes LiveStream::EncodeTransforms(const world::Snapshot& snapshot) const {

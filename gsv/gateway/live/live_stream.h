@@ -20,6 +20,12 @@
 
 namespace gsv::gateway {
 
+// The rate of packed poses, in Hz of wall-clock time. Among many bodies they come as often as this
+// many bytes per second allow, and not less often than at the lowest rate.
+inline constexpr double kPackedPosesRate = 20;
+inline constexpr double kLowestPackedPosesRate = 8;
+inline constexpr double kMaxPackedBytesPerSecond = 350'000;
+
 // The rate of rounds for a stream with clients, and the highest rate of poses, in Hz of wall-clock
 // time.
 inline constexpr double kPublishRate = 30;
@@ -48,7 +54,9 @@ class LiveStream {
   struct SnapshotTopic {
     foxglove::ChannelId channel = 0;
     SharedBytes (LiveStream::*encode)(const world::Snapshot&) const = nullptr;
-    Pacing pacing{kPublishRate};
+    double rate = kPublishRate;
+    double lowest_rate = kPublishRate;  // where kMaxPackedBytesPerSecond limits the rate
+    Pacing pacing{rate};
     std::weak_ptr<const world::Snapshot> published;
     Hub::Message latest;
   };
@@ -56,10 +64,12 @@ class LiveStream {
   void FollowLayout(simulation::Simulation& simulation, const world::Snapshot& snapshot,
                     WallTime now);
   void PublishTime(const SnapshotPointer& snapshot);
+  static double RateFor(const SnapshotTopic& topic);  // Hz, of its latest message's size
   void Publish(SnapshotTopic& topic, const SnapshotPointer& snapshot, WallTime now);
 
   SharedBytes EncodeClock(const world::Snapshot& snapshot) const;
   SharedBytes EncodePoses(const world::Snapshot& snapshot) const;
+  SharedBytes EncodePackedPoses(const world::Snapshot& snapshot) const;
   SharedBytes EncodeTransforms(const world::Snapshot& snapshot) const;
 
   const std::shared_ptr<Hub> hub_;

@@ -10,8 +10,12 @@ using WallTime = std::chrono::steady_clock::time_point;
 
 class Pacing {
  public:
-  explicit Pacing(double rate)  // Hz, > 0
-      : interval_(std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / rate))) {}
+  explicit Pacing(double rate) { SetRate(rate); }  // Hz, > 0
+
+  // Applies from the next Done() on.
+  void SetRate(double rate) {
+    interval_ = std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / rate));
+  }
 
   // Whether it is time to send. A little early counts, so that jitter does not skip a round. The
   // mean rate does not exceed the given one, as early calls count as on time.
@@ -19,7 +23,7 @@ class Pacing {
   void Done(WallTime now) { next_ = (now - next_ > interval_ ? now : next_) + interval_; }
 
  private:
-  std::chrono::nanoseconds interval_;
+  std::chrono::nanoseconds interval_{};
   WallTime next_{};
 };
 

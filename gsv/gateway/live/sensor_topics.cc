@@ -63,7 +63,8 @@ SensorTopics::SensorTopics(std::shared_ptr<Hub> hub, WorkerPool& workers)
     : hub_(std::move(hub)),
       workers_(workers),
       beam_sensors_(std::make_shared<SensorList>()),
-      beams_pacing_(kBeamsRate) {
+      beams_pacing_(kBeamsRate),
+      robot_beams_(hub_, workers) {
   const auto channels = hub_->Advertise({ChannelFor(presentation::topics::kBeams),
                                          ChannelFor(presentation::topics::kSensorTransforms)});
   beams_channel_ = channels[0];
@@ -91,6 +92,16 @@ void SensorTopics::Refresh(simulation::Simulation& simulation, const world::Snap
   }
   beams_of_.reset();
   transforms_changed_ = true;
+  robot_beams_.Refresh(WantedBeams());
+}
+
+RobotBeams::Sources SensorTopics::WantedBeams() const {
+  RobotBeams::Sources sources;
+  for (const std::shared_ptr<Sensor>& sensor : *beam_sensors_) {
+    if (!wanted_.Contains(sensor->robot)) continue;
+    sources[sensor->robot].push_back({sensor->description.name, sensor->type, *sensor->made});
+  }
+  return sources;
 }
 
 // The sensors that exist now; those that existed before keep their state.
@@ -149,7 +160,7 @@ void SensorTopics::EvictUnheard(Sensors& found) {
 }
 
 std::set<std::string> SensorTopics::RobotsHeard() const {
-  std::set<std::string> heard;
+  std::set<std::string> heard = robot_beams_.Heard();
   for (const foxglove::ChannelId channel : hub_->SubscribedChannels()) {
     const auto found = by_channel_.find(channel);
     if (found != by_channel_.end()) heard.insert(found->second->robot);
@@ -207,6 +218,7 @@ void SensorTopics::Publish(const std::shared_ptr<simulation::Simulation>& simula
     }
   }
   PublishBeams(simulation, snapshot, now);
+  robot_beams_.Publish(simulation, snapshot, now);
 }
 
 void SensorTopics::PublishTransforms(const world::Snapshot& snapshot) {

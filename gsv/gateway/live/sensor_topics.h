@@ -17,6 +17,7 @@
 
 #include "gsv/gateway/foxglove/hub.h"
 #include "gsv/gateway/live/pacing.h"
+#include "gsv/gateway/live/robot_beams.h"
 #include "gsv/gateway/live/wanted_robots.h"
 #include "gsv/gateway/server/worker_pool.h"
 #include "gsv/presentation/sensor_messages.h"
@@ -53,6 +54,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
 
   Sensors Found(simulation::Simulation& simulation, const world::Layout& layout);
   void Withdraw(const Sensors& found);
+  RobotBeams::Sources WantedBeams() const;
   void EvictUnheard(Sensors& found);
   std::set<std::string> RobotsHeard() const;
   void Advertise(Sensors& found);
@@ -86,6 +88,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   std::weak_ptr<const world::Snapshot> beams_of_;  // the last snapshot with beams
   std::atomic<bool> beams_busy_{false};
   presentation::BeamMarkers beam_markers_;  // used by the job of the beams only
+  RobotBeams robot_beams_;
 };
 
 }  // namespace gsv::gateway

@@ -45,6 +45,24 @@ TEST_F(LiveStreamTest, AReadingIsTakenOnlyForSubscribersAndOnlyWhenTimeHasPassed
   EXPECT_EQ(readings, 2);
 }
 
+TEST_F(LiveStreamTest, ARequestedRobotHasATopicOfItsBeams) {
+  simulation_->AddOneRobot();
+  Round();
+  EXPECT_EQ(client_->ChannelOf("/gsv/beams/robot_1"), 0u);
+  stream_.WantSensorsOf("robot_1");
+  Round();
+  Subscribe(1, "/gsv/beams");
+  Subscribe(2, "/gsv/beams/robot_1");
+  const auto all = Decoded<MarkerArray>(RoundUntil(1, 1));
+  const auto its = Decoded<MarkerArray>(RoundUntil(2, 1));
+  ASSERT_EQ(its.markers.size(), 1u);
+  const auto same = std::find_if(all.markers.begin(), all.markers.end(),
+                                 [](const auto& marker) { return marker.ns == "robot_1"; });
+  ASSERT_NE(same, all.markers.end());
+  EXPECT_GE(its.markers[0].points.size(), 2u);
+  EXPECT_EQ(its.markers[0], *same);
+}
+
 class ManySensorsTest : public LiveStreamTest {
  protected:
   void Mount(const std::string& robot, int from, int to) {

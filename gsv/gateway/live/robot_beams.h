@@ -1,0 +1,58 @@
+// The live topics /gsv/beams/ROBOT: the beams of one robot, as /gsv/beams has those of all. Only
+// robots whose topics were requested have one (WantedRobots). A viewer of a crowd draws the beams of
+// the selected robot only, which are a small part of /gsv/beams.
+//
+// Threads  one thread. Readings are taken by workers.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "gsv/gateway/foxglove/hub.h"
+#include "gsv/gateway/live/pacing.h"
+#include "gsv/gateway/server/worker_pool.h"
+#include "gsv/sensing/registry.h"
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::gateway {
+
+class RobotBeams {
+ public:
+  // A sensor with beams.
+  struct Source {
+    std::string sensor;
+    const sensing::SensorType* type = nullptr;
+    std::shared_ptr<const sensing::Sensor> made;
+  };
+  using Sources = std::map<std::string, std::vector<Source>>;  // by robot
+
+  // `workers` must outlive the last Publish().
+  RobotBeams(std::shared_ptr<Hub> hub, WorkerPool& workers)
+      : hub_(std::move(hub)), workers_(workers) {}
+
+  // The robots whose beams have subscribers.
+  std::set<std::string> Heard() const;
+
+  // From now on these robots have a topic. A robot that had one before keeps it.
+  void Refresh(const Sources& sources);
+
+  // Takes the beams that have subscribers and are due.
+  void Publish(const std::shared_ptr<simulation::Simulation>& simulation,
+               const std::shared_ptr<const world::Snapshot>& snapshot, WallTime now);
+
+ private:
+  struct Robot;
+
+  void Publish(const std::shared_ptr<simulation::Simulation>& simulation,
+               const std::shared_ptr<const world::Snapshot>& snapshot, WallTime now,
+               const std::shared_ptr<Robot>& robot);
+
+  const std::shared_ptr<Hub> hub_;
+  WorkerPool& workers_;
+  std::map<std::string, std::shared_ptr<Robot>> robots_;
+};
+
+}  // namespace gsv::gateway

@@ -1,0 +1,16 @@
+// The message gsv_msgs/PackedPoses.
+#pragma once
+
+#include <vector>
+
+#include "gsv/messages/gsv_msgs.h"
+#include "gsv/presentation/pose_list.h"
+
+namespace gsv::presentation {
+
+// `list` belongs to the snapshot's layout. Positions are rounded to 0.1 mm. The rotation between a
+// packed orientation and the given one is less than 0.0002 rad.
+messages::gsv_msgs::PackedPoses PackedPosesMessage(const world::Snapshot& snapshot,
+                                                   const std::vector<PoseEntry>& list);
+
+}  // namespace gsv::presentation
