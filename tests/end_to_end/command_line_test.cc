@@ -3,6 +3,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -221,10 +222,30 @@ TEST(CommandLine, BenchTypicalReportsARowForEachNumberOfRobots) {
   }
 }
 
+TEST(CommandLine, BenchRigidGivesOneHashForEachSceneWhateverTheThreads) {
+  std::set<std::string> hashes;
+  const Strings scenes{"rovers", "boxes", "terrain", "arms"};
+  for (const std::string& scene : scenes) {
+    for (const char* threads : {"1", "2"}) {
+      const Outcome outcome =
+          RunProgram("gsv", {"bench", "rigid", "--scene", scene, "--bodies", "9", "--duration",
+                             "0.5", "--threads", threads, "--json"});
+      EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+      const auto figures = outcome.LastLine();
+      EXPECT_EQ(figures["steps"], 500);
+      EXPECT_EQ(figures["contacts"] > 0, scene != "arms") << figures;
+      EXPECT_GT(figures["iterations_per_step"], 0.0) << figures;
+      hashes.insert(figures["state_hash"].get<std::string>());
+    }
+  }
+  EXPECT_EQ(hashes.size(), scenes.size());
+}
+
 TEST(CommandLine, UsageErrorsExitWithTwo) {
   for (const Strings& arguments :
        {Strings{}, Strings{"fly"}, Strings{"run", "--seed", "x"}, Strings{"run", "--port", "70000"},
-        Strings{"run", "--robot", "pebble@1"}, Strings{"run", "--behaviour", "a="}}) {
+        Strings{"bench", "rigid", "--scene", "x"}, Strings{"run", "--robot", "pebble@1"},
+        Strings{"run", "--behaviour", "a="}}) {
     const Outcome outcome = RunProgram("gsv", arguments);
     EXPECT_EQ(outcome.ending, "exit code 2") << outcome.err;
     EXPECT_NE(outcome.err, "");

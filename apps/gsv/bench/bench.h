@@ -20,6 +20,7 @@ void AddCrowdBench(const CommandLine& bench);
 void AddBrokerBench(const CommandLine& bench);
 void AddCameraBench(const CommandLine& bench);
 void AddLidarBench(const CommandLine& bench);
+void AddRigidBench(const CommandLine& bench);
 
 inline double Seconds(std::chrono::nanoseconds duration) {
   return std::chrono::duration<double>(duration).count();

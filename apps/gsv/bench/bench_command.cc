@@ -14,6 +14,7 @@ void AddBenchCommands(const CommandLine& line) {
   AddBrokerBench(inner);
   AddCameraBench(inner);
   AddLidarBench(inner);
+  AddRigidBench(inner);
 }
 
 }  // namespace gsv::app

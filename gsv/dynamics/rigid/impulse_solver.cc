@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gsv/dynamics/motion/solver_count.h"
+
 namespace gsv::dynamics {
 namespace {
 
@@ -341,7 +343,8 @@ void ImpulseSolver::SolveIslands(const btContactSolverInfo& info) {
   }
   const auto solve = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      islands_[i].rows.Solve(iterations_of(islands_[i]), std::sqrt(tolerance));
+      CountSolverIterations(
+          islands_[i].rows.Solve(iterations_of(islands_[i]), std::sqrt(tolerance)));
     }
   };
   if (team_ == nullptr) {
