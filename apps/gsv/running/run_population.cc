@@ -73,6 +73,21 @@ base::Status OverrideBehaviours(const RunOptions& options, std::vector<PlacedRob
   return {};
 }
 
+// --ros2-namespace names robots that are there, or come by an edit.
+base::Status CheckNamespaces(const RunOptions& options, const Simulation& simulation) {
+  if (!options.runtime.ros2) return {};
+  std::vector<std::string> names;
+  for (const auto& robot : simulation.status().robots) names.push_back(robot.name);
+  for (const simulation::Edit& edit : options.edits) names.push_back(edit.body);
+  for (const auto& [robot, name_space] : options.runtime.ros2->namespaces) {
+    if (std::find(names.begin(), names.end(), robot) != names.end()) continue;
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "there is no robot of that name" + base::DidYouMean(robot, names),
+                      "--ros2-namespace " + robot + "=" + name_space);
+  }
+  return {};
+}
+
 // The world's robots without an entry may still get a behaviour.
 void AddThoseOfTheWorld(const Simulation& simulation, std::vector<PlacedRobot>& robots,
                         const std::vector<std::string>& of_world) {
@@ -208,6 +223,7 @@ base::Result<scenario::Scenario> PopulateRun(Runtime& runtime, Simulation& simul
        CheckStarts(simulation.snapshot(), StartsOf(*population, options.scenario))) {
     problems.push_back(std::move(problem));
   }
+  if (auto ok = CheckNamespaces(options, simulation); !ok) return base::Fail(ok.error());
   AddThoseOfTheWorld(simulation, population->robots, of_world);
   if (auto ok = OverrideBehaviours(options, population->robots); !ok) return base::Fail(ok.error());
   if (!options.behaviour.empty() && population->robots.empty()) {
