@@ -5,10 +5,12 @@
   generate.py --samples MSG_ROOT OUT PACKAGE/NAME...   OUT/samples.h, for tests
 
 MSG_ROOT holds PACKAGE/NAME.msg. PACKAGE/NAME.srv names a service, whose definition is
-MSG_ROOT/../srv/PACKAGE/NAME.srv: it becomes the types NAMERequest and NAMEResponse. Every type that is
-used must be listed. What a definition may hold: fields of primitive and message types, arrays of them
-(fixed, bounded, unbounded), constants, and defaults of numbers. Anything else is refused with its file
-and line. The bound of an array is in the definition only: the C++ type is a vector without one.
+MSG_ROOT/../srv/PACKAGE/NAME.srv: it becomes the types NAMERequest and NAMEResponse. PACKAGE/NAME.action names
+an action in MSG_ROOT/../action, which becomes NAMEGoal, NAMEResult, NAMEFeedback and the types of its
+services and topics (design.ros2.org, "Actions"). Every type that is used must be listed. What a definition
+may hold: fields of primitive and message types, arrays of them (fixed, bounded, unbounded), constants, and
+defaults of numbers. Anything else is refused with its file and line. The bound of an array is in the
+definition only: the C++ type is a vector without one.
 """
 import pathlib
 import re
@@ -51,10 +53,17 @@ class Message:
     def key(self):
         return f"{self.package}/{self.name}"
 
+    @property
+    def text_name(self):
+        """Its name in the definitions of others."""
+        return self.ros_name if "/action/" in self.ros_name else self.key
+
 
 def parse(root, key):
-    """The message of a key, or request and response of a service."""
+    """The message of a key, or request and response of a service, or all types of an action."""
     package, name = key.split("/")
+    if name.endswith(".action"):
+        return parse_action(root, package, name)
     if not name.endswith(".srv"):
         path = root / package / f"{name}.msg"
         return [parse_text(path, Message(package, name, path.read_text(), f"{package}/msg/{name}"))]
@@ -72,6 +81,34 @@ def parse(root, key):
     return messages
 
 
+def parse_action(root, package, name):
+    path = root.parent / "action" / package / name
+    name = name.removesuffix(".action")
+    parts = re.split(r"^---\n", path.read_text(), flags=re.MULTILINE)
+    if len(parts) != 3:
+        sys.exit(f"{path}: expected two lines '---': between goal, result and feedback")
+    own = f"{package}/action/{name}"
+    goal_id = "unique_identifier_msgs/UUID goal_id\n"
+    texts = {
+        **dict(zip(("Goal", "Result", "Feedback"), parts)),
+        "SendGoal_Request": f"{goal_id}{own}_Goal goal\n",
+        "SendGoal_Response": "bool accepted\nbuiltin_interfaces/Time stamp\n",
+        "GetResult_Request": goal_id,
+        "GetResult_Response": f"int8 status\n{own}_Result result\n",
+        "FeedbackMessage": f"{goal_id}{own}_Feedback feedback\n",
+    }
+    return [parse_text(path, Message(package, name + part.replace("_", ""), text, f"{own}_{part}"))
+            for part, text in texts.items()]
+
+
+def key_of_type(type_, package):
+    """The key of a field's message type: of Name, package/Name, or package/action/Name_Part."""
+    parts = type_.split("/")
+    if len(parts) == 1:
+        return f"{package}/{type_}"
+    return type_ if len(parts) == 2 else f"{parts[0]}/{parts[2].replace('_', '')}"
+
+
 def parse_text(path, message):
     for number, line in enumerate(message.text.splitlines(), 1):
         line = line.split("#")[0].strip()
@@ -81,8 +118,8 @@ def parse_text(path, message):
             message.constants.append(found.groups())
         elif found := FIELD.match(line):
             type_, array, bound, field_name, default = found.groups()
-            if type_ not in PRIMITIVES and type_ != "string" and "/" not in type_:
-                type_ = f"{message.package}/{type_}"
+            if type_ not in PRIMITIVES and type_ != "string":
+                type_ = key_of_type(type_, message.package)
             if bound and bound.startswith("<="):
                 array = "[]"
             message.fields.append(Field(type_, field_name, array or "", default or ""))
@@ -131,7 +168,8 @@ class MessageSet:
 
     def schema_text(self, message):
         parts = [message.text]
-        parts += [f"MSG: {key}\n{self.messages[key].text}" for key in self.dependencies(message)]
+        parts += [f"MSG: {self.messages[key].text_name}\n{self.messages[key].text}"
+                  for key in self.dependencies(message)]
         return f"\n{SEPARATOR}\n".join(part.rstrip("\n") for part in parts) + "\n"
 
     def least_size(self, type_):

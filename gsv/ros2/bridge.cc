@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "gsv/base/log.h"
+#include "gsv/base/mutex.h"
+#include "gsv/base/spelling.h"
 #include "gsv/messages/diagnostic_msgs.h"
 #include "gsv/messages/rcl_interfaces.h"
 #include "gsv/messages/rosgraph_msgs.h"
@@ -21,6 +23,7 @@
 #include "gsv/ros2/names.h"
 #include "gsv/ros2/robot_descriptions.h"
 #include "gsv/ros2/robot_topics.h"
+#include "gsv/ros2/services/simulation_services.h"
 #include "gsv/ros2/slow_lane.h"
 #include "gsv/world/station.h"
 
@@ -42,7 +45,7 @@ using WallClock = std::chrono::steady_clock;
 class SimulationBridge final : public Bridge {
  public:
   SimulationBridge(dds::Participant& participant, Options options,
-                   const std::shared_ptr<Simulation>& simulation);
+                   const std::shared_ptr<Simulation>& simulation, Spawner* spawner);
   ~SimulationBridge() override;
 
  private:
@@ -50,6 +53,8 @@ class SimulationBridge final : public Bridge {
   void Refresh(Simulation& simulation);
   bool FollowRobots(Simulation& simulation, const world::Snapshot& snapshot);
   std::string NamespaceOf(const std::string& body) const;
+  base::Status SetNamespace(const std::string& robot, const std::string& name_space);
+  void CheckNamespaces(Simulation& simulation);
   void SendStaticFrames(const world::Snapshot& snapshot);
   void SendGraph();
   void FollowReaders();
@@ -65,6 +70,8 @@ class SimulationBridge final : public Bridge {
   const std::shared_ptr<Feed> feed_;
   std::atomic<bool> is_stopping_{false};
   std::atomic<bool> has_matched_{true};
+  mutable base::Mutex namespaces_mutex_;
+  std::map<std::string, std::string> namespaces_ GSV_GUARDED_BY(namespaces_mutex_);  // by robot
 
   // The publisher thread's.
   std::shared_ptr<const sensing::SensorRegistry> types_;
@@ -79,17 +86,20 @@ class SimulationBridge final : public Bridge {
   dds::Writer* diagnostics_ = nullptr;
   std::map<std::string, std::unique_ptr<RobotTopics>> robots_;  // by body
   SlowLane slow_;                                               // after what it uses
+  bool has_checked_namespaces_ = false;
+  std::unique_ptr<SimulationServices> services_;
   std::thread thread_;
 };
 
 SimulationBridge::SimulationBridge(dds::Participant& participant, Options options,
-                                   const std::shared_ptr<Simulation>& simulation)
+                                   const std::shared_ptr<Simulation>& simulation, Spawner* spawner)
     : participant_(participant),
       options_(std::move(options)),
       simulation_(simulation),
       is_lockstep_(simulation->specification().mode == simulation::Mode::kLockstep),
       seed_(simulation->specification().seed),
       feed_(std::make_shared<Feed>(is_lockstep_)),
+      namespaces_(options_.namespaces),
       types_(std::make_shared<sensing::SensorRegistry>(simulation->sensor_types())),
       sensors_(*types_),
       graph_(participant, options_.distro),
@@ -113,12 +123,18 @@ SimulationBridge::SimulationBridge(dds::Participant& participant, Options option
         for (const auto& [body, robot] : robots_) robot->AppendMovingFrames(snapshot, message);
         return message;
       }));
+  services_ = std::make_unique<SimulationServices>(
+      participant, options_.distro != Distro::kHumble, simulation, spawner,
+      [this](const std::string& robot, const std::string& name_space) {
+        return SetNamespace(robot, name_space);
+      });
   Refresh(*simulation);
   simulation->AddObserver(feed_);
   thread_ = std::thread([this] { Run(); });
 }
 
 SimulationBridge::~SimulationBridge() {
+  services_.reset();
   is_stopping_ = true;
   feed_->Close();
   thread_.join();
@@ -158,6 +174,7 @@ void SimulationBridge::Refresh(Simulation& simulation) {
     SendStaticFrames(*snapshot);
     has_matched_ = true;
   }
+  CheckNamespaces(simulation);
   SendGraph();
   const std::vector<dds::Endpoint> endpoints = participant_.endpoints();
   for (const auto& [body, robot] : robots_) robot->CheckPublishers(endpoints);
@@ -185,7 +202,8 @@ bool SimulationBridge::FollowRobots(Simulation& simulation, const world::Snapsho
     here.insert(body.name);
     const bool takes_commands = !with_behaviour.contains(body.name);
     std::unique_ptr<RobotTopics>& robot = robots_[body.name];
-    if (robot != nullptr && robot->IsOf(body, simulation.sensors(body.name), takes_commands)) {
+    if (robot != nullptr && robot->node().name_space == NamespaceOf(body.name) &&
+        robot->IsOf(body, simulation.sensors(body.name), takes_commands)) {
       continue;
     }
     slow_.Drain();
@@ -201,8 +219,34 @@ bool SimulationBridge::FollowRobots(Simulation& simulation, const world::Snapsho
 }
 
 std::string SimulationBridge::NamespaceOf(const std::string& body) const {
-  const auto chosen = options_.namespaces.find(body);
-  return chosen != options_.namespaces.end() ? chosen->second : "/" + RosName(body);
+  const base::MutexLock lock(namespaces_mutex_);
+  const auto chosen = namespaces_.find(body);
+  return chosen != namespaces_.end() ? chosen->second : "/" + RosName(body);
+}
+
+base::Status SimulationBridge::SetNamespace(const std::string& robot,
+                                            const std::string& name_space) {
+  const std::string whole = name_space.starts_with('/') ? name_space : "/" + name_space;
+  if (!IsNamespace(whole)) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, "it is no namespace of ROS 2",
+                      name_space.substr(0, 100));
+  }
+  const base::MutexLock lock(namespaces_mutex_);
+  namespaces_[robot] = whole;
+  return {};
+}
+
+// Logs once, after the start, which of the chosen namespaces have no robot.
+void SimulationBridge::CheckNamespaces(Simulation& simulation) {
+  if (has_checked_namespaces_ || simulation.status().phase == simulation::Phase::kCreated) return;
+  has_checked_namespaces_ = true;
+  std::vector<std::string> names;
+  for (const auto& [body, robot] : robots_) names.push_back(body);
+  for (const auto& [robot, name_space] : options_.namespaces) {
+    if (robots_.contains(robot)) continue;
+    spdlog::warn("--ros2-namespace {}={}: there is no robot of that name{}", robot, name_space,
+                 base::DidYouMean(robot, names));
+  }
 }
 
 void SimulationBridge::SendStaticFrames(const world::Snapshot& snapshot) {
@@ -213,6 +257,11 @@ void SimulationBridge::SendStaticFrames(const world::Snapshot& snapshot) {
 
 void SimulationBridge::SendGraph() {
   std::vector<NodeInfo> nodes{node_.info()};
+  const auto append = [](const std::vector<dds::Guid>& from, std::vector<dds::Guid>& to) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  append(services_->readers(), nodes.front().readers);
+  append(services_->writers(), nodes.front().writers);
   for (const auto& [body, robot] : robots_) nodes.push_back(robot->node());
   graph_.Publish(nodes);
 }
@@ -252,8 +301,9 @@ void SimulationBridge::Publish(const SnapshotPointer& snapshot) {
 }  // namespace
 
 std::unique_ptr<Bridge> Bridge::Start(dds::Participant& participant, Options options,
-                                      const std::shared_ptr<Simulation>& simulation) {
-  return std::make_unique<SimulationBridge>(participant, std::move(options), simulation);
+                                      const std::shared_ptr<Simulation>& simulation,
+                                      Spawner* spawner) {
+  return std::make_unique<SimulationBridge>(participant, std::move(options), simulation, spawner);
 }
 
 }  // namespace gsv::ros2

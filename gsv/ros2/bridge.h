@@ -1,6 +1,7 @@
-// One simulation in ROS 2: what its robots sense goes out as topics, commands come in.
+// One simulation in ROS 2: what its robots sense goes out as topics, commands come in, and services control it.
 //
-// Threads  its own publisher thread, and one for sensors that take long; members from any thread. The
+// Threads  its own publisher thread, one for sensors that take long, and those of services; members from any
+//          thread. The
 //          stepping thread only hands over snapshots. In lockstep it waits for the publisher, never for a
 //          reader.
 #pragma once
@@ -9,15 +10,18 @@
 
 #include "gsv/ros2/dds/participant.h"
 #include "gsv/ros2/options.h"
+#include "gsv/ros2/services/spawner.h"
 #include "gsv/simulation/simulation.h"
 
 namespace gsv::ros2 {
 
 class Bridge {
  public:
-  // `participant` outlives the bridge, and watches endpoints. Does not keep the simulation alive.
+  // `participant` outlives the bridge, and watches endpoints; `spawner` outlives it too, or is null, and then
+  // SpawnEntity is not supported. Does not keep the simulation alive.
   static std::unique_ptr<Bridge> Start(dds::Participant& participant, Options options,
-                                       const std::shared_ptr<simulation::Simulation>& simulation);
+                                       const std::shared_ptr<simulation::Simulation>& simulation,
+                                       Spawner* spawner = nullptr);
   virtual ~Bridge() = default;
 };
 

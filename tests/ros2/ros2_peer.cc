@@ -6,6 +6,8 @@
 //   ros2_peer drive --distance M [--stamped] ROBOT   sends cmd_vel until ROBOT/odom shows M metres
 //   ros2_peer disturb ROBOT                      publishes bad commands: another type on cmd_vel, NaN and
 //                                                infinities, and 10,000 commands from a second publisher
+//   ros2_peer call                               calls the services in the lines of its standard input (ros2_calls.h)
+//   ros2_peer call-many ENTITY                   calls get_entity_state --count times, --window at a time
 //   ros2_peer endpoints TOPIC…                   prints endpoints of others until each topic (rt/clock) was
 //                                                among them: topic, type, QoS, user data
 //
@@ -17,6 +19,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <iostream>
 #include <map>
 #include <memory>
 #include <set>
@@ -25,36 +28,12 @@
 
 #include <dds/dds.h>
 
+#include "tests/ros2/ros2_calls.h"
 #include "tests/ros2/ros2_json.h"
+#include "tests/ros2/ros2_participant.h"
 
 namespace gsv::ros2_peer {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-constexpr const char* kLoopback =
-    "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" "
-    "multicast=\"false\"/></Interfaces>"
-    "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</"
-    "ParticipantIndex>"
-    "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex><Peers><Peer "
-    "Address=\"127.0.0.1\"/></Peers>"
-    "</Discovery></Domain></CycloneDDS>";
-
-[[noreturn]] void Die(const std::string& message) {
-  std::fprintf(stderr, "ros2_peer: %s\n", message.c_str());
-  std::exit(2);
-}
-
-dds_entity_t Made(dds_entity_t entity, const std::string& what) {
-  if (entity < 0) Die("cannot make " + what + ": " + dds_strretcode(-entity));
-  return entity;
-}
-
-struct Type {
-  const dds_topic_descriptor_t* descriptor;
-  Json (*to_json)(const void* sample);
-};
 
 template <typename Message>
 Json JsonOf(const void* sample) {
@@ -86,14 +65,6 @@ const Type& TypeNamed(const std::string& name) {
   return found->second;
 }
 
-struct Arguments {
-  dds_domainid_t domain = 0;
-  int count = 1;
-  double timeout = 20, distance = 1, seconds = 10;
-  bool is_stamped = false, uses_multicast = false;
-  std::vector<std::string> words;
-};
-
 Arguments Parse(int count, char** words) {
   Arguments arguments;
   for (int i = 2; i < count; ++i) {
@@ -108,6 +79,8 @@ Arguments Parse(int count, char** words) {
       arguments.count = static_cast<int>(value());
     } else if (word == "--timeout") {
       arguments.timeout = value();
+    } else if (word == "--window") {
+      arguments.window = static_cast<int>(value());
     } else if (word == "--seconds") {
       arguments.seconds = value();
     } else if (word == "--distance") {
@@ -123,100 +96,6 @@ Arguments Parse(int count, char** words) {
     }
   }
   return arguments;
-}
-
-class Participant {
- public:
-  explicit Participant(const Arguments& arguments)
-      : deadline_(Clock::now() +
-                  std::chrono::milliseconds(static_cast<std::int64_t>(1000 * arguments.timeout))) {
-    if (!arguments.uses_multicast) {
-      Made(dds_create_domain(arguments.domain, kLoopback), "a domain");
-    }
-    Join(arguments);
-  }
-  // Another participant in the domain of the first.
-  Participant(const Arguments& arguments, const Participant& first) : deadline_(first.deadline_) {
-    Join(arguments);
-  }
-
-  dds_entity_t entity() const { return entity_; }
-  bool Has(const dds_builtintopic_endpoint_t& endpoint) const {
-    dds_guid_t own{};
-    dds_get_guid(entity_, &own);
-    return std::equal(std::begin(own.v), std::end(own.v), std::begin(endpoint.participant_key.v));
-  }
-
-  // Best effort and volatile, which takes whatever a writer offers.
-  dds_entity_t Reader(const Type& type, const std::string& topic) {
-    dds_qos_t* const qos = dds_create_qos();
-    dds_qset_reliability(qos, DDS_RELIABILITY_BEST_EFFORT, 0);
-    dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 100);
-    const dds_entity_t reader =
-        Made(dds_create_reader(entity_, Topic(type, topic), qos, nullptr), "a reader of " + topic);
-    dds_delete_qos(qos);
-    return reader;
-  }
-  // One that also gets what was sent before it came.
-  dds_entity_t LatchedReader(const Type& type, const std::string& topic) {
-    dds_qos_t* const qos = dds_create_qos();
-    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
-    dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
-    const dds_entity_t reader =
-        Made(dds_create_reader(entity_, Topic(type, topic), qos, nullptr), "a reader of " + topic);
-    dds_delete_qos(qos);
-    return reader;
-  }
-  dds_entity_t Writer(const Type& type, const std::string& topic) {
-    dds_qos_t* const qos = dds_create_qos();
-    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
-    const dds_entity_t writer =
-        Made(dds_create_writer(entity_, Topic(type, topic), qos, nullptr), "a writer of " + topic);
-    dds_delete_qos(qos);
-    return writer;
-  }
-  // From here on WaitForData() ends when this reader has something.
-  void Watch(dds_entity_t reader) {
-    dds_set_status_mask(reader, DDS_DATA_AVAILABLE_STATUS);
-    dds_waitset_attach(waits_, reader, reader);
-  }
-  // False when the time is over.
-  bool WaitForData() {
-    const auto left = deadline_ - Clock::now();
-    if (left <= left.zero()) return false;
-    return dds_waitset_wait(waits_, nullptr, 0, std::chrono::nanoseconds(left).count()) > 0;
-  }
-
- private:
-  void Join(const Arguments& arguments) {
-    entity_ = Made(dds_create_participant(arguments.domain, nullptr, nullptr), "a participant");
-    waits_ = Made(dds_create_waitset(entity_), "a wait set");
-  }
-  dds_entity_t Topic(const Type& type, const std::string& topic) {
-    return Made(
-        dds_create_topic(entity_, type.descriptor, ("rt" + topic).c_str(), nullptr, nullptr),
-        "the topic " + topic);
-  }
-
-  const Clock::time_point deadline_;
-  dds_entity_t entity_ = 0, waits_ = 0;
-};
-
-// The next sample of a reader goes to `use`; false when there is none.
-template <typename Use>
-bool TakeOne(dds_entity_t reader, Use use) {
-  void* samples[1] = {nullptr};
-  dds_sample_info_t info[1];
-  const dds_return_t count = dds_take(reader, samples, info, 1, 1);
-  if (count <= 0) return false;
-  if (info[0].valid_data) use(samples[0]);
-  dds_return_loan(reader, samples, count);
-  return true;
-}
-
-void Print(const Json& json) {
-  std::printf("%s\n", json.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());
-  std::fflush(stdout);
 }
 
 int Listen(const Arguments& arguments) {
@@ -439,15 +318,24 @@ int Endpoints(const Arguments& arguments) {
 }
 
 int Main(int count, char** words) {
-  if (count < 2) Die("expected listen, count, drive, disturb or endpoints");
+  if (count < 2) Die("expected listen, count, drive, disturb, call, call-many or endpoints");
   const std::string command = words[1];
   const Arguments arguments = Parse(count, words);
   if (command == "listen") return Listen(arguments);
   if (command == "count") return Count(arguments);
   if (command == "drive") return Drive(arguments);
   if (command == "disturb") return Disturb(arguments);
+  if (command == "call") {
+    Participant participant(arguments);
+    return CallAll(participant, std::cin);
+  }
+  if (command == "call-many") {
+    if (arguments.words.size() != 1) Die("call-many needs one entity");
+    Participant participant(arguments);
+    return CallMany(participant, arguments.words[0], arguments.count, arguments.window);
+  }
   if (command == "endpoints") return Endpoints(arguments);
-  Die("expected listen, count, drive, disturb or endpoints, found " + command);
+  Die("expected listen, count, drive, disturb, call, call-many or endpoints, found " + command);
 }
 
 }  // namespace

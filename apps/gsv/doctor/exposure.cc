@@ -207,8 +207,8 @@ std::string Complaint(const Listener& listener, const Exposure& exposure) {
     case Speaks::kCorbaTls:
       return exposure.takes_certificate ? "" : "everyone who can reach it can call it";
     case Speaks::kRos2:
-      return "everyone who can reach it can read all topics, and command robots without a "
-             "behaviour; start it with --ros2-range localhost, or use a firewall";
+      return "everyone who can reach it can read all topics, command robots without a behaviour, "
+             "and control the simulation; start it with --ros2-range localhost, or use a firewall";
     case Speaks::kUnknown:
       return "it does not respond, so the addresses it listens on are unknown; check whether it is "
              "suspended";

@@ -97,13 +97,16 @@ base::Result<std::unique_ptr<ros2::dds::Participant>> MakeParticipant(
   return (*module)->make(options);
 }
 
-base::Result<std::unique_ptr<Ros2Access>> Ros2Access::Start(ros2::Options options) {
+base::Result<std::unique_ptr<Ros2Access>> Ros2Access::Start(ros2::Options options,
+                                                            gateway::SimulationFactory& factory,
+                                                            formats::ModelLibrary& library) {
   std::unique_ptr<Ros2Access> access(new Ros2Access);
   auto reach = ros2::ParticipantFor(options, ros2::ProcessEnvironment);
   if (!reach) return base::Fail(reach.error());
   reach->watches_endpoints = true;
   auto participant = MakeParticipant(*reach);
   if (!participant) return base::Fail(participant.error());
+  access->spawner_ = std::make_unique<Ros2Spawner>(factory, library, !ros2::IsExposed(*reach));
   access->options_ = std::move(options);
   access->reach_ = *std::move(reach);
   access->participant_ = *std::move(participant);
@@ -128,13 +131,14 @@ std::string DescribeReach(const ros2::dds::ParticipantOptions& options) {
 
 std::string Ros2Access::Exposure() const {
   if (!ros2::IsExposed(reach_)) return {};
-  return "ROS 2 is reachable from other machines: everyone there can read all topics, and command "
-         "robots without a behaviour. Use --ros2-range localhost to prevent that";
+  return "ROS 2 is reachable from other machines: everyone there can read all topics, command "
+         "robots without a behaviour, and control the simulation. Use --ros2-range localhost to "
+         "prevent that";
 }
 
 void Ros2Access::Publish(const SimulationPointer& simulation) {
   published_ = simulation;
-  bridge_ = ros2::Bridge::Start(*participant_, options_, simulation);
+  bridge_ = ros2::Bridge::Start(*participant_, options_, simulation, spawner_.get());
 }
 
 void Ros2Access::Follow(std::function<std::vector<SimulationPointer>()> list) {

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "apps/gsv/serving/ros2_spawner.h"
 #include "gsv/base/mutex.h"
 #include "gsv/ros2/bridge.h"
 #include "gsv/ros2/dds/participant.h"
@@ -48,7 +49,10 @@ class Ros2Access {
  public:
   using SimulationPointer = std::shared_ptr<simulation::Simulation>;
 
-  static base::Result<std::unique_ptr<Ros2Access>> Start(ros2::Options options);
+  // `factory` and `library` outlive this: SpawnEntity adds models by them.
+  static base::Result<std::unique_ptr<Ros2Access>> Start(ros2::Options options,
+                                                         gateway::SimulationFactory& factory,
+                                                         formats::ModelLibrary& library);
   ~Ros2Access();
 
   std::string Description() const { return DescribeReach(reach_); }
@@ -67,6 +71,7 @@ class Ros2Access {
   ros2::Options options_;
   ros2::dds::ParticipantOptions reach_;
   std::unique_ptr<ros2::dds::Participant> participant_;
+  std::unique_ptr<Ros2Spawner> spawner_;
   std::weak_ptr<simulation::Simulation> published_;
   std::unique_ptr<ros2::Bridge> bridge_;
 

@@ -90,7 +90,7 @@ base::Result<std::unique_ptr<Runtime>> Runtime::Start(const RuntimeOptions& opti
       *runtime->host_, *runtime->behaviours_, *runtime->broker_, *runtime->recordings_,
       options.model_path, options.server_limits.reading);
   if (options.ros2) {
-    auto access = Ros2Access::Start(*options.ros2);
+    auto access = Ros2Access::Start(*options.ros2, *runtime->builder_, runtime->host_->library());
     if (!access) return base::Fail(access.error());
     runtime->ros2_ = *std::move(access);
   }

@@ -47,6 +47,41 @@ Guid GuidOf(const rtps::GUID_t& guid) {
   return bytes;
 }
 
+// A participant, of which a GUID's first bytes are.
+using Prefix = std::array<std::uint8_t, 12>;
+
+Prefix PrefixOf(const Guid& guid) {
+  Prefix prefix{};
+  std::copy_n(guid.begin(), prefix.size(), prefix.begin());
+  return prefix;
+}
+
+rtps::SampleIdentity IdentityOf(const SampleIdentity& identity) {
+  rtps::SampleIdentity out;
+  std::copy_n(identity.writer.begin(), 12, out.writer_guid().guidPrefix.value);
+  std::copy_n(identity.writer.begin() + 12, 4, out.writer_guid().entityId.value);
+  out.sequence_number() =
+      rtps::SequenceNumber_t(static_cast<std::int32_t>(identity.sequence >> 32),
+                             static_cast<std::uint32_t>(identity.sequence & 0xffffffff));
+  return out;
+}
+
+Request RequestOf(const fast::SampleInfo& info) {
+  Request request;
+  request.writer = GuidOf(info.sample_identity.writer_guid());
+  request.identity.writer = request.writer;
+  request.identity.sequence =
+      static_cast<std::int64_t>(info.sample_identity.sequence_number().to64long());
+  // Clients of rmw_fastrtps name here the reader that waits for the reply.
+  const rtps::GUID_t& reader = info.related_sample_identity.writer_guid();
+  if (reader == rtps::GUID_t::unknown()) return request;
+  request.identity.writer = GuidOf(reader);
+  request.related.writer = GuidOf(reader);
+  request.related.sequence =
+      static_cast<std::int64_t>(info.related_sample_identity.sequence_number().to64long());
+  return request;
+}
+
 template <typename EndpointQos>
 void Apply(const Topic& topic, EndpointQos& qos) {
   qos.reliability().kind =
@@ -55,6 +90,8 @@ void Apply(const Topic& topic, EndpointQos& qos) {
                                                        : fast::VOLATILE_DURABILITY_QOS;
   qos.history().kind = fast::KEEP_LAST_HISTORY_QOS;
   qos.history().depth = topic.qos.depth;
+  auto& limits = qos.resource_limits();
+  limits.max_samples_per_instance = std::max(limits.max_samples_per_instance, topic.qos.depth);
   qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.data_sharing().off();
   const std::vector<rtps::octet> data(topic.user_data.begin(), topic.user_data.end());
@@ -158,12 +195,25 @@ class FastWriter final : public Writer, fast::DataWriterListener {
   bool Open(fast::Topic* topic, const Topic& description) {
     fast::DataWriterQos qos = fast::DATAWRITER_QOS_DEFAULT;
     Apply(description, qos);
+    if (const int heartbeat = description.qos.heartbeat_ms; heartbeat > 0) {
+      qos.reliable_writer_qos().times.heartbeatPeriod =
+          eprosima::fastrtps::Duration_t(heartbeat / 1000.0);
+    }
     writer_ =
         publisher_.create_datawriter(topic, qos, this, fast::StatusMask::publication_matched());
     return writer_ != nullptr;
   }
 
   void Write(std::span<const std::byte> sample) override { writer_->write(&sample); }
+  void WriteReply(std::span<const std::byte> sample, const SampleIdentity& request) override {
+    rtps::WriteParams parameters;
+    parameters.related_sample_identity(IdentityOf(request));
+    writer_->write(&sample, parameters);
+  }
+  bool HasReaderBeside(const Guid& endpoint) const override {
+    const base::MutexLock lock(mutex_);
+    return readers_in_.contains(PrefixOf(endpoint));
+  }
   bool has_readers() const override { return readers_ > 0; }
   Guid guid() const override { return GuidOf(writer_->guid()); }
 
@@ -171,20 +221,36 @@ class FastWriter final : public Writer, fast::DataWriterListener {
   void on_publication_matched(fast::DataWriter*,
                               const fast::PublicationMatchedStatus& status) override {
     readers_ = status.current_count;
+    Count(status);
     if (on_match_) on_match_();
+  }
+
+  void Count(const fast::PublicationMatchedStatus& status) {
+    rtps::GUID_t reader;
+    rtps::iHandle2GUID(reader, status.last_subscription_handle);
+    const base::MutexLock lock(mutex_);
+    int& count = readers_in_[PrefixOf(GuidOf(reader))];
+    count += status.current_count_change;
+    if (count <= 0) readers_in_.erase(PrefixOf(GuidOf(reader)));
   }
 
   fast::Publisher& publisher_;
   const std::function<void()> on_match_;
   std::atomic<int> readers_{0};
+  mutable base::Mutex mutex_;
+  std::map<Prefix, int> readers_in_ GSV_GUARDED_BY(mutex_);
   fast::DataWriter* writer_ = nullptr;
 };
 
 class FastReader final : public Reader, fast::DataReaderListener {
  public:
+  // `on_message` gets the samples, or if it is empty `on_request` does.
   FastReader(fast::Subscriber& subscriber,
-             std::function<void(std::span<const std::byte>)> on_message)
-      : subscriber_(subscriber), on_message_(std::move(on_message)) {}
+             std::function<void(std::span<const std::byte>)> on_message,
+             std::function<void(std::span<const std::byte>, const Request&)> on_request = {})
+      : subscriber_(subscriber),
+        on_message_(std::move(on_message)),
+        on_request_(std::move(on_request)) {}
   ~FastReader() override {
     if (reader_ == nullptr) return;
     reader_->set_listener(nullptr);
@@ -206,7 +272,8 @@ class FastReader final : public Reader, fast::DataReaderListener {
   void on_data_available(fast::DataReader* reader) override {
     fast::SampleInfo info;
     while (reader->take_next_sample(&sample_, &info) == ReturnCode_t::RETCODE_OK) {
-      if (info.valid_data && !sample_.empty()) on_message_(sample_);
+      if (!info.valid_data || sample_.empty()) continue;
+      on_message_ ? on_message_(sample_) : on_request_(sample_, RequestOf(info));
     }
   }
   void on_subscription_matched(fast::DataReader*,
@@ -216,6 +283,7 @@ class FastReader final : public Reader, fast::DataReaderListener {
 
   fast::Subscriber& subscriber_;
   const std::function<void(std::span<const std::byte>)> on_message_;
+  const std::function<void(std::span<const std::byte>, const Request&)> on_request_;
   std::vector<std::byte> sample_;  // of the thread that calls on_data_available
   std::atomic<int> writers_{0};
   fast::DataReader* reader_ = nullptr;
@@ -303,16 +371,26 @@ class FastParticipant final : public Participant {
   }
   base::Result<std::unique_ptr<Reader>> MakeReader(
       const Topic& topic, std::function<void(std::span<const std::byte>)> on_message) override {
-    auto reader = std::make_unique<FastReader>(*subscriber_, std::move(on_message));
-    fast::Topic* const fast_topic = TopicOf(topic);
-    if (fast_topic != nullptr && reader->Open(fast_topic, topic)) return reader;
-    return Refusal(topic);
+    return Opened(std::make_unique<FastReader>(*subscriber_, std::move(on_message)), topic);
+  }
+  base::Result<std::unique_ptr<Reader>> MakeRequestReader(
+      const Topic& topic,
+      std::function<void(std::span<const std::byte>, const Request&)> on_request) override {
+    return Opened(std::make_unique<FastReader>(*subscriber_, nullptr, std::move(on_request)),
+                  topic);
   }
 
   Guid guid() const override { return GuidOf(participant_->guid()); }
   std::vector<Endpoint> endpoints() const override { return list_.list(); }
 
  private:
+  base::Result<std::unique_ptr<Reader>> Opened(std::unique_ptr<FastReader> reader,
+                                               const Topic& topic) {
+    fast::Topic* const fast_topic = TopicOf(topic);
+    if (fast_topic != nullptr && reader->Open(fast_topic, topic)) return reader;
+    return Refusal(topic);
+  }
+
   static tl::unexpected<base::Error> Refusal(const Topic& topic) {
     return base::Fail(base::ErrorCode::kUnavailable,
                       "Fast DDS refuses the topic with type " + topic.type, topic.name);

@@ -9,7 +9,7 @@
 namespace gsv::ros2::dds {
 
 // Grows with each change of participant.h.
-inline constexpr int kModuleInterface = 1;
+inline constexpr int kModuleInterface = 2;
 inline constexpr const char* kModuleSymbol = "gsv_ros2_module";
 inline constexpr const char* kModuleFile = "gsv-ros2.so";
 

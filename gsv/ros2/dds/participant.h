@@ -3,7 +3,7 @@
 // No DDS library is named here. The implementation is a plug-in (module.h), so that a program without
 // ROS 2 neither loads nor links one.
 //
-// Threads  any. `on_message` and `on_match` are called on threads of the DDS library; they return at once and
+// Threads  any. `on_message`, `on_request` and `on_match` are called on threads of the DDS library; they return at once and
 //          do not call back.
 #pragma once
 
@@ -27,6 +27,8 @@ struct Qos {
   bool is_reliable = true;
   bool is_transient_local = false;  // late readers get the last `depth` samples
   int depth = 10;                   // keep last
+  int heartbeat_ms =
+      0;  // so often a reliable writer asks what is missing; 0: the library's usual time
   friend bool operator==(const Qos&, const Qos&) = default;
 };
 
@@ -54,12 +56,29 @@ struct ParticipantOptions {
   bool watches_endpoints = false;    // endpoints() works
 };
 
+// By this a reply names its request: the client's endpoint and the number of the request.
+struct SampleIdentity {
+  Guid writer{};
+  std::int64_t sequence = 0;
+};
+
+// The identities of a request of a service, or of a reply.
+struct Request {
+  Guid writer{};            // the endpoint that sent it
+  SampleIdentity identity;  // for the reply
+  SampleIdentity related;   // of the request that a reply answers
+};
+
 class Writer {
  public:
   virtual ~Writer() = default;
   // One sample with its encapsulation header. Does not wait for readers: of a reader that does not
   // keep up, the oldest samples are lost. One thread at a time.
   virtual void Write(std::span<const std::byte> sample) = 0;
+  // One sample that is the reply to a request.
+  virtual void WriteReply(std::span<const std::byte> sample, const SampleIdentity& request) = 0;
+  // Whether a reader of the participant that has this endpoint matches. A reply that is written before is lost.
+  virtual bool HasReaderBeside(const Guid& endpoint) const = 0;
   virtual bool has_readers() const = 0;
   virtual Guid guid() const = 0;
 };
@@ -90,6 +109,9 @@ class Participant {
                                                            std::function<void()> on_match) = 0;
   virtual base::Result<std::unique_ptr<Reader>> MakeReader(
       const Topic& topic, std::function<void(std::span<const std::byte>)> on_message) = 0;
+  virtual base::Result<std::unique_ptr<Reader>> MakeRequestReader(
+      const Topic& topic,
+      std::function<void(std::span<const std::byte>, const Request&)> on_request) = 0;
   virtual Guid guid() const = 0;
   // Those that are known now, in the order of their GUIDs.
   virtual std::vector<Endpoint> endpoints() const = 0;

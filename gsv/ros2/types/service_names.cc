@@ -26,4 +26,8 @@ ServiceTopic ResponseTopic(std::string_view service, std::string_view type) {
   return {"rr" + std::string(service) + "Reply", HalfType(type, "_Response_")};
 }
 
+ServiceTopic ActionTopic(std::string_view topic, std::string_view type) {
+  return {"rt" + std::string(topic), HalfType(type, "_")};
+}
+
 }  // namespace gsv::ros2

@@ -71,7 +71,9 @@ std::string TypeHashOf(std::string_view type) {
 
 std::string TypeHashUserData(std::string_view type) {
   for (const std::string_view half : {kRequest, kResponse}) {
-    if (type.find("/srv/") != std::string_view::npos && type.ends_with(half)) {
+    const bool is_service = type.find("/srv/") != std::string_view::npos ||
+                            type.find("/action/") != std::string_view::npos;
+    if (is_service && type.ends_with(half)) {
       type.remove_suffix(half.size());
       break;
     }

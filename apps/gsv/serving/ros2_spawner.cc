@@ -1,0 +1,98 @@
+#include "apps/gsv/serving/ros2_spawner.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+
+#include "gsv/base/spelling.h"
+#include "gsv/model/drive_guess.h"
+#include "gsv/ros2/services/results.h"
+
+namespace gsv::app {
+namespace {
+
+constexpr std::string_view kModelScheme = "model://";
+constexpr std::string_view kFileScheme = "file://";
+constexpr std::size_t kMaxUri = 4096;
+
+bool IsForRobots(const model::Model& model) {
+  return model.drive || !model.control_systems.empty() ||
+         model::GuessDrive(model).kind != model::DriveKind::kNone;
+}
+
+}  // namespace
+
+std::vector<ros2::Spawner::Spawnable> Ros2Spawner::Spawnables() {
+  std::vector<Spawnable> all;
+  const auto add = [&](const std::string& name, bool is_robot) {
+    all.push_back({std::string(kModelScheme) + name, is_robot});
+  };
+  for (const auto& model : factory_.Models()) {
+    if (!model.is_avatar) add(model.name, true);
+  }
+  for (const std::string& object : factory_.Objects()) add(object, false);
+  return all;
+}
+
+base::Result<std::string> Ros2Spawner::ModelOf(const std::string& uri) {
+  if (uri.size() > kMaxUri) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, "the URI is longer than 4096 bytes");
+  }
+  const bool is_file = uri.starts_with(kFileScheme) || uri.starts_with('/');
+  if (is_file && !reads_files_) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "files are not read while other machines reach gsv. Use --model-path and the "
+                      "model's name",
+                      uri);
+  }
+  if (is_file) {
+    std::string file = uri.starts_with('/') ? uri : uri.substr(kFileScheme.size());
+    std::error_code ignored;
+    if (std::filesystem::exists(file, ignored)) return file;
+    return base::Fail(base::ErrorCode::kNotFound, "there is no such file", file);
+  }
+  std::string name = uri.starts_with(kModelScheme) ? uri.substr(kModelScheme.size()) : uri;
+  std::vector<std::string> known = factory_.Objects();
+  for (const auto& model : factory_.Models()) known.push_back(model.name);
+  if (std::find(known.begin(), known.end(), name) != known.end()) return name;
+  return base::Fail(base::ErrorCode::kNotFound,
+                    "there is no model of this name" + base::DidYouMean(name, known) +
+                        ". GetSpawnables lists them",
+                    uri);
+}
+
+base::Result<std::string> Ros2Spawner::Spawn(simulation::Simulation& simulation,
+                                             const ros2::SpawnRequest& request) {
+  const auto name = ModelOf(request.uri);
+  if (!name) return base::Fail(name.error());
+  base::Problems problems;
+  const auto model = library_.ReadModel(*name, problems);
+  if (!model) {
+    base::Error error = model.error();
+    error.code = base::ErrorCode::kCorrupt;
+    return base::Fail(std::move(error));
+  }
+  if (IsForRobots(**model)) {
+    simulation::RobotSpecification robot;
+    robot.name = request.name;
+    robot.model = *model;
+    robot.world_from_robot = request.world_from_entity;
+    robot.on_ground = request.on_ground;
+    return simulation.AddRobot(std::move(robot));
+  }
+  simulation::ObjectSpecification object;
+  object.name = request.name;
+  object.model = *model;
+  object.world_from_object = request.world_from_entity;
+  object.on_ground = request.on_ground;
+  base::Result<std::string> added;
+  const base::Status status = ros2::EditWhilePaused(simulation, [&]() -> base::Status {
+    added = simulation.AddObject(std::move(object));
+    if (!added) return base::Fail(added.error());
+    return {};
+  });
+  if (!status) return base::Fail(status.error());
+  return added;
+}
+
+}  // namespace gsv::app

@@ -1,0 +1,19 @@
+// The extent of bodies.
+#pragma once
+
+#include <optional>
+
+#include "gsv/geometry/triangle_mesh.h"
+#include "gsv/world/snapshot.h"
+
+namespace gsv::ros2 {
+
+// The smallest box around a body's collision shapes, along the axes of its frame, at the positions of its joints;
+// around its visuals where it has no collision shapes. Nothing for a body that has neither, and for one with a
+// plane, which has no end.
+std::optional<geometry::Bounds> BoundsOfBody(const world::Snapshot& snapshot, int body);
+
+// The smallest box along the world's axes around such a box.
+geometry::Bounds InWorld(const geometry::Bounds& bounds, const geometry::Pose& world_from_body);
+
+}  // namespace gsv::ros2

@@ -1,0 +1,24 @@
+// The filters of GetEntities and GetEntitiesStates.
+//
+// A filter is untrusted input: regular expressions are bounded, so that none takes long.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/messages/simulation_interfaces.h"
+#include "gsv/world/snapshot.h"
+
+namespace gsv::ros2 {
+
+// The category of a body, one of EntityCategory's.
+std::uint8_t CategoryOf(const world::Body& body);
+
+// The indices of the bodies that pass, ascending. kNotFound never occurs. Fails with kInvalidArgument for a regular
+// expression that is wrong, longer than 256 characters, or has repetitions {n} or back references; with
+// kUnavailable for tags and for bounds other than boxes and spheres.
+base::Result<std::vector<int>> FilterEntities(
+    const world::Snapshot& snapshot, const messages::simulation_interfaces::EntityFilters& filters);
+
+}  // namespace gsv::ros2

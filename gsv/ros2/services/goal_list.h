@@ -1,0 +1,46 @@
+// The goals of a ROS 2 action, and their states.
+//
+// Source   design.ros2.org, "Actions"; action_msgs of Jazzy.
+// Threads  one at a time.
+// Bounded  at most 100 goals that are not finished; of the finished ones the last 100 are kept.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "gsv/messages/action_msgs.h"
+
+namespace gsv::ros2 {
+
+class GoalList {
+ public:
+  using Id = std::array<std::uint8_t, 16>;
+  using Status = std::int8_t;  // one of GoalStatus's
+  static constexpr std::size_t kMaxGoals = 100;
+
+  // Accepts a goal. False when its id is known, or there are too many.
+  bool Accept(const Id& id, const messages::builtin_interfaces::Time& stamp);
+  // STATUS_UNKNOWN: there is no such goal.
+  Status StatusOf(const Id& id) const;
+  bool IsFinished(const Id& id) const;
+  // Begins to execute an accepted goal. False when it is to be cancelled instead.
+  bool Begin(const Id& id);
+  void Finish(const Id& id, Status status);
+
+  // Marks the goals that the request means, which are then canceling; the response says which.
+  messages::action_msgs::CancelGoalResponse Cancel(
+      const messages::action_msgs::CancelGoalRequest& request);
+
+  // In the order in which they were accepted.
+  messages::action_msgs::GoalStatusArray All() const { return {goals_}; }
+
+ private:
+  messages::action_msgs::GoalStatus* Find(const Id& id);
+  void ForgetOldest();
+
+  std::vector<messages::action_msgs::GoalStatus> goals_;
+};
+
+}  // namespace gsv::ros2

@@ -1,0 +1,14 @@
+// The parameter services of a node, with the one parameter that ROS 2 expects of each: use_sim_time. It is true, and
+// cannot be set: gsv's time is the simulated time.
+//
+// Source  rcl_interfaces of Jazzy.
+#pragma once
+
+#include "gsv/ros2/services/service_host.h"
+
+namespace gsv::ros2 {
+
+// `node` is "/gsv".
+void OfferParameterServices(ServiceHost& host, const std::string& node);
+
+}  // namespace gsv::ros2

@@ -1,0 +1,26 @@
+// The results of simulation_interfaces, and edits that need a pause.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "gsv/base/error.h"
+#include "gsv/messages/simulation_interfaces.h"
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::ros2 {
+
+messages::simulation_interfaces::Result Succeeded();
+messages::simulation_interfaces::Result Failed(std::uint8_t code, std::string message);
+// kNotFound, kNotRunning and kEnded have codes of their own, others are a failed operation.
+messages::simulation_interfaces::Result ResultOf(const base::Error& error);
+messages::simulation_interfaces::Result ResultOf(const base::Status& status);
+
+// The phase now.
+simulation::Phase PhaseOf(const simulation::Simulation& simulation);
+
+// Performs an edit. If the simulation runs, it is paused for that and resumed.
+base::Status EditWhilePaused(simulation::Simulation& simulation,
+                             const std::function<base::Status()>& edit);
+
+}  // namespace gsv::ros2

@@ -1,0 +1,117 @@
+// The services of a ROS 2 node, for clients of rmw_fastrtps and of rmw_cyclonedds.
+//
+// A client of rmw_fastrtps finds its reply by the related sample identity (RTPS 2.3, 8.7.5; inline QoS). A client
+// of rmw_cyclonedds finds it by 16 bytes after the encapsulation header, which the reply repeats. A
+// request follows the second if the GUID of the client's writer has the vendor of Cyclone DDS.
+//
+// Requests are untrusted input. One that does not decode gets no reply, and the first of a service is logged.
+//
+// Threads  Offer…(), Advertise() and the destructor on one. Handlers run on the threads of the host, one for each
+//          lane, so that a slow request does not delay the quick ones. The rest on any.
+// Bounded  10,000 requests wait; further ones are dropped, and the first is logged.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gsv/messages/cdr.h"
+#include "gsv/ros2/dds/participant.h"
+#include "gsv/ros2/services/service_worker.h"
+
+namespace gsv::ros2 {
+
+// Whether requests of this writer begin with the 16 bytes of rmw_cyclonedds.
+bool HasCycloneHeader(const dds::Guid& writer);
+
+class ServiceHost {
+ public:
+  enum class Lane {
+    kQuick,     // answered at once
+    kSlow,      // reads files, or waits for the simulation
+    kStepping,  // takes as long as the simulation does
+  };
+  class Service;
+  // Sends the reply to one request, at most once, also later and from another thread.
+  class Replier {
+   public:
+    // `response` is a whole message. Returns at once; the reply is sent once the client can receive it, which
+    // discovery may delay, or after a second.
+    void Send(messages::Bytes response) const;
+    template <typename Response>
+    void SendMessage(const Response& response) const {
+      messages::Bytes bytes;
+      messages::Encode(response, bytes);
+      Send(std::move(bytes));
+    }
+
+   private:
+    friend class ServiceHost;
+    std::weak_ptr<Service> service_;
+    dds::Request request_;
+    std::vector<std::byte> header_;  // of rmw_cyclonedds
+  };
+  using Handler = std::function<void(std::span<const std::byte> request, const Replier& reply)>;
+
+  // `participant` outlives the host. `has_hashes`: endpoints carry the hashes of their types.
+  ServiceHost(dds::Participant& participant, bool has_hashes);
+  // Returns when no handler runs any longer.
+  ~ServiceHost();
+
+  // `service` is "/gsv/get_entities", `type` is "simulation_interfaces/srv/GetEntities".
+  void OfferBytes(const std::string& service, const std::string& type, Lane lane, Handler handler);
+
+  // `answer` is called with a Request and a Replier.
+  template <typename Request, typename Answer>
+  void OfferLater(const std::string& service, const std::string& type, Lane lane, Answer answer) {
+    OfferBytes(service, type, lane,
+               [answer = std::move(answer), service](std::span<const std::byte> bytes,
+                                                     const Replier& reply) {
+                 const auto request = messages::Decode<Request>(bytes);
+                 request ? answer(*request, reply) : Refuse(service, request.error());
+               });
+  }
+  // `answer` is called with a Request, and returns the response.
+  template <typename Request, typename Answer>
+  void Offer(const std::string& service, const std::string& type, Lane lane, Answer answer) {
+    OfferLater<Request>(service, type, lane,
+                        [answer = std::move(answer)](const Request& request, const Replier& reply) {
+                          reply.SendMessage(answer(request));
+                        });
+  }
+
+  // A topic of an action. Null when the participant refuses, which is logged. Lives as long as the host.
+  dds::Writer* Advertise(const std::string& topic, const std::string& type, const dds::Qos& qos);
+
+  // Does a job after those that wait in the lane. False when too many wait.
+  bool Do(Lane lane, std::function<void()> job);
+
+  // The endpoints of all services and topics.
+  const std::vector<dds::Guid>& readers() const { return readers_; }
+  const std::vector<dds::Guid>& writers() const { return writers_; }
+
+  // Whether the host is being destroyed: handlers that wait then return.
+  bool is_stopping() const { return is_stopping_; }
+
+ private:
+  class Outbox;
+  static void Refuse(const std::string& service, const base::Error& error);
+  void Enqueue(const std::shared_ptr<Service>& service, Lane lane,
+               std::span<const std::byte> sample, const dds::Request& request);
+
+  dds::Participant& participant_;
+  const bool has_hashes_;
+  std::shared_ptr<Outbox> outbox_;
+  std::vector<std::shared_ptr<Service>> services_;
+  std::vector<std::unique_ptr<dds::Reader>> request_readers_;
+  std::vector<dds::Guid> readers_, writers_;
+  std::vector<std::unique_ptr<dds::Writer>> topics_;
+  std::atomic<bool> is_stopping_{false};
+  ServiceWorker quick_, slow_, stepping_;
+};
+
+}  // namespace gsv::ros2

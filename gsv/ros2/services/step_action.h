@@ -1,0 +1,43 @@
+// The action SimulateSteps: takes steps one by one, with feedback after each.
+//
+// Threads  the handlers are of the quick lane, and the steps of the stepping lane.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "gsv/base/mutex.h"
+#include "gsv/ros2/services/goal_list.h"
+#include "gsv/ros2/services/simulation_services.h"
+
+namespace gsv::ros2 {
+
+class StepAction {
+ public:
+  // `served` and this outlive the host of the services.
+  explicit StepAction(ServedSimulation& served);
+
+ private:
+  using Outcome = messages::simulation_interfaces::SimulateStepsGetResultResponse;
+
+  messages::simulation_interfaces::SimulateStepsSendGoalResponse Accept(
+      const messages::simulation_interfaces::SimulateStepsSendGoalRequest& request);
+  void GiveResult(const GoalList::Id& id, const ServiceHost::Replier& reply);
+  void Execute(const GoalList::Id& id, std::uint64_t steps);
+  // Takes the steps; returns how many it took of them, and why not all.
+  Outcome Take(simulation::Simulation& simulation, const GoalList::Id& id, std::uint64_t steps);
+  void SendFeedback(const GoalList::Id& id, std::uint64_t completed, std::uint64_t remaining);
+  void Finish(const GoalList::Id& id, const Outcome& outcome);
+  void SendStatus() GSV_REQUIRES(mutex_);
+  bool IsCanceled(const GoalList::Id& id) const;
+
+  ServedSimulation& served_;
+  dds::Writer* feedback_ = nullptr;  // null: refused
+  dds::Writer* status_ = nullptr;    // the same
+  mutable base::Mutex mutex_;
+  GoalList goals_ GSV_GUARDED_BY(mutex_);
+  std::map<GoalList::Id, Outcome> outcomes_ GSV_GUARDED_BY(mutex_);  // of finished goals
+  std::multimap<GoalList::Id, ServiceHost::Replier> waiting_ GSV_GUARDED_BY(mutex_);
+};
+
+}  // namespace gsv::ros2
