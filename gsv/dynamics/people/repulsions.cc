@@ -4,17 +4,8 @@
 
 #include <cmath>
 
-#include "gsv/base/sanitizer.h"
+#include "gsv/base/each_processor.h"
 #include "gsv/dynamics/people/social_force_constants.h"
-
-// The loader chooses the version of a function for the processor it finds. Sanitizers cannot start
-// before it does.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(GSV_SANITIZED)
-#define GSV_FOR_EACH_PROCESSOR __attribute__((target_clones("avx2", "default")))
-#else
-#define GSV_FOR_EACH_PROCESSOR
-#endif
 
 namespace gsv::dynamics {
 namespace {

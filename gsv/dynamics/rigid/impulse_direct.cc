@@ -1,7 +1,9 @@
 // The direct solution of ImpulseRows: linear equations of the rows that are within their bounds.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "gsv/base/each_processor.h"
 #include "gsv/dynamics/rigid/impulse_rows.h"
 #include "gsv/dynamics/rigid/linear_solve.h"
 
@@ -12,23 +14,31 @@ double Length(const std::array<double, 2>& v) { return std::sqrt(v[0] * v[0] + v
 
 }  // namespace
 
+// Only rows on the same body are coupled: each body has a chain of the blocks on it.
+GSV_FOR_EACH_PROCESSOR
 void ImpulseRows::CoupleAll() {
   const std::size_t count = rows_.size();
   if (couplings_.size() == count * count) return;
   couplings_.assign(count * count, 0);
+  last_block_.assign(velocities_.size() / kFour, -1);
   for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      double sum = 0;
-      for (const Block& a : rows_[i].sides) {
-        for (const Block& b : rows_[j].sides) {
-          if (a.count == 0 || b.count == 0 || a.first != b.first) continue;
-          const double* jacobian = jacobians_.data() + a.start;
-          const double* response = responses_.data() + b.start;
-          for (int k = a.begin; k < a.end; ++k) sum += jacobian[k] * response[k];
-        }
-      }
-      couplings_[i * count + j] = couplings_[j * count + i] = sum;
+    for (std::size_t side = 0; side < 2; ++side) {
+      Block& block = rows_[i].sides[side];
+      if (block.count == 0) continue;
+      int& last = last_block_[static_cast<std::size_t>(block.first / kFour)];
+      block.next = std::exchange(last, static_cast<int>(2 * i + side));
     }
+    double* const of_row = couplings_.data() + i * count;
+    for (const Block& a : rows_[i].sides) {
+      if (a.count == 0) continue;
+      const double* jacobian = jacobians_.data() + a.start;
+      for (int at = last_block_[static_cast<std::size_t>(a.first / kFour)]; at >= 0;) {
+        const Block& b = At(at / 2).sides[static_cast<std::size_t>(at % 2)];
+        of_row[at / 2] += Product(jacobian, responses_.data() + b.start, a.begin, a.end);
+        at = b.next;
+      }
+    }
+    for (std::size_t j = 0; j < i; ++j) couplings_[j * count + i] = of_row[j];
   }
 }
 
@@ -182,6 +192,92 @@ bool ImpulseRows::SolveFree(bool shares_loads) {
   WriteEquations(shares_loads);
   if (!SolveLinear(matrix_, unknown_)) return false;
   TakeSolution();
+  return true;
+}
+
+// Rows that may have any impulse, contacts that close, and friction of those that do not move along
+// their surface. Returns whether there are few enough of them, and no impulses yet.
+bool ImpulseRows::ChooseLikely() {
+  constexpr double kSlips = 1e-3;  // m/s
+  constexpr std::size_t kMaxGuess = 60;
+  const auto choose = [&](int row) {
+    place_[static_cast<std::size_t>(row)] = static_cast<int>(free_.size());
+    free_.push_back(row);
+  };
+  free_.clear();
+  place_.assign(rows_.size(), -1);
+  for (int i = 0; i < static_cast<int>(rows_.size()); ++i) {
+    const Row& row = At(i);
+    if (row.impulse != 0) return false;
+    if (row.is_in_cone || row.mass_inverse == 0) continue;
+    const double missing = row.target - VelocityOf(row);
+    if ((row.lower < 0 && row.upper > 0) || (row.upper > 0 && missing > 0) ||
+        (row.lower < 0 && missing < 0)) {
+      choose(i);
+    }
+  }
+  slips_.assign(cones_.size(), false);
+  turns_.assign(cones_.size(), false);
+  for (std::size_t i = 0; i < cones_.size(); ++i) {
+    const Cone& cone = cones_[i];
+    if (place_[static_cast<std::size_t>(cone.normal_row)] < 0 || !(cone.friction > 0)) continue;
+    if (At(cone.first_row).mass_inverse == 0 || At(cone.first_row + 1).mass_inverse == 0) continue;
+    slips_[i] = Length(MissingOf(cone)) > kSlips;
+    if (slips_[i]) continue;
+    choose(cone.first_row);
+    choose(cone.first_row + 1);
+  }
+  return !free_.empty() && free_.size() <= kMaxGuess;
+}
+
+// The friction of a contact that slips is in proportion to its normal impulse: against the slip.
+// Returns whether the guess is within all bounds.
+bool ImpulseRows::Guess() {
+  if (!ChooseLikely()) return false;
+  Remember();
+  CoupleAll();
+  // WriteEquations() takes the direction of friction from the impulses for a unit normal impulse.
+  for (std::size_t i = 0; i < cones_.size(); ++i) {
+    if (!slips_[i]) continue;
+    const Cone& cone = cones_[i];
+    const auto missing = MissingOf(cone);
+    const double scale = cone.friction / Length(missing);
+    for (int k = 0; k < 2; ++k) At(cone.first_row + k).impulse = scale * missing[k];
+    At(cone.normal_row).impulse = 1;
+  }
+  WriteEquations(false);
+  for (const Cone& cone : cones_) {
+    Row& normal = At(cone.normal_row);
+    const int place = place_[static_cast<std::size_t>(cone.normal_row)];
+    if (place >= 0) unknown_[static_cast<std::size_t>(place)] += normal.softness * normal.impulse;
+    normal.impulse = 0;
+  }
+  const bool is_solved = SolveLinear(matrix_, unknown_);
+  if (is_solved && TakeGuess()) return true;
+  GoBack();
+  return false;
+}
+
+bool ImpulseRows::TakeGuess() {
+  for (std::size_t i = 0; i < free_.size(); ++i) {
+    Row& row = At(free_[i]);
+    if (row.is_in_cone) continue;
+    if (unknown_[i] < row.lower || unknown_[i] > row.upper) return false;
+    Apply(row, unknown_[i]);
+  }
+  for (std::size_t i = 0; i < cones_.size(); ++i) {
+    const Cone& cone = cones_[i];
+    const int place = place_[static_cast<std::size_t>(cone.first_row)];
+    std::array<double, 2> wanted{};
+    for (int k = 0; k < 2; ++k) {
+      Row& row = At(cone.first_row + k);
+      if (slips_[i]) wanted[k] = row.impulse * impulse(cone.normal_row);
+      if (place >= 0) wanted[k] = unknown_[static_cast<std::size_t>(place + k)];
+      row.impulse = 0;
+    }
+    if (!slips_[i] && Length(wanted) > RadiusOf(cone)) return false;
+    for (int k = 0; k < 2; ++k) Apply(At(cone.first_row + k), wanted[k]);
+  }
   return true;
 }
 

@@ -5,31 +5,34 @@
 #include <utility>
 
 #include "gsv/base/check.h"
+#include "gsv/base/each_processor.h"
 
 namespace gsv::dynamics {
 namespace {
 
 // The impulses of least energy within a circle: of (a0, a1), both above 0, and pulls (b0, b1) the x
 // with a x = b, or where that lies outside of the circle, (a + shift) x = b on it. Newton's method
-// on 1 / |x(shift)| is monotonic (Moré and Sorensen 1983).
-std::array<double, 2> WithinCircle(double a0, double a1, double b0, double b1, double radius) {
+// on 1 / |x(shift)| is monotonic from below (Moré and Sorensen 1983). `shift` is where it begins.
+[[gnu::always_inline]] inline std::array<double, 2> WithinCircle(double a0, double a1, double b0,
+                                                                 double b1, double radius,
+                                                                 double& shift) {
   double x0 = b0 / a0, x1 = b1 / a1;
   double length2 = x0 * x0 + x1 * x1;
   if (length2 <= radius * radius) return {x0, x1};
   if (!(radius > 0)) return {0, 0};
   // The length is at most |b| / (least a + shift), and at least |b| / (greatest a + shift).
-  double shift = std::max(0.0, std::sqrt(b0 * b0 + b1 * b1) / radius - std::max(a0, a1));
-  x0 = b0 / (a0 + shift);
-  x1 = b1 / (a1 + shift);
-  length2 = x0 * x0 + x1 * x1;
+  const double pull = std::sqrt(b0 * b0 + b1 * b1) / radius;
+  shift = std::clamp(shift, std::max(0.0, pull - std::max(a0, a1)),
+                     std::max(0.0, pull - std::min(a0, a1)));
   for (int i = 0; i < 12; ++i) {
-    const double length = std::sqrt(length2);
-    if (length - radius <= 1e-12 * radius) break;
-    const double slope = x0 * x0 / (a0 + shift) + x1 * x1 / (a1 + shift);
-    shift += length2 / slope * (length - radius) / radius;
-    x0 = b0 / (a0 + shift);
-    x1 = b1 / (a1 + shift);
+    const double w0 = 1 / (a0 + shift), w1 = 1 / (a1 + shift);
+    x0 = b0 * w0;
+    x1 = b1 * w1;
     length2 = x0 * x0 + x1 * x1;
+    const double length = std::sqrt(length2);
+    if (std::abs(length - radius) <= 1e-12 * radius) break;
+    const double slope = x0 * x0 * w0 + x1 * x1 * w1;
+    shift = std::max(0.0, shift + length2 / slope * (length - radius) / radius);
   }
   const double scale = radius / std::sqrt(length2);
   return {x0 * scale, x1 * scale};
@@ -55,6 +58,7 @@ void ImpulseRows::Clear() {
 int ImpulseRows::AddBody(std::span<const double> velocities) {
   const int first = static_cast<int>(velocities_.size());
   velocities_.insert(velocities_.end(), velocities.begin(), velocities.end());
+  velocities_.resize(static_cast<std::size_t>(RoundUpToFour(static_cast<int>(velocities_.size()))));
   return first;
 }
 
@@ -65,10 +69,12 @@ std::span<const double> ImpulseRows::velocities(int first, int count) const {
 
 ImpulseRows::Block ImpulseRows::AddSide(const Side& side) {
   GSV_CHECK(side.jacobian.size() == side.response.size());
-  const Block block{side.first, static_cast<int>(side.jacobian.size()),
-                    static_cast<int>(jacobians_.size()), 0, static_cast<int>(side.jacobian.size())};
+  const int count = RoundUpToFour(static_cast<int>(side.jacobian.size()));
+  const Block block{side.first, count, static_cast<int>(jacobians_.size()), 0, count};
   jacobians_.insert(jacobians_.end(), side.jacobian.begin(), side.jacobian.end());
   responses_.insert(responses_.end(), side.response.begin(), side.response.end());
+  jacobians_.resize(static_cast<std::size_t>(block.start + count));
+  responses_.resize(static_cast<std::size_t>(block.start + count));
   return block;
 }
 
@@ -92,10 +98,8 @@ int ImpulseRows::AddRow(const Side& a, const Side& b, const Limits& limits, doub
 double ImpulseRows::Coupling(const Row& a, const Row& b) const {
   double sum = 0;
   for (std::size_t side = 0; side < 2; ++side) {
-    for (int i = 0; i < a.sides[side].count; ++i) {
-      sum += jacobians_[static_cast<std::size_t>(a.sides[side].start + i)] *
-             responses_[static_cast<std::size_t>(b.sides[side].start + i)];
-    }
+    sum += Product(jacobians_.data() + a.sides[side].start, responses_.data() + b.sides[side].start,
+                   0, a.sides[side].count);
   }
   return sum;
 }
@@ -114,6 +118,8 @@ void ImpulseRows::Trim() {
       while (side.end > side.begin && jacobian[side.end - 1] == 0) --side.end;
       while (side.begin < side.end && jacobian[side.begin] == 0) ++side.begin;
       if (side.begin == side.end) side.count = 0;
+      side.begin = side.begin / kFour * kFour;
+      side.end = RoundUpToFour(side.end);
     }
   }
 }
@@ -150,7 +156,7 @@ int ImpulseRows::AddCone(int normal_row, int first_row, double friction, const A
     At(row).softness = 0;
     Weigh(At(row));
   }
-  cones_.push_back({normal_row, first_row, friction, principal});
+  cones_.push_back({normal_row, first_row, friction, principal, 0});
   return static_cast<int>(cones_.size()) - 1;
 }
 
@@ -160,26 +166,7 @@ std::array<double, 2> ImpulseRows::ConeImpulse(int cone) const {
   return {of.axes[0][0] * x0 + of.axes[1][0] * x1, of.axes[0][1] * x0 + of.axes[1][1] * x1};
 }
 
-double ImpulseRows::VelocityOf(const Row& row) const {
-  double sum = 0;
-  for (const Block& side : row.sides) {
-    const double* jacobian = jacobians_.data() + side.start;
-    const double* velocity = velocities_.data() + side.first;
-    for (int i = side.begin; i < side.end; ++i) sum += jacobian[i] * velocity[i];
-  }
-  return sum;
-}
-
-void ImpulseRows::Apply(Row& row, double impulse) {
-  row.impulse += impulse;
-  for (const Block& side : row.sides) {
-    const double* response = responses_.data() + side.start;
-    double* velocity = velocities_.data() + side.first;
-    for (int i = 0; i < side.count; ++i) velocity[i] += response[i] * impulse;
-  }
-}
-
-void ImpulseRows::SolveRow(Row& row) {
+[[gnu::always_inline]] inline void ImpulseRows::SolveRow(Row& row) {
   if (row.mass_inverse == 0) return;
   const double missing = row.target - VelocityOf(row) - row.softness * row.impulse;
   const double wanted = row.impulse + missing / row.mass_inverse;
@@ -187,7 +174,7 @@ void ImpulseRows::SolveRow(Row& row) {
   Apply(row, row.change);
 }
 
-void ImpulseRows::SolveCone(const Cone& cone) {
+[[gnu::always_inline]] inline void ImpulseRows::SolveCone(Cone& cone) {
   Row &a = At(cone.first_row), &b = At(cone.first_row + 1);
   const double radius = RadiusOf(cone);
   // What moves in one direction alone.
@@ -201,23 +188,26 @@ void ImpulseRows::SolveCone(const Cone& cone) {
   }
   const double pull_a = a.target - VelocityOf(a) + a.mass_inverse * a.impulse;
   const double pull_b = b.target - VelocityOf(b) + b.mass_inverse * b.impulse;
-  const auto [x, y] = WithinCircle(a.mass_inverse, b.mass_inverse, pull_a, pull_b, radius);
+  const auto [x, y] =
+      WithinCircle(a.mass_inverse, b.mass_inverse, pull_a, pull_b, radius, cone.shift);
   a.change = x - a.impulse;
   b.change = y - b.impulse;
   Apply(a, a.change);
   Apply(b, b.change);
 }
 
+GSV_FOR_EACH_PROCESSOR
 void ImpulseRows::Sweep(bool backwards) {
   const std::size_t count = rows_.size();
   for (std::size_t i = 0; i < count; ++i) {
     Row& row = rows_[backwards ? count - 1 - i : i];
     if (!row.is_in_cone) SolveRow(row);
   }
-  for (const Cone& cone : cones_) SolveCone(cone);
+  for (Cone& cone : cones_) SolveCone(cone);
 }
 
 // Goes further where the iterations before have led, within the bounds.
+GSV_FOR_EACH_PROCESSOR
 void ImpulseRows::Accelerate(double beta) {
   for (Row& row : rows_) {
     if (row.is_in_cone || row.mass_inverse == 0) continue;
@@ -281,9 +271,10 @@ int ImpulseRows::Solve(int max_iterations, double tolerance) {
   const int sweeps = rows_.size() <= kFew ? 1 : 6;
   Trim();
   couplings_.clear();
+  const bool is_guessed = Guess();
   double energy_before = 0, last_energy = 0;
   int wait = sweeps, since = 0;
-  bool is_first = true, is_direct = false;
+  bool is_first = !is_guessed, is_direct = false;
   for (int iteration = 1; iteration < max_iterations; ++iteration) {
     Sweep(iteration % 2 == 0);
     ++since;

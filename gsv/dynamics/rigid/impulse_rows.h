@@ -15,6 +15,8 @@
 //           problems are accelerated as a nonsmooth nonlinear conjugate gradient: Silcowitz-Hansen
 //           and others, The Visual Computer 26 (2010). Masses of a thousand to one and long chains
 //           of joints would take Gauss-Seidel alone thousands of iterations.
+// Start     from no impulses: what moves along a surface slips, all other contacts stick and carry.
+//           Linear equations give the impulses of this guess.
 // Loads     where there are more rows than are needed (a base on two wheels and two casters), they
 //           share the load as equal springs would, up to kMaxDirect.
 // Threads   one thread at a time.
@@ -24,6 +26,8 @@
 #include <array>
 #include <span>
 #include <vector>
+
+#include "gsv/dynamics/rigid/four_doubles.h"
 
 namespace gsv::dynamics {
 
@@ -72,9 +76,11 @@ class ImpulseRows {
   std::array<double, 2> ConeImpulse(int cone) const;
 
  private:
+  // All lengths are multiples of four: what is beyond a body's degrees of freedom is zero.
   struct Block {
     int first = 0, count = 0, start = 0;  // in velocities_; in jacobians_ and responses_
     int begin = 0, end = 0;               // where its jacobian is not zero, from `start`
+    int next = -1;                        // the next block on the same body (CoupleAll())
   };
   struct Row {
     std::array<Block, 2> sides;
@@ -87,6 +93,7 @@ class ImpulseRows {
     int normal_row, first_row;
     double friction;
     Axes axes;
+    double shift;  // of the last solution on the circle, where the next one begins
   };
 
   Row& At(int row) { return rows_[static_cast<std::size_t>(row)]; }
@@ -98,7 +105,7 @@ class ImpulseRows {
   double VelocityOf(const Row& row) const;
   void Apply(Row& row, double impulse);
   void SolveRow(Row& row);
-  void SolveCone(const Cone& cone);
+  void SolveCone(Cone& cone);
   void Sweep(bool backwards);
   void Accelerate(double beta);
   double MaxChange() const;
@@ -110,6 +117,9 @@ class ImpulseRows {
   void WriteEquations(bool shares_loads);
   void TakeSolution();
   bool SolveFree(bool shares_loads);
+  bool ChooseLikely();
+  bool Guess();
+  bool TakeGuess();
   void Remember();
   void GoBack();
   double ChangeOfEnergy() const;
@@ -122,10 +132,28 @@ class ImpulseRows {
   std::vector<double> couplings_;         // J M⁻¹ Jᵀ of all rows, once it is asked for
   std::vector<int> free_;                 // rows
   std::vector<int> place_;                // of each row in free_, or -1
+  std::vector<int> last_block_;           // of each body's place in velocities_, or -1
   std::vector<bool> slips_;               // of each cone: its friction is at its limit
   std::vector<bool> turns_;               // of each cone that slips: its rows are free
   std::vector<double> matrix_, unknown_;  // of free_
   std::vector<double> velocities_before_, impulses_before_;
 };
+
+// They are inlined into the versions of a function for each processor.
+[[gnu::always_inline]] inline double ImpulseRows::VelocityOf(const Row& row) const {
+  double sum = 0;
+  for (const Block& side : row.sides) {
+    sum += Product(jacobians_.data() + side.start, velocities_.data() + side.first, side.begin,
+                   side.end);
+  }
+  return sum;
+}
+
+[[gnu::always_inline]] inline void ImpulseRows::Apply(Row& row, double impulse) {
+  row.impulse += impulse;
+  for (const Block& side : row.sides) {
+    AddTimes(impulse, responses_.data() + side.start, side.count, velocities_.data() + side.first);
+  }
+}
 
 }  // namespace gsv::dynamics

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gsv/base/check.h"
+#include "gsv/base/each_processor.h"
 
 namespace gsv::dynamics {
 namespace {
@@ -18,6 +19,7 @@ double LargestOf(std::span<const double> row) {
 
 }  // namespace
 
+GSV_FOR_EACH_PROCESSOR
 bool SolveLinear(std::span<double> a, std::span<double> b) {
   const std::size_t n = b.size();
   GSV_CHECK(a.size() == n * n);
@@ -34,12 +36,13 @@ bool SolveLinear(std::span<double> a, std::span<double> b) {
                        a.begin() + static_cast<std::ptrdiff_t>(column * n));
       std::swap(b[pivot], b[column]);
     }
+    const double inverse = 1 / a[column * n + column];
     for (std::size_t row = column + 1; row < n; ++row) {
-      const double factor = a[row * n + column] / a[column * n + column];
+      const double factor = a[row * n + column] * inverse;
       if (factor == 0) continue;
       double* __restrict__ const changed = a.data() + row * n;
       const double* __restrict__ const taken = a.data() + column * n;
-      for (std::size_t k = column; k < n; ++k) changed[k] -= factor * taken[k];
+      for (std::size_t k = column + 1; k < n; ++k) changed[k] -= factor * taken[k];
       b[row] -= factor * b[column];
     }
   }

@@ -1,0 +1,37 @@
+// Products of arrays whose lengths are multiples of four, four values at a time. The sums have the
+// same order, and so the same bits, on every processor.
+#pragma once
+
+namespace gsv::dynamics {
+
+inline constexpr int kFour = 4;
+
+// The next multiple of four.
+constexpr int RoundUpToFour(int count) { return (count + kFour - 1) / kFour * kFour; }
+
+typedef double FourDoubles __attribute__((vector_size(32), aligned(8), may_alias));
+
+inline const FourDoubles& FourAt(const double* values) {
+  return *reinterpret_cast<const FourDoubles*>(values);
+}
+inline FourDoubles& FourAt(double* values) { return *reinterpret_cast<FourDoubles*>(values); }
+
+__attribute__((always_inline)) inline double SumOf(const FourDoubles& four) {
+  return (four[0] + four[2]) + (four[1] + four[3]);
+}
+
+// The scalar product of `a` and `b` from `begin` to `end`, both multiples of four.
+__attribute__((always_inline)) inline double Product(const double* a, const double* b, int begin,
+                                                     int end) {
+  FourDoubles sum{};
+  for (int i = begin; i < end; i += kFour) sum += FourAt(a + i) * FourAt(b + i);
+  return SumOf(sum);
+}
+
+// Adds `factor` times `added` to `changed`.
+__attribute__((always_inline)) inline void AddTimes(double factor, const double* added, int count,
+                                                    double* changed) {
+  for (int i = 0; i < count; i += kFour) FourAt(changed + i) += FourAt(added + i) * factor;
+}
+
+}  // namespace gsv::dynamics
