@@ -9,7 +9,15 @@ namespace {
 
 using geometry::Pose;
 
-// Adds children to a compound and keeps count of what they are like.
+bool IsIdentity(const btTransform& transform) {
+  constexpr double kRounding = 1e-14;
+  const btMatrix3x3 &a = transform.getBasis(), &b = btMatrix3x3::getIdentity();
+  return transform.getOrigin().length() < kRounding && (a[0] - b[0]).length() < kRounding &&
+         (a[1] - b[1]).length() < kRounding && (a[2] - b[2]).length() < kRounding;
+}
+
+// Adds children to a compound and keeps count of what they are like. A solid of one child needs no
+// compound, which costs as much as its contacts.
 class SolidBuilder {
  public:
   SolidBuilder(int body, btCompoundShape* compound) : compound_(compound) { solid_.body = body; }
@@ -26,6 +34,7 @@ class SolidBuilder {
     shape->getBoundingSphere(centre, radius);
     solid_.radius = std::max<double>(solid_.radius, (solid_from_shape * centre).length() + radius);
     compound_->addChildShape(solid_from_shape, shape);
+    only_ = solid_.surfaces.empty() && IsIdentity(solid_from_shape) ? shape : nullptr;
     SetFilter(*shape, surface.filter);
     filter_ = Union(filter_, surface.filter);
     solid_.surfaces.push_back(surface);
@@ -33,12 +42,13 @@ class SolidBuilder {
 
   Solid Finish() {
     SetFilter(*compound_, filter_);
-    solid_.shape = compound_;
+    solid_.shape = only_ != nullptr ? only_ : compound_;
     return std::move(solid_);
   }
 
  private:
   btCompoundShape* compound_;
+  btCollisionShape* only_ = nullptr;  // the only child, if it has the solid's frame
   model::CollisionFilter filter_ = model::kMeetsNothing;
   Solid solid_;
 };

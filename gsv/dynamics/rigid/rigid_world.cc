@@ -48,6 +48,7 @@ RigidWorld::RigidWorld(BulletKit& kit, const RigidScene& scene, const world::Sta
       seconds_(seconds),
       world_(&kit.dispatcher, &broad_phase_, &kit.solver, &kit.configuration) {
   kit.solver.reset();
+  broad_phase_.m_deferedcollide = true;  // all pairs at once, when all objects are there
   world_.setGravity(ToBullet(scene.layout().description->gravity));
   world_.getDispatchInfo().m_deterministicOverlappingPairs = true;
   btContactSolverInfo& settings = world_.getSolverInfo();
@@ -64,7 +65,13 @@ RigidWorld::RigidWorld(BulletKit& kit, const RigidScene& scene, const world::Sta
   AddPlanarNear();
 }
 
-RigidWorld::~RigidWorld() = default;
+// Bullet searches all pairs for those of each object that goes.
+RigidWorld::~RigidWorld() {
+  btOverlappingPairCache& cache = *broad_phase_.getOverlappingPairCache();
+  btBroadphasePairArray& pairs = cache.getOverlappingPairArray();
+  for (int i = 0; i < pairs.size(); ++i) cache.cleanOverlappingPair(pairs[i], &kit_.dispatcher);
+  pairs.resizeNoInitialize(0);
+}
 
 Owner& RigidWorld::NewOwner(const Solid& solid, bool is_rigid, bool is_held) {
   return owners_.emplace_back(Owner{&solid, &friction_axes_, is_rigid, is_held, false});
