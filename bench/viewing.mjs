@@ -1,8 +1,9 @@
 #!/usr/bin/env node
-// How the viewer feels in a browser without a graphics card: the time to the first picture, from a
-// click to the selection that is shown, frames a second; and what a graphics card would have to draw.
+// How the viewer feels in a browser without a graphics card: the time to the first picture and to the list
+// of the robots, from a click to the selection that is shown, frames a second, traffic; and what a graphics
+// card would have to draw.
 //
-//   bench/viewing.mjs BUILD [WORLD [picture|clicks|frames|drawing]]
+//   bench/viewing.mjs BUILD [WORLD [picture|arrival|clicks|choosing|traffic|frames|drawing]]
 //
 // BUILD is a release build (build/release); WORLD a world for the first picture, without it the
 // TurtleBot3 house in GSV_REAL_DIR. With a third word only that is measured. The machine should do
@@ -15,7 +16,7 @@ import process from "node:process";
 const HOUSE = path.join(process.env.GSV_REAL_DIR ?? "", "turtlebot3/worlds/turtlebot3_house.world");
 const [build, given, only = ""] = process.argv.slice(2);
 const world = given || HOUSE;
-if (!build) throw new Error("usage: bench/viewing.mjs BUILD [WORLD [picture|clicks|frames|drawing]]");
+if (!build) throw new Error("usage: bench/viewing.mjs BUILD [WORLD [picture|arrival|clicks|choosing|traffic|frames|drawing]]");
 process.env.GSV_BUILD_DIR = path.resolve(build);
 const { openBrowser, openPage, waitUntilDrawn } = await import("../tests/browser/browser.mjs");
 const { crowd, noteClicks, timeClicks } = await import("../tests/browser/crowd.mjs");
@@ -23,6 +24,7 @@ const { startServer } = await import("../tests/browser/server.mjs");
 
 const PICTURES = 5;
 const CLICKS = 20;
+const ARRIVALS = 3;
 const FRAMES_S = 15;
 const SIZE = { width: 1280, height: 800 };
 
@@ -156,11 +158,99 @@ async function drawnBy(page, robots) {
   return { robots, calls_a_frame: each("calls"), triangles_a_frame: each("triangles"), script_ms_a_frame: each("script_ms") };
 }
 
+// From the page's address to the first row of the list, and to a picture with every shape, each in a new
+// browser.
+const arrival = (robots) =>
+  withServer(crowd(folder, robots), async (url) => {
+    const [list, picture] = [[], []];
+    for (let i = 0; i < ARRIVALS; i++) {
+      const browser = await openBrowser(SIZE);
+      await drawSomethingElse(browser);
+      const page = await browser.context.newPage();
+      const begin = performance.now();
+      await page.goto(url, { waitUntil: "commit" });
+      await page.waitForSelector("[data-robot]", { state: "attached" });
+      list.push(performance.now() - begin);
+      await page.evaluate(() => window.gsv.ready);
+      picture.push(performance.now() - begin);
+      await browser.close();
+    }
+    return { robots, to_the_list: summary(list), to_the_picture: summary(picture) };
+  });
+
+const choosing = (robots) =>
+  withServer(crowd(folder, robots), (url) =>
+    withPage(url, async (page) => {
+      await noteClicks(page);
+      const { list, picture } = await timeClicks(page, 6);
+      return { robots, in_the_list: summary(list), in_the_picture: summary(picture) };
+    }),
+  );
+
+// Counts what each topic's messages bring: bytes and messages, in window.testTraffic.
+function countTraffic() {
+  const traffic = (window.testTraffic = {});
+  const Socket = window.WebSocket;
+  window.WebSocket = class extends Socket {
+    constructor(...given) {
+      super(...given);
+      const [topics, wanted] = [new Map(), new Map()]; // by channel; by subscription
+      const send = this.send.bind(this);
+      this.send = (data) => {
+        const message = typeof data === "string" ? JSON.parse(data) : {};
+        if (message.op === "subscribe") for (const { id, channelId } of message.subscriptions) wanted.set(id, topics.get(channelId));
+        send(data);
+      };
+      this.addEventListener("message", ({ data }) => {
+        const bytes = data.byteLength ?? data.length;
+        let topic = "text";
+        if (typeof data === "string") {
+          const message = JSON.parse(data);
+          if (message.op === "advertise") for (const { id, topic } of message.channels) topics.set(id, topic);
+        } else {
+          const view = new DataView(data);
+          topic = view.getUint8(0) === 1 ? (wanted.get(view.getUint32(1, true)) ?? "?") : "time";
+        }
+        const of = (traffic[topic] ??= { messages: 0, bytes: 0 });
+        of.messages += 1;
+        of.bytes += bytes;
+      });
+    }
+  };
+}
+
+// kB a second, in all and by topic, with the layers as they are at first or with everything off.
+const traffic = (robots, off) =>
+  withServer(crowd(folder, robots), (url) =>
+    withPage(
+      `${url}${off ? "#show=" : ""}`,
+      async (page) => {
+        const count = () => page.evaluate(() => [JSON.parse(JSON.stringify(window.testTraffic)), performance.now()]);
+        await new Promise((resolve) => setTimeout(resolve, 3000)); // what comes once has come
+        const [before, from] = await count();
+        await new Promise((resolve) => setTimeout(resolve, FRAMES_S * 1000));
+        const [after, to] = await count();
+        const topics = Object.entries(after).map(([topic, { bytes, messages }]) => {
+          const past = before[topic] ?? { bytes: 0, messages: 0 };
+          const each = (value) => Math.round((10_000 * value) / (to - from)) / 10;
+          return [topic, { kB_a_second: each((bytes - past.bytes) / 1000), messages_a_second: each(messages - past.messages) }];
+        });
+        const all = topics.reduce((sum, [, { kB_a_second }]) => sum + kB_a_second, 0);
+        const largest = topics.filter(([, { kB_a_second }]) => kB_a_second > 0.5);
+        return { robots, layers: off ? "off" : "as at first", kB_a_second: Math.round(all), topics: Object.fromEntries(largest) };
+      },
+      countTraffic,
+    ),
+  );
+
 try {
   const result = { world: path.basename(world), load_average: os.loadavg()[0] };
   const isWanted = (part) => only === "" || only === part;
   if (isWanted("picture") && fs.existsSync(world)) result.first_picture = await firstPicture();
   if (isWanted("clicks")) result.clicks = await clicks(1000);
+  if (isWanted("arrival")) result.arrival = [await arrival(5), await arrival(50), await arrival(500)];
+  if (isWanted("choosing")) result.choosing = await choosing(500);
+  if (isWanted("traffic")) result.traffic = [await traffic(50, true), await traffic(50, false), await traffic(500, true), await traffic(500, false)];
   if (isWanted("frames")) result.frames = [await frames(100), await frames(1000)];
   if (isWanted("drawing")) result.drawing = [await drawing(100), await drawing(1000)];
   console.log(JSON.stringify(result, null, 2));

@@ -103,9 +103,24 @@ export async function timeClicks(page, count) {
   return { list, picture };
 }
 
+// The robot's row: the list is scrolled until it exists, as only those in sight do.
+export async function rowOf(page, robot) {
+  const isThere = await page.evaluate((name) => {
+    const list = document.querySelector(".robot-scroll");
+    const row = () => list.querySelector(`[data-robot="${name}"]`);
+    for (let top = 0; !row() && top < list.scrollHeight; top += 200) {
+      list.scrollTop = top;
+      list.dispatchEvent(new Event("scroll"));
+    }
+    row()?.scrollIntoView({ block: "nearest" });
+    return row() !== null;
+  }, robot);
+  if (!isThere) throw new Error(`${robot} is not in the list`);
+  return page.locator(`[data-robot="${robot}"]`);
+}
+
 async function clickInList(page, share) {
-  const row = page.locator(`[data-robot="${await unselectedAt(page, share)}"]`);
-  await row.scrollIntoViewIfNeeded();
+  const row = await rowOf(page, await unselectedAt(page, share));
   return (await clickNoted(page, () => row.click())).took;
 }
 

@@ -7,7 +7,7 @@ import os from "node:os";
 import path from "node:path";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
-import { clickNoted, crowd, noteClicks, rowsWritten, unselectedAt } from "./crowd.mjs";
+import { clickNoted, crowd, noteClicks, rowOf, rowsWritten, unselectedAt } from "./crowd.mjs";
 import { isBlank, picture } from "./pixels.mjs";
 import { startServer } from "./server.mjs";
 import { ask, until, viewClip } from "./viewing.mjs";
@@ -38,7 +38,8 @@ after(async () => {
 
 test("a thousand robots are listed and drawn, and they move", async () => {
   await page.getByRole("heading", { name: `${ROBOTS.toLocaleString("en")} robots` }).waitFor();
-  assert.equal(await page.locator("[data-robot]").count(), ROBOTS);
+  const rows = await page.locator("[data-robot]").count();
+  assert.ok(rows > 5 && rows < 60, `${rows} rows are there`);
   assert.equal(isBlank(await picture(page, await viewClip(page))), false);
   const time = (await ask(page, "")).time_s;
   await until(async () => (await page.evaluate(() => window.gsv.time)) > time, "the next instant");
@@ -47,9 +48,8 @@ test("a thousand robots are listed and drawn, and they move", async () => {
 test("a click in the list shows the robot in the inspector", async () => {
   const names = await page.evaluate(() => window.gsv.robots);
   const robot = names.at(-1);
-  const { robot: chosen, inspected } = await clickNoted(page, () =>
-    page.locator(`[data-robot="${robot}"]`).click(),
-  );
+  const row = await rowOf(page, robot);
+  const { robot: chosen, inspected } = await clickNoted(page, () => row.click());
   assert.equal(chosen, robot);
   assert.equal(inspected, robot);
 });
@@ -80,7 +80,8 @@ test("a click on a robot in the picture chooses it, or one beside it", async () 
   let answer = await click();
   for (let i = 0; i < CLICKS && answer.robot === null; i++) {
     // It had moved away meanwhile.
-    await clickNoted(page, () => page.locator(`[data-robot="${before}"]`).click());
+    const row = await rowOf(page, before);
+    await clickNoted(page, () => row.click());
     answer = await click();
   }
   const { robot, inspected } = answer;
@@ -91,13 +92,51 @@ test("a click on a robot in the picture chooses it, or one beside it", async () 
 
 test("a click in the list writes the two rows that it concerns", async () => {
   for (let i = 0; i < CLICKS; i++) {
-    const row = page.locator(`[data-robot="${await unselectedAt(page, i / CLICKS)}"]`);
+    const row = await rowOf(page, await unselectedAt(page, i / CLICKS));
     const { rows } = await clickNoted(page, () => row.click());
     assert.ok(rows >= 1 && rows <= 2, `${rows} rows were written`);
   }
 });
 
 // Those out of sight are not laid out, and so not written either; some beyond the edge count as in sight.
+test("a search leaves the robots that fit, in the list and in the view", async () => {
+  await page.keyboard.press("Escape"); // the selected robot's name is always shown
+  const last = await page.evaluate(() => window.gsv.robots.at(-1));
+  const field = page.getByRole("searchbox", { name: "Search robots" });
+  await field.fill(`/^${last}$/`);
+  await until(async () => (await page.locator("[data-robot]").count()) === 1, "one row");
+  const labels = () => page.locator(".labels .label").allTextContents();
+  await until(async () => (await labels()).every((label) => label === last), "only its label");
+  await field.fill("");
+  await field.blur(); // keys are the page's again
+  await until(async () => (await page.locator("[data-robot]").count()) > 5, "all rows");
+});
+
+test("no two names in the view overlap", async () => {
+  const overlapping = () =>
+    page.evaluate(() => {
+      const boxes = [...document.querySelectorAll(".labels .label")].map((label) => label.getBoundingClientRect());
+      return boxes.flatMap((a, i) =>
+        boxes.slice(i + 1).filter((b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom),
+      ).length;
+    });
+  await until(async () => (await page.locator(".labels .label").count()) > 3, "labels");
+  assert.equal(await overlapping(), 0);
+});
+
+// Their beams would hide everything.
+test("without a selected robot no beams are asked for, with one its own only", async () => {
+  assert.ok(ROBOTS > 20);
+  const graph = () => page.evaluate(() => window.gsv.topics);
+  await page.keyboard.press("Escape");
+  await until(async () => !(await graph()).some((topic) => topic.startsWith("/gsv/beams")), "no beams");
+  const row = await rowOf(page, await page.evaluate(() => window.gsv.robots[0]));
+  await row.click();
+  const robot = await row.getAttribute("data-robot");
+  await until(async () => (await graph()).includes(`/gsv/beams/${robot}`), "the beams of one robot");
+  assert.equal((await graph()).includes("/gsv/beams"), false);
+});
+
 test("as the robots move, no rows are written but those in sight", async () => {
   const written = await rowsWritten(page);
   assert.ok(written >= 1 && written <= ROBOTS / 4, `${written} rows were written`);

@@ -1,6 +1,7 @@
 // Puts the page together: one store, the session that fills it, the 3D view, and the panels.
 import "./style/page.css";
 import "./style/panels.css";
+import "./style/robots.css";
 import "./style/setUp.css";
 import { SimulationApi } from "./api/SimulationApi";
 import { pageCredentials } from "./api/credentials";
@@ -15,6 +16,7 @@ import { AvatarSteering } from "./input/AvatarSteering";
 import { listenForKeys } from "./input/Keyboard";
 import { createCameraPane } from "./panels/camera/CameraPane";
 import { createHelpSheet } from "./page/HelpSheet";
+import { createHealthStrip } from "./page/HealthStrip";
 import { createInspector } from "./panels/inspector/Inspector";
 import { createNotices } from "./page/Notices";
 import { createOverlay } from "./page/Overlay";
@@ -27,16 +29,20 @@ import { createEditPanel } from "./page/EditPanel";
 import { pageNames } from "./page/pageLinks";
 import { createPanelDock } from "./panels/PanelDock";
 import { PANELS } from "./panels/registry";
-import type { MarkerArrayMessage, PosesMessage } from "./protocol/messages";
+import type { PackedPosesMessage, PosesMessage } from "./protocol/messages";
+import { PACKED_POSES, POSES, posesOf } from "./protocol/packedPoses";
 import { startGraphics } from "./scene/graphics";
+import type { RobotStates } from "./scene/RobotSigns";
 import { ModelLibrary } from "./scene/ModelLibrary";
 import { World3D } from "./scene/World3D";
 import { createSetUpPanel } from "./setup/SetUpPanel";
+import { listedRobots } from "./state/listedRobots";
+import { filtered, isFiltering } from "./state/robotList";
 import { browserStorage, keepShown, loadShown } from "./state/overlays";
 import { keepSingleKeys, loadSingleKeys } from "./state/shortcuts";
 import type { State } from "./state/State";
 import { initialState } from "./state/State";
-import { Store } from "./state/Store";
+import { Store, shallowEqual } from "./state/Store";
 import { exposeForTests } from "./testing";
 import { element } from "./ui/element";
 
@@ -117,11 +123,11 @@ async function openWorld(): Promise<void> {
 }
 
 function connectWorld(world: World3D): void {
-  session.subscribe<PosesMessage>("/gsv/poses", (message) => {
-    world.setPoses(message);
+  const takePoses = (message: PosesMessage | PackedPosesMessage) => {
+    world.setPoses(posesOf(message));
     showSelectedPose();
-  });
-  session.subscribe<MarkerArrayMessage>("/gsv/beams", (message) => world.setBeams(message), { newestOnly: true });
+  };
+  session.subscribe<PosesMessage | PackedPosesMessage>(PACKED_POSES, takePoses, { orElse: POSES });
   store.watch(
     ({ scene }) => scene,
     (scene) => {
@@ -156,7 +162,32 @@ function connectWorld(world: World3D): void {
     ({ setUp, editing }) => setUp !== null || editing !== null,
     (isOn) => world.setArranging(isOn),
   );
+  store.watch(
+    ({ health, robotFilter, status, scene }) => ({
+      health,
+      robotFilter,
+      scene,
+      // Without a report the states follow the behaviours; with a filter the names that it fits do.
+      robots: health === null || isFiltering(robotFilter) ? status?.robots : null,
+    }),
+    () => world.setStates(shownStates(store.get())),
+    shallowEqual,
+  );
+  store.watch(
+    ({ expectations }) => expectations,
+    (expectations) => world.setExpectations(expectations),
+  );
   new OverlayFeed(store, session, world).start();
+}
+
+function shownStates(state: State): RobotStates {
+  const { health, robotFilter } = state;
+  if (health === null && !isFiltering(robotFilter)) return { states: null, chosen: null };
+  const robots = listedRobots(state);
+  return {
+    states: health && new Map(robots.map(({ status, state: its }) => [status.name, its])),
+    chosen: isFiltering(robotFilter) ? new Set(filtered(robots, robotFilter).map(({ status }) => status.name)) : null,
+  };
 }
 
 function posesOfPreview(poses: Float64Array, layoutVersion: number): PosesMessage {
@@ -188,6 +219,7 @@ view.append(
 );
 page.append(
   createToolbar(app, toggleSidebar),
+  createHealthStrip(app),
   createSceneTree(ports, pageNames(app)),
   createSetUpPanel(app),
   view,
@@ -217,7 +249,7 @@ store.watch(
 );
 listenForKeys(app);
 new AvatarSteering(avatarToDrive, drive, () => store.get().singleKeys).listen(window);
-exposeForTests(store, () => world);
+exposeForTests(store, () => world, () => session.readTopics);
 app.records.start();
 app.link.start(window);
 // A replay of one's own is nobody else's to watch or to move.

@@ -16,6 +16,8 @@ export interface PageHandle {
   readonly phase: string | null;
   // Where the eye stands and what it looks at: x y z of each, in metres; null without a 3D view.
   readonly view: number[] | null;
+  // The topics that the page reads.
+  readonly topics: string[];
   // The names of the robots.
   readonly robots: string[];
   // Where the robot was last reported, in metres, and at which simulated second; null while unknown.
@@ -32,7 +34,7 @@ declare global {
   }
 }
 
-export function exposeForTests(store: Store<State>, world: () => World3D | null): void {
+export function exposeForTests(store: Store<State>, world: () => World3D | null, topics: () => string[] = () => []): void {
   window.gsv = {
     ready: firstPicture(store, world),
     get frames() {
@@ -49,6 +51,9 @@ export function exposeForTests(store: Store<State>, world: () => World3D | null)
     },
     get view() {
       return world()?.viewpoint ?? null;
+    },
+    get topics() {
+      return topics();
     },
     get robots() {
       return store.get().status?.robots.map(({ name }) => name) ?? [];

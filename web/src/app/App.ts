@@ -11,6 +11,7 @@ import type { Source } from "../state/plots";
 import { ROBOT_VALUES, SIMULATION_VALUES, withCurve, withoutCurve } from "../state/plots";
 import type { OverlayName } from "../state/overlays";
 import { browserStorage } from "../state/overlays";
+import type { RobotFilter } from "../state/robotList";
 import { chosenOf } from "../state/editing";
 import type { State, ViewMode } from "../state/State";
 import type { Store } from "../state/Store";
@@ -157,6 +158,10 @@ export class App {
   redo(): void {
     if (this.store.get().setUp) this.setUp.redo();
     else void this.edits.redo();
+  }
+
+  filterRobots(change: Partial<RobotFilter>): void {
+    this.store.set(({ robotFilter }) => ({ robotFilter: { ...robotFilter, ...change } }));
   }
 
   toggle(overlay: OverlayName): void {

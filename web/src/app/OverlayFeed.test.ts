@@ -29,8 +29,19 @@ function showing(names: (keyof State["shown"])[], more: Partial<State> = {}): St
   return { ...initialState, simulation: "house", scene: SCENE, shown, ...more };
 }
 
+function fakeView() {
+  return {
+    setSensorFrames: vi.fn(),
+    setBeams: vi.fn(),
+    forgetBeams: vi.fn(),
+    setReading: vi.fn(),
+    keepReadings: vi.fn(),
+  };
+}
+
 test("only what is shown is asked for", () => {
-  expect(topicsToDraw(showing(["beams", "labels"]))).toEqual([]);
+  expect(topicsToDraw(showing(["labels", "states"]))).toEqual([]);
+  expect(topicsToDraw(showing(["beams", "labels"]))).toEqual(["/gsv/beams"]);
   expect(topicsToDraw(showing(["points"]))).toEqual(["/tf_static", "/a/scan", "/b/scan"]);
   expect(topicsToDraw(showing(["contacts"]))).toEqual(["/tf_static", "/a/bumper", "/b/bumper"]);
   expect(topicsToDraw(showing(["frames"]))).toEqual(["/tf_static"]);
@@ -50,6 +61,37 @@ test("of a crowd's sensors only so many are heard, the selected robot's first", 
   expect(topics[1]).toBe("/r70/scan");
 });
 
+const crowdOf = (robots: number) => scene({ bodies: Array.from({ length: robots }, (_, i) => robot(`r${i}`)) });
+const REPLAY = { start: 0, end: 9, speed: 1, loop: false };
+
+test("of more than twenty robots only the selected one's beams are heard", () => {
+  expect(topicsToDraw(showing(["beams"], { scene: crowdOf(20) }))).toEqual(["/gsv/beams"]);
+  expect(topicsToDraw(showing(["beams"], { scene: crowdOf(21) }))).toEqual([]);
+  expect(topicsToDraw(showing(["beams"], { scene: crowdOf(21), selection: "r7" }))).toEqual(["/gsv/beams/r7"]);
+  expect(topicsToDraw(showing(["beams"], { scene: crowdOf(21), selection: "gone" }))).toEqual([]);
+  const recorded = { scene: crowdOf(21), selection: "r7", replay: REPLAY };
+  expect(topicsToDraw(showing(["beams"], recorded))).toEqual(["/gsv/beams"]);
+});
+
+test("a recording's beams of other robots than the selected one are left out", () => {
+  const store = new Store<State>(showing(["beams"], { scene: crowdOf(21), selection: "r7", replay: REPLAY }));
+  let send = (_message: unknown) => {};
+  const end = vi.fn();
+  const session = {
+    subscribe: (_topic: string, handler: (message: unknown) => void) => {
+      send = handler;
+      return end;
+    },
+  };
+  const view = fakeView();
+  new OverlayFeed(store, session as unknown as Session, view).start();
+  send({ markers: [{ ns: "r6" }, { ns: "r7" }] });
+  expect(view.setBeams).toHaveBeenCalledWith({ markers: [{ ns: "r7" }] });
+  store.set({ selection: null });
+  expect(end).toHaveBeenCalled();
+  expect(view.forgetBeams).toHaveBeenCalled();
+});
+
 test("what is no longer shown is no longer heard, and forgotten", () => {
   const store = new Store<State>(showing([]));
   const heard = new Map<string, (message: unknown) => void>();
@@ -59,7 +101,7 @@ test("what is no longer shown is no longer heard, and forgotten", () => {
       return () => heard.delete(topic);
     },
   };
-  const view = { setSensorFrames: vi.fn(), setReading: vi.fn(), keepReadings: vi.fn() };
+  const view = fakeView();
   new OverlayFeed(store, session as unknown as Session, view).start();
   expect(heard.size).toBe(0);
   store.set(showing(["points", "contacts"]));
@@ -74,7 +116,7 @@ test("what is no longer shown is no longer heard, and forgotten", () => {
 test("another simulation's topics are heard anew, even where they are called the same", () => {
   const store = new Store<State>(showing(["points"]));
   const subscribe = vi.fn((_topic: string, _handler: unknown) => () => {});
-  const view = { setSensorFrames: vi.fn(), setReading: vi.fn(), keepReadings: vi.fn() };
+  const view = fakeView();
   new OverlayFeed(store, { subscribe } as unknown as Session, view).start();
   subscribe.mockClear();
   store.set({ simulation: "yard" });

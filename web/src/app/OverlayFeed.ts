@@ -1,7 +1,8 @@
 // Subscribes what the overlays draw, and no more than is shown: where sensors are mounted, and the
 // readings of lidars, depth cameras, bumpers and actuators.
 import { robotsOf } from "../api/scene";
-import type { SceneDescription, SceneSensor } from "../api/scene";
+import type { MarkerArrayMessage } from "../protocol/messages";
+import type { SceneBody, SceneDescription, SceneSensor } from "../api/scene";
 import type { TransformsMessage } from "../protocol/messages";
 import type { TopicSource } from "../protocol/SharedTopics";
 import type { State } from "../state/State";
@@ -10,6 +11,9 @@ import { shallowEqual } from "../state/Store";
 
 const MOST_READINGS = 16; // sensors at once
 const FRAMES_TOPIC = "/tf_static";
+const BEAMS_TOPIC = "/gsv/beams";
+// Of more robots only the selected one's beams are drawn: those of all would hide everything.
+export const MOST_ROBOTS_WITH_BEAMS = 20;
 const BUMPERS = ["contact", "bumper"];
 const RADIO_TOPIC = "/gsv/radio";
 const MOST_ACTUATORS = 32;
@@ -19,12 +23,14 @@ const ACTUATORS = ["gripper", "lamp", "led", ...SPEAKERS];
 // The part of the 3D view that it feeds.
 export interface OverlayView {
   setSensorFrames(message: TransformsMessage): void;
+  setBeams(message: MarkerArrayMessage): void;
+  forgetBeams(): void;
   setReading(topic: string, message: unknown): void;
   keepReadings(topics: ReadonlySet<string>): void;
 }
 
 // The topics that the overlays need at present.
-export function topicsToDraw({ scene, shown, selection, viewMode }: State): string[] {
+export function topicsToDraw({ scene, shown, selection, viewMode, replay }: State): string[] {
   const wants = (sensor: SceneSensor) =>
     (shown.points && sensor.overlay === "points") || (shown.contacts && BUMPERS.includes(sensor.type));
   const acts = ({ type }: SceneSensor) =>
@@ -37,11 +43,20 @@ export function topicsToDraw({ scene, shown, selection, viewMode }: State): stri
   const needsFrames = readings.length > 0 || shown.cameras || shown.frames || viewMode === "eye";
   // Whether it has a radio or not: a behaviour may mount one at any time.
   const mayHaveRadio = shown.actuators && robotsOf(scene).length > 0;
+  const beams = shown.beams && scene ? beamsToDraw(robotsOf(scene), selection, replay !== null) : null;
   return [
+    ...(beams === null ? [] : [beams]),
     ...(needsFrames && scene ? [FRAMES_TOPIC] : []),
     ...(mayHaveRadio ? [RADIO_TOPIC] : []),
     ...readings.map(({ topic }) => topic),
   ];
+}
+
+// A recording holds the beams of all robots only.
+function beamsToDraw(robots: readonly SceneBody[], selection: string | null, isReplay: boolean): string | null {
+  if (robots.length <= MOST_ROBOTS_WITH_BEAMS) return BEAMS_TOPIC;
+  if (!robots.some(({ name }) => name === selection)) return null;
+  return isReplay ? BEAMS_TOPIC : `${BEAMS_TOPIC}/${selection}`;
 }
 
 // Those of the selected robot first.
@@ -83,11 +98,24 @@ export class OverlayFeed {
   }
 
   private subscribe(topic: string): () => void {
+    if (topic.startsWith(BEAMS_TOPIC)) {
+      const end = this.topics.subscribe<MarkerArrayMessage>(topic, (message) => this.takeBeams(message), { newestOnly: true });
+      return () => {
+        end();
+        this.view.forgetBeams();
+      };
+    }
     if (topic === FRAMES_TOPIC) {
       return this.topics.subscribe<TransformsMessage>(topic, (message) =>
         this.view.setSensorFrames(message),
       );
     }
     return this.topics.subscribe<unknown>(topic, (message) => this.view.setReading(topic, message));
+  }
+
+  private takeBeams(message: MarkerArrayMessage): void {
+    const { scene, selection } = this.store.get();
+    const isCrowd = robotsOf(scene).length > MOST_ROBOTS_WITH_BEAMS;
+    this.view.setBeams(isCrowd ? { markers: message.markers.filter(({ ns }) => ns === selection) } : message);
   }
 }

@@ -62,7 +62,7 @@ class Fixture {
     );
     this.store.watch(
       ({ view }) => view !== "starting",
-      (isThere) => isThere && this.session.subscribe("/gsv/poses", this.onPoses),
+      (isThere) => isThere && this.session.subscribe("/gsv/packed_poses", this.onPoses),
     );
   }
 
@@ -75,7 +75,7 @@ class Fixture {
   }
 
   sendPoses(layoutVersion: number): void {
-    this.send("/gsv/poses", { layout_version: layoutVersion });
+    this.send("/gsv/packed_poses", { layout_version: layoutVersion });
   }
 
   private makeClient(url: string, events: ClientEvents): LiveClient {

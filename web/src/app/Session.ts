@@ -11,13 +11,18 @@ import type { ClientEvents, ParameterValue } from "../protocol/FoxgloveClient";
 import { FoxgloveClient } from "../protocol/FoxgloveClient";
 import type { TopicOptions, TopicSource } from "../protocol/SharedTopics";
 import { SharedTopics } from "../protocol/SharedTopics";
+import { PACKED_POSES, POSES } from "../protocol/packedPoses";
 import type {
   ClockMessage,
+  ExpectationsMessage,
+  HealthMessage,
   LifecycleEventMessage,
   PosesMessage,
   SimulationStatusMessage,
 } from "../protocol/messages";
 import { seconds } from "../protocol/messages";
+import { expectationOf } from "../state/expectations";
+import { healthOf } from "../state/health";
 import { withComplaint } from "../state/complaints";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
@@ -34,6 +39,8 @@ const NOTHING_WATCHED: Partial<State> = {
   time: 0,
   replay: null,
   events: [],
+  health: null,
+  expectations: [],
   wishedTime: null,
   selection: null,
   selectedPose: null,
@@ -53,6 +60,8 @@ export const NOTHING_WANTED: Wanted = { simulation: null, recording: null };
 // The live stream, as far as the session needs it.
 export type LiveClient = Pick<FoxgloveClient, "connect" | "close" | "retryNow" | "subscribe" | "parameter" | "missingTopics">;
 export type ClientFactory = (url: string, events: ClientEvents) => LiveClient;
+
+type LayoutMessage = Pick<PosesMessage, "layout_version">;
 
 export class Session implements TopicSource {
   private client: LiveClient | null = null;
@@ -123,6 +132,10 @@ export class Session implements TopicSource {
   subscribe<Message>(topic: string, handler: (message: Message) => void, options?: TopicOptions): () => void {
     this.wishes.lookSoon();
     return this.topics.subscribe(topic, handler, options);
+  }
+
+  get readTopics(): string[] {
+    return this.topics.read;
   }
 
   // What the stream's server says of a parameter; null when it says nothing.
@@ -226,7 +239,7 @@ export class Session implements TopicSource {
   // be another picture of the page, which take long where no graphics card makes them.
   private hear(): void {
     const { topics } = this;
-    topics.subscribe<PosesMessage>("/gsv/poses", (message) => this.takePoses(message));
+    topics.subscribe<LayoutMessage>(PACKED_POSES, (message) => this.takePoses(message), { orElse: POSES });
     topics.subscribe<ClockMessage>("/clock", ({ clock }) => this.store.set({ time: seconds(clock) }));
     topics.subscribe<SimulationStatusMessage>("/gsv/status", (message) => {
       const { status, simulation } = this.store.get();
@@ -235,6 +248,10 @@ export class Session implements TopicSource {
       // The stream says that it failed, the API says why.
       if (message.state === "failed" && !hadFailed && simulation !== null) void this.fetchStatus(simulation);
     });
+    topics.subscribe<HealthMessage>("/gsv/health", (message) => this.store.set({ health: healthOf(message) }));
+    topics.subscribe<ExpectationsMessage>("/gsv/expectations", ({ expectations }) =>
+      this.store.set({ expectations: expectations.map(expectationOf) }),
+    );
     topics.subscribe<LifecycleEventMessage>("/gsv/events", (message) => this.takeEvent(message));
   }
 
@@ -267,7 +284,7 @@ export class Session implements TopicSource {
     }
   }
 
-  private takePoses({ layout_version }: PosesMessage): void {
+  private takePoses({ layout_version }: LayoutMessage): void {
     const { scene, simulation } = this.store.get();
     if (simulation === null || scene?.layoutVersion === layout_version) return;
     if (Date.now() - this.sceneFailedAtMs > SCENE_RETRY_MS) void this.fetchScene(simulation);

@@ -27,6 +27,13 @@ test("each robot whose sensors are listened to in vain is asked for once", () =>
   expect(listTopics.mock.calls).toEqual([["s", "a"]]);
 });
 
+test("a robot whose beams are listened to in vain is asked for", () => {
+  const { wishes, listTopics } = fixture(["/gsv/beams/b"]);
+  wishes.lookSoon();
+  vi.runAllTimers();
+  expect(listTopics.mock.calls).toEqual([["s", "b"]]);
+});
+
 test("nobody is asked for while all is listed, nor before there is a scene", () => {
   const listed = fixture([]);
   listed.wishes.lookSoon();

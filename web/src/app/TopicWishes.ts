@@ -32,7 +32,7 @@ export class TopicWishes {
     const missing = new Set(this.missing());
     if (missing.size === 0) return;
     for (const { name, sensors } of scene.bodies) {
-      if (!sensors.some(({ topic }) => missing.has(topic))) continue;
+      if (!missing.has(`/gsv/beams/${name}`) && !sensors.some(({ topic }) => missing.has(topic))) continue;
       // Without an answer nothing comes on these topics; a new connection asks again.
       this.api.listTopics(simulation, name).catch(() => {});
     }

@@ -23,6 +23,7 @@ export function panelPorts(app: App, api: SimulationApi): PanelPorts {
     robots: {
       select: (robot) => app.select(robot),
       pick: (body) => app.pick(body),
+      filter: (change) => app.filterRobots(change),
       follow: () => app.toggleViewMode("follow"),
     },
     cameras: {

@@ -29,7 +29,7 @@ test("keys have their commands in either case", () => {
 });
 
 test("other keys have none", () => {
-  for (const key of ["z", ";", "toString", "constructor"]) expect(commandOf({ ...plain, key })).toBeNull();
+  for (const key of ["z", "'", "toString", "constructor"]) expect(commandOf({ ...plain, key })).toBeNull();
 });
 
 test("the browser keeps its own shortcuts", () => {

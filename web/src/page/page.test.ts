@@ -106,22 +106,6 @@ test("each robot has a row with its behaviour, distance and collisions", () => {
   expect(rows()).toEqual(["b0.00 mwander · waiting"]);
 });
 
-test("a row out of sight is written when it comes into sight", () => {
-  const after = (distance: number) =>
-    simulationStatus("running", { robots: [robotStatus("a", { distance })] });
-  const { ports, store } = testApp({ status: after(1) });
-  const row = createSceneTree(ports, document.createElement("div")).querySelector("li")!;
-  const show = (isInSight: boolean) =>
-    row.dispatchEvent(Object.assign(new Event("contentvisibilityautostatechange"), { skipped: !isInSight }));
-  show(false);
-  store.set({ status: after(2) });
-  expect(row.querySelector(".number")?.textContent).toBe("1.00 m");
-  show(true);
-  expect(row.querySelector(".number")?.textContent).toBe("2.00 m");
-  store.set({ status: after(3) });
-  expect(row.querySelector(".number")?.textContent).toBe("3.00 m");
-});
-
 test("an avatar's row says how to drive it", () => {
   const { ports, store } = testApp({ status: simulationStatus("running", { robots: [robotStatus("me")] }) });
   const tree = createSceneTree(ports, document.createElement("div"));

@@ -31,6 +31,7 @@ export type ParameterValue = string | number | boolean;
 
 interface Subscription {
   topic: string;
+  orElse: string | undefined;
   handler: Handler;
   newestOnly: boolean;
   waiting: DataView | null; // the newest payload, if it is not decoded yet
@@ -91,10 +92,11 @@ export class FoxgloveClient implements TopicSource {
   subscribe<Message>(
     topic: string,
     handler: (message: Message) => void,
-    { newestOnly = false }: TopicOptions = {},
+    { newestOnly = false, orElse }: TopicOptions = {},
   ): () => void {
     const subscription: Subscription = {
       topic,
+      orElse,
       handler: handler as Handler,
       newestOnly,
       waiting: null,
@@ -221,7 +223,8 @@ export class FoxgloveClient implements TopicSource {
     const byTopic = new Map([...this.channels.values()].map((channel) => [channel.topic, channel]));
     const wanted: { id: number; channelId: number }[] = [];
     for (const subscription of subscriptions) {
-      const channel = byTopic.get(subscription.topic);
+      const { topic, orElse } = subscription;
+      const channel = byTopic.get(topic) ?? (orElse === undefined ? undefined : byTopic.get(orElse));
       if (!channel || subscription.id !== null) continue;
       subscription.id = this.nextSubscription++;
       this.channelOf.set(subscription.id, { subscription, channel });

@@ -8,6 +8,8 @@ export interface TopicOptions {
   // Of messages that arrive faster than the page can take them only the newest is decoded. A topic is read
   // so only while all its readers ask for it.
   newestOnly?: boolean;
+  // The topic that is read where the server does not offer the first one.
+  orElse?: string;
 }
 
 export interface TopicSource {
@@ -17,7 +19,8 @@ export interface TopicSource {
 }
 
 interface SharedTopic {
-  handlers: Map<Handler, Required<TopicOptions>>;
+  handlers: Map<Handler, { newestOnly: boolean }>;
+  orElse: string | undefined; // as its first reader asks for it
   newest: { message: unknown } | null;
   newestOnly: boolean; // how it is subscribed
   end(): void;
@@ -37,13 +40,18 @@ export class SharedTopics implements TopicSource {
     }
   }
 
+  // Those that somebody reads.
+  get read(): string[] {
+    return [...this.topics.keys()];
+  }
+
   subscribe<Message>(
     topic: string,
     handler: (message: Message) => void,
-    { newestOnly = false }: TopicOptions = {},
+    { newestOnly = false, orElse }: TopicOptions = {},
   ): () => void {
     const known = this.topics.get(topic);
-    const shared = known ?? { handlers: new Map(), newest: null, newestOnly, end: () => {} };
+    const shared = known ?? { handlers: new Map(), orElse, newest: null, newestOnly, end: () => {} };
     // Of its own, as one function may listen twice.
     const own: Handler = (message) => handler(message as Message);
     shared.handlers.set(own, { newestOnly });
@@ -75,7 +83,8 @@ export class SharedTopics implements TopicSource {
       shared.newest = { message };
       for (const handler of [...shared.handlers.keys()]) if (shared.handlers.has(handler)) handler(message);
     };
-    shared.end = this.source?.subscribe<unknown>(topic, take, { newestOnly: shared.newestOnly }) ?? (() => {});
+    const options = { newestOnly: shared.newestOnly, ...(shared.orElse !== undefined && { orElse: shared.orElse }) };
+    shared.end = this.source?.subscribe<unknown>(topic, take, options) ?? (() => {});
   }
 }
 

@@ -31,6 +31,15 @@ export interface PosesMessage {
   poses: Float64Array;
 }
 
+// gsv_msgs/msg/PackedPoses: the same, rounded (gsv/messages/msg/gsv_msgs/PackedPoses.msg).
+export interface PackedPosesMessage {
+  stamp: Time;
+  step: bigint;
+  layout_version: number;
+  positions: Int32Array; // 0.1 mm
+  rotations: Uint16Array;
+}
+
 export interface RobotStatusMessage {
   name: string;
   model: string;
@@ -55,6 +64,61 @@ export interface SimulationStatusMessage {
 
 export interface DiagnosticArrayMessage {
   status: { level: number; name: string; message: string; values: { key: string; value: string }[] }[];
+}
+
+// gsv_msgs/msg/Health. `robots` lists only those that do not simply move.
+export interface HealthMessage {
+  stamp: Time;
+  step: bigint;
+  stuck_after_s: number;
+  moving: number;
+  standing: number;
+  stuck: number;
+  contact: number;
+  dead: number;
+  late: number;
+  robots: RobotHealthMessage[];
+}
+
+export interface RobotHealthMessage {
+  robot: string;
+  state: string;
+  level: number;
+  since: Time;
+  command_linear_m_s: number;
+  command_lateral_m_s: number;
+  command_angular_rad_s: number;
+  linear_m_s: number;
+  angular_rad_s: number;
+  limit_sensor: string;
+  limit_value: number;
+  limit_unit: string;
+  contact: string;
+  summary: string;
+  reason: string;
+}
+
+// gsv_msgs/msg/Expectations, in the order of the scenario.
+export interface ExpectationsMessage {
+  stamp: Time;
+  expectations: ExpectationMessage[];
+}
+
+export interface ExpectationMessage {
+  name: string;
+  yaml: string;
+  where: string;
+  state: string;
+  has_margin: boolean;
+  margin: number;
+  unit: string;
+  margin_at_s: number;
+  time_s: number;
+  step: bigint;
+  detail: string;
+  bodies: string[];
+  places: ArrayLike<number>; // x y radius of each
+  boxes: ArrayLike<number>; // x0 x1 y0 y1 of each
 }
 
 export const LINE_LIST = 5;

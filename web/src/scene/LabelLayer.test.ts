@@ -1,5 +1,5 @@
 // @vitest-environment jsdom
-import { PerspectiveCamera, Vector3 } from "three";
+import { PerspectiveCamera } from "three";
 import { expect, test, vi } from "vitest";
 import { LabelLayer } from "./LabelLayer";
 
@@ -7,8 +7,16 @@ import { LabelLayer } from "./LabelLayer";
 const camera = new PerspectiveCamera(90, 2, 0.1, 100);
 camera.updateMatrixWorld(true);
 
-function robot(name: string, x: number, y: number, z: number) {
-  return { name, position: new Vector3(x, y, z) };
+type Robot = [name: string, x: number, y: number, z: number, badness?: number];
+
+function place(layer: LabelLayer, robots: Robot[], selection: string | null = null, hidden: string[] = []) {
+  layer.place(camera, 800, 400, {
+    names: robots.map(([name]) => name),
+    tops: Float64Array.from(robots.flatMap(([, x, y, z]) => [x, y, z])),
+    badness: (i) => robots[i]![4] ?? 0,
+    isShown: (i) => !hidden.includes(robots[i]![0]),
+    selection,
+  });
 }
 
 function texts(layer: LabelLayer): (string | null)[] {
@@ -17,35 +25,61 @@ function texts(layer: LabelLayer): (string | null)[] {
 
 test("a label stands where its robot is drawn", () => {
   const layer = new LabelLayer(() => {});
-  layer.place(camera, 800, 400, [robot("a", 2, 1, -2)], null);
+  place(layer, [["a", 2, 1, -2]]);
   expect((layer.element.firstChild as HTMLElement).style.transform).toContain("translate(600.0px, 100.0px)");
 });
 
 test("what is behind the camera or outside the picture has no label", () => {
   const layer = new LabelLayer(() => {});
-  layer.place(
-    camera,
-    800,
-    400,
-    [robot("behind", 0, 0, 5), robot("aside", 9, 0, -2), robot("seen", 0, 0, -3)],
-    null,
-  );
+  place(layer, [
+    ["behind", 0, 0, 5],
+    ["aside", 9, 0, -2],
+    ["seen", 0, 0, -3],
+  ]);
   expect(texts(layer)).toEqual(["seen"]);
 });
 
-test("of a crowd the nearest are named", () => {
+test("what a filter leaves out has no label", () => {
   const layer = new LabelLayer(() => {});
-  const crowd = Array.from({ length: 100 }, (_, i) => robot(`r${i}`, 0, 0, -90 + i / 2));
-  layer.place(camera, 800, 400, crowd, null);
-  expect(layer.element.children).toHaveLength(40);
-  expect(texts(layer)).toContain("r99");
-  expect(texts(layer)).not.toContain("r0");
+  place(layer, [["a", -1, 0, -3], ["b", 1, 0, -3]], null, ["a"]);
+  expect(texts(layer)).toEqual(["b"]);
+});
+
+test("of labels that would overlap the selected one is shown, then the worst, then the nearest", () => {
+  const layer = new LabelLayer(() => {});
+  const near: Robot = ["near", 0, 0, -2];
+  const far: Robot = ["far", 0, 0, -4];
+  place(layer, [far, near]);
+  expect(texts(layer)).toEqual(["near"]);
+  place(layer, [["far", 0, 0, -4, 2], near]);
+  expect(texts(layer)).toEqual(["far"]);
+  expect(layer.element.firstElementChild!.classList.contains("trouble")).toBe(true);
+  place(layer, [["far", 0, 0, -4, 2], near], "near");
+  expect(texts(layer)).toEqual(["near"]);
+});
+
+test("no two labels of a crowd overlap", () => {
+  const layer = new LabelLayer(() => {});
+  const crowd = Array.from({ length: 400 }, (_, i): Robot => [`robot_${i}`, (i % 20) / 5 - 2, Math.floor(i / 20) / 10 - 1, -3]);
+  place(layer, crowd);
+  const boxes = [...layer.element.children].map((label) => {
+    const [, x, y] = /translate\((-?[\d.]+)px, (-?[\d.]+)px\)/.exec((label as HTMLElement).style.transform)!.map(Number);
+    return { x: x!, y: y!, width: 7 * label.textContent!.length + 12, height: 18 };
+  });
+  expect(boxes.length).toBeGreaterThan(10);
+  expect(boxes.length).toBeLessThanOrEqual(40);
+  boxes.forEach((a, i) =>
+    boxes.slice(i + 1).forEach((b) => {
+      const isApart = Math.abs(a.x - b.x) >= (a.width + b.width) / 2 || Math.abs(a.y - b.y) >= a.height;
+      expect(isApart).toBe(true);
+    }),
+  );
 });
 
 test("a click on a label means its robot, and markup in a name stays text", () => {
   const onPick = vi.fn();
   const layer = new LabelLayer(onPick);
-  layer.place(camera, 800, 400, [robot("<b>a</b>", 0, 0, -3)], "<b>a</b>");
+  place(layer, [["<b>a</b>", 0, 0, -3]], "<b>a</b>");
   const label = layer.element.firstChild as HTMLElement;
   expect(label.classList.contains("selected")).toBe(true);
   label.click();

@@ -1,38 +1,62 @@
 // Names above the robots: text of the page, not of the picture, so that it stays sharp and can be
-// read by a screen reader. Of a crowd only the nearest are named.
+// read by a screen reader. No two overlap: the selected robot's comes first, then those of robots in trouble, the
+// worst first, then the nearest.
 import type { Camera } from "three";
-import { Vector3 } from "three";
+import { Matrix4, Vector3 } from "three";
 
 const MOST_LABELS = 40;
 const TEXT_PX = 11.5; // as style/panels.css has it
+const HEIGHT_PX = 20;
+const PADDING_PX = 14; // of both sides, with what keeps two names apart
+const CHARACTER_PX = 7; // where the browser does not tell a text's width
 
-export interface Labelled {
-  name: string;
-  position: Vector3; // in the world
+export interface LabelledRobots {
+  names: readonly string[];
+  tops: Float64Array; // x y z of each, in the world
+  badness(robot: number): number; // 0: all is well
+  isShown(robot: number): boolean;
+  selection: string | null;
+}
+
+interface Box {
+  left: number;
+  right: number;
+  bottom: number;
+}
+
+interface Candidate extends Box {
+  robot: number;
+  x: number;
+  rank: number; // the lowest comes first
+  distance: number;
 }
 
 export class LabelLayer {
   readonly element = document.createElement("div");
   private readonly labels = new Map<string, HTMLElement>();
+  private readonly widths = new Map<string, number>();
+  private readonly measure = measureText();
+  private readonly clipFromWorld = new Matrix4();
+  private readonly eye = new Vector3();
 
   constructor(private readonly onPick: (name: string) => void) {
     this.element.className = "labels";
   }
 
-  place(camera: Camera, width: number, height: number, robots: Labelled[], selection: string | null): void {
-    const shown = visible(camera, robots).slice(0, MOST_LABELS);
-    const names = new Set(shown.map(({ robot }) => robot.name));
+  place(camera: Camera, width: number, height: number, robots: LabelledRobots): void {
+    const shown = this.chosen(camera, width, height, robots);
+    const names = new Set(shown.map(({ robot }) => robots.names[robot]!));
     for (const [name, label] of [...this.labels]) {
       if (names.has(name)) continue;
       label.remove();
       this.labels.delete(name);
     }
-    for (const { robot, onScreen } of shown) {
-      const label = this.labelOf(robot.name);
-      const x = ((onScreen.x + 1) / 2) * width;
-      const y = ((1 - onScreen.y) / 2) * height;
-      label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -100%)`;
-      label.classList.toggle("selected", robot.name === selection);
+    for (const { robot, x, bottom } of shown) {
+      const name = robots.names[robot]!;
+      const label = this.labelOf(name);
+      label.style.transform = `translate(${x.toFixed(1)}px, ${bottom.toFixed(1)}px) translate(-50%, -100%)`;
+      label.classList.toggle("selected", name === robots.selection);
+      label.classList.toggle("trouble", robots.badness(robot) > 0);
     }
   }
 
@@ -57,6 +81,51 @@ export class LabelLayer {
     context.restore();
   }
 
+  // Those that have room, at most MOST_LABELS.
+  private chosen(camera: Camera, width: number, height: number, robots: LabelledRobots): Candidate[] {
+    const taken: Candidate[] = [];
+    for (const each of this.candidates(camera, width, height, robots)) {
+      if (taken.some((other) => overlap(each, other))) continue;
+      taken.push(each);
+      if (taken.length === MOST_LABELS) break;
+    }
+    return taken;
+  }
+
+  // Those in front of the camera and inside the picture, the first to be named first.
+  private candidates(camera: Camera, width: number, height: number, robots: LabelledRobots): Candidate[] {
+    const { names, tops, selection } = robots;
+    const m = this.clipFromWorld.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements;
+    const eye = this.eye.setFromMatrixPosition(camera.matrixWorld);
+    const found: Candidate[] = [];
+    for (let robot = 0, at = 0; robot < names.length; robot++, at += 3) {
+      const [x, y, z] = [tops[at]!, tops[at + 1]!, tops[at + 2]!];
+      const w = m[3]! * x + m[7]! * y + m[11]! * z + m[15]!;
+      if (w <= 0) continue;
+      const across = (m[0]! * x + m[4]! * y + m[8]! * z + m[12]!) / w;
+      const up = (m[1]! * x + m[5]! * y + m[9]! * z + m[13]!) / w;
+      if (Math.abs(across) > 1 || Math.abs(up) > 1 || !robots.isShown(robot)) continue;
+      const middle = ((across + 1) / 2) * width;
+      const half = this.widthOf(names[robot]!) / 2;
+      found.push({
+        robot,
+        x: middle,
+        left: middle - half,
+        right: middle + half,
+        bottom: ((1 - up) / 2) * height,
+        rank: names[robot] === selection ? -Infinity : -robots.badness(robot),
+        distance: Math.hypot(x - eye.x, y - eye.y, z - eye.z),
+      });
+    }
+    return found.sort((a, b) => a.rank - b.rank || a.distance - b.distance);
+  }
+
+  private widthOf(name: string): number {
+    let width = this.widths.get(name);
+    if (width === undefined) this.widths.set(name, (width = this.measure(name) + PADDING_PX));
+    return width;
+  }
+
   private labelOf(name: string): HTMLElement {
     let label = this.labels.get(name);
     if (!label) {
@@ -71,11 +140,17 @@ export class LabelLayer {
   }
 }
 
-// Those in front of the camera and inside the picture, the nearest first.
-function visible(camera: Camera, robots: Labelled[]): { robot: Labelled; onScreen: Vector3 }[] {
-  const eye = new Vector3().setFromMatrixPosition(camera.matrixWorld);
-  return robots
-    .map((robot) => ({ robot, onScreen: robot.position.clone().project(camera) }))
-    .filter(({ onScreen: p }) => p.z < 1 && Math.abs(p.x) <= 1 && Math.abs(p.y) <= 1)
-    .sort((a, b) => a.robot.position.distanceToSquared(eye) - b.robot.position.distanceToSquared(eye));
+function overlap(a: Box, b: Box): boolean {
+  return a.left < b.right && b.left < a.right && Math.abs(a.bottom - b.bottom) < HEIGHT_PX;
+}
+
+// Measuring labels on the page would have it laid out for each.
+function measureText(): (text: string) => number {
+  let context: CanvasRenderingContext2D | null = null;
+  return (text) => {
+    context ??= document.createElement("canvas").getContext("2d");
+    if (!context) return CHARACTER_PX * text.length;
+    context.font = `${TEXT_PX}px system-ui, sans-serif`;
+    return context.measureText(text).width;
+  };
 }

@@ -14,6 +14,7 @@ import { BeamLayer } from "./BeamLayer";
 import type { BodyLayer } from "./BodyLayer";
 import { matrixOf } from "./BodyLayer";
 import { DeviceLayer } from "./DeviceLayer";
+import { ExpectationMarks } from "./ExpectationMarks";
 import { LineLayer } from "./LineLayer";
 import { drawAxes, drawContact, drawJoint, drawView } from "./markings";
 import { PointLayer } from "./PointLayer";
@@ -45,6 +46,7 @@ export class OverlayLayers {
   private readonly devices = new DeviceLayer();
   private readonly player = new SoundPlayer();
   private readonly radio = new RadioLinks();
+  readonly expectations: ExpectationMarks;
   private trailsOf = ""; // the scene's name
   private readonly contacts = new Map<string, TouchPoint[]>(); // by topic, in the sensor's frame
   private bodies: BodyLayer | null = null;
@@ -58,7 +60,15 @@ export class OverlayLayers {
     this.beams = new BeamLayer(mostBeams, thin);
     this.lines = new LineLayer({ widthPx: 2, onTop: true, thin });
     this.trailLines = new LineLayer({ widthPx: 2.5, thin });
-    this.group.add(this.beams.lines, this.points.points, this.lines.lines, this.trailLines.lines, this.devices.group);
+    this.expectations = new ExpectationMarks(thin);
+    this.group.add(
+      this.beams.lines,
+      this.points.points,
+      this.lines.lines,
+      this.trailLines.lines,
+      this.devices.group,
+      this.expectations.lines,
+    );
   }
 
   setScene(bodies: BodyLayer | null): void {
@@ -127,6 +137,10 @@ export class OverlayLayers {
       const entry = this.bodies?.poseEntryOf(marker.ns) ?? null;
       if (poses && entry !== null) this.beams.setRobot(marker.ns, marker, matrixOf(poses, 7 * entry));
     }
+  }
+
+  forgetBeams(): void {
+    this.beams.keepOnly(new Set());
   }
 
   // Places everything with the bodies as they are shown now, seen from `eye`.

@@ -6,14 +6,15 @@ import type { BodyLayer } from "./BodyLayer";
 import type { Subject } from "./CameraRig";
 import type { Eye } from "./eye";
 import { eyeAt } from "./eye";
-import type { Labelled } from "./LabelLayer";
 import type { SensorFrames } from "./SensorFrames";
 
 const LOWEST_LABEL = 0.15; // m above the robot's origin
 const SMALLEST_RING = 0.16; // m
 
 export class RobotPlaces {
+  readonly names: readonly string[];
   private readonly robots: { name: string; body: number }[];
+  private readonly places: Float64Array;
 
   constructor(
     private readonly bodies: BodyLayer,
@@ -22,10 +23,8 @@ export class RobotPlaces {
     this.robots = bodies.scene.bodies.flatMap((each, body) =>
       hasAgent(each) ? [{ name: each.name, body }] : [],
     );
-  }
-
-  get names(): string[] {
-    return this.robots.map(({ name }) => name);
+    this.names = this.robots.map(({ name }) => name);
+    this.places = new Float64Array(3 * this.robots.length);
   }
 
   // The middle of its shape, in the world.
@@ -57,11 +56,24 @@ export class RobotPlaces {
     return { worldFromEye: eyeAt(pose, this.bodies.templateOf(body)?.bounds ?? null), view: null };
   }
 
-  labels(): Labelled[] {
-    return this.robots.map(({ name, body }) => {
-      const position = new Vector3().setFromMatrixPosition(this.bodies.poseOf(body)!);
-      position.z += Math.max(LOWEST_LABEL, this.bodies.templateOf(body)?.bounds.max.z ?? 0);
-      return { name, position };
+  // x y z above each robot, in the order of the names; written anew with each call.
+  tops(): Float64Array {
+    this.robots.forEach(({ body }, i) => {
+      const { elements } = this.bodies.poseOf(body)!;
+      const top = this.bodies.templateOf(body)?.bounds.max.z ?? 0;
+      this.places[3 * i] = elements[12]!;
+      this.places[3 * i + 1] = elements[13]!;
+      this.places[3 * i + 2] = elements[14]! + Math.max(LOWEST_LABEL, top);
+    });
+    return this.places;
+  }
+
+  // Half of what each robot measures from corner to corner, in metres; of a shape that is not there yet that of
+  // a small one.
+  radii(): Float64Array {
+    return Float64Array.from(this.robots, ({ body }) => {
+      const bounds = this.bodies.templateOf(body)?.bounds;
+      return bounds && !bounds.isEmpty() ? bounds.getSize(new Vector3()).length() / 2 : SMALLEST_RING;
     });
   }
 

@@ -4,6 +4,7 @@ import type { Matrix4, WebGLRenderer } from "three";
 import { Scene } from "three";
 import type { SceneDescription } from "../api/scene";
 import { hasAgent } from "../api/scene";
+import type { Expectation } from "../state/expectations";
 import type { MarkerArrayMessage, PosesMessage, TransformsMessage } from "../protocol/messages";
 import type { Shown } from "../state/overlays";
 import { FIRST_SHOWN } from "../state/overlays";
@@ -17,7 +18,6 @@ import { CameraRig } from "./CameraRig";
 import { fenceOf } from "./fence";
 import { environmentOf } from "./framing";
 import { FrameRate } from "./FrameRate";
-import { LabelLayer } from "./LabelLayer";
 import type { ModelLibrary } from "./ModelLibrary";
 import { OverlayLayers } from "./OverlayLayers";
 import type { ScreenPlace } from "./picking";
@@ -27,6 +27,8 @@ import { Quality } from "./Quality";
 import { makeRenderer } from "./renderer";
 import { RenderLoop } from "./RenderLoop";
 import { RobotPlaces } from "./RobotPlaces";
+import type { RobotStates } from "./RobotSigns";
+import { RobotSigns } from "./RobotSigns";
 import { RobotWatch } from "./RobotWatch";
 import { SceneParts } from "./SceneParts";
 import { ShadowPace } from "./ShadowPace";
@@ -61,7 +63,7 @@ export class World3D {
   private readonly overlays: OverlayLayers;
   private readonly collisions: CollisionLayer;
   private readonly poses = new ShownPoses((sample) => this.overlays.takePoses(sample));
-  private readonly labels: LabelLayer;
+  private readonly signs: RobotSigns;
   private readonly watch: RobotWatch;
   private readonly arranger: Arranger;
   private parts: SceneParts | null = null;
@@ -92,7 +94,7 @@ export class World3D {
       onProblem: (sentence) => events.onProblem(sentence),
     });
     this.frameRate = new FrameRate((rate) => events.onFrameRate(rate));
-    this.labels = new LabelLayer((name) => events.onPick(name));
+    this.signs = new RobotSigns((name) => events.onPick(name));
     this.loop = new RenderLoop(
       (now) => this.draw(now),
       (took) => this.tookFrame(took),
@@ -105,8 +107,8 @@ export class World3D {
     );
     this.watch = new RobotWatch(this.rig);
     this.arranger = new Arranger(this.arrangerView(), events);
-    this.scene.add(this.overlays.group, this.watch.ring.mesh, this.arranger.handle.group);
-    host.prepend(canvas, this.labels.element); // below what lies over the picture
+    this.scene.add(this.overlays.group, this.signs.marks.points, this.watch.ring.mesh, this.arranger.handle.group);
+    host.prepend(canvas, this.signs.labels.element); // below what lies over the picture
     for (const press of ["pointerdown", "pointerup", "keydown"] as const) {
       addEventListener(press, (event) => "repeat" in event && event.repeat ? undefined : this.loop.holdBack(), { capture: true });
     }
@@ -186,7 +188,7 @@ export class World3D {
   // Whether what stands there may be moved by hand.
   setArranging(isOn: boolean): void {
     this.arranger.isOn = isOn;
-    this.labels.element.classList.toggle("in-the-way", isOn);
+    this.signs.labels.element.classList.toggle("in-the-way", isOn);
     this.loop.request();
   }
 
@@ -194,7 +196,26 @@ export class World3D {
     this.shown = shown;
     this.overlays.show(shown);
     this.collisions.show(shown.collisions);
-    this.labels.element.hidden = !shown.labels;
+    this.signs.labels.element.hidden = !shown.labels;
+    this.loop.request();
+  }
+
+  // How the robots are doing, and which of them a filter has chosen.
+  setStates(states: RobotStates): void {
+    this.signs.setStates(states);
+    this.loop.request();
+  }
+
+  // What the scenario expects, drawn where it applies.
+  setExpectations(expectations: readonly Expectation[]): void {
+    this.overlays.expectations.set(expectations);
+    this.loop.request();
+  }
+
+  // The beams of the last message that was read are not read any more.
+  forgetBeams(): void {
+    this.lastBeams = null;
+    this.overlays.forgetBeams();
     this.loop.request();
   }
 
@@ -220,7 +241,7 @@ export class World3D {
   picture(): Promise<Blob> {
     this.draw(performance.now());
     return pngOf(this.renderer.domElement, (context) => {
-      if (this.shown.labels) this.labels.paint(context, this.width);
+      if (this.shown.labels) this.signs.labels.paint(context, this.width);
     });
   }
 
@@ -273,12 +294,14 @@ export class World3D {
     this.overlays.setScene(null);
     this.collisions.setScene(null);
     this.watch.robots = null;
+    this.signs.setRobots(null);
   }
 
   private build(scene: SceneDescription): void {
     this.parts = new SceneParts(scene, this.scene);
     const { bodies, focus } = this.parts;
     this.watch.robots = new RobotPlaces(bodies, this.overlays.frames);
+    this.signs.setRobots(this.watch.robots);
     this.overlays.setScene(bodies);
     this.collisions.setScene(scene);
     const environment = environmentOf(scene);
@@ -288,6 +311,7 @@ export class World3D {
     if (this.lastBeams) this.takeBeams(this.lastBeams);
     this.parts.load(this.library, {
       onMissing: (count) => {
+        this.signs.measure();
         this.refresh();
         this.events.onModelsMissing(count);
       },
@@ -348,15 +372,11 @@ export class World3D {
     const isMoving = !this.poses.isSettled(now);
     if (this.shadows.areDue(isMoving)) this.renderer.shadowMap.needsUpdate = true;
     this.resizeCanvas();
+    this.signs.placeMarks(this.rig.camera, this.height, this.renderer.getPixelRatio(), this.shown);
     this.renderer.render(this.scene, this.rig.camera);
-    this.placeLabels();
+    this.signs.placeLabels(this.rig.camera, this.width, this.height, this.watch.selection, this.shown);
     this.frameRate.count(this.frames, now);
     return isFlying || isMoving;
-  }
-
-  private placeLabels(): void {
-    if (!this.shown.labels || !this.watch.robots) return;
-    this.labels.place(this.rig.camera, this.width, this.height, this.watch.robots.labels(), this.watch.selection);
   }
 
   private click(place: ScreenPlace): void {

@@ -9,9 +9,13 @@ import type { SimulationStatus, SimulationSummary } from "../api/status";
 import type { ConnectionState } from "../protocol/FoxgloveClient";
 import type { People } from "../api/ViewersApi";
 import type { Editing } from "./editing";
+import type { Expectation } from "./expectations";
+import type { Health } from "./health";
 import { NO_PEOPLE } from "./people";
 import type { Shown } from "./overlays";
 import { FIRST_SHOWN } from "./overlays";
+import type { RobotFilter } from "./robotList";
+import { NO_FILTER } from "./robotList";
 import type { SetUp } from "./setUp";
 import type { Plots } from "./plots";
 import { NO_PLOTS } from "./plots";
@@ -60,6 +64,9 @@ export interface State {
   view: View;
   scene: SceneDescription | null;
   modelsMissing: number; // shapes that are still being fetched
+  health: Health | null; // null: the server does not report it
+  expectations: readonly Expectation[]; // of the scenario
+  robotFilter: RobotFilter;
   selection: string | null; // a robot's name
   selectedPose: RobotPose | null;
   viewMode: ViewMode;
@@ -96,6 +103,9 @@ export const initialState: State = {
   view: "starting",
   scene: null,
   modelsMissing: 0,
+  health: null,
+  expectations: [],
+  robotFilter: NO_FILTER,
   selection: null,
   selectedPose: null,
   viewMode: "orbit",

@@ -10,6 +10,7 @@ import type { CameraChoice } from "../../api/scene";
 import type { ParameterValue } from "../../protocol/FoxgloveClient";
 import type { TopicSource } from "../../protocol/SharedTopics";
 import type { Source } from "../../state/plots";
+import type { RobotFilter } from "../../state/robotList";
 import type { State } from "../../state/State";
 import type { StateReader } from "../../state/Store";
 
@@ -52,6 +53,7 @@ export interface RobotsPort {
   select(robot: string | null): void;
   // What a click on the body does: selects a robot, and while one edits chooses an object.
   pick(body: string): void;
+  filter(change: Partial<RobotFilter>): void; // in the list and in the view
   follow(): void; // the selected robot, with the view; a second time ends it
 }
 

@@ -50,7 +50,12 @@ export function testPorts(state: Partial<State> = {}, server: Partial<PanelPorts
     },
     commands: { list: vi.fn(async () => []), run: vi.fn(async () => {}) },
     replay: { seek: vi.fn(async () => {}) },
-    robots: { select: vi.fn(), pick: vi.fn(), follow: vi.fn() },
+    robots: {
+      select: vi.fn(),
+      pick: vi.fn(),
+      filter: vi.fn((change: object) => store.set(({ robotFilter }) => ({ robotFilter: { ...robotFilter, ...change } }))),
+      follow: vi.fn(),
+    },
     cameras: { show: vi.fn(), open: vi.fn() },
     plots: {
       add: vi.fn(),

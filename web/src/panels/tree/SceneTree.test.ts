@@ -1,6 +1,7 @@
 // @vitest-environment jsdom
 import { expect, test } from "vitest";
 import type { SimulationStatus } from "../../api/status";
+import type { Health, RobotHealth } from "../../state/health";
 import { body, scene } from "../../scene/testScene";
 import { testPorts } from "../contract/testPorts";
 import { createSceneTree } from "./SceneTree";
@@ -21,6 +22,66 @@ test("a station is listed as one, and counted apart from the robots", () => {
   expect(tree.querySelector("h2")!.textContent).toBe("1 robot, 2 stations");
   const rows = [...tree.querySelectorAll(".robot")].map((row) => row.querySelector(".robot-behaviour")!.textContent);
   expect(rows).toEqual(["wander · running", "station", "station · watch · running"]);
+});
+
+function health(...robots: object[]): Health {
+  const known = { level: 1, since: 3, command: { linear: 0.3, lateral: 0, angular: 0 }, actual: { linear: 0, angular: 0 } };
+  const all = robots.map((each) => ({ ...known, limit: null, contact: "", summary: "is stuck", reason: "", ...each }) as RobotHealth);
+  return { time: 10, stuckAfter: 5, robots: new Map(all.map((each) => [each.robot, each])) };
+}
+
+function crowd(count: number) {
+  const robots = Array.from({ length: count }, (_, i) => robot(`r${i}`, "wander"));
+  return { status: { robots } as unknown as SimulationStatus, time: 10 };
+}
+
+const names = (tree: HTMLElement) => [...tree.querySelectorAll<HTMLElement>("[data-robot]")].map(({ dataset }) => dataset.robot);
+
+test("who is in trouble comes first and says why", () => {
+  const { ports } = testPorts({ ...crowd(8), health: health({ robot: "r5", state: "stuck", reason: "sonar reads 0.2 m" }) });
+  const tree = createSceneTree(ports, document.createElement("div"));
+  expect(names(tree).slice(0, 3)).toEqual(["r5", "r0", "r1"]);
+  const first = tree.querySelector(".robot")!;
+  expect(first.querySelector(".robot-behaviour")!.textContent).toBe("is stuck for 7 s: sonar reads 0.2 m");
+  expect(first.querySelector(".dot")!.getAttribute("data-state")).toBe("stuck");
+});
+
+test("a search shows who fits, and says when nobody does", () => {
+  const { ports } = testPorts(crowd(30));
+  const tree = createSceneTree(ports, document.createElement("div"));
+  const field = tree.querySelector<HTMLInputElement>("input[type=search]")!;
+  const search = (text: string) => {
+    field.value = text;
+    field.dispatchEvent(new Event("input"));
+  };
+  search("/^r2\\d$/");
+  expect(names(tree)).toHaveLength(10);
+  search("nobody");
+  expect(names(tree)).toHaveLength(0);
+  expect(tree.querySelector<HTMLElement>(".robot-nothing")!.hidden).toBe(false);
+  search("/[/");
+  expect(tree.querySelector(".robot-problem")!.textContent).toContain("not a regular expression");
+});
+
+test("of thousands only the rows in sight exist, and a click on one selects it", () => {
+  const { ports, store } = testPorts(crowd(5000));
+  const tree = createSceneTree(ports, document.createElement("div"));
+  expect(names(tree).length).toBeLessThan(40);
+  tree.querySelector<HTMLElement>('[data-robot="r3"]')!.click();
+  expect(ports.robots.select).toHaveBeenCalledWith("r3");
+  store.set({ selection: "r4000" });
+  expect(tree.querySelector('[data-robot="r4000"]')!.getAttribute("aria-pressed")).toBe("true");
+});
+
+test("the keys up and down go from robot to robot", () => {
+  const { ports } = testPorts(crowd(30));
+  const tree = createSceneTree(ports, document.createElement("div"));
+  const press = (robot: string, key: string) =>
+    tree.querySelector(`[data-robot="${robot}"]`)!.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+  press("r3", "ArrowDown");
+  expect(ports.robots.select).toHaveBeenLastCalledWith("r4");
+  press("r3", "ArrowUp");
+  expect(ports.robots.select).toHaveBeenLastCalledWith("r2");
 });
 
 test("without stations only robots are counted", () => {

@@ -1,0 +1,78 @@
+// The robots, filtered, sorted and grouped as the viewer asks for; only the rows in sight exist.
+import { listedRobots } from "../../state/listedRobots";
+import type { Entry } from "../../state/robotList";
+import { NameOrder, entriesOf, isFiltering, isTitle } from "../../state/robotList";
+import { element, setText } from "../../ui/element";
+import { count } from "../../ui/format";
+import type { PanelPorts } from "../contract/ports";
+import { RobotRow } from "./RobotRow";
+import type { Row } from "./VirtualRows";
+import { VirtualRows } from "./VirtualRows";
+
+type Ports = Pick<PanelPorts, "state" | "robots">;
+
+// As style/robots.css has it.
+const ROW_PX = 50;
+const TITLE_PX = 30;
+
+export class RobotList {
+  readonly element: HTMLElement;
+  private readonly rows: VirtualRows<Entry>;
+  private readonly nothing = element("p", { class: "robot-nothing dim" }, "No robot matches. Change the search, or show all states.");
+  private readonly order = new NameOrder();
+  private entries: readonly Entry[] = [];
+
+  constructor(private readonly ports: Ports) {
+    this.rows = new VirtualRows<Entry>(
+      {
+        keyOf: (entry) => (isTitle(entry) ? `group ${entry.title}` : entry.status.name),
+        kindOf: (entry) => (isTitle(entry) ? "title" : "robot"),
+        heightOf: (entry) => (isTitle(entry) ? TITLE_PX : ROW_PX),
+        make: (kind) => (kind === "title" ? new TitleRow() : new RobotRow(ports)) as Row<Entry>,
+      },
+      "Robots",
+    );
+    this.rows.list.addEventListener("keydown", (event) => this.onKey(event));
+    this.element = element("div", { class: "robot-list" }, this.nothing, this.rows.scroller);
+  }
+
+  update(): void {
+    const state = this.ports.state.get();
+    this.entries = entriesOf(listedRobots(state), state.robotFilter, this.order);
+    this.nothing.hidden = this.entries.length > 0 || !isFiltering(state.robotFilter);
+    this.rows.show(this.entries);
+  }
+
+  showSelection(selection: string | null): void {
+    const index = this.indexOf(selection);
+    if (index >= 0) this.rows.scrollTo(index);
+    this.rows.show(this.entries);
+  }
+
+  private indexOf(robot: string | null): number {
+    return robot === null ? -1 : this.entries.findIndex((entry) => !isTitle(entry) && entry.status.name === robot);
+  }
+
+  // Up and down go to the next robot, whether its row exists yet or not.
+  private onKey(event: KeyboardEvent): void {
+    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (!step) return;
+    let index = this.indexOf((event.target as HTMLElement).dataset.robot ?? null) + step;
+    while (index >= 0 && index < this.entries.length && isTitle(this.entries[index]!)) index += step;
+    const entry = this.entries[index];
+    if (!entry || isTitle(entry)) return;
+    event.preventDefault();
+    event.stopPropagation();
+    this.ports.robots.select(entry.status.name);
+    const rows = [...this.rows.list.querySelectorAll<HTMLElement>("[data-robot]")];
+    rows.find(({ dataset }) => dataset.robot === entry.status.name)?.focus();
+  }
+}
+
+class TitleRow {
+  readonly element = element("li", { class: "robot-group" });
+
+  write(entry: Entry): void {
+    if (isTitle(entry)) setText(this.element, `${entry.title} · ${count(entry.count, "robot")}`);
+  }
+}

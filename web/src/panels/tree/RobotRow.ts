@@ -1,0 +1,66 @@
+// One robot of the list: its state, its name, what it does or why it does not, how far it drove.
+import type { ListedRobot } from "../../state/robotList";
+import { agentLabel } from "../../state/actions";
+import { STATE_WORDS, isTrouble, sentenceOf } from "../../state/health";
+import { element, setAttribute, setText } from "../../ui/element";
+import { count, formatDistance } from "../../ui/format";
+import type { PanelPorts } from "../contract/ports";
+
+export class RobotRow {
+  readonly element: HTMLElement;
+  private readonly button: HTMLButtonElement;
+  private readonly dot = element("span", { class: "dot" });
+  private readonly name = element("span", { class: "robot-name" });
+  private readonly behaviour = element("span", { class: "robot-behaviour" });
+  private readonly distance = element("span", { class: "number" });
+  private readonly collisions = element("span", { class: "number collisions" });
+
+  constructor(private readonly ports: Pick<PanelPorts, "state" | "robots">) {
+    this.button = element(
+      "button",
+      { class: "robot", type: "button", onclick: () => ports.robots.select(this.robot) },
+      this.dot,
+      this.name,
+      this.distance,
+      this.behaviour,
+      this.collisions,
+    );
+    this.button.addEventListener("dblclick", () => ports.robots.follow());
+    this.element = element("li", {}, this.button);
+  }
+
+  private get robot(): string {
+    return this.button.dataset.robot ?? "";
+  }
+
+  write(listed: ListedRobot): void {
+    const { status, state } = listed;
+    const { selection } = this.ports.state.get();
+    setAttribute(this.button, "data-robot", status.name);
+    setAttribute(this.button, "aria-pressed", String(status.name === selection));
+    const agent = agentLabel(status);
+    setAttribute(this.dot, "data-phase", status.agentPhase);
+    setAttribute(this.dot, "data-state", state);
+    setAttribute(this.dot, "title", state === "unknown" ? agent : STATE_WORDS[state]);
+    setText(this.name, status.name);
+    const why = this.why(listed);
+    setText(this.behaviour, why || this.work(listed, agent));
+    setAttribute(this.behaviour, "data-trouble", String(why !== ""));
+    setText(this.distance, listed.kind === "station" ? "" : formatDistance(status.distance));
+    setText(this.collisions, status.collisions > 0 ? count(status.collisions, "collision") : "");
+    setAttribute(this.button, "title", [why, status.detail].filter((line) => line !== "").join("\n"));
+  }
+
+  // Empty while all is well.
+  private why({ health, state }: ListedRobot): string {
+    return health && (isTrouble(state) || health.level > 0) ? sentenceOf(health, this.ports.state.get().time) : "";
+  }
+
+  private work({ status, kind }: ListedRobot, agent: string): string {
+    const behaviour = `${status.behaviour || "no behaviour"} · ${agent}`;
+    if (kind === "robot") return behaviour;
+    // What was recorded stays so.
+    if (kind === "avatar") return this.ports.state.get().replay ? "avatar" : "avatar · W A S D";
+    return status.behaviour ? `station · ${behaviour}` : "station";
+  }
+}

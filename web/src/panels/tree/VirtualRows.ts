@@ -1,0 +1,115 @@
+// A list of which only the rows in sight exist, however long it is. Rows are made once and written again
+// for other entries.
+import { element, setAttribute } from "../../ui/element";
+
+const BEYOND_PX = 200; // above and below what is in sight
+const HEIGHT_WITHOUT_LAYOUT_PX = 800;
+
+export interface Row<Entry> {
+  readonly element: HTMLElement;
+  write(entry: Entry): void;
+}
+
+export interface RowKinds<Entry> {
+  keyOf(entry: Entry): string; // of one entry, kept when it moves
+  kindOf(entry: Entry): string; // entries of one kind share rows
+  heightOf(entry: Entry): number; // px
+  make(kind: string): Row<Entry>;
+}
+
+interface PlacedRow<Entry> extends Row<Entry> {
+  kind: string;
+  top: number;
+}
+
+export class VirtualRows<Entry> {
+  readonly list: HTMLElement;
+  readonly scroller: HTMLElement;
+  private entries: readonly Entry[] = [];
+  private tops: number[] = [0]; // of each entry, and the end of the last one
+  private rows = new Map<string, PlacedRow<Entry>>(); // by key
+  private readonly spare: PlacedRow<Entry>[] = [];
+
+  constructor(
+    private readonly kinds: RowKinds<Entry>,
+    label: string,
+  ) {
+    this.list = element("ul", { class: "robots", "aria-label": label });
+    this.scroller = element("div", { class: "robot-scroll" }, this.list);
+    this.scroller.addEventListener("scroll", () => this.draw(), { passive: true });
+    if (typeof ResizeObserver !== "undefined") new ResizeObserver(() => this.draw()).observe(this.scroller);
+  }
+
+  show(entries: readonly Entry[]): void {
+    this.entries = entries;
+    const tops = [0];
+    for (let i = 0; i < entries.length; i++) tops.push(tops[i]! + this.kinds.heightOf(entries[i]!));
+    this.tops = tops;
+    this.list.style.height = `${tops.at(-1)}px`;
+    this.draw();
+  }
+
+  scrollTo(index: number): void {
+    const height = this.height;
+    const [top, bottom] = [this.tops[index]!, this.tops[index + 1]!];
+    const { scrollTop } = this.scroller;
+    if (top < scrollTop) this.scroller.scrollTop = top;
+    else if (bottom > scrollTop + height) this.scroller.scrollTop = bottom - height;
+    this.draw();
+  }
+
+  private get height(): number {
+    return this.scroller.clientHeight || HEIGHT_WITHOUT_LAYOUT_PX;
+  }
+
+  private draw(): void {
+    const { scrollTop } = this.scroller;
+    const first = this.indexAt(scrollTop - BEYOND_PX);
+    const last = Math.min(this.entries.length - 1, this.indexAt(scrollTop + this.height + BEYOND_PX));
+    const inSight = this.entries.slice(first, last + 1);
+    const kept = new Set(inSight.map((entry) => this.kinds.keyOf(entry)));
+    for (const [key, row] of [...this.rows]) {
+      if (kept.has(key)) continue;
+      this.rows.delete(key);
+      row.element.remove();
+      this.spare.push(row);
+    }
+    inSight.forEach((entry, i) => this.place(entry, first + i, i));
+  }
+
+  // `nth` of the rows that exist.
+  private place(entry: Entry, index: number, nth: number): void {
+    const key = this.kinds.keyOf(entry);
+    const row = this.rows.get(key) ?? this.take(this.kinds.kindOf(entry));
+    this.rows.set(key, row);
+    const top = this.tops[index]!;
+    if (row.top !== top) {
+      row.top = top;
+      row.element.style.transform = `translateY(${top}px)`;
+    }
+    // Keys go from row to row as the eye does.
+    const there = this.list.children[nth];
+    if (there !== row.element) this.list.insertBefore(row.element, there ?? null);
+    setAttribute(row.element, "aria-setsize", String(this.entries.length));
+    setAttribute(row.element, "aria-posinset", String(index + 1));
+    row.write(entry);
+  }
+
+  private take(kind: string): PlacedRow<Entry> {
+    const at = this.spare.findIndex((row) => row.kind === kind);
+    if (at >= 0) return this.spare.splice(at, 1)[0]!;
+    const row = this.kinds.make(kind);
+    return { element: row.element, write: (entry) => row.write(entry), kind, top: -1 };
+  }
+
+  // The last entry that begins at or before that height.
+  private indexAt(height: number): number {
+    let [low, high] = [0, Math.max(0, this.entries.length - 1)];
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (this.tops[middle]! <= height) low = middle;
+      else high = middle - 1;
+    }
+    return low;
+  }
+}

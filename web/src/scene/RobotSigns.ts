@@ -1,0 +1,77 @@
+// What tells the robots apart in the view: their names, and marks of their states.
+import type { PerspectiveCamera } from "three";
+import type { ShownState } from "../state/health";
+import { SHOWN_STATES, badness, isTrouble } from "../state/health";
+import { LabelLayer } from "./LabelLayer";
+import type { RobotPlaces } from "./RobotPlaces";
+import { StateMarks } from "./StateMarks";
+
+// How each robot is doing, by name, and which ones a filter has chosen (null: there is no filter).
+export interface RobotStates {
+  states: ReadonlyMap<string, ShownState> | null; // null: nobody reports them
+  chosen: ReadonlySet<string> | null;
+}
+
+export interface SignsShown {
+  labels: boolean;
+  states: boolean;
+}
+
+export class RobotSigns {
+  readonly labels: LabelLayer;
+  readonly marks = new StateMarks();
+  private robots: RobotPlaces | null = null;
+  private known: RobotStates = { states: null, chosen: null };
+  private states: Uint8Array = new Uint8Array(0); // of each robot, by SHOWN_STATES
+  private radii: Float64Array = new Float64Array(0);
+
+  constructor(onPick: (name: string) => void) {
+    this.labels = new LabelLayer(onPick);
+  }
+
+  setRobots(robots: RobotPlaces | null): void {
+    this.robots = robots;
+    this.setStates(this.known);
+    this.measure();
+  }
+
+  setStates(known: RobotStates): void {
+    this.known = known;
+    const unknown = SHOWN_STATES.indexOf("unknown");
+    this.states = Uint8Array.from(this.robots?.names ?? [], (name) => {
+      const state = known.states?.get(name);
+      return state === undefined ? unknown : SHOWN_STATES.indexOf(state);
+    });
+  }
+
+  // Shapes have come.
+  measure(): void {
+    this.radii = this.robots?.radii() ?? new Float64Array(0);
+  }
+
+  // Before the frame is drawn; the picture is so many pixels of the page high.
+  placeMarks(camera: PerspectiveCamera, height: number, ratio: number, { states }: SignsShown): void {
+    const { chosen } = this.known;
+    if (!this.robots || !states || (!this.known.states && !chosen)) return this.marks.hide();
+    const { names } = this.robots;
+    const isChosen = chosen && ((robot: number) => chosen.has(names[robot]!));
+    this.marks.place(this.robots.tops(), { states: this.states, radii: this.radii, isChosen }, camera, height, ratio);
+  }
+
+  // When it is drawn.
+  placeLabels(camera: PerspectiveCamera, width: number, height: number, selection: string | null, { labels }: SignsShown): void {
+    if (!labels || !this.robots) return;
+    const { names } = this.robots;
+    const { chosen } = this.known;
+    this.labels.place(camera, width, height, {
+      names,
+      tops: this.robots.tops(),
+      selection,
+      badness: (robot) => {
+        const state = SHOWN_STATES[this.states[robot]!]!;
+        return isTrouble(state) ? badness(state) : 0;
+      },
+      isShown: (robot) => chosen === null || chosen.has(names[robot]!) || names[robot] === selection,
+    });
+  }
+}

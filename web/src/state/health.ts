@@ -1,0 +1,116 @@
+// What state each robot is in, as the server computes it from commands and motion (docs/viewer.md).
+import type { RobotStatus } from "../api/status";
+import type { HealthMessage, RobotHealthMessage } from "../protocol/messages";
+import { seconds } from "../protocol/messages";
+import { formatNumber } from "../ui/format";
+
+// The server's states, worst first, and two of the page's: `told` stands though it was told to move;
+// `unknown` is a robot whose state nobody reports.
+export const SHOWN_STATES = ["dead", "stuck", "contact", "late", "told", "standing", "unknown", "moving"] as const;
+export type ShownState = (typeof SHOWN_STATES)[number];
+
+export const STATE_WORDS: Record<ShownState, string> = {
+  dead: "dead",
+  stuck: "stuck",
+  contact: "in contact",
+  late: "late",
+  told: "told to move, but standing",
+  standing: "standing",
+  unknown: "unknown",
+  moving: "moving",
+};
+
+export interface RobotHealth {
+  robot: string;
+  state: ShownState;
+  level: number; // 0 fine, 1 warning, 2 error
+  since: number; // s, simulated
+  command: { linear: number; lateral: number; angular: number }; // the last one; m/s, rad/s
+  actual: { linear: number; angular: number };
+  limit: { sensor: string; value: number; unit: string } | null; // what it measures nearest
+  contact: string; // the body that it touches; empty: none
+  summary: string; // "has not moved"
+  reason: string; // "commanded 0, sonar_00 reads 0.26 m"; empty: none
+}
+
+export interface Health {
+  time: number; // s, simulated
+  stuckAfter: number; // s
+  robots: ReadonlyMap<string, RobotHealth>; // those that do not simply move
+}
+
+export function healthOf(message: HealthMessage): Health {
+  return {
+    time: seconds(message.stamp),
+    stuckAfter: message.stuck_after_s,
+    robots: new Map(message.robots.map((robot) => [robot.robot, robotHealthOf(robot)])),
+  };
+}
+
+function robotHealthOf(message: RobotHealthMessage): RobotHealth {
+  const command = {
+    linear: message.command_linear_m_s,
+    lateral: message.command_lateral_m_s,
+    angular: message.command_angular_rad_s,
+  };
+  const isTold = Math.abs(command.linear) + Math.abs(command.lateral) + Math.abs(command.angular) > 0;
+  const state = SHOWN_STATES.find((each) => each === message.state) ?? "unknown";
+  return {
+    robot: message.robot,
+    state: state === "standing" && isTold ? "told" : state,
+    level: message.level,
+    since: seconds(message.since),
+    command,
+    actual: { linear: message.linear_m_s, angular: message.angular_rad_s },
+    limit:
+      message.limit_sensor === ""
+        ? null
+        : { sensor: message.limit_sensor, value: message.limit_value, unit: message.limit_unit },
+    contact: message.contact,
+    summary: message.summary,
+    reason: message.reason,
+  };
+}
+
+const OF_AGENT: Record<string, ShownState> = { dead: "dead", unresponsive: "late" };
+
+// Without a report of the server only what its behaviour does is known.
+export function stateOf(health: Health | null, robot: Pick<RobotStatus, "name" | "agentPhase">): ShownState {
+  if (!health) return OF_AGENT[robot.agentPhase] ?? "unknown";
+  return health.robots.get(robot.name)?.state ?? "moving";
+}
+
+export function badness(state: ShownState): number {
+  return SHOWN_STATES.length - SHOWN_STATES.indexOf(state);
+}
+
+// Something that a person should look at.
+export function isTrouble(state: ShownState): boolean {
+  return badness(state) >= badness("told");
+}
+
+// "has not moved for 20 s: commanded 0, sonar_00 reads 0.26 m".
+export function sentenceOf({ summary, reason, since }: RobotHealth, now: number): string {
+  if (summary === "") return "";
+  const span = Math.max(0, now - since);
+  const duration = span < 1 ? "" : ` for ${formatSpan(span)}`;
+  return `${summary}${duration}${reason === "" ? "" : `: ${reason}`}`;
+}
+
+// 20.4 → "20 s", 125 → "2 min 5 s".
+function formatSpan(span: number): string {
+  const whole = Math.floor(span);
+  if (whole < 60) return `${whole} s`;
+  const rest = whole % 60;
+  return `${Math.floor(whole / 60)} min${rest > 0 ? ` ${rest} s` : ""}`;
+}
+
+// "0.30 m/s, 0.10 rad/s"; "0" when it is at rest.
+export function motionText(linear: number, angular: number, lateral = 0): string {
+  const parts = [
+    Math.abs(linear) > 0 ? `${formatNumber(linear, 2)} m/s` : "",
+    Math.abs(lateral) > 0 ? `${formatNumber(lateral, 2)} m/s sideways` : "",
+    Math.abs(angular) > 0 ? `${formatNumber(angular, 2)} rad/s` : "",
+  ].filter((part) => part !== "");
+  return parts.join(", ") || "0";
+}

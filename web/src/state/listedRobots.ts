@@ -1,0 +1,36 @@
+// The robots of a simulation as they are listed: their status, what each is, and how it is doing.
+import { robotsOf } from "../api/scene";
+import type { SceneDescription } from "../api/scene";
+import { stateOf } from "./health";
+import type { ListedRobot, RobotKind } from "./robotList";
+import type { State } from "./State";
+
+export function listedRobots({ status, health, scene }: State): ListedRobot[] {
+  const kinds = kindsOf(scene);
+  return (status?.robots ?? []).map((robot) => {
+    const kind = kinds.get(robot.name) ?? "robot";
+    const state = stateOf(health, robot);
+    return {
+      status: robot,
+      kind,
+      state: kind === "station" && state === "moving" ? "unknown" : state, // it is not meant to move
+      health: health?.robots.get(robot.name) ?? null,
+    };
+  });
+}
+
+const knownKinds = new WeakMap<SceneDescription, Map<string, RobotKind>>();
+
+// Those that are no robots.
+function kindsOf(scene: SceneDescription | null): ReadonlyMap<string, RobotKind> {
+  if (!scene) return new Map();
+  let kinds = knownKinds.get(scene);
+  if (!kinds) {
+    kinds = new Map();
+    for (const { name, isAvatar, isStation } of robotsOf(scene)) {
+      if (isAvatar || isStation) kinds.set(name, isAvatar ? "avatar" : "station");
+    }
+    knownKinds.set(scene, kinds);
+  }
+  return kinds;
+}

@@ -1,0 +1,157 @@
+// Which robots the list shows, in which order and groups.
+import type { RobotStatus } from "../api/status";
+import type { RobotHealth, ShownState } from "./health";
+import { STATE_WORDS, badness } from "./health";
+
+export const SORTINGS = ["worst", "name", "distance", "collisions"] as const;
+export type Sorting = (typeof SORTINGS)[number];
+export const GROUPINGS = ["none", "namespace", "model", "state", "behaviour"] as const;
+export type Grouping = (typeof GROUPINGS)[number];
+
+export interface RobotFilter {
+  text: string; // as it was typed
+  state: ShownState | null; // null: all
+  sorting: Sorting;
+  grouping: Grouping;
+}
+
+export const NO_FILTER: RobotFilter = { text: "", state: null, sorting: "worst", grouping: "none" };
+
+export type RobotKind = "robot" | "avatar" | "station";
+
+export interface ListedRobot {
+  status: RobotStatus;
+  kind: RobotKind;
+  state: ShownState;
+  health: RobotHealth | null;
+}
+
+export type Entry = { title: string; count: number } | ListedRobot;
+
+export function isTitle(entry: Entry): entry is { title: string; count: number } {
+  return "title" in entry;
+}
+
+// What stands before the last slash of a name; without one, the name without its number.
+export function namespaceOf(name: string): string {
+  const slash = name.lastIndexOf("/");
+  return slash > 0 ? name.slice(0, slash) : name.replace(/[_-]?\d+$/, "");
+}
+
+export interface Query {
+  test(robot: ListedRobot): boolean;
+  problem: string; // empty: it was understood
+}
+
+const FIELDS: Record<string, (robot: ListedRobot) => string> = {
+  name: ({ status }) => status.name,
+  ns: ({ status }) => namespaceOf(status.name),
+  model: ({ status }) => status.model,
+  behaviour: ({ status }) => status.behaviour,
+  state: ({ state }) => `${state} ${STATE_WORDS[state]}`,
+};
+
+// Words that must all fit: "pebble" a part of the name, "model:scout" a part of another field, "/^a\d$/"
+// a regular expression on the name, "model:/^sc/" on a field.
+export function queryOf(text: string): Query {
+  const tests: ((robot: ListedRobot) => boolean)[] = [];
+  let problem = "";
+  for (const word of text.trim().split(/\s+/)) {
+    if (word === "") continue;
+    const [, field = "", wanted = ""] = /^(?:(\w+):)?(.*)$/.exec(word) ?? [];
+    const read = field === "" ? FIELDS.name! : FIELDS[field];
+    if (!read) {
+      problem = `Unknown field ${field}. Use name, ns, model, behaviour or state.`;
+      continue;
+    }
+    try {
+      tests.push(testOf(read, wanted));
+    } catch {
+      problem = `${wanted} is not a regular expression.`;
+    }
+  }
+  return { test: (robot) => tests.every((test) => test(robot)), problem };
+}
+
+function testOf(read: (robot: ListedRobot) => string, wanted: string): (robot: ListedRobot) => boolean {
+  if (wanted.startsWith("/")) {
+    const expression = new RegExp(wanted.replace(/^\//, "").replace(/\/$/, ""), "i");
+    return (robot) => expression.test(read(robot));
+  }
+  const part = wanted.toLowerCase();
+  return (robot) => read(robot).toLowerCase().includes(part);
+}
+
+export function isFiltering({ text, state }: RobotFilter): boolean {
+  return text.trim() !== "" || state !== null;
+}
+
+export function filtered(robots: readonly ListedRobot[], { text, state }: RobotFilter): readonly ListedRobot[] {
+  if (text.trim() === "" && state === null) return robots;
+  const { test } = queryOf(text);
+  return robots.filter((robot) => (state === null || robot.state === state) && test(robot));
+}
+
+const COLLATOR = new Intl.Collator("en", { numeric: true });
+
+// Names in their order, "a2" before "a10". Kept while the names are the same: among thousands a comparison of
+// texts for each update would take too long.
+export class NameOrder {
+  private names: readonly string[] = [];
+  private ranks = new Map<string, number>();
+
+  ranksOf(robots: readonly ListedRobot[]): ReadonlyMap<string, number> {
+    const isSame = robots.length === this.names.length && robots.every(({ status }, i) => status.name === this.names[i]);
+    if (isSame) return this.ranks;
+    this.names = robots.map(({ status }) => status.name);
+    this.ranks = new Map([...this.names].sort(COLLATOR.compare).map((name, rank) => [name, rank]));
+    return this.ranks;
+  }
+}
+
+// The rows of the list.
+export function entriesOf(robots: readonly ListedRobot[], filter: RobotFilter, order = new NameOrder()): Entry[] {
+  const ranks = order.ranksOf(robots);
+  const rank = ({ status }: ListedRobot) => ranks.get(status.name) ?? 0;
+  const key = keyOf(filter.sorting);
+  const sorted = [...filtered(robots, filter)].sort((a, b) => key(b) - key(a) || rank(a) - rank(b));
+  return filter.grouping === "none" ? sorted : grouped(sorted, filter.grouping);
+}
+
+function keyOf(sorting: Sorting): (robot: ListedRobot) => number {
+  switch (sorting) {
+    case "worst":
+      return ({ state, kind }) => (kind === "station" && state !== "dead" ? 0 : badness(state));
+    case "distance":
+      return ({ status }) => status.distance;
+    case "collisions":
+      return ({ status }) => status.collisions;
+    case "name":
+      return () => 0;
+  }
+}
+
+// The group with the first robot comes first.
+function grouped(robots: readonly ListedRobot[], grouping: Exclude<Grouping, "none">): Entry[] {
+  const groups = new Map<string, ListedRobot[]>();
+  for (const robot of robots) {
+    const title = titleOf(robot, grouping);
+    const group = groups.get(title);
+    if (group) group.push(robot);
+    else groups.set(title, [robot]);
+  }
+  return [...groups].flatMap(([title, members]) => [{ title, count: members.length }, ...members]);
+}
+
+function titleOf({ status, state }: ListedRobot, grouping: Exclude<Grouping, "none">): string {
+  switch (grouping) {
+    case "namespace":
+      return namespaceOf(status.name) || status.name;
+    case "model":
+      return status.model || "no model";
+    case "behaviour":
+      return status.behaviour || "no behaviour";
+    case "state":
+      return STATE_WORDS[state];
+  }
+}
