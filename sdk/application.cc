@@ -16,7 +16,7 @@ constexpr std::chrono::milliseconds kCreateTimeout{120'000};
 // The server answers a wait for the next phase after two seconds. A server that does not answer for
 // this long is lost.
 constexpr std::chrono::milliseconds kWaitTimeout{10'000};
-constexpr std::chrono::seconds kServerPatience{30};
+constexpr std::chrono::seconds kServerTimeout{30};
 constexpr int kConnectionsTried = 16;
 
 const char* Text(sba::SimulationPhase phase) {
@@ -193,7 +193,7 @@ class SimulationProxy final : public RemoteSimulation {
         heard = now;
       } else if (next.error().code != base::ErrorCode::kTimeout || !lost_.empty()) {
         return base::Fail(next.error());
-      } else if (now - heard > kServerPatience) {
+      } else if (now - heard > kServerTimeout) {
         return Lose("it has not responded for too long");
       }
     }

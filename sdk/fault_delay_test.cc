@@ -16,7 +16,7 @@ TEST(FaultDelay, ReadsSeedAndLimit) {
   EXPECT_EQ(fault->max, 20ms);
 }
 
-TEST(FaultDelay, RefusesInvalidSettings) {
+TEST(FaultDelay, RejectsInvalidSettings) {
   for (const char* text :
        {"", "seed=7", "max_ms=20", "seed=7,max_ms=", "seed=,max_ms=1", "seed=7,max_ms=20ms",
         "seed=7;max_ms=20", "seed=7,max_ms=60001", "seed=-1,max_ms=2", "seed=7,max_ms=1.5", "on"}) {

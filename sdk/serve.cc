@@ -23,7 +23,7 @@ struct Arguments {
   bool exit_with_parent = false;
 };
 
-int Complain(const base::Error& error) {
+int PrintError(const base::Error& error) {
   std::fprintf(stderr, "%s\n", error.Sentence().c_str());
   return error.code == base::ErrorCode::kInvalidArgument ? kUsage : kInfrastructure;
 }
@@ -47,7 +47,7 @@ int Serve(const Arguments& arguments, const BehaviourModule& module, BehaviourFa
   auto offered = OfferedBehaviour::Offer(arguments.broker,
                                          {arguments.name, module.description, module.time_managed},
                                          std::move(factory));
-  if (!offered) return Complain(offered.error());
+  if (!offered) return PrintError(offered.error());
   // One line on stdout, for which the parent process may wait.
   std::printf("%s: offered at %s\n", arguments.name.c_str(), (*offered)->broker().c_str());
   std::fflush(stdout);

@@ -30,7 +30,7 @@ std::shared_ptr<Simulation> MakeWithHorns(SimTime duration) {
   return *simulation;
 }
 
-TEST(Horn, IsHeardForAsLongAsItHonks) {
+TEST(Horn, MicrophoneHearsItForItsDuration) {
   auto simulation = MakeWithHorns(0s);
   auto honks = std::make_shared<ThreadBehaviour>([](Agent& agent, ClockId clock) {
     ASSERT_TRUE(agent.CommandDevice("horn", {{0.2}, ""}));
@@ -56,7 +56,7 @@ TEST(Horn, IsHeardForAsLongAsItHonks) {
   EXPECT_EQ(simulation->Watch("ear", "microphone")->labels->front(), "");
 }
 
-TEST(Horn, MakesADifferenceToTheHash) {
+TEST(Horn, AffectsTheHash) {
   const auto hash_of = [](double duration) {
     auto simulation = MakeWithHorns(100ms);
     auto honks = std::make_shared<ThreadBehaviour>([=](Agent& agent, ClockId) {
@@ -70,7 +70,7 @@ TEST(Horn, MakesADifferenceToTheHash) {
   EXPECT_NE(hash_of(1), hash_of(2));
 }
 
-TEST(Horn, RefusesWhatItCannotDo) {
+TEST(Horn, RejectsInvalidCommands) {
   auto simulation = MakeWithHorns(20ms);
   std::string why;
   auto honks = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId) {

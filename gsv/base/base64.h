@@ -9,7 +9,7 @@ namespace gsv::base {
 
 std::string ToBase64(std::string_view bytes);
 
-// Decodes the output of ToBase64(). Nothing for other text.
+// Decodes the output of ToBase64(). Returns nullopt for any other text.
 std::optional<std::string> FromBase64(std::string_view text);
 
 }  // namespace gsv::base

@@ -53,7 +53,7 @@ class CdrReader {
   std::uint16_t UShort() { return Number<std::uint16_t>(); }
   std::uint32_t ULong() { return Number<std::uint32_t>(); }
   std::uint64_t ULongLong() { return Number<std::uint64_t>(); }
-  // A number that is aligned to its size.
+  // Reads a number that is aligned to its size.
   template <typename T>
   requires std::is_arithmetic_v<T> T Number() {
     Align(sizeof(T));
@@ -101,7 +101,7 @@ class CdrReader {
     if (!ok_) inner.Fail();
     return inner;
   }
-  // A reader of the content of the encapsulation `octets`.
+  // Returns a reader of the content of the encapsulation `octets`.
   static CdrReader OfEncapsulation(std::string_view octets, int minor = 2) {
     CdrReader inner(octets, !octets.empty() && octets.front() == 1, minor, 1);
     if (!octets.empty() && static_cast<unsigned char>(octets.front()) > 1) inner.Fail();

@@ -40,7 +40,7 @@ TEST(CdrReader, ReadsZerosAfterTheFirstValueThatDoesNotFit) {
   EXPECT_EQ(in.String(), "");
 }
 
-TEST(CdrReader, RefusesStringsThatDoNotEndInTheirOnlyNull) {
+TEST(CdrReader, RejectsStringsWithoutATerminatorOrWithAnEmbeddedZero) {
   for (const std::string_view bytes : {"\x02\x00\x00\x00ab"sv, "\x03\x00\x00\x00\x61\x00\x00"sv,
                                        "\x00\x00\x00\x00"sv, "\x09\x00\x00\x00\x61\x00"sv}) {
     CdrReader in(bytes, true);
@@ -60,7 +60,7 @@ TEST(CdrReader, ReadsEncapsulationsInTheirOwnByteOrder) {
   EXPECT_EQ(in.Octet(), 7);
 }
 
-TEST(CdrReader, RefusesEncapsulationsWithoutAByteOrder) {
+TEST(CdrReader, RejectsEncapsulationsWithoutAByteOrder) {
   EXPECT_FALSE(CdrReader::OfEncapsulation("").ok());
   EXPECT_FALSE(CdrReader::OfEncapsulation("\x02").ok());
   EXPECT_TRUE(CdrReader::OfEncapsulation("\x01").ok());

@@ -1,4 +1,5 @@
-// GSV_CHECK: a condition that only a bug can break. It is always on, and aborts with a message.
+// GSV_CHECK aborts with a message unless its condition holds. It guards against bugs, and is on in
+// every build.
 #pragma once
 
 #include <cstdio>

@@ -5,16 +5,18 @@
 namespace gsv::base {
 namespace {
 
-TEST(Hash, OfNothingIsXxh3OfTheEmptyInput) { EXPECT_EQ(Hash().Digest(), 0x2d06800538d394c2ull); }
+TEST(Hash, WithoutInputEqualsXxh3OfTheEmptyInput) {
+  EXPECT_EQ(Hash().Digest(), 0x2d06800538d394c2ull);
+}
 
-TEST(Hash, SeesTheSignOfZero) {
+TEST(Hash, DistinguishesMinusZeroFromZero) {
   Hash positive, negative;
   positive.Add(0.0);
   negative.Add(-0.0);
   EXPECT_NE(positive.Digest(), negative.Digest());
 }
 
-TEST(Hash, SeesWhereOneStringEndsAndTheNextBegins) {
+TEST(Hash, DependsOnTheBoundariesOfStrings) {
   Hash left, right;
   left.Add("ab"), left.Add("c");
   right.Add("a"), right.Add("bc");

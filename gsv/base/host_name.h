@@ -5,7 +5,7 @@
 
 namespace gsv::base {
 
-// The name that this machine has for itself, which other machines need not know; "localhost" if it
+// The host name of this machine, which other machines may be unable to resolve; "localhost" if it
 // has none.
 std::string HostName();
 

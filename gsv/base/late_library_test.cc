@@ -4,15 +4,15 @@
 
 namespace {
 
-// Uses the C library, which every machine has.
-TEST(LateLibrary, FindsAFunctionOfALibrary) {
+// The C library exists on every machine.
+TEST(LateLibrary, FindsAFunctionInALibrary) {
   const auto absolute =
       reinterpret_cast<double (*)(double)>(gsv_late_function("libm.so.6", "fabs"));
   EXPECT_EQ(absolute(-2.5), 2.5);
   EXPECT_EQ(gsv_late_function("libm.so.6", "fabs"), reinterpret_cast<void*>(absolute));
 }
 
-TEST(LateLibraryDeathTest, EndsTheProgramWithoutTheLibraryOrTheFunction) {
+TEST(LateLibraryDeathTest, ExitsIfTheLibraryOrTheFunctionIsMissing) {
   EXPECT_EXIT(gsv_late_function("libnowhere.so.1", "f"), ::testing::ExitedWithCode(127),
               "gsv: cannot load libnowhere.so.1: .*No such file");
   EXPECT_EXIT(gsv_late_function("libm.so.6", "no_such_function"), ::testing::ExitedWithCode(127),

@@ -19,7 +19,7 @@
 namespace gsv::base {
 namespace {
 
-constexpr std::chrono::seconds kBetweenTellings{1};
+constexpr std::chrono::seconds kReportPeriod{1};
 
 struct Shared {
   Mutex mutex;
@@ -27,7 +27,7 @@ struct Shared {
   std::atomic<std::uint64_t> written{0}, suppressed{0};
 };
 
-// Never destroyed, so that anything can be logged at any time.
+// The object is never destroyed, so that log calls work until the process ends.
 Shared& TheLog() {
   static Shared* const log = new Shared;
   return *log;
@@ -62,29 +62,29 @@ class BoundedSink final : public spdlog::sinks::base_sink<std::mutex> {
   BoundedSink(std::shared_ptr<spdlog::sinks::sink> out, const LogOptions& options)
       : out_(std::move(out)), options_(options) {}
 
-  ~BoundedSink() override { TellSuppressed(spdlog::log_clock::time_point::max()); }
+  ~BoundedSink() override { LogSuppressed(spdlog::log_clock::time_point::max()); }
 
  private:
   void sink_it_(const spdlog::details::log_msg& message) override {
-    // A flood of messages must not hide errors.
+    // Errors are written even if a flood of messages exceeds the limit.
     const bool is_error = message.level >= spdlog::level::err;
     LogRateLimiter& budget = is_error ? errors_ : others_;
     if (!budget.Take(message.time.time_since_epoch())) {
       ++TheLog().suppressed;
       return;
     }
-    TellSuppressed(message.time);
+    LogSuppressed(message.time);
     Write(message, LogLine({message.payload.data(), message.payload.size()}, options_.line_bytes,
                            Secrets()));
   }
 
-  // A separate warning, so that the count is reliable.
-  void TellSuppressed(spdlog::log_clock::time_point time) {
-    if (time < next_telling_) return;
+  // Logs the number of suppressed lines as a separate warning that is itself never suppressed.
+  void LogSuppressed(spdlog::log_clock::time_point time) {
+    if (time < next_report_) return;
     const std::uint64_t lines = errors_.TakeSuppressed() + others_.TakeSuppressed();
     if (lines == 0) return;
     const auto now = spdlog::log_clock::now();
-    next_telling_ = now + kBetweenTellings;
+    next_report_ = now + kReportPeriod;
     const std::string text =
         fmt::format("{} more lines were suppressed: too many came at once", lines);
     Write({now, {}, "gsv", spdlog::level::warn, text}, text);
@@ -105,7 +105,7 @@ class BoundedSink final : public spdlog::sinks::base_sink<std::mutex> {
 
   const std::shared_ptr<spdlog::sinks::sink> out_;
   const LogOptions options_;
-  spdlog::log_clock::time_point next_telling_{};
+  spdlog::log_clock::time_point next_report_{};
   LogRateLimiter errors_{options_.lines_per_second}, others_{options_.lines_per_second};
 };
 

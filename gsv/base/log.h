@@ -4,9 +4,9 @@
 // JSON    {"time":"2024-05-06T12:03:04.567Z","level":"warning","message":"text","pid":1,"thread":2}
 // One line  per message: control characters are escaped as \n, \t, \x1b.
 // Bounded   the length of lines, and their rate (see LogRateLimiter). The log reports how many
-//           lines were left out.
-// Secrets   that are registered with RedactInLog() are replaced in every message.
-// Threads   any, but for InitLogging().
+//           lines it suppressed.
+// Secrets   texts that are registered with RedactInLog() are replaced in every message.
+// Threads   any, except for InitLogging().
 #pragma once
 
 #include <cstddef>
@@ -24,21 +24,21 @@ enum class LogFormat { kText, kJson };
 struct LogOptions {
   spdlog::level::level_enum level = spdlog::level::warn;
   LogFormat format = LogFormat::kText;
-  std::size_t lines_per_second = 20;  // on average; a burst may have fifty times as many
-  std::size_t line_bytes = 8192;      // of a message; longer ones are truncated
+  std::size_t lines_per_second = 20;  // the mean rate; a burst may have fifty times as many lines
+  std::size_t line_bytes = 8192;      // the maximum length of a message; longer ones are truncated
 };
 
-// Reads "trace", "debug", "info", "warning", "error" or "off". kInvalidArgument, listing these, for
-// other text.
+// Parses "trace", "debug", "info", "warning", "error" or "off". Other text is a kInvalidArgument
+// error that lists these words.
 Result<spdlog::level::level_enum> ParseLogLevel(const std::string& text);
-// Reads "text" or "json".
+// Parses "text" or "json".
 Result<LogFormat> ParseLogFormat(const std::string& text);
 
-// The options from the variables GSV_LOG_LEVEL and GSV_LOG_FORMAT. `level` is the default, also for
-// a variable with an invalid value.
+// Reads the options from the variables GSV_LOG_LEVEL and GSV_LOG_FORMAT. `level` is used if
+// GSV_LOG_LEVEL is not set or has an invalid value.
 LogOptions LogOptionsFromEnvironment(spdlog::level::level_enum level);
 
-// Makes spdlog's default logger this log. Call once in main().
+// Makes this log spdlog's default logger. Call it once, in main().
 void InitLogging(const LogOptions& options);
 inline void InitLogging(spdlog::level::level_enum level) {
   InitLogging(LogOptionsFromEnvironment(level));
@@ -47,7 +47,7 @@ inline void InitLogging(spdlog::level::level_enum level) {
 // Replaces `secret` in all later messages.
 void RedactInLog(const std::string& secret);
 
-// Numbers of lines since the process started.
+// Line counts since the process started.
 struct LogCounts {
   std::uint64_t written = 0;
   std::uint64_t suppressed = 0;

@@ -12,13 +12,13 @@ namespace gsv::base {
 
 class LogRateLimiter {
  public:
-  using Time = std::chrono::nanoseconds;  // since some instant
+  using Time = std::chrono::nanoseconds;  // time since any fixed instant
 
-  // A burst may have the lines of fifty seconds.
+  // A burst may have as many lines as fifty seconds allow.
   explicit LogRateLimiter(std::size_t lines_per_second)
       : rate_(static_cast<double>(lines_per_second)), capacity_(50 * rate_), left_(capacity_) {}
 
-  // Takes a line from the bucket. False: the line must not be written.
+  // Takes a token for one line. If it returns false, the line must not be written.
   bool Take(Time now) {
     const double seconds = std::chrono::duration<double>(now - last_).count();
     if (has_begun_ && seconds > 0) left_ = left_ + seconds * rate_;

@@ -7,7 +7,7 @@
 namespace gsv::base {
 namespace {
 
-// The length of the UTF-8 sequence at the begin of `text`; 0 if it is invalid (RFC 3629).
+// The length of the UTF-8 sequence at the start of `text`; 0 if it is invalid (RFC 3629).
 std::size_t SequenceLength(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -52,7 +52,7 @@ std::string WithoutSecrets(std::string text, const std::vector<std::string>& sec
 
 std::string LogLine(std::string_view message, std::size_t max_bytes,
                     const std::vector<std::string>& secrets) {
-  // Before anything is cut off, as half of a secret is also secret.
+  // Secrets are replaced before the text is truncated, because half of a secret is also secret.
   const std::string whole = WithoutSecrets(std::string(message), secrets);
   std::string_view rest = whole;
   std::string line;
@@ -60,7 +60,7 @@ std::string LogLine(std::string_view message, std::size_t max_bytes,
     if (line.size() >= max_bytes) return line + fmt::format(" (and {} bytes more)", rest.size());
     const std::size_t length = SequenceLength(rest);
     const auto first = static_cast<unsigned char>(rest[0]);
-    // 0x80 to 0x9F are control characters, too.
+    // The code points 0x80 to 0x9F are control characters, too.
     const bool is_control =
         first < 0x20 || first == 0x7F ||
         (length == 2 && first == 0xC2 && static_cast<unsigned char>(rest[1]) < 0xA0);

@@ -25,7 +25,7 @@ class GSV_CAPABILITY("mutex") Mutex {
   void lock() GSV_ACQUIRE() { mutex_.lock(); }
   void unlock() GSV_RELEASE() { mutex_.unlock(); }
   bool try_lock() GSV_TRY_ACQUIRE(true) { return mutex_.try_lock(); }
-  // Tells the analysis that the calling thread holds the mutex; checks nothing.
+  // Declares to the analysis that the calling thread holds the mutex. Checks nothing at run time.
   void AssertHeld() const GSV_ASSERT_HELD(this) {}
 
  private:

@@ -15,7 +15,7 @@ bool IsFree(Mutex& mutex) {
   return true;
 }
 
-TEST(ConditionVariable, WakesAWaiterThatThenHoldsTheMutex) {
+TEST(ConditionVariable, WakesAWaiterWhichThenHoldsTheMutex) {
   Mutex mutex;
   ConditionVariable changed;
   bool is_ready = false;
@@ -35,7 +35,7 @@ TEST(ConditionVariable, WakesAWaiterThatThenHoldsTheMutex) {
   EXPECT_TRUE(IsFree(mutex));
 }
 
-TEST(ConditionVariable, ReturnsThePredicateWhenTheTimeIsOver) {
+TEST(ConditionVariable, ReturnsThePredicateAfterATimeout) {
   Mutex mutex;
   ConditionVariable changed;
   MutexLock lock(mutex);
@@ -52,10 +52,11 @@ TEST(MutexLock, ReleasesTheMutexBetweenUnlockAndLock) {
     lock.lock();
     lock.unlock();
   }
-  EXPECT_TRUE(IsFree(mutex));  // the end of a lock that was unlocked releases nothing twice
+  // the destructor does not unlock a mutex that unlock() has released already
+  EXPECT_TRUE(IsFree(mutex));
 }
 
-TEST(ReaderLock, LetsOtherReadersInAndNoWriter) {
+TEST(ReaderLock, AllowsOtherReadersButNoWriter) {
   SharedMutex mutex;
   bool has_written = false;
   std::thread writer;

@@ -10,7 +10,7 @@ namespace {
 using Words = std::array<std::uint32_t, 4>;
 
 // The known answers published with Random123 (kat_vectors, philox4x32 10 rounds).
-TEST(Philox, AgreesWithThePublishedKnownAnswers) {
+TEST(Philox, EqualsThePublishedKnownAnswers) {
   EXPECT_EQ(Philox4x32({0, 0}, {0, 0, 0, 0}),
             (Words{0x6627e8d5u, 0xe169c58du, 0xbc57ac4cu, 0x9b00dbd8u}));
   EXPECT_EQ(
@@ -21,12 +21,12 @@ TEST(Philox, AgreesWithThePublishedKnownAnswers) {
       (Words{0xd16cfe09u, 0x94fdccebu, 0x5001e420u, 0x24126ea1u}));
 }
 
-TEST(StableId, IsFnv1a) {
+TEST(StableId, EqualsFnv1a) {
   EXPECT_EQ(StableId(""), 0xcbf29ce484222325ull);
   EXPECT_EQ(StableId("foobar"), 0x85944171f73967e8ull);
 }
 
-TEST(Noise, IsAFunctionOfSeedStreamAndStepAlone) {
+TEST(Noise, DependsOnlyOnSeedStreamAndStep) {
   Noise first(1, StableId("robot/sonar"), 7);
   Noise again(1, StableId("robot/sonar"), 7);
   Noise other_step(1, StableId("robot/sonar"), 8);
@@ -36,7 +36,7 @@ TEST(Noise, IsAFunctionOfSeedStreamAndStepAlone) {
   EXPECT_NE(value, first.Uniform());
 }
 
-TEST(Noise, GaussianHasTheMomentsOfTheStandardNormal) {
+TEST(Noise, GaussianHasMeanZeroAndVarianceOne) {
   constexpr int kDraws = 100000;
   Noise noise(42, 1, 1);
   double sum = 0, sum_of_squares = 0;
@@ -45,7 +45,7 @@ TEST(Noise, GaussianHasTheMomentsOfTheStandardNormal) {
     sum += x;
     sum_of_squares += x * x;
   }
-  // Five standard errors of the mean and of the variance.
+  // The bounds are five standard errors of the mean and of the variance.
   EXPECT_NEAR(sum / kDraws, 0.0, 5.0 / std::sqrt(kDraws));
   EXPECT_NEAR(sum_of_squares / kDraws, 1.0, 5.0 * std::sqrt(2.0 / kDraws));
 }

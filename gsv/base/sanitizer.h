@@ -19,7 +19,7 @@ inline constexpr bool kHasThreadSanitizer = false;
 // limited.
 inline constexpr bool kReservesAddressSpace = kHasAddressSanitizer || kHasThreadSanitizer;
 
-// Factor on the time that a program may take: sanitizers slow programs down by two to ten times.
+// The factor by which time limits are extended: sanitizers slow programs down by two to ten times.
 // The build defines GSV_SANITIZED, as GCC 12 has no macro for UndefinedBehaviorSanitizer.
 #if defined(GSV_SANITIZED)
 inline constexpr int kSlowdown = 5;

@@ -7,7 +7,8 @@ namespace {
 
 constexpr std::size_t kMaxNameLength = 64;
 constexpr std::size_t kMinNameLength = 3;
-constexpr std::size_t kLongName = 8;  // letters from which two may differ
+// names with at least this many letters may differ by two letters
+constexpr std::size_t kLongName = 8;
 
 }  // namespace
 

@@ -12,12 +12,13 @@ namespace gsv::base {
 // bytes have the distance `limit` + 1.
 int SpellingDistance(std::string_view a, std::string_view b, int limit);
 
-// Whether `written` differs from `known` as a misspelling does: by one letter, or by two if both
-// have eight letters or more. False for equal names, and for names of fewer than three letters.
+// Whether `written` looks like a misspelling of `known`: they differ by one letter, or by two if
+// both have eight letters or more. False for equal names, and for names of fewer than three
+// letters.
 bool LooksLike(std::string_view written, std::string_view known);
 
-// The known name that `written` looks like, with the least distance and then first in the list;
-// empty if there is none.
+// The known name that `written` looks like: the one with the smallest distance, and the first in
+// the list among equals. Empty if there is none.
 std::string ClosestName(std::string_view written, const std::vector<std::string>& known);
 
 // The end of an error message about an unknown name: ". Did you mean NAME?", or empty.

@@ -5,26 +5,27 @@
 namespace gsv::base {
 namespace {
 
-TEST(Spelling, CountsLettersToChange) {
+TEST(Spelling, DistanceCountsChangedLetters) {
   EXPECT_EQ(SpellingDistance("static", "static", 2), 0);
   EXPECT_EQ(SpellingDistance("statik", "static", 2), 1);
-  EXPECT_EQ(SpellingDistance("sttaic", "static", 2), 1);  // neighbours are swapped
+  EXPECT_EQ(SpellingDistance("sttaic", "static", 2), 1);  // two adjacent letters are swapped
   EXPECT_EQ(SpellingDistance("colision", "collision", 2), 1);
-  EXPECT_EQ(SpellingDistance("mass", "material", 2), 3);  // the limit and one
+  // the distance exceeds the limit, so the result is the limit plus one
+  EXPECT_EQ(SpellingDistance("mass", "material", 2), 3);
   EXPECT_EQ(SpellingDistance(std::string(65, 'a'), std::string(65, 'a'), 2), 3);
 }
 
 TEST(Spelling, SuggestsTheClosestKnownName) {
   const std::vector<std::string> worlds{"hall", "maze", "office", "playground", "warehouse"};
   EXPECT_EQ(ClosestName("offise", worlds), "office");
-  EXPECT_EQ(ClosestName("wharehuose", worlds), "warehouse");  // two letters of a long name
-  EXPECT_EQ(ClosestName("ofise", worlds), "");                // two letters of a short name
+  EXPECT_EQ(ClosestName("wharehuose", worlds), "warehouse");  // two letters of a long name differ
+  EXPECT_EQ(ClosestName("ofise", worlds), "");                // two letters of a short name differ
   EXPECT_EQ(ClosestName("office", worlds), "");
   EXPECT_EQ(ClosestName("rn", {"run"}), "");
   EXPECT_EQ(ClosestName("wells", {"wall", "walls"}), "walls");
 }
 
-TEST(Spelling, EndsAMessage) {
+TEST(Spelling, DidYouMeanFormatsTheEndOfAMessage) {
   EXPECT_EQ("there is no command rnu" + DidYouMean("rnu", {"rec", "run"}),
             "there is no command rnu. Did you mean run?");
   EXPECT_EQ(DidYouMean("fly", {"rec", "run"}), "");

@@ -36,8 +36,8 @@ inline void RecordLargestError(double error, double bound, const std::string& un
   ::testing::Test::RecordProperty(key, FormatNumber(error));
 }
 
-// Records `error` and compares it with `bound`, both in `unit`. The texts are the expressions of
-// the source.
+// Records `error` and compares it with `bound`, both in `unit`. The other arguments are the texts
+// of the expressions in the source.
 inline ::testing::AssertionResult CheckError(double error, double bound, const std::string& unit,
                                              const char* measured_text, double measured,
                                              const char* expected_text, double expected) {

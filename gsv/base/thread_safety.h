@@ -10,19 +10,20 @@
 #define GSV_THREAD_ATTRIBUTE(x)
 #endif
 
-// A class of mutexes, and a class that holds a mutex for its lifetime.
+// Marks a class of mutexes, and a class that holds a mutex for its lifetime.
 #define GSV_CAPABILITY(name) GSV_THREAD_ATTRIBUTE(capability(name))
 #define GSV_SCOPED_CAPABILITY GSV_THREAD_ATTRIBUTE(scoped_lockable)
 
-// Members that are accessed with the mutex held only, and pointers whose target is.
+// Marks members that may be accessed only while the mutex is held, and pointers whose target may
+// be.
 #define GSV_GUARDED_BY(mutex) GSV_THREAD_ATTRIBUTE(guarded_by(mutex))
 #define GSV_PT_GUARDED_BY(mutex) GSV_THREAD_ATTRIBUTE(pt_guarded_by(mutex))
 
-// The order in which a thread locks mutexes.
+// Declares the order in which a thread locks mutexes.
 #define GSV_ACQUIRED_AFTER(...) GSV_THREAD_ATTRIBUTE(acquired_after(__VA_ARGS__))
 
-// Functions whose caller holds the mutex, must not hold it, holds it afterwards, or no longer holds
-// it.
+// Marks functions whose caller holds the mutex, must not hold it, holds it afterwards, or no longer
+// holds it.
 #define GSV_REQUIRES(...) GSV_THREAD_ATTRIBUTE(requires_capability(__VA_ARGS__))
 #define GSV_REQUIRES_SHARED(...) GSV_THREAD_ATTRIBUTE(requires_shared_capability(__VA_ARGS__))
 #define GSV_EXCLUDES(...) GSV_THREAD_ATTRIBUTE(locks_excluded(__VA_ARGS__))
@@ -33,9 +34,9 @@
 #define GSV_RELEASE_GENERIC(...) GSV_THREAD_ATTRIBUTE(release_generic_capability(__VA_ARGS__))
 #define GSV_TRY_ACQUIRE(...) GSV_THREAD_ATTRIBUTE(try_acquire_capability(__VA_ARGS__))
 
-// States, without a check at run time, that the mutex is held here: at the head of a lambda that is
-// called under it.
+// Declares that the mutex is held here, without a check at run time. It is for the start of a
+// lambda that is called under the mutex.
 #define GSV_ASSERT_HELD(...) GSV_THREAD_ATTRIBUTE(assert_capability(__VA_ARGS__))
 
-// Functions that the analysis cannot check. A comment beside them gives the reason.
+// Marks functions that the analysis cannot check. A comment beside them gives the reason.
 #define GSV_NO_THREAD_SAFETY_ANALYSIS GSV_THREAD_ATTRIBUTE(no_thread_safety_analysis)

@@ -9,8 +9,8 @@
 namespace gsv::base {
 namespace {
 
-// Jobs often come in quick succession. A worker checks for one this many times, a few microseconds,
-// before it sleeps, as waking it would take longer.
+// How many times an idle worker checks for a new job before it sleeps; this takes a few
+// microseconds. Jobs often come in quick succession, and waking a worker takes longer than that.
 constexpr int kLooks = 400;
 
 }  // namespace
@@ -50,7 +50,8 @@ void ThreadTeam::Run(const Job& job) {
   WaitForWorkers();
 }
 
-// They usually finish soon, but a long piece must not occupy a second processor.
+// The workers usually finish soon, so the caller checks first. Then it sleeps, because a long piece
+// must not occupy a second processor.
 void ThreadTeam::WaitForWorkers() {
   for (int i = 0; i < kLooks; ++i) {
     if (state_.load(std::memory_order_acquire) == 0) return;

@@ -1,6 +1,6 @@
 // A thread pool for parallel loops: one range of work at a time.
 //
-// Threads      one caller of ParallelFor() at a time, which takes part in the work.
+// Threads      one caller of ParallelFor() at a time; the caller takes part in the work.
 // Determinism  the assignment of pieces to threads varies. So pieces must not depend on each other,
 //              and their results must not depend on how the range is divided.
 #pragma once
@@ -54,7 +54,7 @@ class ThreadTeam {
   void Work(std::size_t self);
   void WaitForWorkers();
   void RunPieces(std::size_t self);
-  // Waits for an open job and takes part in it. False when the team ends.
+  // Waits for an open job and takes part in it. Returns false when the team ends.
   bool Join();
   bool TryJoin();
 
@@ -69,7 +69,7 @@ class ThreadTeam {
     std::atomic<std::size_t> next{0};  // where the next piece begins
     std::size_t end = 0;
   };
-  std::vector<Part> parts_;         // one per thread, the caller's first
+  std::vector<Part> parts_;         // one per thread; the first is that of the caller
   std::atomic<unsigned> state_{0};  // kOpen, and the number of workers that have joined
   std::atomic<bool> is_stopping_{false};
   Mutex mutex_;

@@ -17,7 +17,7 @@
 namespace gsv::base {
 namespace {
 
-TEST(ThreadTeam, EveryPlaceOfTheRangeIsVisitedOnce) {
+TEST(ThreadTeam, VisitsEachIndexOnce) {
   for (const int threads : {1, 2, 5}) {
     ThreadTeam team(threads);
     EXPECT_EQ(team.threads(), threads);
@@ -31,7 +31,7 @@ TEST(ThreadTeam, EveryPlaceOfTheRangeIsVisitedOnce) {
   }
 }
 
-TEST(ThreadTeam, APieceIsNoLongerThanTheGrain) {
+TEST(ThreadTeam, PiecesAreAtMostAsLongAsTheGrain) {
   ThreadTeam team(3);
   std::atomic<std::size_t> longest{0};
   team.ParallelFor(1000, 7, [&](std::size_t begin, std::size_t end) {
@@ -42,7 +42,7 @@ TEST(ThreadTeam, APieceIsNoLongerThanTheGrain) {
   EXPECT_EQ(longest, 7u);
 }
 
-TEST(ThreadTeam, SmallWorkStaysWithTheCaller) {
+TEST(ThreadTeam, CallerDoesASinglePieceAlone) {
   ThreadTeam team(4);
   std::set<std::thread::id> threads;
   team.ParallelFor(10, 10,
@@ -50,7 +50,7 @@ TEST(ThreadTeam, SmallWorkStaysWithTheCaller) {
   EXPECT_EQ(threads, std::set{std::this_thread::get_id()});
 }
 
-TEST(ThreadTeam, ManyJobsInARowAreAllDone) {
+TEST(ThreadTeam, CompletesManyJobsInSuccession) {
   ThreadTeam team(3);
   std::uint64_t sum = 0;
   for (int job = 0; job < 20'000; ++job) {
@@ -61,7 +61,7 @@ TEST(ThreadTeam, ManyJobsInARowAreAllDone) {
   EXPECT_EQ(sum, 20'000u * 6);
 }
 
-// The threads of this process that sleep, by the kernel's states; the caller does not count.
+// Whether the kernel reports all threads of this process but the caller as sleeping.
 bool AllOthersSleep() {
   const std::string self = std::to_string(gettid());
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
@@ -74,10 +74,10 @@ bool AllOthersSleep() {
   return true;
 }
 
-// Sixteen threads once rendered the images of four cameras with all sixteen processors busy.
-TEST(ThreadTeam, AThreadWithoutAPieceSleeps) {
+// Regression: threads without a piece once kept their processors busy.
+TEST(ThreadTeam, ThreadsWithoutAPieceSleep) {
   constexpr int kLooks =
-      200;  // in a row: a thread that checks for work again and again may rest once
+      200;  // required consecutive checks: a thread that polls may also rest once
   constexpr auto kTimeout = std::chrono::seconds(30);
   std::latch begun(2), end(1);
   std::thread job([&] {

@@ -22,7 +22,7 @@ std::map<std::string, std::string> Kept() {
 
 using Properties = std::map<std::string, std::string>;
 
-TEST(Within, KeepsTheLargestErrorOfEachBoundAndUnit) {
+TEST(Within, RecordsTheLargestErrorForEachBoundAndUnit) {
   EXPECT_WITHIN(2.25, 2, 0.5, "m");
   EXPECT_WITHIN(1.625, 2, 0.5, "m");
   EXPECT_WITHIN(2.125, 2, 0.5, "m");
@@ -44,7 +44,7 @@ TEST(Within, FailsBeyondTheBoundOnEitherSide) {
   EXPECT_NONFATAL_FAILURE(EXPECT_WITHIN_3_SIGMA(4, 2, 0.5), "at most 3 σ");
 }
 
-TEST(Within, FailsForWhatIsNoNumber) {
+TEST(Within, FailsForNan) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NONFATAL_FAILURE(EXPECT_WITHIN(std::numeric_limits<double>::quiet_NaN(), 0, 1, "m"),
                           "nan");
@@ -56,7 +56,7 @@ TEST(Within, FailsForWhatIsNoNumber) {
 
 class WithinOfAParameter : public ::testing::TestWithParam<int> {};
 
-TEST_P(WithinOfAParameter, IsKeptByEachTest) {
+TEST_P(WithinOfAParameter, RecordsItsErrorForEachParameterizedTest) {
   EXPECT_WITHIN(GetParam(), 0, 10, "m");
   EXPECT_EQ(Kept(), (Properties{{"within 10 m", std::to_string(GetParam())}}));
 }

@@ -37,7 +37,7 @@ constexpr const char* kKey = "TradingService";
 constexpr unsigned long kThreadStackBytes = 1ul << 20;
 
 CORBA::ORB_ptr StartOrb(const orb::OrbAccess& access) {
-  // docs/broker.md gives the reasons.
+  // The reasons for these settings are in docs/broker.md.
   const char* settings[][2] = {
       {"endPoint", access.endpoint.c_str()},
       {"clientTransportRule", access.client_rules[0]},
@@ -48,25 +48,26 @@ CORBA::ORB_ptr StartOrb(const orb::OrbAccess& access) {
       {"threadPerConnectionLowerLimit", "200"},
       {"maxServerThreadPerConnection", "2"},
       {"maxServerThreadPoolSize", "32"},
-      // A pool thread that waits for one connection's next request would delay others.
+      // A pool thread that waits for the next request of one connection would delay other
+      // connections.
       {"threadPoolWatchConnection", "0"},
       {"inConScanPeriod", "180"},
       {"outConScanPeriod", "60"},
       {"scanGranularity", "5"},
       {"serverCallTimeOutPeriod", "3000"},
       {"clientCallTimeOutPeriod", "2000"},
-      // A separate connect time-out would replace the time-out of the call.
+      // A separate connect timeout would replace the timeout of the call.
       {"clientConnectTimeOutPeriod", "0"},
       {"supportPerThreadTimeOut", "1"},
       {"verifyObjectExistsAndType", "0"},
       {"maxGIOPConnectionPerServer", "16"},
-      {"strictIIOP", "0"},  // see gsv/orb/orb.cc
+      {"strictIIOP", "0"},  // the reason is in gsv/orb/orb.cc
       {"traceLevel", "0"},
       {nullptr, nullptr},
   };
   orb::SetConnectionPolicy(BrokerConnectionPolicy(MaxConnections()));
   omni_thread::stacksize(kThreadStackBytes);
-  // A large stack, because threads that query other traders read large replies.
+  // The threads get large stacks, because those that query other traders read large replies.
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
   pthread_attr_setstacksize(&attributes, kThreadStackBytes);
@@ -116,7 +117,7 @@ PortableServer::POA_ptr IteratorPoa(PortableServer::POA_ptr root, const char* na
   return poa._retn();
 }
 
-// Activates `servant` under its own key; the POA then owns it.
+// Activates `servant` under its own key. The POA then owns the servant.
 template <typename Interface, typename Servant>
 typename Interface::_ptr_type Activate(PortableServer::POA_ptr poa, const char* key,
                                        Servant* servant) {
@@ -151,7 +152,7 @@ class Broker::Impl {
   std::uint16_t port() const { return port_; }
   void Close() { objects_.trader.Close(); }
 
-  // Restores the state from the file, and stores later changes in it.
+  // Restores the state from the file, and stores later changes in the file.
   base::Status Remember(const std::string& path) {
     auto file = OfferFile::Open(path, objects_.trader.stem());
     if (!file) return base::Fail(file.error());
@@ -196,7 +197,7 @@ class Broker::Impl {
   }
 
  private:
-  // Removes unused iterators, even if no client requests new ones.
+  // Removes unused iterators periodically, even if no client requests new ones.
   void Reap(std::chrono::seconds period) {
     base::MutexLock lock(mutex_);
     while (!changed_.wait_for(lock, period, [this]() GSV_REQUIRES(mutex_) { return ending_; })) {

@@ -1,11 +1,12 @@
 // The Trading Service as a server on TCP, or on TLS if the environment requests it
-// (orb/corba_access.h): CosTrading Lookup, Register, Link, Proxy and Admin, and the
+// (orb/corba_access.h). It serves CosTrading Lookup, Register, Link, Proxy and Admin, and the
 // ServiceTypeRepository, at "corbaloc::1.2@HOST:PORT/TradingService".
 //
-// A process has one broker and should use CORBA for nothing else: the broker limits every message
-// of the process's ORB to 64 KiB, which bounds the content of an `any`, see docs/broker.md.
+// A process has one broker and should not use CORBA for anything else. The broker limits every
+// message of the process's ORB to 64 KiB. This also limits the content of an `any`, see
+// docs/broker.md.
 //
-// Errors   kUnavailable: the port is in use, or the host is not this machine's; those of
+// Errors   kUnavailable if the port is in use, or if the host is not this machine's; those of
 //          OfferFile, and of orb::PrepareAccess().
 // Threads  every member may be called at any time.
 #pragma once
@@ -22,18 +23,19 @@ namespace gsv::broker {
 
 struct BrokerOptions {
   std::string host = "127.0.0.1";  // the address to listen on
-  std::uint16_t port = 0;          // 0: the system chooses
+  std::uint16_t port = 0;          // 0 if the system chooses the port
   TraderLimits limits;
-  // File that keeps offers and service types from one start to the next; empty: memory only.
+  // The file that keeps offers and service types from one start to the next. If it is empty, they
+  // are in memory only.
   std::string data_file{};
   LivenessOptions liveness{};
 };
 
 class Broker {
  public:
-  // The broker serves when this returns.
+  // Starts the broker, which serves requests when this returns.
   [[nodiscard]] static base::Result<std::unique_ptr<Broker>> Start(const BrokerOptions& options);
-  // Ends every call and closes the port.
+  // Ends all calls and closes the port.
   ~Broker();
   Broker(const Broker&) = delete;
   Broker& operator=(const Broker&) = delete;
@@ -41,7 +43,7 @@ class Broker {
   const std::string& reference() const;
   std::uint16_t port() const;
 
-  // Closes the data file, which holds all acknowledged changes; later changes are refused.
+  // Closes the data file, which then has all acknowledged changes. Later changes are refused.
   void Close();
 
  private:

@@ -15,23 +15,23 @@ constexpr int kUsage = 2;
 constexpr int kInfrastructure = 5;
 constexpr int kInterrupted = 130;
 
-int Complain(const base::Error& error) {
+int PrintError(const base::Error& error) {
   std::fprintf(stderr, "%s\n", error.Sentence().c_str());
   return error.code == base::ErrorCode::kInvalidArgument ? kUsage : kInfrastructure;
 }
 
-// False if the parent has already ended.
+// Makes this process end with `parent`. Returns false if the parent has already ended.
 bool EndWith(pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   return getppid() == parent;
 }
 
 // Ends the process without destroying the ORB. A late thread of the ORB would use the destroyed ORB
-// and crash (omniORB 4.2.5, seen after a minute of mutated requests). Under sanitizers and coverage
-// the ORB is destroyed, so that they report leaks and executed lines.
+// and crash (seen with omniORB 4.2.5 after a minute of mutated requests). With sanitizers and
+// coverage the ORB is destroyed, so that leaks and executed lines are reported.
 int End(Broker& broker, int exit_code) {
   broker.Close();
-  // The reference goes to stdout. If that failed, no client has received it.
+  // The reference goes to stdout. If writing fails, no client has received it.
   const bool is_lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
   if (is_lost && exit_code == kOk) exit_code = kInfrastructure;
 #if !defined(GSV_SANITIZED) && !defined(GSV_COVERAGE)
@@ -52,15 +52,16 @@ int BrokerMain(const BrokerCommand& command) {
   sigaddset(&ends, SIGTERM);
   struct sigaction hang_up {};
   sigaction(SIGHUP, nullptr, &hang_up);
-  if (hang_up.sa_handler != SIG_IGN) sigaddset(&ends, SIGHUP);  // nohup ignores it
+  // nohup has set the signal to be ignored
+  if (hang_up.sa_handler != SIG_IGN) sigaddset(&ends, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &ends, nullptr);
   if (command.parent != 0 && !EndWith(command.parent)) return kOk;
 
   if (auto limited = ApplyProcessLimits(command.process); !limited) {
-    return Complain(limited.error());
+    return PrintError(limited.error());
   }
   const auto broker = Broker::Start(command.broker);
-  if (!broker) return Complain(broker.error());
+  if (!broker) return PrintError(broker.error());
   std::printf("%s\n", (*broker)->reference().c_str());
   std::fflush(stdout);
 

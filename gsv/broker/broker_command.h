@@ -11,15 +11,14 @@ namespace gsv::broker {
 struct BrokerCommand {
   BrokerOptions broker;
   ProcessLimits process;
-  // The process that this one must not outlive; 0 for none. The kernel watches the *thread* that
-  // started this process, so it should live as long as its process.
+  // This process ends when `parent` ends; 0 for no parent. The kernel watches the *thread* that
+  // started this process, so that thread should live as long as its process.
   pid_t parent = 0;
 };
 
-// Prints the reference as one line on stdout, then serves until SIGINT, SIGTERM or SIGHUP, or until
-// `parent` ends. The process must have no other thread.
-// Returns the exit code: 0; 130 after SIGINT; after an error, which is printed on stderr, 2 if an
-// argument is invalid, else 5.
+// Prints the reference as one line on stdout. Then it serves until SIGINT, SIGTERM or SIGHUP, or
+// until `parent` ends. The process must have no other thread. Returns the exit code: 0; 130 after
+// SIGINT. After an error, which is printed on stderr, it is 2 if an argument is invalid, else 5.
 int BrokerMain(const BrokerCommand& command);
 
 }  // namespace gsv::broker

@@ -17,7 +17,7 @@
 namespace gsv::broker {
 namespace {
 
-// A port on which no process listens now.
+// Returns a port on which no process listens at this time.
 std::string FreePort() {
   const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   sockaddr_in address{};
@@ -49,7 +49,7 @@ TEST(Broker, ReportsThatItsPortIsInUse) {
                                  " is in use; choose another, or 0 for any free port\n");
 }
 
-TEST(Broker, RestartsOnItsPortAndForgetsEverythingWithoutAFile) {
+TEST(Broker, RestartsOnItsPortAndIsEmptyWithoutAFile) {
   const std::string port = FreePort();
   BrokerProcess first({port});
   ASSERT_EQ(first.port(), port);
@@ -65,7 +65,7 @@ TEST(Broker, RestartsOnItsPortAndForgetsEverythingWithoutAFile) {
   EXPECT_TRUE(again->ServiceTypeNames()->empty());
 }
 
-// The broker's stdout closes when it ends.
+// The test reads the broker's stdout, which closes when the broker ends.
 TEST(Broker, EndsWithItsParent) {
   int out[2];
   ASSERT_EQ(pipe2(out, O_CLOEXEC), 0);

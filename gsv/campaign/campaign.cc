@@ -21,7 +21,8 @@ using scenario::YamlPlace;
 constexpr double kMaxNumber = 1e9;
 constexpr std::size_t kMaxParameters = 64, kMaxValues = 100'000;
 
-// Sets the value at a path such as "robots[0].x"; the last key of a mapping may be new.
+// Sets the value at a path such as "robots[0].x". The last key of the path may be new in its
+// mapping.
 bool SetAt(YAML::Node node, const std::string& path, const std::string& value) {
   std::size_t at = 0;
   for (;;) {
@@ -143,7 +144,7 @@ std::string Drawn(std::uint64_t seed, const Parameter& parameter, std::size_t ru
   return fmt::format("{}", value);
 }
 
-// Tries each value on its own, so that errors are reported before anything runs.
+// Tries each value alone, so that errors are reported before any run begins.
 void TryValues(const Campaign& campaign, const std::string& file, base::Problems& problems) {
   Campaign alone = campaign;
   for (const Parameter& parameter : campaign.parameters) {

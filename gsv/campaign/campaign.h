@@ -21,32 +21,35 @@ struct EngineRequest;
 
 struct Parameter {
   enum class Kind { kList, kUniform, kNormal };
-  std::string path;  // into the scenario, as in robots[0].x
+  std::string path;  // the path of the parameter in the scenario, such as robots[0].x
   Kind kind = Kind::kList;
-  std::vector<std::string> values;  // kList
-  double a = 0, b = 0;              // kUniform: from, to; kNormal: mean, standard deviation
+  std::vector<std::string> values;  // the values of a kList parameter
+  double a = 0, b = 0;  // for kUniform the bounds; for kNormal the mean and the standard deviation
 };
 
 struct Campaign {
   std::string scenario;  // the scenario that the runs vary, as YAML with absolute paths
   std::vector<Parameter> parameters;
-  std::size_t draws = 1;  // of random parameters, for each point of the grid of lists
+  // how many times the random parameters are drawn for each point of the grid
+  std::size_t draws = 1;
   std::uint64_t draw_seed = 0;
 
-  std::size_t runs() const;  // at most kMaxRuns
-  // The values of a run, from 0 on, in the order of the parameters. The last list varies fastest,
-  // and the draws before it.
+  std::size_t runs() const;  // The number of runs, at most kMaxRuns.
+  // Returns the values of a run, which is counted from 0, in the order of the parameters. From run
+  // to run, the draws vary fastest, then the last list.
   std::vector<std::string> ValuesOf(std::size_t run) const;
-  // The scenario with these values, as YAML. Fails when the scenario lacks a path.
+  // Returns the scenario with these values, as YAML. Fails if the scenario does not have the path
+  // of a parameter.
   base::Result<std::string> ScenarioWith(const std::vector<std::string>& values) const;
-  // Everything that affects the runs: equal texts mean equal runs.
+  // A text with everything that affects the runs. Equal texts mean equal runs.
   std::string Definition() const;
   std::string Identity() const;  // a hash of the definition, 16 hexadecimal digits
 };
 
-// Checks each value alone in the scenario and adds the errors to `problems`.
+// Reads a campaign. Checks each value alone in the scenario and adds the errors to `problems`.
 base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Problems& problems);
-// Also sets `engine` to the one that `request` names, else the one that the file names (engine.h).
+// Reads a campaign and sets `engine` to the one that `request` names, or else to the one that the
+// file names (engine.h).
 base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Problems& problems,
                                     const EngineRequest& request, Engine& engine);
 

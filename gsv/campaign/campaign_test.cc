@@ -34,7 +34,7 @@ class CampaignTest : public ::testing::Test {
   base::Problems problems_;
 };
 
-TEST_F(CampaignTest, ListsMakeAGridAndDrawsFollowTheSeed) {
+TEST_F(CampaignTest, ListsFormAGridAndDrawsDependOnTheSeed) {
   const auto campaign = Read(
       "scenario: s.yaml\ndraws: 3\ndraw_seed: 5\nparameters:\n"
       "  seed: {from: 1, to: 2}\n"
@@ -98,7 +98,7 @@ LocalEngine EngineThatTakes(std::vector<std::atomic<int>>& taken, std::size_t mo
   return engine;
 }
 
-TEST_F(CampaignTest, ADriverContinuesTheRunsOfAnotherAndEachRunCountsOnce) {
+TEST_F(CampaignTest, DriverContinuesAnotherDriversRunsAndEachRunCountsOnce) {
   const auto campaign = Read("scenario: s.yaml\nparameters: {seed: {from: 0, to: 299}}");
   ASSERT_TRUE(campaign && problems_.empty());
   std::vector<std::atomic<int>> taken(300);
@@ -123,7 +123,7 @@ TEST_F(CampaignTest, ADriverContinuesTheRunsOfAnotherAndEachRunCountsOnce) {
   EXPECT_EQ((*all)[5].status, "passed");
 }
 
-TEST_F(CampaignTest, ResultsOfAnotherCampaignAreLeftAlone) {
+TEST_F(CampaignTest, ResultsOfAnotherCampaignAreNotChanged) {
   const auto one = Read("scenario: s.yaml\nparameters: {seed: [1, 2]}");
   ASSERT_TRUE(one);
   ASSERT_TRUE(Results::OpenToAdd(file(), *one));
@@ -136,7 +136,7 @@ TEST_F(CampaignTest, ResultsOfAnotherCampaignAreLeftAlone) {
   EXPECT_EQ(Results::Open(file() + "x").error().code, base::ErrorCode::kNotFound);
 }
 
-TEST_F(CampaignTest, ALockedOrTornResultsFileLosesNothing) {
+TEST_F(CampaignTest, LockedOrIncompleteResultsFileLosesNothing) {
   const auto campaign = Read("scenario: s.yaml\nparameters: {seed: {from: 0, to: 999}}");
   ASSERT_TRUE(campaign);
   std::vector<RunResult> many;
@@ -164,8 +164,9 @@ TEST_F(CampaignTest, ALockedOrTornResultsFileLosesNothing) {
   EXPECT_THAT(all.error().Sentence(), HasSubstr("malformed"));
 }
 
-TEST(CampaignStatistics, IntervalsAreThoseOfTheBooks) {
-  // Wilson's interval of 8 in 10, and Student's of 1 … 5 (t = 2.7764, s = 1.5811).
+TEST(CampaignStatistics, IntervalsEqualPublishedValues) {
+  // The expected values are Wilson's interval of 8 in 10, and Student's interval of 1 … 5 (t =
+  // 2.7764, s = 1.5811).
   const Interval rate = PassRate(8, 10);
   EXPECT_EQ(rate.middle, 0.8);
   EXPECT_NEAR(rate.low, 0.4902, 1e-4);
@@ -176,7 +177,7 @@ TEST(CampaignStatistics, IntervalsAreThoseOfTheBooks) {
   EXPECT_NEAR(mean.high, 3 + 2.7764 * 1.58114 / 2.23607, 1e-3);
   std::vector<double> many(121);
   for (std::size_t i = 0; i < many.size(); ++i) many[i] = i % 2 == 0 ? 1 : -1;
-  // t at 120 degrees of freedom is 1.9799.
+  // Student's t for 120 degrees of freedom is 1.9799.
   const double s = std::sqrt((121 - 1.0 / 121) / 120);
   EXPECT_NEAR(Mean(many).high - Mean(many).middle, 1.9799 * s / 11, 1e-4);
 }
@@ -196,7 +197,8 @@ TEST(CampaignReport, RunsAreGroupedByTheirParameters) {
   EXPECT_EQ(report.groups[0].passed, 5u);
   EXPECT_EQ(report.groups[1].passed, 10u);
   EXPECT_THAT(ToText(report), HasSubstr("slow    10    5       0.5 [0.2366, 0.7634]"));
-  EXPECT_THAT(ToText(report), HasSubstr("9 [4.668, 13.33]"));  // 9 ± 2.2622 · 6.0553 / √10
+  // the interval is 9 ± 2.2622 · 6.0553 / √10
+  EXPECT_THAT(ToText(report), HasSubstr("9 [4.668, 13.33]"));
   EXPECT_THAT(ToHtml(report), HasSubstr("a,\"b\"&lt;"));
   EXPECT_THAT(ToCsv(results, {"speed"}), HasSubstr("\r\n1,\"a,\"\"b\"\"<\",passed,,0,0,,,1\r\n"));
 }

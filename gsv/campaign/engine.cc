@@ -27,7 +27,7 @@ std::string Names() {
   return names;
 }
 
-// The engine's mapping in the file, merged with the command line's options.
+// Returns the engine's mapping in the file, merged with the options of the command line.
 YAML::Node WithOptions(YAML::Node node, const EngineType& type, const EngineRequest& request) {
   if (!node.IsMap()) return node;
   for (const EngineOption& option : type.options) {
@@ -68,7 +68,7 @@ Engine ReadEngine(scenario::YamlMapping& campaign, const EngineRequest& request)
     MakeQueue make_queue = type.read(mapping);
     const double most_runs = static_cast<double>(kMaxRuns);
     const auto runs = mapping.Number("runs_per_task", 1, most_runs);
-    const auto former = mapping.Number("runs_a_task", 1, most_runs);  // the key's former name
+    const auto former = mapping.Number("runs_a_task", 1, most_runs);  // a former name of the key
     if (runs && former) {
       mapping.AddProblem("runs_a_task",
                          "runs_a_task is the former name of runs_per_task; give one");

@@ -48,14 +48,14 @@ TEST_F(EngineTest, TheFormerNameOfRunsPerTaskIsAccepted) {
   EXPECT_EQ(Problems(), "");
 }
 
-TEST_F(EngineTest, CommandLineGoesBeforeTheFile) {
+TEST_F(EngineTest, CommandLineOverridesTheFile) {
   EngineRequest request{.name = "ssh", .runs_per_task = 3};
   request.options["--host"] = {"n2:4"};
   const Engine engine = Read("engine: slurm\nssh: {hosts: [n1], runs_per_task: 10}", request);
   EXPECT_EQ(engine.type->name, "ssh");
   EXPECT_EQ(engine.runs_per_task, 3u);
   EXPECT_EQ(Problems(), "");
-  // Without a mapping in the file, only the command line's options count.
+  // The file has no mapping for the engine, so only the options of the command line apply.
   EXPECT_TRUE(Read("{}", request).make_queue);
   EXPECT_EQ(Problems(), "");
   EXPECT_FALSE(Read("engine: slurm", {.name = "local"}).make_queue);

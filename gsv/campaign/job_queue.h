@@ -1,6 +1,6 @@
-// A job queue: it accepts batches of tasks and executes them on other machines, each task as `gsv
-// campaign task` (TaskCommand). The results of tasks are in the spool (spool.h), so a queue reports
-// only which tasks are waiting or running.
+// A job queue. It accepts batches of tasks and executes them on other machines, each task as `gsv
+// campaign task` (TaskCommand). The results of tasks are in the spool (spool.h), so a queue only
+// reports which tasks are waiting or running.
 //
 // Threads  one at a time.
 #pragma once
@@ -15,8 +15,8 @@
 namespace gsv::campaign {
 
 struct QueuedTask {
-  std::string state;   // "PENDING" while it waits; else "RUNNING" or another state of the queue
-  std::string reason;  // why it waits: "Resources", …
+  std::string state;   // "PENDING" while it waits, else "RUNNING" or another state of the queue
+  std::string reason;  // the reason why it waits, such as "Resources"
 };
 
 class JobQueue {
@@ -25,11 +25,11 @@ class JobQueue {
 
   // The maximum number of tasks of a batch, at least 1.
   virtual base::Result<std::size_t> MaxTasks() = 0;
-  // Returns the job's name in the queue. kNotRunning when the queue refuses the batch; nothing is
-  // queued then. The batch's file must be in the spool before.
+  // Submits a batch, whose file must already be in the spool. Returns the job's name in the queue.
+  // Returns kNotRunning if the queue refuses the batch; nothing is queued then.
   virtual base::Result<std::string> Submit(const Spool& spool, const Batch& batch) = 0;
-  // The tasks of these batches that wait or run, by ShareOf(). kNotFound when the queue will never
-  // run a task again; any other error may be temporary.
+  // Returns the tasks of these batches that wait or run, by ShareOf(). Returns kNotFound if the
+  // queue will never run a task again. Any other error may be temporary.
   virtual base::Result<std::map<std::string, QueuedTask>> TasksOf(
       const std::vector<Batch>& batches) = 0;
 };
@@ -39,14 +39,14 @@ class JobQueue {
 struct TaskCommand {
   std::string program;  // the path of gsv on the machine
   std::string batch_file;
-  std::string task, job, node;  // the task's number; fields of the attempt's journal
-  std::string jobs = "1";       // runs at once
-  std::string more;             // options
+  std::string task, job, node;  // the number of the task, and the fields of its attempt's journal
+  std::string jobs = "1";       // how many runs are executed at once
+  std::string more;             // further options
 
   std::string Text() const;
 };
 
-// The line that a task prints when its journal exists, before its first run.
+// A task prints this text with its journal when the journal exists, before its first run.
 inline constexpr std::string_view kTaskBegins = "gsv campaign task: begins ";
 
 }  // namespace gsv::campaign

@@ -1,10 +1,10 @@
 // The journal of an attempt at a share of a campaign's runs: a file to which one process appends
 // while others read it, possibly on a shared file system.
 //
-// Format   lines of 16 hexadecimal digits (base::Hash of the rest), a blank and a JSON object:
-//          first {"attempt": …}, then {"begun": RUN} and {"result": …}, and {"end": true} when the
-//          attempt has ended. A line with a wrong hash or without its newline is incomplete and
-//          ignored.
+// Format   lines of 16 hexadecimal digits (base::Hash of the rest), a space and a JSON object. The
+//          first is {"attempt": …}. Then come {"begun": RUN} and {"result": …}, and {"end": true}
+//          when the attempt has ended. A line with a wrong hash or without its newline is
+//          incomplete and is ignored.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +20,13 @@
 
 namespace gsv::campaign {
 
-// Wall time in seconds since 1970: this is the only clock that the machines of a queue share.
+// Seconds since 1970 by the wall clock. This is the only clock that the machines of a queue share.
 double UnixSeconds();
 
 // Threads  any.
 class JournalWriter {
  public:
-  // A new file in the folder, named after the attempt's share, the machine and the process.
+  // Creates a file in the folder, named after the attempt's share, the machine and the process.
   static base::Result<std::unique_ptr<JournalWriter>> Create(const std::filesystem::path& folder,
                                                              const Attempt& attempt);
   ~JournalWriter();
@@ -34,7 +34,7 @@ class JournalWriter {
   JournalWriter& operator=(const JournalWriter&) = delete;
 
   base::Status Begin(std::int64_t run);
-  // The line is durable when this returns.
+  // Appends a result. It is durable when this returns.
   base::Status Add(const RunResult& result);
   base::Status End();
 
@@ -53,12 +53,12 @@ class JournalReader {
  public:
   explicit JournalReader(std::filesystem::path file) : file_(std::move(file)) {}
 
-  // The results since the last call.
+  // Returns the results since the last call.
   base::Result<std::vector<RunResult>> ReadNew();
-  // The attempt as read so far; nothing before the first line was read.
+  // The attempt as read so far; nullopt until the first line was read.
   const std::optional<Attempt>& attempt() const { return attempt_; }
   bool is_over() const { return is_over_; }
-  // Runs that began and have no result.
+  // The runs that have begun and have no result.
   const std::set<std::int64_t>& open_runs() const { return open_runs_; }
   std::size_t torn_lines() const { return torn_lines_; }
   const std::filesystem::path& file() const { return file_; }
@@ -67,7 +67,7 @@ class JournalReader {
   void Take(const nlohmann::ordered_json& json, std::vector<RunResult>& results);
 
   std::filesystem::path file_;
-  std::uint64_t offset_ = 0;  // bytes
+  std::uint64_t offset_ = 0;  // in bytes
   std::optional<Attempt> attempt_;
   std::set<std::int64_t> open_runs_;
   std::size_t torn_lines_ = 0;

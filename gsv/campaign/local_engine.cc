@@ -20,7 +20,7 @@ class Work {
   }
   ~Work() { is_cancelled_ = true; }
 
-  // The results since the last call. Waits for a result, but not for long.
+  // Returns the results since the last call. Waits for a result, but only briefly.
   std::vector<RunResult> Collect() {
     base::MutexLock lock(mutex_);
     changed_.wait_for(lock, kWritePeriod,
@@ -55,7 +55,7 @@ class Work {
   std::size_t next_ GSV_GUARDED_BY(mutex_) = 0;
   std::size_t idle_ GSV_GUARDED_BY(mutex_) = 0;
   std::vector<RunResult> done_ GSV_GUARDED_BY(mutex_);
-  std::vector<std::jthread> threads_;  // the last member: they use all others
+  std::vector<std::jthread> threads_;  // the last member, because the threads use all others
 };
 
 }  // namespace

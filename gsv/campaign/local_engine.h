@@ -9,23 +9,23 @@
 namespace gsv::campaign {
 
 struct Progress {
-  std::size_t planned = 0, done = 0, not_passed = 0;  // done: including those of earlier drivers
-  double seconds_left = 0;                            // wall-clock time; 0: unknown
+  std::size_t planned = 0, done = 0, not_passed = 0;  // `done` includes the runs of earlier drivers
+  double seconds_left = 0;                            // wall-clock time; 0 if it is unknown
 };
 
 struct LocalEngine {
   int jobs = 1;
-  // Executes one run on a thread of the engine that ends with the run. Nothing: the run was
-  // cancelled and does not count.
+  // Executes one run on a thread of the engine, which ends with the run. nullopt means that the run
+  // was cancelled and does not count.
   std::function<std::optional<RunResult>(std::int64_t run, const std::atomic<bool>& is_cancelled)>
       take;
   std::function<void(const Progress&)> report;  // called about twice a second
   std::function<bool()> is_interrupted;
 
-  // Blocks until all runs are in the results or it is interrupted. An interrupt cancels the runs in
-  // progress and keeps the results. Fails when the results cannot be written.
+  // Blocks until the results contain all runs, or until it is interrupted. An interrupt cancels the
+  // runs in progress and keeps the results. Fails if the results cannot be written.
   base::Status Run(Results& results) const;
-  // Executes these runs and calls `keep` once for each. `progress`: the progress before.
+  // Executes these runs and calls `keep` once for each. `progress` is the progress before them.
   base::Status Take(std::vector<std::int64_t> runs, Progress progress,
                     const std::function<base::Status(const std::vector<RunResult>&)>& keep) const;
 };

@@ -11,8 +11,8 @@ namespace gsv::campaign {
 std::optional<QueueCost> CostOf(const std::vector<Attempt>& attempts) {
   QueueCost cost;
   std::set<std::string> nodes;
-  std::map<std::string, double> waits;  // by share
-  std::multimap<double, int> changes;   // of the slots in use, by time
+  std::map<std::string, double> waits;  // waiting time by share
+  std::multimap<double, int> changes;   // changes of the number of used slots, by time
   double submitted = 0, first = 0, last = 0;
   for (const Attempt& attempt : attempts) {
     if (attempt.job.empty()) continue;
@@ -31,7 +31,7 @@ std::optional<QueueCost> CostOf(const std::vector<Attempt>& attempts) {
     changes.emplace(attempt.ended, -attempt.at_once);
   }
   if (cost.tasks == 0) return std::nullopt;
-  // At one instant, tasks that end free their slots first.
+  // Of the changes at one instant, the ends of tasks come first, so that their slots count as free.
   int in_use = 0, most = 0;
   for (auto change = changes.begin(); change != changes.end();) {
     const auto [begin, end] = changes.equal_range(change->first);

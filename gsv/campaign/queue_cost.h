@@ -1,4 +1,4 @@
-// The overhead of a job queue beyond the runs.
+// The time that a job queue costs beyond the runs themselves.
 #pragma once
 
 #include <optional>
@@ -9,20 +9,21 @@
 
 namespace gsv::campaign {
 
-// The durations compare clocks of several machines and are as accurate as those agree.
+// The durations compare the clocks of several machines, and are only as accurate as those clocks
+// agree.
 struct QueueCost {
-  std::size_t tasks = 0;     // started tasks; a requeued one counts again
-  std::size_t requeued = 0;  // requeued tasks among them
+  std::size_t tasks = 0;     // number of started tasks; a task that was requeued counts again
+  std::size_t requeued = 0;  // how many of them were requeued
   std::size_t nodes = 0;
-  std::size_t slots = 0;               // maximum of concurrent runs
-  double mean_wait = 0, max_wait = 0;  // s, from submission to a share's first start
-  double run_seconds = 0;              // sum over the runs
-  double task_seconds = 0;             // sum over the tasks' slots
+  std::size_t slots = 0;               // maximum number of concurrent runs
+  double mean_wait = 0, max_wait = 0;  // from submission to the first start of a share, s
+  double run_seconds = 0;              // sum over the runs, s
+  double task_seconds = 0;             // sum over the slots of the tasks, s
   double idle_seconds = 0;             // slots · (last end − first start) − task_seconds
-  double span = 0;                     // s, from the first submission to the last end
+  double span = 0;                     // from the first submission to the last end, s
 };
 
-// The cost of the attempts that a queue started; nothing if there are none.
+// Returns the cost of the attempts that a queue started, or nullopt if there are none.
 std::optional<QueueCost> CostOf(const std::vector<Attempt>& attempts);
 
 std::string Sentence(const QueueCost& cost);

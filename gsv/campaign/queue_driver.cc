@@ -13,11 +13,13 @@ namespace {
 using DriverClock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kGatherPeriod{500};
-constexpr auto kSilence = std::chrono::seconds(30);  // then the missing progress is explained
+// after this time without progress, the driver prints the reason
+constexpr auto kSilence = std::chrono::seconds(30);
 constexpr std::size_t kFewTasks = 1000;
-constexpr std::size_t kMaxAttempts = 3;     // at a run during which its task ends
-constexpr int kGone = 2;                    // number of consecutive queries that do not find a task
-constexpr std::size_t kMaxLogBytes = 1000;  // bytes of the log that are shown
+// how often a run's task may end during the run before the run becomes an error
+constexpr std::size_t kMaxAttempts = 3;
+constexpr int kGone = 2;  // how many consecutive queries must miss a task before it counts as gone
+constexpr std::size_t kMaxLogBytes = 1000;  // how many bytes of the log an error shows
 
 std::string EndOf(const std::filesystem::path& file) {
   std::ostringstream text;
@@ -81,7 +83,7 @@ class Drive {
     const std::vector<Batch> open = OpenBatches();
     auto tasks = settings_.queue.TasksOf(open);
     if (!tasks) {
-      // The queue's content is unknown, so that nothing can be submitted; running tasks continue.
+      // The content of the queue is unknown, so nothing can be submitted. Running tasks continue.
       if (!has_looked_ || tasks.error().code == base::ErrorCode::kNotFound)
         return base::Fail(tasks.error());
       if (!std::exchange(is_silent_, true))
@@ -97,7 +99,7 @@ class Drive {
       }
     }
     SayWhyNothingComes(*tasks);
-    // A task may have left results between collecting and querying.
+    // A task may have written results between collecting and querying.
     if (auto ok = TakeIn(); !ok) return ok;
     if (auto ok = DropBatchesThatCameToNothing(); !ok) return ok;
     auto missing = MissingRuns();
@@ -107,7 +109,7 @@ class Drive {
     return HandOut(*std::move(missing), tasks->size());
   }
 
-  // Batches with runs that are not done.
+  // The batches that have runs which are not done.
   std::vector<Batch> OpenBatches() const {
     std::vector<Batch> open;
     for (const Batch& batch : batches_) {
@@ -123,7 +125,7 @@ class Drive {
     return looks != looks_without_.end() && looks->second >= kGone;
   }
 
-  // If one query did not find a task, the next one decides.
+  // If only one query did not find a task, the next query decides.
   bool IsAllHandedOut() const {
     return !is_waiting_to_hand_out_ &&
            std::none_of(looks_without_.begin(), looks_without_.end(),
@@ -131,7 +133,7 @@ class Drive {
   }
 
   // Drops batches that left the queue before any run began. An earlier driver may have cancelled
-  // one, never submitted it. If this driver submitted it, that is an error.
+  // such a batch, or never submitted it. If this driver submitted it, that is an error.
   base::Status DropBatchesThatCameToNothing() {
     for (const Batch& batch : OpenBatches()) {
       bool came_to_nothing = true;
@@ -165,8 +167,8 @@ class Drive {
     return false;
   }
 
-  // Runs that are neither done nor in the queue. Those during which a task has ended come last. One
-  // with too many such ends becomes an error.
+  // The runs that are neither done nor in the queue. Runs during which a task has ended come last.
+  // A run with too many such ends becomes an error.
   base::Result<std::vector<std::int64_t>> MissingRuns() {
     std::set<std::int64_t> queued;
     for (const Batch& batch : OpenBatches()) {
@@ -251,7 +253,7 @@ class Drive {
     Batch batch;
     batch.number = batches_.empty() ? 1 : batches_.back().number + 1;
     batch.submitted = UnixSeconds();
-    // A unique name, even if somebody removes the spool and starts again.
+    // The name is unique even if somebody removes the spool and starts again.
     batch.name = fmt::format("gsv-{}-{}-{:x}", spool_.campaign().Identity().substr(0, 8),
                              batch.number, static_cast<std::int64_t>(1e3 * batch.submitted));
     batch.runs_per_task = runs_per_task;
@@ -279,12 +281,13 @@ class Drive {
   Results& results_;
   const DriverClock::time_point start_ = DriverClock::now();
   DriverClock::time_point last_news_ = start_;
-  std::vector<Batch> batches_;  // by number
+  std::vector<Batch> batches_;  // ordered by number
   std::set<int> ours_;          // batches that this driver submitted
   std::set<std::int64_t> done_;
-  std::size_t done_before_ = 0;  // when this driver started
+  std::size_t done_before_ = 0;  // how many runs were done when this driver started
   Progress progress_;
-  std::map<std::string, int> looks_without_;  // queries without it, by share
+  // number of queries that did not find the task, by share
+  std::map<std::string, int> looks_without_;
   bool has_looked_ = false, is_silent_ = false, is_waiting_to_hand_out_ = false;
   std::size_t tasks_at_refusal_ = 0;
   std::string last_said_;

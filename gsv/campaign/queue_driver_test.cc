@@ -54,8 +54,8 @@ class QueueDriverTest : public ::testing::Test {
     return campaign;
   }
 
-  // A node takes the task, does its first `count` runs, begins one more if `crashes`, and the task
-  // leaves the queue.
+  // Simulates a node. It takes the task and does its first `count` runs. If `crashes` is true, it
+  // begins one more. Then the task leaves the queue.
   void Do(const std::string& share, std::size_t count = 1000, bool crashes = false) {
     const auto task = queue_.held.extract(share);
     ASSERT_FALSE(task.empty()) << share;
@@ -76,7 +76,7 @@ class QueueDriverTest : public ::testing::Test {
   void DoAll() {
     while (!queue_.held.empty()) Do(queue_.held.begin()->first);
   }
-  // Adds an event that occurs while the driver waits. After the last one the driver is interrupted.
+  // Adds an event that occurs while the driver waits. The driver is interrupted after the last one.
   void Then(std::function<void()> event) { events_.push_back(std::move(event)); }
 
   base::Status Drive(const std::function<void(QueueDriver&)>& set = {}) {
@@ -123,17 +123,17 @@ TEST_F(QueueDriverTest, RunsAreSubmittedInBatchesOfTheQueuesMaximumLength) {
   EXPECT_THAT(said_.front(), HasSubstr("The queue: submitted 6 runs in 3 tasks, job job 1, gsv-"));
 }
 
-TEST_F(QueueDriverTest, RunsOfATaskAreChosenSoThatOneBatchTakesAll) {
+TEST_F(QueueDriverTest, RunsPerTaskAreChosenSoThatOneBatchSuffices) {
   queue_.max_tasks = 3;
   Then([this] { DoAll(); });
   ASSERT_TRUE(Drive([](QueueDriver& driver) { driver.runs_per_task = 0; }));
   ASSERT_EQ(queue_.submitted.size(), 1u);
-  EXPECT_EQ(queue_.submitted[0].runs_per_task, 4u);  // ⌈10 / 3⌉
+  EXPECT_EQ(queue_.submitted[0].runs_per_task, 4u);  // the rounded-up quotient of 10 and 3
 }
 
-TEST_F(QueueDriverTest, RunsOfALostTaskAreSubmittedAgainAfterTwoQueriesThoseThatEndedATaskLast) {
+TEST_F(QueueDriverTest, RunsOfALostTaskAreSubmittedAgainAfterTwoQueries) {
   Then([this] {
-    Do("batch-0001-task-0000", 0, true);  // ended while it did run 0
+    Do("batch-0001-task-0000", 0, true);  // the task ended while it did run 0
     queue_.held.erase("batch-0001-task-0003");
   });
   Then([this] { EXPECT_EQ(queue_.submitted.size(), 1u) << "after one look"; });
@@ -168,7 +168,7 @@ TEST_F(QueueDriverTest, ARunThatCrashesItsTaskThreeTimesIsAnError) {
 }
 
 TEST_F(QueueDriverTest, RunsSubmittedByAnEarlierDriverAreNotSubmittedAgain) {
-  ASSERT_TRUE(Drive());  // interrupted at once
+  ASSERT_TRUE(Drive());  // the driver is interrupted at once
   ASSERT_EQ(queue_.submitted.size(), 1u);
   Then([this] { Do("batch-0001-task-0000"); });
   Then([this] { DoAll(); });
@@ -177,9 +177,9 @@ TEST_F(QueueDriverTest, RunsSubmittedByAnEarlierDriverAreNotSubmittedAgain) {
   EXPECT_EQ(Done(), 10u);
 }
 
-TEST_F(QueueDriverTest, AnAbortedBatchOfAnEarlierDriverIsForgotten) {
+TEST_F(QueueDriverTest, AbortedBatchOfAnEarlierDriverIsDropped) {
   ASSERT_TRUE(Drive());
-  queue_.held.clear();  // cancelled
+  queue_.held.clear();  // the user cancels the batch
   Then([] {});
   Then([this] { DoAll(); });
   ASSERT_TRUE(Drive());
@@ -188,7 +188,7 @@ TEST_F(QueueDriverTest, AnAbortedBatchOfAnEarlierDriverIsForgotten) {
   EXPECT_EQ(spool_.Batches()->size(), 1u);
 }
 
-TEST_F(QueueDriverTest, AnAbortedBatchOfThisDriverEndsItWithTheLog) {
+TEST_F(QueueDriverTest, AbortedBatchOfThisDriverIsAnErrorWithTheLog) {
   Then([this] {
     std::ofstream(spool_.LogOf(queue_.submitted[0], "0")) << "gsv: no such folder\n";
     queue_.held.clear();
@@ -220,7 +220,7 @@ TEST_F(QueueDriverTest, ARefusalWhileTasksAreQueuedIsRetriedWhenTheQueueIsShorte
   EXPECT_THAT(RunsOf(queue_.submitted), ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9));
 }
 
-TEST_F(QueueDriverTest, ARefusalByAnEmptyQueueEndsIt) {
+TEST_F(QueueDriverTest, RefusalByAnEmptyQueueEndsTheDriver) {
   queue_.room = 0;
   const auto ended = Drive();
   ASSERT_FALSE(ended);
@@ -244,7 +244,7 @@ TEST_F(QueueDriverTest, AQueueThatStopsAnsweringIsQueriedAgain) {
   EXPECT_EQ(Done(), 10u);
 }
 
-TEST_F(QueueDriverTest, AQueueThatIsGoneForGoodEndsIt) {
+TEST_F(QueueDriverTest, PermanentlyMissingQueueEndsTheDriver) {
   Then([this] { queue_.failure = base::Error{base::ErrorCode::kNotFound, "no host", "ssh"}; });
   Then([] {});
   const auto ended = Drive();
@@ -252,7 +252,7 @@ TEST_F(QueueDriverTest, AQueueThatIsGoneForGoodEndsIt) {
   EXPECT_EQ(ended.error().Sentence(), "ssh: no host");
 }
 
-TEST_F(QueueDriverTest, WithoutWaitingItEndsAfterSubmittingAllRuns) {
+TEST_F(QueueDriverTest, DriverThatDoesNotWaitEndsAfterSubmitting) {
   ASSERT_TRUE(Drive([](QueueDriver& driver) { driver.waits = false; }));
   EXPECT_EQ(queue_.held.size(), 5u);
   EXPECT_EQ(Done(), 0u);

@@ -10,9 +10,9 @@
 
 namespace gsv::campaign {
 
-// The runs with the same values of the grouping parameters.
+// The runs that have the same values of the grouping parameters.
 struct Group {
-  std::vector<std::string> values;  // of the grouping parameters
+  std::vector<std::string> values;  // values of the grouping parameters
   std::size_t runs = 0, passed = 0;
   std::map<std::string, std::vector<double>> metrics;
 };
@@ -20,22 +20,22 @@ struct Group {
 struct Report {
   std::string title;
   std::int64_t planned = 0;
-  std::vector<std::string> parameters;  // by which the runs are grouped
-  std::vector<std::string> metrics;     // shown metrics
-  std::vector<Group> groups;            // in the order of their first runs
-  // A sentence about the queue's overhead; empty without a queue.
+  std::vector<std::string> parameters;  // the parameters by which the runs are grouped
+  std::vector<std::string> metrics;     // the metrics to show
+  std::vector<Group> groups;            // ordered by their first runs
+  // A sentence about the queue's overhead. Empty if the campaign has no queue.
   std::string queue;
 };
 
-// `by`: the parameters to group by; empty: those with at most 12 values. `metrics`: the names to
-// show; empty: none.
+// `by` names the parameters to group by; if it is empty, these are the ones with at most 12 values.
+// `metrics` names the metrics to show, and may be empty.
 Report MakeReport(const std::vector<RunResult>& results, std::vector<std::string> by,
                   const std::vector<std::string>& parameters, std::vector<std::string> metrics);
 
 std::string ToText(const Report& report);
-std::string ToSvg(const Report& report);   // the fraction of passed runs by group
-std::string ToHtml(const Report& report);  // one page that needs no other file
-// One line a run: run, parameters, status, state_hash, times, metrics (RFC 4180).
+std::string ToSvg(const Report& report);   // Draws the fraction of passed runs by group.
+std::string ToHtml(const Report& report);  // Returns one page that needs no other file.
+// Returns one line per run: run, parameters, status, state_hash, times, metrics (RFC 4180).
 std::string ToCsv(const std::vector<RunResult>& results,
                   const std::vector<std::string>& parameters);
 

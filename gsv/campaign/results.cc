@@ -46,7 +46,7 @@ Results::~Results() {
 base::Result<std::unique_ptr<Results>> Results::OpenToAdd(const std::string& file,
                                                           const Campaign& campaign,
                                                           std::chrono::milliseconds timeout) {
-  // The kernel releases the lock when the process ends, in whatever way.
+  // The kernel releases the lock when the process ends, also after a crash.
   const int lock = open((file + ".lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
   if (lock < 0) {
     return base::Fail(
@@ -191,7 +191,7 @@ base::Status Results::Insert(const std::vector<Attempt>& attempts) {
 }
 
 base::Result<std::vector<Attempt>> Results::Attempts() {
-  // Files from before shares were introduced have no such table.
+  // Files of versions without shares have no such table.
   const auto tables = database_.Ask("SELECT COUNT(*) FROM sqlite_schema WHERE name = 'attempts'");
   if (!tables) return Refused(tables.error());
   std::vector<Attempt> attempts;

@@ -2,9 +2,9 @@
 //
 // Format   tables `campaign` (key, value), `runs` (run, parameters, status, message, state_hash,
 //          sim_time_s, wall_s, recording, metrics; parameters and metrics are JSON objects) and
-//          `attempts` (the fields of Attempt), in WAL mode: added rows survive the end of the
-//          process at any time. A run has at most one row.
-// Threads  one at a time. Only one process at a time may write; others are refused.
+//          `attempts` (the fields of Attempt), in WAL mode. Rows that were added survive the end of
+//          the process at any time. A run has at most one row.
+// Threads  one at a time. Only one process at a time may write; others get an error.
 #pragma once
 
 #include <chrono>
@@ -24,59 +24,61 @@ namespace gsv::campaign {
 
 struct RunResult {
   std::int64_t run = 0;
-  std::string status;   // "passed", "failed", "error"
-  std::string message;  // why it did not pass
+  std::string status;   // "passed", "failed" or "error"
+  std::string message;  // the reason why it did not pass
   std::string state_hash;
-  double sim_time = 0, wall_time = 0;  // s
-  std::string recording;               // a file; empty: none
+  double sim_time = 0, wall_time = 0;  // in s
+  std::string recording;               // the path of a file; empty if there is none
   nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
-  nlohmann::ordered_json metrics = nlohmann::ordered_json::object();  // numbers by name
+  // JSON numbers by the name of the metric
+  nlohmann::ordered_json metrics = nlohmann::ordered_json::object();
 };
 
-// One process that executed a share of the runs on one machine.
+// An attempt: one process that executed a share of the runs on one machine.
 struct Attempt {
-  std::string journal;  // its file
-  std::string share;    // its share; other attempts may have the same
-  std::string job;      // the queue's name of the job; empty without a queue
-  std::string node;     // the machine
-  int at_once = 1;      // runs
-  double submitted = 0, started = 0, ended = 0;  // s since 1970; ended: as far as is known
-  std::size_t runs = 0;                          // executed runs
-  double run_seconds = 0;                        // sum of their wall-clock times
+  std::string journal;  // the file of the journal
+  std::string share;    // the name of its share; other attempts may have the same one
+  std::string job;      // the queue's name of the job; empty if there is no queue
+  std::string node;     // the name of the machine
+  int at_once = 1;      // how many runs it executes at once
+  double submitted = 0, started = 0, ended = 0;  // in s since 1970; `ended` as far as it is known
+  std::size_t runs = 0;                          // number of executed runs
+  double run_seconds = 0;                        // sum of their wall-clock times, s
 
   friend bool operator==(const Attempt&, const Attempt&) = default;
 };
 
 class Results {
  public:
-  // For a driver: creates the file if it does not exist. Fails for a file of another campaign, a
-  // file that does not hold results, and one that another process still writes after `timeout`
-  // (kNotRunning). A process that only collects results ends soon.
+  // Opens the file for a driver, and creates it if it does not exist. Fails for a file of another
+  // campaign, for a file that does not hold results, and if another process still writes it after
+  // `timeout` (kNotRunning). A process that only collects results ends soon.
   static base::Result<std::unique_ptr<Results>> OpenToAdd(
       const std::string& file, const Campaign& campaign,
       std::chrono::milliseconds timeout = std::chrono::milliseconds(0));
-  // Opens the file for reading; kNotFound if it does not exist.
+  // Opens the file for reading. Returns kNotFound if it does not exist.
   static base::Result<std::unique_ptr<Results>> Open(const std::string& file);
   ~Results();
 
-  // Adds all of them or none. A run that has a result keeps it; an attempt of the same journal is
-  // replaced.
+  // Adds all of them or none. A run that already has a result keeps it. An attempt replaces the
+  // earlier one with the same journal.
   base::Status Add(const std::vector<RunResult>& results,
                    const std::vector<Attempt>& attempts = {});
 
   base::Result<std::set<std::int64_t>> DoneRuns();
   base::Result<std::size_t> NotPassed();
-  base::Result<std::vector<RunResult>> All();     // by number
-  base::Result<std::vector<Attempt>> Attempts();  // by the instant at which they started
+  base::Result<std::vector<RunResult>> All();  // Returns all results, ordered by number.
+  // Returns all attempts, ordered by the instant at which they started.
+  base::Result<std::vector<Attempt>> Attempts();
   base::Result<std::int64_t> PlannedRuns();
-  // The paths of the varied parameters, in order.
+  // Returns the paths of the varied parameters, in order.
   base::Result<std::vector<std::string>> Parameters();
 
  private:
   Results(broker::Database database, std::string file)
       : database_(std::move(database)), file_(std::move(file)) {}
   base::Status Begin(const Campaign& campaign);
-  // SQLite's error, with the file and what to do.
+  // Returns SQLite's error with the file and the remedy.
   tl::unexpected<base::Error> Refused(const base::Error& error) const;
   base::Status Insert(const std::vector<RunResult>& results);
   base::Status Insert(const std::vector<Attempt>& attempts);

@@ -1,5 +1,5 @@
-// The engine `slurm`: job arrays, with Slurm's own commands sbatch, squeue and scontrol
-// (slurm.schedmd.com; 20.11 or newer). Accounting (sacct) is not needed.
+// The engine `slurm`. It uses job arrays and Slurm's own commands sbatch, squeue and scontrol
+// (slurm.schedmd.com; 20.11 or newer). It does not need accounting (sacct).
 #include <charconv>
 #include <sstream>
 
@@ -11,16 +11,16 @@
 namespace gsv::campaign {
 namespace {
 
-constexpr std::size_t kMaxTasks = 1001;  // Slurm's own default for MaxArraySize
+constexpr std::size_t kMaxTasks = 1001;  // Slurm's default for MaxArraySize
 
 struct SlurmOptions {
-  std::string partition, time_limit;  // of a task, as for sbatch; empty: the queue's default
-  std::vector<std::string> options;   // further options of sbatch
+  std::string partition, time_limit;  // for sbatch; empty for the queue's default
+  std::vector<std::string> options;   // further options for sbatch
 };
 
-// The last line with a message, without the program's name: "sbatch: error: Batch job
-// submission failed: Invalid partition name specified".
-std::string Complaint(const std::string& output) {
+// Returns the last line with a message, without the program's name. A line is, for example,
+// "sbatch: error: Batch job submission failed: Invalid partition name specified".
+std::string LastMessage(const std::string& output) {
   std::istringstream lines(output);
   std::string text;
   for (std::string line; std::getline(lines, line);) {
@@ -39,7 +39,7 @@ bool IsNumber(const std::string& text) {
          text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// The job id from "17" or "17;cluster", after any other output of sbatch.
+// Returns the job id from "17" or "17;cluster", which follows any other output of sbatch.
 std::string JobIn(const std::string& output) {
   std::istringstream lines(output);
   std::string job;
@@ -97,7 +97,7 @@ class SlurmQueue final : public JobQueue {
     }
     if (std::string job = JobIn(*output); !job.empty()) return job;
     return base::Fail(base::ErrorCode::kUnavailable,
-                      "it printed no job number: " + Complaint(*output), "sbatch");
+                      "it printed no job number: " + LastMessage(*output), "sbatch");
   }
 
   base::Result<std::map<std::string, QueuedTask>> TasksOf(
@@ -129,7 +129,7 @@ class SlurmQueue final : public JobQueue {
   }
 
  private:
-  // The output of a command.
+  // Runs a command and returns its output.
   base::Result<std::string> Ask(const std::vector<std::string>& command) {
     auto outcome = commands_.Run(command);
     if (!outcome) {
@@ -146,11 +146,13 @@ class SlurmQueue final : public JobQueue {
                         "the cluster, or with --engine local",
                         command.front());
     }
-    // Only a command that ended by itself has refused. If it was killed, its effect is unknown.
+    // A command that ended by itself has refused. The effect of a command that was killed is
+    // unknown.
     const bool has_refused = outcome->ending.starts_with("exit code");
-    return base::Fail(has_refused ? base::ErrorCode::kNotRunning : base::ErrorCode::kUnavailable,
-                      has_refused ? Complaint(outcome->output) : "it ended with " + outcome->ending,
-                      command.front());
+    return base::Fail(
+        has_refused ? base::ErrorCode::kNotRunning : base::ErrorCode::kUnavailable,
+        has_refused ? LastMessage(outcome->output) : "it ended with " + outcome->ending,
+        command.front());
   }
 
   const SlurmOptions options_;

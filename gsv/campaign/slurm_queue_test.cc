@@ -1,4 +1,4 @@
-// The engine `slurm`, with sbatch, squeue and scontrol replaced by the test.
+// Tests the engine `slurm` with a fake of sbatch, squeue and scontrol.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -84,7 +84,7 @@ TEST_F(SlurmQueueTest, SubmitsABatchAsOneArrayWithTheFilesOptionsBeforeTheComman
               "--node \"$SLURMD_NODENAME\" --jobs \"${SLURM_CPUS_PER_TASK:-1}\"")));
 }
 
-TEST_F(SlurmQueueTest, ARefusalHasSlurmsMessage) {
+TEST_F(SlurmQueueTest, RefusalContainsSlurmsMessage) {
   Answer("sbatch: error: Batch job submission failed: Invalid partition name specified\n",
          "exit code 1");
   const auto job = Queue()->Submit(spool_, TwoTasks());
@@ -97,7 +97,7 @@ TEST_F(SlurmQueueTest, ARefusalHasSlurmsMessage) {
             "sbatch: Slurm refuses: sbatch: unrecognized option '--x'");
 }
 
-TEST_F(SlurmQueueTest, AnSbatchThatWasKilledMayHaveSubmitted) {
+TEST_F(SlurmQueueTest, KilledSbatchMayHaveSubmitted) {
   Answer("", "signal 9");
   const auto killed = Queue()->Submit(spool_, TwoTasks());
   ASSERT_FALSE(killed);

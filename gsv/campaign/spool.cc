@@ -7,17 +7,12 @@
 #include <fmt/format.h>
 
 #include "gsv/base/atomic_file.h"
+#include "gsv/base/text_file.h"
 
 namespace gsv::campaign {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string TextOf(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 base::Result<std::vector<fs::path>> FilesIn(const fs::path& folder, std::string_view ending) {
   std::vector<fs::path> files;
@@ -59,7 +54,7 @@ base::Result<Batch> ReadBatch(const fs::path& file) {
   }
   Batch batch;
   try {
-    const auto json = nlohmann::json::parse(TextOf(file));
+    const auto json = nlohmann::json::parse(base::ReadTextFile(file));
     batch.number = json.at("number");
     batch.name = json.at("name");
     batch.job = json.at("job");
@@ -108,7 +103,7 @@ base::Result<Spool> Spool::Open(const fs::path& folder) {
   const fs::path file = folder / "plan.json";
   if (!fs::exists(file, error))
     return base::Fail(base::ErrorCode::kNotFound, "no runs were submitted from here", folder);
-  auto campaign = CampaignInJson(TextOf(file));
+  auto campaign = CampaignInJson(base::ReadTextFile(file));
   if (!campaign) return base::Fail(campaign.error().code, campaign.error().message, file);
   return Spool(folder, *std::move(campaign));
 }

@@ -1,5 +1,5 @@
-// The folder in which machines with a shared file system store the results of a campaign's tasks:
-// NAME.runs beside the results.
+// The folder in which machines with a shared file system store the results of a campaign's tasks.
+// It is NAME.runs beside the results.
 //
 // Format   plan.json            the campaign at the time of the first submission
 //          batch-0001.json      a submitted batch: its runs, and the number of runs per task
@@ -19,47 +19,50 @@
 
 namespace gsv::campaign {
 
-// Runs that were submitted together: tasks numbered from 0, each with the same number of runs.
+// Runs that were submitted together. They are divided into tasks, which are numbered from 0 and
+// have the same number of runs each.
 struct Batch {
   int number = 1;
-  std::string name;      // the unique name of the queue's job
-  std::string job;       // the queue's number; empty: unknown
-  double submitted = 0;  // s since 1970
+  std::string name;      // the unique name of the job in the queue
+  std::string job;       // the number of the job in the queue; empty if it is unknown
+  double submitted = 0;  // in s since 1970
   std::size_t runs_per_task = 1;
   std::vector<std::int64_t> runs;
-  double timeout = 300;  // time limit of a run, s of wall-clock time
-  std::string failures;  // a folder for the files of failed runs; empty: none are kept
+  double timeout = 300;  // wall-clock time limit of a run, s
+  std::string failures;  // a folder for the files of failed runs; empty if none are kept
 
   std::size_t tasks() const { return (runs.size() + runs_per_task - 1) / runs_per_task; }
   std::vector<std::int64_t> RunsOf(std::size_t task) const;
-  // The name of a task's share, in journals.
+  // Returns the name of a task's share, which is used in journals.
   std::string ShareOf(std::size_t task) const;
 };
 
 base::Result<Batch> ReadBatch(const std::filesystem::path& file);
 
-// The share I of N of runs that were not submitted by a queue of GSV.
+// Returns the name of share I of N, for runs that were not submitted by a queue of GSV.
 std::string ShardName(std::size_t index, std::size_t count);
 
 class Spool {
  public:
-  // Creates the folder if it does not exist. Fails for a folder of another campaign.
+  // Opens the folder, and creates it if it does not exist. Fails for a folder of another campaign.
   static base::Result<Spool> Make(const std::filesystem::path& folder, const Campaign& campaign);
-  // Opens the folder; kNotFound if it does not exist.
+  // Opens the folder. Returns kNotFound if it does not exist.
   static base::Result<Spool> Open(const std::filesystem::path& folder);
 
   const Campaign& campaign() const { return campaign_; }
   std::filesystem::path journals() const { return folder_ / "journals"; }
   std::filesystem::path logs() const { return folder_ / "logs"; }
   std::filesystem::path FileOf(const Batch& batch) const;
-  // The file of a task's output. `task`: its number, or the placeholder of the queue.
+  // Returns the file of a task's output. `task` is the task's number, or the queue's placeholder
+  // for it.
   std::filesystem::path LogOf(const Batch& batch, const std::string& task) const;
 
-  base::Result<std::vector<Batch>> Batches() const;  // by number
+  base::Result<std::vector<Batch>> Batches() const;  // Returns the batches, ordered by number.
   base::Status Put(const Batch& batch) const;
   void Remove(const Batch& batch) const;
 
-  // The results since the last call, of all attempts or of those at one share.
+  // Returns the results since the last call: those of all attempts, or of the attempts at one
+  // share.
   base::Result<std::vector<RunResult>> Collect(const std::string& share = "");
   const std::map<std::string, JournalReader>& read() const { return readers_; }  // by file name
   std::vector<Attempt> Attempts() const;
@@ -73,7 +76,7 @@ class Spool {
   std::map<std::string, JournalReader> readers_;
 };
 
-// Adds new entries of the spool's journals to the results. Returns the number of runs.
+// Adds new entries of the spool's journals to the results. Returns the number of added runs.
 base::Result<std::size_t> Gather(Spool& spool, Results& results);
 
 }  // namespace gsv::campaign

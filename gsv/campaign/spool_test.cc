@@ -52,7 +52,7 @@ class SpoolTest : public ::testing::Test {
   const std::string results_file_ = temporary_.path() / "c.sqlite";
 };
 
-TEST_F(SpoolTest, ThePlanIsTheCampaign) {
+TEST_F(SpoolTest, PlanContainsTheCampaign) {
   ASSERT_TRUE(Spool::Make(folder_, FourRuns()));
   const auto spool = Spool::Open(folder_);
   ASSERT_TRUE(spool) << spool.error().Sentence();
@@ -105,7 +105,7 @@ TEST_F(SpoolTest, AJournalIsReadWhileItGrowsAndATornLineIsIgnored) {
   EXPECT_EQ(results->front().metrics, Result(2).metrics);
   EXPECT_EQ(results->front().wall_time, 0.25);
   EXPECT_TRUE(reader.open_runs().empty());
-  // A killed task, a full disk, or the caches of two machines leave such files.
+  // A killed task, a full disk, or the caches of two machines may leave such files.
   ASSERT_TRUE((*journal)->Add(Result(3)));
   ASSERT_EQ(spool->Collect()->size(), 1u);
   const std::string whole = text(reader.file());
@@ -123,7 +123,7 @@ TEST_F(SpoolTest, AJournalIsReadWhileItGrowsAndATornLineIsIgnored) {
   EXPECT_EQ(spool->Collect()->size(), 1u);
 }
 
-TEST_F(SpoolTest, ARunThatSeveralAttemptsDidCountsOnce) {
+TEST_F(SpoolTest, RunOfSeveralAttemptsCountsOnce) {
   auto spool = Spool::Make(folder_, FourRuns());
   auto results = Results::OpenToAdd(results_file_, FourRuns());
   ASSERT_TRUE(spool && results);
@@ -135,7 +135,7 @@ TEST_F(SpoolTest, ARunThatSeveralAttemptsDidCountsOnce) {
     ASSERT_TRUE((*journal)->End());
   }
   ASSERT_TRUE(Gather(*spool, **results));
-  // A later reader finds the same results and adds nothing.
+  // A later reader finds the same results, and Gather() adds nothing.
   auto later = Spool::Open(folder_);
   ASSERT_TRUE(Gather(*later, **results));
   EXPECT_THAT(*(*results)->DoneRuns(), ElementsAre(0, 1));
@@ -147,8 +147,9 @@ TEST_F(SpoolTest, ARunThatSeveralAttemptsDidCountsOnce) {
 }
 
 TEST(QueueCostTest, WaitsOverheadAndGapsAddUp) {
-  // Two slots: a from 2 to 6 and c from 7 to 10 in one, b from 3 to 10 in the other; b was
-  // requeued, and its first attempt, from 3 to 4, leaves a second one from 5 to 10.
+  // There are two slots. One executes "a" from 2 to 6 and "c" from 7 to 10. The other executes "b"
+  // from 3 to 10; "b" was requeued, so it has a first attempt from 3 to 4 and a second one from 5
+  // to 10.
   const auto attempt = [](const char* share, const char* node, double started, double ended,
                           double run_seconds) {
     Attempt made{"", share, "17", node};
@@ -164,7 +165,7 @@ TEST(QueueCostTest, WaitsOverheadAndGapsAddUp) {
   EXPECT_EQ(cost->requeued, 1u);
   EXPECT_EQ(cost->nodes, 2u);
   EXPECT_EQ(cost->slots, 2u);
-  EXPECT_EQ(cost->mean_wait, 4);  // 2, 3, 7
+  EXPECT_EQ(cost->mean_wait, 4);  // the mean of 2, 3 and 7
   EXPECT_EQ(cost->max_wait, 7);
   EXPECT_EQ(cost->run_seconds, 9.5);
   EXPECT_EQ(cost->task_seconds, 13);

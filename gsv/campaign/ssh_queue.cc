@@ -1,11 +1,11 @@
-// The engine `ssh`: a list of hosts, each with a number of slots, on which the program `ssh` starts
-// tasks. The hosts see the campaign's folder under the same path as this machine.
+// The engine `ssh`. It has a list of hosts, each with a number of slots, and starts tasks on them
+// with the program `ssh`. The hosts see the campaign's folder under the same path as this machine.
 //
-// The queue is in the driver, which keeps tasks that wait for a slot. A running task ends with its
-// connection, because its stdin closes. A host has failed if it is unreachable, or if a task ends
-// there before its journal exists. Its task goes to another host, and the host rests for a while,
-// longer after each failure. A task that ends later without success is dropped, and the driver
-// submits the rest of its runs again.
+// The queue is in the driver, which keeps the tasks that wait for a slot. A running task ends with
+// its connection, because its stdin closes. A host has failed if it is unreachable, or if a task
+// ends there before its journal exists. Its task goes to another host. The host is paused for a
+// while, longer after each failure. A task that ends later without success is dropped, and the
+// driver submits the rest of its runs again.
 #include <algorithm>
 #include <charconv>
 #include <deque>
@@ -25,22 +25,25 @@ using std::chrono::seconds;
 
 constexpr int kMaxSlots = 256;
 constexpr std::size_t kMaxHosts = 1000;
-constexpr std::size_t kTasksPerSlot = 8;   // so that all slots end at about the same time
-constexpr std::size_t kMaxConnecting = 8;  // to one host: sshd drops more (MaxStartups 10)
-constexpr int kMaxFailures = 3;            // in a row on every host; then no host is left
+// many small tasks, so that all slots end at about the same time
+constexpr std::size_t kTasksPerSlot = 8;
+// connections to one host; sshd drops more (MaxStartups 10)
+constexpr std::size_t kMaxConnecting = 8;
+// consecutive failures of every host after which the queue gives up
+constexpr int kMaxFailures = 3;
 constexpr seconds kFirstRest{5}, kMaxRest{60};
-constexpr seconds kStartPatience{60};  // from the start of ssh to the begin of the task
-constexpr seconds kEndPatience{60};    // beyond the time that the task's runs may take
+constexpr seconds kStartTimeout{60};  // time limit from the start of ssh to the begin of the task
+constexpr seconds kEndMargin{60};     // added to the time that the task's runs may take
 
 struct SshOptions {
   struct Host {
-    std::string name;  // as ssh takes it: HOST, USER@HOST or an alias
+    std::string name;  // in the form that ssh takes: HOST, USER@HOST or an alias
     std::size_t slots = 1;
   };
   std::vector<Host> hosts;
   std::string ssh = "ssh";
   std::vector<std::string> options;
-  std::string program;  // path of gsv on the hosts; empty: as here
+  std::string program;  // path of gsv on the hosts; empty for the path on this machine
 };
 
 class SshQueue final : public JobQueue {
@@ -62,8 +65,8 @@ class SshQueue final : public JobQueue {
       const auto runs = static_cast<double>(batch.RunsOf(task).size());
       waiting_.push_back({batch.name, batch.ShareOf(task), std::to_string(task),
                           spool.FileOf(batch), spool.LogOf(batch, std::to_string(task)),
-                          kEndPatience + std::chrono::ceil<seconds>(
-                                             std::chrono::duration<double>(runs * batch.timeout))});
+                          kEndMargin + std::chrono::ceil<seconds>(
+                                           std::chrono::duration<double>(runs * batch.timeout))});
     }
     return batch.name;
   }
@@ -75,7 +78,7 @@ class SshQueue final : public JobQueue {
       std::string reasons;
       for (const Host& host : hosts_) {
         if (reasons.size() < 1000)
-          reasons += fmt::format("; {}: {}", host.settings.name, host.complaint);
+          reasons += fmt::format("; {}: {}", host.settings.name, host.reason);
       }
       return base::Fail(
           base::ErrorCode::kNotFound,
@@ -90,15 +93,15 @@ class SshQueue final : public JobQueue {
  private:
   struct Host {
     SshOptions::Host settings;
-    std::size_t running = 0, connecting = 0;  // tasks; those that have not begun
-    int failures = 0;                         // in a row
+    std::size_t running = 0, connecting = 0;  // number of tasks, and of those that have not begun
+    int failures = 0;                         // consecutive failures
     SshClock::time_point rests_until{};
-    std::string complaint;
+    std::string reason;
   };
   struct Task {
     std::string job, share, number;
     std::string batch_file, log;
-    seconds patience;  // from its begin
+    seconds time_limit;  // from its begin
   };
   struct Running {
     Task task;
@@ -110,7 +113,7 @@ class SshQueue final : public JobQueue {
 
   void TakeEnded() {
     for (auto running = running_.begin(); running != running_.end();) {
-      // Always reads the output: a program whose output is not read would block.
+      // Reads the output in every case, because a program would block if its output were not read.
       const std::string output = running->program->Output();
       if (!running->has_begun && output.find(kTaskBegins) != std::string::npos) Begin(*running);
       std::string ending = running->program->Ending();
@@ -126,7 +129,7 @@ class SshQueue final : public JobQueue {
 
   void Begin(Running& running) {
     running.has_begun = true;
-    running.give_up = context_.now() + running.task.patience;
+    running.give_up = context_.now() + running.task.time_limit;
     --running.host->connecting;
     running.host->failures = 0;
   }
@@ -143,20 +146,20 @@ class SshQueue final : public JobQueue {
       return;
     }
     const std::string last = LastLine(output);
-    const bool is_lost = !running.has_begun || ending == "exit code 255";  // ssh itself failed
+    const bool is_lost = !running.has_begun || ending == "exit code 255";  // ssh itself has failed
     if (is_lost) Fail(host, last.empty() ? ending : last);
     if (!running.has_begun) waiting_.push_back(std::move(running.task));
   }
 
-  // All tasks of a host fail together; they count as one failure.
-  void Fail(Host& host, const std::string& complaint) {
-    host.complaint = complaint;
+  // All tasks of a host fail together, and count as one failure.
+  void Fail(Host& host, const std::string& reason) {
+    host.reason = reason;
     if (context_.now() < host.rests_until) return;
     const auto rest = std::min(kMaxRest, kFirstRest * (1 << std::min(host.failures, 5)));
     ++host.failures;
     host.rests_until = context_.now() + rest;
     context_.say(fmt::format("host {} failed: {}; it gets no tasks for {} s", host.settings.name,
-                             complaint, rest.count()));
+                             reason, rest.count()));
   }
 
   void StartWaiting() {
@@ -169,7 +172,7 @@ class SshQueue final : public JobQueue {
     }
   }
 
-  // A host that has failed gets one task at first.
+  // A host that has failed gets only one task at first.
   std::size_t FreeSlots(const Host& host) const {
     if (context_.now() < host.rests_until || host.connecting >= kMaxConnecting) return 0;
     const std::size_t slots = host.failures > 0 ? 1 : host.settings.slots;
@@ -187,10 +190,11 @@ class SshQueue final : public JobQueue {
     ++host.running;
     ++host.connecting;
     running_.push_back(
-        {std::move(task), &host, *std::move(program), context_.now() + kStartPatience});
+        {std::move(task), &host, *std::move(program), context_.now() + kStartTimeout});
   }
 
-  // ssh uses the first value it finds for a setting: the user's options come before these defaults.
+  // ssh uses the first value that it finds for a setting, so the user's options come before these
+  // defaults.
   std::vector<std::string> CommandFor(const Task& task, const std::string& host) const {
     std::vector<std::string> command{options_.ssh};
     command.insert(command.end(), options_.options.begin(), options_.options.end());
@@ -220,7 +224,7 @@ class SshQueue final : public JobQueue {
   std::list<Running> running_;
 };
 
-// "HOST" or "HOST:SLOTS", as for mpirun.
+// Parses "HOST" or "HOST:SLOTS", as mpirun does.
 std::optional<SshOptions::Host> HostIn(const std::string& text) {
   SshOptions::Host host;
   const std::size_t colon = text.find(':');

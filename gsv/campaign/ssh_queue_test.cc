@@ -1,4 +1,4 @@
-// The engine `ssh`, with an ssh and a clock that the test controls.
+// Tests the engine `ssh` with an ssh and a clock that the test controls.
 #include <fstream>
 #include <sstream>
 
@@ -17,7 +17,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// One started ssh. The test may use it even after the queue has dropped it.
+// An ssh process that was started. The test may use it even after the queue has dropped it.
 struct Session {
   std::vector<std::string> command;
   std::string output, ending;
@@ -68,7 +68,7 @@ class SshQueueTest : public ::testing::Test {
                                 [this](const std::string& text) { said_.push_back(text); },
                                 [this] { return now_; }});
   }
-  // One task per run.
+  // Submits a batch with one task per run.
   void Submit(std::size_t tasks) {
     Batch batch;
     batch.name = "gsv-x-1";
@@ -79,8 +79,8 @@ class SshQueueTest : public ::testing::Test {
     ASSERT_TRUE(job);
     EXPECT_EQ(*job, batch.name);
   }
-  // Queries the queue. Returns its tasks as "0:RUNNING", by their numbers, or the error.
-  std::vector<std::string> Look() {
+  // Queries the queue. Returns its tasks as "0:RUNNING", ordered by number, or the error.
+  std::vector<std::string> QueryTasks() {
     const auto tasks = queue_->TasksOf({});
     if (!tasks) return {tasks.error().Sentence()};
     std::vector<std::string> states;
@@ -111,7 +111,7 @@ class SshQueueTest : public ::testing::Test {
 TEST_F(SshQueueTest, ATaskIsOneCommandOverSsh) {
   MakeQueue("{hosts: ['me@n1:2'], program: /opt/ssh, options: [-p, '2222'], gsv: /opt/gsv}");
   Submit(1);
-  EXPECT_THAT(Look(), ElementsAre("0:RUNNING"));
+  EXPECT_THAT(QueryTasks(), ElementsAre("0:RUNNING"));
   const std::string folder = temporary_.path() / "c.runs";
   EXPECT_THAT(
       session(0).command,
@@ -124,87 +124,88 @@ TEST_F(SshQueueTest, ATaskIsOneCommandOverSsh) {
 
 TEST_F(SshQueueTest, TasksFillTheSlotsEvenlyAndTheRestWaits) {
   MakeQueue("{hosts: [n1, 'n2:2']}");
-  EXPECT_EQ(*queue_->MaxTasks(), 24u);  // eight per slot
+  EXPECT_EQ(*queue_->MaxTasks(), 24u);  // eight tasks per slot
   Submit(5);
-  EXPECT_THAT(Look(), ElementsAre("0:RUNNING", "1:RUNNING", "2:RUNNING", "3:PENDING", "4:PENDING"));
+  EXPECT_THAT(QueryTasks(),
+              ElementsAre("0:RUNNING", "1:RUNNING", "2:RUNNING", "3:PENDING", "4:PENDING"));
   EXPECT_THAT(Hosts(), ElementsAre("n2", "n1", "n2"));
   session(1).Begin();
   session(1).End("exit code 0");
-  EXPECT_THAT(Look(), ElementsAre("0:RUNNING", "2:RUNNING", "3:RUNNING", "4:PENDING"));
+  EXPECT_THAT(QueryTasks(), ElementsAre("0:RUNNING", "2:RUNNING", "3:RUNNING", "4:PENDING"));
   EXPECT_THAT(Hosts(), ElementsAre("n2", "n1", "n2", "n1"));
 }
 
 TEST_F(SshQueueTest, AtMostEightTasksPerHostConnectAtOnce) {
   MakeQueue("{hosts: ['n1:20']}");
   Submit(20);
-  Look();
+  QueryTasks();
   EXPECT_EQ(ssh_.sessions.size(), 8u);
   for (int i = 0; i < 8; ++i) session(static_cast<std::size_t>(i)).Begin();
-  Look();
+  QueryTasks();
   EXPECT_EQ(ssh_.sessions.size(), 16u);
 }
 
 TEST_F(SshQueueTest, TasksOfAHostThatCannotBeReachedGoToAnother) {
   MakeQueue("{hosts: ['n1:2', 'n2:2']}");
   Submit(4);
-  Look();
+  QueryTasks();
   EXPECT_THAT(Hosts(), ElementsAre("n1", "n2", "n1", "n2"));
   for (const int i : {0, 2})
     session(static_cast<std::size_t>(i))
         .End("exit code 255", "ssh: connect to host n1 port 22: Connection refused\r\n");
   for (const int i : {1, 3}) session(static_cast<std::size_t>(i)).Begin();
-  EXPECT_THAT(Look(), ElementsAre("0:PENDING", "1:RUNNING", "2:PENDING", "3:RUNNING"));
+  EXPECT_THAT(QueryTasks(), ElementsAre("0:PENDING", "1:RUNNING", "2:PENDING", "3:RUNNING"));
   EXPECT_THAT(said_, ElementsAre("host n1 failed: ssh: connect to host n1 port 22: Connection "
                                  "refused; it gets no tasks for 5 s"));
   session(1).End("exit code 0");
-  EXPECT_THAT(Look(), ElementsAre("0:RUNNING", "2:PENDING", "3:RUNNING"));
+  EXPECT_THAT(QueryTasks(), ElementsAre("0:RUNNING", "2:PENDING", "3:RUNNING"));
   EXPECT_EQ(Hosts().back(), "n2");
-  // After its pause the host gets one task, and tasks for all slots once that has begun.
+  // After its pause the host gets one task. It gets tasks for all slots once that task has begun.
   now_ += seconds(5);
-  EXPECT_THAT(Look(), ElementsAre("0:RUNNING", "2:RUNNING", "3:RUNNING"));
+  EXPECT_THAT(QueryTasks(), ElementsAre("0:RUNNING", "2:RUNNING", "3:RUNNING"));
   EXPECT_EQ(Hosts().back(), "n1");
   Batch more;
   more.number = 2;
   more.runs = {7, 8};
   ASSERT_TRUE(queue_->Submit(spool_, more));
-  Look();
+  QueryTasks();
   EXPECT_EQ(ssh_.sessions.size(), 6u);
   session(5).Begin();
-  Look();
+  QueryTasks();
   EXPECT_EQ(ssh_.sessions.size(), 7u);
 }
 
-TEST_F(SshQueueTest, AHostOnWhichNoTaskBeginsIsPausedLongerEachTime) {
+TEST_F(SshQueueTest, FailingHostIsPausedLongerEachTime) {
   MakeQueue("{hosts: [n1, n2]}");
   Submit(2);
-  Look();
-  session(0).Begin();  // n1 continues to work
+  QueryTasks();
+  session(0).Begin();  // the host n1 continues to work
   for (const int rest : {5, 10, 20, 40, 60}) {
     ASSERT_EQ(Hosts().back(), "n2");
     ssh_.sessions.back()->End("exit code 127", "sh: 1: exec: /usr/bin/gsv: not found\n");
-    Look();
+    QueryTasks();
     EXPECT_THAT(said_.back(), HasSubstr("gets no tasks for " + std::to_string(rest) + " s"));
     now_ += seconds(rest) - std::chrono::milliseconds(1);
     const std::size_t before = ssh_.sessions.size();
-    Look();
+    QueryTasks();
     EXPECT_EQ(ssh_.sessions.size(), before);
     now_ += std::chrono::milliseconds(1);
-    Look();
+    QueryTasks();
     EXPECT_EQ(ssh_.sessions.size(), before + 1);
   }
 }
 
-TEST_F(SshQueueTest, IfNoHostAcceptsATaskItEndsWithTheErrorOfEach) {
+TEST_F(SshQueueTest, FailsWithTheErrorOfEachHostIfNoHostAcceptsATask) {
   MakeQueue("{hosts: [n1, n2]}");
   Submit(1);
   for (int failure = 0; failure < 6; ++failure) {
-    EXPECT_THAT(Look(), ElementsAre("0:RUNNING")) << failure;
+    EXPECT_THAT(QueryTasks(), ElementsAre("0:RUNNING")) << failure;
     ssh_.sessions.back()->End("exit code 255", "Permission denied (publickey).\n");
-    const auto after = Look();
+    const auto after = QueryTasks();
     if (failure < 5 && after.front() == "0:PENDING") now_ += seconds(60);
   }
   EXPECT_THAT(
-      Look(),
+      QueryTasks(),
       ElementsAre("ssh: no host accepts a task; n1: Permission denied (publickey).; n2: "
                   "Permission denied (publickey).; run the same command again to continue"));
   EXPECT_EQ(queue_->TasksOf({}).error().code, base::ErrorCode::kNotFound);
@@ -213,10 +214,11 @@ TEST_F(SshQueueTest, IfNoHostAcceptsATaskItEndsWithTheErrorOfEach) {
 TEST_F(SshQueueTest, ABrokenConnectionLosesTheTaskAndPausesTheHost) {
   MakeQueue("{hosts: [n1]}");
   Submit(2);
-  Look();
+  QueryTasks();
   session(0).Begin();
   session(0).End("exit code 255", "Timeout, server n1 not responding.\n");
-  EXPECT_THAT(Look(), ElementsAre("1:PENDING")) << "the driver hands out what is left of task 0";
+  EXPECT_THAT(QueryTasks(), ElementsAre("1:PENDING"))
+      << "the driver hands out what is left of task 0";
   EXPECT_THAT(said_.back(), HasSubstr("host n1 failed: Timeout, server n1 not responding."));
   std::ostringstream log;
   log << std::ifstream(temporary_.path() / "c.runs/logs/gsv-x-1-0.log").rdbuf();
@@ -226,22 +228,22 @@ TEST_F(SshQueueTest, ABrokenConnectionLosesTheTaskAndPausesTheHost) {
 TEST_F(SshQueueTest, AKilledTaskIsLostAndItsHostContinues) {
   MakeQueue("{hosts: [n1]}");
   Submit(2);
-  Look();
+  QueryTasks();
   session(0).Begin();
   session(0).End("exit code 137", "Killed\n");
-  EXPECT_THAT(Look(), ElementsAre("1:RUNNING"));
+  EXPECT_THAT(QueryTasks(), ElementsAre("1:RUNNING"));
   EXPECT_THAT(said_, IsEmpty());
 }
 
-TEST_F(SshQueueTest, ATaskThatDoesNotBeginInTimeFailsItsHost) {
+TEST_F(SshQueueTest, TaskThatDoesNotBeginInTimeFailsItsHost) {
   MakeQueue("{hosts: [n1, n2]}");
   Submit(1);
-  Look();
+  QueryTasks();
   now_ += seconds(59);
-  EXPECT_THAT(Look(), ElementsAre("0:RUNNING"));
+  EXPECT_THAT(QueryTasks(), ElementsAre("0:RUNNING"));
   EXPECT_EQ(ssh_.sessions.size(), 1u);
   now_ += seconds(1);
-  EXPECT_THAT(Look(), ElementsAre("0:RUNNING"));
+  EXPECT_THAT(QueryTasks(), ElementsAre("0:RUNNING"));
   EXPECT_TRUE(session(0).is_killed);
   EXPECT_THAT(Hosts(), ElementsAre("n1", "n2"));
   EXPECT_THAT(said_, ElementsAre(HasSubstr("host n1 failed: no response in time")));
@@ -250,20 +252,20 @@ TEST_F(SshQueueTest, ATaskThatDoesNotBeginInTimeFailsItsHost) {
 TEST_F(SshQueueTest, ATaskThatExceedsTheTimeOfItsRunsIsEnded) {
   MakeQueue("{hosts: [n1]}");
   Submit(1);
-  Look();
+  QueryTasks();
   session(0).Begin();
-  Look();
-  now_ += seconds(159);  // 100 s for its run, 60 s beyond that
-  EXPECT_THAT(Look(), ElementsAre("0:RUNNING"));
+  QueryTasks();
+  now_ += seconds(159);  // the limit is 100 s for its run and 60 s more
+  EXPECT_THAT(QueryTasks(), ElementsAre("0:RUNNING"));
   now_ += seconds(1);
-  EXPECT_THAT(Look(), IsEmpty());
+  EXPECT_THAT(QueryTasks(), IsEmpty());
   EXPECT_TRUE(session(0).is_killed);
 }
 
 TEST_F(SshQueueTest, EveryTaskEndsWithTheQueue) {
   MakeQueue("{hosts: ['n1:2']}");
   Submit(2);
-  Look();
+  QueryTasks();
   session(0).Begin();
   queue_.reset();
   EXPECT_TRUE(session(0).is_killed);

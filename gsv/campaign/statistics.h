@@ -10,11 +10,11 @@ struct Interval {
   double middle = 0, low = 0, high = 0;
 };
 
-// The fraction of passed runs with its 95 % interval (E. B. Wilson, 1927). Without runs the
-// interval is 0 to 1.
+// The fraction of passed runs with its 95 % interval (E. B. Wilson, 1927). If there are no runs,
+// the interval is 0 to 1.
 Interval PassRate(std::size_t passed, std::size_t runs);
 
-// The mean with its 95 % interval by Student's t. For less than two numbers the interval has width
+// The mean with its 95 % interval by Student's t. The interval of fewer than two numbers has width
 // 0.
 Interval Mean(const std::vector<double>& numbers);
 

@@ -21,7 +21,7 @@ Shape RightTriangle() {
   return Mesh{mesh, {2, 2, 2}};
 }
 
-TEST(Distance, IsThatToTheNearestPointOfTheSurface) {
+TEST(Distance, IsMeasuredToTheNearestPointOfTheSurface) {
   const double root = std::sqrt(2.0);
   const Case cases[] = {
       {"box, before a face", Box{{2, 4, 6}}, {3, 0, 0}, 2},

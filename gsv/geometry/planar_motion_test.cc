@@ -9,7 +9,7 @@
 namespace gsv::geometry {
 namespace {
 
-TEST(SineCosine, IsThatOfTheLibraryToTheLastBits) {
+TEST(SineCosine, AgreesWithTheLibraryToTheLastBits) {
   std::mt19937_64 random(1);
   for (const double largest : {1e-12, 1e-3, 0.125, 0.126, 10.0}) {
     std::uniform_real_distribution<double> angles(-largest, largest);
@@ -25,7 +25,7 @@ TEST(SineCosine, IsThatOfTheLibraryToTheLastBits) {
   EXPECT_EQ(SineCosine(0).cosine, 1);
 }
 
-TEST(PlanarMotion, AQuarterCircleEndsWhereGeometrySays) {
+TEST(PlanarMotion, QuarterCircleEndsAtItsClosedForm) {
   for (const int pieces : {1, 3, 10, 10'000}) {
     PlanarPosition at;
     for (int i = 0; i < pieces; ++i) at = Advance(at, {kPi / 2, 0, kPi / 2}, 1.0 / pieces);
@@ -36,13 +36,13 @@ TEST(PlanarMotion, AQuarterCircleEndsWhereGeometrySays) {
   }
 }
 
-TEST(PlanarMotion, ATinyTurnIsNearlyStraight) {
+TEST(PlanarMotion, SmallTurnIsNearlyStraight) {
   const PlanarPosition at = Advance({}, {1, 0, 1e-9}, 1);
   EXPECT_NEAR(at.x, 1, 1e-15);
   EXPECT_NEAR(at.y, 5e-10, 1e-18);
 }
 
-TEST(PlanarPosition, NormalizeTakesRoundingAway) {
+TEST(PlanarPosition, NormalizeRemovesRoundingErrors) {
   PlanarPosition at{0, 0, 0.6 * (1 + 1e-9), 0.8 * (1 + 1e-9)};
   at.Normalize();
   EXPECT_NEAR(at.cosine, 0.6, 1e-15);

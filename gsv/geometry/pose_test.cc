@@ -24,7 +24,7 @@ TEST(Quaternion, RollPitchYawTurnsAboutTheFixedAxesInThatOrder) {
   ExpectNear(q * Vector3{1, 0, 0}, {0, 1, 0});
 }
 
-TEST(Quaternion, RollPitchYawComesBack) {
+TEST(Quaternion, RollPitchYawIsRecovered) {
   for (const double roll : {-3.0, -0.4, 0.0, 1.1}) {
     for (const double pitch : {-1.5, 0.0, 0.7}) {
       for (const double yaw : {-2.0, 0.0, 3.1}) {
@@ -37,7 +37,7 @@ TEST(Quaternion, RollPitchYawComesBack) {
   }
 }
 
-TEST(Quaternion, AtGimbalLockTheRotationStillComesBack) {
+TEST(Quaternion, RotationIsRecoveredAtGimbalLock) {
   const Quaternion q = FromRollPitchYaw({0.3, kPi / 2, 0.5});
   const RollPitchYaw angles = ToRollPitchYaw(q);
   EXPECT_EQ(angles.roll, 0.0);

@@ -92,7 +92,7 @@ TEST(Tessellate, SolidsAreClosedAndWoundOutward) {
   }
 }
 
-TEST(Tessellate, AreaAndVolumeConvergeToTheTrueOnesWithTheSquareOfTheSegments) {
+TEST(Tessellate, AreaAndVolumeConvergeQuadratically) {
   for (const Solid& solid : Solids()) {
     SCOPED_TRACE(solid.name);
     for (const int segments : {32, 128}) {
@@ -151,7 +151,7 @@ TEST(Tessellate, EveryFaceOfABoxShowsTheWholeTextureUpright) {
   }
 }
 
-TEST(Tessellate, APlaneIsARectangleThatFacesItsNormal) {
+TEST(Tessellate, PlaneIsARectangleThatFacesItsNormal) {
   for (const Vector3& normal :
        {Vector3{0, 0, 1}, Vector3{0, 0, -1}, Vector3{1, 0, 0}, Vector3{0.6, 0, -0.8}}) {
     const TriangleMesh mesh = Tessellate(Plane{normal, {2, 3}});
@@ -164,7 +164,7 @@ TEST(Tessellate, APlaneIsARectangleThatFacesItsNormal) {
   EXPECT_NEAR(BoundsOf(Shape(Plane{{1, 0, 0}, {2, 3}})).max.z, 1, 1e-12);
 }
 
-TEST(Tessellate, AMirroredMeshStillFacesOutward) {
+TEST(Tessellate, MirroredMeshFacesOutward) {
   const auto box = std::make_shared<const TriangleMesh>(Tessellate(Box{{1, 1, 1}}));
   const TriangleMesh mirrored = Tessellate(Mesh{box, {-2, 3, 1}});
   EXPECT_NEAR(Volume(mirrored), 6, 1e-12);
@@ -182,7 +182,7 @@ TEST(Tessellate, NormalsOfAStretchedMeshStayPerpendicular) {
   }
 }
 
-TEST(BoundsOf, HoldsTheTessellationTightly) {
+TEST(BoundsOf, EnclosesTheTessellationTightly) {
   for (const Solid& solid : Solids()) {
     SCOPED_TRACE(solid.name);
     // With a multiple of four segments the extreme points of every axis are vertices.
@@ -201,7 +201,7 @@ TEST(BoundsOf, OfAMirroredMeshIsOrdered) {
   EXPECT_EQ(bounds.max, (Vector3{0, 2, 6}));
 }
 
-TEST(CornersOf, AreAllChoicesOfTwoEndsAlongEachAxis) {
+TEST(CornersOf, ReturnsAllEightCorners) {
   const Bounds box{{1, 2, 3}, {4, 5, 6}};
   std::set<std::tuple<double, double, double>> expected, found;
   for (const double x : {1, 4}) {

@@ -25,7 +25,7 @@ void ExpectNear(const SolidMoments& a, const SolidMoments& b, double relative) {
   }
 }
 
-TEST(SolidMoments, OfABoxAreThoseOfTextbooks) {
+TEST(SolidMoments, OfABoxEqualTheClosedForm) {
   const SolidMoments moments = MomentsOf(Box{{1, 2, 3}});
   EXPECT_DOUBLE_EQ(moments.volume, 6);
   EXPECT_DOUBLE_EQ(moments.xx, 0.5);
@@ -33,13 +33,13 @@ TEST(SolidMoments, OfABoxAreThoseOfTextbooks) {
   EXPECT_DOUBLE_EQ(moments.zz, 4.5);
 }
 
-TEST(SolidMoments, OfAMeshOfABoxAreThoseOfTheBoxWhereverItLies) {
+TEST(SolidMoments, OfABoxMeshEqualThoseOfTheBoxAtAnyPlace) {
   SolidMoments expected = MomentsOf(Box{{1, 2, 3}});
   expected.centroid = {100, -20, 7};
   ExpectNear(MomentsOf(MeshOf(Box{{1, 2, 3}}, 3, {100, -20, 7})), expected, 1e-9);
 }
 
-TEST(SolidMoments, OfAMirroredMeshAreThoseOfItsMirrorImage) {
+TEST(SolidMoments, OfAMirroredMeshEqualThoseOfItsMirrorImage) {
   Mesh mesh = MeshOf(Box{{1, 2, 3}}, 3, {1, 0, 0});
   mesh.scale = {-2, 1, 1};
   SolidMoments expected = MomentsOf(Box{{2, 2, 3}});
@@ -48,7 +48,7 @@ TEST(SolidMoments, OfAMirroredMeshAreThoseOfItsMirrorImage) {
 }
 
 // Fine meshes of round shapes are close to the closed forms.
-TEST(SolidMoments, OfRoundShapesAreThoseOfTheirMeshes) {
+TEST(SolidMoments, OfRoundShapesEqualThoseOfTheirMeshes) {
   for (const Shape& shape : {Shape(Sphere{0.7}), Shape(Cylinder{0.5, 2}), Shape(Capsule{0.4, 1}),
                              Shape(Ellipsoid{{0.3, 0.5, 0.8}}), Shape(Cone{0.6, 1.5})}) {
     ExpectNear(MomentsOf(shape), MomentsOf(MeshOf(shape, 256)), 1e-3);
@@ -75,19 +75,19 @@ TEST(BelowHeight, CutsATurnedCubeAtTheSurface) {
   EXPECT_NEAR(below.first_moment.z / below.volume, -std::sqrt(0.5) / 3, 1e-12);
 }
 
-TEST(BelowHeight, IsNothingAboveAndAllBelow) {
+TEST(BelowHeight, IsEmptyAboveTheSurfaceAndCompleteBelow) {
   const Mesh box = MeshOf(Box{{1, 2, 3}});
   EXPECT_EQ(BelowHeight(*box.triangles, {{0, 0, 10}, {}}, 0).volume, 0);
   EXPECT_NEAR(BelowHeight(*box.triangles, {{0, 0, -10}, {}}, 0).volume, 6, 1e-12);
 }
 
-TEST(SphereBelowHeight, IsHalfTheSphereAtItsMiddle) {
+TEST(SphereBelowHeight, IsHalfTheSphereAtItsCentre) {
   const VolumeBelow half = SphereBelowHeight(2, {1, 2, 3}, 3);
   EXPECT_NEAR(half.volume, 2 * pi / 3 * 8, 1e-12);
   EXPECT_NEAR(half.first_moment.z / half.volume, 3 - 3.0 / 8 * 2, 1e-12);
 }
 
-TEST(SphereBelowHeight, IsNothingAboveAndAllBelow) {
+TEST(SphereBelowHeight, IsEmptyAboveTheSurfaceAndCompleteBelow) {
   EXPECT_EQ(SphereBelowHeight(1, {0, 0, 2}, 0).volume, 0);
   EXPECT_NEAR(SphereBelowHeight(1, {0, 0, -2}, 0).volume, 4 * pi / 3, 1e-12);
 }

@@ -1,4 +1,5 @@
-// A behaviour in process that does not return cannot be interrupted. No thread may wait for it.
+// A behaviour in this process that does not return cannot be interrupted. The tests check that no
+// thread waits for it.
 #include <future>
 
 #include "gsv/hosting/hosted_behaviour.h"
@@ -55,11 +56,11 @@ class EndlessTurn : public ::testing::TestWithParam<Mode> {
 
  protected:
   void AddRobots(const EndlessBehaviour::Body& body) {
-    for (int i = 0; i < 40; ++i) {  // enough for several threads to share the turns
+    for (int i = 0; i < 40; ++i) {  // enough robots that several threads take turns
       const std::string name = "robot_" + std::to_string(i);
       const int column = i % 10, row = i / 10;
       auto behaviour = HostedEndless("patient", Wait);
-      // The simulation owns it.
+      // The simulation owns the behaviour.
       if (i == 20)
         behaviour = HostedEndless("endless", [body, held = token_](auto& r) { body(r); });
       ASSERT_TRUE(
@@ -122,8 +123,8 @@ TEST_P(EndlessTurn, RequestsThatNeedTheWorldAreRefused) {
   EXPECT_EQ(simulation_->snapshot()->state.time, 100ms);
 }
 
-// A caller that began to wait earlier gets an answer as well.
-TEST_P(EndlessTurn, AResetThatWaitsForItIsRefused) {
+// A caller that began to wait before the simulation was stuck gets an answer as well.
+TEST_P(EndlessTurn, WaitingResetIsRefused) {
   std::promise<void> entered;
   AddRobots([&](gsv::Robot& robot) {
     robot.SleepFor(100ms);
@@ -136,7 +137,7 @@ TEST_P(EndlessTurn, AResetThatWaitsForItIsRefused) {
   EXPECT_FALSE(simulation_->Reset());
 }
 
-TEST_P(EndlessTurn, ItsSimulationIsAbandoned) {
+TEST_P(EndlessTurn, SimulationIsAbandonedWhenDestroyed) {
   GetStuck();
   const int before = Simulation::AbandonedSimulations();
   simulation_.reset();

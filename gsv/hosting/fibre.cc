@@ -10,10 +10,10 @@ namespace {
 
 using Stacks = boost::context::protected_fixedsize_stack;
 
-// Address space; only used pages cost memory. Below the stack is a guard page.
+// Size in the address space; only used pages cost memory. A guard page is below the stack.
 constexpr std::size_t kStackBytes = 256u << 10;
 
-// Leaves the stack after the body has returned, or was unwound.
+// Leaves the stack after the body has returned or was unwound.
 struct Departure {
   SanitizerStack& stack;
   ~Departure() { stack.BeforeLeavingForGood(); }
@@ -54,7 +54,7 @@ void Fibre::Resume() {
 }
 
 void Fibre::Suspend() {
-  // Also entered by an exception, which then unwinds the body.
+  // An exception may also be passed in here; it then unwinds the body.
   struct Arrival {
     SanitizerStack& stack;
     ~Arrival() { stack.AfterEntering(); }

@@ -1,5 +1,5 @@
-// A function with its own stack that can be suspended and resumed later, on any thread (implemented
-// with Boost.Context).
+// A function with its own stack, implemented with Boost.Context. It can be suspended and resumed
+// later, on any thread.
 //
 // Threads  one at a time.
 #pragma once
@@ -16,16 +16,16 @@ namespace gsv::hosting {
 
 class Fibre {
  public:
-  // `body` begins with the first Resume(). It must not throw.
+  // `body` begins at the first Resume(). It must not throw.
   explicit Fibre(std::function<void()> body);
-  // Unwinds a suspended body.
+  // Unwinds the body if it is suspended.
   ~Fibre();
   Fibre(const Fibre&) = delete;
   Fibre& operator=(const Fibre&) = delete;
 
-  // Called from outside: runs the body until it suspends itself or returns.
+  // Called from outside. Runs the body until it suspends itself or returns.
   void Resume();
-  // Called from the body: returns to the caller of Resume().
+  // Called from the body. Returns to the caller of Resume().
   void Suspend();
 
   bool has_ended() const { return has_ended_; }

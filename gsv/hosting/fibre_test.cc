@@ -42,7 +42,7 @@ TEST(Fibre, CanBeResumedOnAnotherThread) {
   EXPECT_EQ(sum, 55);
 }
 
-TEST(Fibre, UnwindsItsStackWhenItIsAbandoned) {
+TEST(Fibre, UnwindsItsStackWhenItIsDestroyed) {
   auto held = std::make_shared<int>(1);
   {
     Fibre* self = nullptr;

@@ -84,7 +84,7 @@ void HostedBehaviour::TakeTurn(simulation::Turn& turn) {
   robot_->SetTurn(nullptr);
 }
 
-// The part of Controller::Run() between two waits.
+// Takes a controller's turn, which is the part of Controller::Run() between two waits.
 void HostedBehaviour::Control(simulation::Turn& turn) {
   DriveCommand command;
   if (!next_) {

@@ -1,8 +1,8 @@
-// A gsv::Behaviour in this process, which drives one robot of one simulation. The same class runs
-// as a program, with the same result.
+// A gsv::Behaviour in this process that drives one robot of one simulation. The same class also
+// runs as a program, with the same result.
 //
-// The turns of a Controller are plain calls. Any other behaviour has a fibre, which each wait
-// suspends.
+// The turns of a Controller are plain calls. Any other behaviour runs on a fibre, and each wait
+// suspends the fibre.
 #pragma once
 
 #include <atomic>
@@ -37,7 +37,7 @@ class HostedBehaviour final : public simulation::LocalBehaviour {
  private:
   void Run() GSV_REQUIRES(mutex_);
   void Control(simulation::Turn& turn) GSV_REQUIRES(mutex_);
-  void EndTurn(simulation::Turn& turn) GSV_REQUIRES(mutex_);  // after the last turn
+  void EndTurn(simulation::Turn& turn) GSV_REQUIRES(mutex_);  // Called after the last turn.
   // Ends the run, so that the behaviour returns.
   void EndRun() GSV_REQUIRES(mutex_);
   base::Status Guarded(const char* what, const std::function<base::Status()>& call);
@@ -50,12 +50,14 @@ class HostedBehaviour final : public simulation::LocalBehaviour {
   std::unique_ptr<Behaviour> behaviour_ GSV_GUARDED_BY(mutex_);
   std::unique_ptr<LocalRobot> robot_ GSV_GUARDED_BY(mutex_);
   std::atomic<simulation::ClockId> clock_ = 0;
-  std::unique_ptr<Fibre> fibre_ GSV_GUARDED_BY(mutex_);  // of a started behaviour that needs one
-  // Of a started behaviour that needs no fibre.
+  // The fibre of a started behaviour that needs one.
+  std::unique_ptr<Fibre> fibre_ GSV_GUARDED_BY(mutex_);
+  // Set for a started behaviour that needs no fibre.
   Controller* controller_ GSV_GUARDED_BY(mutex_) = nullptr;
-  std::optional<SimTime> next_ GSV_GUARDED_BY(mutex_);  // a controller's next instant
+  std::optional<SimTime> next_ GSV_GUARDED_BY(mutex_);  // the instant of a controller's next turn
   std::vector<Reading> readings_ GSV_GUARDED_BY(mutex_);
-  std::string failure_ GSV_GUARDED_BY(mutex_);  // the error that ended the run, if any
+  // the error that ended the run; empty if there was none
+  std::string failure_ GSV_GUARDED_BY(mutex_);
 };
 
 }  // namespace gsv::hosting

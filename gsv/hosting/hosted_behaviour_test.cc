@@ -17,7 +17,7 @@ using simulation::RunToEnd;
 using simulation::Simulation;
 using simulation::StatusOf;
 
-// A behaviour that calls a function.
+// A behaviour that runs a function of the test.
 class Scripted final : public Behaviour {
  public:
   using Body = std::function<void(gsv::Robot&, Sonar&)>;
@@ -51,7 +51,7 @@ class Approach final : public Controller {
   }
 };
 
-// The same with explicit waits, on a fibre.
+// Approaches like the controller, but with explicit waits and on a fibre.
 void ApproachInALoop(gsv::Robot& robot, Sonar&) {
   std::vector<Reading> readings;
   DriveCommand command;
@@ -76,7 +76,7 @@ std::string HashOfACrowd(
   return crowd->state_hash();
 }
 
-TEST(HostedBehaviour, ReadsAtTheInstantsAtWhichItIsWoken) {
+TEST(HostedBehaviour, ReadsSensorsAtTheInstantsOfItsWakes) {
   auto simulation = simulation::Make(Lockstep(200ms));
   std::vector<double> ranges;
   ASSERT_TRUE(simulation->AddRobot(
@@ -87,13 +87,13 @@ TEST(HostedBehaviour, ReadsAtTheInstantsAtWhichItIsWoken) {
                           } while (robot.SleepFor(50ms));
                         }))));
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
-  // The wall's face is at x = 2.9; at 1 m/s the range decreases by 0.05 m every 50 ms.
+  // The wall's face is at x = 2.9. At 1 m/s, the range decreases by 0.05 m every 50 ms.
   ASSERT_EQ(ranges.size(), 4u);
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(ranges[i], 2.9 - 0.05 * i, 1e-9);
   EXPECT_EQ(StatusOf(*simulation, "robot").readings["sonar"], 4u);
 }
 
-TEST(HostedBehaviour, AControllerEqualsItsLoopOnAFibre) {
+TEST(HostedBehaviour, ControllerEqualsTheSameLoopOnAFibre) {
   const auto as_controller = [](int) {
     return std::make_shared<HostedBehaviour>("approach",
                                              [] { return std::make_unique<Approach>(); });
@@ -102,8 +102,9 @@ TEST(HostedBehaviour, AControllerEqualsItsLoopOnAFibre) {
   EXPECT_EQ(HashOfACrowd(3, 1, as_controller), HashOfACrowd(3, 1, as_loop));
 }
 
-// The same on its own thread, through the calls that a remote behaviour's servants make.
-TEST(HostedBehaviour, HasTheHashOfTheSameRemoteBehaviour) {
+// The other run has the behaviour on its own thread, and uses the calls that the servants of a
+// remote behaviour make.
+TEST(HostedBehaviour, HasTheSameHashAsTheRemoteBehaviour) {
   auto outside = simulation::Make(Lockstep(2s));
   auto behaviour = std::make_shared<simulation::ThreadBehaviour>(
       [](simulation::Agent& agent, simulation::ClockId clock) {
@@ -124,7 +125,7 @@ TEST(HostedBehaviour, HasTheHashOfTheSameRemoteBehaviour) {
   EXPECT_EQ(outside->state_hash(), HashOfACrowd(1, 1, [](int) { return Hosted(ApproachInALoop); }));
 }
 
-TEST(HostedBehaviour, TheNumberOfThreadsDoesNotMatter) {
+TEST(HostedBehaviour, HashDoesNotDependOnTheNumberOfThreads) {
   const auto mixed = [](int robot) {
     return robot % 2 == 0 ? Hosted(ApproachInALoop)
                           : std::make_shared<HostedBehaviour>(
@@ -135,7 +136,7 @@ TEST(HostedBehaviour, TheNumberOfThreadsDoesNotMatter) {
   EXPECT_EQ(HashOfACrowd(60, 7, mixed), hash);
 }
 
-TEST(HostedBehaviour, ACrowdOfControllersIsTheSameOnAnyNumberOfThreads) {
+TEST(HostedBehaviour, HashOfACrowdDoesNotDependOnTheNumberOfThreads) {
   const auto controller = [](int) {
     return std::make_shared<HostedBehaviour>("approach",
                                              [] { return std::make_unique<Approach>(); });
@@ -208,7 +209,7 @@ TEST(HostedBehaviour, ARunAfterAResetEqualsTheFirst) {
   EXPECT_EQ(simulation->state_hash(), first);
 }
 
-TEST(HostedBehaviour, AStopInTheMiddleLetsItReturn) {
+TEST(HostedBehaviour, BehaviourReturnsWhenTheRunIsStopped) {
   std::atomic<bool> has_returned = false;
   auto simulation = simulation::Make(Lockstep(0s));
   ASSERT_TRUE(
@@ -224,7 +225,7 @@ TEST(HostedBehaviour, AStopInTheMiddleLetsItReturn) {
   has_returned.wait(false);
 }
 
-TEST(HostedBehaviour, ABehaviourThatWaitsForThePastAgainAndAgainIsEnded) {
+TEST(HostedBehaviour, BehaviourThatOnlyWaitsForThePastIsEnded) {
   auto specification = Lockstep(100ms);
   specification.deadline = 50ms;
   auto simulation = simulation::Make(specification);
@@ -237,7 +238,7 @@ TEST(HostedBehaviour, ABehaviourThatWaitsForThePastAgainAndAgainIsEnded) {
   EXPECT_EQ(StatusOf(*simulation, "robot").phase, simulation::AgentPhase::kUnresponsive);
 }
 
-// A slow sensor, like a camera: its reading is the simulated time in milliseconds.
+// A slow sensor, such as a camera. Its reading is the simulated time in milliseconds.
 class Slow final : public sensing::Sensor {
  public:
   using Sensor::Sensor;

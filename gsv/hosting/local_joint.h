@@ -13,7 +13,7 @@ namespace gsv::hosting {
 
 std::vector<JointTraits> TraitsOf(const std::vector<model::Joint>& joints);
 
-// `robot` must outlive the joint. kNotFound if no joint of that name takes commands.
+// `robot` must outlive the joint. Returns kNotFound if no joint with that name takes commands.
 base::Result<std::unique_ptr<Joint>> MakeLocalJoint(LocalRobot& robot,
                                                     const std::vector<model::Joint>& joints,
                                                     const std::string& name);

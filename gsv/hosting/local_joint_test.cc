@@ -1,4 +1,4 @@
-// Behaviours command and read joints, inside the simulation and from outside.
+// Behaviours command and read joints, both inside the process of the simulation and outside it.
 #include <gmock/gmock.h>
 
 #include "gsv/hosting/hosted_behaviour.h"
@@ -21,7 +21,7 @@ model::Link Box(const std::string& name, const geometry::Vector3& size, double z
   return link;
 }
 
-// A box with a lift on top, whose weight is 19.6 N.
+// A box with a lift on top. The lift weighs 19.6 N.
 std::shared_ptr<const model::Model> Lift(model::Movement movement) {
   auto model = std::make_shared<model::Model>();
   model->name = "lift";
@@ -96,7 +96,7 @@ TEST(LocalJoint, MovesToItsTarget) {
     after(2s);
     joint.MoveAt(0.1);
     after(1s);
-    // The lift falls, at most at its velocity limit.
+    // The lift falls, but not faster than its velocity limit.
     joint.Release();
     after(500ms);
   }))));
@@ -105,13 +105,14 @@ TEST(LocalJoint, MovesToItsTarget) {
   EXPECT_NEAR(positions[0], 0.3, 1e-3);
   EXPECT_NEAR(positions[1], 0.4, 2e-3);
   EXPECT_NEAR(velocities[1], 0.1, 1e-6);
-  // From 0.1 m/s upwards to 0.4 m/s downwards at 9.8 m/s², the rest of half a second at this limit.
+  // The velocity changes from 0.1 m/s upwards to 0.4 m/s downwards at 9.8 m/s². The rest of the
+  // half second is at this limit.
   const double free_fall = 0.5 / 9.8;
   const double way = (0.16 - 0.01) / (2 * 9.8) + 0.4 * (0.5 - free_fall);
   EXPECT_NEAR(positions[2], positions[1] - way, 2e-3);
 }
 
-TEST(LocalJoint, AnEffortLiftsAgainstGravity) {
+TEST(LocalJoint, EffortLiftsAWeightAgainstGravity) {
   auto simulation = OnGround(1s);
   double velocity = 0;
   ASSERT_TRUE(simulation->AddRobot(LiftWith(Hosted([&](gsv::Robot& robot, Joint& joint) {
@@ -119,11 +120,11 @@ TEST(LocalJoint, AnEffortLiftsAgainstGravity) {
     if (robot.SleepFor(500ms)) velocity = joint.Read().velocity;
   }))));
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
-  // The force is one newton too large for 2 kg.
+  // The force exceeds the weight of 2 kg by one newton.
   EXPECT_NEAR(velocity, 0.25, 0.005);
 }
 
-TEST(LocalJoint, HasTheHashOfAJointCommandedRemotely) {
+TEST(LocalJoint, HasTheSameHashAsAJointCommandedRemotely) {
   auto inside = OnGround(2s), outside = OnGround(2s);
   ASSERT_TRUE(inside->AddRobot(LiftWith(Hosted([](gsv::Robot& robot, Joint& joint) {
     joint.MoveTo(0.2);
@@ -175,7 +176,7 @@ TEST(LocalJoint, MovesAtItsVelocityLimitOnAPlanarRobot) {
   }
 }
 
-TEST(LocalJoint, RefusesAnEffortOnAPlanarRobot) {
+TEST(LocalJoint, RejectsAnEffortOnAPlanarRobot) {
   auto simulation = OnGround(1s);
   std::string error;
   ASSERT_TRUE(simulation->AddRobot(LiftWith(Hosted([&](gsv::Robot& robot, Joint& joint) {
@@ -187,7 +188,7 @@ TEST(LocalJoint, RefusesAnEffortOnAPlanarRobot) {
   EXPECT_THAT(error, HasSubstr("--movement lift=rigid"));
 }
 
-TEST(LocalJoint, RefusesAnUnknownName) {
+TEST(LocalJoint, RejectsAnUnknownName) {
   auto simulation = OnGround(1s);
   auto robot = LiftWith(std::make_shared<HostedBehaviour>(
       "lifting", [] { return std::make_unique<Lifting>([](gsv::Robot&, Joint&) {}); }));

@@ -119,7 +119,8 @@ base::Status LocalRobot::CommandDevice(const MountedSensor& actuator,
 
 base::Result<sensing::Reading> LocalRobot::ReadBlocked(const MountedSensor& sensor) {
   GSV_CHECK(suspend_);
-  // The behaviour may end while the image is being made: then this frame no longer exists.
+  // The behaviour may end while the image is being made, and then this stack frame no longer
+  // exists.
   auto reading = std::make_shared<base::Result<sensing::Reading>>();
   turn_->Block([reading, agent = agent_, name = sensor.name()] { *reading = agent->Read(name); });
   suspend_();

@@ -1,5 +1,5 @@
-// The Robot of a behaviour in this process. In a turn its calls go to the turn, before the first
-// one (in Init) to the agent.
+// The Robot of a behaviour in this process. During a turn its calls go to the turn. Before the
+// first turn, in Init(), they go to the agent.
 //
 // Threads  the thread of the behaviour's turn.
 #pragma once
@@ -18,23 +18,24 @@ namespace gsv::hosting {
 
 class LocalRobot final : public Robot {
  public:
-  // Returns to the simulation from a turn, and returns to the behaviour when the next turn begins.
+  // Suspends the behaviour: returns from its turn to the simulation, and returns to the behaviour
+  // when the next turn begins.
   using Suspend = std::function<void()>;
 
   explicit LocalRobot(std::shared_ptr<simulation::Agent> agent) : agent_(std::move(agent)) {}
 
-  // Sets the current turn; null between turns.
+  // Sets the current turn, or null between turns.
   void SetTurn(simulation::Turn* turn);
   void SetSuspend(Suspend suspend) { suspend_ = std::move(suspend); }
-  // Ends the run for the behaviour: waits and calls return at once from now on.
+  // Ends the run for the behaviour: from now on waits and calls return at once.
   void End() { is_running_ = false; }
   void Note(const base::Error& error);
 
-  // Whether all open sensors answer at once. The readings of an exchange, by name.
+  // Whether all open sensors answer at once, and the readings of an exchange, by name.
   bool HasOnlyFastSensors() const;
   void ReadOpenSensors(std::vector<Reading>& readings);
 
-  // Robot.
+  // Implementation of Robot.
   const std::string& name() const override { return agent_->robot(); }
   double footprint_radius() const override { return agent_->footprint_radius(); }
   std::vector<SensorTraits> Sensors() override;
@@ -48,7 +49,7 @@ class LocalRobot final : public Robot {
   bool IsRunning() const override { return is_running_; }
   std::string error() const override { return error_; }
 
-  // Reads a sensor. Empty if the run is over, or if the sensor fails, which ends the run.
+  // Reads a sensor. Returns nullopt if the run is over, or if the sensor fails, which ends the run.
   std::optional<sensing::Reading> Read(simulation::MountedSensor& sensor);
 
   // The caller handles kInvalidArgument; any other failure ends the run.
@@ -58,8 +59,8 @@ class LocalRobot final : public Robot {
   base::Status CommandDevice(const simulation::MountedSensor& actuator,
                              world::DeviceCommand command);
 
-  // Joints by index in the robot's model. Both do nothing after the end of the run. A refused
-  // command ends the run.
+  // Joints, by index in the robot's model. Both functions do nothing after the end of the run. A
+  // refused command ends the run.
   void CommandJoint(int joint, const world::JointCommand& command);
   std::optional<simulation::JointReading> ReadJoint(int joint);
 
@@ -68,14 +69,15 @@ class LocalRobot final : public Robot {
 
   base::Result<std::unique_ptr<SensorPort>> OpenPort(const std::string& sensor) override;
   base::Result<std::unique_ptr<SensorPort>> CreatePort(SensorTraits traits) override;
-  base::Result<std::unique_ptr<SensorPort>> Enter(const std::string& sensor);  // into open_
+  // Adds the sensor to open_.
+  base::Result<std::unique_ptr<SensorPort>> Enter(const std::string& sensor);
   base::Result<sensing::Reading> ReadBlocked(const simulation::MountedSensor& sensor);
 
   const std::shared_ptr<simulation::Agent> agent_;
   simulation::Turn* turn_ = nullptr;
   Suspend suspend_;
-  std::vector<SensorPtr> open_;  // by name
-  std::size_t ray_sensors_ = 0;  // among them
+  std::vector<SensorPtr> open_;  // ordered by name
+  std::size_t ray_sensors_ = 0;  // how many of them cast rays
   std::atomic<bool> is_running_{true};
   std::string error_;
 };

@@ -1,5 +1,5 @@
 // Behaviours in shared libraries, gsv-NAME.so, which can run as programs or inside gsv. A library
-// stays loaded, and is trusted: its faults affect this process.
+// stays loaded. It is trusted: a crash in it ends this process.
 //
 // Threads  any.
 #pragma once
@@ -13,10 +13,11 @@
 
 namespace gsv::hosting {
 
-// The file of the behaviour in the first of these folders that has one; empty if none has.
+// Returns the file of the behaviour in the first of these folders that has one, or an empty text.
 std::string FindPlugin(const std::string& behaviour, const std::vector<std::string>& folders);
 
-// Fails if the file is not a library, not a behaviour, or built for another version of gsv.
+// Fails if the file is not a library, if it is not a behaviour, or if it was built for another
+// version of gsv.
 base::Result<const BehaviourModule*> LoadPlugin(const std::string& file);
 
 }  // namespace gsv::hosting

@@ -5,7 +5,8 @@
 namespace gsv::hosting {
 namespace {
 
-// It waits for ever after the last command: whether a behaviour continues is part of a run, too.
+// After the last command the behaviour waits for ever and does not finish, because the hash of a
+// run depends on that.
 constexpr base::SimTime kNever = base::SimTime::max() / 2;
 
 }  // namespace
@@ -47,7 +48,7 @@ void RecordedCommands::TakeTurn(simulation::Turn& turn) {
   turn.WaitUntil(next_ < commands_.size() ? commands_[next_].time : kNever);
 }
 
-// A command that can no longer be given is left out: the run then differs visibly.
+// Skips a command that can no longer be given. The difference then shows in the run.
 void RecordedCommands::Give(const TimedCommand& command, simulation::Turn& turn) const {
   if (const auto* drive = std::get_if<world::DriveCommand>(&command.command)) {
     turn.Command(*drive);

@@ -1,4 +1,4 @@
-// A behaviour that repeats recorded commands, each at its instant.
+// A behaviour that repeats recorded commands, each at its recorded instant.
 #pragma once
 
 #include <atomic>
@@ -25,11 +25,12 @@ struct TimedCommand {
   base::SimTime time{0};
   std::variant<world::DriveCommand, RecordedDeviceCommand, RecordedTransmission> command;
 };
-using TimedCommands = std::vector<TimedCommand>;  // in ascending order of time
+using TimedCommands = std::vector<TimedCommand>;  // In ascending order of time.
 
 class RecordedCommands final : public simulation::LocalBehaviour {
  public:
-  // `name`: of the recorded behaviour. `uses_radio`: its radios are on from the start.
+  // `name` is that of the recorded behaviour. If `uses_radio` is true, its radios are on from the
+  // start.
   RecordedCommands(std::string name, TimedCommands commands, bool uses_radio = false);
 
   base::Status Init(const std::shared_ptr<simulation::Agent>& agent) override;

@@ -19,20 +19,22 @@ namespace gsv::hosting {
 
 class SanitizerStack {
  public:
-  // `bottom`: the lowest address of the stack.
+  // `bottom` is the lowest address of the stack.
   SanitizerStack(const void* bottom, std::size_t size) : bottom_(bottom), size_(size) {}
 
-  // From outside: around the creation of the context, when Boost.Context switches to the stack and
-  // back. An earlier stack at these addresses may have left them poisoned, as its last calls never
-  // returned.
+  // Call this from outside, before Boost.Context switches to the stack and back to create the
+  // context. An earlier stack at these addresses may have left them poisoned, because its last
+  // calls never returned.
   void BeforePreparing() { __asan_unpoison_memory_region(bottom_, size_); }
   void AfterPreparing() {}
 
-  // From outside: just before the thread switches to this stack, and just after it has returned.
+  // Call these from outside: the first one just before the thread switches to this stack, and the
+  // second one just after it has returned.
   void BeforeEntering() { __sanitizer_start_switch_fiber(&outside_frames_, bottom_, size_); }
   void AfterLeaving() { __sanitizer_finish_switch_fiber(outside_frames_, nullptr, nullptr); }
 
-  // On this stack: just after each entry, and just before each exit.
+  // Call these on this stack: the first one just after each entry, and the second one just before
+  // each exit.
   void AfterEntering() {
     __sanitizer_finish_switch_fiber(frames_, &outside_bottom_, &outside_size_);
   }

@@ -34,7 +34,7 @@ TEST(Cdr, WritesAHeaderThenLittleEndianFields) {
               ElementsAreArray(BytesOf({0, 1, 0, 0, 0xfe, 0xff, 0xff, 0xff, 4, 3, 2, 1})));
 }
 
-TEST(Cdr, AStringCarriesItsLengthAndNul) {
+TEST(Cdr, WritesTheLengthAndTheNulOfAString) {
   EXPECT_THAT(Encoded(std_msgs::String{"hi"}),
               ElementsAreArray(BytesOf({0, 1, 0, 0, 3, 0, 0, 0, 'h', 'i', 0})));
   EXPECT_THAT(Encoded(std_msgs::String{}), ElementsAreArray(BytesOf({0, 1, 0, 0, 1, 0, 0, 0, 0})));
@@ -87,13 +87,13 @@ TEST(Cdr, EncodesOneByteFieldsWithoutPadding) {
   EXPECT_THAT(Encoded(status), ElementsAreArray(BytesOf({0, 1, 0, 0, 0xff, 0, 8, 0})));
 }
 
-TEST(Cdr, AppendsBehindWhatTheBufferHolds) {
+TEST(Cdr, AppendsToTheContentOfTheBuffer) {
   Bytes bytes = BytesOf({9, 9, 9});
   Encode(builtin_interfaces::Time{1, 2}, bytes);
   EXPECT_THAT(bytes, ElementsAreArray(BytesOf({9, 9, 9, 0, 1, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0})));
 }
 
-TEST(Cdr, ABlockOfPointsReadsBackAsPoints) {
+TEST(Cdr, BlockOfPointsIsReadBack) {
   visualization_msgs::Marker marker;
   marker.ns = "robot";
   marker.points = {{1, 2, 3}, {4, 5, 6}};
@@ -104,7 +104,7 @@ TEST(Cdr, ABlockOfPointsReadsBackAsPoints) {
   EXPECT_EQ(*decoded, marker);
 }
 
-TEST(Cdr, RefusesAMessageThatEndsEarly) {
+TEST(Cdr, RejectsATruncatedMessage) {
   const Bytes bytes = Encoded(builtin_interfaces::Time{1, 2});
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     const auto decoded = Decode<builtin_interfaces::Time>(std::span(bytes).first(size));
@@ -114,7 +114,7 @@ TEST(Cdr, RefusesAMessageThatEndsEarly) {
   }
 }
 
-TEST(Cdr, RefusesACountThatTheMessageHasNoRoomFor) {
+TEST(Cdr, RejectsACountThatExceedsTheMessage) {
   Bytes bytes = Encoded(tf2_msgs::TFMessage{});
   for (int i = 4; i < 8; ++i) bytes[i] = std::byte{0xff};
   const auto decoded = Decode<tf2_msgs::TFMessage>(bytes);
@@ -122,13 +122,13 @@ TEST(Cdr, RefusesACountThatTheMessageHasNoRoomFor) {
   EXPECT_THAT(decoded.error().Sentence(), HasSubstr("more elements than the message has room"));
 }
 
-TEST(Cdr, RefusesAStringWithoutItsNul) {
+TEST(Cdr, RejectsAStringWithoutItsNul) {
   const auto decoded = Decode<std_msgs::String>(BytesOf({0, 1, 0, 0, 2, 0, 0, 0, 'h', 'i'}));
   ASSERT_FALSE(decoded);
   EXPECT_THAT(decoded.error().Sentence(), HasSubstr("does not end in NUL"));
 }
 
-TEST(Cdr, RefusesBigEndian) {
+TEST(Cdr, RejectsBigEndian) {
   const auto decoded =
       Decode<builtin_interfaces::Time>(BytesOf({0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 2}));
   ASSERT_FALSE(decoded);
@@ -153,7 +153,7 @@ TEST(Cdr, ABoolOtherThanOneIsTrue) {
   EXPECT_EQ(*decoded, region);
 }
 
-TEST(Schema, HoldsTheDefinitionAndThoseItUses) {
+TEST(Schema, ContainsTheDefinitionAndItsDependencies) {
   const std::string rule(80, '=');
   EXPECT_EQ(SchemaOf<std_msgs::Header>().name, "std_msgs/msg/Header");
   EXPECT_EQ(SchemaOf<std_msgs::Header>().encoding, "ros2msg");

@@ -64,7 +64,7 @@ TEST(Definition, OctetsAreCounted) {
 }
 
 // Each of our own types, as encoded by the generated code, must be read exactly to its end.
-TEST(Definition, ReadsEveryTypeOfOurs) {
+TEST(Definition, ReadsEveryTypeOfGsv) {
   ForEachType([](const Schema& schema, auto message) {
     const Definition definition = Parsed(schema.name, schema.text);
     for (std::uint32_t seed = 0; seed < 20; ++seed) {
@@ -81,13 +81,13 @@ TEST(Definition, ReadsEveryTypeOfOurs) {
   });
 }
 
-TEST(Definition, SchemasThatCannotBeAreRefused) {
+TEST(Definition, InvalidSchemasAreRejected) {
   EXPECT_FALSE(Definition::Parse("a/A", "b/B thing\n"));     // lacks b/B
   EXPECT_FALSE(Definition::Parse("a/A", "A[] children\n"));  // contains itself
   EXPECT_FALSE(Definition::Parse("a/A", "wstring wide\n"));
 }
 
-TEST(Definition, LengthsThatLieAreRefused) {
+TEST(Definition, WrongLengthsAreRejected) {
   const Definition numbers = Parsed("a/A", "float64[] values\n");
   EXPECT_FALSE(numbers.Decode(Cdr({0, 1, 0, 0, 0xff, 0xff, 0xff, 0xff})));
   // An empty struct has no bytes, but the number of them is limited.

@@ -16,7 +16,7 @@ Bytes Sample(Message& message, std::uint32_t seed) {
   return bytes;
 }
 
-TEST(RoundTrip, EveryTypeReadsBackAsItWasWritten) {
+TEST(RoundTrip, EveryTypeIsReadBackUnchanged) {
   ForEachType([](const Schema& schema, auto message) {
     for (std::uint32_t seed = 0; seed < 56; ++seed) {
       const Bytes bytes = Sample(message, seed);
@@ -27,7 +27,7 @@ TEST(RoundTrip, EveryTypeReadsBackAsItWasWritten) {
   });
 }
 
-TEST(RoundTrip, NoTypeReadsBackFromPartOfItsBytes) {
+TEST(RoundTrip, TruncatedMessagesAreRejected) {
   ForEachType([](const Schema& schema, auto message) {
     const Bytes bytes = Sample(message, 1);
     for (std::size_t size = 0; size < bytes.size(); ++size) {
@@ -38,7 +38,7 @@ TEST(RoundTrip, NoTypeReadsBackFromPartOfItsBytes) {
 }
 
 // Whatever a flipped bit changes in lengths and counts, the result is a message or an error.
-TEST(RoundTrip, AFlippedBitNeverReadsOutsideTheMessage) {
+TEST(RoundTrip, FlippedBitsCauseNoReadOutsideTheMessage) {
   ForEachType([](const Schema& schema, auto message) {
     Bytes bytes = Sample(message, 3);
     for (std::size_t bit = 0; bit < bytes.size() * 8; ++bit) {
@@ -52,7 +52,7 @@ TEST(RoundTrip, AFlippedBitNeverReadsOutsideTheMessage) {
   });
 }
 
-TEST(AllSchemas, HasEachTypeOnceByName) {
+TEST(AllSchemas, ContainsEachTypeOnce) {
   std::string last;
   for (const Schema& schema : AllSchemas()) {
     EXPECT_LT(last, schema.name);

@@ -23,7 +23,7 @@ Model TwoLinks() {
   return model;
 }
 
-TEST(CollisionNames, AreThoseOfTheSensorsLinkFirst) {
+TEST(CollisionNames, AreSearchedInTheSensorsLinkFirst) {
   const Model model = TwoLinks();
   EXPECT_EQ(FindCollision(model, 0, "front"), (CollisionIndex{0, 1}));
   EXPECT_EQ(FindCollision(model, 1, "front"), (CollisionIndex{1, 0}));
@@ -37,7 +37,7 @@ TEST(CollisionNames, MayBeScoped) {
   EXPECT_EQ(FindCollision(model, 0, "inner::foot::sole"), (CollisionIndex{2, 0}));
 }
 
-TEST(CollisionNames, MayBeThoseOfMergedLinks) {
+TEST(CollisionNames, MayBelongToMergedLinks) {
   const Model model = TwoLinks();
   EXPECT_EQ(FindCollision(model, 0, "base_fixed_joint_lump__hand_collision"),
             (CollisionIndex{1, 1}));
@@ -45,13 +45,13 @@ TEST(CollisionNames, MayBeThoseOfMergedLinks) {
             (CollisionIndex{1, 1}));
 }
 
-TEST(CollisionNames, ThatNoCollisionHasAreNotFound) {
+TEST(CollisionNames, UnknownNamesAreNotFound) {
   EXPECT_EQ(FindCollision(TwoLinks(), 0, "bumper"), std::nullopt);
   EXPECT_EQ(FindCollision(TwoLinks(), 0, "leg::front"), std::nullopt);
   EXPECT_EQ(FindCollision(TwoLinks(), 0, ""), std::nullopt);
 }
 
-TEST(CollisionNames, StandOneALine) {
+TEST(CollisionNames, AreStoredOnePerLine) {
   SensorDescription sensor;
   EXPECT_TRUE(CollisionNamesOf(sensor).empty());
   sensor.parameters["collision"] = std::string("__default__");

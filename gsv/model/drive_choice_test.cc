@@ -36,7 +36,7 @@ std::string RefusalOf(const std::string& text) {
   return choice ? "" : choice.error().Sentence();
 }
 
-TEST(DriveChoice, ReadsKindsJointsAndNumbers) {
+TEST(DriveChoice, ParsesKindsJointsAndNumbers) {
   const auto choice = ParseDriveChoice("skid,left=fl,left=rl,right=fr,radius=0.165,separation=0.6");
   ASSERT_TRUE(choice);
   EXPECT_EQ(choice->kind, DriveKind::kDifferential);
@@ -47,7 +47,7 @@ TEST(DriveChoice, ReadsKindsJointsAndNumbers) {
   EXPECT_FALSE(choice->wheel_base);
 }
 
-TEST(DriveChoice, RefusesWhatItDoesNotKnow) {
+TEST(DriveChoice, RejectsUnknownKeysAndKinds) {
   EXPECT_THAT(RefusalOf("hover"), HasSubstr("there is no drive \"hover\"; expected KIND"));
   EXPECT_THAT(RefusalOf(""), HasSubstr("there is no drive \"\""));
   EXPECT_THAT(RefusalOf("diff,radius=0"), HasSubstr("radius must be a number above zero"));
@@ -56,7 +56,7 @@ TEST(DriveChoice, RefusesWhatItDoesNotKnow) {
   EXPECT_THAT(RefusalOf("diff,left"), HasSubstr("\"left\" is not KEY=VALUE"));
 }
 
-TEST(AsRobot, MeasuresWhatAChoiceLeavesOut) {
+TEST(AsRobot, MeasuresTheSizesThatAChoiceOmits) {
   const auto robot = AsRobot(TwoWheels(), "diff,left=right_wheel,right=left_wheel,radius=0.2");
   ASSERT_TRUE(robot);
   const Drive& drive = *(*robot)->drive;
@@ -67,7 +67,7 @@ TEST(AsRobot, MeasuresWhatAChoiceLeavesOut) {
   EXPECT_EQ(drive.choice, "diff,left=right_wheel,right=left_wheel,radius=0.2");
 }
 
-TEST(AsRobot, KeepsTheModelsOwnDriveAndLetsAChoiceGoOverIt) {
+TEST(AsRobot, ChoiceOverridesTheModelsDrive) {
   const auto model = TwoWheels();
   model->drive.emplace();
   model->drive->left_wheels = {0};
@@ -81,14 +81,14 @@ TEST(AsRobot, KeepsTheModelsOwnDriveAndLetsAChoiceGoOverIt) {
   EXPECT_EQ(AsRobot(model, "none").value()->drive->kind, DriveKind::kNone);
 }
 
-TEST(AsRobot, NamesTheJointsThatThereAreWhenOneIsNotThere) {
+TEST(AsRobot, ListsTheJointsIfOneIsMissing) {
   const auto robot = AsRobot(TwoWheels(), "diff,left=port");
   ASSERT_FALSE(robot);
   EXPECT_THAT(robot.error().message,
               HasSubstr("no movable joint \"port\"; it has left_wheel, right_wheel"));
 }
 
-TEST(AsRobot, TakesWhatHasJointsAndRefusesWhatHasNothingToMoveOrRead) {
+TEST(AsRobot, RejectsAModelWithoutJointsAndSensors) {
   const auto arm = TwoWheels();
   for (Joint& joint : arm->joints) joint.kind = JointKind::kRevolute;
   for (Joint& joint : arm->joints) joint.position_limits = {-1, 1};
@@ -101,7 +101,7 @@ TEST(AsRobot, TakesWhatHasJointsAndRefusesWhatHasNothingToMoveOrRead) {
   EXPECT_THAT(refused.error().message, HasSubstr("neither a drive nor wheels, movable joints"));
 }
 
-TEST(DescribeDrive, SaysKindWheelsAndSizes) {
+TEST(DescribeDrive, ContainsKindWheelsAndSizes) {
   EXPECT_EQ(DescribeDrive(*AsRobot(TwoWheels(), "").value()),
             "differential, guessed from wheels left_wheel, right_wheel; radius 0.1 m, separation "
             "0.4 m");

@@ -84,7 +84,7 @@ class Robot {
 constexpr Range kEndless;
 constexpr Range kSteering{-0.6, 0.6};
 
-TEST(DriveGuess, TakesTwoWheelsAndABallForADifferentialDrive) {
+TEST(DriveGuess, TwoWheelsAndABallAreADifferentialDrive) {
   Robot robot;
   robot.AddWheel("left", 0, 0.2);
   robot.AddWheel("right", 0, -0.2);
@@ -99,14 +99,14 @@ TEST(DriveGuess, TakesTwoWheelsAndABallForADifferentialDrive) {
   EXPECT_NEAR(drive.wheel_separation, 0.4, 1e-12);
 }
 
-TEST(DriveGuess, TakesSidesFromPlacesAndNotFromNames) {
+TEST(DriveGuess, SidesFollowFromPositionsAndNotFromNames) {
   Robot robot;
   robot.AddWheel("right", 0, 0.2);
   robot.AddWheel("left", 0, -0.2);
   EXPECT_THAT(robot.Names(robot.Guess().left_wheels), ElementsAre("right_joint"));
 }
 
-TEST(DriveGuess, TakesFourFixedWheelsForSkidSteering) {
+TEST(DriveGuess, FourFixedWheelsAreASkidSteerDrive) {
   Robot robot;
   for (const double x : {0.2, -0.2}) {
     for (const double y : {0.25, -0.25}) {
@@ -120,7 +120,7 @@ TEST(DriveGuess, TakesFourFixedWheelsForSkidSteering) {
   EXPECT_NEAR(drive.wheel_separation, 0.5, 1e-12);
 }
 
-TEST(DriveGuess, DrivesNeitherTrailingCastersNorWheelsThatAreSmaller) {
+TEST(DriveGuess, CastersAndSmallerWheelsAreNotDriven) {
   Robot robot;
   robot.AddWheel("left", 0, 0.2);
   robot.AddWheel("right", 0, -0.2);
@@ -139,7 +139,7 @@ TEST(DriveGuess, DrivesNeitherTrailingCastersNorWheelsThatAreSmaller) {
   EXPECT_THAT(drive.steered, IsEmpty());
 }
 
-TEST(DriveGuess, DoesNotDriveAWheelInTheMiddleOrOneThatIsNamedCaster) {
+TEST(DriveGuess, CentreWheelsAndNamedCastersAreNotDriven) {
   Robot robot;
   robot.AddWheel("left", 0, 0.2);
   robot.AddWheel("right", 0, -0.2);
@@ -150,7 +150,7 @@ TEST(DriveGuess, DoesNotDriveAWheelInTheMiddleOrOneThatIsNamedCaster) {
   EXPECT_THAT(robot.Names(drive.right_wheels), ElementsAre("right_joint"));
 }
 
-TEST(DriveGuess, TakesSteeredFrontWheelsForAckermannSteering) {
+TEST(DriveGuess, SteeredFrontWheelsAreAckermannSteering) {
   Robot robot;
   robot.AddWheel("rear_left", -0.16, 0.1);
   robot.AddWheel("rear_right", -0.16, -0.1);
@@ -166,7 +166,7 @@ TEST(DriveGuess, TakesSteeredFrontWheelsForAckermannSteering) {
   EXPECT_NEAR(drive.steering_limit, 0.6, 1e-12);
 }
 
-TEST(DriveGuess, TakesOneSteeredFrontWheelForATricycle) {
+TEST(DriveGuess, OneSteeredFrontWheelIsATricycle) {
   Robot robot;
   robot.AddWheel("left", 0, 0.2);
   robot.AddWheel("right", 0, -0.2);
@@ -177,7 +177,7 @@ TEST(DriveGuess, TakesOneSteeredFrontWheelForATricycle) {
   EXPECT_NEAR(drive.wheel_base, 0.5, 1e-12);
 }
 
-TEST(DriveGuess, HoldsWheelsStraightThatSteerInFrontAndBehind) {
+TEST(DriveGuess, WheelsThatSteerInFrontAndBehindAreHeldStraight) {
   Robot robot;
   robot.AddWheel("left", 0, 0.3);
   robot.AddWheel("right", 0, -0.3);
@@ -188,7 +188,7 @@ TEST(DriveGuess, HoldsWheelsStraightThatSteerInFrontAndBehind) {
   EXPECT_THAT(robot.Names(drive.steered), UnorderedElementsAre("fl_swivel", "rl_swivel"));
 }
 
-TEST(DriveGuess, TakesFourWheelsThatTurnAllTheWayForAnOmnidirectionalBase) {
+TEST(DriveGuess, FourFreelySteeredWheelsAreAnOmnidirectionalBase) {
   Robot robot;
   for (const double x : {0.22, -0.22}) {
     for (const double y : {0.22, -0.22}) {
@@ -198,7 +198,7 @@ TEST(DriveGuess, TakesFourWheelsThatTurnAllTheWayForAnOmnidirectionalBase) {
   EXPECT_EQ(robot.Guess().kind, DriveKind::kVelocity);
 }
 
-TEST(DriveGuess, FindsMecanumWheelsByTheirDirectionOfFriction) {
+TEST(DriveGuess, MecanumWheelsAreFoundByTheirFrictionDirection) {
   Robot robot;
   for (const double x : {0.2, -0.2}) {
     for (const double y : {0.25, -0.25}) {
@@ -213,7 +213,7 @@ TEST(DriveGuess, FindsMecanumWheelsByTheirDirectionOfFriction) {
   EXPECT_NEAR(drive.wheel_base, 0.4, 1e-12);
 }
 
-TEST(DriveGuess, DrivesOnlyWheelsWithACommandInterfaceWhereThereAreSome) {
+TEST(DriveGuess, WheelsWithACommandInterfaceArePreferred) {
   Robot robot;
   for (const double x : {0.2, -0.2}) {
     robot.AddWheel(x > 0 ? "fl" : "rl", x, 0.25);
@@ -230,7 +230,7 @@ TEST(DriveGuess, DrivesOnlyWheelsWithACommandInterfaceWhereThereAreSome) {
   EXPECT_THAT(robot.Names(drive.right_wheels), ElementsAre("rr_joint"));
 }
 
-TEST(DriveGuess, MeasuresWheelsOfMeshesAndOfVisuals) {
+TEST(DriveGuess, WheelsOfMeshesAndOfVisualsAreMeasured) {
   auto ring = std::make_shared<geometry::TriangleMesh>();
   for (int i = 0; i < 32; ++i) {
     const double angle = 2 * std::numbers::pi * i / 32;
@@ -253,7 +253,7 @@ TEST(DriveGuess, MeasuresWheelsOfMeshesAndOfVisuals) {
   EXPECT_NEAR(drive.wheel_radius, 0.15, 1e-9);
 }
 
-TEST(DriveGuess, FindsNoWheelsOnAnArm) {
+TEST(DriveGuess, ArmHasNoWheels) {
   Robot robot;
   int parent = 0;
   for (int i = 0; i < 6; ++i) {
@@ -266,7 +266,7 @@ TEST(DriveGuess, FindsNoWheelsOnAnArm) {
   EXPECT_EQ(robot.Guess().kind, DriveKind::kNone);
 }
 
-TEST(DriveGuess, FindsNoWheelInASquareOneOrOneOffItsAxis) {
+TEST(DriveGuess, SquareAndOffAxisLinksAreNoWheels) {
   for (const bool is_square : {true, false}) {
     Robot robot;
     robot.AddWheel("left", 0, 0.2);
@@ -283,7 +283,7 @@ TEST(DriveGuess, FindsNoWheelInASquareOneOrOneOffItsAxis) {
   }
 }
 
-TEST(DriveGuess, DoesNotTakeWhatHangsInTheAirForAWheel) {
+TEST(DriveGuess, LinkThatDoesNotTouchTheGroundIsNoWheel) {
   Robot robot;
   robot.AddWheel("left", 0, 0.2);
   robot.AddWheel("right", 0, -0.2);

@@ -24,20 +24,20 @@ TEST(FootprintRadius, ReachesTheFarthestCorner) {
   EXPECT_NEAR(FootprintRadius(model), std::hypot(2.0, 2.0), 1e-12);
 }
 
-TEST(FootprintRadius, PlanesCountForNothing) {
+TEST(FootprintRadius, IgnoresPlanes) {
   EXPECT_EQ(FootprintRadius(With(geometry::Plane{}, {})), 0);
   EXPECT_EQ(LowestPoint(With(geometry::Plane{}, {})), 0);
   EXPECT_EQ(FootprintRadius(Model{}), 0);
 }
 
-TEST(LowestPoint, IsThatOfTheTurnedBox) {
+TEST(LowestPoint, IsThatOfARotatedBox) {
   // A cube of side 1 on its edge: half its diagonal is below its centre.
   const auto turned = geometry::FromAxisAngle({1, 0, 0}, std::numbers::pi / 4);
   EXPECT_NEAR(LowestPoint(With(geometry::Box{{1, 1, 1}}, {{0, 0, 3}, turned})),
               3 - std::numbers::sqrt2 / 2, 1e-12);
 }
 
-TEST(Parameters, AnswerWithTheirKindOrTheDefault) {
+TEST(Parameters, ReturnTheValueOfTheirTypeOrTheDefault) {
   const Parameters parameters = {{"max", 3.5}, {"on", true}, {"unit", std::string("m")}};
   EXPECT_EQ(NumberOr(parameters, "max", 1), 3.5);
   EXPECT_EQ(NumberOr(parameters, "on", 1), 1);

@@ -31,7 +31,7 @@ TEST_F(CorbaAccessTest, FindsKeyAndAuthorityBesideTheCertificate) {
   EXPECT_EQ(AccessFromEnvironment().certificate, elsewhere);
 }
 
-TEST_F(CorbaAccessTest, BeyondThisMachineTakesACertificateOrTheWord) {
+TEST_F(CorbaAccessTest, RemoteAccessNeedsACertificateOrTheInsecureOption) {
   for (const char* host : {"", "0.0.0.0", "::", "10.0.0.7", "lab-7"}) {
     EXPECT_FALSE(CheckListening({}, host)) << host;
     EXPECT_TRUE(CheckListening({CorbaCertificate{}, false}, host)) << host;
@@ -45,7 +45,7 @@ TEST_F(CorbaAccessTest, BeyondThisMachineTakesACertificateOrTheWord) {
   EXPECT_TRUE(AccessFromEnvironment().is_insecure);
 }
 
-TEST_F(CorbaAccessTest, KnowsLoopback) {
+TEST_F(CorbaAccessTest, RecognisesLoopbackAddresses) {
   for (const char* host : {"127.0.0.1", "127.9.8.7", "::1", "localhost"}) {
     EXPECT_TRUE(IsLoopback(host)) << host;
   }
@@ -54,7 +54,7 @@ TEST_F(CorbaAccessTest, KnowsLoopback) {
   }
 }
 
-TEST_F(CorbaAccessTest, PreparesNothingWithFilesThatCannotBeUsed) {
+TEST_F(CorbaAccessTest, FailsForInvalidFiles) {
   Set("GSV_CORBA_CERTIFICATE", "/nowhere/lab.pem");
   const auto access = PrepareAccess("127.0.0.1", 0);
   ASSERT_FALSE(access);

@@ -25,7 +25,7 @@ class LocalSocket : public ::testing::Test {
   base::TemporaryFolder folder_ = *base::TemporaryFolder::Make("local-socket");
 };
 
-TEST_F(LocalSocket, IsBelowAFolderThatIsThisUsersAlone) {
+TEST_F(LocalSocket, IsInAFolderOfThisUserOnly) {
   const auto socket = NewLocalSocket();
   ASSERT_TRUE(socket.has_value()) << socket.error().Sentence();
   EXPECT_EQ(socket->parent_path(), folder());
@@ -33,7 +33,7 @@ TEST_F(LocalSocket, IsBelowAFolderThatIsThisUsersAlone) {
   EXPECT_NE(*socket, *NewLocalSocket());
 }
 
-TEST_F(LocalSocket, WhatEndedProcessesLeftGoesAndWhatOthersUseStays) {
+TEST_F(LocalSocket, SocketsOfEndedProcessesAreRemovedAndOthersKept) {
   fs::create_directory(folder());
   fs::permissions(folder(), fs::perms::owner_all);
   // No process has a number beyond 2^22, see proc(5).
@@ -47,7 +47,7 @@ TEST_F(LocalSocket, WhatEndedProcessesLeftGoesAndWhatOthersUseStays) {
   EXPECT_TRUE(fs::exists(other));
 }
 
-TEST_F(LocalSocket, IsRefusedWhereOthersMayWriteOrTheNameIsTooLong) {
+TEST_F(LocalSocket, IsRefusedInAWritableFolderOrForALongName) {
   fs::create_directory(folder());
   fs::permissions(folder(), fs::perms::all);
   EXPECT_FALSE(NewLocalSocket().has_value());

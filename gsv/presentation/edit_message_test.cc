@@ -23,7 +23,7 @@ Edit AddedRobot() {
   return edit;
 }
 
-TEST(EditMessage, TellsAllThatTheEditIsMadeOf) {
+TEST(EditMessage, ContainsAllPartsOfAnEdit) {
   const Edit edit = AddedRobot();
   const auto back = EditFrom(EditMessage(edit));
   ASSERT_TRUE(back);
@@ -71,7 +71,7 @@ TEST(EditMessage, KeepsACommandAndItsArguments) {
   EXPECT_TRUE(EditFrom(EditMessage(edit))->arguments.empty());
 }
 
-TEST(EditMessage, OfWhatNobodyCanHaveMadeIsRefused) {
+TEST(EditMessage, ImpossibleEditIsRejected) {
   const auto is_refused = [](auto change) {
     messages::gsv_msgs::Edit message = EditMessage(AddedRobot());
     change(message);

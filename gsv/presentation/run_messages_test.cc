@@ -14,7 +14,7 @@ simulation::Event Event(std::string kind, std::string robot, std::string detail)
   return {150, milliseconds(1500), std::move(kind), std::move(robot), std::move(detail)};
 }
 
-TEST(LogMessage, SaysWhatHappenedToWhom) {
+TEST(LogMessage, NamesTheEventAndTheRobot) {
   const Log line = LogMessage(Event("agent_dead", "robot_3", "wander on host: exit code 1"));
   EXPECT_EQ(line.name, "robot_3");
   EXPECT_EQ(line.msg, "agent dead: wander on host: exit code 1");
@@ -23,7 +23,7 @@ TEST(LogMessage, SaysWhatHappenedToWhom) {
   EXPECT_EQ(line.stamp.nanosec, 500'000'000u);
 }
 
-TEST(LogMessage, LevelsFollowWhatHappened) {
+TEST(LogMessage, LevelFollowsFromTheEvent) {
   EXPECT_EQ(LogMessage(Event("failed", "", "")).level, Log::kError);
   EXPECT_EQ(LogMessage(Event("agent_unresponsive", "a", "")).level, Log::kWarn);
   EXPECT_EQ(LogMessage(Event("robot_moved", "a", "")).level, Log::kWarn);
@@ -51,7 +51,7 @@ std::string ValueOf(const DiagnosticStatus& diagnosis, const std::string& key) {
   return "no " + key;
 }
 
-TEST(DiagnosticsMessage, ARunThatGoesWellIsWell) {
+TEST(DiagnosticsMessage, LevelIsOkForAHealthyRun) {
   const auto message = DiagnosticsMessage(Running());
   EXPECT_EQ(message.header.stamp.sec, 1);
   ASSERT_EQ(message.status.size(), 1u);
@@ -65,7 +65,7 @@ TEST(DiagnosticsMessage, ARunThatGoesWellIsWell) {
   EXPECT_EQ(ValueOf(simulation, "late steps"), "2");
 }
 
-TEST(DiagnosticsMessage, WhoHoldsItUpIsAWarningAndAFailureAnError) {
+TEST(DiagnosticsMessage, SlowBehaviourIsAWarningAndAFailureAnError) {
   simulation::SimulationStatus status = Running();
   status.waiting_for = "b (slow) since 2.1 s";
   const DiagnosticStatus held = DiagnosticsMessage(status).status[0];
@@ -78,7 +78,7 @@ TEST(DiagnosticsMessage, WhoHoldsItUpIsAWarningAndAFailureAnError) {
   EXPECT_EQ(failed.message, "failed: a crashed");
 }
 
-TEST(DiagnosticsMessage, EachRobotIsAsWellAsItsBehaviour) {
+TEST(DiagnosticsMessage, LevelOfARobotIsThatOfItsBehaviour) {
   simulation::SimulationStatus status = Running();
   simulation::RobotStatus robot;
   robot.model = "pebble";

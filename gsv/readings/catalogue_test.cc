@@ -18,7 +18,7 @@ TEST(Readings, AreReadInTheOrderOfTheirFields) {
   EXPECT_EQ(charge->fraction, 0.8);
 }
 
-TEST(Readings, ListsTakeTheirValuesAndLabelsGroupByGroup) {
+TEST(Readings, ListsReadValuesAndLabelsByGroup) {
   const Contact touched{
       {{"wall", {1, 2, 3}, {0, 0, 1}, 0.25, 0.5}, {"floor", {4, 5, 6}, {}, 0, 0}}};
   Doubles values;
@@ -35,7 +35,7 @@ TEST(Readings, ListsTakeTheirValuesAndLabelsGroupByGroup) {
   EXPECT_TRUE(Decode<Contact>(Doubles{}, Names{}, "bumper")->touches.empty());
 }
 
-TEST(Readings, WhatIsOptionalMayBeMissingAtTheEnd) {
+TEST(Readings, OptionalFieldsMayBeMissingAtTheEnd) {
   const Doubles six{1, 2, 3, 4, 5, 6};
   EXPECT_FALSE(Decode<Imu>(six, Names{}, "imu")->world_from_sensor);
   const Doubles ten{1, 2, 3, 4, 5, 6, 0.5, -0.5, 0.5, -0.5};
@@ -44,7 +44,7 @@ TEST(Readings, WhatIsOptionalMayBeMissingAtTheEnd) {
   EXPECT_EQ(Decode<Odometry>(Doubles{1, 2, 3, 4, 5}, Names{}, "wheels")->lateral, 0);
 }
 
-TEST(Readings, ImagesViewTheirPixels) {
+TEST(Readings, ImagesReferToTheirPixels) {
   const Doubles values{2, 1, 0.5, 1.5};
   const auto image = Decode<DepthImage>(values, Names{}, "eye");
   ASSERT_TRUE(image);
@@ -58,7 +58,7 @@ std::string Refusal(const Doubles& values, const Names& labels = {}) {
   return decoded ? "" : decoded.error().Sentence();
 }
 
-TEST(Readings, OfTheWrongSizeAreRefusedWithTheExpectedAndTheFoundSize) {
+TEST(Readings, WrongSizeIsAnErrorWithExpectedAndFoundSize) {
   EXPECT_EQ(Refusal<Sonar>({}),
             "front: a reading has the wrong size: expected 1 value, found 0 values and 0 labels");
   EXPECT_EQ(Refusal<Imu>({1, 2, 3, 4, 5, 6, 7}),
@@ -76,13 +76,13 @@ TEST(Readings, OfTheWrongSizeAreRefusedWithTheExpectedAndTheFoundSize) {
   EXPECT_FALSE(Refusal<Sonar>({1}, {"a name"}).empty());
 }
 
-TEST(Readings, ImagesOfImpossibleSizesAreRefused) {
+TEST(Readings, ImagesOfInvalidSizesAreRejected) {
   EXPECT_FALSE(Refusal<DepthImage>({-1, -1, 1}).empty());
   EXPECT_FALSE(Refusal<DepthImage>({1e300, 1, 1}).empty());
   EXPECT_FALSE(Refusal<DepthImage>({65536, 65536}).empty());
 }
 
-TEST(Layout, SaysWhatAReadingHolds) {
+TEST(Layout, DescribesTheFieldsOfAReading) {
   EXPECT_EQ(LayoutOf<Sonar>().Text(), "range (m)");
   EXPECT_EQ(LayoutOf<Imu>().Text(),
             "angular_velocity.x, .y, .z (rad/s), specific_force.x, .y, .z (m/s²); perhaps "
@@ -93,7 +93,7 @@ TEST(Layout, SaysWhatAReadingHolds) {
   EXPECT_EQ(LayoutOf<DepthImage>().Text(), "width, height (px); then each: depth (m)");
 }
 
-TEST(Layout, KnowsTheUnitsOfItsMessagesFields) {
+TEST(Layout, ReturnsTheUnitsOfMessageFields) {
   using Units = std::map<std::string, std::string>;
   EXPECT_EQ(LayoutOf<Odometry>().Units(), (Units{{"pose.pose.position", "m"},
                                                  {"pose.pose.orientation", "rad"},

@@ -1,5 +1,5 @@
-// Kills recording programs (SIGKILL) at two hundred random moments, several at once. Messages that
-// a program gave to its recorder more than a second before must be in its file.
+// Kills programs that record (SIGKILL) at two hundred random moments, several at once. If a program
+// gave a message to its recorder more than a second before, the message must be in its file.
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
@@ -25,17 +25,18 @@ namespace gsv::recording {
 namespace {
 
 constexpr int kMoments = 200;
-// Fewer on slow machines: programs that wait too long for a processor do not count, and these are
-// mostly long lives.
+// Fewer on slow machines. Attempts in which a program waits too long for a processor do not count,
+// and these are mostly long ones.
 constexpr std::size_t kAtOnce = base::kSlowdown > 1 ? 6 : 20;
-constexpr std::int64_t kMillisecond = 1'000'000;  // ns
+constexpr std::int64_t kMillisecond = 1'000'000;  // in ns
 constexpr std::int64_t kPromised = 1000 * kMillisecond;
 constexpr std::int64_t kMaxLifetime = 2500 * kMillisecond;
-// A process that got no processor for this long cannot keep a time limit: the attempt is repeated.
+// A process that got no processor for this long cannot meet a time limit, so the attempt is
+// repeated.
 constexpr std::int64_t kStall = 250 * kMillisecond;
 constexpr int kMaxRepeats = 200;
 
-// One recording program, from its start to its end.
+// One program that records, from its start to its end.
 class Victim {
  public:
   Victim(std::string path, std::int64_t life, int dawdling_us)
@@ -64,7 +65,7 @@ class Victim {
   int pipe() const { return pipe_; }
   std::int64_t dies_at() const { return dies_at_; }
 
-  // Reads once; false at the end.
+  // Reads from the program once. Returns false at the end.
   bool Listen() {
     HandOver batch[256];
     const ssize_t size = read(pipe_, batch, sizeof batch);
@@ -82,8 +83,8 @@ class Victim {
     close(pipe_);
   }
 
-  // After Kill(): the simulated time up to which all messages must exist; nothing: it lived too
-  // briefly.
+  // The simulated time up to which all messages must be in the file; nullopt if the program ran too
+  // briefly. Call it after Kill().
   std::optional<base::SimTime> promised() const {
     std::optional<base::SimTime> newest;
     for (const HandOver& each : told_) {
@@ -119,7 +120,7 @@ std::map<std::string, std::set<base::SimTime>> TimesByTopic(const McapReader& re
   return times;
 }
 
-// Recovers the victim's file, and checks that all required messages are in it.
+// Recovers the victim's file and checks that it contains all required messages.
 void Judge(const Victim& victim) {
   const std::string mended = victim.path() + ".mended";
   const auto recovery = Recover(victim.path(), mended);
@@ -150,7 +151,7 @@ class Killing {
  public:
   explicit Killing(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  // Continues until kMoments were checked.
+  // Repeats attempts until kMoments were checked.
   void Run() {
     while (judged_ < kMoments && !testing::Test::HasFatalFailure()) {
       while (victims_.size() < kAtOnce && started_ - again_ < kMoments) Start();
@@ -213,7 +214,7 @@ TEST(Promise, KillingLosesASecondOfARecordingAtMost) {
   ASSERT_TRUE(folder);
   Killing killing(folder->path());
   killing.Run();
-  // Lives last up to 2.5 s, so that most had data that must survive.
+  // An attempt lasts up to 2.5 s, so most programs had data that must survive.
   EXPECT_GT(killing.with_a_promise(), kMoments / 4);
 }
 

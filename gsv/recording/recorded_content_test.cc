@@ -1,4 +1,4 @@
-// The content of a simulation's recording, and the selection of topics.
+// Tests what the recording of a simulation contains, and the selection of topics.
 #include <map>
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST_F(SimulationRecorderTest, TopicsAndRatesCanBeChosen) {
                         {"/gsv/poses", 11}, {"/robot/back", 5}, {"/robot/front", 6}}));
 }
 
-TEST_F(SimulationRecorderTest, BeamsAloneAreThoseOfSensorsWithoutATopic) {
+TEST_F(SimulationRecorderTest, BeamsCanBeRecordedWithoutReadings) {
   auto simulation = MakeSimulation(1s, Drives(1.0));
   RecorderOptions options = NamingOptions();
   options.topics = {"/gsv/beams"};
@@ -46,10 +46,10 @@ TEST_F(SimulationRecorderTest, BeamsAloneAreThoseOfSensorsWithoutATopic) {
   const auto beams = Read<messages::visualization_msgs::MarkerArray>("/gsv/beams");
   ASSERT_EQ(beams.size(), 11u);
   ASSERT_EQ(beams.back().markers.size(), 1u);
-  EXPECT_EQ(beams.back().markers[0].points.size(), 4u);  // front and back
+  EXPECT_EQ(beams.back().markers[0].points.size(), 4u);  // the beams of "front" and of "back"
 }
 
-// A sensor whose image is one pixel, sent as "jpeg" without data.
+// A sensor whose image is one pixel. Its message has the format "jpeg" and no data.
 sensing::SensorType PixelCamera() {
   class Pixel final
       : public sensing::SensorOf<readings::Camera, messages::sensor_msgs::CompressedImage> {
@@ -109,25 +109,25 @@ TEST_F(SimulationRecorderTest, ImagesCanBePng) {
   EXPECT_EQ(images[0].format, "png");
   EXPECT_EQ(images[0].data, (std::vector<std::uint8_t>{1, 2, 3}));
   EXPECT_EQ(images[0].header.frame_id, "robot/eye");
-  // The companion messages come with each image, at its instant.
+  // Each image has a companion message at its instant.
   const auto infos = Read<messages::sensor_msgs::CameraInfo>("/robot/eye/camera_info");
   ASSERT_EQ(infos.size(), images.size());
   EXPECT_EQ(infos.back().header.stamp.nanosec, images.back().header.stamp.nanosec);
   EXPECT_EQ(infos.back().width, 1u);
 }
 
-TEST_F(SimulationRecorderTest, ReadingsAreThoseOfTheirInstant) {
+TEST_F(SimulationRecorderTest, ReadingsBelongToTheirInstant) {
   Record(1.0);
   const auto readings = Read<messages::sensor_msgs::Range>("/robot/front");
   ASSERT_EQ(readings.size(), 21u);
-  // From the origin at 1 m/s towards a wall at 2.9 m.
+  // The robot drives from the origin at 1 m/s towards a wall at 2.9 m.
   for (std::size_t i = 0; i < readings.size(); ++i) {
     EXPECT_NEAR(readings[i].range, 2.9 - 0.05 * static_cast<double>(i), 1e-6) << i;
     EXPECT_EQ(readings[i].header.frame_id, "robot/front");
   }
 }
 
-TEST_F(SimulationRecorderTest, ALidarOfSeveralRowsIsRecordedWithAllOfThemAndAsPoints) {
+TEST_F(SimulationRecorderTest, LidarOfSeveralRowsIsRecordedAsScanAndPoints) {
   auto simulation = simulation::Make(simulation::Lockstep(100ms));
   simulation::RobotSpecification robot = Robot("robot", 0, nullptr);
   model::Model model = *robot.model;
@@ -148,8 +148,8 @@ TEST_F(SimulationRecorderTest, ALidarOfSeveralRowsIsRecordedWithAllOfThemAndAsPo
   EXPECT_EQ(clouds[0].width * clouds[0].height, 15u);
 }
 
-// The sensors of bodies in the world without a drive.
-TEST_F(SimulationRecorderTest, AStationsSensorsAreRecordedLikeARobots) {
+// A station is a body with sensors and without a drive.
+TEST_F(SimulationRecorderTest, SensorsOfAStationAreRecorded) {
   simulation::Specification specification = simulation::Lockstep(100ms);
   auto world = std::make_shared<model::WorldDescription>(*specification.world);
   auto post = std::make_shared<model::Model>(*simulation::Disc(0.1));
@@ -175,7 +175,7 @@ TEST_F(SimulationRecorderTest, AStationsSensorsAreRecordedLikeARobots) {
 TEST_F(SimulationRecorderTest, TheSceneDescribesThePoses) {
   Record(0.5);
   const auto scenes = Attachments("scene.json");
-  ASSERT_EQ(scenes.size(), 2u);  // with "back" and before
+  ASSERT_EQ(scenes.size(), 2u);  // one with "back" and one from before
   const nlohmann::json scene = Scene(scenes.back());
   ASSERT_EQ(scene["bodies"].size(), 2u);
   EXPECT_EQ(scene["bodies"][0]["name"], "robot");
@@ -184,7 +184,7 @@ TEST_F(SimulationRecorderTest, TheSceneDescribesThePoses) {
   ASSERT_FALSE(poses.empty());
   EXPECT_EQ(poses.back().layout_version, scene["layout_version"]);
   ASSERT_EQ(poses.back().poses.size(), 7 * scene["poses"].size());
-  EXPECT_NEAR(poses.back().poses[0], 0.5, 1e-9);  // m, after a second at 0.5 m/s
+  EXPECT_NEAR(poses.back().poses[0], 0.5, 1e-9);  // in m, after one second at 0.5 m/s
 }
 
 TEST_F(SimulationRecorderTest, EachModelIsAttachedOnce) {

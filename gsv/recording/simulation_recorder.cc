@@ -10,8 +10,8 @@ namespace gsv::recording {
 namespace {
 
 // Wall-clock times: the period of checks for a destroyed simulation or a failed disk, and the age
-// at which messages are written. Together they are well below the promised second, so that also a
-// busy machine keeps it.
+// at which messages are written. Together they are well below the guaranteed second, so that a busy
+// machine keeps the guarantee as well.
 constexpr std::chrono::milliseconds kPollPeriod{100};
 constexpr std::chrono::milliseconds kFlushAge{500};
 
@@ -35,7 +35,7 @@ MetadataRecord Describe(const Simulation& simulation, const StringMap& further) 
   return record;
 }
 
-// The state of the run at the end of its recording.
+// Returns the result of the run, at the end of its recording.
 StringMap ResultOf(const Simulation& simulation) {
   const simulation::SimulationStatus status = simulation.status();
   return {{"phase", ToString(status.phase)},
@@ -110,7 +110,7 @@ base::Status SimulationRecorder::Stop() {
     const std::shared_ptr<Simulation> simulation = simulation_.lock();
     if (simulation) {
       if (!feed_->was_reset()) result_ = ResultOf(*simulation);
-      // A run is known to be over before its last snapshot is delivered.
+      // The end of a run is known before its last snapshot is delivered.
       feed_->CloseAtLatest();
       simulation->RemoveObserver(feed_);
     }
@@ -144,12 +144,14 @@ void SimulationRecorder::Record(const Occurrence& occurrence) {
 
 void SimulationRecorder::Record(const Observation& observation) {
   const world::Snapshot& snapshot = *observation.snapshot;
-  // The first and the last snapshot come from the simulation itself, and may also be delivered.
+  // The first and the last snapshot come from the simulation itself. They may also be delivered by
+  // the feed.
   if (latest_ && snapshot.state.step <= latest_->state.step) {
     if (observation.status) states_.RecordStatus(*observation.status);
     return;
   }
-  // The last snapshot: a robot that was added without a step is not part of it.
+  // The last snapshot may have a robot that was added after the last step. The robot is not part of
+  // the recording.
   if (latest_ && snapshot.layout != latest_->layout && !observation.sensors) return;
   if (observation.sensors) {
     scene_.Attach(snapshot, *observation.sensors);
@@ -162,14 +164,14 @@ void SimulationRecorder::Record(const Observation& observation) {
   latest_ = observation.snapshot;
 }
 
-// A replay ends with the last observed state.
+// A replay needs the last observed state to end with it.
 void SimulationRecorder::WriteEnd() {
   if (writer_->failed()) return;
   states_.RecordNow(*latest_);
   StringMap result = result_;
   result["dropped_snapshots"] = std::to_string(feed_->dropped());
   writer_->AddMetadata({"gsv.result", std::move(result)});
-  (void)writer_->Close();  // the error is kept for Stop()
+  (void)writer_->Close();  // Stop() returns the error
 }
 
 }  // namespace gsv::recording

@@ -1,7 +1,7 @@
 // Records one simulation to an MCAP file while it runs (docs/formats/recording.md).
 //
-// The stepping thread passes its snapshots on; a thread of the recorder samples sensors and encodes
-// messages, another writes the file. Recording does not change the simulation.
+// The stepping thread passes its snapshots on. One thread of the recorder samples sensors and
+// encodes messages, and another one writes the file. Recording does not change the simulation.
 //
 // One run     a reset of the simulation ends the recording.
 // Errors      a failing disk ends the recording, never the simulation; Stop() returns the error.
@@ -25,13 +25,13 @@
 namespace gsv::recording {
 
 struct RecorderOptions {
-  WriteGlb write_glb;      // required
-  double poses_rate = 50;  // Hz of simulated time, > 0
+  WriteGlb write_glb;      // required: writes a model as GLB
+  double poses_rate = 50;  // in Hz of simulated time, > 0
   SensorRates sensors;
-  std::vector<std::string> topics;  // see Selection; empty: all
-  WritePng write_png;               // empty: images as the sensors encode them
-  bool replace = false;             // an existing file
-  // The attached scenario; default: ScenarioOf() the simulation.
+  std::vector<std::string> topics;  // see Selection; empty for all topics
+  WritePng write_png;               // if empty, images are recorded in the encoding of the sensors
+  bool replace = false;             // whether to replace an existing file
+  // The scenario to attach. By default it is ScenarioOf() of the simulation.
   std::optional<scenario::Scenario> scenario{};
   // Added to the metadata record "gsv.simulation".
   StringMap metadata;
@@ -39,16 +39,17 @@ struct RecorderOptions {
 
 class SimulationRecorder {
  public:
-  // Creates the file with the present scene and models, and begins. Nothing from before is recorded,
-  // but for the edits of a simulation that has not started, so that it can be simulated again.
+  // Creates the file with the present scene and models, and begins to record. It does not record
+  // the past, except for the edits of a simulation that has not started; with them the run can be
+  // simulated again.
   [[nodiscard]] static base::Result<std::unique_ptr<SimulationRecorder>> Start(
       const std::shared_ptr<simulation::Simulation>& simulation, const std::string& path,
       RecorderOptions options);
-  // Stops. Logs an error unless Stop() has returned it.
+  // Stops recording. Logs an error unless Stop() has returned it.
   ~SimulationRecorder();
 
-  // Writes the queue and the end of the file. Idempotent. Returns the error that ended the
-  // recording early, if any.
+  // Writes the queue and the end of the file. Further calls do nothing. Returns the error that
+  // ended the recording early, if there was one.
   base::Status Stop();
 
   // Whether the simulation still exists and the disk has not failed.
@@ -73,12 +74,12 @@ class SimulationRecorder {
   SceneAttachments scene_;
   SourceAttachments sources_;
   std::shared_ptr<SimulationFeed> feed_;
-  std::shared_ptr<const world::Snapshot> latest_;  // that was recorded
+  std::shared_ptr<const world::Snapshot> latest_;  // the latest snapshot that was recorded
   std::atomic<bool> has_ended_ = false;
 
   base::Mutex stopping_;
   bool is_stopped_ GSV_GUARDED_BY(stopping_) = false;
-  StringMap result_;  // written before the feed is closed, read after its end
+  StringMap result_;  // written before the feed is closed, and read after its end
   std::thread thread_;
 };
 

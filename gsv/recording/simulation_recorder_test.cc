@@ -32,19 +32,19 @@ TEST_F(SimulationRecorderTest, DoesNotAffectTheSimulation) {
 TEST_F(SimulationRecorderTest, EachTopicKeepsItsRateInSimulatedTime) {
   std::map<std::string, std::uint64_t> counts;
   for (const auto& channel : Record(0.5).channels) counts[channel.topic] = channel.messages;
-  // Over one second, including both ends: 50, 20, 10 and 5 Hz. "back" exists from the first step
-  // on.
+  // The counts are for one second, including both ends, at 50, 20, 10 and 5 Hz. "back" exists from
+  // the first step on.
   EXPECT_EQ(counts["/clock"], 51u);
   EXPECT_EQ(counts["/gsv/poses"], 51u);
   EXPECT_EQ(counts["/tf"], 51u);
   EXPECT_EQ(counts["/robot/front"], 21u);
   EXPECT_EQ(counts["/robot/back"], 20u);
   EXPECT_EQ(counts["/gsv/beams"], 11u);
-  EXPECT_GE(counts["/gsv/status"], 6u);  // and one at the end
+  EXPECT_GE(counts["/gsv/status"], 6u);  // five per second, and one at the end
   EXPECT_EQ(counts["/gsv/state_hash"], 2u);
   EXPECT_EQ(counts["/tf_static"], 2u);
-  EXPECT_EQ(counts["/gsv/events"], 2u);  // started, finished
-  EXPECT_EQ(counts["/rosout"], 2u);      // the same
+  EXPECT_EQ(counts["/gsv/events"], 2u);  // the events "started" and "finished"
+  EXPECT_EQ(counts["/rosout"], 2u);      // /rosout has the same events
   EXPECT_EQ(counts["/diagnostics"], 2u);
 }
 
@@ -90,10 +90,11 @@ TEST_F(SimulationRecorderTest, RecordsRadioMessages) {
   EXPECT_EQ(said[0].receiver, "");
   EXPECT_EQ(std::string(said[0].content.begin(), said[0].content.end()), "hello");
   EXPECT_EQ(said[0].heard_by, (std::vector<std::string>{"b", "d"}));
-  EXPECT_EQ(said[0].stamp.nanosec, 60'000'000u);  // received with the step after 50 ms
+  // the message was received with the step after 50 ms
+  EXPECT_EQ(said[0].stamp.nanosec, 60'000'000u);
 }
 
-TEST_F(SimulationRecorderTest, TheMetadataHaveTheSettingsAndTheResult) {
+TEST_F(SimulationRecorderTest, MetadataContainTheSettingsAndTheResult) {
   auto info = Record(0.5);
   std::map<std::string, StringMap> metadata;
   for (const MetadataRecord& record : info.metadata) metadata[record.name] = record.values;
@@ -106,7 +107,7 @@ TEST_F(SimulationRecorderTest, TheMetadataHaveTheSettingsAndTheResult) {
   EXPECT_EQ(metadata["gsv.result"]["dropped_snapshots"], "0");
 }
 
-TEST_F(SimulationRecorderTest, ARobotThatIsAddedLaterHasItsScene) {
+TEST_F(SimulationRecorderTest, AddedRobotGetsANewScene) {
   auto simulation = MakeSimulation(1s, Drives(0.5));
   auto recorder = Start(simulation);
   ASSERT_TRUE(simulation->RunUntil(500ms));
@@ -122,11 +123,11 @@ TEST_F(SimulationRecorderTest, ARobotThatIsAddedLaterHasItsScene) {
   const nlohmann::json last = Scene(scenes.back());
   EXPECT_EQ(last["layout_version"], poses.back().layout_version);
   EXPECT_EQ(last["bodies"].size(), 3u);
-  EXPECT_EQ(scenes.back().log_time, 510ms);  // the first step with it
+  EXPECT_EQ(scenes.back().log_time, 510ms);  // the first step with the added robot
 }
 
 // `gsv replay --resimulate --commands` repeats the recorded commands.
-TEST_F(SimulationRecorderTest, ARobotThatIsAddedAgainHasNoCommandYet) {
+TEST_F(SimulationRecorderTest, RobotThatIsAddedAgainStartsWithoutACommand) {
   auto simulation = MakeSimulation(1s, Drives(0.5));
   auto recorder = Start(simulation);
   ASSERT_TRUE(simulation->RunUntil(500ms));
@@ -137,11 +138,11 @@ TEST_F(SimulationRecorderTest, ARobotThatIsAddedAgainHasNoCommandYet) {
   ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
   ASSERT_TRUE(recorder->Stop());
   const auto commands = Read<messages::gsv_msgs::Command>("/gsv/commands");
-  EXPECT_EQ(commands.size(), 10u);  // every 50 ms, until its removal
+  EXPECT_EQ(commands.size(), 10u);  // one every 50 ms, until the robot was removed
   for (const auto& command : commands) EXPECT_EQ(command.linear_m_s, 0.5);
 }
 
-TEST_F(SimulationRecorderTest, KeepsEditsFromBeforeItsStartSoThatTheyCanBeRepeated) {
+TEST_F(SimulationRecorderTest, RecordsEditsFromBeforeItsStart) {
   const auto make = [] { return MakeSimulation(100ms, Drives(0.5)); };
   auto simulation = make();
   simulation::ObjectSpecification object;
@@ -153,7 +154,8 @@ TEST_F(SimulationRecorderTest, KeepsEditsFromBeforeItsStartSoThatTheyCanBeRepeat
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
   ASSERT_TRUE(recorder->Stop());
   const auto edits = Read<messages::gsv_msgs::Edit>("/gsv/edits");
-  ASSERT_EQ(edits.size(), 1u);  // the robot is in the scenario
+  // the scenario includes the robot, so only the other edit is recorded
+  ASSERT_EQ(edits.size(), 1u);
   const auto edit = presentation::EditFrom(edits[0]);
   ASSERT_TRUE(edit);
   EXPECT_EQ(edit->time, base::SimTime(0));
@@ -171,7 +173,7 @@ TEST_F(SimulationRecorderTest, KeepsEditsFromBeforeItsStartSoThatTheyCanBeRepeat
   EXPECT_NE(unedited->state_hash(), simulation->state_hash());
 }
 
-TEST_F(SimulationRecorderTest, AFullDiskEndsTheRecordingAndNotTheSimulation) {
+TEST_F(SimulationRecorderTest, FullDiskEndsOnlyTheRecording) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
   auto simulation = MakeSimulation(1s, Drives(0.5));
   auto recorder = SimulationRecorder::Start(simulation, "/dev/full", NamingOptions());
@@ -186,7 +188,7 @@ TEST_F(SimulationRecorderTest, AFullDiskEndsTheRecordingAndNotTheSimulation) {
   EXPECT_FALSE((*recorder)->is_recording());
 }
 
-TEST_F(SimulationRecorderTest, AnExistingFileIsNotOverwrittenUnasked) {
+TEST_F(SimulationRecorderTest, ExistingFileIsReplacedOnlyIfRequested) {
   Record(0.5);
   RecorderOptions options = NamingOptions();
   options.replace = false;
@@ -208,7 +210,7 @@ TEST_F(SimulationRecorderTest, AResetEndsTheRecording) {
   EXPECT_EQ(Read<messages::gsv_msgs::LifecycleEvent>("/gsv/events").back().event, "finished");
 }
 
-TEST_F(SimulationRecorderTest, ADestroyedSimulationLeavesACompleteFile) {
+TEST_F(SimulationRecorderTest, DestroyedSimulationLeavesACompleteFile) {
   auto simulation = MakeSimulation(200ms, Drives(0.5));
   auto recorder = Start(simulation);
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);

@@ -1,4 +1,4 @@
-// A separate program, as EGL searches for its drivers once per process.
+// This is a separate program, because EGL searches for its drivers once per process.
 #include <cstdlib>
 
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 namespace gsv::rendering {
 namespace {
 
-TEST(RendererWithoutADriver, SaysWhatToInstall) {
-  // GLVND's own way to name the drivers: here, none.
+TEST(RendererWithoutADriver, ErrorNamesThePackageToInstall) {
+  // GLVND reads the list of drivers from this variable; this list is empty.
   setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent/driver.json", 1);
   RendererOptions options;
   options.back_end = BackEnd::kOpenGl;
@@ -19,7 +19,7 @@ TEST(RendererWithoutADriver, SaysWhatToInstall) {
   EXPECT_NE(started.error().message.find("install libegl1"), std::string::npos);
 }
 
-TEST(RendererWithoutADriver, HasTheRasteriser) {
+TEST(RendererWithoutADriver, CanUseTheRasteriser) {
   setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent/driver.json", 1);
   const auto started = Renderer::Start();
   ASSERT_TRUE(started) << started.error().Sentence();

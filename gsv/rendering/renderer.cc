@@ -19,9 +19,9 @@ using base::Fail;
 using base::Result;
 using Images = std::vector<std::shared_ptr<const model::Image>>;
 
-// Images of a batch, before other snapshots get their turn.
+// After this many images of a batch, other snapshots get their turn.
 constexpr std::size_t kMaxBatchSize = 64;
-// Time after which unused data is removed from the card while no image is requested.
+// Unused data is removed from the card after this time without a request for an image.
 constexpr std::chrono::seconds kIdleSweep{5};
 
 using Truths = std::vector<std::shared_ptr<const GroundTruth>>;
@@ -29,7 +29,7 @@ using Truths = std::vector<std::shared_ptr<const GroundTruth>>;
 struct Request {
   std::shared_ptr<const world::Snapshot> snapshot;
   std::vector<CameraView> views;
-  bool is_survey = false;  // `truths` is requested, else `images`
+  bool is_survey = false;  // the result is `truths` if true, else `images`
   std::promise<Result<Images>> images;
   std::promise<Result<Truths>> truths;
   bool abandoned = false;  // the caller no longer waits
@@ -58,7 +58,7 @@ class Renderer::RenderThread {
     if (thread_.joinable()) thread_.join();
   }
 
-  // The renderer's name.
+  // Starts the back end and returns the renderer's name.
   Result<std::string> Start() {
     std::promise<Result<std::string>> started;
     std::future<Result<std::string>> name = started.get_future();
@@ -168,7 +168,7 @@ class Renderer::RenderThread {
     }
   }
 
-  // The requests for the same snapshot as the one that has waited longest.
+  // Takes the requests for the same snapshot as the request that has waited longest.
   Batch TakeBatch() GSV_REQUIRES(mutex_) {
     std::erase_if(queue_, [](const auto& request) { return request->abandoned; });
     Batch batch;
@@ -206,7 +206,7 @@ class Renderer::RenderThread {
     return views;
   }
 
-  // Distributes the results for the requests' views, in order.
+  // Distributes the results to the requests of the batch, in order.
   template <typename Product>
   static void Serve(std::span<const std::shared_ptr<Request>> requests, Result<Product> made,
                     std::promise<Result<Product>> Request::*promise) {

@@ -7,9 +7,9 @@
 //
 // Determinism  an image is a function of snapshot, camera and renderer_name(). Equal inputs give
 //              equal bytes on one renderer, in any batch.
-// Errors       Start(): kUnavailable with the missing part. Draw(): kInvalidArgument for an invalid
-//              camera, kTimeout, kUnavailable if too many requests are pending or the card fails,
-//              kEnded while the renderer shuts down.
+// Errors       Start(): kUnavailable, with the name of the missing part. Draw(): kInvalidArgument
+//              for an invalid camera, kTimeout, kUnavailable if too many requests are pending or
+//              the card fails, kEnded while the renderer shuts down.
 // Threads      any; Draw() blocks its caller.
 #pragma once
 
@@ -29,22 +29,22 @@
 namespace gsv::rendering {
 
 enum class BackEnd {
-  kAutomatic,   // a graphics card, else the rasteriser, or Mesa on processors without AVX2
-  kOpenGl,      // as `egl` allows
-  kRasteriser,  // kUnavailable on processors without AVX2 and FMA
+  kAutomatic,   // a graphics card; without one, the rasteriser; on processors without AVX2, Mesa
+  kOpenGl,      // OpenGL, on the devices that `egl` allows
+  kRasteriser,  // the rasteriser; kUnavailable on processors without AVX2 and FMA
 };
 
 struct RendererOptions {
   BackEnd back_end = BackEnd::kAutomatic;
   EglOptions egl;
-  // Largest number of pending requests; further ones are refused.
+  // The maximum number of pending requests; further ones are refused.
   std::size_t queue_capacity = 4096;
 };
 
 class Renderer {
  public:
-  // Longer than the slowest machine needs for an image. The simulation's deadline for behaviours
-  // may be shorter.
+  // This is longer than the slowest machine needs for an image. The simulation's deadline for
+  // behaviours may be shorter.
   static constexpr std::chrono::seconds kTimeout{60};
 
   [[nodiscard]] static base::Result<std::shared_ptr<Renderer>> Start(RendererOptions options = {});
@@ -58,22 +58,22 @@ class Renderer {
       std::shared_ptr<const world::Snapshot> snapshot, const CameraView& view,
       std::chrono::milliseconds timeout = kTimeout);
 
-  // The same for several cameras in one batch; image i is that of views[i].
+  // Renders several cameras in one batch. Image i is that of views[i].
   [[nodiscard]] base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
       std::shared_ptr<const world::Snapshot> snapshot, const std::vector<CameraView>& views,
       std::chrono::milliseconds timeout = kTimeout);
 
-  // Renders depth and label images; element i is that of views[i]. Always uses the rasteriser:
-  // kUnavailable on processors without AVX2 and FMA.
+  // Renders depth and label images. Element i is that of views[i]. It always uses the rasteriser,
+  // and returns kUnavailable on processors without AVX2 and FMA.
   [[nodiscard]] base::Result<std::vector<std::shared_ptr<const GroundTruth>>> DrawGroundTruth(
       std::shared_ptr<const world::Snapshot> snapshot, const std::vector<CameraView>& views,
       std::chrono::milliseconds timeout = kTimeout);
 
-  // "GSV rasteriser (AVX2)" or "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa
-  // 22.3.6".
+  // For example "GSV rasteriser (AVX2)" or "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core
+  // Profile) Mesa 22.3.6".
   const std::string& renderer_name() const { return renderer_name_; }
 
-  // Counts the copies after freeing unused ones. Waits for the batch in progress.
+  // Frees unused copies and returns the number of the others. Waits for the batch in progress.
   DrawCopies CountCopies();
 
  private:

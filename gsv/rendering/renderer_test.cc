@@ -24,7 +24,7 @@ std::shared_ptr<const model::Image> Grey() {
   return image;
 }
 
-TEST(Renderer, SaysWhatItDrawsWith) {
+TEST(Renderer, ReportsTheNameOfItsBackEnd) {
   RendererOptions options;
   options.back_end = BackEnd::kOpenGl;
   EXPECT_NE(StartRenderer(options)->renderer_name().find("OpenGL"), std::string::npos);
@@ -32,14 +32,14 @@ TEST(Renderer, SaysWhatItDrawsWith) {
   EXPECT_NE(StartRenderer(options)->renderer_name().find("rasteriser"), std::string::npos);
 }
 
-TEST(Renderer, RefusesACameraThatCannotBe) {
+TEST(Renderer, RejectsAnInvalidCamera) {
   const auto renderer = StartRenderer();
   const auto image = renderer->Draw(TestScene().Snapshot(), CameraView{{}, {0, 240, 1, 0.1, 100}});
   ASSERT_FALSE(image);
   EXPECT_EQ(image.error().code, base::ErrorCode::kInvalidArgument);
 }
 
-TEST(Renderer, FreesWhatBelongedToARemovedBody) {
+TEST(Renderer, FreesTheDataOfARemovedBody) {
   const auto renderer = StartRenderer();
   TestScene scene;
   const CameraView view{{}, {32, 24, 1, 0.1, 100}};
@@ -96,7 +96,8 @@ TEST(Renderer, ServesManyThreadsAtOnce) {
     asked.push_back(std::async(std::launch::async, [&, thread] {
       bool good = true;
       for (int i = 0; i < 4; ++i) {
-        // Rotated slightly to the left or right, so that only one of the boxes is visible.
+        // The camera is rotated slightly to the left or right, so that only one of the boxes is
+        // visible.
         const bool left = (thread + i) % 2 == 0;
         const CameraView view{geometry::PlanarPose(0, 0, 0, left ? 0.6 : -0.6),
                               {40 + thread % 2, 30, 0.9, 0.1, 10}};
@@ -110,7 +111,7 @@ TEST(Renderer, ServesManyThreadsAtOnce) {
   for (auto& good : asked) EXPECT_TRUE(good.get());
 }
 
-TEST(Renderer, DrawsAThousandThingsInOneWorld) {
+TEST(Renderer, DrawsAThousandObjectsInOneWorld) {
   const auto renderer = StartRenderer();
   TestScene scene;
   for (int i = 0; i < 1000; ++i) {
@@ -121,12 +122,12 @@ TEST(Renderer, DrawsAThousandThingsInOneWorld) {
   const auto image =
       renderer->Draw(scene.Snapshot(), CameraView{{}, {320, 240, 1.2, 0.1, 100}}, kLong);
   ASSERT_TRUE(image);
-  // A front of 0.02 m at 1.975 m is (0.02 f / 1.975)² pixels; its sides add some.
+  // A face of 0.02 m at 1.975 m covers (0.02 f / 1.975)² pixels. The box's sides add some.
   const double front = std::pow(0.02 * 160 / std::tan(0.6) / 1.975, 2);
   EXPECT_GT(FindBlob(**image, 1, 1).pixels, 1000 * front * 0.9);
 }
 
-TEST(Renderer, TimesOutWithASentence) {
+TEST(Renderer, ReportsATimeout) {
   const auto renderer = StartRenderer();
   const auto image =
       renderer->Draw(TestScene().Snapshot(), CameraView{{}, {4096, 4096, 1, 0.1, 100}},
@@ -135,7 +136,7 @@ TEST(Renderer, TimesOutWithASentence) {
   EXPECT_EQ(image.error().code, base::ErrorCode::kTimeout);
 }
 
-TEST(Renderer, RefusesMoreThanItsQueueHolds) {
+TEST(Renderer, RefusesRequestsWhenItsQueueIsFull) {
   RendererOptions options;
   options.queue_capacity = 0;
   const auto renderer = StartRenderer(options);
@@ -145,7 +146,7 @@ TEST(Renderer, RefusesMoreThanItsQueueHolds) {
   EXPECT_NE(image.error().message.find("wait already"), std::string::npos);
 }
 
-TEST(Renderer, WithoutALibrarySaysWhichAndWhatToInstall) {
+TEST(Renderer, NamesTheMissingLibraryAndThePackageToInstall) {
   RendererOptions options;
   options.back_end = BackEnd::kOpenGl;
   options.egl.egl_library = "libEGL_that_is_not_there.so.1";

@@ -1,8 +1,9 @@
 // Measures the speed of rendering: run it in a release build.
 //
-// A hundred robots in a building of 20 by 20 m with 25 rooms, a table in each, a sun and four
-// lamps. The cameras of some robots, with 320 by 240 pixels, look at one instant; then all robots
-// move, and so on. A time is that of one instant: shadows, images and their readback.
+// A hundred robots are in a building of 20 by 20 m. It has 25 rooms with a table each, a sun and
+// four lamps. The cameras of some robots, with 320 by 240 pixels, take their images of one instant.
+// Then all robots move, and this repeats. A measured time is that of one instant: shadows, images
+// and their readback.
 
 #include <benchmark/benchmark.h>
 
@@ -23,9 +24,10 @@ using geometry::PlanarPose;
 using geometry::Pose;
 
 constexpr int kRobots = 100;
-constexpr int kRooms = 5;                                // along a side
-constexpr double kRoom = 4, kHalf = kRooms * kRoom / 2;  // m
-constexpr double kStep = 0.05;                           // s
+constexpr int kRooms = 5;  // rooms along a side of the building
+// side of a room, and half of the building's side, in m
+constexpr double kRoom = 4, kHalf = kRooms * kRoom / 2;
+constexpr double kStep = 0.05;  // simulated time between instants, in s
 
 // A chequered texture, so that textures cost as much as in realistic worlds.
 std::shared_ptr<const model::Image> Tiles() {
@@ -95,7 +97,7 @@ class Office {
     }
   }
 
-  // The two walls that end at a corner of rooms, each with a door of 1.4 m at that end.
+  // Adds the two walls that end at a corner of rooms. Each has a door of 1.4 m at that end.
   void AddWalls(int i, int k, const model::Material& material) {
     const double at = kRoom * i - kHalf, along = kRoom * (k + 0.5) - kHalf + 0.7;
     const std::string name = std::to_string(i) + "." + std::to_string(k);
@@ -104,7 +106,7 @@ class Office {
     scene_.Add("y" + name, wall, PlanarPose(at, along, 1.25, std::numbers::pi / 2), material, true);
   }
 
-  // A drum with a ring of bolts: many small triangles, as robots have.
+  // A robot is a drum with a ring of bolts: like real robots, it has many small triangles.
   void AddRobot(const std::string& name, const Pose& pose) {
     scene_.Add(name, geometry::Cylinder{0.26, 0.9}, pose, Matt(0.7, 0.05, 0.05));
     model::Link& link = scene_.LinkOf(name);
@@ -138,8 +140,8 @@ double ProcessorTime() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// Reports the mean, and the minimum processor time of an instant, for machines that also do other
-// work.
+// Reports the mean and the minimum processor time of an instant. The minimum is for machines that
+// also do other work.
 void Images(benchmark::State& bench) {
   const int cameras = static_cast<int>(bench.range(0));
   RendererOptions options;
@@ -156,7 +158,7 @@ void Images(benchmark::State& bench) {
     const auto images = (*renderer)->Draw(office.snapshot(), views, std::chrono::minutes(1));
     GSV_CHECK(images.has_value());
   };
-  // Everything that is done once per world.
+  // The first images include everything that is done once per world.
   for (int i = 0; i < 3; ++i) draw();
   double least = 1e9;
   for (auto _ : bench) {

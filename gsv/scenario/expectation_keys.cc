@@ -11,9 +11,9 @@ namespace {
 using FormulaKind = Formula::Kind;
 using QuantityKind = Quantity::Kind;
 
-constexpr double kMax = 1e9;                    // limit of any measured number
-constexpr double kNear = 0.25;                  // m
-constexpr double kYawNear = 0.261799387799149;  // rad, 15 degrees
+constexpr double kMax = 1e9;                    // the limit of any measured number
+constexpr double kNear = 0.25;                  // default tolerance of a position, m
+constexpr double kYawNear = 0.261799387799149;  // default tolerance of a yaw, rad (15 degrees)
 
 Formula Atom(QuantityKind kind, std::string first, double least, double most) {
   Formula atom;
@@ -37,7 +37,7 @@ class FormulaReader {
  public:
   explicit FormulaReader(const YamlPlace& place) : place_(place) {}
 
-  // `mapping` is a formula: one operator, and its arguments.
+  // Reads a formula from `mapping`, which has one operator and its arguments.
   Formula Read(YamlMapping& mapping, int depth) {
     Formula formula;
     if (is_too_large()) return formula;
@@ -143,7 +143,7 @@ class FormulaReader {
   Formula Until(const YAML::Node& node, YamlMapping& m, const std::string& key, int depth) {
     return Joined(FormulaKind::kUntil, Several(node, m, key, depth, 2));
   }
-  // The second does not occur before the first has occurred without the second.
+  // `first` before `second`: `second` does not occur before `first` has occurred without `second`.
   Formula Before(const YAML::Node& node, YamlMapping& m, const std::string& key, int depth) {
     auto parts = Several(node, m, key, depth, 2);
     Formula none_of_second = Not(parts[1]);
@@ -151,7 +151,7 @@ class FormulaReader {
     return Joined(FormulaKind::kUntil, {std::move(none_of_second), std::move(first_alone)});
   }
 
-  // The name of a robot or object.
+  // Reads the name of a robot or object.
   std::string Body(YamlMapping& m) {
     const auto name = m.Text("robot");
     if (m.is_mapping() && (!name || name->empty()))
@@ -259,7 +259,7 @@ class FormulaReader {
     return Joined(FormulaKind::kAlways, {std::move(atom)});
   }
 
-  // One name, or two of them.
+  // Reads one name, or a list of two names.
   Formula Contact(const YAML::Node& node, YamlMapping& m, const std::string& key, int) {
     Formula atom = Atom(QuantityKind::kContact, "", 1, 1);
     const bool is_pair =

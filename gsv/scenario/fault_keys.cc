@@ -4,7 +4,7 @@
 namespace gsv::scenario {
 namespace {
 
-// The target of a fault, by its key.
+// What a fault acts on. It follows from the key of the fault.
 enum class Subject { kSensor, kBehaviour, kMotor, kMove, kJoint };
 constexpr std::pair<const char*, Subject> kSubjects[]{{"sensor", Subject::kSensor},
                                                       {"behaviour", Subject::kBehaviour},

@@ -14,7 +14,7 @@
 namespace gsv::scenario {
 namespace {
 
-// Ignores everything except the starts of documents.
+// Reports the start of each document and ignores all other events.
 class Starts final : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark& mark) override { latest = mark; }
@@ -33,8 +33,8 @@ class Starts final : public YAML::EventHandler {
   YAML::Mark latest;
 };
 
-// The place after the first document, whatever is there. (YAML::LoadAll() of yaml-cpp 0.7 does not
-// end at a place where no document can begin: it finds the place again and again.)
+// Returns the place of a second document, even if its content is invalid. YAML::LoadAll() of
+// yaml-cpp 0.7 cannot be used: it does not end at a place where no document can begin.
 std::optional<YAML::Mark> SecondDocument(const std::string& text) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
@@ -43,7 +43,7 @@ std::optional<YAML::Mark> SecondDocument(const std::string& text) {
   return starts.latest;
 }
 
-// The number of bytes of a character with this first byte; 0: invalid.
+// The number of bytes of the UTF-8 character with this first byte; 0 if it is invalid.
 std::size_t LengthOfCharacter(unsigned char first) {
   if (first < 0x80) return 1;
   if (first >= 0xc2 && first < 0xe0) return 2;
@@ -51,7 +51,7 @@ std::size_t LengthOfCharacter(unsigned char first) {
   return first >= 0xf0 && first < 0xf5 ? 4 : 0;
 }
 
-// The first line that is not UTF-8, counted from 1.
+// Returns the first line that is not UTF-8, counted from 1.
 std::optional<std::size_t> LineThatIsNotUtf8(const std::string& text) {
   std::size_t line = 1;
   for (std::size_t i = 0; i < text.size();) {
@@ -66,8 +66,8 @@ std::optional<std::size_t> LineThatIsNotUtf8(const std::string& text) {
   return std::nullopt;
 }
 
-// The first line, counted from 1, with a character that YAML forbids: a control character other
-// than tabs and newlines. Readers of YAML interpret them differently.
+// Returns the first line with a character that YAML forbids, counted from 1: a control character
+// other than tabs and newlines. YAML readers interpret these characters differently.
 std::optional<std::size_t> LineWithControlCharacter(const std::string& text) {
   const auto is_control = [](unsigned char c) {
     return (c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7f;
@@ -77,7 +77,7 @@ std::optional<std::size_t> LineWithControlCharacter(const std::string& text) {
   return 1 + static_cast<std::size_t>(std::count(text.begin(), found, '\n'));
 }
 
-// The absolute path of a name in the file's folder, if it exists; else the name.
+// Returns the absolute path of a name that exists in the file's folder, or else the name.
 std::string SeenFrom(const std::filesystem::path& folder, const std::string& name) {
   std::error_code ignored;
   const std::string file = formats::xacro::FilePart(name);
@@ -97,7 +97,7 @@ base::Result<Scenario> ParseScenario(const std::string& text, const std::string&
   if (text.size() > kMaxScenarioBytes) {
     return refuse("a scenario has at most " + std::to_string(kMaxScenarioBytes) + " bytes", file);
   }
-  // A name with other bytes would be read back as another name.
+  // A name with invalid bytes would be read back as a different name.
   if (const auto line = LineThatIsNotUtf8(text)) {
     return refuse("the text is not UTF-8", file + ":" + std::to_string(*line));
   }
@@ -114,7 +114,7 @@ base::Result<Scenario> ParseScenario(const std::string& text, const std::string&
                     file);
     }
     Scenario scenario = ReadScenarioKeys(document, place);
-    // yaml-cpp reads each of these as one byte, 0x85 or 0xa0, which is not UTF-8.
+    // yaml-cpp reads each of these escapes as one byte, 0x85 or 0xa0, which is not UTF-8.
     const bool has_them = text.find("\\N") != text.npos || text.find("\\_") != text.npos;
     if (has_them && LineThatIsNotUtf8(ToYaml(scenario))) {
       return refuse("\\N and \\_ are not read rightly in quoted texts; write \\u0085 and \\u00a0",

@@ -1,4 +1,4 @@
-// Reads and writes scenarios as YAML (docs/formats/scenario.md), of which JSON is a part.
+// Reads and writes scenarios as YAML (docs/formats/scenario.md). JSON is a subset of YAML.
 //
 // Units   metres, radians, seconds, Hz.
 // Input   untrusted, of at most kMaxScenarioBytes.
@@ -15,19 +15,19 @@ namespace gsv::scenario {
 
 inline constexpr std::size_t kMaxScenarioBytes = std::size_t{4} << 20;  // bytes
 
-// kBadModel if the text is not YAML or not a scenario. All other mistakes are added to `problems`,
-// and the values left out. Problems name `file`.
+// Parses a scenario. Returns kBadModel if the text is not YAML or not a scenario. All other
+// mistakes are added to `problems`, and their values are skipped. Problems name `file`.
 base::Result<Scenario> ParseScenario(const std::string& text, const std::string& file,
                                      base::Problems& problems);
 
-// The same for a file. Names of worlds, models and folders that exist relative to the file's folder
-// become absolute paths. kNotFound if the file does not exist.
+// Reads a scenario file. Names of worlds, models and folders that exist relative to the file's
+// folder become absolute paths. Returns kNotFound if the file does not exist.
 base::Result<Scenario> ReadScenario(const std::filesystem::path& file, base::Problems& problems);
 
 // Whether `name` has the extension of a scenario file: ".yaml" or ".yml".
 bool IsScenarioFileName(const std::string& name);
 
-// The scenario as YAML. ParseScenario() reads it back with identical numbers.
+// Writes the scenario as YAML. ParseScenario() reads it back with identical numbers.
 std::string ToYaml(const Scenario& scenario);
 
 }  // namespace gsv::scenario

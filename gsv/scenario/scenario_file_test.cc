@@ -22,8 +22,8 @@ std::vector<std::string> Sentences(const base::Problems& problems) {
   return sentences;
 }
 
-// The problems of a text, one sentence each.
-std::vector<std::string> Complaints(const std::string& text) {
+// The problems that ParseScenario() reports for a text, one sentence each.
+std::vector<std::string> ProblemsIn(const std::string& text) {
   base::Problems problems;
   const auto scenario = ParseScenario(text, "room.yaml", problems);
   if (!scenario) return {scenario.error().Sentence()};
@@ -102,7 +102,7 @@ TEST(ScenarioFile, TheFormerNameOfTheRealTimeFactorIsAccepted) {
   EXPECT_THAT(problems[0].message, ::testing::HasSubstr("is the former name of real_time_factor"));
 }
 
-TEST(ScenarioFile, AWrittenScenarioIsReadBackBitByBit) {
+TEST(ScenarioFile, WrittenScenarioIsReadBackUnchanged) {
   Scenario scenario;
   scenario.world = "my worlds/room: \"2\" #1.sdf";
   scenario.name = "true";
@@ -138,7 +138,7 @@ TEST(ScenarioFile, AWrittenScenarioIsReadBackBitByBit) {
 
 TEST(ScenarioFile, EachErrorHasLineAndColumn) {
   EXPECT_THAT(
-      Complaints("world: office\n"
+      ProblemsIn("world: office\n"
                  "wrold: office\n"
                  "mode: fast\n"
                  "seed: -1\n"
@@ -173,7 +173,7 @@ TEST(ScenarioFile, EachErrorHasLineAndColumn) {
 }
 
 TEST(ScenarioFile, ReportsErrorsOfPedestrians) {
-  EXPECT_THAT(Complaints("pedestrians:\n"
+  EXPECT_THAT(ProblemsIn("pedestrians:\n"
                          "  - {count: 3}\n"
                          "  - {route: [{x: 1}], speed: 11}\n"
                          "  - {route: [{x: 1, y: 2}], count: 1000000}\n"),
@@ -183,70 +183,71 @@ TEST(ScenarioFile, ReportsErrorsOfPedestrians) {
                           "room.yaml:4:5: a group has 1 to 100,000 pedestrians"));
 }
 
-TEST(ScenarioFile, AStepOfZeroIsTheWorlds) {
+TEST(ScenarioFile, StepOfZeroSelectsTheWorldsStep) {
   EXPECT_EQ(Parsed("step: 0").step, std::nullopt);
-  EXPECT_THAT(Complaints("step: 1e-9"),
+  EXPECT_THAT(ProblemsIn("step: 1e-9"),
               ElementsAre("room.yaml:1:7: a step takes 1 microsecond at least, or 0 for the "
                           "world's"));
 }
 
-TEST(ScenarioFile, ANumberInQuotesIsAText) {
-  EXPECT_THAT(Complaints("seed: \"1\"\nin_process: 'true'\n"),
+TEST(ScenarioFile, NumberInQuotesIsAText) {
+  EXPECT_THAT(ProblemsIn("seed: \"1\"\nin_process: 'true'\n"),
               ElementsAre("room.yaml:1:7: seed must be a whole number from 0 to "
                           "18446744073709551615, found the text \"1\"",
                           "room.yaml:2:13: in_process must be false or true, found the text "
                           "\"true\""));
 }
 
-TEST(ScenarioFile, TrueIsNotTheNameOfARecording) {
-  EXPECT_THAT(Complaints("record: true\n"),
+TEST(ScenarioFile, TrueIsNoNameOfARecording) {
+  EXPECT_THAT(ProblemsIn("record: true\n"),
               ElementsAre("room.yaml:1:9: record must be a file, NAME.mcap, or a folder, found "
                           "\"true\""));
-  EXPECT_THAT(Complaints("record: truth\n"), ElementsAre());
+  EXPECT_THAT(ProblemsIn("record: truth\n"), ElementsAre());
 }
 
 TEST(ScenarioFile, ABehaviourIsChosenByNameOrByConstraint) {
   const Scenario scenario =
       Parsed("robots: [{model: pebble, behaviour_constraint: \"name == 'wander'\"}]");
   EXPECT_EQ(scenario.robots.at(0).behaviour_constraint, "name == 'wander'");
-  EXPECT_THAT(Complaints("robots: [{model: m, behaviour: a, behaviour_constraint: b}]"),
+  EXPECT_THAT(ProblemsIn("robots: [{model: m, behaviour: a, behaviour_constraint: b}]"),
               ElementsAre("room.yaml:1:57: a behaviour is chosen by name or by constraint, not "
                           "both"));
 }
 
 TEST(ScenarioFile, AFileThatIsNotAScenarioIsRefused) {
-  EXPECT_THAT(Complaints(""), ElementsAre(HasSubstr("room.yaml: it is empty")));
-  EXPECT_THAT(Complaints("world: a\nrobots: ]\n"),
+  EXPECT_THAT(ProblemsIn(""), ElementsAre(HasSubstr("room.yaml: it is empty")));
+  EXPECT_THAT(ProblemsIn("world: a\nrobots: ]\n"),
               ElementsAre("room.yaml:2:9: it is no YAML: illegal flow end"));
-  EXPECT_THAT(Complaints("a text"),
+  EXPECT_THAT(ProblemsIn("a text"),
               ElementsAre("room.yaml:1:1: expected a mapping (key: value), found \"a text\""));
-  EXPECT_THAT(Complaints("world: a\n---\nworld: b\n"),
+  EXPECT_THAT(ProblemsIn("world: a\n---\nworld: b\n"),
               ElementsAre("room.yaml:2:1: a file holds one scenario; this is a second one"));
-  EXPECT_THAT(Complaints(std::string(kMaxScenarioBytes + 1, ' ')),
+  EXPECT_THAT(ProblemsIn(std::string(kMaxScenarioBytes + 1, ' ')),
               ElementsAre(HasSubstr("at most 4194304 bytes")));
-  EXPECT_THAT(Complaints(std::string(100'000, '[')), ElementsAre(HasSubstr("it is no YAML")));
+  EXPECT_THAT(ProblemsIn(std::string(100'000, '[')), ElementsAre(HasSubstr("it is no YAML")));
 }
 
 TEST(ScenarioFile, ContentAfterTheScenarioIsRefused) {
-  EXPECT_THAT(Complaints("world: a\n, b\n"), ::testing::Not(IsEmpty()));
-  // Found by the fuzzer: a reader of all documents would find this one again and again.
-  EXPECT_THAT(Complaints(", [b: |\n  two\n  *a\nror\nwoe: !!str 0\nm]]\n\n"),
+  EXPECT_THAT(ProblemsIn("world: a\n, b\n"), ::testing::Not(IsEmpty()));
+  // Regression, found by the fuzzer: reading all documents of this text did not end.
+  EXPECT_THAT(ProblemsIn(", [b: |\n  two\n  *a\nror\nwoe: !!str 0\nm]]\n\n"),
               ::testing::Not(IsEmpty()));
 }
 
 TEST(ScenarioFile, ATextThatIsNotUtf8IsRefused) {
   for (const char* bytes : {"\xff", "\xc3", "\xe2\x82", "\xc3(", "\x80", "\xc0\xaf"}) {
-    EXPECT_THAT(Complaints("seed: 1\nworld: " + std::string(bytes)),
+    EXPECT_THAT(ProblemsIn("seed: 1\nworld: " + std::string(bytes)),
                 ElementsAre("room.yaml:2: the text is not UTF-8"));
   }
   EXPECT_EQ(Parsed("world: \xc3\xa4\xe2\x82\xac\xf0\x9f\x98\x80").world,
             "\xc3\xa4\xe2\x82\xac\xf0\x9f\x98\x80");
 }
 
-// Found by the fuzzer: yaml-cpp makes one byte of each, and the scenario did not read back.
+// Regression, found by the fuzzer: yaml-cpp makes one byte of each escape, and the written scenario
+// could not be read back.
 TEST(ScenarioFile, EscapesThatYamlCppReadsWronglyAreRefused) {
   for (const char* text : {R"(world: "a\_b")", R"(world: "a\Nb")"}) {
-    EXPECT_THAT(Complaints(text), ElementsAre(HasSubstr("are not read rightly")));
+    EXPECT_THAT(ProblemsIn(text), ElementsAre(HasSubstr("are not read rightly")));
   }
   EXPECT_EQ(Parsed(R"(world: "a\u00a0b")").world,
             "a\xc2\xa0"
@@ -256,36 +257,36 @@ TEST(ScenarioFile, EscapesThatYamlCppReadsWronglyAreRefused) {
 
 TEST(ScenarioFile, AControlCharacterIsRefused) {
   for (const char c : {'\0', '\x01', '\v', '\f', '\x1b', '\x7f'}) {
-    EXPECT_THAT(Complaints("seed: 1\nworld: a" + std::string(1, c) + "b"),
+    EXPECT_THAT(ProblemsIn("seed: 1\nworld: a" + std::string(1, c) + "b"),
                 ElementsAre("room.yaml:2: the text holds a control character"));
   }
   EXPECT_EQ(Parsed("world: a # with a\ttabulator\r\n").world, "a");
 }
 
-TEST(ScenarioFile, ASmallFileMakesNoLargeScenario) {
+TEST(ScenarioFile, AliasesCannotExpandToALargeScenario) {
   std::string robots = "robots:\n  - &r {";
   for (int i = 0; i < 10'000; ++i) robots += "k" + std::to_string(i) + ": 1, ";
   robots += "}\n";
   for (int i = 0; i < 90'000; ++i) robots += "  - *r\n";
-  EXPECT_EQ(Complaints(robots).size(), 100u);
-  EXPECT_THAT(Complaints(robots + robots.substr(robots.find("  - *r"))),
+  EXPECT_EQ(ProblemsIn(robots).size(), 100u);
+  EXPECT_THAT(ProblemsIn(robots + robots.substr(robots.find("  - *r"))),
               ElementsAre(HasSubstr("robots has at most 100000 entries")));
 }
 
-TEST(ScenarioFile, IsLimited) {
+TEST(ScenarioFile, SizeIsLimited) {
   const std::string padded = "world: a\n#";
-  EXPECT_THAT(Complaints(padded + std::string(kMaxScenarioBytes - padded.size(), 'x')),
+  EXPECT_THAT(ProblemsIn(padded + std::string(kMaxScenarioBytes - padded.size(), 'x')),
               ElementsAre());
-  EXPECT_THAT(Complaints(padded + std::string(kMaxScenarioBytes + 1 - padded.size(), 'x')),
+  EXPECT_THAT(ProblemsIn(padded + std::string(kMaxScenarioBytes + 1 - padded.size(), 'x')),
               ElementsAre(HasSubstr("at most 4194304 bytes")));
   std::string robots = "robots:\n  - &r {model: m}\n";
   for (int i = 1; i < 100'000; ++i) robots += "  - *r\n";
   EXPECT_EQ(Parsed(robots).robots.size(), 100'000u);
-  EXPECT_THAT(Complaints(robots + "  - *r\n"),
+  EXPECT_THAT(ProblemsIn(robots + "  - *r\n"),
               ElementsAre(HasSubstr("robots has at most 100000 entries")));
 }
 
-TEST(ScenarioFile, FilesBesideItAreFound) {
+TEST(ScenarioFile, PathsAreRelativeToItsFolder) {
   const auto folder = base::TemporaryFolder::Make("gsv-scenario");
   ASSERT_TRUE(folder);
   std::ofstream(folder->path() / "room.sdf") << "<sdf/>";

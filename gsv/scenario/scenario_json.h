@@ -1,4 +1,5 @@
-// Scenarios and their parts in requests: JSON objects with the keys of docs/formats/scenario.md.
+// Reads scenarios and their parts from requests: JSON objects with the keys of
+// docs/formats/scenario.md.
 //
 // Units   metres, radians, seconds.
 // Input   an untrusted JSON object of at most kMaxScenarioBytes.
@@ -16,7 +17,7 @@ Scenario ParseScenarioJson(const std::string& json, base::Problems& problems);
 // Reads {name, model, x, y, z, yaw, behaviour, behaviour_constraint, movement}.
 RobotEntry ParseRobotJson(const std::string& json, bool is_avatar, base::Problems& problems);
 
-// Reads {x, y, z, yaw}; x and y are required.
+// Reads {x, y, z, yaw}, where x and y are required.
 Place ParsePlaceJson(const std::string& json, base::Problems& problems);
 
 }  // namespace gsv::scenario

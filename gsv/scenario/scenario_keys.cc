@@ -84,7 +84,7 @@ std::vector<model::PedestrianGroup> ReadPedestrianGroups(YamlMapping& mapping) {
     group.radius = keys.Number("radius", 0.05, 1).value_or(group.radius);
     group.height = keys.Number("height", 0.2, 3).value_or(group.height);
     const auto ok = model::Check(group);
-    // Avoids reporting a problem twice.
+    // Avoids a second report of the same problem.
     if (!ok && mapping.place().problem_count() == problem_count && keys.is_mapping()) {
       keys.AddProblem(ok.error().message);
     }
@@ -114,7 +114,7 @@ std::optional<double> ReadRealTimeFactor(YamlMapping& mapping) {
   return factor ? factor : former;
 }
 
-// 0: the world's step, also the default.
+// Reads the step. 0, which is also the default, stands for the world's step.
 std::optional<double> ReadStep(YamlMapping& mapping) {
   const auto step = mapping.Number("step", 0, 10);
   if (step == 0.0) return std::nullopt;
@@ -125,7 +125,8 @@ std::optional<double> ReadStep(YamlMapping& mapping) {
   return step;
 }
 
-// A request to a server may have true or false here, which is not a file name.
+// Reads the name of the recording. In a request to a server it may be true or false, which is not a
+// file name.
 std::string ReadRecord(YamlMapping& mapping) {
   const std::string record = mapping.Text("record").value_or("");
   if (record == "true" || record == "false") {

@@ -1,4 +1,4 @@
-// Writes scenarios.
+// Writes scenarios as YAML.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -16,7 +16,7 @@ bool IsPlainCharacter(char c) {
          std::string_view("_./-+").find(c) != std::string_view::npos;
 }
 
-// Texts that YAML readers do not read as text.
+// Whether YAML readers would read the text as another type, such as a number.
 bool IsReserved(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -50,7 +50,7 @@ std::string Text(const std::string& text) {
   return quoted + "\"";
 }
 
-// The shortest number that reads back as the same value.
+// The shortest text that is read back as the same number.
 std::string Number(double value) {
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
@@ -181,7 +181,7 @@ std::string Rates(const std::map<std::string, double>& rates) {
 
 std::string OneLineYaml(const YAML::Node& node) {
   if (node.IsScalar()) {
-    // A number in quotes would not be a text without them.
+    // The text of a number needs its quotes, or it would be read as a number.
     const bool is_number = node.Tag() != "!" && ParseNumber(node.Scalar());
     return is_number ? node.Scalar() : Text(node.Scalar());
   }

@@ -1,6 +1,6 @@
 // Reads the keys `faults` and `expect` of a scenario (docs/testing.md).
 //
-// Bounded  by kMaxFaults and kMaxFormulas, as YAML aliases expand.
+// Bounded  by kMaxFaults and kMaxFormulas, because YAML aliases can expand to many nodes.
 #pragma once
 
 #include <vector>
@@ -17,10 +17,12 @@ inline constexpr int kMaxFormulaDepth = 16;
 
 std::vector<Fault> ReadFaults(YamlMapping& scenario);
 
-// Adds problems for expectations that no run of `duration` (s) can satisfy or violate.
+// Adds problems for expectations that no run of `duration` (s) can satisfy, or that no run can
+// violate.
 std::vector<Expectation> ReadExpectations(YamlMapping& scenario, double duration);
 
-// The node as equivalent YAML on one line. Its size is bounded and its keys are known.
+// Returns the node as equivalent YAML on one line. The caller has limited its size and checked its
+// keys.
 std::string OneLineYaml(const YAML::Node& node);
 
 }  // namespace gsv::scenario

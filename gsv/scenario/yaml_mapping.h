@@ -1,8 +1,8 @@
-// Reads a YAML mapping key by key and collects problems. Each problem has line and column, or for
-// requests the field, as in "robots[1].x".
+// Reads a YAML mapping key by key and collects problems. Each problem has line and column. For
+// requests it has the field instead, such as "robots[1].x".
 //
-// Bounded  a mapping has at most kMaxKeys keys, and at most kMaxProblems problems are kept, as YAML
-//          aliases expand.
+// Bounded  a mapping has at most kMaxKeys keys, and at most kMaxProblems problems are kept, because
+//          YAML aliases can expand to many nodes.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ class YamlPlace {
   YamlPlace(Naming naming, std::string file, base::Problems& problems)
       : naming_(naming), file_(std::move(file)), problems_(problems) {}
 
-  // The place as "FILE:LINE:COLUMN", counted from 1, or as the field.
+  // Returns the place as "FILE:LINE:COLUMN", counted from 1, or as the field.
   std::string Of(const YAML::Mark& mark, const std::string& field) const;
   void AddProblem(const YAML::Mark& mark, const std::string& field, std::string message) const;
   std::size_t problem_count() const { return problems_.size(); }
@@ -48,20 +48,20 @@ class YamlMapping {
   YamlMapping(const YamlMapping&) = delete;
   YamlMapping& operator=(const YamlMapping&) = delete;
 
-  // Each returns nothing if the key is absent or null, or, after adding a problem, if the value has
-  // another type.
+  // Each of these returns nullopt if the key is absent or null. If the value has another type, it
+  // adds a problem and returns nullopt.
   std::optional<std::string> Text(const std::string& key);
   std::optional<double> Number(const std::string& key, double min, double max);
-  std::optional<double> Angle(const std::string& key);  // radians
+  std::optional<double> Angle(const std::string& key);  // Reads an angle in radians.
   std::optional<std::uint64_t> Count(const std::string& key);
   std::optional<bool> Flag(const std::string& key);
-  // Whether the value is the second of two words. Other words are a problem.
+  // Reads one of two words, and returns whether it is the second one. Other words are a problem.
   std::optional<bool> IsSecondOf(const std::string& key, const std::string& first,
                                  const std::string& second);
   std::vector<std::string> Texts(const std::string& key);
   std::vector<YAML::Node> List(const std::string& key);
   std::optional<YAML::Node> Any(const std::string& key);
-  // Calls `read` with each element of a list and its field.
+  // Calls `read` with each element of a list, and with the field of the element.
   template <typename Read>
   void Each(const std::string& key, std::size_t max, const Read& read) {
     const std::vector<YAML::Node> list = List(key);
@@ -75,7 +75,7 @@ class YamlMapping {
     }
   }
 
-  // Whether the key was read and present, with any value.
+  // Whether the key was read and is present, whatever its value is.
   bool Has(const std::string& key) const { return marks_.contains(key); }
   bool is_mapping() const { return is_mapping_; }
   const YamlPlace& place() const { return place_; }
@@ -83,7 +83,7 @@ class YamlMapping {
   std::string FieldOf(const std::string& key) const {
     return field_.empty() ? key : field_ + "." + key;
   }
-  // Adds a problem about the mapping, or about a value that is present or missing.
+  // Adds a problem about the mapping, or about one of its values, which may be missing.
   void AddProblem(std::string message) const {
     place_.AddProblem(mark_, field_, std::move(message));
   }
@@ -91,10 +91,10 @@ class YamlMapping {
 
  private:
   struct Entry {
-    YAML::Mark mark;  // of the key
+    YAML::Mark mark;  // the place of the key
     YAML::Node value;
   };
-  // A scalar without quotes: in quotes it would be a text.
+  // Reads a scalar without quotes. A scalar in quotes would be a text.
   std::optional<std::string> Plain(const std::string& key, const std::string& expected);
   std::optional<std::string> Scalar(const std::string& key, const std::string& expected);
   void Expect(const std::string& key, const std::string& expected, const std::string& found);
@@ -103,8 +103,8 @@ class YamlMapping {
   const std::string field_;
   const YAML::Mark mark_;
   const bool is_mapping_;
-  std::map<std::string, Entry> unread_;      // not read yet
-  std::map<std::string, YAML::Mark> marks_;  // of the values that were read
+  std::map<std::string, Entry> unread_;      // entries that were not read yet
+  std::map<std::string, YAML::Mark> marks_;  // places of the values that were read
   std::vector<std::string> known_;
 };
 

@@ -46,7 +46,7 @@ TEST(Drift, HasVarianceOneAtEveryInstant) {
   }
 }
 
-TEST(Drift, ForgetsByTheCorrelationTime) {
+TEST(Drift, CorrelationFallsWithTheCorrelationTime) {
   // The correlation of values a time t apart is exp(-t / correlation time), also where t spans the
   // border between two blocks (at 640 s) or between two of its halves (at 320 s).
   for (const double lag : {0.5, 5.0, 10.0, 20.0}) {
@@ -63,7 +63,7 @@ TEST(Drift, ForgetsByTheCorrelationTime) {
   }
 }
 
-TEST(Drift, MovesLittleInLittleTime) {
+TEST(Drift, ChangesLittleInAShortTime) {
   for (double t = 0; t < 1500; t += 0.37) {
     const double step =
         DriftAt(FromSeconds(t + 1e-3), 10, kSeed, 1) - DriftAt(FromSeconds(t), 10, kSeed, 1);
@@ -102,7 +102,7 @@ class NoiseTest : public ::testing::Test {
   RaySceneCache rays_;
 };
 
-TEST_F(NoiseTest, WhiteNoiseHasItsMeanAndDeviation) {
+TEST_F(NoiseTest, WhiteNoiseHasTheGivenMeanAndDeviation) {
   const Moments moments = MomentsOf(kMany, [&](int i) {
     return Read("a", {{"mean", 0.3}, {"stddev", 0.5}}, i);
   });
@@ -110,7 +110,7 @@ TEST_F(NoiseTest, WhiteNoiseHasItsMeanAndDeviation) {
   EXPECT_WITHIN_3_SIGMA(moments.variance, 0.25, 0.25 * VarianceSigma(kMany));
 }
 
-TEST_F(NoiseTest, ABiasStaysAndIsAnotherOnEachSensor) {
+TEST_F(NoiseTest, BiasIsConstantAndDiffersBetweenSensors) {
   const model::Parameters noise = {{"bias_mean", 1.0}, {"bias_stddev", 0.5}};
   EXPECT_EQ(Read("a", noise, 0), Read("a", noise, 1234));
   EXPECT_NE(Read("a", noise, 0), Read("a", noise, 0, kSeed + 1));
@@ -120,7 +120,7 @@ TEST_F(NoiseTest, ABiasStaysAndIsAnotherOnEachSensor) {
   EXPECT_WITHIN_3_SIGMA(moments.variance, 0.25, 0.25 * VarianceSigma(kMany));
 }
 
-TEST_F(NoiseTest, ADriftHasTheDeviationThatGazebosTendsTo) {
+TEST_F(NoiseTest, DriftTendsToGazebosDeviation) {
   const model::Parameters noise = {{"dynamic_bias_stddev", 0.2},
                                    {"dynamic_bias_correlation_time", 8.0}};
   const Moments moments =
@@ -136,14 +136,14 @@ TEST_F(NoiseTest, ReadingsAreMultiplesOfThePrecision) {
   }
 }
 
-TEST_F(NoiseTest, ReadingsDropOutAsOftenAsTheyShould) {
+TEST_F(NoiseTest, ReadingsDropOutWithTheGivenProbability) {
   const double p = 0.1;
   int dropped = 0;
   for (int i = 0; i < kMany; ++i) dropped += std::isnan(Read("a", {{"dropout_probability", p}}, i));
   EXPECT_WITHIN_3_SIGMA(double(dropped) / kMany, p, std::sqrt(p * (1 - p) / kMany));
 }
 
-TEST_F(NoiseTest, OutliersStrikeAsOftenAndAsFarAsTheyShould) {
+TEST_F(NoiseTest, OutliersHaveTheGivenProbabilityAndSize) {
   const double p = 0.2;
   const model::Parameters noise = {{"outlier_probability", p}, {"outlier_stddev", 3.0}};
   int struck = 0;
@@ -157,7 +157,7 @@ TEST_F(NoiseTest, OutliersStrikeAsOftenAndAsFarAsTheyShould) {
   EXPECT_WITHIN_3_SIGMA(squares / struck, 9, 9 * VarianceSigma(struck));
 }
 
-TEST_F(NoiseTest, NoneIsNone) {
+TEST_F(NoiseTest, IsExactWithoutNoiseParameters) {
   EXPECT_EQ(Read("a", {{"type", std::string("none")}, {"stddev", 1.0}}, 3), 5);
 }
 

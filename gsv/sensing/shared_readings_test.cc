@@ -72,7 +72,7 @@ class SharedReadingsTest : public ::testing::Test {
       std::make_shared<SharedReadings>(3 * (kImageBytes + sizeof(Reading) + sizeof(double)));
 };
 
-TEST_F(SharedReadingsTest, OneIsTakenForAllWhoAskForTheSame) {
+TEST_F(SharedReadingsTest, EqualRequestsShareOneReading) {
   const auto snapshot = TwoRobots();
   const auto its = Make("camera"), recorders = Make("camera");
   EXPECT_EQ(Number(*its, snapshot), 1);
@@ -80,7 +80,7 @@ TEST_F(SharedReadingsTest, OneIsTakenForAllWhoAskForTheSame) {
   EXPECT_EQ(taken_, 1);
 }
 
-TEST_F(SharedReadingsTest, AnotherRobotSensorSeedOrInstantIsAnotherReading) {
+TEST_F(SharedReadingsTest, DifferentRobotSensorSeedOrInstantIsADifferentReading) {
   const auto snapshot = TwoRobots(), later = TwoRobots();
   const auto camera = Make("camera"), other = Make("other");
   EXPECT_EQ(Number(*camera, snapshot), 1);
@@ -90,7 +90,7 @@ TEST_F(SharedReadingsTest, AnotherRobotSensorSeedOrInstantIsAnotherReading) {
   EXPECT_EQ(Number(*camera, later), 5);
 }
 
-TEST_F(SharedReadingsTest, KeepsTheNewestWithinItsBytes) {
+TEST_F(SharedReadingsTest, KeepsTheNewestReadingsWithinItsSize) {
   const auto snapshot = TwoRobots();
   for (int i = 1; i <= 4; ++i) {
     EXPECT_EQ(Number(*Make("camera " + std::to_string(i)), snapshot), i);
@@ -100,7 +100,7 @@ TEST_F(SharedReadingsTest, KeepsTheNewestWithinItsBytes) {
   EXPECT_EQ(Number(*Make("camera 1"), snapshot), 5);
 }
 
-TEST_F(SharedReadingsTest, NothingStaysOfASnapshotThatIsGone) {
+TEST_F(SharedReadingsTest, RemovesReadingsOfDestroyedSnapshots) {
   auto snapshot = TwoRobots();
   const auto camera = Make("camera");
   Number(*camera, snapshot);
@@ -109,13 +109,13 @@ TEST_F(SharedReadingsTest, NothingStaysOfASnapshotThatIsGone) {
   EXPECT_EQ(readings_->bytes(), kImageBytes + sizeof(Reading) + sizeof(double));
 }
 
-TEST_F(SharedReadingsTest, AFailureIsNotKept) {
+TEST_F(SharedReadingsTest, FailuresAreNotCached) {
   const auto snapshot = TwoRobots();
   EXPECT_EQ(Number(*Make("camera", true), snapshot), -1);
   EXPECT_EQ(Number(*Make("camera"), snapshot), 2);
 }
 
-TEST_F(SharedReadingsTest, WhoAsksMeanwhileWaitsForIt) {
+TEST_F(SharedReadingsTest, ConcurrentRequestsWaitForTheReading) {
   const auto snapshot = TwoRobots();
   const auto camera = Make("camera");
   constexpr int kAskers = 8;

@@ -20,7 +20,7 @@ TEST(SensorServants, ServesATypeWithoutAnInterfaceAsASensorOrAnActuator) {
   EXPECT_TRUE(ServesAs<POA_sba::Actuator>("horn", true));
 }
 
-TEST(SensorServants, ServesATypeWithAnInterfaceByIt) {
+TEST(SensorServants, ServesATypeWithAnInterfaceThroughThatInterface) {
   EXPECT_TRUE(ServesAs<POA_sba::Lamp>("lamp", true));
 }
 

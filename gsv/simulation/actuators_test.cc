@@ -70,7 +70,7 @@ TEST(Actuators, RefuseAnInvalidCommandWithASentence) {
   EXPECT_EQ(simulation->snapshot()->state.devices, nullptr);
 }
 
-TEST(Actuators, GiveTheSameHashForFastAndSlowBehaviours) {
+TEST(Actuators, HashDoesNotDependOnTheSpeedOfBehaviours) {
   const auto hash_of = [](std::chrono::microseconds first, std::chrono::microseconds second) {
     const auto blinks = [](std::chrono::microseconds dawdling) {
       return std::make_shared<ThreadBehaviour>([=](Agent& agent, ClockId clock) {
@@ -92,7 +92,7 @@ TEST(Actuators, GiveTheSameHashForFastAndSlowBehaviours) {
   EXPECT_EQ(hash_of(0us, 1500us), hash_of(1500us, 0us));
 }
 
-TEST(Actuators, ALampCanBeOnFromTheStartAndAgainAfterAReset) {
+TEST(Actuators, LampCanBeOnFromTheStartAndAfterAReset) {
   auto simulation = Make(Lockstep(50ms));
   auto behaviour = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
     if (SleepFor(agent, clock, 20ms)) (void)agent.CommandDevice("lamp", {{0, 1, 1, 1}, ""});
@@ -112,7 +112,7 @@ TEST(Actuators, ALampCanBeOnFromTheStartAndAgainAfterAReset) {
   }
 }
 
-TEST(Actuators, GoWithTheirRobotAndWithASensorThatIsTakenOff) {
+TEST(Actuators, AreRemovedWithTheirRobotOrTheirSensor) {
   auto simulation = Make(Lockstep(100ms));
   auto behaviour = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
     model::SensorDescription led;

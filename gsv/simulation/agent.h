@@ -1,5 +1,5 @@
-// The simulation's side of one behaviour: its clocks, commands and readings. Hardware servants call
-// it, and viewers steer avatars through it.
+// The interface of a simulation for one behaviour: its clocks, commands and readings. The servants
+// of the robot's hardware call it, and viewers steer avatars through it.
 //
 // Threads  any; SleepUntil() and Exchange() block for at most the given lease.
 // Errors   kNotRunning: the agent waits, and in lockstep a waiting agent may not call. kEnded: the
@@ -25,8 +25,8 @@ namespace gsv::simulation {
 
 using ClockId = int;
 
-// A wait is a lease: it returns kNotYet if the lease ends first, and the caller repeats it with the
-// same arguments. The agent stays waiting in between.
+// A wait is a lease. If the lease ends before the instant, the wait returns kNotYet, and the caller
+// repeats it with the same arguments. The agent counts as waiting in between.
 enum class Wait { kReached, kNotYet };
 
 struct NamedReading {
@@ -37,7 +37,8 @@ struct NamedReading {
 struct Exchanged {
   Wait wait = Wait::kNotYet;
   base::SimTime now{0};
-  std::vector<NamedReading> readings;  // kReached: readings of all open sensors, by name
+  // the readings of all open sensors, by name, if `wait` is kReached
+  std::vector<NamedReading> readings;
 };
 
 struct JointReading {
@@ -46,7 +47,7 @@ struct JointReading {
   double velocity = 0;  // rad/s or m/s
 };
 
-// `joint` is an index in the body's model.
+// Returns the state of a joint. `joint` is an index in the body's model.
 inline JointReading JointReadingIn(const world::Snapshot& snapshot, int body, int joint) {
   const auto index = static_cast<std::size_t>(
       snapshot.layout->bodies[static_cast<std::size_t>(body)].first_joint + joint);
@@ -63,10 +64,12 @@ class Agent {
   virtual const std::string& robot() const = 0;
   virtual std::string model() const = 0;
   virtual double footprint_radius() const = 0;  // m
-  // The pose of a link of the robot's model with joints at zero; `link` carries a sensor.
+  // The pose of a link of the robot's model with all joints at zero. `link` is a link with a
+  // sensor.
   virtual geometry::Pose RobotFromLink(int link) const = 0;
 
-  // Clocks. The behaviour runs while one of its clocks runs. It has finished when all are closed.
+  // Clocks. The behaviour counts as running while one of its clocks runs. It has finished when all
+  // are closed.
   virtual base::Result<ClockId> OpenClock() = 0;
   virtual base::Status CloseClock(ClockId clock) = 0;
   // Reports that the behaviour's run has ended with an error, instead of CloseClock(). The agent is
@@ -75,8 +78,9 @@ class Agent {
   virtual base::SimTime Now() const = 0;
   virtual base::Result<Wait> SleepUntil(ClockId clock, base::SimTime until,
                                         std::chrono::milliseconds lease) = 0;
-  // Commands the base, waits, then reads. `cycle` numbers the exchanges of this clock from 1; a
-  // repetition has the same number and commands nothing. `command` empty: unchanged.
+  // Commands the base, waits, then reads the sensors. `cycle` numbers the exchanges of this clock
+  // from 1. A repetition has the same number and sends no command. An empty `command` changes
+  // nothing.
   virtual base::Result<Exchanged> Exchange(ClockId clock, std::uint64_t cycle,
                                            std::optional<world::DriveCommand> command,
                                            base::SimTime until,
@@ -85,25 +89,26 @@ class Agent {
   virtual base::Status Command(const world::DriveCommand& command) = 0;
 
   // Joints, by their index in the robot's model. A command is applied from this instant until the
-  // next. Efforts are refused for robots with planar kinematics.
+  // next command. Efforts are refused for robots with planar kinematics.
   virtual const std::vector<model::Joint>& Joints() const = 0;
   virtual base::Status CommandJoint(int joint, const world::JointCommand& command) = 0;
   virtual base::Result<JointReading> ReadJoint(int joint) = 0;
 
-  // Sensors: those of the model, opened by name, and created ones.
+  // Sensors: those of the model, which a behaviour opens by name, and those that it creates.
   virtual std::vector<model::SensorDescription> Sensors() const = 0;
   virtual std::vector<std::string> SensorTypes() const = 0;
   virtual base::Status OpenSensor(const std::string& name) = 0;
   virtual base::Status CreateSensor(model::SensorDescription description) = 0;
   virtual base::Status CloseSensor(const std::string& name) = 0;
   virtual base::Result<sensing::Reading> Read(const std::string& sensor) = 0;
-  // Sends by a radio to the robot `receiver`; empty: to all. The message is sent at this instant
-  // and arrives with the next step.
+  // Sends a message by a radio to the robot `receiver`, or to all robots if it is empty. The
+  // message is sent at this instant and arrives with the next step.
   virtual base::Status Send(const std::string& radio, const std::string& receiver,
                             std::string content) = 0;
-  // Commands an actuator, which is one of the sensors, from this instant on.
+  // Sends a command to an actuator, which is one of the sensors. It is applied from this instant
+  // on.
   virtual base::Status CommandDevice(const std::string& actuator, world::DeviceCommand command) = 0;
-  // The sensor itself, for the turns of a local behaviour.
+  // Returns the sensor object, for the turns of a local behaviour.
   virtual base::Result<std::shared_ptr<MountedSensor>> Mounted(const std::string& sensor) const = 0;
 };
 

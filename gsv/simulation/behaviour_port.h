@@ -1,9 +1,9 @@
-// The interface through which a simulation calls a behaviour in this process or, over CORBA, in
-// another one. Layers above implement it.
+// The interface through which a simulation calls a behaviour. Higher layers implement it for
+// behaviours in this process and, over CORBA, for those in other processes.
 //
 // Threads  calls for one behaviour come one after the other, from dedicated threads of the
-//          simulation, never from the stepping thread or with a lock held.
-// Errors   every call ends within a time limit of the implementation.
+//          simulation. They never come from the stepping thread or with a lock held.
+// Errors   every call ends within a time limit that the implementation sets.
 #pragma once
 
 #include <memory>
@@ -30,16 +30,17 @@ class BehaviourPort {
   virtual void Destroy() = 0;
 
   // Whether the behaviour is certainly dead: its process has ended, or its host refuses the
-  // connection. An unresponsive behaviour is not dead. May take as long as a call.
+  // connection. An unresponsive behaviour is not dead. The check may take as long as a call.
   virtual bool IsDead() = 0;
 
-  // Whether it uses the simulation's clock only. Otherwise the simulation never waits for it.
+  // Whether the behaviour uses only the simulation's clock. Otherwise the simulation never waits
+  // for it.
   virtual bool time_managed() const = 0;
-  // The name of its service: "wander".
+  // The name of its service, such as "wander".
   virtual const std::string& name() const = 0;
-  // The place where it runs: "host:pid".
+  // The process in which it runs, as "host:pid".
   virtual const std::string& place() const = 0;
-  // The local behaviour, if the simulation runs it in turns (see local_behaviour.h); else null.
+  // The local behaviour, if the simulation runs it in turns (see local_behaviour.h), else null.
   virtual LocalBehaviour* local() { return nullptr; }
 };
 

@@ -16,23 +16,24 @@ struct Edit {
   enum class Kind { kAddRobot, kAddAvatar, kAddObject, kRemove, kPlace, kCommand };
   // The moment between two steps, relative to the turns of behaviours.
   enum class Moment {
-    kBeforeTurns,  // behaviours that wake at this instant find the world changed
-    kAfterTurns,   // behaviours have had their turn; the next step finds the world changed
-    kAmidTurns,    // some behaviours may have had their turn; which ones is unknown
+    kBeforeTurns,  // before the turns: behaviours that wake at this instant find the changed world
+    kAfterTurns,   // after the turns: the next step is the first to find the changed world
+    kAmidTurns,    // between turns: it is unknown which behaviours had their turn before the change
   };
 
-  std::int64_t step = 0;  // taken so far
+  std::int64_t step = 0;  // the number of steps taken before the edit
   base::SimTime time{0};
   Kind kind = Kind::kPlace;
   Moment moment = Moment::kBeforeTurns;
-  std::uint64_t halt = 0;  // edits with the same number were made during one pause
+  std::uint64_t halt = 0;  // counts the pauses; edits during one pause have the same number
   std::string body;
   // For added bodies: the file of the model, or the body that is copied.
   std::string model;
   std::string copy_of;
-  std::string behaviour;  // its name; empty: none
+  std::string behaviour;  // the name of its behaviour; empty if it has none
   std::optional<model::Movement> movement;
-  std::string drive;  // as model/drive_choice.h has it; empty: the model's or the guessed one
+  // in the form of model/drive_choice.h; empty for the model's own or a guessed drive
+  std::string drive;
   // For added or placed bodies: the requested pose.
   geometry::Pose world_from_body;
   bool on_ground = true;

@@ -9,7 +9,7 @@
 namespace gsv::simulation {
 namespace {
 
-// Ten steps of 10 ms, each of which takes ten seconds.
+// The run has ten steps of 10 ms, each of which takes ten seconds.
 Specification Slow() {
   Specification specification = Lockstep(100ms);
   specification.mode = Mode::kRealTime;
@@ -17,7 +17,7 @@ Specification Slow() {
   return specification;
 }
 
-TEST(Factor, ASlowRunIsSpedUp) {
+TEST(RealTimeFactor, SlowRunCanBeAccelerated) {
   const auto simulation = Make(Slow());
   ASSERT_TRUE(simulation->Start());
   ASSERT_TRUE(simulation->SetRealTimeFactor(1000));
@@ -26,14 +26,14 @@ TEST(Factor, ASlowRunIsSpedUp) {
   EXPECT_EQ(simulation->status().target_factor, 1000);
   EXPECT_EQ(simulation->specification().factor, 0.001);
   const std::vector<Event> events = simulation->events(0);
-  ASSERT_EQ(events.size(), 3u);  // started, set, finished
+  ASSERT_EQ(events.size(), 3u);  // start, change of the factor, end
   EXPECT_EQ(events[1].kind, "factor_set");
   EXPECT_EQ(events[1].detail, "1000");
   ASSERT_TRUE(simulation->Reset());
   EXPECT_EQ(simulation->real_time_factor(), 1000);
 }
 
-TEST(Factor, RefusesInvalidFactors) {
+TEST(RealTimeFactor, RejectsInvalidFactors) {
   const auto simulation = Make(Slow());
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const double bad : {0.0, -1.0, 2e6, std::nan(""), kInfinity}) {

@@ -30,19 +30,19 @@ double XAtTheEnd(const Simulation& simulation) {
   return StatusOf(simulation, "r").world_from_robot.position.x;
 }
 
-TEST(Faults, AMotorThatFailsLeavesTheRobotWhereItIs) {
+TEST(Faults, FailedMotorStopsTheRobot) {
   const auto simulation = WithFault(At(1, Fault::Kind::kMotorFails, "r"));
   ASSERT_TRUE(simulation->AddRobot(Robot("r", 0, 0, Drives(0.5))));
   EXPECT_EQ(RunToEnd(*simulation), Phase::kFinished);
   EXPECT_NEAR(XAtTheEnd(*simulation), 0.5, 0.006);
   const std::string hash = simulation->state_hash();
-  // After a reset, it fails again at its time.
+  // After a reset, the motor fails again at the same time.
   ASSERT_TRUE(simulation->Reset());
   EXPECT_EQ(RunToEnd(*simulation), Phase::kFinished);
   EXPECT_EQ(simulation->state_hash(), hash);
 }
 
-TEST(Faults, ABehaviourThatIsKilledActsNoMore) {
+TEST(Faults, KilledBehaviourSendsNoMoreCommands) {
   const auto simulation = WithFault(At(1, Fault::Kind::kBehaviourDies, "r"));
   ASSERT_TRUE(simulation->AddRobot(Robot("r", 0, 0, Drives(0.5))));
   EXPECT_EQ(RunToEnd(*simulation), Phase::kFinished);
@@ -50,7 +50,7 @@ TEST(Faults, ABehaviourThatIsKilledActsNoMore) {
   EXPECT_EQ(StatusOf(*simulation, "r").phase, AgentPhase::kDead);
 }
 
-TEST(Faults, ASilentSensorKeepsItsLastSampleAndAFailedOneGivesAnError) {
+TEST(Faults, SilentSensorKeepsItsSampleAndFailedSensorReturnsAnError) {
   for (const auto kind : {Fault::Kind::kSensorSilent, Fault::Kind::kSensorError}) {
     const auto simulation = WithFault(At(1, kind, "r", "front"), 2s);
     ASSERT_TRUE(simulation->AddRobot(Robot("r", 0, 0, Drives(0.5))));
@@ -66,7 +66,7 @@ TEST(Faults, ASilentSensorKeepsItsLastSampleAndAFailedOneGivesAnError) {
   }
 }
 
-TEST(Faults, APartOfTheWorldMovesAndIsBackAfterAReset) {
+TEST(Faults, MovedPartOfTheWorldReturnsAfterAReset) {
   Fault closes = At(1, Fault::Kind::kBodyMoves, "wall");
   closes.place = {2, 0, 0, 0};
   const auto simulation = WithFault(closes, 6s);
@@ -81,7 +81,7 @@ TEST(Faults, APartOfTheWorldMovesAndIsBackAfterAReset) {
   EXPECT_EQ(simulation->state_hash(), hash);
 }
 
-TEST(Faults, AnImpossibleFaultFailsTheRunWithItsPlace) {
+TEST(Faults, ImpossibleFaultFailsTheRunWithItsPlace) {
   Fault onto = At(1, Fault::Kind::kBodyMoves, "wall");
   onto.place = {0.5, 0, 0, 0};
   const auto simulation = WithFault(onto);
@@ -106,7 +106,7 @@ RobotSpecification RobotWithAnArm() {
   return robot;
 }
 
-TEST(Faults, TheMotorOfAJointThatIsGoneFailsTheRunWithItsPlace) {
+TEST(Faults, MissingJointFailsTheRunWithItsPlace) {
   const auto simulation = WithFault(At(1, Fault::Kind::kMotorFails, "r", "hinge"));
   ASSERT_TRUE(simulation->AddRobot(RobotWithAnArm()));
   ASSERT_TRUE(simulation->RunUntil(500ms));

@@ -1,5 +1,5 @@
-// Worlds like those of gz-sim's integration tests, read from SDFormat, and the values that these
-// expect (gazebosim/gz-sim, test/integration). The worlds' texts are our own.
+// Compares worlds like those of gz-sim's integration tests (gazebosim/gz-sim, test/integration)
+// with the values that those tests expect. The SDFormat texts were written for this test.
 #include <set>
 
 #include <gmock/gmock.h>
@@ -83,7 +83,7 @@ class GazeboValues : public ::testing::Test {
     return {reading->values.begin(), reading->values.end()};
   }
 
-  // Four points at which two spheres lie on the edges of two boxes.
+  // Expects four contact points, at which two spheres lie on the edges of two boxes.
   void ExpectFourCorners(const std::string& robot, const std::string& sensor) {
     const std::vector<double> touches = Read(robot, sensor);
     ASSERT_EQ(touches.size(), 4 * 8u);
@@ -102,8 +102,9 @@ class GazeboValues : public ::testing::Test {
   std::shared_ptr<Simulation> simulation_;
 };
 
-TEST_F(GazeboValues, ASphereFallsAndComesToRest) {
-  // The link is 5 m above the model's origin, and of 1 m radius: it rests with the origin at -4 m.
+TEST_F(GazeboValues, SphereFallsAndComesToRest) {
+  // The link is a sphere of 1 m radius, 5 m above the model's origin. So it rests with the origin
+  // at -4 m.
   Start(std::string(kGround) +
         "<model name='ball'><pose>0 0 2 0 0 0</pose><link name='l'><pose>0 0 5 0 0 0</pose>" +
         Inertial("1", Moments("0.4", "0.4", "0.4")) + "<collision name='c'>" + Sphere("1") +
@@ -114,8 +115,8 @@ TEST_F(GazeboValues, ASphereFallsAndComesToRest) {
   EXPECT_WITHIN(At("ball").position.z, -4, 0.05, "m");
 }
 
-TEST_F(GazeboValues, BoxesSlideDownAnInclineAsTheirFrictionLetsThem) {
-  // Down -y by 30 degrees.
+TEST_F(GazeboValues, BoxesSlideDownAnInclineAccordingToTheirFriction) {
+  // The incline goes down along -y by 30 degrees.
   std::string content =
       "<model name='slope'><static>1</static><pose>0 0 0 -0.52359878 0 0</pose><link name='l'>"
       "<collision name='c'><geometry><plane><normal>0 0 1</normal><size>100 100</size></plane>"
@@ -156,8 +157,8 @@ TEST_F(GazeboValues, AJointTurnsAtItsInitialVelocity) {
   EXPECT_WITHIN(Joint("m", 0, true), 5, 1e-2, "rad/s");
 }
 
-TEST_F(GazeboValues, AnArmKeepsItsDistanceFromItsJoint) {
-  // A rod that starts 30 degrees off the vertical and swings about x, 0.15 m from its joint.
+TEST_F(GazeboValues, ArmKeepsItsDistanceFromItsJoint) {
+  // A rod starts 30 degrees off the vertical and swings about x, 0.15 m from its joint.
   Start(std::string(kGround) + "<model name='m'><pose>0 0 0.005 0 0 0</pose><link name='base'>" +
         Inertial("120", Moments("2.5", "2.5", "5")) + "<collision name='c'>" + Box("0.5 0.5 0.01") +
         "</collision></link><link name='arm'><pose>0.04 -0.075 0.53 0.5236 0 0</pose>" +
@@ -169,13 +170,14 @@ TEST_F(GazeboValues, AnArmKeepsItsDistanceFromItsJoint) {
     RunUntil(i * 50ms);
     least = std::min(least, Joint("m", 0));
     most = std::max(most, Joint("m", 0));
-    // In joint coordinates the arm cannot stretch; the base must not move under it.
+    // The arm cannot stretch, because the engine computes in joint coordinates. The base must not
+    // move.
     EXPECT_WITHIN(Norm(At("m").position - Vector3{0, 0, 0.005}), 0, 1e-3, "m");
   }
   EXPECT_GT(most - least, 0.5);
 }
 
-// A robot of one box that its sensors ride on, which forces move.
+// A robot of one box that carries sensors and has rigid-body dynamics.
 std::string Carrier(const std::string& pose, const std::string& sensor) {
   return "<model name='robot'><pose>" + pose +
          "</pose><gsv:movement>rigid</gsv:movement><link name='l'><pose>0.05 0.05 0.05 0 0 "
@@ -186,19 +188,19 @@ std::string Carrier(const std::string& pose, const std::string& sensor) {
          "name='gz::sim::systems::VelocityControl'/></model>";
 }
 
-TEST_F(GazeboValues, AnAltimeterFallsAndRests) {
+TEST_F(GazeboValues, AltimeterReadsTheHeightOfAFallingBody) {
   Start(kGround + Carrier("4 0 3 0 0 3.14", "type='altimeter'>"));
   RunUntil(100ms);
   EXPECT_LT(Read("robot", "s")[0], 0);
   EXPECT_LT(Read("robot", "s")[1], 0);
   RunUntil(1100ms);
-  // The link's middle is 5 cm above the model's origin.
+  // The link's centre is 5 cm above the model's origin.
   EXPECT_WITHIN(At("robot").position.z + 0.05, 0.05, 0.01, "m");
   EXPECT_LT(Read("robot", "s")[0], -2.99);
   EXPECT_WITHIN(Read("robot", "s")[1], 0, 1e-3, "m/s");
 }
 
-TEST_F(GazeboValues, AnImuFeelsNothingFallingAndGravityAtRest) {
+TEST_F(GazeboValues, ImuReadsZeroInFreeFallAndGravityAtRest) {
   Start(kGround + Carrier("4 0 3 0 0 3.14", "type='imu'>"), "<gravity>0 0 -5</gravity>");
   RunUntil(200ms);
   EXPECT_WITHIN(Read("robot", "s")[5], 0, 1e-2, "m/s²");
@@ -207,7 +209,7 @@ TEST_F(GazeboValues, AnImuFeelsNothingFallingAndGravityAtRest) {
   EXPECT_WITHIN(Read("robot", "s")[3], 0, 1e-2, "m/s²");
 }
 
-TEST_F(GazeboValues, AMagnetometerTurnsTheField) {
+TEST_F(GazeboValues, MagnetometerRotatesTheFieldIntoItsFrame) {
   Start(kGround + Carrier("4 0 3 0 0 1.57", "type='magnetometer'>"),
         "<magnetic_field>0.94 0.76 -0.12</magnetic_field>");
   RunUntil(200ms);
@@ -218,7 +220,7 @@ TEST_F(GazeboValues, AMagnetometerTurnsTheField) {
   EXPECT_WITHIN(field[2], expected.z, 1e-3, "T");
 }
 
-TEST_F(GazeboValues, ANavsatKnowsWhereItsWorldLies) {
+TEST_F(GazeboValues, NavsatReadsTheGeographicOriginOfTheWorld) {
   Start(kGround + Carrier("0 0 0 0 0 0", "type='navsat'>"),
         "<spherical_coordinates><surface_model>EARTH_WGS84</surface_model><world_frame_orientation>"
         "ENU</world_frame_orientation><latitude_deg>-22.9</latitude_deg><longitude_deg>-43.2"
@@ -262,7 +264,7 @@ std::string Car(const std::string& movement) {
 
 class GazeboCar : public GazeboValues, public ::testing::WithParamInterface<const char*> {};
 
-TEST_P(GazeboCar, KeepsItsLimitsAndKnowsWhereItIs) {
+TEST_P(GazeboCar, RespectsItsLimitsAndReportsItsOdometry) {
   Start(std::string(kGround) + Car(GetParam()));
   auto behaviour = std::make_shared<ThreadBehaviour>([](Agent& agent, ClockId clock) {
     do {
@@ -284,11 +286,11 @@ TEST_P(GazeboCar, KeepsItsLimitsAndKnowsWhereItIs) {
     odometry.assign(reading->values.begin(), reading->values.end());
     EXPECT_LE(std::abs(odometry[3]), 0.5 + 1e-9);
   }
-  EXPECT_EQ(samples.size(), 151u);  // at 0 s, 0.02 s, ..., 3 s
+  EXPECT_EQ(samples.size(), 151u);  // one sample each at 0 s, 0.02 s, ..., 3 s
   const world::BodyState state = StateOf("car");
   EXPECT_WITHIN(state.drive.actual.linear, 0.5, 1e-9, "m/s");
   EXPECT_WITHIN(state.drive.actual.angular, 0.2, 1e-9, "rad/s");
-  // Half a second to get going, of a path along an arc.
+  // The car accelerates for half a second. Its path is an arc.
   const Pose moved = start_from_world * (At("car") * car_from_axle);
   double x = 0, y = 0, yaw = 0;
   for (double time = 0; time < 3; time += 1e-4) {
@@ -306,8 +308,8 @@ TEST_P(GazeboCar, KeepsItsLimitsAndKnowsWhereItIs) {
 
 INSTANTIATE_TEST_SUITE_P(Movements, GazeboCar, ::testing::Values("planar", "rigid"));
 
-TEST_F(GazeboValues, AContactSensorFeelsEachPointWhereItsCollisionsTouch) {
-  // A link of two spheres falls onto the edges of two boxes, 0.5 m apart.
+TEST_F(GazeboValues, ContactSensorReadsEachContactPoint) {
+  // A link of two spheres falls onto the edges of two boxes, which are 0.5 m apart.
   const auto box = [](const std::string& name, const std::string& x) {
     return "<model name='" + name + "'><static>1</static><pose>" + x +
            " 0 0.5 0 0 0</pose><link name='l'><collision name='c'>" + Box("1 4 1") +
@@ -326,13 +328,14 @@ TEST_F(GazeboValues, AContactSensorFeelsEachPointWhereItsCollisionsTouch) {
   for (const SimTime time : {SimTime(1s), SimTime(2s), SimTime(5s)}) {
     RunUntil(time);
     ExpectFourCorners("dumbbell", "s");
-    // Both edges stop it at once: nothing turns it.
+    // Both edges stop the link at the same time, so it does not rotate.
     EXPECT_WITHIN(At("dumbbell").position.z, 1 + std::sqrt(0.5 * 0.5 - 0.25 * 0.25), 1e-3, "m");
     EXPECT_WITHIN(At("dumbbell").orientation.y, 0, 1e-3, "rad");
   }
 }
 
-// The original worlds, in a folder beside that of other people's files, which may be absent.
+// The original worlds of gz-sim. They are in a folder beside that of the files for real_files_test,
+// and the tests are skipped if it is absent.
 class GazeboOriginals : public GazeboValues {
  protected:
   void StartOriginal(const std::string& name) {
@@ -344,7 +347,7 @@ class GazeboOriginals : public GazeboValues {
   }
 };
 
-TEST_F(GazeboOriginals, Altimeter) {
+TEST_F(GazeboOriginals, AltimeterEqualsGazebo) {
   StartOriginal("altimeter.sdf");
   if (IsSkipped()) return;
   RunUntil(100ms);
@@ -356,7 +359,7 @@ TEST_F(GazeboOriginals, Altimeter) {
   EXPECT_WITHIN(Read("altimeter_model", "altimeter_sensor")[1], 0, 1e-3, "m/s");
 }
 
-TEST_F(GazeboOriginals, Imu) {
+TEST_F(GazeboOriginals, ImuEqualsGazebo) {
   StartOriginal("imu.sdf");
   if (IsSkipped()) return;
   RunUntil(200ms);
@@ -365,14 +368,14 @@ TEST_F(GazeboOriginals, Imu) {
   EXPECT_WITHIN(Read("imu_model", "imu_sensor")[5], 5, 1e-2, "m/s²");
 }
 
-TEST_F(GazeboOriginals, Contact) {
+TEST_F(GazeboOriginals, ContactSensorEqualsGazebo) {
   StartOriginal("contact.sdf");
   if (IsSkipped()) return;
   RunUntil(2s);
   ExpectFourCorners("contact_model", "sensor_contact");
 }
 
-TEST_F(GazeboOriginals, Falling) {
+TEST_F(GazeboOriginals, FallingBodyEqualsGazebo) {
   StartOriginal("falling.sdf");
   if (IsSkipped()) return;
   RunUntil(10ms);
@@ -381,14 +384,14 @@ TEST_F(GazeboOriginals, Falling) {
   EXPECT_WITHIN(At("sphere").position.z, -4, 0.05, "m");
 }
 
-TEST_F(GazeboOriginals, JointController) {
+TEST_F(GazeboOriginals, JointControllerEqualsGazebo) {
   StartOriginal("joint_controller.sdf");
   if (IsSkipped()) return;
   RunUntil(100ms);
   EXPECT_WITHIN(Joint("joint_controller_test", 0, true), 5, 1e-2, "rad/s");
 }
 
-TEST_F(GazeboOriginals, DifferentialDrive) {
+TEST_F(GazeboOriginals, DifferentialDriveEqualsGazebo) {
   StartOriginal("diff_drive.sdf");
   if (IsSkipped()) return;
   auto behaviour = std::make_shared<ThreadBehaviour>([](Agent& agent, ClockId clock) {

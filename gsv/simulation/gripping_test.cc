@@ -1,11 +1,11 @@
-// Grippers: which bodies they grasp, how these move, and when they are released.
+// Grippers: which bodies they grasp, how grasped bodies move, and when they are released.
 #include "gsv/base/test_within.h"
 #include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::simulation {
 namespace {
 
-constexpr double kWidth = 0.06;  // m, of the post
+constexpr double kWidth = 0.06;  // width of the post, m
 
 // A dynamic post for the gripper.
 model::PlacedModel Post(const std::string& name, double x, double y) {
@@ -18,7 +18,7 @@ model::PlacedModel Post(const std::string& name, double x, double y) {
   return {name, std::move(model), geometry::Pose{{x, y, 0.1}, {}}, false};
 }
 
-// A wall at x = 3, level ground, and posts.
+// A world with a wall at x = 3, level ground, and posts.
 std::shared_ptr<Simulation> WithPosts(SimTime duration, std::vector<model::PlacedModel> posts) {
   Specification specification = Lockstep(duration);
   auto world = std::make_shared<model::WorldDescription>(*specification.world);
@@ -31,9 +31,10 @@ std::shared_ptr<Simulation> WithPosts(SimTime duration, std::vector<model::Place
   return Make(specification);
 }
 
-// A disc of 0.2 m with a gripper that opens to 0.08 m in front of it.
-RobotSpecification Gripping(std::string name, double x, double y,
-                            std::shared_ptr<BehaviourPort> behaviour = nullptr, double yaw = 0) {
+// A disc of 0.2 m radius, with a gripper in front of it that opens to 0.08 m.
+RobotSpecification RobotWithGripper(std::string name, double x, double y,
+                                    std::shared_ptr<BehaviourPort> behaviour = nullptr,
+                                    double yaw = 0) {
   RobotSpecification robot = Robot(std::move(name), x, y, std::move(behaviour));
   robot.world_from_robot = PlanarPose(x, y, 0, yaw);
   auto model = std::make_shared<model::Model>(*robot.model);
@@ -56,7 +57,8 @@ void RunTo(Simulation& simulation, SimTime instant) {
   ASSERT_EQ(simulation.WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
 }
 
-// Closes at once, and drives from 1 s to 2 s. Then opens, if `opens`, and drives away.
+// Closes the gripper at once and drives from 1 s to 2 s. If `opens` is true, it then opens the
+// gripper and drives away.
 std::shared_ptr<ThreadBehaviour> Fetches(world::DriveCommand drive, bool opens = true,
                                          std::chrono::microseconds dawdling = 0us) {
   return std::make_shared<ThreadBehaviour>([=](Agent& agent, ClockId clock) {
@@ -75,9 +77,9 @@ std::shared_ptr<ThreadBehaviour> Fetches(world::DriveCommand drive, bool opens =
   });
 }
 
-TEST(Gripping, ABodyBetweenTheFingersMovesWithTheRobotUntilTheyOpen) {
+TEST(Grippers, GraspedBodyMovesWithTheRobotUntilTheFingersOpen) {
   auto simulation = WithPosts(5s, {Post("post", 0.25, 0.01)});
-  ASSERT_TRUE(simulation->AddRobot(Gripping("robot", 0, 0, Fetches({-0.3, 0.1, 0.8}))));
+  ASSERT_TRUE(simulation->AddRobot(RobotWithGripper("robot", 0, 0, Fetches({-0.3, 0.1, 0.8}))));
   const geometry::Pose start = PoseOf(*simulation, "post");
   RunTo(*simulation, 1s);
   EXPECT_EQ(HeldBy(*simulation, "robot"), "post");
@@ -96,19 +98,20 @@ TEST(Gripping, ABodyBetweenTheFingersMovesWithTheRobotUntilTheyOpen) {
   RunTo(*simulation, 3s);
   EXPECT_EQ(HeldBy(*simulation, "robot"), "");
   const geometry::Pose left = PoseOf(*simulation, "post");
-  RunTo(*simulation, 4500ms);  // the robot leaves, the post stands
-  // Dropped at speed, it rocks from edge to edge for a while.
+  RunTo(*simulation, 4500ms);  // the robot drives away and the post stands still
+  // The post was released while it moved, so it rocks from edge to edge for a while.
   EXPECT_LT(Norm(PoseOf(*simulation, "post").position - left.position), 5e-3);
   EXPECT_GT(Norm(PoseOf(*simulation, "robot").position - left.position), 0.3);
 }
 
-TEST(Gripping, ClosesWithoutGraspingWhereNoDynamicBodyIs) {
+TEST(Grippers, CloseWithoutGraspingIfThereIsNoDynamicBody) {
   auto simulation = WithPosts(0s, {Post("post", -1, 0)});
-  ASSERT_TRUE(simulation->AddRobot(Gripping("at_wall", 2.65, 0, Fetches({}, false))));
-  ASSERT_TRUE(simulation->AddRobot(Gripping("robots", 0, 2, Fetches({}, false))));
+  ASSERT_TRUE(simulation->AddRobot(RobotWithGripper("at_wall", 2.65, 0, Fetches({}, false))));
+  ASSERT_TRUE(simulation->AddRobot(RobotWithGripper("robots", 0, 2, Fetches({}, false))));
   ASSERT_TRUE(simulation->AddRobot(Robot("other", 0.41, 2.2)));
   RunTo(*simulation, 200ms);
-  EXPECT_NEAR(simulation->Watch("at_wall", "gripper")->values[0], 0.06, 1e-9);  // half way
+  // the fingers are halfway
+  EXPECT_NEAR(simulation->Watch("at_wall", "gripper")->values[0], 0.06, 1e-9);
   RunTo(*simulation, 1s);
   for (const char* name : {"at_wall", "robots"}) {
     EXPECT_EQ(HeldBy(*simulation, name), "") << name;
@@ -116,18 +119,18 @@ TEST(Gripping, ClosesWithoutGraspingWhereNoDynamicBodyIs) {
   }
 }
 
-TEST(Gripping, AWallStopsAGraspedBody) {
+TEST(Grippers, WallStopsAGraspedBody) {
   auto simulation = WithPosts(4s, {Post("post", 2.25, 0)});
-  ASSERT_TRUE(simulation->AddRobot(Gripping("robot", 2, 0, Fetches({1, 0, 0}, false))));
+  ASSERT_TRUE(simulation->AddRobot(RobotWithGripper("robot", 2, 0, Fetches({1, 0, 0}, false))));
   RunTo(*simulation, 1900ms);
   EXPECT_EQ(HeldBy(*simulation, "robot"), "post");
   // The wall's face is at x = 2.9.
   EXPECT_WITHIN(PoseOf(*simulation, "post").position.x + kWidth / 2, 2.9, 1e-4, "m");
 }
 
-TEST(Gripping, ARigidRobotGraspsAsWell) {
+TEST(Grippers, RigidRobotCanGrasp) {
   auto simulation = WithPosts(4s, {Post("post", 0.25, 0)});
-  RobotSpecification robot = Gripping("robot", 0, 0, Fetches({-0.3, 0, 0.4}));
+  RobotSpecification robot = RobotWithGripper("robot", 0, 0, Fetches({-0.3, 0, 0.4}));
   robot.movement = model::Movement::kRigid;
   ASSERT_TRUE(simulation->AddRobot(robot));
   RunTo(*simulation, 1s);
@@ -142,20 +145,23 @@ TEST(Gripping, ARigidRobotGraspsAsWell) {
   EXPECT_EQ(HeldBy(*simulation, "robot"), "");
 }
 
-TEST(Gripping, TheFirstByNameOfTwoGrippersGetsTheBody) {
+TEST(Grippers, FirstByNameOfTwoGrippersGraspsTheBody) {
   auto simulation = WithPosts(3s, {Post("post", 0.25, 0)});
-  ASSERT_TRUE(simulation->AddRobot(Gripping("b", 0.5, 0, Fetches({}, false), std::numbers::pi)));
-  ASSERT_TRUE(simulation->AddRobot(Gripping("a", 0, 0, Fetches({}, false))));
+  ASSERT_TRUE(
+      simulation->AddRobot(RobotWithGripper("b", 0.5, 0, Fetches({}, false), std::numbers::pi)));
+  ASSERT_TRUE(simulation->AddRobot(RobotWithGripper("a", 0, 0, Fetches({}, false))));
   RunTo(*simulation, 1s);
   EXPECT_EQ(HeldBy(*simulation, "a"), "post");
   EXPECT_EQ(HeldBy(*simulation, "b"), "");
 }
 
-TEST(Gripping, GivesTheSameHashForFastAndSlowBehaviours) {
+TEST(Grippers, HashDoesNotDependOnTheSpeedOfBehaviours) {
   const auto hash_of = [](std::chrono::microseconds first, std::chrono::microseconds second) {
     auto simulation = WithPosts(4s, {Post("one", 0.25, 0), Post("two", 0.25, 1)});
-    EXPECT_TRUE(simulation->AddRobot(Gripping("a", 0, 0, Fetches({-0.2, 0, 0.3}, true, first))));
-    EXPECT_TRUE(simulation->AddRobot(Gripping("b", 0, 1, Fetches({-0.3, 0, 0}, true, second))));
+    EXPECT_TRUE(
+        simulation->AddRobot(RobotWithGripper("a", 0, 0, Fetches({-0.2, 0, 0.3}, true, first))));
+    EXPECT_TRUE(
+        simulation->AddRobot(RobotWithGripper("b", 0, 1, Fetches({-0.3, 0, 0}, true, second))));
     EXPECT_EQ(RunToEnd(*simulation), Phase::kFinished);
     return simulation->state_hash();
   };
@@ -164,9 +170,9 @@ TEST(Gripping, GivesTheSameHashForFastAndSlowBehaviours) {
   EXPECT_EQ(hash_of(5000us, 0us), hash);
 }
 
-TEST(Gripping, AGraspedBodyMovesWithAPlacedRobotAndIsReleasedWhenItIsPlaced) {
+TEST(Grippers, AGraspedBodyMovesWithAPlacedRobotAndIsReleasedWhenItIsPlaced) {
   auto simulation = WithPosts(0s, {Post("post", 0.25, 0)});
-  ASSERT_TRUE(simulation->AddRobot(Gripping("robot", 0, 0, Fetches({}, false))));
+  ASSERT_TRUE(simulation->AddRobot(RobotWithGripper("robot", 0, 0, Fetches({}, false))));
   RunTo(*simulation, 1s);
   const auto robot_from_post = Inverse(PoseOf(*simulation, "robot")) * PoseOf(*simulation, "post");
   ASSERT_TRUE(simulation->PlaceBody("robot", PlanarPose(-1, 2, 0, 1), true));
@@ -179,9 +185,9 @@ TEST(Gripping, AGraspedBodyMovesWithAPlacedRobotAndIsReleasedWhenItIsPlaced) {
   EXPECT_NEAR(PoseOf(*simulation, "post").position.x, 1, 1e-3);
 }
 
-TEST(Gripping, EndsWithTheRobotAndWithAReset) {
+TEST(Grippers, ReleaseTheBodyOnRemovalAndOnReset) {
   auto simulation = WithPosts(0s, {Post("post", 0.25, 0)});
-  ASSERT_TRUE(simulation->AddRobot(Gripping("robot", 0, 0, Fetches({-0.2, 0, 0}, false))));
+  ASSERT_TRUE(simulation->AddRobot(RobotWithGripper("robot", 0, 0, Fetches({-0.2, 0, 0}, false))));
   const geometry::Pose start = PoseOf(*simulation, "post");
   RunTo(*simulation, 1500ms);
   EXPECT_EQ(HeldBy(*simulation, "robot"), "post");
@@ -192,8 +198,8 @@ TEST(Gripping, EndsWithTheRobotAndWithAReset) {
   EXPECT_EQ(HeldBy(*simulation, "robot"), "post");
   ASSERT_TRUE(simulation->RemoveRobot("robot"));
   EXPECT_TRUE(simulation->snapshot()->state.devices->empty());
-  // Left at 0.2 m/s, the post rocks and stops within its own width; carried on it would have gone
-  // 0.1 m, and fixed where it was it would not have moved.
+  // The post is released at 0.2 m/s. It rocks and stops within its own width. If the robot still
+  // carried it, it would move by 0.1 m. If it were fixed in place, it would not move.
   const geometry::Pose left = PoseOf(*simulation, "post");
   RunTo(*simulation, 2s);
   const double moved = Norm(PoseOf(*simulation, "post").position - left.position);

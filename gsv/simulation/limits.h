@@ -1,6 +1,6 @@
 // Limits of each simulation in this process; docs/limits.md lists them.
 //
-// Threads  set before the first simulation is created, read by any thread.
+// Threads  set before the first simulation is created; afterwards any thread may read them.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 namespace gsv::simulation {
 
 struct Limits {
-  std::size_t robots = 100'000;           // including avatars
-  std::size_t sensors_of_a_robot = 1024;  // including those of its model
+  std::size_t robots = 100'000;           // number of robots, including avatars
+  std::size_t sensors_of_a_robot = 1024;  // number of sensors, including those of the robot's model
 };
 
 inline Limits& ProcessLimits() {

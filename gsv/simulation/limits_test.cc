@@ -17,7 +17,7 @@ TEST_F(LimitsTest, RobotsAreLimited) {
   ProcessLimits().robots = 3;
   const auto simulation = Make(Lockstep(0s));
   ASSERT_TRUE(simulation->AddRobot(Robot("a", 0, -2)));
-  // Two robots are added together, but only one fits: neither is added.
+  // Two robots are added together, but the limit allows only one more. So neither is added.
   std::vector<RobotSpecification> crowd;
   for (const char* name : {"b", "c", "d"}) {
     crowd.push_back(Robot(name, 0, static_cast<double>(crowd.size())));
@@ -35,7 +35,7 @@ TEST_F(LimitsTest, RobotsAreLimited) {
 }
 
 TEST_F(LimitsTest, SensorsAreLimited) {
-  ProcessLimits().sensors_of_a_robot = 2;  // the model has one already
+  ProcessLimits().sensors_of_a_robot = 2;  // the model already has one sensor
   const auto simulation = Make(Lockstep(0s));
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0)));
   model::SensorDescription sonar = Disc(0.2)->sensors.front();
@@ -53,7 +53,7 @@ TEST_F(LimitsTest, ClocksAreLimited) {
   std::string refusal;
   ASSERT_TRUE(simulation->AddRobot(
       Robot("robot", 0, 0, std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId) {
-              std::vector<ClockId> more;  // it has one already
+              std::vector<ClockId> more;  // the behaviour already has one clock
               for (int i = 2; i <= 64; ++i) {
                 const auto clock = agent.OpenClock();
                 opened.push_back(clock.has_value());
@@ -72,7 +72,7 @@ TEST_F(LimitsTest, ClocksAreLimited) {
   EXPECT_EQ(refusal, "an agent has at most 64 clocks open");
 }
 
-TEST_F(LimitsTest, TenThousandEventsAreKept) {
+TEST_F(LimitsTest, KeepsTenThousandEvents) {
   Specification specification = Lockstep(0s);
   specification.mode = Mode::kRealTime;
   const auto simulation = Make(specification);
@@ -83,7 +83,7 @@ TEST_F(LimitsTest, TenThousandEventsAreKept) {
   ASSERT_TRUE(simulation->SetRealTimeFactor(4));
   const auto newest = simulation->events(0);
   ASSERT_EQ(newest.size(), 10'000u);
-  // The first event was dropped, so that the second comes first; the numbers continue.
+  // The first event was dropped, so the second one comes first. The numbers continue.
   EXPECT_EQ(newest.front().detail, all[1].detail);
   EXPECT_EQ(newest.back().kind, "factor_set");
   EXPECT_NE(newest.back().detail, all.back().detail);

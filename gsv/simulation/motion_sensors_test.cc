@@ -46,7 +46,7 @@ struct Leg {
   SimTime duration;
 };
 
-// Drives the legs and returns the sensor's reading and the robot's pose at the end.
+// The reading of the sensor and the pose of the robot after Drive().
 struct Driven {
   std::vector<double> values;
   std::shared_ptr<const std::vector<std::string>> labels;
@@ -83,14 +83,14 @@ std::vector<Leg> AroundTheSquare() {
   return legs;
 }
 
-TEST(MotionSensors, AnOdometerClosesTheSquareThatUnequalWheelsMiss) {
-  // The square of planar_fidelity_test.cc, with sides of 2 m. If the wheels differ by the ratio E,
-  // the robot misses its start by 2 L beta, with beta = L / (b/2 (E + 1) / (E - 1)). The odometry
-  // does not notice it.
+TEST(MotionSensors, OdometerIgnoresUnequalWheels) {
+  // The test is the square of planar_fidelity_test.cc, with sides of 2 m. If the wheels differ by
+  // the ratio E, the robot misses its start by 2 L beta, with beta = L / (b/2 (E + 1) / (E - 1)).
+  // The odometry does not notice it.
   const double ratio = 1.001, left = 2 / (1 + ratio), right = 2 * ratio / (1 + ratio);
   const Driven driven = Drive(Rover("odometry", left, right), AroundTheSquare());
   ASSERT_EQ(driven.values.size(), 6u);
-  EXPECT_EQ(driven.values[5], 0);  // sideways: this drive cannot move
+  EXPECT_EQ(driven.values[5], 0);  // the sideways velocity, which this drive cannot have
   EXPECT_WITHIN(driven.values[0], 0, 1e-9, "m");
   EXPECT_WITHIN(driven.values[1], 0, 1e-9, "m");
   EXPECT_NEAR(geometry::WrapAngle(driven.values[2]), 0, 1e-9);
@@ -109,7 +109,8 @@ TEST(MotionSensors, AnImuOnASpinningRobotReadsCentripetalAcceleration) {
 }
 
 TEST(MotionSensors, AnImuOnACirclingRobotReadsCentripetalAcceleration) {
-  // At 0.5 m/s and 0.5 rad/s: 0.25 m/s² to the left, minus the effect of the 10 ms step.
+  // At 0.5 m/s and 0.5 rad/s, the acceleration is 0.25 m/s² to the left, minus the effect of the 10
+  // ms step.
   const Driven driven = Drive(Rover("imu"), {{{0.5, 0, 0.5}, 1s}});
   ASSERT_EQ(driven.values.size(), 10u);
   EXPECT_WITHIN(driven.values[4], 0.25, 1e-3, "m/s²");
@@ -133,7 +134,7 @@ TEST(MotionSensors, AnImuInFreeFallReadsZero) {
   EXPECT_LT(StatusOf(*simulation, "robot").world_from_robot.position.z, 2.6);
 }
 
-TEST(MotionSensors, JointEncodersSeeTheWheelsRoll) {
+TEST(MotionSensors, JointEncodersReadTheWheelAngles) {
   const Driven driven = Drive(Rover("joint_encoders"), {{{0.5, 0, 0}, 2s}});
   EXPECT_EQ(*driven.labels, (std::vector<std::string>{"left", "right"}));
   ASSERT_EQ(driven.values.size(), 4u);
@@ -142,17 +143,18 @@ TEST(MotionSensors, JointEncodersSeeTheWheelsRoll) {
 }
 
 TEST(MotionSensors, ABumperDetectsTheWall) {
-  // The wall's face is at 2.9 m, the robot's radius is 0.2 m.
+  // The wall's face is at 2.9 m, and the robot's radius is 0.2 m.
   const Driven before = Drive(Rover("contact"), {{{0.5, 0, 0}, 1s}});
   EXPECT_TRUE(before.values.empty());
   const Driven driven = Drive(Rover("contact"), {{{0.5, 0, 0}, 2s}}, 2.0);
   EXPECT_EQ(*driven.labels, std::vector<std::string>{"wall"});
   ASSERT_EQ(driven.values.size(), 8u);
-  EXPECT_WITHIN(driven.values[0], 0.05, 1e-3, "m");  // the face, from the sensor 0.15 m ahead
+  // the distance from the sensor, which is 0.15 m ahead, to the wall's face
+  EXPECT_WITHIN(driven.values[0], 0.05, 1e-3, "m");
   EXPECT_NEAR(driven.values[3], 1, 1e-6);
 }
 
-TEST(MotionSensors, ABatteryFallsAsTheRobotDrives) {
+TEST(MotionSensors, BatteryDischargesWhileDriving) {
   const Driven driven = Drive(Rover("battery"), {{{0.5, 0, 0}, 4s}});
   ASSERT_EQ(driven.values.size(), 5u);
   EXPECT_WITHIN(driven.values[2], 5 - (0.5 * 4 + 4 * 2.0) / 3600, 1e-12, "Ah");

@@ -1,8 +1,8 @@
 // Receives the snapshots and events of a simulation. See Simulation::AddObserver().
 //
-// Threads  snapshots come from the stepping thread, which holds no lock then: const members of the
-//          simulation may be called. Events come from any thread, with locks held: no member of the
-//          simulation may be called. Both must return at once.
+// Threads  snapshots come from the stepping thread, which holds no lock then, so const members of
+//          the simulation may be called. Events come from any thread with locks held, so no member
+//          of the simulation may be called. Both functions must return at once.
 #pragma once
 
 #include <memory>

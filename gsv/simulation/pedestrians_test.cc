@@ -15,7 +15,7 @@ model::PedestrianGroup Walkers(int count, std::vector<model::PedestrianGoal> rou
   return group;
 }
 
-// Pedestrians around the wall at x = 3, which is 10 m long.
+// A world with pedestrians around the wall at x = 3, which is 10 m long.
 Specification WithWalkers(int count, int threads = 0) {
   Specification specification = Lockstep(2s);
   specification.seed = 3;
@@ -24,7 +24,7 @@ Specification WithWalkers(int count, int threads = 0) {
   return specification;
 }
 
-TEST(Pedestrians, StartOnTheirRouteAndOverlapNothing) {
+TEST(Pedestrians, StartOnTheirRouteWithoutOverlaps) {
   const auto simulation = Make(WithWalkers(60));
   const auto snapshot = simulation->snapshot();
   const std::vector<world::Body>& bodies = snapshot->layout->bodies;
@@ -69,7 +69,7 @@ TEST(Pedestrians, DependOnTheSeed) {
   EXPECT_NE(a->state_hash(), b->state_hash());
 }
 
-TEST(Pedestrians, KeepTheirDrawsWhenMoreAreAdded) {
+TEST(Pedestrians, KeepTheirRandomNumbersIfMoreAreAdded) {
   const auto few = Make(WithWalkers(5))->snapshot(), many = Make(WithWalkers(6))->snapshot();
   const auto speed = [](const auto& snapshot, const char* name) {
     return snapshot->layout->bodies[snapshot->layout->Find(name)].pedestrian->speed;
@@ -78,7 +78,7 @@ TEST(Pedestrians, KeepTheirDrawsWhenMoreAreAdded) {
   EXPECT_NE(speed(many, "walker_1"), speed(many, "walker_2"));
 }
 
-TEST(Pedestrians, AreRefusedWithoutSpaceOrRoute) {
+TEST(Pedestrians, AreRejectedWithoutSpaceOrRoute) {
   Specification crowded = WithWalkers(1);
   crowded.pedestrians = {Walkers(50, {{-6, 0, 0.5}})};
   Specification lost = WithWalkers(1);

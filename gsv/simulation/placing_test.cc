@@ -25,7 +25,7 @@ TEST(Placing, BeforeTheFirstStepItSetsTheInitialPose) {
   EXPECT_NEAR(geometry::Yaw(pose.orientation), 0.5, 1e-12);
 }
 
-TEST(Placing, DuringAPauseARobotContinuesFromThereAndAResetRestoresIt) {
+TEST(Placing, DuringAPauseMovesTheRobotUntilAReset) {
   auto simulation = Make(Lockstep(1s));
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, Drives(0.5))));
   RunUntilPaused(*simulation, 500ms);
@@ -33,13 +33,13 @@ TEST(Placing, DuringAPauseARobotContinuesFromThereAndAResetRestoresIt) {
   EXPECT_EQ(PositionOf(*simulation, "robot"), (geometry::Vector3{-1, 2, 0}));
   ASSERT_TRUE(simulation->Resume());
   ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
-  // Half a second at 0.5 m/s, without a limit on acceleration.
+  // The robot drives half a second at 0.5 m/s, without a limit on acceleration.
   EXPECT_NEAR(PositionOf(*simulation, "robot").x, -1 + 0.25, 1e-9);
   ASSERT_TRUE(simulation->Reset());
   EXPECT_EQ(PositionOf(*simulation, "robot"), (geometry::Vector3{0, 0, 0}));
 }
 
-TEST(Placing, AnOccupiedPlaceIsRefusedAndNothingMoves) {
+TEST(Placing, OccupiedPlaceIsRejectedAndNothingMoves) {
   auto simulation = Make(Lockstep(0s));
   ASSERT_TRUE(simulation->AddRobot(Robot("first", 0, 0)));
   ASSERT_TRUE(simulation->AddRobot(Robot("second", 1, 0)));
@@ -48,7 +48,7 @@ TEST(Placing, AnOccupiedPlaceIsRefusedAndNothingMoves) {
   EXPECT_NE(into_another.error().Sentence().find("\"first\""), std::string::npos);
   EXPECT_FALSE(simulation->PlaceBody("second", PlanarPose(3, 0, 0, 0), true));
   EXPECT_EQ(PositionOf(*simulation, "second"), (geometry::Vector3{1, 0, 0}));
-  // Its own place counts as free for it.
+  // A body's own place counts as free for that body.
   EXPECT_TRUE(simulation->PlaceBody("second", PlanarPose(1.05, 0, 0, 0), true));
 }
 

@@ -1,5 +1,5 @@
-// Messages between robots: their time and order, and the same final state for fast and slow
-// behaviours.
+// Messages between robots: when and in which order they arrive, and the same final state for fast
+// and slow behaviours.
 #include <set>
 
 #include "gsv/base/base64.h"
@@ -45,7 +45,7 @@ Inbox Listen(Agent& agent) {
   return inbox;
 }
 
-// Opens its radio and calls `what` 100 ms later, once.
+// A behaviour that opens its radio and calls `what` once, 100 ms later.
 std::shared_ptr<ThreadBehaviour> Speaks(std::function<void(Agent&)> what) {
   return std::make_shared<ThreadBehaviour>([what](Agent& agent, ClockId clock) {
     ASSERT_TRUE(agent.OpenSensor("radio"));
@@ -62,7 +62,7 @@ std::shared_ptr<ThreadBehaviour> Says(std::vector<std::string> words, std::strin
   });
 }
 
-// Opens its radio and stores its inbox at each of the instants.
+// A behaviour that opens its radio and stores its inbox at each of the instants.
 std::shared_ptr<ThreadBehaviour> Hears(std::vector<SimTime> instants,
                                        std::map<SimTime, Inbox>& heard) {
   return std::make_shared<ThreadBehaviour>([=, &heard](Agent& agent, ClockId clock) {
@@ -77,7 +77,7 @@ std::shared_ptr<ThreadBehaviour> Hears(std::vector<SimTime> instants,
 TEST(Radio, DeliversWithTheNextStepInTheOrderOfSenders) {
   std::map<SimTime, Inbox> heard;
   auto simulation = Make(Lockstep(300ms));
-  // The order differs from that of the names; the first sender is the last by name.
+  // The robots are not added in the order of their names: the first sender is the last by name.
   ASSERT_TRUE(simulation->AddRobot(RobotWithRadio("zoe", 0, 2, Says({"z1", "z2"}))));
   ASSERT_TRUE(
       simulation->AddRobot(RobotWithRadio("ear", 0, 0, Hears({100ms, 110ms, 200ms}, heard))));
@@ -109,7 +109,7 @@ TEST(Radio, ReachesOneOrAllButNotTheSenderAndNotDistantRobots) {
   EXPECT_EQ(simulation->Watch("speaker", "radio")->values.size(), 0u);
 }
 
-TEST(Radio, DoesNotPassAWallThatAbsorbsAll) {
+TEST(Radio, IsBlockedByAnAbsorbingWall) {
   std::map<SimTime, Inbox> before, behind;
   auto simulation = Make(Lockstep(200ms));  // the wall is at x = 3
   ASSERT_TRUE(simulation->AddRobot(
@@ -159,7 +159,7 @@ TEST(Radio, RefusesLongMessagesTooManyMessagesAndOtherSensors) {
         const auto long_one = agent.Send("radio", "", std::string(11, 'x'));
         ASSERT_FALSE(long_one);
         EXPECT_NE(long_one.error().Sentence().find("max_size, 10"), std::string::npos);
-        EXPECT_FALSE(agent.Send("front", "", "x"));  // a sonar
+        EXPECT_FALSE(agent.Send("front", "", "x"));  // "front" is a sonar, not a radio
         EXPECT_FALSE(agent.Send("nothing", "", "x"));
         for (int i = 1; i < 64; ++i) EXPECT_TRUE(agent.Send("radio", "", "x"));
         EXPECT_FALSE(agent.Send("radio", "", "x"));
@@ -168,7 +168,7 @@ TEST(Radio, RefusesLongMessagesTooManyMessagesAndOtherSensors) {
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
 }
 
-TEST(Radio, ForgetsMessagesOnResetAndOfRemovedRobots) {
+TEST(Radio, ClearsMessagesOnResetAndOfRemovedRobots) {
   auto simulation = Make(Lockstep(200ms));
   std::map<SimTime, Inbox> heard;
   ASSERT_TRUE(simulation->AddRobot(RobotWithRadio("a", 0, 0, Says({"hello"}))));
@@ -184,7 +184,7 @@ TEST(Radio, ForgetsMessagesOnResetAndOfRemovedRobots) {
   EXPECT_EQ(simulation->snapshot()->state.devices->front()->robot(), "a");
 }
 
-// Every robot sends the number of messages that it got, and drives accordingly.
+// A behaviour that sends the number of messages that it received, and drives accordingly.
 std::shared_ptr<ThreadBehaviour> Chats(std::chrono::microseconds dawdling) {
   return std::make_shared<ThreadBehaviour>([=](Agent& agent, ClockId clock) {
     ASSERT_TRUE(agent.OpenSensor("radio"));
@@ -199,7 +199,7 @@ std::shared_ptr<ThreadBehaviour> Chats(std::chrono::microseconds dawdling) {
   });
 }
 
-TEST(Radio, GivesTheSameStateForFastAndSlowBehaviours) {
+TEST(Radio, HashDoesNotDependOnTheSpeedOfBehaviours) {
   std::set<std::string> hashes;
   for (const int slow : {-1, 0, 3}) {
     auto simulation = Make(Lockstep(400ms));
@@ -209,7 +209,8 @@ TEST(Radio, GivesTheSameStateForFastAndSlowBehaviours) {
                                                       {{"range", 2.2}, {"inbox", 3.0}})));
     }
     ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
-    EXPECT_GT(simulation->Watch("robot0", "radio")->values[6], 10);  // number of the newest message
+    // the number of the newest message
+    EXPECT_GT(simulation->Watch("robot0", "radio")->values[6], 10);
     hashes.insert(simulation->state_hash());
   }
   EXPECT_EQ(hashes.size(), 1u);

@@ -25,7 +25,7 @@ std::shared_ptr<const model::Model> Slider() {
   return model;
 }
 
-// A box half a metre above the ground, and a slider that collides with nothing.
+// A world with a box half a metre above the ground, and a slider that collides with nothing.
 Specification WithBox() {
   Specification specification = Lockstep(1s);
   auto world = std::make_shared<model::WorldDescription>(*specification.world);
@@ -57,7 +57,7 @@ TEST(RigidBodies, ARunAfterAResetEqualsTheFirst) {
   EXPECT_EQ(simulation->state_hash(), first);
 }
 
-TEST(RigidBodies, ARobotThatIsAddedAndRemovedElsewhereDoesNotMatter) {
+TEST(RigidBodies, AddingAndRemovingAnotherRobotHasNoEffect) {
   const auto alone = Make(WithBox()), visited = Make(WithBox());
   RunToEnd(*alone);
   ASSERT_TRUE(visited->RunUntil(200ms));

@@ -23,49 +23,51 @@
 namespace gsv::simulation {
 
 struct RobotSpecification {
-  std::string name;  // empty: the model's name, numbered if taken
+  std::string name;  // empty for the model's name, numbered if it is taken
   std::shared_ptr<const model::Model> model;
   geometry::Pose world_from_robot;
-  // Lowered or lifted onto the floor at its place, see sensing/ground.h.
+  // Whether the robot is lowered or lifted onto the floor at its place, see sensing/ground.h.
   bool on_ground = true;
-  std::shared_ptr<BehaviourPort> behaviour;  // may be null: the robot stands still
-  // Allows a behaviour that uses the wall clock in lockstep.
+  std::shared_ptr<BehaviourPort> behaviour;  // null for a robot that stands still
+  // Whether a behaviour may use the wall clock in lockstep.
   bool allow_unmanaged = false;
   bool is_avatar = false;
-  std::optional<model::Movement> movement;  // default: the model's
-  // A text as in model/drive_choice.h; empty: the model's own drive, else the guessed one.
+  std::optional<model::Movement> movement;  // empty for that of the model
+  // In the form of model/drive_choice.h. Empty for the model's own drive, or else the guessed one.
   std::string drive;
 };
 
 // An object (not a robot) that is added to the world.
 struct ObjectSpecification {
-  std::string name;                           // empty: the model's name, numbered if taken
-  std::shared_ptr<const model::Model> model;  // null: the model of `copy_of`
-  // A body of the simulation, of the world file, or one that a user removed.
+  std::string name;                           // empty for the model's name, numbered if it is taken
+  std::shared_ptr<const model::Model> model;  // null for the model of `copy_of`
+  // The name of a body of the simulation, of the world file, or of one that a user removed.
   std::string copy_of;
   geometry::Pose world_from_object;
-  // Lowered or lifted onto the floor at its place, see sensing/ground.h.
+  // Whether the object is lowered or lifted onto the floor at its place, see sensing/ground.h.
   bool on_ground = true;
 };
 
 class Simulation : public std::enable_shared_from_this<Simulation> {
  public:
-  // `sensors` must outlive the simulation. Fails if the specification or the world is invalid.
+  // Creates a simulation. `sensors` must outlive it. Fails if the specification or the world is
+  // invalid.
   static base::Result<std::shared_ptr<Simulation>> Create(
       Specification specification, std::shared_ptr<const sensing::SensorRegistry> sensors);
 
-  // Stops, and waits for the stepping thread and for calls to behaviours. If a behaviour in process
-  // does not return within the deadline, the simulation and its threads are abandoned.
+  // Stops the simulation, and waits for the stepping thread and for calls to behaviours. If a
+  // behaviour in this process does not return within the deadline, the simulation and its threads
+  // are abandoned.
   virtual ~Simulation() = default;
-  // The number of abandoned simulations. If > 0, the process must exit without running static
-  // destructors.
+  // The number of abandoned simulations. If it is above 0, the process must exit without running
+  // static destructors.
   static int AbandonedSimulations();
 
   // Adds a robot and initialises its behaviour; blocks until the behaviour answers. A robot that
   // would touch a wall is placed beside it, with an event "robot_moved". Returns the robot's name.
   // Fails if the place or the name is taken, or if the behaviour fails in init.
   base::Result<std::string> AddRobot(RobotSpecification robot);
-  // The same for many robots: all are added, or none.
+  // Adds many robots: either all of them, or none. Otherwise it is like AddRobot().
   virtual base::Result<std::vector<std::string>> AddRobots(
       std::vector<RobotSpecification> robots) = 0;
   // Removes a robot. Fails for stations, which are objects.
@@ -77,12 +79,12 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // cannot be removed.
   virtual base::Status RemoveObject(const std::string& name) = 0;
   // Moves a body (a robot, an avatar or an object) to a pose, at rest, while the simulation is
-  // created or paused; `on_ground` as for robots. Before the first step this sets its pose at the
-  // start, also after a reset. Its odometry is unchanged. Fails if the place is taken, and for
-  // static bodies of the world file.
+  // created or paused. `on_ground` has the same meaning as for robots. Before the first step this
+  // sets the initial pose, also for later resets. The odometry does not change. Fails if the place
+  // is taken, and for static bodies of the world file.
   virtual base::Status PlaceBody(const std::string& name, const geometry::Pose& world_from_body,
                                  bool on_ground) = 0;
-  // Gives a behaviour to a robot without one, such as a robot of the world file.
+  // Gives a behaviour to a robot that has none, such as a robot of the world file.
   virtual base::Status SetBehaviour(const std::string& robot,
                                     std::shared_ptr<BehaviourPort> behaviour) = 0;
 
@@ -92,64 +94,67 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   virtual base::Status CommandJoint(const std::string& body, const std::string& joint,
                                     const world::JointCommand& command) = 0;
 
-  // Sets the gravity along the world's z in m/s² (negative: downwards) from the next step on; null:
-  // the world's own. Allowed while the simulation is created or paused; kept by a reset. It has no
-  // effect on bodies with planar kinematics.
+  // Sets the gravity along the world's z in m/s² (negative is downwards) from the next step on.
+  // nullopt restores the world's own gravity. Allowed while the simulation is created or paused; a
+  // reset keeps it. It has no effect on bodies with planar kinematics.
   virtual base::Status SetGravity(std::optional<double> z) = 0;
 
-  // Requests. Each returns once it is accepted; status() shows the result. A request that the phase
-  // does not allow fails with kNotRunning and lists the allowed phases.
+  // Requests. A request returns once it is accepted, and status() shows the result. A request that
+  // the phase does not allow fails with kNotRunning and lists the allowed phases.
   virtual base::Status Start() = 0;
   virtual base::Status Pause() = 0;
   virtual base::Status Resume() = 0;
-  // Takes `count` steps and pauses; while the simulation is paused or created.
+  // Takes `count` steps and then pauses. Allowed while the simulation is paused or created.
   virtual base::Status Step(std::int64_t count) = 0;
-  // Runs until the simulated time `until` and pauses; no agent is woken at that instant.
+  // Runs until the simulated time `until` and then pauses. No agent is woken at that instant.
   virtual base::Status RunUntil(SimTime until) = 0;
-  // The same from a pause or the start, but agents whose waits end at that instant, which may be
-  // now, have their turn. Pauses before the next step.
+  // Runs until `until`, which may be now, from a pause or the start. Agents whose waits end at that
+  // instant have their turn. Then it pauses, before the next step.
   virtual base::Status RunThrough(SimTime until) = 0;
   virtual base::Status Stop() = 0;
-  // Resets bodies, time and behaviours. Blocks until behaviours have answered.
+  // Resets bodies, time and behaviours. It blocks until the behaviours have answered.
   virtual base::Status Reset() = 0;
 
-  // Sets the target real-time factor from the next step on, in (0, 1e6]; kept by a reset. Refused
+  // Sets the target real-time factor from the next step on, in (0, 1e6]. A reset keeps it. Refused
   // in lockstep. Returns at once.
   virtual base::Status SetRealTimeFactor(double factor) = 0;
   virtual double real_time_factor() const = 0;
 
   virtual const Specification& specification() const = 0;
   virtual SimulationStatus status() const = 0;
-  virtual std::shared_ptr<const world::Snapshot> snapshot() const = 0;  // the latest; never null
-  // The hash of the latest snapshot and the agents' waits; empty if a behaviour in process exceeds
-  // its deadline, see local_behaviour.h.
+  // Returns the latest snapshot, never null.
+  virtual std::shared_ptr<const world::Snapshot> snapshot() const = 0;
+  // The hash of the latest snapshot and the agents' waits. Empty if a behaviour in this process
+  // exceeds its deadline, see local_behaviour.h.
   virtual std::string state_hash() const = 0;
 
-  // Blocks until the phase is one of `phases`, at most `timeout` of wall-clock time. Returns the
-  // phase.
+  // Blocks until the phase is one of `phases`, but at most for `timeout` of wall-clock time.
+  // Returns the phase.
   virtual Phase WaitForPhase(const std::vector<Phase>& phases,
                              std::chrono::milliseconds timeout) const = 0;
 
-  // The agent of a robot, an avatar or a station (world/station.h); null if the name is unknown.
+  // Returns the agent of a robot, an avatar or a station (world/station.h), or null if the name is
+  // unknown.
   virtual std::shared_ptr<Agent> agent(const std::string& robot) const = 0;
 
-  // A reading for an observer: the one that the robot's behaviour gets at that snapshot. It does
-  // not change the simulation. May be slow (an image): on the stepping thread, as in
-  // Observer::OnSnapshot(), it delays the next step.
+  // Returns a reading for an observer: the one that the robot's behaviour gets at that snapshot. It
+  // does not change the simulation. It may be slow, for example for an image. On the stepping
+  // thread, as in Observer::OnSnapshot(), it delays the next step.
   virtual base::Result<sensing::Reading> Watch(const std::string& robot,
                                                const std::string& sensor) = 0;
-  // The sensors of a robot: those of its model and created ones.
+  // Returns the sensors of a robot: those of its model and created ones.
   virtual std::vector<model::SensorDescription> sensors(const std::string& robot) const = 0;
   virtual const sensing::SensorRegistry& sensor_types() const = 0;
 
-  // Events from number `first` on, counted from 0. Their number is bounded; the oldest are dropped.
+  // Returns the events from number `first` on, counted from 0. Only a limited number is kept; the
+  // oldest events are dropped.
   virtual std::vector<Event> events(std::uint64_t first) const = 0;
 
-  // Whether a body was added, removed or placed since the first start.
+  // Whether a body was added, removed or placed after the first start.
   virtual bool was_edited() const = 0;
 
-  // Notifies the observer from the next step on. The simulation keeps it alive until it is removed
-  // or the simulation ends.
+  // Adds an observer, which is notified from the next step on. The simulation keeps it alive until
+  // it is removed or the simulation ends.
   virtual void AddObserver(std::shared_ptr<Observer> observer) = 0;
   virtual void RemoveObserver(const std::shared_ptr<Observer>& observer) = 0;
 };

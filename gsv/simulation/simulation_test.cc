@@ -12,7 +12,8 @@ TEST(Simulation, ACommandIsAppliedFromItsInstantOn) {
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, Drives(0.5))));
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
   EXPECT_EQ(simulation->status().step, 100);
-  // The command applies from t = 0, without a limit on acceleration: 0.5 m/s for a whole second.
+  // The command applies from t = 0, without a limit on acceleration. So the robot drives at 0.5 m/s
+  // for a whole second.
   EXPECT_NEAR(StatusOf(*simulation, "robot").world_from_robot.position.x, 0.5, 1e-9);
 }
 
@@ -70,7 +71,7 @@ TEST(Simulation, AReadingIsAFunctionOfTheInstantForBehaviourAndViewer) {
   });
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, behaviour)));
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
-  // The wall's face is at x = 2.9; at 1 m/s the range decreases by 0.05 m every 50 ms.
+  // The wall's face is at x = 2.9. At 1 m/s, the range decreases by 0.05 m every 50 ms.
   ASSERT_EQ(ranges.size(), 4u);
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(ranges[i], 2.9 - 0.05 * i, 1e-9);
   const auto watched = simulation->Watch("robot", "front");
@@ -79,14 +80,14 @@ TEST(Simulation, AReadingIsAFunctionOfTheInstantForBehaviourAndViewer) {
   EXPECT_EQ(StatusOf(*simulation, "robot").readings["sonar"], 4u);
 }
 
-TEST(Simulation, ExchangeAnswersWithTheReadingsAtItsInstantAndCommandsOnce) {
+TEST(Simulation, ExchangeReturnsReadingsAtItsInstantAndCommandsOnce) {
   auto simulation = Make(Lockstep(200ms));
   std::vector<double> ranges;
   auto behaviour = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
     ASSERT_TRUE(agent.OpenSensor("front"));
     for (std::uint64_t cycle = 1;; ++cycle) {
       const SimTime until = static_cast<std::int64_t>(cycle) * 50ms;
-      // With a short lease, calls are certainly repeated with the same cycle number.
+      // With a short lease, calls are certain to be repeated with the same cycle number.
       base::Result<Exchanged> exchanged = Exchanged{};
       while (exchanged && exchanged->wait == Wait::kNotYet) {
         exchanged = agent.Exchange(clock, cycle, world::DriveCommand{1.0, 0, 0}, until, 1ms);
@@ -103,7 +104,7 @@ TEST(Simulation, ExchangeAnswersWithTheReadingsAtItsInstantAndCommandsOnce) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(ranges[i], 2.85 - 0.05 * i, 1e-9);
 }
 
-// Waits for one instant, one hour later.
+// A behaviour that waits once, for the instant one hour later.
 std::shared_ptr<ThreadBehaviour> Sleeps() {
   return std::make_shared<ThreadBehaviour>([](Agent& agent, ClockId clock) {
     while (SleepFor(agent, clock, 1h)) {
@@ -123,7 +124,7 @@ class StepCounter final : public Observer {
   std::atomic<int> steps = 0;
 };
 
-TEST(Simulation, InLockstepAnAgentThatWaitsMayNeitherCommandNorRead) {
+TEST(Simulation, WaitingAgentMayNeitherCommandNorReadInLockstep) {
   auto simulation = Make(Lockstep(0s));
   const auto counter = std::make_shared<StepCounter>();
   simulation->AddObserver(counter);
@@ -163,8 +164,8 @@ TEST(Simulation, AfterTheEndOfTheRunAgentsCallsEnd) {
   EXPECT_EQ(command.error().code, base::ErrorCode::kEnded);
 }
 
-// Waits have leases. A wait that was repeated at such a pause continued, and changed the state's
-// hash.
+// Regression: waits have leases, and a wait that was repeated during such a pause continued and
+// changed the state hash.
 TEST(Simulation, AWaitForTheInstantOfAPauseEndsWithTheResume) {
   auto simulation = Make(Lockstep(0s));
   std::atomic<int> leases = 0;
@@ -211,9 +212,10 @@ TEST(Simulation, PauseStopsTheClockAndNotifiesTheBehaviours) {
   ASSERT_TRUE(simulation->Start());
   ASSERT_EQ(simulation->WaitForPhase({Phase::kRunning}, kTimeout), Phase::kRunning);
   ASSERT_TRUE(simulation->Pause());
-  (void)simulation->state_hash();  // waits for a step in progress
+  (void)simulation->state_hash();  // waits until the step in progress has ended
   const std::int64_t step = simulation->status().step;
-  for (int i = 0; i < 5; ++i) waits.wait(waits);  // in a running simulation, a step at least every
+  // each wait ends with the step of a running simulation
+  for (int i = 0; i < 5; ++i) waits.wait(waits);
   EXPECT_EQ(simulation->status().step, step);
   ASSERT_TRUE(simulation->Step(7));
   ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
@@ -240,7 +242,7 @@ TEST(Simulation, ActionsThatThePhaseDoesNotAllowAreRefusedWithASentence) {
 
 TEST(Simulation, ABehaviourThatNeverWaitsIsDeclaredUnresponsiveAndTheRunContinues) {
   Specification specification = Lockstep(200ms);
-  specification.deadline = 500ms;  // a correct behaviour on a busy machine meets it
+  specification.deadline = 500ms;  // a correct behaviour meets this deadline on a busy machine, too
   auto simulation = Make(specification);
   std::atomic<bool> release = false;
   auto stuck = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId) {
@@ -252,13 +254,14 @@ TEST(Simulation, ABehaviourThatNeverWaitsIsDeclaredUnresponsiveAndTheRunContinue
   ASSERT_TRUE(simulation->Start());
   EXPECT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
   EXPECT_EQ(StatusOf(*simulation, "stuck").phase, AgentPhase::kUnresponsive);
-  EXPECT_EQ(StatusOf(*simulation, "stuck").distance, 0.0);  // its robot stops
+  // the robot of the unresponsive behaviour stops
+  EXPECT_EQ(StatusOf(*simulation, "stuck").distance, 0.0);
   EXPECT_NEAR(StatusOf(*simulation, "good").distance, 0.2, 1e-9);
   release = true;
   release.notify_all();
 }
 
-TEST(Simulation, ABehaviourThatGivesUpIsDeadAtThatInstantWithItsReasonOnOneLine) {
+TEST(Simulation, BehaviourThatGivesUpIsDeadWithItsReasonOnOneLine) {
   auto simulation = Make(Lockstep(500ms));
   const auto quitter = std::make_shared<ThreadBehaviour>([](Agent& agent, ClockId clock) {
     EXPECT_TRUE(agent.Command({1.0, 0, 0}));
@@ -271,7 +274,7 @@ TEST(Simulation, ABehaviourThatGivesUpIsDeadAtThatInstantWithItsReasonOnOneLine)
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
   const RobotStatus status = StatusOf(*simulation, "quitter");
   EXPECT_EQ(status.phase, AgentPhase::kDead);
-  EXPECT_NEAR(status.distance, 0.1, 1e-9);  // it did not move after that
+  EXPECT_NEAR(status.distance, 0.1, 1e-9);  // the robot did not move after that
   EXPECT_NEAR(StatusOf(*simulation, "other").distance, 0.5, 1e-9);
   EXPECT_THAT(status.detail, ::testing::HasSubstr("its run ended with an error: no\\nidea!!!"));
   EXPECT_LT(status.detail.size(), 1200u);
@@ -371,11 +374,11 @@ TEST(Simulation, AnAvatarIsSteeredWithoutABehaviour) {
   EXPECT_TRUE(StatusOf(*simulation, "person").is_avatar);
 }
 
-TEST(Simulation, ResumingDuringAFewStepsContinuesBeyondThem) {
+TEST(Simulation, ResumeDuringRequestedStepsContinuesBeyondThem) {
   auto simulation = Make(Lockstep(0s));
   std::atomic<bool> release = false;
   auto slow = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
-    release.wait(false);  // the steps cannot end before the resume
+    release.wait(false);  // the steps cannot end before the simulation is resumed
     while (SleepFor(agent, clock, 10ms)) {
     }
   });
@@ -389,10 +392,10 @@ TEST(Simulation, ResumingDuringAFewStepsContinuesBeyondThem) {
   EXPECT_EQ(simulation->status().phase, Phase::kRunning);
 }
 
-// A run was paused at its end, and after resuming took one step too many.
-TEST(Simulation, ARunPausedDuringItsLastStepHasNoStepBeyondIt) {
+// Regression: a run was paused at its end, and took one step too many after it was resumed.
+TEST(Simulation, RunPausedDuringItsLastStepTakesNoFurtherStep) {
   auto simulation = Make(Lockstep(20ms));
-  // So many attempts that the pause usually comes during the last step.
+  // The number of attempts is so large that a pause usually comes during the last step.
   for (int i = 0; i < 400; ++i) {
     const int row = i / 20;
     ASSERT_TRUE(simulation->AddRobot(Robot("", -1 - row, i % 20)));
@@ -400,8 +403,9 @@ TEST(Simulation, ARunPausedDuringItsLastStepHasNoStepBeyondIt) {
   for (int round = 0; round < 20; ++round) {
     ASSERT_TRUE(simulation->Start());
     while (simulation->snapshot()->state.step == 0) std::this_thread::yield();
-    if (simulation->Pause()) (void)simulation->state_hash();  // waits for the step
-    (void)simulation->Resume();                               // refused when it is over
+    // waits until the step in progress has ended
+    if (simulation->Pause()) (void)simulation->state_hash();
+    (void)simulation->Resume();  // this is refused when the run is over
     ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
     ASSERT_EQ(simulation->status().step, 2) << "round " << round;
     ASSERT_TRUE(simulation->Reset());
@@ -420,7 +424,7 @@ TEST(Simulation, ASonarIsMountedAtAPose) {
   ASSERT_TRUE(agent->CreateSensor(sonar));
   // The wall's face is at x = 2.9.
   EXPECT_NEAR(agent->Read("ahead")->values.at(0), 2.4, 1e-9);
-  EXPECT_FALSE(agent->CreateSensor(sonar));  // the name is taken
+  EXPECT_FALSE(agent->CreateSensor(sonar));  // this name is taken
   sonar.name = "on a link that does not exist";
   sonar.link = 7;
   EXPECT_FALSE(agent->CreateSensor(sonar));
@@ -448,7 +452,7 @@ TEST(Simulation, RobotsAppearInEachOthersSonars) {
   auto simulation = Make(Lockstep(0s));
   ASSERT_TRUE(simulation->AddRobot(Robot("behind", 0, 0)));
   ASSERT_TRUE(simulation->AddRobot(Robot("ahead", 1.5, 0)));
-  // The disc ahead has a radius of 0.2 m.
+  // The robot ahead is a disc with a radius of 0.2 m.
   EXPECT_NEAR(simulation->agent("behind")->Read("front")->values.at(0), 1.3, 1e-9);
 }
 
@@ -463,7 +467,7 @@ TEST(Simulation, ARobotThatTouchesAWallStartsBesideItWithAnEvent) {
   EXPECT_NE(events.front().detail.find("wall"), std::string::npos);
 }
 
-// Measures the heading. No other code knows this type.
+// A sensor that measures the heading. No other code knows this type.
 class Compass final : public sensing::Sensor {
  public:
   using Sensor::Sensor;
@@ -474,7 +478,7 @@ class Compass final : public sensing::Sensor {
   }
 };
 
-TEST(Simulation, ASensorTypeComesFromOutsideTheTree) {
+TEST(Simulation, SensorTypeCanBeDefinedOutsideTheLibrary) {
   auto sensors = std::make_shared<sensing::SensorRegistry>();
   sensing::SensorType compass;
   compass.name = "compass";

@@ -6,7 +6,7 @@
 namespace gsv::simulation {
 namespace {
 
-// A sonar on a post: a disc without a drive.
+// A station: a sonar on a post, which is a disc without a drive.
 std::shared_ptr<model::Model> Post() {
   auto post = std::make_shared<model::Model>(*Disc(0.1));
   post->name = "post";
@@ -14,7 +14,7 @@ std::shared_ptr<model::Model> Post() {
   return post;
 }
 
-// A post in the world, 2 m to the left of the origin; the wall's face is at x = 2.9 m.
+// A world with a post 2 m to the left of the origin. The wall's face is at x = 2.9 m.
 std::shared_ptr<Simulation> WorldWithPost(SimTime duration = 1s) {
   Specification specification = Lockstep(duration);
   auto world = std::make_shared<model::WorldDescription>(*specification.world);
@@ -42,7 +42,7 @@ TEST(Stations, AreListedAsStationsAndNotCountedAsRobots) {
   EXPECT_EQ(simulation->status().CountRobots(), 1u);
 }
 
-TEST(Stations, MayHaveABehaviourWhichDrivesNothing) {
+TEST(Stations, MayHaveABehaviourThatOnlyReads) {
   const auto simulation = WorldWithPost();
   ASSERT_TRUE(simulation->SetBehaviour("post", Drives(1)));
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);

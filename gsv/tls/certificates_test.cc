@@ -32,7 +32,7 @@ class CertificatesTest : public ::testing::Test {
   const base::TemporaryFolder folder_ = *base::TemporaryFolder::Make("gsv-certificates");
 };
 
-TEST_F(CertificatesTest, AreGoodAndStandUpToOpenSsl) {
+TEST_F(CertificatesTest, AreValidAndAcceptedByOpenSsl) {
   ASSERT_TRUE(Make("server"));
   EXPECT_TRUE(Check("server"));
   EXPECT_TRUE(CheckAuthority(folder() / "ca.pem"));
@@ -48,7 +48,7 @@ TEST_F(CertificatesTest, AreGoodAndStandUpToOpenSsl) {
   EXPECT_NE(OpenSsl("verify -CAfile ca.pem -verify_hostname lab-8 server.pem"), 0);
 }
 
-TEST_F(CertificatesTest, OfAnotherAuthorityAreForeign) {
+TEST_F(CertificatesTest, OfAnotherAuthorityAreRejected) {
   const auto other = base::TemporaryFolder::Make("gsv-certificates");
   ASSERT_TRUE(other);
   ASSERT_TRUE(MakeAuthority(other->path(), {}));
@@ -56,7 +56,7 @@ TEST_F(CertificatesTest, OfAnotherAuthorityAreForeign) {
   EXPECT_NE(OpenSsl("verify -CAfile ca.pem " + (other->path() / "stranger.pem").string()), 0);
 }
 
-TEST_F(CertificatesTest, AKeyIsItsOwnersAlone) {
+TEST_F(CertificatesTest, KeyIsReadableByItsOwnerOnly) {
   ASSERT_TRUE(Make("server"));
   for (const char* name : {"ca-key.pem", "server-key.pem"}) {
     struct stat status {};
@@ -74,14 +74,14 @@ TEST_F(CertificatesTest, ExistingFilesAreNotOverwritten) {
   EXPECT_FALSE(MakeAuthority(folder(), {}));
 }
 
-TEST_F(CertificatesTest, NamesThatLeadElsewhereAreRefused) {
+TEST_F(CertificatesTest, NamesWithPathsAreRejected) {
   for (const char* name : {"", "../x", "a/b", ".hidden", "ca", "with blank"}) {
     EXPECT_FALSE(Make(name)) << name;
   }
   EXPECT_FALSE(MakeCertificate(folder(), {"x", {"a,DNS:*"}, {}}));
 }
 
-TEST_F(CertificatesTest, WhatCannotBeUsedIsNamed) {
+TEST_F(CertificatesTest, ErrorNamesTheInvalidFile) {
   ASSERT_TRUE(Make("one"));
   ASSERT_TRUE(Make("two"));
   ASSERT_TRUE(Make("old", {-hours(48), -hours(24)}));

@@ -39,7 +39,7 @@ std::string Told(const MeasuredAtom& measured) {
          " s to " + InWords(measured.highest) + " at " + InWords(measured.highest_at) + " s)";
 }
 
-// NaN is not a measurement.
+// NaN is ignored, because it is not a measurement.
 void Note(std::optional<double> value, double now, MeasuredAtom& measured) {
   if (!value || std::isnan(*value)) return;
   if (!measured.was_measured || *value < measured.lowest) {

@@ -1,5 +1,5 @@
-// Evaluates a scenario's expectations at every state of the stepping thread. The verdict is a
-// function of these states only.
+// Evaluates a scenario's expectations at every state that the stepping thread publishes. The
+// verdict is a function of these states only.
 //
 // Threads  Attach() before the run; OnSnapshot() on the stepping thread; Finish() once, after the
 //          run.
@@ -20,35 +20,38 @@ namespace gsv::verdict {
 struct MeasuredAtom {
   scenario::Formula atom;
   bool was_measured = false;
-  double lowest = 0, highest = 0, last = 0;  // up to the verdict; `last`: at it
-  double lowest_at = 0, highest_at = 0;      // s
+  // up to the verdict; `last` is the value at the verdict
+  double lowest = 0, highest = 0, last = 0;
+  double lowest_at = 0, highest_at = 0;  // in s
 };
 
 struct Finding {
-  std::string name, yaml, where;  // of the expectation
+  std::string name, yaml, where;  // from the expectation
   bool holds = false;
-  // The first state at which the verdict was certain.
+  // The first step at which the verdict was certain.
   std::int64_t step = 0;
   base::SimTime time{0};
   std::vector<MeasuredAtom> atoms;
 
-  // "violated at 3.21 s (step 321): the distance between a and b was 0.39 m, …"
+  // Returns a sentence such as "violated at 3.21 s (step 321): the distance between a and b was
+  // 0.39 m, …".
   std::string Sentence() const;
 };
 
 class Judge final : public simulation::Observer {
  public:
-  // Observes the simulation until it is destroyed; it must have its robots and not have started. An
-  // expectation about an unknown body is refused, with its place.
+  // Observes the simulation until the judge is destroyed. The simulation must have its robots and
+  // must not have started. An expectation about an unknown body is an error that names its place.
   static base::Result<std::shared_ptr<Judge>> Attach(
       const std::vector<scenario::Expectation>& expectations, simulation::Simulation& simulation);
 
   void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) override;
   void OnEvent(const simulation::Event&) override {}
 
-  // The findings in order. Waits until the last state was evaluated.
+  // Returns the findings in the order of the expectations. Waits until the last state was
+  // evaluated.
   std::vector<Finding> Finish();
-  // The state at which the first violation was certain; null: none was.
+  // The state at which the first violation became certain; null if there was none.
   std::shared_ptr<const world::Snapshot> first_violation() const;
 
  private:

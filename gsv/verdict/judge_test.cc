@@ -21,8 +21,8 @@ scenario::Scenario ScenarioOf(const std::string& expect, const std::string& more
   return scenario.value_or(scenario::Scenario());
 }
 
-// A disc of radius 0.2 drives at 0.5 m/s from x = 0 to a wall whose face is at 2.9; a second one is
-// at (0, 2).
+// A disc with a radius of 0.2 drives at 0.5 m/s from x = 0 to a wall whose face is at 2.9. A second
+// disc is at (0, 2).
 std::vector<Finding> Judged(const std::string& expect, const std::string& more = "") {
   const scenario::Scenario scenario = ScenarioOf(expect, more);
   Specification specification = Lockstep(8s);
@@ -40,8 +40,8 @@ Finding One(const std::string& expect, const std::string& more = "") {
   return Judged("  - " + expect + "\n", more).at(0);
 }
 
-TEST(Judge, ARobotReachesAPlaceWhenItComesNearEnough) {
-  // 0.25 m before x = 1.25: at 2 s.
+TEST(Judge, RobotReachesAPlaceWithinTheTolerance) {
+  // The disc comes within 0.25 m of x = 1.25 at 2 s.
   const Finding reaches = One("{reaches: {robot: scout, x: 1.25, y: 0}, by: 3}");
   EXPECT_TRUE(reaches.holds);
   EXPECT_NEAR(base::ToSeconds(reaches.time), 2, 0.011);
@@ -54,8 +54,8 @@ TEST(Judge, ARobotReachesAPlaceWhenItComesNearEnough) {
   EXPECT_FALSE(One("{reaches: {robot: scout, x: 1.25, y: 0, yaw: 90deg}}").holds);
 }
 
-TEST(Judge, ACollisionIsTheFirstContact) {
-  // The disc touches when its centre is at 2.7: at 5.4 s.
+TEST(Judge, CollisionIsTheFirstContact) {
+  // The disc touches the wall when its centre is at 2.7, which is at 5.4 s.
   const Finding collides = One("{never_collides: scout}");
   EXPECT_FALSE(collides.holds);
   EXPECT_NEAR(base::ToSeconds(collides.time), 5.4, 0.021);
@@ -65,7 +65,7 @@ TEST(Judge, ACollisionIsTheFirstContact) {
   EXPECT_TRUE(One("{stays_within: {robot: scout, x: [0, 2.71], y: [-0.1, 0.1]}}").holds);
 }
 
-TEST(Judge, NumbersAreThoseOfTheState) {
+TEST(Judge, MeasuresTheNumbersOfTheState) {
   const auto findings = Judged(
       "  - {distance_at_least: {between: [scout, tall], metres: 2}}\n"
       "  - {distance_at_least: {between: [scout, tall], metres: 2.001}}\n"
@@ -82,14 +82,14 @@ TEST(Judge, NumbersAreThoseOfTheState) {
   EXPECT_EQ(findings[1].step, 0);
 }
 
-TEST(Judge, FaultsAreSeenAtTheirInstant) {
+TEST(Judge, SeesFaultsAtTheirInstant) {
   const std::string dies = "faults: [{at: 2, behaviour: scout}]\n";
   const Finding ended = One("{eventually: {ended: scout}}", dies);
   EXPECT_TRUE(ended.holds);
   EXPECT_NEAR(base::ToSeconds(ended.time), 2, 0.06);
   EXPECT_TRUE(One("{never_collides: scout}", dies).holds);
   const std::string silent = "faults: [{at: 2, sensor: scout/front}]\n";
-  // Then 1.9 m remain to the wall, for ever.
+  // From then on 1.9 m remain to the wall.
   EXPECT_TRUE(
       One("{always: {sensor: {of: scout/front, at_least: 1.89, at_most: 1.91}}, from: 2.01}",
           silent)
@@ -100,7 +100,7 @@ TEST(Judge, FaultsAreSeenAtTheirInstant) {
   EXPECT_EQ(lost.time, 2010ms);
 }
 
-TEST(Judge, AMissingRobotOrSensorIsRefusedWithItsPlace) {
+TEST(Judge, MissingRobotOrSensorIsAnErrorWithItsPlace) {
   const auto simulation = Make(Lockstep(1s));
   ASSERT_TRUE(simulation->AddRobot(Robot("scout", 0, 0)));
   const std::pair<const char*, const char*> refused[]{

@@ -142,8 +142,8 @@ std::optional<double> Measure::OfContact(const scenario::Quantity& quantity) con
 bool Measure::HasEnded(const std::string& robot) {
   if (!is_status_new_) {
     auto status = simulation_.status();
-    // At the last state the run has ended, and all behaviours are being ended with it. Therefore
-    // the state before it counts.
+    // All behaviours are ended with the run, so the last state does not show which ended by
+    // themselves. The state before it counts.
     using simulation::Phase;
     const bool is_over = status.phase == Phase::kFinished || status.phase == Phase::kFailed ||
                          status.phase == Phase::kStopped;

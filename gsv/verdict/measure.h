@@ -13,21 +13,22 @@
 
 namespace gsv::verdict {
 
-// "the distance between scout and crate"
+// Returns a text such as "the distance between scout and crate".
 std::string Describe(const scenario::Quantity& quantity);
-const char* UnitOf(const scenario::Quantity& quantity);  // " m"; empty: none
+// Returns a text such as " m", or an empty text.
+const char* UnitOf(const scenario::Quantity& quantity);
 
 class Measure {
  public:
-  // `simulation` must outlive the object.
+  // `simulation` must outlive this object.
   explicit Measure(simulation::Simulation& simulation) : simulation_(simulation) {}
 
-  // Refuses a quantity of an unknown body, sensor or behaviour, or of a camera.
+  // Rejects a quantity of an unknown body, sensor or behaviour, or of a camera.
   base::Status Check(const scenario::Quantity& quantity) const;
 
-  // Evaluates at this state, the latest, from now on.
+  // Sets the state that Of() evaluates. It must be the latest state.
   void MoveTo(std::shared_ptr<const world::Snapshot> snapshot);
-  // The value; nothing if its body was removed or its sensor fails.
+  // Returns the value, or nullopt if its body was removed or its sensor fails.
   std::optional<double> Of(const scenario::Quantity& quantity);
 
  private:
@@ -39,7 +40,7 @@ class Measure {
   simulation::Simulation& simulation_;
   std::shared_ptr<const world::Snapshot> snapshot_;
   std::optional<simulation::SimulationStatus> status_;
-  bool is_status_new_ = false;  // of the current snapshot
+  bool is_status_new_ = false;  // for the current snapshot
 };
 
 }  // namespace gsv::verdict

@@ -9,16 +9,16 @@ namespace gsv::verdict {
 
 using base::SimTime;
 
-// A formula in negation normal form. For the four temporal operators, `from` and `by` count from
-// the instant of evaluation; after that they are instants.
+// A formula in negation normal form. For the four temporal operators, `from` and `by` first count
+// from the instant of evaluation. After the evaluation they are instants of simulated time.
 class Obligation {
  public:
   enum class Kind { kFalse, kTrue, kAtom, kAll, kAny, kAlways, kEventually, kUntil, kRelease };
 
   Kind kind = Kind::kTrue;
   int atom = 0;
-  bool is_negated = false;  // kAtom
-  bool is_judged = false;   // `from` and `by` are instants
+  bool is_negated = false;  // for kAtom only
+  bool is_judged = false;   // whether `from` and `by` are instants
   SimTime from{0}, by{0};
   std::vector<ObligationPtr> parts;
 };
@@ -36,7 +36,7 @@ ObligationPtr Constant(bool value) {
   return value ? always_true : always_false;
 }
 
-// Equal obligations are neighbours in this order.
+// Orders obligations such that equal ones are adjacent.
 int Compare(const ObligationPtr& a, const ObligationPtr& b) {
   if (a == b) return 0;
   const auto key = [](const Obligation& o) {
@@ -49,14 +49,15 @@ int Compare(const ObligationPtr& a, const ObligationPtr& b) {
   return 0;
 }
 
-// Whether both are open windows over the same formula: then one implies the other.
+// Whether both are windows over the same formula that are open now. Then one of them implies the
+// other.
 bool OpenOverTheSame(const ObligationPtr& a, const ObligationPtr& b, Kind kind, SimTime now) {
   return a->kind == kind && b->kind == kind && a->is_judged && b->is_judged && a->from <= now &&
          b->from <= now && Compare(a->parts[0], b->parts[0]) == 0;
 }
 
-// Keeps only the tightest (for `all`) or the widest (for `any`) of several windows, so that the
-// rest of the obligation does not grow with the run.
+// Keeps only the tightest of several windows for `all`, or the widest for `any`. So the remaining
+// obligation does not grow with the run.
 void MergeWindows(Kind join, SimTime now, std::vector<ObligationPtr>& parts) {
   for (const Kind kind : {Kind::kEventually, Kind::kAlways}) {
     const bool keep_earlier = (join == Kind::kAll) == (kind == Kind::kEventually);
@@ -146,7 +147,7 @@ ObligationPtr Normal(const scenario::Formula& formula, bool is_negated,
   return std::make_shared<const Obligation>(std::move(obligation));
 }
 
-// One step: the rest of an obligation, for the states after this one.
+// Computes one step: what remains of an obligation for the states after this one.
 class Progression {
  public:
   Progression(SimTime now, SimTime step, const std::function<bool(int)>& holds)
@@ -180,9 +181,10 @@ class Progression {
     return std::make_shared<const Obligation>(std::move(judged));
   }
 
-  // With F for eventually, G for always, U for until, R for release, X for "in the next state":
-  // F a = a or X F a;  G a = a and X G a;  a U b = b or (a and X (a U b));  a R b = b and (a or X
-  // …). A last part counts inside of the window only; after it there is no next state.
+  // The rules use F for eventually, G for always, U for until, R for release, and X for "in the
+  // next state": F a = a or X F a;  G a = a and X G a;  a U b = b or (a and X (a U b));  a R b = b
+  // and (a or X …). The last part counts only inside the window, because there is no next state
+  // after it.
   ObligationPtr OfWindow(const ObligationPtr& window) const {
     const bool must_come = window->kind == Kind::kEventually || window->kind == Kind::kUntil;
     const bool is_open = window->from <= now_ && now_ <= window->by;

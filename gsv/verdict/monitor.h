@@ -1,9 +1,9 @@
-// Evaluates one formula (scenario/expectation.h) on a run, step by step, as early as possible: the
-// remaining obligation is rewritten at each step (formula progression: F. Bacchus and F. Kabanza,
-// "Planning for temporally extended goals", 1998).
+// Evaluates one formula (scenario/expectation.h) on a run, step by step and as early as possible.
+// It rewrites the remaining obligation at each step (formula progression: F. Bacchus and F.
+// Kabanza, "Planning for temporally extended goals", 1998).
 //
 // Units        simulated time.
-// Determinism  a function of the truth values and the steps' times.
+// Determinism  the verdict is a function of the truth values and the times of the steps.
 #pragma once
 
 #include <functional>
@@ -25,13 +25,13 @@ class Monitor {
   Monitor(const scenario::Formula& formula,
           const std::function<int(const scenario::Formula& atom)>& number);
 
-  // Evaluates the state at `now`; the next one comes `step` later. Does nothing once the verdict is
-  // known.
+  // Evaluates the state at `now`. The next state comes `step` later. Does nothing once the verdict
+  // is known.
   void Step(base::SimTime now, base::SimTime step, const std::function<bool(int atom)>& holds);
   // Ends the run: pending "eventually" obligations are violated, pending "always" obligations hold.
   void End();
 
-  // The verdict; nothing while it is undecided.
+  // The verdict; nullopt while it is undecided.
   std::optional<bool> verdict() const;
 
  private:

@@ -10,7 +10,7 @@ namespace {
 using base::SimTime;
 using scenario::Formula;
 using MonitorKind = Formula::Kind;
-using Trace = std::vector<std::vector<bool>>;  // by step, then by atom
+using Trace = std::vector<std::vector<bool>>;  // truth values by step, then by atom
 
 constexpr SimTime kStep{100'000'000};  // 0.1 s
 
@@ -69,7 +69,7 @@ bool Means(const Formula& f, const Trace& trace, std::size_t at) {
 
 struct MonitorVerdict {
   bool holds = false;
-  std::size_t at = 0;  // the step at which it became certain
+  std::size_t at = 0;  // the step at which the verdict became certain
 };
 
 MonitorVerdict RunMonitor(const Formula& formula, const Trace& trace) {
@@ -83,7 +83,7 @@ MonitorVerdict RunMonitor(const Formula& formula, const Trace& trace) {
   return {*monitor.verdict(), trace.size() - 1};
 }
 
-// An atom's truth by step, as in "0011".
+// Makes a trace from the truth values of the atoms by step, such as "0011".
 Trace TraceOf(const std::string& a, const std::string& b = "") {
   Trace trace;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -98,7 +98,7 @@ void Expect(const Formula& formula, const Trace& trace, bool holds, std::size_t 
   EXPECT_EQ(judged.at, at);
 }
 
-TEST(Monitor, AlwaysIsViolatedAtTheFirstStateThatShowsIt) {
+TEST(Monitor, AlwaysIsViolatedAtTheFirstFalseState) {
   const Formula always = Of(MonitorKind::kAlways, {AtomNumber(0)});
   Expect(always, TraceOf("111011"), false, 3);
   Expect(always, TraceOf("0"), false, 0);
@@ -111,18 +111,18 @@ TEST(Monitor, EventuallyIsViolatedAtTheLastStateOfItsWindow) {
   Expect(eventually, TraceOf("000011"), false, 3);
   Expect(eventually, TraceOf("000111"), true, 3);
   Expect(Of(MonitorKind::kEventually, {AtomNumber(0)}), TraceOf("0000"), false, 3);
-  // No state is between 0.21 and 0.29 s.
+  // The window from 0.21 to 0.29 s contains no state.
   Expect(Of(MonitorKind::kEventually, {AtomNumber(0)}, 0.21, 0.29), TraceOf("111111"), false, 2);
 }
 
-TEST(Monitor, UntilNeedsItsEnd) {
+TEST(Monitor, UntilRequiresItsSecondPart) {
   const Formula until = Of(MonitorKind::kUntil, {AtomNumber(0), AtomNumber(1)});
   Expect(until, TraceOf("1110", "0001"), true, 3);
   Expect(until, TraceOf("1100", "0001"), false, 2);
   Expect(until, TraceOf("1111", "0000"), false, 3);
 }
 
-TEST(Monitor, AnAnswerIsOwedWithinItsTime) {
+TEST(Monitor, ResponseIsRequiredWithinItsWindow) {
   const Formula answered =
       Of(MonitorKind::kAlways,
          {Of(MonitorKind::kAny, {Of(MonitorKind::kNot, {AtomNumber(0)}),
@@ -169,7 +169,7 @@ TEST(Monitor, AgreesWithTheDefinitionOfTheOperators) {
     }
     const MonitorVerdict judged = RunMonitor(formula, trace);
     ASSERT_EQ(judged.holds, Means(formula, trace, 0)) << "formula " << i;
-    // An early result stays, however the run continues.
+    // An early verdict must not change, however the run continues.
     for (std::size_t length = judged.at + 1; length < trace.size(); ++length) {
       const Trace shorter(trace.begin(), trace.begin() + static_cast<std::ptrdiff_t>(length));
       ASSERT_EQ(Means(formula, shorter, 0), judged.holds) << "formula " << i;
@@ -177,11 +177,11 @@ TEST(Monitor, AgreesWithTheDefinitionOfTheOperators) {
   }
 }
 
-TEST(Monitor, ItsObligationsDoNotGrowWithTheRun) {
+TEST(Monitor, ObligationsDoNotGrowWithTheRun) {
   const Formula answered =
       Of(MonitorKind::kAlways, {Of(MonitorKind::kEventually, {AtomNumber(0)}, 0, 1000)});
   Monitor monitor(answered, [](const Formula&) { return 0; });
-  for (int i = 0; i < 9'000; ++i) {  // quadratic growth would take minutes
+  for (int i = 0; i < 9'000; ++i) {  // with quadratic growth this would take minutes
     monitor.Step(i * kStep, kStep, [](int) { return false; });
   }
   EXPECT_EQ(monitor.verdict(), std::nullopt);

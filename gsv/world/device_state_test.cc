@@ -32,7 +32,7 @@ TEST(FindDevice, FindsByRobotAndName) {
   EXPECT_EQ(FindDevice(nullptr, "a", "lamp"), nullptr);
 }
 
-TEST(DeviceHash, HasEachFieldOfACommand) {
+TEST(DeviceHash, DependsOnEachFieldOfACommand) {
   const auto hash_of = [](const std::string& robot, const std::string& device,
                           const FollowedCommand& followed) {
     base::Hash hash;
@@ -54,7 +54,7 @@ TEST(DeviceHash, HasEachFieldOfACommand) {
 }
 
 // Recordings contain hashes: the order of fields is part of their format.
-TEST(DeviceHash, BeginsWithDevicesThatFollowNoCommand) {
+TEST(DeviceHash, IncludesDevicesWithoutACommand) {
   base::Hash hash, expected;
   AddToHash({Commanded("a", "lamp", {{{0.5}, "w"}, 7ns}),
              std::make_shared<const Listener>(DeviceMount{"b", "radio", 0, {}})},

@@ -38,7 +38,7 @@ TEST(KindOf, FollowsDriveMovementAndCollisions) {
   }
 }
 
-TEST(KindOf, IsStaticIfTheWorldOrTheModelIs) {
+TEST(KindOf, IsStaticIfTheWorldOrTheModelSaysSo) {
   model::Model model = ModelWith(false, true);
   const auto kind_of = [&](bool is_placed_static) {
     return KindOf({"box", std::make_shared<model::Model>(model), {}, is_placed_static});
@@ -49,7 +49,7 @@ TEST(KindOf, IsStaticIfTheWorldOrTheModelIs) {
   EXPECT_EQ(kind_of(false), BodyKind::kStatic);
 }
 
-TEST(Body, IsARobotIfItHasADriveAndMoves) {
+TEST(Body, IsARobotIfItHasADriveAndIsNotStatic) {
   const auto is_robot = [](BodyKind kind, bool has_drive) {
     Body body;
     body.model = std::make_shared<model::Model>(ModelWith(has_drive, true));

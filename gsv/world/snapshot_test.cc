@@ -38,13 +38,13 @@ void ExpectNear(const Vector3& a, const Vector3& b) {
   EXPECT_NEAR(a.z, b.z, 1e-12);
 }
 
-TEST(LinkPoses, AreAsDescribedAtZero) {
+TEST(LinkPoses, EqualTheDescriptionAtJointZero) {
   const auto poses = LinkPoses(Arm(), std::vector<double>{0, 0});
   ExpectNear(poses[1].position, {1, 0, 0});
   ExpectNear(poses[2].position, {2, 0, 0});
 }
 
-TEST(LinkPoses, AChildFollowsItsParentsJoint) {
+TEST(LinkPoses, ChildLinkFollowsItsParentsJoint) {
   // Rotated by 90° the hand is at (1, 1, 0); moved out by 0.5 along the rotated axis, at (1, 1.5,
   // 0).
   const auto poses = LinkPoses(Arm(), std::vector<double>{kPi / 2, 0.5});
@@ -68,7 +68,7 @@ TEST(LinkPose, AgreesWithLinkPosesInTheWorld) {
   ExpectNear(LinkPose(snapshot, 0, 2).position, LinkPoses(snapshot, 0)[2].position);
 }
 
-TEST(Contacts, AreAsHardAsTheirPointsApproachEachOther) {
+TEST(Contacts, HardnessIsTheClosingSpeedOfTheirPoints) {
   // One goes ahead at 2 m/s and turns at 3 rad/s about z, the other moves away at 0.5 m/s.
   State state;
   state.bodies.resize(2);
@@ -90,7 +90,7 @@ TEST(Contacts, AreAsHardAsTheirPointsApproachEachOther) {
   EXPECT_EQ(contacts[2].closing_speed, 0);  // they move apart
 }
 
-TEST(MovingLinks, AreThoseBelowAJointThatMoves) {
+TEST(MovingLinks, AreLinksBelowAMovingJoint) {
   model::Model arm = Arm();
   EXPECT_EQ(MovingLinks(arm), (std::vector<int>{1, 2}));
   arm.joints[0].kind = model::JointKind::kFixed;

@@ -34,7 +34,7 @@ TEST(Layout, OrdersBodiesByNameAndNumbersTheirParts) {
   EXPECT_EQ(layout->link_count, 4);
 }
 
-TEST(AddToHash, SeesAChangeOfEveryField) {
+TEST(AddToHash, DependsOnEveryField) {
   const auto layout = TwoBodies();
   const State state = InitialState(*layout);
   const std::uint64_t before = HashOf(*layout, state);

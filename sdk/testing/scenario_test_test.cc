@@ -21,7 +21,7 @@ class Here : public ::testing::Environment {
 };
 const auto* const here = ::testing::AddGlobalTestEnvironment(new Here);
 
-TEST(ScenarioFixture, AScenarioIsATest) {
+TEST(ScenarioFixture, RunsAScenarioAsATest) {
   const auto folder = base::TemporaryFolder::Make("gsv-fixture");
   ASSERT_TRUE(folder);
   const std::string file = folder->path() / "still.yaml", failures = folder->path() / "failures";

@@ -23,11 +23,11 @@ class ActuatorsRun : public FourRobots {
   ActuatorsRun() : FourRobots(Signaller("90"), "signalling") {}
 };
 
-TEST_F(ActuatorsRun, GoTheSameOverCorbaAndInProcessWithAnyNumberOfThreads) {
+TEST_F(ActuatorsRun, HashIsEqualOverCorbaAndInProcessWithAnyNumberOfThreads) {
   ExpectTheSameOverCorbaAndInProcess();
 }
 
-TEST_F(ActuatorsRun, ACheckSaysWhatIsWrongWithASpeaker) {
+TEST_F(ActuatorsRun, CheckReportsTheErrorOfASpeaker) {
   const std::string file = folder_.Write("signaller.sdf", Signaller("1000")).string();
   const Outcome check = Running("gsv", {"model", "check", "--strict", file}).AwaitEnd();
   EXPECT_EQ(check.ending, "exit code 3");
@@ -35,9 +35,7 @@ TEST_F(ActuatorsRun, ACheckSaysWhatIsWrongWithASpeaker) {
       << check.out;
 }
 
-TEST_F(ActuatorsRun, TellsThemTheSameAgainFromItsRecording) {
-  ExpectTheSameAgainFromItsRecording();
-}
+TEST_F(ActuatorsRun, ResimulationRepeatsTheCommands) { ExpectTheSameAgainFromItsRecording(); }
 
 }  // namespace
 }  // namespace gsv::testing

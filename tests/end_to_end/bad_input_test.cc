@@ -33,24 +33,24 @@ void ExpectOneSentence(const Outcome& outcome, int exit_code, const std::string&
   EXPECT_THAT(outcome.err, Not(HasSubstr("terminate called")));
 }
 
-TEST(BadInput, NoSuchWorld) {
+TEST(BadInput, MissingWorldIsReported) {
   ExpectOneSentence(Headless("/nowhere/world.sdf", {}), 3, "/nowhere/world.sdf");
 }
 
-TEST(BadInput, AWorldsNameThatIsMisspelt) {
+TEST(BadInput, MisspeltWorldGetsASuggestion) {
   const Outcome outcome = Headless("ofice", {});
   ExpectOneSentence(outcome, 3, "ofice: ");
   EXPECT_THAT(outcome.err, HasSubstr("maze, office, playground"));
 }
 
-TEST(BadInput, MalformedXml) {
+TEST(BadInput, MalformedXmlIsReported) {
   base::testing::TestFolder folder;
   const auto world = folder.Write(
       "bad.sdf", "<?xml version='1.0'?>\n<sdf version='1.9'>\n<world name='w'>\n</sdf>");
   ExpectOneSentence(Headless(world.string(), {}), 3, "bad.sdf:");
 }
 
-TEST(BadInput, NoSuchRobot) {
+TEST(BadInput, MissingRobotIsReported) {
   ExpectOneSentence(Headless(kPlayground, {"--robot", "unicorn@0,0"}), 3, "unicorn");
 }
 
@@ -64,7 +64,7 @@ std::string RobotWithMesh(const std::string& mesh) {
          "name='gz::sim::systems::VelocityControl'/></model></sdf>";
 }
 
-TEST(BadInput, MeshThatIsMissingIsNamedAndTheRestRuns) {
+TEST(BadInput, MissingMeshIsAWarningAndTheRestRuns) {
   base::testing::TestFolder folder;
   const auto robot = folder.Write("r.sdf", RobotWithMesh("absent.dae"));
   const Outcome outcome = Headless(kPlayground, {"--robot", robot.string() + "@0,0"});
@@ -73,7 +73,7 @@ TEST(BadInput, MeshThatIsMissingIsNamedAndTheRestRuns) {
   EXPECT_THAT(outcome.LastLine()["warnings"][0].get<std::string>(), HasSubstr("absent.dae"));
 }
 
-TEST(BadInput, MeshThatIsCorruptIsNamedAndTheRestRuns) {
+TEST(BadInput, CorruptMeshIsAWarningAndTheRestRuns) {
   base::testing::TestFolder folder;
   folder.Write("broken.stl", "solid x facet normal 0 0 nonsense");
   const auto robot = folder.Write("r.sdf", RobotWithMesh("broken.stl"));
@@ -82,7 +82,7 @@ TEST(BadInput, MeshThatIsCorruptIsNamedAndTheRestRuns) {
   EXPECT_THAT(outcome.ending, ::testing::AnyOf("exit code 0", "exit code 3"));
 }
 
-TEST(BadInput, MeshThatClaimsABillionTrianglesIsRefusedWithoutReadingThem) {
+TEST(BadInput, MeshWithABillionDeclaredTrianglesIsRejected) {
   base::testing::TestFolder folder;
   std::string stl(84, '\0');
   stl[80] = '\0', stl[81] = '\xca', stl[82] = '\x9a', stl[83] = '\x3b';  // 1,000,000,000
@@ -100,7 +100,7 @@ std::string RobotWithSensor(const std::string& sensor) {
          "name='gz::sim::systems::VelocityControl'/></model></sdf>";
 }
 
-TEST(BadInput, SensorWhoseParametersAreRefusedIsAWarningWithItsLineAndTheRestRuns) {
+TEST(BadInput, SensorWithInvalidParametersIsAWarningWithItsLine) {
   const std::pair<const char*, const char*> cases[] = {
       {"<sensor name='eye' type='camera'><camera><image><width>0</width></image></camera></sensor>",
        "image.width is 0"},
@@ -134,7 +134,7 @@ TEST(BadInput, SensorWhoseParametersAreRefusedIsAWarningWithItsLineAndTheRestRun
   EXPECT_THAT(outcome.err, HasSubstr("gsv: warning: "));
 }
 
-TEST(BadInput, ModelThatCanBeRepairedRunsUnlessStrictRefusesIt) {
+TEST(BadInput, RepairableModelRunsUnlessStrict) {
   base::testing::TestFolder folder;
   const auto world = folder.Write(
       "w.sdf",
@@ -147,7 +147,7 @@ TEST(BadInput, ModelThatCanBeRepairedRunsUnlessStrictRefusesIt) {
                     "the run is refused because of --strict");
 }
 
-TEST(BadInput, SensorOfATypeNobodyKnowsIsAWarningAndTheRestRuns) {
+TEST(BadInput, SensorOfUnknownTypeIsAWarning) {
   base::testing::TestFolder folder;
   const auto robot =
       folder.Write("r.sdf", RobotWithSensor("<sensor name='nose' type='gas'></sensor>"));
@@ -159,12 +159,12 @@ TEST(BadInput, SensorOfATypeNobodyKnowsIsAWarningAndTheRestRuns) {
   EXPECT_THAT(outcome.LastLine()["warnings"].dump(), HasSubstr("nose"));
 }
 
-TEST(BadInput, TwoRobotsAtOnePlace) {
+TEST(BadInput, OverlappingRobotsAreReported) {
   ExpectOneSentence(Headless(kPlayground, {"--robot", "pebble@0,0", "--robot", "pebble@0.1,0"}), 3,
                     "no room at (0.1, 0)");
 }
 
-TEST(BadInput, RobotInsideAWall) {
+TEST(BadInput, RobotInsideAWallIsReported) {
   base::testing::TestFolder folder;
   const auto world = folder.Write("w.sdf",
                                   "<sdf version='1.9'><world name='w'><model "
@@ -175,17 +175,17 @@ TEST(BadInput, RobotInsideAWall) {
   ExpectOneSentence(Headless(world.string(), {"--robot", "pebble@1,0"}), 3, "wall");
 }
 
-TEST(BadInput, NoBrokerAtTheAddress) {
+TEST(BadInput, MissingBrokerIsReported) {
   ExpectOneSentence(Headless(kPlayground, {"--broker", "corbaloc::1.2@127.0.0.1:1/TradingService"}),
                     5, "127.0.0.1:1");
 }
 
-TEST(BadInput, BehaviourThatNobodyOffersIsNamed) {
+TEST(BadInput, BehaviourWithoutAnOfferIsReported) {
   ExpectOneSentence(Headless(kPlayground, {"--robot", "pebble@0,0", "--behaviour", "juggle"}), 4,
                     "juggle");
 }
 
-TEST(BadInput, BehaviourThatThrowsInInitIsNamed) {
+TEST(BadInput, BehaviourThatThrowsInInitIsReported) {
   const BrokerProcess broker;
   Running bad("../tests/bad_behaviour",
               {"--broker", broker.reference(), "--fault", "throw-in-init"});
@@ -217,7 +217,7 @@ TEST(BadInput, KilledBehaviourIsReported) {
   EXPECT_DOUBLE_EQ(outcome.LastLine()["sim_time_s"], 1.0);
 }
 
-TEST(BadInput, BehaviourThatThrowsIsReportedWithWhatItThrew) {
+TEST(BadInput, ThrowingBehaviourIsReportedWithItsException) {
   const BrokerProcess broker;
   Running bad("../tests/bad_behaviour", {"--broker", broker.reference(), "--fault", "throw"});
   bad.AwaitLine("offered at");
@@ -241,7 +241,7 @@ TEST(BadInput, FailurePolicyEndsTheRun) {
   EXPECT_LT(outcome.LastLine()["sim_time_s"], 1.0);
 }
 
-TEST(BadInput, FullDiskEndsTheRecordingAndNotTheRun) {
+TEST(BadInput, FullDiskEndsOnlyTheRecording) {
   const Outcome outcome = Headless(
       kPlayground, {"--robot", "pebble@0,0", "--behaviour", "wander", "--record", "/dev/full"});
   ExpectOneSentence(outcome, 5, "/dev/full");
@@ -268,20 +268,20 @@ class TakenPort {
   std::string port_;
 };
 
-TEST(BadInput, ViewersAddressOfAnotherKind) {
+TEST(BadInput, InvalidViewerAddressIsReported) {
   ExpectOneSentence(RunProgram("gsv", {"view", "ftp://127.0.0.1:8080/"}), 2,
                     "ftp://127.0.0.1:8080/: cannot be used as the address of a viewer: it must "
                     "begin with http:// or https://");
 }
 
-TEST(BadInput, ViewerPortInUse) {
+TEST(BadInput, UsedViewerPortIsReported) {
   const TakenPort taken;
   const Outcome outcome =
       RunProgram("gsv", {"run", kPlayground, "--port", taken.port(), "--duration", "1"});
   ExpectOneSentence(outcome, 5, taken.port());
 }
 
-TEST(BadInput, BrokerPortInUse) {
+TEST(BadInput, UsedBrokerPortIsReported) {
   const TakenPort taken;
   const Outcome outcome = RunProgram("gsv", {"broker", "--port", taken.port(), "--memory"});
   EXPECT_EQ(outcome.ending, "exit code 5");
@@ -289,7 +289,7 @@ TEST(BadInput, BrokerPortInUse) {
 }
 
 // The rasteriser renders images if no driver is available.
-TEST(BadInput, WithoutEglEverythingWorksCamerasIncluded) {
+TEST(BadInput, CamerasWorkWithoutEgl) {
   setenv("EGL_PLATFORM", "nonsense", 1);
   setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent.json", 1);
   const Outcome outcome = Headless(kPlayground, {"--robot", "b21r@0,0", "--behaviour", "wander"});

@@ -19,7 +19,7 @@ nlohmann::json RobotAfter(const std::string& broker, const std::string& world,
   return outcome.LastLine()["robots"][0];
 }
 
-TEST(Behaviours, WanderTravels) {
+TEST(Behaviours, WanderMovesTheRobot) {
   const BrokerProcess broker;
   Running program("gsv-wander", {"--broker", broker.reference()});
   program.AwaitLine("offered at");
@@ -28,7 +28,7 @@ TEST(Behaviours, WanderTravels) {
   EXPECT_EQ(robot["readings"]["camera"], 30);  // one per second
 }
 
-TEST(Behaviours, OneWhoseLocalSocketIsGoneIsReachedByTcp) {
+TEST(Behaviours, BehaviourWithoutItsLocalSocketIsCalledOverTcp) {
   const BrokerProcess broker;
   const base::testing::TestFolder runtime;
   Running program("gsv-wander", {"--broker", broker.reference()},
@@ -92,7 +92,7 @@ TEST(Behaviours, FetchTakesACanToItsGoal) {
   EXPECT_EQ(fetch("1.2")["state_hash"], report["state_hash"]);
 }
 
-TEST(Behaviours, OneThatSleepsByTheWallClockWorksInRealTimeAndIsRefusedInLockstep) {
+TEST(Behaviours, WallClockBehaviourWorksInRealTimeOnly) {
   const BrokerProcess broker;
   Running program("../tests/wall_clock_behaviour", {"--broker", broker.reference()});
   program.AwaitLine("offered at");
@@ -109,7 +109,7 @@ TEST(Behaviours, OneThatSleepsByTheWallClockWorksInRealTimeAndIsRefusedInLockste
       << lockstep.err;
 }
 
-TEST(Behaviours, OptionsFollowTheNameInEveryForm) {
+TEST(Behaviours, OptionsAreReadAfterTheNameInEveryForm) {
   std::vector<std::string> hashes;
   for (const bool in_process : {false, true}) {
     Strings arguments{"run",         "playground",        "--robot",    "pebble@0,0",
@@ -124,7 +124,7 @@ TEST(Behaviours, OptionsFollowTheNameInEveryForm) {
   EXPECT_EQ(hashes[0], hashes[1]);
 }
 
-TEST(Behaviours, APlugInThatIsNotThereOrDoesNotKnowAnOptionIsNamed) {
+TEST(Behaviours, MissingPlugInAndUnknownOptionAreReported) {
   const auto run = [](const char* behaviour) {
     return RunProgram("gsv", {"run", "playground", "--robot", "pebble@0,0", "--behaviour",
                               behaviour, "--in-process", "--headless", "--duration", "1"});

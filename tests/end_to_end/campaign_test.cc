@@ -35,7 +35,7 @@ class CampaignCommand : public ::testing::Test {
                                           "  seed: {from: 1, to: 4}\n");
 };
 
-TEST_F(CampaignCommand, ADriverThatIsKilledIsFollowedByAnotherAndEachRunCountsOnce) {
+TEST_F(CampaignCommand, AnotherDriverContinuesAKilledOneAndRunsCountOnce) {
   {
     Running driver("gsv", {"campaign", "run", file_, "--jobs", "1"});
     for (int done = 0; done < 1 && driver.process().Ending().empty();) {
@@ -70,7 +70,7 @@ TEST_F(CampaignCommand, ADriverThatIsKilledIsFollowedByAnotherAndEachRunCountsOn
   EXPECT_EQ(Campaign("run", {"--json"}).LastLine()["done"], 8);
 }
 
-TEST_F(CampaignCommand, ARunCanBeHadByItself) {
+TEST_F(CampaignCommand, SingleRunCanBeExecuted) {
   const Outcome shown = Campaign("show", {"5"});
   ASSERT_EQ(shown.ending, "exit code 0") << shown.err;
   const std::string file = folder_.Write("run5.yaml", shown.out);
@@ -80,7 +80,7 @@ TEST_F(CampaignCommand, ARunCanBeHadByItself) {
   EXPECT_EQ(Campaign("show", {"8"}).ending, "exit code 2");
 }
 
-TEST_F(CampaignCommand, SharesOfAnotherQueueAreGatheredAndGoOnWhereTheyWere) {
+TEST_F(CampaignCommand, SharesOfAnotherQueueAreCollectedAndContinued) {
   EXPECT_EQ(Campaign("run", {"--shard", "1/3", "--jobs", "1"}).ending, "exit code 0");
   EXPECT_EQ(Campaign("status", {"--json"}).LastLine()["done"], 3);
   // The same again, as by a queue that considers it lost: no run is left.
@@ -98,7 +98,7 @@ TEST_F(CampaignCommand, SharesOfAnotherQueueAreGatheredAndGoOnWhereTheyWere) {
   EXPECT_EQ(Campaign("run", {"--shard", "4/3"}).ending, "exit code 2");
 }
 
-TEST_F(CampaignCommand, BadInputIsTold) {
+TEST_F(CampaignCommand, InvalidInputIsReported) {
   const std::string bad = folder_.Write("bad.yaml", "scenario: s.yaml\nparameters: {sed: [1]}\n");
   const Outcome run = RunProgram("gsv", {"campaign", "run", bad});
   EXPECT_EQ(run.ending, "exit code 3");

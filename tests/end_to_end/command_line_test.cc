@@ -41,7 +41,7 @@ TEST(CommandLine, RunShowsTheDefaultWorldWithFiveRobots) {
 }
 
 // What takes long to link is loaded by commands that need it; see docs/adr/063.
-TEST(CommandLine, VersionLoadsNoLibraryOfWorldsAndOfOtherServices) {
+TEST(CommandLine, VersionLoadsNoOptionalLibraries) {
   const Outcome outcome =
       RunProgram("/usr/bin/env", {"LD_DEBUG=files", Program("gsv").string(), "--version"});
   EXPECT_EQ(outcome.ending, "exit code 0");
@@ -51,7 +51,7 @@ TEST(CommandLine, VersionLoadsNoLibraryOfWorldsAndOfOtherServices) {
   }
 }
 
-TEST(CommandLine, RunTakesWorldRobotsAndBehaviours) {
+TEST(CommandLine, RunAcceptsWorldRobotsAndBehaviours) {
   const Outcome outcome =
       RunProgram("gsv", RunArguments({"--robot", "pebble@-2,-3.5,90deg", "--robot", "b21r@0,1",
                                       "--behaviour", "wander", "--behaviour", "b21r=follow-wall",
@@ -164,7 +164,7 @@ TEST(CommandLine, ListsAddsAndRemovesTypesAndOffers) {
   EXPECT_EQ(run("types", {}).out, "");
 }
 
-TEST(CommandLine, TheBrokerListensWhereItIsTold) {
+TEST(CommandLine, BrokerListensAtTheGivenAddress) {
   const BrokerProcess elsewhere("127.0.0.2");
   EXPECT_THAT(elsewhere.reference(), HasSubstr("@127.0.0.2:"));
   EXPECT_EQ(RunProgram("gsv", {"types", "--broker", elsewhere.reference()}).ending, "exit code 0");
@@ -252,7 +252,7 @@ TEST(CommandLine, UsageErrorsExitWithTwo) {
   }
 }
 
-TEST(CommandLine, ACommandThatDoesNotExistIsNamed) {
+TEST(CommandLine, UnknownCommandIsReported) {
   const auto said = [](const Strings& arguments) { return RunProgram("gsv", arguments).err; };
   EXPECT_EQ(said({"fly"}), "gsv: there is no command fly. See gsv --help\n");
   EXPECT_EQ(said({"world", "burn"}), "gsv: there is no command burn. See gsv world --help\n");
@@ -273,7 +273,7 @@ TEST(CommandLine, CheckPrintsProblemsAndExitsWithThreeForAnUnfaithfulWorld) {
   EXPECT_EQ(RunProgram("gsv", {"world", "check", "office"}).ending, "exit code 0");
 }
 
-TEST(CommandLine, DrawWritesAPictureOfAWorldAndSaysWhatItHolds) {
+TEST(CommandLine, DrawWritesAnImageOfAWorldAndPrintsItsContent) {
   base::testing::TestFolder folder;
   const std::string image = folder.path() / "office.jpg";
   const Outcome outcome = RunProgram(
@@ -306,7 +306,7 @@ TEST(CommandLine, MisspeltNamesGetASuggestion) {
               HasSubstr("Did you mean robots?"));
 }
 
-TEST(CommandLine, ListsWhatThereIs) {
+TEST(CommandLine, ListPrintsWorldsRobotsAndBehaviours) {
   const auto listed = [](const char* kind) {
     const Outcome outcome = RunProgram("gsv", {"list", kind, "--json"});
     EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
@@ -319,7 +319,7 @@ TEST(CommandLine, ListsWhatThereIs) {
   EXPECT_EQ(RunProgram("gsv", {"list", "dragons"}).ending, "exit code 2");
 }
 
-TEST(CommandLine, DrawsPedestriansAtTheirStarts) {
+TEST(CommandLine, DrawShowsPedestriansAtTheirStarts) {
   base::testing::TestFolder folder;
   const auto models_in = [&](const std::string& pedestrians) {
     const std::filesystem::path world = folder.path() / "square.sdf";
@@ -336,7 +336,7 @@ TEST(CommandLine, DrawsPedestriansAtTheirStarts) {
             3);
 }
 
-TEST(CommandLine, LimitsAreRaisedByName) {
+TEST(CommandLine, LimitsCanBeRaisedByName) {
   EXPECT_EQ(RunProgram("gsv", {"world", "check", "office", "--limit", "xml_bytes=10"}).ending,
             "exit code 3");
   EXPECT_EQ(RunProgram("gsv", {"world", "check", "office", "--limit", "xml_bytes=10000000"}).ending,
@@ -345,7 +345,7 @@ TEST(CommandLine, LimitsAreRaisedByName) {
             "exit code 2");
 }
 
-TEST(CommandLine, OutputThatFindsNoSpaceIsNoSuccess) {
+TEST(CommandLine, FullDiskForTheOutputIsAnError) {
   base::testing::TestFolder folder;
   const std::string recording = folder.path() / "run.mcap";
   ASSERT_EQ(RunProgram("gsv", RunArguments({"--robot", "pebble@0,0", "--duration", "0.2",
@@ -369,7 +369,7 @@ TEST(CommandLine, OutputThatFindsNoSpaceIsNoSuccess) {
   }
 }
 
-TEST(CommandLine, AClosedTerminalEndsCleanly) {
+TEST(CommandLine, ClosedTerminalEndsTheRunCleanly) {
   base::testing::TestFolder folder;
   const auto bag = folder.path() / "bag";
   Running run("gsv", {"run", "playground", "--port", "0", "--robot", "pebble", "--record", bag});
@@ -380,7 +380,7 @@ TEST(CommandLine, AClosedTerminalEndsCleanly) {
   EXPECT_EQ(RunProgram("gsv", {"rec", "info", bag, "--json"}).LastLine()["warnings"].size(), 0u);
 }
 
-TEST(CommandLine, APartOfARecordingKeepsTheFramesOfSensors) {
+TEST(CommandLine, ExcerptOfARecordingKeepsTheFramesOfSensors) {
   base::testing::TestFolder folder;
   const std::string bag = folder.path() / "bag", part = folder.path() / "part";
   ASSERT_EQ(
@@ -395,7 +395,7 @@ TEST(CommandLine, APartOfARecordingKeepsTheFramesOfSensors) {
   EXPECT_EQ(frames.LastLine()["time_s"], 1.0);
 }
 
-TEST(CommandLine, SelectionsThatHoldNothingAreNamed) {
+TEST(CommandLine, EmptySelectionsAreReported) {
   base::testing::TestFolder folder;
   const std::string recording = folder.path() / "run.mcap", part = folder.path() / "part.mcap";
   ASSERT_EQ(RunProgram("gsv", RunArguments({"--robot", "pebble@0,0", "--duration", "0.2",
@@ -418,7 +418,7 @@ TEST(CommandLine, SelectionsThatHoldNothingAreNamed) {
   EXPECT_EQ(RunProgram("gsv", {"rec", "info", recording}).ending, "exit code 0");
 }
 
-TEST(CommandLine, WhatIsTakenButMostLikelyNotMeantIsNamed) {
+TEST(CommandLine, UnlikelyArgumentsGiveAWarning) {
   const auto warnings = [](const Strings& more) {
     const Outcome outcome = RunProgram("gsv", RunArguments(more));
     EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
@@ -437,14 +437,14 @@ TEST(CommandLine, WhatIsTakenButMostLikelyNotMeantIsNamed) {
   EXPECT_EQ(warnings({"--robot", "pebble@0,0,90deg", "--duration", "0.1"}), "[]");
 }
 
-TEST(CommandLine, AnArgumentMayFollowAnOptionThatCanBeRepeated) {
+TEST(CommandLine, ArgumentMayFollowARepeatableOption) {
   base::testing::TestFolder folder;
   const Outcome outcome =
       RunProgram("gsv", {"model", "check", "--model-path", folder.path().string(), "pebble"});
   EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
 }
 
-TEST(CommandLine, ABehavioursProgramThatCannotBeExecutedIsNamed) {
+TEST(CommandLine, BehaviourThatCannotBeExecutedIsReported) {
   base::testing::TestFolder folder;
   const std::string program = folder.path() / "gsv-unready";
   std::ofstream(program) << "#!/bin/sh\n";
@@ -457,7 +457,7 @@ TEST(CommandLine, ABehavioursProgramThatCannotBeExecutedIsNamed) {
 }
 
 // Its program is killed, and nobody waits for the answers that it does not give.
-TEST(CommandLine, ABehaviourThatNeverWaitsDoesNotHoldUpTheEnd) {
+TEST(CommandLine, BehaviourThatNeverWaitsDoesNotDelayTheEnd) {
   base::testing::TestFolder folder;
   std::filesystem::create_symlink(std::filesystem::absolute(Program("../tests/bad_behaviour")),
                                   folder.path() / "gsv-never-ends");
@@ -474,7 +474,7 @@ TEST(CommandLine, ABehaviourThatNeverWaitsDoesNotHoldUpTheEnd) {
 }
 
 // It cannot be interrupted, and must not hold up the end of the run.
-TEST(CommandLine, ABehaviourInProcessThatNeverReturnsFailsTheRun) {
+TEST(CommandLine, InProcessBehaviourThatNeverReturnsFailsTheRun) {
   base::testing::TestFolder folder;
   const std::string recording = folder.path() / "run.mcap";
   const Outcome outcome =

@@ -41,7 +41,7 @@ class Control : public ::testing::Test {
     EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
     return outcome.LastLine();
   }
-  static void ExpectComplaint(Strings arguments, int code, const std::string& sentence) {
+  static void ExpectError(Strings arguments, int code, const std::string& sentence) {
     const Outcome outcome = Gsv(std::move(arguments));
     EXPECT_EQ(outcome.ending, "exit code " + std::to_string(code));
     EXPECT_THAT(outcome.err, HasSubstr(sentence));
@@ -71,7 +71,7 @@ TEST_F(Control, PsListsSimulationsWithTheirRobots) {
   EXPECT_EQ(Gsv({"ps", "another"}).out, "");
 }
 
-TEST_F(Control, RecordsARunThatIsUnderWay) {
+TEST_F(Control, RecordsARunningSimulation) {
   const auto run = StartRun();
   const std::string path = folder_.path() / "part.mcap";
   const Outcome started = Gsv({"rec", "start", path});
@@ -103,7 +103,7 @@ TEST_F(Control, PausesStepsResumesAndStops) {
   EXPECT_EQ(run->AwaitEnd().ending, "exit code 0");
 }
 
-TEST_F(Control, ResetGoesBackToTheStartAndTheSameComesOutAgain) {
+TEST_F(Control, RunAfterAResetHasTheSameHash) {
   const auto run = StartRun({"--behaviour", "wander"});
   EXPECT_EQ(Json({"pause"})["phase"], "paused");
   EXPECT_EQ(Json({"reset"})["time_s"], 0.0);
@@ -115,39 +115,39 @@ TEST_F(Control, ResetGoesBackToTheStartAndTheSameComesOutAgain) {
   EXPECT_THAT(Json({"resume"})["phase"].get<std::string>(), AnyOf("starting", "running"));
 }
 
-TEST_F(Control, CommandsOfTheTableTakeTheirParametersAsOptions) {
+TEST_F(Control, CommandsReadTheirParametersFromOptions) {
   const auto run = StartRun();
   Json({"pause"});
   Json({"step"});
   const auto before = Json({"ps"})["state_hash"];
   EXPECT_NE(Json({"set-gravity", "simulation", "--z", "-1.62"})["state_hash"], before);
-  ExpectComplaint({"set-gravity", "--z", "-101"}, 2, "'z' must be a number from -100 to 100 m/s²");
+  ExpectError({"set-gravity", "--z", "-101"}, 2, "'z' must be a number from -100 to 100 m/s²");
   EXPECT_EQ(Json({"set-gravity"})["state_hash"], before);
   EXPECT_THAT(Gsv({"set-gravity", "--help"}).out,
               HasSubstr("from -100 to 100 m/s² (default: the world's"));
 }
 
-TEST_F(Control, TheFactorOfARunInRealTimeIsSet) {
+TEST_F(Control, SetsTheRealTimeFactor) {
   Running run("gsv", {"run", "playground", "--headless", "--real-time-factor", "0.001",
                       "--duration", "20"});
   run.AwaitLine("broker: ");
   const Outcome set = Gsv({"real-time-factor", "2.5"});
   EXPECT_EQ(set.ending, "exit code 0") << set.err;
   EXPECT_THAT(set.out, HasSubstr("(target 2.5)"));
-  ExpectComplaint({"factor", "0"}, 2, "must lie above 0 and not above 1e6");
-  ExpectComplaint({"factor", "fast"}, 2, "fast");
-  ExpectComplaint({"real-time-factor"}, 2, "real_time_factor is required");
+  ExpectError({"factor", "0"}, 2, "must lie above 0 and not above 1e6");
+  ExpectError({"factor", "fast"}, 2, "fast");
+  ExpectError({"real-time-factor"}, 2, "real_time_factor is required");
   EXPECT_EQ(Json({"ps"})["target_factor"], 2.5);
   EXPECT_EQ(Gsv({"factor", "1000000"}).ending, "exit code 0");
   EXPECT_EQ(run.AwaitEnd().ending, "exit code 0");  // at its first speed: five and a half hours
 }
 
-TEST_F(Control, LockstepHasNoFactorToSet) {
+TEST_F(Control, RejectsARealTimeFactorInLockstep) {
   const auto run = StartRun();
-  ExpectComplaint({"factor", "2"}, 2, "in lockstep a simulation goes as fast as it can");
+  ExpectError({"factor", "2"}, 2, "in lockstep a simulation goes as fast as it can");
 }
 
-TEST_F(Control, WithoutABrokerTheNewestRunIsMeant) {
+TEST_F(Control, SelectsTheNewestRunWithoutABroker) {
   const auto older = StartRun();
   const auto newer = StartRun();
   EXPECT_THAT(Json({"pause"})["server"]["place"].get<std::string>(), HasSubstr(":" + Pid(*newer)));
@@ -156,11 +156,11 @@ TEST_F(Control, WithoutABrokerTheNewestRunIsMeant) {
   const Outcome all = Gsv({"ps"});
   EXPECT_THAT(all.out, HasSubstr(":" + Pid(*older)));
   EXPECT_THAT(all.out, HasSubstr(":" + Pid(*newer)));
-  ExpectComplaint({"pause", "simulation"}, 2, "several simulations match");
+  ExpectError({"pause", "simulation"}, 2, "several simulations match");
   EXPECT_EQ(Json({"pause", "--server", Pid(*older)})["phase"], "paused");
 }
 
-TEST_F(Control, ARunThatWasKilledIsForgotten) {
+TEST_F(Control, KilledRunIsNoLongerListed) {
   {
     const auto run = StartRun();
     run->process().Signal(SIGKILL);
@@ -174,14 +174,14 @@ TEST_F(Control, ARunThatWasKilledIsForgotten) {
     EXPECT_EQ(entry.path().extension(), ".socket");  // the next server removes it
 }
 
-TEST_F(Control, ARunThatEndsLeavesNoFile) {
+TEST_F(Control, FinishedRunLeavesNoFile) {
   const auto run = StartRun();
   EXPECT_EQ(Gsv({"stop"}).ending, "exit code 0");
   run->AwaitEnd();
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path() / "gsv"));
 }
 
-TEST_F(Control, AFolderThatOthersCanWriteToIsNotBelieved) {
+TEST_F(Control, IgnoresAFolderThatOthersCanWriteTo) {
   std::filesystem::create_directory(folder_.path() / "gsv");
   std::filesystem::permissions(folder_.path() / "gsv", std::filesystem::perms::all);
   folder_.Write("gsv/1.json", R"({"pid":1,"started":0,"broker":"corbaloc::127.0.0.1:1/Trap"})");
@@ -191,26 +191,25 @@ TEST_F(Control, AFolderThatOthersCanWriteToIsNotBelieved) {
   EXPECT_THAT(run->AwaitEnd().err, HasSubstr("only this user can write to"));
 }
 
-TEST_F(Control, AServersSimulationsAreFoundThroughItsBroker) {
+TEST_F(Control, FindsSimulationsOfAServerThroughItsBroker) {
   const BrokerProcess broker;
   Running serve("gsv", {"serve", "--broker", broker.reference(), "--headless"});
   serve.AwaitLine("broker: ");
   const Outcome none = Gsv({"ps", "--broker", broker.reference()});
   EXPECT_EQ(none.ending, "exit code 0");
   EXPECT_EQ(none.out, "");
-  ExpectComplaint({"stop", "--broker", broker.reference()}, 5, "the broker has no simulations");
+  ExpectError({"stop", "--broker", broker.reference()}, 5, "the broker has no simulations");
   const auto run = StartRun({"--broker", broker.reference()});
   EXPECT_EQ(Json({"pause", "--broker", broker.reference(), "simulation"})["phase"], "paused");
 }
 
-TEST_F(Control, ComplaintsAreOneSentenceWithAnExitCode) {
-  ExpectComplaint({"pause"}, 5, "you have no running simulation on this machine");
-  ExpectComplaint({"ps", "--broker", "corbaloc::127.0.0.1:1/TradingService"}, 5,
-                  "no broker responds");
-  ExpectComplaint({"ps", "--broker", "nonsense"}, 2, "nonsense");
+TEST_F(Control, ErrorsAreOneSentenceWithAnExitCode) {
+  ExpectError({"pause"}, 5, "you have no running simulation on this machine");
+  ExpectError({"ps", "--broker", "corbaloc::127.0.0.1:1/TradingService"}, 5, "no broker responds");
+  ExpectError({"ps", "--broker", "nonsense"}, 2, "nonsense");
   const auto run = StartRun();
-  ExpectComplaint({"pause", "another"}, 2, "there are: simulation on gsv run (");
-  ExpectComplaint({"step", "3"}, 5, "to step it must be created or paused, and it is running");
+  ExpectError({"pause", "another"}, 2, "there are: simulation on gsv run (");
+  ExpectError({"step", "3"}, 5, "to step it must be created or paused, and it is running");
   EXPECT_EQ(Gsv({"step", "0"}).ending, "exit code 2");
   EXPECT_EQ(Gsv({"ps", "--nothing"}).ending, "exit code 2");
   EXPECT_THAT(Gsv({"pause", "--help"}).out, HasSubstr("--broker"));

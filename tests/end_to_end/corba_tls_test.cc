@@ -63,7 +63,7 @@ class Peer {
 
 // Waits for the error output of a handshake.
 std::string AwaitErrors(const Running& program, const std::string& text) {
-  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  const auto deadline = std::chrono::steady_clock::now() + kProgramTimeout;
   while (program.errors().find(text) == std::string::npos &&
          std::chrono::steady_clock::now() < deadline) {
   }
@@ -105,7 +105,7 @@ class BrokerByTls {
   const std::string reference_;
 };
 
-TEST_F(CorbaTls, GivesTheHashThatPlainTcpGives) {
+TEST_F(CorbaTls, HashEqualsThatOfPlainTcp) {
   const auto hash_of = [](const std::string& broker) {
     const Outcome run = RunProgram("gsv", FleetRun(broker));
     EXPECT_EQ(run.ending, "exit code 0") << run.err;
@@ -122,7 +122,7 @@ TEST_F(CorbaTls, GivesTheHashThatPlainTcpGives) {
   EXPECT_EQ(by_tls, hash());
 }
 
-TEST_F(CorbaTls, EveryProgramSpeaksIt) {
+TEST_F(CorbaTls, EveryProgramSupportsTls) {
   BrokerByTls broker;
   EXPECT_THAT(broker.reference(), StartsWith("corbaloc:ssliop:1.2@127.0.0.1:"));
   Running behaviour("gsv-wander", {"--broker", broker.reference()});
@@ -147,7 +147,7 @@ TEST_F(CorbaTls, EveryProgramSpeaksIt) {
             "exit code 0");
 }
 
-TEST_F(CorbaTls, BeyondThisMachineItTakesACertificate) {
+TEST_F(CorbaTls, RemoteAccessNeedsACertificate) {
   const BrokerByTls everywhere("0.0.0.0");
   EXPECT_THAT(everywhere.reference(), StartsWith("corbaloc:ssliop:"));
   const Variable without("GSV_CORBA_CERTIFICATE", "");
@@ -165,7 +165,7 @@ TEST_F(CorbaTls, BeyondThisMachineItTakesACertificate) {
   }
 }
 
-TEST_F(CorbaTls, WithoutACertificateNobodyIsServed) {
+TEST_F(CorbaTls, ClientWithoutACertificateIsRejected) {
   BrokerByTls broker;
   const Variable without("GSV_CORBA_CERTIFICATE", "");
   const Outcome told = broker.Offers();
@@ -179,7 +179,7 @@ TEST_F(CorbaTls, WithoutACertificateNobodyIsServed) {
   EXPECT_THAT(AwaitErrors(broker.program(), "refused"), HasSubstr("it does not speak TLS"));
 }
 
-TEST_F(CorbaTls, WhoMeetsAServiceThatTakesACertificateIsToldSo) {
+TEST_F(CorbaTls, PlainClientOfATlsServiceGetsAnExplanation) {
   std::optional<Variable> without(std::in_place, "GSV_CORBA_CERTIFICATE", "");
   const BrokerProcess plain;
   without.reset();
@@ -213,22 +213,22 @@ TEST_F(CorbaTls, PlainServicesAreCalledOnThisMachineOnly) {
   EXPECT_EQ(RunProgram("gsv", {"offers", "--broker", reference}).ending, "exit code 0");
 }
 
-TEST_F(CorbaTls, OfAnotherAuthorityNobodyIsServedOrTrusted) {
+TEST_F(CorbaTls, CertificatesOfAnotherAuthorityAreRejectedBothWays) {
   BrokerByTls broker;
-  const Group strangers;
+  const Group other_group;
   const Outcome client = broker.Offers();
   EXPECT_EQ(client.ending, "exit code 5");
   EXPECT_THAT(client.err, HasSubstr("its certificate was not issued by this group's authority"));
   // A client that trusts the server, but is not of its group.
   const Variable trusting("GSV_CORBA_AUTHORITY", group_.File("ca.pem"));
-  const Outcome stranger = broker.Offers();
-  EXPECT_EQ(stranger.ending, "exit code 5");
-  EXPECT_THAT(stranger.err, HasSubstr("it does not take this program's certificate"));
+  const Outcome outsider = broker.Offers();
+  EXPECT_EQ(outsider.ending, "exit code 5");
+  EXPECT_THAT(outsider.err, HasSubstr("it does not take this program's certificate"));
   EXPECT_THAT(AwaitErrors(broker.program(), "authority"),
               HasSubstr("its certificate was not issued by this group's authority"));
 }
 
-TEST_F(CorbaTls, AnExpiredCertificateIsRefusedByItsOwnerAndByOthers) {
+TEST_F(CorbaTls, ExpiredCertificateIsRejectedByOwnerAndPeers) {
   BrokerByTls broker;
   using std::chrono::hours;
   ASSERT_TRUE(tls::MakeCertificate(group_.File(""), {"old", {}, {-hours(48), -hours(24)}}));
@@ -249,7 +249,7 @@ TEST_F(CorbaTls, AnExpiredCertificateIsRefusedByItsOwnerAndByOthers) {
   EXPECT_EQ(refused.ending, "exit code 2");
 }
 
-TEST_F(CorbaTls, FilesThatCannotBeUsedStartNothing) {
+TEST_F(CorbaTls, InvalidFilesPreventTheStart) {
   const auto refusal = [&](const char* variable, const fs::path& file) {
     const Variable wrong(variable, file);
     const Outcome outcome = RunProgram("gsv", {"broker", "--memory"});
@@ -267,7 +267,7 @@ TEST_F(CorbaTls, FilesThatCannotBeUsedStartNothing) {
 }
 
 // More connections than the broker has threads, and than pending handshakes.
-TEST_F(CorbaTls, StalledHandshakesHoldUpNobody) {
+TEST_F(CorbaTls, StalledHandshakesDelayNoOtherClient) {
   BrokerByTls broker;
   std::vector<std::unique_ptr<Peer>> stalled;
   for (int i = 0; i < 300; ++i) {
@@ -283,7 +283,7 @@ TEST_F(CorbaTls, StalledHandshakesHoldUpNobody) {
   EXPECT_EQ(broker.Offers().ending, "exit code 0");
 }
 
-TEST_F(CorbaTls, RubbishEndsItsOwnConnectionOnly) {
+TEST_F(CorbaTls, GarbageEndsOnlyItsOwnConnection) {
   BrokerByTls broker;
   Running server("gsv", {"serve", "--headless", "--broker", broker.reference()});
   server.AwaitLine("broker: ");
@@ -317,7 +317,7 @@ std::size_t DescriptorsOf(pid_t pid) {
 }
 
 // They had no address any more when the ORB requested it, and stayed open.
-TEST_F(CorbaTls, ThoseWhoGoRightAfterTheHandshakeLeaveNothing) {
+TEST_F(CorbaTls, DisconnectAfterTheHandshakeLeaksNothing) {
   BrokerByTls broker;
   EXPECT_EQ(broker.Offers().ending, "exit code 0");
   const std::size_t before = DescriptorsOf(broker.pid());
@@ -325,7 +325,7 @@ TEST_F(CorbaTls, ThoseWhoGoRightAfterTheHandshakeLeaveNothing) {
   command << "cd " << group_.File("") << " && openssl s_time -connect 127.0.0.1:" << broker.port()
           << " -new -time 1 -CAfile ca.pem -cert lab.pem -key lab-key.pem > /dev/null 2>&1";
   ASSERT_EQ(std::system(command.str().c_str()), 0);
-  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  const auto deadline = std::chrono::steady_clock::now() + kProgramTimeout;
   while (DescriptorsOf(broker.pid()) > before && std::chrono::steady_clock::now() < deadline) {
   }
   EXPECT_LE(DescriptorsOf(broker.pid()), before);
@@ -333,7 +333,7 @@ TEST_F(CorbaTls, ThoseWhoGoRightAfterTheHandshakeLeaveNothing) {
 }
 
 // omniORB's own transport crashes in this case.
-TEST_F(CorbaTls, AServerThatSaysGoodbyeInTheHandshakeEndsACallOnly) {
+TEST_F(CorbaTls, CloseDuringTheHandshakeFailsOnlyThatCall) {
   const int listener = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   sockaddr_in address = broker::Loopback(0);
   socklen_t length = sizeof address;
@@ -355,7 +355,7 @@ TEST_F(CorbaTls, AServerThatSaysGoodbyeInTheHandshakeEndsACallOnly) {
   EXPECT_THAT(outcome.err, HasSubstr("it hung up"));
 }
 
-TEST_F(CorbaTls, IsWhatOtherOrbsSpeak) {
+TEST_F(CorbaTls, InteroperatesWithOtherOrbs) {
   BrokerByTls broker;
   std::ofstream both(group_.File("both.pem"));
   for (const char* part : {"lab-key.pem", "lab.pem"})
@@ -380,7 +380,7 @@ std::vector<nlohmann::json> SocketsOf(pid_t pid) {
   return {};
 }
 
-TEST_F(CorbaTls, DoctorTellsItFromPlainCorba) {
+TEST_F(CorbaTls, DoctorDistinguishesTlsFromPlainCorba) {
   Running by_tls("gsv", {"broker", "--listen", "0.0.0.0", "--port", "0", "--memory"});
   by_tls.AwaitLine("corbaloc");
   const auto good = SocketsOf(by_tls.process().pid());

@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(CutNetwork, TheOffersOfAHostThatCannotBeReachedGoAway) {
+TEST(CutNetwork, OffersOfAnUnreachableHostAreWithdrawn) {
   OtherHost host(1);
   if (!host.refusal().empty()) GTEST_SKIP() << host.refusal();
   const Group group;

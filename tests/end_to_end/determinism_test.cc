@@ -68,12 +68,12 @@ TEST(Promise, TheSameSeedGivesTheSameHash) {
   }
 }
 
-TEST(Determinism, ARunRepeatsToTheBit) {
+TEST(Determinism, RepeatedRunHasTheSameHash) {
   const std::string expected = UndisturbedHash();
   for (int run = 0; run < std::max(3, Rounds()); ++run) ASSERT_EQ(UndisturbedHash(), expected);
 }
 
-TEST(Determinism, RunsWithTheSameProgramsRepeatToTheBit) {
+TEST(Determinism, RunsWithTheSameProgramsHaveTheSameHash) {
   const BrokerProcess broker;
   const Fleet fleet(broker.reference());
   const std::string expected = HashOf(ReportOf(broker.reference()));
@@ -81,17 +81,19 @@ TEST(Determinism, RunsWithTheSameProgramsRepeatToTheBit) {
     ASSERT_EQ(HashOf(ReportOf(broker.reference())), expected);
 }
 
-TEST(Determinism, NiceBehavioursLeaveNoTrace) { ExpectSameHash({.wrapper = {"nice", "-n", "19"}}); }
+TEST(Determinism, HashDoesNotDependOnLowPriorityBehaviours) {
+  ExpectSameHash({.wrapper = {"nice", "-n", "19"}});
+}
 
-TEST(Determinism, BehavioursOnOneCoreLeaveNoTrace) {
+TEST(Determinism, HashDoesNotDependOnBehavioursOnOneCore) {
   ExpectSameHash({.wrapper = {"taskset", "-c", "0"}});
 }
 
-TEST(Determinism, BehavioursStartedInReverseOrderLeaveNoTrace) {
+TEST(Determinism, HashDoesNotDependOnTheStartOrderOfBehaviours) {
   ExpectSameHash({.in_reverse_order = true});
 }
 
-TEST(Determinism, CallsDelayedAtRandomLeaveNoTrace) {
+TEST(Determinism, HashDoesNotDependOnRandomCallDelays) {
   const std::string expected = UndisturbedHash();
   for (int round = 0; round < Rounds(); ++round) {
     const std::string fault = "GSV_FAULT_DELAY=seed=" + std::to_string(round + 1) + ",max_ms=4";
@@ -106,7 +108,7 @@ TEST(Determinism, CallsDelayedAtRandomLeaveNoTrace) {
 }
 
 // A delay of 20 ms for every round trip, and TLS.
-TEST(Determinism, BehavioursBehindASlowNetworkLeaveNoTrace) {
+TEST(Determinism, HashDoesNotDependOnASlowNetwork) {
   const OtherHost host(20);
   if (!host.refusal().empty()) GTEST_SKIP() << host.refusal();
   const std::string expected = UndisturbedHash();
@@ -122,7 +124,7 @@ TEST(Determinism, BehavioursBehindASlowNetworkLeaveNoTrace) {
 }
 
 // The behaviour waits for an answer all the time, as for an image on a busy machine.
-TEST(Determinism, ASimulationThatIsStoppedForTwelveSecondsLeavesNoTrace) {
+TEST(Determinism, HashDoesNotDependOnAStopOfTwelveSeconds) {
   const auto hash_of = [](bool is_stopped) {
     Running run("gsv", {"run", "playground", "--robot", "b21r@0,1", "--behaviour", "follow-wall",
                         "--lockstep", "--deadline", "60", "--seed", "1", "--duration", "300",
@@ -150,7 +152,7 @@ TEST(Determinism, ASimulationThatIsStoppedForTwelveSecondsLeavesNoTrace) {
   EXPECT_EQ(hash_of(true), hash_of(false));
 }
 
-TEST(Determinism, BehavioursInProcessOnAnyNumberOfThreadsLeaveNoTrace) {
+TEST(Determinism, HashDoesNotDependOnThreadsOfInProcessBehaviours) {
   const std::string expected = UndisturbedHash();
   const BrokerProcess broker;
   for (const char* threads : {"1", "2", "7"}) {
@@ -161,7 +163,7 @@ TEST(Determinism, BehavioursInProcessOnAnyNumberOfThreadsLeaveNoTrace) {
   }
 }
 
-TEST(Determinism, ThreadsLeaveNoTraceInACrowd) {
+TEST(Determinism, HashOfACrowdDoesNotDependOnThreads) {
   // Enough robots to split the work of the mover, the rays and the behaviours between threads.
   std::vector<std::string> hashes;
   for (const char* threads : {"1", "2", "5"}) {
@@ -175,7 +177,7 @@ TEST(Determinism, ThreadsLeaveNoTraceInACrowd) {
   EXPECT_EQ(hashes[2], hashes[0]);
 }
 
-TEST(Bench, ACrowdStandsUpToBruteForce) {
+TEST(Bench, CrowdEqualsABruteForceSearch) {
   const Outcome outcome = RunProgram(
       "gsv", {"bench", "crowd", "--robots", "60", "--duration", "60", "--verify", "--json"});
   EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
@@ -185,7 +187,7 @@ TEST(Bench, ACrowdStandsUpToBruteForce) {
   EXPECT_GT(row["collisions"], 0);
 }
 
-TEST(Determinism, ADebugBuildGivesTheHashOfTheReleaseBuild) {
+TEST(Determinism, DebugBuildHasTheHashOfTheReleaseBuild) {
   const char* debug = std::getenv("GSV_DEBUG_BUILD_DIR");
   if (debug == nullptr)
     GTEST_SKIP() << "GSV_DEBUG_BUILD_DIR names no debug build; `make soak` does";
@@ -197,7 +199,7 @@ TEST(Determinism, ADebugBuildGivesTheHashOfTheReleaseBuild) {
   }
 }
 
-TEST(Determinism, DelayedBehavioursLeaveNoTraceInTheRecording) {
+TEST(Determinism, RecordingDoesNotDependOnDelayedBehaviours) {
   base::testing::TestFolder folder;
   std::vector<std::string> contents;
   for (const char* fault : {"", "seed=3,max_ms=3"}) {
@@ -214,7 +216,7 @@ TEST(Determinism, DelayedBehavioursLeaveNoTraceInTheRecording) {
   EXPECT_EQ(contents[0], contents[1]);
 }
 
-TEST(Determinism, AnotherStepIsAnotherHash) {
+TEST(Determinism, DifferentStepHasADifferentHash) {
   const BrokerProcess broker;
   const Fleet fleet(broker.reference());
   const std::string expected = HashOf(ReportOf(broker.reference()));
@@ -223,7 +225,7 @@ TEST(Determinism, AnotherStepIsAnotherHash) {
   EXPECT_EQ(HashOf(longer.LastLine()).size(), 16u);
 }
 
-TEST(FaultDelay, ABehaviourRefusesAFaultItDoesNotUnderstand) {
+TEST(FaultDelay, BehaviourRejectsAnInvalidSetting) {
   Running program("gsv-wander", {"--broker", "corbaloc::127.0.0.1:1/TradingService"},
                   {"env", "GSV_FAULT_DELAY=often"});
   const Outcome outcome = program.AwaitEnd();

@@ -55,7 +55,7 @@ class Faults : public Served {
   }
   void KillFirstProgram() {
     FirstProgram().Signal(SIGKILL);
-    ASSERT_EQ(FirstProgram().AwaitEnd(kPatience), "signal 9");
+    ASSERT_EQ(FirstProgram().AwaitEnd(kProgramTimeout), "signal 9");
   }
 
   std::optional<Fleet> fleet_;
@@ -63,13 +63,13 @@ class Faults : public Served {
 
 constexpr double kHalfway = kFleetSeconds / 2;
 
-TEST_F(Faults, AServedRunHasTheHashOfGsvRun) {
+TEST_F(Faults, ServedRunHasTheHashOfGsvRun) {
   const std::string served = UndisturbedHash();
   const Outcome run = RunProgram("gsv", FleetRun(broker_.reference()));
   EXPECT_EQ(run.LastLine()["state_hash"], served);
 }
 
-TEST_F(Faults, AfterAResetARunIsAsAfterAFreshStart) {
+TEST_F(Faults, RunAfterAResetEqualsAFreshRun) {
   const std::string expected = UndisturbedHash();
   sba::Simulation_var simulation = Create();
   for (int round = 0; round < Rounds(); ++round) {
@@ -81,7 +81,7 @@ TEST_F(Faults, AfterAResetARunIsAsAfterAFreshStart) {
   }
 }
 
-TEST_F(Faults, ABehaviourStoppedAndContinuedBeforeTheDeadlineLeavesNoTrace) {
+TEST_F(Faults, HashDoesNotDependOnABehaviourPausedWithinTheDeadline) {
   const std::string expected = UndisturbedHash();
   for (int round = 0; round < Rounds(); ++round) {
     sba::Simulation_var simulation = Create();
@@ -100,7 +100,7 @@ TEST_F(Faults, ABehaviourStoppedAndContinuedBeforeTheDeadlineLeavesNoTrace) {
   }
 }
 
-TEST_F(Faults, OneThatNeitherWaitsNorAnswersIsLeftBehindAtTheDeadline) {
+TEST_F(Faults, UnresponsiveBehaviourIsSkippedAfterTheDeadline) {
   std::vector<std::string> hashes;
   for (int round = 0; round < 1 + Rounds(); ++round) {
     sba::Simulation_var simulation = Create("deadline_s", "3");
@@ -118,7 +118,7 @@ TEST_F(Faults, OneThatNeitherWaitsNorAnswersIsLeftBehindAtTheDeadline) {
   }
 }
 
-TEST_F(Faults, OneThatNeitherWaitsNorAnswersFailsTheRunWhereThePolicySaysSo) {
+TEST_F(Faults, UnresponsiveBehaviourFailsTheRunIfThePolicyRequiresIt) {
   const BrokerProcess broker;
   const Outcome outcome =
       RunProgram("gsv", {"run", "playground", "--broker", broker.reference(), "--robot", "pebble",
@@ -130,7 +130,7 @@ TEST_F(Faults, OneThatNeitherWaitsNorAnswersFailsTheRunWhereThePolicySaysSo) {
 }
 
 // Whether the death is noticed before or after the clock continues, it takes effect at one instant.
-TEST_F(Faults, AKilledBehaviourIsReportedAtOnceAndEndsAtItsNextWake) {
+TEST_F(Faults, KilledBehaviourIsReportedAtOnceAndEndsAtItsNextWake) {
   std::vector<std::string> hashes;
   for (int round = 0; round < 2 * Rounds(); ++round) {
     const bool waits_for_report = round % 2 == 0;

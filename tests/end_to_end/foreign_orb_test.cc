@@ -28,7 +28,7 @@ Strings RunWith(const std::string& broker, Strings more) {
   return arguments;
 }
 
-TEST(ForeignOrb, ATclBehaviourTravelsInLockstepAndRepeatsToTheBit) {
+TEST(ForeignOrb, TclBehaviourRunsInLockstepWithARepeatableHash) {
   std::string first;
   for (int round = 0; round < Rounds(); ++round) {
     const BrokerProcess broker;
@@ -48,7 +48,7 @@ TEST(ForeignOrb, ATclBehaviourTravelsInLockstepAndRepeatsToTheBit) {
   }
 }
 
-TEST(ForeignOrb, ATclBehaviourIsStoppedAndStartedAgain) {
+TEST(ForeignOrb, TclBehaviourIsStoppedAndRestarted) {
   const BrokerProcess broker;
   Running tcl(WanderTcl(), {"--broker", broker.reference()});
   tcl.AwaitLine("offered at");
@@ -72,7 +72,7 @@ TEST(ForeignOrb, ATclBehaviourIsStoppedAndStartedAgain) {
   EXPECT_EQ(tcl.errors(), "");
 }
 
-TEST(ForeignOrb, ATclBehaviourComplainsInOneSentence) {
+TEST(ForeignOrb, TclBehaviourReportsAnErrorInOneSentence) {
   const Outcome usage = RunProgram(WanderTcl(), {"--name", "x"});
   EXPECT_EQ(usage.ending, "exit code 2");
   EXPECT_THAT(usage.err, HasSubstr("usage: wander.tcl --broker"));

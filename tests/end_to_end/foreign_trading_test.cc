@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(ForeignTrading, ATclClientExportsQueriesLinksAndWithdraws) {
+TEST(ForeignTrading, TclClientExportsQueriesLinksAndWithdraws) {
   const BrokerProcess near;
   const BrokerProcess far;
   const std::string client =

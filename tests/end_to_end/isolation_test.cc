@@ -71,9 +71,9 @@ class Isolation : public Served {
 };
 
 // A simulation whose hash is known from a run without others.
-class OthersHash : public Isolation {
+class HashBesideAnotherSimulation : public Isolation {
  protected:
-  OthersHash() {
+  HashBesideAnotherSimulation() {
     AddFleet(simulation_);
     expected_ = RunOnce();
   }
@@ -85,7 +85,7 @@ class OthersHash : public Isolation {
   }
   // Runs at least three times, and then until `holds`.
   void ExpectUndisturbedUntil(const std::function<bool()>& holds) {
-    const auto give_up = std::chrono::steady_clock::now() + kPatience;
+    const auto give_up = std::chrono::steady_clock::now() + kProgramTimeout;
     for (int run = 0; run < 3 * Rounds() || !holds(); ++run) {
       ASSERT_EQ(RunOnce(), expected_) << "run " << run;
       ASSERT_LT(std::chrono::steady_clock::now(), give_up) << "it never came to that";
@@ -101,7 +101,7 @@ class OthersHash : public Isolation {
   std::string expected_;
 };
 
-TEST_F(OthersHash, IsTheSameWhenABehaviourIsKilled) {
+TEST_F(HashBesideAnotherSimulation, IsUnchangedIfABehaviourIsKilled) {
   ASSERT_EQ(expected_.size(), 16u);
   bad_ = StartBad(broker_.reference(), "die");
   sba::Simulation_var other = service_->create_simulation(Playground(sba::LOCKSTEP));
@@ -112,7 +112,7 @@ TEST_F(OthersHash, IsTheSameWhenABehaviourIsKilled) {
   EXPECT_EQ(bad_->AwaitEnd().ending, "signal 9");
 }
 
-TEST_F(OthersHash, IsTheSameWhenABehaviourNeverWaits) {
+TEST_F(HashBesideAnotherSimulation, IsUnchangedIfABehaviourNeverWaits) {
   bad_ = StartBad(broker_.reference(), "never-wait");
   auto specification = Playground(sba::LOCKSTEP);
   SetOption(specification, "deadline_s", "1");
@@ -123,7 +123,7 @@ TEST_F(OthersHash, IsTheSameWhenABehaviourNeverWaits) {
   ExpectUndisturbedUntil(Comes(other, sba::AGENT_UNRESPONSIVE));
 }
 
-TEST_F(OthersHash, IsTheSameInAFloodOfCalls) {
+TEST_F(HashBesideAnotherSimulation, IsUnchangedInAFloodOfCalls) {
   const sba::Simulation_var flooded = Flood();
   const Repeatedly asking(4, [&] {
     const sba::SimulationState_var state = flooded->state();
@@ -138,7 +138,7 @@ TEST_F(OthersHash, IsTheSameInAFloodOfCalls) {
   ExpectFloodGoesOn(flooded);
 }
 
-TEST_F(OthersHash, IsTheSameWhenSimulationsAreDestroyedInMidStep) {
+TEST_F(HashBesideAnotherSimulation, IsUnchangedIfSimulationsAreDestroyedDuringAStep) {
   // They have behaviours of the same programs.
   const Repeatedly destroying(2, [&] {
     sba::Simulation_var other = service_->create_simulation(Playground(sba::LOCKSTEP));
@@ -172,9 +172,9 @@ class Meter final : public Behaviour {
 
 // A simulation in real time, and disturbances. Its lateness depends on the machine and is only
 // printed; it must reach its end.
-class OthersTime : public Isolation {
+class StepTimeBesideAnotherSimulation : public Isolation {
  protected:
-  void RunAndTell(const char* beside) {
+  void RunAndRecord(const char* beside) {
     const sba::Simulation_var simulation = service_->create_simulation(Playground(sba::REAL_TIME));
     AddFleet(simulation);
     AddMeter(simulation);
@@ -212,13 +212,13 @@ class OthersTime : public Isolation {
   std::vector<double> intervals_;  // s
 };
 
-TEST_F(OthersTime, GoesOnAlone) { RunAndTell("nothing"); }
+TEST_F(StepTimeBesideAnotherSimulation, IsMeasuredAlone) { RunAndRecord("nothing"); }
 
-TEST_F(OthersTime, GoesOnBesideLockstepAtFullSpeed) {
+TEST_F(StepTimeBesideAnotherSimulation, IsMetBesideLockstepAtFullSpeed) {
   // So many that no processor is idle.
   std::vector<sba::Simulation_var> rushing(std::thread::hardware_concurrency());
   for (sba::Simulation_var& each : rushing) each = Rush();
-  RunAndTell("lockstep at full speed");
+  RunAndRecord("lockstep at full speed");
   for (const sba::Simulation_var& each : rushing) {
     const sba::SimulationState_var state = each->state();
     EXPECT_EQ(state->phase, sba::PHASE_RUNNING);
@@ -226,25 +226,25 @@ TEST_F(OthersTime, GoesOnBesideLockstepAtFullSpeed) {
   }
 }
 
-TEST_F(OthersTime, GoesOnBesideAFloodOfCalls) {
+TEST_F(StepTimeBesideAnotherSimulation, IsMetBesideAFloodOfCalls) {
   const sba::Simulation_var flooded = Flood();
   const Repeatedly asking(4, [&] { const sba::SimulationState_var state = flooded->state(); });
-  RunAndTell("a flood of calls");
+  RunAndRecord("a flood of calls");
   ExpectFloodGoesOn(flooded);
   std::cout << "of which " << asking.count() << " asked for the state\n";
 }
 
-TEST_F(OthersTime, GoesOnBesideABehaviourThatNeverWaits) {
+TEST_F(StepTimeBesideAnotherSimulation, IsMetBesideABehaviourThatNeverWaits) {
   bad_ = StartBad(broker_.reference(), "never-wait");
   auto specification = Playground(sba::LOCKSTEP);
   SetOption(specification, "deadline_s", "1");
   const sba::Simulation_var other = service_->create_simulation(specification);
   AddPebble(other, -1, "bad");
   other->start();
-  RunAndTell("a behaviour that never waits");
+  RunAndRecord("a behaviour that never waits");
 }
 
-TEST_F(OthersTime, GoesOnBesideSimulationsThatAreDestroyed) {
+TEST_F(StepTimeBesideAnotherSimulation, IsMetWhileSimulationsAreDestroyed) {
   const Repeatedly destroying(2, [&] {
     sba::Simulation_var other = service_->create_simulation(Playground(sba::LOCKSTEP));
     AddPebble(other, 0, "wander");
@@ -252,7 +252,7 @@ TEST_F(OthersTime, GoesOnBesideSimulationsThatAreDestroyed) {
     AwaitState(other, [](const auto& state) { return state.step > 10; });
     other->destroy();
   });
-  RunAndTell("simulations that are destroyed");
+  RunAndRecord("simulations that are destroyed");
   std::cout << "of which there were " << destroying.count() << "\n";
 }
 

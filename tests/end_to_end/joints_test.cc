@@ -41,7 +41,7 @@ class Joints : public ::testing::Test {
   base::testing::TestFolder folder_;
 };
 
-TEST_F(Joints, GoWhereABehaviourTellsThemOverCorbaAndInProcess) {
+TEST_F(Joints, FollowCommandsOverCorbaAndInProcess) {
   const BrokerProcess broker;
   Running lifting((Plugins() / "gsv-lifting").string(), {"--broker", broker.reference()});
   lifting.AwaitLine("offered at");
@@ -53,7 +53,7 @@ TEST_F(Joints, GoWhereABehaviourTellsThemOverCorbaAndInProcess) {
 }
 
 // The behaviour requests a joint that this robot does not have.
-TEST_F(Joints, ThatARobotDoesNotHaveAreRefused) {
+TEST_F(Joints, UnknownJointsAreRejected) {
   const Outcome outcome = Run("pebble", "pebble", {"--in-process"});
   EXPECT_NE(outcome.ending, "exit code 0");
   EXPECT_THAT(outcome.err, ::testing::HasSubstr("lift"));

@@ -17,15 +17,15 @@ using gateway::testing::HttpReply;
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-class Lost : public ::testing::Test {
+class CrashReports : public ::testing::Test {
  public:
-  Lost() {
+  CrashReports() {
     setenv("XDG_STATE_HOME", (folder_.path() / "state").c_str(), 1);
     setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
     for (const char* name : {"recordings", "elsewhere"})
       fs::create_directory(folder_.path() / name);
   }
-  ~Lost() override { server_.reset(); }
+  ~CrashReports() override { server_.reset(); }
 
  protected:
   // A server with the recordings in that folder.
@@ -63,7 +63,7 @@ class Lost : public ::testing::Test {
   // Waits until a note fulfils the condition.
   template <typename Condition>
   void AwaitNoted(Condition holds) const {
-    const auto give_up = std::chrono::steady_clock::now() + kPatience;
+    const auto give_up = std::chrono::steady_clock::now() + kProgramTimeout;
     while (std::chrono::steady_clock::now() < give_up) {
       std::error_code error;
       for (const auto& entry : fs::directory_iterator(notes(), error)) {
@@ -77,7 +77,7 @@ class Lost : public ::testing::Test {
   }
   // Waits until some messages are on disk: a recording that has just begun may have none.
   static void AwaitMessagesIn(const std::string& recording) {
-    const auto give_up = std::chrono::steady_clock::now() + kPatience;
+    const auto give_up = std::chrono::steady_clock::now() + kProgramTimeout;
     while (std::chrono::steady_clock::now() < give_up) {
       const Outcome info = RunProgram("gsv", {"rec", "info", "--json", recording});
       const json told = json::parse(info.out, nullptr, false);
@@ -97,7 +97,7 @@ class Lost : public ::testing::Test {
   std::uint16_t port_ = 0;
 };
 
-TEST_F(Lost, WhatAKilledServerRanIsToldByTheNextWithItsRecordingUntilItIsDismissed) {
+TEST_F(CrashReports, NextServerReportsTheRunsOfAKilledOneUntilDismissed) {
   Serve();
   const std::string pid = std::to_string(server_->process().pid());
   EXPECT_TRUE(LostOnes().empty());
@@ -157,7 +157,7 @@ TEST_F(Lost, WhatAKilledServerRanIsToldByTheNextWithItsRecordingUntilItIsDismiss
   EXPECT_TRUE(LostOnes().empty());
 }
 
-TEST_F(Lost, AServerTellsOnlyWhatWasLostInItsOwnFolder) {
+TEST_F(CrashReports, ServerReportsOnlyRunsOfItsOwnFolder) {
   Serve("elsewhere");
   Create("arena");
   AwaitNoted([&](const json& note) { return Find(note, "arena") != nullptr; });
@@ -169,7 +169,7 @@ TEST_F(Lost, AServerTellsOnlyWhatWasLostInItsOwnFolder) {
   EXPECT_EQ(LostOnes().size(), 1u);
 }
 
-TEST_F(Lost, ACleanEndLosesNothing) {
+TEST_F(CrashReports, CleanShutdownLeavesNoReport) {
   Serve();
   Create("arena");
   AwaitNoted([&](const json& note) { return Find(note, "arena") != nullptr; });
@@ -179,7 +179,7 @@ TEST_F(Lost, ACleanEndLosesNothing) {
 }
 
 // After a power failure, or by a malicious user.
-TEST_F(Lost, NotesThatAreNoneAreASentenceAndTheServerStarts) {
+TEST_F(CrashReports, InvalidNotesAreReportedAndTheServerStarts) {
   Serve();
   Create("arena");
   AwaitNoted([&](const json& note) { return Find(note, "arena") != nullptr; });
@@ -213,7 +213,7 @@ TEST_F(Lost, NotesThatAreNoneAreASentenceAndTheServerStarts) {
   EXPECT_TRUE(fs::is_empty(notes()));
 }
 
-TEST_F(Lost, WithoutAFolderForNotesAServerSaysSoAndServes) {
+TEST_F(CrashReports, MissingFolderForNotesIsReportedAndTheServerStarts) {
   setenv("XDG_STATE_HOME", "/dev/null", 1);
   Serve();
   Create("arena");

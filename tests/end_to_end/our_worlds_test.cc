@@ -19,7 +19,7 @@ nlohmann::json Simulate(const std::string& world, const Strings& more) {
   return report;
 }
 
-TEST(OurWorlds, RobotsTravelInEach) {
+TEST(BuiltInWorlds, RobotsMoveInEachWorld) {
   const std::pair<const char*, Strings> worlds[] = {
       {"warehouse", {"--robot", "courier@-4,0", "--robot", "b21r@0,1"}},
       {"yard", {"--robot", "courier@0,-9,90deg", "--robot", "b21r@8,-4"}},
@@ -37,7 +37,7 @@ TEST(OurWorlds, RobotsTravelInEach) {
 }
 
 // The platform of the yard is 0.5 m high; its gentle ramp begins at x = 1.5.
-TEST(OurWorlds, ARigidRobotClimbsTheRampOfTheYardAndAPlanarOneStopsAtIt) {
+TEST(BuiltInWorlds, RigidRobotClimbsTheRampAndPlanarRobotStopsAtIt) {
   const Strings up = {"--robot", "rover4@0.9,5.5", "--behaviour", "goto --goal-x 5.2 --goal-y 5.5"};
   Strings rigid = up;
   rigid.insert(rigid.end(), {"--movement", "rover4=rigid"});

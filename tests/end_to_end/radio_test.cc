@@ -17,11 +17,11 @@ class RadioRun : public FourRobots {
   RadioRun() : FourRobots(kTalker, "chatting") {}
 };
 
-TEST_F(RadioRun, GoesTheSameOverCorbaAndInProcessWithAnyNumberOfThreads) {
+TEST_F(RadioRun, HashIsEqualOverCorbaAndInProcessWithAnyNumberOfThreads) {
   ExpectTheSameOverCorbaAndInProcess();
 }
 
-TEST_F(RadioRun, SendsTheSameAgainFromItsRecording) { ExpectTheSameAgainFromItsRecording(); }
+TEST_F(RadioRun, ResimulationRepeatsTheMessages) { ExpectTheSameAgainFromItsRecording(); }
 
 }  // namespace
 }  // namespace gsv::testing

@@ -20,7 +20,7 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 class RealWorld : public ::testing::TestWithParam<Case> {};
 
-TEST_P(RealWorld, RunsWithRobotsThatTravel) {
+TEST_P(RealWorld, RunsWithMovingRobots) {
   const Case& c = GetParam();
   if (!std::filesystem::exists(RealFile(c.world)))
     GTEST_SKIP() << "not here: " << RealFile(c.world);

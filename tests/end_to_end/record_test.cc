@@ -33,7 +33,7 @@ class Record : public ::testing::Test {
   const std::string file_ = folder_.path() / "run.mcap";
 };
 
-TEST_F(Record, TopicsThatAreNoneAreToldOfWithThoseThatThereAre) {
+TEST_F(Record, UnknownTopicsAreReportedWithTheKnownOnes) {
   const Outcome run = Run({"--record-topics", "/nonsense,/pebble,/clock"});
   EXPECT_EQ(run.ending, "exit code 0") << run.err;
   const std::string nonsense =
@@ -54,7 +54,7 @@ TEST_F(Record, TopicsThatMatchGiveNoWarning) {
   EXPECT_EQ(run.LastLine()["warnings"].size(), 0u) << run.out;
 }
 
-TEST_F(Record, AWordThatIsNoNameIsRefused) {
+TEST_F(Record, InvalidNameIsRejected) {
   for (const std::string word : {"true", "false"}) {
     const Outcome run = RunProgram("gsv", {"run", "playground", "--headless", "--record", word});
     EXPECT_EQ(run.ending, "exit code 2");
@@ -64,7 +64,7 @@ TEST_F(Record, AWordThatIsNoNameIsRefused) {
   }
 }
 
-TEST_F(Record, ATopicWithoutASlashIsRefused) {
+TEST_F(Record, TopicWithoutASlashIsRejected) {
   const Outcome run = Run({"--record-topics", "nonsense"});
   EXPECT_EQ(run.ending, "exit code 2");
   EXPECT_EQ(run.err,

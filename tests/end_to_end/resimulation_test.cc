@@ -45,7 +45,7 @@ class Resimulation : public ::testing::Test {
   const std::filesystem::path world_, recording_;
 };
 
-TEST_F(Resimulation, TellsThatARunRepeats) {
+TEST_F(Resimulation, ReportsThatARunRepeats) {
   const Outcome recorded = Record({"--lockstep"});
   ASSERT_EQ(recorded.ending, "exit code 0") << recorded.err;
   const Outcome again = RunProgram("gsv", {"replay", recording_, "--resimulate"});
@@ -55,7 +55,7 @@ TEST_F(Resimulation, TellsThatARunRepeats) {
 }
 
 // A ball on the floor rises from the instant at which gravity points upwards.
-TEST_F(Resimulation, SetsGravityAgainWhereItWasSet) {
+TEST_F(Resimulation, RepeatsChangesOfGravity) {
   setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
   unsetenv("GSV_BROKER");
   std::string world = Room(2);
@@ -85,7 +85,7 @@ TEST_F(Resimulation, SetsGravityAgainWhereItWasSet) {
 }
 
 // Actors, pedestrians of the world's file and those of an option.
-TEST_F(Resimulation, RepeatsPeople) {
+TEST_F(Resimulation, RepeatsPedestrians) {
   const Outcome recorded =
       RunProgram("gsv", {"run", "hall", "--robot", "pebble@-8,0", "--behaviour", "wander",
                          "--pedestrians", "5@-8,-2,1:8,-2,1", "--seed", "5", "--duration", "2",
@@ -114,7 +114,7 @@ TEST_F(Resimulation, NamesTheFirstDifference) {
 
 // In real time the instants of a behaviour depend on the wall clock; those of its commands are
 // kept.
-TEST_F(Resimulation, ByItsCommandsARunInRealTimeRepeatsToTheBit) {
+TEST_F(Resimulation, RealTimeRunIsRepeatedFromItsCommands) {
   const Outcome recorded = Record();
   ASSERT_EQ(recorded.ending, "exit code 0") << recorded.err;
   const Outcome again =
@@ -123,7 +123,7 @@ TEST_F(Resimulation, ByItsCommandsARunInRealTimeRepeatsToTheBit) {
   EXPECT_EQ(again.LastLine()["equal"], true);
 }
 
-TEST_F(Resimulation, ByItsCommandsARobotRunsIntoAWallThatHasGrown) {
+TEST_F(Resimulation, RecordedCommandsDriveARobotIntoAChangedWall) {
   const Outcome recorded = Record({"--lockstep", "--behaviour", "goto --goal-x 1.2"});
   ASSERT_EQ(recorded.ending, "exit code 0") << recorded.err;
   std::ofstream(world_) << Room(2, 2.6);
@@ -133,7 +133,7 @@ TEST_F(Resimulation, ByItsCommandsARobotRunsIntoAWallThatHasGrown) {
   EXPECT_GT(again.LastLine()["first_difference"]["time_s"], 0.2);
 }
 
-TEST_F(Resimulation, OfARecordingThatIsNoRunIsRefused) {
+TEST_F(Resimulation, RejectsARecordingWithoutARun) {
   const auto writer = Program("../tests/recording_write_recordings");
   ASSERT_EQ(RunProgram(writer, {folder_.path()}).ending, "exit code 0");
   const Outcome again =
@@ -142,7 +142,7 @@ TEST_F(Resimulation, OfARecordingThatIsNoRunIsRefused) {
   EXPECT_EQ(again.ending, "exit code 2");
 }
 
-TEST_F(Resimulation, SaysWhatOfTheRunIsGone) {
+TEST_F(Resimulation, ReportsMissingFilesOfTheRun) {
   const Outcome recorded = Record({"--lockstep"});
   ASSERT_EQ(recorded.ending, "exit code 0") << recorded.err;
   std::filesystem::remove(world_);

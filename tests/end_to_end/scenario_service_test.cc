@@ -47,7 +47,7 @@ class ScenarioService : public Served {
   sba::ScenarioService_var there_;
 };
 
-TEST_F(ScenarioService, RunsOneAndJudgesIt) {
+TEST_F(ScenarioService, RunsAndEvaluatesAScenario) {
   const sba::ScenarioRun_var run = there_->run(kStands, {});
   ASSERT_FALSE(CORBA::is_nil(run));
   while (!run->await_end()) {
@@ -61,7 +61,7 @@ TEST_F(ScenarioService, RunsOneAndJudgesIt) {
   EXPECT_THROW(run->await_end(), CORBA::OBJECT_NOT_EXIST);
 }
 
-TEST_F(ScenarioService, TakesNoMoreAtOnceThanItHasSlots) {
+TEST_F(ScenarioService, RefusesScenariosBeyondItsSlots) {
   const sba::ScenarioRun_var run = there_->run(kLasts, {});
   ASSERT_FALSE(CORBA::is_nil(run));
   EXPECT_THROW(sba::ScenarioOutcome_var(run->outcome()), sba::NotRunning);
@@ -72,7 +72,7 @@ TEST_F(ScenarioService, TakesNoMoreAtOnceThanItHasSlots) {
   while (CORBA::is_nil(next)) next = there_->run(kStands, {});
 }
 
-TEST_F(ScenarioService, EndsOneThatNobodyAsksAbout) {
+TEST_F(ScenarioService, EndsAScenarioWithoutAClient) {
   const sba::ScenarioRun_var run = there_->run(kLasts, Option("abandoned_after_s", "1"));
   ASSERT_FALSE(CORBA::is_nil(run));
   sba::ScenarioRun_var next;
@@ -80,7 +80,7 @@ TEST_F(ScenarioService, EndsOneThatNobodyAsksAbout) {
   EXPECT_THROW(run->await_end(), CORBA::OBJECT_NOT_EXIST);
 }
 
-TEST_F(ScenarioService, RefusesWhatItDoesNotRunForOthers) {
+TEST_F(ScenarioService, RejectsScenariosThatItMustNotRun) {
   EXPECT_THAT(Refusal("- 1\n"), HasSubstr("scenario"));
   EXPECT_THAT(Refusal("world: playground\n"), HasSubstr("the scenario needs an end: set duration"));
   EXPECT_THAT(Refusal("world: playground\nduration: 1\nwolrd: 2\n"), HasSubstr("\"wolrd\""));
@@ -92,7 +92,7 @@ TEST_F(ScenarioService, RefusesWhatItDoesNotRunForOthers) {
             "timeout_s must be a number from 1 to 1e6");
 }
 
-TEST_F(Served, UnknownOptionsOfASimulationAndOfARobotAreRefused) {
+TEST_F(Served, UnknownOptionsOfSimulationAndRobotAreRejected) {
   auto specification = Playground(sba::LOCKSTEP);
   SetOption(specification, "deadlines", "3");
   try {

@@ -24,7 +24,7 @@ class Scenario : public ::testing::Test {
   const base::testing::TestFolder folder_{};
 };
 
-TEST_F(Scenario, AFileSaysWhatOptionsSay) {
+TEST_F(Scenario, FileEqualsOptions) {
   const std::string file = folder_.Write("room.yaml",
                                          "world: playground\n"
                                          "name: morning\n"
@@ -56,7 +56,7 @@ TEST_F(Scenario, AFileSaysWhatOptionsSay) {
   EXPECT_EQ(by_options["robots"][0]["pose"], report["robots"][0]["pose"]);
 }
 
-TEST_F(Scenario, TheOneOfARecordingGivesTheSameRun) {
+TEST_F(Scenario, ScenarioOfARecordingHasTheSameHash) {
   const std::string recording = folder_.path() / "run.mcap";
   const std::string file = folder_.path() / "again.yaml";
   // Robots without a place, and one with a behaviour's options.
@@ -83,7 +83,7 @@ TEST_F(Scenario, TheOneOfARecordingGivesTheSameRun) {
   EXPECT_EQ(again.LastLine()["state_hash"], first.LastLine()["state_hash"]);
 }
 
-TEST_F(Scenario, EachMistakeIsToldWithItsPlace) {
+TEST_F(Scenario, EachErrorIsReportedWithItsPlace) {
   const std::string file = folder_.Write("bad.yaml",
                                          "world: playground\n"
                                          "moed: lockstep\n"
@@ -95,7 +95,7 @@ TEST_F(Scenario, EachMistakeIsToldWithItsPlace) {
   EXPECT_EQ(Run(folder_.path() / "none.yaml").ending, "exit code 3");
 }
 
-TEST_F(Scenario, ARobotWithoutAModelMustStandInTheWorld) {
+TEST_F(Scenario, RobotWithoutAModelMustBeInTheWorld) {
   const std::string file = folder_.Write(
       "room.yaml", "world: playground\nrobots: [{name: Marvin, behaviour: wander}]\n");
   const Outcome run = Run(file);
@@ -103,7 +103,7 @@ TEST_F(Scenario, ARobotWithoutAModelMustStandInTheWorld) {
   EXPECT_THAT(run.err, HasSubstr("Marvin: the world has no robot of this name"));
 }
 
-TEST_F(Scenario, WhatARecordingDoesNotHoldCannotBeExtracted) {
+TEST_F(Scenario, ExtractingAMissingAttachmentIsAnError) {
   const std::string recording = folder_.path() / "run.mcap";
   const Strings options{"--lockstep", "--robot",  "pebble@0,0", "--duration",
                         "0.1",        "--record", recording};

@@ -86,7 +86,7 @@ TEST_F(SensorPlugin, IsRecordedAndDrawn) {
   EXPECT_EQ(drawn.at("/message/markers/0/points"_json_pointer).size(), 2u) << drawn;
 }
 
-TEST_F(SensorPlugin, IsFoundByThePathOfPlugins) {
+TEST_F(SensorPlugin, IsFoundOnThePluginPath) {
   ASSERT_EQ(setenv("GSV_SENSOR_PLUGIN_PATH",
                    ("/nowhere:" + plugin_.substr(0, plugin_.rfind('/'))).c_str(), 1),
             0);
@@ -97,7 +97,7 @@ TEST_F(SensorPlugin, IsFoundByThePathOfPlugins) {
   EXPECT_THAT(RunProgram("gsv", {"rec", "info", file}).out, HasSubstr("/r/ir"));
 }
 
-TEST_F(SensorPlugin, ThatIsNoneIsRefusedWithASentence) {
+TEST_F(SensorPlugin, InvalidLibraryIsRejectedWithASentence) {
   const auto text = folder_->Write("gsv-sensor-text.so", "no library");
   const Outcome no_library = RunWith({"--sensor-plugin", text.string()});
   EXPECT_NE(no_library.ending, "exit code 0");
@@ -136,7 +136,7 @@ TEST_F(SensorPlugin, IsReadThroughItsOwnInterface) {
   Running server(
       "gsv", {"serve", "--broker", broker.reference(), "--headless", "--sensor-plugin", plugin_});
   server.AwaitLine("broker: ");
-  auto orb = StartPatientOrb();
+  auto orb = StartOrbWithLongTimeout();
   ASSERT_TRUE(orb);
   {
     auto client = broker::BrokerClient::Connect(*orb, broker.reference());

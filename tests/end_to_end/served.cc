@@ -15,14 +15,14 @@ int Rounds() {
   return soak == nullptr ? 1 : std::max(1, std::atoi(soak));
 }
 
-base::Result<CORBA::ORB_var> StartPatientOrb() {
+base::Result<CORBA::ORB_var> StartOrbWithLongTimeout() {
   orb::OrbOptions options;
   options.call_timeout *= base::kSlowdown;
   return orb::StartOrb(options);
 }
 
 void Served::SetUpTestSuite() {
-  auto orb = StartPatientOrb();
+  auto orb = StartOrbWithLongTimeout();
   ASSERT_TRUE(orb);
   orb_ = *orb;
 }
@@ -79,7 +79,7 @@ void Served::RunTo(sba::Simulation_ptr simulation, double seconds) {
 }
 
 sba::SimulationPhase Served::AwaitRest(sba::Simulation_ptr simulation) {
-  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  const auto give_up = std::chrono::steady_clock::now() + kProgramTimeout;
   auto phase = sba::PHASE_RUNNING;
   while ((phase == sba::PHASE_RUNNING || phase == sba::PHASE_STARTING) &&
          std::chrono::steady_clock::now() < give_up) {

@@ -16,7 +16,7 @@ namespace gsv::testing {
 int Rounds();
 
 // The process's ORB, whose calls wait as long as a build with a sanitizer may take.
-base::Result<CORBA::ORB_var> StartPatientOrb();
+base::Result<CORBA::ORB_var> StartOrbWithLongTimeout();
 
 class Served : public ::testing::Test {
  protected:
@@ -38,7 +38,7 @@ class Served : public ::testing::Test {
   // Asks until `holds` does.
   template <typename Condition>
   static void AwaitState(sba::Simulation_ptr simulation, Condition holds) {
-    const auto give_up = std::chrono::steady_clock::now() + kPatience;
+    const auto give_up = std::chrono::steady_clock::now() + kProgramTimeout;
     while (std::chrono::steady_clock::now() < give_up) {
       const sba::SimulationState_var state = simulation->state();
       if (holds(state.in())) return;

@@ -64,7 +64,7 @@ std::map<std::string, std::string> RunsOf(const std::string& results, const std:
   return runs;
 }
 
-TEST(Servers, ACampaignOutlivesAServerThatIsKilledAndOneThatIsCutOff) {
+TEST(Servers, CampaignSurvivesAKilledAndADisconnectedServer) {
   OtherHost first(1), second(1), third(1);
   if (!first.refusal().empty()) GTEST_SKIP() << first.refusal();
   const Group group;
@@ -102,7 +102,7 @@ TEST(Servers, ACampaignOutlivesAServerThatIsKilledAndOneThatIsCutOff) {
   EXPECT_EQ(runs, RunsOf(here, folder.path() / "here.csv"));
 }
 
-TEST(Servers, AServerThatIsStoppedLeavesItsRunsToOthers) {
+TEST(Servers, RunsOfAStoppedServerGoToOtherServers) {
   const BrokerProcess broker;
   const auto stopped = Serve(broker.reference(), "stopped", {"--scenarios", "1"});
   const auto stays = Serve(broker.reference(), "stays", {"--scenarios", "1"});
@@ -122,7 +122,7 @@ TEST(Servers, AServerThatIsStoppedLeavesItsRunsToOthers) {
   EXPECT_EQ(outcome.LastLine()["passed"], 8) << outcome.err;
 }
 
-TEST(Servers, ACampaignWithoutAnyIsToldSo) {
+TEST(Servers, CampaignWithoutServersIsAnError) {
   const BrokerProcess broker;
   const base::testing::TestFolder folder;
   folder.Write("s.yaml", "world: playground\nduration: 1\n");
@@ -152,12 +152,12 @@ std::string ServerOf(const std::string& broker, const std::string& simulation) {
   return "";
 }
 
-TEST(Servers, WhoAsksForTheLeastLoadGetsTheIdleOne) {
+TEST(Servers, PreferenceForLeastLoadSelectsTheIdleServer) {
   const BrokerProcess broker;
   const auto one = Serve(broker.reference(), "one", {}), two = Serve(broker.reference(), "two", {});
   auto application = Application::Connect(broker.reference());
   ASSERT_TRUE(application) << application.error().Sentence();
-  auto orb = StartPatientOrb();  // the same: a process has only one
+  auto orb = StartOrbWithLongTimeout();  // the same: a process has only one
   ASSERT_TRUE(orb);
   auto client = broker::BrokerClient::Connect(*orb, broker.reference());
   ASSERT_TRUE(client);
@@ -189,7 +189,7 @@ TEST(Servers, WhoAsksForTheLeastLoadGetsTheIdleOne) {
   }
 }
 
-TEST(Servers, ASimulationWhoseServerDiesIsLostAndSaysSo) {
+TEST(Servers, SimulationOfADeadServerIsReportedAsLost) {
   const BrokerProcess broker;
   const auto server = Serve(broker.reference(), "dies", {});
   auto application = Application::Connect(broker.reference());

@@ -46,7 +46,7 @@ class Services : public ::testing::Test {
     server_->AwaitLine("broker: ");
     wander_ = new Running("gsv-wander", {"--broker", broker_->reference()});
     wander_->AwaitLine("offered at");
-    auto orb = StartPatientOrb();
+    auto orb = StartOrbWithLongTimeout();
     ASSERT_TRUE(orb);
     orb_ = *orb;
     auto client = broker::BrokerClient::Connect(orb_, broker_->reference());
@@ -88,7 +88,7 @@ class Services : public ::testing::Test {
     return robot;
   }
   static sba::SimulationPhase Await(sba::Simulation_ptr simulation, sba::SimulationPhase wanted) {
-    const auto give_up = std::chrono::steady_clock::now() + kPatience;
+    const auto give_up = std::chrono::steady_clock::now() + kProgramTimeout;
     sba::SimulationPhase phase = sba::SimulationState_var(simulation->state())->phase;
     while (phase != wanted && std::chrono::steady_clock::now() < give_up)
       phase = simulation->await_change(phase);
@@ -134,7 +134,7 @@ TEST_F(SimulationService, CreatesASimulationOfAWorld) {
   EXPECT_EQ(all->length(), 1u);
 }
 
-TEST_F(SimulationService, DescribesItsCommandsAndTakesThemByName) {
+TEST_F(SimulationService, DescribesItsCommandsAndAppliesThemByName) {
   sba::Simulation_var simulation = service_->create_simulation(Playground());
   sba::CommandDescriptions_var commands = simulation->commands();
   const sba::CommandDescription* gravity = nullptr;
@@ -198,7 +198,7 @@ TEST_F(SimulationService, AddsAndRemovesRobots) {
   for (CORBA::ULong i = 0; i < 2; ++i) EXPECT_GT(state->robots[i].distance_m, 0.1);
 }
 
-TEST_F(SimulationService, RefusesABadWorldWithItsPlace) {
+TEST_F(SimulationService, RejectsAnInvalidWorldWithItsPlace) {
   sba::SimulationSpecification specification = Playground();
   specification.world = "/nowhere/to.sdf";
   EXPECT_THAT(ReasonOf<sba::Refused>([&] { service_->create_simulation(specification); }),
@@ -216,7 +216,7 @@ TEST_F(SimulationService, SimulationsAreIndependent) {
   EXPECT_EQ(sba::SimulationState_var(second->state())->time_ns, 250'000'000);
 }
 
-TEST_F(SimulationService, LifecycleFollowsTheCalls) {
+TEST_F(SimulationService, CallsChangeTheLifeCycle) {
   const OwnSimulation simulation(service_->create_simulation(Playground()));
   const CORBA::String_var robot = simulation->add_robot(Pebble(0, 0, "name == 'wander'"));
   simulation->start();
@@ -225,7 +225,7 @@ TEST_F(SimulationService, LifecycleFollowsTheCalls) {
   ASSERT_EQ(Await(simulation, sba::PHASE_PAUSED), sba::PHASE_PAUSED);
   const auto paused_at = sba::SimulationState_var(simulation->state())->step;
   simulation->step(5);
-  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  const auto give_up = std::chrono::steady_clock::now() + kProgramTimeout;
   while (sba::SimulationState_var(simulation->state())->step < paused_at + 5 &&
          std::chrono::steady_clock::now() < give_up) {
   }
@@ -303,7 +303,7 @@ TEST_F(AgentBehaviour, StopWakesAWaitingBehaviour) {
 }
 
 // The SDK's side of the same services.
-TEST_F(Services, AnApplicationWritesNoCorba) {
+TEST_F(Services, ApplicationNeedsNoCorbaCode) {
   // One ORB a process: the SDK uses this one.
   EXPECT_EQ(RunProgram("example-test-wandering",
                        {"--broker", broker_->reference(), "--world", "playground", "--places", "-1",
@@ -312,7 +312,7 @@ TEST_F(Services, AnApplicationWritesNoCorba) {
             "exit code 0");
 }
 
-TEST_F(Services, AnApplicationFailsItsVerdictWhenNobodyGetsFarEnough) {
+TEST_F(Services, ApplicationFailsIfNoRobotMovesFarEnough) {
   const Outcome outcome = RunProgram("example-test-wandering",
                                      {"--broker", broker_->reference(), "--world", "playground",
                                       "--places", "-1", "0", "--seconds", "0.1"});
@@ -320,7 +320,7 @@ TEST_F(Services, AnApplicationFailsItsVerdictWhenNobodyGetsFarEnough) {
   EXPECT_THAT(outcome.out, HasSubstr("verdict: failed"));
 }
 
-TEST_F(Services, AFirstBehaviourDrivesARobot) {
+TEST_F(Services, ExampleBehaviourDrivesARobot) {
   Running first("gsv-first", {"--broker", broker_->reference()});
   first.AwaitLine("offered at");
   const Outcome outcome = RunProgram(
@@ -330,7 +330,7 @@ TEST_F(Services, AFirstBehaviourDrivesARobot) {
   EXPECT_GT(outcome.LastLine()["robots"][0]["distance_m"], 0.5);
 }
 
-TEST_F(SimulationService, EndsWhenItsCreatorIsGone) {
+TEST_F(SimulationService, EndsAfterItsCreatorDisconnects) {
   sba::SimulationSpecification specification = Playground();
   specification.options.length(1);
   specification.options[0].name = "abandoned_after_s";
@@ -341,7 +341,7 @@ TEST_F(SimulationService, EndsWhenItsCreatorIsGone) {
   const CORBA::String_var viewer(simulation->viewer_url());
   const std::string url =
       std::string(viewer).substr(0, std::string(viewer).find('?')) + "api/simulations";
-  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  const auto give_up = std::chrono::steady_clock::now() + kProgramTimeout;
   std::string seen;
   while (seen.find("\"stopped\"") == std::string::npos &&
          std::chrono::steady_clock::now() < give_up) {
@@ -350,7 +350,7 @@ TEST_F(SimulationService, EndsWhenItsCreatorIsGone) {
   EXPECT_THAT(seen, HasSubstr("\"stopped\""));
 }
 
-TEST_F(Services, BehaviourDrivesHardwareThatIsNoSimulation) {
+TEST_F(Services, BehaviourDrivesHardwareWithoutASimulation) {
   const Outcome outcome = RunProgram("example-real-robot", {"--broker", broker_->reference()});
   EXPECT_EQ(outcome.ending, "exit code 0") << outcome.out << outcome.err;
 }

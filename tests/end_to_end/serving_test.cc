@@ -58,7 +58,7 @@ class Served {
 
 std::string PathOf(const std::string& name) { return "/api/simulations/" + name; }
 
-TEST(Limits, OfSimulationsAndRobotsHoldAndCanBeSet) {
+TEST(Limits, LimitsOfSimulationsAndRobotsApplyAndCanBeSet) {
   const Served server({"--limit", "simulations=2", "--limit", "robots=1"});
   const std::string robot = R"({"name": "a", "model": "pebble", "x": 0, "y": 0})";
   const std::string other = R"({"name": "b", "model": "pebble", "x": 1, "y": 0})";
@@ -78,7 +78,7 @@ TEST(Limits, OfSimulationsAndRobotsHoldAndCanBeSet) {
   EXPECT_EQ(server.Create("").status, 201);
 }
 
-TEST(Limits, OfRequestsAndUploadsHoldAndCanBeSet) {
+TEST(Limits, LimitsOfRequestsAndUploadsApplyAndCanBeSet) {
   const Served server({"--limit", "request_bytes=1000", "--limit", "upload_bytes=2000", "--limit",
                        "uploaded_bytes=3000"});
   EXPECT_EQ(server.Ask("POST", "/api/preview", std::string(1001, ' ')).status, 413);
@@ -90,7 +90,7 @@ TEST(Limits, OfRequestsAndUploadsHoldAndCanBeSet) {
   EXPECT_EQ(server.Ask("PUT", "/api/uploads/1/b", std::string(1000, 'b')).status, 201);
 }
 
-TEST(Limits, ThatAreNoneAreRefusedWithThoseThatThereAre) {
+TEST(Limits, UnknownLimitsAreRejectedWithAListOfTheKnown) {
   for (const char* limit : {"robots=0", "robots=many", "simulations=10001"}) {
     const Outcome refused = RunProgram("gsv", {"serve", "--limit", limit});
     EXPECT_EQ(refused.ending, "exit code 2") << limit;
@@ -104,7 +104,7 @@ TEST(Limits, ThatAreNoneAreRefusedWithThoseThatThereAre) {
 }
 
 // Worlds that are not built in are read in a separate process first.
-class StrangersWorld : public ::testing::Test {
+class UploadedWorld : public ::testing::Test {
  protected:
   static HttpReply Show(const Served& server, const std::string& world) {
     return server.Ask("POST", "/api/preview", json{{"world", world}}.dump());
@@ -120,14 +120,14 @@ class StrangersWorld : public ::testing::Test {
   const base::testing::TestFolder folder_{};
 };
 
-TEST_F(StrangersWorld, ThatIsSoundIsShown) {
+TEST_F(UploadedWorld, ValidWorldIsShown) {
   const Served server({});
   const HttpReply shown = Show(server, WithMesh("none.stl"));
   EXPECT_EQ(shown.status, 200) << shown.body;
   EXPECT_NE(shown.body.find("none.stl"), std::string::npos) << shown.body;
 }
 
-TEST_F(StrangersWorld, ThatTakesTooMuchMemoryIsASentenceAndTheServerGoesOn) {
+TEST_F(UploadedWorld, ExcessiveMemoryIsReportedAndTheServerContinues) {
   if (base::kReservesAddressSpace) GTEST_SKIP() << "this sanitizer leaves no bound on addresses";
   const Served server({"--limit", "reading_bytes=30000000"});
   const HttpReply refused = Show(server, WithMesh("none.stl"));
@@ -137,7 +137,7 @@ TEST_F(StrangersWorld, ThatTakesTooMuchMemoryIsASentenceAndTheServerGoesOn) {
   EXPECT_EQ(server.Create("").status, 201);  // built-in worlds are not tried
 }
 
-TEST_F(StrangersWorld, ThatNeverComesToAnEndIsASentenceAndTheServerGoesOn) {
+TEST_F(UploadedWorld, EndlessReadingIsReportedAndTheServerContinues) {
   const Served server({"--limit", "reading_seconds=2"});
   // A reader of it waits for a writer.
   const std::string world = folder_.path() / "endless.sdf";
@@ -148,7 +148,7 @@ TEST_F(StrangersWorld, ThatNeverComesToAnEndIsASentenceAndTheServerGoesOn) {
   EXPECT_EQ(server.Create("").status, 201);
 }
 
-TEST(Metrics, TellOfARealServer) {
+TEST(Metrics, AreServedByARealServer) {
   const Served server({});
   EXPECT_EQ(server.Metric("gsv_steps_total"), 0);
   EXPECT_GT(server.Metric("gsv_broker_calls_total"), 0);
@@ -157,7 +157,7 @@ TEST(Metrics, TellOfARealServer) {
   EXPECT_EQ(server.Metric("gsv_simulations{phase=\"created\"}"), 1);
   const std::string name = json::parse(server.Ask("GET", "/api/simulations").body)[0]["name"];
   ASSERT_EQ(server.Ask("POST", PathOf(name) + "/step", R"({"count": 25})").status, 200);
-  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  const auto deadline = std::chrono::steady_clock::now() + kProgramTimeout;
   while (server.Metric("gsv_steps_total") < 25 && std::chrono::steady_clock::now() < deadline) {
   }
   // Former viewers still count.
@@ -167,7 +167,7 @@ TEST(Metrics, TellOfARealServer) {
   EXPECT_GT(server.Metric("process_threads"), 1);
 }
 
-TEST(Log, IsOneObjectALineAndShowsNoToken) {
+TEST(Log, WritesOneJsonObjectPerLineWithoutTokens) {
   const std::string control = "control-secret-0123456789", watch = "watching-secret-0123456789";
   Served server({"--control-token", control, "--watch-token", watch},
                 {"--log-level", "trace", "--log-format", "json"});
@@ -210,7 +210,7 @@ std::map<std::string, std::vector<json>> ExposureOf(pid_t pid) {
   return sockets;
 }
 
-TEST(Exposure, ByDefaultNothingIsReachedFromOtherMachines) {
+TEST(Exposure, DefaultsAllowNoAccessFromOtherMachines) {
   Served server({});
   const auto sockets = ExposureOf(server.pid());
   ASSERT_EQ(sockets.at("viewer, HTTP").size(), 1u);
@@ -225,7 +225,7 @@ TEST(Exposure, ByDefaultNothingIsReachedFromOtherMachines) {
   EXPECT_FALSE(sockets.at("viewer, HTTP")[0]["watching_takes_token"]);
 }
 
-TEST(Exposure, BeyondThisMachineItIsToldWhatLacks) {
+TEST(Exposure, RemoteAccessWarnsAboutMissingTokensAndTls) {
   Served server({"--listen", "0.0.0.0", "--control-token", "control-secret-0123456789"});
   const json socket = ExposureOf(server.pid()).at("viewer, HTTP").at(0);
   EXPECT_FALSE(socket["local"]) << socket;
@@ -234,7 +234,7 @@ TEST(Exposure, BeyondThisMachineItIsToldWhatLacks) {
   EXPECT_NE(socket["complaint"].get<std::string>().find("--tls-certificate"), std::string::npos);
 }
 
-TEST(Exposure, WithACertificateAndATokenNothingIsComplainedOf) {
+TEST(Exposure, CertificateAndTokenGiveNoWarning) {
   const base::testing::TestFolder folder;
   const std::string place = folder.path() / "certificates";
   const Outcome made = RunProgram("gsv", {"certificates", "make", place});
@@ -253,7 +253,7 @@ TEST(Exposure, WithACertificateAndATokenNothingIsComplainedOf) {
   EXPECT_NE(plain.body.find("https://"), std::string::npos);
 }
 
-TEST(Certificates, ThatAreNoneStartNothing) {
+TEST(Certificates, InvalidCertificatesPreventTheStart) {
   const base::testing::TestFolder folder;
   const std::string rubbish = folder.Write("rubbish.pem", "rubbish");
   const Outcome refused = RunProgram(
@@ -271,7 +271,7 @@ TEST(Certificates, ThatAreNoneStartNothing) {
   EXPECT_NE(two.out.find("arm-key.pem"), std::string::npos) << two.out;
 }
 
-TEST(Doctor, SaysWhatThisMachineHasAndWhetherABrokerAnswers) {
+TEST(Doctor, ReportsTheMachineAndTheBroker) {
   const std::string gone = BrokerProcess().reference();
   const Outcome unreachable = RunProgram("gsv", {"doctor", "--broker", gone});
   EXPECT_NE(unreachable.out.find("broker: does not respond"), std::string::npos) << unreachable.out;
@@ -294,7 +294,7 @@ TEST(Cookies, AreNeverSet) {
   }
 }
 
-TEST(Log, OptionsThatAreNoneAreRefused) {
+TEST(Log, UnknownOptionsAreRejected) {
   const Outcome level = RunProgram("gsv", {"--log-level", "loud", "doctor"});
   EXPECT_EQ(level.ending, "exit code 2");
   EXPECT_NE(level.err.find("trace, debug, info"), std::string::npos) << level.err;

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using Strings = std::vector<std::string>;
 
-constexpr std::chrono::minutes kCampaignPatience{30};
+constexpr std::chrono::minutes kCampaignTimeout{30};
 
 class SlurmCampaign : public ::testing::Test {
  protected:
@@ -54,7 +54,7 @@ class SlurmCampaign : public ::testing::Test {
     EXPECT_EQ(driver.process().Ending(), "") << driver.errors();
   }
   static Outcome AwaitEnd(Running& driver) {
-    EXPECT_NE(driver.process().AwaitEnd(kCampaignPatience), "") << driver.errors();
+    EXPECT_NE(driver.process().AwaitEnd(kCampaignTimeout), "") << driver.errors();
     return driver.AwaitEnd();
   }
   std::size_t Files(const std::string& folder, const std::string& ending) const {
@@ -84,7 +84,7 @@ class SlurmCampaign : public ::testing::Test {
 };
 
 // GSV_SLURM_RUNS is how many runs the campaign has, GSV_SLURM_FIGURES a file for what it cost.
-TEST_F(SlurmCampaign, EachRunCountsOnceThoughDriverSlurmdAndANodeAreKilled) {
+TEST_F(SlurmCampaign, RunsCountOnceIfDriverSlurmdAndANodeAreKilled) {
   const char* wanted = std::getenv("GSV_SLURM_RUNS");
   const int runs = wanted != nullptr ? std::atoi(wanted) : 40;
   WriteCampaign(runs);
@@ -122,7 +122,7 @@ TEST_F(SlurmCampaign, EachRunCountsOnceThoughDriverSlurmdAndANodeAreKilled) {
     std::ofstream(figures) << status.dump() << "\n";
 }
 
-TEST_F(SlurmCampaign, WhatTheQueueLosesIsHandedOutAgain) {
+TEST_F(SlurmCampaign, LostRunsAreSubmittedAgain) {
   WriteCampaign(8);
   SlurmCluster cluster({.nodes = 1, .processors = 1, .more = "MaxArraySize=3"});
   const Strings arguments = RunArguments({"--sbatch=--no-requeue", "--runs-per-task", "1"});
@@ -145,7 +145,7 @@ TEST_F(SlurmCampaign, WhatTheQueueLosesIsHandedOutAgain) {
   ExpectEachRunOnce(8);
 }
 
-TEST_F(SlurmCampaign, ARunThatCrashesItsTaskThreeTimesIsAnError) {
+TEST_F(SlurmCampaign, RunThatCrashesItsTaskThreeTimesIsAnError) {
   WriteCampaign(2);
   folder_.Write("c.yaml", "engine: slurm\nscenario: s.yaml\nparameters: {duration: [1e6, 0.1]}\n");
   SlurmCluster cluster({.nodes = 1});
@@ -161,7 +161,7 @@ TEST_F(SlurmCampaign, ARunThatCrashesItsTaskThreeTimesIsAnError) {
   EXPECT_EQ(Files("c.runs/journals", ".journal"), 3u);
 }
 
-TEST_F(SlurmCampaign, ASlurmThatRefusesIsTold) {
+TEST_F(SlurmCampaign, RefusalBySlurmIsReported) {
   WriteCampaign(4);
   SlurmCluster cluster({.nodes = 1});
   const Outcome partition = RunProgram("gsv", RunArguments({"--partition", "nowhere"}));
@@ -186,7 +186,7 @@ TEST_F(SlurmCampaign, ASlurmThatRefusesIsTold) {
   EXPECT_THAT(gone.err, HasSubstr("gsv: squeue: "));
 }
 
-TEST_F(SlurmCampaign, WithoutSlurmASentenceSaysSo) {
+TEST_F(SlurmCampaign, MissingSlurmIsReported) {
   WriteCampaign(2);
   const Outcome run = RunProgram(
       "/usr/bin/env", {"PATH=/nowhere", Program("gsv").string(), "campaign", "run", file_});

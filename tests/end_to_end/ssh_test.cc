@@ -15,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 using Strings = std::vector<std::string>;
 
-constexpr std::chrono::minutes kCampaignPatience{5};
+constexpr std::chrono::minutes kCampaignTimeout{5};
 
 class SshCampaign : public ::testing::Test {
  protected:
@@ -41,7 +41,7 @@ class SshCampaign : public ::testing::Test {
     EXPECT_EQ(driver.process().Ending(), "") << driver.errors();
   }
   static Outcome AwaitEnd(Running& driver) {
-    EXPECT_NE(driver.process().AwaitEnd(kCampaignPatience), "") << driver.errors();
+    EXPECT_NE(driver.process().AwaitEnd(kCampaignTimeout), "") << driver.errors();
     return driver.AwaitEnd();
   }
   std::vector<int> Tasks() const {
@@ -49,7 +49,7 @@ class SshCampaign : public ::testing::Test {
   }
   // A task checks about twice a second whether its connection still exists.
   void ExpectTasksEnd() const {
-    const auto give_up = std::chrono::steady_clock::now() + kPatience;
+    const auto give_up = std::chrono::steady_clock::now() + kProgramTimeout;
     while (!Tasks().empty() && std::chrono::steady_clock::now() < give_up) {
     }
     EXPECT_TRUE(Tasks().empty());
@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(, SshCampaignBy,
                            return kind.param == SshHosts::Kind::kSshd ? "Sshd" : "StandIn";
                          });
 
-TEST_P(SshCampaignBy, EachRunCountsOnceThoughTheDriverAndAHostAreKilledAndAnotherIsNotThere) {
+TEST_P(SshCampaignBy, RunsCountOnceIfDriverAndHostAreKilledAndAHostIsMissing) {
   SshHosts hosts(GetParam(), 2);
   WriteCampaign(hosts, "['127.0.0.1:1', '127.0.0.2:1', '127.0.0.3:2']", 16);
   {
@@ -106,7 +106,7 @@ TEST_P(SshCampaignBy, EachRunCountsOnceThoughTheDriverAndAHostAreKilledAndAnothe
   EXPECT_EQ(numbers.size(), 16u);
 }
 
-TEST_F(SshCampaign, CtrlCEndsTheTasksOnTheHosts) {
+TEST_F(SshCampaign, InterruptEndsTheTasksOnTheHosts) {
   SshHosts hosts(SshHosts::Kind::kStandIn, 1);
   WriteCampaign(hosts, "['127.0.0.1:2']", 4, "1e6");
   Running driver("gsv", run_);
@@ -122,7 +122,7 @@ TEST_F(SshCampaign, CtrlCEndsTheTasksOnTheHosts) {
   ExpectTasksEnd();
 }
 
-TEST_F(SshCampaign, BadInputIsOneSentence) {
+TEST_F(SshCampaign, InvalidInputIsReportedInOneSentence) {
   SshHosts hosts(SshHosts::Kind::kStandIn, 0);
   WriteCampaign(hosts, "[n1]", 2);
   const Outcome no_wait = RunProgram("gsv", {"campaign", "run", file_, "--no-wait"});

@@ -39,7 +39,7 @@ class TestCommand : public ::testing::Test {
   const base::testing::TestFolder folder_{};
 };
 
-TEST_F(TestCommand, AFolderOfScenariosPassesOrNot) {
+TEST_F(TestCommand, ReportsTheScenariosOfAFolder) {
   Scenario("t/good.yaml", "expect: [{never_collides: pebble}]\n");
   Scenario("t/worse.yaml", "expect: [{reaches: {robot: pebble, x: 3, y: 4}, by: 0.5}]\n");
   Scenario("t/crashes.yaml", "avatars: [{model: no_such_model}]\n");
@@ -56,7 +56,7 @@ TEST_F(TestCommand, AFolderOfScenariosPassesOrNot) {
   EXPECT_THAT(xml, HasSubstr("<error message=\"it ended with exit code 3\">"));
 }
 
-TEST_F(TestCommand, AFailureLeavesWhatShowsIt) {
+TEST_F(TestCommand, FailureKeepsItsFiles) {
   const std::string file =
       folder_.Write("moves.yaml",
                     "world: playground\nduration: 14\nin_process: true\nseed: 5\n"
@@ -83,7 +83,7 @@ TEST_F(TestCommand, AFailureLeavesWhatShowsIt) {
   EXPECT_THAT(again.err, HasSubstr("moves.yaml:6:10: too far: violated at "));
 }
 
-TEST_F(TestCommand, RepetitionsComeToTheSameState) {
+TEST_F(TestCommand, RepetitionsHaveTheSameHash) {
   const std::string file =
       Scenario("still.yaml", "seed: 9\nexpect: [{always: {inside: {robot: pebble, x: [0, 0]}}}]\n");
   const Outcome run = Test({file, "--repeat", "3", "--no-record", "--json"});
@@ -93,7 +93,7 @@ TEST_F(TestCommand, RepetitionsComeToTheSameState) {
   EXPECT_EQ(hashes[0], hashes[2]);
 }
 
-TEST_F(TestCommand, SharesAreTheWhole) {
+TEST_F(TestCommand, ShardsTogetherRunEveryScenario) {
   for (int i = 0; i < 3; ++i) Scenario("t/" + std::to_string(i) + ".yaml", "");
   const std::string scenarios = folder_.path() / "t";
   const auto first = Test({scenarios, "--shard", "1/2", "--no-record", "--json"}).LastLine();
@@ -103,7 +103,7 @@ TEST_F(TestCommand, SharesAreTheWhole) {
   EXPECT_THAT(second["results"][0]["file"].dump(), HasSubstr("1.yaml"));
 }
 
-TEST_F(TestCommand, BadInputIsToldBeforeAnythingRuns) {
+TEST_F(TestCommand, InvalidInputIsReportedBeforeAnythingRuns) {
   const std::string good = Scenario("good.yaml", "");
   const std::string bad = Scenario("bad.yaml", "expect: [{never: pebble}]\n");
   const Outcome run = Test({good, bad});
@@ -117,7 +117,7 @@ TEST_F(TestCommand, BadInputIsToldBeforeAnythingRuns) {
   EXPECT_THAT(endless.err, HasSubstr("a test needs an end: set duration"));
 }
 
-TEST_F(TestCommand, AWorldThatIsNotThereIsBadInputAndOneError) {
+TEST_F(TestCommand, MissingWorldIsOneError) {
   const std::string lost =
       folder_.Write("lost.yaml", "world: atlantis\nduration: 1\nrobots: [{model: pebble}]\n");
   const std::string good = Scenario("good.yaml", "");
@@ -127,7 +127,7 @@ TEST_F(TestCommand, AWorldThatIsNotThereIsBadInputAndOneError) {
   EXPECT_THAT(run.out, HasSubstr("atlantis"));
 }
 
-TEST_F(TestCommand, WhatIsExpectedOfNobodyIsAnErrorWithItsPlace) {
+TEST_F(TestCommand, ExpectationAboutAnUnknownRobotIsAnErrorWithItsPlace) {
   const std::string file = Scenario("marvin.yaml", "expect: [{never_collides: marvin}]\n");
   const Outcome run = Test({file, "--no-record"});
   EXPECT_EQ(run.ending, "exit code 3");

@@ -92,13 +92,13 @@ TEST_F(Assets, SmallRobotsHaveADifferentialDriveOnAllTheirWheels) {
   EXPECT_NEAR(model::LowestPoint(*pebble), 0, 1e-6);
 }
 
-TEST_F(Assets, AvatarIsMovedByVelocity) {
+TEST_F(Assets, AvatarAcceptsAnyVelocity) {
   const auto avatar = Robot("avatar");
   ASSERT_TRUE(avatar && avatar->drive);
   EXPECT_EQ(avatar->drive->kind, model::DriveKind::kVelocity);
 }
 
-TEST_F(Assets, TexturesReachTheMaterials) {
+TEST_F(Assets, MaterialsHaveTheirTextures) {
   const auto building = Robot("office_building");
   ASSERT_NE(building, nullptr);
   int textured = 0;

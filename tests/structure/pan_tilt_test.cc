@@ -123,9 +123,9 @@ void TurnHead(model::Movement movement) {
   EXPECT_NEAR(ball.v, 120, 6);
 }
 
-TEST(PanTilt, TurnsTheCameraAsFarAsItsJoints) { TurnHead(model::Movement::kRigid); }
+TEST(PanTilt, CameraTurnsByTheAnglesOfItsJoints) { TurnHead(model::Movement::kRigid); }
 
-TEST(PanTilt, TurnsItToWhereTheDriveAloneMovesTheRobot) { TurnHead(model::Movement::kPlanar); }
+TEST(PanTilt, CameraTurnsOnAPlanarRobot) { TurnHead(model::Movement::kPlanar); }
 
 }  // namespace
 }  // namespace gsv

@@ -134,7 +134,7 @@ class PlainRobotsTest : public testing::TestWithParam<model::Movement> {
 };
 
 // 0.5 m/s for 2 s. With rigid-body dynamics the wheels need a moment to accelerate: 36 mm are lost.
-TEST_P(PlainRobotsTest, DriveAsFarAsTheyAreTold) {
+TEST_P(PlainRobotsTest, DriveTheCommandedDistance) {
   const double tolerance = is_planar() ? 1e-9 : 0.04;
   for (const std::string& urdf : {TwoWheelsAndABall(), FourWheels(), Racecar()}) {
     const geometry::Pose pose = After2s(urdf, {0.5, 0, 0});
@@ -153,7 +153,7 @@ TEST_P(PlainRobotsTest, TurnOnTheSpotOrAlongAnArc) {
   EXPECT_NEAR(car.position.x, 2 * std::sin(yaw), is_planar() ? 1e-9 : 0.05);
 }
 
-TEST_P(PlainRobotsTest, StandStillWithoutADrive) {
+TEST_P(PlainRobotsTest, StayStillWithoutADrive) {
   for (const std::string& urdf : {Arm(), TwoWheelsAndABall()}) {
     const geometry::Pose pose = After2s(urdf, {0.5, 0, 0.5}, "none");
     EXPECT_NEAR(pose.position.x, 0, 1e-3);
@@ -161,7 +161,7 @@ TEST_P(PlainRobotsTest, StandStillWithoutADrive) {
   }
 }
 
-TEST_P(PlainRobotsTest, AnArmsJointsTakeCommands) {
+TEST_P(PlainRobotsTest, JointsOfAnArmFollowCommands) {
   const auto arm = Read(Arm());
   ASSERT_FALSE(arm->drive);
   auto simulation = Make(Lockstep(2s));
@@ -182,7 +182,7 @@ TEST_P(PlainRobotsTest, AnArmsJointsTakeCommands) {
   EXPECT_NEAR(reached, 0.8, is_planar() ? 1e-9 : 0.01);
 }
 
-TEST(PlainRobots, AModelWithNothingToMoveOrReadIsRefused) {
+TEST(PlainRobots, ModelWithoutJointsAndSensorsIsRejected) {
   auto simulation = Make(Lockstep(1s));
   auto chair = std::make_shared<model::Model>();
   chair->name = "chair";

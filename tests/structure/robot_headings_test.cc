@@ -226,22 +226,22 @@ void ExpectToDriveFrom(const fs::path& file, formats::ModelLibrary& library) {
   }
 }
 
-class OurRobots : public testing::TestWithParam<const char*> {};
+class BuiltInRobots : public testing::TestWithParam<const char*> {};
 
-TEST_P(OurRobots, DriveTheSameForEachHeading) {
+TEST_P(BuiltInRobots, DriveEquallyInEachHeading) {
   const char* source = std::getenv("GSV_SOURCE_DIR");
   const fs::path models = fs::path(source == nullptr ? "." : source) / "assets" / "models";
   formats::ModelLibrary library{formats::ReadOptions{{models}, true, {}}};
   ExpectToDriveFrom(models / GetParam(), library);
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, OurRobots,
+INSTANTIATE_TEST_SUITE_P(Models, BuiltInRobots,
                          testing::Values("avatar", "b21r", "courier", "pebble", "porter",
                                          "rover4"));
 
 class RealRobots : public testing::TestWithParam<const char*> {};
 
-TEST_P(RealRobots, DriveTheSameForEachHeading) {
+TEST_P(RealRobots, DriveEquallyInEachHeading) {
   const fs::path folder = formats::RealFolder();
   if (folder.empty()) GTEST_SKIP() << "GSV_REAL_DIR names no folder of other people's robots";
   formats::ModelLibrary library{formats::ReadOptions{

@@ -10,7 +10,7 @@ namespace gsv::testing {
 OtherHost::OtherHost(int milliseconds)
     : link_(std::string(std::getenv("GSV_SOURCE_DIR")) + "/tests/support/slow_link.py",
             {std::to_string(milliseconds)}) {
-  const auto line = link_.process().ReadLine(kPatience);
+  const auto line = link_.process().ReadLine(kProgramTimeout);
   if (!line) {
     const Outcome outcome = link_.AwaitEnd();
     if (outcome.ending != "exit code 77") throw std::runtime_error(outcome.ending + outcome.err);

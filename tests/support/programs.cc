@@ -56,7 +56,7 @@ Running::Running(const std::string& program, std::vector<std::string> arguments,
 }
 
 std::string Running::AwaitLine(const std::string& text) {
-  while (const auto line = process_->ReadLine(kPatience)) {
+  while (const auto line = process_->ReadLine(kProgramTimeout)) {
     out_ += *line + "\n";
     if (line->find(text) != std::string::npos) return *line;
   }
@@ -65,9 +65,9 @@ std::string Running::AwaitLine(const std::string& text) {
 }
 
 Outcome Running::AwaitEnd() {
-  while (const auto line = process_->ReadLine(kPatience)) out_ += *line + "\n";
+  while (const auto line = process_->ReadLine(kProgramTimeout)) out_ += *line + "\n";
   Outcome outcome;
-  outcome.ending = process_->AwaitEnd(kPatience);
+  outcome.ending = process_->AwaitEnd(kProgramTimeout);
   outcome.out = out_;
   outcome.err = errors();
   return outcome;
@@ -87,8 +87,8 @@ std::string HttpGet(const std::string& url) {
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   address.sin_port = htons(static_cast<std::uint16_t>(std::stoi(url.substr(host, slash - host))));
   const int connection = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  const timeval patience{30, 0};
-  setsockopt(connection, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  const timeval timeout{30, 0};
+  setsockopt(connection, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
   std::string answer;
   if (connect(connection, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0) {
     const std::string request = "GET " + url.substr(slash) +

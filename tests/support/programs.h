@@ -15,7 +15,7 @@
 namespace gsv::testing {
 
 // Wall time after which a program that should have answered has hung.
-inline constexpr std::chrono::seconds kPatience{90 * base::kSlowdown};
+inline constexpr std::chrono::seconds kProgramTimeout{90 * base::kSlowdown};
 
 std::filesystem::path Program(const std::string& name);   // in the build's bin, or a whole path
 std::filesystem::path RealFile(const std::string& path);  // of GSV_REAL_DIR; may not be there

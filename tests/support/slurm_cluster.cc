@@ -132,7 +132,7 @@ void SlurmCluster::WriteConfiguration(const Options& options) const {
 }
 
 void SlurmCluster::AwaitNodes() const {
-  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  const auto give_up = std::chrono::steady_clock::now() + kProgramTimeout;
   std::string states;
   for (std::size_t idle = 0; idle < nodes_.size();) {
     ASSERT_LT(std::chrono::steady_clock::now(), give_up)

@@ -118,8 +118,8 @@ base::Result<CrowdRow> RunCrowd(const CrowdArguments& arguments, int robots) {
   if (!simulation) return base::Fail(simulation.error());
   row.load = Seconds(WallClock::now() - start);
   if (auto ok = (*simulation)->Start(); !ok) return base::Fail(ok.error());
-  constexpr auto kPatience = std::chrono::hours(24);
-  (*simulation)->WaitForPhase({Phase::kFinished, Phase::kFailed}, kPatience);
+  constexpr auto kMaxRunTime = std::chrono::hours(24);
+  (*simulation)->WaitForPhase({Phase::kFinished, Phase::kFailed}, kMaxRunTime);
   row.rss = ResidentMebibytes();
   const simulation::SimulationStatus status = (*simulation)->status();
   if (status.phase != Phase::kFinished) {

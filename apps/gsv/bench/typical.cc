@@ -157,9 +157,9 @@ base::Result<Row> RunTypical(const TypicalArguments& arguments, int robots) {
     return base::Fail(ok.error());
   (*simulation)->AddObserver(row.updates);
   if (auto ok = (*simulation)->Start(); !ok) return base::Fail(ok.error());
-  const auto patience =
+  const auto time_limit =
       std::chrono::milliseconds(static_cast<std::int64_t>(arguments.duration * 20'000) + 60'000);
-  if ((*simulation)->WaitForPhase({simulation::Phase::kFinished}, patience) !=
+  if ((*simulation)->WaitForPhase({simulation::Phase::kFinished}, time_limit) !=
       simulation::Phase::kFinished) {
     return base::Fail(base::ErrorCode::kTimeout, "the run did not finish in time");
   }

@@ -11,7 +11,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr std::chrono::seconds kCommandPatience{60};
+constexpr std::chrono::seconds kCommandTimeout{60};
 constexpr std::size_t kMaxOutput = 1 << 20;  // bytes that are stored
 constexpr int kMaxLines = 1000;              // read at a time
 
@@ -47,7 +47,7 @@ class StartedChild final : public campaign::StartedProgram {
 base::Result<campaign::CommandOutcome> ChildCommands::Run(const std::vector<std::string>& command) {
   auto child = StartMerged(command, ChildProcess::Input::kEmpty);
   if (!child) return base::Fail(child.error());
-  const auto give_up = std::chrono::steady_clock::now() + kCommandPatience;
+  const auto give_up = std::chrono::steady_clock::now() + kCommandTimeout;
   const auto left = [&] {
     return std::max(milliseconds(0), std::chrono::duration_cast<milliseconds>(
                                          give_up - std::chrono::steady_clock::now()));
@@ -57,7 +57,7 @@ base::Result<campaign::CommandOutcome> ChildCommands::Run(const std::vector<std:
   outcome.ending = (*child)->AwaitEnd(left());
   if (!outcome.ending.empty()) return outcome;
   return base::Fail(base::ErrorCode::kTimeout,
-                    fmt::format("did not respond within {} s", kCommandPatience.count()),
+                    fmt::format("did not respond within {} s", kCommandTimeout.count()),
                     command.front());
 }
 

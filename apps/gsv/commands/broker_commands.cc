@@ -46,7 +46,7 @@ void AddBrokerCommand(const CommandLine& line) {
     std::string file;
     bool memory = false;
     double liveness_period_s = 60;
-    double liveness_patience_s = 600;
+    double liveness_max_silence_s = 600;
   };
   CLI::App* command = line.app.add_subcommand("broker", "Run a broker (OMG Trading Service)");
   command->group("Commands for brokers");
@@ -75,7 +75,7 @@ void AddBrokerCommand(const CommandLine& line) {
       ->type_name("SECONDS")
       ->capture_default_str();
   command
-      ->add_option("--liveness-patience", arguments->liveness_patience_s,
+      ->add_option("--liveness-patience", arguments->liveness_max_silence_s,
                    "time without a response after which the offers of a service are removed")
       ->check(CLI::Range(0.0, kMaxSeconds))
       ->type_name("SECONDS")
@@ -92,7 +92,8 @@ void AddBrokerCommand(const CommandLine& line) {
       kept = DefaultDataFile(arguments->port);
     }
     arguments->command.broker.liveness.period = Milliseconds(arguments->liveness_period_s);
-    arguments->command.broker.liveness.max_silence = Milliseconds(arguments->liveness_patience_s);
+    arguments->command.broker.liveness.max_silence =
+        Milliseconds(arguments->liveness_max_silence_s);
     line.exit_code = broker::BrokerMain(arguments->command);
   });
 }

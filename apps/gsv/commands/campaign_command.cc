@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using campaign::Campaign;
 using campaign::RunResult;
 
-constexpr std::chrono::seconds kLockPatience{5};  // for a `status` that collects results
+constexpr std::chrono::seconds kLockTimeout{5};  // for a `status` that collects results
 
 struct CampaignArguments {
   std::string file, results, csv, svg, html, shard;
@@ -53,7 +53,7 @@ int ReadCampaignFile(const std::string& file, Campaign& campaign,
 }
 
 // Prints the state of the campaign. Returns the exit code: 1 if a run has not passed.
-int TellStatus(campaign::Results& results, bool json) {
+int PrintStatus(campaign::Results& results, bool json) {
   const auto all = results.All();
   const auto planned = results.PlannedRuns();
   const auto attempts = results.Attempts();
@@ -92,13 +92,13 @@ int RunCampaign(const CampaignArguments& arguments, Signals& signals) {
     return shard ? RunShard(campaign, file, *shard, options, signals) : Complain(shard.error());
   }
   if (const int code = GatherSpool(file); code != kOk) return code;
-  auto results = campaign::Results::OpenToAdd(file, campaign, kLockPatience);
+  auto results = campaign::Results::OpenToAdd(file, campaign, kLockTimeout);
   if (!results) return Complain(results.error());
   const bool is_queued = options.broker.empty() && options.engine.make_queue;
   const int code = is_queued ? RunByQueue(campaign, **results, file, options, signals)
                              : RunHere(campaign, **results, options, signals);
   if (code != kOk && code != kInterrupted) return code;
-  const int verdict = TellStatus(**results, arguments.json);
+  const int verdict = PrintStatus(**results, arguments.json);
   return code == kOk ? verdict : code;
 }
 
@@ -111,10 +111,10 @@ int WriteReportFile(const std::string& file, const std::string& text) {
                    "cannot write the report; check the folder and its permissions", file});
 }
 
-int TellStatusOf(const CampaignArguments& arguments) {
+int PrintStatusOf(const CampaignArguments& arguments) {
   if (const int code = GatherSpool(ResultsFile(arguments)); code != kOk) return code;
   auto results = campaign::Results::Open(ResultsFile(arguments));
-  return results ? TellStatus(**results, arguments.json) : Complain(results.error());
+  return results ? PrintStatus(**results, arguments.json) : Complain(results.error());
 }
 
 int ReportCampaign(const CampaignArguments& arguments) {
@@ -252,7 +252,7 @@ void AddCampaignCommand(const CommandLine& line) {
   AddRunOptions(add("run", "Do all runs that are not done yet; exit code 1 if one does not pass"),
                 arguments, line);
   CLI::App* status = add("status", "Print how many runs are done and how many passed");
-  status->callback([=] { line.exit_code = TellStatusOf(*arguments); });
+  status->callback([=] { line.exit_code = PrintStatusOf(*arguments); });
   CLI::App* report = add("report", "Print the results by parameters");
   report->add_option("--by", arguments->by, "parameters to group by, separated by commas")
       ->type_name("NAME,...")

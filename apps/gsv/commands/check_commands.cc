@@ -8,8 +8,8 @@
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/doctor/doctor.h"
 #include "apps/gsv/doctor/exposure.h"
-#include "apps/gsv/machine/confinement.h"
 #include "apps/gsv/machine/installation.h"
+#include "apps/gsv/machine/sandbox.h"
 #include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/serving/limit_option.h"
 #include "apps/gsv/simulations/sensor_types.h"
@@ -23,8 +23,8 @@ struct CheckArguments {
   std::string file;
   std::vector<std::string> model_path, sensor_plugins;
   formats::ReadLimits limits;
-  Confinement confinement;
-  std::int64_t confined_seconds = 0;  // 0: no sandbox
+  Sandbox sandbox;
+  std::int64_t sandbox_seconds = 0;  // 0: no sandbox
   bool json = false;
   bool strict = false;
 };
@@ -116,12 +116,12 @@ void AddCheck(const CommandLine& line, const char* group, const char* what, Read
   command->add_flag("--strict", arguments->strict,
                     "treat warnings as errors, such as elements that are not supported");
   // For TryToRead() only; hidden from help.
-  command->add_option("--confined-memory", arguments->confinement.memory_bytes)->group("");
-  command->add_option("--confined-time", arguments->confined_seconds)->group("");
+  command->add_option("--confined-memory", arguments->sandbox.memory_bytes)->group("");
+  command->add_option("--confined-time", arguments->sandbox_seconds)->group("");
   command->callback([arguments, line, read] {
-    if (arguments->confined_seconds > 0) {
-      arguments->confinement.processor_time = std::chrono::seconds(arguments->confined_seconds);
-      if (const auto confined = Confine(arguments->confinement); !confined) {
+    if (arguments->sandbox_seconds > 0) {
+      arguments->sandbox.processor_time = std::chrono::seconds(arguments->sandbox_seconds);
+      if (const auto confined = EnterSandbox(arguments->sandbox); !confined) {
         line.exit_code = Complain(confined.error());
         return;
       }
@@ -182,7 +182,7 @@ void AddCheckCommands(const CommandLine& line) {
       ->type_name("ADDRESS")
       ->envname("GSV_BROKER");
   doctor->callback([asked, line] {
-    line.exit_code = asked->security ? TellExposure(asked->json) : Doctor(asked->broker);
+    line.exit_code = asked->security ? PrintExposure(asked->json) : Doctor(asked->broker);
   });
 }
 

@@ -30,7 +30,7 @@ base::Result<std::vector<std::string>> SensorTypes(const ListArguments& argument
 }
 
 base::Result<std::vector<std::string>> NamesOf(const ListArguments& arguments) {
-  if (arguments.kind == "worlds") return OurWorlds();
+  if (arguments.kind == "worlds") return BuiltInWorlds();
   if (arguments.kind == "behaviours") return BehaviourPrograms();
   if (arguments.kind == "sensors") return SensorTypes(arguments);
   return formats::ResourceFinder({arguments.model_path.begin(), arguments.model_path.end()})

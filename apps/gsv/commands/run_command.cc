@@ -32,7 +32,7 @@ using simulation::Simulation;
 // The number of different warnings that are printed; `gsv world check` prints all.
 constexpr std::size_t kWarningsPrinted = 10;
 
-bool TellErrors(const base::Problems& problems) {
+bool PrintErrors(const base::Problems& problems) {
   const auto errors = GroupedSentences(problems, base::Problem::Severity::kError);
   for (const std::string& error : errors) std::fprintf(stderr, "gsv: error: %s\n", error.c_str());
   return !errors.empty();
@@ -157,7 +157,7 @@ int JudgeExpectations(verdict::Judge& judge, const RunOptions& options,
 
 base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) {
   RunOptions options = given;
-  if (TellErrors(options.problems)) return kBadModel;
+  if (PrintErrors(options.problems)) return kBadModel;
   const auto world = FindWorld(options.scenario.world);
   if (!world) return base::Fail(world.error());
   auto runtime = Runtime::Start(options.runtime);
@@ -176,7 +176,7 @@ base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) 
   auto told = PopulateRun(**runtime, **simulation, options, problems);
   if (!told) return base::Fail(told.error());
 
-  if (TellErrors(problems)) return kBadModel;
+  if (PrintErrors(problems)) return kBadModel;
   problems.insert(problems.begin(), options.problems.begin(), options.problems.end());
   auto warnings = GroupedSentences(problems, base::Problem::Severity::kWarning);
   Warn(Shortened(warnings, kWarningsPrinted,

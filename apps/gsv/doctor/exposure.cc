@@ -20,7 +20,7 @@
 namespace gsv::app {
 namespace {
 
-constexpr timeval kPatience{2, 0};
+constexpr timeval kAnswerTimeout{2, 0};
 
 class Connection {
  public:
@@ -28,8 +28,8 @@ class Connection {
     // A socket on all addresses is tested on loopback.
     const bool is_ipv6 = listener.address.find(':') != std::string::npos;
     descriptor_ = socket(is_ipv6 ? AF_INET6 : AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    setsockopt(descriptor_, SOL_SOCKET, SO_RCVTIMEO, &kPatience, sizeof kPatience);
-    setsockopt(descriptor_, SOL_SOCKET, SO_SNDTIMEO, &kPatience, sizeof kPatience);
+    setsockopt(descriptor_, SOL_SOCKET, SO_RCVTIMEO, &kAnswerTimeout, sizeof kAnswerTimeout);
+    setsockopt(descriptor_, SOL_SOCKET, SO_SNDTIMEO, &kAnswerTimeout, sizeof kAnswerTimeout);
     int failed = -1;
     if (is_ipv6) {
       sockaddr_in6 address{};
@@ -188,7 +188,7 @@ Exposure Probe(const Listener& listener) {
   return exposure;
 }
 
-std::string Complaint(const Listener& listener, const Exposure& exposure) {
+std::string ExposureWarning(const Listener& listener, const Exposure& exposure) {
   if (listener.IsLocal()) return {};
   switch (exposure.speaks) {
     case Speaks::kHttps:
@@ -216,8 +216,8 @@ std::string Complaint(const Listener& listener, const Exposure& exposure) {
   return {};
 }
 
-int TellExposure(bool json) {
-  int complaints = 0;
+int PrintExposure(bool json) {
+  int warnings = 0;
   const std::vector<ListeningProcess> processes = FindListeningProcesses();
   for (const ListeningProcess& process : processes) {
     if (!json) {
@@ -228,14 +228,14 @@ int TellExposure(bool json) {
     nlohmann::ordered_json sockets = nlohmann::json::array();
     for (const Listener& listener : process.listeners) {
       const Exposure exposure = Probe(listener);
-      const std::string complaint = Complaint(listener, exposure);
+      const std::string warning = ExposureWarning(listener, exposure);
       const bool is_web = exposure.speaks == Speaks::kHttp || exposure.speaks == Speaks::kHttps;
       has_viewer = has_viewer || is_web;
-      if (!complaint.empty()) ++complaints;
+      if (!warning.empty()) ++warnings;
       if (!json) {
         std::printf("  %s: %s; %s; %s%s\n", Place(listener).c_str(), Name(exposure.speaks),
                     Reach(listener).c_str(), Takes(exposure).c_str(),
-                    complaint.empty() ? "" : ("\n    BEWARE: " + complaint).c_str());
+                    warning.empty() ? "" : ("\n    BEWARE: " + warning).c_str());
       }
       sockets.push_back(
           {{"address", Place(listener)},
@@ -245,7 +245,7 @@ int TellExposure(bool json) {
            {"takes_certificate", exposure.takes_certificate},
            {"watching_takes_token", exposure.watching_takes_token},
            {"acting_takes_token", exposure.acting_takes_token},
-           {"complaint", complaint}});
+           {"complaint", warning}});
     }
     const std::vector<std::string> folders = FoldersServed(process, has_viewer);
     for (const std::string& folder : folders) {
@@ -262,8 +262,8 @@ int TellExposure(bool json) {
   }
   if (!json && processes.empty())
     std::printf("no GSV program of this user listens on this machine\n");
-  if (!json && complaints == 0 && !processes.empty()) std::printf("no problems found\n");
-  return complaints == 0 ? kOk : kInfrastructure;
+  if (!json && warnings == 0 && !processes.empty()) std::printf("no problems found\n");
+  return warnings == 0 ? kOk : kInfrastructure;
 }
 
 }  // namespace gsv::app

@@ -22,9 +22,9 @@ struct Exposure {
 
 Exposure Probe(const Listener& listener);
 // The reason for a change, and the remedy; empty: no change is needed.
-std::string Complaint(const Listener& listener, const Exposure& exposure);
+std::string ExposureWarning(const Listener& listener, const Exposure& exposure);
 
 // Prints one line per socket. Returns kOk if there is no warning.
-int TellExposure(bool json);
+int PrintExposure(bool json);
 
 }  // namespace gsv::app

@@ -13,31 +13,32 @@ const Listener kOpen{"0.0.0.0", 8080}, kLocal{"127.0.0.1", 8080};
 TEST(Exposure, ListeningOnThisMachineOnlyGivesNoWarning) {
   for (const Speaks speaks :
        {Speaks::kHttp, Speaks::kHttps, Speaks::kCorba, Speaks::kCorbaTls, Speaks::kUnknown}) {
-    EXPECT_EQ(Complaint(kLocal, {speaks}), "");
+    EXPECT_EQ(ExposureWarning(kLocal, {speaks}), "");
   }
 }
 
 TEST(Exposure, AViewerBeyondThisMachineNeedsTokensAndTls) {
   Exposure exposure{Speaks::kHttp};
-  EXPECT_THAT(Complaint(kOpen, exposure), HasSubstr("everyone who can reach it can control it"));
+  EXPECT_THAT(ExposureWarning(kOpen, exposure),
+              HasSubstr("everyone who can reach it can control it"));
   exposure.acting_takes_token = true;
-  EXPECT_THAT(Complaint(kOpen, exposure), HasSubstr("can read the traffic"));
+  EXPECT_THAT(ExposureWarning(kOpen, exposure), HasSubstr("can read the traffic"));
   exposure.speaks = Speaks::kHttps;
-  EXPECT_EQ(Complaint(kOpen, exposure), "") << "watching may be free";
+  EXPECT_EQ(ExposureWarning(kOpen, exposure), "") << "watching may be free";
   exposure.acting_takes_token = false;
-  EXPECT_THAT(Complaint(kOpen, exposure), HasSubstr("--control-token"));
+  EXPECT_THAT(ExposureWarning(kOpen, exposure), HasSubstr("--control-token"));
 }
 
 TEST(Exposure, CorbaBeyondThisMachineNeedsCertificates) {
-  EXPECT_THAT(Complaint(kOpen, {Speaks::kCorba}), HasSubstr("--insecure-corba"));
+  EXPECT_THAT(ExposureWarning(kOpen, {Speaks::kCorba}), HasSubstr("--insecure-corba"));
   Exposure exposure{Speaks::kCorbaTls};
-  EXPECT_EQ(Complaint(kOpen, exposure), "everyone who can reach it can call it");
+  EXPECT_EQ(ExposureWarning(kOpen, exposure), "everyone who can reach it can call it");
   exposure.takes_certificate = true;
-  EXPECT_EQ(Complaint(kOpen, exposure), "");
+  EXPECT_EQ(ExposureWarning(kOpen, exposure), "");
 }
 
 TEST(Exposure, AListenerThatDoesNotAnswerGivesAWarning) {
-  EXPECT_THAT(Complaint(kOpen, {Speaks::kUnknown}), HasSubstr("it does not respond"));
+  EXPECT_THAT(ExposureWarning(kOpen, {Speaks::kUnknown}), HasSubstr("it does not respond"));
 }
 
 }  // namespace

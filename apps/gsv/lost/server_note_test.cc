@@ -115,7 +115,7 @@ TEST_F(ServerNoteTest, OtherFilesAndFoldersAreLeftAlone) {
   EXPECT_THAT(ReadNotes(folder_.path() / "none").problems, IsEmpty());
 }
 
-TEST(LostSimulationSentence, NamesTheRecordingAndItsEnd) {
+TEST(CrashReportSentence, NamesTheRecordingAndItsEndTime) {
   LostSimulation lost = Arena();
   const std::string begin =
       "arena on gsv (process 123) was lost at about 12.3 s (running), when its server was killed; ";

@@ -20,7 +20,7 @@ fs::path ProgramFolder() { return ProgramPath().parent_path(); }
 
 fs::path ShareFolder() { return ProgramFolder().parent_path() / "share" / "gsv"; }
 
-std::vector<std::string> OurWorlds() {
+std::vector<std::string> BuiltInWorlds() {
   std::vector<std::string> names;
   std::error_code ignored;
   for (const fs::directory_entry& entry :
@@ -40,7 +40,7 @@ base::Result<std::string> FindWorld(const std::string& world) {
     if (fs::is_regular_file(ours, ignored)) return ours;
   }
   std::string names;
-  const std::vector<std::string> ours = OurWorlds();
+  const std::vector<std::string> ours = BuiltInWorlds();
   for (const std::string& name : ours) names += (names.empty() ? "" : ", ") + name;
   return base::Fail(base::ErrorCode::kNotFound,
                     "there is no file or built-in world of this name; built-in worlds are " +

@@ -14,7 +14,7 @@ std::filesystem::path ProgramFolder();
 std::filesystem::path ShareFolder();  // worlds, models, the viewer
 
 // The names of the built-in worlds: "maze", "office"...
-std::vector<std::string> OurWorlds();
+std::vector<std::string> BuiltInWorlds();
 
 // The file of a world, given by path or by the name of a built-in world. Fails with kNotFound, and
 // the known names, if a bare name is neither. Does not check whether a path exists; the reader

@@ -22,9 +22,9 @@ base::Status TryToRead(const std::string& world,
                                      world,
                                      "--json",
                                      "--confined-memory",
-                                     std::to_string(limits.confinement.memory_bytes),
+                                     std::to_string(limits.sandbox.memory_bytes),
                                      "--confined-time",
-                                     std::to_string(limits.confinement.processor_time.count())};
+                                     std::to_string(limits.sandbox.processor_time.count())};
   for (const std::filesystem::path& folder : model_path) {
     arguments.emplace_back("--model-path");
     arguments.push_back(folder);
@@ -43,7 +43,7 @@ base::Status TryToRead(const std::string& world,
   if (ending.empty()) (*child)->Signal(SIGKILL);
   const std::string why =
       ending == ExitedWith(kWantsMoreMemory)
-          ? "reading it takes more than " + std::to_string(limits.confinement.memory_bytes) +
+          ? "reading it takes more than " + std::to_string(limits.sandbox.memory_bytes) +
                 " bytes of memory"
       : ending.empty()
           ? "reading it takes longer than " + std::to_string(limits.wall_time.count()) + " s"

@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/gsv/machine/confinement.h"
+#include "apps/gsv/machine/sandbox.h"
 
 namespace gsv::app {
 
 struct TrialLimits {
-  Confinement confinement;
+  Sandbox sandbox;
   std::chrono::seconds wall_time{120};
 };
 

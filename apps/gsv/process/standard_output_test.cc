@@ -36,21 +36,21 @@ Ending EndOf(std::FILE* output, const char* text, int exit_code) {
   return ending;
 }
 
-TEST(StandardOutput, ThatIsWrittenKeepsTheExitCode) {
+TEST(StandardOutput, KeepsTheExitCodeIfItWasWritten) {
   const File output = OpenToWrite("/dev/null");
   const Ending ending = EndOf(output.get(), "text\n", kOk);
   EXPECT_EQ(ending.exit_code, kOk);
   EXPECT_THAT(ending.errors, IsEmpty());
 }
 
-TEST(StandardOutput, ThatFindsNoSpaceIsNoSuccess) {
+TEST(StandardOutput, FailsOnAFullDisk) {
   const File output = OpenToWrite("/dev/full");
   const Ending ending = EndOf(output.get(), "text", kOk);
   EXPECT_EQ(ending.exit_code, kInfrastructure);
   EXPECT_THAT(ending.errors, HasSubstr("No space left on device"));
 }
 
-TEST(StandardOutput, ThatWasLostEarlierIsNoSuccess) {
+TEST(StandardOutput, FailsAfterAnEarlierWriteError) {
   const File output = OpenToWrite("/dev/full");
   std::fputs("text\n", output.get());
   EXPECT_NE(std::fflush(output.get()), 0);
@@ -59,12 +59,12 @@ TEST(StandardOutput, ThatWasLostEarlierIsNoSuccess) {
   EXPECT_THAT(ending.errors, HasSubstr("cannot write all output"));
 }
 
-TEST(StandardOutput, ThatIsLostKeepsTheExitCodeOfAnotherFailure) {
+TEST(StandardOutput, KeepsTheExitCodeOfAnEarlierFailure) {
   const File output = OpenToWrite("/dev/full");
   EXPECT_EQ(EndOf(output.get(), "text\n", kAssertionFailed).exit_code, kAssertionFailed);
 }
 
-TEST(StandardOutput, WithoutAReaderFailsWithoutASentence) {
+TEST(StandardOutput, FailsSilentlyWithoutAReader) {
   std::signal(SIGPIPE, SIG_IGN);
   int ends[2];
   ASSERT_EQ(pipe(ends), 0);

@@ -37,7 +37,7 @@ std::string Refusal(const Words& words) {
   return options ? "taken" : options.error().Sentence();
 }
 
-TEST(RunOptions, WithoutAnyItIsTheDefaultScenarioInRealTime) {
+TEST(RunOptions, DefaultIsTheDefaultScenarioInRealTime) {
   const auto options = Parse({});
   ASSERT_TRUE(options) << options.error().Sentence();
   EXPECT_EQ(options->scenario, scenario::DefaultScenario());
@@ -51,7 +51,7 @@ TEST(RunOptions, WithoutAnyItIsTheDefaultScenarioInRealTime) {
   EXPECT_EQ(options->record, "");
 }
 
-TEST(RunOptions, OneBehaviourIsForAllRobotsOrForOne) {
+TEST(RunOptions, BehaviourAppliesToAllRobotsOrToOne) {
   const auto options = Parse({"maze", "--robot", "pebble@1,2,90deg", "--robot", "b21r",
                               "--behaviour", "wander", "--behaviour", "pebble=goto --goal-x=3",
                               "--movement", "pebble=rigid", "--drive", "b21r=diff,left=a,right=b"});
@@ -67,7 +67,7 @@ TEST(RunOptions, OneBehaviourIsForAllRobotsOrForOne) {
   EXPECT_THAT(options->drive_of, ElementsAre(Pair("b21r", "diff,left=a,right=b")));
 }
 
-TEST(RunOptions, TheCommandLineGoesBeforeTheScenarioFile) {
+TEST(RunOptions, CommandLineOverridesTheScenarioFile) {
   const base::testing::TestFolder folder;
   const std::string file = folder.Write(
       "s.yaml", "world: maze\nname: s\nseed: 1\nstep: 0.02\nduration: 3\nmode: lockstep\n");
@@ -93,7 +93,7 @@ TEST(RunOptions, TheFormerNameOfTheRealTimeFactorIsAccepted) {
   EXPECT_EQ(options->specification.factor, 2.5);
 }
 
-TEST(RunOptions, RecordingIsChosenByTopicsRatesAndFormat) {
+TEST(RunOptions, RecordingOptionsSetTopicsRatesAndFormat) {
   const auto options = Parse({"maze", "--record", "x.mcap", "--record-topics", "/gsv/poses,/scout/",
                               "--record-rate", "poses=10,beams=0.5", "--record-pictures", "png"});
   ASSERT_TRUE(options) << options.error().Sentence();

@@ -42,8 +42,8 @@ using base::ErrorCode;
 using base::Result;
 
 constexpr std::size_t kMaxRequest = 1 << 20;  // bytes
-// For a run to end in order after SIGTERM; less than the patience of ~ChildProcess().
-constexpr std::chrono::milliseconds kEndPatience{1500};
+// For a run to end in order after SIGTERM; less than the timeout of ~ChildProcess().
+constexpr std::chrono::milliseconds kEndTimeout{1500};
 
 struct RunRequest {
   std::vector<std::string> arguments;
@@ -225,7 +225,7 @@ class RunServer {
     if (is_to_end) {
       kill(run, SIGTERM);
       events[0].revents = 0;
-      if (poll(events.data(), 1, static_cast<int>(kEndPatience.count())) <= 0) kill(run, SIGKILL);
+      if (poll(events.data(), 1, static_cast<int>(kEndTimeout.count())) <= 0) kill(run, SIGKILL);
     }
     close(run_ends);
     int status = 0;

@@ -60,31 +60,31 @@ std::vector<std::string> Warnings(std::vector<world::Body> bodies, double x, dou
   return sentences;
 }
 
-TEST(StartChecks, AStartBetweenWallsIsNoProblem) {
+TEST(StartChecks, StartBetweenWallsIsNoProblem) {
   EXPECT_THAT(Warnings(Walls(), 3, -4, 3.1), IsEmpty());
 }
 
-TEST(StartChecks, AHeadingBeyondAFullTurnIsNamed) {
+TEST(StartChecks, HeadingBeyondAFullTurnIsReported) {
   EXPECT_THAT(Warnings(Walls(), 0, 0, 90), ElementsAre(HasSubstr("pebble@0,0: its yaw of 90 rad")));
   EXPECT_THAT(Warnings(Walls(), 0, 0, 2 * 3.14159265358979), IsEmpty());
 }
 
-TEST(StartChecks, AStartOutsideOfTheWallsIsNamed) {
+TEST(StartChecks, StartOutsideTheWallsIsReported) {
   EXPECT_THAT(Warnings(Walls(), 8, 0, 0), ElementsAre(HasSubstr("outside the walls")));
 }
 
-TEST(StartChecks, AStartFarFromEverythingIsNamed) {
+TEST(StartChecks, StartFarFromEverythingIsReported) {
   EXPECT_THAT(Warnings(Walls(), 300, 0, 0), ElementsAre(HasSubstr("295 m away from all objects")));
 }
 
-TEST(StartChecks, AStartBesideBodiesThatEncloseNothingIsNoProblem) {
+TEST(StartChecks, StartBesideBodiesWithoutAnEnclosureIsNoProblem) {
   std::vector<world::Body> one = Walls();
   one.resize(1);
   EXPECT_THAT(Warnings(one, 0, 0, 0), IsEmpty());
   EXPECT_THAT(Warnings({}, 1000, 0, 0), IsEmpty());
 }
 
-TEST(StartChecks, ARigidRobotWithoutAFloorIsNamed) {
+TEST(StartChecks, RigidRobotWithoutAFloorIsReported) {
   EXPECT_THAT(Warnings(Walls(), 0, 0, 0, world::BodyKind::kRigidBody),
               ElementsAre(HasSubstr("no ground below it")));
 }

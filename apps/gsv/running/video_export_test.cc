@@ -83,7 +83,7 @@ TEST_F(VideoExportTest, AcceptsPngAndATimeRange) {
   EXPECT_NE(Text(options_.output + ".arguments").find("-c:v png"), std::string::npos);
 }
 
-TEST_F(VideoExportTest, WithoutFfmpegASentenceReportsIt) {
+TEST_F(VideoExportTest, MissingFfmpegIsReported) {
   Record({{milliseconds(0), 'a'}});
   options_.ffmpeg = "gsv-there-is-no-such-program";
   const auto frames = Export();
@@ -98,7 +98,7 @@ TEST_F(VideoExportTest, AFailureOfFfmpegIsReported) {
   EXPECT_NE(Export().error().Sentence().find("could not write the video"), std::string::npos);
 }
 
-TEST_F(VideoExportTest, RefusesTopicsWithoutImagesAndExistingFiles) {
+TEST_F(VideoExportTest, RejectsTopicsWithoutImagesAndExistingFiles) {
   Record({});
   EXPECT_NE(Export().error().Sentence().find("has no images"), std::string::npos);
   EXPECT_NE(Export({{"/clock"}}).error().Sentence().find("rosgraph_msgs/msg/Clock"),

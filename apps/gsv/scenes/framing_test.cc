@@ -45,7 +45,7 @@ TEST(Framing, ShowsAllBodies) {
   EXPECT_EQ(shown.max, (Vector3{2.5, 0.5, 1}));
 }
 
-TEST(Framing, LeavesOutABodyFarAway) {
+TEST(Framing, IgnoresABodyFarAway) {
   const auto two =
       Shown({BoxAt("a", {1, 1, 1}, {2, 0, 0.5}), BoxAt("far", {1, 1, 1}, {0, 0, 343582})});
   EXPECT_EQ(two.max, (Vector3{2.5, 0.5, 1}));
@@ -55,7 +55,7 @@ TEST(Framing, LeavesOutABodyFarAway) {
   EXPECT_EQ(more.min, (Vector3{499'999.5, -0.5, 0}));
 }
 
-TEST(Framing, LeavesOutGroundThatReachesFarBeyondTheBodiesOnIt) {
+TEST(Framing, IgnoresGroundMuchLargerThanTheBodiesOnIt) {
   const auto shown =
       Shown({BoxAt("ground", {100, 100, 0.1}, {0, 0, -0.05}), BoxAt("a", {2, 2, 2}, {1, 1, 1})});
   EXPECT_EQ(shown.min, (Vector3{0, 0, 0}));
@@ -69,7 +69,7 @@ TEST(Framing, ShowsGroundThatIsAsLargeAsTheBodiesOnIt) {
   EXPECT_EQ(Shown({BoxAt("ground", {100, 100, 0.1}, {0, 0, -0.05})}).max.x, 50);
 }
 
-TEST(Framing, StandsAModelOnItsGroundWhereverItsOriginIs) {
+TEST(Framing, PlacesAModelOnTheGroundForAnyOrigin) {
   model::WorldDescription world;
   world.name = "walker";
   const world::Body body = BoxAt("walker", {0.4, 0.4, 1.6}, {});

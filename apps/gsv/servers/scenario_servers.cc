@@ -30,9 +30,9 @@ base::Error NoServers(const std::string& broker, const std::string& constraint) 
 }
 
 // Decides whether a server is lost.
-class Patience {
+class LostServerCheck {
  public:
-  bool IsOverAfter(const base::Error& error) {
+  bool IsLostAfter(const base::Error& error) {
     ++failures_;
     if (error.code == base::ErrorCode::kEnded) return true;  // it was restarted, or dropped the run
     // A broken connection is no proof, but a port that then refuses connections is: the process has
@@ -40,7 +40,7 @@ class Patience {
     if (error.code != base::ErrorCode::kTimeout && failures_ > 1) return true;
     return Clock::now() - heard_ >= kSilence;
   }
-  void Renew() {
+  void RecordAnswer() {
     failures_ = 0;
     heard_ = Clock::now();
   }
@@ -214,7 +214,7 @@ ScenarioServers::Ending ScenarioServers::RunAt(Server& server, const std::string
   const sba::ScenarioRun_var& run = *started;
   if (CORBA::is_nil(run)) return Ending::kNoRoom;
   orb::LimitCalls(run, kServerCallTimeout);
-  Patience patience;
+  LostServerCheck lost_check;
   while (!is_cancelled) {
     const auto outcome = orb::Call(server.name, [&]() -> std::unique_ptr<TestResult> {
       if (!run->await_end()) return nullptr;
@@ -222,10 +222,10 @@ ScenarioServers::Ending ScenarioServers::RunAt(Server& server, const std::string
       return std::make_unique<TestResult>(ResultFrom(ended));
     });
     if (!outcome) {
-      if (patience.IsOverAfter(outcome.error())) return Ending::kLost;
+      if (lost_check.IsLostAfter(outcome.error())) return Ending::kLost;
       continue;
     }
-    patience.Renew();
+    lost_check.RecordAnswer();
     if (*outcome == nullptr) continue;
     result = std::move(**outcome);
     (void)orb::Call(server.name, [&] { run->destroy(); });  // otherwise it is dropped after a time

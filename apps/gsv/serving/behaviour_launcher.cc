@@ -79,7 +79,7 @@ std::vector<std::string> BehaviourPrograms() {
 }
 
 BehaviourLauncher::~BehaviourLauncher() {
-  const auto give_up = std::chrono::steady_clock::now() + patience_;
+  const auto give_up = std::chrono::steady_clock::now() + end_timeout_;
   for (const auto& child : children_) child->Signal(SIGTERM);
   for (const auto& child : children_) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(

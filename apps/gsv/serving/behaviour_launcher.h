@@ -27,7 +27,7 @@ class BehaviourLauncher {
   BehaviourLauncher& operator=(const BehaviourLauncher&) = delete;
 
   // Wall-clock time limit for all programs together to end (default: 2 s).
-  void SetPatience(std::chrono::milliseconds patience) { patience_ = patience; }
+  void SetEndTimeout(std::chrono::milliseconds timeout) { end_timeout_ = timeout; }
 
   // Makes sure that the behaviour is offered. If it is not, starts `programs` processes of
   // gsv-NAME, which is beside this program or on PATH, and waits until they offer it. `behaviour`
@@ -37,7 +37,7 @@ class BehaviourLauncher {
  private:
   broker::BrokerClient& broker_;
   std::vector<std::unique_ptr<ChildProcess>> children_;
-  std::chrono::milliseconds patience_{2000};
+  std::chrono::milliseconds end_timeout_{2000};
 };
 
 }  // namespace gsv::app

@@ -19,7 +19,7 @@ constexpr const char* kTable =
     "   4: 0100007:1F90 00000000:0000 0A 00000000:00000000 00:00000000 00000000  1000        0 "
     "13 1 0000000000000000 100 0 0 10 0\n";
 
-TEST(SocketTable, HoldsThoseThatListen) {
+TEST(SocketTable, ListsListeningSockets) {
   const auto sockets = ParseSocketTable(kTable);
   ASSERT_EQ(sockets.size(), 2u);
   EXPECT_EQ(sockets[0].first, 4711u);
@@ -30,7 +30,7 @@ TEST(SocketTable, HoldsThoseThatListen) {
   EXPECT_EQ(sockets[1].second.port, 22);
 }
 
-TEST(SocketTable, HoldsAddressesOfIpv6) {
+TEST(SocketTable, ReadsIpv6Addresses) {
   const auto sockets = ParseSocketTable(
       "heading\n   0: 00000000000000000000000001000000:1F90 "
       "00000000000000000000000000000000:0000 0A 00000000:00000000 00:00000000 00000000  1000 0 "

@@ -167,7 +167,7 @@ TEST_F(OpenApiTest, DescribesEveryRouteAndNothingElse) {
   }
 }
 
-TEST_F(OpenApiTest, AReplaySessionHasTheRoutesOfAReplayAndNeedsThePermissionToWatch) {
+TEST_F(OpenApiTest, ReplaySessionHasTheRoutesOfAReplayAndNeedsPermissionToView) {
   const std::string below = "/replays/{session}";
   std::set<std::string> own, shared;
   for (const Route& route : live_->router().routes()) {
@@ -183,7 +183,7 @@ TEST_F(OpenApiTest, AReplaySessionHasTheRoutesOfAReplayAndNeedsThePermissionToWa
   EXPECT_EQ(own, shared);
 }
 
-TEST_F(OpenApiTest, ARelayTakesThePermissionsThatAreDescribed) {
+TEST_F(OpenApiTest, RelayAppliesTheDescribedPermissions) {
   for (const auto& [address, operation] : Described()) {
     const std::size_t blank = address.find(' ');
     const std::string path =

@@ -237,7 +237,7 @@ base::Status Runtime::OfferScenarios(const std::string& name, int scenarios) {
 
 void Runtime::EndSoon() {
   if (behaviours_ != nullptr) behaviours_->stop_timeout()->Shorten();
-  if (launcher_ != nullptr) launcher_->SetPatience(kHurriedPrograms);
+  if (launcher_ != nullptr) launcher_->SetEndTimeout(kHurriedPrograms);
 }
 
 Runtime::~Runtime() {

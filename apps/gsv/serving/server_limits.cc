@@ -20,11 +20,11 @@ constexpr NamedLimit kServerLimits[] = {
     {"sensors_of_a_robot", 100'000,
      [](ServerLimits& l, std::uint64_t n) { l.simulation.sensors_of_a_robot = n; }},
     {"reading_bytes", kAnyNumber,
-     [](ServerLimits& l, std::uint64_t n) { l.reading.confinement.memory_bytes = n; }},
+     [](ServerLimits& l, std::uint64_t n) { l.reading.sandbox.memory_bytes = n; }},
     {"reading_seconds", 86'400,
      [](ServerLimits& l, std::uint64_t n) {
        l.reading.wall_time = std::chrono::seconds(n);
-       l.reading.confinement.processor_time = std::chrono::seconds(n);
+       l.reading.sandbox.processor_time = std::chrono::seconds(n);
      }},
     {"connections", 100'000, [](ServerLimits& l, std::uint64_t n) { l.web.connections = n; }},
     {"request_bytes", std::uint64_t{1} << 30,

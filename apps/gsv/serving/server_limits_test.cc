@@ -35,7 +35,7 @@ TEST(ServerLimits, AreAppliedWhereTheyAreUsed) {
   EXPECT_EQ(limits.simulation.robots, 500u);
   EXPECT_EQ(limits.web.connections, 7u);
   EXPECT_EQ(limits.reading.wall_time, std::chrono::seconds(3));
-  EXPECT_EQ(limits.reading.confinement.processor_time, std::chrono::seconds(3));
+  EXPECT_EQ(limits.reading.sandbox.processor_time, std::chrono::seconds(3));
   EXPECT_EQ(limits.web.upload_bytes, 9u);
 }
 

@@ -27,7 +27,7 @@ class RecordingsTest : public testing::Test {
   Recordings recordings_{testing::TempDir()};
 };
 
-TEST(RecordedCommandLine, HoldsNoTokens) {
+TEST(RecordedCommandLine, ContainsNoTokens) {
   EXPECT_EQ(WithoutSecrets({"gsv", "run", "--control-token", "secret", "--watch-token=secret",
                             "--seed", "3", "--token", "secret"}),
             (std::vector<std::string>{"gsv", "run", "--seed", "3"}));
@@ -95,7 +95,7 @@ TEST_F(RecordingsTest, ASimulationIsRecordedOnceAtATime) {
   EXPECT_FALSE(std::filesystem::exists(path_ + ".other"));
 }
 
-TEST_F(RecordingsTest, ANewSimulationOfTheNameCanBeRecordedWhenTheOldOneIsGone) {
+TEST_F(RecordingsTest, NewSimulationWithAReusedNameCanBeRecorded) {
   ASSERT_TRUE(recordings_.Start(simulation_, path_));
   simulation_ = recording::MakeSimulation(1s, nullptr);
   EXPECT_TRUE(recordings_.Start(simulation_, path_ + ".other"));
@@ -104,7 +104,7 @@ TEST_F(RecordingsTest, ANewSimulationOfTheNameCanBeRecordedWhenTheOldOneIsGone) 
   std::filesystem::remove_all(path_ + ".other");
 }
 
-TEST_F(RecordingsTest, ANameWithoutMcapBecomesAFolderWithMetadata) {
+TEST_F(RecordingsTest, NameWithoutExtensionBecomesABagFolder) {
   const std::filesystem::path folder = path_ + ".folder";
   ASSERT_TRUE(recordings_.Start(simulation_, folder));
   ASSERT_TRUE(recordings_.StopAll());

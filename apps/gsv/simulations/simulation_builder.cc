@@ -58,7 +58,7 @@ void SimulationBuilder::OfferThrough(services::SimulationServiceServant* service
   service_ = service;
 }
 
-std::vector<std::string> SimulationBuilder::Worlds() { return OurWorlds(); }
+std::vector<std::string> SimulationBuilder::Worlds() { return BuiltInWorlds(); }
 
 std::vector<std::string> SimulationBuilder::Objects() {
   std::vector<std::string> objects = finder_.ModelNames();

@@ -32,7 +32,7 @@ class TestCasesTest : public ::testing::Test {
   base::Problems problems_;
 };
 
-TEST_F(TestCasesTest, AFolderStandsForItsScenariosByName) {
+TEST_F(TestCasesTest, FolderSelectsItsScenariosByName) {
   folder_.Write("b.yaml", kScenario);
   folder_.Write("a.yaml", kScenario);
   folder_.Write("notes.txt", "no scenario");
@@ -41,7 +41,7 @@ TEST_F(TestCasesTest, AFolderStandsForItsScenariosByName) {
   EXPECT_THAT(problems_, IsEmpty());
 }
 
-TEST_F(TestCasesTest, AFileThatIsNamedTwiceIsOneCase) {
+TEST_F(TestCasesTest, FileNamedTwiceIsOneCase) {
   const std::string a = folder_.Write("a.yaml", kScenario), b = folder_.Write("b.yaml", kScenario);
   EXPECT_THAT(Names({b, path(), a}), ElementsAre("b", "a"));
 }
@@ -62,7 +62,7 @@ TEST_F(TestCasesTest, EveryProblemOfEveryFileIsReported) {
   EXPECT_THAT(problems_[1].Sentence(), HasSubstr("b.yaml:3:1: there is no key \"wrld\" here"));
 }
 
-TEST(Shards, AreWrittenAsIOfN) {
+TEST(Shards, AreParsedAsIOfN) {
   const auto shard = ParseShard("2/3");
   ASSERT_TRUE(shard);
   EXPECT_EQ(shard->index, 2u);
@@ -76,7 +76,7 @@ TEST(Shards, AreWrittenAsIOfN) {
   }
 }
 
-TEST(Shards, TogetherHoldEachCaseOnce) {
+TEST(Shards, TogetherContainEachCaseOnce) {
   std::vector<TestCase> cases;
   for (const char* name : {"a", "b", "c", "d", "e"}) cases.push_back({name, name});
   const auto names = [&](std::size_t index) {

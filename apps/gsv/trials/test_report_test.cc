@@ -32,7 +32,7 @@ TEST(TestReport, TextOfAPassedScenarioIsOneLine) {
   EXPECT_EQ(ToText(Passed()), "PASS  s/a  1.2 s (2.5 s simulated, 2 times)\n");
 }
 
-TEST(TestReport, TextOfAFailureHasTheReasonAndTheCommandToRepeatIt) {
+TEST(TestReport, TextOfAFailureContainsReasonAndCommand) {
   EXPECT_EQ(ToText(Failed()),
             "FAIL  b  0.5 s\n      \"x\" < 1 & <y>\n      second line\x01\n"
             "      see /f/b/README.txt\n      again: gsv run b.yaml\n");
@@ -51,7 +51,7 @@ TEST(TestReport, JUnitCountsAndEscapes) {
   EXPECT_THAT(xml, Not(HasSubstr("\x01"))) << "XML 1.0 cannot hold it";
 }
 
-TEST(TestReport, JsonHasTheReportsOfTheRuns) {
+TEST(TestReport, JsonContainsTheReportsOfTheRuns) {
   const auto json = nlohmann::json::parse(ToJson({Passed(), Failed(), Interrupted()}, 2));
   EXPECT_EQ(json["passed"], 1);
   EXPECT_EQ(json["failed"], 1);

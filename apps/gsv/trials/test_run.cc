@@ -11,6 +11,7 @@
 #include "apps/gsv/trials/prepared_runs.h"
 #include "apps/gsv/trials/test_cases.h"
 #include "gsv/base/temporary_folder.h"
+#include "gsv/base/text_file.h"
 #include "gsv/recording/reading/recover.h"
 
 namespace gsv::app {
@@ -22,7 +23,7 @@ using TestClock = std::chrono::steady_clock;
 
 constexpr auto kPollPeriod = std::chrono::milliseconds(100);
 constexpr double kSecondsAfter = 1;  // s of simulated time in the recording after the failure
-constexpr double kPatience = 30;     // s of wall-clock time after the child's own time-out
+constexpr double kExtraTime = 30;    // s of wall-clock time after the child's own time-out
 constexpr std::size_t kMaxErrorLength = 4000;  // characters of the child's errors
 
 struct ChildOutcome {
@@ -30,12 +31,6 @@ struct ChildOutcome {
   std::string errors;
   nlohmann::ordered_json report;
 };
-
-std::string WholeText(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 nlohmann::ordered_json LastLineOf(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -78,7 +73,7 @@ base::Result<ChildOutcome> RunChild(const TestCase& test, const TestOptions& opt
       !ok) {
     return base::Fail(ok.error());
   }
-  const auto give_up = TestClock::now() + Seconds(options.timeout + kPatience);
+  const auto give_up = TestClock::now() + Seconds(options.timeout + kExtraTime);
   ChildOutcome outcome;
   while (outcome.ending.empty() && !is_cancelled && TestClock::now() < give_up) {
     outcome.ending = runs.AwaitEnd(kPollPeriod);
@@ -86,10 +81,10 @@ base::Result<ChildOutcome> RunChild(const TestCase& test, const TestOptions& opt
   if (outcome.ending.empty()) runs.Stop();
   if (outcome.ending.empty() && !is_cancelled)
     outcome.ending = "it did not end in time and was killed";
-  outcome.errors = WholeText(folder / "stderr");
+  outcome.errors = base::ReadTextFile(folder / "stderr");
   if (outcome.errors.size() > kMaxErrorLength)
     outcome.errors = "…" + outcome.errors.substr(outcome.errors.size() - kMaxErrorLength);
-  outcome.report = LastLineOf(WholeText(folder / "stdout"));
+  outcome.report = LastLineOf(base::ReadTextFile(folder / "stdout"));
   return outcome;
 }
 

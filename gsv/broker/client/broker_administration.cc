@@ -22,7 +22,7 @@ using base::ErrorCode;
 using Repository = CosTradingRepos::ServiceTypeRepository;
 
 constexpr unsigned long kPingMs = 1000;
-constexpr std::uint32_t kAskedAtOnce = 16;  // links whose targets are called at the same time
+constexpr std::uint32_t kAskedAtOnce = 16;  // how many links' targets are called at the same time
 
 template <typename Interface>
 typename Interface::_var_type Resolve(CORBA::ORB_ptr orb, const std::string& reference,
@@ -36,7 +36,7 @@ typename Interface::_var_type Resolve(CORBA::ORB_ptr orb, const std::string& ref
   return narrowed;
 }
 
-// Runs `call` with the broker's Lookup.
+// Calls `call` with the broker's Lookup.
 template <typename Call>
 auto WithLookup(const std::string& broker, std::chrono::milliseconds timeout, const Call& call)
     -> decltype(call(CORBA::ORB_ptr(), CosTrading::Lookup_ptr())) {
@@ -55,7 +55,7 @@ auto WithLookup(const std::string& broker, std::chrono::milliseconds timeout, co
   });
 }
 
-// Runs `call` with the broker's Link.
+// Calls `call` with the broker's Link.
 template <typename Call>
 auto WithLink(const std::string& broker, std::chrono::milliseconds timeout, const Call& call)
     -> decltype(call(CORBA::ORB_ptr(), CosTrading::Link_ptr())) {
@@ -80,7 +80,8 @@ bool Answers(CosTrading::Lookup_ptr target) {
   }
 }
 
-// Calls `work` with 0 … count-1, a few at a time. Rethrows an exception of one of them.
+// Calls `work` with 0 … count-1, a few at a time. If a call throws an exception, it is rethrown
+// here.
 template <typename Work>
 void ForEach(std::uint32_t count, const Work& work) {
   std::atomic<std::uint32_t> next = 0;
@@ -94,7 +95,7 @@ void ForEach(std::uint32_t count, const Work& work) {
   for (auto& worker : workers) worker.get();
 }
 
-// Nothing if the link was removed meanwhile.
+// Returns nullopt if the link was removed meanwhile.
 std::optional<LinkDescription> Describe(CORBA::ORB_ptr orb, CosTrading::Link_ptr link,
                                         const char* name) {
   try {
@@ -139,7 +140,8 @@ base::Status BrokerAdministration::AddLink(const std::string& name, const std::s
         return base::Fail(ErrorCode::kUnavailable, "the object at this address is not a broker",
                           *reference);
       }
-      // The trader's own reference, rather than the one that led to it.
+      // This is the reference that the other trader gives, which may differ from the address in
+      // `target`.
       const CosTrading::Lookup_var itself = other->lookup_if();
       return Guarded(broker_, [&]() -> base::Status {
         link->add_link(name.c_str(), itself, static_cast<CosTrading::FollowOption>(def_pass_on),

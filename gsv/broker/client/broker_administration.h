@@ -1,7 +1,6 @@
-// Changes a broker's links, service types and offers, and lists its links, for `gsv links`,
-// `gsv types` and `gsv offers`.
-// All calls use the process's ORB, and start one if there is none.
-// Errors  see BrokerClient; kUnavailable when the broker has no links.
+// Changes a broker's links, service types and offers, and lists its links. It serves `gsv links`,
+// `gsv types` and `gsv offers`. All calls use the process's ORB, and start one if there is none.
+// Errors  see BrokerClient; kUnavailable if the broker does not support links.
 #pragma once
 
 #include <chrono>
@@ -18,13 +17,14 @@ namespace gsv::broker {
 
 struct LinkDescription {
   std::string name;
-  std::string address;  // "host:port" of the other trader; empty when it has none on TCP
+  // "host:port" of the other trader; empty if its reference has no TCP address
+  std::string address;
   FollowOption def_pass_on = FollowOption::kAlways;
   FollowOption limiting = FollowOption::kAlways;
-  bool answers = false;  // it answered a call within a second
+  bool answers = false;  // whether it answered a call within a second
 };
 
-// "local_only", "if_no_local", "always".
+// Returns "local_only", "if_no_local" or "always".
 std::string_view Spelling(FollowOption option);
 
 class BrokerAdministration {
@@ -33,10 +33,10 @@ class BrokerAdministration {
                                 std::chrono::milliseconds timeout = std::chrono::seconds(5))
       : broker_(std::move(broker)), timeout_(timeout) {}
 
-  // The links by name. This process calls each target; the broker does not.
+  // Lists the links by name. This process, and not the broker, calls each target.
   [[nodiscard]] base::Result<std::vector<LinkDescription>> ListLinks() const;
-  // `target`: another broker's address. If it is an "IOR:…" with a type id, the other broker need
-  // not answer.
+  // Adds a link. `target` is another broker's address. If it is an "IOR:…" with a type id, the
+  // other broker need not be running.
   [[nodiscard]] base::Status AddLink(const std::string& name, const std::string& target,
                                      FollowOption def_pass_on, FollowOption limiting) const;
   [[nodiscard]] base::Status RemoveLink(const std::string& name) const;
@@ -44,8 +44,8 @@ class BrokerAdministration {
   [[nodiscard]] base::Status AddServiceType(const ServiceType& type) const;
   [[nodiscard]] base::Status RemoveServiceType(const std::string& name) const;
 
-  // `properties`: "name=value" with the value as JSON, read as the type that the service type
-  // declares; text needs no quotes. Returns the offer's id.
+  // Adds an offer and returns its id. `properties` are "name=value". The value is JSON, and is read
+  // as the type that the service type declares. Texts need no quotes.
   [[nodiscard]] base::Result<std::string> AddOffer(
       const std::string& type, const std::string& reference,
       const std::vector<std::string>& properties) const;
@@ -57,16 +57,17 @@ class BrokerAdministration {
 };
 
 void PrintLinks(const std::vector<LinkDescription>& links, std::ostream& out);
-// {"name":…, "address":…, "def_pass_on_follow_rule":…, "limiting_follow_rule":…, "answers":…} a
-// line.
+// Prints one line per link: {"name":…, "address":…, "def_pass_on_follow_rule":…,
+// "limiting_follow_rule":…, "answers":…}.
 void PrintLinksJson(const std::vector<LinkDescription>& links, std::ostream& out);
 
-// "mandatory readonly sequence<string> name", as PrintServiceTypes writes it.
+// Parses a text such as "mandatory readonly sequence<string> name", which PrintServiceTypes()
+// writes.
 // Errors  kInvalidArgument.
 [[nodiscard]] base::Result<PropertyDefinition> ParsePropertyDefinition(const std::string& text);
 
-// "name=value", see AddOffer. A property that `type` does not declare has the type that JSON
-// says: boolean, long, double, string, or a sequence of these.
+// Parses "name=value", see AddOffer(). A property that `type` does not declare gets the type of the
+// JSON value: boolean, long, double, string, or a sequence of these.
 // Errors  kInvalidArgument.
 [[nodiscard]] base::Result<Property> ParseProperty(const std::string& text,
                                                    const ServiceType& type);

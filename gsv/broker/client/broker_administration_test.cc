@@ -37,7 +37,7 @@ TEST(BrokerAdministration, AddsListsAndRemovesLinks) {
   EXPECT_TRUE(administration.ListLinks()->empty());
 }
 
-// Answers only when this many calls are in progress at the same time.
+// A service that answers only when this many calls are in progress at the same time.
 class Sociable : public POA_CosTradingDynamic::DynamicPropEval {
  public:
   explicit Sociable(std::latch& others) : others_(others) {}
@@ -58,8 +58,8 @@ class Sociable : public POA_CosTradingDynamic::DynamicPropEval {
   std::latch& others_;
 };
 
-// It takes a silent trader's time only once.
-TEST(BrokerAdministration, AsksTheTargetsOfLinksAtTheSameTime) {
+// Several silent traders together must take no longer than one.
+TEST(BrokerAdministration, CallsTheTargetsOfLinksConcurrently) {
   constexpr int kLinks = 4;
   const BrokerNode node;
   std::latch others(kLinks);
@@ -128,7 +128,7 @@ TEST(BrokerAdministration, AddsAndRemovesTypesAndOffers) {
   EXPECT_EQ(administration.RemoveServiceType("Robot").error().code, base::ErrorCode::kNotFound);
 }
 
-TEST(PropertyTexts, RefuseValuesThatDoNotFit) {
+TEST(PropertyTexts, RejectValuesOfTheWrongType) {
   const ServiceType type{.name = "T",
                          .properties = {*ParsePropertyDefinition("short a"),
                                         *ParsePropertyDefinition("unsigned long b"),

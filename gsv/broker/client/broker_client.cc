@@ -32,7 +32,7 @@ CosTrading::PropertySeq ToCorba(const std::vector<Property>& properties) {
   return result;
 }
 
-// Another trader might send a name twice; the last value counts.
+// Another trader might send a name twice. The last value applies.
 PropertyList ToList(const CosTrading::PropertySeq& properties) {
   return PropertyList::LastOfEachName(ToProperties(properties));
 }
@@ -53,7 +53,7 @@ bool SameDefinition(ServiceType a, ServiceType b) {
                     b.properties.end(), same);
 }
 
-// The value of -ORBInitRef; nil if it is not set.
+// Returns the value of -ORBInitRef, or nil if it is not set.
 CORBA::Object_ptr InitialReference(CORBA::ORB_ptr orb) {
   try {
     return orb->resolve_initial_references("TradingService");
@@ -121,7 +121,7 @@ base::Status BrokerClient::Resolve(CORBA::ORB_ptr orb, unsigned long timeout_ms)
                       "no broker is given; use --broker corbaloc::1.2@HOST:PORT/TradingService or "
                       "-ORBInitRef TradingService=...");
   }
-  // The time-out belongs to the reference, so that it also applies to the narrow.
+  // The timeout belongs to the reference, so it also applies to narrowing it.
   SetTimeout(object, timeout_ms);
   lookup_ = CosTrading::Lookup::_narrow(object);
   if (CORBA::is_nil(lookup_)) {

@@ -1,11 +1,11 @@
 // A client of a broker: registers service types, exports offers and finds them.
 //
-// It works with any Trading Service. Every call ends within the time-out. Every failure is an Error
+// It works with any Trading Service. Every call ends within the timeout. Every failure is an Error
 // whose sentence names the broker's address.
 //
-// Errors   kInvalidArgument: a wrong argument (for a constraint, with the position of the error).
-//          kNotFound: no such service type, offer or property. kUnavailable, kTimeout: no response
-//          from the address, or not in time.
+// Errors   kInvalidArgument for a wrong argument; for a constraint, the error has its position.
+//          kNotFound if there is no such service type, offer or property. kUnavailable if nothing
+//          answers at the address, kTimeout if the answer is late.
 // Threads  every member may be called at any time.
 #pragma once
 
@@ -28,7 +28,7 @@ struct FoundOffer {
   PropertyList properties;
 };
 
-// An offer as its broker knows it.
+// An offer as the broker describes it.
 struct DescribedOffer {
   std::string id;
   std::string type;
@@ -38,8 +38,9 @@ struct DescribedOffer {
 
 class BrokerClient {
  public:
-  // `reference`: "corbaloc::host:port/TradingService" ("1.2@" is added if it is missing), an
-  // "IOR:…", or empty for the value of omniORB's -ORBInitRef TradingService=….
+  // Connects to a broker. `reference` is "corbaloc::host:port/TradingService" ("1.2@" is added if
+  // it is missing) or an "IOR:…". If it is empty, the value of omniORB's -ORBInitRef
+  // TradingService=… is used.
   [[nodiscard]] static base::Result<BrokerClient> Connect(
       CORBA::ORB_ptr orb, const std::string& reference,
       std::chrono::milliseconds timeout = std::chrono::seconds(5));
@@ -47,23 +48,23 @@ class BrokerClient {
   // The broker's address, to show to users and to pass to other programs.
   const std::string& reference() const { return reference_; }
 
-  // Adds the type. It is no error if the broker already has an equal type.
+  // Adds the type. If the broker already has an equal type, this succeeds.
   [[nodiscard]] base::Status EnsureServiceType(const ServiceType& type);
-  // Returns the offer's id. Refuses a service that listens on loopback while the broker is on
-  // another host, because no client there could call it.
+  // Exports a service and returns the offer's id. Rejects a service that listens on loopback while
+  // the broker is on another host, because no client there could call it.
   [[nodiscard]] base::Result<std::string> Export(const std::string& type, CORBA::Object_ptr object,
                                                  const std::vector<Property>& properties);
   [[nodiscard]] base::Status Withdraw(const std::string& id);
-  // Sets `properties`; the other properties of the offer stay.
+  // Sets `properties`. Other properties of the offer do not change.
   [[nodiscard]] base::Status Modify(const std::string& id, const std::vector<Property>& properties);
-  // At most `limit` offers with all their properties, in the order of `preference`.
+  // Returns at most `limit` offers with all their properties, in the order of `preference`.
   [[nodiscard]] base::Result<std::vector<FoundOffer>> Query(const std::string& type,
                                                             const std::string& constraint,
                                                             const std::string& preference,
                                                             std::size_t limit);
 
   [[nodiscard]] base::Result<std::vector<std::string>> ServiceTypeNames();
-  // The type with all inherited properties.
+  // Returns the type with all inherited properties.
   [[nodiscard]] base::Result<ServiceType> DescribeServiceType(const std::string& name);
   [[nodiscard]] base::Result<std::vector<std::string>> OfferIds();
   [[nodiscard]] base::Result<DescribedOffer> Describe(const std::string& id);
@@ -77,7 +78,7 @@ class BrokerClient {
   CORBA::ORB_var orb_;
   CosTrading::Lookup_var lookup_;
   CosTrading::Register_var registry_;
-  CosTrading::Admin_var admin_;  // nil if the broker has none
+  CosTrading::Admin_var admin_;  // nil if the broker does not have the interface
   CosTradingRepos::ServiceTypeRepository_var types_;
 };
 

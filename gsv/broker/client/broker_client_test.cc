@@ -55,7 +55,7 @@ TEST_F(BrokerClientTest, FollowsIteratorsUpToTheLimit) {
   EXPECT_EQ(client_.OfferIds()->size(), 250u);
 }
 
-TEST_F(BrokerClientTest, AcceptsAnEqualTypeAndRefusesAnother) {
+TEST_F(BrokerClientTest, AcceptsAnEqualTypeAndRejectsADifferentOne) {
   ASSERT_TRUE(client_.EnsureServiceType(kRobot));
   ServiceType same = kRobot;
   std::swap(same.properties[0], same.properties[1]);
@@ -69,7 +69,7 @@ TEST_F(BrokerClientTest, AcceptsAnEqualTypeAndRefusesAnother) {
       broker_.reference() + ": the service type Robot exists already with another definition");
 }
 
-TEST_F(BrokerClientTest, ReportsWhereAConstraintIsWrong) {
+TEST_F(BrokerClientTest, ReportsThePositionOfAnErrorInAConstraint) {
   ASSERT_TRUE(client_.EnsureServiceType(kRobot));
   const auto refused = client_.Query("Robot", "speed =< 1", "", 1);
   ASSERT_FALSE(refused);
@@ -160,7 +160,7 @@ TEST_F(BrokerClientTest, ReportsThatABrokerIsGone) {
       broker_.reference() + ": no broker responds at this address; start one with `gsv broker`");
 }
 
-TEST(BrokerClient, RefusesAReferenceThatIsNotABroker) {
+TEST(BrokerClient, RejectsAReferenceThatIsNotABroker) {
   EXPECT_EQ(BrokerClient::Connect(TestOrb(), "localhost:1234").error().code,
             ErrorCode::kInvalidArgument);
   const CORBA::String_var ior = TestOrb()->object_to_string(TestService());

@@ -18,8 +18,8 @@ using Repository = CosTradingRepos::ServiceTypeRepository;
 constexpr ErrorCode kWrong = ErrorCode::kInvalidArgument;
 constexpr ErrorCode kMissing = ErrorCode::kNotFound;
 
-// The exception has only the refused text. Parsing it again finds the error, unless the text is
-// correct and has a wrong type.
+// The reason why the broker refused a text. The exception contains only the text, so it is parsed
+// again to find the error. A text that is correct has an operand of a wrong type.
 std::string WhyRefused(const base::Status& parsed) {
   return parsed ? "its operands do not have the types that the service type declares"
                 : parsed.error().Sentence();

@@ -1,4 +1,4 @@
-// Turns the exceptions of a broker into errors with a sentence.
+// Converts the exceptions of a broker to errors with a sentence.
 #pragma once
 
 #include <atomic>
@@ -12,17 +12,17 @@
 
 namespace gsv::broker {
 
-// The error for the exception that is being handled. Call it in a catch block.
-// `where` is the broker's address.
+// Returns the error for the exception that is being handled. Call it in a catch block. `where` is
+// the broker's address.
 base::Error ErrorOfCurrentException(const std::string& where);
 
-// Calls made by this process so far, and how many of them failed. Any thread.
+// The number of calls that this process has made, and how many of them failed. Any thread.
 struct CallCounts {
   std::atomic<std::uint64_t> made{0}, failed{0};
 };
 CallCounts& ProcessCallCounts();
 
-// Runs `call` and turns an exception into an error. Returns the errors of `call` unchanged.
+// Calls `call` and converts an exception to an error. Returns the errors of `call` unchanged.
 template <typename Call>
 auto Guarded(const std::string& where, const Call& call) -> decltype(call()) {
   ++ProcessCallCounts().made;
@@ -34,8 +34,8 @@ auto Guarded(const std::string& where, const Call& call) -> decltype(call()) {
   }
 }
 
-// The same for a call that may be repeated. After a restart of the broker, the first call over the
-// old connection fails, so that it is made again.
+// Like WithErrors(), for a call that may be repeated. After a restart of the broker, the first call
+// over the old connection fails, and so is repeated.
 template <typename Call>
 auto GuardedRepeatable(const std::string& where, const Call& call) -> decltype(call()) {
   ++ProcessCallCounts().made;

@@ -9,15 +9,15 @@
 
 namespace gsv::broker {
 
-// Adds GIOP version 1.2 to a "corbaloc:" without a version, for which an ORB would use 1.0. Returns
-// an "IOR:" unchanged.
-// Errors  kInvalidArgument, with the forms that a reference may have.
+// Adds GIOP version 1.2 to a "corbaloc:" without a version, because an ORB would use 1.0 for it.
+// Returns an "IOR:" unchanged.
+// Errors  kInvalidArgument, with a list of the valid forms of a reference.
 base::Result<std::string> NormaliseReference(std::string_view reference);
 
-// Whether the address is of a broker that accepts only TLS.
+// Whether the address belongs to a broker that accepts only TLS.
 bool TakesTls(std::string_view reference);
 
-// The host in a normalised reference; empty when it names none.
+// Returns the host in a normalised reference, or an empty text if it names none.
 std::string HostOf(std::string_view reference);
 
 }  // namespace gsv::broker

@@ -9,43 +9,44 @@
 
 namespace gsv::broker {
 
-// sba::AgentBehaviourFactory.
+// The type for sba::AgentBehaviourFactory.
 const ServiceType& AgentBehaviourFactoryType();
-// sba::SimulationService.
+// The type for sba::SimulationService.
 const ServiceType& SimulationServiceType();
-// sba::ScenarioService.
+// The type for sba::ScenarioService.
 const ServiceType& ScenarioServiceType();
 
 struct BehaviourOffer {
-  std::string name;  // "wander"
+  std::string name;  // the name of the behaviour, such as "wander"
   std::string description;
   std::string host;
   std::int32_t pid = 0;
-  bool time_managed = true;  // it uses the robot's clock: the simulation may wait for it
+  // whether it uses the robot's clock, so that the simulation may wait for it
+  bool time_managed = true;
 };
 std::vector<Property> PropertiesOf(const BehaviourOffer& offer);
-// Properties that are missing keep their defaults.
+// Reads an offer. Properties that are missing keep their defaults.
 BehaviourOffer BehaviourOfferFrom(const PropertyList& properties);
 
 struct SimulationServiceOffer {
-  std::string name;  // of the server
+  std::string name;  // the name of the server
   std::string host;
   std::int32_t pid = 0;
-  std::string viewer_url;  // empty: it has no viewer
+  std::string viewer_url;  // empty if the server has no viewer
   std::int32_t cores = 1;
 };
 std::vector<Property> PropertiesOf(const SimulationServiceOffer& offer);
 
 // `slots` is the number of scenarios that the server runs at once.
 struct ScenarioServiceOffer {
-  std::string name;  // of the server
+  std::string name;  // the name of the server
   std::string host;
   std::int32_t pid = 0;
   std::int32_t slots = 0;
   std::int32_t cores = 1;
 };
 std::vector<Property> PropertiesOf(const ScenarioServiceOffer& offer);
-// Properties that are missing keep their defaults.
+// Reads an offer. Properties that are missing keep their defaults.
 ScenarioServiceOffer ScenarioServiceOfferFrom(const PropertyList& properties);
 
 }  // namespace gsv::broker

@@ -67,7 +67,8 @@ CORBA::TypeCode_ptr SimpleTypeCode(Scalar scalar) {
   return CORBA::_tc_null;
 }
 
-// "sequence<octet>", "struct IDL:acme/Place:1.0": equal for types that CORBA defines as equivalent.
+// Returns a text such as "sequence<octet>" or "struct IDL:acme/Place:1.0". Types that CORBA defines
+// as equivalent have equal texts.
 std::string OtherSpelling(CORBA::TypeCode_ptr type, int depth = 0) {
   constexpr int kDepth = 16;
   if (depth > kDepth) return "…";

@@ -7,10 +7,10 @@
 
 namespace gsv::broker {
 
-// The type for the constraint language, with `encoded` empty. Aliases are resolved.
+// Returns the type for the constraint language, with `encoded` empty. Aliases are resolved.
 PropertyType Classify(CORBA::TypeCode_ptr type);
 PropertyType ToPropertyType(CORBA::TypeCode_ptr type);
-// A new reference.
+// Returns a new reference, which the caller releases.
 CORBA::TypeCode_ptr ToTypeCode(const PropertyType& type);
 
 }  // namespace gsv::broker

@@ -106,7 +106,7 @@ TEST_F(CorbaTypesTest, AreUnchangedAfterEncoding) {
   }
 }
 
-TEST_F(CorbaTypesTest, TypesThatNestVeryDeepAreSpeltUpToALimit) {
+TEST_F(CorbaTypesTest, DeeplyNestedTypesAreSpeltUpToALimit) {
   CORBA::TypeCode_var type = CORBA::TypeCode::_duplicate(CORBA::_tc_octet);
   for (int i = 0; i < 20; ++i) type = SequenceOf(type);
   EXPECT_NE(Classify(type).name.find("…"), std::string::npos);

@@ -101,7 +101,7 @@ Value ReadSequence(Scalar element, cdrStream& stream) {
   return Value::SequenceOf(element, std::move(elements));
 }
 
-// The declared type of a dynamic property; null for any other value.
+// The declared type of a dynamic property, or null for any other value.
 std::shared_ptr<const PropertyType> PromisedType(const CORBA::Any& any) {
   const CosTradingDynamic::DynamicProp* dynamic = nullptr;
   if (!(any >>= dynamic)) return nullptr;
@@ -122,7 +122,7 @@ std::optional<Value> ExtractAs(const CORBA::Any& any, const Make& make) {
   return make(content);
 }
 
-// Converts without copying the content of the Any. Nothing if its type is not a simple type.
+// Converts an Any without copying its content. Returns nullopt if its type is not a simple type.
 std::optional<Value> SimpleValue(const CORBA::Any& any) {
   switch (any.NP_type()->kind()) {
     case CORBA::tk_boolean:
@@ -185,7 +185,7 @@ void FillSimple(const Value& value, CORBA::Any& any) {
   GSV_CHECK(!"a simple type was expected");
 }
 
-// `any` is empty.
+// Sets `any`, which is empty, to `value`.
 void FillAny(const Value& value, CORBA::Any& any) {
   if (const OtherValue* other = value.AsOther()) {
     cdrEncapsulationStream stream = StreamOf(other->encoded);

@@ -1,6 +1,6 @@
 // Converts properties and their types between CORBA and the trader.
 //
-// A value that the constraint language can handle becomes plain data, with aliases of its type
+// A value that the constraint language can handle becomes plain data, and aliases of its type are
 // resolved. Every other value keeps its encoding.
 #pragma once
 

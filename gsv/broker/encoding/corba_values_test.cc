@@ -130,7 +130,7 @@ TEST_F(CorbaValuesTest, KeepsAScalarBehindAnAlias) {
   EXPECT_EQ(ToValue(any), Value::Double(2.5));
 }
 
-TEST_F(CorbaValuesTest, CarriesOtherValuesUnread) {
+TEST_F(CorbaValuesTest, KeepsOtherValuesEncoded) {
   const Value value = ToValue(AnyOf(CORBA::Any::from_octet(7)));
   ASSERT_NE(value.AsOther(), nullptr);
   EXPECT_EQ(value.AsOther()->type_name, "octet");
@@ -141,7 +141,7 @@ TEST_F(CorbaValuesTest, CarriesOtherValuesUnread) {
   EXPECT_EQ(octet, 7);
 }
 
-TEST_F(CorbaValuesTest, KnowsTheTypeThatADynamicPropertyPromises) {
+TEST_F(CorbaValuesTest, ReadsTheDeclaredTypeOfADynamicProperty) {
   CosTradingDynamic::DynamicProp dynamic;
   dynamic.returned_type = CORBA::TypeCode::_duplicate(CORBA::_tc_double);
   const Value value = ToValue(AnyOf(dynamic));

@@ -1,10 +1,10 @@
-// Encodes the properties of offers, and service types, as bytes for a file.
+// Encodes the properties of offers, and service types, as bytes that are stored in a file.
 //
 // Format  CDR encapsulations of CosTrading::PropertySeq and PolicySeq, and of
 //         CosTradingRepos::ServiceTypeRepository::TypeStruct.
 // The process needs an ORB.
 //
-// Errors  kCorrupt for bytes that are neither.
+// Errors  kCorrupt for bytes that cannot be decoded as one of these.
 #pragma once
 
 #include <string>
@@ -23,7 +23,7 @@ std::string EncodeProperties(const PropertyList& properties);
 std::string EncodePolicies(const CosTrading::PolicySeq& policies);
 [[nodiscard]] base::Result<CosTrading::PolicySeq> DecodePolicies(const std::string& bytes);
 
-// Everything but the name.
+// Encodes the type without its name.
 std::string EncodeServiceType(const ServiceType& type);
 [[nodiscard]] base::Result<ServiceType> DecodeServiceType(const std::string& name,
                                                           const std::string& bytes);

@@ -12,7 +12,7 @@ namespace {
 
 using orb::RawCdr;
 
-// CORBA.TCKind.
+// Values of CORBA's TCKind.
 constexpr std::uint32_t kTkLong = 3, kTkStruct = 15;
 
 class RecordEncodingTest : public ::testing::Test {
@@ -24,7 +24,7 @@ class RecordEncodingTest : public ::testing::Test {
   const CORBA::ORB_var orb_ = StartOrb();
 };
 
-// The encapsulation of a property "p" that is the long 7.
+// Returns the encapsulation of a property "p" with the long 7.
 RawCdr OneProperty() { return RawCdr().Octet(1).ULong(1).String("p").ULong(kTkLong).ULong(7); }
 
 TEST_F(RecordEncodingTest, ReadsPropertiesAsCdr) {
@@ -48,7 +48,7 @@ TEST_F(RecordEncodingTest, WritesThePropertiesThatItReads) {
   EXPECT_TRUE(DecodeProperties(EncodeProperties({})));
 }
 
-TEST_F(RecordEncodingTest, RefusesPropertiesThatAreCutOff) {
+TEST_F(RecordEncodingTest, RejectsTruncatedProperties) {
   const std::string bytes = OneProperty().bytes();
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     const auto properties = DecodeProperties(bytes.substr(0, size));
@@ -58,7 +58,7 @@ TEST_F(RecordEncodingTest, RefusesPropertiesThatAreCutOff) {
   }
 }
 
-TEST_F(RecordEncodingTest, RefusesBytesThatAreNotProperties) {
+TEST_F(RecordEncodingTest, RejectsBytesThatAreNotProperties) {
   const struct {
     const char* what;
     RawCdr bytes;
@@ -73,7 +73,7 @@ TEST_F(RecordEncodingTest, RefusesBytesThatAreNotProperties) {
   for (const auto& each : kCases) EXPECT_FALSE(DecodeProperties(each.bytes.bytes())) << each.what;
 }
 
-TEST_F(RecordEncodingTest, RefusesTwoPropertiesOfOneName) {
+TEST_F(RecordEncodingTest, RejectsTwoPropertiesWithOneName) {
   const RawCdr twice = RawCdr()
                            .Octet(1)
                            .ULong(2)

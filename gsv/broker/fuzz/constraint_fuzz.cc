@@ -1,5 +1,5 @@
-// Any text as a constraint and as a preference. It is refused, or the evaluator agrees with the
-// naive one.
+// Parses any text as a constraint and as a preference. It must be rejected, or the evaluator must
+// agree with the naive one.
 #include <cstdint>
 #include <string>
 

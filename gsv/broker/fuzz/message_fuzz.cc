@@ -1,5 +1,5 @@
-// Any bytes as messages, as the arguments of a request, and as a reply. After the check, omniORB
-// unmarshals or refuses them without harm.
+// Takes any bytes as messages, as the arguments of a request, and as a reply. After the check,
+// omniORB must unmarshal or reject them without harm.
 #include <algorithm>
 #include <cstdint>
 #include <string>
@@ -57,7 +57,7 @@ void Unmarshal(std::string_view operation, const std::string& arguments) {
   }
 }
 
-// The body is the reply of a service or of another trader.
+// Takes the body as the reply of a service or of another trader.
 void TakeAsReply(const std::string& body, bool of_a_service) {
   constexpr std::uint32_t kId = 7;
   const std::string request = RawRequest("k", of_a_service ? "evalDP" : "next_n", "", kId);

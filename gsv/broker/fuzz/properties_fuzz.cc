@@ -1,6 +1,6 @@
-// Any bytes as the properties of an offer, from a message or a file. They are refused, or they are
-// unchanged after writing and reading them (except the padding between them, which omniORB does not
-// set).
+// Takes any bytes as the properties of an offer, from a message or a file. They must be rejected,
+// or be equal after they are written and read again. Only the padding between them may differ,
+// because omniORB does not set it.
 #include <cstdint>
 #include <string>
 

@@ -1,5 +1,5 @@
-// The equality terms of a constraint: terms `property == literal` that must all be TRUE for the
-// constraint to be TRUE.
+// Finds the equality terms of a constraint: terms `property == literal` that must all be TRUE for
+// the constraint to be TRUE.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct EqualityTerm {
   ScalarValue value;
 };
 
-// The terms that `and` joins from the root on, in their order.
+// Returns these terms among those that `and` joins from the root on, in their order.
 std::vector<EqualityTerm> EqualityTerms(const Expression& constraint);
 
 }  // namespace gsv::broker

@@ -7,7 +7,7 @@
 namespace gsv::broker {
 namespace {
 
-// Strings are views, never copies.
+// Strings are views and are never copied.
 using Operand = std::variant<std::monostate, bool, std::int64_t, double, std::string_view>;
 
 constexpr std::monostate kNoValue{};
@@ -83,7 +83,7 @@ double RealResult(Operator op, double a, double b) {
   }
 }
 
-// Computes exactly; nothing on overflow.
+// Computes the exact result. Returns nullopt on overflow.
 std::optional<std::int64_t> IntegerResult(Operator op, std::int64_t a, std::int64_t b) {
   std::int64_t result = 0;
   switch (op) {
@@ -98,8 +98,9 @@ std::optional<std::int64_t> IntegerResult(Operator op, std::int64_t a, std::int6
   }
 }
 
-// Numeric promotion as in IDL's constant expressions and C: two integers give an integer (quotients
-// are truncated), an integer and a real a real. An integer result beyond 64 bits becomes a real.
+// Applies the numeric promotion of IDL's constant expressions and C. Two integers give an integer,
+// and quotients are truncated. An integer and a real number give a real number. An integer result
+// beyond 64 bits becomes a real number.
 Operand Calculate(Operator op, const Operand& left, const Operand& right) {
   const auto a = ToNumber(left);
   const auto b = ToNumber(right);
@@ -169,7 +170,8 @@ class Evaluator {
     return !*truth;
   }
 
-  // A left operand that is TRUE decides `or`; one that is FALSE decides `and`.
+  // Evaluates `and` or `or`. A left operand that is TRUE decides `or`, and one that is FALSE
+  // decides `and`.
   Operand Decide(const Node& node, bool deciding) const {
     const Operand left = Left(node);
     const auto* truth = std::get_if<bool>(&left);

@@ -1,9 +1,9 @@
-// The value of an expression for one offer.
+// Evaluates an expression for one offer.
 //
-// Operands are evaluated from left to right; `and` and `or` stop as soon as the result is known. An
+// Operands are evaluated from left to right. `and` and `or` stop as soon as the result is known. An
 // expression has no value if it needs a property that the offer lacks, if the type of a property
 // does not fit its operator, or if it divides by zero. A constraint without a value is FALSE as a
-// whole, so that `not (speed > 3)` does not match an offer without a speed. An offer for which a
+// whole, so `not (speed > 3)` does not match an offer without a speed. An offer for which a
 // preference has no value comes last.
 //
 // Source  OMG Trading Object Service (formal/00-06-27), annex B.
@@ -19,8 +19,9 @@ namespace gsv::broker {
 
 bool Matches(const Expression& constraint, const PropertySource& offer);
 
-// The number that `min` and `max` order by; nothing if there is no value or it is not a number.
-// A long double holds every int64 and double exactly, so that mixed numbers have one order.
+// Returns the number by which `min` and `max` order offers, or nullopt if there is no value or the
+// value is not a number. A long double holds every int64 and double exactly, so mixed numbers have
+// one order.
 std::optional<long double> EvaluateNumber(const Expression& expression,
                                           const PropertySource& offer);
 

@@ -1,4 +1,5 @@
-// Random constraints on random offers: the evaluator and a naive second one agree.
+// Evaluates random constraints on random offers, and compares the evaluator with a second, naive
+// one.
 #include <random>
 
 #include <gtest/gtest.h>
@@ -91,7 +92,7 @@ class Generator {
     return Below(2) == 0 ? "(" + plain + ")" : plain;
   }
 
-  // Sometimes the type does not fit.
+  // The type of an operand is sometimes wrong.
   std::string Operand(int depth) {
     switch (Below(5)) {
       case 0:

@@ -38,7 +38,7 @@ TEST(Evaluation, ComparesWithNumericPromotion) {
   for (const auto& [text, expected] : kCases) EXPECT_EQ(Holds(text), expected) << text;
 }
 
-TEST(Evaluation, ComparesTextAndTruth) {
+TEST(Evaluation, ComparesStringsAndBooleans) {
   const std::pair<const char*, bool> kCases[] = {
       {"name == 'laser printer'", true},
       {"name < 'line'", true},
@@ -53,7 +53,7 @@ TEST(Evaluation, ComparesTextAndTruth) {
   for (const auto& [text, expected] : kCases) EXPECT_EQ(Holds(text), expected) << text;
 }
 
-TEST(Evaluation, CalculatesIntegersExactlyAndCutsTheirQuotient) {
+TEST(Evaluation, CalculatesIntegersExactlyAndTruncatesQuotients) {
   const std::pair<const char*, bool> kCases[] = {
       {"1 + 2 * 3 == 7", true},
       {"(1 + 2) * 3 == 9", true},
@@ -94,7 +94,7 @@ TEST(Evaluation, ReportsWhichPropertiesExist) {
   EXPECT_TRUE(Holds("not exist weight"));
 }
 
-TEST(Evaluation, IsFalseAsAWholeWhereAPropertyIsMissing) {
+TEST(Evaluation, ConstraintIsFalseIfAPropertyIsMissing) {
   EXPECT_FALSE(Holds("weight > 3"));
   EXPECT_FALSE(Holds("not (weight > 3)"));
   EXPECT_FALSE(Holds("weight > 3 or colour"));
@@ -109,7 +109,7 @@ TEST(Evaluation, StopsWhenTheResultIsKnown) {
   EXPECT_TRUE(Holds("not exist weight or weight > 3"));
 }
 
-TEST(Evaluation, IsFalseWhereTypesDoNotFit) {
+TEST(Evaluation, ConstraintIsFalseIfTypesDoNotFit) {
   EXPECT_FALSE(Holds("name > 3"));
   EXPECT_FALSE(Holds("not (name > 3)"));
   EXPECT_FALSE(Holds("place == place"));
@@ -121,13 +121,13 @@ TEST(Evaluation, IsFalseWhereTypesDoNotFit) {
   EXPECT_FALSE(Holds("1 ~ name"));
 }
 
-TEST(Evaluation, IsFalseWhereItDividesByZero) {
+TEST(Evaluation, ConstraintIsFalseIfItDividesByZero) {
   EXPECT_FALSE(Holds("1 / 0 == 1"));
   EXPECT_FALSE(Holds("not (1 / 0 == 1)"));
   EXPECT_FALSE(Holds("1.5 / (ppm - 12) > 0"));
 }
 
-TEST(Evaluation, GivesPreferencesANumber) {
+TEST(Evaluation, ReturnsTheNumberOfAPreference) {
   const auto number = [](std::string_view text) {
     return EvaluateNumber(*ParseConstraint(text, {}), kOffer);
   };

@@ -67,7 +67,7 @@ void CollectMissing(const Expression& expression, std::size_t index, const Prope
 TermOutcome OutcomeOf(const Expression& constraint, std::size_t index,
                       const PropertySource& offer) {
   TermOutcome outcome{.term = TextOf(constraint, index)};
-  // Operands come before their operators, so that this part is an expression.
+  // Operands come before their operators, so this part of the list is an expression.
   Expression term{{constraint.nodes.begin(),
                    constraint.nodes.begin() + static_cast<std::ptrdiff_t>(index) + 1}};
   if (Matches(term, offer)) {

@@ -1,4 +1,5 @@
-// Explains why an offer matches a constraint or not: the value of each term that `and` joins.
+// Explains why an offer matches a constraint or not. It gives the value of each term that `and`
+// joins.
 #pragma once
 
 #include <string>
@@ -11,13 +12,13 @@ namespace gsv::broker {
 
 struct TermOutcome {
   enum class Result : std::uint8_t { kTrue, kFalse, kNoValue };
-  std::string term;  // in the language, with all its parentheses
+  std::string term;  // the term as text, with all its parentheses
   Result result = Result::kNoValue;
-  std::vector<std::string> missing{};  // properties in the term that the offer lacks
+  std::vector<std::string> missing{};  // properties in the term that the offer does not have
 };
 
-// The terms in the order of the constraint, which matches if all are TRUE. Terms after one that is
-// not TRUE are evaluated as well, although a query would stop there.
+// Returns the terms in the order of the constraint, which matches if all are TRUE. Terms after one
+// that is not TRUE are evaluated as well, although a query would stop there.
 std::vector<TermOutcome> Explain(const Expression& constraint, const PropertySource& offer);
 
 }  // namespace gsv::broker

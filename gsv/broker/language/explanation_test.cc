@@ -23,7 +23,7 @@ TEST(Explanation, EvaluatesEachTermSeparately) {
   EXPECT_EQ(outcomes[3].result, TermResult::kTrue);
 }
 
-TEST(Explanation, SpellsTermsSoThatTheyMeanTheSame) {
+TEST(Explanation, WritesTermsWithTheSameMeaning) {
   EXPECT_EQ(Outcomes("speed>1 or not exist speed")[0].term, "(speed > 1) or (not exist speed)");
   EXPECT_EQ(Outcomes("speed * 2 + 1 == 5")[0].term, "((speed * 2) + 1) == 5");
   EXPECT_EQ(Outcomes("name == 'it\\'s'")[0].term, "name == 'it\\'s'");

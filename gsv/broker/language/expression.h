@@ -1,4 +1,5 @@
-// A constraint or preference, parsed: a tree of operators in a flat, post-ordered list.
+// A parsed constraint or preference. It is a tree of operators in a flat list, in which operands
+// come before their operators.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ namespace gsv::broker {
 enum class Operator : std::uint8_t {
   kLiteral,
   kProperty,
-  kExist,  // of a property
+  kExist,  // whether an offer has a property
   kNot,
   kOr,
   kAnd,
@@ -25,43 +26,46 @@ enum class Operator : std::uint8_t {
   kLessEqual,
   kGreater,
   kGreaterEqual,
-  kIn,         // an expression is an element of a property of sequence type
-  kSubstring,  // left is contained in right
+  kIn,         // whether an expression is an element of a property of sequence type
+  kSubstring,  // whether the left operand is contained in the right one
   kAdd,
   kSubtract,
   kMultiply,
   kDivide,
 };
 
-// "==", "in", "~".
+// Returns the operator as it is written, such as "==", "in" or "~".
 std::string_view Spelling(Operator op);
 
 struct Node {
   Operator op = Operator::kLiteral;
-  std::size_t position = 0;  // in the text, from 0
-  ScalarValue literal{};     // kLiteral
-  std::string property{};    // kProperty, kExist; of kIn the sequence
-  std::size_t left = 0;      // the operand, of kNot and of every binary operator
-  std::size_t right = 0;     // the second operand, of every binary operator but kIn
+  std::size_t position = 0;  // position in the text, from 0
+  ScalarValue literal{};     // for kLiteral
+  std::string property{};    // for kProperty and kExist; for kIn the sequence
+  // index of the operand of kNot, or of the first operand of a binary operator
+  std::size_t left = 0;
+  std::size_t right = 0;  // index of the second operand, for binary operators except kIn
 };
 
-// Operands stand before their operators; the last node is the root. Never empty.
+// The nodes of an expression. Operands come before their operators, and the last node is the root.
+// Never empty.
 struct Expression {
   std::vector<Node> nodes;
   const Node& root() const { return nodes.back(); }
 };
 
-// A constraint: an expression, or the empty text, which is TRUE.
-// Errors  kInvalidArgument with the position (counted from 1) at which the text is wrong.
+// Parses a constraint, which is an expression, or the empty text, which is TRUE.
+// Errors  kInvalidArgument with the position of the error in the text, counted from 1.
 base::Result<Expression> ParseConstraint(std::string_view text, const ExpressionLimits& limits);
 
 struct Preference {
   enum class Kind : std::uint8_t { kFirst, kRandom, kMin, kMax, kWith };
   Kind kind = Kind::kFirst;
-  Expression expression;  // of kMin, kMax and kWith
+  Expression expression;  // for kMin, kMax and kWith
 };
 
-// A preference: "max e", "min e", "with e", "random", "first", or the empty text, which is first.
+// Parses a preference: "max e", "min e", "with e", "random", "first", or the empty text, which
+// means "first".
 base::Result<Preference> ParsePreference(std::string_view text, const ExpressionLimits& limits);
 
 }  // namespace gsv::broker

@@ -1,5 +1,5 @@
-// The OMG constraint language: OMG Trading Object Service (formal/00-06-27), annex B. Each rule
-// below has the name of the standard's production, which is quoted beside it.
+// The grammar of the OMG constraint language: OMG Trading Object Service (formal/00-06-27), annex
+// B. Each rule has the name of the standard's production, which is quoted beside it.
 #include <charconv>
 #include <cmath>
 
@@ -151,7 +151,7 @@ struct PreferenceExpr : peg::must<Space, PreferenceBody, EndOfText> {};
 struct Building {
   const ExpressionLimits& limits;
   Expression expression{};
-  std::vector<std::size_t> operands{};  // nodes that have no operator yet
+  std::vector<std::size_t> operands{};  // indices of nodes that are not yet an operand
   std::size_t depth = 0;
   Preference::Kind preference = Preference::Kind::kFirst;
 

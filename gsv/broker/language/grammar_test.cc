@@ -7,7 +7,8 @@ namespace {
 
 constexpr ExpressionLimits kLimits{.length = 400, .depth = 4, .nodes = 20};
 
-// Prefix notation with every operator's operands in parentheses.
+// Returns the expression in prefix notation, with parentheses around the operands of every
+// operator.
 std::string ToPrefix(const Expression& expression, const Node& node) {
   const auto operand = [&](std::size_t index) {
     return ToPrefix(expression, expression.nodes[index]);
@@ -41,7 +42,7 @@ std::string Parsed(std::string_view text) {
   return expression ? ToPrefix(*expression, expression->root()) : expression.error().Sentence();
 }
 
-TEST(Grammar, BindsAsTheStandardsPrecedenceDemands) {
+TEST(Grammar, FollowsTheStandardsPrecedence) {
   const std::pair<const char*, const char*> kCases[] = {
       {"a or b and c", "or(a and(b c))"},
       {"a and b or c", "or(and(a b) c)"},
@@ -102,7 +103,7 @@ TEST(Grammar, DistinguishesKeywordsFromNamesThatBeginLikeThem) {
   EXPECT_EQ(Parsed("\xE9t\xE9 == 1"), "==(\xE9t\xE9 1)") << "Latin-1 letters are letters";
 }
 
-TEST(Grammar, TakesTheEmptyTextForTrue) {
+TEST(Grammar, EmptyTextIsTrue) {
   EXPECT_EQ(Parsed(""), "TRUE");
   EXPECT_EQ(Parsed("  \n"), "TRUE");
 }
@@ -133,7 +134,7 @@ TEST(Grammar, ReportsTheExpectedTokenAndItsPosition) {
   for (const auto& [text, expected] : kCases) EXPECT_EQ(Parsed(text), expected) << text;
 }
 
-TEST(Grammar, RefusesExpressionsBeyondTheLimits) {
+TEST(Grammar, RejectsExpressionsBeyondTheLimits) {
   EXPECT_EQ(Parsed("((((a))))"), "a");
   EXPECT_EQ(Parsed("(((((a)))))"), "character 5: parentheses are nested deeper than 4");
   EXPECT_EQ(Parsed("(a) or (b) or (c) or (d) or (e) or (f)"), "or(or(or(or(or(a b) c) d) e) f)")
@@ -158,7 +159,7 @@ TEST(Grammar, ReadsEveryPreference) {
   }
 }
 
-TEST(Grammar, RefusesInvalidPreferences) {
+TEST(Grammar, RejectsInvalidPreferences) {
   EXPECT_EQ(ParsePreference("cheapest", kLimits).error().Sentence(),
             "character 1: expected 'min', 'max', 'with', 'random' or 'first'");
   EXPECT_EQ(ParsePreference("first cost", kLimits).error().Sentence(),

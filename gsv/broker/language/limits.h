@@ -9,33 +9,34 @@ namespace gsv::broker {
 
 // Limits on one constraint or preference.
 struct ExpressionLimits {
-  std::size_t length = 8192;  // characters
-  std::size_t depth = 64;     // nested parentheses
-  std::size_t nodes = 1000;   // operators, properties and literals
+  std::size_t length = 8192;  // in characters
+  std::size_t depth = 64;     // levels of nested parentheses
+  std::size_t nodes = 1000;   // number of operators, properties and literals
 };
 
 // Limits on dynamic properties.
 struct DynamicLimits {
-  std::chrono::milliseconds call_timeout{500};   // of one evaluation
-  std::chrono::milliseconds query_budget{2000};  // the sum of all waits of one query
-  std::chrono::milliseconds lifetime{1000};      // of a cached value, or of a cached failure
-  std::size_t value_bytes = 2048;                // a larger value counts as none
+  std::chrono::milliseconds call_timeout{500};   // time limit of one evaluation
+  std::chrono::milliseconds query_budget{2000};  // limit of the sum of all waits of one query
+  std::chrono::milliseconds lifetime{1000};      // how long a value, or a failure, is cached
+  std::size_t value_bytes = 2048;                // a larger value counts as unavailable
   std::size_t per_offer = 8;
-  std::size_t answers = 10'000;  // cached
+  std::size_t answers = 10'000;  // number of cached values
 };
 
 // Limits on queries to other traders.
 struct FederationLimits {
-  // Time limit of one hop. With H hops left a trader waits H times as long, so that each trader on
-  // the way still has time to answer if those behind it do not.
+  // Time limit of one hop. With H hops left, a trader waits H times as long. So each trader on the
+  // way still has time to answer if those behind it do not.
   std::chrono::milliseconds per_hop{500};
   std::size_t links = 100;
-  std::size_t proxies = 16;                // used by one query
-  std::size_t trader_name = 32;            // links named in one starting_trader or resolve
-  std::size_t calls = 32;                  // in progress, of all queries
-  std::size_t offers_per_answer = 20'000;  // of one trader
+  std::size_t proxies = 16;      // maximum number of proxies that one query uses
+  std::size_t trader_name = 32;  // maximum number of links named in one starting_trader or resolve
+  std::size_t calls = 32;        // maximum number of calls in progress, of all queries
+  std::size_t offers_per_answer = 20'000;  // maximum number of offers from one trader
   std::size_t bytes_per_answer = 16u << 20;
-  std::size_t requests = 10'000;  // remembered, so that no request is answered twice
+  // number of remembered requests, so that no request is answered twice
+  std::size_t requests = 10'000;
   std::chrono::seconds request_lifetime{60};
 };
 
@@ -46,14 +47,14 @@ struct TraderLimits {
   FederationLimits federation{};
   std::size_t offers = 200'000;
   std::size_t properties_per_offer = 128;
-  std::size_t offer_bytes = 32 * 1024;       // encoded properties and reference
-  std::size_t type_names_bytes = 32 * 1024;  // names of all service types together, so that
-                                             // list_types fits a message
-  std::size_t type_bytes = 32 * 1024;        // one type's description with everything inherited
-  std::size_t super_types = 64;              // of one type, direct or not
+  std::size_t offer_bytes = 32 * 1024;  // maximum size of encoded properties and reference
+  // names of all service types together, so that list_types fits into a message
+  std::size_t type_names_bytes = 32 * 1024;
+  std::size_t type_bytes = 32 * 1024;  // description of one type with everything that it inherits
+  std::size_t super_types = 64;        // maximum number of direct and indirect super types
   std::size_t iterators = 1000;
   std::size_t offers_in_iterators = 2'000'000;
-  std::chrono::seconds iterator_lifetime{60};  // since its last use
+  std::chrono::seconds iterator_lifetime{60};  // time since its last use
 };
 
 }  // namespace gsv::broker

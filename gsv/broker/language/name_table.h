@@ -1,6 +1,6 @@
-// The property names of offers; each distinct list of names is kept once.
+// The property names of offers. Each distinct list of names is stored once.
 //
-// Threads  not safe; OfferStore serialises.
+// Threads  not safe; OfferStore serialises access.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ namespace gsv::broker {
 
 class NameTable {
  public:
-  // Makes `properties` share its names with other lists of the same names.
+  // Makes `properties` share its list of names with other property lists of the same names.
   void Share(PropertyList& properties);
   // The number of lists of names that are in use or were used recently.
   std::size_t size() const { return known_.size(); }

@@ -39,14 +39,14 @@ TEST(NameTable, AChangedListLeavesTheOthersUnchanged) {
   EXPECT_EQ(*b.Find("floor"), Value::Short(2));
 }
 
-TEST(PropertyList, TheLastOfEqualNamesCounts) {
+TEST(PropertyList, LastValueOfANameApplies) {
   const PropertyList list = PropertyList::LastOfEachName(
       {{"b", Value::Long(1)}, {"a", Value::Long(2)}, {"b", Value::Long(3)}});
   EXPECT_EQ(*list.names(), (PropertyNames{"a", "b"}));
   EXPECT_EQ(*list.Find("b"), Value::Long(3));
 }
 
-TEST(NameTable, ForgetsUnusedNames) {
+TEST(NameTable, RemovesUnusedNames) {
   NameTable table;
   PropertyList kept = WithNames({"kept"});
   table.Share(kept);

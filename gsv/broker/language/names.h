@@ -1,6 +1,6 @@
 // Checks the names in offers and service types.
 //
-// Source  OMG Trading Object Service (formal/00-06-27), annex B: letters are those of ISO Latin-1.
+// Source  OMG Trading Object Service (formal/00-06-27), annex B. Letters are those of ISO Latin-1.
 #pragma once
 
 #include <string_view>
@@ -13,13 +13,15 @@ inline bool IsLetter(unsigned char c) {
 
 inline bool IsDigit(unsigned char c) { return c >= '0' && c <= '9'; }
 
-// A letter, then letters, digits and '_': the names of properties, policies and links.
+// Whether the name is a letter followed by letters, digits and '_'. Properties, policies and links
+// have such names.
 bool IsIdentifier(std::string_view name);
 
-// A scoped name ("::Finance::Converter"), or a repository identifier ("IDL:omg.org/X:1.0").
+// Whether the name is a scoped name ("::Finance::Converter") or a repository identifier
+// ("IDL:omg.org/X:1.0").
 bool IsServiceTypeName(std::string_view name);
 
-// The keywords of the constraint language; no property may have such a name.
+// Whether the name is a keyword of the constraint language. Properties must not have such names.
 bool IsReservedWord(std::string_view name);
 
 }  // namespace gsv::broker

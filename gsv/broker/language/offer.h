@@ -12,18 +12,18 @@ namespace gsv::broker {
 
 // The additional members of a proxy offer, which stands for another trader's offers of its type.
 struct ProxyPart {
-  bool if_match_all = false;  // it matches every constraint
+  bool if_match_all = false;  // whether it matches every constraint
   std::string recipe{};       // see recipe.h
-  std::string policies{};     // to be passed on: CDR of a CosTrading::PolicySeq
+  std::string policies{};     // policies to be passed on, as CDR of a CosTrading::PolicySeq
 };
 
-// Immutable: a modification replaces the offer, so that any holder may read it without a lock.
+// Immutable: a modification replaces the offer, so any holder may read it without a lock.
 struct Offer {
-  std::uint64_t number = 0;  // in the order of export, from 1
+  std::uint64_t number = 0;  // position in the order of export, from 1
   std::string type;
-  std::string reference;  // of the service, or of a proxy's target: "IOR:…"
+  std::string reference;  // reference of the service, or of a proxy's target: "IOR:…"
   PropertyList properties;
-  std::shared_ptr<const ProxyPart> proxy{};  // null: an ordinary offer
+  std::shared_ptr<const ProxyPart> proxy{};  // null for an ordinary offer
 };
 
 using OfferPtr = std::shared_ptr<const Offer>;

@@ -16,23 +16,23 @@ struct Property {
   Value value;
 };
 
-// The source of an evaluator's properties: the offer, or another service for a dynamic property.
-// The pointer is valid until the next call.
+// The source from which an evaluator gets properties: the offer itself, or another service for a
+// dynamic property. The pointer is valid until the next call.
 class PropertySource {
  public:
   virtual ~PropertySource() = default;
-  // Null if the offer has no such property, or its value is not available.
+  // Returns null if the offer has no such property, or if its value is not available.
   virtual const Value* Find(std::string_view name) const = 0;
 };
 
-// Sorted, each name once.
+// Sorted; each name occurs once.
 using PropertyNames = std::vector<std::string>;
 
-// Properties sorted by name, each name once. The names are stored apart from the values, so that
-// offers with the same names share them.
+// Properties sorted by name; each name occurs once. The names are stored apart from the values, so
+// that offers with the same names share them.
 class PropertyList : public PropertySource {
  public:
-  // One property of the list.
+  // One property, as a view into the list.
   struct Entry {
     const std::string& name;
     const Value& value;
@@ -53,27 +53,27 @@ class PropertyList : public PropertySource {
   };
 
   PropertyList();
-  // `properties` in any order, each name at most once.
+  // `properties` may be in any order. Each name occurs at most once.
   explicit PropertyList(std::vector<Property> properties);
-  // `properties` in any order; of several with the same name the last counts.
+  // `properties` may be in any order. If a name occurs several times, the last value applies.
   static PropertyList LastOfEachName(std::vector<Property> properties);
 
   const Value* Find(std::string_view name) const override;
   void Set(Property property);
-  // False if there was none.
+  // Removes a property. Returns false if there is none with that name.
   bool Remove(std::string_view name);
 
   std::size_t size() const { return values_.size(); }
   Entry operator[](std::size_t index) const { return {(*names_)[index], values_[index]}; }
   Iterator begin() const { return {*this, 0}; }
   Iterator end() const { return {*this, size()}; }
-  // The index of the property of that name; size() if there is none.
+  // The index of the property with that name, or size() if there is none.
   std::size_t IndexOf(std::string_view name) const;
 
   // The names in the order of the values. Lists with the same pointer have the same names.
   const std::shared_ptr<const PropertyNames>& names() const { return names_; }
   std::span<const Value> values() const { return values_; }
-  // `names` are equal to its own.
+  // Replaces the names by `names`, which must be equal to them.
   void ShareNames(std::shared_ptr<const PropertyNames> names) { names_ = std::move(names); }
 
   std::size_t EncodedSize() const;

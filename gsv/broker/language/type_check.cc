@@ -6,7 +6,7 @@
 namespace gsv::broker {
 namespace {
 
-// A literal string of one character also counts as a char.
+// The kind of a literal string of one character is kCharOrString, because it may also be a char.
 enum class Kind { kUnknown, kBoolean, kNumber, kString, kChar, kCharOrString, kSequence, kOther };
 
 Kind KindOf(Scalar scalar) {
@@ -69,7 +69,7 @@ class Checker {
   Checker(const Expression& expression, const DeclaredTypes& types)
       : expression_(expression), types_(types) {}
 
-  // The kind of the whole expression; unknown operands count as fitting.
+  // Returns the kind of the whole expression. Operands of unknown kind are accepted.
   base::Result<Kind> Check() {
     for (const Node& node : expression_.nodes) {
       auto kind = CheckNode(node);

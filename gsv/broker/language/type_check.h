@@ -13,11 +13,12 @@
 
 namespace gsv::broker {
 
-// The declared type of a property; nothing if the service type does not declare it. An offer may
+// The declared type of a property, or nullopt if the service type does not declare it. An offer may
 // have such a property with any type.
 using DeclaredTypes = std::function<std::optional<PropertyType>(std::string_view name)>;
 
-// Errors  kInvalidArgument with the position of the operator whose operands never fit.
+// Errors  kInvalidArgument with the position of the operator whose operands can never have the
+//         right types.
 base::Status CheckConstraintTypes(const Expression& constraint, const DeclaredTypes& types);
 base::Status CheckPreferenceTypes(const Preference& preference, const DeclaredTypes& types);
 

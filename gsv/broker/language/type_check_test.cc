@@ -28,7 +28,7 @@ std::string Verdict(std::string_view text) {
   return status ? "fits" : status.error().Sentence();
 }
 
-TEST(TypeCheck, AcceptsFittingOperands) {
+TEST(TypeCheck, AcceptsOperandsOfTheRightTypes) {
   for (const char* text :
        {"cost < 3 and ppm >= 10", "name == 'x' or 'x' ~ name", "colour and not (ppm == 1)",
         "'A4' in paper", "'x' in grades", "grade in grades", "grade == 'A'", "'A' == grade",
@@ -38,7 +38,7 @@ TEST(TypeCheck, AcceptsFittingOperands) {
   }
 }
 
-TEST(TypeCheck, RefusesOperandsThatNeverFit) {
+TEST(TypeCheck, RejectsOperandsThatCannotHaveTheRightTypes) {
   const std::pair<const char*, const char*> kCases[] = {
       {"name > 3",
        "character 6: '>': its operands are a string and a number, which cannot be compared"},

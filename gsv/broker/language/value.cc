@@ -7,7 +7,7 @@
 namespace gsv::broker {
 namespace {
 
-// The bytes for a TypeCode of a simple type, a length, and alignment.
+// The bytes of the TypeCode of a simple type, a length, and alignment.
 constexpr std::size_t kValueOverhead = 24;
 
 std::size_t ContentSize(const ScalarValue& value) {

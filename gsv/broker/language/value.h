@@ -1,5 +1,5 @@
 // The value of an offer's property, and its type. Values that the constraint language can handle
-// are plain data; all others stay encoded.
+// are plain data. All others stay encoded.
 //
 // Source  OMG Trading Object Service (formal/00-06-27), annex B, "basic elements": boolean, short,
 //         unsigned short, long, unsigned long, float, double, char, string, and sequences of these.
@@ -29,17 +29,17 @@ enum class Scalar : std::uint8_t {
   kOther,
 };
 
-// An int64 holds integers of every width, a double both float types, a string a char.
+// An int64 holds integers of every width, a double both float types, and a string also a char.
 using ScalarValue = std::variant<bool, std::int64_t, double, std::string>;
 
 // The type of a property. Two types are equal when their scalar, sequence and name are.
 struct PropertyType {
   Scalar scalar = Scalar::kOther;
   bool sequence = false;
-  std::string name{};     // of a kOther type: its IDL spelling with aliases resolved; else empty
-  std::string encoded{};  // of a kOther type: its TypeCode as a CDR encapsulation; else empty
+  std::string name{};     // for a kOther type, its IDL spelling with aliases resolved; else empty
+  std::string encoded{};  // for a kOther type, its TypeCode as a CDR encapsulation; else empty
 
-  // "unsigned long", "sequence<string>", "struct IDL:acme/Place:1.0".
+  // Returns a text such as "unsigned long", "sequence<string>" or "struct IDL:acme/Place:1.0".
   std::string Spelling() const;
 
   friend bool operator==(const PropertyType& a, const PropertyType& b) {
@@ -52,11 +52,11 @@ struct PropertyType {
 struct OtherValue {
   std::string type_name;
   std::string encoded;
-  // Of a dynamic property: the type of its value. Null for all others.
+  // For a dynamic property the type of its value. Null for all others.
   std::shared_ptr<const PropertyType> promised_type{};
 };
 
-// An immutable value, cheap to copy.
+// An immutable value that is cheap to copy.
 class Value {
  public:
   using Sequence = std::vector<ScalarValue>;
@@ -70,17 +70,17 @@ class Value {
   static Value Double(double value) { return Value(Scalar::kDouble, value); }
   static Value Char(char value) { return Value(Scalar::kChar, std::string(1, value)); }
   static Value String(std::string value) { return Value(Scalar::kString, std::move(value)); }
-  // `content` and `elements` have the type of their scalar, see ScalarValue.
+  // `content` and `elements` have the alternative that belongs to their scalar, see ScalarValue.
   static Value Of(Scalar scalar, ScalarValue content);
   static Value SequenceOf(Scalar element, Sequence elements);
   static Value Strings(const std::vector<std::string>& elements);
   static Value Other(OtherValue value);
 
-  // The type of the value, or of a sequence's elements.
+  // The type of the value, or of the elements of a sequence.
   Scalar scalar() const { return scalar_; }
   bool is_sequence() const { return std::holds_alternative<SequencePtr>(content_); }
 
-  // Null if the value is of another kind.
+  // Returns null if the value is of another kind.
   template <typename T>
   const T* As() const {
     return std::get_if<T>(&content_);
@@ -88,11 +88,11 @@ class Value {
   const Sequence* AsSequence() const;
   const OtherValue* AsOther() const;
 
-  // True if a property declared as `type` may hold this value.
+  // Whether a property declared as `type` may hold this value.
   bool Is(const PropertyType& type) const;
   PropertyType Type() const;
 
-  // An upper bound of its size on the wire, in bytes.
+  // An upper bound of its encoded size, in bytes.
   std::size_t EncodedSize() const;
 
   friend bool operator==(const Value& a, const Value& b);
@@ -109,7 +109,7 @@ class Value {
   Content content_;
 };
 
-// "unsigned long" for kULong. Not for kOther.
+// Returns, for example, "unsigned long" for kULong. Not for kOther.
 std::string_view Spelling(Scalar scalar);
 
 }  // namespace gsv::broker

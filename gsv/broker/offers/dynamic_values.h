@@ -1,4 +1,5 @@
-// Dynamic properties: an offer refers to a service that computes the value, and a query calls it.
+// Dynamic properties. An offer refers to a service that computes the value, and a query calls the
+// service.
 //
 // Source   OMG Trading Object Service (formal/00-06-27), "dynamic properties".
 #pragma once
@@ -25,33 +26,33 @@ class DynamicEvaluator {
   using Clock = std::chrono::steady_clock;
 
   virtual ~DynamicEvaluator() = default;
-  // The current value, of the property's declared type; nothing if it is not available by
-  // `deadline`. `property` is dynamic.
+  // Returns the current value, which has the property's declared type, or nullopt if it is not
+  // available by `deadline`. `property` is dynamic.
   virtual std::optional<Value> Evaluate(const std::string& name, const OtherValue& property,
                                         Clock::time_point deadline) = 0;
 };
 
-// The values of dynamic properties in one query. Each is evaluated at most once, so that
-// constraint, preference and answer agree, and only if it is needed. When the query's time is up,
+// The values of dynamic properties in one query. Each is evaluated only if it is needed, and at
+// most once, so that constraint, preference and answer agree. When the query's time is over,
 // properties that were not evaluated have no value.
 //
 // Threads  not safe; each query has its own.
 class DynamicValues {
  public:
-  // If `evaluator` is null, no dynamic property has a value.
+  // If `evaluator` is null, dynamic properties have no value.
   DynamicValues(DynamicEvaluator* evaluator, std::chrono::milliseconds budget);
 
-  // The turn that is paused during calls to services; or null.
+  // Sets the slot that is paused during calls to services, or null.
   void set_slot(ScanSlot* turn) { turn_ = turn; }
 
-  // The property's value, evaluated if it is dynamic; null if there is none. The pointer is valid
-  // as long as this and the offer. The search is fast if successive offers have the same property
-  // names.
+  // Returns the property's value, or null if there is none. Evaluates dynamic properties. The
+  // pointer is valid as long as this object and the offer. The search is fast if successive offers
+  // have the same property names.
   const Value* Find(const Offer& offer, std::string_view name);
 
  private:
   using Key = std::pair<std::uint64_t, std::string>;
-  // The last index of a property of this name, in offers with these property names.
+  // The last index of a property with this name, in offers with these property names.
   struct Place {
     std::string name;
     std::shared_ptr<const PropertyNames> names{};

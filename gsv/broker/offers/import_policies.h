@@ -33,7 +33,7 @@ struct TraderAttributes {
   bool supports_modifiable_properties = true;
   bool supports_dynamic_properties = true;
   bool supports_proxy_offers = true;
-  std::string request_id_stem{};  // octets; no other trader's are the same
+  std::string request_id_stem{};  // octets that differ from those of every other trader
 };
 
 // The policies of one query. An absent policy has the trader's default.
@@ -48,7 +48,7 @@ struct ImportPolicies {
   std::optional<std::uint32_t> hop_count{};
   std::optional<FollowOption> link_follow_rule{};
   TraderName starting_trader{};
-  // The unique id of a query from another trader.
+  // The id of a query from another trader. It is unique.
   std::optional<std::string> request_id{};
 };
 

@@ -1,5 +1,5 @@
-// The numbers of many offers for one property, in one array, so that a scan over them does not
-// access the offers.
+// The numbers of many offers for one property, in one array. A scan over the array does not access
+// the offers.
 #pragma once
 
 #include <cstdint>
@@ -15,38 +15,39 @@
 
 namespace gsv::broker {
 
-// The integer as a double; nothing if a double cannot hold it exactly.
+// Returns the integer as a double, or nullopt if a double cannot hold it exactly.
 std::optional<double> ExactNumber(std::int64_t integer);
 
 // The state of an offer after some terms were evaluated.
 enum class Choice : std::uint8_t {
-  kNo,       // one of them is FALSE or has no value
-  kYes,      // all of them are TRUE
-  kUnknown,  // the expression must be evaluated
+  kNo,       // one of the terms is FALSE or has no value
+  kYes,      // all terms are TRUE
+  kUnknown,  // the expression must be evaluated for the offer
 };
 
 class NumberColumn {
  public:
   NumberColumn(const Offers& offers, const std::string& property);
 
-  // The number by which min and max order the offer at `index`; NaN if it has none. Nothing if the
-  // number must be read from the offer.
+  // Returns the number by which min and max order the offer at `index`, or NaN if it has none.
+  // Returns nullopt if the number must be read from the offer.
   std::optional<double> At(std::size_t index) const;
-  // Narrows `choices`, one for each offer, to those for which `term` is TRUE.
+  // Narrows `choices`, which has one element per offer, to the offers for which `term` is TRUE.
   void Narrow(const NumberTerm& term, std::vector<Choice>& choices) const;
 
  private:
   std::vector<double> numbers_;
-  std::vector<Choice> known_;  // kYes: it has the number
+  std::vector<Choice> known_;  // kYes if the column has the offer's number
 };
 
 // The columns of offers that do not change. A column is made at the second request for its
-// property, so that columns cost nothing if every query has other offers.
+// property. So columns cost nothing if every query has other offers.
 //
-// Threads  Of() from any.
+// Threads  any thread may call Of().
 class NumberColumns {
  public:
-  // Null if the column does not exist (yet). Until Clear(), `offers` are the same in each call.
+  // Returns null if the column does not exist (yet). Until Clear(), `offers` must be the same in
+  // each call.
   std::shared_ptr<const NumberColumn> Of(const Offers& offers, const std::string& property);
   // Removes all columns. Call it while no query runs.
   void Clear() {
@@ -57,7 +58,7 @@ class NumberColumns {
  private:
   base::Mutex mutex_;
   std::map<std::string, std::shared_ptr<const NumberColumn>> columns_
-      GSV_GUARDED_BY(mutex_);  // null: requested once
+      GSV_GUARDED_BY(mutex_);  // null after the first request
 };
 
 }  // namespace gsv::broker

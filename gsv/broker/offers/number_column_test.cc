@@ -1,4 +1,4 @@
-// Queries that use number columns find the same offers as an evaluation of each offer.
+// Compares queries that use number columns with an evaluation of each offer.
 #include <algorithm>
 #include <limits>
 #include <random>
@@ -111,7 +111,7 @@ TEST(NumberColumns, FindTheSameAsAnEvaluationOfEachOffer) {
   }
 }
 
-// The offers with a number in `property`, smallest (or largest) first, then the others.
+// Returns the offers with a number in `property`, smallest (or largest) first, and then the others.
 std::vector<std::uint64_t> OneByOneInOrder(const Trader& trader, const std::string& property,
                                            bool greatest_first) {
   const auto expression = ParseConstraint(property, {});
@@ -144,14 +144,14 @@ TEST(NumberColumns, OrderLikeAnEvaluationOfEachOffer) {
       ASSERT_TRUE(found);
       EXPECT_EQ(OfferNumbers(found->offers), OneByOneInOrder(trader, "b", greatest_first));
     }
-    // These are other offers: the second query for them makes the column.
+    // The offers have changed, so only the second query for them makes the column.
     if (round % 2 == 1) {
       ASSERT_TRUE(trader.Export("Robot", "IOR:00", random.Properties()));
     }
   }
 }
 
-// A service that answers 5.
+// A service whose value is 5.
 class Five : public DynamicEvaluator {
  public:
   std::optional<Value> Evaluate(const std::string&, const OtherValue&, Clock::time_point) override {
@@ -172,13 +172,14 @@ TEST(NumberColumns, OrderDynamicPropertiesAmongTheOthers) {
     DynamicValues values(&five, std::chrono::seconds(1));
     const auto found = trader.Find({.type = "Robot", .preference = "min b"}, values);
     ASSERT_TRUE(found);
-    // Offers 1, 11, … have 0; those with 1 to 4 come before the dynamic one, which has 5.
+    // Offers 1, 11, … have the number 0. Those with 1 to 4 come before the dynamic one, which has
+    // 5.
     EXPECT_EQ(found->offers[0]->number, 1u);
     EXPECT_EQ(found->offers[200 + 200 + 200 + 199 + 200]->number, 4u);
   }
 }
 
-TEST(NumberColumns, HoldOnlyWhatADoubleHoldsExactly) {
+TEST(NumberColumns, ContainOnlyNumbersThatADoubleHoldsExactly) {
   EXPECT_EQ(ExactNumber(kBeyondDoubles - 1), 9007199254740992.0);
   EXPECT_EQ(ExactNumber(kBeyondDoubles), std::nullopt);
   EXPECT_EQ(ExactNumber(-kBeyondDoubles), std::nullopt);

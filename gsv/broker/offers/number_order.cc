@@ -16,14 +16,14 @@ struct Keyed {
 };
 
 constexpr int kDigitBits = 11;
-constexpr int kDigits = 6;  // 66 bits
+constexpr int kDigits = 6;  // the digits have 66 bits together
 constexpr std::size_t kDigitValues = std::size_t{1} << kDigitBits;
 
 std::size_t Digit(std::uint64_t key, int digit) {
   return (key >> (kDigitBits * digit)) % kDigitValues;
 }
 
-// The key grows with the number, and is equal for both zeros.
+// The key increases with the number, and is equal for both zeros.
 std::uint64_t KeyOf(double number) {
   if (std::isnan(number)) return std::numeric_limits<std::uint64_t>::max();
   constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
@@ -31,7 +31,7 @@ std::uint64_t KeyOf(double number) {
   return (bits & kSign) != 0 ? ~bits : bits | kSign;
 }
 
-// Sorts by the digits of the key, the last one first (radix sort).
+// Sorts by the digits of the key, beginning with the last one (radix sort).
 void SortByKey(std::vector<Keyed>& entries) {
   std::array<std::vector<std::uint32_t>, kDigits> places;
   for (auto& place : places) place.resize(kDigitValues);
@@ -69,7 +69,8 @@ std::vector<std::uint32_t> AscendingOrder(const std::vector<long double>& number
   } else {
     SortByKey(entries);
   }
-  // Rounding keeps the order, but makes some different numbers equal.
+  // Rounding to double keeps the order, but makes some different numbers equal. Those are sorted by
+  // the exact numbers.
   for (auto run = entries.begin(); !exact && run != entries.end();) {
     const auto end = std::upper_bound(run, entries.end(), *run, by_key);
     std::stable_sort(run, end, [&](const Keyed& a, const Keyed& b) {

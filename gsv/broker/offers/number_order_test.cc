@@ -25,13 +25,13 @@ TEST(NumberOrder, EqualNumbersKeepTheirOrderAndNanComesLast) {
   EXPECT_EQ(AscendingOrder({0.0L, -0.0L, 0.0L}), (Order{0, 1, 2}));
 }
 
-TEST(NumberOrder, DistinguishesIntegersThatADoubleCannot) {
+TEST(NumberOrder, DistinguishesIntegersThatAreEqualAsDoubles) {
   const long double large = std::numeric_limits<std::int64_t>::max();
   EXPECT_EQ(AscendingOrder({large, large - 2, large - 1, large - 2, 1}), (Order{4, 1, 3, 2, 0}));
 }
 
-// The standard library's sort gives the expected order.
-TEST(NumberOrder, IsThatOfAComparisonForManyNumbers) {
+// The expected order is that of the standard library's sort.
+TEST(NumberOrder, EqualsStandardSortForManyNumbers) {
   std::mt19937_64 random(7);
   for (const bool large : {false, true}) {
     LongNumbers numbers;

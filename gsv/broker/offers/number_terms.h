@@ -1,5 +1,5 @@
-// The number terms of a constraint: comparisons of a property with a literal number that must all
-// be TRUE for the constraint to be TRUE.
+// Finds the number terms of a constraint: comparisons of a property with a literal number that must
+// all be TRUE for the constraint to be TRUE.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@ namespace gsv::broker {
 
 struct NumberTerm {
   std::string property;
-  Operator op;    // with the property on its left
-  double number;  // exactly the literal
+  Operator op;    // written with the property on its left
+  double number;  // the exact value of the literal
 };
 
 struct NumberTerms {
-  std::vector<NumberTerm> terms;  // joined by `and` from the root on, in their order
-  bool complete = true;           // the constraint has no other terms
+  std::vector<NumberTerm> terms;  // those that `and` joins from the root on, in their order
+  bool complete = true;           // whether the constraint has no other terms
 };
 
 NumberTerms NumberTermsOf(const Expression& constraint);

@@ -8,7 +8,7 @@
 namespace gsv::broker {
 namespace {
 
-// With fewer offers, each is evaluated.
+// A chunk with fewer offers has no columns: each offer is evaluated.
 constexpr std::size_t kWorthColumns = OfferColumn::kChunk / 4;
 
 bool IsBefore(const OfferPtr& offer, std::uint64_t number) { return offer->number < number; }
@@ -92,7 +92,7 @@ Offers& OfferColumn::Own(std::size_t chunk) {
   return own->offers_;
 }
 
-// The last chunk grows by exports: instead of splitting it, a new chunk is begun.
+// The last chunk grows by exports. If it is full, a new chunk is begun instead of splitting it.
 void OfferColumn::SplitIfFull(std::size_t chunk) {
   Offers& offers = chunks_[chunk]->offers_;
   if (offers.size() <= kChunk) return;

@@ -1,9 +1,9 @@
 // The offers of one service type in the order of export. A query reads them without a lock while
-// other threads change them. The offers are stored in chunks: a change copies a chunk that is being
-// read, and the number columns of all other chunks stay.
+// other threads change them. The offers are stored in chunks. A change copies a chunk that is being
+// read, and the number columns of all other chunks are kept.
 //
-// Threads  any thread may read a view. One thread at a time changes the column; several threads may
-//          make views while none changes it.
+// Threads  any thread may read a view. One thread at a time may change the column. Several threads
+//          may make views while no thread changes it.
 #pragma once
 
 #include <atomic>
@@ -18,15 +18,15 @@
 
 namespace gsv::broker {
 
-// Some offers, and their number columns.
+// A part of the offers, with their number columns.
 class OfferChunk {
  public:
   explicit OfferChunk(Offers offers) : offers_(std::move(offers)) {}
 
   const Offers& offers() const { return offers_; }
-  // Null if the column does not exist (yet).
+  // Returns null if the column does not exist (yet).
   std::shared_ptr<const NumberColumn> ColumnOf(const std::string& property) const;
-  // The state of each offer by the columns; empty if there is no column for the terms.
+  // Returns what the columns tell about each offer. Empty if there is no column for the terms.
   std::vector<Choice> Choose(const std::vector<NumberTerm>& terms) const;
 
  private:
@@ -38,7 +38,7 @@ class OfferChunk {
   std::atomic<int> readers_ = 0;
 };
 
-// The content of the column when the view was made.
+// The content of the column at the time at which the view was made.
 class OfferView {
  public:
   using Chunks = std::vector<std::shared_ptr<OfferChunk>>;
@@ -65,23 +65,23 @@ class OfferColumn {
   std::size_t size() const { return size_; }
   OfferView View() const { return OfferView(chunks_); }
 
-  // Adds the offer, or replaces the one with its number.
+  // Adds the offer, or replaces the offer with its number.
   void Put(OfferPtr offer);
   // Removes an offer, which must exist.
   void Remove(std::uint64_t number);
 
  private:
-  using Place = std::pair<std::size_t, std::size_t>;  // chunk, and index in the chunk
+  using Place = std::pair<std::size_t, std::size_t>;  // a chunk, and an index in the chunk
 
-  // The place of the first offer whose number is not less, in the chunk of `number`. Numbers above
-  // all others belong to the last chunk.
+  // The place of the first offer whose number is not less than `number`, in the chunk to which
+  // `number` belongs. Numbers above all others belong to the last chunk.
   Place PlaceOf(std::uint64_t number) const;
-  // The chunk's offers, to be changed.
+  // Returns the chunk's offers, which the caller may change.
   Offers& Own(std::size_t chunk);
   void SplitIfFull(std::size_t chunk);
   void JoinIfSmall(std::size_t chunk);
 
-  OfferView::Chunks chunks_;  // no chunk is empty
+  OfferView::Chunks chunks_;  // chunks are never empty
   std::size_t size_ = 0;
 };
 

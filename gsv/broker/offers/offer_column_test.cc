@@ -48,8 +48,8 @@ TEST(OfferColumn, AViewDoesNotChange) {
   EXPECT_EQ(column.View().chunks()[0]->offers()[0]->type, "after");
 }
 
-// A sorted list gives the expected order.
-TEST(OfferColumn, IsASortedListHoweverManyComeAndGo) {
+// The expected order is that of a sorted list.
+TEST(OfferColumn, StaysSortedAfterManyAdditionsAndRemovals) {
   std::mt19937 random(3);
   OfferColumn column;
   std::set<std::uint64_t> expected;
@@ -84,8 +84,8 @@ TEST(OfferColumn, IsASortedListHoweverManyComeAndGo) {
   check();
 }
 
-// The number columns of other chunks stay.
-TEST(OfferColumn, AChangeTouchesOneChunk) {
+// The number columns of other chunks are kept.
+TEST(OfferColumn, ChangeAffectsOneChunk) {
   OfferColumn column;
   for (std::uint64_t number = 1; number <= 3000; ++number) column.Put(Numbered(number));
   const OfferView before = column.View();

@@ -8,7 +8,8 @@ namespace gsv::broker {
 namespace {
 
 constexpr std::size_t kIndicesOfType = 8;
-constexpr std::size_t kIndexedTerms = 4;  // of one constraint
+// maximum number of terms of one constraint that use an index
+constexpr std::size_t kIndexedTerms = 4;
 
 }  // namespace
 

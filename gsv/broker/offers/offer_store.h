@@ -1,6 +1,6 @@
 // Stores the offers by number, by service type, and by the values of queried properties.
 //
-// Threads  not safe; Trader serialises. The content of a view does not change.
+// Threads  not safe; Trader serialises access. The content of a view does not change.
 #pragma once
 
 #include <cstdint>
@@ -25,28 +25,30 @@ class OfferStore {
 
   // Adds an offer and sets its number.
   std::uint64_t Add(Offer offer);
-  // Adds an offer that has a number already; no other offer may have that number.
+  // Adds an offer that already has a number. No other offer may have that number.
   void Restore(Offer offer);
-  // The next offer added has at least this number.
+  // Makes the next offer get at least this number.
   void SkipTo(std::uint64_t number);
   // Replaces the offer with the same number, which must exist and have the same type.
   void Replace(Offer offer);
-  // False if there is no such offer.
+  // Removes an offer. Returns false if there is none with that number.
   bool Remove(std::uint64_t number);
-  // Null if there is no such offer.
+  // Returns null if there is no such offer.
   OfferPtr Find(std::uint64_t number) const;
 
-  // The offers of `types`: type by type, in the order of export within one.
+  // Returns the offers of `types`, type by type, and within a type in the order of export.
   std::vector<OfferView> OfTypes(const std::vector<std::string>& types) const;
   std::size_t CountOfTypes(const std::vector<std::string>& types) const;
-  // All offers in the order of export.
+  // Returns all offers in the order of export.
   Offers All() const;
 
-  // A part of OfTypes(), in the same order, that contains all offers for which one of `terms` is
-  // TRUE: the term with the fewest offers. Nothing if no term has an index in every type.
+  // Returns a part of OfTypes() in the same order. It has all offers for which one of `terms` is
+  // TRUE; that term is the one with the fewest offers. Returns nullopt if no term has an index in
+  // every type.
   std::optional<std::vector<OfferView>> OfTypesWith(const std::vector<std::string>& types,
                                                     const std::vector<EqualityTerm>& terms) const;
-  // Makes indices for the first few of `terms`. Each type keeps a few; the oldest is removed first.
+  // Makes indices for the first few of `terms`. Each type keeps a few indices, and the oldest one
+  // is removed first.
   void Index(const std::vector<std::string>& types, const std::vector<EqualityTerm>& terms);
 
  private:

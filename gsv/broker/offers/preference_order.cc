@@ -10,7 +10,7 @@
 namespace gsv::broker {
 namespace {
 
-// The sort key: a smaller rank comes first; NaN comes last.
+// The sort key. A smaller rank comes first, and NaN comes last.
 long double RankOf(const Preference& preference, const Offer& offer, DynamicValues& values) {
   constexpr long double kLast = std::numeric_limits<long double>::quiet_NaN();
   const EvaluatedOffer properties(offer, values);

@@ -1,6 +1,7 @@
-// Orders offers by a preference: `min` and `max` by a number, `with` the offers for which the
-// expression is TRUE first, `random` at random, and `first` as they were found. Offers without a
-// value of the expression come last. Equal offers keep the order in which they were found.
+// Orders offers by a preference. `min` and `max` order by a number. `with` puts the offers first
+// for which the expression is TRUE. `random` is a random order, and `first` the order in which they
+// were found. Offers without a value of the expression come last. Equal offers keep the order in
+// which they were found.
 //
 // Source  OMG Trading Object Service (formal/00-06-27), "preference".
 #pragma once
@@ -15,11 +16,12 @@
 
 namespace gsv::broker {
 
-// The property by which min or max orders; null if the expression is not a single property.
+// Returns the property by which min or max orders, or null if the expression is not a single
+// property.
 const std::string* PropertyToOrderBy(const Preference& preference);
 
-// `seed` is that of `random`. `known`: the numbers of the first few offers if min or max orders by
-// a property, NaN for an offer that has none.
+// Orders `offers`. `seed` is that of `random`. `known` has the numbers of the first few offers if
+// min or max orders by a property; it has NaN for an offer without a number.
 void OrderBy(const Preference& preference, std::uint64_t seed, const std::vector<double>& known,
              DynamicValues& values, Offers& offers);
 

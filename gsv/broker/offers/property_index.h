@@ -1,9 +1,9 @@
 // An index of offers by the value of one property. It finds the offers for which
 // `property == value` may be TRUE.
 //
-// Values are equal as in the constraint language: numbers of all types by value, char and string by
-// text.
-// Threads  not safe; OfferStore serialises.
+// Values are equal as in the constraint language: numbers of all types by their value, and char and
+// string by their text.
+// Threads  not safe; OfferStore serialises access.
 #pragma once
 
 #include <optional>
@@ -23,8 +23,9 @@ class PropertyIndex {
   void Insert(const OfferPtr& offer);
   void Remove(const Offer& offer);
 
-  // In the order of export: the offers whose property is equal to `value`, and those that the index
-  // cannot decide, which have a dynamic property or are proxies that match every query.
+  // Returns, in the order of export, the offers whose property is equal to `value`. It also returns
+  // offers for which the index cannot decide this: those with a dynamic property, and proxies that
+  // match every query.
   Offers Find(const ScalarValue& value) const;
   // The number of offers that Find() returns.
   std::size_t Count(const ScalarValue& value) const;
@@ -33,7 +34,7 @@ class PropertyIndex {
   using Key = std::variant<bool, long double, std::string>;
 
   static std::optional<Key> KeyOf(const ScalarValue& value);
-  // The list that contains the offer; null if its property has no value to index.
+  // Returns the list that contains the offer, or null if its property has no value to index.
   Offers* PlaceOf(const Offer& offer);
   const Offers& Equal(const ScalarValue& value) const;
 

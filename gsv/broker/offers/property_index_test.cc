@@ -1,4 +1,4 @@
-// An index finds the same offers as an evaluation of each offer.
+// Compares an index with an evaluation of each offer.
 #include "gsv/broker/offers/property_index.h"
 
 #include <cmath>
@@ -19,7 +19,7 @@ class RandomValues {
 
   std::size_t Below(std::size_t bound) { return random_() % bound; }
 
-  // Values of different types that are equal, and some that equal no other value.
+  // Returns values of different types that are equal, and some that equal no other value.
   Value AnyValue() {
     const auto small = static_cast<std::int32_t>(Below(4));
     switch (Below(9)) {

@@ -10,7 +10,7 @@
 
 namespace gsv::broker {
 
-// `type` is fully described.
+// `type` must be fully described (see TypeRepository::FullyDescribe()).
 // Errors  kIllegalConstraint, kIllegalPreference.
 TradingResult<Expression> CompileConstraint(const std::string& text, const ServiceType& type,
                                             const ExpressionLimits& limits);

@@ -19,7 +19,7 @@ std::string Quoted(const std::string& text) {
   return literal + "'";
 }
 
-// The shortest text that is read as exactly this number.
+// The shortest text that is parsed as exactly this number.
 std::optional<std::string> LiteralOf(double value) {
   if (!std::isfinite(value)) return std::nullopt;
   std::string text = fmt::format("{}", value);
@@ -35,8 +35,8 @@ std::optional<std::string> LiteralOf(const Value& value) {
   return std::nullopt;
 }
 
-// Calls `text` with each literal part, `property` with each name, and `constraint` for each `$*`.
-// False if the text is not a recipe, or a call returns false.
+// Parses a recipe. Calls `text` with each literal part, `property` with each name, and `constraint`
+// for each `$*`. Returns false if the text is not a recipe, or if a call returns false.
 bool Read(std::string_view recipe, const std::function<void(std::string_view)>& text,
           const std::function<bool(std::string_view)>& property,
           const std::function<void()>& constraint) {

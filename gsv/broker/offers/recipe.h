@@ -1,8 +1,8 @@
-// The recipe of a proxy offer, which makes the constraint for the proxy's target from the
-// importer's constraint.
+// The recipe of a proxy offer. It converts the importer's constraint to a constraint for the
+// proxy's target.
 //
-// A recipe is text in which `$*` stands for the importer's constraint, `$(name)` for the value of
-// the proxy's property as a literal, and `$$` for a dollar sign.
+// A recipe is a text in which `$*` stands for the importer's constraint. `$(name)` stands for the
+// value of the proxy's property as a literal, and `$$` for a dollar sign.
 //
 // Source  OMG Trading Object Service (formal/00-06-27), annex C.
 #pragma once
@@ -15,11 +15,12 @@
 
 namespace gsv::broker {
 
-// True if every property in the recipe exists and has a type with literals in the constraint
-// language. For a dynamic property the declared type counts.
+// Whether every property in the recipe exists and has a type with literals in the constraint
+// language. For a dynamic property, its declared type is checked.
 bool IsRecipe(std::string_view recipe, const PropertyList& properties);
 
-// The constraint for the target; nothing if a property has no value, or a value without a literal.
+// Returns the constraint for the target, or nullopt if a property has no value, or a value that is
+// not a literal.
 std::optional<std::string> FollowRecipe(std::string_view recipe, const PropertySource& properties,
                                         std::string_view constraint);
 

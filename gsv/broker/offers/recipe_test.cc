@@ -34,7 +34,7 @@ TEST(Recipe, InsertsTheConstraintAndTheValues) {
   EXPECT_EQ(follow("x == $(strange)"), std::nullopt) << "NaN has no literal";
 }
 
-TEST(Recipe, IsRefusedWhenItCannotBeFollowed) {
+TEST(Recipe, IsRejectedIfItIsInvalid) {
   for (const char* good : {"", "$*", "$$", "$(n)$(name)$(strange)", "*()"}) {
     EXPECT_TRUE(IsRecipe(good, kProperties)) << good;
   }
@@ -43,7 +43,7 @@ TEST(Recipe, IsRefusedWhenItCannotBeFollowed) {
   }
 }
 
-// The literal is read as exactly the same value.
+// A literal must be parsed as exactly the same value.
 TEST(Recipe, WritesLiteralsThatTheConstraintLanguageReads) {
   const std::vector<Value> values = {Value::Double(1e300),
                                      Value::Double(-1e-300),

@@ -1,4 +1,4 @@
-// Limits the number of threads that scan many offers at the same time. One core stays free for
+// Limits the number of threads that scan many offers at the same time. One core remains free for
 // short queries. Long queries take turns in the order of their arrival.
 //
 // Threads  any.
@@ -13,9 +13,9 @@ namespace gsv::broker {
 
 class ScanSlots {
  public:
-  // `at_once`: number of concurrent turns, >= 1.
+  // `at_once` is the number of concurrent turns, >= 1.
   explicit ScanSlots(std::size_t at_once);
-  // The number of cores minus one, but at least 1.
+  // Returns the number of cores minus one, but at least 1.
   static std::size_t ForThisMachine();
 
   void Take();
@@ -29,7 +29,7 @@ class ScanSlots {
   std::uint64_t ended_ GSV_GUARDED_BY(mutex_) = 0;
 };
 
-// Holds a turn during its lifetime. Null: no turn is needed.
+// Holds a turn during its lifetime. Null stands for a scan that needs no turn.
 class ScanSlot {
  public:
   explicit ScanSlot(ScanSlots* turns) : turns_(turns) { Resume(); }
@@ -37,7 +37,7 @@ class ScanSlot {
   ScanSlot(const ScanSlot&) = delete;
   ScanSlot& operator=(const ScanSlot&) = delete;
 
-  // Gives the turn to others while the holder waits for something else.
+  // Releases the turn while the holder waits for something else.
   void Pause() {
     if (turns_ != nullptr) turns_->Give();
   }

@@ -1,4 +1,4 @@
-// A service type: the interface of its offers, and the properties that they must or may have.
+// A service type: the interface of its offers, and the properties that offers must or may have.
 //
 // Source  OMG Trading Object Service (formal/00-06-27), "service types".
 #pragma once
@@ -13,15 +13,15 @@ namespace gsv::broker {
 
 // As CosTradingRepos::ServiceTypeRepository::PropertyMode: bit 0 is read-only, bit 1 is mandatory.
 enum class PropertyMode : std::uint8_t {
-  kNormal = 0,             // may be absent, changed, and removed
-  kReadonly = 1,           // may be absent; cannot be changed after the export
-  kMandatory = 2,          // always present
-  kMandatoryReadonly = 3,  // always present; cannot be changed
+  kNormal = 0,             // the property may be absent, changed, and removed
+  kReadonly = 1,           // it may be absent, and cannot be changed after the export
+  kMandatory = 2,          // it is always present
+  kMandatoryReadonly = 3,  // it is always present and cannot be changed
 };
 
 inline bool IsReadonly(PropertyMode mode) { return (static_cast<int>(mode) & 1) != 0; }
 inline bool IsMandatory(PropertyMode mode) { return (static_cast<int>(mode) & 2) != 0; }
-// The mode with the requirements of both.
+// Returns the mode with the requirements of both.
 inline PropertyMode Stronger(PropertyMode a, PropertyMode b) {
   return static_cast<PropertyMode>(static_cast<int>(a) | static_cast<int>(b));
 }
@@ -34,13 +34,13 @@ struct PropertyDefinition {
 
 struct ServiceType {
   std::string name{};
-  // The interface of offered services: a repository identifier or a scoped name; empty: any
-  // interface.
+  // The interface of the offered services, as a repository identifier or a scoped name. Empty for
+  // any interface.
   std::string interface_name{};
   std::vector<PropertyDefinition> properties{};
   std::vector<std::string> super_types{};
-  bool masked = false;            // offers of exactly this type are refused
-  std::uint64_t incarnation = 0;  // grows with each added type
+  bool masked = false;            // whether offers of exactly this type are refused
+  std::uint64_t incarnation = 0;  // increases with each added type
 };
 
 }  // namespace gsv::broker

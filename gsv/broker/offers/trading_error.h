@@ -15,8 +15,9 @@
 
 namespace gsv::broker {
 
-// The exceptions of CosTrading and CosTradingRepos, kLimit for a request that exceeds the trader's
-// limits (CORBA::IMP_LIMIT), and kNotStored if the disk fails (CORBA::PERSIST_STORE).
+// One value for each exception of CosTrading and CosTradingRepos. kLimit is for a request that
+// exceeds the trader's limits (CORBA::IMP_LIMIT), and kNotStored for a failure of the disk
+// (CORBA::PERSIST_STORE).
 enum class Refusal {
   // Members: type
   kIllegalServiceType,
@@ -87,7 +88,7 @@ struct TradingError {
   Refusal refusal = Refusal::kLimit;
   std::string type{};
   std::string name{};
-  std::string detail{};  // for users: the reason, and the position
+  std::string detail{};  // for users: the reason and the position
   std::optional<Property> property{};
   std::optional<Redefinition> redefinition{};
   std::optional<InterfaceMismatch> interfaces{};

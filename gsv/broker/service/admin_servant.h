@@ -20,7 +20,7 @@ class AdminServant : public POA_CosTrading::Admin,
   CosTrading::FollowOption max_link_follow_policy() override;
   CosTrading::Admin::OctetSeq* request_id_stem() override;
 
-  // Each returns the value before.
+  // Each function returns the previous value.
   CORBA::ULong set_def_search_card(CORBA::ULong value) override;
   CORBA::ULong set_max_search_card(CORBA::ULong value) override;
   CORBA::ULong set_def_match_card(CORBA::ULong value) override;

@@ -1,4 +1,4 @@
-// Dynamic properties over TCP: this process evaluates them.
+// Tests dynamic properties over TCP. This process evaluates them.
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
@@ -10,7 +10,8 @@
 namespace gsv::broker {
 namespace {
 
-// Answers `value`, a double, or fails, answers a string or hangs, as the test requests.
+// A service that answers `value`, a double. If the test requests it, it fails, answers a string or
+// hangs instead.
 class Evaluator : public POA_CosTradingDynamic::DynamicPropEval {
  public:
   enum class Mood { kAnswer, kFail, kWrongType, kHang };
@@ -67,7 +68,7 @@ class DynamicPropertiesTest : public BrokerFixture {
   }
 
  protected:
-  // A property "speed" with the evaluator's value plus `added`.
+  // Returns a property "speed" with the evaluator's value plus `added`.
   CosTrading::PropertySeq Speed(double added = 0, CORBA::TypeCode_ptr type = CORBA::_tc_double) {
     CosTradingDynamic::DynamicProp dynamic;
     dynamic.eval_if = CosTradingDynamic::DynamicPropEval::_duplicate(reference_);
@@ -99,7 +100,7 @@ class DynamicPropertiesTest : public BrokerFixture {
   CosTradingDynamic::DynamicPropEval_var reference_;
 };
 
-TEST_F(DynamicPropertiesTest, TakePartInConstraintPreferenceAndAnswer) {
+TEST_F(DynamicPropertiesTest, AreUsedInConstraintPreferenceAndAnswer) {
   ExportSpeed(1);
   ExportSpeed(3);
   ExportSpeed(2);
@@ -118,9 +119,9 @@ TEST_F(DynamicPropertiesTest, AreEvaluatedOnlyWhenNeeded) {
   EXPECT_EQ(evaluator_->calls, 0);
 }
 
-// The broker of this test caches an answer for a second. Therefore a query that finds the new value
-// comes some time after a query that found the old one.
-TEST_F(DynamicPropertiesTest, AreRememberedForTheirLifetime) {
+// The broker of this test caches an answer for a second. Therefore, a query finds the new value
+// only some time after a query found the old one.
+TEST_F(DynamicPropertiesTest, AreCachedForTheirLifetime) {
   ExportSpeed();
   EXPECT_EQ(SpeedOf(Query("Robot").offers[0]), 5);
   evaluator_->value = 6;
@@ -129,7 +130,7 @@ TEST_F(DynamicPropertiesTest, AreRememberedForTheirLifetime) {
   EXPECT_EQ(evaluator_->calls, 2);
 }
 
-TEST_F(DynamicPropertiesTest, AFailureMakesTheConstraintFalseAndLeavesThePropertyOut) {
+TEST_F(DynamicPropertiesTest, FailedEvaluationMakesTheConstraintFalseAndOmitsTheProperty) {
   // The service raises DPEvalFailure, or answers with a type that it did not declare.
   for (const auto mood : {Evaluator::Mood::kFail, Evaluator::Mood::kWrongType}) {
     evaluator_->Be(mood);
@@ -145,7 +146,7 @@ TEST_F(DynamicPropertiesTest, AFailureMakesTheConstraintFalseAndLeavesThePropert
   }
 }
 
-TEST_F(DynamicPropertiesTest, AServiceThatHangsCostsAQueryNoMoreThanItsBudget) {
+TEST_F(DynamicPropertiesTest, HangingServiceDelaysAQueryByAtMostItsBudget) {
   evaluator_->Be(Evaluator::Mood::kHang);
   for (int i = 0; i < 20; ++i) ExportSpeed(i);
   Export("Robot", {{"speed", Value::Double(1)}});
@@ -155,7 +156,7 @@ TEST_F(DynamicPropertiesTest, AServiceThatHangsCostsAQueryNoMoreThanItsBudget) {
   EXPECT_LT(evaluator_->calls, 20) << "the rest is not asked any more";
 }
 
-TEST_F(DynamicPropertiesTest, OffersThatHaveThemCanBeLeftOut) {
+TEST_F(DynamicPropertiesTest, OffersWithDynamicPropertiesCanBeExcluded) {
   ExportSpeed();
   Export("Robot", {{"speed", Value::Double(1)}});
   const auto use = [](bool value) { return Policy("use_dynamic_properties", Boolean(value)); };
@@ -179,7 +180,7 @@ TEST_F(DynamicPropertiesTest, AreDescribedUnchanged) {
   EXPECT_EQ(evaluator_->calls, 0);
 }
 
-TEST_F(DynamicPropertiesTest, WithdrawUsingAConstraintEvaluatesThem) {
+TEST_F(DynamicPropertiesTest, WithdrawingByAConstraintEvaluatesThem) {
   ExportSpeed(1);
   ExportSpeed(2);
   register_->withdraw_using_constraint("Robot", "speed == 6");

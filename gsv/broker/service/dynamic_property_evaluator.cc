@@ -17,7 +17,7 @@ std::optional<Value> Ask(const std::string& name, const OtherValue& property, mi
     const CORBA::Any any = ToAny(Value::Other(property));
     const CosTradingDynamic::DynamicProp* question = nullptr;
     if (!(any >>= question) || CORBA::is_nil(question->eval_if)) return std::nullopt;
-    // The reference was decoded for this call, so that the timeout applies to this call only.
+    // The reference was decoded for this call, so the timeout applies to this call only.
     omniORB::setClientCallTimeout(question->eval_if, static_cast<unsigned long>(timeout.count()));
     const CORBA::Any_var answer =
         question->eval_if->evalDP(name.c_str(), question->returned_type, question->extra_info);
@@ -27,7 +27,7 @@ std::optional<Value> Ask(const std::string& name, const OtherValue& property, mi
     }
     return value;
   } catch (const CORBA::Exception&) {
-    return std::nullopt;  // DPEvalFailure, or a service that does not respond
+    return std::nullopt;  // the service raised DPEvalFailure, or does not respond
   }
 }
 

@@ -1,6 +1,6 @@
 // Gets the values of dynamic properties from services (CosTradingDynamic::DynamicPropEval).
 //
-// Values, and failures to get one, are cached for a short time, so that many queries make few
+// Values, and failures to get one, are cached for a short time, so that many queries need few
 // calls.
 //
 // Threads  any; no lock is held during a call.
@@ -26,7 +26,8 @@ class DynamicPropertyEvaluator : public DynamicEvaluator {
                                 Clock::time_point deadline) override;
 
  private:
-  // A property's name, and the service and arguments of the call as CDR: equal for equal calls.
+  // The property's name, and the service and arguments of the call as CDR. Equal calls have equal
+  // questions.
   using Question = std::pair<std::string, std::string>;
   struct Answer {
     std::optional<Value> value;

@@ -12,7 +12,7 @@
 namespace gsv::broker {
 namespace {
 
-// The properties that the importer requests, and those that are needed to order the offers.
+// The properties that the importer requests, and the ones that are needed to order the offers.
 DesiredProperties WithThoseOf(const Preference& preference, DesiredProperties desired) {
   if (desired.all) return desired;
   for (const Node& node : preference.expression.nodes) {
@@ -34,7 +34,8 @@ void AddLimit(std::string_view name, MatchingOffers& matches) {
 
 struct Destinations {
   std::vector<QueryDestination> all{};
-  std::vector<std::string_view> policies{};  // by destination: the policy to report if it is silent
+  // the policy to report if the trader does not answer, by destination
+  std::vector<std::string_view> policies{};
 
   void Add(QueryDestination destination, std::string_view policy) {
     all.push_back(std::move(destination));
@@ -119,7 +120,8 @@ CosTrading::Lookup_ptr StartingTrader(TradingObjects& objects, const ImportPolic
   }
   const CORBA::Object_var object = objects.orb->string_to_object(link->target.c_str());
   CosTrading::Lookup_var lookup = CosTrading::Lookup::_unchecked_narrow(object);
-  // One step for the called trader, one for each name, and those that the query may make.
+  // The number of steps: one for the called trader, one for each name, and those that the query may
+  // make.
   const auto steps =
       1 + import.starting_trader.size() + EffectiveHopCount(import, objects.trader.attributes());
   omniORB::setClientCallTimeout(lookup,

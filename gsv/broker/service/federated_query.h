@@ -1,4 +1,4 @@
-// Forwards a query to other traders: over links, and through proxy offers that match it.
+// Forwards a query to other traders, both over links and through proxy offers that match it.
 #pragma once
 
 #include <string>
@@ -11,20 +11,20 @@ namespace gsv::broker {
 
 struct FederatedQuery {
   Query query;
-  const CosTrading::PolicySeq& policies;  // as the importer gave them
+  const CosTrading::PolicySeq& policies;  // as they came from the importer
   const DesiredProperties& desired;
   std::string request_id;
 };
 
 // Adds the offers of other traders to the local ones, and the names of the policies that limited
-// them. If a trader does not answer, its link counts as not followed, or its proxy as not used:
-// link_follow_rule or use_proxy_offers is then among the names.
-// Threads  any; waits for other traders.
+// them. If a trader does not answer, its link counts as not followed, or its proxy as not used.
+// Then link_follow_rule or use_proxy_offers is among these names.
+// Threads  any; the function waits for other traders.
 void AddFederatedAnswers(TradingObjects& objects, const FederatedQuery& query,
                          MatchingOffers& matches, DynamicValues& values);
 
-// The Lookup behind the first link of the policy starting_trader. Its calls have the time limit of
-// the query.
+// Returns the Lookup behind the first link of the policy starting_trader. Its calls have the time
+// limit of the query.
 // Errors  throws InvalidPolicyValue if there is no such link.
 CosTrading::Lookup_ptr StartingTrader(TradingObjects& objects, const ImportPolicies& import,
                                       const CosTrading::PolicySeq& policies);

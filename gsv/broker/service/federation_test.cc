@@ -1,4 +1,4 @@
-// Several linked brokers, each in its own process.
+// Tests several linked brokers, each in its own process.
 #include <csignal>
 #include <filesystem>
 #include <iterator>
@@ -54,7 +54,7 @@ std::set<std::string> Limits(BrokerNode::Answer answer) {
 using Names = std::set<std::string>;
 using Sequence = std::vector<CORBA::Long>;
 
-// Broker i offers a "Robot" whose n is i.
+// Broker i has an offer of type "Robot" whose property n is i.
 class FederationTest : public testing::Test {
  protected:
   void Start(std::size_t count, const std::vector<std::string>& arguments = {"0"}) {
@@ -72,7 +72,8 @@ class FederationTest : public testing::Test {
   std::vector<std::unique_ptr<BrokerNode>> nodes_;
 };
 
-// A ring in both directions with chords: many paths lead to each broker, and back.
+// The brokers form a ring in both directions with chords, so many paths lead to each broker and
+// back.
 TEST_F(FederationTest, TenBrokersInCyclesReturnEachOfferOnce) {
   Start(10);
   for (std::size_t i = 0; i < 10; ++i) {
@@ -89,7 +90,7 @@ TEST_F(FederationTest, TenBrokersInCyclesReturnEachOfferOnce) {
   }
 }
 
-TEST_F(FederationTest, AQueryMakesAtMostItsNumberOfHops) {
+TEST_F(FederationTest, QueryMakesAtMostItsNumberOfHops) {
   Start(4);
   for (std::size_t i = 0; i < 3; ++i) Connect(i, i + 1);
   const auto count_with = [&](CORBA::ULong hops, const Names& limits) {
@@ -123,8 +124,8 @@ TEST_F(FederationTest, LinksAreFollowedByTheRules) {
             0u);
 }
 
-// If the importer sets no rule, the link's default goes to the next trader.
-TEST_F(FederationTest, TheLinksDefaultIsPassedOn) {
+// If the importer sets no rule, the link's default is passed to the next trader.
+TEST_F(FederationTest, LinksDefaultRuleIsPassedToTheNextTrader) {
   Start(3);
   Node(0).LinkTo(Node(1), "near", CosTrading::local_only);
   Connect(1, 2);
@@ -133,7 +134,7 @@ TEST_F(FederationTest, TheLinksDefaultIsPassedOn) {
   EXPECT_EQ(Node(0).Query("Robot", "n == 2").offers->length(), 1u);
 }
 
-TEST_F(FederationTest, APreferenceOrdersByPropertiesThatAreNotRequested) {
+TEST_F(FederationTest, PreferenceOrdersByPropertiesThatAreNotRequested) {
   Start(3);
   Connect(0, 1);
   Connect(0, 2);
@@ -158,7 +159,7 @@ TEST_F(FederationTest, APreferenceOrdersByPropertiesThatAreNotRequested) {
   EXPECT_EQ(Limits(answer), Names{"return_card"});
 }
 
-TEST_F(FederationTest, ManyOffersComeThroughTheOthersIterators) {
+TEST_F(FederationTest, ManyOffersAreFetchedThroughIteratorsOfOtherTraders) {
   Start(2);
   Connect(0, 1);
   for (std::int32_t i = 2; i < 1500; ++i) Node(1).Export("Robot", {{"n", Value::Long(i)}});
@@ -167,7 +168,7 @@ TEST_F(FederationTest, ManyOffersComeThroughTheOthersIterators) {
   EXPECT_EQ(answer.rest->max_left(), 1499u);
 }
 
-TEST_F(FederationTest, AnUnknownTypeElsewhereIsNoError) {
+TEST_F(FederationTest, TypeThatAnotherTraderDoesNotKnowIsNoError) {
   Start(2);
   Connect(0, 1);
   Node(0).AddType("Rover");
@@ -221,7 +222,7 @@ TEST_F(FederationTest, ResolvesTheRegistersOfOtherTraders) {
   EXPECT_EQ(unsupported.name.length(), 2u);
 }
 
-TEST_F(FederationTest, ARequestThatComesAgainIsNotAnsweredAgain) {
+TEST_F(FederationTest, RepeatedRequestIsNotAnsweredAgain) {
   Start(1);
   CosTrading::Admin::OctetSeq id;
   id.length(3);
@@ -255,8 +256,8 @@ TEST_F(FederationTest, AKilledTraderIsReported) {
   EXPECT_NE(output.find("does not respond"), std::string::npos) << output;
 }
 
-// One trader on the way is stopped: those before it still answer in time.
-TEST_F(FederationTest, AHangingTraderCostsAQueryItsTimeOutAtMost) {
+// One trader on the way is stopped. Those before it still answer in time.
+TEST_F(FederationTest, HangingTraderDelaysAQueryByAtMostItsTimeout) {
   Start(4, {"0", "per_hop_ms=250"});
   Connect(0, 1);
   Connect(1, 2);
@@ -280,9 +281,9 @@ std::size_t DescriptorsOf(pid_t process) {
   return static_cast<std::size_t>(std::distance(begin(all), end(all)));
 }
 
-// The call would take seven seconds, two more than the ORB waits for it before it shuts itself
-// down.
-TEST_F(FederationTest, ABrokerStopsInOrderWhileACallWaitsForAnother) {
+// The call would take seven seconds. This is two more than the ORB waits for a call before it shuts
+// itself down.
+TEST_F(FederationTest, BrokerStopsCleanlyWhileACallWaitsForAnotherBroker) {
   Start(2, {"0", "per_hop_ms=1400"});
   Connect(0, 1);
   Node(1).broker_.Stop();

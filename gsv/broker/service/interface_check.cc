@@ -10,13 +10,13 @@ constexpr std::string_view kObject = "IDL:omg.org/CORBA/Object:1.0";
 
 bool HasRepositoryPrefix(std::string_view name) { return name.starts_with("IDL:"); }
 
-// "IDL:omg.org/CosTrading/Lookup:1.0" → "omg.org/CosTrading/Lookup".
+// Converts "IDL:omg.org/CosTrading/Lookup:1.0" to "omg.org/CosTrading/Lookup".
 std::string_view Path(std::string_view id) {
   if (HasRepositoryPrefix(id)) id.remove_prefix(4);
   return id.substr(0, id.rfind(':'));
 }
 
-// "::CosTrading::Lookup" → "CosTrading/Lookup".
+// Converts "::CosTrading::Lookup" to "CosTrading/Lookup".
 std::string PathOfScopedName(std::string_view name) {
   if (name.starts_with("::")) name.remove_prefix(2);
   std::string path(name);
@@ -26,7 +26,8 @@ std::string PathOfScopedName(std::string_view name) {
   return path;
 }
 
-// A scoped name does not have the prefix ("omg.org") that an identifier has.
+// Whether the last parts of `path` are `end`. A scoped name lacks the prefix ("omg.org") that an
+// identifier has.
 bool EndsWithPath(std::string_view path, std::string_view end) {
   return path == end || (path.size() > end.size() && path.ends_with(end) &&
                          path[path.size() - end.size() - 1] == '/');

@@ -11,11 +11,11 @@ namespace gsv::broker {
 enum class Conformance { kConforms, kDiffers, kUnknown };
 
 // Checks only the type id in the reference. `interface_name` is a repository identifier, a scoped
-// name, or empty. kUnknown if the reference may be of a derived interface.
+// name, or empty. Returns kUnknown if the reference may be of a derived interface.
 Conformance CompareInterface(std::string_view type_id, std::string_view interface_name);
 
-// As CompareInterface(), then calls the service (_is_a) with a time limit of one second. kUnknown
-// if it does not answer.
+// Calls CompareInterface(). If the result is unknown, it calls the service (_is_a) with a time
+// limit of one second. Returns kUnknown if the service does not answer.
 Conformance CheckInterface(CORBA::Object_ptr service, std::string_view type_id,
                            const std::string& interface_name);
 

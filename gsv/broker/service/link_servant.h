@@ -18,17 +18,18 @@ class LinkServant : public POA_CosTrading::Link, public ComponentsServant, publi
                 CosTrading::FollowOption def_pass_on_follow_rule,
                 CosTrading::FollowOption limiting_follow_rule) override;
   void remove_link(const char* name) override;
-  // Gets the target's Register, within a second; a nil reference if it has none.
+  // Gets the target's Register within a second. The reference is nil if the target has none.
   CosTrading::Link::LinkInfo* describe_link(const char* name) override;
   CosTrading::LinkNameSeq* list_links() override;
   void modify_link(const char* name, CosTrading::FollowOption def_pass_on_follow_rule,
                    CosTrading::FollowOption limiting_follow_rule) override;
 };
 
-// The Register of the trader at `target`; nil if it has none, or does not answer within a second.
+// Returns the Register of the trader at `target`, or nil if it has none or does not answer within a
+// second.
 CosTrading::Register_ptr RegisterOf(CORBA::ORB_ptr orb, const std::string& target);
 
-// The reference to another trader's Lookup as a string.
+// Returns the reference to another trader's Lookup as a string.
 // Errors  throws InvalidLookupRef if it is nil or has another interface.
 std::string CheckLookup(CORBA::ORB_ptr orb, CosTrading::Lookup_ptr target);
 

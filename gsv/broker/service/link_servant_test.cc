@@ -28,7 +28,7 @@ class LinkServantTest : public testing::Test {
   BrokerNode other_;
 };
 
-TEST_F(LinkServantTest, DescribesListsAndRemovesWhatWasAdded) {
+TEST_F(LinkServantTest, DescribesListsAndRemovesAddedLinks) {
   EXPECT_TRUE(Names().empty());
   Add("south");
   Add("north", local_only, if_no_local);
@@ -46,7 +46,7 @@ TEST_F(LinkServantTest, DescribesListsAndRemovesWhatWasAdded) {
   EXPECT_EQ(Names(), std::vector<std::string>{"south"});
 }
 
-TEST_F(LinkServantTest, RaisesForWrongNames) {
+TEST_F(LinkServantTest, RaisesForInvalidNames) {
   Add("north");
   EXPECT_STREQ(Raised<Link::IllegalLinkName>([&] { Add("to the north"); }).name, "to the north");
   EXPECT_STREQ(Raised<Link::DuplicateLinkName>([&] { Add("north"); }).name, "north");
@@ -90,7 +90,7 @@ TEST_F(LinkServantTest, RaisesForRulesThatAreTooPermissive) {
   EXPECT_EQ(modified_limiting.max_link_follow_policy, if_no_local);
 }
 
-TEST_F(LinkServantTest, KnowsItsComponentsAndAttributes) {
+TEST_F(LinkServantTest, ReturnsItsComponentsAndAttributes) {
   EXPECT_TRUE(node_.lookup_->_is_equivalent(CosTrading::Lookup_var(node_.link_->lookup_if())));
   EXPECT_TRUE(node_.link_->supports_modifiable_properties());
   CosTrading::Admin::OctetSeq stem;

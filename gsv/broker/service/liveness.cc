@@ -30,7 +30,8 @@ bool IsConnectionRefused(const addrinfo& address, int timeout_ms) {
   return error == ECONNREFUSED;
 }
 
-// omniORB reports all failures of a connection with the same exception.
+// omniORB reports all failures of a connection with the same exception, so this function connects
+// itself.
 bool NobodyListens(const std::string& reference, std::chrono::milliseconds timeout) {
   const auto service = ReadReference(reference);
   if (!service || service->host.empty()) return false;

@@ -10,9 +10,11 @@
 
 namespace gsv::broker {
 
-// Calls _non_existent. kGone: the service reports so, or the operating system at its address refuses
-// the connection. kSilent: no answer in time, also if the network is cut. kAlive: any other answer.
-// A service that this ORB cannot address counts as alive.
+// Calls _non_existent and returns:
+// kGone    if the service reports that it does not exist, or if the operating system at its address
+//          refuses the connection;
+// kSilent  if there is no answer in time, as when the network is cut;
+// kAlive   for any other answer, and for a service that this ORB cannot address.
 Liveness CheckLiveness(CORBA::ORB_ptr orb, const std::string& reference,
                        std::chrono::milliseconds timeout);
 

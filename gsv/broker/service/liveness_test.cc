@@ -1,4 +1,4 @@
-// Offers of real services that die, hang and return.
+// Tests offers of real services that die, hang and return.
 #include <chrono>
 #include <csignal>
 #include <thread>
@@ -32,9 +32,9 @@ class LivenessTest : public BrokerFixture {
   }
 };
 
-class ImpatientLivenessTest : public LivenessTest {
+class ShortSilenceLivenessTest : public LivenessTest {
  protected:
-  ImpatientLivenessTest() : LivenessTest("500") {}
+  ShortSilenceLivenessTest() : LivenessTest("500") {}
 };
 
 TEST_F(LivenessTest, OnlyTheOfferOfAKilledProgramIsWithdrawn) {
@@ -58,8 +58,9 @@ TEST_F(LivenessTest, TheOfferOfADestroyedObjectIsWithdrawn) {
   EXPECT_TRUE(IsOffered(living.offer_id()));
 }
 
-// Others are killed while the first is stopped; each dead service was called in another round.
-TEST_F(LivenessTest, TheOfferOfAStoppedProgramStaysForAWhile) {
+// Other services are killed while the first one is stopped. The monitor calls each dead service in
+// a separate round.
+TEST_F(LivenessTest, OfferOfAStoppedProgramStaysUntilTheMaximumSilence) {
   ServiceProcess still(broker_.reference());
   still.Stop();
   for (int i = 0; i < 3; ++i) {
@@ -72,7 +73,7 @@ TEST_F(LivenessTest, TheOfferOfAStoppedProgramStaysForAWhile) {
   still.Send(SIGCONT);
 }
 
-TEST_F(ImpatientLivenessTest, TheOfferOfAProgramThatIsStoppedTooLongIsWithdrawn) {
+TEST_F(ShortSilenceLivenessTest, OfferOfAProgramThatIsStoppedTooLongIsWithdrawn) {
   ServiceProcess still(broker_.reference());
   still.Stop();
   AwaitWithdrawal(still.offer_id());

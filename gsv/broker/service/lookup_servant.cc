@@ -34,7 +34,7 @@ bool IsDesired(const DesiredProperties& desired, const std::string& name) {
          std::find(desired.names.begin(), desired.names.end(), name) != desired.names.end();
 }
 
-// The size before dynamic properties are evaluated; no value has more than `dynamic_bytes`.
+// The size before dynamic properties are evaluated. A dynamic value has at most `dynamic_bytes`.
 std::size_t EncodedSize(const OfferPtr& offer, const DesiredProperties& desired,
                         std::size_t dynamic_bytes) {
   constexpr std::size_t kOverhead = 32;
@@ -47,7 +47,7 @@ std::size_t EncodedSize(const OfferPtr& offer, const DesiredProperties& desired,
   return size;
 }
 
-// Leaves out a dynamic property whose value is not available.
+// Omits a dynamic property whose value is not available.
 CosTrading::Offer ToCorba(CORBA::ORB_ptr orb, const Offer& offer, const DesiredProperties& desired,
                           DynamicValues& values) {
   CosTrading::Offer result;
@@ -88,8 +88,8 @@ std::chrono::milliseconds DynamicBudget(const TraderLimits& limits, const Import
   return std::min(limits.dynamic.query_budget, limits.federation.per_hop / 2);
 }
 
-// Runs `query`, which calls the trader that the importer named. If that trader is unavailable, the
-// error must not look as if this one could not: the client's ORB would retry.
+// Calls `query`, which calls the trader that the importer named. If that trader is unavailable, the
+// error must not look as if this trader were unavailable, because the client's ORB would retry.
 template <typename Call>
 void AskInstead(const Call& query) {
   try {

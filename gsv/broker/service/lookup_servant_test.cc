@@ -72,7 +72,7 @@ TEST_F(LookupServantTest, ReturnsOnlyDesiredProperties) {
       "<foo-bar");
 }
 
-TEST_F(LookupServantTest, RaisesWithTheTextThatIsWrong) {
+TEST_F(LookupServantTest, RaisesWithTheInvalidText) {
   EXPECT_STREQ(Raised<CosTrading::IllegalServiceType>([&] { Query("1"); }).type, "1");
   EXPECT_STREQ(Raised<CosTrading::UnknownServiceType>([&] { Query("Plane"); }).type, "Plane");
   EXPECT_STREQ(Raised<CosTrading::IllegalConstraint>([&] { Query("Robot", "n =< 1"); }).constr,
@@ -119,7 +119,7 @@ TEST_F(LookupServantTest, AppliesUseModifiableProperties) {
             1u);
 }
 
-TEST_F(LookupServantTest, TakesEveryPolicyOfTheStandard) {
+TEST_F(LookupServantTest, AcceptsEveryPolicyOfTheStandard) {
   ExportNumbered(1);
   CORBA::Any follow;
   follow <<= CosTrading::always;
@@ -141,7 +141,7 @@ TEST_F(LookupServantTest, TakesEveryPolicyOfTheStandard) {
   EXPECT_EQ(answer.offers->length(), 1u);
 }
 
-TEST_F(LookupServantTest, RaisesForWrongPolicies) {
+TEST_F(LookupServantTest, RaisesForInvalidPolicies) {
   const auto illegal = Raised<Lookup::IllegalPolicyName>(
       [&] { Query("Robot", "", "", {Policy("search card", ULong(1))}); });
   EXPECT_STREQ(illegal.name, "search card");
@@ -229,7 +229,7 @@ TEST_F(LookupServantTest, AppliesMaxList) {
   EXPECT_EQ(next->length(), 2u);
 }
 
-TEST_F(LookupServantTest, KnowsItsComponentsAndItsAttributes) {
+TEST_F(LookupServantTest, ReturnsItsComponentsAndAttributes) {
   EXPECT_TRUE(lookup_->_is_equivalent(CosTrading::Lookup_var(register_->lookup_if())));
   EXPECT_TRUE(register_->_is_equivalent(CosTrading::Register_var(lookup_->register_if())));
   EXPECT_FALSE(CORBA::is_nil(CosTrading::Link_var(lookup_->link_if())));
@@ -293,7 +293,7 @@ TEST_F(LookupServantTest, ListsTheIdsOfAllOffers) {
   Raised<CORBA::OBJECT_NOT_EXIST>([&] { rest->max_left(); });
 }
 
-TEST_F(LookupServantTest, KeepsItsOwnTypeRepository) {
+TEST_F(LookupServantTest, RejectsAnotherTypeRepository) {
   Raised<CORBA::NO_IMPLEMENT>([&] { admin_->set_type_repos(TestService()); });
   const CORBA::Object_var same = admin_->set_type_repos(types_);
   EXPECT_TRUE(same->_is_equivalent(types_));

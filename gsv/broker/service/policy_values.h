@@ -18,23 +18,23 @@ inline CosTrading::FollowOption ToCorba(FollowOption option) {
   return static_cast<CosTrading::FollowOption>(option);
 }
 
-// Ignores a policy with a name that the standard does not define.
+// Reads the policies. Ignores a policy with a name that the standard does not define.
 // Errors  throws IllegalPolicyName, DuplicatePolicyName, PolicyTypeMismatch, InvalidPolicyValue.
 ImportPolicies ToImportPolicies(const CosTrading::PolicySeq& policies);
 
-// The policies that replace the importer's when the query is forwarded to another trader. An absent
-// policy keeps the importer's value, except starting_trader, which is removed.
+// The policies that replace those of the importer when the query is forwarded to another trader. An
+// absent policy keeps the importer's value, except starting_trader, which is removed.
 struct PassedPolicies {
   TraderName starting_trader{};
   std::optional<std::uint32_t> hop_count{};
   std::optional<FollowOption> link_follow_rule{};
   std::optional<std::string> request_id{};
-  // They replace the importer's policies of the same names, and come last. They do not replace the
-  // members above.
+  // These replace the importer's policies with the same names, and come last. They do not replace
+  // the members above.
   CosTrading::PolicySeq fixed{};
 };
 
-// starting_trader first, as the standard recommends.
+// starting_trader comes first, as the standard recommends.
 CosTrading::PolicySeq PoliciesToPassOn(const CosTrading::PolicySeq& policies,
                                        const PassedPolicies& passed);
 

@@ -23,7 +23,7 @@ CORBA::Any Boolean(bool value) {
   return any;
 }
 
-// A broker that has proxies for another, which offers robots with n from 0 to 4.
+// A broker with proxies for another broker, which offers robots with n from 0 to 4.
 class ProxyServantTest : public testing::Test {
  protected:
   ProxyServantTest() : proxy_(near_.lookup_->proxy_if()) {
@@ -70,7 +70,7 @@ TEST_F(ProxyServantTest, DescribesAndWithdrawsAnExport) {
                id.c_str());
 }
 
-TEST_F(ProxyServantTest, RaisesForWrongExports) {
+TEST_F(ProxyServantTest, RaisesForInvalidExports) {
   const auto add = [&](const char* type, const std::vector<Property>& properties) {
     const CORBA::String_var id =
         proxy_->export_proxy(far_.lookup_, type, BrokerNode::Sequence(properties), true, "$*", {});
@@ -115,7 +115,7 @@ TEST_F(ProxyServantTest, RaisesForWrongExports) {
   EXPECT_STREQ(readonly.name, "site");
 }
 
-TEST_F(ProxyServantTest, RaisesForWrongTargetsRecipesAndPolicies) {
+TEST_F(ProxyServantTest, RaisesForInvalidTargetsRecipesAndPolicies) {
   const auto nil = Raised<CosTrading::InvalidLookupRef>([&] {
     const CORBA::String_var id =
         proxy_->export_proxy(CosTrading::Lookup::_nil(), "Robot", {}, true, "$*", {});
@@ -177,7 +177,7 @@ TEST_F(ProxyServantTest, AProxyStandsForTheOffersOfItsTarget) {
   EXPECT_EQ(Found("n >= 1"), 1u);
 }
 
-TEST_F(ProxyServantTest, AProxyThatDoesNotMatchAllIsMatchedItself) {
+TEST_F(ProxyServantTest, ProxyWithoutMatchAllIsMatchedByItsOwnProperties) {
   Add("", {{"site", Value::String("hall")}}, false);
   EXPECT_EQ(Found("site == 'hall'"), 5u);
   EXPECT_EQ(Found("site == 'yard'"), 0u);
@@ -193,7 +193,7 @@ TEST_F(ProxyServantTest, PassesPoliciesOn) {
       << "the proxy's own policy holds";
 }
 
-TEST_F(ProxyServantTest, AProxyForItsOwnTraderEnds) {
+TEST_F(ProxyServantTest, ProxyForItsOwnTraderDoesNotLoop) {
   const CORBA::String_var id = proxy_->export_proxy(near_.lookup_, "Robot", {}, true, "$*", {});
   near_.Export("Robot");
   EXPECT_EQ(Found(""), 1u);
@@ -210,7 +210,7 @@ TEST_F(ProxyServantTest, AMissingTargetIsReported) {
   EXPECT_STREQ(answer.limits_applied[0], "use_proxy_offers");
 }
 
-TEST_F(ProxyServantTest, KnowsItsComponents) {
+TEST_F(ProxyServantTest, ReturnsItsComponents) {
   EXPECT_TRUE(near_.lookup_->_is_equivalent(CosTrading::Lookup_var(proxy_->lookup_if())));
   EXPECT_TRUE(proxy_->supports_proxy_offers());
 }

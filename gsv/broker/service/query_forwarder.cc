@@ -19,7 +19,7 @@ using Deadline = std::chrono::steady_clock::time_point;
 
 constexpr CORBA::ULong kForwardedBatch = 500;
 
-// Distinguishes offers of other traders from those of this one, whose numbers count from 1.
+// Offers of other traders have numbers from here on. Those of this trader count from 1.
 constexpr std::uint64_t kFirstForeignNumber = std::uint64_t{1} << 63;
 
 // Limits the next call on `reference`, which no other thread uses, to the remaining time.
@@ -44,21 +44,21 @@ Lookup::SpecifiedProps ToCorba(const DesiredProperties& desired) {
   return props;
 }
 
-// Another trader might send a name twice: the last value counts. Dynamic values are evaluated.
+// Another trader might send a name twice; the last value applies. Dynamic values are evaluated.
 PropertyList PropertiesOf(const CosTrading::PropertySeq& properties) {
   std::vector<Property> taken = ToProperties(properties);
   std::erase_if(taken, [](const Property& property) { return IsDynamic(property.value); });
   return PropertyList::LastOfEachName(std::move(taken));
 }
 
-// Collects the answers of another trader until the limit.
+// Collects the answers of another trader up to the limit.
 class Collector {
  public:
   Collector(CORBA::ORB_ptr orb, std::size_t offers, std::size_t bytes)
       : orb_(orb), offers_left_(offers), bytes_left_(bytes) {}
 
   bool full() const { return offers_left_ == 0 || bytes_left_ == 0; }
-  // True if offers were left out.
+  // Whether offers were dropped because of the limit.
   bool cut() const { return cut_; }
 
   void Take(const CosTrading::OfferSeq& offers, bool more, Offers& taken) {
@@ -107,7 +107,7 @@ std::vector<ForwardedAnswer> QueryForwarder::Ask(
     try {
       threads.emplace_back(ask, i);
     } catch (const std::system_error&) {
-      break;  // no memory for another thread: the remaining traders count as silent
+      break;  // there is no memory for another thread, so the remaining traders count as silent
     }
   }
   if (!destinations.empty()) ask(0);
@@ -141,7 +141,8 @@ ForwardedAnswer QueryForwarder::AskOne(CORBA::ORB_ptr orb, const ForwardedQuery&
     if (collector.cut()) answer.limits_applied.emplace_back("return_card");
     answer.complete = true;
   } catch (const CORBA::UserException&) {
-    // The trader does not know the type, or a property of the constraint: it has no such offers.
+    // The trader does not know the type, or a property of the constraint. So it has no matching
+    // offers.
     answer.complete = true;
   } catch (const CORBA::SystemException&) {
     answered = false;

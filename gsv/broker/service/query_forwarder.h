@@ -1,8 +1,8 @@
-// Forwards a query to other traders, to all at the same time, within the query's time limit. Only
-// one query at a time calls a trader that did not answer before.
+// Forwards a query to other traders, to all at the same time, within the query's time limit. If a
+// trader did not answer before, only one query at a time calls it.
 //
-// Errors   a trader that does not answer, or refuses, contributes no offers. Its first silence and
-//          the end of it are logged on stderr.
+// Errors   a trader that does not answer, or refuses, contributes no offers. When a trader becomes
+//          silent, and when it answers again, this is logged on stderr.
 // Threads  any; no lock is held during a call.
 #pragma once
 
@@ -29,13 +29,13 @@ struct DesiredProperties {
 struct ForwardedQuery {
   std::string type;
   std::string preference;
-  DesiredProperties desired;  // including those that the preference needs
-  std::size_t at_most = 0;    // limit of offers from each trader
+  DesiredProperties desired;  // includes the properties that the preference needs
+  std::size_t at_most = 0;    // the maximum number of offers from each trader
   std::chrono::steady_clock::time_point deadline;
 };
 
 struct QueryDestination {
-  std::string name;    // for messages: "link north"
+  std::string name;    // the name in messages, such as "link north"
   std::string target;  // the trader's Lookup: "IOR:…"
   std::string constraint;
   CosTrading::PolicySeq policies;
@@ -44,23 +44,23 @@ struct QueryDestination {
 struct ForwardedAnswer {
   Offers offers{};
   std::vector<std::string> limits_applied{};
-  bool complete = false;  // false: the trader did not answer all of the query
+  bool complete = false;  // false if the trader did not answer all of the query
 };
 
 class QueryForwarder {
  public:
   explicit QueryForwarder(const FederationLimits& limits) : limits_(limits) {}
 
-  // Returns when all traders have answered, or when the time is up. The answers are in the order of
-  // `destinations`.
+  // Returns when all traders have answered, or when the time is over. The answers are in the order
+  // of `destinations`.
   std::vector<ForwardedAnswer> Ask(CORBA::ORB_ptr orb, const ForwardedQuery& query,
                                    const std::vector<QueryDestination>& destinations);
 
  private:
   ForwardedAnswer AskOne(CORBA::ORB_ptr orb, const ForwardedQuery& query,
                          const QueryDestination& destination);
-  // False if the trader is silent and another query is calling it, or if too many calls are in
-  // progress.
+  // Returns false if the trader is silent and another query is calling it, or if too many calls are
+  // in progress.
   bool Enter(const std::string& target);
   void Leave(const QueryDestination& destination, bool answered);
 
@@ -68,7 +68,7 @@ class QueryForwarder {
   base::Mutex mutex_;
   std::size_t underway_ GSV_GUARDED_BY(mutex_) = 0;
   std::map<std::string, bool> silent_
-      GSV_GUARDED_BY(mutex_);  // by target: whether a query is calling it
+      GSV_GUARDED_BY(mutex_);  // silent traders, and whether a query is calling them
 };
 
 }  // namespace gsv::broker

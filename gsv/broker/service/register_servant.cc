@@ -11,8 +11,8 @@
 namespace gsv::broker {
 namespace {
 
-// The standard has no exception for a service that cannot be called, so its reference counts as
-// invalid.
+// Checks that the service can be called. The standard has no exception for this, so such a
+// reference counts as invalid.
 void CheckService(CORBA::Object_ptr reference, const std::string& ior, const ServiceType& type) {
   if (type.interface_name.empty()) return;
   const auto parts = ReadReference(ior);
@@ -67,7 +67,7 @@ void RegisterServant::withdraw_using_constraint(const char* type, const char* co
   ValueOrRaise(objects_.trader.WithdrawMatching(type, constr, &objects_.dynamic));
 }
 
-// The first name leads to a linked trader, the others continue from there.
+// The first name is that of a linked trader. The other names are resolved by that trader.
 CosTrading::Register_ptr RegisterServant::resolve(const CosTrading::TraderName& name) {
   bool legal = name.length() > 0;
   for (CORBA::ULong i = 0; i < name.length(); ++i) {

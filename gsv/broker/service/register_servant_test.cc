@@ -101,7 +101,7 @@ TEST_F(RegisterServantTest, ReturnsValuesOfEveryTypeUnchanged) {
   EXPECT_EQ(Query("Robot", "structure == 1").offers->length(), 0u);
 }
 
-TEST_F(RegisterServantTest, RaisesForWrongExports) {
+TEST_F(RegisterServantTest, RaisesForInvalidExports) {
   const auto attempt = [&](const char* type, const std::vector<Property>& properties) {
     register_->_cxx_export(TestService(), type, Sequence(properties));
   };
@@ -170,7 +170,7 @@ TEST_F(RegisterServantTest, RaisesForADynamicPropertyThatAModificationAdds) {
   EXPECT_STREQ(readonly.name, "hull");
 }
 
-TEST_F(RegisterServantTest, ComparesTheInterface) {
+TEST_F(RegisterServantTest, ChecksTheInterfaceOfTheService) {
   AddType("Evaluator", {}, {}, kServiceInterface);
   AddType("Scoped", {}, {}, "::CosTradingDynamic::DynamicPropEval");
   AddType("Broker", {}, {}, "IDL:omg.org/CosTrading/TraderComponents:1.0");
@@ -179,7 +179,7 @@ TEST_F(RegisterServantTest, ComparesTheInterface) {
   const auto mismatch = Raised<Register::InterfaceTypeMismatch>([&] { Export("Broker"); });
   EXPECT_STREQ(mismatch.type, "Broker");
   EXPECT_TRUE(mismatch.reference->_is_equivalent(TestService()));
-  // A derived interface, which only the service itself knows.
+  // The service has a derived interface, which only the service itself knows.
   const CORBA::String_var id = register_->_cxx_export(lookup_, "Broker", {});
   EXPECT_STRNE(id, "");
 }

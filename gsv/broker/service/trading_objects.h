@@ -18,7 +18,8 @@
 
 namespace gsv::broker {
 
-// Maximum bytes of offers or names in a reply, so that it fits a GIOP message of 64 KiB.
+// Maximum number of bytes of offers or names in a reply, so that the reply fits into a GIOP message
+// of 64 KiB.
 constexpr std::size_t kReplyBytes = 48 * 1024;
 
 using OfferCursors = CursorTable<OfferPtr, DesiredProperties>;
@@ -35,7 +36,7 @@ struct TradingObjects {
   OfferCursors offer_cursors;
   OfferIdCursors id_cursors;
 
-  // An id that no other query of any trader has.
+  // Returns an id that no other query of any trader has.
   std::string NewRequestId();
 
   // Set before the first request is served.

@@ -53,7 +53,7 @@ TEST_F(TypeRepositoryServantTest, ListsAllTypesOrThoseSinceAnIncarnation) {
   EXPECT_EQ(List(which), std::vector<std::string>{"B"});
 }
 
-TEST_F(TypeRepositoryServantTest, RaisesForWrongTypes) {
+TEST_F(TypeRepositoryServantTest, RaisesForInvalidTypes) {
   AddType("A", {Define("a", CORBA::_tc_long, kMandatory)}, {}, "IDL:acme/A:1.0");
   const std::string interface_name = "IDL:acme/X:1.0";
   EXPECT_STREQ(Raised<CosTrading::IllegalServiceType>([&] { AddType("1"); }).type, "1");
@@ -100,7 +100,7 @@ TEST_F(TypeRepositoryServantTest, RemovesTypesWithoutSubTypes) {
   EXPECT_STREQ(Raised<CosTrading::IllegalServiceType>([&] { types_->remove_type("?"); }).type, "?");
 }
 
-TEST_F(TypeRepositoryServantTest, MaskedTypesTakeNoOffersAndKeepThoseTheyHave) {
+TEST_F(TypeRepositoryServantTest, MaskedTypesRefuseNewOffersAndKeepOldOnes) {
   AddType("A");
   AddType("B", {}, {"A"});
   Export("A");
@@ -115,7 +115,7 @@ TEST_F(TypeRepositoryServantTest, MaskedTypesTakeNoOffersAndKeepThoseTheyHave) {
   EXPECT_STREQ(Raised<Repository::NotMasked>([&] { types_->unmask_type("A"); }).name, "A");
 }
 
-TEST_F(TypeRepositoryServantTest, RaisesForNamesThatAreWrongOrUnknown) {
+TEST_F(TypeRepositoryServantTest, RaisesForInvalidOrUnknownNames) {
   const auto illegal = [](const auto& call) {
     EXPECT_STREQ(Raised<CosTrading::IllegalServiceType>([&] { call("a b"); }).type, "a b");
   };

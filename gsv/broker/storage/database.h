@@ -17,14 +17,15 @@ namespace gsv::broker {
 
 class Statement {
  public:
-  // Binds an argument; `place` counts from 1. A string_view is text; BindBlob() binds bytes.
+  // Binds an argument. `place` counts from 1. A string_view is bound as text; BindBlob() binds
+  // bytes.
   Statement& Bind(int place, std::int64_t value);
   Statement& Bind(int place, std::string_view text);
   Statement& BindBlob(int place, std::string_view bytes);
 
   // Runs a statement that returns no rows, and resets it for the next arguments.
   [[nodiscard]] base::Status Run();
-  // Steps to the next row; false after the last.
+  // Steps to the next row. Returns false after the last one.
   [[nodiscard]] base::Result<bool> Next();
   std::int64_t Integer(int column) const;
   std::string Bytes(int column) const;
@@ -47,7 +48,7 @@ class Database {
   // Runs a query and returns the first column of the first row.
   [[nodiscard]] base::Result<std::string> Ask(std::string_view sql);
 
-  // SQLite's last result code: SQLITE_BUSY, SQLITE_NOTADB, …
+  // SQLite's last result code, such as SQLITE_BUSY or SQLITE_NOTADB.
   int LastCode() const;
 
  private:

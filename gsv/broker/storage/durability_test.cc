@@ -1,4 +1,4 @@
-// Offers survive the end of a real broker.
+// Tests that offers survive the end of a broker process.
 #include <array>
 #include <atomic>
 #include <csignal>
@@ -51,7 +51,7 @@ class Broker : public BrokerFixture {
 };
 
 // Four clients export offers while the broker is killed.
-TEST(Durability, EveryOfferThatWasAnsweredSurvivesAKill) {
+TEST(Durability, AcknowledgedOffersSurviveAKill) {
   constexpr std::size_t kEnough = 400;
   const Folder folder;
   std::mutex mutex;
@@ -124,7 +124,7 @@ TEST(Durability, TypesSurviveAKillWithSuperTypesMasksAndIncarnations) {
   Raised<CosTrading::UnknownServiceType>([&] { again.types_->describe_type("Gone"); });
 }
 
-TEST(Durability, ATidyEndKeepsEverythingToo) {
+TEST(Durability, EverythingSurvivesACleanShutdown) {
   const Folder folder;
   std::string kept;
   {
@@ -141,7 +141,7 @@ TEST(Durability, ATidyEndKeepsEverythingToo) {
   EXPECT_EQ(again.Query("Robot").offers->length(), 1u);
 }
 
-TEST(Durability, ABrokerWithoutItsFileDoesNotStart) {
+TEST(Durability, BrokerDoesNotStartIfItsFileCannotBeOpened) {
   const Folder folder;
   const Broker first(folder);
   BrokerProcess second(folder.Arguments());

@@ -68,7 +68,7 @@ void OfferFile::Close() {
   works_ = false;
   waiting_.clear();
   written_.notify_all();
-  (void)database_.Run("PRAGMA wal_checkpoint(TRUNCATE)");  // else the next Open() does it
+  (void)database_.Run("PRAGMA wal_checkpoint(TRUNCATE)");  // if this fails, the next Open() does it
 }
 
 base::Result<TraderState> OfferFile::Load() {
@@ -226,7 +226,7 @@ void OfferFile::Write() {
   }
 }
 
-// Other threads may use the limited address space for a moment.
+// Retries, because other threads may use up the limited address space for a moment.
 base::Status OfferFile::WriteWithRetries(const std::vector<StateChange>& changes) {
   constexpr int kTries = 50;
   constexpr std::chrono::milliseconds kPause(100);

@@ -3,7 +3,7 @@
 // Format   an SQLite database in WAL mode with synchronous=NORMAL. Acknowledged changes survive the
 //          end of the process at any moment. A power failure may lose the last changes, but does
 //          not damage the file. See docs/broker.md.
-// Threads  its own thread writes; all waiting changes become one transaction.
+// Threads  it writes on its own thread; all waiting changes become one transaction.
 #pragma once
 
 #include <cstdint>
@@ -21,19 +21,19 @@ namespace gsv::broker {
 
 class OfferFile : public Journal {
  public:
-  // Opens the file and locks it against other processes. Creates it if it does not exist; `stem` is
-  // then part of its offers' ids.
-  // Errors  kUnavailable: the file cannot be opened, or another broker uses it.
-  //         kCorrupt: the file is damaged, not a broker's, or of a newer version.
+  // Opens the file and locks it against other processes. If the file does not exist, it is created,
+  // and `stem` becomes part of its offers' ids.
+  // Errors  kUnavailable if the file cannot be opened, or another broker uses it. kCorrupt if the
+  //         file is damaged, not a broker's, or of a newer version.
   [[nodiscard]] static base::Result<std::unique_ptr<OfferFile>> Open(const std::string& path,
                                                                      std::uint32_t stem);
   ~OfferFile() override { Close(); }
 
-  // The content of the file when it was opened. Call it before the first Append().
+  // Returns the content of the file when it was opened. Call it before the first Append().
   // Errors  kCorrupt.
   [[nodiscard]] base::Result<TraderState> Load();
 
-  // Limits the file to `pages` of 4 KiB; changes that need more are not stored. Call it before the
+  // Limits the file to `pages` of 4 KiB. Changes that need more are not stored. Call it before the
   // first Append().
   [[nodiscard]] base::Status LimitPages(int pages);
 
@@ -82,7 +82,7 @@ class OfferFile : public Journal {
   Ticket last_written_ GSV_GUARDED_BY(mutex_) = 0;
   bool works_ GSV_GUARDED_BY(mutex_) = true;
   bool ending_ GSV_GUARDED_BY(mutex_) = false;
-  std::thread writer_;  // last: it uses the others
+  std::thread writer_;  // the last member, because it uses the others
 };
 
 }  // namespace gsv::broker

@@ -8,7 +8,7 @@
 namespace gsv::broker {
 namespace {
 
-// "GSVB": identifies a broker's file.
+// "GSVB", which identifies a broker's file
 constexpr int kApplication = 0x47535642;
 // Version 1 had no links, proxies or attributes.
 constexpr int kVersion = 2;
@@ -113,7 +113,7 @@ base::Result<Database> OpenOfferDatabase(const std::string& path, std::uint32_t 
                           "); choose another with --data, or use --memory",
                       path);
   }
-  // SQLite holds the lock from the first access on; the kernel releases it when the process ends.
+  // SQLite holds the lock from the first access on. The kernel releases it when the process ends.
   if (!database->Run("PRAGMA locking_mode = EXCLUSIVE")) {
     return base::Fail(Unusable(*database, path));
   }

@@ -1,4 +1,4 @@
-// The tables of a broker's file, and the check that a file is one.
+// The tables of a broker's file, and the check that a file is a broker's.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace gsv::broker {
 
-// The rows of the table `broker`.
+// The keys of the rows of the table `broker`.
 constexpr std::string_view kStem = "stem";
 constexpr std::string_view kNextNumber = "next_number";
 constexpr std::string_view kNextIncarnation = "next_incarnation";

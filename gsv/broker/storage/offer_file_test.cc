@@ -21,7 +21,7 @@ class OfferFileTest : public testing::Test {
 
   std::string Path() const { return folder_.path() / "broker.db"; }
 
-  // A trader with the state that an earlier trader left in the file.
+  // Returns a trader with the state that an earlier trader left in the file.
   std::unique_ptr<Trader> Reopen(std::uint32_t stem = kOwnStem) const {
     auto trader = std::make_unique<Trader>(TraderLimits{}, stem, 1);
     auto file = OfferFile::Open(Path(), stem);
@@ -32,7 +32,7 @@ class OfferFileTest : public testing::Test {
     return trader;
   }
 
-  // The error of opening or loading the file.
+  // Returns the error of opening or loading the file.
   base::Error OpenError() const {
     auto file = OfferFile::Open(Path(), kOwnStem);
     if (!file) return file.error();
@@ -100,7 +100,7 @@ TEST_F(OfferFileTest, KeepsTypesWithAllTheirMembers) {
   EXPECT_EQ(car.properties[0].mode, PropertyMode::kMandatoryReadonly);
 }
 
-TEST_F(OfferFileTest, KeepsModifiedOffersAndForgetsWithdrawnOnes) {
+TEST_F(OfferFileTest, KeepsModifiedOffersAndRemovesWithdrawnOnes) {
   auto trader = Reopen();
   ASSERT_TRUE(trader->AddType({.name = "Robot"}));
   const std::string kept = *trader->Export("Robot", "IOR:01", {{"n", Value::Long(1)}});
@@ -167,8 +167,8 @@ TEST_F(OfferFileTest, KeepsProxies) {
   EXPECT_GT(*trader->Export("Robot", "IOR:02", {}), gone);
 }
 
-// A file of format 1, which had neither links nor attributes.
-TEST_F(OfferFileTest, TakesOverAFileOfAnEarlierFormat) {
+// The file has format 1, which had neither links nor attributes.
+TEST_F(OfferFileTest, UpgradesAFileOfAnEarlierFormat) {
   auto trader = Reopen();
   ASSERT_TRUE(trader->AddType({.name = "Robot"}));
   const std::string id = *trader->Export("Robot", "IOR:00", {});
@@ -182,7 +182,7 @@ TEST_F(OfferFileTest, TakesOverAFileOfAnEarlierFormat) {
   EXPECT_EQ(Reopen()->links().size(), 1u);
 }
 
-TEST_F(OfferFileTest, KeepsAcknowledgedChangesAndRefusesOthersOnceClosed) {
+TEST_F(OfferFileTest, RefusesChangesAfterItIsClosed) {
   auto trader = Reopen();
   ASSERT_TRUE(trader->AddType({.name = "Robot"}));
   const auto id = trader->Export("Robot", "IOR:00", {});
@@ -192,12 +192,12 @@ TEST_F(OfferFileTest, KeepsAcknowledgedChangesAndRefusesOthersOnceClosed) {
   const auto refused = trader->Export("Robot", "IOR:01", {});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().refusal, Refusal::kNotStored);
-  EXPECT_TRUE(trader->Describe(*id));  // queries are still answered
+  EXPECT_TRUE(trader->Describe(*id));  // the trader still answers queries
   trader = nullptr;
   EXPECT_TRUE(Reopen()->Describe(*id));
 }
 
-TEST_F(OfferFileTest, IsForOneBrokerAtATime) {
+TEST_F(OfferFileTest, IsLockedAgainstASecondBroker) {
   const auto first = OfferFile::Open(Path(), kOwnStem);
   ASSERT_TRUE(first);
   EXPECT_EQ(
@@ -205,7 +205,7 @@ TEST_F(OfferFileTest, IsForOneBrokerAtATime) {
       Path() + ": another broker is using this file; stop it, or choose another file with --data");
 }
 
-TEST_F(OfferFileTest, RefusesOtherFiles) {
+TEST_F(OfferFileTest, RejectsFilesThatAreNotABrokers) {
   std::ofstream(Path()) << "These are the notes of a friend, and nothing for a broker to read. "
                            "They go on for a while so that they are longer than a header.";
   EXPECT_EQ(OpenError().message,
@@ -252,7 +252,7 @@ TEST_F(OfferFileTest, ReportsARecordThatCannotBeDecoded) {
   EXPECT_EQ(OpenError().Sentence(), Path() + ": an offer cannot be decoded (MARSHAL)");
 }
 
-// A full disk: SQLite cannot enlarge the file.
+// The disk is full: SQLite cannot enlarge the file.
 TEST_F(OfferFileTest, RefusesChangesThatItCannotStoreAndStillAnswersQueries) {
   auto trader = Reopen();
   ASSERT_TRUE(trader->AddType({.name = "Robot"}));

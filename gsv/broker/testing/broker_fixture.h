@@ -1,5 +1,5 @@
-// For tests over TCP: a broker in another process. This process's ORB is its client and serves the
-// offered services.
+// For tests over TCP: a broker in another process. The ORB of this process is its client, and
+// serves the offered services.
 #pragma once
 
 #include <string>
@@ -14,10 +14,10 @@
 
 namespace gsv::broker {
 
-// This process's ORB, which serves requests.
+// Returns this process's ORB, which serves requests.
 CORBA::ORB_ptr TestOrb();
 
-// A running service with the interface kServiceInterface.
+// Returns a running service with the interface kServiceInterface.
 CORBA::Object_ptr TestService();
 constexpr const char* kServiceInterface = "IDL:omg.org/CosTradingDynamic/DynamicPropEval:1.0";
 
@@ -29,14 +29,14 @@ class BrokerFixture : public testing::Test {
 
   explicit BrokerFixture(std::vector<std::string> arguments = {"0"});
 
-  // A service type with the given properties.
+  // Adds a service type with the given properties.
   Repository::IncarnationNumber AddType(const std::string& name,
                                         const std::vector<Repository::PropStruct>& properties = {},
                                         const std::vector<std::string>& super_types = {},
                                         const std::string& interface_name = "");
   static Repository::PropStruct Define(const char* name, CORBA::TypeCode_ptr type,
                                        Repository::PropertyMode mode);
-  // Exports TestService(); returns the offer's id.
+  // Exports TestService() and returns the offer's id.
   std::string Export(const std::string& type, const std::vector<Property>& properties = {});
   static CosTrading::PropertySeq Sequence(const std::vector<Property>& properties);
   static CosTrading::Policy Policy(const char* name, const CORBA::Any& value);
@@ -60,7 +60,7 @@ class BrokerFixture : public testing::Test {
   CosTradingRepos::ServiceTypeRepository_var types_;
 };
 
-// Runs `call`, which must raise `Exception`; returns it.
+// Calls `call`, which must raise `Exception`, and returns the exception.
 template <typename Exception, typename Call>
 Exception Raised(const Call& call) {
   try {

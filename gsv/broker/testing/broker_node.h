@@ -1,4 +1,4 @@
-// One of several brokers in a test.
+// For tests: one of several brokers.
 #pragma once
 
 #include <string>

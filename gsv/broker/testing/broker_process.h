@@ -1,4 +1,4 @@
-// A broker, or the service of an offer, in a child process, for tests over TCP.
+// For tests over TCP: a broker, or the service of an offer, in a child process.
 #pragma once
 
 #include <memory>
@@ -12,23 +12,24 @@ namespace gsv::broker {
 
 class TestProcess {
  public:
-  // Returns when the process has printed a line, or has ended. `program` is beside the tests.
+  // Starts `program`, which is beside the tests. Returns when the process has printed a line, or
+  // has ended.
   TestProcess(const std::string& program, std::vector<std::string> arguments);
   // Ends the process.
   ~TestProcess();
   TestProcess(const TestProcess&) = delete;
   TestProcess& operator=(const TestProcess&) = delete;
 
-  // Empty if the process ended without a line.
+  // The first line on stdout; empty if the process ended without one.
   const std::string& first_line() const { return first_line_; }
   pid_t pid() const { return pid_; }
 
   void Send(int signal);
-  // Sends SIGSTOP; returns when the process has stopped.
+  // Sends SIGSTOP. Returns when the process has stopped.
   void Stop();
-  // Waits for the end. Returns the exit code, or minus the signal that ended it.
+  // Waits for the end. Returns the exit code, or minus the number of the signal that ended it.
   int Wait();
-  // Everything that it wrote on stderr. Call it after Wait().
+  // Returns everything that the process wrote on stderr. Call it after Wait().
   std::string Stderr();
 
  private:
@@ -43,12 +44,12 @@ class BrokerProcess : public TestProcess {
   explicit BrokerProcess(std::vector<std::string> arguments = {"0"})
       : TestProcess("gsv_broker_test_server", std::move(arguments)) {}
 
-  // "corbaloc::1.2@127.0.0.1:…/TradingService"; empty if the process ended without it.
+  // For example "corbaloc::1.2@127.0.0.1:…/TradingService"; empty if the process ended without it.
   const std::string& reference() const { return first_line(); }
   std::string port() const;
 };
 
-// A process that exports itself as a "Service" at a broker.
+// A process that exports itself as a "Service" to a broker.
 class ServiceProcess : public TestProcess {
  public:
   explicit ServiceProcess(const std::string& broker)

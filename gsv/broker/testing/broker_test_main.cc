@@ -1,4 +1,4 @@
-// A broker in its own process, for tests: prints its reference and serves until its parent ends.
+// For tests: a broker in its own process. It prints its reference and serves until its parent ends.
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -7,7 +7,7 @@
 
 #include "gsv/broker/broker_command.h"
 
-// Arguments: port, then NAME=VALUE for limits, data=FILE.
+// The arguments are the port, then NAME=VALUE for limits, and data=FILE.
 int main(int argc, char** argv) {
   gsv::broker::BrokerCommand command;
   command.parent = getppid();

@@ -8,20 +8,21 @@
 namespace gsv::broker {
 namespace {
 
-// Letters are those of ISO Latin-1; the signs for times and divided by are between them.
+// Letters are those of ISO Latin-1. The signs for times and divided by are in the same range and
+// are no letters.
 bool IsInName(char character) {
   const auto code = static_cast<unsigned char>(character);
   if (code >= 0xC0) return code != 0xD7 && code != 0xF7;
   return code < 0x80 && (std::isalnum(code) != 0 || code == '_');
 }
 
-// Thrown if there is no value; it ends the whole evaluation.
+// Thrown if there is no value. It ends the whole evaluation.
 struct NoValue {};
 
-// Wide enough for every sum and product of two 64-bit integers.
+// Holds every sum and product of two 64-bit integers.
 __extension__ typedef __int128 Integer;
 
-// A number as a quotient, as it was written: `whole` if it is an integer.
+// A number as the quotient of two integers. `whole` is true if it was written as an integer.
 struct Number {
   bool integer;
   Integer whole;
@@ -188,7 +189,7 @@ class Reader {
     return Number{false, 0, Real(sign, a, b)};
   }
 
-  // If integers overflow, computes with doubles.
+  // Computes with doubles if integers overflow.
   static Result Reals(const Number& exact, const Number& a, const Number& b, char sign) {
     if (exact.integer) return exact;
     return Number{false, 0, Real(sign, a, b)};
@@ -290,7 +291,7 @@ class Reader {
     const std::string digits(start, static_cast<std::size_t>(end - start));
     at_ += digits.size();
     Skip();
-    constexpr std::size_t kMaxDigits = 30;  // of those that Integer can hold
+    constexpr std::size_t kMaxDigits = 30;  // the number of digits that Integer can hold
     if (digits.size() > kMaxDigits || digits.find_first_not_of("0123456789") != std::string::npos) {
       return {false, 0, real};
     }

@@ -1,5 +1,5 @@
-// A second evaluator, only for tests. It parses the text by recursive descent from the standard's
-// productions and evaluates at the same time. It shares only Value with the real evaluator.
+// For tests: a second evaluator. It parses the text by recursive descent along the standard's
+// productions, and evaluates at the same time. It shares only Value with the real evaluator.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace gsv::broker {
 
-// `text` is a correct constraint.
+// `text` must be a correct constraint.
 bool NaivelyMatches(const std::string& text, const PropertyList& offer);
 
 }  // namespace gsv::broker

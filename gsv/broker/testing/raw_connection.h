@@ -20,7 +20,8 @@ inline sockaddr_in Loopback(int port) {
   return address;
 }
 
-// The next GIOP message, little-endian; empty if the peer closes the connection instead.
+// Reads the next GIOP message, which must be little-endian. Returns an empty text if the peer
+// closes the connection instead.
 inline std::string ReadRawMessage(int socket) {
   std::string message(12, '\0');
   if (recv(socket, message.data(), 12, MSG_WAITALL) != 12) return "";

@@ -1,4 +1,4 @@
-// The service of an offer in its own process, for tests. It exports itself as a "Service" at the
+// For tests: the service of an offer in its own process. It exports itself as a "Service" to the
 // broker in its argument, prints the offer's id, and serves until its parent ends.
 #include <csignal>
 #include <cstdio>
@@ -18,7 +18,7 @@ class Service : public POA_CosTradingDynamic::DynamicPropEval {
   }
 };
 
-int Complain(const gsv::base::Error& error) {
+int PrintError(const gsv::base::Error& error) {
   std::fprintf(stderr, "%s\n", error.Sentence().c_str());
   return 5;
 }
@@ -38,10 +38,10 @@ int main(int argc, char** argv) {
   const CORBA::Object_var service = (new Service)->_this();
 
   auto broker = gsv::broker::BrokerClient::Connect(orb, argv[1]);
-  if (!broker) return Complain(broker.error());
-  if (auto ok = broker->EnsureServiceType({.name = "Service"}); !ok) return Complain(ok.error());
+  if (!broker) return PrintError(broker.error());
+  if (auto ok = broker->EnsureServiceType({.name = "Service"}); !ok) return PrintError(ok.error());
   const auto id = broker->Export("Service", service, {});
-  if (!id) return Complain(id.error());
+  if (!id) return PrintError(id.error());
   std::printf("%s\n", id->c_str());
   std::fflush(stdout);
   orb->run();

@@ -1,4 +1,4 @@
-// The trader's attributes as texts by name, for the data file.
+// The trader's attributes as texts with names, for the data file.
 #pragma once
 
 #include <string>

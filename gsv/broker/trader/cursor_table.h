@@ -1,7 +1,7 @@
 // The cursors behind iterators. A cursor holds results that a client fetches in several calls.
 //
-// Bounded in number, in stored entries, and in time since the last use. The least recently used
-// cursor is removed first.
+// The number of cursors, the number of stored entries, and the time since the last use are limited.
+// The least recently used cursor is removed first.
 //
 // Threads  every member may be called at any time.
 #pragma once
@@ -25,8 +25,8 @@ struct CursorLimits {
   std::chrono::nanoseconds lifetime = std::chrono::seconds(60);
 };
 
-// The number of entries from `next` on that fit one answer: at most `count`, and at most `bytes` by
-// `size_of`, but at least one if any remain and `count` is not 0.
+// Returns the number of entries from `next` on that fit into one answer: at most `count`, and at
+// most `bytes` by `size_of`. It is at least one if any entries remain and `count` is not 0.
 template <typename Entry, typename SizeOf>
 std::size_t CountFitting(const std::vector<Entry>& entries, std::size_t next, std::size_t count,
                          std::size_t bytes, const SizeOf& size_of) {
@@ -48,13 +48,13 @@ class CursorTable {
   struct Batch {
     std::vector<Entry> entries;
     Context context;
-    bool more = false;  // entries remain
+    bool more = false;  // whether entries remain
   };
 
   explicit CursorTable(const CursorLimits& limits, Clock clock = std::chrono::steady_clock::now)
       : limits_(limits), clock_(std::move(clock)) {}
 
-  // `entries` holds at most limits.entries.
+  // Opens a cursor. `entries` has at most limits.entries elements.
   std::uint64_t Open(std::vector<Entry> entries, Context context) {
     const base::MutexLock lock(mutex_);
     RemoveExpired();
@@ -68,7 +68,7 @@ class CursorTable {
     return key;
   }
 
-  // Takes the next entries, see CountFitting(). Nothing if there is no such cursor.
+  // Takes the next entries, see CountFitting(). Returns nullopt if there is no such cursor.
   std::optional<Batch> Take(std::uint64_t key, std::size_t count, std::size_t bytes,
                             const SizeOf& size_of) {
     const base::MutexLock lock(mutex_);
@@ -92,7 +92,7 @@ class CursorTable {
     return cursor->entries.size() - cursor->next;
   }
 
-  // False if there is no such cursor.
+  // Closes a cursor. Returns false if there is no such cursor.
   bool Close(std::uint64_t key) {
     const base::MutexLock lock(mutex_);
     const auto found = cursors_.find(key);
@@ -101,7 +101,7 @@ class CursorTable {
     return true;
   }
 
-  // Removes cursors that have not been used during their lifetime limit.
+  // Removes cursors that have not been used for their lifetime.
   void Expire() {
     const base::MutexLock lock(mutex_);
     RemoveExpired();

@@ -19,7 +19,7 @@ class CursorTableTest : public testing::Test {
   static std::size_t TenBytes(const int&, const std::string&) { return 10; }
 };
 
-TEST_F(CursorTableTest, HandsOutEntriesInOrderOnce) {
+TEST_F(CursorTableTest, ReturnsEachEntryOnceInOrder) {
   const std::uint64_t key = table_.Open({1, 2, 3}, "context");
   EXPECT_EQ(table_.Left(key), 3u);
   const auto first = table_.Take(key, 2, 1000, TenBytes);
@@ -42,7 +42,7 @@ TEST_F(CursorTableTest, KeepsABatchWithinItsBytesButNeverEmpty) {
   EXPECT_TRUE(table_.Take(key, 0, 5, TenBytes)->entries.empty());
 }
 
-TEST_F(CursorTableTest, ForgetsUnusedCursors) {
+TEST_F(CursorTableTest, RemovesUnusedCursors) {
   const std::uint64_t used = table_.Open({1}, "");
   const std::uint64_t unused = table_.Open({1}, "");
   now_ += seconds(10);
@@ -54,7 +54,7 @@ TEST_F(CursorTableTest, ForgetsUnusedCursors) {
   EXPECT_FALSE(table_.Left(unused));
 }
 
-TEST_F(CursorTableTest, RemovesTheLeastRecentlyUsedForANewOne) {
+TEST_F(CursorTableTest, RemovesTheLeastRecentlyUsedCursorIfItIsFull) {
   const std::uint64_t a = table_.Open({1}, "");
   now_ += seconds(1);
   const std::uint64_t b = table_.Open({1}, "");
@@ -65,7 +65,7 @@ TEST_F(CursorTableTest, RemovesTheLeastRecentlyUsedForANewOne) {
   EXPECT_FALSE(table_.Left(b));
 }
 
-TEST_F(CursorTableTest, HoldsNoMoreEntriesThanItMay) {
+TEST_F(CursorTableTest, LimitsTheNumberOfEntries) {
   const std::uint64_t a = table_.Open({1, 2, 3, 4}, "");
   table_.Open({1, 2, 3}, "");
   EXPECT_FALSE(table_.Left(a));

@@ -11,8 +11,8 @@ namespace {
 constexpr FollowOption kAll[] = {FollowOption::kLocalOnly, FollowOption::kIfNoLocal,
                                  FollowOption::kAlways};
 
-// Compares every combination with the standard: the minimum of the rules that apply.
-TEST(Federation, FollowsAndPassesOnTheLeastPermissiveRule) {
+// Every combination must give the minimum of the rules that apply, as the standard says.
+TEST(Federation, FollowsAndForwardsTheLeastPermissiveRule) {
   for (const FollowOption def : kAll) {
     for (const FollowOption most : kAll) {
       for (const FollowOption limiting : kAll) {
@@ -33,7 +33,7 @@ TEST(Federation, FollowsAndPassesOnTheLeastPermissiveRule) {
   }
 }
 
-TEST(Federation, FollowsIfNoLocalOnlyWhenNothingWasFound) {
+TEST(Federation, FollowsIfNoLocalOnlyWithoutLocalOffers) {
   const std::vector<TraderLink> links = {{.name = "always", .limiting = FollowOption::kAlways},
                                          {.name = "maybe", .limiting = FollowOption::kIfNoLocal},
                                          {.name = "never", .limiting = FollowOption::kLocalOnly}};
@@ -46,7 +46,7 @@ TEST(Federation, FollowsIfNoLocalOnlyWhenNothingWasFound) {
   EXPECT_EQ(without_local[1].name, "maybe");
 }
 
-TEST(Federation, TakesTheImportersHopCountUpToTheTraders) {
+TEST(Federation, LimitsTheImportersHopCountByTheTraders) {
   const TraderAttributes attributes{.def_hop_count = 3, .max_hop_count = 7};
   EXPECT_EQ(EffectiveHopCount({}, attributes), 3u);
   EXPECT_EQ(EffectiveHopCount({.hop_count = 5}, attributes), 5u);
@@ -67,13 +67,13 @@ TEST_F(RequestHistoryTest, RecognisesARepeatedRequest) {
   EXPECT_FALSE(history_.Remember("b"));
 }
 
-TEST_F(RequestHistoryTest, ForgetsTheOldestBeyondItsSize) {
+TEST_F(RequestHistoryTest, RemovesTheOldestRequestIfItIsFull) {
   for (const char* id : {"a", "b", "c", "d"}) EXPECT_TRUE(history_.Remember(id));
   for (const char* id : {"b", "c", "d"}) EXPECT_FALSE(history_.Remember(id)) << id;
   EXPECT_TRUE(history_.Remember("a"));
 }
 
-TEST_F(RequestHistoryTest, ForgetsWithTime) {
+TEST_F(RequestHistoryTest, RemovesRequestsAfterTheirLifetime) {
   EXPECT_TRUE(history_.Remember("a"));
   now_ += std::chrono::seconds(60);
   EXPECT_FALSE(history_.Remember("a"));
@@ -81,7 +81,7 @@ TEST_F(RequestHistoryTest, ForgetsWithTime) {
   EXPECT_TRUE(history_.Remember("a"));
 }
 
-TEST(AttributeTexts, AreReadAsTheyWereWritten) {
+TEST(AttributeTexts, AreReadBackUnchanged) {
   TraderAttributes attributes{.def_search_card = 1,
                               .max_search_card = 4'000'000'000,
                               .def_follow_policy = FollowOption::kLocalOnly,

@@ -7,12 +7,12 @@
 
 namespace gsv::broker {
 
-// A new reference to the iterator `key` of `poa`.
+// Returns a new reference to the iterator `key` of `poa`.
 CORBA::Object_ptr IteratorReference(PortableServer::POA_ptr poa, std::uint64_t key,
                                     const char* repository_id);
 
-// The key of the iterator that the current request addresses.
-// Errors  throws OBJECT_NOT_EXIST if the id is not one of ours.
+// Returns the key of the iterator that the current request addresses.
+// Errors  throws OBJECT_NOT_EXIST if the id is not one of this trader's.
 std::uint64_t CurrentIterator(CORBA::ORB_ptr orb);
 
 }  // namespace gsv::broker

@@ -1,4 +1,4 @@
-// The durable state of a trader, passed to its storage change by change.
+// The durable state of a trader. The trader passes it to its storage change by change.
 #pragma once
 
 #include <cstdint>
@@ -13,21 +13,21 @@
 
 namespace gsv::broker {
 
-// An offer that is new, or replaces the one with its number.
+// An offer that is new, or replaces the offer with its number.
 struct OfferStored {
   OfferPtr offer;
 };
 struct OffersRemoved {
   std::vector<std::uint64_t> numbers;
 };
-// A service type that is new, or replaces the one with its name.
+// A service type that is new, or replaces the type with its name.
 struct TypeStored {
   ServiceType type;
 };
 struct TypeRemoved {
   std::string name;
 };
-// A link that is new, or replaces the one with its name.
+// A link that is new, or replaces the link with its name.
 struct LinkStored {
   TraderLink link;
 };
@@ -42,9 +42,9 @@ using StateChange = std::variant<OfferStored, OffersRemoved, TypeStored, TypeRem
 
 // The whole state of a trader.
 struct TraderState {
-  std::uint32_t stem = 0;              // of its offers' ids
-  std::uint64_t next_number = 1;       // above the number of every offer so far
-  std::uint64_t next_incarnation = 1;  // above the incarnation of every type so far
+  std::uint32_t stem = 0;              // part of the ids of its offers
+  std::uint64_t next_number = 1;       // larger than the number of every offer so far
+  std::uint64_t next_incarnation = 1;  // larger than the incarnation of every type so far
   std::vector<ServiceType> types{};
   std::vector<Offer> offers{};
   std::vector<TraderLink> links{};
@@ -55,17 +55,18 @@ struct TraderState {
 // Threads  any.
 class Journal {
  public:
-  using Ticket = std::uint64_t;  // grows with each change
+  using Ticket = std::uint64_t;  // increases with each change
 
   virtual ~Journal() = default;
-  // False after a change could not be written.
+  // Returns false once a change could not be written.
   virtual bool works() const = 0;
-  // Queues the change without waiting. A caller must wait for it before appending another, so that
+  // Queues the change without waiting. A caller must wait for it before appending another one. So
   // there are at most as many queued changes as callers.
   virtual Ticket Append(StateChange change) = 0;
-  // Blocks until this change and all before it are stored; false if they cannot be stored.
+  // Blocks until this change and all changes before it are stored. Returns false if they cannot be
+  // stored.
   [[nodiscard]] virtual bool Wait(Ticket ticket) = 0;
-  // Stores all queued changes; later changes are not stored, and works() is false.
+  // Stores all queued changes. Later changes are not stored, and works() returns false.
   virtual void Close() = 0;
 };
 

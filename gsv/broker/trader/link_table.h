@@ -2,7 +2,7 @@
 //
 // Source   OMG Trading Object Service (formal/00-06-27), "Link".
 // Errors   those of the standard, see Refusal. A refused call changes nothing.
-// Threads  not safe; Trader serialises.
+// Threads  not safe; Trader serialises access.
 #pragma once
 
 #include <map>
@@ -16,10 +16,10 @@ namespace gsv::broker {
 
 struct TraderLink {
   std::string name{};
-  std::string target{};  // the other trader's Lookup: "IOR:…"
+  std::string target{};  // the reference of the other trader's Lookup: "IOR:…"
   // The link_follow_rule for the other trader if the importer sets none.
   FollowOption def_pass_on = FollowOption::kAlways;
-  // The most permissive rule for this link.
+  // The most permissive rule that is allowed for this link.
   FollowOption limiting = FollowOption::kAlways;
 };
 
@@ -27,13 +27,13 @@ class LinkTable {
  public:
   explicit LinkTable(std::size_t limit) : limit_(limit) {}
 
-  // `bound` is the trader's max_link_follow_policy.
+  // Adds a link. `bound` is the trader's max_link_follow_policy.
   TradingResult<void> Add(TraderLink link, FollowOption bound);
   TradingResult<void> Modify(const std::string& name, FollowOption def_pass_on,
                              FollowOption limiting, FollowOption bound);
   TradingResult<void> Remove(const std::string& name);
   TradingResult<TraderLink> Describe(const std::string& name) const;
-  // The links by name.
+  // Returns the links by name.
   std::vector<TraderLink> All() const;
   // Adds a stored link without checks.
   void Restore(TraderLink link);

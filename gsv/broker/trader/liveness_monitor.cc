@@ -29,7 +29,7 @@ void LivenessMonitor::Work() {
       AskDueServices();
       return;
     } catch (const std::bad_alloc&) {
-      // Other threads may use the limited address space for a moment.
+      // Retries, because other threads may use up the limited address space for a moment.
       base::MutexLock lock(mutex_);
       ending_changed_.wait_for(lock, options_.timeout,
                                [this]() GSV_REQUIRES(mutex_) { return ending_; });
@@ -61,7 +61,7 @@ std::shared_ptr<const LivenessMonitor::Service> LivenessMonitor::Next(base::Mute
     if (!is_over) share = share / static_cast<int>(round_.size()) * static_cast<int>(next_);
     const auto due = round_start_ + share;
     if (Clock::now() < due) {
-      // Another thread may have taken the service, or begun a round, meanwhile: check again.
+      // Another thread may have taken the service, or begun a round, meanwhile. So it checks again.
       ending_changed_.wait_until(lock, due, [this]() GSV_REQUIRES(mutex_) { return ending_; });
     } else if (is_over) {
       StartRound();

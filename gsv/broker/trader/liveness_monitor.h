@@ -1,14 +1,15 @@
 // Withdraws the offers of services that no longer exist.
 //
-// The monitor calls every offered service once per period. The calls are spread over the period; a
-// few run at a time, and each ends after `timeout`. A service that reports its end, or whose port
-// refuses connections, is dead at once. A service that does not answer is dead after `max_silence`.
-// An address that does not answer is called once per period, for all its services.
+// The monitor calls every offered service once per period. The calls are spread over the period. A
+// few of them are in progress at a time, and each ends after `timeout`. A service is dead at once
+// if it reports its end, or if its port refuses connections. A service that does not answer is dead
+// after `max_silence`. An address that does not answer is called once per period, for all its
+// services.
 //
 // The offer of a dead service is visible for at most two periods plus the time for the silent
-// addresses: their number times `timeout` / `concurrent`.
+// addresses, which is their number times `timeout` / `concurrent`.
 //
-// Threads  its own.
+// Threads  it has threads of its own.
 #pragma once
 
 #include <chrono>
@@ -26,22 +27,23 @@
 namespace gsv::broker {
 
 struct LivenessOptions {
-  std::chrono::milliseconds period{60'000};        // zero: no service is checked
-  std::chrono::milliseconds max_silence{600'000};  // of a service
-  std::chrono::milliseconds timeout{1'000};        // of one call
-  int concurrent = 4;                              // calls at a time
+  std::chrono::milliseconds period{60'000};  // zero if no service is checked
+  // time without an answer after which a service counts as dead
+  std::chrono::milliseconds max_silence{600'000};
+  std::chrono::milliseconds timeout{1'000};  // time limit of one call
+  int concurrent = 4;                        // number of calls at a time
 };
 
 enum class Liveness {
   kAlive,
   kGone,    // it reported so, or its port refuses connections
-  kSilent,  // no answer in time
+  kSilent,  // it did not answer in time
 };
 
 class LivenessMonitor {
  public:
-  // Calls the service behind a stringified reference, with this time limit. Several threads call
-  // it at the same time.
+  // Calls the service of a stringified reference, with this time limit. Several threads call it at
+  // the same time.
   using Ask =
       std::function<Liveness(const std::string& reference, std::chrono::milliseconds timeout)>;
 
@@ -62,10 +64,10 @@ class LivenessMonitor {
 
   void Work();
   void AskDueServices();
-  // Waits for the next service that is due; null at the end.
+  // Waits for the next service that is due. Returns null at the end.
   std::shared_ptr<const Service> Next(base::MutexLock& lock) GSV_REQUIRES(mutex_);
   void StartRound() GSV_REQUIRES(mutex_);
-  // True if the service is dead.
+  // Returns true if the service is dead.
   bool Judge(const Service& service, Liveness pulse) GSV_REQUIRES(mutex_);
   void Withdraw(const Service& service, Liveness pulse);
 
@@ -79,9 +81,10 @@ class LivenessMonitor {
   std::vector<std::shared_ptr<const Service>> round_ GSV_GUARDED_BY(mutex_);
   std::size_t next_ GSV_GUARDED_BY(mutex_) = 0;
   Clock::time_point round_start_ GSV_GUARDED_BY(mutex_);
-  std::set<std::string> silent_addresses_ GSV_GUARDED_BY(mutex_);                 // in this round
+  // addresses that did not answer in this round
+  std::set<std::string> silent_addresses_ GSV_GUARDED_BY(mutex_);
   std::map<std::string, Clock::time_point> silent_since_ GSV_GUARDED_BY(mutex_);  // by reference
-  std::vector<std::thread> workers_;  // last: they use the others
+  std::vector<std::thread> workers_;  // the last member, because the threads use the others
 };
 
 }  // namespace gsv::broker

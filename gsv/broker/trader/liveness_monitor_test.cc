@@ -10,7 +10,7 @@ namespace {
 using std::chrono::hours;
 using std::chrono::milliseconds;
 
-// Services with prescribed answers, which count the calls.
+// Services with prescribed answers. They count the calls.
 class Services {
  public:
   Liveness Ask(const std::string& reference) {
@@ -18,13 +18,13 @@ class Services {
     ++asked_[reference];
     most_underway_ = std::max(most_underway_, ++underway_);
     changed_.notify_all();
-    // Each call waits until enough others are in progress, so that one too many would be seen.
+    // Each call waits until enough others are in progress. So one call too many would be noticed.
     changed_.wait(lock, [this] { return most_underway_ >= wait_for_; });
     --underway_;
     const auto found = pulses_.find(reference);
     return found != pulses_.end() ? found->second : Liveness::kAlive;
   }
-  void Tell(const std::string& reference, Liveness pulse) {
+  void SetAnswer(const std::string& reference, Liveness pulse) {
     const std::lock_guard lock(mutex_);
     pulses_[reference] = pulse;
   }
@@ -53,9 +53,9 @@ class Services {
   int wait_for_ = 0;
 };
 
-// "IOR:" and the digits of a reference to `object` at `port` of 127.0.0.1.
+// Returns "IOR:" and the digits of a reference to `object` at `port` of 127.0.0.1.
 std::string Reference(int port, char object) {
-  std::string bytes(4, '\1');                             // little endian, padding
+  std::string bytes(4, '\1');                             // byte order (little endian) and padding
   bytes += std::string("\1\0\0\0\0\0\0\0", 8);            // an empty type id
   bytes += std::string("\1\0\0\0\0\0\0\0\40\0\0\0", 12);  // one IIOP profile of 32 bytes
   bytes += std::string("\1\1\2\0\12\0\0\0", 8) + "127.0.0.1" + '\0';
@@ -97,15 +97,15 @@ TEST_F(LivenessMonitorTest, WithdrawsEveryOfferOfADeadService) {
   Start(hours(1));
   services_.AwaitAsked("IOR:02", 3);
   EXPECT_EQ(trader_.OfferIds().size(), 3u);
-  services_.Tell("IOR:02", Liveness::kGone);
+  services_.SetAnswer("IOR:02", Liveness::kGone);
   AwaitOffers(1);
   EXPECT_EQ(trader_.OfferIds(), std::vector<std::string>{other});
   services_.AwaitAsked("IOR:01", 3);
 }
 
-TEST_F(LivenessMonitorTest, SilenceIsDeathOnlyWhenItLasts) {
+TEST_F(LivenessMonitorTest, ServiceIsDeadOnlyAfterTheMaximumSilence) {
   ASSERT_TRUE(trader_.Export("Robot", "IOR:01", {}));
-  services_.Tell("IOR:01", Liveness::kSilent);
+  services_.SetAnswer("IOR:01", Liveness::kSilent);
   Start(hours(1));
   services_.AwaitAsked("IOR:01", 20);
   EXPECT_EQ(trader_.OfferIds().size(), 1u);
@@ -114,16 +114,16 @@ TEST_F(LivenessMonitorTest, SilenceIsDeathOnlyWhenItLasts) {
   AwaitOffers(0);
 }
 
-// If the monitor called both references of the service, it would call the other one as often.
+// If the monitor called both references of the service, it would call the other one equally often.
 TEST_F(LivenessMonitorTest, CallsASilentAddressOncePerRound) {
   const std::string first = Reference(4321, 'a');
   const std::string second = Reference(4321, 'b');
   const std::string elsewhere = Reference(4322, 'a');
   for (const std::string& reference : {first, second, elsewhere}) {
     ASSERT_TRUE(trader_.Export("Robot", reference, {}));
-    services_.Tell(reference, Liveness::kSilent);
+    services_.SetAnswer(reference, Liveness::kSilent);
   }
-  services_.Tell(elsewhere, Liveness::kAlive);
+  services_.SetAnswer(elsewhere, Liveness::kAlive);
   monitor_.emplace(
       LivenessOptions{.period = milliseconds(1), .max_silence = hours(1), .concurrent = 1}, trader_,
       [this](const std::string& reference, milliseconds) { return services_.Ask(reference); });

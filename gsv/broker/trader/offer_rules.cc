@@ -61,7 +61,7 @@ TradingResult<void> CheckRemoval(const ServiceType& type, const PropertyList& cu
   return {};
 }
 
-// An offer may get a read-only property that it does not have yet.
+// A change may add a read-only property that the offer does not have yet.
 TradingResult<void> CheckChange(const ServiceType& type, const PropertyList& current,
                                 const Property& property, bool dynamic_allowed) {
   const PropertyDefinition* definition = FindDefinition(type, property.name);

@@ -12,12 +12,12 @@
 
 namespace gsv::broker {
 
-// Returns the properties by name. `type` is fully described; with `dynamic_allowed`, properties may
-// be dynamic.
+// Returns the properties by name. `type` must be fully described. If `dynamic_allowed` is true,
+// properties may be dynamic.
 TradingResult<PropertyList> CheckExport(const ServiceType& type, std::vector<Property> properties,
                                         bool dynamic_allowed);
 
-// Returns the modified properties. Applies all of the modification or nothing.
+// Returns the modified properties. It applies either the whole modification or nothing.
 TradingResult<PropertyList> CheckModification(const ServiceType& type, PropertyList current,
                                               Modification modification, bool dynamic_allowed);
 

@@ -1,7 +1,7 @@
-// Remembers recently answered requests, so that a request that returns through a cycle of traders
-// is recognised.
+// Remembers recently answered requests. So a request that returns through a cycle of traders is
+// recognised.
 //
-// Bounded in number and in time: the oldest requests are forgotten first.
+// The number of requests and their age are limited. The oldest requests are removed first.
 //
 // Threads  every member may be called at any time.
 #pragma once
@@ -25,7 +25,7 @@ class RequestHistory {
   RequestHistory(std::size_t requests, std::chrono::nanoseconds lifetime,
                  Clock clock = std::chrono::steady_clock::now);
 
-  // Remembers the request. True if it was not remembered before.
+  // Remembers the request. Returns true if it was not remembered before.
   bool Remember(const std::string& id);
 
  private:

@@ -35,16 +35,17 @@ std::string ReadText(base::CdrReader& in) {
   return std::string(text);
 }
 
-// `profile` is at its object key. Leaves `result` unchanged if there is no port for TLS.
+// Reads the port for TLS from `profile`, which is at its object key. Leaves `result` unchanged if
+// there is none.
 void ReadTlsPort(base::CdrReader& profile, ServiceReference& result) {
-  profile.Octets();  // the key
+  profile.Octets();  // skips the object key
   const std::uint32_t components = profile.ULong();
   for (std::uint32_t i = 0; i < components && profile.ok(); ++i) {
     const std::uint32_t tag = profile.ULong();
     base::CdrReader component = base::CdrReader::OfEncapsulation(profile.Octets());
     if (tag != kSslComponent) continue;
-    component.UShort();  // supported options of the target, and
-    component.UShort();  // required options
+    component.UShort();  // skips the supported options of the target
+    component.UShort();  // skips the required options
     const std::uint16_t port = component.UShort();
     if (!component.ok() || port == 0) return;
     result.port = port;
@@ -76,7 +77,7 @@ base::Result<ServiceReference> ReadReference(std::string_view ior) {
     const std::uint32_t tag = reference.ULong();
     base::CdrReader profile = base::CdrReader::OfEncapsulation(reference.Octets());
     if (tag != kIiopProfile) continue;
-    profile.Octet();                             // the major and
+    profile.Octet();                             // skips the major version of IIOP
     const std::uint8_t minor = profile.Octet();  // the minor version of IIOP
     result.host = ReadText(profile);
     result.port = profile.UShort();

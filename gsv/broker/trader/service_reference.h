@@ -12,16 +12,16 @@
 namespace gsv::broker {
 
 struct ServiceReference {
-  std::string type_id;  // "IDL:omg.org/CosTrading/Lookup:1.0"; may be empty
-  std::string host;     // of the first IIOP profile; empty if there is none
+  std::string type_id;  // such as "IDL:omg.org/CosTrading/Lookup:1.0"; may be empty
+  std::string host;     // host of the first IIOP profile; empty if there is none
   std::uint16_t port = 0;
-  bool takes_tls = false;  // the address accepts only TLS
+  bool takes_tls = false;  // whether the address accepts only TLS
 
-  // "127.0.0.1:4321", "[::1]:4321", or empty.
+  // Returns "127.0.0.1:4321", "[::1]:4321", or an empty text.
   std::string Address() const;
 };
 
-// Errors  kCorrupt if `ior` is not "IOR:" and the digits of a reference.
+// Errors  kCorrupt if `ior` is not "IOR:" followed by the digits of a reference.
 base::Result<ServiceReference> ReadReference(std::string_view ior);
 
 }  // namespace gsv::broker

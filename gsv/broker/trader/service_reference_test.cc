@@ -7,8 +7,8 @@
 namespace gsv::broker {
 namespace {
 
-// Written by hand from CORBA 3.1 part 2, 7.6 and 9.3: big-endian, type id "IDL:A:1.0", one IIOP
-// 1.2 profile for host "h", port 0x1234 and an object key of one byte.
+// A reference written by hand from CORBA 3.1 part 2, 7.6 and 9.3. It is big-endian, with type id
+// "IDL:A:1.0" and one IIOP 1.2 profile for host "h", port 0x1234 and an object key of one byte.
 constexpr std::string_view kBigEndian =
     "IOR:"
     "00000000"                      // byte order, padding
@@ -16,7 +16,7 @@ constexpr std::string_view kBigEndian =
     "0000"                          // padding
     "00000001"                      // profiles
     "00000000"                      // TAG_INTERNET_IOP
-    "00000011"                      // its size: 17
+    "00000011"                      // size of the profile: 17
     "000102"                        // byte order, IIOP 1.2
     "00"                            // padding
     "000000026800"                  // "h"
@@ -33,23 +33,23 @@ TEST(ServiceReference, ReadsTypeHostAndPort) {
   EXPECT_EQ(reference->Address(), "h:4660");
 }
 
-TEST(ServiceReference, RefusesEveryTruncation) {
-  // No field ends in the last three bytes.
+TEST(ServiceReference, RejectsEveryTruncation) {
+  // No field ends within the last three bytes, so they may be missing.
   for (std::size_t length = 0; length + 6 < kBigEndian.size(); ++length) {
     const auto reference = ReadReference(kBigEndian.substr(0, length));
     EXPECT_FALSE(reference) << length;
   }
 }
 
-TEST(ServiceReference, RefusesInvalidReferences) {
+TEST(ServiceReference, RejectsInvalidReferences) {
   for (const char* text :
        {"", "IOR", "IOR:0", "IOR:zz", "corbaloc::h:1/K", "IOR:00000000ffffffff"}) {
     EXPECT_FALSE(ReadReference(text)) << text;
   }
 }
 
-// The same for TLS: port 0, and a component TAG_SSL_SEC_TRANS with port 0x1235 after a component
-// of another kind.
+// A reference for TLS. It has port 0, and a component TAG_SSL_SEC_TRANS with port 0x1235 after a
+// component of another kind.
 constexpr std::string_view kTls =
     "IOR:"
     "00000000"                      // byte order, padding
@@ -57,7 +57,7 @@ constexpr std::string_view kTls =
     "0000"                          // padding
     "00000001"                      // profiles
     "00000000"                      // TAG_INTERNET_IOP
-    "00000034"                      // its size: 52
+    "00000034"                      // size of the profile: 52
     "000102"                        // byte order, IIOP 1.2
     "00"                            // padding
     "000000026800"                  // "h"
@@ -65,16 +65,16 @@ constexpr std::string_view kTls =
     "000000016b"                    // object key
     "000000"                        // padding
     "00000002"                      // components
-    "00000063"                      // one that nobody knows
-    "00000002"                      // its size
-    "0001"                          // what it holds
+    "00000063"                      // a component of an unknown kind
+    "00000002"                      // size of the component
+    "0001"                          // content of the component
     "0000"                          // padding
     "00000014"                      // TAG_SSL_SEC_TRANS
-    "00000008"                      // its size
-    "00000066"                      // byte order, padding, what it supports
+    "00000008"                      // size of the component
+    "00000066"                      // byte order, padding, supported options
     "00661235";                     // required options, port
 
-TEST(ServiceReference, ReadsThePortOfTls) {
+TEST(ServiceReference, ReadsTheTlsPort) {
   const auto reference = ReadReference(kTls);
   ASSERT_TRUE(reference);
   EXPECT_EQ(reference->Address(), "h:4661");
@@ -86,7 +86,7 @@ TEST(ServiceReference, ReadsThePortOfTls) {
   }
 }
 
-TEST(Corbaloc, ReturnsWhetherTheBrokerTakesTls) {
+TEST(Corbaloc, DetectsAddressesWithTls) {
   EXPECT_EQ(*NormaliseReference("corbaloc:ssliop:h:1/TradingService"),
             "corbaloc:ssliop:1.2@h:1/TradingService");
   EXPECT_EQ(*NormaliseReference("corbaloc:ssliop:1.2@h:1/TradingService"),
@@ -108,7 +108,7 @@ TEST(Corbaloc, AddsAMissingVersion) {
   EXPECT_EQ(*NormaliseReference(kBigEndian), kBigEndian);
 }
 
-TEST(Corbaloc, RefusesAnInvalidAddressAndShowsAValidOne) {
+TEST(Corbaloc, RejectsAnInvalidAddressAndShowsAValidForm) {
   for (const char* text : {"", "localhost:2809", "corbaloc::h:1", "corbaloc::/K", "corbaloc::h:1/",
                            "IOR:12", "http://h/"}) {
     const auto refused = NormaliseReference(text);
@@ -118,7 +118,7 @@ TEST(Corbaloc, RefusesAnInvalidAddressAndShowsAValidOne) {
   }
 }
 
-TEST(Corbaloc, KnowsTheHost) {
+TEST(Corbaloc, ReturnsTheHost) {
   EXPECT_EQ(HostOf("corbaloc::1.2@h:1/K"), "h");
   EXPECT_EQ(HostOf("corbaloc::1.2@[fe80::1]:1/K"), "fe80::1");
   EXPECT_EQ(HostOf(kBigEndian), "h");

@@ -10,7 +10,7 @@
 namespace gsv::broker {
 namespace {
 
-constexpr std::size_t kIdLength = 8 + 1 + 16;  // stem-number, in hexadecimal
+constexpr std::size_t kIdLength = 8 + 1 + 16;  // the id is stem-number, in hexadecimal
 
 std::string StemText(std::uint32_t stem) { return fmt::format("{:08x}", stem); }
 
@@ -176,7 +176,7 @@ TradingResult<void> Trader::Modify(const std::string& id, Modification modificat
     }
     const auto offer = FindOffer(id);
     if (!offer) return Refuse(offer.error());
-    // The type of an existing offer may have been removed; it then has no requirements.
+    // The type of an existing offer may have been removed. The type then has no requirements.
     const ServiceType type =
         types_.FullyDescribe((*offer)->type).value_or(ServiceType{.name = (*offer)->type});
     auto modified = CheckModification(type, (*offer)->properties, std::move(modification),

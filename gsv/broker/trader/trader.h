@@ -2,7 +2,7 @@
 //
 // Source   OMG Trading Object Service (formal/00-06-27).
 // Errors   those of the standard, see Refusal. A refused call changes nothing.
-// Threads  every member may be called at any time; queries run side by side and evaluate their
+// Threads  every member may be called at any time. Queries run concurrently and evaluate their
 //          constraint without a lock.
 #pragma once
 
@@ -41,7 +41,7 @@ struct Query {
 // The results of a query before they are ordered and limited.
 struct MatchingOffers {
   Offers offers{};
-  Offers proxies{};  // other traders may have offers for the query
+  Offers proxies{};  // proxies of traders that may have offers for the query
   Preference preference{};
   std::vector<double> known{};  // see OrderBy()
   Cardinalities cardinalities{};
@@ -63,18 +63,18 @@ struct Modification {
 class Trader {
  public:
   // `stem` is part of every offer's id, so that an id of another trader is unknown to this one.
-  // `seed` is that of the preference random.
+  // `seed` is that of the preference "random".
   Trader(const TraderLimits& limits, std::uint32_t stem, std::uint64_t seed);
 
   // Restores the state of an earlier trader, including its stem, and stores every later change in
   // `journal`. Call it before any other member, from one thread.
-  // Errors  kCorrupt: the state contradicts itself.
+  // Errors  kCorrupt if the state contradicts itself.
   [[nodiscard]] base::Status Restore(TraderState state, std::unique_ptr<Journal> journal);
 
   std::uint32_t stem() const { return stem_; }
   const TraderLimits& limits() const { return limits_; }
   TraderAttributes attributes() const;
-  // `change` is called once, under the lock.
+  // `change` is called once, with the lock held.
   TradingResult<void> ChangeAttributes(const std::function<void(TraderAttributes&)>& change);
 
   // ---- Service types, see TypeRepository
@@ -90,22 +90,22 @@ class Trader {
   // ---- Offers
   // The type for an export: it must be known and not masked.
   TradingResult<ServiceType> TypeForExport(const std::string& type) const;
-  // Does not check `reference`. Returns the offer's id.
+  // Exports an offer without checking `reference`. Returns the offer's id.
   TradingResult<std::string> Export(const std::string& type, std::string reference,
                                     std::vector<Property> properties);
-  // The same with the result of TypeForExport() as `type`.
+  // Exports an offer. `type` is the result of TypeForExport().
   TradingResult<std::string> Export(const ServiceType& type, std::string reference,
                                     std::vector<Property> properties);
   TradingResult<void> Withdraw(const std::string& id);
   TradingResult<OfferPtr> Describe(const std::string& id) const;
   TradingResult<void> Modify(const std::string& id, Modification modification);
-  // Withdraws the offers that a query without policies finds; returns their number.
+  // Withdraws the offers that a query without policies finds. Returns their number.
   TradingResult<std::size_t> WithdrawMatching(const std::string& type,
                                               const std::string& constraint,
                                               DynamicEvaluator* evaluator = nullptr);
-  // Withdraws the offers with these numbers that still exist; returns how many it has withdrawn.
+  // Withdraws those offers with these numbers that still exist. Returns how many it has withdrawn.
   std::size_t WithdrawAll(const std::vector<std::uint64_t>& numbers);
-  // The offers in the order of export, without proxies.
+  // Returns the ids of the offers in the order of export, without proxies.
   std::vector<std::string> OfferIds() const;
   Offers AllOffers() const;
   std::string IdOf(const Offer& offer) const { return IdOf(offer.number); }
@@ -116,7 +116,7 @@ class Trader {
                                          std::vector<Property> properties, ProxyPart part);
   TradingResult<void> WithdrawProxy(const std::string& id);
   TradingResult<OfferPtr> DescribeProxy(const std::string& id) const;
-  // In the order of export.
+  // Returns the ids of the proxies in the order of export.
   std::vector<std::string> ProxyIds() const;
 
   // ---- Links, see LinkTable
@@ -125,10 +125,10 @@ class Trader {
   TradingResult<TraderLink> DescribeLink(const std::string& name) const;
   TradingResult<void> ModifyLink(const std::string& name, FollowOption def_pass_on,
                                  FollowOption limiting);
-  // The links by name.
+  // Returns the links by name.
   std::vector<TraderLink> links() const;
 
-  // Stores all acknowledged changes; refuses later changes.
+  // Stores all acknowledged changes. Later changes are refused.
   void Close() {
     if (journal_ != nullptr) journal_->Close();
   }
@@ -139,12 +139,13 @@ class Trader {
   TradingResult<MatchingOffers> FindMatching(const Query& query, DynamicValues& values) const;
   QueryResult Rank(MatchingOffers matches, DynamicValues& values) const;
   TradingResult<QueryResult> Find(const Query& query, DynamicValues& values) const;
-  // As above, but dynamic properties have no value.
+  // Runs a query in which dynamic properties have no value.
   TradingResult<QueryResult> Find(const Query& query) const;
 
  private:
-  // Calls `apply` under the lock; returns when the changes that it recorded are durable. Fails with
-  // kNotStored if they cannot be stored: nothing is changed then, except by the first such change.
+  // Calls `apply` with the lock held. Returns when the changes that it recorded are durable. If
+  // they cannot be stored, it fails with kNotStored. Nothing has changed then, except by the first
+  // such change.
   template <typename Apply>
   std::invoke_result_t<Apply> Change(const Apply& apply);
   void Record(StateChange change) GSV_REQUIRES(mutex_) {
@@ -160,24 +161,24 @@ class Trader {
                  const std::vector<EqualityTerm>& terms) const;
   TradingResult<std::uint64_t> NumberOf(const std::string& id) const;
   std::string IdOf(std::uint64_t number) const;
-  // An offer or a proxy.
+  // Finds an offer or a proxy.
   TradingResult<OfferPtr> FindAny(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
   TradingResult<OfferPtr> FindOffer(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
   TradingResult<OfferPtr> FindProxy(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
-  // Checks the size, and sets the offer's number.
+  // Checks the size, sets the offer's number, and stores it.
   TradingResult<std::string> Store(Offer offer);
   void Remove(std::vector<std::uint64_t> numbers) GSV_REQUIRES(mutex_);
   TradingResult<void> CheckSize(const PropertyList& properties, const std::string& reference) const;
 
   const TraderLimits limits_;
   std::uint32_t stem_;
-  std::unique_ptr<Journal> journal_;  // null: everything is in memory
+  std::unique_ptr<Journal> journal_;  // null if everything is in memory only
   mutable std::atomic<std::uint64_t> seed_;
   mutable ScanSlots scan_slots_{ScanSlots::ForThisMachine()};
   mutable base::SharedMutex mutex_;
   TraderAttributes attributes_ GSV_GUARDED_BY(mutex_);
   TypeRepository types_ GSV_GUARDED_BY(mutex_);
-  mutable OfferStore offers_ GSV_GUARDED_BY(mutex_);  // mutable: a query may add an index
+  mutable OfferStore offers_ GSV_GUARDED_BY(mutex_);  // mutable, because a query may add an index
   LinkTable links_ GSV_GUARDED_BY(mutex_);
   Journal::Ticket last_ticket_ GSV_GUARDED_BY(mutex_) = 0;
 };

@@ -13,7 +13,7 @@
 namespace gsv::broker {
 namespace {
 
-// Evaluations with fewer steps end soon and need no turn.
+// A search with fewer steps ends soon and needs no turn.
 constexpr std::size_t kWorthATurn = 20'000;
 
 // With fewer offers, a scan is as fast as an index.
@@ -39,18 +39,19 @@ bool IsMatch(const Expression& constraint, const Offer& offer, DynamicValues& va
 
 }  // namespace
 
-// The offers to be searched, without those that the policies exclude.
+// The offers to search, without those that the policies exclude.
 struct Trader::Candidates {
   std::vector<OfferView> views{};
   Cardinalities cardinalities{};
   std::vector<std::string> limits_applied{};
-  bool cut = false;  // there are more of them than may be searched
+  bool cut = false;  // whether there are more offers than may be searched
   bool with_proxies = true;
   bool with_dynamic = true;
   bool with_modifiable = true;
-  std::map<std::string, ServiceType> types{};  // described if not with_modifiable
+  // the types, with their descriptions if not with_modifiable
+  std::map<std::string, ServiceType> types{};
 
-  // An estimate of the steps to search them.
+  // An estimate of the number of steps of the search.
   std::size_t Steps(const Expression& constraint) const;
   bool Admit(const Offer& offer) const {
     return (with_proxies || offer.proxy == nullptr) &&
@@ -59,7 +60,7 @@ struct Trader::Candidates {
   }
 };
 
-// The search of one query through the candidates.
+// The search of one query among the candidates.
 class Trader::Search {
  public:
   Search(const Candidates& candidates, const Expression& constraint, DynamicValues& values,
@@ -81,7 +82,7 @@ class Trader::Search {
   }
 
  private:
-  // False if enough offers were searched or found.
+  // Returns false if enough offers were searched or found.
   bool LookThrough(const OfferChunk& chunk) {
     // A limit depends on every offer before it.
     const std::vector<Choice> choices =
@@ -108,7 +109,7 @@ class Trader::Search {
       matches_.proxies.push_back(offer);
       return;
     }
-    // After one offer without a known number, the others are evaluated.
+    // After one offer without a known number, all further ones are evaluated.
     if (number && matches_.known.size() == matches_.offers.size()) {
       matches_.known.push_back(*number);
     }
@@ -222,7 +223,7 @@ TradingResult<std::size_t> Trader::WithdrawMatching(const std::string& type,
   const auto compiled = CompileConstraint(constraint, *described, limits_.expression);
   if (!compiled) return Refuse(compiled.error());
 
-  // Calls services for dynamic properties without the lock.
+  // Services for dynamic properties are called without the lock held.
   const std::vector<OfferView> views = [&] {
     const base::ReaderLock lock(mutex_);
     return offers_.OfTypes(types_.WithSubTypes(type).value_or(std::vector<std::string>{}));

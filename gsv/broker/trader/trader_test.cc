@@ -57,7 +57,7 @@ TEST_F(TraderTest, FindsOffersOfTheTypeAndItsSubTypes) {
   EXPECT_EQ(trader_.Find({.type = "Laser"})->offers.size(), 1u);
 }
 
-TEST_F(TraderTest, OrdersByPreferenceWithOffersOfNoValueLast) {
+TEST_F(TraderTest, PutsOffersWithoutAPreferenceValueLast) {
   Export("Printer", "none", 1);
   Export("Printer", "dear", 2, {{"cost", Value::Double(9)}});
   Export("Printer", "cheap", 3, {{"cost", Value::Double(1)}});
@@ -71,7 +71,7 @@ TEST_F(TraderTest, OrdersByPreferenceWithOffersOfNoValueLast) {
       << "-1, 0 (cut from -1/2), 1, and a division by zero";
 }
 
-TEST_F(TraderTest, ShufflesEveryRandomQuery) {
+TEST_F(TraderTest, ShufflesTheOffersOfEachRandomQuery) {
   Strings names;
   for (char name = 'a'; name <= 'z'; ++name) {
     names.emplace_back(1, name);
@@ -84,7 +84,7 @@ TEST_F(TraderTest, ShufflesEveryRandomQuery) {
   EXPECT_NE(first, second);
 }
 
-TEST_F(TraderTest, AppliesCardinalitiesAndNamesThem) {
+TEST_F(TraderTest, AppliesCardinalitiesAndReportsTheirNames) {
   for (int i = 0; i < 10; ++i) Export("Printer", std::to_string(i), i);
   EXPECT_EQ(Find("").limits_applied, Strings{});
 
@@ -106,7 +106,7 @@ TEST_F(TraderTest, AppliesCardinalitiesAndNamesThem) {
   EXPECT_EQ(Find("", "", {.search_card = 0}).offers.size(), 0u);
 }
 
-TEST_F(TraderTest, TakesDefaultsAndMaximaFromItsAttributes) {
+TEST_F(TraderTest, ReadsDefaultsAndMaximaFromItsAttributes) {
   for (int i = 0; i < 10; ++i) Export("Printer", std::to_string(i), i);
   ASSERT_TRUE(trader_.ChangeAttributes([](TraderAttributes& attributes) {
     attributes.def_return_card = 3;
@@ -117,7 +117,7 @@ TEST_F(TraderTest, TakesDefaultsAndMaximaFromItsAttributes) {
   EXPECT_EQ(Find("", "", {.return_card = 8}).offers.size(), 5u);
 }
 
-TEST_F(TraderTest, LeavesOutOffersWithModifiablePropertiesOnDemand) {
+TEST_F(TraderTest, ExcludesOffersWithModifiablePropertiesOnRequest) {
   ASSERT_TRUE(trader_.AddType(
       {.name = "Fixed",
        .properties = {{"name", {.scalar = Scalar::kString}, PropertyMode::kReadonly}}}));
@@ -129,7 +129,7 @@ TEST_F(TraderTest, LeavesOutOffersWithModifiablePropertiesOnDemand) {
   EXPECT_EQ(Names(*found), Strings{"fixed"});
 }
 
-TEST_F(TraderTest, RefusesWrongQueriesWithTheText) {
+TEST_F(TraderTest, RejectsInvalidQueriesWithTheirText) {
   const auto refused = [&](const Query& query) { return trader_.Find(query).error(); };
   EXPECT_EQ(refused({.type = "1"}).refusal, Refusal::kIllegalServiceType);
   EXPECT_EQ(refused({.type = "Plotter"}).refusal, Refusal::kUnknownServiceType);
@@ -228,7 +228,7 @@ TEST_F(TraderTest, WithdrawsMatchingOffers) {
   EXPECT_EQ(trader_.WithdrawMatching("Printer", "(").error().refusal, Refusal::kIllegalConstraint);
 }
 
-TEST(Trader, RefusesMoreThanItsLimits) {
+TEST(Trader, RejectsRequestsBeyondItsLimits) {
   TraderLimits limits;
   limits.offers = 1;
   limits.properties_per_offer = 2;
@@ -249,7 +249,7 @@ TEST(Trader, RefusesMoreThanItsLimits) {
             Refusal::kLimit);
 }
 
-TEST(Trader, FindsAmongAHundredThousandOffers) {
+TEST(Trader, FindsOffersAmongAHundredThousand) {
   Trader trader(TraderLimits{}, 1, 1);
   ASSERT_TRUE(trader.AddType({.name = "T"}));
   constexpr std::int32_t kOffers = 100'000;

@@ -20,7 +20,7 @@ const PropertyDefinition* FindDefinition(const std::vector<PropertyDefinition>& 
   return found != definitions.end() ? &*found : nullptr;
 }
 
-// The first of `names` that also occurs earlier.
+// Returns the first of `names` that also occurs earlier in the list.
 template <typename Range, typename Name>
 const std::string* FirstDuplicate(const Range& range, Name name) {
   std::set<std::string_view> seen;
@@ -115,7 +115,7 @@ TradingResult<void> TypeRepository::CheckSuperTypes(const ServiceType& type) con
   for (const std::string& name : type.super_types) {
     const auto super_type = Find(name);
     if (!super_type) return Refuse(super_type.error());
-    // Without an interface repository, only this can be checked: an empty interface name (any
+    // Without an interface repository, only one thing can be checked: an empty interface name (any
     // interface) does not derive from a certain interface.
     const std::string& base_interface = (*super_type)->interface_name;
     if (IsAnyInterface(type.interface_name) && !IsAnyInterface(base_interface)) {

@@ -2,7 +2,7 @@
 //
 // Source   OMG Trading Object Service (formal/00-06-27), "ServiceTypeRepository".
 // Errors   those of the standard, see Refusal.
-// Threads  not safe; Trader serialises.
+// Threads  not safe; Trader serialises access.
 #pragma once
 
 #include <cstdint>
@@ -23,28 +23,28 @@ class TypeRepository {
  public:
   explicit TypeRepository(const TraderLimits& limits) : limits_(limits) {}
 
-  // The incarnation of the next added type.
+  // The incarnation that the next added type gets.
   std::uint64_t next_incarnation() const { return next_incarnation_; }
 
   // Restores the types of an earlier repository, in any order.
-  // Errors  kCorrupt: a super type is missing, or newer than its sub type.
+  // Errors  kCorrupt if a super type is missing, or newer than its sub type.
   [[nodiscard]] base::Status Restore(std::vector<ServiceType> types,
                                      std::uint64_t next_incarnation);
 
-  // Uses name, interface, properties and super types of `type`, and ignores the rest. Returns the
-  // incarnation.
+  // Adds a type by the name, interface, properties and super types of `type`, and ignores the rest.
+  // Returns the incarnation.
   TradingResult<std::uint64_t> Add(ServiceType type);
   TradingResult<void> Remove(const std::string& name);
-  // The names of all types, or of those with an incarnation not below `since`, sorted.
+  // Returns the names of all types, or of those with an incarnation not below `since`, sorted.
   std::vector<std::string> List(std::optional<std::uint64_t> since) const;
-  // The type as it was added.
+  // Returns the type as it was added.
   TradingResult<ServiceType> Describe(const std::string& name) const;
-  // The type with all inherited properties and all its super types, direct or not.
+  // Returns the type with all inherited properties and all its direct and indirect super types.
   TradingResult<ServiceType> FullyDescribe(const std::string& name) const;
   TradingResult<void> Mask(const std::string& name);
   TradingResult<void> Unmask(const std::string& name);
 
-  // `name` and every type that derives from it, sorted.
+  // Returns `name` and every type that derives from it, sorted.
   TradingResult<std::vector<std::string>> WithSubTypes(const std::string& name) const;
 
  private:
@@ -52,7 +52,7 @@ class TypeRepository {
   TradingResult<void> CheckNew(const ServiceType& type) const;
   TradingResult<void> CheckSuperTypes(const ServiceType& type) const;
   TradingResult<void> CheckInheritedProperties(const ServiceType& type) const;
-  // All super types of `type`, nearest first, each once.
+  // Returns all super types of `type`. The nearest come first, and each occurs once.
   std::vector<const ServiceType*> Ancestors(const ServiceType& type) const;
   bool DerivesFrom(const ServiceType& type, const std::string& ancestor) const;
 

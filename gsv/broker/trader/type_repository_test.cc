@@ -29,7 +29,7 @@ class TypeRepositoryTest : public testing::Test {
   TypeRepository repository_{TraderLimits{}};
 };
 
-TEST_F(TypeRepositoryTest, CountsIncarnationsAndListsFromOneOn) {
+TEST_F(TypeRepositoryTest, CountsIncarnationsAndListsTypesSinceOne) {
   EXPECT_EQ(repository_.next_incarnation(), 1u);
   EXPECT_EQ(*Add("A"), 1u);
   const std::uint64_t since = repository_.next_incarnation();
@@ -40,7 +40,7 @@ TEST_F(TypeRepositoryTest, CountsIncarnationsAndListsFromOneOn) {
   EXPECT_EQ(repository_.List(4), std::vector<std::string>{});
 }
 
-TEST_F(TypeRepositoryTest, RefusesNamesThatAreNotServiceTypes) {
+TEST_F(TypeRepositoryTest, RejectsNamesThatAreNotServiceTypes) {
   for (const char* name : {"", "1A", "A B", "A::", "::", "A:B", "IDL:x", "<A>"}) {
     const auto added = Add(name);
     ASSERT_FALSE(added) << name;
@@ -76,7 +76,7 @@ TEST_F(TypeRepositoryTest, InheritsPropertiesWithTheStrongestMode) {
             (std::vector<std::string>{"Base", "Leaf", "Middle"}));
 }
 
-TEST_F(TypeRepositoryTest, RefusesARedefinitionThatDoesNotRefine) {
+TEST_F(TypeRepositoryTest, RejectsAWeakerRedefinition) {
   ASSERT_TRUE(Add("Base", {Define("a", Scalar::kLong, kMandatory)}));
   const auto other_type = Add("X", {Define("a", Scalar::kString, kMandatory)}, {"Base"});
   ASSERT_FALSE(other_type);
@@ -93,7 +93,7 @@ TEST_F(TypeRepositoryTest, RefusesARedefinitionThatDoesNotRefine) {
   EXPECT_TRUE(Add("X", {Define("a", Scalar::kLong, kMandatoryReadonly)}, {"Base"}));
 }
 
-TEST_F(TypeRepositoryTest, RefusesSuperTypesThatContradictEachOther) {
+TEST_F(TypeRepositoryTest, RejectsContradictorySuperTypes) {
   ASSERT_TRUE(Add("P", {Define("a", Scalar::kLong, kNormal)}));
   ASSERT_TRUE(Add("Q", {Define("a", Scalar::kString, kNormal)}));
   const auto added = Add("X", {}, {"P", "Q"});
@@ -103,7 +103,7 @@ TEST_F(TypeRepositoryTest, RefusesSuperTypesThatContradictEachOther) {
   EXPECT_EQ(added.error().redefinition->type_2, "Q");
 }
 
-TEST_F(TypeRepositoryTest, RefusesOtherErrorsOfAType) {
+TEST_F(TypeRepositoryTest, RejectsOtherErrorsInAType) {
   ASSERT_TRUE(Add("A", {}, {}, "IDL:acme/A:1.0"));
   EXPECT_EQ(Add("A").error().refusal, Refusal::kServiceTypeExists);
   EXPECT_EQ(Add("X", {}, {"Nowhere"}).error().refusal, Refusal::kUnknownServiceType);
@@ -148,7 +148,7 @@ TEST_F(TypeRepositoryTest, MasksAndUnmasksOnce) {
   EXPECT_EQ(repository_.Mask("B").error().refusal, Refusal::kUnknownServiceType);
 }
 
-TEST(TypeRepository, RefusesMoreThanItsLimits) {
+TEST(TypeRepository, RejectsTypesBeyondItsLimits) {
   TraderLimits limits;
   limits.type_names_bytes = 40;
   limits.super_types = 1;

@@ -18,11 +18,11 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr std::size_t kMessageBytes = 65'536;  // giopMaxMsgSize, without the header
+constexpr std::size_t kMessageBytes = 65'536;  // the value of giopMaxMsgSize, without the header
 constexpr std::chrono::seconds kMessageTime{3};
 
 // Limits the number of requests in progress to about the number of processors. Dozens of threads
-// that wait for the ORB's one lock and the trader's would switch at each lock. A request that has
+// that wait for the ORB's lock and the trader's lock would switch at each lock. A request that has
 // waited for a millisecond continues anyway, so that a request that waits for another broker does
 // not delay others.
 //
@@ -48,14 +48,15 @@ class ConnectionTable {
 
   void Add(orb::ConnectionControl* control, ClientConnection* connection);
   void Remove(orb::ConnectionControl* control);
-  // Bytes have come. True if the ORB shall read now; false if they were read and more must follow.
+  // Called when bytes have arrived. Returns true if the ORB shall read them now. Returns false if
+  // they were read here and more must follow.
   bool Readable(orb::ConnectionControl* control);
   RequestTurns& turns() { return turns_; }
 
  private:
   struct Entry {
     ClientConnection* connection = nullptr;
-    SteadyClock::time_point incomplete{};  // when its message began, or the epoch
+    SteadyClock::time_point incomplete{};  // the time at which its message began, or the epoch
   };
 
   void EndLate(SteadyClock::time_point now) GSV_REQUIRES(mutex_);
@@ -78,7 +79,7 @@ class ClientConnection final : public orb::ConnectionHooks {
     table_->Remove(&control_);
   }
 
-  void OnWait() override { GiveTurn(); }  // the request before had no reply
+  void OnWait() override { GiveTurn(); }  // called if the previous request had no reply
   void OnBytes() override { Hear(); }
   void OnMessage(std::string& message) override {
     TakeTurn();
@@ -86,12 +87,12 @@ class ClientConnection final : public orb::ConnectionHooks {
   }
   void OnSend(std::string_view /*bytes*/) override { GiveTurn(); }
 
-  // The time of the last received bytes, or of the connection.
+  // The time at which the last bytes were received, or at which the connection was opened.
   SteadyClock::time_point heard() const {
     return SteadyClock::time_point(SteadyClock::duration(heard_.load()));
   }
-  // Ends the silent connection. The ORB destroys it later; until then another one is the most
-  // silent.
+  // Ends the most silent connection. The ORB destroys it later; until then another connection
+  // counts as the most silent.
   void EndAsSilent() {
     Hear();
     control_.End();
@@ -109,7 +110,7 @@ class ClientConnection final : public orb::ConnectionHooks {
   orb::ConnectionControl& control_;
   const std::shared_ptr<ConnectionTable> table_;
   std::atomic<SteadyClock::rep> heard_ = SteadyClock::now().time_since_epoch().count();
-  std::atomic<bool> has_turn_ = false;  // from a request to its reply
+  std::atomic<bool> has_turn_ = false;  // true from a request to its reply
 };
 
 void ConnectionTable::Add(orb::ConnectionControl* control, ClientConnection* connection) {
@@ -158,7 +159,7 @@ void ConnectionTable::EndSilent() {
 // A connection to a service or another trader.
 class ServiceConnection final : public orb::ConnectionHooks {
  public:
-  // The reply may come before OnSent() is called.
+  // The reply may arrive before OnSent() is called.
   void OnSend(std::string_view bytes) override {
     const base::MutexLock lock(mutex_);
     replies_.Sending(bytes);

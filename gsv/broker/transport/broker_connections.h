@@ -1,8 +1,8 @@
-// The connection policy of the broker's ORB. It keeps harmful messages from omniORB, and no client
-// can delay the others:
+// The connection policy of the broker's ORB. It keeps harmful messages away from omniORB, and
+// prevents clients from delaying other clients:
 //
 // - A message has at most 64 KiB, and must arrive within 3 s.
-// - At most `connections` of clients stay open; a further one closes the connection that has been
+// - At most `connections` of clients stay open. A further one closes the connection that has been
 //   idle longest.
 // - A client that sends slowly occupies no thread: the accepting thread collects its messages.
 // - About as many requests are processed at a time as there are processors.

@@ -15,7 +15,7 @@ inline std::string BytesOf(cdrEncapsulationStream& stream) {
   return {reinterpret_cast<const char*>(octets.get_buffer()), octets.length()};
 }
 
-// Reads from `bytes`, which must outlive it.
+// Returns a stream that reads from `bytes`, which must outlive it.
 inline cdrEncapsulationStream StreamOf(const std::string& bytes) {
   return {reinterpret_cast<const _CORBA_Octet*>(bytes.data()),
           static_cast<_CORBA_ULong>(bytes.size())};

@@ -1,4 +1,4 @@
-// A flooded broker still answers other clients, and does not grow.
+// A broker that is flooded must still answer other clients, and must not grow.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -26,17 +26,17 @@ using orb::RawRequest;
 
 using Clock = std::chrono::steady_clock;
 
-// Another client, which calls all the time and must get each answer.
+// A client that calls all the time and must get each answer.
 class Bystander {
  public:
   explicit Bystander(CosTrading::Lookup_ptr lookup) {
-    // It has its own reference, as a time limit belongs to a reference.
+    // The client has its own reference, because a time limit belongs to a reference.
     const CORBA::String_var name = TestOrb()->object_to_string(lookup);
     lookup_ = CosTrading::Lookup::_narrow(CORBA::Object_var(TestOrb()->string_to_object(name)));
     omniORB::setClientCallTimeout(lookup_, 10'000);
     thread_ = std::jthread([this](const std::stop_token& stop) { Ask(stop); });
   }
-  // The 99th percentile of the waits, in milliseconds.
+  // Ends the calls. Returns the 99th percentile of the waits, in milliseconds.
   double End() {
     thread_.request_stop();
     thread_.join();
@@ -75,7 +75,7 @@ class HostileFloodTest : public BrokerFixture {
     Export("Robot", {{"n", Value::Long(1)}});
   }
 
-  // -1 if the broker accepts no more.
+  // Returns -1 if the broker accepts no more connections.
   int Connect() {
     const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_in address{};
@@ -107,20 +107,20 @@ class HostileFloodTest : public BrokerFixture {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     EXPECT_LT(mib, 200u);
 #endif
-    // Another client that connects now is served as well.
+    // A client that connects at this time must be served as well.
     const CORBA::Object_var object = TestOrb()->string_to_object(broker_.reference().c_str());
     EXPECT_FALSE(object->_non_existent());
   }
 };
 
-// A header that is usually valid, and a random body.
+// Returns a message with a header that is usually valid, and with a random body.
 std::string RandomMessage(std::mt19937& random) {
   const std::size_t size = random() % 600;
   std::string message = "GIOP";
   message += '\x01';
-  message += static_cast<char>(random() % 4);  // the minor version
-  message += static_cast<char>(random() % 4);  // byte order, fragments
-  message += static_cast<char>(random() % 9);  // the kind
+  message += static_cast<char>(random() % 4);  // the minor version of GIOP
+  message += static_cast<char>(random() % 4);  // byte order and fragments
+  message += static_cast<char>(random() % 9);  // the kind of the message
   const std::size_t claimed = random() % 4 == 0 ? random() : size;
   for (int i = 0; i < 4; ++i) message += static_cast<char>(claimed >> (8 * i));
   for (std::size_t i = 0; i < size; ++i) {
@@ -131,15 +131,15 @@ std::string RandomMessage(std::mt19937& random) {
   return message;
 }
 
-TEST_F(HostileFloodTest, RandomMessages) {
+TEST_F(HostileFloodTest, SurvivesRandomMessages) {
   Bystander bystander(lookup_);
   std::mt19937 random(6);
   for (int i = 0; i < 3000; ++i) Send(RandomMessage(random));
   Judge(bystander, "random_messages");
 }
 
-// omniORB 4.2.5 alone would keep such a text for ever: 240 MB here.
-TEST_F(HostileFloodTest, TextsThatDoNotEnd) {
+// omniORB 4.2.5 alone would keep such a text for ever, which would be 240 MB here.
+TEST_F(HostileFloodTest, SurvivesUnterminatedStrings) {
   Bystander bystander(lookup_);
   const std::string text = RawCdr().Octets(std::string(60'000, 'a')).bytes();
   const RawConnection connection(std::stoi(broker_.port()));
@@ -150,8 +150,9 @@ TEST_F(HostileFloodTest, TextsThatDoNotEnd) {
   Judge(bystander, "texts");
 }
 
-// omniORB 4.2.5 alone would close the connection and keep 9 kB each time; here it skips the rest.
-TEST_F(HostileFloodTest, RequestsWithMoreThanTheirArguments) {
+// omniORB 4.2.5 alone would close the connection and keep 9 kB each time. The broker skips the rest
+// of the message.
+TEST_F(HostileFloodTest, SurvivesRequestsWithExcessBytes) {
   Bystander bystander(lookup_);
   const std::string body =
       RawCdr().String("IDL:omg.org/CosTrading/Lookup:1.0").Octets(std::string(200, 'x')).bytes();
@@ -163,7 +164,7 @@ TEST_F(HostileFloodTest, RequestsWithMoreThanTheirArguments) {
   Judge(bystander, "long_requests");
 }
 
-TEST_F(HostileFloodTest, TenThousandConnections) {
+TEST_F(HostileFloodTest, SurvivesTenThousandConnections) {
   Bystander bystander(lookup_);
   std::vector<int> open;
   for (int i = 0; i < 10'000; ++i) {
@@ -177,8 +178,9 @@ TEST_F(HostileFloodTest, TenThousandConnections) {
   Judge(bystander, "connections");
 }
 
-// More connections than the broker keeps: it closes those that have been silent longest.
-TEST_F(HostileFloodTest, ConnectionsThatAreHeld) {
+// The test opens more connections than the broker keeps. The broker closes those that have been
+// silent longest.
+TEST_F(HostileFloodTest, SurvivesManyIdleConnections) {
   rlimit descriptors{};
   getrlimit(RLIMIT_NOFILE, &descriptors);
   descriptors.rlim_cur = descriptors.rlim_max;
@@ -195,7 +197,7 @@ TEST_F(HostileFloodTest, ConnectionsThatAreHeld) {
   for (const int each : held) close(each);
 }
 
-TEST_F(HostileFloodTest, SlowSenders) {
+TEST_F(HostileFloodTest, SurvivesSlowSenders) {
   Bystander bystander(lookup_);
   constexpr int kSenders = 200;
   std::vector<int> slow;
@@ -210,8 +212,8 @@ TEST_F(HostileFloodTest, SlowSenders) {
   for (const int socket : slow) close(socket);
 }
 
-// More slow connections than the broker has threads, but later clients are served.
-TEST_F(HostileFloodTest, SlowSendersBeyondTheThreads) {
+// There are more slow connections than the broker has threads. Later clients must still be served.
+TEST_F(HostileFloodTest, SurvivesMoreSlowSendersThanThreads) {
   Bystander bystander(lookup_);
   constexpr int kSenders = 700;
   std::vector<int> slow;
@@ -229,24 +231,26 @@ TEST_F(HostileFloodTest, SlowSendersBeyondTheThreads) {
   std::vector<double> waits;
   for (int i = 0; i < 50; ++i) {
     const auto start = Clock::now();
-    const RawConnection newcomer(std::stoi(broker_.port()));
-    newcomer.Send(query);
-    EXPECT_NE(newcomer.Read().find("IDL:omg.org/CosTradingDynamic"), std::string::npos);
+    const RawConnection new_client(std::stoi(broker_.port()));
+    new_client.Send(query);
+    EXPECT_NE(new_client.Read().find("IDL:omg.org/CosTradingDynamic"), std::string::npos);
     waits.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
   }
-  RecordProperty("newcomers_max_ms", std::to_string(*std::max_element(waits.begin(), waits.end())));
+  RecordProperty("new_clients_max_ms",
+                 std::to_string(*std::max_element(waits.begin(), waits.end())));
   Judge(bystander, "many_slow_senders");
   for (const int socket : slow) close(socket);
 }
 
-// Clients that repeat expensive queries.
-TEST_F(HostileFloodTest, GreedyQueries) {
+// Some clients repeat expensive queries.
+TEST_F(HostileFloodTest, SurvivesExpensiveQueries) {
   for (std::int32_t i = 0; i < 2000; ++i) Export("Robot", {{"n", Value::Long(i)}});
   std::string constraint = "n + 1 == 0";
   for (int i = 0; i < 150; ++i) constraint += " or n * 2 == -1";
   Bystander bystander(lookup_);
   constexpr int kClients = 4, kQueries = 5;
-  // The queries wait for each other, on a slow machine longer than the ORB's limit for clients.
+  // The queries wait for each other. On a slow machine this takes longer than the ORB's limit for
+  // clients.
   omniORB::setClientCallTimeout(lookup_, 300'000);
   std::atomic<int> answered{0};
   std::vector<std::jthread> greedy;

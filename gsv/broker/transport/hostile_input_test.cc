@@ -1,4 +1,4 @@
-// The broker refuses malicious requests and continues to serve.
+// The broker must reject malicious requests and continue to serve.
 #include <array>
 #include <csignal>
 #include <memory>
@@ -34,7 +34,7 @@ class HostileInputTest : public BrokerFixture {
     EXPECT_GE(Query("Robot", "n == 1").offers->length(), 1u);
   }
 
-  // An empty sequence of sequences of …
+  // An empty sequence of sequences of sequences, `depth` levels deep.
   static CORBA::Any Nested(int depth) {
     CORBA::TypeCode_var type = CORBA::TypeCode::_duplicate(CORBA::_tc_long);
     for (int i = 0; i < depth; ++i) type = TestOrb()->create_sequence_tc(0, type);
@@ -54,7 +54,7 @@ class HostileInputTest : public BrokerFixture {
     const CORBA::String_var id = register_->_cxx_export(TestService(), "Robot", properties);
   }
 
-  // A plain TCP connection to the broker.
+  // Opens a plain TCP connection to the broker.
   int Connect() {
     const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_in address{};
@@ -66,7 +66,7 @@ class HostileInputTest : public BrokerFixture {
   }
 };
 
-TEST_F(HostileInputTest, RefusesTypeCodesThatAreTooDeep) {
+TEST_F(HostileInputTest, RejectsTypeCodesThatAreTooDeep) {
   ExportValue(Nested(63));
   for (const int depth : {64, 300, 4000}) {
     Raised<CORBA::MARSHAL>([&] { ExportValue(Nested(depth)); });
@@ -74,7 +74,7 @@ TEST_F(HostileInputTest, RefusesTypeCodesThatAreTooDeep) {
   ExpectAlive();
 }
 
-TEST_F(HostileInputTest, RefusesMessagesThatAreTooLong) {
+TEST_F(HostileInputTest, RejectsMessagesThatAreTooLong) {
   CORBA::Any text;
   text <<= std::string(200'000, 'x').c_str();
   EXPECT_THROW(ExportValue(text), CORBA::SystemException);
@@ -83,7 +83,7 @@ TEST_F(HostileInputTest, RefusesMessagesThatAreTooLong) {
   ExpectAlive();
 }
 
-TEST_F(HostileInputTest, RefusesConstraintsThatAreTooLongOrTooDeep) {
+TEST_F(HostileInputTest, RejectsConstraintsThatAreTooLongOrTooDeep) {
   Raised<CosTrading::IllegalConstraint>([&] { Query("Robot", std::string(20'000, ' ')); });
   Raised<CosTrading::IllegalConstraint>(
       [&] { Query("Robot", std::string(2'000, '(') + "n" + std::string(2'000, ')')); });
@@ -93,8 +93,8 @@ TEST_F(HostileInputTest, RefusesConstraintsThatAreTooLongOrTooDeep) {
   ExpectAlive();
 }
 
-// Each limit of a constraint is reached, and exceeded by one.
-TEST_F(HostileInputTest, TakesConstraintsUpToTheirLimits) {
+// Each limit of a constraint is reached, and then exceeded by one.
+TEST_F(HostileInputTest, AcceptsConstraintsUpToTheLimits) {
   const auto padded = [](std::size_t length) { return "TRUE" + std::string(length - 4, ' '); };
   EXPECT_NO_THROW(Query("Robot", padded(8192)));
   Raised<CosTrading::IllegalConstraint>([&] { Query("Robot", padded(8193)); });
@@ -103,7 +103,7 @@ TEST_F(HostileInputTest, TakesConstraintsUpToTheirLimits) {
   };
   EXPECT_NO_THROW(Query("Robot", nested(64)));
   Raised<CosTrading::IllegalConstraint>([&] { Query("Robot", nested(65)); });
-  // A comparison takes three nodes and one to join it, a literal one, `not` one.
+  // A comparison takes three nodes and one to join it. A literal takes one, and so does `not`.
   std::string thousand = "n == 0";
   for (int i = 1; i < 249; ++i) thousand += " or n == 1";
   thousand += " or not TRUE or TRUE";
@@ -126,7 +126,7 @@ TEST_F(HostileInputTest, AcceptsPropertiesUpToTheLimit) {
   });
 }
 
-TEST_F(HostileInputTest, RefusesOffersThatAreTooLarge) {
+TEST_F(HostileInputTest, RejectsOffersThatAreTooLarge) {
   CORBA::Any text;
   text <<= std::string(40'000, 'x').c_str();
   Raised<CORBA::IMP_LIMIT>([&] { ExportValue(text); });
@@ -138,7 +138,7 @@ TEST_F(HostileInputTest, RefusesOffersThatAreTooLarge) {
   ExpectAlive();
 }
 
-TEST_F(HostileInputTest, ServesOthersWhileConnectionsSendGarbageOrNothing) {
+TEST_F(HostileInputTest, ServesOtherClientsDespiteGarbageAndSilence) {
   std::array<int, 40> silent{};
   for (int& socket : silent) socket = Connect();
   const std::string half_a_header = "GIOP\x01\x02";
@@ -159,8 +159,8 @@ TEST_F(HostileInputTest, ServesOthersWhileConnectionsSendGarbageOrNothing) {
   ExpectAlive();
 }
 
-// omniORB takes a cancel request for the end of another call on its connection.
-TEST_F(HostileInputTest, LeavesOutRequestsToCancelAndEndsInOrder) {
+// omniORB mistakes a cancel request for the end of another call on its connection.
+TEST_F(HostileInputTest, IgnoresCancelRequestsAndEndsCleanly) {
   BrokerProcess broker;
   const std::string cancel = RawMessage(MessageType::kCancelRequest, RawCdr().ULong(1).bytes());
   const std::string call = RawRequest("TradingService", "_non_existent", "");
@@ -204,7 +204,7 @@ class ScarceMemoryTest : public HostileInputTest {
   ScarceMemoryTest() : HostileInputTest({"0", "address_space_mib=256"}) {}
 };
 
-TEST_F(ScarceMemoryTest, SurvivesOffersThatNeedMoreMemoryThanItHas) {
+TEST_F(ScarceMemoryTest, SurvivesOffersThatExceedItsMemory) {
   if (base::kReservesAddressSpace) GTEST_SKIP() << "this sanitizer leaves no bound on addresses";
   const std::vector<Property> large = {{"text", Value::String(std::string(32'000, 'x'))}};
   constexpr std::size_t kMoreThanFit = 12'000;
@@ -212,7 +212,7 @@ TEST_F(ScarceMemoryTest, SurvivesOffersThatNeedMoreMemoryThanItHas) {
   Raised<CORBA::NO_MEMORY>([&] {
     while (ids.size() < kMoreThanFit) ids.push_back(Export("Robot", large));
   });
-  // All clients get answers, also over new connections. An iterator would keep offers.
+  // All clients get answers, also over new connections. An iterator would keep offers in memory.
   CORBA::Any one;
   one <<= CORBA::ULong(1);
   const std::vector<CosTrading::Policy> only_one = {Policy("search_card", one)};
@@ -226,7 +226,7 @@ TEST_F(ScarceMemoryTest, SurvivesOffersThatNeedMoreMemoryThanItHas) {
   }
   for (std::thread& client : clients) client.join();
   Raised<CORBA::NO_MEMORY>([&] { register_->modify(ids[0].c_str(), {}, Sequence(large)); });
-  // Withdrawn offers free memory for others.
+  // Withdrawn offers free memory for other offers.
   constexpr std::size_t kRoom = 1000;
   ASSERT_GT(ids.size(), kRoom);
   for (std::size_t i = 0; i < kRoom; ++i) register_->withdraw(ids[i].c_str());

@@ -1,4 +1,4 @@
-// Malformed TypeCodes over TCP, which would crash omniORB 4.2.5 alone, and the broker with it.
+// Sends malformed TypeCodes over TCP. They would crash omniORB 4.2.5 alone, and the broker with it.
 #include <atomic>
 #include <list>
 #include <thread>
@@ -24,7 +24,7 @@ constexpr std::uint32_t kException = 22;
 
 RawCdr Named() { return RawCdr().Octet(1).String("IDL:T:1.0").String("T"); }
 
-// TypeCodes that declare members which do not follow.
+// Returns TypeCodes that declare members which do not follow.
 std::vector<std::string> BadTypeCodes() {
   std::vector<std::string> all;
   for (const std::uint32_t kind : {kStruct, kException, kEnum}) {
@@ -41,7 +41,7 @@ class HostileTypeCodeTest : public BrokerFixture {
  protected:
   HostileTypeCodeTest() { AddType("Robot"); }
 
-  // The broker's answer on its own connection; empty if the broker closes it.
+  // Returns the broker's answer on a new connection, or an empty text if the broker closes it.
   std::string Answer(const std::string& request) {
     const RawConnection connection(std::stoi(broker_.port()));
     connection.Send(request);
@@ -53,7 +53,7 @@ class HostileTypeCodeTest : public BrokerFixture {
   }
 };
 
-TEST_F(HostileTypeCodeTest, InPoliciesIsRefused) {
+TEST_F(HostileTypeCodeTest, IsRejectedInPolicies) {
   for (const std::string& type : BadTypeCodes()) {
     RawCdr query = RawCdr().String("Robot").String("").String("").ULong(1).String("p");
     ExpectMarshal("TradingService", "query", query.Align(4).Raw(type).ULong(0).ULong(0).bytes());
@@ -61,7 +61,7 @@ TEST_F(HostileTypeCodeTest, InPoliciesIsRefused) {
   EXPECT_EQ(Query("Robot").offers->length(), 0u);
 }
 
-TEST_F(HostileTypeCodeTest, InPropertiesIsRefused) {
+TEST_F(HostileTypeCodeTest, IsRejectedInProperties) {
   for (const std::string& type : BadTypeCodes()) {
     RawCdr offer = RawCdr().String("IDL:X:1.0").ULong(0).String("Robot").ULong(1).String("p");
     ExpectMarshal("TradingRegister", "export", offer.Align(4).Raw(type).ULong(0).bytes());
@@ -73,7 +73,7 @@ TEST_F(HostileTypeCodeTest, InPropertiesIsRefused) {
   EXPECT_EQ(Query("Robot").offers->length(), 0u);
 }
 
-TEST_F(HostileTypeCodeTest, InServiceTypesIsRefused) {
+TEST_F(HostileTypeCodeTest, IsRejectedInServiceTypes) {
   for (const std::string& type : BadTypeCodes()) {
     RawCdr description = RawCdr().String("New").String("").ULong(1).String("p");
     ExpectMarshal("TradingTypes", "add_type",
@@ -122,7 +122,7 @@ class BadService {
   std::jthread thread_;
 };
 
-TEST_F(HostileTypeCodeTest, InDynamicPropertiesGivesNoValue) {
+TEST_F(HostileTypeCodeTest, MakesADynamicPropertyUnavailable) {
   // All services exist until the end. Otherwise one could get the port of an earlier service, and
   // the broker would use the answer that it has cached.
   std::list<BadService> services;

@@ -11,12 +11,13 @@
 namespace gsv::broker {
 namespace {
 
-// A range of addresses, which both objects and stacks of threads can use.
+// A range of addresses that is usable for both objects and stacks of threads.
 class Reserve {
  public:
   explicit Reserve(std::size_t bytes) : bytes_(bytes) { (void)PutBy(); }
 
-  // Reserves the range if necessary. True if it is reserved, or as much memory is free in the heap.
+  // Reserves the range if necessary. Returns true if it is reserved, or if as much memory is free
+  // in the heap.
   bool PutBy() {
     const base::MutexLock lock(mutex_);
     if (range_ != MAP_FAILED) return true;
@@ -25,7 +26,7 @@ class Reserve {
     return range_ != MAP_FAILED || mallinfo2().fordblks >= bytes_;
   }
 
-  // Frees the range. False if it was not reserved.
+  // Frees the range. Returns false if it was not reserved.
   bool Spend() {
     const base::MutexLock lock(mutex_);
     if (range_ == MAP_FAILED) return false;
@@ -40,7 +41,7 @@ class Reserve {
   void* range_ GSV_GUARDED_BY(mutex_) = MAP_FAILED;
 };
 
-// Leaked: threads of the ORB may outlive main().
+// Never destroyed, because threads of the ORB may outlive main().
 Reserve* g_reserve = nullptr;
 
 }  // namespace

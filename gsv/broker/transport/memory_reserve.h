@@ -1,7 +1,7 @@
 // A memory reserve for a broker with limited address space (process_limits.h). It is freed when an
 // allocation fails. Operations that would keep more memory are then refused until as much is free
-// again. So a full broker still answers queries, also over new connections, and lets offers be
-// withdrawn. The ORB's threads, which do not catch bad_alloc, do not run out of memory.
+// again. So a full broker still answers queries, also over new connections, and clients can
+// withdraw offers. The ORB's threads, which do not catch bad_alloc, do not run out of memory.
 //
 // Threads  any; call HoldMemoryReserve() before other threads start.
 #pragma once
@@ -13,8 +13,8 @@ namespace gsv::broker {
 // Reserves memory for the whole process.
 void HoldMemoryReserve(std::size_t bytes);
 
-// Throws CORBA::NO_MEMORY while less than the reserve is free. For operations that store their
-// arguments. Does nothing in a process without a reserve.
+// Throws CORBA::NO_MEMORY while less memory than the reserve is free. Operations that store their
+// arguments call it. It does nothing in a process without a reserve.
 void RequireMemoryReserve();
 
 }  // namespace gsv::broker

@@ -1,4 +1,5 @@
-// Checks the messages of the trading service's operations that need it, according to its IDL.
+// Checks the messages of those operations of the trading service that need it, according to the
+// IDL.
 #pragma once
 
 #include <string>
@@ -11,10 +12,10 @@ namespace gsv::broker {
 // Generated from trading.idl.
 const orb::Signatures& TradingSignatures();
 
-// Calls orb::CheckRequest() with them.
+// Calls orb::CheckRequest() with these signatures.
 void CheckRequest(std::string& message);
 
-// Whether `encapsulation` holds a sequence of properties, or of policies.
+// Whether `encapsulation` has a sequence of properties, or of policies.
 bool IsPropertySequence(std::string_view encapsulation);
 
 }  // namespace gsv::broker

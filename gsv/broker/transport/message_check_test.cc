@@ -11,7 +11,7 @@ using orb::RawCdr;
 using orb::RawReply;
 using orb::RawRequest;
 
-// A property "p" with a struct whose members are missing.
+// Returns a property "p" with a struct whose members are missing.
 RawCdr BadProperty(RawCdr before) {
   const RawCdr members = RawCdr().Octet(1).String("IDL:T:1.0").String("T").ULong(0x00FFFFFF);
   return before.String("p").ULong(15).Octets(members.bytes());
@@ -32,7 +32,7 @@ TEST(MessageCheckTest, LeavesValidRequestsUnchanged) {
   EXPECT_EQ(Checked(withdraw), withdraw);
 }
 
-TEST(MessageCheckTest, CutsOffArgumentsThatAreRefused) {
+TEST(MessageCheckTest, RemovesInvalidArguments) {
   const std::string good_part = RawRequest("TradingService", "query", "");
   const RawCdr bad = BadProperty(RawCdr().String("T").String("").String("").ULong(1));
   EXPECT_EQ(Checked(RawRequest("TradingService", "query", bad.bytes())), good_part);
@@ -40,7 +40,7 @@ TEST(MessageCheckTest, CutsOffArgumentsThatAreRefused) {
   EXPECT_EQ(Checked(RawRequest("TradingService", "query", too_many.bytes())), good_part);
 }
 
-TEST(MessageCheckTest, KnowsTheRequestOfAReply) {
+TEST(MessageCheckTest, ChecksAReplyAgainstItsRequest) {
   orb::ReplyCheck check(TradingSignatures());
   const std::string request = RawRequest("E", "evalDP", "", 7);
   check.Sending(request);
@@ -49,7 +49,7 @@ TEST(MessageCheckTest, KnowsTheRequestOfAReply) {
   std::string reply = RawReply(7, good.bytes());
   check.Check(reply);
   EXPECT_EQ(reply, RawReply(7, good.bytes()));
-  // No request waits for a second one.
+  // No request waits for a second reply.
   check.Check(reply);
   EXPECT_EQ(reply, RawReply(7, ""));
 

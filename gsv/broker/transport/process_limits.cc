@@ -19,7 +19,7 @@ void AskForDescriptors(std::size_t wanted) {
   getrlimit(RLIMIT_NOFILE, &descriptors);
   if (descriptors.rlim_cur >= wanted) return;
   descriptors.rlim_cur = std::min<rlim_t>(wanted, descriptors.rlim_max);
-  // If the system allows fewer, the broker keeps fewer connections open.
+  // If the system allows fewer descriptors, the broker keeps fewer connections open.
   setrlimit(RLIMIT_NOFILE, &descriptors);
 }
 
@@ -31,7 +31,7 @@ base::Status ApplyProcessLimits(const ProcessLimits& limits) {
   if (base::kReservesAddressSpace) return {};
   rlimit address_space{};
   getrlimit(RLIMIT_AS, &address_space);
-  // A lower limit stays.
+  // A lower limit that is already set is kept.
   if (address_space.rlim_cur <= limits.address_space_bytes) return {};
   address_space.rlim_cur = limits.address_space_bytes;
   if (setrlimit(RLIMIT_AS, &address_space) == 0) {

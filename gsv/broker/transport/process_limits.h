@@ -8,17 +8,17 @@
 namespace gsv::broker {
 
 struct ProcessLimits {
-  // An allocation beyond this fails with bad_alloc. A sixteenth is a reserve for threads that do
-  // not catch bad_alloc (memory_reserve.h).
+  // Allocations beyond this limit fail with bad_alloc. A sixteenth of it is a reserve for threads
+  // that do not catch bad_alloc (memory_reserve.h).
   std::size_t address_space_bytes = std::size_t{2} << 30;
   int malloc_arenas = 2;
-  std::size_t descriptors = 8192;  // or fewer, if the system allows fewer
+  std::size_t descriptors = 8192;  // fewer if the system allows fewer
 };
 
 // Limits the whole process. Call it before threads start.
 [[nodiscard]] base::Status ApplyProcessLimits(const ProcessLimits& limits);
 
-// The number of connections that clients may keep open, so that descriptors remain for other uses.
+// The number of connections that clients may keep open. It leaves descriptors for other uses.
 std::size_t MaxConnections();
 
 }  // namespace gsv::broker

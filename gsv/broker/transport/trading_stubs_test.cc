@@ -1,5 +1,5 @@
 // Compares the signatures generated from trading.idl with omniORB's stubs. The messages that the
-// stubs send, and those that they can read, have the types of the signatures to the last byte.
+// stubs send and can read must have the types of the signatures, up to the last byte.
 #include <cstring>
 #include <map>
 #include <mutex>
@@ -23,7 +23,7 @@ using orb::RawCdr;
 using orb::RawMessage;
 using orb::Signature;
 
-// Accepts any request, keeps the last one, and always sends the same reply.
+// A server that accepts any request, keeps the last one, and always sends the same reply.
 class Parrot {
  public:
   Parrot() : listener_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
@@ -66,13 +66,13 @@ class Parrot {
   std::string ReplyTo(const std::string& message) {
     std::uint32_t id = 0;
     std::memcpy(&id, message.data() + 12, sizeof id);
-    if (message[7] == kLocateRequest) {  // the object is here
+    if (message[7] == kLocateRequest) {  // the reply says that the object is here
       constexpr auto kLocateReply = static_cast<orb::MessageType>(4);
       return RawMessage(kLocateReply, RawCdr().ULong(id).ULong(1).bytes());
     }
     const std::lock_guard lock(mutex_);
     if (message[7] == kRequest) request_ = message;
-    // The zero is in the place of the header's last four bytes, for the alignment.
+    // The zero stands in the place of the header's last four bytes, for the alignment.
     RawCdr reply = RawCdr().ULong(0).ULong(id).ULong(status_).ULong(0);
     return RawMessage(orb::MessageType::kReply, reply.Align(8).Raw(body_).bytes().substr(4));
   }
@@ -85,7 +85,8 @@ class Parrot {
   std::jthread thread_;
 };
 
-// Values of the types of a signature: sequences of one element, unions with their first member.
+// Values of the types of a signature. Sequences have one element, and unions have their first
+// member.
 class Sample {
  public:
   explicit Sample(std::string_view types, RawCdr before = {}) : cdr_(std::move(before)) {
@@ -256,7 +257,7 @@ const TradingStubsTest::Calls& TradingStubsTest::AllCalls() {
   return calls;
 }
 
-// The message without the last byte of its body.
+// Returns the message without the last byte of its body.
 std::string WithoutLastByte(std::string message) {
   message.pop_back();
   orb::CompleteGiopHeader(message);
@@ -268,7 +269,7 @@ TEST_F(TradingStubsTest, RequestsHaveTheTypesOfTheSignatures) {
     try {
       Make(each.name, object_);
     } catch (const CORBA::SystemException&) {
-      // The reply has no results.
+      // The reply contains no results.
     }
     const std::string request = parrot_.request();
     std::string checked = request;

@@ -32,7 +32,7 @@ std::vector<std::string> Assembled(std::string_view bytes, std::size_t piece) {
   return messages;
 }
 
-TEST(MessageAssemblyTest, PutsMessagesTogetherFromPieces) {
+TEST(MessageAssemblyTest, AssemblesMessagesFromPieces) {
   const std::string small = RawRequest("R", "withdraw", RawCdr().String("id").bytes());
   const std::string large = RawRequest("R", "export", std::string(30'000, 'x'));
   const std::vector<std::string> expected = {small, large, small};
@@ -53,7 +53,7 @@ TEST(MessageAssemblyTest, JoinsFragments) {
   EXPECT_EQ(Assembled(message, 5), std::vector<std::string>{whole});
 }
 
-TEST(MessageAssemblyTest, RefusesWhatIsNoMessage) {
+TEST(MessageAssemblyTest, RejectsBytesThatAreNotAMessage) {
   const std::vector<std::string> refused = {"refused"};
   EXPECT_EQ(Assembled("GIOX\x01\x02\x01\x01\x01\x01\x01\x01", 3), refused);
   EXPECT_EQ(Assembled(std::string_view("GIOP\x01\x03\x01\x00\x00\x00\x00\x00", 12), 12), refused);

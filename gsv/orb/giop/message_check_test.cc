@@ -56,12 +56,12 @@ TEST(SignatureTest, ReadsEachType) {
   }
 }
 
-TEST(SignatureTest, ReadsNumbersOfEightBytesAtMultiplesOfEight) {
+TEST(SignatureTest, AlignsEightByteNumbersToEight) {
   const RawCdr values = LongLong(RawCdr().Octet(1).Octet(2).UShort(3).ULong(4));
   EXPECT_TRUE(HasTypes(values.bytes(), "1248"));
 }
 
-TEST(SignatureTest, RefusesValuesThatAreCutOff) {
+TEST(SignatureTest, RejectsTruncatedValues) {
   for (const Case& each : kCases) {
     std::string bytes = Encapsulated(each.values);
     bytes.pop_back();
@@ -69,7 +69,7 @@ TEST(SignatureTest, RefusesValuesThatAreCutOff) {
   }
 }
 
-TEST(SignatureTest, RefusesMoreElementsThanBytes) {
+TEST(SignatureTest, RejectsMoreElementsThanBytes) {
   EXPECT_FALSE(HasTypes(Encapsulated(RawCdr().ULong(0xFFFFFFFF)), "111[s]"));
 }
 
@@ -80,7 +80,7 @@ constexpr Signatures kSignatures{kRequests, kReplies, kExceptions};
 
 const std::string kPut = RawCdr().String("p").ULong(kTcLong).ULong(7).bytes();
 
-TEST(RequestCheckTest, CutsOffArgumentsThatDoNotHaveTheTypes) {
+TEST(RequestCheckTest, RemovesArgumentsOfTheWrongTypes) {
   const std::string good = RawRequest("key", "put", kPut);
   std::string message = good;
   CheckRequest(kSignatures, message);
@@ -90,7 +90,7 @@ TEST(RequestCheckTest, CutsOffArgumentsThatDoNotHaveTheTypes) {
   EXPECT_EQ(message, RawRequest("key", "put", ""));
 }
 
-TEST(RequestCheckTest, LeavesOperationsThatAreNotListed) {
+TEST(RequestCheckTest, IgnoresUnlistedOperations) {
   const std::string other = RawRequest("key", "other", kPut.substr(0, 3));
   std::string message = other;
   CheckRequest(kSignatures, message);
@@ -111,14 +111,14 @@ std::string CheckedReply(const std::string& operation, const std::string& body) 
   return reply;
 }
 
-TEST(ReplyCheckTest, KnowsTheTypesByTheRequest) {
+TEST(ReplyCheckTest, FindsTheTypesByTheRequest) {
   const std::string number = RawCdr().ULong(7).bytes();
   EXPECT_EQ(CheckedReply("get", number), RawReply(7, number));
   EXPECT_EQ(CheckedReply("get", "no"), RawReply(7, ""));
   EXPECT_EQ(CheckedReply("other", "no"), RawReply(7, "no"));
 }
 
-TEST(ReplyCheckTest, RefusesRepliesThatNobodyWaitsFor) {
+TEST(ReplyCheckTest, RejectsRepliesWithoutARequest) {
   ReplyCheck check(kSignatures);
   std::string reply = RawReply(7, RawCdr().ULong(7).bytes());
   check.Check(reply);

@@ -45,7 +45,7 @@ bool IsAny(const RawCdr& cdr) {
   return in.ok() && in.remaining() == 0;
 }
 
-TEST(TypeCodeCheckTest, TakesWhatIsComplete) {
+TEST(TypeCodeCheckTest, AcceptsCompleteTypeCodes) {
   EXPECT_TRUE(IsTypeCode(RawCdr().ULong(kLong)));
   EXPECT_TRUE(IsTypeCode(RawCdr().ULong(kString).ULong(0)));
   EXPECT_TRUE(IsTypeCode(SequenceOf(kLong)));
@@ -54,7 +54,7 @@ TEST(TypeCodeCheckTest, TakesWhatIsComplete) {
   EXPECT_TRUE(IsTypeCode(With({}, kStruct, Named().ULong(1).String("x").ULong(kLong))));
 }
 
-TEST(TypeCodeCheckTest, RefusesMembersThatAreMissing) {
+TEST(TypeCodeCheckTest, RejectsMissingMembers) {
   EXPECT_FALSE(IsTypeCode(With({}, kStruct, Named().ULong(2).String("x").ULong(kLong))));
   EXPECT_FALSE(IsTypeCode(With({}, kStruct, Named().ULong(0x00FFFFFF))));
   EXPECT_FALSE(IsTypeCode(With({}, kStruct, Named())));
@@ -66,7 +66,7 @@ TEST(TypeCodeCheckTest, RefusesMembersThatAreMissing) {
 }
 
 // A broker would store an offer with such a type, but could not read it again.
-TEST(TypeCodeCheckTest, RefusesNamesWithAZeroInside) {
+TEST(TypeCodeCheckTest, RejectsNamesWithAnEmbeddedZero) {
   const auto named = [](RawCdr id) { return With({}, kAlias, id.String("T").ULong(kLong)); };
   EXPECT_TRUE(IsTypeCode(named(Parameters().Octets("IDL:T:1.0\0"s))));
   EXPECT_FALSE(IsTypeCode(named(Parameters().Octets("IDL:\0T:1.0\0"s))));
@@ -74,14 +74,14 @@ TEST(TypeCodeCheckTest, RefusesNamesWithAZeroInside) {
   EXPECT_FALSE(IsTypeCode(named(Parameters().Octets("\0\0"s))));
 }
 
-TEST(TypeCodeCheckTest, RefusesKindsThatNobodyCanUse) {
+TEST(TypeCodeCheckTest, RejectsUnusableKinds) {
   for (const std::uint32_t kind : {13u, 29u, 30u, 31u, 32u, 33u, 1000u, 0xFFFFFFFEu}) {
     EXPECT_FALSE(IsTypeCode(RawCdr().ULong(kind))) << kind;
   }
 }
 
 // A type with a scale of 108 crashed the broker.
-TEST(TypeCodeCheckTest, RefusesFixedOfMoreDecimalsThanDigits) {
+TEST(TypeCodeCheckTest, RejectsFixedWithMoreDecimalsThanDigits) {
   EXPECT_TRUE(IsTypeCode(RawCdr().ULong(kFixed).UShort(19).UShort(4)));
   EXPECT_TRUE(IsTypeCode(RawCdr().ULong(kFixed).UShort(31).UShort(31)));
   EXPECT_FALSE(IsTypeCode(RawCdr().ULong(kFixed).UShort(19).UShort(0x6c)));
@@ -90,12 +90,12 @@ TEST(TypeCodeCheckTest, RefusesFixedOfMoreDecimalsThanDigits) {
   EXPECT_FALSE(IsTypeCode(RawCdr().ULong(kFixed).UShort(0).UShort(0)));
 }
 
-TEST(TypeCodeCheckTest, RefusesNamesWithoutAnEnd) {
+TEST(TypeCodeCheckTest, RejectsUnterminatedNames) {
   EXPECT_FALSE(IsTypeCode(With({}, kAlias, Parameters().Octets("T").String("T").ULong(kLong))));
   EXPECT_FALSE(IsTypeCode(With({}, kAlias, Parameters().Octets("").String("T").ULong(kLong))));
 }
 
-TEST(TypeCodeCheckTest, TakesATypeThatStoodBefore) {
+TEST(TypeCodeCheckTest, AcceptsAReferenceToAnEarlierType) {
   const RawCdr inner = With({}, kStruct, Named().ULong(1).String("x").ULong(kLong));
   const auto pair = [&](std::uint32_t back) {
     RawCdr members = Named().ULong(2).String("a").Align(4);
@@ -110,13 +110,13 @@ TEST(TypeCodeCheckTest, TakesATypeThatStoodBefore) {
   EXPECT_FALSE(IsTypeCode(pair(8)));
 }
 
-TEST(TypeCodeCheckTest, RefusesATypeThatContainsItself) {
+TEST(TypeCodeCheckTest, RejectsATypeThatContainsItself) {
   // A sequence whose element type is 12 bytes before the offset: itself.
   EXPECT_FALSE(
       IsTypeCode(With({}, kSequence, Parameters().ULong(0xFFFFFFFF).ULong(0u - 16).ULong(0))));
 }
 
-TEST(TypeCodeCheckTest, RefusesWhatIsTooDeep) {
+TEST(TypeCodeCheckTest, RejectsTypesThatAreTooDeep) {
   const auto nested = [](int depth) {
     RawCdr type = RawCdr().ULong(kLong);
     for (int i = 1; i < depth; ++i) {
@@ -162,7 +162,7 @@ TEST(TypeCodeCheckTest, CountsTheTypesOfAMessage) {
   EXPECT_FALSE(IsAny(longs(4100)));
 }
 
-TEST(TypeCodeCheckTest, ReadsTheMemberThatTheDiscriminatorChooses) {
+TEST(TypeCodeCheckTest, ReadsTheUnionMemberOfTheDiscriminator) {
   RawCdr members = Named().ULong(kLong).ULong(1).ULong(2);
   members.ULong(5).String("text").ULong(kString).ULong(0);
   members.ULong(0).String("otherwise").ULong(kLong);
@@ -173,7 +173,7 @@ TEST(TypeCodeCheckTest, ReadsTheMemberThatTheDiscriminatorChooses) {
   EXPECT_FALSE(IsTypeCode(With({}, kUnion, Named().ULong(kString).ULong(0).ULong(0).ULong(0))));
 }
 
-TEST(TypeCodeCheckTest, EndsWithArraysOfNothing) {
+TEST(TypeCodeCheckTest, AcceptsArraysOfEmptyElementsWithoutLooping) {
   RawCdr type = With({}, kStruct, Named().ULong(0));
   for (int i = 0; i < 4; ++i) {
     type = With({}, kArray, Parameters().Align(4).Raw(type.bytes()).ULong(0xFFFFFFFF));

@@ -37,7 +37,7 @@ CORBA::ULong MinorOf(cdrStream& stream) {
   return 0;
 }
 
-TEST(RawStrings, AreReadWithTheirNull) {
+TEST(RawStrings, AreReadWithTheirTerminator) {
   cdrMemoryStream stream;
   PutOctets(stream, std::string("IDL:omg.org/A:1.0\0", 18));
   PutOctets(stream, std::string("\0", 1));
@@ -47,7 +47,7 @@ TEST(RawStrings, AreReadWithTheirNull) {
   EXPECT_STREQ(text, "");
 }
 
-TEST(RawStrings, ThatAreNoneAreRefusedAsTheOrbDoes) {
+TEST(RawStrings, InvalidStringsAreRejectedAsByTheOrb) {
   cdrMemoryStream without_null, empty, too_short;
   PutOctets(without_null, "abc");
   CORBA::ULong(0) >>= empty;
@@ -59,7 +59,7 @@ TEST(RawStrings, ThatAreNoneAreRefusedAsTheOrbDoes) {
 
 // omniORB 4.2.5 leaks all of it. (HostileFloodTest checks that the ORB's own calls use the
 // replacement.)
-TEST(RawStrings, WithoutNullKeepNoMemory) {
+TEST(RawStrings, UnterminatedStringsLeakNoMemory) {
   EXPECT_LT(BytesKeptBy([] {
               cdrMemoryStream stream;
               PutOctets(stream, kLong);
@@ -88,7 +88,7 @@ class ObjectReferences : public testing::Test {
   CORBA::ORB_var orb_ = StartOrb();
 };
 
-TEST_F(ObjectReferences, OfAProfileThatDoesNotDecodeKeepNoMemory) {
+TEST_F(ObjectReferences, InvalidProfilesLeakNoMemory) {
   EXPECT_LT(BytesKeptBy([] {
               cdrMemoryStream stream;
               PutReference(stream, std::string(kLong.size(), '\2'));  // IIOP 2.2 does not exist
@@ -97,7 +97,7 @@ TEST_F(ObjectReferences, OfAProfileThatDoesNotDecodeKeepNoMemory) {
             kFewBytes);
 }
 
-TEST_F(ObjectReferences, ThatAreRightAreReadAndReleased) {
+TEST_F(ObjectReferences, ValidReferencesAreReadAndReleased) {
   const std::string profile(
       "\1\1\2\0"  // little-endian, IIOP 1.2
       "\4\0\0\0"  // four bytes of host

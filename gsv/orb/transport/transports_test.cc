@@ -63,9 +63,9 @@ class Doorkeeper final : public POA_sba::AgentBehaviourFactory {
 
 std::string Number(std::uint32_t value) { return RawCdr().ULong(value).bytes(); }
 
-class WholeTransportTest : public ::testing::Test {
+class MessageTransportTest : public ::testing::Test {
  public:
-  ~WholeTransportTest() override {
+  ~MessageTransportTest() override {
     door_->Open();
     for (const int connection : connections_) close(connection);
     if (!CORBA::is_nil(orb_)) orb_->destroy();
@@ -161,7 +161,7 @@ class WholeTransportTest : public ::testing::Test {
   std::vector<int> connections_;
 };
 
-std::string WholeTransportTest::KeyOf(CORBA::Object_ptr object) {
+std::string MessageTransportTest::KeyOf(CORBA::Object_ptr object) {
   cdrMemoryStream stream;
   CORBA::Object::_marshalObjRef(object, stream);
   // Type id, profiles; in the first: version, host, port, key.
@@ -184,7 +184,7 @@ std::string WholeTransportTest::KeyOf(CORBA::Object_ptr object) {
 }
 
 // omniORB 4.2.5 alone would use two threads for one call then, and crash.
-TEST_F(WholeTransportTest, AFragmentThatComesTwiceDuringItsCallHurtsNobody) {
+TEST_F(MessageTransportTest, RepeatedFragmentDuringItsCallIsHarmless) {
   Start();
   for (int round = 0; round < 5; ++round) {
     const int connection = Connect();
@@ -201,7 +201,7 @@ TEST_F(WholeTransportTest, AFragmentThatComesTwiceDuringItsCallHurtsNobody) {
   EXPECT_EQ(Answer(another), 3u);
 }
 
-TEST_F(WholeTransportTest, JoinsFragmentsAndLeavesOutWhatCancels) {
+TEST_F(MessageTransportTest, JoinsFragmentsAndIgnoresCancelRequests) {
   Start();
   const int connection = Connect();
   const std::string call = Call(1, 100);
@@ -217,7 +217,7 @@ TEST_F(WholeTransportTest, JoinsFragmentsAndLeavesOutWhatCancels) {
   EXPECT_EQ(Answer(connection), 2u);
 }
 
-TEST_F(WholeTransportTest, LocalSocketsHoldToTheSameRules) {
+TEST_F(MessageTransportTest, LocalSocketsFollowTheSameRules) {
   OrbOptions options;
   options.local_socket = true;
   options.max_message_bytes = 10'000;
@@ -234,7 +234,7 @@ TEST_F(WholeTransportTest, LocalSocketsHoldToTheSameRules) {
 
 std::atomic<int> requests_seen = 0;
 
-TEST_F(WholeTransportTest, TheCheckSeesEachRequestOnce) {
+TEST_F(MessageTransportTest, TheCheckSeesEachRequestOnce) {
   requests_seen = 0;
   OrbOptions options;
   options.check_request = [](std::string& message) {
@@ -254,7 +254,7 @@ TEST_F(WholeTransportTest, TheCheckSeesEachRequestOnce) {
   EXPECT_EQ(requests_seen, 2);
 }
 
-TEST_F(WholeTransportTest, AMessageIsTakenUpToItsLengthAndNotBeyond) {
+TEST_F(MessageTransportTest, MessageIsReadUpToItsLength) {
   OrbOptions options;
   options.max_message_bytes = 10'000;
   Start(options);
@@ -273,7 +273,7 @@ TEST_F(WholeTransportTest, AMessageIsTakenUpToItsLengthAndNotBeyond) {
   EXPECT_EQ(Answer(another), std::nullopt);
 }
 
-TEST_F(WholeTransportTest, AMessageThatStopsHalfWayEndsItsConnection) {
+TEST_F(MessageTransportTest, IncompleteMessageEndsItsConnection) {
   OrbOptions options;
   options.message_time = 1s;
   Start(options);
@@ -286,7 +286,7 @@ TEST_F(WholeTransportTest, AMessageThatStopsHalfWayEndsItsConnection) {
   EXPECT_EQ(Answer(silent), 2u);
 }
 
-TEST_F(WholeTransportTest, SixteenCallsOfAConnectionAreServedAtOnceAndTheOthersWait) {
+TEST_F(MessageTransportTest, ConnectionServesSixteenCallsConcurrently) {
   Start();
   const int connection = Connect();
   for (std::uint32_t number = 1; number <= 20; ++number) {
@@ -301,7 +301,7 @@ TEST_F(WholeTransportTest, SixteenCallsOfAConnectionAreServedAtOnceAndTheOthersW
   EXPECT_EQ(door_->most(), 17);
 }
 
-TEST_F(WholeTransportTest, ACallThatIsNotAnsweredEndsInItsTime) {
+TEST_F(MessageTransportTest, UnansweredCallEndsWithATimeout) {
   OrbOptions options;
   options.call_timeout = 300ms;
   Start(options);

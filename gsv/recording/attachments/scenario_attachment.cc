@@ -13,7 +13,7 @@ scenario::Place PlaceOf(const geometry::Pose& pose) {
   return {pose.position.x, pose.position.y, pose.position.z, geometry::Yaw(pose.orientation)};
 }
 
-// The shortest number for the same time.
+// The shortest number that stands for the same time.
 double ShortSeconds(std::chrono::nanoseconds time) {
   return static_cast<double>(time.count()) / 1e9;
 }
@@ -45,7 +45,7 @@ scenario::Scenario ScenarioOf(const Simulation& simulation) {
   scenario.pedestrians = specification.pedestrians;
   scenario.fails_with_behaviour = specification.on_failure == simulation::FailurePolicy::kFail;
 
-  std::map<std::string, std::string> behaviours;  // by robot
+  std::map<std::string, std::string> behaviours;  // options of behaviours, by robot
   for (const auto& robot : simulation.status().robots) behaviours[robot.name] = robot.behaviour;
   for (const world::Body& body : simulation.snapshot()->layout->bodies) {
     if (!body.is_robot()) continue;
@@ -71,7 +71,7 @@ scenario::Scenario ScenarioOf(const Simulation& simulation) {
 std::vector<simulation::Edit> EditsBeforeStart(const Simulation& simulation) {
   if (simulation.status().phase != simulation::Phase::kCreated) return {};
   const model::WorldDescription& world = *simulation.specification().world;
-  std::set<std::string> of_scenario;  // robots, including removed ones
+  std::set<std::string> of_scenario;  // names of the scenario's robots, including removed ones
   std::vector<simulation::Edit> edits;
   for (const simulation::Event& event : simulation.events(0)) {
     if (event.kind == "reset") edits.clear();

@@ -12,7 +12,7 @@
 namespace gsv::recording {
 namespace {
 
-// A robot at (1, -2) with a yaw of 90 degrees, and an avatar.
+// A world with a robot at (1, -2), with a yaw of 90 degrees, and an avatar.
 std::shared_ptr<simulation::Simulation> Room() {
   simulation::Specification specification = simulation::Lockstep(3s);
   specification.seed = 9;
@@ -75,7 +75,7 @@ RecorderOptions Options() {
   return options;
 }
 
-TEST(ScenarioAttachment, EachRecordingHasOneThatReadsBack) {
+TEST(ScenarioAttachment, IsInEachRecordingAndCanBeReadBack) {
   const std::string path = ::testing::TempDir() + "gsv_scenario.mcap";
   const auto simulation = Room();
   ASSERT_TRUE(SimulationRecorder::Start(simulation, path, Options()).value()->Stop());
@@ -86,7 +86,7 @@ TEST(ScenarioAttachment, EachRecordingHasOneThatReadsBack) {
   EXPECT_EQ(*scenario, ScenarioOf(*simulation));
 }
 
-TEST(ScenarioAttachment, IsTheScenarioOfTheOptionsIfGiven) {
+TEST(ScenarioAttachment, IsTheOriginalScenarioIfTheOptionsHaveOne) {
   const std::string path = ::testing::TempDir() + "gsv_scenario_told.mcap";
   RecorderOptions options = Options();
   options.scenario = scenario::DefaultScenario();

@@ -10,7 +10,7 @@
 namespace gsv::recording {
 namespace {
 
-// The names of all sensors in the scene.
+// Returns the names of all sensors in the scene.
 std::set<std::string> Names(const SensorLists& lists) {
   std::set<std::string> names;
   for (const auto& [robot, list] : lists) {

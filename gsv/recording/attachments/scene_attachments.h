@@ -1,8 +1,9 @@
-// The attachments with which a replay shows a recording without the original files: the scene as
-// JSON, and each model in it as a GLB file.
+// The attachments with which a replay shows a recording without the original files. They are the
+// scene as JSON, and each of its models as a GLB file.
 //
-// Attachments  `scene.json` at each change of bodies or sensors; of several with one layout_version
-//              the last one counts. `models/ID.glb` with the ID of the scene.
+// Attachments  `scene.json` at each change of bodies or sensors; if several have one
+//              layout_version, the last one applies. `models/ID.glb` with the ID that the scene
+//              uses.
 #pragma once
 
 #include <functional>
@@ -24,17 +25,17 @@ using WriteGlb = std::function<base::Result<std::vector<std::uint8_t>>(const mod
 
 class SceneAttachments {
  public:
-  // `writer` must outlive this.
+  // `writer` must outlive this object.
   SceneAttachments(McapWriter& writer, std::shared_ptr<const sensing::SensorRegistry> types,
                    WriteGlb write_glb);
 
-  // Attaches the scene if it differs from the last one, and new models. A model that cannot be
-  // written is logged and left out.
+  // Attaches new models, and the scene if it differs from the last one. A model that cannot be
+  // written is logged and skipped.
   void Attach(const world::Snapshot& snapshot, const SensorLists& sensors);
 
  private:
   std::string Identify(const std::shared_ptr<const model::Model>& model);
-  // The identifier of its collision shapes; empty: none.
+  // Returns the identifier of the model's collision shapes, or an empty text if it has none.
   std::string IdentifyCollisions(const std::shared_ptr<const model::Model>& model);
   void AttachModel(const model::Model& model, const std::string& id, base::SimTime time);
 
@@ -42,9 +43,9 @@ class SceneAttachments {
   const std::shared_ptr<const sensing::SensorRegistry> types_;
   const WriteGlb write_glb_;
   std::map<std::shared_ptr<const model::Model>, std::string> identities_, collisions_;
-  std::set<std::string> attached_;               // models, by identity
-  std::shared_ptr<const world::Layout> layout_;  // of the last scene
-  std::set<std::string> sensors_;                // of the last scene
+  std::set<std::string> attached_;               // identities of the attached models
+  std::shared_ptr<const world::Layout> layout_;  // the layout of the last scene
+  std::set<std::string> sensors_;                // the sensors of the last scene
 };
 
 }  // namespace gsv::recording

@@ -1,8 +1,9 @@
-// The files of the world and the robots (SDFormat, URDF).
+// Attaches the files of the world and the robots (SDFormat, URDF) to a recording.
 //
-// Attachments  `world/FILE`, and `robots/FOLDER/FILE` for each robot's and avatar's model, once;
-//              media type application/xml. If two have one name, the later is `robots/2/…`.
-// Bounded      files above 4 MiB and files beyond the hundredth are left out, with a warning.
+// Attachments  `world/FILE`, and `robots/FOLDER/FILE` once for the model of each robot and avatar.
+//              The media type is application/xml. If two files have the same name, the later one is
+//              `robots/2/…`.
+// Bounded      files above 4 MiB, and files after the hundredth, are skipped with a warning.
 #pragma once
 
 #include <set>
@@ -18,7 +19,7 @@ inline constexpr std::size_t kMaxSources = 100;
 
 class SourceAttachments {
  public:
-  // `writer` must outlive this.
+  // `writer` must outlive this object.
   explicit SourceAttachments(McapWriter& writer) : writer_(writer) {}
 
   // Attaches the file of the world, if it has one.
@@ -31,8 +32,8 @@ class SourceAttachments {
               base::SimTime time);
 
   McapWriter& writer_;
-  std::set<std::string> sources_;  // that were processed
-  std::set<std::string> names_;    // of attachments
+  std::set<std::string> sources_;  // sources that were processed
+  std::set<std::string> names_;    // names of the attachments
 };
 
 }  // namespace gsv::recording

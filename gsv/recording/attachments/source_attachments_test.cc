@@ -26,7 +26,8 @@ class SourceAttachmentsTest : public testing::Test {
     return path.string();
   }
 
-  // Records one step of a world that was read from `world`, with robots read from these files.
+  // Records one step of a world that was read from `world`, with robots that were read from
+  // `robots`.
   std::map<std::string, std::string> Record(const std::string& world,
                                             const std::vector<std::string>& robots) const {
     simulation::Specification specification = simulation::Lockstep(10ms);
@@ -70,7 +71,7 @@ class SourceAttachmentsTest : public testing::Test {
   const base::Result<base::TemporaryFolder> folder_ = base::TemporaryFolder::Make("gsv-test");
 };
 
-TEST_F(SourceAttachmentsTest, AreTheWorldsAndTheRobotsFilesEachOnce) {
+TEST_F(SourceAttachmentsTest, ContainEachFileOfWorldAndRobotsOnce) {
   const std::string world = Write("hall.sdf", "<sdf>hall</sdf>");
   const std::string pebble = Write("pebble/model.sdf", "<sdf>pebble</sdf>");
   const std::string rover = Write("rover/model.sdf", "<sdf>rover</sdf>");
@@ -80,14 +81,14 @@ TEST_F(SourceAttachmentsTest, AreTheWorldsAndTheRobotsFilesEachOnce) {
                           Pair("world/hall.sdf", "<sdf>hall</sdf>")));
 }
 
-TEST_F(SourceAttachmentsTest, OfOneNameHaveANumber) {
+TEST_F(SourceAttachmentsTest, FilesWithEqualNamesGetANumber) {
   const std::string mine = Write("mine/pebble/model.sdf", "mine");
   const std::string yours = Write("yours/pebble/model.sdf", "yours");
   EXPECT_THAT(Record("", {mine, yours}), ElementsAre(Pair("robots/2/pebble/model.sdf", "yours"),
                                                      Pair("robots/pebble/model.sdf", "mine")));
 }
 
-TEST_F(SourceAttachmentsTest, LeaveOutWhatIsMissingOrTooLarge) {
+TEST_F(SourceAttachmentsTest, OmitMissingAndTooLargeFiles) {
   const std::string large = Write("large/model.sdf", std::string(kMaxSourceBytes + 1, ' '));
   const std::string full = Write("full/model.sdf", std::string(kMaxSourceBytes, ' '));
   const auto found = Record(folder_->path() / "gone.sdf", {large, full, folder_->path()});

@@ -1,5 +1,5 @@
-// Any bytes as a recording. They are refused, or read as far as they are valid, and recovered into
-// a recording without errors.
+// Reads any bytes as a recording. They must be rejected, or read as far as they are valid. They
+// must be recovered into a recording without errors.
 #include <cstdint>
 
 #include "gsv/base/check.h"
@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::uint64_t kMaxMessages = 100'000;
 
-// By time, from the middle and from the beginning: the channel of each message exists.
+// Reads the messages by time, from the middle and from the beginning. The channel of each message
+// must exist.
 std::uint64_t CountInOrder(const McapReader& reader, base::SimTime from) {
   MessageCursor cursor = reader.Messages(from);
   base::SimTime last = base::SimTime::min();

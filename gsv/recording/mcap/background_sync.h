@@ -1,4 +1,4 @@
-// Synchronises a sink to its disk on its own thread: this may take seconds, and writing continues
+// Synchronises a sink to its disk on its own thread. This may take seconds, and writing continues
 // meanwhile.
 //
 // Threads  any.
@@ -13,14 +13,14 @@ namespace gsv::recording {
 
 class BackgroundSync {
  public:
-  // `sink` must outlive this, and accept writes while it is synchronised.
+  // `sink` must outlive this object, and must accept writes while it is synchronised.
   explicit BackgroundSync(ByteSink& sink);
-  // Waits for requested synchronisations.
+  // Waits for the requested synchronisations.
   ~BackgroundSync();
 
   // Requests the synchronisation of all earlier writes. Returns at once.
   void Ask();
-  // The first error of the disk.
+  // The first error of the disk, if there was one.
   base::Status status() const;
 
  private:

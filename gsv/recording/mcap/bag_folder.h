@@ -1,7 +1,7 @@
-// A recording as rosbag2 keeps it: a folder NAME with NAME_0.mcap and a metadata.yaml.
+// A recording in the form of rosbag2: a folder NAME with NAME_0.mcap and metadata.yaml.
 //
-// Source  rosbag2_storage, bag metadata version 5 (ROS 2 Humble and later). The YAML is JSON, which
-//         YAML 1.2 contains.
+// Source  rosbag2_storage, bag metadata version 5 (ROS 2 Humble and later). The file is written as
+//         JSON, which is valid YAML 1.2.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace gsv::recording {
 
-// Creates the folder and returns the path of the recording in it. Fails if the name exists.
+// Creates the folder and returns the path of the recording in it. Fails if the folder exists.
 base::Result<std::string> MakeBagFolder(const std::string& folder);
 
 // Writes metadata.yaml beside a complete recording.
 base::Status WriteBagMetadata(const std::string& file);
 
-// The recording at a path: the file itself, or the first file (by name) in a folder.
+// Returns the recording at a path: the file itself, or the first file (by name) in a folder.
 std::string RecordingFile(const std::string& path);
 
 }  // namespace gsv::recording

@@ -27,7 +27,7 @@ class BagFolder : public ::testing::Test {
   const fs::path folder_;
 };
 
-TEST_F(BagFolder, HoldsARecordingAndItsMetadata) {
+TEST_F(BagFolder, ContainsARecordingAndItsMetadata) {
   const auto file = MakeBagFolder(folder_.string() + "/");
   ASSERT_TRUE(file) << file.error().Sentence();
   const std::string name = folder_.filename().string() + "_0.mcap";
@@ -54,7 +54,7 @@ TEST_F(BagFolder, HoldsARecordingAndItsMetadata) {
   EXPECT_EQ((*reader)->summary().message_count, 30u);
 }
 
-TEST_F(BagFolder, IsNotMadeWhereSomethingIs) {
+TEST_F(BagFolder, FailsIfTheNameExists) {
   ASSERT_TRUE(MakeBagFolder(folder_));
   const auto again = MakeBagFolder(folder_);
   ASSERT_FALSE(again);
@@ -62,7 +62,7 @@ TEST_F(BagFolder, IsNotMadeWhereSomethingIs) {
   EXPECT_FALSE(MakeBagFolder(folder_ / "no" / "such"));
 }
 
-TEST_F(BagFolder, AFolderWithoutARecordingIsAnErrorOfItsOwn) {
+TEST_F(BagFolder, FolderWithoutARecordingIsAnError) {
   ASSERT_TRUE(MakeBagFolder(folder_));
   EXPECT_FALSE(McapReader::Open(folder_.string()));
 }

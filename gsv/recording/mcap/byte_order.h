@@ -1,4 +1,5 @@
-// Scalars, strings and maps in MCAP: little endian, unaligned, with lengths of 32 bits.
+// Reads and writes scalars, strings and maps in MCAP: little endian, unaligned, with lengths of 32
+// bits.
 #pragma once
 
 #include <bit>
@@ -46,7 +47,7 @@ inline void PutString(Bytes& out, std::string_view text) {
 // returns zero or nothing.
 class ByteReader {
  public:
-  // `bytes` must outlive the reader and what it returns.
+  // `bytes` must outlive the reader and the values that it returns.
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
   bool ok() const { return ok_; }

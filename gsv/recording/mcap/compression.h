@@ -12,12 +12,13 @@ struct ZSTD_CCtx_s;
 
 namespace gsv::recording {
 
-// The checksum of `bytes`. `before`: checksum of the preceding bytes, to continue it.
+// Returns the checksum of `bytes`. `before` is the checksum of the preceding bytes, which is
+// continued.
 std::uint32_t Crc32(std::span<const std::byte> bytes, std::uint32_t before = 0);
 
 class ZstdCompressor {
  public:
-  // `level` is zstd's, 1 to 19.
+  // `level` is zstd's compression level, 1 to 19.
   explicit ZstdCompressor(int level);
 
   Bytes Compress(std::span<const std::byte> bytes);
@@ -29,8 +30,8 @@ class ZstdCompressor {
   std::unique_ptr<ZSTD_CCtx_s, Free> context_;
 };
 
-// Decompresses to `size` bytes; kCorrupt if the result has another size. Allocates at most `size`
-// bytes; the caller must limit it.
+// Decompresses to `size` bytes. Returns kCorrupt if the result has another size. Allocates at most
+// `size` bytes, which the caller must limit.
 [[nodiscard]] base::Result<Bytes> ZstdDecompress(std::span<const std::byte> bytes,
                                                  std::size_t size);
 

@@ -62,7 +62,7 @@ base::Status FileSink::Write(std::span<const std::byte> bytes) {
 }
 
 base::Status FileSink::Sync() {
-  // EINVAL: the file is not on a disk.
+  // EINVAL means that the file is not on a disk.
   if (::fdatasync(file_.get()) == 0 || errno == EINVAL) return {};
   return Fail(ErrorCode::kUnavailable,
               "cannot write the recording to its disk: " + SystemMessage(errno), path_);
@@ -101,7 +101,7 @@ base::Result<Bytes> FileSource::Read(std::uint64_t offset, std::uint64_t length)
       return Fail(ErrorCode::kUnavailable, "cannot read the recording: " + SystemMessage(errno),
                   path_);
     }
-    if (size == 0) return ReadsTooFar(path_);  // truncated after it was opened
+    if (size == 0) return ReadsTooFar(path_);  // the file was truncated after it was opened
     done += static_cast<std::size_t>(size);
   }
   return bytes;

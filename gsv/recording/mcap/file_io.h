@@ -12,7 +12,7 @@
 
 namespace gsv::recording {
 
-// An output of bytes. Sync() may be called while another thread writes.
+// An output for bytes. Sync() may be called while another thread writes.
 class ByteSink {
  public:
   virtual ~ByteSink() = default;
@@ -20,7 +20,7 @@ class ByteSink {
   [[nodiscard]] virtual base::Status Write(std::span<const std::byte> bytes) = 0;
   // Returns when all written bytes survive a loss of power.
   [[nodiscard]] virtual base::Status Sync() = 0;
-  // Truncates to the first `size` bytes, if the sink can.
+  // Truncates the output to its first `size` bytes, if it supports that.
   [[nodiscard]] virtual base::Status Truncate(std::uint64_t size) = 0;
 };
 
@@ -29,7 +29,7 @@ class ByteSource {
  public:
   virtual ~ByteSource() = default;
   virtual std::uint64_t size() const = 0;
-  // Reads `length` bytes from `offset` on; kCorrupt if there are fewer.
+  // Reads `length` bytes from `offset` on. Returns kCorrupt if there are fewer.
   [[nodiscard]] virtual base::Result<Bytes> Read(std::uint64_t offset,
                                                  std::uint64_t length) const = 0;
 };
@@ -49,7 +49,8 @@ class FileDescriptor {
 
 class FileSink : public ByteSink {
  public:
-  // Creates the file. kInvalidArgument if it exists and is not empty, unless `replace` is set.
+  // Creates the file. Returns kInvalidArgument if it exists and is not empty, unless `replace` is
+  // true.
   [[nodiscard]] static base::Result<std::unique_ptr<FileSink>> Create(std::string path,
                                                                       bool replace);
 

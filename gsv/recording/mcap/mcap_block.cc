@@ -84,7 +84,7 @@ base::Result<BlockMessages> ReadMessages(const ByteSource& source, const Message
                                          const Channels& channels, const Limits& limits) {
   base::Result<Bytes> records = ReadRecords(source, block, limits);
   if (!records) return base::Fail(std::move(records.error()));
-  // Moving a vector does not move its elements.
+  // Moving the vector does not move its elements, so the views of them stay valid.
   BlockMessages result{std::move(*records), {}};
   auto messages = ListMessages(result.records, block, channels);
   if (!messages) return base::Fail(std::move(messages.error()));

@@ -1,7 +1,7 @@
 // Reads and checks the parts of a recording that hold its messages.
 //
-// Input  untrusted: sizes are checked before use, and memory is limited by Limits and the size of
-//        the file.
+// Input  untrusted. Sizes are checked before use, and memory is limited by Limits and by the size
+//        of the file.
 #pragma once
 
 #include <map>
@@ -14,40 +14,41 @@
 namespace gsv::recording {
 
 struct Limits {
-  // Of one uncompressed chunk, and of any other record except attachments.
+  // Maximum size of one uncompressed chunk, and of any other record except attachments.
   std::uint64_t record_size = std::uint64_t{256} << 20;
-  // Of the summary.
+  // Maximum size of the summary.
   std::uint64_t summary_size = std::uint64_t{1} << 30;
-  // Of all chunks that overlap in time and must be open together to read messages in order.
+  // Maximum size of all chunks that overlap in time and must be open together to read messages in
+  // order.
   std::uint64_t open_blocks_size = std::uint64_t{1} << 30;
 };
 
-// A chunk, or messages in the file outside of chunks.
+// A chunk, or a run of messages that are outside of chunks.
 struct MessageBlock {
-  std::uint64_t offset = 0;  // of its first record
+  std::uint64_t offset = 0;  // the place of its first record in the file
   std::uint64_t length = 0;
   bool is_chunk = true;
   std::uint64_t uncompressed_size = 0;
-  base::SimTime start{};  // of the earliest message
-  base::SimTime end{};    // of the latest
-  // The channels with messages in the block, ascending; empty: unknown.
+  base::SimTime start{};  // time of the earliest message
+  base::SimTime end{};    // time of the latest message
+  // The channels with messages in the block, in ascending order; empty if they are unknown.
   std::vector<std::uint16_t> channels{};
 };
 
 using Channels = std::map<std::uint16_t, ChannelRecord>;
 
-// The records of a block, uncompressed and checked.
+// Returns the records of a block, uncompressed and checked.
 [[nodiscard]] base::Result<Bytes> ReadRecords(const ByteSource& source, const MessageBlock& block,
                                               const Limits& limits);
 
-// The messages among the records, in their order; they refer to `records`. kCorrupt if one has no
-// channel or is outside the time range of the block.
+// Returns the messages among the records, in their order; they refer to `records`. Returns kCorrupt
+// if a message has no channel, or is outside the time range of the block.
 [[nodiscard]] base::Result<std::vector<MessageRecord>> ListMessages(
     std::span<const std::byte> records, const MessageBlock& block, const Channels& channels);
 
 struct BlockMessages {
   Bytes records;
-  std::vector<MessageRecord> messages;  // refer to `records`
+  std::vector<MessageRecord> messages;  // they refer to `records`
 };
 [[nodiscard]] base::Result<BlockMessages> ReadMessages(const ByteSource& source,
                                                        const MessageBlock& block,

@@ -7,8 +7,8 @@
 namespace gsv::recording {
 namespace {
 
-// The summary section at offset `start`: groups of records of one kind, then the offset of each
-// group.
+// Builds the summary section at offset `start`: groups of records of one kind, then the offset of
+// each group.
 class SummaryBuilder {
  public:
   explicit SummaryBuilder(std::uint64_t start) : start_(start) {}
@@ -26,7 +26,7 @@ class SummaryBuilder {
     PutBytes(bytes_, records);
   }
 
-  // The section, the footer with its checksum, and the final magic.
+  // Returns the section, the footer with its checksum, and the final magic.
   Bytes Finish() {
     const std::uint64_t offset_start = start_ + bytes_.size();
     for (const SummaryOffsetRecord& offset : offsets_) Append(bytes_, offset);
@@ -154,7 +154,8 @@ base::Status McapFileWriter::Close() {
     WriteEnd();
     if (status_) status_ = sink_.Sync();
   } else if (ends_in_a_record_ && position_ > 0) {
-    // The space that the failed record had used may suffice for the summary. The reason stays.
+    // The space that the failed record had used may suffice for the summary. The first error stays
+    // the reason.
     base::Status reason = std::exchange(status_, base::Status{});
     WriteEnd();
     status_ = std::move(reason);

@@ -1,12 +1,13 @@
 // Writes an MCAP file, record by record, on the calling thread.
 //
-// Format   docs/formats/recording.md: messages in zstd chunks, each with its message index; schemas
-//          and channels are outside of chunks, so that a damaged chunk affects no other; the
-//          summary is at the end. All checksums are written.
-// Errors   the first one ends the recording: status() and all later calls return it. Complete
+// Format   docs/formats/recording.md. Messages are in zstd chunks, each with its message index.
+//          Schemas and channels are outside of chunks, so that a damaged chunk affects no other.
+//          The summary is at the end. All checksums are written.
+// Errors   the first error ends the recording, and status() and all later calls return it. Complete
 //          records stay readable: the file is truncated after the last complete record, and Close()
 //          still tries to write the summary.
-// Threads  one at a time. McapWriter serves several threads and never waits for the disk.
+// Threads  one at a time. McapWriter is the class for several threads, which never waits for the
+//          disk.
 #pragma once
 
 #include "gsv/base/error.h"
@@ -26,22 +27,22 @@ struct FileOptions {
 
 class McapFileWriter {
  public:
-  // Writes the head of the file. `sink` must outlive the writer.
+  // Writes the start of the file. `sink` must outlive the writer.
   McapFileWriter(ByteSink& sink, FileOptions options);
 
   base::Status AddSchema(SchemaRecord schema);
-  // Its schema must have been added.
+  // Adds a channel. Its schema must have been added before.
   base::Status AddChannel(ChannelRecord channel);
-  // Its channel must have been added.
+  // Writes a message. Its channel must have been added before.
   base::Status Write(const MessageRecord& message);
   base::Status Attach(const AttachmentRecord& attachment);
   base::Status AddMetadata(const MetadataRecord& metadata);
 
-  // Writes the current chunk, unless it is empty. It then survives a crash of this process.
+  // Writes the current chunk, unless it is empty. The chunk then survives a crash of this process.
   base::Status CloseChunk();
-  // As CloseChunk(), and returns when the chunk survives a loss of power.
+  // Like CloseChunk(), but returns when the chunk survives a loss of power.
   base::Status Flush();
-  // Writes the current chunk and the summary. No call may follow.
+  // Writes the current chunk and the summary. No other call may follow.
   base::Status Close();
 
   const base::Status& status() const { return status_; }
@@ -57,15 +58,15 @@ class McapFileWriter {
   const FileOptions options_;
   base::Status status_;
   bool closed_ = false;
-  bool ends_in_a_record_ = true;  // after an error: whether the file was truncated
+  bool ends_in_a_record_ = true;  // whether the file was truncated after an error
   std::uint64_t position_ = 0;
-  std::uint32_t crc_ = 0;  // of all bytes before position_
+  std::uint32_t crc_ = 0;  // checksum of all bytes before position_
   ChunkBuilder chunk_;
 
-  // For the summary.
+  // The following members are for the summary.
   std::map<std::uint16_t, SchemaRecord> schemas_;
   std::map<std::uint16_t, ChannelRecord> channels_;
-  Bytes chunk_indexes_;  // kept as records, as long recordings have many
+  Bytes chunk_indexes_;  // in encoded form, because long recordings have many
   std::vector<AttachmentIndexRecord> attachment_indexes_;
   std::vector<MetadataIndexRecord> metadata_indexes_;
   StatisticsRecord statistics_;

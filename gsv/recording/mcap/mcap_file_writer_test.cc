@@ -13,7 +13,7 @@ using testing::ElementsAre;
 using testing::ElementsAreArray;
 using testing::HasSubstr;
 
-// A disk with space for this number of bytes.
+// A disk that is full after this number of bytes.
 class SmallDisk : public ByteSink {
  public:
   SmallDisk(Bytes& out, std::size_t room) : out_(out), room_(room) {}
@@ -34,8 +34,8 @@ class SmallDisk : public ByteSink {
   std::size_t room_;
 };
 
-TEST(Crc32, IsTheOneOfZipAndPng) {
-  // The check value of CRC-32/ISO-HDLC.
+TEST(Crc32, EqualsTheCrcOfZipAndPng) {
+  // This is the check value of CRC-32/ISO-HDLC.
   EXPECT_EQ(Crc32(AsBytes("123456789")), 0xcbf43926U);
   EXPECT_EQ(Crc32(AsBytes("6789"), Crc32(AsBytes("12345"))), 0xcbf43926U);
   EXPECT_EQ(Crc32({}, 5), 5U);
@@ -51,7 +51,7 @@ TEST(McapFileWriter, BeginsWithTheMagicAndAHeader) {
                                                                30))));
 }
 
-TEST(McapFileWriter, OrdersItsRecordsSoThatReadersNeverLookBack) {
+TEST(McapFileWriter, WritesDefinitionsBeforeTheirUse) {
   const Bytes bytes = ThreeChunks();
   std::vector<Opcode> kinds;
   for (const Place& place : PlacesIn(bytes)) kinds.push_back(place.opcode);
@@ -73,7 +73,7 @@ TEST(McapFileWriter, ClosesAChunkWhenItIsLargeEnough) {
   ASSERT_TRUE(writer.AddSchema(SchemaOfClock()));
   ASSERT_TRUE(writer.AddChannel(ChannelOf(0, "/clock")));
   const Bytes data = ClockMessage(0ms);
-  // A message's record has 9 + 22 + 12 bytes: three of them exceed 100.
+  // A message record has 9 + 22 + 12 bytes, so three of them exceed 100.
   for (int i = 0; i < 7; ++i) ASSERT_TRUE(writer.Write({0, 0, 0ms, 0ms, data}));
   ASSERT_TRUE(writer.Close());
   const auto reader = Open(bytes);
@@ -82,9 +82,9 @@ TEST(McapFileWriter, ClosesAChunkWhenItIsLargeEnough) {
   EXPECT_EQ((*reader)->summary().message_count, 7U);
 }
 
-// For every size of the disk, the first error is reported and stays, and all chunks that were
+// Whatever the size of the disk, the first error is reported and kept, and all chunks that were
 // complete by then can be read.
-TEST(McapFileWriter, KeepsWhatItHasWrittenWhenTheDiskIsFull) {
+TEST(McapFileWriter, KeepsCompleteChunksWhenTheDiskIsFull) {
   const std::size_t needed = ThreeChunks().size();
   std::size_t read_with_a_summary = 0;
   for (std::size_t room = 0; room < needed; room += 7) {

@@ -1,4 +1,4 @@
-// Reads a recording: its summary, messages from any time on, attachments and metadata.
+// Reads a recording: its summary, its messages from any time on, its attachments and metadata.
 //
 // Input    untrusted, see mcap_block.h. A truncated or damaged file is read as far as possible;
 //          summary().problems lists what is missing.
@@ -17,15 +17,15 @@ namespace gsv::recording {
 struct Attachment {
   std::string name;
   std::string media_type;
-  std::chrono::nanoseconds log_time{};     // simulated
-  std::chrono::nanoseconds create_time{};  // of the file, since 1970
+  std::chrono::nanoseconds log_time{};     // simulated time
+  std::chrono::nanoseconds create_time{};  // when the file was created, since 1970
   Bytes data;
 };
 
 class McapReader {
  public:
-  // Opens a file, or the file in a folder (see bag_folder.h). kNotFound, or kCorrupt if it is not a
-  // recording.
+  // Opens a file, or the recording in a folder (see bag_folder.h). Returns kNotFound, or kCorrupt
+  // if it is not a recording.
   [[nodiscard]] static base::Result<std::unique_ptr<McapReader>> Open(const std::string& path,
                                                                       const Limits& limits = {});
   [[nodiscard]] static base::Result<std::unique_ptr<McapReader>> Open(
@@ -35,12 +35,13 @@ class McapReader {
   const Limits& limits() const { return limits_; }
   std::uint64_t size() const { return source_->size(); }
 
-  // The messages from `from` on, by time. The reader must outlive the cursor.
+  // Iterates over the messages from `from` on, ordered by time. The reader must outlive the cursor.
   MessageCursor Messages(base::SimTime from = base::SimTime::min()) const;
-  // The messages of one of summary().blocks, in the order of the file.
+  // Returns the messages of one of summary().blocks, in the order of the file.
   [[nodiscard]] base::Result<BlockMessages> Messages(const MessageBlock& block) const;
 
-  // Reads one of summary().attachments or summary().metadata. kCorrupt if a checksum is wrong.
+  // Reads one of summary().attachments or summary().metadata. Returns kCorrupt if a checksum is
+  // wrong.
   [[nodiscard]] base::Result<Attachment> Read(const AttachmentIndexRecord& index) const;
   [[nodiscard]] base::Result<MetadataRecord> Read(const MetadataIndexRecord& index) const;
 

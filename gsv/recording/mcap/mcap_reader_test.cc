@@ -22,7 +22,8 @@ std::string AllProblems(const Summary& summary) {
   return text;
 }
 
-// The head of a file, a schema and the channel 0, for files unlike those of our writer.
+// The start of a file, a schema and the channel 0. Tests append records that our writer does not
+// write.
 Bytes HeadOfForeignFile() {
   Bytes bytes(kMagic.begin(), kMagic.end());
   Append(bytes, HeaderRecord{"", "foreign"});
@@ -95,7 +96,7 @@ TEST(McapReader, OrdersMessagesOfChunksThatOverlap) {
   EXPECT_GT(TimesIn(**strict).errors, 0);
 }
 
-TEST(McapReader, FindsTheSameWithoutTheSummary) {
+TEST(McapReader, FindsTheSameContentWithoutTheSummary) {
   const Bytes bytes = ThreeChunks();
   const auto indexed = Open(bytes);
   ASSERT_TRUE(indexed);
@@ -157,7 +158,7 @@ TEST(McapReader, ReportsAnUnknownCompression) {
   EXPECT_THAT(AllProblems((*reader)->summary()), HasSubstr("found 'lz4'"));
 }
 
-TEST(McapReader, RefusesFilesThatAreNotRecordings) {
+TEST(McapReader, RejectsFilesThatAreNotRecordings) {
   for (const std::string_view text : {"", "\x89MCAP", "<sdf version='1.9'/>"}) {
     const auto reader = Open(AsBytes(text));
     ASSERT_FALSE(reader) << text;
@@ -169,14 +170,14 @@ TEST(McapReader, RefusesFilesThatAreNotRecordings) {
   EXPECT_EQ(missing.error().code, base::ErrorCode::kNotFound);
 }
 
-TEST(McapReader, AllocatesNoMoreThanItsLimitsForAChunkThatUnpacksHuge) {
+TEST(McapReader, LimitsTheMemoryForADecompressedChunk) {
   const Bytes zeros(std::size_t{64} << 20);
   ZstdCompressor compressor(1);
   const Bytes packed = compressor.Compress(zeros);
   ASSERT_LT(packed.size(), zeros.size() / 1000);
   Bytes bytes = HeadOfForeignFile();
   Append(bytes, ChunkRecord{0ms, 0ms, zeros.size(), 0, "zstd", packed});
-  // A chunk that declares a small size.
+  // This chunk declares a smaller size than it has.
   Append(bytes, ChunkRecord{0ms, 0ms, 100, 0, "zstd", packed});
   const auto reader = Open(bytes, {.record_size = 1 << 20});
   ASSERT_TRUE(reader);
@@ -185,7 +186,7 @@ TEST(McapReader, AllocatesNoMoreThanItsLimitsForAChunkThatUnpacksHuge) {
   EXPECT_THAT(AllProblems((*reader)->summary()), HasSubstr("its zstd frame and its size disagree"));
 }
 
-TEST(McapReader, DoesNotFollowASummaryWhoseChunksOverlap) {
+TEST(McapReader, IgnoresASummaryWithOverlappingChunks) {
   Bytes bytes = HeadOfForeignFile();
   const std::uint64_t start = bytes.size();
   ChunkIndexRecord index{.chunk_offset = 8, .chunk_length = 20};
@@ -200,9 +201,9 @@ TEST(McapReader, DoesNotFollowASummaryWhoseChunksOverlap) {
   EXPECT_THAT(AllProblems((*reader)->summary()), HasSubstr("chunks overlap"));
 }
 
-TEST(McapReader, StopsWhereAFileIsFilledWithZeros) {
+TEST(McapReader, StopsAtZerosAtTheEndOfAFile) {
   Bytes bytes = ThreeChunks();
-  const Place index = PlacesIn(bytes)[7];  // after the first chunk
+  const Place index = PlacesIn(bytes)[7];  // the place after the first chunk
   std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(index.begin), bytes.end(), std::byte{0});
   const auto reader = Open(bytes);
   ASSERT_TRUE(reader);
@@ -223,8 +224,8 @@ TEST(McapReader, ContinuesAfterADamagedChunk) {
   EXPECT_THAT(found.times, SizeIs(20));
 }
 
-// If any single bit is wrong, all messages that can be read are among the written ones.
-TEST(McapReader, SurvivesAnyFlippedBit) {
+// A file with one wrong bit must give no message that was not written.
+TEST(McapReader, ReturnsNoWrongMessageForAnyFlippedBit) {
   Bytes bytes = ThreeChunks();
   for (std::size_t bit = 0; bit < bytes.size() * 8; ++bit) {
     const std::byte mask{static_cast<unsigned char>(1U << (bit % 8))};

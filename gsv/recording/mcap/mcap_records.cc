@@ -215,7 +215,7 @@ void Append(Bytes& out, const DataEndRecord& record) {
   Put(out, record.data_crc);
 }
 
-// In a braced initialiser list, reads occur in the order in which they are written.
+// The initialisers of a braced list are evaluated in the order in which they are written.
 
 template <>
 std::optional<HeaderRecord> Parse(std::span<const std::byte> content) {

@@ -3,7 +3,7 @@
 // Format  MCAP, version 0 of its specification (mcap.dev/spec): a record is an opcode, the length
 //         of its content (64 bits) and the content. docs/formats/recording.md describes their order
 //         in a file.
-// Errors  Parse() accepts any bytes, and returns nothing for an invalid record.
+// Errors  Parse() accepts any bytes, and returns nullopt for an invalid record.
 #pragma once
 
 #include <array>
@@ -45,14 +45,14 @@ struct HeaderRecord {
 };
 
 struct FooterRecord {
-  std::uint64_t summary_start = 0;  // 0: there is no summary
+  std::uint64_t summary_start = 0;  // 0 if there is no summary
   std::uint64_t summary_offset_start = 0;
-  std::uint32_t summary_crc = 0;  // 0: not given
+  std::uint32_t summary_crc = 0;  // 0 if it is not given
 };
 inline constexpr std::size_t kFooterSize = kRecordHeaderSize + 20;
 
 struct SchemaRecord {
-  std::uint16_t id = 0;  // not 0
+  std::uint16_t id = 0;  // must not be 0
   std::string name;
   std::string encoding;
   std::string data;
@@ -62,7 +62,7 @@ struct SchemaRecord {
 
 struct ChannelRecord {
   std::uint16_t id = 0;
-  std::uint16_t schema_id = 0;  // 0: none
+  std::uint16_t schema_id = 0;  // 0 if there is none
   std::string topic;
   std::string message_encoding;
   StringMap metadata;
@@ -75,16 +75,16 @@ struct MessageRecord {
   std::uint32_t sequence = 0;
   base::SimTime log_time{};
   base::SimTime publish_time{};
-  std::span<const std::byte> data;  // belongs to someone else
+  std::span<const std::byte> data;  // the bytes have another owner
 };
 
 struct ChunkRecord {
-  base::SimTime start{};  // of the earliest message
-  base::SimTime end{};    // of the latest
+  base::SimTime start{};  // time of the earliest message
+  base::SimTime end{};    // time of the latest message
   std::uint64_t uncompressed_size = 0;
-  std::uint32_t uncompressed_crc = 0;  // 0: not given
-  std::string compression;             // "", "zstd", …
-  std::span<const std::byte> records;  // belongs to someone else
+  std::uint32_t uncompressed_crc = 0;  // 0 if it is not given
+  std::string compression;             // empty, or a name such as "zstd"
+  std::span<const std::byte> records;  // the bytes have another owner
 };
 
 // The positions of the messages of one channel in one chunk: time, and offset in the uncompressed
@@ -97,8 +97,8 @@ struct MessageIndexRecord {
 struct ChunkIndexRecord {
   base::SimTime start{};
   base::SimTime end{};
-  std::uint64_t chunk_offset = 0;  // of the chunk's record in the file
-  std::uint64_t chunk_length = 0;  // of the whole record
+  std::uint64_t chunk_offset = 0;  // place of the chunk's record in the file
+  std::uint64_t chunk_length = 0;  // length of the whole record
   std::map<std::uint16_t, std::uint64_t> message_index_offsets{};
   std::uint64_t message_index_length = 0;
   std::string compression{};
@@ -107,11 +107,11 @@ struct ChunkIndexRecord {
 };
 
 struct AttachmentRecord {
-  std::chrono::nanoseconds log_time{};     // simulated
-  std::chrono::nanoseconds create_time{};  // of the file, since 1970
+  std::chrono::nanoseconds log_time{};     // simulated time
+  std::chrono::nanoseconds create_time{};  // when the file was created, since 1970
   std::string name;
   std::string media_type;
-  std::span<const std::byte> data;  // belongs to someone else
+  std::span<const std::byte> data;  // the bytes have another owner
 };
 
 struct AttachmentIndexRecord {
@@ -149,7 +149,7 @@ struct MetadataIndexRecord {
   std::string name;
 };
 
-// The position of the records of one kind in the summary.
+// The place of the records of one kind in the summary.
 struct SummaryOffsetRecord {
   Opcode group{};
   std::uint64_t start = 0;
@@ -157,10 +157,10 @@ struct SummaryOffsetRecord {
 };
 
 struct DataEndRecord {
-  std::uint32_t data_crc = 0;  // of everything before this record; 0: not given
+  std::uint32_t data_crc = 0;  // checksum of everything before this record; 0 if it is not given
 };
 
-// Each appends the complete record, an attachment with its CRC.
+// Each of these appends the complete record. The record of an attachment includes its CRC.
 void Append(Bytes& out, const HeaderRecord& record);
 void Append(Bytes& out, const FooterRecord& record);
 void Append(Bytes& out, const SchemaRecord& record);
@@ -177,8 +177,8 @@ void Append(Bytes& out, const MetadataIndexRecord& record);
 void Append(Bytes& out, const SummaryOffsetRecord& record);
 void Append(Bytes& out, const DataEndRecord& record);
 
-// Parses the content of one record (without opcode and length). Not defined for MessageIndex,
-// SummaryOffset and DataEnd, which readers do not need. Checks the CRC of an attachment.
+// Parses the content of one record, without opcode and length. It is not defined for MessageIndex,
+// SummaryOffset and DataEnd, which readers do not need. It checks the CRC of an attachment.
 template <typename Record>
 std::optional<Record> Parse(std::span<const std::byte> content);
 template <>
@@ -206,7 +206,7 @@ std::optional<MetadataRecord> Parse(std::span<const std::byte> content);
 template <>
 std::optional<MetadataIndexRecord> Parse(std::span<const std::byte> content);
 
-// Parses the head of an attachment. The content may end after its media type.
+// Parses the start of an attachment. The content may end after its media type.
 std::optional<AttachmentIndexRecord> ParseAttachmentHead(std::span<const std::byte> content);
 
 struct RawRecord {
@@ -214,7 +214,7 @@ struct RawRecord {
   std::span<const std::byte> content;
 };
 
-// Takes the next record off `records`; nothing if it is incomplete.
+// Removes the next record from `records` and returns it, or nullopt if it is incomplete.
 std::optional<RawRecord> TakeRecord(std::span<const std::byte>& records);
 
 }  // namespace gsv::recording

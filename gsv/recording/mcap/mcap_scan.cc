@@ -1,5 +1,5 @@
-// Finds the content of a recording without its summary: reads record by record, as far as they are
-// valid.
+// Finds the content of a recording without its summary. It reads record by record, up to the first
+// invalid one.
 #include <algorithm>
 #include <set>
 
@@ -10,16 +10,16 @@ namespace {
 
 // Messages outside of chunks are grouped in blocks of about this size.
 constexpr std::uint64_t kLooseBlockSize = std::uint64_t{4} << 20;
-// Enough bytes of an attachment for its name and media type.
+// So many bytes of an attachment include its name and media type.
 constexpr std::uint64_t kAttachmentHeadSize = std::uint64_t{64} << 10;
 constexpr std::size_t kMaxProblems = 100;
 
-// A part of the file in memory, so that small records need no separate reads.
+// A part of the file that is kept in memory, so that small records need no separate reads.
 class Window {
  public:
   explicit Window(const ByteSource& source) : source_(source) {}
 
-  // Valid until the next call. Empty if the file cannot be read there.
+  // The result is valid until the next call. It is empty if the file cannot be read there.
   std::span<const std::byte> Read(std::uint64_t offset, std::uint64_t length) {
     if (offset < start_ || offset + length > start_ + bytes_.size()) {
       const std::uint64_t left = source_.size() - offset;
@@ -50,7 +50,7 @@ class Scanner {
   }
 
  private:
-  // Takes the next record; false at the end.
+  // Reads the next record. Returns false at the end.
   bool Step() {
     const std::uint64_t left = source_.size() - offset_;
     if (left == 0) {
@@ -96,7 +96,8 @@ class Scanner {
     }
   }
 
-  // Empty, which is invalid for every kind of record, if it is too large.
+  // The content of the record. If the record is too large, it is empty, which is invalid for every
+  // kind of record.
   std::span<const std::byte> Content() {
     const std::uint64_t length = length_ - kRecordHeaderSize;
     if (length > limits_.record_size) return {};
@@ -198,7 +199,7 @@ class Scanner {
   const Limits& limits_;
   Window window_;
   Summary summary_;
-  std::uint64_t offset_;  // of the current record
+  std::uint64_t offset_;  // the place of the current record
   std::uint64_t length_ = 0;
   Opcode opcode_{};
 };

@@ -7,8 +7,8 @@
 namespace gsv::recording {
 namespace {
 
-// Reads the summary at the end of a file. Any damage makes it unusable. Returns the reason, or
-// nothing if it is valid.
+// Reads the summary at the end of a file. Any damage makes the summary unusable. Returns the
+// reason, or an empty text if the summary is valid.
 class SummaryReader {
  public:
   using Reason = std::optional<std::string>;
@@ -123,7 +123,7 @@ class SummaryReader {
     if (summary_.message_count > 0 && blocks.empty()) return "its summary has no chunks";
     std::sort(blocks.begin(), blocks.end(),
               [](const MessageBlock& a, const MessageBlock& b) { return a.offset < b.offset; });
-    // Overlapping chunks could be many times larger than the file.
+    // If chunks could overlap in the file, their total size could be many times that of the file.
     std::uint64_t free_from = kMagic.size();
     for (const MessageBlock& block : blocks) {
       if (block.offset < free_from || block.offset > start_ ||

@@ -11,10 +11,10 @@
 namespace gsv::recording {
 namespace {
 
-// The writer's thread is woken when this much is queued, not for each message.
+// The writer's thread is woken when so many bytes are queued, not for each message.
 constexpr std::size_t kWorthWaking = std::size_t{256} << 10;
 
-// Separates the records that Append() has joined.
+// Writes the records that Append() has joined, one by one.
 void WriteBatch(McapFileWriter& file, std::span<const std::byte> batch) {
   while (const std::optional<RawRecord> record = TakeRecord(batch)) {
     switch (record->opcode) {
@@ -103,7 +103,7 @@ void McapWriter::Write(ChannelId channel, base::SimTime log_time, std::span<cons
   base::MutexLock lock(mutex_);
   GSV_CHECK(channel < sequences_.size());
   if (queued() >= options_.queue_size && options_.when_full == WhenFull::kDrop) {
-    ++sequences_[channel];  // the gap in the sequence is then visible
+    ++sequences_[channel];  // a reader can see the gap in the sequence
     ++progress_.dropped;
     return;
   }
@@ -135,7 +135,7 @@ void McapWriter::EnqueueWhole(Bytes record) {
   Queued(before);
 }
 
-// False if the recording has ended.
+// Returns false if the recording has ended.
 bool McapWriter::WaitForSpace(base::MutexLock& lock) {
   const auto has_room = [&]() GSV_REQUIRES(mutex_) {
     return queued() < options_.queue_size || closing_ || !status_;
@@ -148,7 +148,7 @@ bool McapWriter::WaitForSpace(base::MutexLock& lock) {
   return status_.has_value() && !closing_;
 }
 
-// After the queue has grown from `before`.
+// Called after the queue has grown from the size `before`.
 void McapWriter::Queued(std::size_t before) {
   if (oldest_ == std::chrono::steady_clock::time_point{}) {
     oldest_ = std::chrono::steady_clock::now();

@@ -1,6 +1,6 @@
 // Records messages to an MCAP file without ever waiting for the disk.
 //
-// Producers put messages into a bounded queue; the writer's thread compresses them and writes the
+// Producers put messages into a bounded queue. The writer's thread compresses them and writes the
 // file. A failing disk ends the recording, not the program: status() has the reason, and later
 // messages are discarded.
 //
@@ -25,21 +25,21 @@ namespace gsv::recording {
 
 // The treatment of a message if the queue is full.
 enum class WhenFull {
-  kDrop,  // it is dropped and counted: for runs in real time
-  kWait,  // the producer waits for the disk: for lockstep
+  kDrop,  // the message is dropped and counted; for runs in real time
+  kWait,  // the producer waits for the disk; for lockstep
 };
 
 struct WriterOptions {
   FileOptions file{};
-  bool replace = false;  // replace an existing file
+  bool replace = false;  // whether to replace an existing file
   WhenFull when_full = WhenFull::kDrop;
-  std::size_t queue_size = std::size_t{64} << 20;  // bytes
-  // A producer that waits longer than this for the disk ends the recording.
+  std::size_t queue_size = std::size_t{64} << 20;  // in bytes
+  // If a producer waits longer than this for the disk, the recording ends.
   std::chrono::milliseconds wait_limit{10'000};
 };
 
-// The metadata "reproducible" of a channel is "false" if its messages depend on the wall clock.
-// They are then not part of the content hash.
+// The options of a channel. Its metadata "reproducible" is "false" if its messages depend on the
+// wall clock; they are then not part of the content hash.
 struct ChannelOptions {
   bool reproducible = true;
 };
@@ -57,17 +57,17 @@ class McapWriter {
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;
 
-  // Adds or finds the channel of a topic. kInvalidArgument if the topic has another schema, or if
-  // there are 65,535 channels.
+  // Adds or finds the channel of a topic. Returns kInvalidArgument if the topic has another schema,
+  // or if there are 65,535 channels.
   [[nodiscard]] base::Result<ChannelId> AddChannel(const std::string& topic,
                                                    const messages::Schema& schema,
                                                    const ChannelOptions& options = {});
-  // `data` is a CDR message of the channel's type; it is copied. Messages of a channel keep their
-  // order. `log_time` is not negative.
+  // Records a message. `data` is a CDR message of the channel's type and is copied. Messages of one
+  // channel keep their order. `log_time` must not be negative.
   void Write(ChannelId channel, base::SimTime log_time, std::span<const std::byte> data);
 
-  // Adds a file or named values to the recording. Neither is dropped: the caller waits while the
-  // queue is full.
+  // Add a file or named values to the recording. These are never dropped: the caller waits while
+  // the queue is full.
   void Attach(const AttachmentRecord& attachment);
   void AddMetadata(const MetadataRecord& metadata);
 
@@ -75,7 +75,7 @@ class McapWriter {
   // `age`. The owner calls this a few times per second.
   void FlushIfOlderThan(std::chrono::steady_clock::duration age);
 
-  // Writes the queue and the summary, and waits for the disk. Idempotent.
+  // Writes the queue and the summary, and waits for the disk. Further calls do nothing.
   base::Status Close();
 
   // The error that ended the recording early, if any.
@@ -83,9 +83,9 @@ class McapWriter {
   bool failed() const { return failed_; }
 
   struct Progress {
-    std::uint64_t messages = 0;  // accepted
-    std::uint64_t dropped = 0;   // dropped because the queue was full
-    std::uint64_t bytes = 0;     // written to the file
+    std::uint64_t messages = 0;  // number of accepted messages
+    std::uint64_t dropped = 0;   // number of messages that were dropped because the queue was full
+    std::uint64_t bytes = 0;     // number of bytes written to the file
   };
   Progress progress() const;
 
@@ -98,24 +98,26 @@ class McapWriter {
   void Run();
 
   const WriterOptions options_;
-  const std::size_t wake_at_;  // queued bytes
+  const std::size_t wake_at_;  // number of queued bytes at which the thread is woken
   const std::unique_ptr<ByteSink> sink_;
 
   mutable base::Mutex mutex_;
   base::ConditionVariable work_;                     // the writer's thread has work
   base::ConditionVariable room_;                     // the queue has been emptied
-  Bytes queue_ GSV_GUARDED_BY(mutex_);               // records, as they would stand in a file
-  std::vector<Bytes> whole_ GSV_GUARDED_BY(mutex_);  // single large records
+  Bytes queue_ GSV_GUARDED_BY(mutex_);               // encoded records, as they are in the file
+  std::vector<Bytes> whole_ GSV_GUARDED_BY(mutex_);  // large records, each on its own
   std::size_t whole_size_ GSV_GUARDED_BY(mutex_) = 0;
   bool flush_ GSV_GUARDED_BY(mutex_) = false;
   bool closing_ GSV_GUARDED_BY(mutex_) = false;
   std::chrono::steady_clock::time_point oldest_
-      GSV_GUARDED_BY(mutex_){};  // time of the oldest message that is not flushed; {}: none
+      // time of the oldest message that is not flushed; {} if there is none
+      GSV_GUARDED_BY(mutex_){};
   base::Status status_ GSV_GUARDED_BY(mutex_);
   Progress progress_ GSV_GUARDED_BY(mutex_);
-  std::map<std::string, ChannelRecord> channels_ GSV_GUARDED_BY(mutex_);  // by topic
+  std::map<std::string, ChannelRecord> channels_ GSV_GUARDED_BY(mutex_);  // channels by topic
   std::vector<SchemaRecord> schemas_ GSV_GUARDED_BY(mutex_);
-  std::vector<std::uint32_t> sequences_ GSV_GUARDED_BY(mutex_);  // the next number, by channel
+  // the next sequence number, by channel
+  std::vector<std::uint32_t> sequences_ GSV_GUARDED_BY(mutex_);
 
   std::atomic<bool> failed_ = false;
   std::once_flag joined_;

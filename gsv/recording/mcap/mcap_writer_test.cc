@@ -19,7 +19,7 @@ using messages::sensor_msgs::Range;
 using testing::AllOf;
 using testing::HasSubstr;
 
-// Writes to memory when the test allows it, and reports calls of Sync().
+// A sink that writes to memory when the test allows it, and reports calls of Sync().
 class GatedSink : public ByteSink {
  public:
   GatedSink(Bytes& out, std::shared_future<void> open, std::promise<void>* synced = nullptr)
@@ -87,7 +87,7 @@ TEST(McapWriter, RecordsTheMessagesOfSeveralThreads) {
   for (const ChannelId channel : channels) EXPECT_EQ(next[channel], 20'000U);
 }
 
-TEST(McapWriter, GivesATopicOneChannelOfOneType) {
+TEST(McapWriter, CreatesOneChannelOfOneTypePerTopic) {
   Bytes bytes;
   McapWriter writer(std::make_unique<GatedSink>(bytes, Opened()), {});
   const auto first = writer.AddChannel("/sonar", SchemaOf<Range>());
@@ -106,10 +106,10 @@ TEST(McapWriter, FlushesWithoutBeingClosed) {
   std::promise<void> synced;
   McapWriter writer(std::make_unique<GatedSink>(bytes, Opened(), &synced), {});
   writer.Write(*writer.AddChannel("/clock", SchemaOf<Clock>()), 5ms, ClockMessage(5ms));
-  writer.FlushIfOlderThan(std::chrono::hours(1));  // not yet
+  writer.FlushIfOlderThan(std::chrono::hours(1));  // the message is not old enough yet
   writer.FlushIfOlderThan(std::chrono::seconds(0));
   synced.get_future().wait();
-  const Bytes on_disk = bytes;  // the writer's thread waits for more
+  const Bytes on_disk = bytes;  // the writer's thread waits for more messages
   const auto reader = Open(on_disk);
   ASSERT_TRUE(reader);
   EXPECT_THAT(TimesIn(**reader).times, testing::ElementsAre(5ms));
@@ -153,7 +153,7 @@ TEST(McapWriter, WaitsForASlowDiskIfConfigured) {
   EXPECT_EQ(Open(bytes).value()->summary().message_count, 5'000U);
 }
 
-TEST(McapWriter, TopicsAloneCanFillTheQueueAndAreWritten) {
+TEST(McapWriter, WritesManyTopicsThatFillTheQueue) {
   Bytes bytes;
   McapWriter writer(std::make_unique<GatedSink>(bytes, Opened()),
                     {.when_full = WhenFull::kWait, .queue_size = 1'000});
@@ -161,7 +161,7 @@ TEST(McapWriter, TopicsAloneCanFillTheQueueAndAreWritten) {
   for (int i = 0; i < 50; ++i) {
     channel = *writer.AddChannel("/topic" + std::to_string(i), SchemaOf<Clock>());
   }
-  writer.Write(channel, 0ms, ClockMessage(0ms));  // waits for space
+  writer.Write(channel, 0ms, ClockMessage(0ms));  // this call waits for space in the queue
   ASSERT_TRUE(writer.Close());
   EXPECT_EQ(Open(bytes).value()->summary().channels.size(), 50U);
   EXPECT_EQ(Open(bytes).value()->summary().message_count, 1U);
@@ -179,7 +179,7 @@ TEST(McapWriter, EndsTheRecordingIfTheDiskHangs) {
   EXPECT_FALSE(writer.Close());
 }
 
-TEST(McapWriter, AFullDiskEndsTheRecordingWithAnError) {
+TEST(McapWriter, FullDiskEndsTheRecordingWithAnError) {
   auto writer = McapWriter::Create("/dev/full");
   ASSERT_TRUE(writer) << writer.error().Sentence();
   const ChannelId channel = *(*writer)->AddChannel("/clock", SchemaOf<Clock>());
@@ -191,12 +191,12 @@ TEST(McapWriter, AFullDiskEndsTheRecordingWithAnError) {
             "/dev/full: cannot write the recording: No space left on device; free some space and "
             "start another recording");
   EXPECT_TRUE((*writer)->failed());
-  const std::uint64_t accepted = (*writer)->progress().messages;  // 0 or 1
-  (*writer)->Write(channel, 1ms, ClockMessage(1ms));              // discarded
+  const std::uint64_t accepted = (*writer)->progress().messages;  // either 0 or 1
+  (*writer)->Write(channel, 1ms, ClockMessage(1ms));              // this message is discarded
   EXPECT_EQ((*writer)->progress().messages, accepted);
 }
 
-TEST(McapWriter, NeverReplacesARecordingUnasked) {
+TEST(McapWriter, ReplacesARecordingOnlyIfRequested) {
   const auto folder = base::TemporaryFolder::Make("gsv-test");
   ASSERT_TRUE(folder);
   const std::string path = folder->path() / "run.mcap";

@@ -1,4 +1,5 @@
-// Iterates over the messages of a recording by time; at equal times in the order of the file.
+// Iterates over the messages of a recording by time. Messages with equal times are in the order of
+// the file.
 #pragma once
 
 #include <optional>
@@ -14,14 +15,14 @@ class MessageCursor {
   MessageCursor(const ByteSource& source, const Summary& summary, const Limits& limits,
                 base::SimTime from);
 
-  // The next message, valid until the next call; nothing at the end. A damaged chunk returns an
-  // error once, and the next call continues after it.
+  // Returns the next message, which is valid until the next call, or nullopt at the end. A damaged
+  // chunk returns an error once, and the next call continues after it.
   [[nodiscard]] base::Result<std::optional<MessageRecord>> Next();
 
  private:
   struct OpenBlock {
-    std::uint64_t offset = 0;  // in the file
-    BlockMessages content;     // messages by time
+    std::uint64_t offset = 0;  // the place in the file
+    BlockMessages content;     // messages, ordered by time
     std::size_t next = 0;
 
     const MessageRecord& front() const { return content.messages[next]; }
@@ -38,10 +39,11 @@ class MessageCursor {
   const Summary& summary_;
   const Limits& limits_;
   const base::SimTime from_;
-  std::vector<const MessageBlock*> waiting_;  // not opened yet, the earliest last
+  // blocks that are not opened yet; the earliest is last
+  std::vector<const MessageBlock*> waiting_;
   std::vector<std::unique_ptr<OpenBlock>> open_;
   std::priority_queue<OpenBlock*, std::vector<OpenBlock*>, Later> next_;
-  OpenBlock* exhausted_ = nullptr;  // holds the message that was returned last
+  OpenBlock* exhausted_ = nullptr;  // the block with the message that was returned last
   std::uint64_t open_size_ = 0;
 };
 

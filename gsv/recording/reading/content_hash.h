@@ -1,4 +1,5 @@
-// A hash of the contents of a recording, independent of how it was written: equal for equal runs.
+// A hash of the contents of a recording. It does not depend on how the recording was written, and
+// is equal for equal runs.
 #pragma once
 
 #include <string>
@@ -7,14 +8,15 @@
 
 namespace gsv::recording {
 
-// Whether its messages are hashed: they do not depend on the wall clock (see ChannelOptions).
+// Whether the channel's messages are hashed, because they do not depend on the wall clock (see
+// ChannelOptions).
 [[nodiscard]] bool IsReproducible(const ChannelRecord& channel);
 
-// Sixteen hexadecimal digits: a hash of (topic, type, time, number within the topic, bytes) of
-// every message of reproducible channels.
+// Returns sixteen hexadecimal digits: a hash of (topic, type, time, number within the topic, bytes)
+// of every message of reproducible channels.
 //
-// It is the sum of the hashes of messages, and so independent of chunks and of the order of topics
-// at one instant. An unreadable chunk is an error.
+// It is the sum of the hashes of the messages, so it does not depend on chunks and on the order of
+// topics at one instant. A chunk that cannot be read is an error.
 [[nodiscard]] base::Result<std::string> ContentHash(const McapReader& reader);
 
 }  // namespace gsv::recording

@@ -31,7 +31,7 @@ bool IsInfinite(const ordered_json& json) {
 
 std::string Text(const ordered_json& json) {
   if (json.is_number_float() && !std::isfinite(json.get<double>())) {
-    return fmt::format("{}", json.get<double>());  // inf, -inf, nan
+    return fmt::format("{}", json.get<double>());  // writes inf, -inf or nan
   }
   return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
@@ -53,8 +53,8 @@ bool FindDifference(const ordered_json& a, const ordered_json& b, const std::str
   return true;
 }
 
-// All compared messages of one instant, by (topic, number). If some are missing, they are numbered
-// from 0 at each instant.
+// Reads all compared messages of one instant, by (topic, number). If some messages may be missing,
+// they are numbered from 0 at each instant.
 class InstantReader {
  public:
   InstantReader(const McapReader& reader, const Selection& selection, Gaps gaps)
@@ -62,7 +62,7 @@ class InstantReader {
 
   using Messages = std::map<std::pair<std::string, std::uint32_t>, std::vector<std::byte>>;
 
-  // False at the end.
+  // Reads the next instant. Returns false at the end.
   base::Result<bool> Next() {
     messages.clear();
     if (!has_next_) {
@@ -90,7 +90,7 @@ class InstantReader {
     return base::Fail(base::ErrorCode::kNotFound, "there is no such topic", topic);
   }
 
-  // Removes topics of which the other has a different number of messages.
+  // Removes topics of which the other recording has a different number of messages.
   void KeepCommon(InstantReader& other) {
     std::map<std::string, std::int64_t> more;
     for (const auto& [key, data] : messages) ++more[key.first];
@@ -145,7 +145,7 @@ base::Result<Difference> Compare(const InstantReader& first, const InstantReader
   const auto decoded_b = second.Decode(topic, b);
   if (!decoded_b) return base::Fail(decoded_b.error());
   if (!FindDifference(*decoded_a, *decoded_b, "", difference)) {
-    // Decoding leaves out images and padding.
+    // Decoding skips images and padding, so the difference may be in bytes that have no field.
     difference.field = "bytes";
     difference.in_first = fmt::format("{} bytes", a.size());
     difference.in_second = fmt::format("{} others", b.size());

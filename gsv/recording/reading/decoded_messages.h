@@ -15,24 +15,24 @@ namespace gsv::recording {
 
 struct DecodedMessage {
   std::string topic;
-  std::string type;  // "sensor_msgs/msg/Range"
+  std::string type;  // such as "sensor_msgs/msg/Range"
   base::SimTime time{};
   nlohmann::ordered_json content;
 };
 
-// A message's content as JSON can write it: JSON has no infinite numbers, so they become the texts
+// Makes the content of a message valid JSON. JSON has no infinite numbers, so they become the texts
 // "Infinity" and "-Infinity", which JavaScript's Number() and Python's float() read. NaN is written
 // as null.
 nlohmann::ordered_json WithInfinitiesAsText(nlohmann::ordered_json content);
 
 class DecodedMessages {
  public:
-  // Opens the selected messages in the order of time. The reader must outlive this. Fails if a
-  // selected topic is not in the recording, or if no messages can be decoded.
+  // Opens the selected messages in the order of time. The reader must outlive this object. Fails if
+  // a selected topic is not in the recording, or if no messages can be decoded.
   static base::Result<DecodedMessages> Open(const McapReader& reader, const Selection& selection);
 
-  // The next message; nothing at the end. A message or chunk that cannot be read or decoded returns
-  // an error once, and the next call continues.
+  // Returns the next message, or nullopt at the end. A message or chunk that cannot be read or
+  // decoded returns an error once, and the next call continues after it.
   base::Result<std::optional<DecodedMessage>> Next();
 
  private:
@@ -44,37 +44,41 @@ class DecodedMessages {
       : selection_(selection), cursor_(reader.Messages(selection.from)) {}
 
   Selection selection_;
-  std::map<std::uint16_t, Topic> topics_;  // by channel
+  std::map<std::uint16_t, Topic> topics_;  // topics by channel
   MessageCursor cursor_;
 };
 
-// The first difference of two recordings: the earliest instant, and there the first topic by name.
+// The first difference between two recordings: at the earliest instant, and there in the first
+// topic by name.
 struct Difference {
   base::SimTime time{};
   std::string topic;
-  std::string field;  // "pose.position.x"; empty: the message is missing in one of them
-  std::string in_first, in_second;  // the values as JSON; "missing"
+  // such as "pose.position.x"; empty if the message is missing in one of the recordings
+  std::string field;
+  std::string in_first, in_second;  // the values as JSON, or "missing"
   std::string Sentence() const;
 };
-// time_s, topic, field, first, second.
+// Has the keys time_s, topic, field, first and second.
 nlohmann::ordered_json ToJson(const Difference& difference);
 
 // Whether a recording may lack messages.
 enum class Gaps {
   kNone,
-  kInFirst,  // compares only instants at which a topic has equally many messages in both
+  // The first one may. Only instants at which both have equally many messages of a topic are
+  // compared.
+  kInFirst,
 };
 
-// Compares the reproducible messages (see content_hash.h) of the selected topics. Empty: no
-// difference.
+// Compares the reproducible messages (see content_hash.h) of the selected topics. Returns nullopt
+// if there is no difference.
 base::Result<std::optional<Difference>> FirstDifference(const McapReader& first,
                                                         const McapReader& second,
                                                         const std::vector<std::string>& topics = {},
                                                         Gaps gaps = Gaps::kNone);
 
-// A table of one topic with a row per message and a column per number or text ("ranges.0"), in the
-// order of first appearance; RFC 4180. Numbers that are not finite are written "inf", "-inf" and
-// "nan".
+// Returns a table of one topic (RFC 4180). It has a row per message and a column per number or
+// text, such as "ranges.0", in the order of first appearance. Numbers that are not finite are
+// written "inf", "-inf" and "nan".
 base::Result<std::string> ToCsv(const McapReader& reader, const Selection& selection);
 
 }  // namespace gsv::recording

@@ -12,7 +12,8 @@
 namespace gsv::recording {
 namespace {
 
-// Two topics of ten clocks each, 10 ms apart; the fifth message of /b may differ.
+// A recording of two topics with ten clock messages each, 10 ms apart. The fifth message of /b has
+// the time `fifth`.
 Bytes TwoTopics(base::SimTime fifth, bool is_reproducible = true) {
   Bytes bytes;
   MemorySink sink(bytes);
@@ -56,11 +57,11 @@ TEST(FirstDifference, IgnoresMessagesThatDependOnTheWallClock) {
   EXPECT_FALSE(DifferenceOf(TwoTopics(50ms, false), TwoTopics(51ms, false)));
 }
 
-TEST(FirstDifference, IsNoneBetweenARecordingAndItself) {
+TEST(FirstDifference, IsEmptyForARecordingAndItself) {
   EXPECT_FALSE(DifferenceOf(ThreeChunks(), ThreeChunks()));
 }
 
-TEST(FirstDifference, IsAMissingMessage) {
+TEST(FirstDifference, ReportsAMissingMessage) {
   const Bytes whole = TwoTopics(50ms);
   Bytes part;
   MemorySink sink(part);
@@ -74,7 +75,8 @@ TEST(FirstDifference, IsAMissingMessage) {
   EXPECT_EQ(difference->in_second, "missing");
 }
 
-// Every tenth of a second except those in `left_out`; the message at `other` differs.
+// A recording of clock messages, 0.1 s apart, without those in `left_out`. The message at `other`
+// differs.
 Bytes ClocksWithout(const std::set<base::SimTime>& left_out, base::SimTime other = -1ms) {
   Bytes bytes;
   MemorySink sink(bytes);
@@ -106,7 +108,7 @@ TEST(FirstDifference, IgnoresGapsInARecording) {
   EXPECT_EQ(found->field, "clock.nanosec");
 }
 
-TEST(DecodedMessages, AreThoseOfTheSelection) {
+TEST(DecodedMessages, ContainTheSelectedTopics) {
   const Bytes bytes = TwoTopics(50ms);
   const auto reader = Open(bytes);
   auto messages = DecodedMessages::Open(**reader, {{"/b"}, 30ms, 50ms});
@@ -139,7 +141,7 @@ TEST(ToCsv, HasARowForEachMessageAndAColumnForEachValue) {
             "0.010000000,0,10000000\r\n");
 }
 
-// A range that is too near, one without an echo, and NaN.
+// A range that is too near, a range without an echo, and NaN.
 Bytes Infinities() {
   const messages::Schema& schema = messages::SchemaOf<messages::sensor_msgs::LaserScan>();
   Bytes bytes, scan;
@@ -163,7 +165,7 @@ TEST(ToCsv, DistinguishesNonFiniteNumbers) {
   EXPECT_TRUE(csv->ends_with(",-inf,inf,nan,1.5\r\n")) << *csv;
 }
 
-TEST(DecodedMessages, BecomeJsonWithInfinitiesAsTexts) {
+TEST(DecodedMessages, WriteInfinitiesAsTextsInJson) {
   const Bytes bytes = Infinities();
   const auto reader = Open(bytes);
   auto messages = DecodedMessages::Open(**reader, {{"/scan"}});

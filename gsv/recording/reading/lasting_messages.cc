@@ -57,9 +57,9 @@ class LastingSearch {
   LastingMessages Run() {
     if (channels_.empty()) return {};
     for (const MessageBlock& block : reader_.summary().blocks) {
-      if (block.start < time_ && MayHoldOne(block)) Look(block);
+      if (block.start < time_ && MayHoldOne(block)) ReadBlock(block);
     }
-    // By place in the file, for all keys.
+    // The messages of all keys, ordered by their place in the file.
     std::vector<std::pair<std::uint64_t, LastingMessage>> found;
     for (auto& [key, each] : newest_) found.emplace_back(each.place, std::move(each.message));
     std::sort(found.begin(), found.end(),
@@ -71,10 +71,10 @@ class LastingSearch {
  private:
   struct Channel {
     Lasting lasting = Lasting::kNo;
-    std::optional<messages::Definition> definition;  // of kOfEach
+    std::optional<messages::Definition> definition;  // for channels of kind kOfEach
   };
   struct Found {
-    std::uint64_t place = 0;  // in the order of the file
+    std::uint64_t place = 0;  // counts the messages in the order of the file
     base::SimTime log_time{};
     LastingMessage message;
   };
@@ -86,7 +86,7 @@ class LastingSearch {
                        [&](std::uint16_t channel) { return channels_.contains(channel); });
   }
 
-  void Look(const MessageBlock& block) {
+  void ReadBlock(const MessageBlock& block) {
     const base::Result<BlockMessages> content = reader_.Messages(block);
     if (!content) {
       result_.problems.push_back(
@@ -105,7 +105,7 @@ class LastingSearch {
     }
   }
 
-  // Messages with the same key replace one another.
+  // A message replaces the earlier one with the same key.
   std::string KeyOf(const Channel& channel, const MessageRecord& message) const {
     if (channel.lasting == Lasting::kAll) return std::to_string(place_);
     if (!channel.definition) return {};

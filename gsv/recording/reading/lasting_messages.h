@@ -1,6 +1,6 @@
 // Messages that stay valid until the next one of their kind: transforms of sensors, the last
-// command of a robot, edits of the world. An excerpt of a recording needs those from before its
-// start.
+// command of a robot, edits of the world. An excerpt of a recording needs such messages from before
+// its start.
 #pragma once
 
 #include <vector>
@@ -11,15 +11,16 @@
 namespace gsv::recording {
 
 enum class Lasting {
-  kNo,      // not valid later
-  kNewest,  // the newest of the topic is valid
-  kOfEach,  // the newest of each robot, or of each actuator, is valid
-  kAll,     // all are valid
+  kNo,      // a message is not valid later
+  kNewest,  // the newest message of the topic is valid
+  kOfEach,  // the newest message of each robot, or of each actuator, is valid
+  kAll,     // all messages are valid
 };
 
-// The messages of a channel that stay valid. GSV's topics are known by name. In recordings of other
-// programs these are: topics with the durability transient_local (rosbag2's offered_qos_profiles;
-// latching in ROS 1), any tf_static, and topics with a single message in the whole recording.
+// Returns which messages of a channel stay valid. GSV's topics are known by name. In recordings of
+// other programs, messages stay valid on topics with the durability transient_local (rosbag2's
+// offered_qos_profiles; latching in ROS 1), on any tf_static, and on topics that have a single
+// message.
 Lasting LastingOf(const Summary& summary, const ChannelRecord& channel);
 
 struct LastingMessage {
@@ -34,7 +35,7 @@ struct LastingMessages {
   base::Problems problems;               // blocks that cannot be read
 };
 
-// The messages from before `time` that are still valid at `time`.
+// Returns the messages from before `time` that are still valid at `time`.
 LastingMessages FindLastingMessages(const McapReader& reader, base::SimTime time);
 
 }  // namespace gsv::recording

@@ -34,7 +34,7 @@ Bytes CommandTo(const std::string& robot, double linear) {
   return Encoded(command);
 }
 
-// Messages of many kinds; those after 100 ms are repeated.
+// A recording with messages of many kinds. The messages after 100 ms are repetitions.
 class RecordingOfAllKinds {
  public:
   RecordingOfAllKinds() : sink_(bytes_), writer_(sink_, {}) {
@@ -75,13 +75,13 @@ class RecordingOfAllKinds {
   std::map<std::uint16_t, std::uint32_t> sequences_;
 };
 
-TEST(LastingMessages, TheirTopicsExist) {
+TEST(LastingMessages, NameOnlyExistingTopics) {
   for (const char* topic : {"/gsv/commands", "/gsv/actuators", "/gsv/edits", "/tf_static"}) {
     EXPECT_NE(presentation::FindTopic(topic), nullptr) << topic;
   }
 }
 
-TEST(LastingMessages, OfAPartComeFirstAndAtItsStart) {
+TEST(LastingMessages, AreCopiedToTheStartOfAnExcerpt) {
   const RecordingOfAllKinds recording;
   const auto whole = Open(recording.bytes());
   Bytes bytes;
@@ -113,7 +113,7 @@ TEST(LastingMessages, OfAPartComeFirstAndAtItsStart) {
   EXPECT_THAT(commands, ElementsAre(2, 3));
 }
 
-TEST(LastingMessages, AreOnlyThoseOfTheSelectedTopics) {
+TEST(LastingMessages, AreCopiedForSelectedTopicsOnly) {
   const RecordingOfAllKinds recording;
   const auto whole = Open(recording.bytes());
   Bytes bytes;
@@ -122,7 +122,7 @@ TEST(LastingMessages, AreOnlyThoseOfTheSelectedTopics) {
   EXPECT_EQ((*Open(bytes))->summary().message_count, 1u);
 }
 
-TEST(LastingMessages, StandOnceWhereThePartBeginsWithTheRecording) {
+TEST(LastingMessages, AreNotDuplicatedInAnExcerptFromTheStart) {
   const RecordingOfAllKinds recording;
   const auto whole = Open(recording.bytes());
   Bytes bytes;

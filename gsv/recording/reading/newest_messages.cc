@@ -15,11 +15,11 @@ class Search {
     for (const MessageBlock& block : reader_.summary().blocks) {
       if (block.start <= time_) blocks.push_back(&block);
     }
-    // The block that ends last may have the newest message.
+    // Blocks are read from the one that ends last, because it may have the newest message.
     std::stable_sort(blocks.begin(), blocks.end(),
                      [](const MessageBlock* a, const MessageBlock* b) { return a->end > b->end; });
     for (const MessageBlock* block : blocks) {
-      if (MayHoldNewer(*block)) Look(*block);
+      if (MayHoldNewer(*block)) ReadBlock(*block);
     }
     return std::move(result_);
   }
@@ -39,14 +39,14 @@ class Search {
                        [&](const auto& each) { return is_open(each.first); });
   }
 
-  void Look(const MessageBlock& block) {
+  void ReadBlock(const MessageBlock& block) {
     const base::Result<BlockMessages> content = reader_.Messages(block);
     if (!content) {
       result_.problems.push_back(
           {base::Problem::Severity::kWarning, content.error().message, content.error().where});
       return;
     }
-    // The last of the newest, for each channel; only these are copied.
+    // The newest message of each channel. Only these are copied.
     std::map<std::uint16_t, const MessageRecord*> newest;
     for (const MessageRecord& message : content->messages) {
       if (message.log_time > time_) continue;

@@ -13,12 +13,12 @@ struct StoredMessage {
 };
 
 struct NewestMessages {
-  std::map<std::uint16_t, StoredMessage> by_channel;  // of channels with a message
+  std::map<std::uint16_t, StoredMessage> by_channel;  // only channels that have a message
   base::Problems problems;                            // blocks that cannot be read
 };
 
-// The newest message of each channel that is not after `time`. Reads no more blocks than the
-// channels need.
+// Returns the newest message of each channel that is not after `time`. Reads no more blocks than
+// the channels require.
 NewestMessages FindNewestMessages(const McapReader& reader, base::SimTime time);
 
 }  // namespace gsv::recording

@@ -18,8 +18,9 @@ std::map<std::uint16_t, base::SimTime> TimesAt(const McapReader& reader, base::S
 
 using Times = std::map<std::uint16_t, base::SimTime>;
 
-TEST(NewestMessages, AreTheLastNotAfterTheInstant) {
-  const Bytes bytes = ThreeChunks();  // 0, 20, 40, … ms on channel 0; 10, 30, 50, … on 1
+TEST(NewestMessages, AreTheLastAtOrBeforeTheInstant) {
+  // channel 0 has messages at 0, 20, 40, … ms, and channel 1 at 10, 30, 50, …
+  const Bytes bytes = ThreeChunks();
   const auto reader = Open(bytes).value();
   EXPECT_EQ(TimesAt(*reader, 0ms), (Times{{0, 0ms}}));
   EXPECT_EQ(TimesAt(*reader, 10ms), (Times{{0, 0ms}, {1, 10ms}}));
@@ -27,12 +28,13 @@ TEST(NewestMessages, AreTheLastNotAfterTheInstant) {
   EXPECT_EQ(TimesAt(*reader, 10000ms), (Times{{0, 280ms}, {1, 290ms}}));
 }
 
-TEST(NewestMessages, ThereAreNoneBeforeTheStart) {
+TEST(NewestMessages, AreEmptyBeforeTheStart) {
   const Bytes bytes = ThreeChunks();
   EXPECT_TRUE(TimesAt(*Open(bytes).value(), base::SimTime(-1)).empty());
 }
 
-// One early message on its own channel, then a hundred chunks of another channel.
+// A recording with one early message on its own channel, and then a hundred chunks of another
+// channel.
 Bytes OneEarly() {
   Bytes bytes;
   MemorySink sink(bytes);
@@ -50,14 +52,14 @@ Bytes OneEarly() {
   return bytes;
 }
 
-TEST(NewestMessages, OfAQuietChannelIsFarBack) {
+TEST(NewestMessages, FindAnOldMessageOfAQuietChannel) {
   const Bytes bytes = OneEarly();
   EXPECT_EQ(TimesAt(*Open(bytes).value(), 1000ms), (Times{{0, 1000ms}, {1, 5ms}}));
 }
 
-TEST(NewestMessages, BlocksThatCannotHoldThemAreNotRead) {
+TEST(NewestMessages, ReadOnlyTheBlocksThatTheyNeed) {
   Bytes bytes = OneEarly();
-  // Damages the fiftieth chunk, so that reading it fails.
+  // Damages the fiftieth chunk, so that it cannot be read.
   int chunks = 0;
   for (const Place& place : PlacesIn(bytes)) {
     if (place.opcode == Opcode::kChunk && ++chunks == 50) bytes[place.end - 1] ^= std::byte{1};
@@ -67,7 +69,7 @@ TEST(NewestMessages, BlocksThatCannotHoldThemAreNotRead) {
   EXPECT_EQ(newest.by_channel.size(), 2u);
   EXPECT_TRUE(newest.problems.empty());
   EXPECT_EQ(FindNewestMessages(*reader, 500ms).problems.size(), 1u);
-  EXPECT_EQ(TimesAt(*reader, 500ms), (Times{{0, 490ms}, {1, 5ms}}));  // the rest of it
+  EXPECT_EQ(TimesAt(*reader, 500ms), (Times{{0, 490ms}, {1, 5ms}}));  // the rest can be read
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Power failures at two hundred moments, on a disk that writes its cache back in any order.
+// Simulates a loss of power at two hundred moments, on a disk that writes its cache in any order.
 #include <algorithm>
 #include <random>
 
@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t kSector = 512;
 
-// A disk with a cache. Synchronised data is safe; each later sector may have been written or not.
+// A disk with a cache. Synchronised data is safe. Each sector that was written later may be on the
+// disk or not.
 class CachingDisk : public ByteSink {
  public:
   base::Status Write(std::span<const std::byte> bytes) override {
@@ -33,7 +34,7 @@ class CachingDisk : public ByteSink {
     for (std::size_t begin = safe_; begin < written_.size();) {
       const std::size_t end = std::min(written_.size(), (begin / kSector + 1) * kSector);
       if (random() % 2 == 0) {
-        left.resize(end);  // zeros, if a sector before it is missing
+        left.resize(end);  // a sector that is missing before others reads as zeros
         std::copy(written_.begin() + static_cast<std::ptrdiff_t>(begin),
                   written_.begin() + static_cast<std::ptrdiff_t>(end),
                   left.begin() + static_cast<std::ptrdiff_t>(begin));
@@ -49,8 +50,8 @@ class CachingDisk : public ByteSink {
 };
 
 struct Loss {
-  Bytes left;            // on the disk
-  int synchronised = 0;  // messages, at 0, 1, 2, … ms
+  Bytes left;            // the content of the disk
+  int synchronised = 0;  // number of messages, at 0, 1, 2, … ms
 };
 
 Loss LosePower(std::uint64_t seed) {
@@ -76,7 +77,7 @@ Loss LosePower(std::uint64_t seed) {
   return loss;
 }
 
-TEST(PowerLoss, LeavesAllThatWasSynchronised) {
+TEST(PowerLoss, KeepsSynchronisedMessages) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     const Loss loss = LosePower(seed);

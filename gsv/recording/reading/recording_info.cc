@@ -25,7 +25,7 @@ std::vector<RecordingInfo::Channel> ChannelsOf(const Summary& summary) {
   return channels;
 }
 
-// Divides instead of multiplying by 1e-9, so that 1.99 s prints as 1.99.
+// A division, because multiplying by 1e-9 would print 1.99 s as 1.9900000000000002.
 double Seconds(base::SimTime time) { return static_cast<double>(time.count()) / 1e9; }
 
 base::Problem Warning(const base::Error& error) {
@@ -144,7 +144,7 @@ std::string ToJson(const RecordingInfo& info) {
                   {"attachments", std::move(attachments)},
                   {"metadata", std::move(metadata)},
                   {"warnings", std::move(warnings)}};
-  // A file's strings may have invalid UTF-8.
+  // The strings of a file may have invalid UTF-8.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

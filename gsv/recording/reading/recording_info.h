@@ -1,4 +1,4 @@
-// The contents of a recording, as `gsv rec info` prints them.
+// A summary of a recording, as `gsv rec info` prints it.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace gsv::recording {
 
-// Topics of user actions, which may come at any time.
+// Topics with actions of users, which may come at any time.
 inline constexpr std::string_view kUserTopics[]{"/gsv/events", "/rosout", "/gsv/edits"};
 
 struct RecordingInfo {
   struct Channel {
     std::string topic;
-    std::string type;  // "sensor_msgs/msg/Range"
+    std::string type;  // such as "sensor_msgs/msg/Range"
     std::uint64_t messages = 0;
   };
   struct File {
@@ -25,36 +25,36 @@ struct RecordingInfo {
   };
 
   std::string path;
-  std::uint64_t size = 0;  // bytes
+  std::uint64_t size = 0;  // in bytes
   std::string profile;
   std::string library;
-  base::SimTime start{};  // of the first message
-  base::SimTime end{};    // of the last
+  base::SimTime start{};  // time of the first message
+  base::SimTime end{};    // time of the last message
   std::uint64_t messages = 0;
   std::uint64_t chunks = 0;
   bool indexed = false;
-  std::vector<Channel> channels;  // by topic
+  std::vector<Channel> channels;  // ordered by topic
   std::vector<File> attachments;
   std::vector<MetadataRecord> metadata;
-  std::string content_hash;  // empty if it cannot be computed; a problem has the reason
+  std::string content_hash;  // empty if it cannot be computed; `problems` has the reason
   base::Problems problems;
 
   base::SimTime duration() const { return end - start; }
 };
 
-// Reads the whole file, for the content hash.
+// Reads the whole file, because of the content hash.
 [[nodiscard]] base::Result<RecordingInfo> ReadInfo(const std::string& path,
                                                    const Limits& limits = {});
 
-// The time of the newest message of the simulation's steps, without user actions (kUserTopics) and
-// topics that depend on the wall clock. 0: there is none.
+// The time of the newest message about the simulation's steps. It ignores actions of users
+// (kUserTopics) and topics that depend on the wall clock. Returns 0 if there is no such message.
 [[nodiscard]] base::Result<base::SimTime> EndOfSteps(const McapReader& reader);
 
-// A text for users, which ends in a newline.
+// Returns a text for users, which ends in a newline.
 std::string ToText(const RecordingInfo& info);
-// One JSON object: file, size_bytes, duration_s, start_s, end_s, messages, chunks, indexed,
-// profile, library, content_hash, channels:[{topic, type, messages}],
-// attachments:[{name, media_type, size_bytes}], metadata:{NAME:{key:value}}, warnings:[…].
+// Returns one JSON object: file, size_bytes, duration_s, start_s, end_s, messages, chunks, indexed,
+// profile, library, content_hash, channels:[{topic, type, messages}], attachments:[{name,
+// media_type, size_bytes}], metadata:{NAME:{key:value}}, warnings:[…].
 std::string ToJson(const RecordingInfo& info);
 
 }  // namespace gsv::recording

@@ -70,8 +70,8 @@ class RecordingInfoTest : public testing::Test {
   const base::TemporaryFolder folder_ = base::TemporaryFolder::Make("gsv-test").value();
 };
 
-// While somebody stops it, a simulation may take a step.
-TEST(EndOfSteps, IsTheEndOfWhatCanBeRepeated) {
+// A user's stop may come during a step, so the simulation may take one more step than another run.
+TEST(EndOfSteps, IgnoresUserActionsAndWallClockTopics) {
   Bytes bytes;
   MemorySink sink(bytes);
   McapFileWriter writer(sink, {});

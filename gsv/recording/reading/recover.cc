@@ -43,20 +43,20 @@ class Copier {
  private:
   void CopyMetadata(const MetadataIndexRecord& index) {
     const auto metadata = reader_.Read(index);
-    if (!metadata) return Lost(metadata.error());
+    if (!metadata) return ReportLoss(metadata.error());
     file_.AddMetadata(*metadata);
     ++recovery_.metadata;
   }
 
   void CopyAttachment(const AttachmentIndexRecord& index) {
     const auto attachment = reader_.Read(index);
-    if (!attachment) return Lost(attachment.error());
+    if (!attachment) return ReportLoss(attachment.error());
     file_.Attach({attachment->log_time, attachment->create_time, attachment->name,
                   attachment->media_type, attachment->data});
     ++recovery_.attachments;
   }
 
-  // They are written at the start of the part, with their original publish time.
+  // Lasting messages are written at the start of the part, with their original publish time.
   void CopyLasting() {
     LastingMessages lasting = FindLastingMessages(reader_, selection_.from);
     for (const LastingMessage& message : lasting.messages) {
@@ -70,7 +70,7 @@ class Copier {
 
   void CopyMessages(const MessageBlock& block) {
     const auto content = reader_.Messages(block);
-    if (!content) return Lost(content.error());
+    if (!content) return ReportLoss(content.error());
     for (const MessageRecord& message : content->messages) {
       if (!selected_.contains(message.channel_id) || !selection_.Has(message.log_time)) continue;
       file_.Write(message);
@@ -78,13 +78,13 @@ class Copier {
     }
   }
 
-  void Lost(const base::Error& error) {
+  void ReportLoss(const base::Error& error) {
     recovery_.problems.push_back({base::Problem::Severity::kWarning, error.message, error.where});
   }
 
   const McapReader& reader_;
   const Selection& selection_;
-  std::set<std::uint16_t> selected_;  // channels
+  std::set<std::uint16_t> selected_;  // channels of the selected topics
   McapFileWriter file_;
   Recovery recovery_;
 };
@@ -93,7 +93,8 @@ std::string Count(std::uint64_t number, const char* noun) {
   return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
 }
 
-// The name of the output during writing. Removes the file unless it was renamed.
+// An output file that has a temporary name while it is written. The destructor removes the file
+// unless it was renamed.
 class PartialFile {
  public:
   explicit PartialFile(std::string path) : path_(std::move(path)) {}
@@ -128,7 +129,7 @@ base::Result<Recovery> RecoverToFile(const std::string& input, const std::string
   return recovery;
 }
 
-// The output has the form of a recording's folder: a file and its metadata.yaml.
+// Recovers into the folder of a bag, which has the recording and its metadata.yaml.
 base::Result<Recovery> RecoverToFolder(const std::string& input, const std::string& output,
                                        const Selection& selection, const Limits& limits) {
   const auto file = MakeBagFolder(output);

@@ -1,4 +1,4 @@
-// Makes a complete, indexed recording from a truncated or damaged one, or from a part of one.
+// Makes a complete and indexed recording from a truncated or damaged one, or from a part of one.
 #pragma once
 
 #include <string>
@@ -13,23 +13,25 @@ struct Recovery {
   std::uint64_t messages = 0;
   std::uint64_t attachments = 0;
   std::uint64_t metadata = 0;
-  base::Problems problems;  // lost parts and their places
+  base::Problems problems;  // the parts that were lost, with their places
 };
 
 // Copies all readable data to `sink`: complete attachments and metadata records, and the selected
 // messages of complete chunks, in their order. If the selection begins after the start of the
-// recording, messages of selected topics that are still valid (lasting_messages.h) come first,
-// logged at that instant. Returns errors of writing only.
+// recording, messages of selected topics that are still valid (lasting_messages.h) come first;
+// their log time is the begin of the selection. Returns only errors of writing.
 [[nodiscard]] base::Result<Recovery> Recover(const McapReader& reader, ByteSink& sink,
                                              const Selection& selection = {});
 
-// The same for files. `output` is created only when it is complete; an existing one is an error. If
-// the input is a folder, the output is a folder (bag_folder.h) unless its name ends in .mcap.
+// Recovers a file. `output` is created only when it is complete; if it exists already, this is an
+// error. If the input is a folder, the output is a folder (bag_folder.h) unless its name ends in
+// .mcap.
 [[nodiscard]] base::Result<Recovery> Recover(const std::string& input, const std::string& output,
                                              const Selection& selection = {},
                                              const Limits& limits = {});
 
-// "recovered 120 messages, 2 attachments, 1 metadata record" and a line for each problem.
+// Returns a text such as "recovered 120 messages, 2 attachments, 1 metadata record", and a line for
+// each problem.
 std::string ToText(const Recovery& recovery);
 std::string ToJson(const Recovery& recovery);
 

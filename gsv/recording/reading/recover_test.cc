@@ -51,7 +51,7 @@ TEST(Recover, WritesAnIndexedFileWithEachCompleteChunk) {
   }
 }
 
-TEST(Recover, KeepsAllOfARecordingThatLacksOnlyItsEnd) {
+TEST(Recover, KeepsAllMessagesIfOnlyTheEndIsMissing) {
   const Bytes bytes = ThreeChunks();
   Recovery recovery;
   const Bytes out = Recovered(std::span(bytes).first(bytes.size() - 1), recovery);
@@ -91,7 +91,7 @@ class RecoverFiles : public testing::Test {
   const base::TemporaryFolder folder_ = base::TemporaryFolder::Make("gsv-test").value();
 };
 
-TEST_F(RecoverFiles, WritesTheOutputAndNothingElse) {
+TEST_F(RecoverFiles, WritesOnlyTheOutputFile) {
   const auto recovery = Recover(Path("in.mcap"), Path("out.mcap"));
   ASSERT_TRUE(recovery) << recovery.error().Sentence();
   EXPECT_EQ(recovery->messages, 30U);
@@ -99,7 +99,7 @@ TEST_F(RecoverFiles, WritesTheOutputAndNothingElse) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 2);
 }
 
-TEST_F(RecoverFiles, NeverWritesOverAFile) {
+TEST_F(RecoverFiles, DoesNotOverwriteAFile) {
   const auto recovery = Recover(Path("in.mcap"), Path("in.mcap"));
   ASSERT_FALSE(recovery);
   EXPECT_THAT(recovery.error().Sentence(), HasSubstr("exists already"));

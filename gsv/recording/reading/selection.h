@@ -10,7 +10,7 @@
 namespace gsv::recording {
 
 struct Selection {
-  std::vector<std::string> topics;  // empty: all; a trailing "/" selects all topics below
+  std::vector<std::string> topics;  // empty for all topics; a trailing "/" selects all topics below
   base::SimTime from = base::SimTime::min();
   base::SimTime to = base::SimTime::max();
 

@@ -8,11 +8,11 @@
 namespace gsv::recording {
 
 struct HandOver {
-  std::int64_t time_ns = 0;  // simulated
-  std::int64_t wall_ns = 0;  // after the recorder took the snapshot
+  std::int64_t time_ns = 0;  // simulated time
+  std::int64_t wall_ns = 0;  // wall-clock time after the recorder took the snapshot
 };
 
-// The clock that all processes of a machine share.
+// Returns the time of a clock that all processes of a machine share.
 inline std::int64_t WallNow() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);

@@ -1,4 +1,5 @@
-// For tests of the recorder: records runs of a robot that drives towards a wall, and reads them.
+// For tests of the recorder: records runs of a robot that drives towards a wall, and reads the
+// recordings.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +17,7 @@
 
 namespace gsv::recording {
 
-// Writes the name of the model as its GLB.
+// Stands for WriteGlb: returns the name of the model as its GLB.
 inline base::Result<std::vector<std::uint8_t>> NameAsGlb(const model::Model& model) {
   return std::vector<std::uint8_t>(model.name.begin(), model.name.end());
 }
@@ -60,7 +61,7 @@ class SimulationRecorderTest : public ::testing::Test {
     return *info;
   }
 
-  // All messages of one topic, decoded.
+  // Returns all messages of one topic, decoded.
   template <typename Message>
   std::vector<Message> Read(const std::string& topic) const {
     const auto reader = McapReader::Open(path_);
@@ -93,7 +94,7 @@ class SimulationRecorderTest : public ::testing::Test {
   }
 
   const std::string path_;
-  std::string hash_;  // of the last run that was recorded
+  std::string hash_;  // state hash of the last run that was recorded
 };
 
 }  // namespace gsv::recording

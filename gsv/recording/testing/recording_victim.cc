@@ -1,6 +1,6 @@
-// recording_victim FILE MICROSECONDS: records a simulation until it is killed. Each turn of its
-// behaviour takes this time. Writes a HandOver to stdout after each snapshot that the recorder has
-// taken.
+// recording_victim FILE MICROSECONDS: records a simulation until the process is killed. Each turn
+// of its behaviour takes MICROSECONDS. It writes a HandOver to stdout after each snapshot that the
+// recorder has taken.
 #include <csignal>
 #include <cstdlib>
 
@@ -14,7 +14,7 @@
 namespace gsv::recording {
 namespace {
 
-class Teller final : public simulation::Observer {
+class HandOverWriter final : public simulation::Observer {
  public:
   void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) override {
     const HandOver hand_over{snapshot->state.time.count(), WallNow()};
@@ -31,7 +31,8 @@ int Run(const char* path, std::chrono::microseconds dawdling) {
   };
   const auto recorder = SimulationRecorder::Start(simulation, path, std::move(options));
   if (!recorder) return 1;
-  simulation->AddObserver(std::make_shared<Teller>());  // comes after the recorder
+  // added after the recorder, so it is called after it
+  simulation->AddObserver(std::make_shared<HandOverWriter>());
   if (!simulation->Start()) return 1;
   for (;;) pause();
 }

@@ -1,4 +1,4 @@
-// Small recordings in memory, for tests.
+// For tests: small recordings in memory.
 #pragma once
 
 #include <memory>
@@ -34,8 +34,8 @@ inline std::span<const std::byte> AsBytes(std::string_view text) {
   return std::as_bytes(std::span(text));
 }
 
-// One metadata record, one attachment and three chunks of ten messages: at 0, 10, 20, … 290 ms on
-// the topics /even and /odd in turn.
+// A recording of one metadata record, one attachment and three chunks of ten messages: at 0, 10,
+// 20, … 290 ms, alternately on the topics /even and /odd.
 inline Bytes ThreeChunks() {
   Bytes bytes;
   MemorySink sink(bytes);
@@ -61,8 +61,8 @@ inline base::Result<std::unique_ptr<McapReader>> Open(std::span<const std::byte>
   return McapReader::Open(std::make_unique<MemorySource>(bytes), limits);
 }
 
-// The times of all messages from `from` on, in the order in which they are read; errors are
-// skipped and counted.
+// The times of all messages from `from` on, in the order in which they are read. Errors are skipped
+// and counted.
 struct Times {
   std::vector<base::SimTime> times;
   int errors = 0;

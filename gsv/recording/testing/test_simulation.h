@@ -18,7 +18,8 @@ using std::chrono_literals::operator""ms;
 using std::chrono_literals::operator""s;
 using std::chrono_literals::operator""us;
 
-// Drives forwards at `speed`, m/s. Creates a second sonar, "back", before its first wait.
+// A behaviour that drives forwards at `speed`, in m/s. It creates a second sonar, "back", before
+// its first wait.
 inline std::shared_ptr<ThreadBehaviour> Drives(double speed,
                                                std::chrono::microseconds dawdling = 0us) {
   return std::make_shared<ThreadBehaviour>(
@@ -41,7 +42,7 @@ inline simulation::RobotSpecification Robot(std::string name, double y,
   return simulation::Robot(std::move(name), 0, y, std::move(behaviour));
 }
 
-// Steps of 10 ms; a robot "robot" that starts at the origin.
+// A simulation with steps of 10 ms and a robot named "robot" that starts at the origin.
 inline std::shared_ptr<simulation::Simulation> MakeSimulation(
     base::SimTime duration, std::shared_ptr<simulation::BehaviourPort> behaviour) {
   simulation::Specification specification = simulation::Lockstep(duration);

@@ -1,6 +1,6 @@
 // Writes recordings for interop_test.mjs into a folder:
 //   whole.mcap      messages of every type, written through the asynchronous writer
-//   recovered.mcap  what is recovered of it after it was cut off in the middle
+//   recovered.mcap  the recording that is recovered from a truncated copy of whole.mcap
 //   run.mcap        two seconds of a simulation: a robot drives from the origin along x at 0.5 m/s
 //                   towards a wall whose face is at 2.9 m
 // and prints the content of whole.mcap, as `gsv rec info --json` does.
@@ -28,7 +28,7 @@ std::string TopicOf(const messages::Schema& schema) {
   return topic;
 }
 
-// Every message has the time round · kPeriod and the samples' seed `round`.
+// Every message has the time round · kPeriod, and the samples have the seed `round`.
 base::Status WriteAtomically(const std::string& path) {
   auto writer = McapWriter::Create(path, {.when_full = WhenFull::kWait});
   if (!writer) return base::Fail(writer.error());

@@ -12,12 +12,12 @@
 namespace gsv::recording {
 namespace {
 
-// For slow sensors, such as cameras: the number of readings that are taken at once (the renderer
-// makes one batch of them), and that are stored.
+// Limits for slow sensors such as cameras: the number of readings that are taken at once, which the
+// renderer makes one batch of, and the number that is stored.
 constexpr int kSlowAtOnce = 16;
 constexpr std::size_t kMaxSlowSensors = 64;
 
-// Every n-th instant of the sensor, with the smallest n that `rate` allows.
+// The period of every n-th instant of the sensor, with the smallest n that `rate` allows.
 base::SimTime PeriodOf(const model::SensorDescription& description, double rate) {
   if (description.update_rate <= 0) return base::FromSeconds(1 / rate);
   const base::SimTime own = base::FromSeconds(1 / description.update_rate);
@@ -32,12 +32,12 @@ struct SensorRecorder::Sensor {
   sensing::SensorMessages messages;
   std::shared_ptr<const sensing::Sensor> sensor;
   Instants instants;
-  bool is_wanted = true;                       // its readings are recorded
-  bool has_companion = false;                  // and it is recorded
-  bool has_beams = false;                      // and they are recorded
-  std::optional<ChannelId> channel;            // nothing before the first reading
-  std::optional<ChannelId> companion_channel;  // the same
-  std::optional<sensing::Reading> newest;      // only for sensors with beams
+  bool is_wanted = true;                       // whether its readings are recorded
+  bool has_companion = false;                  // whether its companion messages are recorded
+  bool has_beams = false;                      // whether its beams are recorded
+  std::optional<ChannelId> channel;            // nullopt before the first reading
+  std::optional<ChannelId> companion_channel;  // nullopt before the first reading
+  std::optional<sensing::Reading> newest;      // used only for sensors with beams
   bool has_failed = false;
 
   const model::SensorDescription& description() const { return sensor->description(); }
@@ -91,7 +91,7 @@ std::shared_ptr<SensorRecorder::Sensor> SensorRecorder::Make(
   if (!is_wanted && !has_beams) return nullptr;
   auto sensor = made_.Of(description);
   if (!sensor) {
-    Complain(sensor.error());
+    WarnOnce(sensor.error());
     return nullptr;
   }
   const double rate = (*sensor)->TakesLong() ? options_.rates.images : options_.rates.readings;
@@ -151,7 +151,7 @@ void SensorRecorder::Write(Sample& sample) {
   Sensor& sensor = *sample.sensor;
   if (!sample.reading) {
     sensor.has_failed = true;
-    return Complain(sample.reading.error());
+    return WarnOnce(sample.reading.error());
   }
   const base::SimTime time = sample.reading->time;
   if (sensor.is_wanted) {
@@ -179,7 +179,7 @@ std::optional<ChannelId> SensorRecorder::AddChannel(const std::string& topic,
                                                     const messages::Schema& schema) {
   const auto channel = writer_.AddChannel(topic, schema);
   if (channel) return *channel;
-  Complain(channel.error());
+  WarnOnce(channel.error());
   return std::nullopt;
 }
 
@@ -221,8 +221,8 @@ void SensorRecorder::WriteBeams(const world::Snapshot& snapshot) {
   if (!message.markers.empty()) beams_.Write(snapshot.state.time, message);
 }
 
-void SensorRecorder::Complain(const base::Error& error) {
-  if (std::exchange(has_complained_, true)) return;
+void SensorRecorder::WarnOnce(const base::Error& error) {
+  if (std::exchange(has_warned_, true)) return;
   spdlog::warn("a sensor is not recorded: {}", error.Sentence());
 }
 

@@ -1,8 +1,8 @@
-// Records the readings of all sensors on /ROBOT/SENSOR, their beams on one topic, and their
-// transforms (/tf_static).
+// Records the readings of all sensors on the topics /ROBOT/SENSOR, their beams on one topic, and
+// their transforms (/tf_static).
 //
-// A reading is a function of the snapshot. So it is sampled here again, with the value that the
-// robot's behaviour gets and without an effect on the simulation.
+// A reading is a function of the snapshot. So the recorder samples the sensor again. It gets the
+// value that the robot's behaviour gets, without an effect on the simulation.
 #pragma once
 
 #include <functional>
@@ -23,7 +23,7 @@
 
 namespace gsv::recording {
 
-// Rates in Hz of simulated time, > 0. A faster sensor is recorded at every nth of its instants.
+// Rates in Hz of simulated time, > 0. A faster sensor is recorded at every n-th of its instants.
 struct SensorRates {
   double readings = 20;
   double images = 1;
@@ -35,21 +35,21 @@ using WritePng = std::function<base::Result<std::vector<std::uint8_t>>(const mod
 
 struct SensorRecorderOptions {
   SensorRates rates{};
-  Selection selection{};  // of topics
-  // Encoder for images that sensors encode as JPEG; empty: they are recorded as JPEG.
+  Selection selection{};  // the selected topics
+  // Encodes images that sensors encode as JPEG. If it is empty, they are recorded as JPEG.
   WritePng write_png{};
 };
 
 class SensorRecorder {
  public:
-  // `writer` must outlive this. `seed` is the simulation's.
+  // `writer` must outlive this object. `seed` is that of the simulation.
   SensorRecorder(McapWriter& writer, std::shared_ptr<const sensing::SensorRegistry> types,
                  std::uint64_t seed, SensorRecorderOptions options);
   ~SensorRecorder();
 
-  // Sets the sensors from now on.
+  // Sets the sensors that are recorded from now on.
   void Mount(const SensorLists& lists, const world::Snapshot& snapshot);
-  // Writes what is due at the snapshot's time. Images are taken concurrently.
+  // Writes the readings that are due at the snapshot's time. Images are rendered concurrently.
   void Record(const std::shared_ptr<const world::Snapshot>& snapshot);
 
  private:
@@ -59,35 +59,36 @@ class SensorRecorder {
     Sensor* sensor = nullptr;
     int body = 0;
     base::Result<sensing::Reading> reading;
-    std::vector<std::uint8_t> message;    // empty if only its beams are recorded
-    std::vector<std::uint8_t> companion;  // empty where there is none
+    std::vector<std::uint8_t> message;    // empty if only the beams of the sensor are recorded
+    std::vector<std::uint8_t> companion;  // empty if the sensor has no companion message
   };
-  using Sensors = std::map<std::string, std::shared_ptr<Sensor>>;  // by topic
+  using Sensors = std::map<std::string, std::shared_ptr<Sensor>>;  // sensors by topic
 
   std::shared_ptr<Sensor> Make(const std::string& robot,
                                const model::SensorDescription& description);
   void Take(const std::shared_ptr<const world::Snapshot>& snapshot, Sample& sample);
   void Write(Sample& sample);
-  // Nothing, and a warning, if it cannot be added.
+  // Adds a channel. If that fails, it logs a warning and returns nullopt.
   std::optional<ChannelId> AddChannel(const std::string& topic, const messages::Schema& schema);
   base::Result<std::vector<std::uint8_t>> Encode(const Sensor& sensor,
                                                  const sensing::Reading& reading) const;
   void WriteTransforms(const world::Snapshot& snapshot);
   void WriteBeams(const world::Snapshot& snapshot);
-  // Logs a warning for the first sensor that cannot be recorded only, as there may be thousands.
-  void Complain(const base::Error& error);
+  // Logs a warning for the first sensor that cannot be recorded. It logs no others, because there
+  // may be thousands.
+  void WarnOnce(const base::Error& error);
 
   McapWriter& writer_;
   const std::shared_ptr<const sensing::SensorRegistry> types_;
-  sensing::SensorSet made_;  // of types_
+  sensing::SensorSet made_;  // sensors that were created from types_
   const std::uint64_t seed_;
   const SensorRecorderOptions options_;
   sensing::RaySceneCache rays_;
-  std::unique_ptr<base::ThreadTeam> team_;  // for sensors that take long, once there is one
+  std::unique_ptr<base::ThreadTeam> team_;  // for slow sensors; null until there is one
   Sensors sensors_;
   Instants beams_instants_;
   presentation::BeamMarkers beam_markers_;
-  bool has_complained_ = false;
+  bool has_warned_ = false;
 
   TopicWriter<messages::visualization_msgs::MarkerArray> beams_;
   TopicWriter<messages::tf2_msgs::TFMessage> transforms_;

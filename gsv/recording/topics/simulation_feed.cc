@@ -5,7 +5,8 @@
 namespace gsv::recording {
 namespace {
 
-// Mounting a sensor does not change the layout, so the lists are checked regularly.
+// Mounting a sensor does not change the layout, so the lists of sensors are checked at this
+// interval.
 constexpr base::SimTime kSensorPeriod = std::chrono::seconds(1);
 constexpr std::size_t kMaxEvents = 10'000;
 
@@ -60,7 +61,7 @@ void SimulationFeed::OnSnapshot(const std::shared_ptr<const world::Snapshot>& sn
 }
 
 void SimulationFeed::OnEvent(const simulation::Event& event) {
-  const bool is_reset = event.kind == "reset";  // it has the time of the next run
+  const bool is_reset = event.kind == "reset";  // the event of a reset has the time of the next run
   {
     const base::MutexLock lock(mutex_);
     if (closed_) return;
@@ -90,7 +91,7 @@ void SimulationFeed::CloseAtLatest() {
   {
     const base::MutexLock lock(mutex_);
     if (!closed_) {
-      // Taken last: the simulation may be running.
+      // The snapshot is taken last, because the simulation may be running.
       queue_.emplace_back(Observation{simulation_.snapshot(), nullptr, status});
       ++snapshots_;
     }

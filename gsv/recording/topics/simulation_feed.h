@@ -1,10 +1,10 @@
-// A queue of snapshots and events between a simulation and a slower consumer: the stepping thread
-// does not wait.
+// A queue of snapshots and events between a simulation and a slower consumer. The stepping thread
+// does not wait for the consumer.
 //
-// Threads      any; Next() from one.
-// Bounded      snapshots by a capacity: if the queue is full, the producer waits or the snapshot is
-//              dropped and counted. Events never wait, as they come under the simulation's locks;
-//              excess ones are dropped.
+// Threads      any; Next() from one thread only.
+// Bounded      snapshots are limited by a capacity. If the queue is full, the producer waits, or
+//              the snapshot is dropped and counted. Events never wait, because they are emitted
+//              under the simulation's locks; excess events are dropped.
 // Determinism  in lockstep nothing is dropped, and the stepping thread takes the lists of sensors
 //              while all agents wait.
 #pragma once
@@ -24,43 +24,43 @@
 
 namespace gsv::recording {
 
-using SensorLists = std::map<std::string, std::vector<model::SensorDescription>>;  // by robot
+using SensorLists = std::map<std::string, std::vector<model::SensorDescription>>;  // By robot.
 
-// The sensors of all robots, avatars and stations of `layout`.
+// Returns the sensors of all robots, avatars and stations of `layout`.
 SensorLists SensorsOf(const simulation::Simulation& simulation, const world::Layout& layout);
 
 struct Observation {
   std::shared_ptr<const world::Snapshot> snapshot;
-  std::shared_ptr<const SensorLists> sensors;          // null: unchanged, or not checked
-  std::optional<simulation::SimulationStatus> status;  // at its rate
+  std::shared_ptr<const SensorLists> sensors;  // null if they are unchanged, or were not checked
+  std::optional<simulation::SimulationStatus> status;  // set at the rate of the status
 };
 using Occurrence = std::variant<Observation, simulation::Event>;
 
 struct FeedOptions {
   WhenFull when_full = WhenFull::kDrop;
-  std::size_t capacity = 256;  // snapshots
+  std::size_t capacity = 256;  // number of snapshots
   base::SimTime status_period = std::chrono::milliseconds(200);
 };
 
 class SimulationFeed final : public simulation::Observer {
  public:
-  // The stepping thread and CloseAtLatest() use `simulation`, which must exist then.
+  // `simulation` must exist when the stepping thread calls this feed, and in CloseAtLatest().
   SimulationFeed(const simulation::Simulation& simulation, FeedOptions options);
 
   void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) override;
   void OnEvent(const simulation::Event& event) override;
 
-  // The next occurrence; nothing after `timeout` of wall-clock time, or at the end.
+  // Returns the next occurrence. Returns nullopt after `timeout` of wall-clock time, or at the end.
   std::optional<Occurrence> Next(std::chrono::milliseconds timeout);
 
   // Closes the feed and releases waiting producers. Queued occurrences remain. A reset of the
-  // simulation closes it, too.
+  // simulation also closes it.
   void Close();
-  // As Close(), and appends the current state of the simulation, which must still exist.
+  // Closes the feed and appends the current state of the simulation, which must still exist.
   void CloseAtLatest();
-  bool is_over() const;  // closed, and nothing is queued
+  bool is_over() const;  // Whether the feed is closed and the queue is empty.
   bool was_reset() const;
-  std::uint64_t dropped() const;  // snapshots
+  std::uint64_t dropped() const;  // The number of dropped snapshots.
 
  private:
   Observation Observe(const std::shared_ptr<const world::Snapshot>& snapshot);
@@ -71,13 +71,13 @@ class SimulationFeed final : public simulation::Observer {
   // Used by the stepping thread only.
   Instants status_instants_;
   Instants sensor_instants_;
-  std::shared_ptr<const world::Layout> layout_;  // for which the sensors were listed
+  std::shared_ptr<const world::Layout> layout_;  // the layout whose sensors were listed
 
   mutable base::Mutex mutex_;
   base::ConditionVariable news_;
   base::ConditionVariable room_;
   std::deque<Occurrence> queue_ GSV_GUARDED_BY(mutex_);
-  std::size_t snapshots_ GSV_GUARDED_BY(mutex_) = 0;  // in queue_
+  std::size_t snapshots_ GSV_GUARDED_BY(mutex_) = 0;  // number of snapshots in queue_
   bool closed_ GSV_GUARDED_BY(mutex_) = false;
   bool was_reset_ GSV_GUARDED_BY(mutex_) = false;
   std::uint64_t dropped_ GSV_GUARDED_BY(mutex_) = 0;

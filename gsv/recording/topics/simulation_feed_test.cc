@@ -9,23 +9,24 @@
 namespace gsv::recording {
 namespace {
 
-TEST(Instants, AreTakenAtTheFirstSnapshotAtOrAfterThem) {
+TEST(Instants, PassAtTheFirstSnapshotAtOrAfterThem) {
   Instants instants(30ms);
   std::vector<int> taken;
   for (int time = 0; time <= 120; time += 20) {
     if (instants.Pass(std::chrono::milliseconds(time))) taken.push_back(time);
   }
-  EXPECT_EQ(taken, (std::vector<int>{0, 40, 60, 100, 120}));  // for 0, 30, 60, 90, 120 ms
+  // the snapshots of the instants 0, 30, 60, 90, 120 ms
+  EXPECT_EQ(taken, (std::vector<int>{0, 40, 60, 100, 120}));
 }
 
-TEST(Instants, TheFirstSnapshotHasNoInstantBeforeIt) {
+TEST(Instants, DoNotPassBeforeTheFirstSnapshot) {
   Instants instants(50ms);
   EXPECT_FALSE(instants.Pass(70ms));
   EXPECT_FALSE(instants.Pass(90ms));
   EXPECT_TRUE(instants.Pass(100ms));
 }
 
-TEST(Instants, SeveralInARowCountAsOne) {
+TEST(Instants, SeveralBetweenTwoSnapshotsCountAsOne) {
   Instants instants(10ms);
   EXPECT_TRUE(instants.Pass(0ms));
   EXPECT_TRUE(instants.Pass(55ms));

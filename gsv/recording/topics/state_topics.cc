@@ -78,7 +78,7 @@ void StateTopics::WriteHash(const world::Snapshot& snapshot) {
   hash_.Write(snapshot.state.time, message);
 }
 
-// A snapshot has a command one step after it was given.
+// A snapshot contains a command one step after it was given.
 void StateTopics::WriteNewCommands(const world::Snapshot& snapshot) {
   const world::State& state = snapshot.state;
   for (std::size_t i = 0; i < layout_->bodies.size(); ++i) {
@@ -86,12 +86,12 @@ void StateTopics::WriteNewCommands(const world::Snapshot& snapshot) {
     if (!body.is_robot()) continue;
     const world::DriveState& drive = state.bodies[i].drive;
     if (IsSameOrder(drive, std::exchange(written_[body.name], drive))) continue;
-    if (IsSameOrder(drive, {})) continue;  // the robot was removed, and added again
+    if (IsSameOrder(drive, {})) continue;  // the robot was removed and added again
     commands_.Write(state.time, presentation::CommandMessage(body.name, drive, state));
   }
 }
 
-// Likewise for commands of devices.
+// Device commands are handled like drive commands.
 void StateTopics::WriteNewDeviceCommands(const world::Snapshot& snapshot) {
   const world::State& state = snapshot.state;
   const auto before = std::exchange(devices_, state.devices);

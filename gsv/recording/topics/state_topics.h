@@ -1,7 +1,7 @@
-// Records the topics of the simulation as a whole (docs/formats/messages.md). They are /clock, /tf,
-// /diagnostics, /rosout, and poses, commands, actuators, contacts, radio, status, events and
-// state_hash in /gsv. The first edit adds the topic /gsv/edits, whether selected or not, as
-// resimulation needs it.
+// Records the topics of the simulation as a whole (docs/formats/messages.md). These are /clock,
+// /tf, /diagnostics, /rosout, and in /gsv: poses, commands, actuators, contacts, radio, status,
+// events and state_hash. The first edit adds the topic /gsv/edits even if it is not selected,
+// because resimulation needs it.
 #pragma once
 
 #include <map>
@@ -20,12 +20,12 @@ namespace gsv::recording {
 
 class StateTopics {
  public:
-  // `poses_rate`: Hz of simulated time, > 0. `writer` must outlive this.
+  // `poses_rate` is in Hz of simulated time, > 0. `writer` must outlive this object.
   StateTopics(McapWriter& writer, double poses_rate, const Selection& selection);
 
   // Writes the messages that are due at the time of the snapshot.
   void Record(const std::shared_ptr<const world::Snapshot>& snapshot);
-  // Writes all messages of the snapshot that were not written yet, whether due or not.
+  // Writes all messages of the snapshot that were not written yet, even if they are not due.
   void RecordNow(const world::Snapshot& snapshot);
 
   void RecordStatus(const simulation::SimulationStatus& status);
@@ -43,12 +43,12 @@ class StateTopics {
   Instants poses_instants_;
   Instants hash_instants_;
   Instants diagnostics_instants_;
-  std::optional<std::int64_t> poses_step_;  // step of the last written poses
+  std::optional<std::int64_t> poses_step_;  // the step of the last written poses
   std::shared_ptr<const world::Layout> layout_;
-  std::vector<presentation::PoseEntry> pose_list_;    // of layout_
-  std::map<std::string, world::DriveState> written_;  // by robot: the last written command
+  std::vector<presentation::PoseEntry> pose_list_;    // poses of the bodies of layout_
+  std::map<std::string, world::DriveState> written_;  // the last written command, by robot
 
-  std::shared_ptr<const world::DeviceStates> devices_;  // of the last snapshot
+  std::shared_ptr<const world::DeviceStates> devices_;  // the devices of the last snapshot
 
   TopicWriter<messages::rosgraph_msgs::Clock> clock_;
   TopicWriter<messages::gsv_msgs::Poses> poses_;

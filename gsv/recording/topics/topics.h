@@ -8,11 +8,11 @@
 
 namespace gsv::recording {
 
-// All topics that can be recorded now, by name. Robots and sensors that are added later have
-// further ones.
+// Returns all topics that can be recorded now, ordered by name. Robots and sensors that are added
+// later have further topics.
 std::vector<std::string> TopicsOf(const simulation::Simulation& simulation);
 
-// Those of `patterns` (as in Selection) that match none of `topics`.
+// Returns the patterns (as in Selection) that match none of `topics`.
 std::vector<std::string> UnmatchedPatterns(const std::vector<std::string>& topics,
                                            const std::vector<std::string>& patterns);
 

@@ -15,7 +15,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-TEST(Topics, AreThoseThatARecordingOfEverythingHolds) {
+TEST(Topics, AreThoseOfACompleteRecording) {
   const std::string path = ::testing::TempDir() + "gsv_topics.mcap";
   const auto simulation = MakeSimulation(1s, Drives(0.5));
   RecorderOptions options;
@@ -36,7 +36,7 @@ TEST(Topics, AreThoseThatARecordingOfEverythingHolds) {
   std::filesystem::remove(path);
 }
 
-TEST(Topics, APatternSelectsItsTopicOrAllBelowIt) {
+TEST(Topics, PatternSelectsATopicOrAllBelowIt) {
   const std::vector<std::string> topics{"/clock", "/gsv/poses", "/robot/front"};
   EXPECT_THAT(UnmatchedPatterns(topics, {"/clock", "/gsv/", "/robot/", "/robot/front"}), IsEmpty());
   EXPECT_THAT(UnmatchedPatterns(topics, {"/robot", "/clock", "/robot/front/", "/rob"}),

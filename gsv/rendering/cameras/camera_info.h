@@ -1,11 +1,11 @@
 // ROS's sensor_msgs/CameraInfo of a camera.
 //
 // Frame   ROBOT/SENSOR/optical, as in ROS: z along the view, x to the right, y down.
-// Lens    K holds fx, skew, cx; fy, cy in pixels, P is K beside a column of zeros, R is 1: what is
-//         rectified has the same K. A distorted pinhole is "plumb_bob" with D = k1 k2 p1 p2 k3,
-//         where the distortion is about the principal point; an equidistant wide lens is
+// Lens    K holds fx, skew, cx; fy, cy in pixels. P is K with a column of zeros. R is the identity,
+//         so a rectified image has the same K. A distorted pinhole is "plumb_bob" with D = k1 k2 p1
+//         p2 k3, where the distortion is about the principal point. An equidistant wide lens is
 //         "equidistant" with D = 0 0 0 0 and K for r = f a. ROS has no model of other lenses: the
-//         name and D are empty, and K is zero, ROS's "not calibrated".
+//         name and D are empty, and K is zero, which ROS defines as "not calibrated".
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ namespace gsv::rendering {
 
 // The model of a pinhole or an equidistant lens; zero if ROS has no model of the lens.
 struct LensModel {
-  std::string name;  // ROS's distortion_model; empty: none
+  std::string name;  // ROS's distortion_model; empty if ROS has none
   std::vector<double> coefficients;
   Intrinsics intrinsics;
 };

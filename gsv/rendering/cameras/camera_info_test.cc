@@ -38,7 +38,7 @@ Lens LensFor(const model::SensorDescription& description) {
   return Optics::Read(reader).lens();
 }
 
-// By the equations of ROS and OpenCV, from a point in the optical frame.
+// Projects a point in the optical frame with the equations of ROS and OpenCV.
 geometry::Vector2 PlumbBob(const CameraInfo& info, double x, double y, double z) {
   x /= z, y /= z;
   const double r2 = x * x + y * y;
@@ -49,7 +49,7 @@ geometry::Vector2 PlumbBob(const CameraInfo& info, double x, double y, double z)
   return {info.k[0] * u + info.k[1] * v + info.k[2], info.k[4] * v + info.k[5]};
 }
 
-TEST(CameraInfo, OfAPinholeFollowsFromItsFieldOfView) {
+TEST(CameraInfo, OfAPinholeIsComputedFromTheFieldOfView) {
   const CameraInfo info = InfoFor(
       CameraWith({{"image.width", 640.0}, {"image.height", 480.0}, {"horizontal_fov", 1.2}}));
   const double f = 320 / std::tan(0.6);
@@ -66,7 +66,7 @@ TEST(CameraInfo, OfAPinholeFollowsFromItsFieldOfView) {
   EXPECT_EQ(info.header.stamp.nanosec, 250'000'000u);
 }
 
-TEST(CameraInfo, LeadsRosToTheSamePixels) {
+TEST(CameraInfo, RosEquationsProjectToTheSamePixels) {
   const auto description = CameraWith({{"image.width", 640.0},
                                        {"image.height", 480.0},
                                        {"lens.intrinsics.fx", 500.0},
@@ -94,7 +94,7 @@ TEST(CameraInfo, LeadsRosToTheSamePixels) {
   }
 }
 
-TEST(CameraInfo, OfAnEquidistantLensHoldsPixelsARadian) {
+TEST(CameraInfo, OfAnEquidistantLensContainsPixelsPerRadian) {
   const auto description = CameraWith({{"image.width", 600.0},
                                        {"image.height", 400.0},
                                        {"horizontal_fov", std::numbers::pi},
@@ -109,7 +109,7 @@ TEST(CameraInfo, OfAnEquidistantLensHoldsPixelsARadian) {
   EXPECT_WITHIN(at_one_radian->x, info.k[2] + info.k[0], 1e-9, "pixel");
 }
 
-TEST(CameraInfo, OfALensThatRosHasNoModelOfSaysNothing) {
+TEST(CameraInfo, IsZeroForLensesWithoutARosModel) {
   const std::string stereographic = "stereographic", corner = "0 0";
   for (const model::Parameters& parameters :
        std::vector<model::Parameters>{{{"lens.type", stereographic}, {"horizontal_fov", 2.0}},
@@ -122,7 +122,7 @@ TEST(CameraInfo, OfALensThatRosHasNoModelOfSaysNothing) {
   }
 }
 
-TEST(CameraInfo, GoesWithEveryCamera) {
+TEST(CameraInfo, IsTheCompanionMessageOfEveryCamera) {
   sensing::SensorRegistry registry;
   ASSERT_TRUE(AddCameraSensor(registry, nullptr));
   for (const char* name : {"camera", "wideangle_camera"}) {

@@ -1,12 +1,12 @@
 // The sensor types "camera" and "wideangle_camera": images from a robot's viewpoint.
 //
 // Frame       sensor frame: x along the view, y left, z up.
-// Parameters  those of every camera, see optics.h (a "wideangle_camera" has a stereographic lens),
-//             and those of shutter.h and exposure.h.
+// Parameters  those of every camera (see optics.h), and those of shutter.h and exposure.h. The
+//             default lens of a "wideangle_camera" is stereographic.
 // Readings    values {width, height} in pixels; the image is RGB. As a message:
 //             sensor_msgs/CompressedImage, JPEG of quality 80.
 // Errors      Sample(): kUnavailable with the reason if there is no renderer. All other sensors
-//             work without one.
+//             work without a renderer.
 #pragma once
 
 #include <memory>
@@ -16,8 +16,8 @@
 
 namespace gsv::rendering {
 
-// `renderer` is the result of Renderer::Start(), also a failure. Fails if the registry has a camera
-// already.
+// `renderer` is the result of Renderer::Start(), which may be a failure. Fails if the registry has
+// a camera already.
 [[nodiscard]] base::Status AddCameraSensor(sensing::SensorRegistry& registry,
                                            base::Result<std::shared_ptr<Renderer>> renderer);
 

@@ -31,7 +31,7 @@ struct Fixture {
   const sensing::SensorType& type() { return *registry.Find("camera"); }
 };
 
-TEST(Camera, TakesAPictureFromWhereItIsMounted) {
+TEST(Camera, TakesAnImageFromItsMountingPose) {
   Fixture fixture(Renderer::Start());
   const auto camera = fixture.type().create(
       Front({{"image.width", 64.0}, {"image.height", 48.0}, {"horizontal_fov", 1.5}}));
@@ -85,7 +85,7 @@ TEST(Camera, BecomesAJpegMessage) {
   EXPECT_NEAR(back[2], 50, 4);
 }
 
-TEST(Camera, RefusesImpossiblePictures) {
+TEST(Camera, RejectsInvalidImageParameters) {
   Fixture fixture(nullptr);
   for (const auto& [name, value] : {std::pair{"image.width", 0.0},
                                     {"image.width", 100000.0},
@@ -102,7 +102,7 @@ TEST(Camera, RefusesImpossiblePictures) {
   }
 }
 
-TEST(Camera, WithoutARendererSaysWhyWhenAsked) {
+TEST(Camera, ReportsWhyThereIsNoRenderer) {
   Fixture fixture(base::Fail(base::ErrorCode::kUnavailable, "there is no EGL here"));
   const auto camera = fixture.type().create(Front());
   ASSERT_TRUE(camera);
@@ -114,7 +114,7 @@ TEST(Camera, WithoutARendererSaysWhyWhenAsked) {
   EXPECT_EQ(reading.error().message, "there is no EGL here");
 }
 
-TEST(Camera, WithANullRendererFailsAsWell) {
+TEST(Camera, FailsIfTheRendererIsNull) {
   Fixture fixture(nullptr);
   const auto camera = fixture.type().create(Front());
   ASSERT_TRUE(camera);
@@ -123,7 +123,7 @@ TEST(Camera, WithANullRendererFailsAsWell) {
   EXPECT_FALSE((*camera)->Sample(sensing::Sampling(scene.Snapshot(), 0, 1, fixture.rays)));
 }
 
-TEST(Camera, IsShownAsAPicture) {
+TEST(Camera, OverlayIsAnImage) {
   Fixture fixture(nullptr);
   EXPECT_EQ(fixture.type().overlay, sensing::Overlay::kImage);
 }

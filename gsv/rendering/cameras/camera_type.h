@@ -15,13 +15,13 @@
 
 namespace gsv::rendering {
 
-// The result of Renderer::Start(), also a failure.
+// The result of Renderer::Start(), which may be a failure.
 using RendererResult = base::Result<std::shared_ptr<Renderer>>;
 
 template <typename Values, typename Message>
 class CameraOf : public sensing::SensorOf<Values, Message> {
  public:
-  // `lens_type`: default for cameras whose parameters name none.
+  // `lens_type` is the default lens of cameras whose parameters do not name one.
   CameraOf(const model::SensorDescription& description, sensing::ParameterReader& reader,
            RendererResult renderer, const std::string& lens_type = "gnomonical")
       : sensing::SensorOf<Values, Message>(description),
@@ -44,7 +44,8 @@ class CameraOf : public sensing::SensorOf<Values, Message> {
   const RendererResult renderer_;
 };
 
-// The type of a CameraOf. Without a renderer such cameras exist, but reading them fails.
+// Makes the sensor type of the class `Kind`, which derives from CameraOf. Without a renderer such
+// cameras exist, but reading them fails.
 template <typename Kind, typename... Context>
 sensing::SensorType MakeCameraType(std::string name, std::vector<std::string> aliases,
                                    sensing::Overlay overlay,

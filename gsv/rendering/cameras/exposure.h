@@ -1,9 +1,9 @@
 // Exposure, vignetting and noise of camera images.
 //
-// Parameters  exposure (0): stops, each doubles the light; gain (1): factor on light and noise;
-//             vignetting (0): fraction of light that is missing in the corners, falling with the
-//             square of the distance towards the centre; noise.*: see sensing/noise.h, per pixel
-//             and channel, from 0 (black) to 1 (white): mean, stddev and biases.
+// Parameters  exposure (0): in stops, each doubles the light. gain (1): factor on light and noise.
+//             vignetting (0): fraction of the light that is missing in the corners; it falls with
+//             the square of the distance towards the centre. noise.*: see sensing/noise.h; for each
+//             pixel and channel, from 0 (black) to 1 (white): mean, stddev and biases.
 // Model       light is the linear colour of the image, so that clipped pixels stay clipped.
 #pragma once
 
@@ -18,10 +18,11 @@ class Exposure {
   // Reports invalid parameters to the reader.
   explicit Exposure(sensing::ParameterReader& reader);
 
-  // Whether it changes nothing.
+  // Whether Apply() leaves images unchanged.
   bool is_neutral() const;
 
-  // Applies exposure, vignetting and the noise of the sampling's instant to an RGB image.
+  // Applies exposure, vignetting and noise to an RGB image. The noise is that of the instant of
+  // `sampling`.
   void Apply(const sensing::Sampling& sampling, const model::SensorDescription& description,
              model::Image& image) const;
 
@@ -30,7 +31,7 @@ class Exposure {
   void ApplyNoise(const sensing::Sampling& sampling, const model::SensorDescription& description,
                   model::Image& image) const;
 
-  double light_ = 1;  // a factor
+  double light_ = 1;  // the factor on the light
   double gain_ = 1;
   double vignetting_ = 0;
   sensing::NoiseModel noise_;

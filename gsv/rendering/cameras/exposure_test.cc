@@ -47,12 +47,12 @@ TEST_F(ExposureTest, AStopHalvesOrDoublesTheLight) {
   }
 }
 
-TEST_F(ExposureTest, NothingAskedForChangesNothing) {
+TEST_F(ExposureTest, DefaultsLeaveImagesUnchanged) {
   EXPECT_EQ(Exposed({}, 77).pixels, std::vector<std::uint8_t>(3 * 100 * 80, 77));
   EXPECT_EQ(Exposed({{"gain", 1.0000001}}, 77).pixels, std::vector<std::uint8_t>(3 * 100 * 80, 77));
 }
 
-TEST_F(ExposureTest, CornersAreDarkerByTheSquareOfTheDistance) {
+TEST_F(ExposureTest, VignettingGrowsWithTheSquareOfTheDistance) {
   const model::Image image = Exposed({{"vignetting", 0.6}}, 200);
   const double light = Linear(200 / 255.0);
   EXPECT_WITHIN(Brightness(image, 50, 40), 200, 1, "level");
@@ -61,7 +61,7 @@ TEST_F(ExposureTest, CornersAreDarkerByTheSquareOfTheDistance) {
   EXPECT_NEAR(Brightness(image, 99, 79), Brightness(image, 0, 0), 0);
 }
 
-TEST_F(ExposureTest, NoiseHasItsMeanAndDeviation) {
+TEST_F(ExposureTest, NoiseHasTheGivenMeanAndDeviation) {
   const model::Image image = Exposed({{"noise.mean", 0.02}, {"noise.stddev", 0.05}}, 120);
   double sum = 0, squares = 0;
   for (const std::uint8_t v : image.pixels) sum += v, squares += double(v) * v;
@@ -69,18 +69,18 @@ TEST_F(ExposureTest, NoiseHasItsMeanAndDeviation) {
   const double mean = sum / n, deviation = std::sqrt(squares / n - mean * mean);
   const double expected = 0.05 * 255;
   EXPECT_WITHIN_3_SIGMA(mean, 120 + 0.02 * 255, expected / std::sqrt(n));
-  // Rounding to whole numbers adds a twelfth to the variance.
+  // Rounding to whole numbers adds 1/12 to the variance.
   EXPECT_WITHIN_3_SIGMA(deviation, std::sqrt(expected * expected + 1.0 / 12),
                         expected / std::sqrt(2 * n));
 }
 
-TEST_F(ExposureTest, NoiseIsThatOfTheStepAndOfNothingElse) {
+TEST_F(ExposureTest, NoiseDependsOnlyOnTheStep) {
   const model::Parameters noisy = {{"noise.stddev", 0.05}};
   EXPECT_EQ(Exposed(noisy, 120, 5).pixels, Exposed(noisy, 120, 5).pixels);
   EXPECT_NE(Exposed(noisy, 120, 5).pixels, Exposed(noisy, 120, 6).pixels);
 }
 
-TEST_F(ExposureTest, GainIsForLightAndNoise) {
+TEST_F(ExposureTest, GainAmplifiesLightAndNoise) {
   const model::Image image =
       Exposed({{"exposure", -1.0}, {"gain", 2.0}, {"noise.stddev", 0.02}}, 120);
   double sum = 0, squares = 0;

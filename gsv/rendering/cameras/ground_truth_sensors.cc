@@ -25,10 +25,11 @@ using sensing::Reading;
 using sensing::Segment;
 
 constexpr std::size_t kSharedSurveyBytes = 64 << 20;
-constexpr std::size_t kMaxDrawnPoints = 2000;  // points of a cloud in the viewer
+// the maximum number of points of a cloud in the viewer
+constexpr std::size_t kMaxDrawnPoints = 2000;
 
-// The point at one metre along the view; nothing if the lens shows nothing there, or if it is
-// directly beside the camera.
+// The point of a pixel's ray at one metre along the view; nullopt if the lens shows nothing there,
+// or if the ray does not point forward.
 std::optional<Vector3> OneMetreOn(const std::optional<Vector3>& ray) {
   if (!ray || std::abs(ray->x) < 1e-6) return std::nullopt;
   return (1 / ray->x) * *ray;
@@ -120,7 +121,7 @@ messages::sensor_msgs::CompressedImage PngOf(const Reading& reading) {
   return message;
 }
 
-// An odd factor: no two labels below 2^24 have the same colour.
+// The factor is odd, so no two labels below 2^24 have the same colour.
 std::uint32_t ColourOf(std::uint32_t label) { return (label * 0x9E3779u) & 0xFFFFFFu; }
 
 class SegmentationCamera final
@@ -207,7 +208,7 @@ class BoundingBoxCamera final
     return message;
   }
 
-  // Each box as a frame at a distance of 1 m.
+  // Draws each box as a frame at a distance of 1 m.
   std::vector<Segment> BeamsOf(const Values& seen) const override {
     const auto corner = [&](double u, double v) { return OneMetreOn(optics().lens().RayAt(u, v)); };
     std::vector<Segment> lines;
@@ -224,7 +225,7 @@ class BoundingBoxCamera final
   }
 };
 
-// The temperature of each visual of a body, in the order of their numbers in surveys.
+// The temperature of each visual of a body, in the order of the visuals in a depth and label image.
 std::vector<double> TemperaturesOf(const world::Body& body, double of_air) {
   std::vector<double> temperatures;
   for (const model::Link& link : body.model->links) {
@@ -250,7 +251,7 @@ class ThermalCamera final
   Reading Read(const sensing::Sampling& sampling, const GroundTruth& truth) const override {
     const world::Layout& layout = *sampling.snapshot()->layout;
     const double of_air = layout.description->temperature;
-    std::map<std::int32_t, std::vector<double>> known;  // by body, for visible bodies
+    std::map<std::int32_t, std::vector<double>> known;  // temperatures by body, for visible bodies
     const sensing::NoisyReading noisy(sampling, description());
     std::vector<double> temperature(truth.body.size(), Stepped(of_air));
     for (std::size_t i = 0; i < temperature.size(); ++i) {
@@ -269,7 +270,7 @@ class ThermalCamera final
     return reading;
   }
 
-  // The same format as mono16 of ROS's image_transport.
+  // The message has the format mono16 of ROS's image_transport.
   Message ToMessage(const Values& image, const Reading&, const std::string&) const override {
     std::vector<std::uint16_t> steps;
     steps.reserve(image.temperature.size());
@@ -282,21 +283,21 @@ class ThermalCamera final
     return message;
   }
 
-  // A dropped pixel reads 0 K.
+  // A pixel that is lost to dropout reads 0 K.
   double StepsOf(double kelvin) const {
     return std::isfinite(kelvin) ? std::clamp(std::round(kelvin / resolution_), 0.0, kMaxSteps) : 0;
   }
   double Stepped(double kelvin) const { return resolution_ * StepsOf(kelvin); }
 
-  const double resolution_;  // K
+  const double resolution_;  // K per step of a pixel value
   const sensing::NoiseModel noise_;
 };
 
-// Normals of the surfaces in a depth image. A tangent is the difference between a pixel's point and
-// an adjacent one of the same visual. Of the two adjacent pixels, that on the side closer to a
-// plane is used, so that a normal near an edge belongs to the pixel's own face. In the image of a
-// plane, the inverse depth is linear along a line: its second difference measures the distance from
-// a plane.
+// Computes surface normals from a depth image. A tangent is the difference between a pixel's point
+// and that of an adjacent pixel of the same visual. There are two such neighbours: the one on the
+// side that is closer to a plane is used, so that a normal near an edge belongs to the pixel's own
+// face. In the image of a plane, the inverse depth is linear along a line, so its second difference
+// measures the deviation from a plane.
 class SurfaceNormals {
  public:
   SurfaceNormals(const GroundTruth& truth, const Optics& optics) : truth_(truth) {
@@ -308,7 +309,7 @@ class SurfaceNormals {
     }
   }
 
-  // Towards the camera; nothing if it is unknown.
+  // The normal of a pixel, which points towards the camera; nullopt if it is unknown.
   std::optional<Vector3> At(int x, int y) const {
     if (!points_[Index(x, y)]) return std::nullopt;
     const auto across = Tangent(x, y, 1, 0), down = Tangent(x, y, 0, 1);
@@ -332,8 +333,8 @@ class SurfaceNormals {
            truth_.visual[other] == truth_.visual[pixel];
   }
 
-  // The deviation from a plane of the points seen by three pixels, which start at (x, y) and are (dx, dy)
-  // apart; infinite if one of them has no depth.
+  // How much three points deviate from a plane: those of pixel (x, y) and of the next two, each
+  // (dx, dy) further. Infinite if one of them has no depth.
   double Bend(int x, int y, int dx, int dy) const {
     const std::size_t pixel = Index(x, y);
     if (!IsOfVisualAt(pixel, x + 2 * dx, y + 2 * dy)) {
@@ -355,7 +356,8 @@ class SurfaceNormals {
   }
 
   const GroundTruth& truth_;
-  std::vector<std::optional<Vector3>> points_;  // in the sensor frame; nothing if no surface is hit
+  // by pixel, in the sensor frame; nullopt if the ray hits no surface
+  std::vector<std::optional<Vector3>> points_;
 };
 
 class NormalsCamera final

@@ -2,8 +2,8 @@
 // "boundingbox_camera", "thermal_camera" and "normals_camera".
 //
 // Frame       sensor frame: x along the view, y left, z up.
-// Parameters  those of every camera, see optics.h. A depth camera also has noise (m), see
-//             sensing/noise.h: white noise, bias and dropout for each pixel.
+// Parameters  those of every camera (see optics.h). A depth camera also has noise in m (see
+//             sensing/noise.h): white noise, bias and dropout for each pixel.
 // Readings    rows from the top, see ground_truth.h.
 //             depth_camera ("depth", "rgbd_camera"): values {width, height, then for each pixel the
 //             distance along the view in m, infinite where nothing is}. As a message:
@@ -35,8 +35,8 @@
 
 namespace gsv::rendering {
 
-// `renderer` is the result of Renderer::Start(), also a failure. Fails if the registry has one of
-// the types already.
+// `renderer` is the result of Renderer::Start(), which may be a failure. Fails if the registry has
+// one of the types already.
 [[nodiscard]] base::Status AddGroundTruthSensors(
     sensing::SensorRegistry& registry, const base::Result<std::shared_ptr<Renderer>>& renderer);
 

@@ -31,7 +31,7 @@ Vector3 RayOf(int x, int y) {
   return {1, (kSurveyWidth / 2.0 - x - 0.5) / kFocal, (kSurveyHeight / 2.0 - y - 0.5) / kFocal};
 }
 
-class SurveyTest : public ::testing::Test {
+class GroundTruthTest : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!renderer_) GTEST_SKIP() << renderer_.error().Sentence();
@@ -48,7 +48,8 @@ class SurveyTest : public ::testing::Test {
     model::SensorDescription description;
     description.name = "eye";
     description.type = type;
-    description.link_from_sensor.position = {0.3, 0, 0};  // at (0.3, 0, 1) of the world
+    // the camera is at (0.3, 0, 1) in the world
+    description.link_from_sensor.position = {0.3, 0, 0};
     description.parameters = {{"image.width", double(kSurveyWidth)},
                               {"image.height", double(kSurveyHeight)},
                               {"horizontal_fov", kSurveyFov},
@@ -75,12 +76,12 @@ class SurveyTest : public ::testing::Test {
     return *message;
   }
 
-  explicit SurveyTest(BackEnd back_end = BackEnd::kRasteriser)
+  explicit GroundTruthTest(BackEnd back_end = BackEnd::kRasteriser)
       : renderer_(Renderer::Start({.back_end = back_end})) {
     if (renderer_) {
       EXPECT_TRUE(AddGroundTruthSensors(registry_, renderer_));
     }
-    // With collisions, so that rays can be cast.
+    // The bodies have collisions, so that rays can be cast at them.
     Add("robot", geometry::Box{{0.4, 0.4, 0.4}}, PlanarPose(0, 0, 1, 0));
   }
 
@@ -91,7 +92,7 @@ class SurveyTest : public ::testing::Test {
   sensing::RaySceneCache rays_;
 };
 
-TEST_F(SurveyTest, DepthOfAPlaneIsThatOfItsEquation) {
+TEST_F(GroundTruthTest, DepthOfAPlaneEqualsItsEquation) {
   // A wall whose face passes through (4, 0, 1) with a yaw of 0.5 rad.
   const double turn = 0.5;
   const Vector3 normal{-std::cos(turn), -std::sin(turn), 0};
@@ -111,19 +112,20 @@ TEST_F(SurveyTest, DepthOfAPlaneIsThatOfItsEquation) {
   }
 }
 
-TEST_F(SurveyTest, DepthOfTheGroundIsThatOfItsEquation) {
+TEST_F(GroundTruthTest, DepthOfTheGroundEqualsItsEquation) {
   Add("floor", geometry::Plane{{0, 0, 1}, {200, 200}}, {});
   const Reading reading = Sample(Description("depth_camera"));
   for (int y = 0; y < kSurveyHeight; ++y) {
     const double down = -RayOf(0, y).z;
     const double depth = reading.values[2 + y * kSurveyWidth + 7];
-    if (down <= 0.021) continue;  // beyond 50 m
+    if (down <= 0.021) continue;  // the ground is farther away than 50 m
     EXPECT_WITHIN_PERCENT(depth, 1 / down, 0.01) << y;
   }
-  EXPECT_EQ(reading.values[2 + 7], std::numeric_limits<double>::infinity());  // the sky
+  // this pixel shows the sky
+  EXPECT_EQ(reading.values[2 + 7], std::numeric_limits<double>::infinity());
 }
 
-TEST_F(SurveyTest, ADepthPictureIsACloudOfPoints) {
+TEST_F(GroundTruthTest, DepthImageBecomesAPointCloudMessage) {
   Add("wall", geometry::Box{{0.2, 60, 60}}, PlanarPose(4.4, 0, 1, 0));
   const auto description = Description("rgbd_camera");
   const Reading reading = Sample(description);
@@ -141,7 +143,7 @@ TEST_F(SurveyTest, ADepthPictureIsACloudOfPoints) {
   }
 }
 
-TEST_F(SurveyTest, DepthNoiseHasItsDeviation) {
+TEST_F(GroundTruthTest, DepthNoiseHasTheGivenDeviation) {
   Add("wall", geometry::Box{{0.2, 60, 60}}, PlanarPose(4.4, 0, 1, 0));
   auto description = Description("depth");
   description.parameters["noise.stddev"] = 0.05;
@@ -163,7 +165,7 @@ void AddThings(const std::function<void(const char*, geometry::Shape, geometry::
   add("behind", geometry::Box{{0.2, 8, 8}}, PlanarPose(8, 0, 1, 0));
 }
 
-TEST_F(SurveyTest, SegmentationNamesWhatRaysHit) {
+TEST_F(GroundTruthTest, SegmentationAgreesWithRayCasting) {
   AddThings([&](const char* name, geometry::Shape shape, geometry::Pose pose) {
     Add(name, std::move(shape), pose);
   });
@@ -180,11 +182,11 @@ TEST_F(SurveyTest, SegmentationNamesWhatRaysHit) {
       differing += reading.values[2 + y * kSurveyWidth + x] != expected;
     }
   }
-  // The ball consists of triangles: at its rim a pixel may miss them.
+  // The ball consists of triangles, so a pixel at its rim may miss them.
   EXPECT_WITHIN(differing, 0, 6, "of 3,072 pixels");
 }
 
-TEST_F(SurveyTest, TheColoursOfASegmentationTellItsLabels) {
+TEST_F(GroundTruthTest, SegmentationColoursIdentifyLabels) {
   AddThings([&](const char* name, geometry::Shape shape, geometry::Pose pose) {
     Add(name, std::move(shape), pose);
   });
@@ -203,18 +205,18 @@ TEST_F(SurveyTest, TheColoursOfASegmentationTellItsLabels) {
     const std::uint32_t colour = pixels[3 * i] << 16 | pixels[3 * i + 1] << 8 | pixels[3 * i + 2];
     EXPECT_EQ(label_of.emplace(colour, reading.values[2 + i]).first->second, reading.values[2 + i]);
   }
-  EXPECT_EQ(label_of.size(), 4u);  // nothing, and three things
+  EXPECT_EQ(label_of.size(), 4u);  // the background and three objects
 }
 
-TEST_F(SurveyTest, ABoundingBoxHoldsWhatIsSeen) {
-  // A box of 1 m whose near face is 3 m from the camera: its edges are at ± 0.5 / 3 of the focal
-  // length about the centre, shifted by 1/3 to the right.
+TEST_F(GroundTruthTest, BoundingBoxEnclosesTheVisiblePixels) {
+  // A box of 1 m has its near face 3 m from the camera. The face's edges are 0.5 / 3 of the focal
+  // length on both sides of its centre, which is shifted by 1/3 to the right.
   Add("box", geometry::Box{{1, 1, 1}}, PlanarPose(3.8, -1, 1, 0));
   const auto description = Description("boundingbox_camera");
   const Reading reading = Sample(description);
   EXPECT_EQ(*reading.labels, std::vector<std::string>{"box"});
   ASSERT_EQ(reading.values.size(), 4u);
-  // Its left side, which reaches back to 4 m, is visible as well.
+  // The box's left side reaches back to 4 m and is visible as well.
   EXPECT_WITHIN(reading.values[0], kSurveyWidth / 2.0 + kFocal * 0.5 / 4, 1, "pixel");
   EXPECT_WITHIN(reading.values[1], kSurveyHeight / 2.0 - kFocal * 0.5 / 3, 1, "pixel");
   EXPECT_WITHIN(reading.values[2], kSurveyWidth / 2.0 + kFocal * 1.5 / 3, 1, "pixel");
@@ -225,7 +227,7 @@ TEST_F(SurveyTest, ABoundingBoxHoldsWhatIsSeen) {
   EXPECT_NEAR(message.detections[0].bbox.size_y, kFocal / 3, 2);
 }
 
-TEST(SurveySensors, SayWhyThereIsNoRenderer) {
+TEST(GroundTruthSensors, ReportWhyThereIsNoRenderer) {
   sensing::SensorRegistry registry;
   ASSERT_TRUE(
       AddGroundTruthSensors(registry, base::Fail(base::ErrorCode::kUnavailable, "no EGL here")));
@@ -246,9 +248,9 @@ TEST(SurveySensors, SayWhyThereIsNoRenderer) {
   }
 }
 
-class ThermalCameraTest : public SurveyTest, public ::testing::WithParamInterface<BackEnd> {
+class ThermalCameraTest : public GroundTruthTest, public ::testing::WithParamInterface<BackEnd> {
  protected:
-  ThermalCameraTest() : SurveyTest(GetParam()) {}
+  ThermalCameraTest() : GroundTruthTest(GetParam()) {}
 };
 
 INSTANTIATE_TEST_SUITE_P(BackEnds, ThermalCameraTest,
@@ -257,9 +259,9 @@ INSTANTIATE_TEST_SUITE_P(BackEnds, ThermalCameraTest,
                            return test.param == BackEnd::kOpenGl ? "OpenGl" : "Rasteriser";
                          });
 
-// A body with a face of 2 m by 1 m, 4 m in front of the camera. To the left is another of its
-// visuals with a face of 1 m by 1 m, and to the right one without a temperature.
-TEST_P(ThermalCameraTest, ShowsEachVisualsTemperatureWithinItsOutlineAndTheAirsOutside) {
+// The first visual of a body has a face of 2 m by 1 m, 4 m in front of the camera. On its left is a
+// second visual with a face of 1 m by 1 m, and on its right one without a temperature.
+TEST_P(ThermalCameraTest, ShowsTheTemperatureOfEachVisualAndOfTheAir) {
   Add("oven", geometry::Box{{1, 2, 1}}, {{4.8, 0, 1}, {}});
   std::vector<model::Visual>& visuals = scene_.LinkOf("oven").visuals;
   visuals[0].temperature = 350;
@@ -306,7 +308,7 @@ TEST_P(ThermalCameraTest, ShowsEachVisualsTemperatureWithinItsOutlineAndTheAirsO
   EXPECT_EQ(steps[0], 28815);
 }
 
-TEST_P(ThermalCameraTest, TakesItsResolutionAndTheAirFromTheWorld) {
+TEST_P(ThermalCameraTest, ReadsResolutionAndAirTemperatureFromTheDescription) {
   scene_.description().temperature = 300.26;
   model::SensorDescription description = Description("thermal_camera");
   description.parameters["resolution"] = 0.5;
@@ -315,9 +317,9 @@ TEST_P(ThermalCameraTest, TakesItsResolutionAndTheAirFromTheWorld) {
   EXPECT_EQ(reading.values[3], 300.5);
 }
 
-class NormalsCameraTest : public SurveyTest {
+class NormalsCameraTest : public GroundTruthTest {
  protected:
-  // NaN if the camera does not know it.
+  // The normal that the camera returns for a pixel; NaN if it returns none.
   Vector3 NormalAt(const Reading& reading, int x, int y) {
     const auto image = sensing::ValuesOf<readings::NormalImage>(reading, "eye");
     EXPECT_TRUE(image) << image.error().Sentence();
@@ -326,7 +328,7 @@ class NormalsCameraTest : public SurveyTest {
   }
 };
 
-TEST_F(NormalsCameraTest, ShowsAPlanesNormalAtEveryPixel) {
+TEST_F(NormalsCameraTest, ReturnsTheNormalOfAPlaneAtEveryPixel) {
   const double yaw = 0.5;
   const Vector3 normal{-std::cos(yaw), -std::sin(yaw), 0};
   Add("wall", geometry::Box{{0.2, 60, 60}},
@@ -339,8 +341,8 @@ TEST_F(NormalsCameraTest, ShowsAPlanesNormalAtEveryPixel) {
   }
 }
 
-TEST_F(NormalsCameraTest, KeepsTheFacesBesideAnEdgeApart) {
-  // A box with an edge towards the camera: two of its faces are visible.
+TEST_F(NormalsCameraTest, ReturnsTheNormalOfThePixelsOwnFaceAtAnEdge) {
+  // A box has an edge towards the camera, so that two of its faces are visible.
   Add("box", geometry::Box{{2, 2, 40}}, {{4, 0, 1}, geometry::FromRollPitchYaw({0, 0, M_PI / 4})});
   const Reading reading = Sample(Description("normals_camera"));
   const double half = std::sqrt(0.5);
@@ -356,7 +358,7 @@ TEST_F(NormalsCameraTest, KeepsTheFacesBesideAnEdgeApart) {
   EXPECT_GT(right, 8);
 }
 
-TEST_F(NormalsCameraTest, FollowsASphereAndKnowsNothingOfTheSky) {
+TEST_F(NormalsCameraTest, ReturnsTheNormalsOfASphereAndNanForTheSky) {
   const Vector3 centre{4, 0, 1};
   Add("ball", geometry::Sphere{1}, {centre, {}});
   const Reading reading = Sample(Description("normals_camera"));
@@ -371,7 +373,8 @@ TEST_F(NormalsCameraTest, FollowsASphereAndKnowsNothingOfTheSky) {
         continue;
       }
       const Vector3 expected = Vector3{0.3, 0, 1} + d * RayOf(x, y) - centre;
-      // Facets of 0.1 rad and adjacent pixels 0.07 m apart: at most half of each, on both axes.
+      // Facets are 0.1 rad wide and adjacent pixels 0.07 m apart. The error is at most half of
+      // each, on both axes.
       if (expected.x > -0.75) continue;
       EXPECT_LT(Norm(normal - expected), 0.12) << x << " " << y;
       ++seen;
@@ -389,7 +392,7 @@ TEST_F(NormalsCameraTest, FollowsASphereAndKnowsNothingOfTheSky) {
   ASSERT_TRUE(png_image_finish_read(&png, nullptr, pixels.data(), 0, nullptr));
   EXPECT_EQ(pixels[0] + pixels[1] + pixels[2], 0);
   const std::size_t middle = 3 * (kSurveyHeight / 2 * kSurveyWidth + kSurveyWidth / 2);
-  EXPECT_LE(pixels[middle], 2);  // towards the camera: x = -1
+  EXPECT_LE(pixels[middle], 2);  // the normal points towards the camera: x = -1
 }
 
 }  // namespace

@@ -34,9 +34,10 @@ class Optics {
 
   const CameraParameters& camera() const { return camera_; }
   const Lens& lens() const { return lens_; }
-  // The field of view from the parameters; for a wide lens the angle to which it is scaled.
+  // The field of view from the parameters. For a wide lens it is the angle to which the image is
+  // scaled.
   const sensing::Frustum& frustum() const { return frustum_; }
-  // The direction of a pixel's centre, of unit length; nothing if the lens shows nothing there.
+  // The direction of a pixel's centre as a unit vector; nullopt if the lens shows nothing there.
   // Pixels are numbered in rows from the top.
   std::optional<geometry::Vector3> RayOfPixel(std::size_t pixel) const;
 
@@ -50,11 +51,11 @@ class Optics {
  private:
   struct Joining {
     std::once_flag made;
-    std::unique_ptr<const LensMap> map;  // made for the first image
+    std::unique_ptr<const LensMap> map;  // created for the first image
   };
 
   Optics(const CameraParameters& camera, Lens lens, double horizontal_fov);
-  // Equal cameras share one map, as those of all robots of a model and of recorders.
+  // Cameras with equal parameters share one map, such as those of all robots of one model.
   static std::shared_ptr<Joining> JoiningOf(const CameraParameters& camera, const Lens& lens);
   const LensMap& Map() const;
 

@@ -7,9 +7,9 @@
 //              of `shutter_samples` images at the centres of equal parts of the time from t -
 //              exposure_time - readout_time to t: each row is the mean light of the images within
 //              its exposure, or the nearest one.
-// Earlier      poses s seconds earlier are extrapolated from the velocities at t: positions by v s,
-//              orientations by w s about w, joints by their velocity times s. So an image depends
-//              on one snapshot only.
+// Earlier      the pose s seconds earlier is extrapolated from the velocities at t: positions by v
+//              s, orientations by w s about w, joints by their velocity times s. So an image
+//              depends on one snapshot only.
 #pragma once
 
 #include <functional>
@@ -22,7 +22,7 @@
 
 namespace gsv::rendering {
 
-// The world `seconds` earlier, extrapolated from its velocities.
+// Returns the world `seconds` earlier, extrapolated from its velocities.
 std::shared_ptr<const world::Snapshot> Earlier(const world::Snapshot& snapshot, double seconds);
 
 class Shutter {
@@ -34,12 +34,12 @@ class Shutter {
   using ImagePtr = std::shared_ptr<const model::Image>;
   using Draw = std::function<base::Result<ImagePtr>(const SnapshotPtr& snapshot)>;
 
-  // The image of a snapshot; `draw` renders the view at one instant.
+  // Takes the image of a snapshot. `draw` renders the view at one instant.
   base::Result<ImagePtr> Take(const SnapshotPtr& snapshot, const Draw& draw) const;
 
  private:
-  double Age(int sample) const;  // s before the image is complete
-  // The samples of a row: [first, last].
+  double Age(int sample) const;  // How many seconds before the complete image the sample is taken.
+  // The range of samples [first, last] that a row is composed of.
   std::pair<int, int> SamplesOf(int row, int height) const;
 
   double exposure_time_, readout_time_;

@@ -17,7 +17,7 @@ using geometry::Vector3;
 
 constexpr int kWidth = 320, kHeight = 240;
 constexpr double kFov = 1.047;
-constexpr double kDistance = 4;  // m before the camera
+constexpr double kDistance = 4;  // distance from the camera, m
 // The focal length, in pixels.
 double Focal() { return 0.5 * kWidth / std::tan(0.5 * kFov); }
 
@@ -40,7 +40,7 @@ class ShutterTest : public testing::Test {
     model::SensorDescription camera;
     camera.name = "eye";
     camera.type = "camera";
-    camera.link_from_sensor.position.z = 3;  // at the world's origin
+    camera.link_from_sensor.position.z = 3;  // the robot is at the world's origin
     camera.parameters = std::move(parameters);
     camera.parameters["horizontal_fov"] = kFov;
     const auto sensor = registry_.Find("camera")->create(camera);
@@ -62,10 +62,10 @@ class ShutterTest : public testing::Test {
   sensing::RaySceneCache rays_;
   TestScene scene_;
   Vector3 velocity_;
-  double turning_ = 0;  // of the robot, rad/s
+  double turning_ = 0;  // turning rate of the robot, rad/s
 };
 
-// The columns from the first to the last red one in a row.
+// The first and the last column of a row that are red.
 struct RedColumns {
   int first = -1, last = -1;
   double middle() const { return 0.5 * (first + last + 1); }
@@ -82,18 +82,18 @@ RedColumns RedIn(const model::Image& image, int row) {
   return red;
 }
 
-TEST_F(ShutterTest, AskedForNothingChangesNothing) {
+TEST_F(ShutterTest, DefaultsLeaveImagesUnchanged) {
   AddThing(geometry::Sphere{0.2}, {0, 3, 0});
   EXPECT_EQ(Taken({}).pixels, Taken({{"exposure_time", 0.0}, {"shutter_samples", 4.0}}).pixels);
 }
 
-TEST_F(ShutterTest, WhatMovesIsBlurredAlongItsWay) {
-  AddThing(geometry::Box{{0.01, 0.2, 0.2}}, {0, 2, 0});  // to the left
+TEST_F(ShutterTest, MovingObjectIsBlurredAlongItsPath) {
+  AddThing(geometry::Box{{0.01, 0.2, 0.2}}, {0, 2, 0});  // the object moves to the left
   const RedColumns still = RedIn(Taken({}), kHeight / 2);
   const RedColumns moved =
       RedIn(Taken({{"exposure_time", 0.1}, {"shutter_samples", 32.0}}), kHeight / 2);
-  // In 0.1 s it moves by 0.2 m. It came from the right, and is now at its place. The samples are in
-  // the centres of 32 parts.
+  // In 0.1 s the object moves by 0.2 m. It came from the right and is now at its place. The samples
+  // are at the centres of 32 parts.
   const double way = Focal() * 2 * 0.1 / kDistance;
   EXPECT_WITHIN(moved.width() - still.width(), way * 31 / 32, 1.5, "pixel");
   EXPECT_WITHIN(moved.last - still.last, way * 63 / 64, 1.5, "pixel");
@@ -101,33 +101,35 @@ TEST_F(ShutterTest, WhatMovesIsBlurredAlongItsWay) {
 }
 
 // During the exposure, the object's light reaches a column for a part of the time.
-TEST_F(ShutterTest, LightIsSharedOutOverTheWay) {
+TEST_F(ShutterTest, BlurDistributesTheLightAlongThePath) {
   AddThing(geometry::Box{{0.01, 0.2, 0.2}}, {0, 2, 0});
   const model::Image blurred = Taken({{"exposure_time", 0.4}, {"shutter_samples", 64.0}});
   const model::Image still = Taken({});
   const auto light_at = [](const model::Image& image, int column) {
     return LightOf(image.pixels[3 * (static_cast<std::size_t>(kHeight / 2) * kWidth + column)]);
   };
-  // 0.2 m of 0.8 m: a quarter of the object's light, else the background's.
+  // The object covers 0.2 m of 0.8 m, so a quarter of the light is its own and the rest is the
+  // background's.
   const int column = kWidth / 2 + static_cast<int>(Focal() * 0.4 / kDistance);
   const float expected = 0.25f * light_at(still, kWidth / 2) + 0.75f * light_at(still, column);
   EXPECT_WITHIN(100 * light_at(blurred, column), 100 * expected, 2, "% of white");
   EXPECT_GT(light_at(still, kWidth / 2), 0.5);
 }
 
-TEST_F(ShutterTest, ATurningCameraBlursWhatStands) {
+TEST_F(ShutterTest, TurningCameraBlursStaticObjects) {
   AddThing(geometry::Box{{0.01, 0.2, 0.2}}, {});
   turning_ = 1;
   const RedColumns turned =
       RedIn(Taken({{"exposure_time", 0.1}, {"shutter_samples", 32.0}}), kHeight / 2);
   turning_ = 0;
   const RedColumns still = RedIn(Taken({}), kHeight / 2);
-  // Before, it looked 0.1 rad to the right of its current view: the object was to the left.
+  // The camera looked 0.1 rad to the right before, so the object was to the left of its current
+  // place.
   EXPECT_WITHIN(still.first - turned.first, Focal() * std::tan(0.1 * 63 / 64), 2, "pixel");
   EXPECT_WITHIN(turned.last, still.last, 1.5, "pixel");
 }
 
-TEST_F(ShutterTest, ARollingShutterLeansWhatMoves) {
+TEST_F(ShutterTest, RollingShutterSkewsMovingObjects) {
   AddThing(geometry::Box{{0.01, 0.05, 6}}, {0, 4, 0});
   const model::Image image = Taken({{"readout_time", 0.05}, {"shutter_samples", 32.0}});
   for (int row = 5; row < kHeight; row += 23) {
@@ -137,7 +139,7 @@ TEST_F(ShutterTest, ARollingShutterLeansWhatMoves) {
   }
 }
 
-TEST(Shutter, EarlierIsWhereVelocitiesLeadBackTo) {
+TEST(Shutter, EarlierExtrapolatesPosesFromVelocities) {
   TestScene scene;
   scene.Add("it", geometry::Sphere{1}, {{1, 2, 3}, {}}, Matt(1, 1, 1));
   world::Snapshot snapshot = *scene.Snapshot();
@@ -149,7 +151,7 @@ TEST(Shutter, EarlierIsWhereVelocitiesLeadBackTo) {
   EXPECT_NEAR(geometry::Yaw(pose.orientation), -0.125, 1e-12);
 }
 
-TEST_F(ShutterTest, RefusesTimesThatCannotBe) {
+TEST_F(ShutterTest, RejectsInvalidTimes) {
   for (const auto& [name, value] :
        {std::pair{"exposure_time", -1.0}, {"readout_time", 11.0}, {"shutter_samples", 1.0}}) {
     model::SensorDescription camera;

@@ -10,7 +10,8 @@ base::Result<std::vector<std::uint8_t>> EncodeJpeg(const model::Image& image, in
   struct Close {
     void operator()(void* handle) const { tjDestroy(handle); }
   };
-  // One compressor per thread: making one costs more than a small image.
+  // Each thread keeps one compressor, because creating one costs more than compressing a small
+  // image.
   thread_local const std::unique_ptr<void, Close> compressor(tjInitCompress());
   const int format = image.channels == 4 ? TJPF_RGBA : TJPF_RGB;
   std::vector<std::uint8_t> jpeg(tjBufSize(image.width, image.height, TJSAMP_420));

@@ -9,7 +9,8 @@
 
 namespace gsv::rendering {
 
-// `quality` from 1 to 100; alpha is dropped. kInvalidArgument for an image without pixels.
+// `quality` is from 1 to 100. The alpha channel is dropped. Returns kInvalidArgument for an image
+// without pixels.
 base::Result<std::vector<std::uint8_t>> EncodeJpeg(const model::Image& image, int quality);
 
 }  // namespace gsv::rendering

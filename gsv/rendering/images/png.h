@@ -10,10 +10,10 @@
 
 namespace gsv::rendering {
 
-// kInvalidArgument for an image without pixels.
+// Returns kInvalidArgument for an image without pixels.
 base::Result<std::vector<std::uint8_t>> EncodePng(const model::Image& image);
 
-// Encodes one 16-bit grey value per pixel, rows from the top.
+// Encodes one 16-bit grey value per pixel. Rows are given from the top.
 base::Result<std::vector<std::uint8_t>> EncodeGreyPng(int width, int height,
                                                       std::span<const std::uint16_t> pixels);
 

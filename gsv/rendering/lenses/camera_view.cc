@@ -48,7 +48,8 @@ double FocalLength(const CameraParameters& camera) {
 Frustum FrustumOf(const CameraView& view) {
   const geometry::Quaternion& q = view.world_from_camera.orientation;
   const CameraParameters& camera = view.parameters;
-  const double right = 0.5 * camera.width / FocalLength(camera);  // at x = 1
+  // half the width of the view at x = 1
+  const double right = 0.5 * camera.width / FocalLength(camera);
   const double top = 0.5 * camera.height / FocalLength(camera);
   const auto side = [&](const Vector3& normal) {
     return Frustum::Plane{q * geometry::Normalized(normal), 0};
@@ -65,10 +66,10 @@ std::array<float, 16> ClipFromRelative(const CameraView& view) {
                 up = q * Vector3{0, 0, 1};
   const double f = FocalLength(camera);
   const double sx = 2 * f / camera.width, sy = 2 * f / camera.height;
-  // With x the distance along the view: w = x, depth = near (far - x) / ((far - near) x).
+  // With x as the distance along the view: w = x, depth = near (far - x) / ((far - near) x).
   const double depth_x = -camera.near / (camera.far - camera.near);
   const double depth_1 = camera.near * camera.far / (camera.far - camera.near);
-  // Row 0 goes to the right; row 1 goes down, so that the first row read back is the top one.
+  // Row 0 points to the right. Row 1 points down, so that the first row read back is the top one.
   const Vector3 rows[4] = {-sx * left, -sy * up, depth_x * forward, forward};
   const double constants[4] = {0, 0, depth_1, 0};
   std::array<float, 16> m;

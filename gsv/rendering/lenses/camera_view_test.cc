@@ -10,7 +10,7 @@ namespace {
 
 using geometry::Vector3;
 
-TEST(CheckCamera, NamesWhatIsOutOfRange) {
+TEST(CheckCamera, NamesTheParameterThatIsOutOfRange) {
   EXPECT_TRUE(Check(CameraParameters{}));
   const auto sentence = [](CameraParameters camera) {
     const base::Status status = Check(camera);
@@ -24,11 +24,12 @@ TEST(CheckCamera, NamesWhatIsOutOfRange) {
   EXPECT_NE(sentence({.near = 2, .far = 1}).find("clip.far"), std::string::npos);
 }
 
-TEST(FocalLength, OfARightAngleIsHalfTheWidth) {
+TEST(FocalLength, OfA90DegreeViewIsHalfTheWidth) {
   EXPECT_NEAR(FocalLength({.width = 320, .horizontal_fov = std::numbers::pi / 2}), 160, 1e-9);
 }
 
-// u, v of a point as the graphics card computes them from the matrix, and its depth.
+// The coordinates u and v of a point as the graphics card computes them from the matrix, and its
+// depth.
 Vector3 Project(const CameraView& view, const Vector3& point_in_world) {
   const auto m = ClipFromRelative(view);
   const Vector3 p = point_in_world - view.world_from_camera.position;
@@ -40,7 +41,7 @@ Vector3 Project(const CameraView& view, const Vector3& point_in_world) {
           (clip[1] / clip[3] + 1) / 2 * view.parameters.height, clip[2] / clip[3]};
 }
 
-TEST(ClipFromRelative, IsThePinholeCamera) {
+TEST(ClipFromRelative, ProjectsLikeAPinholeCamera) {
   const CameraView view{{{1, 2, 3}, geometry::FromRollPitchYaw({0.1, -0.3, 2})},
                         {640, 480, 1.2, 0.1, 50}};
   const double f = 320 / std::tan(0.6);
@@ -51,21 +52,22 @@ TEST(ClipFromRelative, IsThePinholeCamera) {
   }
 }
 
-TEST(ClipFromRelative, DepthGoesFromOneAtTheNearPlaneToZeroAtTheFarOne) {
+TEST(ClipFromRelative, DepthIsOneAtTheNearPlaneAndZeroAtTheFarPlane) {
   const CameraView view{{}, {320, 240, 1, 0.1, 100}};
   EXPECT_NEAR(Project(view, {0.1, 0, 0}).z, 1, 1e-6);
   EXPECT_NEAR(Project(view, {100, 0, 0}).z, 0, 1e-6);
 }
 
-TEST(Frustum, HoldsWhatTheCameraSees) {
-  // The view is a right angle wide and high: the sides are the planes |y| = x and |z| = x.
+TEST(Frustum, ContainsWhatTheCameraSees) {
+  // The view is 90° wide and high, so the sides of the frustum are the planes |y| = x and |z| = x.
   const CameraView view{{{0, 0, 10}, geometry::FromAxisAngle({0, 0, 1}, std::numbers::pi / 2)},
                         {100, 100, std::numbers::pi / 2, 1, 20}};
   const Frustum frustum = FrustumOf(view);
-  EXPECT_TRUE(frustum.MeetsSphere({0, 5, 0}, 0));    // ahead, which is world y
-  EXPECT_FALSE(frustum.MeetsSphere({0, -5, 0}, 1));  // behind
+  // ahead of the camera, which is the world's y axis
+  EXPECT_TRUE(frustum.MeetsSphere({0, 5, 0}, 0));
+  EXPECT_FALSE(frustum.MeetsSphere({0, -5, 0}, 1));  // behind the camera
   EXPECT_TRUE(frustum.MeetsSphere({4.9, 5, 0}, 0));
-  EXPECT_FALSE(frustum.MeetsSphere({5.2, 5, 0}, 0.1));  // 0.2 / sqrt(2) outside
+  EXPECT_FALSE(frustum.MeetsSphere({5.2, 5, 0}, 0.1));  // 0.2 / sqrt(2) outside the side plane
   EXPECT_TRUE(frustum.MeetsSphere({5.2, 5, 0}, 0.15));
   EXPECT_FALSE(frustum.MeetsSphere({0, 0.5, 0}, 0.4));
   EXPECT_FALSE(frustum.MeetsSphere({0, 21, 0}, 0.9));

@@ -8,12 +8,13 @@
 
 namespace gsv::rendering {
 
-// Rows from the top.
+// Rows are stored from the top.
 struct GroundTruth {
   int width = 0, height = 0;
-  std::vector<float> depth;        // m along the view, not along the pixel's ray; infinite: nothing
-  std::vector<std::int32_t> body;  // index in the layout; -1: nothing
-  // Index among its body's visuals, in the order of links; -1: nothing.
+  // in m along the view, not along the pixel's ray; infinite if nothing is hit
+  std::vector<float> depth;
+  std::vector<std::int32_t> body;  // index in the layout; -1 if nothing is hit
+  // Index among the body's visuals, in the order of links; -1 if nothing is hit.
   std::vector<std::int32_t> visual;
 };
 

@@ -9,7 +9,8 @@ namespace {
 using geometry::Vector2;
 using geometry::Vector3;
 
-// Newton's method stops at such a step, at a distance of 1; images have at most 4,096 pixels.
+// Newton's method stops when its step is smaller than this, at a distance of 1. Images have at most
+// 4,096 pixels per side.
 constexpr double kCloseEnough = 1e-12;
 constexpr int kMaxSteps = 50;
 
@@ -25,7 +26,7 @@ double Apply(WideView::Function function, double angle) {
   return angle;
 }
 
-// NaN if there is none.
+// Returns NaN if there is no solution.
 double Invert(WideView::Function function, double value) {
   switch (function) {
     case WideView::Function::kSine:
@@ -110,7 +111,7 @@ Vector2 Lens::Distorted(const Vector2& p) const {
 std::optional<Vector2> Lens::Undistorted(const Vector2& p) const {
   if (distortion_.is_none()) return p;
   const Distortion& d = distortion_;
-  // It starts at the centre, so that it finds the innermost solution.
+  // The search starts at the centre, so that it finds the innermost solution.
   Vector2 at = centre_;
   const Vector2 whole = p - centre_;
   constexpr int kStations = 4;
@@ -125,7 +126,7 @@ std::optional<Vector2> Lens::Undistorted(const Vector2& p) const {
       const double xy = x * y * slope + 2 * d.p1 * x + 2 * d.p2 * y;
       const double yy = radial + y * y * slope + 6 * d.p1 * y + 2 * d.p2 * x;
       const double determinant = xx * yy - xy * xy;
-      // If this is not positive, the image folds back on itself.
+      // The image folds back on itself where the determinant is not positive.
       if (!(determinant > 1e-9 && xx + yy > 0)) return std::nullopt;
       const Vector2 off = goal - Distorted(at);
       const Vector2 move{(yy * off.x - xy * off.y) / determinant,

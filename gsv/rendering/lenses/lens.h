@@ -29,13 +29,13 @@ namespace gsv::rendering {
 
 struct Distortion {
   double k1 = 0, k2 = 0, k3 = 0, p1 = 0, p2 = 0;
-  geometry::Vector2 centre{0.5, 0.5};  // in fractions of the image's width and height
+  geometry::Vector2 centre{0.5, 0.5};  // as fractions of the image's width and height
 
   bool is_none() const { return k1 == 0 && k2 == 0 && k3 == 0 && p1 == 0 && p2 == 0; }
   friend bool operator==(const Distortion&, const Distortion&) = default;
 };
 
-// In pixels.
+// Focal lengths, principal point and skew, in pixels.
 struct Intrinsics {
   double fx = 0, fy = 0;
   double cx = 0, cy = 0;
@@ -51,37 +51,38 @@ struct WideView {
   friend bool operator==(const WideView&, const WideView&) = default;
 };
 
-// "gnomonical", "stereographic", "equidistant", "solid_angle" or "orthographic".
+// Returns the view named "gnomonical", "stereographic", "equidistant", "solid_angle" or
+// "orthographic".
 base::Result<WideView> WideViewNamed(const std::string& type);
 
 class Lens {
  public:
-  // The pinhole of `camera` alone.
+  // A pinhole without distortion.
   explicit Lens(const CameraParameters& camera);
   Lens(const CameraParameters& camera, const Intrinsics& intrinsics, const Distortion& distortion);
-  // A wide lens; of `camera` only the image size is used. With `horizontal_fov` (up to 2 pi; 0:
-  // none), f is chosen such that the image's width spans it. kInvalidArgument if that is
-  // impossible.
+  // Creates a wide lens; only the image size of `camera` is used. If `horizontal_fov` is not 0 (at
+  // most 2 pi), f is chosen such that the image's width spans it. Returns kInvalidArgument if that
+  // is impossible.
   static base::Result<Lens> Wide(const CameraParameters& camera, WideView view,
                                  double horizontal_fov);
 
-  // Whether it is a pinhole without distortion whose axis meets the image's centre, so that images
+  // Whether this is a pinhole without distortion whose axis meets the image's centre. Its images
   // need no resampling.
   bool is_plain() const { return is_plain_; }
 
-  // The direction of an image point, of unit length in the camera's frame; nothing if the lens
+  // The direction of an image point as a unit vector in the camera's frame; nullopt if the lens
   // shows nothing there.
   std::optional<geometry::Vector3> RayAt(double u, double v) const;
-  // Projects a point in the camera's frame, also beyond the image's edges; nothing if it has no
-  // image.
+  // Projects a point in the camera's frame, also beyond the image's edges. Returns nullopt if the
+  // point has no image.
   std::optional<geometry::Vector2> Project(const geometry::Vector3& point) const;
 
   int width() const { return width_; }
   int height() const { return height_; }
-  const Intrinsics& intrinsics() const { return intrinsics_; }  // of a pinhole
+  const Intrinsics& intrinsics() const { return intrinsics_; }  // for a pinhole only
   const Distortion& distortion() const { return distortion_; }
   const std::optional<WideView>& wide_view() const { return wide_; }
-  // Whether RayAt() is a closed form and not a search.
+  // Whether RayAt() evaluates a closed form, without a search.
   bool has_quick_rays() const { return wide_ || distortion_.is_none(); }
   friend bool operator==(const Lens&, const Lens&) = default;
 
@@ -93,7 +94,7 @@ class Lens {
   bool is_plain_ = true;
   Intrinsics intrinsics_;
   Distortion distortion_;
-  geometry::Vector2 centre_;  // of the distortion, at a distance of 1
+  geometry::Vector2 centre_;  // the centre of distortion, at a distance of 1
   std::optional<WideView> wide_;
 };
 

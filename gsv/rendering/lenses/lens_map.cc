@@ -13,10 +13,10 @@ namespace {
 using geometry::Quaternion;
 using geometry::Vector3;
 
-// One pinhole image covers directions up to this angle from the view, as a tangent: 72 degrees.
+// The largest angle from the view that one pinhole image covers, as a tangent: 72 degrees.
 constexpr double kMaxFaceAngle = 3;
 constexpr double kMaxMagnification = 4;
-// Pixels around the looked-up place, so that there are neighbours to mix on all sides.
+// Pixels around the place that is looked up, so that interpolation has neighbours on all sides.
 constexpr double kMargin = 2;
 
 using Rays = std::vector<std::optional<Vector3>>;
@@ -30,7 +30,8 @@ Rays RaysOf(const Lens& lens) {
   return rays;
 }
 
-// The lens's pixels per radian about a point of its image; 0 where it shows nothing.
+// The resolution of the lens at a point of its image, in pixels per radian; 0 where it shows
+// nothing.
 double DensityAt(const Lens& lens, double u, double v) {
   double most = 0;
   for (const bool across : {true, false}) {
@@ -41,9 +42,9 @@ double DensityAt(const Lens& lens, double u, double v) {
   return most;
 }
 
-// The maximum density, but not many times that of the centre.
+// The largest resolution of the lens, limited to a multiple of that at the centre.
 double DensityOf(const Lens& lens) {
-  constexpr int kPlaces = 16;  // samples along each side
+  constexpr int kPlaces = 16;  // samples along each side of the image
   const double middle = DensityAt(lens, 0.5 * lens.width(), 0.5 * lens.height());
   double most = middle;
   for (int i = 0; i <= kPlaces; ++i) {
@@ -58,7 +59,7 @@ double DensityOf(const Lens& lens) {
 
 double FovOf(double tangent) { return 2 * std::atan(tangent); }
 
-// A square or wide face that covers `right` and `up`, as tangents, on all sides.
+// The pinhole camera of a face that covers `right` and `up`, as tangents, on all sides.
 CameraParameters FaceOf(const CameraParameters& camera, double density, double right, double up) {
   CameraParameters face = camera;
   const double most = 0.5 * kMaxImageSide - kMargin;
@@ -79,11 +80,11 @@ const Quaternion kCube[] = {
     geometry::FromAxisAngle({0, 1, 0}, std::numbers::pi / 2),
 };
 
-constexpr int kMaxMixedSamples = 4;  // places along a side of a pixel
+constexpr int kMaxMixedSamples = 4;  // the maximum number of samples along a side of a pixel
 
-using Light = std::array<float, 3>;  // 0 to 255
+using Light = std::array<float, 3>;  // linear light of three channels, from 0 to 255
 
-// A mix of the four pixels whose centres surround the place.
+// Interpolates between the four pixels whose centres surround the point (u, v).
 Light LightAt(const model::Image& from, float u, float v) {
   const float x = std::clamp(u - 0.5f, 0.0f, static_cast<float>(from.width - 1));
   const float y = std::clamp(v - 0.5f, 0.0f, static_cast<float>(from.height - 1));
@@ -116,7 +117,7 @@ LensMap::LensMap(const Lens& lens, const CameraParameters& camera)
     : width_(lens.width()), height_(lens.height()) {
   const Rays rays = RaysOf(lens);
   const double density = DensityOf(lens);
-  double right = 1e-3, up = 1e-3;  // the tangents of the widest rays
+  double right = 1e-3, up = 1e-3;  // the tangents of the outermost rays
   for (const auto& ray : rays) {
     if (!ray) continue;
     const double x = std::max(ray->x, 1e-9);
@@ -125,7 +126,7 @@ LensMap::LensMap(const Lens& lens, const CameraParameters& camera)
   }
   const bool is_cube = right > kMaxFaceAngle || up > kMaxFaceAngle;
   if (!is_cube) faces_.push_back({{}, FaceOf(camera, density, right, up)});
-  int place[6];  // of a cube's face in faces_, or -1
+  int place[6];  // the index in faces_ of each face of the cube, or -1
   std::fill(std::begin(place), std::end(place), -1);
   const auto face_for = [&](const Vector3& ray) {
     if (!is_cube) return 0;
@@ -146,7 +147,7 @@ LensMap::LensMap(const Lens& lens, const CameraParameters& camera)
       const double f = FocalLength(face.camera);
       source.u = static_cast<float>(0.5 * face.camera.width - f * in_face.y / in_face.x);
       source.v = static_cast<float>(0.5 * face.camera.height - f * in_face.z / in_face.x);
-      // For the nearest pixel: its content is on its own ray, not on this one.
+      // The nearest pixel's content lies on that pixel's ray, not on this one.
       const Vector3 nearest{1, -(std::floor(source.u) + 0.5 - 0.5 * face.camera.width) / f,
                             -(std::floor(source.v) + 0.5 - 0.5 * face.camera.height) / f};
       source.depth_scale = static_cast<float>((face.camera_from_face * nearest).x);
@@ -156,7 +157,7 @@ LensMap::LensMap(const Lens& lens, const CameraParameters& camera)
   FindReach();
 }
 
-// From each pixel to its neighbour.
+// Computes the distance from each pixel's source to that of its neighbour.
 void LensMap::FindReach() {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     Source& here = sources_[i];
@@ -193,7 +194,7 @@ model::Image LensMap::Join(std::span<const std::shared_ptr<const model::Image>> 
     Light light{};
     if (source.face >= 0) {
       const model::Image& from = *images[static_cast<std::size_t>(source.face)];
-      // As many samples as the pixel covers, so that nothing is missed.
+      // A pixel takes as many samples as it covers source pixels, so that it misses none.
       const int side = std::clamp(static_cast<int>(std::lround(source.reach)), 1, kMaxMixedSamples);
       for (int i = 0; i < side * side; ++i) {
         const auto off = [&](int k) {
@@ -227,7 +228,7 @@ GroundTruth LensMap::Join(std::span<const std::shared_ptr<const GroundTruth>> tr
     const int y = std::clamp(static_cast<int>(source.v), 0, from.height - 1);
     const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(from.width) +
                            static_cast<std::size_t>(x);
-    // Background is also background behind the camera.
+    // A pixel that shows the background keeps its infinite depth behind the camera as well.
     const bool is_something = std::isfinite(from.depth[at]);
     joined.depth.push_back(is_something ? from.depth[at] * source.depth_scale : from.depth[at]);
     joined.body.push_back(from.body[at]);

@@ -20,23 +20,23 @@ namespace gsv::rendering {
 class LensMap {
  public:
   // `camera` gives near and far. The pinhole images have the largest resolution per angle of the
-  // lens, but at most four times that of its centre, and at most kMaxImageSide per side.
+  // lens, but at most four times that of its centre, and at most kMaxImageSide pixels per side.
   LensMap(const Lens& lens, const CameraParameters& camera);
 
-  // The largest image; a map takes 20 bytes per pixel.
+  // The maximum number of pixels of an image. A map takes 20 bytes per pixel.
   static constexpr int kMaxPixels = 4'194'304;
 
-  // The direction of a pixel's centre, of unit length in the camera's frame, equal to Lens::RayAt()
-  // within 1e-6 rad. Pixels are numbered in rows from the top.
+  // The direction of a pixel's centre as a unit vector in the camera's frame. It equals
+  // Lens::RayAt() within 1e-6 rad. Pixels are numbered in rows from the top.
   std::optional<geometry::Vector3> RayOfPixel(std::size_t pixel) const;
 
   // The views of the required pinhole images.
   std::vector<CameraView> Views(const geometry::Pose& world_from_camera) const;
 
-  // Resamples the images of Views(), in that order. Black where the lens shows nothing.
+  // Resamples the images of Views(), in that order. Pixels are black where the lens shows nothing.
   model::Image Join(std::span<const std::shared_ptr<const model::Image>> images) const;
-  // The same with nearest pixels; background where the lens shows nothing. Depth is along the
-  // camera's view, and negative behind the camera.
+  // Resamples depth and label images by the nearest pixel. Pixels are background where the lens
+  // shows nothing. Depth is along the camera's view, and negative behind the camera.
   GroundTruth Join(std::span<const std::shared_ptr<const GroundTruth>> truths) const;
 
  private:
@@ -44,18 +44,18 @@ class LensMap {
     geometry::Quaternion camera_from_face;
     CameraParameters camera;
   };
-  // The source of a pixel.
+  // The place in a face's image that a pixel is sampled from.
   struct Source {
-    std::int32_t face = -1;  // -1: the lens shows nothing there
-    float u = 0, v = 0;      // in the face's image
-    float reach = 1;         // number of the face's pixels along a side that this one covers
-    float depth_scale = 0;   // factor from the face's depth to the camera's
+    std::int32_t face = -1;  // -1 if the lens shows nothing there
+    float u = 0, v = 0;      // pixel coordinates in the face's image
+    float reach = 1;         // how many pixels of the face this pixel covers along a side
+    float depth_scale = 0;   // the factor from the depth in the face to that in the camera
   };
   void FindReach();
 
   int width_, height_;
   std::vector<Face> faces_;
-  std::vector<Source> sources_;  // rows from the top
+  std::vector<Source> sources_;  // in rows from the top
 };
 
 }  // namespace gsv::rendering

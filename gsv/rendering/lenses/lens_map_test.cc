@@ -26,7 +26,7 @@ using geometry::kPi;
 struct LensCase {
   const char* name;
   model::Parameters parameters;
-  double widest;  // rad from the view
+  double widest;  // the largest angle from the view, rad
 
   friend void PrintTo(const LensCase& lens, std::ostream* out) { *out << lens.name; }
 };
@@ -56,7 +56,7 @@ std::vector<LensCase> Cases() {
   };
 }
 
-class LensPicture : public testing::TestWithParam<LensCase> {
+class LensImage : public testing::TestWithParam<LensCase> {
  protected:
   Optics Read() {
     model::SensorDescription description;
@@ -76,14 +76,15 @@ class LensPicture : public testing::TestWithParam<LensCase> {
   base::Result<std::shared_ptr<Renderer>> renderer_ = Renderer::Start();
 };
 
-// The centre of the image of a ball, by rays to its rim: it differs from the image of its centre.
+// The centre of a ball's image, from the rays to its rim. It differs from the image of the ball's
+// centre.
 Vector2 MiddleOfBall(const Lens& lens, const Vector3& centre, double radius) {
   const double sine = radius / Norm(centre);
   const Vector3 along = Normalized(centre);
   const Vector3 side =
       Normalized(Cross(along, std::abs(along.z) < 0.9 ? Vector3{0, 0, 1} : Vector3{1, 0, 0}));
   const Vector3 other = Cross(along, side);
-  constexpr int kCorners = 720;  // of the polygon whose centroid is taken
+  constexpr int kCorners = 720;  // the corners of the polygon whose centroid is computed
   std::vector<Vector2> rim;
   for (int i = 0; i < kCorners; ++i) {
     const double a = 2 * kPi * i / kCorners;
@@ -101,9 +102,9 @@ Vector2 MiddleOfBall(const Lens& lens, const Vector3& centre, double radius) {
   return {u / (3 * area), v / (3 * area)};
 }
 
-// The centre of the image of a glowing red object. Each pixel is weighted by the fraction that the
-// object covers, from the light of the object and that of the image without it (haze is brighter
-// towards the horizon).
+// The centre of the image of a glowing red object. Each pixel is weighted by the fraction of it
+// that the object covers. The fraction follows from the object's light and from the image without
+// the object, in which haze is brighter towards the horizon.
 Blob Covered(const model::Image& image, const model::Image& without) {
   const float full = LightOf(*std::max_element(image.pixels.begin(), image.pixels.end()));
   Blob blob;
@@ -123,8 +124,8 @@ Blob Covered(const model::Image& image, const model::Image& without) {
   return blob;
 }
 
-// Edges are rendered to the pixel: several balls of different sizes give the centre.
-TEST_P(LensPicture, ShowsThingsWhereTheEquationsSay) {
+// Edges are exact to a pixel only, so the test averages over balls of several sizes.
+TEST_P(LensImage, ShowsObjectsWhereTheEquationsPutThem) {
   const Optics optics = Read();
   const auto is_inside = [](const Vector2& at) {
     return at.x > 40 && at.x < 600 && at.y > 40 && at.y < 440;
@@ -170,7 +171,7 @@ TEST_P(LensPicture, ShowsThingsWhereTheEquationsSay) {
   EXPECT_WITHIN(std::sqrt(squares.y / seen), 0, 0.05, "pixel root mean square");
 }
 
-TEST_P(LensPicture, MeasuresTheDepthOfAWall) {
+TEST_P(LensImage, MeasuresTheDepthOfAWall) {
   const Optics optics = Read();
   TestScene scene;
   scene.Add("wall", geometry::Box{{1, 2000, 2000}}, {{5.5, 0, 0}, {}}, Matt(1, 1, 1));
@@ -178,7 +179,7 @@ TEST_P(LensPicture, MeasuresTheDepthOfAWall) {
   ASSERT_TRUE(truth) << truth.error().Sentence();
   const int wall = 0;
   int seen = 0;
-  double worst = 0;  // along the ray
+  double worst = 0;  // the largest error along the ray
   for (int y = 0; y < 480; ++y) {
     for (int x = 0; x < 640; ++x) {
       const std::size_t at = static_cast<std::size_t>(y) * 640 + static_cast<std::size_t>(x);
@@ -194,13 +195,13 @@ TEST_P(LensPicture, MeasuresTheDepthOfAWall) {
   EXPECT_GT(seen, 20'000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Lenses, LensPicture, testing::ValuesIn(Cases()), [](const auto& tested) {
+INSTANTIATE_TEST_SUITE_P(Lenses, LensImage, testing::ValuesIn(Cases()), [](const auto& tested) {
   std::string name = tested.param.name;
   std::erase(name, ' ');
   return name;
 });
 
-TEST_P(LensPicture, ItsMapKnowsTheRayOfEachPixel) {
+TEST_P(LensImage, MapReturnsTheRayOfEachPixel) {
   const Optics optics = Read();
   for (std::size_t i = 0; i < 640 * 480; i += 97) {
     const std::size_t column = i % 640, row = i / 640;
@@ -214,7 +215,7 @@ TEST_P(LensPicture, ItsMapKnowsTheRayOfEachPixel) {
   }
 }
 
-TEST(Optics, RefusesAPictureThroughALensThatIsTooLarge) {
+TEST(Optics, RejectsTooLargeImagesThroughALens) {
   model::SensorDescription description;
   description.parameters = {
       {"image.width", 4096.0}, {"image.height", 1024.0}, {"distortion.k1", -0.1}};
@@ -226,18 +227,18 @@ TEST(Optics, RefusesAPictureThroughALensThatIsTooLarge) {
   (void)Optics::Read(too_large);
   ASSERT_FALSE(too_large.status());
   EXPECT_NE(too_large.status().error().message.find("4096 by 1025"), std::string::npos);
-  // Without a lens it is an ordinary image.
+  // A camera without a lens takes an ordinary image.
   description.parameters.erase("distortion.k1");
   sensing::ParameterReader plain(description);
   (void)Optics::Read(plain);
   EXPECT_TRUE(plain.status());
 }
 
-TEST(LensMap, LooksNoFurtherThanItsLens) {
+TEST(LensMap, RendersOnlyTheFacesThatTheLensSees) {
   EXPECT_EQ(LensMap(Lens(CameraParameters{}), {}).Views({}).size(), 1u);
   const auto half = Lens::Wide({}, *WideViewNamed("equidistant"), kPi);
   ASSERT_TRUE(half);
-  // All faces except the one behind.
+  // The map uses all faces except the one behind the camera.
   EXPECT_EQ(LensMap(*half, {}).Views({}).size(), 5u);
 }
 

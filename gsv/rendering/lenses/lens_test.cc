@@ -16,7 +16,8 @@ using geometry::Vector3;
 
 using geometry::kPi;
 
-// From the optical frame of ROS and OpenCV (x right, y down, z along the view) to ours.
+// Converts from the optical frame of ROS and OpenCV (x right, y down, z along the view) to the
+// camera frame.
 Vector3 FromOptical(double x, double y, double z) { return {z, -x, -y}; }
 
 CameraParameters Camera(int width = 640, int height = 480, double fov = 1.05) {
@@ -29,7 +30,7 @@ Lens Distorted() {
   return {Camera(), {500, 510, 320, 240, 0}, {-0.28, 0.07, 0.002, 0.0011, -0.0004}};
 }
 
-TEST(Lens, APlainPinholeIsTheCamerasOwn) {
+TEST(Lens, PlainPinholeProjectsLikeTheCamera) {
   const Lens lens(Camera(640, 480, kPi / 2));
   EXPECT_TRUE(lens.is_plain());
   const auto at = lens.Project({2, -0.5, 0.25});
@@ -39,7 +40,7 @@ TEST(Lens, APlainPinholeIsTheCamerasOwn) {
   EXPECT_FALSE(lens.Project({-1, 0, 0}));
 }
 
-TEST(Lens, DistortsAsThePublishedEquationsDo) {
+TEST(Lens, DistortionEqualsThePublishedEquations) {
   const Lens lens = Distorted();
   EXPECT_FALSE(lens.is_plain());
   const struct {
@@ -58,7 +59,7 @@ TEST(Lens, DistortsAsThePublishedEquationsDo) {
   }
 }
 
-TEST(Lens, RaysGoWherePointsComeFrom) {
+TEST(Lens, RayAtInvertsProject) {
   WideView odd{WideView::Function::kSine, 1.3, 2.1, 0, 0.9, 1.2};
   const Lens lenses[] = {
       Lens(Camera()),
@@ -89,8 +90,8 @@ TEST(Lens, RaysGoWherePointsComeFrom) {
   }
 }
 
-TEST(Lens, AStrongBarrelShowsNothingTwice) {
-  // x (1 - 0.5 x²) is largest at x = √(2/3), where it is 0.544.
+TEST(Lens, StrongBarrelDistortionShowsNoPointTwice) {
+  // x (1 - 0.5 x²) has its maximum, 0.544, at x = √(2/3).
   const Lens lens(Camera(), {400, 400, 320, 240, 0}, {-0.5});
   const double widest = std::sqrt(2.0 / 3);
   EXPECT_TRUE(lens.Project({1, -0.99 * widest, 0}));
@@ -99,7 +100,7 @@ TEST(Lens, AStrongBarrelShowsNothingTwice) {
   EXPECT_FALSE(lens.RayAt(320 + 400 * 0.55, 240));
 }
 
-TEST(Lens, WideViewsSpanTheirAngleByTheirFunction) {
+TEST(Lens, WideViewsImageAnglesByTheirFunction) {
   const double fov = 3;
   const struct {
     const char* type;
@@ -117,7 +118,7 @@ TEST(Lens, WideViewsSpanTheirAngleByTheirFunction) {
     const auto lens = Lens::Wide(Camera(), *view, fov);
     ASSERT_TRUE(lens) << c.type;
     for (const double angle : {0.0, 0.3, 1.0, fov / 2}) {
-      // To the right, which is -y.
+      // The point is to the right, which is -y.
       const auto at = lens->Project({std::cos(angle), -std::sin(angle), 0});
       ASSERT_TRUE(at) << c.type;
       EXPECT_WITHIN(at->x, 320 + 320 * c.radius(angle) / c.radius(fov / 2), 1e-9, "pixel")
@@ -127,7 +128,7 @@ TEST(Lens, WideViewsSpanTheirAngleByTheirFunction) {
   }
 }
 
-TEST(Lens, SeesNothingBeyondItsCutoffAngle) {
+TEST(Lens, ShowsNothingBeyondTheCutoffAngle) {
   WideView view = *WideViewNamed("equidistant");
   view.cutoff_angle = 1;
   const auto lens = Lens::Wide(Camera(), view, kPi);
@@ -138,7 +139,7 @@ TEST(Lens, SeesNothingBeyondItsCutoffAngle) {
   EXPECT_FALSE(lens->RayAt(320 + 320 * 1.01 / (kPi / 2), 240));
 }
 
-TEST(Lens, RefusesWhatCannotBe) {
+TEST(Lens, RejectsInvalidParameters) {
   EXPECT_FALSE(WideViewNamed("fish"));
   EXPECT_FALSE(Lens::Wide(Camera(), *WideViewNamed("gnomonical"), 3.3));
   EXPECT_FALSE(Lens::Wide(Camera(), *WideViewNamed("orthographic"), 4));

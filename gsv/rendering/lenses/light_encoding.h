@@ -5,9 +5,9 @@
 
 namespace gsv::rendering {
 
-// Light from 0 (black) to 1 (white).
+// Returns the light from 0 (black) to 1 (white).
 float LightOf(std::uint8_t number);
-// The value with the nearest light.
+// Returns the sRGB value whose light is nearest.
 std::uint8_t NumberFor(float light);
 
 }  // namespace gsv::rendering

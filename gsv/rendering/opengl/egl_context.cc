@@ -23,7 +23,7 @@ constexpr const char* kRemedy =
     "pictures need OpenGL 4.5 through EGL: install libegl1, libopengl0 and libgl1-mesa-dri, or "
     "your graphics card's driver";
 
-// libepoxy ends the program if it cannot open a library, so this checks it first.
+// libepoxy ends the program if it cannot open a library, so this function checks that first.
 Status CheckLibrary(const std::string& name) {
   void* handle = dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (handle == nullptr) {
@@ -33,8 +33,9 @@ Status CheckLibrary(const std::string& name) {
   return {};
 }
 
-// Mesa unloads its drivers at exit, and LeakSanitizer looks for leaks after that. The allocations
-// of a driver could then not be attributed to it and suppressed (cmake/sanitizers/lsan.supp).
+// Keeps the driver's library loaded. Mesa unloads its drivers at exit, and LeakSanitizer looks for
+// leaks after that. It could then not attribute a driver's allocations to the driver and suppress
+// them (cmake/sanitizers/lsan.supp).
 int KeepDriver(dl_phdr_info* object, std::size_t, void*) {
   const std::string name = object->dlpi_name;
   if (name.ends_with("_dri.so")) dlopen(name.c_str(), RTLD_NOW | RTLD_NODELETE);
@@ -69,7 +70,7 @@ std::vector<EGLDisplay> DeviceDisplays(const char* client_extensions) {
   return displays;
 }
 
-// In the order of the attempts: graphics cards, then Mesa without a device.
+// The displays in the order of the attempts: graphics cards, then Mesa without a device.
 std::vector<EGLDisplay> Displays(const EglOptions& options) {
   const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   std::vector<EGLDisplay> displays;
@@ -81,7 +82,7 @@ std::vector<EGLDisplay> Displays(const EglOptions& options) {
   return displays;
 }
 
-// A current context on `display`, or null.
+// Makes a current context on `display`. Returns null if that fails.
 EGLContext MakeCurrentOn(EGLDisplay display) {
   if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return nullptr;
   const char* extensions = eglQueryString(display, EGL_EXTENSIONS);
@@ -104,7 +105,7 @@ EGLContext MakeCurrentOn(EGLDisplay display) {
   return nullptr;
 }
 
-// The display of a card that is present but unusable gives this renderer.
+// Mesa's software renderer also answers for a card that is present but unusable.
 bool IsMesaInSoftware(const std::string& renderer_name) {
   return renderer_name.starts_with("llvmpipe") || renderer_name.starts_with("softpipe");
 }
@@ -116,8 +117,8 @@ std::string GlText(unsigned name) {
 
 }  // namespace
 
-// EGL_EXT_device_base is the older name of device_enumeration and device_query together. If
-// NVIDIA's driver is the only one, it reports only this name.
+// EGL_EXT_device_base is the older name of device_enumeration and device_query together. NVIDIA's
+// driver reports only this name if it is the only driver.
 bool ListsDevices(const char* client_extensions) {
   const bool enumerates = Has(client_extensions, "EGL_EXT_device_base") ||
                           (Has(client_extensions, "EGL_EXT_device_enumeration") &&
@@ -144,7 +145,7 @@ Result<std::unique_ptr<EglContext>> EglContext::Create(const EglOptions& options
                   "; " + kRemedy);
 }
 
-// The display stays initialised: it belongs to the process, and other contexts may use it.
+// The display stays initialised, because it belongs to the process and other contexts may use it.
 EglContext::~EglContext() {
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);

@@ -16,13 +16,13 @@ struct EglOptions {
   // Whether to use a graphics card, and Mesa's software renderer. The card is tried first.
   bool hardware = true;
   bool software = true;
-  // The libraries to open.
+  // The names of the libraries to open.
   std::string egl_library = "libEGL.so.1";
   std::string gl_library = "libOpenGL.so.0";
 };
 
-// Whether EGL can list graphics devices, from its client extensions (EGL_EXT_device_enumeration,
-// EGL_EXT_platform_device); null: none.
+// Whether EGL can list graphics devices, according to its client extensions
+// (EGL_EXT_device_enumeration, EGL_EXT_platform_device). Null stands for no extensions.
 bool ListsDevices(const char* client_extensions);
 
 class EglContext {

@@ -33,7 +33,7 @@ class GlBatchRenderer final : public BatchRenderer {
  private:
   RenderTarget& TargetFor(const CameraParameters& camera);
 
-  std::list<RenderTarget> targets_;  // most recently used first
+  std::list<RenderTarget> targets_;  // the most recently used target is first
   InstanceBuffer instances_;
   ShadowMap shadow_map_;
   ViewPass view_pass_;

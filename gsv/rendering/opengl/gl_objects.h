@@ -1,6 +1,6 @@
 // Owners of OpenGL object names, and programs from source.
 //
-// Threads  only on the thread whose context is current, also for destruction.
+// Threads  only the thread whose context is current, also for destruction.
 #pragma once
 
 #include <string>

@@ -11,13 +11,14 @@
 
 namespace gsv::rendering {
 
-// The layout of the vertex shaders: the rows of relative_from_mesh, then the surface.
+// The data of one instance in the layout of the vertex shaders: the rows of relative_from_mesh,
+// then the surface.
 struct InstanceData {
   float rows[3][4];
   SurfaceFactors factors;
 };
 
-// `origin` is the origin of the shader in the world.
+// `origin` is the world position that the shader uses as its origin.
 InstanceData InstanceOf(const DrawItem& item, const PlacedItem& placed,
                         const geometry::Vector3& origin);
 

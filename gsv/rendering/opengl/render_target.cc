@@ -11,7 +11,8 @@ namespace gsv::rendering {
 namespace {
 
 constexpr int kMaxLayers = 16;
-constexpr int kMaxPixels = 4 << 20;  // of all layers together, unless a single one has more
+// the maximum of all layers together, unless one layer alone has more
+constexpr int kMaxPixels = 4 << 20;
 
 }  // namespace
 

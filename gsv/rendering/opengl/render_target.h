@@ -18,13 +18,14 @@ class RenderTarget {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  // The largest number of images before they must be read.
+  // The maximum number of images before Read() must be called.
   int capacity() const { return capacity_; }
 
-  // Begins an image: clears depth and binds the target. All pixels must be drawn, with the number
-  // of their surface as alpha.
+  // Begins an image: clears the depth and binds the target. The caller must draw all pixels, with
+  // the number of their surface as alpha.
   void Begin();
-  // The images since the last Read(), in the order of Begin(), antialiased. Waits for the card.
+  // Returns the images since the last Read(), in the order of Begin(), antialiased. Waits for the
+  // card.
   std::vector<std::shared_ptr<const model::Image>> Read();
 
  private:
@@ -36,7 +37,7 @@ class RenderTarget {
   int width_, height_, capacity_;
   std::size_t begun_ = 0;
   GlRenderbuffer depth_;
-  std::vector<Layer> layers_;  // as many as were needed so far
+  std::vector<Layer> layers_;  // as many as have been needed so far
   std::vector<std::uint8_t> rgba_;
 };
 

@@ -3,7 +3,7 @@
 namespace gsv::rendering {
 namespace {
 
-// Laid out as FrameBlock in frame_block.h.
+// The layout is that of FrameBlock in frame_block.h.
 const std::string kFrame = R"(
 struct Light { vec4 position_range, direction_outer, colour_inner, attenuation; };
 layout(std140, binding = 0) uniform Frame {
@@ -19,7 +19,7 @@ layout(std140, binding = 0) uniform Frame {
 };
 )";
 
-// The sky by the height (sine of the elevation) of the direction it is seen in.
+// The colour of the sky in a direction, by the sine of the direction's elevation.
 const std::string kSky = R"(
 vec3 Sky(float height) {
   float up = clamp(height, 0.0, 1.0);
@@ -29,8 +29,9 @@ vec3 Sky(float height) {
 }
 )";
 
-// To sRGB by roots, which is within half a step of eight bits (Taylor, chilliant.blogspot.com,
-// 2012). Done here instead of by the framebuffer, which would do it for each sample of a pixel.
+// Encodes linear light as sRGB with roots, within half a step of eight bits (Taylor,
+// chilliant.blogspot.com, 2012). The framebuffer would encode each sample of a pixel, so the shader
+// encodes the pixel instead.
 const std::string kEncoding = R"(
 vec3 Encode(vec3 linear) {
   vec3 s1 = sqrt(max(linear, vec3(0.0))), s2 = sqrt(s1), s3 = sqrt(s2);
@@ -38,8 +39,9 @@ vec3 Encode(vec3 linear) {
 }
 )";
 
-// From sRGB by a cubic, within a step of eight bits (same source). Textures are sampled as they are
-// stored and decoded once, instead of all eight texels that a sample takes.
+// Decodes sRGB with a cubic, within a step of eight bits (same source). Textures are stored
+// encoded, and the shader decodes the sampled value once. Otherwise all eight texels of a sample
+// would be decoded.
 const std::string kDecoding = R"(
 vec3 Decode(vec3 c) { return c * (c * (c * 0.305306011 + 0.682171111) + 0.012522878); }
 )";

@@ -11,25 +11,26 @@
 
 namespace gsv::rendering {
 
-// Compile with a selection of these defined: BASE_COLOUR_MAP, NORMAL_MAP, METALLIC_ROUGHNESS_MAP,
-// EMISSIVE_MAP, CUT_OUT, SEE_THROUGH, SHADOWS, LAMPS. Alpha is the opacity with SEE_THROUGH, else
-// the number of the surface (0: the sky) for SmoothAliasedEdges().
+// Compile these with a selection of the following defined: BASE_COLOUR_MAP, NORMAL_MAP,
+// METALLIC_ROUGHNESS_MAP, EMISSIVE_MAP, CUT_OUT, SEE_THROUGH, SHADOWS, LAMPS. With SEE_THROUGH,
+// alpha is the opacity. Otherwise alpha is the number of the surface (0: the sky) for
+// SmoothAliasedEdges().
 extern const std::string kSurfaceVertexShader;
 extern const std::string kSurfaceFragmentShader;
 
-// With CUT_OUT, reads the base colour map.
+// With CUT_OUT defined, it reads the base colour map.
 extern const std::string kShadowVertexShader;
 extern const std::string kShadowFragmentShader;
 
 extern const std::string kSkyVertexShader;
 extern const std::string kSkyFragmentShader;
 
-// Bindings in all of them.
+// The bindings are the same in all shaders.
 inline constexpr unsigned kFrameBlockBinding = 0;
 inline constexpr unsigned kBaseColourUnit = 0, kNormalUnit = 1, kMetallicRoughnessUnit = 2,
                           kEmissiveUnit = 3, kShadowUnit = 4;
 
-// Vertex attributes: those of GpuMesh's vertices, then those of an InstanceData.
+// The vertex attributes are those of GpuMesh's vertices, then those of an InstanceData.
 inline constexpr unsigned kPositionAttribute = 0, kNormalAttribute = 1, kUvAttribute = 2,
                           kSurfaceAttribute = 9, kFirstInstanceAttribute = 3;
 

@@ -86,7 +86,7 @@ void ShadowMap::DrawCasters(const RenderList& render_list, const std::vector<std
   std::vector<std::vector<std::size_t>> members(render_list.groups().size());
   for (const std::size_t i : casters) {
     const DrawItem& item = render_list.items()[i];
-    // An object smaller than a texel hides none.
+    // An object smaller than a texel hides no other.
     if (item.radius > 0.5 * region_.TexelSize()) members[item.group].push_back(i);
   }
   staged_.clear();
@@ -99,7 +99,7 @@ void ShadowMap::DrawCasters(const RenderList& render_list, const std::vector<std
   instances.Upload(staged_);
   FrameBlock block{};
   region_.Describe({}, block);
-  // The map holds [0, 1], clip space [-1, 1] by [-1, 1] by [0, 1].
+  // The map's coordinates are in [0, 1]. Clip space is [-1, 1] by [-1, 1] by [0, 1].
   auto clip_from_world = block.shadow_from_relative;
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 2; ++row) {

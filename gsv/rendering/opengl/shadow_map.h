@@ -1,8 +1,8 @@
 // The shadow map of the sun: one per snapshot, for all cameras.
 //
-// Static shadow casters are drawn once, into a first map. A second map has moving casters as well.
-// For each snapshot, its changed parts are restored from the first map and drawn again, as far as a
-// camera may see the shadows.
+// Static shadow casters are drawn once, into a first map. A second map contains the moving casters
+// as well. For each snapshot, the changed parts of the second map are restored from the first one
+// and drawn again, if a camera may see the shadows.
 // Threads  the render thread only.
 #pragma once
 
@@ -22,7 +22,7 @@ class ShadowMap {
             const geometry::Vector3& to_sun, const std::vector<CameraView>& views,
             InstanceBuffer& instances);
 
-  // Binds it for shaders with SHADOWS.
+  // Binds the shadow map for shaders with SHADOWS defined.
   void Bind() const;
   const ShadowRegion& region() const { return region_; }
 
@@ -42,8 +42,8 @@ class ShadowMap {
   GlFramebuffer still_frame_, moving_frame_;
   GlProgram solid_, alpha_mask_;
   ShadowRegion region_;
-  Drawn drawn_;                                 // content of still_
-  std::vector<ShadowRegion::Rectangle> moved_;  // where moving_ differs from still_
+  Drawn drawn_;                                 // describes the content of still_
+  std::vector<ShadowRegion::Rectangle> moved_;  // the parts in which moving_ differs from still_
   std::vector<InstanceData> staged_;
 };
 

@@ -57,7 +57,8 @@ void BindMaps(const DrawGroup& group) {
 }
 
 void SetFaces(const DrawGroup& group) {
-  // Rows run downwards (ClipFromRelative), which turns counter-clockwise into clockwise.
+  // Rows run downwards (see ClipFromRelative()), which turns counter-clockwise triangles into
+  // clockwise ones.
   glFrontFace(group.mirrored ? GL_CCW : GL_CW);
   if (group.double_sided) {
     glDisable(GL_CULL_FACE);
@@ -88,7 +89,7 @@ unsigned ViewPass::ProgramFor(unsigned features) {
 
 void ViewPass::FindVisible(const CameraView& view, const RenderList& render_list,
                            const ShadowMap* shadows) {
-  // Smaller objects would only flicker.
+  // Objects below this size would only flicker.
   constexpr double kMinPixels = 0.3;
   const Frustum frustum = FrustumOf(view);
   const double smallest = kMinPixels / FocalLength(view.parameters);
@@ -177,7 +178,7 @@ void ViewPass::Draw(const CameraView& view, const RenderList& render_list, const
   glDrawArrays(GL_TRIANGLES, 0, 3);
 
   glEnable(GL_BLEND);
-  // Alpha stays the number of the surface behind.
+  // The alpha channel keeps the number of the surface behind.
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
   Draw(transparent_calls_, render_list, lamps, instances);
   glDisable(GL_BLEND);

@@ -1,7 +1,7 @@
 // Renders the view of one camera.
 //
-// Opaque groups first, from near to far, with the ground last; then the sky; then transparent
-// groups, from far to near.
+// The pass draws opaque groups first, from near to far, with the ground last. Then it draws the
+// sky, and then transparent groups from far to near.
 // Threads  the render thread only.
 #pragma once
 
@@ -19,7 +19,7 @@ class ViewPass {
   ViewPass();
 
   // Draws a posed render list into the current target, whose depth is cleared. `block` must be
-  // complete. `shadows` null: no shadows.
+  // complete. If `shadows` is null, there are no shadows.
   void Draw(const CameraView& view, const RenderList& render_list, const FrameBlock& block,
             const ShadowMap* shadows, InstanceBuffer& instances);
 
@@ -29,11 +29,11 @@ class ViewPass {
     int group = 0;
     double distance = 0;
     std::size_t first = 0, count = 0;
-    bool shadowed = false;  // some may be in shadow
+    bool shadowed = false;  // whether some instances may be in shadow
   };
   struct Seen {
     int group = 0;
-    double distance = 0;  // to its centre
+    double distance = 0;  // the distance to its centre
     std::size_t item = 0;
     bool shadowed = false;
   };
@@ -45,7 +45,7 @@ class ViewPass {
             const InstanceBuffer& instances);
   unsigned ProgramFor(unsigned features);
 
-  std::map<unsigned, GlProgram> programs_;  // by features
+  std::map<unsigned, GlProgram> programs_;  // by the features that they are compiled with
   GlProgram sky_;
   GlBuffer frame_;
   std::vector<Seen> solid_, transparent_;

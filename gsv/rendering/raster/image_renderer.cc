@@ -14,10 +14,10 @@ namespace {
 using geometry::Vector3;
 
 constexpr int kTileWidth = 32, kTileHeight = 16;
-// Objects on the ground have priority over the ground.
+// The depth factor of the ground, so that objects on the ground hide it.
 constexpr float kGroundBack = 1 - 2e-4f;
 
-// The coarsest level whose vertices moved by at most about a pixel.
+// The coarsest level whose vertices are displaced by at most about a pixel.
 const Level& LevelFor(const std::vector<Level>& levels, double pixel_in_mesh) {
   const Level* level = &levels.front();
   for (const Level& coarser : levels) {
@@ -79,7 +79,7 @@ void ImageRenderer::Begin(const CameraView& view, const FrameBlock& block) {
   drawn_.clear();
   body_of_.clear();
   visual_of_.clear();
-  // The centre of pixel (x, y) is at (2 x + 1) / width - 1, and so on.
+  // The centre of pixel (x, y) is at x = (2 x + 1) / width - 1 in clip space, and likewise for y.
   for (int i = 0; i < 3; ++i) {
     right_[i] = 2 * block.view_right[i] / static_cast<float>(width_);
     down_[i] = 2 * block.view_down[i] / static_cast<float>(height_);
@@ -91,10 +91,10 @@ void ImageRenderer::Begin(const CameraView& view, const FrameBlock& block) {
 }
 
 void ImageRenderer::FindVisible(const CameraView& view, const RenderList& render_list) {
-  // Smaller objects would only flicker.
+  // Objects below this size would only flicker.
   constexpr double kMinPixels = 0.3;
   const Frustum frustum = FrustumOf(view);
-  const double pixel = 1 / FocalLength(view.parameters);  // at 1 m
+  const double pixel = 1 / FocalLength(view.parameters);  // the size of a pixel at 1 m
   solid_.clear();
   transparent_.clear();
   for (std::size_t i = 0; i < render_list.items().size(); ++i) {
@@ -136,7 +136,7 @@ void ImageRenderer::Cover(const CameraView& view, const RenderList& render_list)
   }
 }
 
-// Whether objects that were drawn before hide a sphere.
+// Whether items that are already drawn hide a sphere.
 bool ImageRenderer::IsHidden(const CameraView& view, const Vector3& centre, double radius) const {
   const geometry::Quaternion& q = view.world_from_camera.orientation;
   const double ahead = geometry::Dot(q * Vector3{1, 0, 0}, centre);
@@ -219,7 +219,7 @@ void ImageRenderer::LightTile(const LightModel& light, int x0, int y0) {
 }
 
 Lamps ImageRenderer::LampsOfTile(const LightModel& light, int x0, int y0, int x1, int y1) const {
-  F8 most = Splat(0), least = Splat(1e30f);  // 1/w
+  F8 most = Splat(0), least = Splat(1e30f);  // both in 1/w
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; x += 8) {
       const I8 seen = (LoadInt(&nearest_[At(x, y)]) != 0) & (IntSteps() < SplatInt(x1 - x));
@@ -284,7 +284,7 @@ void ImageRenderer::Light(const LightModel& light, const Lamps& lamps, int x, in
   }
   if (sky) colour = Select(ids == 0, light.Sky(ray), colour);
   const I8 rgba = Encoded(colour, SelectInt(ids == 0, SplatInt(0), surfaces.number));
-  // The last pixels of a row must not change the next row.
+  // The last pixels of a row must not overwrite the next row.
   std::uint32_t* to = &rgba_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
   if (in_image == 0xff) {
     StoreInt(to, rgba);
@@ -311,7 +311,8 @@ void ImageRenderer::Blend(const CameraView& view, const RenderList& render_list,
             const F8x3 ray = RayAt(x, y);
             Surfaces surfaces;
             FillIn(drawn, t, surface, x, y, visible, true, ray, surfaces);
-            // Only a few of these pixels are in an image: all lamps may reach them.
+            // Few of these pixels are in an image, so they are shaded as if all lamps could reach
+            // them.
             constexpr double kAnywhere = 1e30;
             const Lamps lamps = light.Reaching({-kAnywhere, -kAnywhere, -kAnywhere},
                                                {kAnywhere, kAnywhere, kAnywhere});
@@ -319,7 +320,7 @@ void ImageRenderer::Blend(const CameraView& view, const RenderList& render_list,
             std::uint32_t* to =
                 &rgba_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
             const I8 below = LoadInt(to);
-            // Alpha stays the number of the surface behind.
+            // The alpha channel keeps the number of the surface behind.
             I8 mixed = below & SplatInt(static_cast<std::int32_t>(0xff000000u));
             for (int shift = 0; shift < 24; shift += 8) {
               const F8 a = ToFloat((above >> shift) & SplatInt(0xff)),

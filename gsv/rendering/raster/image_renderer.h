@@ -15,10 +15,11 @@ namespace gsv::rendering::raster {
 
 class ImageRenderer {
  public:
-  // Renders a posed render list, antialiased. `block` must be complete. `shadow` null: no shadows.
+  // Renders a posed render list, antialiased. `block` must be complete. If `shadow` is null, there
+  // are no shadows.
   model::Image Draw(const CameraView& view, const RenderList& render_list, const FrameBlock& block,
                     const SunShadow* shadow);
-  // The depth and label image of the same view.
+  // Renders the depth and label image of a view.
   GroundTruth DrawGroundTruth(const CameraView& view, const RenderList& render_list,
                               const FrameBlock& block);
   // The number of allocated pixels.
@@ -26,7 +27,8 @@ class ImageRenderer {
 
  private:
   struct Seen {
-    double distance = 0;  // opaque: to its nearest point; transparent: to its centre
+    // for opaque items, to the nearest point; for transparent ones, to the centre
+    double distance = 0;
     std::size_t item = 0;
     const Level* level = nullptr;
   };
@@ -50,15 +52,16 @@ class ImageRenderer {
   }
 
   int width_ = 0, height_ = 0, stride_ = 0;
-  Float4 forward_, right_, down_;       // of a pixel's ray, by the position of the pixel
-  std::vector<float> inverse_w_;        // of the nearest surface at each pixel
-  std::vector<std::uint32_t> nearest_;  // number of its triangle from 1; 0: the sky
+  // the direction of a pixel's ray, as parts that depend on the pixel's position
+  Float4 forward_, right_, down_;
+  std::vector<float> inverse_w_;        // by pixel, of the nearest surface
+  std::vector<std::uint32_t> nearest_;  // by pixel, the number of the triangle from 1; 0 is the sky
   std::vector<Triangle> triangles_;
-  // From triangle number - 1 to the index in surfaces_, or -1.
+  // The index in surfaces_ by triangle number - 1, or -1.
   std::vector<std::int32_t> surface_of_;
   std::vector<TriangleSurface> surfaces_;
   std::vector<Drawn> drawn_;
-  std::vector<std::int32_t> body_of_, visual_of_;  // as drawn_, for opaque items
+  std::vector<std::int32_t> body_of_, visual_of_;  // the same order as drawn_, for opaque items
   std::vector<Seen> solid_, transparent_;
   std::vector<std::uint32_t> rgba_;
   Rasteriser rasteriser_;

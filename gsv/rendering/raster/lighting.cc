@@ -12,24 +12,26 @@ F8x3 Mixed(const F8x3& a, const F8x3& b, F8 k) {
   return {Mixed(a.x, b.x, k), Mixed(a.y, b.y, k), Mixed(a.z, b.z, k)};
 }
 
-// A surface in the form that the light terms need.
+// The properties of a surface that the lighting equations use.
 struct Reflector {
   F8x3 normal, to_view;
-  F8x3 diffuse, specular;  // specular: reflectance at normal incidence
-  F8 alpha, alpha2;        // GGX's alpha, which is roughness squared, and its square
+  F8x3 diffuse, specular;  // `specular` is the reflectance at normal incidence
+  F8 alpha, alpha2;        // the roughness squared (GGX's alpha), and the square of that
   F8 n_dot_v;
 };
 
-// The light towards the camera from a source of strength 1 in the direction `to_light`.
+// The light that a surface reflects towards the camera, for a source of strength 1 in the direction
+// `to_light`.
 F8x3 Reflected(const Reflector& s, const F8x3& to_light, F8 n_dot_l) {
-  // h, the half vector of light and view, needs no unit length: with the sum of l and v, |l + v|²
-  // is 2 + 2 l·v, and v·h is |l + v| / 2.
+  // The half vector h of light and view needs no unit length: for the sum of l and v, |l + v|² is 2
+  // + 2 l·v, and v·h is |l + v| / 2.
   const F8 l_dot_v = Dot(to_light, s.to_view);
   const F8 length2 = Max(Fma(l_dot_v, Splat(2), Splat(2)), Splat(1e-6f));
   const F8 n_dot_sum = Max(Dot(s.normal, to_light) + Dot(s.normal, s.to_view), Splat(0));
   const F8 m = Max(Fma(Sqrt(length2), Splat(-0.5f), Splat(1)), Splat(0)), m2 = m * m,
            m5 = m2 * m2 * m;
-  const F8 d = Fma(n_dot_sum * n_dot_sum, s.alpha2 - Splat(1), length2);  // times |l + v|²
+  // the usual term times |l + v|²
+  const F8 d = Fma(n_dot_sum * n_dot_sum, s.alpha2 - Splat(1), length2);
   const F8 v =
       Max(Mixed(Splat(2) * n_dot_l * s.n_dot_v, n_dot_l + s.n_dot_v, s.alpha), Splat(1e-4f));
   const F8 gloss =
@@ -42,7 +44,7 @@ F8x3 Reflected(const Reflector& s, const F8x3& to_light, F8 n_dot_l) {
           channel(s.diffuse.z, s.specular.z)};
 }
 
-// 2^x for x from -30 to 0: a cubic between integer powers, within 1e-4.
+// Computes 2^x for x from -30 to 0 by a cubic between integer powers, within 1e-4.
 F8 Exp2(F8 x) {
   x = Max(x, Splat(-30));
   const F8 whole = Floor(x), f = x - whole;
@@ -55,7 +57,7 @@ F8 Exp2(F8 x) {
 F8x3 Ambient(const FrameBlock& block, const Reflector& s, F8 roughness) {
   const F8x3 below = Splat3(block.ambient_below), above = Splat3(block.ambient_above);
   F8x3 around = Mixed(below, above, Fma(s.normal.z, Splat(0.5f), Splat(0.5f)));
-  // Surfaces that face the sun get more indirect light: shapes stay visible in shadow.
+  // Surfaces that face the sun get more indirect light, so that shapes stay visible in shadow.
   around = around * Fma(Dot(s.normal, Splat3(block.to_sun)), Splat(0.2f), Splat(0.9f));
   const F8 n_dot_v = Dot(s.normal, s.to_view);
   const F8 mirrored_z = Fma(Splat(2) * n_dot_v, s.normal.z, -s.to_view.z);
@@ -97,18 +99,18 @@ F8x3 FromLamp(const LightBlock& lamp, const Reflector& s, const F8x3& position) 
     }
   }
   const F8 n_dot_l = Clamp01(Dot(s.normal, to_light));
-  // Less is invisible in eight bits.
+  // Weaker light is invisible with eight bits.
   const I8 lit = (n_dot_l * strength) > Splat(1e-3f);
   if (Bits(lit) == 0) return Splat(0, 0, 0);
   return Reflected(s, to_light, n_dot_l) * (Splat3(lamp.colour_inner) * strength);
 }
 
-// IEC 61966-2-1.
+// The transfer function of IEC 61966-2-1.
 double SrgbFromLinear(double value) {
   return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
 }
 
-// Khronos PBR Neutral, as in shaders.cc.
+// The tone mapper Khronos PBR Neutral, as in shaders.cc.
 F8x3 ToneMapped(const F8x3& colour) {
   constexpr float kStart = 0.8f, kDesaturation = 0.15f, kRest = 1 - kStart;
   const F8 peak = Max(colour.x, Max(colour.y, colour.z));
@@ -153,7 +155,7 @@ F8x3 LightModel::Colour(const Surfaces& surface, const F8x3& ray, const Lamps& l
   if (Bits(n_dot_l > Splat(0)) != 0) {
     F8 visible = Splat(1);
     if (shadow_ != nullptr && block_.to_sun[3] > 0) {
-      // Samples beside the surface, so that it does not shade itself.
+      // The shadow is looked up beside the surface, so that the surface does not shade itself.
       const F8 beside = Splat(block_.to_sun[3]) * (Splat(1.5f) - n_dot_l);
       const F8x3 p = Fma(Normalized(surface.face_normal), beside, position);
       const auto& m = block_.shadow_from_relative;
@@ -180,7 +182,7 @@ F8x3 LightModel::Sky(const F8x3& ray) const {
 }
 
 I8 Encoded(const F8x3& colour, I8 alpha) {
-  constexpr int kSteps = 8192;  // half a step of eight bits where the curve is steepest
+  constexpr int kSteps = 8192;  // a step is half a step of eight bits where the curve is steepest
   static const std::vector<std::uint8_t> table = [] {
     std::vector<std::uint8_t> bytes(kSteps + 4);
     for (int i = 0; i < kSteps; ++i) {

@@ -7,7 +7,7 @@
 
 namespace gsv::rendering::raster {
 
-// The lamps of the frame block that reach a part of the image.
+// The lamps of the frame block that can light a part of the image.
 struct Lamps {
   int count = 0;
   const LightBlock* lights[kMaxLights];
@@ -15,13 +15,13 @@ struct Lamps {
 
 class LightModel {
  public:
-  // `block` must include the shadow. `shadow` null: no shadows.
+  // `block` must include the shadow. If `shadow` is null, there are no shadows.
   LightModel(const FrameBlock& block, const SunShadow* shadow) : block_(block), shadow_(shadow) {}
 
-  // The lamps that reach a box, in the frame of FrustumOf().
+  // Returns the lamps that can light a box, which is in the frame of FrustumOf().
   Lamps Reaching(const geometry::Vector3& min, const geometry::Vector3& max) const;
 
-  // The tone-mapped linear colour in [0, 1].
+  // Returns the tone-mapped linear colour in [0, 1].
   F8x3 Colour(const Surfaces& surfaces, const F8x3& ray, const Lamps& lamps) const;
   F8x3 Sky(const F8x3& ray) const;
 
@@ -30,7 +30,7 @@ class LightModel {
   const SunShadow* shadow_;
 };
 
-// Linear colours in [0, 1] to sRGB, with `alpha` (0 to 255) in the highest byte.
+// Encodes linear colours in [0, 1] as sRGB, with `alpha` (0 to 255) in the highest byte.
 I8 Encoded(const F8x3& colour, I8 alpha);
 
 }  // namespace gsv::rendering::raster

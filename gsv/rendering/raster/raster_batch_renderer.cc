@@ -68,7 +68,7 @@ std::unique_ptr<ImageRenderer> RasterBatchRenderer::TakeRenderer() {
 }
 
 void RasterBatchRenderer::GiveBack(std::unique_ptr<ImageRenderer> renderer) {
-  // The memory of a very large image is not kept for the next small one.
+  // The memory of an image above this size is released after it.
   constexpr std::size_t kMaxPixels = 2 << 20;
   if (renderer->pixels() > kMaxPixels) return;
   const base::MutexLock lock(mutex_);

@@ -23,7 +23,7 @@ bool CanRasterise();
 
 class RasterBatchRenderer final : public BatchRenderer {
  public:
-  // `threads` >= 1.
+  // `threads` is at least 1.
   explicit RasterBatchRenderer(int threads);
   ~RasterBatchRenderer() override;
 

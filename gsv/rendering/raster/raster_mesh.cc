@@ -15,7 +15,7 @@ struct Vertex {
   std::uint16_t surface = 0;
 };
 
-// The triangles of one chunk, with separate vertices.
+// The triangles of one chunk. Each triangle has its own vertices.
 struct Piece {
   std::vector<Vertex> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -137,7 +137,7 @@ Level Append(const Piece& piece, float cell, RasterMesh& mesh) {
 }  // namespace
 
 std::shared_ptr<const DrawMesh> MakeRasterMesh(MeshArrays arrays) {
-  constexpr std::size_t kMinTriangles = 32;  // worth a coarser copy
+  constexpr std::size_t kMinTriangles = 32;  // a smaller chunk gets no coarser level
   auto mesh = std::make_shared<RasterMesh>();
   for (const MeshChunk& chunk : arrays.chunks) {
     Piece piece = PieceOf(arrays, chunk);

@@ -1,5 +1,5 @@
-// Triangle meshes for the rasteriser: a structure of arrays, with contiguous vertices per chunk and
-// coarser levels of detail for chunks that are small in the image.
+// Triangle meshes for the rasteriser, as a structure of arrays. The vertices of a chunk are
+// contiguous. Chunks have coarser levels of detail, for small sizes in the image.
 #pragma once
 
 #include <vector>
@@ -11,18 +11,18 @@ namespace gsv::rendering::raster {
 // A chunk in one level of detail. Runs of vertices and triangles are padded to multiples of eight,
 // with the first vertex and with degenerate triangles.
 struct Level {
-  float cell = 0;  // m in the mesh: the largest displacement of a vertex, approximately
+  float cell = 0;  // the largest displacement of a vertex in the mesh, approximately, m
   std::uint32_t first_vertex = 0, vertex_count = 0;
   std::uint32_t first_triangle = 0, triangle_count = 0;
 };
 
 struct RasterMesh final : DrawMesh {
-  // Of each vertex.
+  // One element per vertex.
   std::vector<float> x, y, z, normal_x, normal_y, normal_z, u, v;
   std::vector<std::uint16_t> surface;
-  // Of each triangle, counted from its level's first vertex.
+  // One element per triangle; a value counts from the first vertex of the level.
   std::vector<std::uint32_t> corners[3];
-  // Of each chunk, finest first.
+  // By chunk; the first level is the finest.
   std::vector<std::vector<Level>> levels;
 };
 

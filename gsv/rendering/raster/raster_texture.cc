@@ -18,7 +18,7 @@ std::vector<std::uint32_t> Packed(const model::Image& image) {
   return texels;
 }
 
-// The mean of each two by two texels.
+// Appends a level whose texels are the means of two by two texels.
 RasterTexture::Level AppendHalf(const RasterTexture::Level& from,
                                 std::vector<std::uint32_t>& texels) {
   RasterTexture::Level half{std::max(1, from.width / 2), std::max(1, from.height / 2),
@@ -46,7 +46,7 @@ RasterTexture::Level AppendHalf(const RasterTexture::Level& from,
 Texels SampleLevel(const RasterTexture& texture, const RasterTexture::Level& level, F8 u, F8 v) {
   const auto axis = [](F8 at, int size, I8& low, I8& high) {
     const F8 extent = Splat(static_cast<float>(size));
-    // NaN, in invisible pixels, becomes the first texel.
+    // NaN, which occurs in invisible pixels, selects the first texel.
     const F8 x =
         Min(Max(Fma(at - Floor(at), extent, Splat(-0.5f)), Splat(-0.5f)), extent - Splat(0.5f));
     const F8 whole = Floor(x);
@@ -65,7 +65,7 @@ Texels SampleLevel(const RasterTexture& texture, const RasterTexture::Level& lev
   if (Bits(x1 == x0 + 1) == 0xff) {
     const I8x2 upper = GatherPairs(texels, row0 + x0), lower = GatherPairs(texels, row1 + x0);
     t00 = upper.first, t10 = upper.second, t01 = lower.first, t11 = lower.second;
-  } else {  // around the edge
+  } else {  // the texels are on both sides of the texture's edge
     t00 = GatherInt(texels, row0 + x0), t10 = GatherInt(texels, row0 + x1);
     t01 = GatherInt(texels, row1 + x0), t11 = GatherInt(texels, row1 + x1);
   }
@@ -94,7 +94,7 @@ std::shared_ptr<DrawTexture> MakeRasterTexture(const model::Image& image) {
 }
 
 Texels Sample(const RasterTexture& texture, float level, F8 u, F8 v) {
-  constexpr float kBand = 0.4f;  // of a level, in which two are mixed
+  constexpr float kBand = 0.4f;  // the range, as a part of a level, in which two levels are mixed
   const int most = static_cast<int>(texture.levels.size()) - 1;
   level = std::clamp(level, 0.0f, static_cast<float>(most));
   const int fine = std::min(static_cast<int>(level), most);

@@ -13,18 +13,18 @@ struct RasterTexture final : DrawTexture {
     int width = 0, height = 0;
     std::size_t first = 0;
   };
-  std::vector<Level> levels;          // each half as large as the one before
+  std::vector<Level> levels;          // each level is half as large as the one before
   std::vector<std::uint32_t> texels;  // red in the lowest byte, alpha in the highest
 };
 
 std::shared_ptr<DrawTexture> MakeRasterTexture(const model::Image& image);
 
 struct Texels {
-  F8 r, g, b, a;  // [0, 1], encoded as the image
+  F8 r, g, b, a;  // in [0, 1], encoded as in the image
 };
 
-// Bilinear lookup; trilinear if `level` is about halfway between two levels. u to the right and v
-// downwards, repeating.
+// Looks up texels bilinearly, and trilinearly if `level` is about halfway between two levels. u
+// points right and v down, and both repeat.
 Texels Sample(const RasterTexture& texture, float level, F8 u, F8 v);
 
 }  // namespace gsv::rendering::raster

@@ -17,7 +17,7 @@ Drawn DrawnItem(const RenderList& render_list, std::size_t item, const Level& le
   const Vector3 t = placed.origin - origin;
   const Vector3 rows[3] = {{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}};
   const double offset[3] = {t.x, t.y, t.z};
-  // Normals transform with the cofactors of rotation and scale; a reflection would turn them
+  // Normals are transformed by the cofactors of rotation and scale. A reflection would turn them
   // inward.
   const double handedness = geometry::Dot(x, geometry::Cross(y, z)) < 0 ? -1 : 1;
   const Vector3 cofactors[3] = {handedness * geometry::Cross(rows[1], rows[2]),
@@ -88,14 +88,14 @@ int Rasteriser::SetUp(const Drawn& drawn, std::uint32_t number, std::uint32_t fi
   const F8 nearest = Max(Max(iw[0], iw[1]), iw[2]), farthest = Min(Min(iw[0], iw[1]), iw[2]);
   const F8 min_x = Min(Min(x[0], x[1]), x[2]), max_x = Max(Max(x[0], x[1]), x[2]);
   const F8 min_y = Min(Min(y[0], y[1]), y[2]), max_y = Max(Max(y[0], y[1]), y[2]);
-  // Far outside the image, single precision is too coarse.
+  // Beyond this distance from the image, single precision is too coarse.
   constexpr float kFar = 16384;
   const I8 is_far = (Max(Abs(min_x), max_x) > Splat(kFar)) | (Max(Abs(min_y), max_y) > Splat(kFar));
   const I8 crosses = ((farthest <= zero) | is_far) & (nearest > zero) &
                      ((corner[0] != corner[1]) | (corner[1] != corner[2]));
   crossing = Bits(crosses);
   const F8 area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
-  // Rows that run downwards turn counter-clockwise into clockwise.
+  // Rows that run downwards turn counter-clockwise triangles into clockwise ones.
   const bool counter_clockwise = drawn.group->mirrored != rows_upwards_;
   const I8 faces = both_sides ? area != zero : counter_clockwise ? area > zero : area < zero;
   const F8 width = Splat(static_cast<float>(width_)), height = Splat(static_cast<float>(height_));
@@ -141,7 +141,7 @@ int Rasteriser::SetUp(const Drawn& drawn, std::uint32_t number, std::uint32_t fi
 bool Rasteriser::SetUpCrossing(const Drawn& drawn, std::uint32_t number, std::uint32_t index,
                                bool both_sides, Triangle& triangle) const {
   const RasterMesh& mesh = *drawn.mesh;
-  double p[3][3];  // x w, y w, w of each corner
+  double p[3][3];  // the corners' coordinates x w, y w and w
   for (int i = 0; i < 3; ++i) {
     const std::uint32_t v =
         drawn.level->first_vertex + mesh.corners[i][drawn.level->first_triangle + index];

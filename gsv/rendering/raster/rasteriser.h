@@ -24,7 +24,7 @@ struct Drawn {
   const DrawGroup* group = nullptr;
   const SurfaceFactors* factors = nullptr;
   float rows[3][4];    // relative_from_mesh
-  float normal[3][3];  // transforms the mesh's normals, not to unit length
+  float normal[3][3];  // transforms the mesh's normals, which then do not have unit length
 };
 
 Drawn DrawnItem(const RenderList& render_list, std::size_t item, const Level& level,
@@ -33,7 +33,7 @@ Drawn DrawnItem(const RenderList& render_list, std::size_t item, const Level& le
 class Rasteriser {
  public:
   enum class Rows { kDownwards, kUpwards };
-  // Sets the mapping of the frame of FrustumOf() to pixels; w is 1 for orthographic views.
+  // Sets the mapping from the frame of FrustumOf() to pixels. w is 1 for orthographic views.
   void Begin(int width, int height, double near, const std::array<float, 16>& clip_from_relative,
              Rows rows);
 
@@ -69,15 +69,16 @@ class Rasteriser {
   int width_ = 0, height_ = 0;
   float near_ = 0;
   bool rows_upwards_ = false;
-  float to_pixels_[3][4];                 // from the relative frame: x w, y w and w
-  float from_mesh_[3][4];                 // the same for the current item
-  std::vector<float> x_, y_, inverse_w_;  // 1/w; 0: nearer than the near plane
+  float to_pixels_[3][4];  // maps the frame of FrustumOf() to x w, y w and w
+  float from_mesh_[3][4];  // the same mapping from the current item's mesh
+  // inverse_w_ is 1/w, or 0 for vertices nearer than the near plane
+  std::vector<float> x_, y_, inverse_w_;
   Triangle triangles_[8];
   Box boxes_[8];
 };
 
-// The opaque pixels of an item with an alpha mask, at the texture level `level`; dx and dy are
-// pixels from the triangle's x0 and y0.
+// Computes the opaque pixels of an item with an alpha mask at the texture level `level`. dx and dy
+// are pixels from the triangle's x0 and y0.
 struct RasterTexture;
 I8 Solid(const Triangle& triangle, const RasterMesh& mesh, const RasterTexture& holes, float level,
          F8 dx, float dy);

@@ -21,7 +21,7 @@ std::shared_ptr<Renderer> StartRenderer(BackEnd back_end) {
   return started ? *started : nullptr;
 }
 
-// A closed room of many triangles around the camera: a gap between two would show the sky.
+// The camera is in a closed room of many triangles: a gap between two of them would show the sky.
 TEST(Rasteriser, LeavesNoGapsBetweenTriangles) {
   TestScene scene;
   auto mesh = std::make_shared<geometry::TriangleMesh>();
@@ -59,15 +59,15 @@ TEST(Rasteriser, LeavesNoGapsBetweenTriangles) {
   }
 }
 
-// A wall beside the camera begins behind it and nearer than the near plane.
-TEST(Rasteriser, DrawsWhatReachesBehindTheCamera) {
+// The wall beside the camera begins behind the camera and nearer than the near plane.
+TEST(Rasteriser, DrawsTrianglesThatReachBehindTheCamera) {
   TestScene scene;
   scene.Add("wall", geometry::Box{{400, 0.1, 2}}, {{0, -1, 0}, {}}, Glowing(0, 1, 0));
   const auto renderer = StartRenderer(BackEnd::kRasteriser);
   const auto image = renderer->Draw(
       scene.Snapshot(), CameraView{{}, {200, 100, std::numbers::pi / 2, 0.1, 150}}, kDrawTimeout);
   ASSERT_TRUE(image);
-  // f is 100: the wall 0.95 m to the right ends at 150 m, 0.6 pixels right of the middle; at pixel
+  // f is 100. The wall 0.95 m to the right ends at 150 m, 0.6 pixels right of the middle. At pixel
   // u its upper and lower edges are (u - 100) / 0.95 from the middle row.
   for (int u = 105; u < 200; ++u) {
     const double half = (u + 0.5 - 100) / 0.95;
@@ -77,7 +77,7 @@ TEST(Rasteriser, DrawsWhatReachesBehindTheCamera) {
   }
 }
 
-TEST(RasterMesh, HasCoarserCopiesWithinTheirCell) {
+TEST(RasterMesh, CoarserLevelsDisplaceVerticesByAtMostTheirCell) {
   auto mesh = geometry::Tessellate(geometry::Sphere{1});
   MeshArrays arrays;
   for (const auto& p : mesh.positions) {
@@ -102,13 +102,13 @@ TEST(RasterMesh, HasCoarserCopiesWithinTheirCell) {
     for (std::uint32_t i = 0; i < levels[l].vertex_count; ++i) {
       const std::uint32_t v = levels[l].first_vertex + i;
       const double radius = std::hypot(raster_mesh.x[v], raster_mesh.y[v], raster_mesh.z[v]);
-      // Cells of all levels before add up, each 1.5 times the one before.
+      // The displacements of all finer levels add up; a cell is 1.5 times the one before.
       EXPECT_NEAR(radius, 1, std::sqrt(3.0) * 3 * levels[l].cell);
     }
   }
 }
 
-TEST(BackEnds, DrawAboutTheSamePicture) {
+TEST(BackEnds, DrawSimilarImages) {
   TestScene scene;
   model::Light sun;
   sun.direction = geometry::Normalized(geometry::Vector3{-1, 0.4, -0.8});

@@ -12,7 +12,7 @@ namespace gsv::rendering::raster {
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
 
-// Narrows a row to the pixels, counted from the box's first, where no q_i is negative.
+// Narrows a row to the pixels where no q_i is negative. Pixels are counted from the box's first.
 inline void Narrow(const Triangle& t, const float (&row)[3], float& left, float& right) {
   for (int i = 0; i < 3; ++i) {
     if (t.a[i] > 0) {
@@ -25,11 +25,11 @@ inline void Narrow(const Triangle& t, const float (&row)[3], float& left, float&
   }
 }
 
-// Calls block(x, y, covered, inverse_w) for pixels x to x + 7 of row y if one of them is covered.
-// Rows have padding of seven pixels.
+// Calls block(x, y, covered, inverse_w) for pixels x to x + 7 of row y if the triangle covers one
+// of them. Rows have seven pixels of padding.
 template <class Block>
 void Scan(const Triangle& t, const Box& box, Block&& block) {
-  // In pixels: neighbours overlap by this much, so that rounding leaves no gap between them.
+  // Adjacent triangles overlap by this many pixels, so that rounding leaves no gap between them.
   constexpr float kOverlap = 1e-3f;
   constexpr int kWide = 16;
   const float slack[3] = {kOverlap * (std::abs(t.a[0]) + std::abs(t.b[0])),

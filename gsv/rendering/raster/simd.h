@@ -1,7 +1,7 @@
 // Vectors of eight numbers with AVX2 and FMA.
 //
-// Determinism  no approximate instruction (reciprocals, inverse roots) is used: their results
-//              differ between makers of processors.
+// Determinism  approximate instructions (reciprocals, inverse roots) are not used, because their
+//              results differ between processors of different makers.
 #pragma once
 
 #include <immintrin.h>
@@ -14,7 +14,8 @@ namespace gsv::rendering::raster {
 #pragma GCC target("avx2,fma")
 
 typedef float F8 __attribute__((vector_size(32)));
-typedef std::int32_t I8 __attribute__((vector_size(32)));  // also masks: all bits or none
+// also used as masks, in which a lane has all bits or none
+typedef std::int32_t I8 __attribute__((vector_size(32)));
 
 inline F8 Splat(float value) { return _mm256_set1_ps(value); }
 inline I8 SplatInt(std::int32_t value) { return (I8)_mm256_set1_epi32(value); }
@@ -26,7 +27,7 @@ inline void Store(float* to, F8 value) { _mm256_storeu_ps(to, value); }
 inline void StoreInt(void* to, I8 value) {
   _mm256_storeu_si256(static_cast<__m256i*>(to), (__m256i)value);
 }
-inline F8 Fma(F8 a, F8 b, F8 c) { return _mm256_fmadd_ps(a, b, c); }  // a b + c
+inline F8 Fma(F8 a, F8 b, F8 c) { return _mm256_fmadd_ps(a, b, c); }  // returns a b + c
 inline F8 Min(F8 a, F8 b) { return _mm256_min_ps(a, b); }
 inline F8 Max(F8 a, F8 b) { return _mm256_max_ps(a, b); }
 inline F8 Clamp01(F8 a) { return Min(Max(a, Splat(0)), Splat(1)); }
@@ -42,20 +43,21 @@ inline F8 Select(I8 mask, F8 a, F8 b) { return _mm256_blendv_ps(b, a, (__m256)ma
 inline I8 SelectInt(I8 mask, I8 a, I8 b) {
   return (I8)_mm256_blendv_epi8((__m256i)b, (__m256i)a, (__m256i)mask);
 }
-inline int Bits(I8 mask) { return _mm256_movemask_ps((__m256)mask); }  // bit i: lane i
+// bit i of the result is lane i
+inline int Bits(I8 mask) { return _mm256_movemask_ps((__m256)mask); }
 inline F8 Gather(const float* from, I8 index) {
   return _mm256_i32gather_ps(from, (__m256i)index, 4);
 }
 inline I8 GatherInt(const void* from, I8 index) {
   return (I8)_mm256_i32gather_epi32(static_cast<const int*>(from), (__m256i)index, 4);
 }
-// Neighbours, from[index] and from[index + 1]: half the loads of two gathers.
+// Loads from[index] and from[index + 1], with half the loads of two gathers.
 struct I8x2 {
   I8 first, second;
 };
 inline I8x2 GatherPairs(const void* from, I8 index) {
-  // Lanes 0, 1, 4, 5 and 2, 3, 6, 7: what each half of a register then holds is put side by side
-  // within it.
+  // The order is lanes 0, 1, 4, 5, then 2, 3, 6, 7: the shuffles below sort the loaded pairs within
+  // each half of the register.
   const __m256i halves = _mm256_permute4x64_epi64((__m256i)index, 0xd8);
   const auto gather = [&](__m128i four) {
     return _mm256_castsi256_ps(

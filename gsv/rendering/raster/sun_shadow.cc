@@ -10,17 +10,17 @@ namespace gsv::rendering::raster {
 namespace {
 
 constexpr int kStride = kShadowSide + 16;
-constexpr int kFirst = kStride + 1;  // of texel (0, 0)
+constexpr int kFirst = kStride + 1;  // the index of texel (0, 0)
 
-// The resolution of shadows, in texels. The shadows of robots are rendered again for each snapshot;
-// the image must not depend on whether an object has moved.
+// The resolution of shadows, in texels. The shadows of robots are rendered again for each snapshot.
+// The image must not depend on whether an object has moved.
 struct Fineness {
-  double moved_by;  // maximum displacement of a caster's vertices, about
-  double smallest;  // minimum radius of a caster
+  double moved_by;  // the approximate maximum displacement of a caster's vertices
+  double smallest;  // the minimum radius of a caster
 };
 constexpr Fineness kThing{0.5, 0.5}, kRobot{3, 1.5};
 
-// The coarsest level that is fine enough and still has the caster's shape.
+// The coarsest level whose vertices are displaced by at most `moved_by` and by a third of the radius.
 const Level& LevelFor(const std::vector<Level>& levels, const DrawItem& item, double moved_by) {
   const double scale =
       std::max({std::abs(item.scale.x), std::abs(item.scale.y), std::abs(item.scale.z)});
@@ -63,7 +63,7 @@ void SunShadow::DrawCasters(const RenderList& render_list, const std::vector<std
                             std::vector<float>& map) {
   FrameBlock block{};
   region_.Describe({}, block);
-  // The map holds [0, 1], clip space [-1, 1] by [-1, 1].
+  // The map's coordinates are in [0, 1]. Clip space is [-1, 1] by [-1, 1].
   std::array<float, 16> clip = block.shadow_from_relative;
   float depth_row[4];
   for (int column = 0; column < 4; ++column) {
@@ -89,7 +89,7 @@ void SunShadow::DrawCasters(const RenderList& render_list, const std::vector<std
 void SunShadow::DrawCaster(const raster::Drawn& caster, const float (&depth_row)[4],
                            bool both_sides, std::vector<float>& map) {
   const RasterMesh& mesh = *caster.mesh;
-  float row[4];  // depth from the mesh
+  float row[4];  // computes the depth from a mesh vertex
   for (int k = 0; k < 4; ++k) {
     row[k] = k == 3 ? depth_row[3] : 0;
     for (int j = 0; j < 3; ++j) row[k] += depth_row[j] * caster.rows[j][k];
@@ -106,7 +106,8 @@ void SunShadow::DrawCaster(const raster::Drawn& caster, const float (&depth_row)
           const float z = row[0] * mesh.x[v] + row[1] * mesh.y[v] + row[2] * mesh.z[v] + row[3];
           a += t.a[i] * z, b += t.b[i] * z, c += t.c[i] * z;
         }
-        // Away from the sun by the change of depth over a texel, so that no surface shades itself.
+        // Moves the depth away from the sun by its change over a texel, so that no surface shades
+        // itself.
         c -= 1.5f * std::max(std::abs(a), std::abs(b)) + 2e-7f;
         Scan(t, box, [&](int x, int y, I8 covered, F8) {
           const F8 dx = Splat(static_cast<float>(x) - t.x0) + Steps();
@@ -139,10 +140,10 @@ F8 SunShadow::Lit(F8 x, F8 y, F8 z) const {
 
 F8 SunShadow::Visible(const F8x3& point) const {
   const F8 side = Splat(kShadowSide);
-  // Up to the border, which hides nothing.
+  // Clamps to the border texels, which cast no shadow.
   const auto inside = [&](F8 at) { return Min(Max(at, Splat(-0.5f)), side + Splat(0.4f)); };
   const F8 x = point.x * side, y = point.y * side;
-  const F8 z = Max(point.z, Splat(0));  // as low as the background
+  const F8 z = Max(point.z, Splat(0));  // points below the background are looked up at its height
   const F8 first = Lit(inside(x - Splat(0.6f)), inside(y - Splat(0.3f)), z);
   const F8 second = Lit(inside(x + Splat(0.6f)), inside(y + Splat(0.3f)), z);
   return Splat(0.5f) * (first + second);

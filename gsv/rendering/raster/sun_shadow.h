@@ -1,9 +1,9 @@
 // The shadow map of the sun: one per snapshot, for all cameras.
 //
-// Static shadow casters are drawn once, into a first map. A second map has moving casters as well.
-// For each snapshot, its changed parts are restored from the first map and drawn again, as far as a
-// camera may see the shadows.
-// Threads  Draw() exclusively; const members may run concurrently.
+// Static shadow casters are drawn once, into a first map. A second map contains the moving casters
+// as well. For each snapshot, the changed parts of the second map are restored from the first one
+// and drawn again, if a camera may see the shadows.
+// Threads  Draw() needs exclusive access; const members may run concurrently.
 #pragma once
 
 #include <vector>
@@ -22,8 +22,8 @@ class SunShadow {
 
   const ShadowRegion& region() const { return region_; }
 
-  // The fraction of sunlight at points of the map, in units of its sides from its corner; z grows
-  // towards the sun. Outside the map it is 1.
+  // The fraction of sunlight at points of the map, in units of its sides from its corner. z grows
+  // towards the sun. The fraction is 1 outside the map.
   F8 Visible(const F8x3& point) const;
 
  private:
@@ -35,7 +35,8 @@ class SunShadow {
   };
 
   void CopyStill(const ShadowRegion::Rectangle& part);
-  // For robots only front faces and coarser levels are drawn, which suffices for closed meshes.
+  // Draws casters into a map. Moving casters are drawn with front faces and coarser levels only,
+  // which suffices for closed meshes.
   void DrawCasters(const RenderList& render_list, const std::vector<std::size_t>& casters,
                    std::vector<float>& map);
   void DrawCaster(const raster::Drawn& caster, const float (&depth_row)[4], bool both_sides,
@@ -43,10 +44,10 @@ class SunShadow {
   F8 Lit(F8 x, F8 y, F8 z) const;
 
   std::vector<float> still_,
-      moving_;  // kStride a row, with an edge of one texel that hides nothing
+      moving_;  // kStride texels per row, with a border of one texel that casts no shadow
   ShadowRegion region_;
-  Drawn drawn_;                                 // content of still_
-  std::vector<ShadowRegion::Rectangle> moved_;  // where moving_ differs from still_
+  Drawn drawn_;                                 // describes the content of still_
+  std::vector<ShadowRegion::Rectangle> moved_;  // the parts in which moving_ differs from still_
   Rasteriser rasteriser_;
 };
 

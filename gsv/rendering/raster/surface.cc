@@ -9,12 +9,12 @@
 namespace gsv::rendering::raster {
 namespace {
 
-// From sRGB by a cubic, as in shaders.cc.
+// Decodes sRGB with a cubic, as in shaders.cc.
 F8 Decoded(F8 c) {
   return c * Fma(c, Fma(c, Splat(0.305306011f), Splat(0.682171111f)), Splat(0.012522878f));
 }
 
-// The weights of the second and third corner, and w.
+// The weights of the triangle's second and third corner, and w.
 struct Weights {
   F8 first, second, w;
 };
@@ -32,7 +32,7 @@ F8 Between(const std::vector<float>& values, const Triangle& t, const Weights& k
              Fma(Splat(values[t.corner[2]] - v0), k.second, Splat(v0)));
 }
 
-// An approximation of the binary logarithm, from a number's exponent and fraction.
+// Approximates the binary logarithm from the number's exponent and fraction.
 float Log2(float value) {
   const auto bits = std::bit_cast<std::uint32_t>(value);
   return static_cast<float>(bits) * (1.0f / (1 << 23)) - 127;
@@ -42,7 +42,8 @@ F8 At(const TriangleSurface::Plane& plane, F8 dx, float dy) {
   return Fma(Splat(plane.a), dx, Splat(plane.c + plane.b * dy));
 }
 
-// The mip level for one texel per pixel, from the change of the coordinates across a pixel.
+// The mip level at which a texel is about as large as a pixel, from the change of texture
+// coordinates across a pixel.
 float LevelAt(const TriangleSurface& s, float dx, float dy, const RasterTexture& texture) {
   const auto at = [&](const TriangleSurface::Plane& p) { return p.c + p.a * dx + p.b * dy; };
   const float inverse_w = at(s.inverse_w);
@@ -60,8 +61,8 @@ float LevelAt(const TriangleSurface& s, float dx, float dy, const RasterTexture&
   return 0.5f * Log2(std::max(fastest * w * w, 1e-12f));
 }
 
-// A frame along the texture's axes (Schüler, "Followup: normal mapping without precomputed
-// tangents", 2013), from the triangle's edges. v runs downwards.
+// Applies the normal map in a frame along the texture's axes, which follows from the triangle's
+// edges (Schüler, "Followup: normal mapping without precomputed tangents", 2013). v runs downwards.
 F8x3 Bumped(const Drawn& drawn, const Triangle& t, const Texels& bump, const F8x3& n) {
   const RasterMesh& mesh = *drawn.mesh;
   const auto edge = [&](int i) {
@@ -106,7 +107,7 @@ I8 Solid(const Triangle& triangle, const RasterMesh& mesh, const RasterTexture& 
 TriangleSurface SurfaceOf(const Drawn& drawn, const Triangle& t) {
   const RasterMesh& mesh = *drawn.mesh;
   TriangleSurface s;
-  float n[3][3];  // of each corner
+  float n[3][3];  // the normals of the three corners
   for (int i = 0; i < 3; ++i) {
     const std::uint32_t v = t.corner[i];
     const float x = mesh.normal_x[v], y = mesh.normal_y[v], z = mesh.normal_z[v];
@@ -148,7 +149,7 @@ void FillIn(const Drawn& drawn, const Triangle& t, const TriangleSurface& surfac
          At(surface.normal[2], dx, dy)};
   }
   if (group.double_sided) {
-    // The side that the camera sees.
+    // The normal is that of the side which the camera sees.
     n = Select(Dot(n, ray) > Splat(0), n * Splat(-1), n);
   }
   const SurfaceFactors& f = *drawn.factors;

@@ -11,12 +11,12 @@ namespace gsv::rendering::raster {
 struct Triangle {
   float a[3], b[3], c[3];
   float x0, y0;
-  std::uint32_t corner[3];  // vertices of the mesh
+  std::uint32_t corner[3];  // indices of the mesh's vertices
   std::uint32_t drawn;
 };
 
 struct Box {
-  int x0, y0, x1, y1;  // pixels, [x0, x1] by [y0, y1]
+  int x0, y0, x1, y1;  // the bounding box in pixels, [x0, x1] by [y0, y1]
 };
 
 }  // namespace gsv::rendering::raster

@@ -6,17 +6,18 @@
 namespace gsv::rendering {
 namespace {
 
-// One surface number per pixel, along rows or along columns, so that one search finds the edges
-// between rows and those between columns.
+// A grid of surface numbers, one per pixel, read along rows or along columns. So one search finds
+// the edges between rows and those between columns.
 struct Surfaces {
   const std::uint8_t* numbers;
-  int length, lines;  // pixels along a line; lines side by side
+  int length, lines;  // `length` pixels along a line; `lines` lines side by side
   int At(int line, int i) const { return numbers[static_cast<std::size_t>(line) * length + i]; }
 };
 
 // The direction in which the edge between `line` and `line` + 1 continues at its end. Pixel `last`
-// is still beside the edge; at `next` both lines show the same surface. +1: one step towards
-// `line`, -1: one step towards `line` + 1, 0: it ends, forks or turns a corner.
+// is the last one beside the edge, and both lines show the same surface at `next`. +1 is a step
+// towards `line` and -1 one towards `line` + 1. 0 means that the edge ends, forks or turns a
+// corner.
 int StepAt(const Surfaces& s, int line, int last, int next) {
   if (next < 0 || next >= s.length) return 0;
   const int beyond = s.At(line, next);
@@ -59,7 +60,7 @@ class Smoother {
 
  private:
   // `line_stride` and `stride` are the distances, in pixels of the image, between lines and between
-  // pixels of a line.
+  // the pixels of a line.
   void FindEdges(const Surfaces& s, int line_stride, int stride) {
     line_stride_ = line_stride, stride_ = stride;
     for (int line = 0; line + 1 < s.lines; ++line) {
@@ -84,12 +85,12 @@ class Smoother {
     return i;
   }
 
-  // The line starts half a pixel beside the edge at each end that has a step, and meets it in the
-  // middle.
+  // Blends along an edge. The line begins half a pixel beside the edge at each end that has a step,
+  // and meets the edge in the middle.
   void Blend(int line, int first, int end, int step_first, int step_end) {
     if (step_first == 0 && step_end == 0) return;
     const float middle = 0.5f * static_cast<float>(end - first);
-    // The area between line and edge up to `t` from an end with a step.
+    // The area between the line and the edge, up to `t` from an end with a step.
     const auto area = [&](float t) {
       t = std::min(t, middle);
       return 0.5f * t * (1 - t / (2 * middle));
@@ -102,7 +103,7 @@ class Smoother {
     }
   }
 
-  // Gives the pixel beside the edge the fraction `share` of the colour of the other side.
+  // Mixes the colour of the other side into the pixel beside the edge, as the fraction `share`.
   void Mix(int line, int i, int step, float share) {
     if (share <= 0) return;
     const std::size_t before =

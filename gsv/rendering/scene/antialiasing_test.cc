@@ -17,7 +17,8 @@ struct Drawn {
   int Red(int x, int y) const { return smooth.pixels[3 * (y * kSide + x)]; }
 };
 
-// White if `inside` holds at a pixel's centre, else black; surfaces 1 and 2.
+// An image that is white where `inside` holds at a pixel's centre, and black elsewhere. Their
+// surfaces are 1 and 2.
 template <typename Inside>
 Drawn Draw(Inside inside) {
   Drawn drawn;
@@ -32,14 +33,15 @@ Drawn Draw(Inside inside) {
   return drawn;
 }
 
-TEST(EdgeSmoothing, GivesPixelsOnAStraightEdgeTheShareThatLiesInside) {
+TEST(Antialiasing, BlendsEdgePixelsByTheirCoveredArea) {
   for (const double slope : {0.1, 0.23, 0.5, 2.0, 7.0, -0.3, -4.0}) {
-    const auto height = [&](double x) { return 30 + slope * (x - 30); };  // passes the middle
+    // the line passes through the middle
+    const auto height = [&](double x) { return 30 + slope * (x - 30); };
     const Drawn drawn = Draw([&](double x, double y) { return y > height(x); });
     double error = 0, unsmoothed = 0;
     for (int y = 10; y < 50; ++y) {
       for (int x = 10; x < 50; ++x) {
-        double inside = 0;  // by sampling
+        double inside = 0;  // the exact fraction, by sampling
         for (int s = 0; s < 400; ++s) {
           const int column = s % 20, row = s / 20;
           inside += y + (row + 0.5) / 20 > height(x + (column + 0.5) / 20);
@@ -53,14 +55,14 @@ TEST(EdgeSmoothing, GivesPixelsOnAStraightEdgeTheShareThatLiesInside) {
   }
 }
 
-TEST(EdgeSmoothing, LeavesCornersAndStraightEdgesAlone) {
+TEST(Antialiasing, KeepsCornersAndAxisAlignedEdgesSharp) {
   const Drawn drawn = Draw([](double x, double y) { return x > 10 && x < 40 && y > 20 && y < 50; });
   for (int p = 0; p < kSide * kSide; ++p) {
     ASSERT_EQ(drawn.smooth.pixels[3 * p], drawn.rgba[4 * p]);
   }
 }
 
-TEST(EdgeSmoothing, LeavesTexturesAlone) {
+TEST(Antialiasing, KeepsTexturesUnchanged) {
   Drawn drawn = Draw([](double, double) { return true; });
   for (int p = 0; p < kSide * kSide; ++p) drawn.rgba[4 * p] = (p * 37) % 256;
   drawn.smooth = SmoothAliasedEdges(kSide, kSide, drawn.rgba.data());
@@ -69,8 +71,8 @@ TEST(EdgeSmoothing, LeavesTexturesAlone) {
   }
 }
 
-TEST(MeshSurfaces, AreOnePieceUpToASharpEdge) {
-  // Two triangles of a square that share no vertex, and one on the square's edge.
+TEST(MeshSurfaces, AreConnectedPartsWithoutASharpEdge) {
+  // Two triangles form a square but share no vertex. A third one is on the square's edge.
   std::vector<float> vertices;
   const auto add = [&](float x, float y, float z, float nx, float nz) {
     vertices.insert(vertices.end(), {x, y, z, nx, 0, nz, 0, 0});

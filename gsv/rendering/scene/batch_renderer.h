@@ -20,11 +20,13 @@ class BatchRenderer {
  public:
   virtual ~BatchRenderer() = default;
 
-  // Image i is that of views[i]. Fails if the back end fails, usually for lack of memory.
+  // Renders the images; image i is that of views[i]. Fails if the back end fails, usually for lack
+  // of memory.
   virtual base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) = 0;
 
-  // Element i is that of views[i]. Fails if no rasteriser is available.
+  // Renders depth and label images; element i is that of views[i]. Fails if no rasteriser is
+  // available.
   virtual base::Result<std::vector<std::shared_ptr<const GroundTruth>>> DrawGroundTruth(
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) = 0;
 

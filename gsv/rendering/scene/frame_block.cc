@@ -13,7 +13,7 @@ namespace {
 using geometry::Vector3;
 using Rgb = std::array<double, 3>;
 
-// Colours of light are amounts, not colours of an image: 0.8 is four fifths of the light of 1.
+// The colours of lights are linear amounts, without gamma: 0.8 is four fifths of the light of 1.
 Rgb LightColour(const model::Light& light) {
   const double k = std::max(0.0, light.intensity);
   return {k * light.diffuse.r, k * light.diffuse.g, k * light.diffuse.b};
@@ -39,9 +39,9 @@ Rgb Mix(const Rgb& a, const Rgb& b, double t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
 }
 
-// Ambient light, limited to a useful brightness. Some worlds have almost none, because their
-// authors' tool added its own, and would be dark. Others have the maximum, and would have no
-// shadows.
+// Ambient light, limited to a useful brightness. Some worlds specify almost none, because the
+// simulator they were made for adds its own; they would be dark. Others specify the maximum; they
+// would have no shadows.
 Rgb Ambient(const model::Colour& asked) {
   constexpr double kMin = 0.3, kMax = 0.45;
   const Rgb c{asked.r, asked.g, asked.b};
@@ -53,7 +53,7 @@ Rgb Ambient(const model::Colour& asked) {
 }  // namespace
 
 Lighting::Lighting(const model::WorldDescription& description) {
-  // The brightest directional light is the sun: the one that casts shadows.
+  // The brightest directional light is the sun, which casts the shadows.
   const model::Light* sun = nullptr;
   for (const model::Light& light : description.lights) {
     if (light.kind == model::Light::Kind::kDirectional &&
@@ -107,7 +107,7 @@ void Lighting::AddLamp(const model::Light& light) {
   lamp.position = light.world_from_light.position;
   lamp.range = directional ? std::numeric_limits<double>::infinity() : std::max(light.range, 0.01);
   const double outer = spot ? std::cos(0.5 * light.outer_angle) : -2;
-  // Not too sharp for the image: the edge of the cone keeps some width.
+  // The edge of the cone keeps a minimum width, so that it is not jagged in the image.
   const double inner = spot ? std::max(std::cos(0.5 * light.inner_angle), outer + 1e-3) : -1;
   lamp.block = {{0, 0, 0, 0},
                 AsFloat4(direction, outer),
@@ -132,7 +132,8 @@ FrameBlock Lighting::BlockFor(const CameraView& view) const {
   block.view_right = AsFloat4(pose.orientation * Vector3{0, -0.5 * view.parameters.width / f, 0});
   block.view_down = AsFloat4(pose.orientation * Vector3{0, 0, -0.5 * view.parameters.height / f});
 
-  // Selects, of all lamps that light a part of the image, those that reach nearest to the camera.
+  // Selects lamps among those that light a part of the image: those that reach nearest to the
+  // camera.
   const Frustum frustum = FrustumOf(view);
   std::vector<std::pair<double, const Lamp*>> near;
   for (const Lamp& lamp : lamps_) {

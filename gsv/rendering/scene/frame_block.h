@@ -1,7 +1,8 @@
 // The shader parameters of an image: camera, lights and sky.
 //
-// Frame   world axes with the origin at the camera, so that single precision is enough anywhere.
-// Layout  std140; the same block stands in shaders.cc.
+// Frame   the world's axes with the origin at the camera, so that single precision suffices
+//         everywhere.
+// Layout  std140; shaders.cc declares the same block.
 #pragma once
 
 #include <array>
@@ -17,25 +18,27 @@ inline constexpr int kMaxLights = 8;
 using Float4 = std::array<float, 4>;
 
 struct LightBlock {
-  Float4 position_range;   // metres; range 0: directional
-  Float4 direction_outer;  // from the light, unit; cosine of the outer half angle, -2: no cone
-  Float4 colour_inner;     // 1 / (cosine of the inner half angle - that of the outer one)
-  Float4 attenuation;      // constant, linear, quadratic; 1 / range², 0: directional
+  Float4 position_range;  // position in metres and range; a directional light has range 0
+  // unit vector away from the light; cosine of the outer half angle, or -2 if it has no cone
+  Float4 direction_outer;
+  // colour; 1 / (cosine of the inner half angle - cosine of the outer half angle)
+  Float4 colour_inner;
+  Float4 attenuation;  // constant, linear, quadratic; then 1 / range², or 0 for a directional light
 };
 
 struct FrameBlock {
   std::array<float, 16> clip_from_relative;
   std::array<float, 16> shadow_from_relative;
-  Float4 to_sun;  // w: the side of a shadow map's texel in metres, 0: no shadows
+  Float4 to_sun;  // w is the side of a shadow map's texel in metres, or 0 without shadows
   Float4 sun_colour;
   Float4 ambient_above, ambient_below;
   Float4 zenith, horizon, nadir;
-  Float4 view_forward, view_right, view_down;  // to the centre and the edges of the image
+  Float4 view_forward, view_right, view_down;  // to the centre and to the edges of the image
   std::array<std::int32_t, 4> light_count;
   std::array<LightBlock, kMaxLights> lights;
 };
 
-// The lights of a world and of the robots in it, in its own frame.
+// The lights of a world and of the robots in it, in the world's frame.
 class Lighting {
  public:
   explicit Lighting(const model::WorldDescription& description);
@@ -43,16 +46,16 @@ class Lighting {
   const geometry::Vector3& to_sun() const { return to_sun_; }
   bool sun_casts_shadows() const { return shadows_; }
 
-  // Replaces the lamps of robots by those that are on now.
+  // Replaces the lamps of robots by those that are on in `snapshot`.
   void TakeLamps(const world::Snapshot& snapshot);
 
-  // The block without the shadow.
+  // Returns the block of a view, without the shadow.
   FrameBlock BlockFor(const CameraView& view) const;
 
  private:
   struct Lamp {
     geometry::Vector3 position;
-    double range = 0;  // infinite: directional
+    double range = 0;  // infinite for directional lights
     LightBlock block;
   };
   void AddLamp(const model::Light& light);
@@ -60,8 +63,8 @@ class Lighting {
   geometry::Vector3 to_sun_{0.5, -0.1, 0.9};
   std::array<double, 3> sun_colour_{};
   bool shadows_ = true;
-  std::vector<Lamp> lamps_;         // of the world, then of robots
-  std::size_t own_lamp_count_ = 0;  // number of the world's lamps
+  std::vector<Lamp> lamps_;         // lamps of the world, then those of robots
+  std::size_t own_lamp_count_ = 0;  // how many of lamps_ belong to the world
   Float4 ambient_above_, ambient_below_, zenith_, horizon_, nadir_;
 };
 

@@ -18,7 +18,8 @@ std::vector<LitLamp> LitLamps(const world::Snapshot& snapshot) {
 }
 
 model::Light LightOf(const LitLamp& lit, const world::Snapshot& snapshot) {
-  constexpr double kInner = 0.8;  // of the cone: there it is as bright as in the middle
+  // the part of the cone in which the lamp is as bright as in the middle
+  constexpr double kInner = 0.8;
   const world::Glow& glow = lit.glow;
   model::Light light;
   light.kind =

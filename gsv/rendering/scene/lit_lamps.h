@@ -10,14 +10,14 @@ namespace gsv::rendering {
 
 struct LitLamp {
   int body = 0;
-  const world::DeviceMount* mount = nullptr;  // the snapshot's
+  const world::DeviceMount* mount = nullptr;  // points into the snapshot
   world::Glow glow;
 };
 
-// By robot, then lamp.
+// Returns the lamps that are on, ordered by robot and then by lamp.
 std::vector<LitLamp> LitLamps(const world::Snapshot& snapshot);
 
-// The light of a lamp.
+// Returns the light that a lamp emits.
 model::Light LightOf(const LitLamp& lit, const world::Snapshot& snapshot);
 
 }  // namespace gsv::rendering

@@ -17,7 +17,7 @@ geometry::TriangleMesh TwoBalls() {
   return mesh;
 }
 
-TEST(CutIntoChunks, EveryTriangleIsInOneSmallChunkOfItsPart) {
+TEST(CutIntoChunks, PutsEachTriangleIntoOneSmallChunkOfItsMaterial) {
   const geometry::TriangleMesh mesh = TwoBalls();
   const MeshChunks cut = CutIntoChunks(mesh, 100);
   std::set<std::uint32_t> seen;
@@ -32,11 +32,12 @@ TEST(CutIntoChunks, EveryTriangleIsInOneSmallChunkOfItsPart) {
   EXPECT_EQ(seen.size(), mesh.triangles.size());
 }
 
-TEST(CutIntoChunks, BoundsHoldTheirTrianglesAndAreSmallerThanTheWhole) {
+TEST(CutIntoChunks, BoundsContainTheirTrianglesAndAreSmallerThanTheMesh) {
   const geometry::TriangleMesh mesh = TwoBalls();
   const MeshChunks cut = CutIntoChunks(mesh, 100);
   for (const MeshChunk& chunk : cut.chunks) {
-    EXPECT_LT(Norm(chunk.bounds.max - chunk.bounds.min), 2.0);  // the whole: 2 sqrt(3)
+    // the diagonal of the whole mesh is 2 sqrt(3)
+    EXPECT_LT(Norm(chunk.bounds.max - chunk.bounds.min), 2.0);
     for (std::uint32_t i = 0; i < chunk.triangle_count; ++i) {
       for (const std::uint32_t v : mesh.triangles[cut.order[chunk.first_triangle + i]]) {
         const geometry::Vector3& p = mesh.positions[v];
@@ -47,7 +48,9 @@ TEST(CutIntoChunks, BoundsHoldTheirTrianglesAndAreSmallerThanTheWhole) {
   }
 }
 
-TEST(CutIntoChunks, OfAnEmptyMeshIsEmpty) { EXPECT_TRUE(CutIntoChunks({}).chunks.empty()); }
+TEST(CutIntoChunks, ReturnsNoChunksForAnEmptyMesh) {
+  EXPECT_TRUE(CutIntoChunks({}).chunks.empty());
+}
 
 }  // namespace
 }  // namespace gsv::rendering

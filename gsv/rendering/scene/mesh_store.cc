@@ -64,7 +64,7 @@ std::vector<float> WithSurfaces(const Arrays& arrays) {
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const auto first = arrays.vertices.begin() + static_cast<std::ptrdiff_t>(8 * i);
     vertices.insert(vertices.end(), first, first + 8);
-    // Exact as a float.
+    // The number is exact as a float.
     vertices.push_back(static_cast<float>(surfaces[i] % 4096));
   }
   return vertices;
@@ -116,7 +116,7 @@ DrawShape MeshStore::Find(const Shape& shape) {
 std::shared_ptr<const DrawMesh> MeshStore::FindFileMesh(
     const std::shared_ptr<const TriangleMesh>& triangles) {
   FileMesh& entry = file_meshes_[triangles.get()];
-  // The address may be that of a destroyed mesh.
+  // A destroyed mesh may have had the same address.
   if (entry.mesh == nullptr || entry.triangles.lock() != triangles) {
     entry = {triangles, make_(ArraysOf(*triangles))};
   }

@@ -25,13 +25,13 @@ struct MeshArrays {
   std::vector<MeshChunk> chunks;
 };
 
-// A mesh of a back end, which derives its own class.
+// Base class of a back end's mesh.
 struct DrawMesh {
   virtual ~DrawMesh() = default;
   std::vector<MeshChunk> chunks;
 };
 
-// A shape as a mesh with a scale, so that all boxes share one mesh.
+// The mesh of a shape, and a scale. With the scale, all boxes share one mesh.
 struct DrawShape {
   std::shared_ptr<const DrawMesh> mesh;
   geometry::Vector3 scale{1, 1, 1};

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kFloats = 8;
 
-// Disjoint sets that can be joined; one of its members identifies each.
+// Disjoint sets that can be joined. One of its members identifies a set.
 class Sets {
  public:
   explicit Sets(std::size_t count) : parent_(count) {
@@ -36,7 +36,8 @@ std::vector<std::uint32_t> NumberSurfaces(const std::vector<float>& vertices,
     sets.Join(indices[i], indices[i + 1]);
     sets.Join(indices[i], indices[i + 2]);
   }
-  // Normals to about a degree: those of one flat face differ in their last bits.
+  // Normals are compared to about a degree, because those of one flat face differ in their last
+  // bits.
   const auto key = [&](std::uint32_t i) {
     const float* v = &vertices[kFloats * i];
     const auto rounded = [&](int c) { return std::lround(64 * v[c]); };

@@ -25,8 +25,8 @@ SurfaceFactors FactorsOf(const model::Material& material) {
           0};
 }
 
-// A horizontal rectangle of the size of a landscape, without a texture, represents the infinite
-// ground.
+// The infinite ground is drawn as a horizontal rectangle of the size of a landscape, without a
+// texture.
 geometry::Shape AsDrawn(const model::Visual& visual) {
   constexpr double kLandscape = 20, kHorizon = 2000;
   const auto* plane = std::get_if<geometry::Plane>(&visual.shape);
@@ -42,7 +42,7 @@ class Builder {
  public:
   Builder(MeshStore& meshes, TextureStore& textures) : meshes_(meshes), textures_(textures) {}
 
-  // `part` has the body and link of the visual.
+  // Adds the pieces of a visual. `part` has the visual's body and link.
   void Add(const model::Visual& visual, const DrawItem& part) {
     const DrawShape shape = meshes_.Find(AsDrawn(visual));
     const bool plane = std::holds_alternative<geometry::Plane>(visual.shape);
@@ -65,7 +65,7 @@ class Builder {
       item.centre_in_visual = Scaled(0.5 * (chunk.bounds.min + chunk.bounds.max), shape.scale);
       item.radius = 0.5 * Norm(Scaled(chunk.bounds.max - chunk.bounds.min, shape.scale));
       item.factors = FactorsOf(material);
-      // Exact as a float, and more than eight bits' worth of different ones.
+      // The number is exact as a float, and has more than eight bits.
       item.factors.surface =
           static_cast<float>((first_surface + static_cast<int>(material_index)) % 4096);
       item.casts_shadow = visual.cast_shadows && !plane && group.blending != Blending::kTransparent;

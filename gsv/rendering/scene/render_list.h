@@ -1,7 +1,7 @@
 // The render list of a layout: one item per piece of each visual, in groups of one draw call.
 //
-// A list is made once per layout and posed for each snapshot. It keeps no model alive, only the
-// back end's data.
+// A list is made once per layout and posed for each snapshot. It keeps the back end's data alive,
+// but no model.
 // Threads  the render thread only.
 #pragma once
 
@@ -21,14 +21,15 @@ enum class Blending { kOpaque, kAlphaMask, kTransparent };
 // The common data of the items of one draw call.
 struct DrawGroup {
   std::shared_ptr<const DrawMesh> mesh;
-  std::uint32_t chunk = 0;  // of the mesh
+  std::uint32_t chunk = 0;  // the chunk of the mesh
   std::uint32_t first_index = 0;
   std::uint32_t index_count = 0;
-  std::shared_ptr<const DrawTexture> base_colour, normal, metallic_roughness, emissive;  // or null
+  // null where the material has none
+  std::shared_ptr<const DrawTexture> base_colour, normal, metallic_roughness, emissive;
   Blending blending = Blending::kOpaque;
   bool mirrored = false;
   bool double_sided = false;
-  bool ground = false;  // a plane: drawn behind coplanar surfaces
+  bool ground = false;  // a plane is drawn behind coplanar surfaces
 };
 
 // Linear colours for the shader.
@@ -36,7 +37,7 @@ struct SurfaceFactors {
   std::array<float, 4> base_colour;
   std::array<float, 4> emissive_metalness;
   float roughness;
-  float surface;  // identifies the visual, for antialiasing of edges
+  float surface;  // the visual's number, for antialiasing
 };
 
 struct DrawItem {
@@ -47,15 +48,16 @@ struct DrawItem {
   geometry::Pose link_from_visual;
   geometry::Vector3 scale;
   geometry::Vector3 centre_in_visual;
-  double radius = 0;  // of the bounding sphere about the centre
+  double radius = 0;  // radius of the bounding sphere about the centre
   SurfaceFactors factors;
   bool casts_shadow = false;
-  bool of_robot = false;  // or of an avatar
+  bool of_robot = false;  // whether it belongs to a robot or an avatar
 };
 
 // An item in the world.
 struct PlacedItem {
-  // Columns of the rotation and scale from the mesh to the world's axes, and the origin.
+  // The columns of the matrix that rotates and scales from the mesh to the world's axes, and the
+  // origin.
   std::array<geometry::Vector3, 3> columns;
   geometry::Vector3 origin;
   geometry::Vector3 centre;
@@ -66,7 +68,7 @@ class RenderList {
   // The stores must outlive the list.
   RenderList(const world::Layout& layout, MeshStore& meshes, TextureStore& textures);
 
-  // Whether the glow of lamps is among the items; it is not in depth and label images.
+  // Whether the glow of lamps is among the items. Depth and label images do not show it.
   enum class Glow { kShown, kHidden };
 
   // Poses every item as in `snapshot`, which has this list's layout.
@@ -74,9 +76,9 @@ class RenderList {
 
   const std::vector<DrawGroup>& groups() const { return groups_; }
   const std::vector<DrawItem>& items() const { return items_; }
-  const std::vector<PlacedItem>& placed() const { return placed_; }  // as items()
+  const std::vector<PlacedItem>& placed() const { return placed_; }  // in the order of items()
 
-  // Whether a body has its pose of the first snapshot. Robots and avatars are never still.
+  // Whether a body still has its pose of the first snapshot. Always false for robots and avatars.
   bool IsStill(int body) const { return !bodies_[body].moved; }
   // The number of bodies that have moved.
   int moved_count() const { return moved_count_; }
@@ -98,9 +100,10 @@ class RenderList {
   MeshStore& meshes_;
   TextureStore& textures_;
   std::vector<DrawGroup> groups_;
-  std::vector<DrawItem> items_;  // by body, then lamps that are on
+  std::vector<DrawItem> items_;  // items by body, then the lamps that are on
   std::size_t body_item_count_ = 0;
-  std::vector<DrawItem> glow_;  // of a lamp with a radius of 1 m; empty until one is on
+  // the items of a lamp with a radius of 1 m; empty until a lamp is on
+  std::vector<DrawItem> glow_;
   std::vector<PlacedItem> placed_;
   std::vector<BodyPose> bodies_;
   int moved_count_ = 0;

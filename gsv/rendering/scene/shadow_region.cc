@@ -10,11 +10,11 @@ namespace {
 using geometry::Dot;
 using geometry::Vector3;
 
-// Larger casters do not enlarge the map: one floor slab would blur every shadow on it.
+// Larger casters do not enlarge the region, because one floor slab would blur every shadow.
 constexpr double kMaxRadius = 60;
 
-// The map is not smaller than this: the shadow of a single robot would be finer than needed, and
-// slower.
+// The minimum side. In a smaller region, the shadow of a single robot would be finer than needed
+// and slower to render.
 constexpr double kMinSide = 10;
 
 // Rounds outwards to a multiple of a power of two that is about a sixteenth of the length.
@@ -37,7 +37,7 @@ ShadowRegion::ShadowRegion(const RenderList& render_list, const Vector3& to_sun)
     if (!item.casts_shadow) continue;
     for (int axis = 0; axis < 3; ++axis) {
       const double at = Dot(axes_[axis], render_list.placed()[i].centre);
-      // Along the light, everything must be inside, or it would cast no shadow.
+      // Along the light, every caster must be inside the region, or it would cast no shadow.
       const double radius = axis < 2 ? std::min(item.radius, kMaxRadius) : item.radius;
       min[axis] = std::min(min[axis], at - radius);
       max[axis] = std::max(max[axis], at + radius);
@@ -76,9 +76,10 @@ std::vector<std::size_t> ShadowRegion::StillCasters(const RenderList& render_lis
 
 std::vector<std::size_t> ShadowRegion::MovingCasters(const RenderList& render_list,
                                                      const std::vector<CameraView>& views) const {
-  // The distance at which a surface is looked up beside itself: along its normal and by the filter.
+  // The distance from a surface at which its shadow is looked up: along its normal, and by the
+  // filter.
   const double beside = 4 * TexelSize();
-  // A shadow is infinite; this is beyond the view of any camera.
+  // A shadow has no end. This length is beyond the view of any camera.
   const Vector3 shade = -1e7 * axes_[2];
   std::vector<std::pair<Vector3, Frustum>> seen;
   seen.reserve(views.size());
@@ -101,7 +102,7 @@ std::vector<std::size_t> ShadowRegion::MovingCasters(const RenderList& render_li
 
 std::vector<ShadowRegion::Rectangle> ShadowRegion::PartsOf(
     const RenderList& render_list, const std::vector<std::size_t>& items) const {
-  // With more parts, a copy of everything is cheaper.
+  // Copying the whole map is cheaper than copying more parts than this.
   constexpr std::size_t kMaxParts = 256;
   std::vector<Rectangle> parts;
   int last_body = -1;

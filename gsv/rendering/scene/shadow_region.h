@@ -10,28 +10,28 @@
 
 namespace gsv::rendering {
 
-inline constexpr int kShadowSide = 2048;  // texels
+inline constexpr int kShadowSide = 2048;  // side of the map in texels
 
 class ShadowRegion {
  public:
-  // An empty region, without casters.
+  // Makes an empty region, without casters.
   ShadowRegion() = default;
-  // The region around all casters of a posed render list.
+  // Makes the region around all casters of a posed render list.
   ShadowRegion(const RenderList& render_list, const geometry::Vector3& to_sun);
 
   bool IsEmpty() const { return !(min_.x < max_.x); }
-  double TexelSize() const;  // the longer side, m
+  double TexelSize() const;  // the longer side of a texel, m
 
   // Whether a shadow may fall into this sphere; otherwise shadow lookups are skipped.
   bool MayFallOn(const geometry::Vector3& centre, double radius) const;
 
-  // The indices of still casters.
+  // The indices of casters that have not moved.
   static std::vector<std::size_t> StillCasters(const RenderList& render_list);
   // The indices of moving casters whose shadow a camera may see.
   std::vector<std::size_t> MovingCasters(const RenderList& render_list,
                                          const std::vector<CameraView>& views) const;
 
-  struct Rectangle {  // texels, [min, max)
+  struct Rectangle {  // in texels, [min, max)
     int min_x, min_y, max_x, max_y;
   };
   // The parts of the map around the bodies of some items, or the whole map if that is cheaper.
@@ -45,8 +45,8 @@ class ShadowRegion {
   friend bool operator==(const ShadowRegion&, const ShadowRegion&) = default;
 
  private:
-  std::array<geometry::Vector3, 3> axes_;  // right, up, towards the sun
-  geometry::Vector3 min_, max_;            // along the axes
+  std::array<geometry::Vector3, 3> axes_;  // to the right, up, and towards the sun
+  geometry::Vector3 min_, max_;            // along axes_
 };
 
 }  // namespace gsv::rendering

@@ -11,11 +11,10 @@
 
 namespace gsv::rendering {
 
-// A texture of a back end, which derives its own class. Texels are encoded as in the image; shaders
-// decode colours.
+// Base class of a back end's texture. Texels are encoded as in the image; shaders decode colours.
 struct DrawTexture {
   virtual ~DrawTexture() = default;
-  bool is_transparent = false;  // some pixel's alpha is below 1
+  bool is_transparent = false;  // whether the alpha of some pixel is below 1
 };
 
 class TextureStore {
@@ -24,7 +23,7 @@ class TextureStore {
   using Make = std::function<std::shared_ptr<DrawTexture>(const model::Image&)>;
   TextureStore(Make make, int max_side) : make_(std::move(make)), max_side_(max_side) {}
 
-  // Null for a null or invalid image; the material then has no such map.
+  // Returns null for a null or invalid image; the material then has no such map.
   std::shared_ptr<const DrawTexture> Find(const std::shared_ptr<const model::Image>& image);
 
   // Removes textures whose image was destroyed.

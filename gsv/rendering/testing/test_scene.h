@@ -34,7 +34,7 @@ class TestScene {
     bodies_.push_back(std::move(body));
   }
 
-  // The only link of a body, for further visuals.
+  // The only link of a body. Tests add further visuals to it.
   model::Link& LinkOf(const std::string& name) {
     for (auto& [body, model] : models_) {
       if (body == name) return model->links[0];
@@ -77,14 +77,14 @@ inline model::Material Matt(double r, double g, double b, double a = 1) {
   return material;
 }
 
-// The centre and number of the pixels of one colour.
+// The centre and the number of pixels of one colour.
 struct Blob {
   double u = 0, v = 0;
   int pixels = 0;
 };
 
-// The pixels whose `channel` (0, 1 or 2) is more than `margin` above both others. Each is weighted
-// by the difference, so that antialiased edges count less.
+// Finds the pixels whose `channel` (0, 1 or 2) exceeds both others by more than `margin`. Each is
+// weighted by the difference, so that antialiased edges count less.
 inline Blob FindBlob(const model::Image& image, int channel, int margin = 40) {
   Blob blob;
   double weight = 0;

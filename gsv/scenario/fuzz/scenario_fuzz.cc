@@ -1,5 +1,5 @@
-// Any scenarios: no crash. A scenario without problems is equal to itself after writing and reading
-// it again.
+// Reads any text as a scenario. It must not crash. A scenario without problems must be equal after
+// it is written and read again.
 #include <cstdint>
 #include <cstdlib>
 #include <string>

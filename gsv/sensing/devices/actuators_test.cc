@@ -55,7 +55,7 @@ class ActuatorReadings : public ::testing::Test {
                                        {"far", body, PlanarPose(0, -10, 0, 0), false},
                                        {"near", body, PlanarPose(2, 0, 0, 0), false}});
   }
-  void Tell(world::DeviceStates states) {
+  void Publish(world::DeviceStates states) {
     snapshot_->state.devices = std::make_shared<const world::DeviceStates>(std::move(states));
   }
   Reading Sampled(const Sensor& sensor, const std::string& robot) {
@@ -69,7 +69,7 @@ class ActuatorReadings : public ::testing::Test {
   RaySceneCache rays_;
 };
 
-TEST_F(ActuatorReadings, ALampShowsWhatItWasTold) {
+TEST_F(ActuatorReadings, LampReturnsItsCommand) {
   const model::Parameters parameters = {{"colour", std::string("1 0.5 0")},
                                         {"brightness", 0.25},
                                         {"range", 4.0},
@@ -79,7 +79,7 @@ TEST_F(ActuatorReadings, ALampShowsWhatItWasTold) {
   const auto lamp = MakeDevice(LampType(), parameters);
   EXPECT_EQ(Values(Sampled(*lamp, "ear")), (std::vector<double>{0.25, 1, 0.5, 0}));
   EXPECT_EQ(lamp->device()->first()->values, (std::vector<double>{0.25, 1, 0.5, 0}));
-  Tell({Commanded(*lamp, "ear", {{1, 0, 0, 1}, ""})});
+  Publish({Commanded(*lamp, "ear", {{1, 0, 0, 1}, ""})});
   const Reading reading = Sampled(*lamp, "ear");
   EXPECT_EQ(Values(reading), (std::vector<double>{1, 0, 0, 1}));
 
@@ -95,13 +95,13 @@ TEST_F(ActuatorReadings, ALampShowsWhatItWasTold) {
   EXPECT_EQ(message->radius_m, 0.05);
 }
 
-TEST_F(ActuatorReadings, ALampIsOffUntilItIsToldUnlessItsFileSaysSo) {
+TEST_F(ActuatorReadings, LampIsOffAtFirstUnlessItsFileTurnsItOn) {
   const auto lamp = MakeDevice(LampType());
   EXPECT_FALSE(lamp->device()->first());
   EXPECT_EQ(Values(Sampled(*lamp, "ear")), (std::vector<double>{0, 1, 1, 1}));
 }
 
-TEST_F(ActuatorReadings, WhatCannotBeIsRefused) {
+TEST_F(ActuatorReadings, InvalidParametersAreRejected) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const auto& [name, value] :
        std::vector<std::pair<std::string, model::ParameterValue>>{{"colour", std::string("1 2 0")},
@@ -127,10 +127,10 @@ TEST_F(ActuatorReadings, WhatCannotBeIsRefused) {
   EXPECT_FALSE(refused(SpeakerType(), {{440, 1, 1}, "chirp"}));
 }
 
-TEST_F(ActuatorReadings, ASpeakerSaysWhatItPlaysAndHowLong) {
+TEST_F(ActuatorReadings, SpeakerReturnsItsSoundAndTheRemainingTime) {
   const auto speaker = MakeDevice(SpeakerType());
   EXPECT_EQ(Values(Sampled(*speaker, "ear")), (std::vector<double>{0, 0, 0, 0}));
-  Tell({Commanded(*speaker, "ear", {{440, 2, 0.5}, "buzz"})});
+  Publish({Commanded(*speaker, "ear", {{440, 2, 0.5}, "buzz"})});
   snapshot_->state.time = 500ms;
   const Reading reading = Sampled(*speaker, "ear");
   EXPECT_EQ(Values(reading), (std::vector<double>{440, 0.5, 0.5, 1.5}));
@@ -139,7 +139,7 @@ TEST_F(ActuatorReadings, ASpeakerSaysWhatItPlaysAndHowLong) {
   EXPECT_EQ(Sampled(*speaker, "ear").labels->front(), "");
 }
 
-TEST_F(ActuatorReadings, ASoundLastsForItsDuration) {
+TEST_F(ActuatorReadings, SoundLastsForItsDuration) {
   const auto speaker = MakeDevice(SpeakerType(), {{"loudness", 70.0}});
   const auto state = Commanded(*speaker, "ear", {{440, 0.5, 0.8}, "tone"}, nullptr, 2s);
   const auto begun = state->SoundAt(2s);
@@ -157,7 +157,7 @@ TEST_F(ActuatorReadings, ASoundLastsForItsDuration) {
   EXPECT_FALSE(Commanded(*speaker, "ear", {{440, 0.5, 0}, "tone"}, nullptr, 2s)->SoundAt(2s));
 }
 
-TEST_F(ActuatorReadings, JawsMoveFromWhereTheyWereWhenTheCommandCame) {
+TEST_F(ActuatorReadings, FingersMoveFromTheirPositionAtTheCommand) {
   const auto gripper = MakeDevice(GripperType(), {{"opening", 0.1}, {"closing_time", 0.5}});
   const auto opening = [](const world::DeviceStatePtr& state, base::SimTime now) {
     return dynamic_cast<const GripperState&>(*state).OpeningAt(now);
@@ -171,14 +171,14 @@ TEST_F(ActuatorReadings, JawsMoveFromWhereTheyWereWhenTheCommandCame) {
   EXPECT_EQ(opening(opens, 2s), 0.1);
 }
 
-TEST_F(ActuatorReadings, AGripperHoldsUntilItOpens) {
+TEST_F(ActuatorReadings, GripperHoldsABodyUntilItOpens) {
   const auto gripper = MakeDevice(GripperType());
   const auto setup = std::make_shared<const GripperSetup>();
   const GripperState::Hold hold{{"post", PlanarPose(0.1, 0, 0, 0)}, 0.03};
   const world::DeviceStatePtr holding = std::make_shared<const GripperState>(
       world::DeviceMount{"ear", "gripper", 0, {}}, world::FollowedCommand{{{0}, ""}, 1s}, setup,
       setup->opening, hold);
-  Tell({holding});
+  Publish({holding});
   snapshot_->state.time = 2s;
   const Reading reading = Sampled(*gripper, "ear");
   EXPECT_EQ(Values(reading), (std::vector<double>{0.03, 0}));
@@ -190,7 +190,7 @@ TEST_F(ActuatorReadings, AGripperHoldsUntilItOpens) {
 }
 
 // Recordings hold hashes: the order of fields is part of their format.
-TEST_F(ActuatorReadings, WhatAGripperHoldsIsInItsHash) {
+TEST_F(ActuatorReadings, HashIncludesTheGraspedBody) {
   const auto setup = std::make_shared<const GripperSetup>();
   const geometry::Pose link_from_held{{1, 2, 3}, geometry::FromRollPitchYaw({0, 0, 0.5})};
   base::Hash hash, expected;
@@ -211,7 +211,7 @@ TEST_F(ActuatorReadings, WhatAGripperHoldsIsInItsHash) {
 }
 
 // L = L1 + 20 lg(volume) - 20 lg(r / 1 m), and levels add up as powers.
-TEST_F(ActuatorReadings, AMicrophoneHearsByTheInverseSquareLaw) {
+TEST_F(ActuatorReadings, MicrophoneHearsByTheInverseSquareLaw) {
   const auto microphone = MakeDevice(MicrophoneType(), {{"ambient", -100.0}});
   const auto speaker = MakeDevice(SpeakerType(), {{"loudness", 85.0}});
   EXPECT_WITHIN(Sampled(*microphone, "ear").values[0], -100, 1e-9, "dB");
@@ -222,11 +222,11 @@ TEST_F(ActuatorReadings, AMicrophoneHearsByTheInverseSquareLaw) {
   const auto far = Commanded(*speaker, "far", {{1000, 2, 1}, "tone"});
   const double near_level = 85 + 20 * std::log10(0.5) - 20 * std::log10(2.0);
   const double far_level = 85 - 20;
-  Tell({near});
+  Publish({near});
   EXPECT_WITHIN(Sampled(*microphone, "ear").values[0], near_level, 1e-9, "dB");
-  Tell({far});
+  Publish({far});
   EXPECT_WITHIN(Sampled(*microphone, "ear").values[0], far_level, 1e-9, "dB");
-  Tell({far, near});
+  Publish({far, near});
   const Reading both = Sampled(*microphone, "ear");
   EXPECT_WITHIN(both.values[0],
                 10 * std::log10(std::pow(10, near_level / 10) + std::pow(10, far_level / 10)), 1e-9,
@@ -234,14 +234,14 @@ TEST_F(ActuatorReadings, AMicrophoneHearsByTheInverseSquareLaw) {
   EXPECT_EQ(both.values[1], 440);
   EXPECT_EQ(both.labels->front(), "near/speaker");
   // Its own robot's speaker is no nearer than 0.1 m.
-  Tell({Commanded(*speaker, "ear", {{440, 2, 1}, "tone"})});
+  Publish({Commanded(*speaker, "ear", {{440, 2, 1}, "tone"})});
   EXPECT_WITHIN(Sampled(*microphone, "ear").values[0], 85 + 20, 1e-9, "dB");
 }
 
-TEST_F(ActuatorReadings, WhatIsQuieterThanThePlaceIsNotTold) {
+TEST_F(ActuatorReadings, SoundsBelowTheAmbientLevelAreNotReported) {
   const auto microphone = MakeDevice(MicrophoneType(), {{"ambient", 80.0}});
   const auto speaker = MakeDevice(SpeakerType());
-  Tell({Commanded(*speaker, "far", {{440, 2, 1}, "tone"})});
+  Publish({Commanded(*speaker, "far", {{440, 2, 1}, "tone"})});
   const Reading reading = Sampled(*microphone, "ear");
   EXPECT_NEAR(reading.values[0], 10 * std::log10(1e8 + std::pow(10, 6.5)), 1e-9);
   EXPECT_EQ(reading.values[1], 0);

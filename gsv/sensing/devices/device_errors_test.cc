@@ -71,7 +71,7 @@ testing::Placed Wall(double distance, double width, double height, double yaw = 
           PlanarPose(distance + 0.005, 0, 0, yaw), true};
 }
 
-TEST_F(DeviceErrors, EveryPresetMakesASensorAndNamesItsSource) {
+TEST_F(DeviceErrors, EveryPresetIsValidAndNamesItsSource) {
   for (const Preset& preset : Presets()) {
     model::Parameters parameters = {{"preset", preset.name}};
     if (preset.type == "ranging") parameters["anchor"] = std::string("anchor");
@@ -80,7 +80,7 @@ TEST_F(DeviceErrors, EveryPresetMakesASensorAndNamesItsSource) {
   }
 }
 
-TEST_F(DeviceErrors, ASensorsOwnParametersOverrideItsPreset) {
+TEST_F(DeviceErrors, SensorParametersOverrideThePreset) {
   model::SensorDescription description;
   description.type = "sonar";
   description.parameters = {{"preset", std::string("hc_sr04")}, {"max", 2.0}};
@@ -90,7 +90,7 @@ TEST_F(DeviceErrors, ASensorsOwnParametersOverrideItsPreset) {
   EXPECT_EQ(model::NumberOr(whole->parameters, "frequency", 0), 40000);
 }
 
-TEST_F(DeviceErrors, RefuseAnUnknownPreset) {
+TEST_F(DeviceErrors, UnknownPresetIsRejected) {
   model::SensorDescription description;
   description.name = description.type = "sonar";
   description.parameters = {{"preset", std::string("bat")}};
@@ -99,7 +99,7 @@ TEST_F(DeviceErrors, RefuseAnUnknownPreset) {
             "polaroid_6500");
 }
 
-TEST_F(DeviceErrors, OfALidarGrowWithRange) {
+TEST_F(DeviceErrors, LidarNoiseGrowsWithRange) {
   Place({Wall(4, 20, 20)});
   const auto lidar = Create("lidar", {{"scan.horizontal.samples", 1.0},
                                       {"scan.horizontal.min_angle", 0.0},
@@ -112,7 +112,7 @@ TEST_F(DeviceErrors, OfALidarGrowWithRange) {
   EXPECT_WITHIN_3_SIGMA(seen.deviation, 0.04, 0.04 / std::sqrt(8000.0));
 }
 
-TEST_F(DeviceErrors, OfALidarLoseSurfacesThatAreSlanted) {
+TEST_F(DeviceErrors, LidarMissesSlantedSurfaces) {
   Place({Wall(2, 60, 1)});
   const auto lidar = Create("lidar", {{"scan.horizontal.samples", 101.0},
                                       {"scan.horizontal.min_angle", -1.4},
@@ -133,7 +133,7 @@ TEST_F(DeviceErrors, OfALidarLoseSurfacesThatAreSlanted) {
   }
 }
 
-TEST_F(DeviceErrors, OfALidarMixTwoSurfacesAtAnEdge) {
+TEST_F(DeviceErrors, LidarMixesTwoSurfacesAtAnEdge) {
   Place({Wall(2, 0.5, 1),
          {"back", testing::ModelOf(geometry::Box{{0.01, 20, 1}}), PlanarPose(4, 0, 0, 0), true}});
   const auto lidar = Create("lidar", {{"scan.horizontal.samples", 61.0},
@@ -152,7 +152,7 @@ TEST_F(DeviceErrors, OfALidarMixTwoSurfacesAtAnEdge) {
   EXPECT_WITHIN_PERCENT(between, expected, 15);
 }
 
-TEST_F(DeviceErrors, OfAnImuHaveTheNoiseDensity) {
+TEST_F(DeviceErrors, ImuNoiseHasItsDensity) {
   Place({});
   const auto imu = Create("imu", {{"angular_velocity.noise_density", 1e-3}}, 400);
   std::vector<double> rates;
@@ -182,7 +182,7 @@ TEST(OdometryDrift, HasTheSameVarianceForAnyLengthOfSteps) {
   }
 }
 
-TEST_F(DeviceErrors, OfOdometryAddUpAsTheRobotDrives) {
+TEST_F(DeviceErrors, OdometryErrorsAccumulateOverTheDistance) {
   Place({});
   const auto odometer = Create("odometry", {{"scale.linear", 1.1}, {"scale.angular", 0.9}});
   ASSERT_NE(odometer->device(), nullptr);
@@ -215,7 +215,7 @@ TEST_F(DeviceErrors, OfOdometryAddUpAsTheRobotDrives) {
   EXPECT_EQ(Create("odometry", {})->device(), nullptr);
 }
 
-TEST_F(DeviceErrors, AWideTransducerHearsAPanelThatStandsAside) {
+TEST_F(DeviceErrors, WideTransducerDetectsAPanelBesideItsAxis) {
   const auto sonar = Create("sonar", {{"preset", std::string("hc_sr04")},
                                       {"threshold", 0.14},
                                       {"gain_range", 1.55},
@@ -230,7 +230,7 @@ TEST_F(DeviceErrors, AWideTransducerHearsAPanelThatStandsAside) {
   }
 }
 
-TEST_F(DeviceErrors, ASmallTargetIsHeardLessFar) {
+TEST_F(DeviceErrors, SmallTargetIsDetectedAtAShorterRange) {
   // A strip of 25 mm fills 25 mm / sqrt(wave length x distance / 2) of the first Fresnel zone.
   const double wave_length = 343.0 / 40e3;
   const auto is_heard = [&](double distance) {
@@ -248,7 +248,7 @@ TEST_F(DeviceErrors, ASmallTargetIsHeardLessFar) {
   EXPECT_FALSE(is_heard(1.1 * expected));
 }
 
-TEST_F(DeviceErrors, ACornerIsHeardByItsSecondReflection) {
+TEST_F(DeviceErrors, CornerIsDetectedByItsSecondReflection) {
   // Two smooth walls at right angles, 45 degrees to either side of the axis, meet 2 m ahead.
   const auto wall = [](const char* name, double side) {
     return testing::Placed{
@@ -264,7 +264,7 @@ TEST_F(DeviceErrors, ACornerIsHeardByItsSecondReflection) {
   EXPECT_WITHIN(Read(*Create("sonar", full))[0], 2, 0.06, "m");
 }
 
-TEST_F(DeviceErrors, SonarsThatFireTogetherHearEachOther) {
+TEST_F(DeviceErrors, SonarsThatFireTogetherHaveCrosstalk) {
   // Two sonars 0.5 m apart, both turned by 25 degrees to the point 1 m ahead in their middle, where
   // each alone hears nothing of a smooth wall.
   const auto turned = [](const char* name, double y) {
@@ -303,7 +303,7 @@ TEST_F(DeviceErrors, RangingAddsABiasForEachMetreAndEachWall) {
   EXPECT_WITHIN(Read(*Create("ranging", parameters))[0], 5 + 0.1 + 5 * 0.02 + 0.3, 1e-12, "m");
 }
 
-TEST_F(DeviceErrors, RangingHearsNothingThatIsTooFarOrNotThere) {
+TEST_F(DeviceErrors, RangingReturnsNothingForFarOrMissingPeers) {
   Place({AnchorAt(5)});
   EXPECT_TRUE(
       std::isinf(Read(*Create("ranging", {{"anchor", std::string("anchor")}, {"max", 4.0}}))[0]));
@@ -313,7 +313,7 @@ TEST_F(DeviceErrors, RangingHearsNothingThatIsTooFarOrNotThere) {
       Read(*Create("ranging", {{"anchor", std::string("anchor")}, {"max_walls", 0.0}}))[0]));
 }
 
-TEST_F(DeviceErrors, RangingScattersMoreWithDistance) {
+TEST_F(DeviceErrors, RangingNoiseGrowsWithDistance) {
   Place({AnchorAt(10)});
   const auto sensor =
       Create("ranging",

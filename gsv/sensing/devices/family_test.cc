@@ -28,9 +28,9 @@ using geometry::kPi;
 
 // A robot at (1, 0) that faces y, with an arm that turns about its z axis; another robot 3 m before
 // it, a box that hides a third one, and a floor.
-class FamilyTest : public ::testing::Test {
+class SensorTypesTest : public ::testing::Test {
  protected:
-  FamilyTest() {
+  SensorTypesTest() {
     auto robot = testing::ModelOf(geometry::Sphere{0.1});
     robot->links.push_back({});
     model::Joint turret;
@@ -99,20 +99,20 @@ void ExpectValues(const Reading& reading, const std::vector<double>& expected,
   }
 }
 
-TEST_F(FamilyTest, AnImuAtRestFeelsWhatHoldsItUp) {
+TEST_F(SensorTypesTest, ImuAtRestReadsTheSupportingForce) {
   ExpectValues(Sample(DescriptionOf("imu")), {0, 0, 0, 0, 0, 9.8}, kImu);
   // On its left side, what holds it up comes from its right: along its own y, upwards.
   body().world_from_model.orientation = geometry::FromRollPitchYaw({kPi / 2, 0, 0});
   ExpectValues(Sample(DescriptionOf("imu")), {0, 0, 0, 0, 9.8, 0}, kImu);
 }
 
-TEST_F(FamilyTest, AnImuInFreeFallFeelsNothing) {
+TEST_F(SensorTypesTest, ImuInFreeFallReadsZero) {
   acceleration().linear = {0, 0, -9.8};
   body().linear_velocity = {0, 0, -3};
   ExpectValues(Sample(DescriptionOf("imu")), {0, 0, 0, 0, 0, 0}, kImu);
 }
 
-TEST_F(FamilyTest, AnImuOnATurntableFeelsTheCentripetalForce) {
+TEST_F(SensorTypesTest, ImuOnATurntableReadsTheCentripetalAcceleration) {
   const double rate = 3;
   body().angular_velocity = {0, 0, rate};
   ExpectValues(Sample(DescriptionOf("imu")), {0, 0, rate, -rate * rate * 0.2, 0, 9.8}, kImu);
@@ -121,7 +121,7 @@ TEST_F(FamilyTest, AnImuOnATurntableFeelsTheCentripetalForce) {
   ExpectValues(Sample(DescriptionOf("imu")), {0, 0, rate, -rate * rate * 0.2, 2 * 0.2, 9.8}, kImu);
 }
 
-TEST_F(FamilyTest, AnImuOnATurretFeelsItTurn) {
+TEST_F(SensorTypesTest, ImuOnATurretReadsItsTurningRate) {
   auto description = DescriptionOf("imu");
   description.link = 1;
   snapshot_->state.joint_positions[0] = 1.1;
@@ -132,7 +132,7 @@ TEST_F(FamilyTest, AnImuOnATurretFeelsItTurn) {
   ExpectValues(Sample(description), {0, 0, 0, 0, 0, 9.8}, kImu);
 }
 
-TEST_F(FamilyTest, AnImuTellsItsOrientationIfItShould) {
+TEST_F(SensorTypesTest, ImuReadsItsOrientationIfEnabled) {
   const Reading reading = Sample(DescriptionOf("imu"));
   ASSERT_EQ(reading.values.size(), 10u);
   EXPECT_NEAR(reading.values[6], std::sqrt(0.5), 1e-12);
@@ -147,7 +147,7 @@ TEST_F(FamilyTest, AnImuTellsItsOrientationIfItShould) {
 }
 
 // The robot faces y, a quarter turn from x; the world's x points 30 degrees north of east.
-TEST_F(FamilyTest, AnImuGivesItsOrientationInTheFrameItIsTold) {
+TEST_F(SensorTypesTest, ImuReadsItsOrientationInTheGivenFrame) {
   model::WorldDescription world = *world_;
   world.origin = model::GeodeticOrigin{0, 0, 0, kPi / 6};
   world.gravity = {0, -9.8, 0};
@@ -180,7 +180,7 @@ TEST_F(FamilyTest, AnImuGivesItsOrientationInTheFrameItIsTold) {
   }
 }
 
-TEST_F(FamilyTest, AMagnetometerTurnsTheField) {
+TEST_F(SensorTypesTest, MagnetometerRotatesTheFieldIntoItsFrame) {
   // It faces y: its x is the world's y, its y the world's -x.
   ExpectValues(Sample(DescriptionOf("magnetometer")), {2e-5, -1e-5, -4e-5}, {"T", "T", "T"}, 1e-18);
   EXPECT_NEAR(
@@ -188,7 +188,7 @@ TEST_F(FamilyTest, AMagnetometerTurnsTheField) {
       2e-5, 1e-18);
 }
 
-TEST_F(FamilyTest, AnAltimeterMeasuresFromWhereItStarted) {
+TEST_F(SensorTypesTest, AltimeterMeasuresFromItsInitialHeight) {
   body().world_from_model.position.z += 2;
   body().linear_velocity = {5, 0, -0.5};
   ExpectValues(Sample(DescriptionOf("altimeter")), {2, -0.5, 0.3}, {"m", "m/s", "m"});
@@ -199,13 +199,13 @@ TEST_F(FamilyTest, AnAltimeterMeasuresFromWhereItStarted) {
       -0.5);
 }
 
-TEST_F(FamilyTest, ASatelliteReceiverNeedsAPlaceOnEarth) {
+TEST_F(SensorTypesTest, GnssReceiverNeedsAGeographicOrigin) {
   const auto reading = TrySample(DescriptionOf("navsat"));
   ASSERT_FALSE(reading);
   EXPECT_NE(reading.error().Sentence().find("<spherical_coordinates>"), std::string::npos);
 }
 
-TEST_F(FamilyTest, ASatelliteReceiverTellsWhereItIsAndHowItMoves) {
+TEST_F(SensorTypesTest, GnssReceiverReadsPositionAndVelocity) {
   world_->origin = {.latitude = 0, .longitude = 0, .elevation = 100, .heading = 0};
   body().linear_velocity = {1, 2, 3};
   // On the equator, 1 m east and 0.2 m north of the origin, 100.3 m up.
@@ -224,7 +224,7 @@ TEST_F(FamilyTest, ASatelliteReceiverTellsWhereItIsAndHowItMoves) {
   EXPECT_NEAR(message.altitude, 100.3, 1e-4);
 }
 
-TEST_F(FamilyTest, AnOdometerTellsWhatTheWheelsSay) {
+TEST_F(SensorTypesTest, OdometerReadsTheWheelOdometry) {
   body().odometry = {{1, 2, 0, 1}, 0.5, 0.1};
   ExpectValues(Sample(DescriptionOf("odometry")), {1, 2, kPi / 2, 0.5, 0.1});
   const auto message = Sent<messages::nav_msgs::Odometry>(DescriptionOf("odometry"));
@@ -235,7 +235,7 @@ TEST_F(FamilyTest, AnOdometerTellsWhatTheWheelsSay) {
   EXPECT_EQ(message.twist.twist.linear.x, 0.5);
 }
 
-TEST_F(FamilyTest, ABumperFeelsWhereItIsTouched) {
+TEST_F(SensorTypesTest, BumperReadsTheContactPoint) {
   EXPECT_TRUE(Sample(DescriptionOf("bumper")).values.empty());
   const int other = snapshot_->layout->Find("other"), floor = snapshot_->layout->Find("floor");
   // By the other one, whose index is lower, straight ahead; by the floor; behind.
@@ -300,7 +300,7 @@ class NamedCollisionsTest : public ::testing::Test {
   RaySceneCache rays_;
 };
 
-TEST_F(NamedCollisionsTest, ABumperFeelsTheCollisionsThatItNames) {
+TEST_F(NamedCollisionsTest, BumperReadsTheNamedCollisions) {
   EXPECT_EQ(ContactsOf("front"), 1u);
   EXPECT_EQ(ContactsOf("rear"), 0u);
   EXPECT_EQ(ContactsOf("body"), 0u);
@@ -308,7 +308,7 @@ TEST_F(NamedCollisionsTest, ABumperFeelsTheCollisionsThatItNames) {
   EXPECT_EQ(ContactsOf("robot::front"), 0u);  // no link has that name
 }
 
-TEST_F(NamedCollisionsTest, ABumperFeelsEachPointOfAContact) {
+TEST_F(NamedCollisionsTest, BumperReadsEachPointOfAContact) {
   snapshot_->contacts[0].points = {{{1.22, 0.1, 0.1}, {1, 0, 0}, 0.001},
                                    {{1.22, -0.1, 0.1}, {1, 0, 0}, 0.0005}};
   EXPECT_EQ(ContactsOf("front"), 2u);
@@ -316,23 +316,23 @@ TEST_F(NamedCollisionsTest, ABumperFeelsEachPointOfAContact) {
   EXPECT_EQ(ContactsOf("rear"), 0u);
 }
 
-TEST_F(NamedCollisionsTest, ABumperThatNamesACollisionFeelsWhatCarriesIt) {
+TEST_F(NamedCollisionsTest, BumperReadsTheSupportOfItsNamedCollision) {
   snapshot_->contacts[0].normal = {0, 0, -1};
   snapshot_->contacts[0].supports = true;
   EXPECT_EQ(ContactsOf("front"), 1u);
   EXPECT_EQ(ContactsOf(""), 0u);
 }
 
-TEST_F(NamedCollisionsTest, ABumperThatNamesNoneFeelsThemAll) {
+TEST_F(NamedCollisionsTest, BumperWithoutNamesReadsAllCollisions) {
   EXPECT_EQ(ContactsOf(""), 1u);
   EXPECT_EQ(ContactsOf("__default__"), 1u);
 }
 
-TEST_F(NamedCollisionsTest, ABumperOfACollisionThatIsNotThereFeelsNothing) {
+TEST_F(NamedCollisionsTest, BumperWithAnUnknownNameReadsNothing) {
   EXPECT_EQ(ContactsOf("bumper"), 0u);
 }
 
-TEST_F(FamilyTest, JointEncodersCountTheirTurns) {
+TEST_F(SensorTypesTest, JointEncodersCountTurns) {
   snapshot_->state.joint_positions[0] = 1.0;
   snapshot_->state.joint_velocities[0] = -0.5;
   const Reading reading = Sample(DescriptionOf("joint_state"));
@@ -349,7 +349,7 @@ TEST_F(FamilyTest, JointEncodersCountTheirTurns) {
   EXPECT_EQ(missing.error().Sentence(), "robot/front: the robot has no joint \"knee\" that moves");
 }
 
-TEST_F(FamilyTest, ABatteryFallsByTimeAndByWay) {
+TEST_F(SensorTypesTest, BatteryDischargesWithTimeAndDistance) {
   const model::Parameters parameters = {{"capacity", 2.0},       {"voltage_full", 12.0},
                                         {"voltage_empty", 10.0}, {"resistance", 0.5},
                                         {"idle_current", 1.0},   {"drive_charge", 6.0}};
@@ -367,7 +367,7 @@ TEST_F(FamilyTest, ABatteryFallsByTimeAndByWay) {
   ExpectValues(Sample(DescriptionOf("battery", parameters)), {0, 0, 0, 2, 0});
 }
 
-TEST_F(FamilyTest, ALogicalCameraNamesWhoIsInView) {
+TEST_F(SensorTypesTest, LogicalCameraListsTheModelsInView) {
   auto wide = DescriptionOf("logical_camera", {{"horizontal_fov", 2.0}});
   const Reading reading = Sample(wide);
   // The box to the right is in view, the one behind it is hidden, the floor has no middle.
@@ -390,7 +390,7 @@ TEST_F(FamilyTest, ALogicalCameraNamesWhoIsInView) {
 }
 
 // Each value is the same whoever was read before, and another for another seed.
-TEST_F(FamilyTest, NoiseHangsOnNobodyElsesReadings) {
+TEST_F(SensorTypesTest, NoiseDoesNotDependOnOtherReadings) {
   const std::vector<model::SensorDescription> all = {
       DescriptionOf("imu", {{"angular_velocity.x.noise.stddev", 1.0},
                             {"linear_acceleration.z.noise.dynamic_bias_stddev", 1.0},
@@ -417,7 +417,7 @@ using Refused = std::tuple<const char*, const char*, model::ParameterValue>;
 
 class RefusedParameter : public TestWithParam<Refused> {};
 
-TEST_P(RefusedParameter, IsNamedInTheSentence) {
+TEST_P(RefusedParameter, IsNamedInTheError) {
   const auto& [type, parameter, value] = GetParam();
   const auto sensor =
       BuiltInSensors().Find(type)->create(DescriptionOf(type, {{parameter, value}}));

@@ -14,13 +14,13 @@ using geometry::Vector3;
 
 using geometry::kPi;
 
-TEST(Geodesy, FindsThePlacesWhoseCoordinatesEverybodyKnows) {
+TEST(Geodesy, ConvertsKnownPlaces) {
   EXPECT_WITHIN(EcefOf({0, 0, 0}).x, 6378137.0, 1e-9, "m");
   EXPECT_WITHIN(EcefOf({kPi / 2, 0, 0}).z, 6356752.314245, 1e-6, "m");  // TR8350.2, table 3.3
   EXPECT_WITHIN(EcefOf({0, kPi / 2, 100}).y, 6378237.0, 1e-9, "m");
 }
 
-TEST(Geodesy, ComesBackToWhereItWas) {
+TEST(Geodesy, RoundTripReturnsTheSamePlace) {
   testing::Random random(5);
   for (int i = 0; i < 1000; ++i) {
     const GeodeticPlace place{random.Uniform(-kPi / 2, kPi / 2), random.Uniform(-kPi, kPi),
@@ -34,7 +34,7 @@ TEST(Geodesy, ComesBackToWhereItWas) {
 
 // On the ellipsoid a small way north turns by way / M, one east by way / (N cos latitude), with M
 // and N the radii of curvature along the meridian and across.
-TEST(Geodesy, SmallWaysAreArcsOfTheRadiiOfCurvature) {
+TEST(Geodesy, SmallDistancesAreArcsOfTheRadiiOfCurvature) {
   const double a = 6378137.0, f = 1 / 298.257223563, e2 = f * (2 - f);
   model::GeodeticOrigin origin{0.8, 0.2, 0, 0};
   const double s = std::sin(origin.latitude), w = 1 - e2 * s * s;
@@ -47,7 +47,7 @@ TEST(Geodesy, SmallWaysAreArcsOfTheRadiiOfCurvature) {
   EXPECT_NEAR(PlaceOf(origin, {0, 0, way}).altitude, way, 1e-8);
 }
 
-TEST(Geodesy, AgreesWithGazebosOwnLibrary) {
+TEST(Geodesy, AgreesWithGzMath) {
   using ignition::math::SphericalCoordinates;
   testing::Random random(6);
   for (int i = 0; i < 200; ++i) {

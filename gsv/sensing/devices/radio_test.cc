@@ -47,7 +47,7 @@ class RadioLink : public ::testing::Test {
   world::RadioSetup from_, to_;
 };
 
-TEST_F(RadioLink, InTheOpenIsAsFriisSays) {
+TEST_F(RadioLink, InFreeSpaceFollowsFriis) {
   // In watts: P_r = P_t G_t G_r (lambda / 4 pi d)^2.
   from_.power = 14.5, from_.gain = 2.5, to_.gain = 6;
   const double watts = 1e-3 * std::pow(10, 1.45);
@@ -58,13 +58,13 @@ TEST_F(RadioLink, InTheOpenIsAsFriisSays) {
   EXPECT_WITHIN(*Heard(), 10 * std::log10(received / 1e-3), 1e-9, "dB");
 }
 
-TEST_F(RadioLink, FallsWithTheExponentAsGiven) {
+TEST_F(RadioLink, PathLossFollowsTheExponent) {
   const double square = *Heard();
   from_.path_loss_exponent = 3.5;
   EXPECT_WITHIN(square - *Heard(), 10 * 1.5 * std::log10(8), 1e-9, "dB");
 }
 
-TEST_F(RadioLink, EndsWhereTheReceiverIsDeaf) {
+TEST_F(RadioLink, EndsAtTheReceiversSensitivity) {
   const double strength = *Heard();
   to_.sensitivity = strength;
   EXPECT_TRUE(Heard());
@@ -90,21 +90,21 @@ TEST_F(RadioLink, NeedsTheSameNetworkAndFrequency) {
   EXPECT_FALSE(Heard());
 }
 
-TEST_F(RadioLink, LosesAtEachWall) {
+TEST_F(RadioLink, LosesPowerAtEachWall) {
   const double in_the_open = *Heard();
   from_.wall_loss = 12;
   Stand({Wall("one", 2), Wall("two", 3), Wall("thick", 5, 1.5)});
   EXPECT_WITHIN(*Heard(), in_the_open - 3 * 12, 1e-9, "dB");
 }
 
-TEST_F(RadioLink, LosesNothingAtWhatStandsBesideOrAtTheRobotsThemselves) {
+TEST_F(RadioLink, IgnoresBodiesBesideTheLinkAndTheRobotsThemselves) {
   const double in_the_open = *Heard();
   Stand({{"beside", testing::ModelOf(Box{{0.1, 4, 4}}), PlanarPose(4, 3, 1, 0), true},
          {"floor", testing::ModelOf(geometry::Plane{}), {}, true}});
   EXPECT_EQ(*Heard(), in_the_open);
 }
 
-TEST_F(RadioLink, IsBlockedByAWallThatTakesAll) {
+TEST_F(RadioLink, IsBlockedByAnAbsorbingWall) {
   from_.wall_loss = 1000;
   Stand({Wall("one", 2)});
   EXPECT_FALSE(Heard());
@@ -112,7 +112,7 @@ TEST_F(RadioLink, IsBlockedByAWallThatTakesAll) {
   EXPECT_TRUE(Heard());
 }
 
-TEST_F(RadioLink, OfTwoAntennasAtOnePlaceIsFinite) {
+TEST_F(RadioLink, IsFiniteForTwoAntennasAtOnePlace) {
   EXPECT_NEAR(ArrivingStrength(from_, to_, 0, 0), ArrivingStrength(from_, to_, 0.01, 0), 1e-12);
 }
 
@@ -133,7 +133,7 @@ RadioState SwitchedOn(const Sensor& radio) {
   return dynamic_cast<const RadioState&>(*radio.device()->SwitchedOn("robot"));
 }
 
-TEST(Radio, TakesItsParametersAsSdformatNamesThem) {
+TEST(Radio, ReadsTheParametersOfSdformat) {
   const auto radio = MakeRadio({{"essid", std::string("net")},
                                 {"frequency", 5000.0},
                                 {"power", 10.0},
@@ -158,7 +158,7 @@ TEST(Radio, TakesItsParametersAsSdformatNamesThem) {
   EXPECT_EQ(state.mount().link_from_device.position.z, 0.5);
 }
 
-TEST(Radio, RefusesWhatCannotBe) {
+TEST(Radio, RejectsInvalidParameters) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const auto& [name, value] : std::vector<std::pair<std::string, double>>{{"inbox", 0},
                                                                                {"inbox", 1e6},
@@ -173,7 +173,7 @@ TEST(Radio, RefusesWhatCannotBe) {
   }
 }
 
-TEST(Radio, ShowsWhatItHasHeard) {
+TEST(Radio, ReturnsReceivedMessages) {
   const auto snapshot =
       testing::MakeSnapshot({{"robot", testing::ModelOf(geometry::Sphere{0.2}), {}, false}});
   const auto radio = MakeRadio({{"inbox", 1.0}});
@@ -205,7 +205,7 @@ TEST(Radio, ShowsWhatItHasHeard) {
 }
 
 // Recordings hold hashes: the order of fields is part of their format.
-TEST(Radio, HasWhatItHeardInItsHash) {
+TEST(Radio, HashIncludesReceivedMessages) {
   const auto radio = MakeRadio();
   ASSERT_TRUE(radio);
   RadioState state = SwitchedOn(**radio);
@@ -252,14 +252,14 @@ class RadioOnTheAir : public RadioLink {
   }
 };
 
-TEST_F(RadioOnTheAir, LosesTheShareOfMessagesThatItShould) {
+TEST_F(RadioOnTheAir, LosesTheConfiguredFractionOfMessages) {
   RadioErrors errors;
   errors.loss_probability = 0.3;
   const double share = static_cast<double>(Strengths(errors, 2000).size()) / 2000;
   EXPECT_WITHIN_3_SIGMA(share, 0.7, std::sqrt(0.3 * 0.7 / 2000));
 }
 
-TEST_F(RadioOnTheAir, FadesWithTheDeviationThatItShould) {
+TEST_F(RadioOnTheAir, FadesWithTheConfiguredDeviation) {
   const double still = Strengths({}, 1).at(0);
   RadioErrors errors;
   errors.fading = 4;
@@ -270,7 +270,7 @@ TEST_F(RadioOnTheAir, FadesWithTheDeviationThatItShould) {
   EXPECT_WITHIN_3_SIGMA(std::sqrt(squares / 2000), 4, 4 / std::sqrt(4000.0));
 }
 
-TEST_F(RadioOnTheAir, HearsNeitherOfTwoThatAreAboutAsStrong) {
+TEST_F(RadioOnTheAir, ReceivesNeitherOfTwoSignalsOfSimilarPower) {
   RadioErrors errors;
   errors.capture_ratio = 6;  // dB
   EXPECT_EQ(Strengths(errors, 5).size(), 5u);

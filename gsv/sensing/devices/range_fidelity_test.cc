@@ -181,10 +181,10 @@ class RangeFidelity : public ::testing::Test {
   RaySceneCache rays_;
 };
 
-TEST_F(RangeFidelity, OfAPlane) { Compare(kPlane, ToPlane); }
-TEST_F(RangeFidelity, OfASphere) { Compare(kSphere, ToSphere); }
-TEST_F(RangeFidelity, OfACylinder) { Compare(kCylinder, ToCylinder); }
-TEST_F(RangeFidelity, OfABox) { Compare(kBox, ToBox); }
+TEST_F(RangeFidelity, PlaneIsMeasuredExactly) { Compare(kPlane, ToPlane); }
+TEST_F(RangeFidelity, SphereIsMeasuredExactly) { Compare(kSphere, ToSphere); }
+TEST_F(RangeFidelity, CylinderIsMeasuredExactly) { Compare(kCylinder, ToCylinder); }
+TEST_F(RangeFidelity, BoxIsMeasuredExactly) { Compare(kBox, ToBox); }
 
 }  // namespace
 }  // namespace gsv::sensing

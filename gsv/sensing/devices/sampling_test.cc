@@ -103,7 +103,7 @@ class SamplingTest : public ::testing::Test {
   }
 };
 
-TEST_F(SamplingTest, IsTheSameAsOneByOneForAnyNumberOfThreads) {
+TEST_F(SamplingTest, EqualsSequentialSamplingForAnyNumberOfThreads) {
   for (const double room : {10.0, 0.5}) {  // as in a hall; too many around to be gathered
     const auto snapshot = MakeCrowd(120, room);
     RaySceneCache rays;
@@ -119,7 +119,7 @@ TEST_F(SamplingTest, IsTheSameAsOneByOneForAnyNumberOfThreads) {
   }
 }
 
-TEST_F(SamplingTest, SonarsMeasureWhatLookingAtEverythingFinds) {
+TEST_F(SamplingTest, SonarsEqualABruteForceSearch) {
   for (const double room : {10.0, 0.5}) {
     const auto snapshot = MakeCrowd(60, room);
     const std::vector<Reading> readings = ReadAll(snapshot, 2);

@@ -60,7 +60,7 @@ Message Decoded(const model::SensorDescription& description, const Reading& read
   return *message;
 }
 
-TEST_F(SensorTest, SonarMeasuresToTheWallPastItsOwnRobot) {
+TEST_F(SensorTest, SonarIgnoresItsOwnRobot) {
   const Reading reading = Sample(DescriptionOf("sonar", {{"max", 10.0}}));
   ASSERT_EQ(reading.values.size(), 1u);
   EXPECT_NEAR(reading.values[0], 3.8, 1e-12);
@@ -76,7 +76,7 @@ TEST_F(SensorTest, SonarReportsMaximumRangeWhenTheEchoIsTooNear) {
   EXPECT_EQ(Sample(DescriptionOf("sonar", {{"min", 3.9}, {"max", 10.0}})).values[0], 10.0);
 }
 
-TEST_F(SensorTest, SonarIsDrawnAsALineAsLongAsItsReading) {
+TEST_F(SensorTest, SonarIsDrawnAsALineOfTheMeasuredLength) {
   const auto description = DescriptionOf("sonar", {{"max", 10.0}});
   const SensorType& type = *BuiltInSensors().Find("sonar");
   EXPECT_EQ(type.overlay, Overlay::kLines);
@@ -86,7 +86,7 @@ TEST_F(SensorTest, SonarIsDrawnAsALineAsLongAsItsReading) {
   EXPECT_EQ(beams[0].from, geometry::Vector3{});
 }
 
-TEST_F(SensorTest, SonarBecomesARange) {
+TEST_F(SensorTest, SonarReadingBecomesARangeMessage) {
   const auto description = DescriptionOf("sonar", {{"min", 0.1}, {"max", 10.0}, {"radius", 10.0}});
   const auto message = Decoded<messages::sensor_msgs::Range>(description, Sample(description));
   EXPECT_EQ(message.header.frame_id, "robot/front");
@@ -119,7 +119,7 @@ TEST_F(SensorTest, LidarMeasuresAlongItsAngles) {
   EXPECT_NEAR(Sample(DescriptionOf("gpu_lidar", further)).values[0], 3.8 * std::sqrt(2.0), 1e-9);
 }
 
-TEST_F(SensorTest, LidarTellsTooNearFromTooFar) {
+TEST_F(SensorTest, LidarDistinguishesTooNearFromTooFar) {
   auto parameters = Scan(1, 0, 0);
   parameters["range.min"] = 4.0;
   EXPECT_EQ(Sample(DescriptionOf("ray", parameters)).values[0], -kInfinity);
@@ -128,7 +128,7 @@ TEST_F(SensorTest, LidarTellsTooNearFromTooFar) {
   EXPECT_EQ(Sample(DescriptionOf("ray", parameters)).values[0], kInfinity);
 }
 
-TEST_F(SensorTest, LidarScansRowsFromTheLowest) {
+TEST_F(SensorTest, LidarStartsWithTheLowestRow) {
   auto parameters = Scan(1, 0, 0);
   parameters["scan.vertical.samples"] = 3.0;
   parameters["scan.vertical.min_angle"] = -0.2;
@@ -139,7 +139,7 @@ TEST_F(SensorTest, LidarScansRowsFromTheLowest) {
   EXPECT_NEAR(reading.values[1], 3.8 / std::cos(0.05), 1e-9);
 }
 
-TEST_F(SensorTest, LidarOfOneRowBecomesALaserScan) {
+TEST_F(SensorTest, SingleRowLidarBecomesALaserScanMessage) {
   const auto description = DescriptionOf("lidar", Scan(5, -kPi / 2, kPi / 2));
   const SensorMessages sent = BuiltInSensors().Find("lidar")->MessagesOf(description);
   EXPECT_EQ(sent.schema->name, "sensor_msgs/msg/LaserScan");
@@ -159,7 +159,7 @@ model::Parameters ThreeRows() {
   return parameters;
 }
 
-TEST_F(SensorTest, LidarOfSeveralRowsSendsThemAll) {
+TEST_F(SensorTest, MultiRowLidarSendsAllRows) {
   const auto description = DescriptionOf("gpu_lidar", ThreeRows());
   const SensorMessages sent = BuiltInSensors().Find("lidar")->MessagesOf(description);
   EXPECT_EQ(sent.schema->name, "gsv_msgs/msg/LidarScan");
@@ -178,7 +178,7 @@ TEST_F(SensorTest, LidarOfSeveralRowsSendsThemAll) {
   }
 }
 
-TEST_F(SensorTest, LidarOfSeveralRowsSendsItsPointsBesides) {
+TEST_F(SensorTest, MultiRowLidarAlsoSendsAPointCloud) {
   const auto description = DescriptionOf("lidar", ThreeRows());
   const SensorMessages sent = BuiltInSensors().Find("lidar")->MessagesOf(description);
   ASSERT_TRUE(sent.companion);
@@ -205,7 +205,7 @@ TEST_F(SensorTest, LidarOfSeveralRowsSendsItsPointsBesides) {
   }
 }
 
-TEST_F(SensorTest, LidarNoiseHangsOnSeedAndStepAndHasItsDeviation) {
+TEST_F(SensorTest, LidarNoiseDependsOnSeedAndStepAndHasTheGivenDeviation) {
   auto parameters = Scan(2001, -0.5, 0.5);
   const Reading exact = Sample(DescriptionOf("lidar", parameters));
   parameters["noise.stddev"] = 0.02;
@@ -221,7 +221,7 @@ TEST_F(SensorTest, LidarNoiseHangsOnSeedAndStepAndHasItsDeviation) {
   EXPECT_NEAR(std::sqrt(squares / 2001), 0.02, 0.002);
 }
 
-TEST_F(SensorTest, LidarMissesEchoesAndRoundsThoseItHears) {
+TEST_F(SensorTest, LidarDropsEchoesAndRoundsOthers) {
   auto parameters = Scan(2000, -0.2, 0.2);
   parameters["noise.stddev"] = 0.02;
   parameters["noise.precision"] = 0.25;
@@ -236,7 +236,7 @@ TEST_F(SensorTest, LidarMissesEchoesAndRoundsThoseItHears) {
   EXPECT_NEAR(missed / 2000.0, 0.1, 3 * std::sqrt(0.1 * 0.9 / 2000));
 }
 
-TEST_F(SensorTest, SonarIsDeafWhereAnEchoDropsOut) {
+TEST_F(SensorTest, SonarReturnsMaximumRangeForADroppedEcho) {
   EXPECT_EQ(
       Sample(DescriptionOf("sonar", {{"max", 10.0}, {"noise.dropout_probability", 1.0}})).values[0],
       10);
@@ -245,7 +245,7 @@ TEST_F(SensorTest, SonarIsDeafWhereAnEchoDropsOut) {
   EXPECT_NEAR(biased, 4.3, 1e-12);
 }
 
-TEST_F(SensorTest, LidarIsDrawnWhereItsBeamsEnd) {
+TEST_F(SensorTest, LidarIsDrawnAsTheEndsOfItsBeams) {
   const auto description = DescriptionOf("lidar", Scan(3, -0.2, 0.2));
   const auto beams = (*Make(description))->Beams(Sample(description));
   ASSERT_EQ(beams.size(), 3u);
@@ -253,7 +253,7 @@ TEST_F(SensorTest, LidarIsDrawnWhereItsBeamsEnd) {
   EXPECT_NEAR(beams[0].to.y, -3.8 * std::tan(0.2), 1e-9);
 }
 
-TEST_F(SensorTest, PositioningTellsWhereTheSensorIs) {
+TEST_F(SensorTest, PositioningReadsThePositionOfTheSensor) {
   const auto description = DescriptionOf("positioning");
   const Reading reading = Sample(description);
   ASSERT_EQ(reading.values.size(), 6u);
@@ -270,7 +270,7 @@ TEST_F(SensorTest, PositioningTellsWhereTheSensorIs) {
   EXPECT_NEAR(pose.pose.orientation.w, std::sqrt(0.5), 1e-12);
 }
 
-TEST_F(SensorTest, PositioningNoiseIsThatOfItsParameters) {
+TEST_F(SensorTest, PositioningNoiseFollowsItsParameters) {
   double squares = 0;
   for (int step = 0; step < 1000; ++step) {
     snapshot_->state.step = step;
@@ -287,7 +287,7 @@ struct BadParameters {
   const char* sentence;
 };
 
-TEST(SensorParameters, AreRefusedWithASentence) {
+TEST(SensorParameters, InvalidValuesAreRejectedWithASentence) {
   const std::vector<BadParameters> cases = {
       {"sonar", {{"min", 2.0}, {"max", 1.0}}, "sonar front: min is 2 and above max, 1"},
       {"sonar",
@@ -333,7 +333,7 @@ TEST(SensorRegistry, FindsTypesByNameAndAlias) {
   EXPECT_EQ(BuiltInSensors().Find("sonar")->schema->name, "sensor_msgs/msg/Range");
 }
 
-TEST(SensorRegistry, RefusesANameThatIsTaken) {
+TEST(SensorRegistry, RejectsADuplicateName) {
   SensorRegistry registry;
   AddBuiltInSensors(registry);
   SensorType type;

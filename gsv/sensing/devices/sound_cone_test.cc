@@ -44,7 +44,7 @@ std::vector<testing::Placed> WallAt(double angle) {
            PlanarPose(middle * std::cos(angle), middle * std::sin(angle), 0, angle), true}};
 }
 
-TEST(SoundCone, HasThePublishedBeamOfAPolaroidTransducer) {
+TEST(SoundCone, EqualsThePublishedBeamOfAPolaroidTransducer) {
   const SoundSettings polaroid;
   EXPECT_EQ(Directivity(polaroid, 0), 1);
   // 15 degrees wide at -6 dB, SensComp's data sheet of the 600 series.
@@ -65,27 +65,27 @@ TEST(SoundCone, HasThePublishedBeamOfAPolaroidTransducer) {
   }
 }
 
-TEST(SoundCone, HearsASmoothWallAtItsPerpendicularDistance) {
+TEST(SoundCone, MeasuresThePerpendicularDistanceOfASmoothWall) {
   for (const double angle : {0.0, 3.0, 6.0, 9.0}) {
     EXPECT_WITHIN(Heard(WallAt(angle * kDegrees)), 2, 2 * 1e-3, "m") << angle;
     EXPECT_WITHIN(Heard(WallAt(-angle * kDegrees)), 2, 2 * 1e-3, "m") << -angle;
   }
 }
 
-TEST(SoundCone, HearsNothingOfASmoothWallBeyondTheCriticalAngle) {
+TEST(SoundCone, DetectsNoSmoothWallBeyondTheCriticalAngle) {
   for (const double angle : {14.0, 20.0, 45.0}) {
     EXPECT_EQ(Heard(WallAt(angle * kDegrees)), kMax) << angle;
   }
 }
 
-TEST(SoundCone, HearsARoughWallFromWhereItsBeamMeetsItFirst) {
+TEST(SoundCone, DetectsARoughWallWhereTheBeamFirstMeetsIt) {
   // At 45 degrees the beam's near edge, some 11 degrees off, meets it first: 2 / cos(45° - 11°).
   const double heard = Heard(WallAt(45 * kDegrees), {{"roughness", 0.7}});
   EXPECT_GT(heard, 2 / std::cos(33 * kDegrees));
   EXPECT_LT(heard, 2 / std::cos(38 * kDegrees));
 }
 
-TEST(SoundCone, HearsAPostBesideItsAxisWhereARayMissesIt) {
+TEST(SoundCone, DetectsAPostBesideItsAxisThatARayMisses) {
   // Its nearest point lies on the line to its middle, 5 degrees off the axis.
   const std::vector<testing::Placed> post = {
       {"post", testing::ModelOf(geometry::Cylinder{0.05, 2}),
@@ -94,9 +94,9 @@ TEST(SoundCone, HearsAPostBesideItsAxisWhereARayMissesIt) {
   EXPECT_EQ(Heard(post, {{"beam", std::string("ray")}}), kMax);
 }
 
-TEST(SoundCone, IsDeafToWhatIsTooNear) { EXPECT_EQ(Heard(WallAt(0), {{"min", 2.5}}), kMax); }
+TEST(SoundCone, DetectsNothingThatIsTooNear) { EXPECT_EQ(Heard(WallAt(0), {{"min", 2.5}}), kMax); }
 
-TEST(SoundCone, RefusesABeamThatItDoesNotKnow) {
+TEST(SoundCone, RejectsAnUnknownBeam) {
   SensorRegistry registry;
   AddBuiltInSensors(registry);
   model::SensorDescription description;

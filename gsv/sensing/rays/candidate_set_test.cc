@@ -18,7 +18,7 @@ double Gap(const Ray& ray, const Vector3& p) {
   return Norm(p - (ray.origin + along * ray.direction));
 }
 
-TEST(CandidateSet, FindEveryBallThatARayTouchesAndFewOthers) {
+TEST(CandidateSet, ContainsEverySphereThatARayTouchesAndFewOthers) {
   Random random(51);
   for (int round = 0; round < 300; ++round) {
     const Vector3 place = random.Point(5000);
@@ -47,7 +47,7 @@ TEST(CandidateSet, FindEveryBallThatARayTouchesAndFewOthers) {
   }
 }
 
-TEST(CandidateSet, HoldOnlyRaysThatEndWithin) {
+TEST(CandidateSet, ServesOnlyRaysThatEndWithinIt) {
   CandidateSet candidates;
   candidates.Begin({1, 2, 3}, 5);
   EXPECT_TRUE(candidates.Hold({{1, 2, 4}, {1, 0, 0}, 4}));
@@ -55,7 +55,7 @@ TEST(CandidateSet, HoldOnlyRaysThatEndWithin) {
   EXPECT_FALSE(candidates.Hold({{1, 2, std::nan("")}, {1, 0, 0}, 1}));
 }
 
-TEST(CandidateSet, SayWhenTheyAreTooMany) {
+TEST(CandidateSet, ReportsTooManyCandidates) {
   CandidateSet candidates;
   candidates.Begin({}, 5);
   for (std::uint32_t i = 0; i < CandidateSet::kMax; ++i) candidates.Add({{}, 1}, i, true);

@@ -84,7 +84,7 @@ TEST(ColumnGrid, FindsBoxesOnEitherSideOfARayAlongTheirBorder) {
   }
 }
 
-TEST(ColumnGrid, StopsWhereTheLengthIsShortened) {
+TEST(ColumnGrid, StopsWhenTheRayIsShortened) {
   constexpr int kBoxes = 100;
   std::vector<Bounds> boxes;
   boxes.reserve(kBoxes);
@@ -122,7 +122,7 @@ TEST(ColumnGrid, FindsEveryBoxNearAPlaceOnce) {
   }
 }
 
-TEST(ColumnGrid, SaysWhenThereIsNoRoomForAllBoxesNearAPlace) {
+TEST(ColumnGrid, ReportsTooManyBoxesNearAPlace) {
   const std::vector<Bounds> boxes(FoundBoxes::kMax + 1, BoxAt({0, 0, 0}, {1, 1, 1}));
   ColumnGrid grid;
   grid.Build(boxes);

@@ -82,7 +82,7 @@ Scanner AnyScanner(Random& random, int round) {
           round % 3 == 0 ? 0 : random.Uniform(-1.5, 1.5)};
 }
 
-TEST(Fan, OfAScannerFindsWhatEachRayFinds) {
+TEST(Fan, EqualsSingleRays) {
   Random random(5);
   int hits = 0;
   for (int round = 0; round < 120; ++round) {
@@ -109,7 +109,7 @@ TEST(Fan, OfAScannerFindsWhatEachRayFinds) {
 }
 
 // With more solids than can be gathered, each ray is tested separately.
-TEST(Fan, AmongVeryManySolidsFindsTheSame) {
+TEST(Fan, EqualsSingleRaysAmongManySolids) {
   Random random(6);
   const auto snapshot = Clutter(random, 700);
   RaySceneCache cache;
@@ -123,7 +123,7 @@ TEST(Fan, AmongVeryManySolidsFindsTheSame) {
   }
 }
 
-TEST(Fan, ThatIsNotFiniteHitsNothing) {
+TEST(Fan, WithNonFiniteRaysHitsNothing) {
   Random random(7);
   const auto snapshot = Clutter(random, 30);
   RaySceneCache cache;
@@ -141,7 +141,7 @@ std::multiset<std::size_t> RaysIn(const Sector& sector, double first, double ste
   return rays;
 }
 
-TEST(Fan, SectorsHoldTheirRaysOnce) {
+TEST(Fan, SectorsContainEachRayOnce) {
   using Set = std::multiset<std::size_t>;
   const double degree = kPi / 180;
   EXPECT_EQ(RaysIn({0, 9.5 * degree, 12.5 * degree}, 0, degree, 360), (Set{10, 11, 12}));
@@ -155,7 +155,7 @@ TEST(Fan, SectorsHoldTheirRaysOnce) {
 }
 
 // For a box that faces the scanner, the sector is known.
-TEST(Fan, ASectorIsAsWideAsTheBox) {
+TEST(Fan, SectorIsAsWideAsTheBox) {
   const auto directions = DirectionsOf(-1, 0.1, 21, 0);
   const Fan fan{{}, -1, 0.1, 0, 10, directions};
   const geometry::Bounds box{{2, -1, -0.5}, {3, 1, 0.5}};

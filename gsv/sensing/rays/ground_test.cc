@@ -10,7 +10,7 @@ namespace {
 using testing::MakeSnapshot;
 using testing::ModelOf;
 
-TEST(FloorHeight, IsThatOfTheHighestFloorButNotOfATable) {
+TEST(FloorHeight, IsThatOfTheHighestFloorWithoutTables) {
   RaySceneCache cache;
   const auto scene = cache.At(MakeSnapshot({
       {"plane", ModelOf(geometry::Plane{}), {}, true},
@@ -24,14 +24,14 @@ TEST(FloorHeight, IsThatOfTheHighestFloorButNotOfATable) {
   EXPECT_NEAR(FloorHeight(*scene, 20, 0), 0, 1e-12);  // within the wall
 }
 
-TEST(FloorHeight, IsZeroWhereThereIsNone) {
+TEST(FloorHeight, IsZeroWithoutAFloor) {
   RaySceneCache cache;
   const auto scene =
       cache.At(MakeSnapshot({{"far", ModelOf(geometry::Sphere{1}), {{9, 9, 9}, {}}, true}}));
   EXPECT_EQ(FloorHeight(*scene, 0, 0), 0);
 }
 
-TEST(FloorHeight, MayLieBelowZero) {
+TEST(FloorHeight, MayBeBelowZero) {
   RaySceneCache cache;
   const auto scene =
       cache.At(MakeSnapshot({{"pit", ModelOf(geometry::Plane{}), {{0, 0, -2}, {}}, true}}));

@@ -66,7 +66,7 @@ std::shared_ptr<world::Snapshot> RandomWorld(Random& random) {
   return snapshot;
 }
 
-TEST(RayScene, AgreesWithLookingAtEverything) {
+TEST(RayScene, EqualsABruteForceSearch) {
   Random random(11);
   RaySceneCache cache;
   int hits = 0;
@@ -92,7 +92,7 @@ TEST(RayScene, AgreesWithLookingAtEverything) {
 
 // The result does not depend on the arrangement of boxes: a grid is not suited for stacked or
 // distant ones.
-TEST(RayScene, AgreesWithLookingAtEverythingInTowersAndFarAway) {
+TEST(RayScene, EqualsABruteForceSearchInTowersAndFarAway) {
   Random random(14);
   constexpr int kFloors = 120;
   std::vector<Placed> bodies;
@@ -128,7 +128,7 @@ TEST(RayScene, AgreesWithLookingAtEverythingInTowersAndFarAway) {
   EXPECT_NEAR(scene->Range({{0, -2e4, 9}, {0, 0, -1}, 5}, -1), 2, 1e-9);
 }
 
-TEST(RayScene, OfTwoBodiesAtOneDistanceTheFirstIsHit) {
+TEST(RayScene, FirstOfTwoBodiesAtOneDistanceIsHit) {
   // Side by side, some of them static; rays go along their common faces.
   constexpr int kBoxes = 20;
   std::vector<Placed> bodies;
@@ -164,7 +164,7 @@ TEST(RayScene, RangeIsTheDistanceOfTheHit) {
   }
 }
 
-TEST(RayScene, ManyRaysAtOnceAreTheSameAsOneByOne) {
+TEST(RayScene, ManyRaysAtOnceEqualSingleRays) {
   Random random(12);
   RaySceneCache cache;
   const auto snapshot = RandomWorld(random);
@@ -183,7 +183,7 @@ TEST(RayScene, ManyRaysAtOnceAreTheSameAsOneByOne) {
   }
 }
 
-TEST(RayScene, NoRaySlipsThroughTheSeamsOfAFineMesh) {
+TEST(RayScene, NoRayPassesBetweenTheTrianglesOfAMesh) {
   // A wavy sheet of 2 × 100 × 100 triangles, hit exactly at its vertices and edges.
   auto mesh = std::make_shared<geometry::TriangleMesh>();
   constexpr int kSide = 100;
@@ -217,7 +217,7 @@ TEST(RayScene, NoRaySlipsThroughTheSeamsOfAFineMesh) {
   }
 }
 
-TEST(RayScene, ANearerBodyWinsFromTheNextSnapshotOn) {
+TEST(RayScene, NearerBodyIsHitFromTheNextSnapshotOn) {
   RaySceneCache cache;
   const auto before =
       MakeSnapshot({{"a", ModelOf(geometry::Box{{1, 1, 1}}), {{5, 0, 0}, {}}, false},
@@ -234,7 +234,7 @@ TEST(RayScene, ANearerBodyWinsFromTheNextSnapshotOn) {
   EXPECT_DOUBLE_EQ(old_scene->Cast(ray, -1)->distance, 4.5);  // still of its own snapshot
 }
 
-TEST(RayScene, SurvivesItsCache) {
+TEST(RayScene, OutlivesItsCache) {
   std::shared_ptr<const RayScene> scene;
   {
     RaySceneCache cache;
@@ -243,7 +243,7 @@ TEST(RayScene, SurvivesItsCache) {
   EXPECT_DOUBLE_EQ(scene->Cast({{0, 0, 0}, {1, 0, 0}, 20}, -1)->distance, 4);
 }
 
-TEST(RayScene, AnswersNoRayThatIsNotFinite) {
+TEST(RayScene, NonFiniteRaysHitNothing) {
   RaySceneCache cache;
   const auto scene = cache.At(MakeSnapshot({{"a", ModelOf(geometry::Plane{}), {}, true}}));
   const double nan = std::nan("");
@@ -253,7 +253,7 @@ TEST(RayScene, AnswersNoRayThatIsNotFinite) {
   EXPECT_FALSE(scene->Cast({{0, 0, 1}, {0, 0, -1}, -1}, -1));
 }
 
-TEST(RayScene, ThreadsGetTheSameAnswers) {
+TEST(RayScene, ThreadsGetTheSameResults) {
   Random random(13);
   const auto snapshot = RandomWorld(random);
   std::vector<Ray> rays(300);

@@ -36,7 +36,7 @@ TEST(RayShape, RespectsTheLengthOfTheRay) {
   EXPECT_FALSE(DistanceToShape({{3, 0, 0}, {-1, 0, 0}, 1.999}, sphere));
 }
 
-TEST(RayShape, HitsRoundShapesWhereTheirEquationsSay) {
+TEST(RayShape, HitsRoundShapesAtTheRootsOfTheirEquations) {
   // At height 0.6 a unit sphere is 0.8 wide.
   EXPECT_WITHIN(DistanceTo(geometry::Sphere{1}, {5, 0, 0.6}, {-1, 0, 0}), 4.2, 1e-12, "m");
   EXPECT_WITHIN(DistanceTo(geometry::Cylinder{1, 2}, {5, 0.6, 0.5}, {-1, 0, 0}), 4.2, 1e-12, "m");

@@ -10,7 +10,7 @@ namespace gsv::simulation {
 namespace {
 
 constexpr std::size_t kMaxQuoted = 100;
-// Beyond this, a double cannot represent every integer.
+// Above this value a double cannot represent every integer.
 constexpr double kMaxInteger = 9007199254740992;  // 2^53
 
 template <typename Number>
@@ -21,7 +21,7 @@ std::optional<Number> NumberIn(const std::string& text) {
   return error == std::errc() && rest == end ? std::optional(number) : std::nullopt;
 }
 
-// A value of a wrong type stays a text, which ReadArguments() refuses.
+// A value of a wrong type stays a text, which ReadArguments() rejects.
 ArgumentValue FromText(ParameterType type, const std::string& text) {
   switch (type) {
     case ParameterType::kNumber:
@@ -38,7 +38,7 @@ ArgumentValue FromText(ParameterType type, const std::string& text) {
   return text;
 }
 
-// The value converted to the type, or nothing if it has another type.
+// Returns the value converted to the type, or nullopt if it has another type.
 std::optional<ArgumentValue> Convert(ParameterType type, const ArgumentValue& value) {
   if (value.index() == static_cast<std::size_t>(type)) return value;
   if (type == ParameterType::kNumber && std::holds_alternative<std::int64_t>(value)) {
@@ -81,7 +81,7 @@ std::string DescribeRange(const Parameter& parameter) {
   if (parameter.type == ParameterType::kFlag) return "true or false";
   if (parameter.type == ParameterType::kText) return "a text";
   std::string text = parameter.type == ParameterType::kInteger ? "a whole number" : "a number";
-  // Large bounds are easier to read in full: 1000000000.
+  // Large bounds are written in full, such as 1000000000, because this is easier to read.
   if (std::isfinite(parameter.minimum)) text += fmt::format(" from {:.15g}", parameter.minimum);
   if (std::isfinite(parameter.maximum)) text += fmt::format(" to {:.15g}", parameter.maximum);
   if (!parameter.unit.empty()) text += fmt::format(" {}", parameter.unit);

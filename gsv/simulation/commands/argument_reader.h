@@ -1,7 +1,7 @@
 // Reads the arguments of a command: checks them against its parameters, and adds default values.
 //
-// Errors  kInvalidArgument, one sentence that names the command and the parameter: an unknown or
-//         missing argument, a wrong type, a number out of range, NaN.
+// Errors  kInvalidArgument with one sentence that names the command and the parameter. The reasons
+//         are an unknown or missing argument, a wrong type, a number out of range, and NaN.
 #pragma once
 
 #include <map>
@@ -12,14 +12,15 @@
 
 namespace gsv::simulation {
 
-// A value without fraction is accepted for integers and numbers, as either alternative.
+// Checks typed values. A value without a fraction is accepted for integers and for numbers, as
+// either alternative.
 base::Result<Arguments> ReadArguments(const Command& command, Arguments::Values given);
 
-// The same for texts, each parsed as its parameter's type: "-1.62", "true", "7".
+// Checks texts, each parsed as the type of its parameter: "-1.62", "true", "7".
 base::Result<Arguments> ReadArguments(const Command& command,
                                       const std::map<std::string, std::string>& given);
 
-// The valid values as a text: "a number from -100 to 100 m/s²", "true or false".
+// Returns the valid values as a text, such as "a number from -100 to 100 m/s²" or "true or false".
 std::string DescribeRange(const Parameter& parameter);
 
 }  // namespace gsv::simulation

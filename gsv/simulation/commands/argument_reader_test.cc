@@ -36,7 +36,7 @@ TEST(ArgumentReader, ReadsEachTypeAndAddsDefaultValues) {
   EXPECT_EQ(ReadArguments(Lift(), Texts{{"height", "1"}})->Find<std::string>("of"), nullptr);
 }
 
-TEST(ArgumentReader, TakesWholeNumbersOfEitherKind) {
+TEST(ArgumentReader, AcceptsIntegersAndNumbersWithoutAFraction) {
   const auto read =
       ReadArguments(Lift(), Arguments::Values{{"height", std::int64_t{2}}, {"count", 7.0}});
   ASSERT_TRUE(read) << read.error().Sentence();
@@ -73,7 +73,7 @@ TEST(ArgumentReader, NamesCommandAndParameterOfARefusedValue) {
   }
 }
 
-TEST(ArgumentReader, RefusesTextsThatAreNotOfTheirType) {
+TEST(ArgumentReader, RejectsTextsOfTheWrongType) {
   for (const char* text : {"", "down", "1m", "nan", "inf", "1e400", "0x1"}) {
     EXPECT_FALSE(ReadArguments(Lift(), Texts{{"height", text}})) << text;
   }

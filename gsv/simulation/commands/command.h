@@ -22,25 +22,25 @@ namespace gsv::simulation {
 
 class Simulation;
 
-// In the order of ArgumentValue's alternatives.
+// The order is that of ArgumentValue's alternatives.
 enum class ParameterType { kNumber, kInteger, kFlag, kText };
 using ArgumentValue = std::variant<double, std::int64_t, bool, std::string>;
 
-// "number", "integer", "flag", "text".
+// Returns "number", "integer", "flag" or "text".
 const char* ToString(ParameterType type);
-// The value as users write it, also in sba::NameValue: "-1.62", "true".
+// Returns the value as users write it, also in sba::NameValue: "-1.62", "true".
 std::string ToText(const ArgumentValue& value);
 
 struct Parameter {
   std::string_view name;           // lower_case
-  std::string_view former_name{};  // still accepted in its place; empty: none
+  std::string_view former_name{};  // a former name that is still accepted; empty if there is none
   ParameterType type = ParameterType::kNumber;
-  std::string_view unit{};     // "m/s²"; empty: none
+  std::string_view unit{};     // such as "m/s²"; empty if there is none
   std::string_view summary{};  // a noun phrase
-  // The range of numbers and integers, bounds included.
+  // The range of numbers and integers, including the bounds.
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
-  // The default value, or in words the behaviour of the command without the argument. A parameter
+  // The default value, or a text that says what the command does without the argument. A parameter
   // with neither is required.
   std::optional<ArgumentValue> default_value{};
   std::string_view default_meaning{};
@@ -48,19 +48,20 @@ struct Parameter {
   bool is_required() const { return !default_value && default_meaning.empty(); }
 };
 
-// Arguments that are valid for the parameters of a command; only ReadArguments() makes them.
+// Arguments that are valid for the parameters of a command; only ReadArguments() creates them.
 // Parameters with a default value always have an argument.
 class Arguments {
  public:
   using Values = std::map<std::string, ArgumentValue, std::less<>>;
 
-  // `Value` is the parameter's alternative of ArgumentValue. Null if the argument is absent.
+  // Returns the argument, or null if it is absent. `Value` is the parameter's alternative of
+  // ArgumentValue.
   template <typename Value>
   const Value* Find(std::string_view name) const {
     const auto found = values_.find(name);
     return found == values_.end() ? nullptr : &std::get<Value>(found->second);
   }
-  // The argument must be present (GSV_CHECK).
+  // Returns the argument, which must be present (GSV_CHECK).
   template <typename Value>
   const Value& Get(std::string_view name) const {
     const Value* const value = Find<Value>(name);
@@ -80,9 +81,9 @@ struct Command {
   std::string_view name;     // lower_case
   std::string_view summary;  // an imperative, as in docs/api.yaml
   std::vector<Parameter> parameters{};
-  // May block: a reset calls behaviours.
+  // Applies the command. It may block, because a reset calls behaviours.
   base::Status (*apply)(Simulation& simulation, const Arguments& arguments) = nullptr;
-  std::string_view former_name{};  // still accepted in its place; empty: none
+  std::string_view former_name{};  // a former name that is still accepted; empty if there is none
 };
 
 }  // namespace gsv::simulation

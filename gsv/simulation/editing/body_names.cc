@@ -30,7 +30,8 @@ base::Status NameRobots(const world::Layout& layout, std::vector<RobotSpecificat
                         robot.name);
     }
   }
-  std::map<std::string, int> next_number;  // by model: crowds do not count from two each time
+  // by model, so that numbering a crowd does not begin at two for each member
+  std::map<std::string, int> next_number;
   for (RobotSpecification& robot : robots) {
     if (!robot.name.empty()) continue;
     const std::string& model = robot.model->name;

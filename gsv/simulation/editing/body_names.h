@@ -12,11 +12,11 @@ namespace gsv::simulation {
 
 base::Status CheckBodyName(const std::string& name);
 
-// An unused name in `layout`: the model's, numbered from 2 on if it is taken.
+// Returns an unused name in `layout`: that of the model, numbered from 2 if it is taken.
 std::string FreeName(const world::Layout& layout, const std::string& model);
 
-// Names the robots without a name after their models. Fails if a name is invalid, or taken by a
-// body of `layout` or by another of the robots.
+// Gives robots without a name that of their model. Fails if a name is invalid, or taken by a body
+// of `layout` or by another of the robots.
 base::Status NameRobots(const world::Layout& layout, std::vector<RobotSpecification>& robots);
 
 }  // namespace gsv::simulation

@@ -35,7 +35,7 @@ TEST(BodyNames, HaveAtMost128CharactersAndNoSlash) {
   EXPECT_FALSE(CheckBodyName("a/b"));
 }
 
-TEST(BodyNames, AFreeNameIsTheModelsOrTheFirstFreeNumber) {
+TEST(BodyNames, FreeNameIsTheModelsNameOrItsFirstFreeNumber) {
   EXPECT_EQ(FreeName(*LayoutWith({}), "box"), "box");
   EXPECT_EQ(FreeName(*LayoutWith({"box"}), "box"), "box_2");
   EXPECT_EQ(FreeName(*LayoutWith({"box", "box_2", "box_4"}), "box"), "box_3");
@@ -51,7 +51,7 @@ TEST(BodyNames, RobotsWithoutANameGetAUniqueOne) {
   EXPECT_THAT(names, testing::ElementsAre("disc_3", "disc_2", "disc_4", "cart"));
 }
 
-TEST(BodyNames, ANameThatIsTakenIsRefused) {
+TEST(BodyNames, DuplicateNameIsRejected) {
   std::vector<RobotSpecification> as_a_body{Named("box", "disc")};
   EXPECT_FALSE(NameRobots(*LayoutWith({"box"}), as_a_body));
   std::vector<RobotSpecification> twice{Named("robot", "disc"), Named("robot", "disc")};

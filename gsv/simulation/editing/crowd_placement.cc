@@ -15,9 +15,9 @@ namespace {
 
 using geometry::Vector2;
 
-constexpr double kGap = 0.05;      // m between two pedestrians
-constexpr double kCell = 2;        // m: larger than two pedestrians of the largest radius
-constexpr double kOverlap = 1e-3;  // m of overlap that is ignored
+constexpr double kGap = 0.05;  // minimum gap between two pedestrians, m
+constexpr double kCell = 2;  // side of a cell, m; larger than two pedestrians of the largest radius
+constexpr double kOverlap = 1e-3;  // overlap that is tolerated, m
 constexpr std::uint32_t kAttempts = 400;
 constexpr int kRounds = 40;
 
@@ -33,7 +33,8 @@ class CrowdPlacement {
       do {
         body.name = group->name + "_" + std::to_string(++numbers_[group->name]);
       } while (layout_.Find(body.name) >= 0);
-      // A sensor's stream is named after its robot and itself: no sensor uses this one.
+      // A sensor's random stream is named after its robot and the sensor, so no sensor uses this
+      // one.
       const std::uint64_t stream = base::StableId("pedestrian " + body.name);
       body.model = looks[stream % looks.size()];
       body.kind = world::BodyKind::kPedestrian;
@@ -105,7 +106,7 @@ class CrowdPlacement {
     return false;
   }
 
-  // Members that overlap a body, and therefore lose their places.
+  // Finds the members that overlap a body, and takes their places from them.
   std::vector<std::size_t> TakeOverlapping(dynamics::Engine& engine) {
     const auto layout = MakeLayout();
     const world::State state = world::InitialState(*layout);
@@ -133,10 +134,10 @@ class CrowdPlacement {
 
   const world::Layout& layout_;
   const std::uint64_t seed_;
-  std::map<std::string, int> numbers_;  // numbers in use, by group name
+  std::map<std::string, int> numbers_;  // numbers that are in use, by the name of the group
   std::vector<world::Body> members_;
-  std::vector<std::uint32_t> attempts_;             // by index in members_
-  std::map<Cell, std::vector<std::size_t>> taken_;  // members with a place; never iterated
+  std::vector<std::uint32_t> attempts_;             // by the index in members_
+  std::map<Cell, std::vector<std::size_t>> taken_;  // members that have a place; never iterated
 };
 
 }  // namespace

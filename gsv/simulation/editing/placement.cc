@@ -8,23 +8,24 @@
 namespace gsv::simulation {
 namespace {
 
-constexpr double kPlacingTolerance = 1e-3;  // m
+constexpr double kPlacingTolerance = 1e-3;  // in m
 
-// The body that `body` overlaps, or -1.
+// Returns a body that `body` overlaps, or -1.
 int FindOverlap(dynamics::Engine& engine, const world::Layout& layout, const world::State& state,
                 int body) {
   int found = -1;
   for (const world::Contact& overlap : engine.OverlapsOf(state, body, kPlacingTolerance)) {
     found = overlap.first == body ? overlap.second : overlap.first;
-    // A robot is the more difficult case, so it is the first in the error.
+    // The error names a robot first, because robots are harder to move out of the way.
     if (layout.bodies[static_cast<std::size_t>(found)].is_robot()) return found;
   }
   return found;
 }
 
-// Moves the body to the nearest free place, at most by its own radius. False if there is none.
+// Moves the body to the nearest free place, at most by its own radius. Returns false if there is
+// none.
 bool PushOut(dynamics::Engine& engine, const world::Layout& layout, int body, world::State& state) {
-  constexpr double kStride = 0.01;  // m
+  constexpr double kStride = 0.01;  // in m
   constexpr int kDirections = 16;
   const world::Body& robot = layout.bodies[static_cast<std::size_t>(body)];
   const double farthest = model::FootprintRadius(*robot.model);
@@ -38,7 +39,7 @@ bool PushOut(dynamics::Engine& engine, const world::Layout& layout, int body, wo
   for (double distance = kStride; distance <= farthest; distance += kStride) {
     for (int i = 0; i < kDirections; ++i) {
       const double direction = 2 * std::numbers::pi * i / kDirections;
-      // The second place leaves it space to turn away from the wall.
+      // The place must also be free one step further, so that the body can turn away from the wall.
       if (is_free_at(distance, direction) && is_free_at(distance + 2 * kStride, direction)) {
         return true;
       }
@@ -47,8 +48,8 @@ bool PushOut(dynamics::Engine& engine, const world::Layout& layout, int body, wo
   return false;
 }
 
-// By body: whether it overlaps no other body. Most bodies of a crowd do not, and PushOut() moves a
-// body only to a free place.
+// For each body, whether it overlaps no other body. Most bodies of a crowd overlap none, and
+// PushOut() moves a body only to a free place.
 std::vector<bool> StandFree(dynamics::Engine& engine, const world::Layout& layout,
                             const world::State& state) {
   std::vector<bool> stand_free(layout.bodies.size(), true);

@@ -13,7 +13,7 @@ namespace gsv::simulation {
 
 class RobotModels {
  public:
-  // Calls model::AsRobot(). An avatar without a drive takes any velocity.
+  // Calls model::AsRobot(). An avatar without a drive accepts any velocity.
   base::Result<std::shared_ptr<const model::Model>> Find(
       const std::shared_ptr<const model::Model>& model, const std::string& drive, bool is_avatar);
 
@@ -21,7 +21,8 @@ class RobotModels {
   struct Entry {
     std::shared_ptr<const model::Model> model, robot;
   };
-  // By the address of the model, which the entry keeps alive, and the choice: looked up only.
+  // By choice and by the address of the model, which the entry keeps alive. The map is never
+  // iterated.
   std::map<std::pair<const model::Model*, std::string>, Entry> robots_;
 };
 

@@ -13,7 +13,7 @@
 namespace gsv::simulation {
 namespace {
 
-// The number of removed objects that can be restored.
+// The maximum number of removed objects that can be restored.
 constexpr std::size_t kMaxRemoved = 1000;
 
 const model::PlacedModel* FindInWorld(const world::Layout& layout, const std::string& name) {
@@ -98,8 +98,8 @@ base::Status WorldEditor::ChangeWorld(std::vector<world::Body> bodies,
     return status;
   }
   MoveDevices(*layout, state.time, state);
-  // A robot starts at the free place where it was added, also after a reset. A robot that was moved
-  // after the first step starts where it did before.
+  // A robot starts at the free place where it was added, also after a reset. If it was moved after
+  // the first step, it still starts there.
   std::vector<world::Body> settled = layout->bodies;
   for (const std::string& name : placed) {
     world::Body& body = settled[static_cast<std::size_t>(layout->Find(name))];

@@ -23,9 +23,9 @@ class WorldEditor {
   WorldEditor(SimulatedWorld& world, std::shared_ptr<SharedState> shared, EventLog& events)
       : world_(world), shared_(std::move(shared)), events_(events) {}
 
-  // Names and places the robots: all, or none.
+  // Names and places the robots: either all of them, or none.
   base::Status AddRobots(std::vector<RobotSpecification>& robots) GSV_REQUIRES(world_mutex);
-  // Returns the object's name.
+  // Adds an object and returns its name.
   base::Result<std::string> AddObject(const ObjectSpecification& object) GSV_REQUIRES(world_mutex);
   base::Status RemoveObject(const std::string& name) GSV_REQUIRES(world_mutex);
   // Removes bodies of any kind; unknown names are ignored.
@@ -36,18 +36,18 @@ class WorldEditor {
   // Places a body of any kind, by its index.
   base::Status PlaceAny(int body, const geometry::Pose& world_from_body, bool on_ground)
       GSV_REQUIRES(world_mutex);
-  // Sets the gravity; bodies are unchanged.
+  // Sets the gravity. The bodies do not change.
   base::Status SetGravity(const geometry::Vector3& gravity) GSV_REQUIRES(world_mutex);
   // Sets the initial poses of bodies for the next reset. Unknown names are ignored.
   base::Status SetInitialPoses(const std::map<std::string, geometry::Pose>& poses)
       GSV_REQUIRES(world_mutex);
 
  private:
-  // `pose` with the height at which the model stands on the surface below. `own`: the index of its
-  // own body, which is ignored; -1: none yet.
+  // Returns `pose` with the height at which the model stands on the surface below. `own` is the
+  // index of the model's own body, which is ignored, or -1 if it has none yet.
   geometry::Pose StandingPose(const model::Model& model, geometry::Pose pose, int own = -1) const
       GSV_REQUIRES(world_mutex);
-  // `placed`: names of the bodies that are new or moved, at their initial poses.
+  // `placed` names the bodies that are new or moved; they are at their initial poses.
   base::Status ChangeBodies(std::vector<world::Body> bodies, const std::vector<std::string>& placed)
       GSV_REQUIRES(world_mutex);
   base::Status ChangeWorld(std::vector<world::Body> bodies,
@@ -55,7 +55,7 @@ class WorldEditor {
                            const std::vector<std::string>& placed) GSV_REQUIRES(world_mutex);
   base::Status Resolve(const world::Layout& layout, const std::vector<std::string>& placed,
                        world::State& state) GSV_REQUIRES(world_mutex);
-  // The index of the body, or an error with the reason why it cannot be moved.
+  // Returns the index of the body, or an error with the reason why it cannot be moved.
   base::Result<int> FindMovable(const std::string& name) const GSV_REQUIRES(world_mutex);
   base::Result<world::Body> BodyOf(const ObjectSpecification& object) const
       GSV_REQUIRES(world_mutex);

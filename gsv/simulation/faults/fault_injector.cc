@@ -94,7 +94,8 @@ base::Status FaultInjector::Apply(const Fault& fault) {
     agent->LoseMotor();
   } else {
     const world::Body& body = world_.layout()->bodies[static_cast<std::size_t>(agent->body())];
-    // A robot of another model may have got the name after the faults were checked.
+    // The faults were checked at the start, but the name may now belong to a robot of another
+    // model.
     const int joint = model::FindJoint(body.model->joints, fault.part);
     if (joint < 0 || !body.is_rigid()) {
       return RefuseFault(base::ErrorCode::kNotFound, fault, "the joint is gone: " + fault.part);
@@ -121,7 +122,7 @@ base::Status FaultInjector::MoveBody(const Fault& fault) {
     return RefuseFault(base::ErrorCode::kNotFound, fault, "it is gone: " + fault.body);
   }
   const world::Body before = world_.layout()->bodies[static_cast<std::size_t>(index)];
-  // A door that is part of the world may be moved as well.
+  // Faults may also move a part of the world, such as a door.
   const bool on_ground = !fault.place.z;
   if (auto ok = editor_.PlaceAny(index, fault.place.pose(), on_ground); !ok) {
     return RefuseFault(ok.error().code, fault, ok.error().Sentence());

@@ -32,10 +32,10 @@ class FaultInjector {
   FaultSchedule& schedule() GSV_REQUIRES(simulation_mutex) { return schedule_; }
   const FaultSchedule& schedule() const GSV_REQUIRES(simulation_mutex) { return schedule_; }
 
-  // Applies a fault, and emits an event, also if the fault cannot be applied.
+  // Applies a fault. Emits an event even if the fault cannot be applied.
   base::Status Inject(const scenario::Fault& fault) GSV_REQUIRES(world_mutex)
       GSV_EXCLUDES(simulation_mutex);
-  // Returns static bodies to the poses before the faults, for the next start.
+  // Returns static bodies to their poses before the faults, for the next start.
   base::Status UndoMoves() GSV_REQUIRES(world_mutex);
 
  private:
@@ -52,7 +52,7 @@ class FaultInjector {
   AgentPopulation& agents_;
   SimulatedWorld& world_;
   WorldEditor& editor_;
-  // The poses of static bodies before faults moved them.
+  // The poses that static bodies had before faults moved them.
   std::map<std::string, geometry::Pose> moved_from_ GSV_GUARDED_BY(world_mutex);
 };
 

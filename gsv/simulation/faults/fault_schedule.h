@@ -1,5 +1,5 @@
 // The order of faults. A fault is applied between two steps, at the first instant at or after its
-// time, before any agent is woken or reads, so that its moment is deterministic.
+// time, before any agent is woken or reads. So its moment is deterministic.
 #pragma once
 
 #include <algorithm>
@@ -14,19 +14,19 @@ namespace gsv::simulation {
 
 class FaultSchedule {
  public:
-  // Faults are applied in the order of their times; those of one time in the given order.
+  // Faults are applied in the order of their times. Faults with equal times keep the given order.
   explicit FaultSchedule(std::vector<scenario::Fault> faults) : faults_(std::move(faults)) {
     std::stable_sort(faults_.begin(), faults_.end(),
                      [](const auto& a, const auto& b) { return a.at < b.at; });
   }
 
   const std::vector<scenario::Fault>& all() const { return faults_; }
-  // The number of applied faults.
+  // The number of faults that have been applied.
   std::size_t done() const { return done_; }
   bool IsDue(base::SimTime now) const {
     return done_ < faults_.size() && base::FromSeconds(faults_[done_].at) <= now;
   }
-  // Takes the next fault, which must be due.
+  // Returns the next fault, which must be due, and moves on to the one after it.
   const scenario::Fault& TakeDue() { return faults_[done_++]; }
   // Returns to the first fault.
   void Rewind() { done_ = 0; }

@@ -22,7 +22,7 @@ std::vector<std::string> TakeAllDue(FaultSchedule& schedule, base::SimTime now) 
   return bodies;
 }
 
-TEST(FaultSchedule, GivesFaultsByTimeAndThoseOfOneTimeInTheirOrder) {
+TEST(FaultSchedule, OrdersFaultsByTimeAndThenByPosition) {
   FaultSchedule schedule({At(2, "late"), At(1, "first"), At(1, "second"), At(0, "start")});
   EXPECT_THAT(TakeAllDue(schedule, 0s), testing::ElementsAre("start"));
   EXPECT_THAT(TakeAllDue(schedule, 2s), testing::ElementsAre("first", "second", "late"));
@@ -30,14 +30,14 @@ TEST(FaultSchedule, GivesFaultsByTimeAndThoseOfOneTimeInTheirOrder) {
   EXPECT_FALSE(schedule.IsDue(1h));
 }
 
-TEST(FaultSchedule, AFaultIsDueAtItsTimeAndNotBefore) {
+TEST(FaultSchedule, FaultIsDueAtItsTime) {
   FaultSchedule schedule({At(0.5, "robot")});
   EXPECT_FALSE(schedule.IsDue(499ms));
   EXPECT_TRUE(schedule.IsDue(500ms));
   EXPECT_TRUE(schedule.IsDue(501ms));
 }
 
-TEST(FaultSchedule, GivesTheSameFaultsAgainAfterARewind) {
+TEST(FaultSchedule, RewindRestartsTheFaults) {
   FaultSchedule schedule({At(2, "b"), At(1, "a")});
   const auto once = TakeAllDue(schedule, 3s);
   schedule.Rewind();

@@ -1,4 +1,4 @@
-// The events of a simulation, and the observers that are notified.
+// The events of a simulation, and the observers that are notified of them.
 //
 // Threads  any; it has its own lock, and takes no other lock while it holds it.
 #pragma once
@@ -23,10 +23,11 @@ class EventLog {
   explicit EventLog(const SnapshotHistory& history, std::size_t capacity = 10'000)
       : history_(history), capacity_(capacity) {}
 
-  // Appends an event and passes it to every observer, under the log's lock.
+  // Appends an event and passes it to every observer, with the log's lock held.
   void Emit(std::string kind, std::string robot = {}, std::string detail = {},
             std::shared_ptr<const Edit> edit = nullptr);
-  // The kept events from number `first` on. The first event has the number 0.
+  // Returns the kept events from number `first` on. The first event of a simulation has the number
+  // 0.
   std::vector<Event> Since(std::uint64_t first) const;
   // The number of events so far, including dropped ones.
   std::uint64_t count() const;

@@ -79,9 +79,9 @@ TEST(EventLog, NotifiesObserversUntilTheyAreRemoved) {
 }
 
 // Reads the log from within a callback, as observers may do.
-class Asker final : public Observer {
+class LogReader final : public Observer {
  public:
-  explicit Asker(const EventLog& log) : log_(log) {}
+  explicit LogReader(const EventLog& log) : log_(log) {}
   void OnSnapshot(const std::shared_ptr<const world::Snapshot>&) override { seen = log_.count(); }
   void OnEvent(const Event&) override {}
 
@@ -94,7 +94,7 @@ class Asker final : public Observer {
 TEST(EventLog, HoldsNoLockWhileObserversGetASnapshot) {
   const SnapshotHistory history(SnapshotAt(0));
   EventLog log(history);
-  const auto asker = std::make_shared<Asker>(log);
+  const auto asker = std::make_shared<LogReader>(log);
   log.AddObserver(asker);
   log.Emit("started");
   log.Publish(SnapshotAt(1));

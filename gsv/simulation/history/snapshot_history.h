@@ -1,9 +1,9 @@
-// The snapshots for readings: the latest, and for each cadence in use the one at the newest
-// sampling instant whose readings are available.
+// The snapshots that sensors read. It keeps the latest one. For each cadence in use it also keeps
+// the newest snapshot at a sampling instant whose readings are available.
 //
-// A sensor with a period P samples at 0, P, 2P, …. Sample k is taken at the first step at or after
-// kP. It is available from the first step that is the latency later. Before the first sample is
-// available, readings are those of the start.
+// A sensor with the period P samples at 0, P, 2P, …. Sample k is taken at the first step at or
+// after kP. It becomes available at the first step at which the latency has passed. Before the
+// first sample is available, a sensor reads the state at the start.
 //
 // Threads  any; Publish() from the stepping thread.
 #pragma once
@@ -21,8 +21,8 @@
 namespace gsv::simulation {
 
 struct Cadence {
-  base::SimTime period{0};   // 0: a sample at every step, and no latency
-  base::SimTime latency{0};  // from the sampling instant until the sample is available
+  base::SimTime period{0};   // 0 stands for a sample at every step, without a latency
+  base::SimTime latency{0};  // the time from the sampling instant until the sample is available
   // NOLINTNEXTLINE(modernize-use-nullptr)
   friend auto operator<=>(const Cadence&, const Cadence&) = default;
 };
@@ -31,11 +31,11 @@ class SnapshotHistory {
  public:
   using SnapshotPtr = std::shared_ptr<const world::Snapshot>;
 
-  // The results of At() at one instant, for many readers without a lock.
+  // The results of At() at one instant. Many readers can use a frame without a lock.
   class Frame {
    public:
     const SnapshotPtr& latest() const { return latest_; }
-    // The latest snapshot if the cadence was not in use when the frame was made.
+    // Returns the latest snapshot if the cadence was not in use when the frame was made.
     const SnapshotPtr& At(const Cadence& cadence) const {
       for (const auto& [known, snapshot] : at_instant_) {
         if (known == cadence) return snapshot;
@@ -52,23 +52,24 @@ class SnapshotHistory {
   explicit SnapshotHistory(SnapshotPtr initial) : latest_(std::move(initial)) {}
 
   SnapshotPtr latest() const;
-  // The snapshot that a sensor of this cadence reads. A new cadence starts with the latest
-  // snapshot.
+  // Returns the snapshot that a sensor with this cadence reads. A new cadence starts with the
+  // latest snapshot.
   SnapshotPtr At(const Cadence& cadence);
-  // Puts a cadence in use. Sensors call it when they are mounted, so that observers do not change
+  // Registers a cadence. Sensors call this when they are mounted, so that observers do not change
   // the result.
   void Use(const Cadence& cadence) { (void)At(cadence); }
   void MakeFrame(Frame& frame) const;
 
   void Publish(SnapshotPtr snapshot);
-  // Restarts the history after a change between two steps, such as an added robot: older snapshots
-  // are dropped.
+  // Restarts the history after a change between two steps, such as an added robot. It drops older
+  // snapshots.
   void Restart(SnapshotPtr snapshot);
 
  private:
   struct Kept {
     SnapshotPtr arrived;
-    std::deque<SnapshotPtr> coming;  // at most as many as periods in the latency
+    // snapshots that are not available yet; at most as many as the latency has periods
+    std::deque<SnapshotPtr> coming;
   };
 
   mutable base::Mutex mutex_;

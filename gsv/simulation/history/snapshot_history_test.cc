@@ -21,7 +21,8 @@ TEST(SnapshotHistory, ASensorWithoutAPeriodReadsTheLatest) {
 }
 
 TEST(SnapshotHistory, AnInstantIsTakenAtTheFirstStepAtOrAfterIt) {
-  // Instants at 0, 25, 50, 75, 100 ms in steps of 10 ms are taken at 0, 30, 50, 80, 100 ms.
+  // With steps of 10 ms, the samples of the instants 0, 25, 50, 75, 100 ms are taken at 0, 30, 50,
+  // 80, 100 ms.
   SnapshotHistory history(At(0, 10ms));
   EXPECT_EQ(history.At({25ms})->state.step, 0);
   const int expected[] = {0, 0, 0, 3, 3, 5, 5, 5, 8, 8, 10};
@@ -31,8 +32,9 @@ TEST(SnapshotHistory, AnInstantIsTakenAtTheFirstStepAtOrAfterIt) {
   }
 }
 
-TEST(SnapshotHistory, ASensorWithALatencyIsReadThatMuchLater) {
-  // Instants at 0, 20, 40, … ms can be read from 35, 55, 75, … ms on: at 40, 60, 80, … ms.
+TEST(SnapshotHistory, SensorWithALatencyReadsOlderSamples) {
+  // The samples of 0, 20, 40, … ms are available from 35, 55, 75, … ms on, so at the steps 40, 60,
+  // 80, … ms.
   SnapshotHistory history(At(0, 10ms));
   const Cadence late{20ms, 35ms};
   history.Use({20ms});
@@ -50,7 +52,7 @@ TEST(SnapshotHistory, ASensorWithALatencyIsReadThatMuchLater) {
   EXPECT_EQ(history.At(late)->state.step, 10);
 }
 
-TEST(SnapshotHistory, AfterARestartNothingOlderIsReturned) {
+TEST(SnapshotHistory, RestartRemovesOlderSnapshots) {
   SnapshotHistory history(At(0, 10ms));
   history.At({1s});
   history.Publish(At(1, 10ms));

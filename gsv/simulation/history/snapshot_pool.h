@@ -1,4 +1,4 @@
-// A pool of snapshots without readers, whose memory later steps reuse.
+// A pool of snapshots that have no readers. Later steps reuse their memory.
 //
 // Threads  any. Snapshots may outlive the pool.
 #pragma once
@@ -13,7 +13,8 @@ namespace gsv::simulation {
 
 class SnapshotPool {
  public:
-  // A snapshot with old content or none. It returns to the pool when its last reader releases it.
+  // Returns a snapshot that may have old content. It goes back to the pool when its last reader
+  // releases it.
   std::shared_ptr<world::Snapshot> Take() {
     std::unique_ptr<world::Snapshot> snapshot = shelf_->Take();
     return {snapshot.release(), [shelf = shelf_](world::Snapshot* done) {

@@ -16,7 +16,7 @@ TEST(Pacer, StepsAreDueAtMultiplesOfTheScaledStep) {
   EXPECT_EQ(pacer.due(), start + milliseconds(5));
 }
 
-TEST(Pacer, AStepThatStartsUpToOneStepLateKeepsTheSchedule) {
+TEST(Pacer, DelayOfUpToOneStepKeepsTheSchedule) {
   Pacer pacer(milliseconds(10), 1.0);
   const WallTime start = WallNow();
   pacer.Restart(start);
@@ -25,7 +25,7 @@ TEST(Pacer, AStepThatStartsUpToOneStepLateKeepsTheSchedule) {
   EXPECT_EQ(pacer.late_steps(), 0u);
 }
 
-TEST(Pacer, ALaterStepIsCountedAndShiftsTheScheduleWithoutABurst) {
+TEST(Pacer, LongerDelayIsCountedAndShiftsTheSchedule) {
   Pacer pacer(milliseconds(10), 1.0);
   const WallTime start = WallNow();
   pacer.Restart(start);
@@ -35,8 +35,8 @@ TEST(Pacer, ALaterStepIsCountedAndShiftsTheScheduleWithoutABurst) {
   EXPECT_EQ(pacer.late_steps(), 1u);
 }
 
-TEST(Pacer, AnotherFactorHoldsFromTheStepThatIsDueNext) {
-  Pacer pacer(milliseconds(10), 0.001);  // a step every ten seconds
+TEST(Pacer, NewFactorAppliesFromTheNextStep) {
+  Pacer pacer(milliseconds(10), 0.001);  // a step is due every ten seconds
   const WallTime start = WallNow();
   pacer.Restart(start);
   EXPECT_FALSE(pacer.StepStarts(start));

@@ -13,7 +13,7 @@
 
 namespace gsv::simulation {
 
-// Refuses a target real-time factor that is not in (0, 1e6]. The error names `simulation`.
+// Rejects a target real-time factor that is not in (0, 1e6]. The error names `simulation`.
 base::Status CheckRealTimeFactor(double factor, const std::string& simulation);
 
 class RunPace {
@@ -27,7 +27,7 @@ class RunPace {
   double target_real_time_factor() const { return factor_; }
   void SetRealTimeFactor(double factor);
 
-  // For the stepping thread: after a start or resume, the next step is due at once.
+  // Called by the stepping thread. After a start or a resume, the next step is due at once.
   void RestartIfResumed();
   WallTime due() const { return pacer_.due(); }
   void StepStarts(WallTime start) { (void)pacer_.StepStarts(start); }
@@ -35,7 +35,7 @@ class RunPace {
     statistics_.Stepped(end, now, end - start);
   }
 
-  // Sets the members of `status` that are about wall-clock time.
+  // Sets the members of `status` that concern wall-clock time.
   void FillStatus(SimulationStatus& status) const;
 
  private:

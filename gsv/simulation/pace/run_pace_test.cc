@@ -15,7 +15,7 @@ TEST(RunPace, TheFirstStepAfterAResumeIsDueAtOnce) {
   EXPECT_LE(start, WallNow());
   pace.StepStarts(start);
   EXPECT_EQ(pace.due(), start + 1h);
-  pace.RestartIfResumed();  // it continues: nothing changes
+  pace.RestartIfResumed();  // the run was not paused, so nothing changes
   EXPECT_EQ(pace.due(), start + 1h);
   pace.SetRunning(false, 1h);
   pace.SetRunning(true, 1h);
@@ -28,7 +28,7 @@ TEST(RunPace, AResetForgetsTheStatisticsAndKeepsTheFactor) {
   pace.SetRealTimeFactor(4);
   pace.SetRunning(true, 0s);
   pace.RestartIfResumed();
-  pace.StepStarts(pace.due() + 1h);  // late
+  pace.StepStarts(pace.due() + 1h);  // the step is late
   pace.StepEnds(pace.due(), pace.due() + 1ms, 10ms);
   pace.SetRunning(false, 10ms);
   SimulationStatus status;

@@ -12,12 +12,14 @@ class RunStatistics {
  public:
   void Started(WallTime wall, base::SimTime time);
   void Stopped(WallTime wall, base::SimTime time);
-  // Called after each step, which took `duration`; keeps about ten samples a second.
+  // Records a step, which took `duration`. Call it after each step. It keeps about ten samples per
+  // second.
   void Stepped(WallTime wall, base::SimTime time, WallDuration duration);
 
-  // The actual real-time factor: over the last second while running, else over all runs.
+  // The actual real-time factor: over the last second while the simulation runs, else over its
+  // whole running time.
   double real_time_factor() const;
-  // Wall-clock time spent running, up to the last call.
+  // The wall-clock time spent running, up to the last call.
   WallDuration wall_time() const;
   WallDuration mean_step_time() const;
 

@@ -1,8 +1,8 @@
-// The clocks of one agent, which decide whether the simulation waits for it. Data only, without
-// threads or time.
+// The clocks of one agent, which determine whether the simulation waits for the agent. The class
+// holds data only, without threads or time.
 //
 // An agent runs from its start until all its clocks wait for later instants. It has finished when
-// all are closed.
+// all its clocks are closed.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@ namespace gsv::simulation {
 
 class AgentClocks {
  public:
-  // Opens a clock, which runs.
+  // Opens a clock. The clock runs.
   ClockId Open();
   bool IsOpen(ClockId clock) const { return clocks_.contains(clock); }
   void Close(ClockId clock) { clocks_.erase(clock); }
 
-  // Makes the clock wait for the first step time at or after `until`. True if that has come
-  // already; the clock then continues. Repeating a wait that has ended or is pending changes
+  // Makes the clock wait for the first step time at or after `until`. Returns true if that time has
+  // come already; the clock then continues. Repeating a wait that has ended or is pending changes
   // nothing. A wait is pending until Wake(), so that no agent continues in a simulation that is
   // paused at that instant.
   bool WaitUntil(ClockId clock, base::SimTime until, base::SimTime now);
@@ -30,16 +30,16 @@ class AgentClocks {
   bool IsWaiting(ClockId clock) const;
   bool IsWaitingUntil(ClockId clock, base::SimTime until) const;
 
-  // Ends the waits for instants up to `now`. True if a waiting clock runs again.
+  // Ends the waits for instants up to `now`. Returns true if a clock that was waiting runs again.
   bool Wake(base::SimTime now);
 
-  int count() const { return static_cast<int>(clocks_.size()); }  // open ones
+  int count() const { return static_cast<int>(clocks_.size()); }  // The number of open clocks.
   bool HasOpened() const { return next_id_ > 1; }
   bool IsFinished() const { return HasOpened() && clocks_.empty(); }
-  // Whether a clock runs, or none has been opened yet.
+  // Whether a clock runs, or no clock has been opened yet.
   bool IsRunning() const;
 
-  // The cycle number of the last exchange of a clock that commanded; 0: none.
+  // The cycle number of the clock's last exchange that sent a command; 0 if there was none.
   std::uint64_t last_cycle(ClockId clock) const;
   void set_last_cycle(ClockId clock, std::uint64_t cycle);
 
@@ -51,7 +51,7 @@ class AgentClocks {
     base::SimTime until{0};
     std::uint64_t last_cycle = 0;
   };
-  std::map<ClockId, Clock> clocks_;  // open ones
+  std::map<ClockId, Clock> clocks_;  // open clocks only
   ClockId next_id_ = 1;
 };
 

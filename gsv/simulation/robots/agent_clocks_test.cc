@@ -50,7 +50,7 @@ TEST(AgentClocks, ARepeatedWaitIsTheSameWait) {
   EXPECT_EQ(HashOf(clocks), before);
 }
 
-TEST(AgentClocks, ARepeatedWaitForAnInstantThatIsHereIsOnUntilItIsWoken) {
+TEST(AgentClocks, RepeatedWaitForThePresentInstantIsPendingUntilWake) {
   AgentClocks clocks;
   const ClockId clock = clocks.Open();
   clocks.WaitUntil(clock, 50ms, 0ms);
@@ -84,7 +84,7 @@ TEST(AgentClocks, HaveFinishedWhenAllAreClosed) {
   EXPECT_FALSE(clocks.IsRunning());
 }
 
-TEST(AgentClocks, TheHashSeesWaitsAndCycles) {
+TEST(AgentClocks, HashDependsOnWaitsAndCycles) {
   AgentClocks clocks;
   const ClockId clock = clocks.Open();
   const std::uint64_t running = HashOf(clocks);

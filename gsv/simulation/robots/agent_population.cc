@@ -58,7 +58,7 @@ std::vector<AgentPopulation::AgentPtr> AgentPopulation::WithBehaviour() const {
 void AgentPopulation::CallAll(const char* what, base::Status (BehaviourPort::*call)()) {
   for (const AgentPtr& agent : WithBehaviour()) {
     caller_.Post(agent->robot(), [this, agent, behaviour = agent->behaviour(), what, call] {
-      // A behaviour that does not handle the pause may continue: the clock stops anyway.
+      // A behaviour may ignore the pause, because the clock stops anyway.
       if (const auto status = (behaviour.get()->*call)(); !status) {
         events_.Emit("behaviour_silent", agent->robot(),
                      std::string(what) + ": " + status.error().Sentence());
@@ -71,7 +71,8 @@ void AgentPopulation::End(std::string reason, bool is_stuck) {
   shared_->end_reason = std::move(reason);
   for (const auto& [name, agent] : agents_) agent->wait_event()->Open();
   for (const AgentPtr& agent : WithBehaviour()) {
-    if (is_stuck && agent->in_turn_since()) continue;  // the call would not return either
+    // a call to a behaviour that is stuck in its turn would not return either
+    if (is_stuck && agent->in_turn_since()) continue;
     caller_.Post(agent->robot(), [behaviour = agent->behaviour()] { (void)behaviour->Stop(); });
   }
 }

@@ -20,14 +20,14 @@ class AgentPopulation {
  public:
   using AgentPtr = std::shared_ptr<RobotAgent>;
 
-  // The caller must be closed before the population and the log are destroyed.
+  // `caller` must be closed before the population and the log are destroyed.
   AgentPopulation(std::shared_ptr<SharedState> shared, EventLog& events, BehaviourCaller& caller)
       : shared_(std::move(shared)), events_(events), caller_(caller) {}
 
   // `behaviour` may be null.
   void Add(const std::string& name, std::shared_ptr<const model::Model> model, bool is_avatar,
            std::shared_ptr<BehaviourPort> behaviour) GSV_REQUIRES(simulation_mutex);
-  // Ends the calls of the agent of that name; stops and destroys its behaviour.
+  // Ends the calls of the agent with that name, then stops and destroys its behaviour.
   void Remove(const std::string& name) GSV_REQUIRES(simulation_mutex);
   void SetBehaviour(RobotAgent& agent, std::shared_ptr<BehaviourPort> behaviour)
       GSV_REQUIRES(simulation_mutex);
@@ -38,21 +38,22 @@ class AgentPopulation {
     return agents_;
   }
   AgentPtr Find(const std::string& name) const
-      GSV_REQUIRES(simulation_mutex);  // null: there is none
+      GSV_REQUIRES(simulation_mutex);  // Returns null if there is no agent with that name.
   std::vector<AgentPtr> WithBehaviour() const GSV_REQUIRES(simulation_mutex);
-  // Whether there has ever been a behaviour in process.
+  // Whether there has ever been a behaviour in this process.
   bool has_hosted() const { return has_hosted_; }
 
-  // Posts a call to every behaviour. A failure emits an event "behaviour_silent" that names `what`.
+  // Posts a call to every behaviour. If a call fails, an event "behaviour_silent" names `what`.
   void CallAll(const char* what, base::Status (BehaviourPort::*call)())
       GSV_REQUIRES(simulation_mutex);
-  // Ends all calls of agents with `reason` and stops the behaviours; with `is_stuck` except those
-  // in their turn.
+  // Ends all calls of agents with `reason` and stops the behaviours. If `is_stuck` is true,
+  // behaviours in their turn are not stopped.
   void End(std::string reason, bool is_stuck) GSV_REQUIRES(simulation_mutex);
   void DestroyBehaviours() GSV_REQUIRES(simulation_mutex);
-  // Resets all agents after the calls that End() posted; behaviours then wait for Init().
+  // Resets all agents after the calls that End() posted have returned. Behaviours then wait for
+  // Init().
   void Reset() GSV_REQUIRES(simulation_mutex);
-  // Checks asynchronously whether behaviours have died; deaths are reported later.
+  // Starts checks whether behaviours have died. Deaths are reported when the checks end.
   void CheckForDeaths() GSV_REQUIRES(simulation_mutex);
   // Marks an agent as dead if the call of its behaviour failed.
   void ReportIfFailed(RobotAgent& agent, const char* what, const base::Status& status)
@@ -60,8 +61,8 @@ class AgentPopulation {
 
   std::vector<RobotStatus> Statuses(const world::Snapshot& snapshot) const
       GSV_REQUIRES(simulation_mutex);
-  // The first robot that the simulation has waited for longer than 0.1 s, with the time; else
-  // empty.
+  // The first robot for which the simulation has waited longer than 0.1 s, with the time. Empty if
+  // there is none.
   std::string WaitingFor() const GSV_REQUIRES(simulation_mutex);
 
  private:
@@ -71,7 +72,7 @@ class AgentPopulation {
   EventLog& events_;
   BehaviourCaller& caller_;
   std::map<std::string, AgentPtr> agents_ GSV_GUARDED_BY(simulation_mutex);
-  // Robots whose behaviour has not answered IsDead() yet.
+  // Robots whose behaviour has not yet answered IsDead().
   std::set<std::string> liveness_checks_ GSV_GUARDED_BY(simulation_mutex);
   std::atomic<bool> has_hosted_{false};
 };

@@ -1,5 +1,5 @@
-// Calls behaviours on its own threads, so that other threads need not wait. Calls with one key run
-// one after the other, in the order of posting.
+// Calls behaviours on its own threads, so that other threads need not wait. Calls with equal keys
+// run one after the other, in the order in which they were posted.
 #pragma once
 
 #include <chrono>
@@ -24,7 +24,7 @@ class BehaviourCaller {
   void Post(std::string key, std::function<void()> call);
   // Waits for the posted calls. No call may be posted afterwards.
   void Close();
-  // Waits until every posted call has returned; false after `timeout` of wall-clock time.
+  // Waits until every posted call has returned. Returns false after `timeout` of wall-clock time.
   bool WaitUntilIdle(std::chrono::milliseconds timeout);
 
  private:
@@ -34,7 +34,7 @@ class BehaviourCaller {
   };
 
   void Work();
-  // The first task whose key is not in progress; end() if there is none.
+  // Returns the first task whose key is not in progress, or end() if there is none.
   std::deque<Task>::iterator FindRunnable() GSV_REQUIRES(mutex_);
 
   base::Mutex mutex_;

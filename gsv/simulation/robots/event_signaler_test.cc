@@ -18,10 +18,11 @@ TEST(WaitEvent, ReleasesOnlyEarlierWaiters) {
   EXPECT_FALSE(wait_event.WaitAfter(wait_event.signals(), WallNow()));
 }
 
-// The caller opens a few, the opener's thread opens many, and its destructor opens the rest.
-class GateOpenerOf : public testing::TestWithParam<int> {};
+// The caller signals a few events, the signaler's thread signals many, and the destructor signals
+// the rest.
+class EventSignalerTest : public testing::TestWithParam<int> {};
 
-TEST_P(GateOpenerOf, OpensEachGateOnce) {
+TEST_P(EventSignalerTest, SignalsEachEventOnce) {
   EventSignaler::Events all;
   for (int i = 0; i < GetParam(); ++i) all.push_back(std::make_shared<WaitEvent>());
   std::atomic<int> passed = 0;
@@ -40,7 +41,7 @@ TEST_P(GateOpenerOf, OpensEachGateOnce) {
   for (const auto& wait_event : all) EXPECT_EQ(wait_event->signals(), 1u);
 }
 
-INSTANTIATE_TEST_SUITE_P(FewAndMany, GateOpenerOf, testing::Values(1, 8, 9, 100));
+INSTANTIATE_TEST_SUITE_P(FewAndMany, EventSignalerTest, testing::Values(1, 8, 9, 100));
 
 }  // namespace
 }  // namespace gsv::simulation

@@ -1,8 +1,8 @@
 // A behaviour in this process. The simulation runs it in turns between two steps, on the threads of
 // its team. A turn lasts from a wake to the next wait.
 //
-// Threads      one turn of a behaviour at a time, not always on the same thread; turns of different
-//              behaviours at the same time.
+// Threads      a behaviour takes one turn at a time, not always on the same thread. Different
+//              behaviours take turns at the same time.
 // Determinism  a turn may depend on its readings and on the state of the behaviour.
 #pragma once
 
@@ -33,45 +33,46 @@ class Turn {
     sensing::RaySceneCache* rays = nullptr;
     std::uint64_t seed = 0;
 
-    // Prepares the ray scene on the team, if turns of the last instant cast rays.
+    // Prepares the ray scene on the team, if turns of the last instant have cast rays.
     void Prepare(base::ThreadTeam& team);
     sensing::Sampling MakeSampling() const;
 
     mutable std::atomic<bool> casts_rays{false};
-    std::shared_ptr<const sensing::RayScene> scene;  // kept alive during the turns
+    std::shared_ptr<const sensing::RayScene> scene;  // keeps the scene alive during the turns
   };
 
   Turn() = default;
-  // `sampling` is the sampling of the behaviour's robot at this instant.
+  // `sampling` is that of the behaviour's robot at this instant.
   Turn(const Instant& instant, const sensing::Sampling& sampling)
       : instant_(&instant), sampling_(&sampling) {}
 
   base::SimTime now() const { return instant_->now; }
 
-  // Reads a sensor at this instant. Slow sensors need Block().
+  // Reads a sensor at this instant. Slow sensors must be read in Block().
   base::Result<sensing::Reading> Read(MountedSensor& sensor) const;
-  // Announces that this many sensors which cast rays will be read.
+  // Declares that the turn will read this many sensors that cast rays.
   void ExpectRays(std::size_t sensors) const { sampling_->ExpectRays(sensors); }
 
-  // Commands the base from this step on; a later command replaces it.
+  // Commands the base from this step on. A later command replaces this one.
   void Command(const world::DriveCommand& command) { commands_.SetDrive({0, command}); }
-  // The same for a joint of the robot's model.
+  // Commands a joint of the robot's model from this step on.
   base::Status CommandJoint(int joint, const world::JointCommand& command);
-  JointReading ReadJoint(int joint) const;  // at this instant
-  // Sends by a radio to the robot `receiver`; empty: to all.
+  JointReading ReadJoint(int joint) const;  // Returns the state of a joint at this instant.
+  // Sends a message by a radio to the robot `receiver`, or to all robots if it is empty.
   base::Status Send(const MountedSensor& radio, const std::string& receiver, std::string content);
   // Commands an actuator from this instant on.
   base::Status CommandDevice(const MountedSensor& actuator, world::DeviceCommand command);
   // Counts an exchange on the behaviour's clock.
   void CountExchange() { ++exchanges_; }
 
-  // The next turn comes at the first step at or after `instant`, at once if it has come.
+  // Ends the turn. The next turn is at the first step at or after `instant`, or at once if that has
+  // come.
   void WaitUntil(base::SimTime instant) { end_ = Waiting{instant}; }
-  // Runs `work`, which may be slow (an image), on another thread. The next turn comes when it is
-  // done. In lockstep, simulated time stands still meanwhile.
+  // Ends the turn and runs `work` on another thread, for slow work such as an image. The next turn
+  // starts when `work` is done. In lockstep, simulated time stands still meanwhile.
   void Block(std::function<void()> work) { end_ = Blocked{std::move(work)}; }
   void Finish() { end_ = Finished{}; }
-  // Ends the run with an error, instead of Finish(); see Agent::GiveUp().
+  // Ends the run with an error, instead of Finish(). See Agent::GiveUp().
   void Fail(std::string reason) { end_ = Failed{std::move(reason)}; }
 
  private:
@@ -101,9 +102,9 @@ class LocalBehaviour : public BehaviourPort {
   bool IsDead() final { return false; }
   bool time_managed() const final { return true; }
 
-  // The clock of the turns, which Start() has opened.
+  // The clock of the turns. Start() has opened it.
   virtual ClockId clock() const = 0;
-  // Takes a turn, which must return: nothing can interrupt it. If it exceeds the deadline, the
+  // Takes a turn. It must return, because nothing can interrupt it. If it exceeds the deadline, the
   // simulation fails, and requests that need the world are refused until it returns.
   virtual void TakeTurn(Turn& turn) = 0;
 };

@@ -6,7 +6,7 @@
 namespace gsv::simulation {
 namespace {
 
-// Concurrent samples: each holds a snapshot of the whole world.
+// The maximum number of samples in progress at one time; each holds a snapshot of the whole world.
 constexpr double kMaxUnderWay = 100;
 
 // The parameter `latency` (s, 0) is common to all types.

@@ -1,4 +1,4 @@
-// A sensor on a robot: its design, which all robots of a model share, and the robot's newest
+// A sensor on a robot. It has a design, which all robots of a model share, and the robot's newest
 // reading.
 //
 // Threads  any. Sampling a sensor does not block other sensors.
@@ -18,34 +18,36 @@ namespace gsv::simulation {
 
 struct SensorDesign {
   model::SensorDescription description;
-  std::unique_ptr<const sensing::Sensor> sensor;  // null: the parameters are invalid, see `refusal`
+  // null if the parameters are invalid; `refusal` has the reason
+  std::unique_ptr<const sensing::Sensor> sensor;
   base::Error refusal;
   Cadence cadence;
 };
 
 using SensorDesignPtr = std::shared_ptr<const SensorDesign>;
 
-// `where` is the place in errors: "robot_3/front".
+// `where` is the place that errors name, such as "robot_3/front".
 base::Result<SensorDesignPtr> MakeSensorDesign(model::SensorDescription description,
                                                const sensing::SensorRegistry& types,
                                                const std::string& where);
 
-// The designs of the sensors of each model, made for its first robot.
+// The sensor designs of each model. They are made for the first robot of the model.
 class SensorDesigns {
  public:
   explicit SensorDesigns(std::shared_ptr<const sensing::SensorRegistry> types)
       : types_(std::move(types)) {}
 
-  using List = std::vector<SensorDesignPtr>;  // by name
+  using List = std::vector<SensorDesignPtr>;  // ordered by name
 
-  // A sensor of an unknown type or with invalid parameters is in the list with its error.
+  // Returns the designs of a model. For a sensor of an unknown type or with invalid parameters, the
+  // list has an entry with the error.
   std::shared_ptr<const List> Of(const std::shared_ptr<const model::Model>& model);
   const sensing::SensorRegistry& types() const { return *types_; }
 
  private:
   const std::shared_ptr<const sensing::SensorRegistry> types_;
   base::Mutex mutex_;
-  // For lookups only, never iterated.
+  // The map is only for look-ups and is never iterated.
   std::map<std::shared_ptr<const model::Model>, std::shared_ptr<const List>> known_
       GSV_GUARDED_BY(mutex_);
 };
@@ -59,24 +61,24 @@ class MountedSensor {
   bool casts_rays() const { return design_->sensor != nullptr && design_->sensor->CastsRays(); }
   bool takes_long() const { return design_->sensor != nullptr && design_->sensor->TakesLong(); }
 
-  // Null for a sensor that is not a device.
+  // Returns null for a sensor that is not a device.
   std::shared_ptr<const sensing::Device> device() const {
     const auto* const device = design_->sensor != nullptr ? design_->sensor->device() : nullptr;
     return device != nullptr ? std::shared_ptr<const sensing::Device>(design_, device) : nullptr;
   }
 
-  // The sample at `sampling`'s instant, taken now unless it was taken before.
+  // Returns the sample at the instant of `sampling`. It is taken now, unless it was taken before.
   base::Result<sensing::Reading> Read(const sensing::Sampling& sampling);
 
-  // Applies a fault: from now on the newest sample is that of `snapshot`; if that is null, reading
+  // Applies a fault. From now on the newest sample is that of `snapshot`. If that is null, reading
   // fails.
   void Fail(std::shared_ptr<const world::Snapshot> snapshot);
 
-  // The number of readings that the behaviour has received.
+  // Counts the readings that the behaviour receives.
   void CountReading() { readings_.fetch_add(1, std::memory_order_relaxed); }
   std::uint64_t readings() const { return readings_.load(std::memory_order_relaxed); }
 
-  // Returns to the state at the start.
+  // Returns to the initial state.
   void Forget();
 
  private:
@@ -86,7 +88,7 @@ class MountedSensor {
   std::atomic<std::uint64_t> readings_{0};
 
   base::Mutex mutex_;
-  std::int64_t sampled_step_ GSV_GUARDED_BY(mutex_) = -1;  // -1: never
+  std::int64_t sampled_step_ GSV_GUARDED_BY(mutex_) = -1;  // -1 if it was never sampled
   std::uint32_t sampled_layout_ GSV_GUARDED_BY(mutex_) = 0;
   sensing::Reading newest_ GSV_GUARDED_BY(mutex_);
   bool has_failed_ GSV_GUARDED_BY(mutex_) = false;

@@ -9,7 +9,7 @@ namespace gsv::simulation {
 namespace {
 
 constexpr int kMaxClocks = 64;
-// Maximum bytes of the reason that a behaviour gives for ending.
+// Maximum number of bytes of the reason that a behaviour gives for ending.
 constexpr std::size_t kLongestReason = 1000;
 
 base::Error NotRunning(const std::string& robot) {
@@ -90,7 +90,8 @@ base::Result<ClockId> RobotAgent::OpenClock() {
 base::Status RobotAgent::CloseClock(ClockId clock) {
   AgentCallLock lock(*shared_);
   if (auto ok = CheckClock(clock); !ok) return ok;
-  if (has_given_up_) return CheckAlive();  // its clocks keep that state
+  // the clocks of a behaviour that has given up keep their state
+  if (has_given_up_) return CheckAlive();
   clocks_.Close(clock);
   wait_event_.Open();
   UpdateRunningCount();
@@ -126,7 +127,7 @@ bool RobotAgent::BeginWait(ClockId clock, SimTime until) {
   return true;
 }
 
-// The analysis does not know that `lock` is the caller's lock of the mutex.
+// The analysis does not know that `lock` is the lock which the caller holds.
 base::Result<Wait> RobotAgent::WaitOn(AgentCallLock& lock, ClockId clock, SimTime until,
                                       std::chrono::milliseconds lease)
     GSV_NO_THREAD_SAFETY_ANALYSIS {
@@ -275,7 +276,7 @@ base::Status RobotAgent::CloseSensor(const std::string& name) {
   const auto sensor = rack_.Find(name);
   if (auto ok = rack_.Close(name); !ok) return ok;
   auto device = (*sensor)->device();
-  // An actuator of the model keeps its command.
+  // Closing an actuator of the model does not end its command.
   const bool ends = device != nullptr && (device->IsOnWhileOpen() || !rack_.Find(name));
   if (ends && CheckAlive()) {
     Commands().Add({DeviceAction::Kind::kSwitchOff, std::move(device)});
@@ -386,8 +387,8 @@ void RobotAgent::MakeReady() {
   shared_->ready.push_back(this);
 }
 
-// The index of the body changes only under the world's lock, which the stepping thread holds. The
-// behaviour changes only before the run has started.
+// The index of the body changes only with the world's lock held, and the stepping thread holds that
+// lock. The behaviour changes only before the run has started.
 void RobotAgent::TakeTurn(const Turn::Instant& instant,
                           sensing::Sampling& sampling) GSV_NO_THREAD_SAFETY_ANALYSIS {
   sampling.MoveTo(body_);

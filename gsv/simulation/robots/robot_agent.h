@@ -20,7 +20,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   RobotAgent(std::string robot, std::shared_ptr<const model::Model> model, bool is_avatar,
              std::shared_ptr<SharedState> shared);
 
-  // Agent.
+  // Implementation of Agent.
   const std::string& robot() const override { return robot_; }
   std::string model() const override { return model_->name; }
   double footprint_radius() const override { return model::FootprintRadius(*model_); }
@@ -53,38 +53,41 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
                     std::string content) override;
   base::Status CommandDevice(const std::string& actuator, world::DeviceCommand command) override;
 
-  // A reading for an observer.
+  // Returns a reading for an observer.
   base::Result<sensing::Reading> Watch(const std::string& sensor);
 
-  // Stepping. Sets its index in the current layout.
+  // For stepping: sets the robot's index in the current layout.
   void SetBody(int body) GSV_REQUIRES(simulation_mutex) { body_ = body; }
   int body() const GSV_REQUIRES(simulation_mutex) { return body_; }
   void SetBehaviour(std::shared_ptr<BehaviourPort> behaviour) GSV_REQUIRES(simulation_mutex);
   const std::shared_ptr<BehaviourPort>& behaviour() const GSV_REQUIRES(simulation_mutex) {
     return behaviour_;
   }
-  // Whether its behaviour is in this process: it takes turns, and no thread waits for it.
+  // Whether the behaviour is in this process. Then it takes turns, and no thread waits for it.
   bool is_hosted() const GSV_REQUIRES(simulation_mutex) {
     return behaviour_ != nullptr && behaviour_->local() != nullptr;
   }
   void MarkStarted() GSV_REQUIRES(simulation_mutex);
   bool is_started() const GSV_REQUIRES(simulation_mutex) { return started_; }
-  // Whether the simulation must not step, as it waits for this agent, which runs.
+  // Whether this agent still runs, so that the simulation waits for it and must not step.
   bool BlocksStep() const GSV_REQUIRES(simulation_mutex);
-  // Whether it blocks the step itself, and not only because others have their turn before it.
+  // Whether the agent blocks the step itself, and not only because other agents have their turn
+  // before it.
   bool IsAtWork() const GSV_REQUIRES(simulation_mutex);
   WallTime running_since() const GSV_REQUIRES(simulation_mutex) { return running_since_; }
   struct Woken {
-    bool has_passed = false;  // its wait event must be signalled, best without locks
-    bool has_died = false;    // a reported death has taken effect
+    // whether its wait event must be signalled, preferably with no lock held
+    bool has_passed = false;
+    bool has_died = false;  // whether a reported death has taken effect
   };
-  // Ends waits up to `now`.
+  // Ends waits for instants up to `now`.
   Woken Wake(SimTime now, WallTime wall_now) GSV_REQUIRES(simulation_mutex);
-  // The event of its waiting calls. After a signal they check whether their wait is over.
+  // The event for which its calls wait. After a signal, a call checks whether its wait is over.
   std::shared_ptr<WaitEvent> wait_event() { return {shared_from_this(), &wait_event_}; }
-  // Marks it as unresponsive at once, as it runs and does not wait.
+  // Marks the agent as unresponsive at once, because it runs and does not wait.
   void MarkUnresponsive(std::string detail) GSV_REQUIRES(simulation_mutex);
-  // Reports its death, which takes effect at its next wake, at once if it runs.
+  // Reports the behaviour's death. It takes effect when the agent wakes next, or at once if it
+  // runs.
   void ReportDeath(std::string detail) GSV_REQUIRES(simulation_mutex);
   bool is_alive() const GSV_REQUIRES(simulation_mutex) {
     return fate_ == Fate::kAlive && !death_reported_;
@@ -92,25 +95,27 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   bool is_watched() const GSV_REQUIRES(simulation_mutex) {
     return behaviour_ != nullptr && is_alive() && !is_removed_;
   }
-  // Returns and clears the commands for the next step, without those for failed motors and joints.
+  // Returns and clears the commands for the next step, without those for motors and joints that
+  // have failed.
   RobotCommands TakeCommands() GSV_REQUIRES(simulation_mutex);
   // Applies the initial commands of its devices.
   void StartDevices() GSV_REQUIRES(simulation_mutex);
-  // Faults: from the next step on the drive stops, or the joint has no motor.
+  // Faults. From the next step on the drive stops, or the joint has no motor.
   void LoseMotor() GSV_REQUIRES(simulation_mutex);
   void LoseJoint(int joint) GSV_REQUIRES(simulation_mutex);
   void MarkRemoved() GSV_REQUIRES(simulation_mutex);
   bool is_removed() const GSV_REQUIRES(simulation_mutex) { return is_removed_; }
   void ResetClocks() GSV_REQUIRES(simulation_mutex);
   void FillStatus(RobotStatus& status) const GSV_REQUIRES(simulation_mutex);
-  std::string Describe() const GSV_REQUIRES(simulation_mutex);  // "robot_3 (wander on host:pid)"
+  // Returns a text such as "robot_3 (wander on host:pid)".
+  std::string Describe() const GSV_REQUIRES(simulation_mutex);
   void AddToHash(base::Hash& hash) const GSV_REQUIRES(simulation_mutex);
   SensorRack& rack() { return rack_; }
 
-  // A local behaviour's turn. TakeTurn() needs no lock. ApplyTurn() applies its result, and returns
-  // the work that the behaviour waits for, if any.
+  // The turn of a local behaviour. TakeTurn() needs no lock. ApplyTurn() applies its result and
+  // returns the work that the behaviour waits for, if any.
   void TakeTurn(const Turn::Instant& instant, sensing::Sampling& sampling);
-  // The start of the current turn; empty between turns. Any thread.
+  // The start of the current turn; empty between turns. Any thread may call this.
   std::optional<WallTime> in_turn_since() const;
   std::function<void()> ApplyTurn() GSV_REQUIRES(simulation_mutex);
   // Marks its local behaviour as ready for a turn.
@@ -122,22 +127,22 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   base::Status CheckCanCommand() const GSV_REQUIRES(simulation_mutex);
   base::Status CheckAlive() const GSV_REQUIRES(simulation_mutex);
   base::Status CheckClock(ClockId clock) const GSV_REQUIRES(simulation_mutex);
-  // Releases `lock` while it waits.
+  // Waits on the clock. Releases `lock` while it waits.
   base::Result<Wait> WaitOn(AgentCallLock& lock, ClockId clock, SimTime until,
                             std::chrono::milliseconds lease) GSV_REQUIRES(simulation_mutex);
   base::Result<std::vector<NamedReading>> ReadOpenSensors();
   base::Result<sensing::Reading> Sample(MountedSensor& sensor);
-  // Makes the clock wait; false if `until` has come already.
+  // Makes the clock wait. Returns false if `until` has come already.
   bool BeginWait(ClockId clock, SimTime until) GSV_REQUIRES(simulation_mutex);
   void ReportFailure(std::string_view reason) GSV_REQUIRES(simulation_mutex);
   // Updates whether the simulation waits for this agent. Call it after every change that may
   // matter.
   void UpdateRunningCount() GSV_REQUIRES(simulation_mutex);
 
-  // The commands for the next step; registers the agent as commanded.
+  // Returns the commands for the next step, and registers the agent in SharedState::commanded.
   RobotCommands& Commands() GSV_REQUIRES(simulation_mutex);
   void StopDriving() GSV_REQUIRES(simulation_mutex) { Commands().SetDrive({}); }
-  // Switches on a device that is on while it is open, from the next step on.
+  // From the next step on, switches on a device that is on while it is open.
   void SwitchOn(const MountedSensor& sensor) GSV_REQUIRES(simulation_mutex);
   // Applies the initial command of a device.
   void StartDevice(const MountedSensor& sensor) GSV_REQUIRES(simulation_mutex);
@@ -156,21 +161,23 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   int body_ GSV_GUARDED_BY(simulation_mutex) = -1;
   bool has_motor_ GSV_GUARDED_BY(simulation_mutex) = true;
   std::set<int> lost_joints_ GSV_GUARDED_BY(simulation_mutex);
-  bool is_counted_ GSV_GUARDED_BY(simulation_mutex) = false;    // in shared_->running
-  bool is_commanded_ GSV_GUARDED_BY(simulation_mutex) = false;  // in shared_->commanded
-  // Whether a local behaviour waits for slow work.
+  // whether the agent counts in shared_->running
+  bool is_counted_ GSV_GUARDED_BY(simulation_mutex) = false;
+  // whether the agent is in shared_->commanded
+  bool is_commanded_ GSV_GUARDED_BY(simulation_mutex) = false;
+  // Whether a local behaviour waits for slow work that it passed to Block().
   bool is_blocked_ GSV_GUARDED_BY(simulation_mutex) = false;
   bool started_ GSV_GUARDED_BY(simulation_mutex) = false;
   bool is_removed_ GSV_GUARDED_BY(simulation_mutex) = false;
   bool death_reported_ GSV_GUARDED_BY(simulation_mutex) = false;
-  // Whether it has reported its own death; its later calls are ignored.
+  // Whether the behaviour has reported its own death. Its later calls are ignored.
   bool has_given_up_ GSV_GUARDED_BY(simulation_mutex) = false;
   Fate fate_ GSV_GUARDED_BY(simulation_mutex) = Fate::kAlive;
   std::string detail_ GSV_GUARDED_BY(simulation_mutex);
   WallTime running_since_ GSV_GUARDED_BY(simulation_mutex){};
 
-  Turn turn_;  // the stepping thread's, and during a turn the thread's that takes it
-  std::atomic<WallTime> turn_began_{WallTime()};  // WallTime(): no turn is under way
+  Turn turn_;  // used by the stepping thread, and during a turn by the thread that takes the turn
+  std::atomic<WallTime> turn_began_{WallTime()};  // WallTime() between turns
 };
 
 }  // namespace gsv::simulation

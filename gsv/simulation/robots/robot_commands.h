@@ -1,8 +1,8 @@
-// The commands of a robot's behaviour between two steps: drive, joints and devices. The next step
-// takes them.
+// The commands that a robot's behaviour has given between two steps: to drive, joints and devices.
+// The next step takes them.
 //
-// Determinism  commands of one robot are applied in its behaviour's order; commands of different
-//              robots are independent.
+// Determinism  commands of one robot are applied in the order of its behaviour. Commands of
+//              different robots are independent.
 #pragma once
 
 #include <memory>
@@ -22,45 +22,45 @@ struct DeviceAction {
   enum class Kind { kSwitchOn, kSwitchOff, kCommand };
   Kind kind = Kind::kCommand;
   std::shared_ptr<const sensing::Device> device;
-  world::DeviceCommand command{};  // of kCommand
+  world::DeviceCommand command{};  // for kCommand only
 
   const std::string& name() const { return device->description().name; }
 };
 
-// Whether it takes Agent::CommandDevice().
+// Whether the sensor accepts Agent::CommandDevice().
 bool TakesCommands(const MountedSensor& sensor);
-// The command as an action. Refuses a sensor that takes no commands, and an invalid command.
-// `robot` is the place in errors.
+// Converts a command to an action. Rejects a sensor that takes no commands, and an invalid command.
+// `robot` is the place that errors name.
 base::Result<DeviceAction> CommandOf(const MountedSensor& sensor, world::DeviceCommand command,
                                      const std::string& robot);
 
 class RobotCommands {
  public:
   struct Drive {
-    ClockId clock = 0;  // of the exchange; 0: commanded directly
+    ClockId clock = 0;  // the clock of the exchange; 0 if the command was given directly
     world::DriveCommand command;
   };
 
   void SetDrive(const Drive& drive) { drive_ = drive; }
-  // Sets the drive unless there is a command of a later clock.
+  // Sets the drive, unless a command of a later clock is already set.
   void OfferDrive(const Drive& drive);
   void CommandJoint(int joint, const world::JointCommand& command);
   void ForgetJoint(int joint);
-  // Adds an action; it replaces earlier ones that it makes void.
+  // Adds an action and removes the earlier actions that it makes void.
   void Add(DeviceAction action);
-  // Adds a message of a radio to the robot `receiver` (empty: to all). Refuses a sensor that is not
-  // a radio, a message that is too long, and more than 64 in one step.
+  // Adds a message of a radio to the robot `receiver`, or to all robots if it is empty. Rejects a
+  // sensor that is not a radio, a message that is too long, and more than 64 messages in one step.
   base::Status Send(const MountedSensor& radio, const std::string& receiver, std::string content,
                     const std::string& robot);
 
-  // Adds later commands.
+  // Adds commands that were given later.
   void Merge(RobotCommands later);
   // Returns all commands and clears them.
   RobotCommands Take() { return std::exchange(*this, {}); }
 
   bool empty() const { return !drive_ && joints_.empty() && devices_.empty(); }
   std::optional<Drive>& drive() { return drive_; }
-  // Commands by index in the robot's model; the last one of a joint counts.
+  // Commands by the joint's index in the robot's model. The last one of a joint applies.
   const std::vector<std::pair<int, world::JointCommand>>& joints() const { return joints_; }
   std::vector<DeviceAction>& devices() { return devices_; }
 

@@ -1,5 +1,5 @@
 // The state that a simulation, its stepping thread and its agents share, under one mutex. Agents
-// keep it alive, so that late calls find an ended simulation.
+// keep it alive, so that late calls find a simulation that has ended.
 #pragma once
 
 #include <string>
@@ -15,11 +15,11 @@ namespace gsv::simulation {
 
 class RobotAgent;
 
-// SharedState::mutex for the thread-safety analysis. The parts of a simulation have pointers of
-// their own to the state, and the analysis cannot prove that they are equal.
+// Stands for SharedState::mutex in the thread-safety analysis. The parts of a simulation have
+// pointers of their own to the state, and the analysis cannot prove that they are equal.
 class GSV_CAPABILITY("mutex") SimulationMutex {
  public:
-  // Tells the analysis that the calling thread holds the mutex; checks nothing.
+  // Declares to the analysis that the calling thread holds the mutex. Checks nothing at run time.
   void AssertHeld() const GSV_ASSERT_HELD(this) {}
 };
 inline SimulationMutex simulation_mutex;
@@ -29,20 +29,20 @@ struct SharedState {
               std::shared_ptr<const sensing::SensorRegistry> types)
       : history(std::move(initial)), designs(std::move(types)), mode(m), seed(s) {}
 
-  // These have their own locks.
+  // These members have locks of their own.
   SnapshotHistory history;
   sensing::RaySceneCache rays;
   SensorDesigns designs;
   const Mode mode;
   const std::uint64_t seed;
 
-  // Taken through SimulationLock and AgentCallLock.
+  // SimulationLock and AgentCallLock lock it.
   base::Mutex line;
   base::Mutex mutex;
-  // For the stepping thread: the phase changed, the last running agent waits, or a local behaviour
-  // can continue.
+  // Notifies the stepping thread that the phase changed, that the last running agent waits, or that
+  // a local behaviour can continue.
   base::ConditionVariable changed;
-  // The reason with which agents' calls end; empty: they continue.
+  // The reason with which the calls of agents end; empty while they may continue.
   std::string end_reason GSV_GUARDED_BY(simulation_mutex);
   SimTime now GSV_GUARDED_BY(simulation_mutex){0};
 
@@ -50,15 +50,15 @@ struct SharedState {
   //
   // The number of agents that block the next step.
   int running GSV_GUARDED_BY(simulation_mutex) = 0;
-  // Agents that wait for an instant.
+  // The agents that wait for an instant.
   TimerQueue<RobotAgent> sleepers GSV_GUARDED_BY(simulation_mutex);
   // Agents with a command for the next step.
   std::vector<RobotAgent*> commanded GSV_GUARDED_BY(simulation_mutex);
-  // Local behaviours whose turn it is.
+  // The local behaviours whose turn it is.
   std::vector<RobotAgent*> ready GSV_GUARDED_BY(simulation_mutex);
-  // Whether deaths of agents were reported; the agents may be running.
+  // Whether deaths of agents were reported. The agents may still be running.
   bool has_reported_deaths GSV_GUARDED_BY(simulation_mutex) = false;
-  // Robots whose behaviour has given up, and the sentence that the stepping thread emits.
+  // The robots whose behaviour has given up, each with the sentence that the stepping thread emits.
   std::vector<std::pair<std::string, std::string>> given_up GSV_GUARDED_BY(simulation_mutex);
 };
 
@@ -73,16 +73,16 @@ class GSV_SCOPED_CAPABILITY SimulationLock {
   // The analysis knows the mutex as simulation_mutex.
   void lock() GSV_ACQUIRE() GSV_NO_THREAD_SAFETY_ANALYSIS { lock_.lock(); }
   void unlock() GSV_RELEASE() GSV_NO_THREAD_SAFETY_ANALYSIS { lock_.unlock(); }
-  // For base::ConditionVariable.
+  // The lock that base::ConditionVariable needs.
   base::MutexLock& inner() { return lock_; }
 
  private:
   base::MutexLock lock_;
 };
 
-// The same for agents' calls, of which there may be a thousand at once. They queue for `line`
-// first, so that the stepping thread, which locks the mutex directly, waits for at most one of
-// them.
+// Holds SharedState::mutex for the calls of agents, of which there may be a thousand at once. They
+// queue for `line` first. The stepping thread locks the mutex directly, so it waits for at most one
+// of them.
 class GSV_SCOPED_CAPABILITY AgentCallLock {
  public:
   explicit AgentCallLock(SharedState& state) GSV_ACQUIRE(simulation_mutex) : state_(state) {

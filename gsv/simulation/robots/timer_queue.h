@@ -1,5 +1,5 @@
-// Sleepers by the instant at which they wake. An entry is a hint: a sleeper checks its own clocks,
-// so that superfluous entries do no harm.
+// Sleepers, ordered by the instant at which they wake. An entry is a hint: a sleeper checks its own
+// clocks, so superfluous entries do no harm.
 //
 // Threads  the owner synchronises access.
 #pragma once
@@ -28,8 +28,8 @@ class TimerQueue {
     return !entries_.empty() && entries_.begin()->first <= now;
   }
 
-  // Removes the sleepers whose instant has come and calls `wake` for each, in the order of instants
-  // and of entries.
+  // Removes the sleepers whose instant has come and calls `wake` for each, in the order of the
+  // instants and then of the entries.
   template <typename Wake>
   void TakeDue(base::SimTime now, const Wake& wake) {
     while (HasDue(now)) {
@@ -48,7 +48,7 @@ class TimerQueue {
 
  private:
   std::map<base::SimTime, std::vector<Sleeper*>> entries_;
-  std::vector<Sleeper*> spare_;  // reused for the next entry
+  std::vector<Sleeper*> spare_;  // kept for reuse by the next entry
 };
 
 }  // namespace gsv::simulation

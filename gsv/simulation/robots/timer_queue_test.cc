@@ -26,7 +26,7 @@ TEST(TimerQueue, WakesInTheOrderOfInstantsAndEntries) {
   EXPECT_TRUE(Due(calendar, 25ms).empty());
 }
 
-TEST(TimerQueue, AWokenAgentMayEnterItselfAgain) {
+TEST(TimerQueue, WokenAgentMayAddItselfAgain) {
   int one = 1;
   TimerQueue<int> calendar;
   calendar.Add(10ms, &one);
@@ -39,7 +39,7 @@ TEST(TimerQueue, AWokenAgentMayEnterItselfAgain) {
   EXPECT_EQ(Due(calendar, 20ms), std::vector{1});
 }
 
-TEST(TimerQueue, RemovesAllEntriesOfOne) {
+TEST(TimerQueue, RemovesAllEntriesOfAnAgent) {
   int one = 1, two = 2;
   TimerQueue<int> calendar;
   for (const auto instant : {10ms, 20ms}) {

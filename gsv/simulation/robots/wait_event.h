@@ -1,5 +1,5 @@
-// The event for which the threads of an agent's calls wait. It has its own lock, so that many
-// agents that wake at one instant do not contend for the simulation's lock.
+// An event for which the calls of an agent wait. It has its own lock, so that many agents that wake
+// at one instant do not contend for the simulation's lock.
 //
 // Threads  any.
 #pragma once
@@ -13,14 +13,14 @@ namespace gsv::simulation {
 
 class WaitEvent {
  public:
-  // The number of signals so far. A thread that reads it under the lock of its condition, and then
-  // calls WaitAfter(), misses no signal.
+  // The number of signals so far. If a thread reads it under the lock of its condition and then
+  // calls WaitAfter(), it misses no signal.
   std::uint64_t signals() const {
     const base::MutexLock lock(mutex_);
     return signals_;
   }
 
-  // Wakes all waiting threads; a system call if there are any.
+  // Signals the event: wakes all waiting threads. This takes a system call if there are any.
   void Open() {
     {
       const base::MutexLock lock(mutex_);
@@ -29,7 +29,7 @@ class WaitEvent {
     opened_.notify_all();
   }
 
-  // Waits for a signal after the first `signals`. False at `until`.
+  // Waits for a signal after the first `signals` ones. Returns false at `until`.
   bool WaitAfter(std::uint64_t signals, WallTime until) {
     base::MutexLock lock(mutex_);
     return opened_.wait_until(lock, until,

@@ -1,5 +1,5 @@
-// Start, pause, resume, step, run_until, stop and reset in random order and at random moments,
-// against a model of the life cycle.
+// Sends start, pause, resume, step, run_until, stop and reset in random order and at random
+// moments, and compares the simulation with a model of the life cycle.
 #include <random>
 #include <thread>
 
@@ -70,7 +70,7 @@ class Curves final : public BehaviourPort {
 
 struct Scene {
   Mode mode = Mode::kLockstep;
-  std::int64_t duration = 0;  // steps; 0: until stopped
+  std::int64_t duration = 0;  // in steps; 0 for a run that has no end
   int behaviours = 0;
 };
 
@@ -122,9 +122,9 @@ base::Status Perform(Simulation& simulation, const Request& request) {
   return {};
 }
 
-Observed Look(const Simulation& simulation) {
-  // Reads both at once. Otherwise a last step in between would look like a pause at the end of the
-  // run.
+Observed Observe(const Simulation& simulation) {
+  // Reads phase and time at once. Otherwise a last step in between would look like a pause at the
+  // end of the run.
   const SimulationStatus status = simulation.status();
   return {status.phase == Phase::kStarting ? Phase::kRunning : status.phase, status.step};
 }
@@ -155,7 +155,7 @@ Request RandomRequest(Dice& dice, std::int64_t step) {
                                          Action::kStart,    Action::kReset, Action::kStop};
   const Action action = kFrequent[dice.Below(std::size(kFrequent))];
   if (action == Action::kStep) return {action, dice.Below(12)};
-  // A few instants are in the past.
+  // A few of the instants are in the past.
   if (action == Action::kRunUntil && dice.Below(4) == 0) return {action, 0};
   if (action == Action::kRunUntil) return {action, step + 1 + dice.Below(40)};
   return {action, 0};
@@ -164,7 +164,8 @@ Request RandomRequest(Dice& dice, std::int64_t step) {
 constexpr auto kRest = {Phase::kCreated, Phase::kPaused, Phase::kStopped, Phase::kFinished,
                         Phase::kFailed};
 
-// The state hash of a new simulation after `steps`, which must not exceed its duration.
+// Returns the state hash of a new simulation after `steps` steps, which must not exceed its
+// duration.
 std::string HashAfter(Simulation& simulation, std::int64_t steps) {
   EXPECT_TRUE(simulation.RunUntil(steps * kStepSize));
   EXPECT_EQ(simulation.WaitForPhase({Phase::kPaused}, kChangeTimeout), Phase::kPaused);
@@ -178,7 +179,7 @@ std::string PlayOneSequence(std::uint32_t seed) {
   LifeCycleModel model(scene.duration);
   std::string story;
   for (int i = 0; i < 14; ++i) {
-    const Observed before = Look(*simulation);
+    const Observed before = Observe(*simulation);
     const Request request = RandomRequest(dice, before.step);
     const base::Status answer = Perform(*simulation, request);
     story += std::string(" ") + NameOf(request.action) + "(" + std::to_string(request.argument) +
@@ -192,7 +193,7 @@ std::string PlayOneSequence(std::uint32_t seed) {
       model.RequirePaused();
       story += " settle";
     }
-    const Observed seen = Look(*simulation);
+    const Observed seen = Observe(*simulation);
     if (!model.Seen(seen)) {
       return story + ": phase " + ToString(seen.phase) + " at step " + std::to_string(seen.step) +
              " fits no state";
@@ -212,7 +213,8 @@ TEST(LifeCycleProperty, EverySequenceOfRequestsFitsTheModel) {
   }
 }
 
-// Several threads send requests at once: nothing hangs, and the simulation stays usable.
+// Several threads send requests at the same time. Nothing may block forever, and the simulation
+// must stay usable.
 TEST(LifeCycleProperty, RequestsFromSeveralThreadsLeaveItUsable) {
   const Scene scene{.mode = Mode::kLockstep, .duration = 0, .behaviours = 2};
   const std::string fresh = HashAfter(*Make(scene), 20);

@@ -11,9 +11,8 @@
 namespace gsv::simulation {
 namespace {
 
-// Wall-clock time limit for behaviours in other processes to end the turn during which somebody
-// paused.
-constexpr std::chrono::seconds kTurnPatience{2};
+// Wall-clock time limit for behaviours in other processes to end their turn after a pause.
+constexpr std::chrono::seconds kTurnTimeout{2};
 
 base::Status CheckBehaviour(const BehaviourPort& behaviour, Mode mode, const std::string& robot) {
   if (mode != Mode::kLockstep || behaviour.time_managed()) return {};
@@ -38,7 +37,7 @@ base::Status CheckRobot(const RobotSpecification& robot, Mode mode) {
   return CheckBehaviour(*robot.behaviour, mode, where);
 }
 
-// The file of a model, or its name if it has none.
+// The file of a model, or its name if it has no file.
 std::string SourceOf(const model::Model& model) {
   return model.source.empty() ? model.name : model.source;
 }
@@ -70,7 +69,7 @@ Edit EditOf(const ObjectSpecification& object, const std::string& name) {
   return edit;
 }
 
-// The text that reads back as the same number.
+// The shortest text that is parsed as the same number.
 std::string ShortestText(double number) {
   char text[32];
   const auto [end, error] = std::to_chars(text, text + sizeof text, number);
@@ -89,7 +88,7 @@ Edit RemovalOf(const std::string& name) {
 void SteppingSimulation::AwaitTurns() const {
   SimulationLock lock(*shared_);
   if (shared_->mode != Mode::kLockstep || run_.phase() != Phase::kPaused) return;
-  shared_->changed.wait_for(lock.inner(), kTurnPatience, [this]() GSV_REQUIRES(simulation_mutex) {
+  shared_->changed.wait_for(lock.inner(), kTurnTimeout, [this]() GSV_REQUIRES(simulation_mutex) {
     return shared_->running == 0;
   });
 }
@@ -191,8 +190,9 @@ base::Status SteppingSimulation::RemoveRobots(const std::vector<std::string>& na
     const SimulationLock lock(*shared_);
     for (const std::string& name : names) agents_.Remove(name);
   }
-  // No step is taken meanwhile, and threads that look up an agent need not wait for the engine.
-  (void)editor_.Remove(names);  // fewer bodies always fit
+  // No step is taken meanwhile, and other threads can look up an agent without waiting for the
+  // engine.
+  (void)editor_.Remove(names);  // removing bodies cannot fail
   AssignBodies();
   shared_->changed.notify_all();
   for (const std::string& name : names) RecordEdit(RemovalOf(name), "robot_removed");
@@ -230,7 +230,7 @@ base::Status SteppingSimulation::RemoveObject(const std::string& name) {
   if (auto ok = editor_.RemoveObject(name); !ok) return ok;
   {
     const SimulationLock lock(*shared_);
-    agents_.Remove(name);  // of a station
+    agents_.Remove(name);  // the agent of a station
   }
   AssignBodies();
   RecordEdit(RemovalOf(name), "object_removed");

@@ -1,4 +1,5 @@
-// Objects are added, removed and rotated while the world is paused, and the edits are repeated.
+// Objects are added, removed and rotated while the simulation is paused, and the same edits are
+// repeated in another run.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -19,7 +20,7 @@ std::shared_ptr<const model::Model> Crate(double size = 0.4, bool is_static = fa
   return model;
 }
 
-// A floor, a wall in the plane x = 3, 0.2 m thick, and a crate at (0, -2).
+// A world with a floor, a wall of 0.2 m thickness in the plane x = 3, and a crate at (0, -2).
 Specification Room(SimTime duration) {
   Specification specification = Lockstep(duration);
   auto world = std::make_shared<model::WorldDescription>(*specification.world);
@@ -65,7 +66,7 @@ std::vector<Edit> EditsOf(const Simulation& simulation) {
   return edits;
 }
 
-TEST(Editing, AnAddedObjectStandsOnTheFloorWithAFreeName) {
+TEST(Editing, AddedObjectIsPlacedOnTheFloorWithAFreeName) {
   auto simulation = Make(Room(0s));
   const auto name = simulation->AddObject(Thing(Crate(0.6), 1, 1));
   ASSERT_TRUE(name) << name.error().Sentence();
@@ -81,14 +82,14 @@ TEST(Editing, AnObjectPlacedInTheAirFalls) {
   crate.on_ground = false;
   ASSERT_TRUE(simulation->AddObject(crate));
   PauseAt(*simulation, 300ms);
-  // Free fall, with steps of at most a millisecond.
+  // The object falls freely, with steps of at most a millisecond.
   EXPECT_NEAR(PoseOf(*simulation, "high").position.z, 1.2 - 9.8 * 0.3 * 0.3 / 2, 9.8 * 0.3 * 1e-3);
   ASSERT_TRUE(simulation->Resume());
   ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kTimeout), Phase::kFinished);
   EXPECT_NEAR(PoseOf(*simulation, "high").position.z, 0.2, 1e-3);
 }
 
-TEST(Editing, AnObjectRotatedOntoItsEdgeStandsOnItsLowestPoint) {
+TEST(Editing, RotatedObjectIsPlacedOnItsLowestPoint) {
   auto simulation = Make(Room(0s));
   geometry::Pose tilted = PlanarPose(0, -2, 0, 0);
   tilted.orientation = geometry::FromAxisAngle({1, 0, 0}, std::numbers::pi / 4);
@@ -96,7 +97,7 @@ TEST(Editing, AnObjectRotatedOntoItsEdgeStandsOnItsLowestPoint) {
   EXPECT_NEAR(PoseOf(*simulation, "crate").position.z, 0.2 * std::numbers::sqrt2, 1e-6);
 }
 
-TEST(Editing, ARemovedObjectIsGoneAndCanBeRestored) {
+TEST(Editing, RemovedObjectCanBeRestored) {
   auto simulation = Make(Room(1s));
   PauseAt(*simulation, 100ms);
   ASSERT_TRUE(simulation->RemoveObject("crate"));
@@ -117,14 +118,14 @@ TEST(Editing, AStaticObjectThatWasAddedCanBeMovedAndRemoved) {
   ASSERT_TRUE(simulation->AddObject(Thing(Crate(0.5, true), 1, 1, "shelf")));
   ASSERT_TRUE(simulation->PlaceBody("shelf", PlanarPose(1, -1, 0, 0), true));
   EXPECT_NEAR(PoseOf(*simulation, "shelf").position.y, -1, 1e-12);
-  // A robot does not fit there, but fits where the object was before.
+  // There is not enough space for a robot at this place, but there is at the object's former place.
   EXPECT_FALSE(simulation->AddRobot(Robot("robot", 1, -1)));
   EXPECT_TRUE(simulation->AddRobot(Robot("robot", 1, 1)));
   EXPECT_TRUE(simulation->RemoveObject("shelf"));
   EXPECT_FALSE(simulation->RemoveObject("wall"));
 }
 
-TEST(Editing, AnObjectDoesNotFitInsideAnother) {
+TEST(Editing, OverlappingObjectIsRejected) {
   auto simulation = Make(Room(0s));
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 1, 1)));
   const auto refusal = [&](double x, double y) {
@@ -138,11 +139,11 @@ TEST(Editing, AnObjectDoesNotFitInsideAnother) {
   EXPECT_EQ(Find(*simulation, "new"), -1);
   EXPECT_FALSE(simulation->PlaceBody("crate", PlanarPose(3, 0, 0, 0), true));
   EXPECT_FALSE(simulation->AddObject(Thing(Crate(0.5, true), 0.1, -2, "new")));
-  // Side by side they touch, which is allowed.
+  // The objects touch side by side, which is allowed.
   EXPECT_EQ(refusal(0.4, -2), "");
 }
 
-TEST(Editing, AnImpossibleEditIsRefusedWithASentence) {
+TEST(Editing, ImpossibleEditIsRejectedWithASentence) {
   auto simulation = Make(Room(0s));
   const auto refusal = [&](ObjectSpecification object) {
     const auto added = simulation->AddObject(std::move(object));
@@ -163,7 +164,7 @@ TEST(Editing, AnImpossibleEditIsRefusedWithASentence) {
   EXPECT_TRUE(simulation->Stop());
 }
 
-TEST(Editing, RunThroughExecutesTheTurnsOfItsInstantWithoutAStep) {
+TEST(Editing, RunThroughTakesTheTurnsOfItsInstantWithoutAStep) {
   auto simulation = Make(Lockstep(1s));
   std::atomic<int> turns = 0;
   const auto counts = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
@@ -202,7 +203,8 @@ TEST(Editing, RecordsWhetherTheTurnsWereOver) {
   EXPECT_TRUE(simulation->Stop());
 }
 
-// A run with edits at two instants, in pauses before and after the turns at these.
+// The hash of a run with edits at two instants, in pauses before and after the turns at these
+// instants.
 std::string HashOfAnEditedRun(SimTime first, SimTime second) {
   auto simulation = Make(Room(1s));
   EXPECT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, Drives(0.3))));
@@ -217,7 +219,7 @@ std::string HashOfAnEditedRun(SimTime first, SimTime second) {
   return simulation->state_hash();
 }
 
-TEST(Editing, GravityActsFromTheInstantOnAtWhichItIsSet) {
+TEST(Editing, GravityAppliesFromTheInstantAtWhichItIsSet) {
   auto simulation = Make(Room(0s));
   ObjectSpecification crate = Thing(Crate(), 0, 0, "high");
   crate.world_from_object.position.z = 3;
@@ -227,7 +229,8 @@ TEST(Editing, GravityActsFromTheInstantOnAtWhichItIsSet) {
   PauseAt(*simulation, 200ms);
   ASSERT_TRUE(simulation->SetGravity(-1.62));
   PauseAt(*simulation, 500ms);
-  // z0 + v0 t + g t² / 2 before and after, with steps of at most a millisecond.
+  // The height is z0 + v0 t + g t² / 2 before and after the change, with steps of at most a
+  // millisecond.
   const double then = 3 - 9.8 * 0.2 * 0.2 / 2;
   const double now = then - 9.8 * 0.2 * 0.3 - 1.62 * 0.3 * 0.3 / 2;
   EXPECT_NEAR(PoseOf(*simulation, "high").position.z, now, 9.8 * 0.5 * 1e-3);
@@ -240,7 +243,7 @@ TEST(Editing, GravityActsFromTheInstantOnAtWhichItIsSet) {
   EXPECT_TRUE(simulation->was_edited());
 }
 
-TEST(Editing, GravityIsPartOfTheHashWhereItIsNotTheWorldsOwn) {
+TEST(Editing, ChangedGravityIsPartOfTheHash) {
   auto simulation = Make(Room(0s));
   const std::string own = simulation->state_hash();
   ASSERT_TRUE(simulation->SetGravity(-1.62));

@@ -1,5 +1,5 @@
-// Carries out the decisions of RunControl: starts and stops behaviours, emits events, schedules
-// real time and wakes threads that wait for a phase.
+// Carries out the decisions of RunControl: it starts and stops behaviours, emits events, schedules
+// real time, and wakes threads that wait for a phase.
 //
 // Threads  any, with SharedState::mutex (simulation_mutex) as declared.
 #pragma once
@@ -19,8 +19,8 @@ namespace gsv::simulation {
 
 class LifeCycle {
  public:
-  // All arguments but the specification must outlive the life cycle; the caller must be closed
-  // before.
+  // All arguments except the specification must outlive the life cycle. The BehaviourCaller must be
+  // closed before.
   LifeCycle(const Specification& specification, const WorldLock& world_lock,
             std::shared_ptr<SharedState> shared, EventLog& events, AgentPopulation& agents,
             BehaviourCaller& caller)
@@ -41,9 +41,9 @@ class LifeCycle {
   void Apply(RunControl::Change change, const std::string& detail = {})
       GSV_REQUIRES(simulation_mutex);
   void Fail(const std::string& reason) GSV_REQUIRES(simulation_mutex);
-  // Begins a reset. False: there is nothing to reset.
+  // Begins a reset. Returns false if there is nothing to reset.
   bool BeginReset() GSV_REQUIRES(simulation_mutex);
-  // Ends a reset, after everything else was reset.
+  // Ends a reset. Call it after everything else was reset.
   void FinishReset() GSV_REQUIRES(simulation_mutex);
 
   // Starts behaviours. The run begins when all of them have answered.
@@ -51,7 +51,7 @@ class LifeCycle {
       GSV_REQUIRES(simulation_mutex);
   void EndBehaviours(std::string reason) GSV_REQUIRES(simulation_mutex);
 
-  // See Simulation.
+  // See Simulation::WaitForPhase().
   Phase WaitForPhase(const std::vector<Phase>& phases, std::chrono::milliseconds timeout) const;
 
  private:

@@ -31,7 +31,7 @@ class RunControl {
     kFailed,    // any → failed
   };
 
-  // Errors name `simulation`. `duration` 0: it runs until it is stopped.
+  // Errors name `simulation`. A run with a `duration` of 0 ends only when it is stopped.
   RunControl(std::string simulation, SimTime duration)
       : simulation_(std::move(simulation)), duration_(duration) {}
 
@@ -39,10 +39,11 @@ class RunControl {
   bool is_running() const { return phase_ == Phase::kRunning; }
   // Whether it is stopped, finished or failed.
   bool has_ended() const;
-  // Fails with kNotRunning unless the phase is among `allowed`; `action` completes "to …".
+  // Fails with kNotRunning unless the phase is among `allowed`. `action` completes "to …" in the
+  // error.
   base::Status Require(std::initializer_list<Phase> allowed, const char* action) const;
 
-  // Requests, see Simulation.
+  // The requests of Simulation.
   base::Result<Change> Start();
   base::Result<Change> Pause();
   base::Result<Change> Resume();
@@ -50,37 +51,38 @@ class RunControl {
   base::Result<Change> RunUntil(SimTime until, SimTime now);
   base::Result<Change> RunThrough(SimTime until, SimTime now);
   Change Stop();
-  // A reset has two parts: the run stops; the owner waits for behaviours and resets everything;
-  // then FinishReset() returns to the phase "created". kNone: there is nothing to reset.
+  // A reset has two parts. First BeginReset() stops the run, and the owner waits for behaviours and
+  // resets everything. Then FinishReset() returns to the phase "created". kNone means that there is
+  // nothing to reset.
   Change BeginReset();
   void FinishReset();
 
   // Each pending start of a behaviour keeps the run in the phase "starting".
   void BeginStart() { ++starts_pending_; }
   void EndStart() { --starts_pending_; }
-  // kRunning if the run was starting and no start is pending.
+  // Returns kRunning if the run was starting and no start is pending.
   Change RunIfStarted();
 
-  // For the stepping thread: agents that wait for this instant are woken.
+  // Called by the stepping thread when it wakes the agents that wait for this instant.
   void BeginTurns() { turns_have_begun_ = true; }
-  // All turns at `now` are over. kPaused if RunThrough() ends here.
+  // Called when all turns at `now` are over. Returns kPaused if RunThrough() ends here.
   Change EndTurns(SimTime now);
   void BeginStep() { run_of_step_ = run_; }
-  // The step that led to `now` is over.
+  // Called when the step that led to `now` is over.
   Change EndStep(SimTime now);
 
   Change Fail(std::string reason);
   const std::string& failure() const { return failure_; }
 
-  // The hash of the state in which the run finished; empty in all other phases.
+  // The hash of the state in which the run finished. Empty in all other phases.
   const std::string& final_hash() const { return final_hash_; }
   void SetFinalHash(std::string hash) { final_hash_ = std::move(hash); }
 
-  // The number of times that the run has started or left a pause.
+  // How often the run has started or left a pause.
   std::uint64_t run() const { return run_; }
-  // The moment of an edit that is made now. `all_wait`: no agent's turn is under way.
+  // The moment of an edit that is made now. `all_wait` is true if no agent is in its turn.
   Edit::Moment MomentOfEdit(bool all_wait) const;
-  // Edits of bodies before the first start set up the run and do not count.
+  // Edits of bodies before the first start are part of the setup and do not count.
   void MarkEdited() { was_edited_ = was_edited_ || run_ > 0; }
   void MarkWorldChanged() { was_edited_ = true; }
   bool was_edited() const { return was_edited_; }
@@ -94,13 +96,13 @@ class RunControl {
 
   Phase phase_ = Phase::kCreated;
   int starts_pending_ = 0;
-  // Where the run pauses by itself; set when it starts or resumes.
-  std::optional<SimTime> run_until_;    // pauses when a step has reached it
-  std::optional<SimTime> run_through_;  // pauses when the turns at it are over
-  std::int64_t steps_left_ = -1;        // -1: any number
+  // The instants at which the run pauses by itself. They are set when it starts or resumes.
+  std::optional<SimTime> run_until_;    // the run pauses when a step has reached it
+  std::optional<SimTime> run_through_;  // the run pauses when the turns at it are over
+  std::int64_t steps_left_ = -1;        // -1 for any number of steps
 
   std::uint64_t run_ = 0;
-  std::uint64_t run_of_step_ = 0;  // `run_` when the present step began
+  std::uint64_t run_of_step_ = 0;  // the value of `run_` when the present step began
   bool turns_have_begun_ = false;
   bool was_edited_ = false;
   std::string failure_;

@@ -1,5 +1,5 @@
-// Compares RunControl with the model of the life cycle: every sequence of requests and steps up to
-// a certain length, without threads.
+// Compares RunControl with the model of the life cycle. The test tries every sequence of requests
+// and steps up to a certain length, without threads.
 #include "gsv/simulation/stepping/run_control.h"
 
 #include <cmath>
@@ -17,11 +17,12 @@ using life_cycle::Observed;
 using life_cycle::Request;
 using Change = RunControl::Change;
 
-// A run without a world: a step is one nanosecond. It uses a RunControl like LifeCycle and
-// StepLoop, on one thread.
+// A run without a world, in which a step is one nanosecond. It uses a RunControl as LifeCycle and
+// StepLoop do, but on one thread.
 class BareRun {
  public:
-  // `starts`: behaviours that start with the run, and answer when a test decides.
+  // `starts` is the number of behaviours that start with the run. They answer when the test
+  // decides.
   BareRun(std::int64_t duration, int starts) : run_("run", SimTime(duration)), starts_(starts) {}
 
   RunControl& control() { return run_; }
@@ -29,7 +30,7 @@ class BareRun {
   SimTime now() const { return SimTime(step_); }
   bool is_in_step() const { return is_in_step_; }
   bool has_pending_start() const { return pending_ > 0; }
-  Observed Look() const {
+  Observed Observe() const {
     const bool is_starting = run_.phase() == Phase::kStarting;
     return {is_starting ? Phase::kRunning : run_.phase(), step_};
   }
@@ -56,7 +57,7 @@ class BareRun {
     ++step_;
     return run_.EndStep(now());
   }
-  // Takes steps until the run rests. False if it does not within 100 steps.
+  // Takes steps until the run rests. Returns false if it does not rest within 100 steps.
   bool ApplyTurn() {
     while (has_pending_start()) AnswerStart();
     if (is_in_step_) EndStep();
@@ -117,18 +118,18 @@ constexpr Request kRequests[] = {
 
 constexpr const char* kNames[] = {"start", "pause", "resume", "step", "run_until", "stop", "reset"};
 
-// Tries every continuation of a sequence. Each must match the model, and rest where the model
-// rests.
+// Tries every continuation of a sequence. Each must agree with the model, and must rest where the
+// model rests.
 class Explorer {
  public:
-  // The first sequence that does not match, or nothing.
+  // Returns the first sequence that disagrees with the model, or an empty text.
   std::string Explore(const BareRun& run, const LifeCycleModel& model, int length) {
     if (std::string problem = CheckRest(run, model); !problem.empty()) return problem;
     if (length == 0) return {};
     for (const Request& request : kRequests) {
       BareRun next = run;
       LifeCycleModel expected = model;
-      const Observed before = next.Look();
+      const Observed before = next.Observe();
       const bool ok = next.Perform(request);
       const std::string name = std::string(kNames[static_cast<int>(request.action)]) + "(" +
                                std::to_string(request.argument) + ")" + (ok ? "" : "!");
@@ -154,7 +155,7 @@ class Explorer {
   std::string Continue(const std::string& name, const BareRun& run, LifeCycleModel model,
                        int length) {
     path_.push_back(name);
-    const Observed seen = run.Look();
+    const Observed seen = run.Observe();
     if (!model.Seen(seen)) {
       return Problem(std::string("phase ") + ToString(seen.phase) + " at step " +
                      std::to_string(seen.step));
@@ -168,7 +169,7 @@ class Explorer {
     if (!model.WillPause()) return {};
     if (!run.ApplyTurn()) return Problem("it does not come to rest");
     model.RequirePaused();
-    const Observed seen = run.Look();
+    const Observed seen = run.Observe();
     if (model.Seen(seen)) return {};
     return Problem(std::string("it comes to rest ") + ToString(seen.phase) + " at step " +
                    std::to_string(seen.step));
@@ -184,9 +185,9 @@ class Explorer {
 };
 
 struct Scope {
-  std::int64_t duration;  // steps; 0: until stopped
-  int starts;             // behaviours that start with the run
-  int length;             // of the sequences
+  std::int64_t duration;  // in steps; 0 for a run that has no end
+  int starts;             // the number of behaviours that start with the run
+  int length;             // the maximum length of the sequences
 };
 
 class EverySequence : public testing::TestWithParam<Scope> {};
@@ -244,7 +245,7 @@ TEST(RunControl, PausesAtItsInstantEvenIfBehavioursAreStillStarting) {
   run.BeginStep();
   ASSERT_TRUE(run.Pause());
   ASSERT_EQ(run.RunUntil(SimTime(1), SimTime(0)), Change::kResumed);
-  run.BeginStart();  // of a robot that was added in the pause
+  run.BeginStart();  // the start of a robot that was added in the pause
   EXPECT_EQ(run.EndStep(SimTime(1)), Change::kPaused);
   run.EndStart();
   EXPECT_EQ(run.RunIfStarted(), Change::kNone);
@@ -304,7 +305,7 @@ TEST(RunControl, RecordsTheTurnsThatAnEditPrecedes) {
   BareRun run(0, 0);
   EXPECT_EQ(run.control().MomentOfEdit(true), Edit::Moment::kBeforeTurns);
   ASSERT_TRUE(run.Perform({Action::kStep, 1}));
-  EXPECT_EQ(run.control().MomentOfEdit(true), Edit::Moment::kAmidTurns);  // it runs
+  EXPECT_EQ(run.control().MomentOfEdit(true), Edit::Moment::kAmidTurns);  // the run is running
   TakeSteps(run, 1);
   EXPECT_EQ(run.control().MomentOfEdit(true), Edit::Moment::kBeforeTurns);
   ASSERT_TRUE(run.control().RunThrough(run.now(), run.now()));

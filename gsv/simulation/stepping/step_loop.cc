@@ -9,15 +9,15 @@
 namespace gsv::simulation {
 namespace {
 
-// Turns that one thread takes at a time: some tens of microseconds of work.
+// The number of turns that a thread takes at a time: some tens of microseconds of work.
 constexpr std::size_t kTurnsAPiece = 16;
 
 // Reason for a pause without a request.
-constexpr const char* kAsFarAsTold = "as far as it was told to run";
+constexpr const char* kReachedTarget = "as far as it was told to run";
 
-// The calling thread has priority over a crowd of behaviours, which all want to run at the instant
-// of a step. The system may refuse: a higher priority needs CAP_SYS_NICE or a limit (ulimit -e) of
-// 30 or more.
+// Gives the calling thread priority over a crowd of behaviours, which all want to run at the
+// instant of a step. The system may refuse this: a higher priority needs CAP_SYS_NICE or a limit
+// (ulimit -e) of 30 or more.
 void RaiseThreadPriority() { (void)setpriority(PRIO_PROCESS, 0, -10); }
 
 }  // namespace
@@ -70,7 +70,7 @@ void StepLoop::Run() {
     if (!AllWait(lock) || !IsDue(lock)) continue;
     const RunControl::Change change = run_.EndTurns(shared.now);
     if (change != RunControl::Change::kNone) {
-      parts_.life_cycle.Apply(change, kAsFarAsTold);
+      parts_.life_cycle.Apply(change, kReachedTarget);
       continue;
     }
     lock.unlock();
@@ -104,7 +104,7 @@ void StepLoop::WakeAgents() {
   if (!has_reported_deaths && !shared.sleepers.HasDue(shared.now)) return;
   const WallTime wall_now = WallNow();
   const auto wake = [&](RobotAgent& agent) {
-    simulation_mutex.AssertHeld();  // this function holds it
+    simulation_mutex.AssertHeld();  // this function holds the mutex
     const RobotAgent::Woken woken = agent.Wake(shared.now, wall_now);
     if (woken.has_passed && !agent.is_hosted()) woken_.push_back(agent.wait_event());
     if (woken.has_died && parts_.specification.on_failure == FailurePolicy::kFail &&
@@ -133,11 +133,11 @@ void StepLoop::TakeTurns() {
     for (std::size_t i = begin; i < end; ++i) turns_[i]->TakeTurn(instant_, sampling);
   });
   const SimulationLock lock(shared);
-  parts_.world.lock().SetStuck(false);  // it has returned after all
+  parts_.world.lock().SetStuck(false);  // the behaviour has returned after all
   const WallTime deadline = WallNow() - parts_.specification.deadline;
   for (RobotAgent* agent : turns_) {
     if (auto work = agent->ApplyTurn()) PostBlocked(agent->shared_from_this(), std::move(work));
-    // It may have waited for past instants again and again.
+    // The agent may repeatedly have waited for instants that were past.
     if (agent->BlocksStep() && agent->running_since() < deadline) GiveUpOn(*agent);
   }
   turns_.clear();
@@ -166,7 +166,7 @@ bool StepLoop::AllWait(SimulationLock& lock) {
   const auto deadline = [&]() GSV_REQUIRES(simulation_mutex) {
     return longest->running_since() + parts_.specification.deadline;
   };
-  // The population may change while the lock is released: `longest` keeps the agent.
+  // The population may change while the lock is released, so `longest` keeps the agent alive.
   const std::cv_status status = shared.changed.wait_until(lock.inner(), deadline());
   if (status == std::cv_status::timeout && run_.is_running() && longest->BlocksStep() &&
       WallNow() >= deadline()) {
@@ -234,8 +234,8 @@ bool StepLoop::BeginStep(WallTime start) {
   SharedState& shared = *parts_.shared;
   const SimulationLock lock(shared);
   if (!run_.is_running()) return false;
-  // Between the check and the locks, a robot may have been added, a clock opened, or the last
-  // running agent may have ended.
+  // Between the check and the locks, a robot may have been added, a clock may have been opened, or
+  // the last running agent may have ended.
   if (shared.mode == Mode::kLockstep && (shared.running > 0 || shared.has_reported_deaths))
     return false;
   ApplyCommands();
@@ -276,7 +276,7 @@ void StepLoop::EndStep(const std::shared_ptr<const world::Snapshot>& snapshot, W
   if (change == RunControl::Change::kNone) return;
   const bool has_finished = change == RunControl::Change::kFinished;
   if (has_finished) run_.SetFinalHash(HashNow());
-  parts_.life_cycle.Apply(change, has_finished ? "" : kAsFarAsTold);
+  parts_.life_cycle.Apply(change, has_finished ? "" : kReachedTarget);
 }
 
 std::string StepLoop::HashNow() const {

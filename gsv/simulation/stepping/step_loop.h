@@ -1,7 +1,7 @@
-// The stepping thread of a simulation: it wakes agents, gives local behaviours their turns, waits
-// until all agents wait (lockstep) or for the wall clock (real time), and takes steps.
+// The stepping thread of a simulation. It wakes agents, gives local behaviours their turns, and
+// waits until all agents wait (lockstep) or for the wall clock (real time). Then it takes a step.
 //
-// Determinism  in lockstep no value depends on the arrival of calls: commands are applied from the
+// Determinism  in lockstep no value depends on when calls arrive. Commands are applied from the
 //              instant at which their agent runs, and loops follow the order of names.
 #pragma once
 
@@ -32,7 +32,7 @@ class StepLoop {
     LifeCycle& life_cycle;
     SimulatedWorld& world;
     FaultInjector& faults;
-    std::shared_ptr<base::ThreadTeam> team;  // used with the world's lock held
+    std::shared_ptr<base::ThreadTeam> team;  // used only with the world's lock held
   };
 
   // Starts the thread.
@@ -41,9 +41,9 @@ class StepLoop {
   StepLoop& operator=(const StepLoop&) = delete;
   // Quit() must have been called.
   ~StepLoop() = default;
-  // Ends the thread after the current step.
+  // Makes the thread end after the current step.
   void Quit() GSV_REQUIRES(simulation_mutex);
-  // Waits for the end of the thread; the caller holds no lock.
+  // Waits for the end of the thread. The caller must not hold a lock.
   void Join();
 
   // The hash of the world, the agents' waits and the applied faults.
@@ -53,15 +53,15 @@ class StepLoop {
   void Run();
   void ApplyFaults();
   void WakeAgents() GSV_REQUIRES(simulation_mutex);
-  // Runs local behaviours that are due until they wait.
+  // Runs the local behaviours that are due until they wait.
   void TakeTurns();
   void PostBlocked(AgentPopulation::AgentPtr agent, std::function<void()> work);
   void GiveUpOn(RobotAgent& agent) GSV_REQUIRES(simulation_mutex);
-  // True if every agent waits. Otherwise it waits for a change first.
+  // Returns true if every agent waits. Otherwise it waits for a change first and returns false.
   bool AllWait(SimulationLock& lock) GSV_REQUIRES(simulation_mutex);
   bool IsDue(SimulationLock& lock) GSV_REQUIRES(simulation_mutex);
   void TakeStep();
-  // False: the step must not be taken.
+  // Returns false if the step must not be taken.
   bool BeginStep(WallTime start) GSV_REQUIRES(world_mutex);
   void ApplyCommands() GSV_REQUIRES(world_mutex, simulation_mutex);
   void EndStep(const std::shared_ptr<const world::Snapshot>& snapshot, WallTime start)
@@ -73,11 +73,11 @@ class StepLoop {
 
   // Used by the stepping thread only.
   SnapshotPool snapshots_;
-  DeviceActions device_actions_;    // for the next step
-  Turn::Instant instant_;           // of the current turns
-  std::vector<RobotAgent*> turns_;  // of the current turns
+  DeviceActions device_actions_;    // the actions for the next step
+  Turn::Instant instant_;           // the instant of the current turns
+  std::vector<RobotAgent*> turns_;  // the agents of the current turns
   EventSignaler event_signaler_;
-  EventSignaler::Events woken_;  // of agents that were just woken
+  EventSignaler::Events woken_;  // events of the agents that were just woken
 
   std::jthread thread_;
 };

@@ -8,7 +8,7 @@
 namespace gsv::simulation {
 namespace {
 
-// The world's engine, with a callback before each new layout.
+// Wraps the world's engine and calls a function before each new layout.
 class ObservedEngine final : public dynamics::Engine {
  public:
   base::Status SetLayout(std::shared_ptr<const world::Layout> layout) override {

@@ -1,5 +1,5 @@
-// Checks once a second whether behaviours have died, and whether a behaviour in process exceeds its
-// deadline. In the latter case the simulation fails, see world_lock.h.
+// Checks once a second whether behaviours have died, and whether a behaviour in this process
+// exceeds its deadline. If one does, the simulation fails, see world_lock.h.
 #pragma once
 
 #include <chrono>
@@ -12,11 +12,11 @@ namespace gsv::simulation {
 
 class Watchdog {
  public:
-  // Starts the watchdog. A turn may last `deadline`.
+  // Starts the watchdog. A turn may last at most `deadline`.
   Watchdog(std::chrono::milliseconds deadline, WorldLock& world_lock,
            std::shared_ptr<SharedState> shared, EventLog& events, AgentPopulation& agents,
            LifeCycle& life_cycle);
-  // Ends its thread.
+  // Stops the watchdog's thread.
   void Stop();
 
  private:

@@ -1,5 +1,5 @@
-// For tests: a model of the requests start, pause, resume, step, run until, stop and reset. As the
-// run advances by itself, the model holds every state that the simulation may be in. Answers and
+// For tests: a model of the requests start, pause, resume, step, run until, stop and reset. The run
+// advances by itself, so the model holds every state that the simulation may be in. Answers and
 // observations must be consistent with one of them.
 #pragma once
 
@@ -17,10 +17,11 @@ enum class Action { kStart, kPause, kResume, kStep, kRunUntil, kStop, kReset };
 
 struct Request {
   Action action;
-  std::int64_t argument = 0;  // kStep: number of steps; kRunUntil: the step of its instant
+  // for kStep the number of steps, for kRunUntil the step of its instant
+  std::int64_t argument = 0;
 };
 
-// An observation; kStarting counts as running.
+// An observation. The phase kStarting counts as running.
 struct Observed {
   Phase phase;
   std::int64_t step;
@@ -35,8 +36,8 @@ struct Interval {
 // A possible state of the simulation.
 struct State {
   Phase phase = Phase::kCreated;
-  Interval step;                    // of the latest snapshot
-  std::optional<Interval> counted;  // running: the step at which the requested steps end
+  Interval step;                    // the step of the latest snapshot
+  std::optional<Interval> counted;  // while running, the step at which the requested steps end
   std::optional<std::int64_t> run_until;
 
   // The step at which the run pauses by itself.
@@ -55,7 +56,8 @@ class LifeCycleModel {
  public:
   explicit LifeCycleModel(std::int64_t duration) : end_(duration > 0 ? duration : kUnbounded) {}
 
-  // `seen` was observed just before the request, `ok` was its answer. False: no state allows this.
+  // Applies a request. `seen` was observed just before it, and `ok` was its answer. Returns false
+  // if no state allows this.
   bool Requested(const Request& request, const Observed& seen, bool ok) {
     std::vector<State> next;
     for (const State& state : WithSpontaneousChanges()) {
@@ -76,7 +78,7 @@ class LifeCycleModel {
         continue;
       if (state.phase == Phase::kPaused && seen.step >= end_) continue;
       state.step.low = seen.step;
-      // The step that was under way when a pause or stop came is the last one.
+      // The step that was in progress when a pause or stop came is the last one.
       if (state.phase != Phase::kRunning)
         state.step.high = std::min(state.step.high, seen.step + 1);
       next.push_back(state);
@@ -85,7 +87,7 @@ class LifeCycleModel {
     return !states_.empty();
   }
 
-  // Whether it pauses or ends by itself in every possible state.
+  // Whether the run pauses or ends by itself in every possible state.
   bool WillPause() const {
     return std::all_of(states_.begin(), states_.end(), [this](const State& state) {
       return state.phase != Phase::kRunning || state.Goal() || end_ != kUnbounded;
@@ -103,7 +105,7 @@ class LifeCycleModel {
   std::vector<State> WithSpontaneousChanges() const {
     std::vector<State> all = states_;
     for (const State& state : states_) {
-      // The step that was under way when the pause came may have been the run's last.
+      // The step that was in progress when the pause came may have been the run's last.
       if (state.phase == Phase::kPaused && state.step.high >= end_)
         all.push_back(Frozen(Phase::kFinished, {end_, end_}));
       if (state.phase != Phase::kRunning) continue;
@@ -138,7 +140,8 @@ class LifeCycleModel {
       case Action::kStep:
         return request.argument < 1 || !IsAtRest(state);
       case Action::kRunUntil:
-        // Refused when the clock has passed that instant; a running one may have.
+        // The request is refused when the clock has passed that instant. The clock of a running
+        // simulation may have done so.
         return request.argument <= state.step.high || !(is_running || IsAtRest(state));
       case Action::kStop:
       case Action::kReset:
@@ -147,7 +150,7 @@ class LifeCycleModel {
     return false;
   }
 
-  // The state after an accepted request; nothing if it cannot be accepted.
+  // Returns the state after an accepted request, or nullopt if it cannot be accepted.
   std::optional<State> After(State state, const Request& request, const Observed& seen) const {
     const bool is_running = state.phase == Phase::kRunning;
     state.step.low = std::max(state.step.low, seen.step);

@@ -13,11 +13,12 @@ class Attachments {
   // Gives `layout` to `engine`, with the attachments of `state`.
   base::Status SetLayout(const std::shared_ptr<const world::Layout>& layout,
                          const world::State& state, dynamics::Engine& engine);
-  // Attaches and detaches the bodies that have changed since; `layout` is the engine's.
+  // Attaches and detaches the bodies whose attachment has changed since the last call. `layout` is
+  // that of the engine.
   void Follow(const world::Layout& layout, const world::State& state, dynamics::Engine& engine);
 
  private:
-  std::vector<dynamics::Attachment> attached_;  // as the engine knows them
+  std::vector<dynamics::Attachment> attached_;  // the attachments that the engine has
 };
 
 }  // namespace gsv::simulation

@@ -5,7 +5,7 @@
 namespace gsv::simulation {
 namespace {
 
-// The rays of a snapshot's scene, which is made for the first of them.
+// Casts rays in the scene of a snapshot, which is made for the first ray.
 class SnapshotRays final : public world::RayCaster {
  public:
   SnapshotRays(std::shared_ptr<const world::Snapshot> snapshot, sensing::RaySceneCache& cache,
@@ -24,7 +24,7 @@ class SnapshotRays final : public world::RayCaster {
   mutable std::shared_ptr<const sensing::RayScene> scene_;
 };
 
-// The devices of a state, copied at the first change.
+// The devices of a state. They are copied at the first change.
 class ChangingDevices {
  public:
   explicit ChangingDevices(world::State& state) : state_(state) {}
@@ -35,7 +35,7 @@ class ChangingDevices {
   }
   void Replace(std::size_t place, world::DeviceStatePtr next) { Own()[place] = std::move(next); }
 
-  // Replaces that device's state by `next`; null: removes it.
+  // Replaces a device's state by `next`, or removes it if `next` is null.
   void Set(const std::string& robot, const std::string& device, world::DeviceStatePtr next) {
     world::DeviceStates& states = Own();
     const std::size_t place = world::PlaceOf(states, robot, device);

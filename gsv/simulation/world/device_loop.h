@@ -1,7 +1,7 @@
-// Steps the devices of robots, independently of their types.
+// Steps the devices of robots, whatever their types.
 //
-// Determinism  a function of the snapshot, the state and the actions, independent of the order of
-//              robots in `actions`.
+// Determinism  the result is a function of the snapshot, the state and the actions. It does not
+//              depend on the order of robots in `actions`.
 #pragma once
 
 #include <memory>
@@ -16,22 +16,22 @@
 
 namespace gsv::simulation {
 
-// Actions by robot, each robot once.
+// Actions by robot. Each robot occurs once.
 using DeviceActions = std::vector<std::pair<std::string, std::vector<DeviceAction>>>;
 
-// Before the bodies move: applies `actions` in the order of robots' names, then calls BeforeStep()
-// of each device for the step of `length` from `now` on. `state` is that of `now`. Returns the
-// transmissions of radios.
+// Call this before the bodies move. Applies `actions` in the order of robots' names, then calls
+// BeforeStep() of each device for the step of `length` that begins at `now`. `state` is that at
+// `now`. Returns the transmissions of radios.
 std::vector<world::Transmission> StepDevices(const std::shared_ptr<const world::Snapshot>& now,
                                              base::SimTime length, DeviceActions actions,
                                              sensing::RaySceneCache& rays, base::ThreadTeam* team,
                                              std::uint64_t seed, world::State& state);
 
-// After the bodies have moved to their poses at `time`: calls AfterMove() of each device.
+// Call this after the bodies have moved to their poses at `time`. Calls AfterMove() of each device.
 void MoveDevices(const world::Layout& layout, base::SimTime time, world::State& state);
 
-// After bodies of `layout` were added, removed or placed (`placed`): calls CarryOver() of each
-// device, and removes devices of removed robots.
+// Call this after bodies of `layout` were added, removed or placed. `placed` names the placed ones.
+// Calls CarryOver() of each device, and removes devices of removed robots.
 void CarryOverDevices(const world::Layout& layout, const std::vector<std::string>& placed,
                       world::State& state);
 

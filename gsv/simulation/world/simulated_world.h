@@ -15,7 +15,7 @@ namespace gsv::simulation {
 
 class SimulatedWorld {
  public:
-  // Starts at the initial state of `layout`, which the engine must have.
+  // Starts in the initial state of `layout`, which the engine must have.
   SimulatedWorld(std::unique_ptr<dynamics::Engine> engine,
                  std::shared_ptr<const world::Layout> layout);
 
@@ -27,7 +27,7 @@ class SimulatedWorld {
   world::State& state() GSV_REQUIRES(world_mutex) { return state_; }
   const world::State& state() const GSV_REQUIRES(world_mutex) { return state_; }
   dynamics::Engine& engine() GSV_REQUIRES(world_mutex) { return *engine_; }
-  // world_from_model of the body of that name, which must exist.
+  // Returns world_from_model of the body with that name, which must exist.
   const geometry::Pose& PoseOf(const std::string& body) const GSV_REQUIRES(world_mutex) {
     return state_.bodies[static_cast<std::size_t>(layout_->Find(body))].world_from_model;
   }

@@ -1,8 +1,8 @@
 // The lock on a simulated world, which detects a stuck simulation.
 //
-// A behaviour in process cannot be interrupted. If it does not return from its turn, its simulation
-// is stuck: the stepping thread keeps the lock, and other threads are refused instead of waiting
-// forever.
+// A behaviour in this process cannot be interrupted. If it does not return from its turn, its
+// simulation is stuck. The stepping thread then keeps the lock, and other threads get an error
+// instead of waiting forever.
 //
 // Threads  any.
 #pragma once
@@ -14,14 +14,14 @@
 
 namespace gsv::simulation {
 
-// A world's mutex for the thread-safety analysis: the parts of a simulation have references of
-// their own to it.
+// Stands for a world's mutex in the thread-safety analysis. The parts of a simulation have
+// references of their own to it.
 class GSV_CAPABILITY("mutex") WorldMutex {};
 inline WorldMutex world_mutex;
 
 class WorldLock {
  public:
-  // The time within which a waiting thread notices that the simulation is stuck.
+  // Waiting threads check at this interval whether the simulation is stuck.
   static constexpr std::chrono::milliseconds kPollPeriod{100};
 
   bool is_stuck() const { return is_stuck_; }
@@ -47,8 +47,9 @@ class GSV_SCOPED_CAPABILITY SteppingWorldGuard {
   const base::TimedMutexLock lock_;
 };
 
-// The same for all other threads. It does not hold the lock if the simulation is stuck: callers
-// must check is_held(), which the analysis cannot verify.
+// Holds the world's lock for its lifetime, for all threads except the stepping thread. If the
+// simulation is stuck, it does not hold the lock. So callers must check is_held(), which the
+// analysis cannot verify.
 class GSV_SCOPED_CAPABILITY WorldGuard {
  public:
   explicit WorldGuard(WorldLock& world) GSV_ACQUIRE(world_mutex) : world_(world) { Lock(); }

@@ -1,4 +1,4 @@
-#include "apps/gsv/machine/confinement.h"
+#include "apps/gsv/machine/sandbox.h"
 
 #include <linux/audit.h>
 #include <linux/filter.h>
@@ -20,13 +20,13 @@
 
 namespace {
 
-[[maybe_unused]] bool is_confined = false;
+[[maybe_unused]] bool is_in_sandbox = false;
 
 }  // namespace
 
 #if defined(__SANITIZE_ADDRESS__)
 // LeakSanitizer calls this. It would trace its own process, which is refused.
-extern "C" int __lsan_is_turned_off() { return is_confined; }
+extern "C" int __lsan_is_turned_off() { return is_in_sandbox; }
 #endif
 
 namespace gsv::app {
@@ -63,7 +63,7 @@ bool Bound(__rlimit_resource resource, rlim_t most) {
 
 }  // namespace
 
-base::Status Confine(const Confinement& bounds) {
+base::Status EnterSandbox(const Sandbox& bounds) {
   const bool is_bound = (base::kReservesAddressSpace || Bound(RLIMIT_AS, bounds.memory_bytes)) &&
                         Bound(RLIMIT_CPU, static_cast<rlim_t>(bounds.processor_time.count())) &&
                         Bound(RLIMIT_FSIZE, 0) && Bound(RLIMIT_CORE, 0);
@@ -75,7 +75,7 @@ base::Status Confine(const Confinement& bounds) {
   const sock_fprog program{static_cast<unsigned short>(filter.size()), filter.data()};
   if (is_bound && prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
       prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0) {
-    is_confined = true;
+    is_in_sandbox = true;
     return {};
   }
   return base::Fail(

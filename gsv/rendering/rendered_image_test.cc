@@ -1,4 +1,4 @@
-// Compares images with geometry.
+// Compares rendered images with the geometry of the scene.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -17,19 +17,19 @@ using geometry::Vector3;
 
 using geometry::kPi;
 
-// Built for each back end: as Picture and as OpenGlPicture.
-#ifndef PICTURE_SUITE
-#define PICTURE_SUITE Picture
-#define PICTURE_BACK_END kRasteriser
+// The build compiles this file once for each back end, as RenderedImage and as OpenGlRenderedImage.
+#ifndef IMAGE_SUITE
+#define IMAGE_SUITE RenderedImage
+#define IMAGE_BACK_END kRasteriser
 #endif
 
 RendererOptions Options() {
   RendererOptions options;
-  options.back_end = BackEnd::PICTURE_BACK_END;
+  options.back_end = BackEnd::IMAGE_BACK_END;
   return options;
 }
 
-class PICTURE_SUITE : public testing::Test {
+class IMAGE_SUITE : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     auto started = Renderer::Start(Options());
@@ -48,9 +48,9 @@ class PICTURE_SUITE : public testing::Test {
   TestScene scene_;
 };
 
-std::shared_ptr<Renderer> PICTURE_SUITE::renderer_;
+std::shared_ptr<Renderer> IMAGE_SUITE::renderer_;
 
-TEST_F(PICTURE_SUITE, HasTheSizeThatWasAskedFor) {
+TEST_F(IMAGE_SUITE, HasTheRequestedSize) {
   for (const auto& [width, height] : {std::pair{320, 240}, {1, 1}, {17, 333}}) {
     const auto image = Take({{}, {width, height, 1, 0.1, 100}});
     EXPECT_EQ(image->width, width);
@@ -60,23 +60,24 @@ TEST_F(PICTURE_SUITE, HasTheSizeThatWasAskedFor) {
   }
 }
 
-TEST_F(PICTURE_SUITE, OfNothingIsTheBackground) {
+TEST_F(IMAGE_SUITE, OfAnEmptyWorldIsTheBackground) {
   scene_.description().scene.background = {0.25, 0.5, 0.75, 1};
   const auto image = Take({{}, {64, 48, 1, 0.1, 100}});
-  // At the horizon, except for the haze that brightens it.
+  // This pixel is at the horizon, where haze brightens the sky.
   const std::uint8_t* p = &image->pixels[(24 * 64 + 32) * 3];
   EXPECT_NEAR(p[0], 0.25 * 255, 45);
   EXPECT_NEAR(p[1], 0.5 * 255, 30);
   EXPECT_NEAR(p[2], 0.75 * 255, 15);
 }
 
-TEST_F(PICTURE_SUITE, APointFallsWhereThePinholeCameraSays) {
+TEST_F(IMAGE_SUITE, ShowsAPointWhereThePinholeModelPutsIt) {
   const CameraView view{{{0.3, -0.2, 0.5}, geometry::FromRollPitchYaw({0.05, 0.1, 0.7})},
                         {320, 240, 1.047, 0.05, 100}};
   const double f = 160 / std::tan(1.047 / 2);
   for (const Vector3& p :
        {Vector3{3, 0, 0}, Vector3{4, 1.2, 0.8}, Vector3{6, -2.5, -1.5}, Vector3{2, 0.5, -0.6}}) {
-    // A radius of three pixels: the centre of its image is off by less than 0.01 pixels.
+    // The image of the ball has a radius of three pixels, so its centre is off by less than 0.01
+    // pixels.
     scene_.Add("ball", geometry::Sphere{3 * p.x / f}, {view.world_from_camera * p, {}},
                Glowing(1, 0, 0));
     const Blob ball = FindBlob(*Take(view), 0, 10);
@@ -87,7 +88,7 @@ TEST_F(PICTURE_SUITE, APointFallsWhereThePinholeCameraSays) {
   }
 }
 
-TEST_F(PICTURE_SUITE, LeftIsLeftAndUpIsUp) {
+TEST_F(IMAGE_SUITE, IsNotMirrored) {
   scene_.Add("left", Box{{0.4, 0.4, 0.4}}, {{3, 1, 0}, {}}, Glowing(1, 0, 0));
   scene_.Add("up", Box{{0.4, 0.4, 0.4}}, {{3, 0, 0.8}, {}}, Glowing(0, 1, 0));
   scene_.Add("behind", Box{{0.4, 0.4, 0.4}}, {{-3, 0, 0}, {}}, Glowing(0, 0, 1));
@@ -102,7 +103,7 @@ TEST_F(PICTURE_SUITE, LeftIsLeftAndUpIsUp) {
   EXPECT_EQ(FindBlob(*image, 2).pixels, 0);
 }
 
-TEST_F(PICTURE_SUITE, WhatIsInFrontHidesWhatIsBehind) {
+TEST_F(IMAGE_SUITE, NearObjectHidesTheObjectBehindIt) {
   scene_.Add("near", Box{{0.1, 1, 1}}, {{2, 0, 0}, {}}, Glowing(1, 0, 0));
   scene_.Add("far", Box{{0.1, 1, 1}}, {{3, 0, 0}, {}}, Glowing(0, 1, 0));
   const CameraView ahead{{}, {160, 120, 1, 0.1, 100}};
@@ -114,14 +115,14 @@ TEST_F(PICTURE_SUITE, WhatIsInFrontHidesWhatIsBehind) {
   EXPECT_GT(FindBlob(*image, 1).pixels, 1000);
 }
 
-TEST_F(PICTURE_SUITE, NothingIsDrawnOutsideTheClippingDistances) {
+TEST_F(IMAGE_SUITE, ObjectsOutsideTheClippingDistancesAreNotDrawn) {
   scene_.Add("box", Box{{0.2, 1, 1}}, {{2, 0, 0}, {}}, Glowing(1, 0, 0));
   EXPECT_EQ(FindBlob(*Take({{}, {160, 120, 1, 2.5, 100}}), 0).pixels, 0);
   EXPECT_EQ(FindBlob(*Take({{}, {160, 120, 1, 0.1, 1.5}}), 0).pixels, 0);
   EXPECT_GT(FindBlob(*Take({{}, {160, 120, 1, 0.1, 100}}), 0).pixels, 1000);
 }
 
-// Red upper left, green upper right, blue lower left, black lower right.
+// An image with a red upper left, green upper right, blue lower left and black lower right quarter.
 std::shared_ptr<const model::Image> Quarters(int channels) {
   auto image = std::make_shared<model::Image>();
   image->width = image->height = 64;
@@ -138,7 +139,7 @@ std::shared_ptr<const model::Image> Quarters(int channels) {
   return image;
 }
 
-TEST_F(PICTURE_SUITE, ATextureStandsUpright) {
+TEST_F(IMAGE_SUITE, TextureIsUpright) {
   model::Material material = Matt(1, 1, 1);
   material.base_colour_map = Quarters(3);
   scene_.Add("board", Box{{0.1, 1, 1}}, {{2, 0, 0}, {}}, material);
@@ -153,21 +154,21 @@ TEST_F(PICTURE_SUITE, ATextureStandsUpright) {
   EXPECT_GT(blue.v, 60);
 }
 
-TEST_F(PICTURE_SUITE, ACutOutTextureShowsWhatIsBehindItsHoles) {
+TEST_F(IMAGE_SUITE, AlphaMaskShowsTheObjectBehindItsHoles) {
   model::Material material = Matt(1, 1, 1);
   material.base_colour_map = Quarters(4);
   material.alpha_mask = true;
   scene_.Add("board", Box{{0.1, 1, 1}}, {{2, 0, 0}, {}}, material);
   scene_.Add("lamp", Box{{0.1, 4, 4}}, {{4, 0, 0}, {}}, Glowing(0, 0, 1));
-  // The hole is the lower right quarter. The front's is transparent, and the back's behind the
-  // front's other quarters is not visible.
+  // The hole is the lower right quarter. The front's is transparent. The back is hidden behind the
+  // other quarters of the front.
   const auto image = Take({{}, {160, 120, 0.5, 0.1, 100}});
   const std::uint8_t* hole = &image->pixels[(75 * 160 + 95) * 3];
   EXPECT_GT(hole[2], 150);
   EXPECT_LT(hole[0], 60);
 }
 
-TEST_F(PICTURE_SUITE, SeeThroughThingsAreMixedWithWhatIsBehindThem) {
+TEST_F(IMAGE_SUITE, TransparentObjectIsBlendedWithItsBackground) {
   scene_.Add("pane", Box{{0.02, 1, 1}}, {{2, 0, 0}, {}}, Matt(1, 0, 0, 0.5));
   scene_.Add("wall", Box{{0.1, 8, 8}}, {{4, 0, 0}, {}}, Glowing(0, 0, 1));
   const auto image = Take({{}, {160, 120, 1, 0.1, 100}});
@@ -178,7 +179,7 @@ TEST_F(PICTURE_SUITE, SeeThroughThingsAreMixedWithWhatIsBehindThem) {
   EXPECT_LT(pane[2], wall[2] - 30);
 }
 
-TEST_F(PICTURE_SUITE, OfAMirroredMeshShowsItsOutside) {
+TEST_F(IMAGE_SUITE, MirroredMeshShowsItsOutside) {
   const auto cube =
       std::make_shared<const geometry::TriangleMesh>(geometry::Tessellate(Box{{1, 1, 1}}));
   const CameraView view{{}, {160, 120, 1, 0.1, 100}};
@@ -190,42 +191,44 @@ TEST_F(PICTURE_SUITE, OfAMirroredMeshShowsItsOutside) {
   EXPECT_GT(FindBlob(*plain, 0).pixels, 1000);
 }
 
-// The ground from 10 m above, 90° over 100 pixels: 0.2 m per pixel, with world x up in the image.
+// The camera looks down from 10 m with 90° over 100 pixels, so a pixel is 0.2 m of the ground.
+// World x points up in the image.
 CameraView FromAbove() {
   return {{{0, 0, 10}, geometry::FromAxisAngle({0, 1, 0}, kPi / 2)}, {100, 100, kPi / 2, 0.1, 100}};
 }
 
-TEST_F(PICTURE_SUITE, AThingCastsItsShadowAwayFromTheSun) {
+TEST_F(IMAGE_SUITE, ShadowPointsAwayFromTheSun) {
   model::Light sun;
-  sun.direction = geometry::Normalized(Vector3{-1, 0, -1});  // from +x, 45° high
+  sun.direction = geometry::Normalized(Vector3{-1, 0, -1});  // the light comes from +x, 45° high
   scene_.description().lights = {sun};
   scene_.Add("floor", Box{{20, 20, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.7, 0.7, 0.7), true);
   scene_.Add("slab", Box{{2, 2, 0.1}}, {{3, 0, 3}, {}}, Matt(0.7, 0.7, 0.7));
   const auto image = Take(FromAbove());
-  // The slab at height 3 shades x from -1 to 1, which is the centre of the image.
+  // The slab at height 3 shades the ground from x = -1 to 1, which is the centre of the image.
   const int shade = Brightness(*image, 50, 50);
   const int light = Brightness(*image, 50, 85);
   EXPECT_LT(shade, light - 40);
-  EXPECT_GT(shade, 40);  // but not black
+  EXPECT_GT(shade, 40);  // the shade is not black
   scene_.description().scene.shadows = false;
   EXPECT_NEAR(Brightness(*Take(FromAbove()), 50, 50), light, 4);
 }
 
-TEST_F(PICTURE_SUITE, TheShadowOfWhatMovedIsGoneFromWhereItWas) {
+TEST_F(IMAGE_SUITE, ShadowFollowsAnObjectThatMoved) {
   model::Light sun;
-  scene_.description().lights = {sun};  // straight down
+  scene_.description().lights = {sun};  // the light shines straight down
   scene_.Add("floor", Box{{20, 20, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.7, 0.7, 0.7), true);
   scene_.Add("robot", Box{{2, 2, 0.1}}, {{0, 4, 0.5}, {}}, Matt(0.7, 0.7, 0.7));
   const auto first = std::make_shared<world::Snapshot>(*scene_.Snapshot());
   const auto second = std::make_shared<world::Snapshot>(*first);
   second->state.bodies[first->layout->Find("robot")].world_from_model.position.y = -4;
-  // Viewed from the side and from low, so that the shadow is not hidden.
+  // The camera looks from the side and from a low height, so that the shadow is not hidden.
   const CameraView view{{{-9, 0, 4}, geometry::FromRollPitchYaw({0, 0.4, 0})},
                         {160, 120, 1.3, 0.1, 50}};
   const auto before = renderer_->Draw(first, view, std::chrono::seconds(30));
   const auto after = renderer_->Draw(second, view, std::chrono::seconds(30));
   ASSERT_TRUE(before && after);
-  // The scene is symmetric in y up to the light's shading, so one is the other's mirror image.
+  // The scene is symmetric in y except for the shading of the light, so one image is the mirror
+  // image of the other.
   int different = 0;
   for (int y = 0; y < 120; ++y) {
     for (int x = 0; x < 160; ++x) {
@@ -235,7 +238,7 @@ TEST_F(PICTURE_SUITE, TheShadowOfWhatMovedIsGoneFromWhereItWas) {
   EXPECT_LT(different, 160 * 120 / 200);
 }
 
-TEST_F(PICTURE_SUITE, IsTheSameWhateverWasDrawnBefore) {
+TEST_F(IMAGE_SUITE, DoesNotDependOnEarlierImages) {
   model::Light sun;
   sun.direction = geometry::Normalized(Vector3{-1, 0.5, -1});
   scene_.description().lights = {sun};
@@ -256,26 +259,27 @@ TEST_F(PICTURE_SUITE, IsTheSameWhateverWasDrawnBefore) {
   }
 }
 
-TEST_F(PICTURE_SUITE, BeyondAllThatCastsShadowsTheGroundIsInTheSun) {
+TEST_F(IMAGE_SUITE, GroundBeyondTheShadowMapIsLit) {
   model::Light sun;
   sun.direction = geometry::Normalized(Vector3{1, 0, -1});
   scene_.description().lights = {sun};
   scene_.Add("ground", geometry::Plane{{0, 0, 1}, {100, 100}}, {}, Matt(0.7, 0.7, 0.7), true);
   scene_.Add("post", Box{{0.2, 0.2, 1}}, {{-3, -3, 0.5}, {}}, Matt(0.7, 0.7, 0.7), true);
-  // Along the light, where the ground is farther from the sun than the foot of the post.
+  // The camera looks along the light, where the ground is farther from the sun than the foot of the
+  // post.
   const auto image = Take({{{0, 0, 2}, {}}, {160, 120, 1, 0.1, 200}});
   const int near = Brightness(*image, 80, 115), far = Brightness(*image, 80, 65);
   EXPECT_NEAR(near, far, 30);
 }
 
-TEST_F(PICTURE_SUITE, AWorldWithoutLightsHasASunAndIsNotDark) {
+TEST_F(IMAGE_SUITE, WorldWithoutLightsGetsASun) {
   scene_.description().scene.ambient = {0, 0, 0, 1};
   scene_.Add("floor", geometry::Plane{{0, 0, 1}, {100, 100}}, {}, Matt(0.7, 0.7, 0.7), true);
   const auto image = Take({{{0, 0, 1}, {}}, {160, 120, 1, 0.1, 100}});
   EXPECT_GT(Brightness(*image, 80, 110), 120);
 }
 
-TEST_F(PICTURE_SUITE, ALampLightsWhatIsWithinItsRange) {
+TEST_F(IMAGE_SUITE, WorldLightReachesObjectsWithinItsRange) {
   model::Light lamp;
   lamp.kind = model::Light::Kind::kPoint;
   lamp.world_from_light.position = {0, 0, 1};
@@ -287,12 +291,12 @@ TEST_F(PICTURE_SUITE, ALampLightsWhatIsWithinItsRange) {
   const Blob lit = FindBlob(*image, 0, 20);
   EXPECT_NEAR(lit.u, 50, 1);
   EXPECT_NEAR(lit.v, 50, 1);
-  // At most its range, 3 m or 15 pixels: a disc of at most pi 15².
+  // The lamp lights a disc of at most its range, 3 m or 15 pixels, with an area of pi 15².
   EXPECT_GT(lit.pixels, 50);
   EXPECT_LT(lit.pixels, 710);
 }
 
-TEST_F(PICTURE_SUITE, ASpotLightsItsConeOnly) {
+TEST_F(IMAGE_SUITE, SpotLightsOnlyItsCone) {
   model::Light spot;
   spot.kind = model::Light::Kind::kSpot;
   spot.world_from_light.position = {0, 0, 4};
@@ -302,19 +306,21 @@ TEST_F(PICTURE_SUITE, ASpotLightsItsConeOnly) {
   scene_.description().lights = {spot};
   scene_.Add("floor", Box{{20, 20, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.7, 0.7, 0.7), true);
   const Blob lit = FindBlob(*Take(FromAbove()), 0, 10);
-  // Radius 4 tan(0.5) = 2.2 m or 11 pixels at the outer edge, 4 tan(0.25) = 5 at the inner one.
+  // The cone's radius is 4 tan(0.5) = 2.2 m or 11 pixels at the outer edge, and 4 tan(0.25) or 5
+  // pixels at the inner one.
   EXPECT_GT(lit.pixels, 3.14 * 5 * 5);
   EXPECT_LT(lit.pixels, 3.14 * 12 * 12);
 }
 
-TEST_F(PICTURE_SUITE, TheGroundReachesTheHorizon) {
+TEST_F(IMAGE_SUITE, GroundReachesTheHorizon) {
   scene_.Add("ground", geometry::Plane{{0, 0, 1}, {20, 20}}, {}, Glowing(1, 0, 0), true);
   const auto image = Take({{{0, 0, 1}, {}}, {160, 120, 1, 0.1, 100}});
-  // It ends 100 m away, where 1 m below the camera is f / 100 = 1.46 pixels below the centre.
+  // The ground ends 100 m away, where 1 m below the camera is f / 100 = 1.46 pixels below the
+  // centre.
   EXPECT_NEAR(FindBlob(*image, 0).pixels / 160.0, 60 - 1.46, 0.6);
 }
 
-TEST_F(PICTURE_SUITE, EqualRequestsGiveEqualBytesWhateverElseIsInTheBatch) {
+TEST_F(IMAGE_SUITE, DoesNotDependOnTheRestOfTheBatch) {
   scene_.Add("floor", geometry::Plane{{0, 0, 1}, {100, 100}}, {}, Matt(0.7, 0.7, 0.7), true);
   scene_.Add("ball", geometry::Sphere{0.5}, {{3, 0, 0.5}, {}}, Matt(0.2, 0.5, 0.9));
   const auto snapshot = scene_.Snapshot();
@@ -331,7 +337,7 @@ TEST_F(PICTURE_SUITE, EqualRequestsGiveEqualBytesWhateverElseIsInTheBatch) {
 }
 
 // The shadows of moving objects do not depend on the other cameras in the batch.
-TEST_F(PICTURE_SUITE, ShadowsOfWhatMovesDoNotDependOnTheBatchOrItsOrder) {
+TEST_F(IMAGE_SUITE, ShadowsOfMovingObjectsDoNotDependOnTheBatchOrItsOrder) {
   model::Light sun;
   sun.direction = geometry::Normalized(Vector3{-1, 0.3, -0.5});
   scene_.description().lights = {sun};
@@ -366,7 +372,7 @@ TEST_F(PICTURE_SUITE, ShadowsOfWhatMovesDoNotDependOnTheBatchOrItsOrder) {
   }
 }
 
-// A robot in front of a grey wall, with its lamp between them, in the centre of the image.
+// A robot stands in front of a grey wall, with its lamp between them, in the centre of the image.
 void BeforeAWall(TestScene& scene) {
   scene.description().scene.shadows = false;
   model::Light moon;
@@ -403,12 +409,12 @@ std::shared_ptr<const model::Image> TakeWith(Renderer& renderer, TestScene& scen
   return image ? *image : std::make_shared<const model::Image>();
 }
 
-// The red of the wall, in the middle row.
+// The red channel of the wall in the middle row.
 int RedAt(const model::Image& image, int x) {
   return image.pixels[static_cast<std::size_t>(3 * (60 * 160 + x))];
 }
 
-TEST_F(PICTURE_SUITE, AnLedGlowsWhereItIsMountedAndLightsNothing) {
+TEST_F(IMAGE_SUITE, LedGlowsAtItsMountAndLightsNothing) {
   BeforeAWall(scene_);
   world::Glow led;
   led.radius = 0.1;
@@ -418,13 +424,13 @@ TEST_F(PICTURE_SUITE, AnLedGlowsWhereItIsMountedAndLightsNothing) {
   const Blob ball = FindBlob(*lit, 0);
   EXPECT_WITHIN(ball.u, 80, 0.5, "pixel");
   EXPECT_WITHIN(ball.v, 60, 0.5, "pixel");
-  // A ball of 0.1 m, 2 m away.
+  // The ball has a diameter of 0.1 m and is 2 m away.
   const double radius = 0.1 / 2 * 80 / std::tan(0.5);
   EXPECT_WITHIN_PERCENT(ball.pixels, kPi * radius * radius, 15);
   EXPECT_EQ(RedAt(*lit, 40), RedAt(*dark, 40));
 }
 
-TEST_F(PICTURE_SUITE, ALampLightsWhatIsNear) {
+TEST_F(IMAGE_SUITE, LampLightsNearObjects) {
   BeforeAWall(scene_);
   world::Glow lamp;
   lamp.range = 5;
@@ -435,14 +441,14 @@ TEST_F(PICTURE_SUITE, ALampLightsWhatIsNear) {
   EXPECT_GT(bright, dim + 10);
   const auto image = TakeWith(*renderer_, scene_, lamp, 1);
   const std::uint8_t* const p = &image->pixels[3 * (60 * 160 + 40)];
-  EXPECT_GT(p[0], p[1] + 40);  // red light
+  EXPECT_GT(p[0], p[1] + 40);  // the light is red
 }
 
-TEST_F(PICTURE_SUITE, ALampWithAnAngleLightsAConeAlongItsAxis) {
+TEST_F(IMAGE_SUITE, LampWithAnAngleLightsAConeAlongItsAxis) {
   BeforeAWall(scene_);
   world::Glow lamp;
   lamp.range = 5;
-  lamp.angle = 0.6;  // on the wall, 0.9 m away, a disc of 0.28 m
+  lamp.angle = 0.6;  // the cone lights a disc of 0.28 m on the wall, which is 0.9 m away
   lamp.radius = 0.01;
   const auto dark = TakeWith(*renderer_, scene_, lamp, 0),
              lit = TakeWith(*renderer_, scene_, lamp, 1);

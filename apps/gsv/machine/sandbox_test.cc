@@ -1,4 +1,4 @@
-#include "apps/gsv/machine/confinement.h"
+#include "apps/gsv/machine/sandbox.h"
 
 #include <fcntl.h>
 #include <sys/socket.h>
@@ -19,10 +19,10 @@ namespace gsv::app {
 namespace {
 
 // The waitpid() status of a sandboxed process that calls `what`.
-int RunConfined(const std::function<int()>& what) {
+int RunInSandbox(const std::function<int()>& what) {
   const pid_t child = fork();
   if (child == 0) {
-    if (!Confine({std::size_t{1} << 30, std::chrono::seconds(1)})) _exit(99);
+    if (!EnterSandbox({std::size_t{1} << 30, std::chrono::seconds(1)})) _exit(99);
     _exit(what());
   }
   int status = 0;
@@ -31,11 +31,11 @@ int RunConfined(const std::function<int()>& what) {
 }
 
 int ExitCodeOf(const std::function<int()>& what) {
-  const int status = RunConfined(what);
+  const int status = RunInSandbox(what);
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-TEST(Confinement, LeavesReading) {
+TEST(Sandbox, AllowsReading) {
   EXPECT_EQ(ExitCodeOf([] {
               char byte = 0;
               const int file = open("/proc/self/cmdline", O_RDONLY | O_CLOEXEC);
@@ -44,14 +44,14 @@ TEST(Confinement, LeavesReading) {
             0);
 }
 
-TEST(Confinement, TakesTheNetwork) {
+TEST(Sandbox, DeniesTheNetwork) {
   for (const int family : {AF_INET, AF_INET6, AF_UNIX, AF_NETLINK}) {
     EXPECT_EQ(ExitCodeOf([family] { return socket(family, SOCK_DGRAM, 0) < 0 ? errno : 0; }),
               EPERM);
   }
 }
 
-TEST(Confinement, StartsNoProgramAndKillsNobody) {
+TEST(Sandbox, DeniesStartingProgramsAndSendingSignals) {
   EXPECT_EQ(ExitCodeOf([] {
               char* const arguments[] = {nullptr};
               execve("/bin/true", arguments, arguments);
@@ -61,8 +61,8 @@ TEST(Confinement, StartsNoProgramAndKillsNobody) {
   EXPECT_EQ(ExitCodeOf([] { return kill(getppid(), 0) < 0 ? errno : 0; }), EPERM);
 }
 
-TEST(Confinement, WritesNoFile) {
-  char name[] = "/tmp/gsv-confinement-XXXXXX";
+TEST(Sandbox, DeniesWritingFiles) {
+  char name[] = "/tmp/gsv-sandbox-XXXXXX";
   const int file = mkostemp(name, O_CLOEXEC);
   ASSERT_GE(file, 0);
   const int code = ExitCodeOf([file] { return write(file, "x", 1) < 0 ? errno : 0; });
@@ -71,7 +71,7 @@ TEST(Confinement, WritesNoFile) {
   EXPECT_EQ(code, EFBIG);
 }
 
-TEST(Confinement, BoundsMemoryAndTime) {
+TEST(Sandbox, LimitsMemoryAndTime) {
   if (!base::kReservesAddressSpace) {
     EXPECT_EQ(ExitCodeOf([] {
                 const std::vector<char> large(std::size_t{2} << 30);
@@ -79,7 +79,7 @@ TEST(Confinement, BoundsMemoryAndTime) {
               }),
               kWantsMoreMemory);
   }
-  const int status = RunConfined([] {
+  const int status = RunInSandbox([] {
     volatile unsigned i = 0;
     for (;;) i = i + 1;
     return 0;

@@ -8,7 +8,7 @@
 
 namespace gsv::app {
 
-struct Confinement {
+struct Sandbox {
   std::size_t memory_bytes = std::size_t{4} << 30;  // of address space
   std::chrono::seconds processor_time{60};
 };
@@ -20,6 +20,6 @@ inline constexpr int kWantsMoreMemory = 70;
 // if it exceeds its time. It cannot write files, open sockets or start programs (seccomp(2),
 // setrlimit(2)). It can read files. Call it before threads start. Fails if the kernel has no such
 // filters.
-base::Status Confine(const Confinement& bounds);
+base::Status EnterSandbox(const Sandbox& bounds);
 
 }  // namespace gsv::app
