@@ -11,10 +11,10 @@
 namespace gsv {
 namespace {
 
-// Reading a world and initialising behaviours may take long.
+// Time limit for creating a simulation: reading a world and initialising behaviours may take long.
 constexpr std::chrono::milliseconds kCreateTimeout{120'000};
-// The server answers a wait for the next phase after two seconds. A server that does not answer for
-// this long is lost.
+// Time limit for a wait. The server answers a wait for the next phase after two seconds, so a
+// server that does not answer for this long is lost.
 constexpr std::chrono::milliseconds kWaitTimeout{10'000};
 constexpr std::chrono::seconds kServerTimeout{30};
 constexpr int kConnectionsTried = 16;
@@ -109,14 +109,14 @@ class SimulationProxy final : public RemoteSimulation {
         simulation_(sba::Simulation::_duplicate(simulation)),
         server_(std::move(server)) {
     orb::LimitCalls(simulation_, kCreateTimeout);
-    // Uses another reference, since a time limit belongs to a reference.
+    // Uses another reference, because a time limit belongs to a reference.
     const CORBA::String_var text = orb_->orb()->object_to_string(simulation);
     const CORBA::Object_var object = orb_->orb()->string_to_object(text);
     waiting_ = sba::Simulation::_unchecked_narrow(object);
     orb::LimitCalls(waiting_, kWaitTimeout);
   }
   ~SimulationProxy() override {
-    (void)Ask([this] { simulation_->destroy(); });  // the server may be gone
+    (void)Ask([this] { simulation_->destroy(); });  // this may fail, because the server may be gone
   }
 
   base::Result<std::string> AddRobot(const RobotRequest& request) override {
@@ -136,7 +136,7 @@ class SimulationProxy final : public RemoteSimulation {
       return std::string(name);
     });
     if (!added && request.own_behaviour) {
-      // The simulator may have done so already.
+      // The simulator may already have destroyed it, so the call may fail.
       (void)Ask([&] { robot.behaviour->destroy(); });
     }
     return added;
@@ -239,7 +239,7 @@ class SimulationProxy final : public RemoteSimulation {
   }
 
  private:
-  // A lost server is not called any more.
+  // Calls the server, unless it is lost.
   template <typename Question>
   auto Ask(Question question) -> base::Result<decltype(question())> {
     if (!lost_.empty()) return base::Fail(base::ErrorCode::kUnavailable, lost_, server_);
@@ -249,7 +249,8 @@ class SimulationProxy final : public RemoteSimulation {
       return Lose("no program accepts connections at this address any more");
     return answer;
   }
-  // A broken connection is no proof, and there may be several. A refused connection is.
+  // Whether the server refuses connections. A broken connection is no proof that it is gone, and
+  // there may be several.
   bool IsServerGone() {
     for (int i = 0; i < kConnectionsTried; ++i) {
       try {
@@ -272,7 +273,7 @@ class SimulationProxy final : public RemoteSimulation {
   const std::shared_ptr<sdk::SharedOrb> orb_;
   sba::Simulation_var simulation_, waiting_;
   const std::string server_;
-  std::string lost_;       // the reason; empty: it is not lost
+  std::string lost_;       // the reason why the server is lost; empty if it is not lost
   SimulationState known_;  // the last known state
 };
 
@@ -285,7 +286,7 @@ class BrokerApplication final : public Application {
                                                          const std::string& constraint,
                                                          const std::string& preference) override {
     auto offers = broker_.Query(broker::SimulationServiceType().name, constraint, preference, 16);
-    // A broker with which no simulator has ever registered does not know the type.
+    // A broker does not know the type if no simulator has ever registered with it.
     if (!offers && offers.error().code == base::ErrorCode::kNotFound) offers.emplace();
     if (!offers) return base::Fail(offers.error());
     base::Error error{base::ErrorCode::kNotFound,
@@ -296,7 +297,7 @@ class BrokerApplication final : public Application {
     for (const broker::FoundOffer& offer : *offers) {
       auto created = CreateAt(offer.object, request);
       if (created || created.error().code == base::ErrorCode::kInvalidArgument) return created;
-      error = created.error();  // the server may have ended: try the next
+      error = created.error();  // the server may have ended, so the next one is tried
     }
     return base::Fail(std::move(error));
   }

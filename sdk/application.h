@@ -2,7 +2,7 @@
 // run it and read its state.
 //
 // Units    metres, radians; simulated time.
-// Errors   every call ends within its time limit. The error says what failed, and where.
+// Errors   every call ends within its time limit. An error says what failed, and where.
 // Threads  one thread per object.
 #pragma once
 
@@ -19,13 +19,13 @@
 namespace gsv {
 
 struct SimulationRequest {
-  std::string world;  // a file or model that the server finds; empty: its default
+  std::string world;  // a file or model that the server finds; empty for the server's default
   bool lockstep = true;
-  double factor = 1;  // target real-time factor; not in lockstep
-  SimTime step{0};    // 0: the world's
+  double factor = 1;  // the target real-time factor; ignored in lockstep
+  SimTime step{0};    // 0 for that of the world
   std::uint64_t seed = 0;
-  std::string name;  // empty: the server chooses
-  // Further options with the names of sba::SimulationSpecification::options: "on_failure",
+  std::string name;  // empty if the server chooses it
+  // Further options, with the names of sba::SimulationSpecification::options: "on_failure",
   // "deadline_s", "abandoned_after_s".
   std::map<std::string, std::string> options;
 };
@@ -33,23 +33,25 @@ struct SimulationRequest {
 struct RobotRequest {
   std::string model;
   double x = 0, y = 0, yaw = 0;
-  std::string behaviour;  // name of an offer; empty: none
-  std::string name;       // empty: after its model
-  // A behaviour of this program, which needs no offer. It runs here, on its own thread.
+  std::string behaviour;  // the name of an offer; empty for a robot without a behaviour
+  std::string name;       // empty to name the robot after its model
+  // Makes a behaviour of this program, which needs no offer. It runs in this process, on its own
+  // thread.
   BehaviourFactory own_behaviour;
 };
 
 struct RobotState {
   std::string name, model, behaviour;
-  std::string agent;    // "running", "waiting", "finished", "unresponsive", "dead", …
+  // state of the behaviour: "running", "waiting", "finished", "unresponsive", "dead", …
+  std::string agent;
   Placement place;      // world_from_robot
-  double distance = 0;  // m
+  double distance = 0;  // driven distance, m
   std::uint64_t collisions = 0;
 };
 
 struct SimulationState {
-  // "created", "running", "paused", …; "lost": the server is gone. Time and robots are then the
-  // last known ones.
+  // "created", "running", "paused", …, or "lost" if the server is gone. Time and robots of a lost
+  // simulation are the last known ones.
   std::string phase;
   SimTime time{0};
   double real_time_factor = 0;
@@ -61,9 +63,9 @@ struct SimulationState {
 
 // A simulation on a server. The destructor destroys the simulation.
 //
-// When its server is gone (its port refuses connections, or it is silent for half a minute during
-// RunUntil()), the simulation is lost permanently: every call except State() fails with
-// kUnavailable.
+// If the server is gone, the simulation is lost permanently, and every call except State() fails
+// with kUnavailable. A server is gone if its port refuses connections, or if it does not answer for
+// half a minute during RunUntil().
 class RemoteSimulation {
  public:
   virtual ~RemoteSimulation() = default;
@@ -76,8 +78,8 @@ class RemoteSimulation {
   virtual base::Status Stop() = 0;
   // Returns to the start with the same robots.
   virtual base::Status Reset() = 0;
-  // Sets the target real-time factor from the next step on, in (0, 1e6]. It is kept by a reset.
-  // Fails with kInvalidArgument in lockstep, which runs as fast as possible.
+  // Sets the target real-time factor from the next step on, in (0, 1e6]. A reset keeps it. Fails
+  // with kInvalidArgument in lockstep, which runs as fast as possible.
   virtual base::Status SetRealTimeFactor(double factor) = 0;
   [[deprecated("use SetRealTimeFactor()")]] base::Status SetFactor(double factor) {
     return SetRealTimeFactor(factor);
@@ -87,9 +89,9 @@ class RemoteSimulation {
   // kInvalidArgument for an unknown command or an invalid argument.
   virtual base::Status Command(const std::string& name,
                                const std::map<std::string, std::string>& arguments = {}) = 0;
-  // Runs until the instant and pauses there. Blocks until then, at most `timeout` of wall-clock
-  // time. Calls `keep_waiting` at least every two seconds; if it returns false, this returns kEnded
-  // and the run continues.
+  // Runs until the instant and pauses there. Blocks until then, at most for `timeout` of wall-clock
+  // time. Calls `keep_waiting` at least every two seconds. If that returns false, this returns
+  // kEnded and the run continues.
   virtual base::Status RunUntil(SimTime until,
                                 std::chrono::seconds timeout = std::chrono::minutes(10),
                                 const std::function<bool()>& keep_waiting = {}) = 0;
@@ -101,16 +103,16 @@ class RemoteSimulation {
   virtual base::Status StopRecording() = 0;
 };
 
-// The broker, as an application uses it.
+// A connection to a broker, through which an application finds simulators.
 class Application {
  public:
-  // `broker`: corbaloc::1.2@HOST:PORT/TradingService.
+  // `broker` is corbaloc::1.2@HOST:PORT/TradingService.
   static base::Result<std::unique_ptr<Application>> Connect(const std::string& broker);
   virtual ~Application() = default;
 
-  // Creates a simulation on the first simulator, in the order of `preference` ("first", "min load",
-  // "random"), whose offer matches `constraint` (over the properties of docs/services.md; empty:
-  // any).
+  // Creates a simulation on a simulator whose offer matches `constraint`, which uses the properties
+  // of docs/services.md (empty: any simulator). Simulators are tried in the order of `preference`
+  // ("first", "min load", "random").
   virtual base::Result<std::unique_ptr<RemoteSimulation>> Create(
       const SimulationRequest& request, const std::string& constraint = "",
       const std::string& preference = "first") = 0;

@@ -9,7 +9,8 @@
 namespace gsv::sdk {
 namespace {
 
-// Runs on the behaviour's own thread. An exception of the behaviour ends its run, not the program.
+// Runs the behaviour on its own thread. An exception of the behaviour ends its run, not the
+// program.
 void RunOnClock(Behaviour& behaviour, RemoteRobot& robot) {
   const std::string failure = RunToItsEnd(behaviour, robot);
   if (failure.empty()) return robot.CloseClock();
@@ -45,7 +46,7 @@ void BehaviourServant::start() {
   if (behaviour_ == nullptr) throw sba::Refused("call init before start");
   if (running_.joinable()) throw sba::Refused("the behaviour is running already");
   orb::ValueOrThrow(robot_->OpenClock());
-  // Both outlive the thread: EndRun() joins it before either is replaced.
+  // Both objects outlive the thread, because EndRun() joins the thread before either is replaced.
   running_ =
       std::jthread([&behaviour = *behaviour_, &robot = *robot_] { RunOnClock(behaviour, robot); });
 }

@@ -1,6 +1,6 @@
 // Delays the remote calls of a behaviour program randomly, to test that results do not depend on
-// the arrival of calls. The delays are in the ORB's transport, before a request is sent and after a
-// reply has come. GSV_FAULT_DELAY="seed=7,max_ms=20" enables them.
+// when calls arrive. The delays are in the ORB's transport, before a request is sent and after a
+// reply has arrived. GSV_FAULT_DELAY="seed=7,max_ms=20" enables them.
 #pragma once
 
 #include <chrono>

@@ -43,7 +43,8 @@ TEST(FaultDelay, DelaysRepeatWithTheSeedAndStayBelowTheLimit) {
   }
   EXPECT_GT(different.size(), 990u);
   EXPECT_GT(unequal, 990);
-  // Even spread over 20 ms: the mean is 10 ms, its standard deviation 20 ms / sqrt(12 * 1000).
+  // The delays are uniform over 20 ms. So the mean is 10 ms, and its standard deviation is 20 ms /
+  // sqrt(12 * 1000).
   EXPECT_NEAR(static_cast<double>((sum / 1000).count()), 10e6, 5 * 20e6 / 109.5);
 }
 

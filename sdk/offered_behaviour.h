@@ -14,21 +14,23 @@
 namespace gsv {
 
 struct BehaviourDescription {
-  std::string name;          // of the service: "wander"
-  std::string description;   // one line
-  bool time_managed = true;  // it uses the robot's clock only, so that simulations may wait for it
+  std::string name;         // the name of the service, such as "wander"
+  std::string description;  // one line of text
+  // whether it uses only the robot's clock, so that simulations may wait for it
+  bool time_managed = true;
 };
 
 class OfferedBehaviour {
  public:
-  // `broker`: corbaloc::1.2@HOST:PORT/TradingService. `factory` creates one instance per robot.
+  // Offers a behaviour. `broker` is corbaloc::1.2@HOST:PORT/TradingService. `factory` creates one
+  // instance per robot.
   static base::Result<std::unique_ptr<OfferedBehaviour>> Offer(
       const std::string& broker, const BehaviourDescription& description, BehaviourFactory factory);
   // Withdraws the offer. Instances that drive robots continue until their simulations end them, or
   // until the last user of the ORB in this process ends.
   virtual ~OfferedBehaviour() = default;
 
-  // The broker's address, for display and for other programs.
+  // The broker's address, to show to users and to pass to other programs.
   virtual const std::string& broker() const = 0;
 };
 

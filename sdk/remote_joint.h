@@ -1,4 +1,4 @@
-// The Joint behind an sba::JointActuator reference.
+// A Joint that is used through an sba::JointActuator reference.
 //
 // Threads  the behaviour's thread.
 #pragma once
@@ -12,8 +12,8 @@
 
 namespace gsv::sdk {
 
-// Both pass on exceptions of the hardware, and throw sba::Refused if it has no joints that take
-// commands.
+// Both functions pass on exceptions of the hardware. They throw sba::Refused if the hardware has no
+// joints that take commands.
 std::vector<JointTraits> ListRemoteJoints(sba::Hardware_ptr hardware);
 // `robot` must outlive the joint.
 std::unique_ptr<Joint> OpenRemoteJoint(RemoteRobot& robot, sba::Hardware_ptr hardware,

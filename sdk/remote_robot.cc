@@ -18,7 +18,7 @@ Placement FromIdl(const sba::Placement& p) {
 
 sba::Placement ToIdl(const Placement& p) { return {p.x, p.y, p.z, p.roll, p.pitch, p.yaw}; }
 
-// The value in a parameter's text.
+// Parses the text of a parameter as a value.
 Parameters::mapped_type ValueOf(const std::string& text) {
   if (text == "true") return true;
   if (text == "false") return false;
@@ -183,7 +183,7 @@ base::Status RemoteRobot::OpenClock() {
 void RemoteRobot::End() { running_ = false; }
 
 void RemoteRobot::CloseClock() {
-  // The simulation may have ended; then there is nothing to close.
+  // The simulation may have ended, and then there is no clock to close.
   if (!CORBA::is_nil(clock_)) (void)orb::Call(name_, [this] { clock_->close(); });
 }
 

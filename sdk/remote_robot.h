@@ -1,4 +1,4 @@
-// The Robot behind an sba::Hardware reference.
+// A Robot that is used through an sba::Hardware reference.
 //
 // Threads  the behaviour's thread; End() from any.
 #pragma once
@@ -16,12 +16,12 @@ namespace gsv::sdk {
 
 class RemoteRobot final : public Robot, public std::enable_shared_from_this<RemoteRobot> {
  public:
-  // Time limit of each call. The simulation gives up an image after a minute, and may itself be
+  // Time limit of each call. The simulation waits up to a minute for an image, and may itself be
   // delayed by a busy machine or a stopped process.
   static constexpr std::chrono::milliseconds kCallTimeout{70'000};
 
-  // Queries the robot's parts. Fails if the hardware does not answer. Shared, as a garbage-collected
-  // language such as Python may keep it beyond the run.
+  // Queries the robot's parts. Fails if the hardware does not answer. The robot is shared, because
+  // a garbage-collected language such as Python may keep it beyond the run.
   static base::Result<std::shared_ptr<RemoteRobot>> Connect(const std::string& name,
                                                             sba::Hardware_ptr hardware);
   ~RemoteRobot() override;
@@ -30,7 +30,8 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
   base::Status OpenClock();
   // Ends the run on this side: waits and calls return at once from now on.
   void End();
-  // Reports that the behaviour has finished. Called once, after its last use of the robot.
+  // Reports that the behaviour has finished. It is called once, after the behaviour's last use of
+  // the robot.
   void CloseClock();
   // Reports that the run has ended with an error, instead of CloseClock().
   void GiveUp(const std::string& reason);
@@ -53,7 +54,7 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
   // Ends the run with an error.
   void Fail(const base::Error& error) { Note(error); }
 
-  // Calls `call` unless the run is over. The caller handles kInvalidArgument; any other failure
+  // Calls `call` unless the run is over. The caller handles kInvalidArgument. Any other failure
   // ends the run.
   template <typename Function>
   base::Status Ask(Function call) {
@@ -62,7 +63,7 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
     if (!status && status.error().code != base::ErrorCode::kInvalidArgument) Note(status.error());
     return status;
   }
-  // Calls `call` unless the run is over. A failure ends the run. True on success.
+  // Calls `call` unless the run is over. A failure ends the run. Returns true on success.
   template <typename Function>
   bool Try(Function call) {
     if (!running_) return false;

@@ -1,5 +1,5 @@
-// A behaviour reads every sensor inside the simulation's process, through CORBA, and through the
-// sensor's own IDL interface: the results are equal.
+// A behaviour reads every sensor in three ways: inside the simulation's process, through CORBA, and
+// through the sensor's own IDL interface. The results must be equal.
 #include "sdk/behaviour/sensors.h"
 
 #include <cmath>
@@ -61,7 +61,7 @@ class ReadsAll final : public Behaviour {
       read_.error = sent.error().message;
     }
     const auto refused = radio_->Broadcast(std::string(2000, 'x'));
-    // The hardware's sentence, unchanged by every way.
+    // The sentence of the hardware must be the same in all ways.
     const std::string why = refused ? "" : refused.error().Sentence();
     read_.names["refused"] = {why.substr(std::min(why.size(), why.find("a message of")))};
     for (const base::Status& told :
@@ -144,7 +144,8 @@ class ReadsAll final : public Behaviour {
   std::unique_ptr<Microphone> microphone_;
 };
 
-// A disc at the foot of the wall with a lever and one sensor of each type, named after it.
+// A disc at the foot of the wall. It has a lever, and one sensor of each type, which is named after
+// the type.
 simulation::RobotSpecification RobotWithAll(std::shared_ptr<simulation::BehaviourPort> behaviour) {
   auto model = std::make_shared<model::Model>(*simulation::Disc(0.2));
   model->links.push_back({});
@@ -161,7 +162,7 @@ simulation::RobotSpecification RobotWithAll(std::shared_ptr<simulation::Behaviou
     model::SensorDescription sensor;
     sensor.name = sensor.type = type;
     sensor.link_from_sensor.position = {0, 0, 0.25};
-    // At the height of the wall's centre.
+    // The sensor is at the height of the wall's centre.
     if (sensor.type == "logical_camera") sensor.link_from_sensor.position.z = 1;
     if (sensor.type == "lidar") sensor.parameters = {{"scan.horizontal.samples", 8.0}};
     if (sensor.type == "imu") {
@@ -174,7 +175,7 @@ simulation::RobotSpecification RobotWithAll(std::shared_ptr<simulation::Behaviou
   return robot;
 }
 
-// Sends 20 messages at 20 ms, of which a radio keeps 16. It is behind the robot.
+// A robot behind the other one that sends 20 messages at 20 ms. A radio keeps 16 of them.
 simulation::RobotSpecification Speaker() {
   auto model = std::make_shared<model::Model>(*simulation::Disc(0.2));
   model::SensorDescription radio;
@@ -184,7 +185,8 @@ simulation::RobotSpecification Speaker() {
       [](simulation::Agent& agent, simulation::ClockId clock) {
         ASSERT_TRUE(agent.OpenSensor("radio"));
         if (!simulation::SleepFor(agent, clock, 20ms)) return;
-        EXPECT_EQ(agent.Read("radio")->labels->at(1), "ACBtZQ==");  // the robot's "\0 me"
+        // the encoded bytes of the robot's message "\0 me"
+        EXPECT_EQ(agent.Read("radio")->labels->at(1), "ACBtZQ==");
         for (int i = 1; i <= 20; ++i) {
           ASSERT_TRUE(agent.Send("radio", "robot", std::string("\0 word ", 7) + std::to_string(i)));
         }
@@ -205,7 +207,7 @@ void RunWith(std::shared_ptr<simulation::BehaviourPort> behaviour) {
   ASSERT_EQ(simulation::RunToEnd(*simulation), simulation::Phase::kFinished);
 }
 
-// Drives the behaviour through the servants of its robot, like a process elsewhere.
+// Runs the behaviour through the servants of its robot, like a behaviour in another process.
 class ThroughCorba final : public simulation::BehaviourPort {
  public:
   using Also = std::function<void(sba::SensorFactory_ptr)>;
@@ -262,7 +264,7 @@ typename Interface::_var_type Opened(sba::SensorFactory_ptr factory, const char*
   return narrowed;
 }
 
-// The same values through the interface of each type.
+// Compares the values with those from the interface of each type.
 void CheckInterfaces(sba::SensorFactory_ptr factory, const Read& read) {
   const auto& values = read.values;
   EXPECT_EQ(Opened<sba::Sonar>(factory, "sonar")->range(), values.at("sonar")[0]);
@@ -348,7 +350,7 @@ TEST(Sensors, ReadTheSameInProcessThroughCorbaAndThroughTheirInterfaces) {
 
   const auto& values = local.values;
   EXPECT_EQ(values.at("more")[1], 2);
-  EXPECT_NEAR(values.at("sonar")[0], 0.2, 1e-3);  // it is at the wall
+  EXPECT_NEAR(values.at("sonar")[0], 0.2, 1e-3);  // the robot is at the wall
   EXPECT_EQ(values.at("sonar")[1], 5);
   EXPECT_NEAR(values.at("altimeter")[2], 0.25, 1e-9);
   EXPECT_GT(values.at("navsat")[0], 45);
@@ -397,7 +399,7 @@ void RunBothWays(const model::SensorDescription& sensor,
   (*orb)->destroy();
 }
 
-// Four values, where an IMU has six or ten.
+// A sensor with four values, where an IMU has six or ten.
 class BrokenImu final : public sensing::Sensor {
  public:
   using Sensor::Sensor;

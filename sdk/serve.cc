@@ -28,8 +28,8 @@ int PrintError(const base::Error& error) {
   return error.code == base::ErrorCode::kInvalidArgument ? kUsage : kInfrastructure;
 }
 
-// Blocks SIGINT, SIGTERM and SIGHUP (unless it is ignored, as by nohup) in this and all later
-// threads, for sigwait().
+// Blocks SIGINT and SIGTERM in this and all later threads, for sigwait(). It also blocks SIGHUP,
+// unless that is ignored, as by nohup.
 sigset_t BlockSignals() {
   sigset_t signals;
   sigemptyset(&signals);
@@ -48,14 +48,14 @@ int Serve(const Arguments& arguments, const BehaviourModule& module, BehaviourFa
                                          {arguments.name, module.description, module.time_managed},
                                          std::move(factory));
   if (!offered) return PrintError(offered.error());
-  // One line on stdout, for which the parent process may wait.
+  // The parent process may wait for this line on stdout.
   std::printf("%s: offered at %s\n", arguments.name.c_str(), (*offered)->broker().c_str());
   std::fflush(stdout);
-  // The parent process does not read further: the behaviour's output goes to stderr.
+  // The parent process reads no further output, so the behaviour's output goes to stderr.
   if (arguments.exit_with_parent) dup2(STDERR_FILENO, STDOUT_FILENO);
   int signal = 0;
   sigwait(&signals, &signal);
-  // A behaviour that does not return from its run would delay the end: a second signal ends the
+  // A behaviour that does not return from its run would delay the end, so a second signal ends the
   // program at once.
   pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
   return 0;

@@ -8,7 +8,7 @@
 namespace gsv::sdk {
 namespace {
 
-// A process has one ORB, which its users share. Locked while it starts or ends.
+// Locks the only ORB of the process, which its users share, while the ORB starts or ends.
 base::Mutex shared_orb_mutex;
 std::weak_ptr<SharedOrb> shared_orb;
 
@@ -28,7 +28,8 @@ base::Result<CORBA::ORB_var> StartOrbTowards(const std::string& broker) {
 }  // namespace
 
 base::Result<std::shared_ptr<SharedOrb>> SharedOrb::Towards(const std::string& broker) {
-  std::shared_ptr<SharedOrb> shared;  // destroyed after the lock, which its destructor takes
+  // destroyed after the lock is released, because its destructor takes the lock
+  std::shared_ptr<SharedOrb> shared;
   const base::MutexLock lock(shared_orb_mutex);
   shared = shared_orb.lock();
   if (shared != nullptr) return shared;

@@ -14,8 +14,8 @@ namespace gsv::sdk {
 
 class SharedOrb {
  public:
-  // Returns the existing ORB, or starts one that listens on the local address that reaches
-  // `broker`. GSV_FAULT_DELAY delays its calls (fault_delay.h).
+  // Returns the existing ORB. If there is none, starts one that listens on the local address that
+  // reaches `broker`. GSV_FAULT_DELAY delays its calls (fault_delay.h).
   static base::Result<std::shared_ptr<SharedOrb>> Towards(const std::string& broker);
   ~SharedOrb();
   SharedOrb(const SharedOrb&) = delete;

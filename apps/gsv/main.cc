@@ -75,7 +75,7 @@ void AddCorbaOptions(CLI::App& app, CorbaArguments& corba) {
                "the same.");
 }
 
-// Sets the variables for orb::PrepareAccess(), and for programs that this one starts.
+// Sets the variables for orb::PrepareAccess(), and for programs that this process starts.
 void UseCorbaOptions(const CorbaArguments& corba) {
   const auto set = [](const char* name, const std::string& path) {
     if (!path.empty()) setenv(name, std::filesystem::absolute(path).c_str(), 1);
@@ -86,7 +86,7 @@ void UseCorbaOptions(const CorbaArguments& corba) {
   if (corba.is_insecure) setenv("GSV_INSECURE_CORBA", "1", 1);
 }
 
-// Programs that this one starts log in the same way.
+// Programs that this process starts log in the same way.
 void StartLog(const LogArguments& log, bool verbose) {
   if (!log.level.empty()) setenv("GSV_LOG_LEVEL", log.level.c_str(), 1);
   if (!log.format.empty()) setenv("GSV_LOG_FORMAT", log.format.c_str(), 1);
@@ -96,7 +96,8 @@ void StartLog(const LogArguments& log, bool verbose) {
   gsv::base::InitLogging(options);
 }
 
-// `words` are what the command does not know, at least one: the first option, else the first word.
+// Returns the first unknown option, or else the first unknown word. `words` are the words that the
+// command does not know; there is at least one.
 std::string UnknownWord(const CLI::App& command, const std::vector<std::string>& words) {
   const auto option = std::find_if(words.begin(), words.end(),
                                    [](const auto& word) { return word.starts_with('-'); });
@@ -115,9 +116,9 @@ std::string UnknownWord(const CLI::App& command, const std::vector<std::string>&
   return "there is no command " + words.front() + gsv::base::DidYouMean(words.front(), known);
 }
 
-// One sentence, as for every error. CLI11 reports an unknown command as a missing one.
+// Returns one sentence, as for every error. CLI11 reports an unknown command as a missing one.
 std::string UsageSentence(const CLI::App* app, const CLI::Error& error) {
-  const CLI::App* typed = app;  // the part that is a command
+  const CLI::App* typed = app;  // the command that the user typed
   std::string words = app->get_name();
   while (!typed->get_subcommands().empty()) {
     typed = typed->get_subcommands().front();

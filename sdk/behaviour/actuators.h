@@ -61,7 +61,7 @@ class Speaker : public Sensor {
 
   using Sound = readings::Speaker;
 
-  // "tone", "buzz", "chirp" or "noise".
+  // Plays a sound: "tone", "buzz", "chirp" or "noise".
   base::Status Play(const std::string& sound, double frequency, double duration,
                     double volume = 1) {
     return port().CommandDevice({frequency, duration, volume}, sound);

@@ -14,17 +14,18 @@ class Behaviour {
  public:
   virtual ~Behaviour() = default;
 
-  // Called before simulated time advances: open sensors here. An error refuses the robot.
+  // Called before simulated time advances. Open sensors here. If it returns an error, the robot is
+  // refused.
   virtual base::Status Init(Robot& /*robot*/) { return {}; }
   // Runs until robot.SleepFor() or another wait returns false, or until the work is done.
   virtual void Run(Robot& robot) = 0;
 
-  // Notifications only: a behaviour that sleeps on the robot's clock need not react.
+  // These are notifications. A behaviour that sleeps on the robot's clock need not react to them.
   virtual void Paused() {}
   virtual void Resumed() {}
 };
 
-// A behaviour that never blocks: it computes a command from readings once per period.
+// A behaviour that never blocks. It computes a command from readings once per period.
 class Controller : public Behaviour {
  public:
   explicit Controller(SimTime period) : period_(period) {}

@@ -1,7 +1,8 @@
 // A joint of a robot. Behaviours read it and command its position, velocity or effort.
 //
 // Units    rad, rad/s and N m; for prismatic joints m, m/s and N.
-// Errors   as Robot: after the end of the run every call returns at once, and readings are zero.
+// Errors   as for Robot: after the end of the run every call returns at once, and readings are
+//          zero.
 // Threads  one behaviour, one thread.
 #pragma once
 
@@ -15,7 +16,7 @@ namespace gsv {
 struct JointTraits {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
   std::string name;
-  std::string kind;  // "revolute", "continuous", "prismatic", "screw"
+  std::string kind;  // "revolute", "continuous", "prismatic" or "screw"
   double min_position = -kNone, max_position = kNone;
   double max_velocity = kNone;
   double max_effort = kNone;
@@ -32,8 +33,8 @@ class Joint {
   virtual ~Joint() = default;
   virtual const JointTraits& traits() const = 0;
 
-  // Each command holds until the next. MoveTo() respects the joint's limits of velocity and effort,
-  // MoveAt() and Apply() its limit of effort. Release() leaves only damping and friction.
+  // Each command applies until the next. MoveTo() respects the joint's limits of velocity and
+  // effort, MoveAt() and Apply() its limit of effort. Release() leaves only damping and friction.
   virtual void MoveTo(double position) = 0;
   virtual void MoveAt(double velocity) = 0;
   virtual void Apply(double effort) = 0;

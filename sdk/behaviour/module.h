@@ -23,12 +23,12 @@ inline constexpr const char* kBehaviourModuleSymbol = "gsv_behaviour_module";
 
 struct BehaviourModule {
   int interface_version = kBehaviourInterface;
-  std::string name;         // of the offer: "wander"
+  std::string name;         // the name of the offer, such as "wander"
   std::string description;  // one line for --help
-  // Adds the behaviour's own options, if any, and returns the factory that uses their values after
-  // parsing.
+  // Adds the behaviour's own options, if it has any. Returns the factory, which uses their values
+  // after parsing.
   std::function<BehaviourFactory(CLI::App&)> configure;
-  // The behaviour uses the robot's clock only, so that a simulation may wait for it.
+  // Whether the behaviour uses only the robot's clock, so that a simulation may wait for it.
   bool time_managed = true;
 };
 
@@ -36,14 +36,15 @@ struct BehaviourModule {
 
 extern "C" const gsv::BehaviourModule* gsv_behaviour_module();
 
-// `make` is an expression of the type gsv::BehaviourModule. It is evaluated once.
+// Declares a behaviour. `make` is an expression of the type gsv::BehaviourModule. It is evaluated
+// once.
 #define GSV_BEHAVIOUR_MODULE(make)                                \
   extern "C" const gsv::BehaviourModule* gsv_behaviour_module() { \
     static const gsv::BehaviourModule module = make;              \
     return &module;                                               \
   }
 
-// The behaviour is a class with a default constructor.
+// Declares a behaviour that is a class with a default constructor.
 #define GSV_BEHAVIOUR(name, description, Class)    \
   GSV_BEHAVIOUR_MODULE((gsv::BehaviourModule{      \
       gsv::kBehaviourInterface, name, description, \

@@ -1,5 +1,6 @@
-// A robot for its behaviour: sensors by name, a base to drive, a clock to wait on. The interface is
-// the same for simulated robots in this process, simulated robots elsewhere, and real ones.
+// The interface through which a behaviour uses its robot: sensors by name, a base to drive, and a
+// clock to wait on. It is the same for simulated robots in this process, simulated robots in other
+// processes, and real robots.
 //
 // Frames   REP-103: x forward, y left, z up.
 // Units    metres, radians, seconds.
@@ -21,12 +22,12 @@
 
 namespace gsv {
 
-using namespace std::chrono_literals;  // robot.SleepFor(50ms)
+using namespace std::chrono_literals;  // for durations such as in robot.SleepFor(50ms)
 
 struct DriveCommand {
   double linear = 0;   // m/s
   double angular = 0;  // rad/s
-  double lateral = 0;  // m/s, to the left; bases that cannot move sideways ignore it
+  double lateral = 0;  // m/s to the left; ignored by bases that cannot move sideways
 };
 
 class Robot {
@@ -34,7 +35,7 @@ class Robot {
   virtual ~Robot() = default;
 
   virtual const std::string& name() const = 0;
-  // m: a circle of this radius about the robot's origin contains the robot.
+  // The radius in m of a circle about the robot's origin that contains the robot.
   virtual double footprint_radius() const = 0;
   virtual std::vector<SensorTraits> Sensors() = 0;
 
@@ -72,29 +73,30 @@ class Robot {
     return Create<PositioningSystem>(sensor, {});
   }
 
-  // The joints that take commands, and access to one by name.
+  // Returns the joints that take commands. Joint() gives access to one by name.
   virtual std::vector<JointTraits> Joints() = 0;
   virtual base::Result<std::unique_ptr<Joint>> OpenJoint(const std::string& joint) = 0;
 
-  // Commands the base until the next command.
+  // Commands the base. The command applies until the next one.
   virtual void Command(const DriveCommand& command) = 0;
   void Drive(double linear, double angular) { Command({linear, angular}); }
-  // For mecanum and omnidirectional bases; `lateral` is to the left.
+  // Drives a mecanum or omnidirectional base. `lateral` is to the left.
   void DriveSideways(double linear, double lateral, double angular) {
     Command({linear, angular, lateral});
   }
 
   virtual SimTime Now() = 0;
-  // Sleeps until the instant. False after the end of the run; the behaviour should then return.
+  // Sleeps until the instant. Returns false after the end of the run; the behaviour should then
+  // return.
   virtual bool SleepUntil(SimTime instant) = 0;
   bool SleepFor(SimTime duration) { return SleepUntil(Now() + duration); }
-  // One control cycle in one round trip: commands the base, sleeps until `instant`, then reads
-  // every open sensor. False after the end of the run.
+  // Does one control cycle in one round trip: commands the base, sleeps until `instant`, then reads
+  // every open sensor. Returns false after the end of the run.
   virtual bool Exchange(const DriveCommand& command, SimTime instant,
                         std::vector<Reading>& readings) = 0;
 
   virtual bool IsRunning() const = 0;
-  // The reason for the end of the run; empty during the run and after a normal end.
+  // The reason for the end of the run. Empty during the run and after a normal end.
   virtual std::string error() const = 0;
 
  private:

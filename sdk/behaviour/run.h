@@ -8,7 +8,7 @@
 namespace gsv {
 
 // Calls Run() until it returns or throws. Returns an empty text, or the robot's name and the error
-// that ended the run: the robot's error, else the exception.
+// that ended the run. That is the robot's error, or else the exception.
 std::string RunToItsEnd(Behaviour& behaviour, Robot& robot);
 
 }  // namespace gsv

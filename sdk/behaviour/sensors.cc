@@ -5,7 +5,7 @@
 namespace gsv {
 namespace {
 
-constexpr double kSonarMaximum = 5;  // m, if its parameters do not set it
+constexpr double kSonarMaximum = 5;  // in m; used if the parameters of the sonar do not set it
 
 }  // namespace
 

@@ -1,12 +1,12 @@
-// The sensors of a robot: one class per type, with readings as structs of gsv/readings/catalogue.h.
-// The classes are the same for every robot; only the SensorPort differs, which fetches the
-// readings.
+// The sensors of a robot. There is one class per sensor type, with readings as structs of
+// gsv/readings/catalogue.h. The classes are the same for every robot. Only the SensorPort, which
+// fetches the readings, differs.
 //
 // Frames   REP-103: x forward, y left, z up.
 // Units    metres, radians, seconds.
 // Errors   a reading of the wrong size and a failing sensor end the run with an error. After the
-//          end of the run a reading has no values; structs are zero, a sonar returns its maximum
-//          range.
+//          end of the run a reading has no values: structs are zero, and a sonar returns its
+//          maximum range.
 // Threads  as Robot.
 #pragma once
 
@@ -45,27 +45,29 @@ struct SensorTraits {
   std::string name;
   std::string type;
   Placement robot_from_sensor;
-  double update_rate = 0;  // Hz; 0: a new reading for each request
+  double update_rate = 0;  // in Hz; 0 for a new reading at each request
   Parameters parameters;
 };
 
-// One reading; the struct of its type defines the layout of `values` and `labels`.
+// A reading. The struct of its sensor type defines the layout of `values` and `labels`.
 struct Reading {
   std::string sensor;
   SimTime time{0};
   std::vector<double> values;
-  std::vector<std::string> labels;  // names beside the values, if the type has any
+  std::vector<std::string> labels;  // names that belong to the values, if the type has any
 };
 
-// The source of a Sensor's readings: a robot in this process, or a reference to one elsewhere.
+// The source of a Sensor's readings: a robot in this process, or a reference to a robot in another
+// process.
 class SensorPort {
  public:
   virtual ~SensorPort() = default;
   virtual const SensorTraits& traits() const = 0;
-  // Reads the sensor. False after the end of the run, and if the sensor fails, which ends the run;
-  // `reading` then has no values.
+  // Reads the sensor. Returns false after the end of the run, and if the sensor fails, which ends
+  // the run. `reading` then has no values.
   virtual bool Measure(Reading& reading) = 0;
-  // Returns an image. Empty in the same cases, and for sensors without images.
+  // Returns an image. It is empty when Measure() would return false, and for sensors without
+  // images.
   virtual Image TakeImage() = 0;
   // Sends a message, see Radio::Send(). Sensors other than radios return an error.
   virtual base::Status Send(const std::string& receiver, const std::string& content) = 0;
@@ -96,9 +98,9 @@ class Sensor {
     Measure();
     return std::exchange(reading_, {});
   }
-  // Decodes the newest reading, or a copy of it. Spans in the struct refer to that reading. Nothing
-  // after the end of the run, and if the reading has the wrong size, which ends the run with an
-  // error.
+  // Decodes the newest reading, or a copy of it. Spans in the struct refer to that reading. Returns
+  // nullopt after the end of the run, and if the reading has the wrong size, which ends the run
+  // with an error.
   template <typename Values>
   std::optional<Values> In(const Reading& reading) {
     if (!has_measured_) return std::nullopt;
@@ -111,18 +113,18 @@ class Sensor {
 
  protected:
   SensorPort& port() { return *port_; }
-  // Takes a reading as a struct; default-constructed if there is none.
+  // Takes a reading as a struct. The struct is default-constructed if there is no reading.
   template <typename Values>
   Values MeasureAs() {
     return In<Values>(Measure()).value_or(Values());
   }
-  // A numeric parameter, or `otherwise`.
+  // Returns a numeric parameter, or `otherwise` if it is not set.
   double Number(const std::string& parameter, double otherwise) const;
 
  private:
   std::unique_ptr<SensorPort> port_;
   Reading reading_;
-  bool has_measured_ = false;  // the newest reading is valid
+  bool has_measured_ = false;  // whether the newest reading is valid
 };
 
 class Sonar : public Sensor {
@@ -130,7 +132,7 @@ class Sonar : public Sensor {
   static constexpr const char* kType = readings::Sonar::kType;
   explicit Sonar(std::unique_ptr<SensorPort> port);
 
-  // m to the nearest echo; max_range() if there is none.
+  // Returns the distance in m to the nearest echo, or max_range() if there is none.
   double Range();
   double max_range() const { return max_range_; }
 
@@ -143,7 +145,7 @@ class Lidar : public Sensor {
   static constexpr const char* kType = readings::Lidar::kType;
   using Sensor::Sensor;
 
-  // m, one per beam; infinite if nothing was hit.
+  // Returns the distance in m for each beam; infinite if the beam hit nothing.
   const std::vector<double>& Ranges() { return Measure().values; }
 };
 
@@ -261,21 +263,21 @@ class Radio : public Sensor {
   using Sensor::Sensor;
 
   struct Message {
-    std::string sender;  // robot
+    std::string sender;  // the name of the robot
     std::string content;
     SimTime sent{0};
-    double strength = 0;  // dBm
+    double strength = 0;  // in dBm
   };
 
-  // Sends to the robot of that name, without acknowledgement. Fails if the message is longer than
-  // the radio's max_size, if too many are sent in one step, and after the end of the run.
+  // Sends to the robot with that name, without acknowledgement. Fails if the message is longer than
+  // the radio's max_size, if too many messages are sent in one step, and after the end of the run.
   base::Status Send(const std::string& receiver, const std::string& content) {
     return port().Send(receiver, content);
   }
   // Sends to all robots in range.
   base::Status Broadcast(const std::string& content) { return port().Send("", content); }
 
-  // The messages received since the last call, the oldest first.
+  // Returns the messages that were received since the last call, the oldest first.
   std::vector<Message> Receive();
   // The number of messages that later ones replaced in the inbox before Receive() was called.
   std::uint64_t missed() const { return missed_; }
@@ -292,7 +294,8 @@ class DepthCamera : public Sensor {
 
   struct Image {
     int width = 0, height = 0;
-    std::vector<double> depth;  // m along the view, rows from the top; infinite for the background
+    // in m along the view, in rows from the top; infinite for the background
+    std::vector<double> depth;
   };
   Image TakeDepth() {
     const auto image = MeasureAs<readings::DepthImage>();
@@ -305,7 +308,8 @@ class SegmentationCamera : public Sensor {
   static constexpr const char* kType = readings::SegmentedImage::kType;
   using Sensor::Sensor;
 
-  // A pixel with label n shows names[n - 1], label 0 is the background. Rows from the top.
+  // A pixel with label n shows names[n - 1]. Label 0 is the background. Rows are stored from the
+  // top.
   struct Image {
     int width = 0, height = 0;
     std::vector<std::uint32_t> labels;
@@ -327,8 +331,9 @@ class ThermalCamera : public Sensor {
 
   struct Image {
     int width = 0, height = 0;
-    double resolution = 0;            // K
-    std::vector<double> temperature;  // K, rows from the top, in whole steps of the resolution
+    double resolution = 0;  // K
+    // in K, in rows from the top, in whole steps of the resolution
+    std::vector<double> temperature;
   };
   Image TakeTemperatures() {
     const auto image = MeasureAs<readings::ThermalImage>();
@@ -346,8 +351,8 @@ class NormalsCamera : public Sensor {
 
   struct Image {
     int width = 0, height = 0;
-    // Three values x, y, z a pixel, rows from the top: the unit normal of the visible surface,
-    // towards the camera, in the sensor frame; NaN where it is unknown.
+    // Three values x, y, z per pixel, in rows from the top. They are the unit normal of the visible
+    // surface, towards the camera, in the sensor frame, or NaN where it is unknown.
     std::vector<double> normals;
   };
   Image TakeNormals() {

@@ -1,4 +1,4 @@
-// Robotic applications in Python: simulations on servers that a broker offers.
+// Robotic applications in Python: simulations on servers that are offered through a broker.
 #include <pybind11/stl.h>
 
 #include "sdk/application.h"
@@ -25,7 +25,8 @@ class PythonSimulation {
   std::unique_ptr<RemoteSimulation> simulation_;
 };
 
-// `behaviour` is the name of an offer, a class or another callable that makes one, or None.
+// Adds a robot. `behaviour` is the name of an offer, a class or another callable that makes a
+// behaviour, or None.
 std::string Add(const PythonSimulation& simulation, const std::string& model, double x, double y,
                 double yaw, const py::object& behaviour, const std::string& name) {
   RobotRequest request{model, x, y, yaw, "", name, {}};
@@ -38,7 +39,7 @@ std::string Add(const PythonSimulation& simulation, const std::string& model, do
   return ValueOrRaise(simulation.Get().AddRobot(request));
 }
 
-// Ends early if a signal came, with the exception that Python raises for it.
+// Runs until the instant. Ends early after a signal, with the exception that Python raises for it.
 void RunUntil(const PythonSimulation& simulation, double instant, double patience) {
   const base::SimTime until = TimeFrom(instant);
   const auto limit = std::chrono::duration_cast<std::chrono::seconds>(TimeFrom(patience));
@@ -100,7 +101,7 @@ void BindState(py::module_& module) {
       });
 }
 
-// Numbers, flags and texts in the form of sba::NameValue.
+// Converts numbers, flags and texts to the form of sba::NameValue.
 std::string TextOf(const py::handle& value) {
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
   return py::str(value);

@@ -11,7 +11,7 @@
 namespace gsv::python {
 
 using SensorMaker = py::object (*)(std::unique_ptr<SensorPort>);
-// The makers of sensor objects by sensor type.
+// The functions that make sensor objects, by sensor type.
 std::map<std::string, SensorMaker>& SensorMakers();
 
 template <typename Kind>
@@ -38,7 +38,7 @@ py::class_<Struct> BindReading(py::handle scope, const char* name, const char* d
   return bound;
 }
 
-// Keeps the name `old` for what is called `name` now.
+// Keeps the deprecated name `old` for the object `name`.
 inline void Deprecate(py::handle scope, const char* old, const char* name) {
   scope.attr(old) = scope.attr(name);
 }

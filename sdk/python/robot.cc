@@ -11,7 +11,7 @@ namespace {
 
 using sdk::RemoteRobot;
 
-// A sensor of the class for its type; a Sensor if the type has no class.
+// Makes an object of the class for the sensor's type, or a Sensor if the type has no class.
 py::object MakeSensor(std::unique_ptr<SensorPort> port) {
   const auto maker = SensorMakers().find(port->traits().type);
   return maker != SensorMakers().end() ? maker->second(std::move(port))
@@ -34,7 +34,7 @@ py::object OpenSensor(RemoteRobot& robot, const std::string& name, const py::obj
   return sensor;
 }
 
-// `type` is the name of a type, or a class that has one.
+// Creates a sensor. `type` is the name of a type, or a class that has one.
 py::object CreateSensor(RemoteRobot& robot, const py::object& type, const std::string& name,
                         const Placement& robot_from_sensor, Parameters parameters,
                         double update_rate) {
@@ -49,7 +49,7 @@ py::object CreateSensor(RemoteRobot& robot, const py::object& type, const std::s
   return MakeSensor(ValueOrRaise(std::move(port)));
 }
 
-// Readings by the sensors' names; None after the end of the run.
+// Returns readings by the names of the sensors, or None after the end of the run.
 py::object Exchange(RemoteRobot& robot, double linear, double angular, double until,
                     double lateral) {
   std::vector<Reading> readings;

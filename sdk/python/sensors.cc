@@ -1,4 +1,4 @@
-// Sensors and their readings. Arrays are views of the readings, which they keep alive: no data is
+// Sensors and their readings. Arrays are views of the readings and keep them alive. No data is
 // copied between the SDK and NumPy.
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
@@ -10,7 +10,7 @@ namespace {
 
 using Doubles = py::array_t<double>;
 
-// The values of a reading as an array that keeps it alive.
+// Returns the values of a reading as an array that keeps the reading alive.
 Doubles AllValues(const py::object& reading) {
   const std::vector<double>& values = reading.cast<const Reading&>().values;
   return Doubles(static_cast<py::ssize_t>(values.size()), values.data(), reading);
@@ -33,7 +33,7 @@ py::array_t<std::uint8_t> ToArray(Image image) {
   return py::array_t<std::uint8_t>({of.height, of.width, 3}, of.rgb.data(), owner);
 }
 
-// The struct of a reading in Python; empty after the end of the run.
+// Returns the struct of a reading in Python. It is empty after the end of the run.
 template <typename Values>
 Values ValuesIn(Sensor& sensor, const Reading& reading) {
   return sensor.In<Values>(reading).value_or(Values());

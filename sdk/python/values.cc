@@ -55,7 +55,8 @@ void CallPython(const std::function<void()>& call) {
     call();
     return;
   } catch (const py::error_already_set& error) {
-    // "ZeroDivisionError: division by zero", like the last line of the traceback.
+    // The text is like the last line of the traceback, such as "ZeroDivisionError: division by
+    // zero".
     raised = py::str(error.type().attr("__name__")).cast<std::string>() + ": " +
              py::str(error.value()).cast<std::string>();
     const py::object trace = error.trace() ? error.trace() : py::none();

@@ -1,8 +1,8 @@
 // Conversions that all bindings use: errors to exceptions, times to seconds, and Python objects
 // that are kept by threads without the interpreter's lock (GIL).
 //
-// Threads  the caller holds the GIL unless a function says otherwise. Functions that wait release
-//          it.
+// Threads  the caller holds the GIL unless a function's comment says otherwise. Functions that wait
+//          release it.
 #pragma once
 
 #include <functional>
@@ -34,10 +34,10 @@ T ValueOrRaise(base::Result<T> result) {
 // Raises ValueError if `seconds` is not a valid time. Needs no GIL.
 base::SimTime TimeFrom(double seconds);
 
-// The nearest double, such as 0.15, where ToSeconds() may return a neighbour.
+// Returns the nearest double, such as 0.15. ToSeconds() may return an adjacent number.
 inline double SecondsOf(base::SimTime time) { return static_cast<double>(time.count()) / 1e9; }
 
-// A Python object that threads without the GIL may copy, keep and destroy.
+// A Python object that threads may copy, keep and destroy without holding the GIL.
 class Kept {
  public:
   explicit Kept(py::object object)
@@ -56,7 +56,7 @@ class Kept {
 // traceback of a Python exception to stderr and throws a std::runtime_error with one line.
 void CallPython(const std::function<void()>& call);
 
-// Deletes objects without the GIL, for destructors that wait for other threads.
+// Deletes objects without the GIL held. It is for objects whose destructors wait for other threads.
 struct EndsWithoutGil {
   template <typename T>
   void operator()(T* object) const {
@@ -68,7 +68,7 @@ template <typename T>
 using Owned = std::unique_ptr<T, EndsWithoutGil>;
 
 void BindSensors(py::module_& module);
-void BindRobot(py::module_& module);  // after BindSensors()
+void BindRobot(py::module_& module);  // call it after BindSensors()
 void BindBehaviours(py::module_& module);
 void BindApplications(py::module_& module);
 

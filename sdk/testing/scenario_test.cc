@@ -18,7 +18,8 @@ std::string GsvProgram() {
   return program != nullptr ? program : "gsv";
 }
 
-// A program that ends with this one. Its stdout, and with `with_errors` its stderr, can be read.
+// A program that ends with this process. Its stdout can be read, and with `with_errors` its stderr
+// as well.
 class Program {
  public:
   Program(std::vector<std::string> arguments, bool with_errors) {
@@ -53,7 +54,7 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  // Empty at the end.
+  // Returns the next line, or an empty text at the end.
   std::string ReadLine() {
     char* line = nullptr;
     std::size_t size = 0;
@@ -62,7 +63,7 @@ class Program {
     free(line);
     return text;
   }
-  // Its exit code; -1 if it did not end by itself.
+  // Returns the exit code, or -1 if the program did not end by itself.
   int AwaitEnd() {
     int status = 0;
     if (process_ > 0 && waitpid(process_, &status, 0) == process_) process_ = 0;

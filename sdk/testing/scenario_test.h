@@ -1,6 +1,6 @@
 // Support for GoogleTest: scenarios as tests (docs/testing.md), and a simulator for a test program.
 //
-// Both start the program gsv: the file GSV_PROGRAM, else gsv on the PATH.
+// Both start the program gsv. Its path is in GSV_PROGRAM; otherwise it is searched on the PATH.
 #pragma once
 
 #include <string>
@@ -22,7 +22,7 @@ class SimulatorTest : public ::testing::Test {
   void SetUp() override;
 
   static Application& simulator();
-  static const std::string& broker();  // reference of the broker, for behaviours
+  static const std::string& broker();  // The reference of the broker, for behaviours.
 };
 
 }  // namespace gsv::testing

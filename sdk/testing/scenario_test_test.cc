@@ -1,4 +1,4 @@
-// Uses the fixtures of sdk/testing like the tests of a user.
+// Uses the fixtures of sdk/testing as the tests of a user do.
 #include "sdk/testing/scenario_test.h"
 
 #include <cstdlib>
@@ -51,7 +51,7 @@ TEST_F(ASimulator, RunsTheScenarioOfATest) {
   EXPECT_EQ(state->time, std::chrono::seconds(1));
 }
 
-// Sends the width of the image of its wide-angle camera to `seen`.
+// A behaviour that sends the width of the image of its wide-angle camera to `seen`.
 class Looks final : public Behaviour {
  public:
   explicit Looks(std::promise<int>& seen) : seen_(seen) {}

@@ -1,4 +1,4 @@
-// Robots with lamps and speakers, each driven by its own program or in gsv.
+// Runs robots with lamps and speakers. Each is driven by its own program or inside gsv.
 #include "tests/end_to_end/four_robots.h"
 
 namespace gsv::testing {

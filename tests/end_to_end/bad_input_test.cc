@@ -1,4 +1,5 @@
-// Every error from outside gives one clear sentence and the right exit code, and nothing hangs.
+// Every error from outside must give one clear sentence and the right exit code, and nothing may
+// hang.
 #include <csignal>
 
 #include <arpa/inet.h>
@@ -85,7 +86,8 @@ TEST(BadInput, CorruptMeshIsAWarningAndTheRestRuns) {
 TEST(BadInput, MeshWithABillionDeclaredTrianglesIsRejected) {
   base::testing::TestFolder folder;
   std::string stl(84, '\0');
-  stl[80] = '\0', stl[81] = '\xca', stl[82] = '\x9a', stl[83] = '\x3b';  // 1,000,000,000
+  // the number of triangles: 1,000,000,000
+  stl[80] = '\0', stl[81] = '\xca', stl[82] = '\x9a', stl[83] = '\x3b';
   folder.Write("huge.stl", stl);
   const auto robot = folder.Write("r.sdf", RobotWithMesh("huge.stl"));
   const Outcome outcome = Headless(kPlayground, {"--robot", robot.string() + "@0,0"});
@@ -227,7 +229,7 @@ TEST(BadInput, ThrowingBehaviourIsReportedWithItsException) {
   EXPECT_DOUBLE_EQ(outcome.LastLine()["sim_time_s"], 1.0);
   const auto robot = outcome.LastLine()["robots"][0];
   EXPECT_EQ(robot["agent"], "dead");
-  EXPECT_NEAR(robot["distance_m"], 0.02, 1e-3);  // 0.2 s at 0.1 m/s, then it stops
+  EXPECT_NEAR(robot["distance_m"], 0.02, 1e-3);  // the robot drives 0.2 s at 0.1 m/s and then stops
 }
 
 TEST(BadInput, FailurePolicyEndsTheRun) {
@@ -247,7 +249,7 @@ TEST(BadInput, FullDiskEndsOnlyTheRecording) {
   ExpectOneSentence(outcome, 5, "/dev/full");
 }
 
-// A listening socket, so that its port is in use.
+// A listening socket, which makes its port used.
 class TakenPort {
  public:
   TakenPort() : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {

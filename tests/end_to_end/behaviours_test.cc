@@ -1,4 +1,4 @@
-// The behaviours of gsv, in the built-in worlds.
+// Tests the behaviours of gsv in the built-in worlds.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ TEST(Behaviours, WanderMovesTheRobot) {
   program.AwaitLine("offered at");
   const auto robot = RobotAfter(broker.reference(), "office", "b21r@-3,0", "wander", 30);
   EXPECT_GT(robot["distance_m"], 3.0);
-  EXPECT_EQ(robot["readings"]["camera"], 30);  // one per second
+  EXPECT_EQ(robot["readings"]["camera"], 30);  // one reading per second
 }
 
 TEST(Behaviours, BehaviourWithoutItsLocalSocketIsCalledOverTcp) {
@@ -85,7 +85,7 @@ TEST(Behaviours, FetchTakesACanToItsGoal) {
   const auto report = fetch("1.2");
   const auto& robot = report["robots"][0];
   EXPECT_EQ(robot["agent"], "finished");
-  // It went there with the can, and then 0.3 m back.
+  // The robot drove to the goal with the can, and then 0.3 m back.
   const double away = std::hypot(robot["pose"]["x_m"].get<double>() - 0.5,
                                  robot["pose"]["y_m"].get<double>() - 1.2);
   EXPECT_NEAR(away, 0.3, 0.08) << robot;

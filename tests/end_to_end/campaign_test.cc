@@ -1,4 +1,4 @@
-// `gsv campaign`: many runs of a scenario.
+// Tests `gsv campaign`, which executes many runs of a scenario.
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -66,7 +66,7 @@ TEST_F(CampaignCommand, AnotherDriverContinuesAKilledOneAndRunsCountOnce) {
   const std::string lines = text.str();
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 9) << lines;
   EXPECT_GT(std::filesystem::file_size(html), 1000u);
-  // No run is left.
+  // No run is left to do.
   EXPECT_EQ(Campaign("run", {"--json"}).LastLine()["done"], 8);
 }
 
@@ -83,16 +83,17 @@ TEST_F(CampaignCommand, SingleRunCanBeExecuted) {
 TEST_F(CampaignCommand, SharesOfAnotherQueueAreCollectedAndContinued) {
   EXPECT_EQ(Campaign("run", {"--shard", "1/3", "--jobs", "1"}).ending, "exit code 0");
   EXPECT_EQ(Campaign("status", {"--json"}).LastLine()["done"], 3);
-  // The same again, as by a queue that considers it lost: no run is left.
+  // The share is executed again, as by a queue that considers it lost. No run is left to do.
   EXPECT_EQ(Campaign("run", {"--shard", "1/3"}).ending, "exit code 0");
   EXPECT_EQ(Campaign("run", {"--shard", "3/3", "--jobs", "1"}).ending, "exit code 0");
   const Outcome report = Campaign("report", {"--by", "robots[0].x"});
-  EXPECT_THAT(report.out, HasSubstr("0            3 "));  // runs 0, 2, 6 of 0, 3, 6, 2, 5
+  // the shard has the runs 0, 2, 6; their values are 0, 3, 6, 2, 5
+  EXPECT_THAT(report.out, HasSubstr("0            3 "));
   const Outcome rest = Campaign("run", {"--json"});
   EXPECT_EQ(rest.ending, "exit code 1") << rest.err;
   EXPECT_EQ(rest.LastLine()["done"], 8);
   EXPECT_EQ(rest.LastLine()["failed"], 4);
-  // The results' file can be recreated from the results of the shares.
+  // The results file can be created again from the results of the shares.
   std::filesystem::remove(folder_.path() / "c.sqlite");
   EXPECT_EQ(Campaign("status", {"--json"}).LastLine()["done"], 5);
   EXPECT_EQ(Campaign("run", {"--shard", "4/3"}).ending, "exit code 2");

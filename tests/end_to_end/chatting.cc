@@ -1,5 +1,5 @@
-// Talks by radio, for tests: sends the number of messages that it got, and drives accordingly.
-// Fails if it never gets a message.
+// For tests: a behaviour that communicates by radio. It sends the number of messages that it
+// received, and drives accordingly. It fails if it never receives a message.
 #include <stdexcept>
 
 #include <CLI/CLI.hpp>

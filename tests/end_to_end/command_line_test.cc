@@ -1,4 +1,4 @@
-// The command line as a user types it, with the real programs.
+// Tests the command line as a user types it, with the real programs.
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -33,14 +33,15 @@ TEST(CommandLine, RunShowsTheDefaultWorldWithFiveRobots) {
   std::set<std::string> behaviours;
   for (const auto& robot : report["robots"]) {
     EXPECT_GT(robot["distance_m"], 0.1) << robot;
-    EXPECT_GE(robot["readings"]["sonar"], 8) << robot;  // one round at least, however slow
+    // at least one round of eight sonars, even on a slow machine
+    EXPECT_GE(robot["readings"]["sonar"], 8) << robot;
     behaviours.insert(robot["behaviour"]);
   }
   EXPECT_GE(behaviours.size(), 2u);
   EXPECT_EQ(report["warnings"].size(), 0u);
 }
 
-// What takes long to link is loaded by commands that need it; see docs/adr/063.
+// Libraries that take long to link are loaded only by commands that need them; see docs/adr/063.
 TEST(CommandLine, VersionLoadsNoOptionalLibraries) {
   const Outcome outcome =
       RunProgram("/usr/bin/env", {"LD_DEBUG=files", Program("gsv").string(), "--version"});
@@ -212,7 +213,8 @@ TEST(CommandLine, BenchTypicalReportsARowForEachNumberOfRobots) {
   ASSERT_EQ(rows.size(), 2u) << outcome.out;
   EXPECT_EQ(rows[0]["robots"], 1);
   EXPECT_EQ(rows[1]["robots"], 5);
-  // What was done is tested; how fast that was (the promise is a median of 20 ms) is the bench's.
+  // This tests what was done. The speed is tested by `gsv bench`, which has a median of 20 ms as
+  // its limit.
   for (const auto& row : rows) {
     EXPECT_GT(row["update_interval_ms"]["median"], 0.0) << row;
     EXPECT_LE(row["update_interval_ms"]["median"], row["update_interval_ms"]["p99"]) << row;
@@ -456,7 +458,7 @@ TEST(CommandLine, BehaviourThatCannotBeExecutedIsReported) {
   EXPECT_THAT(outcome.err, HasSubstr(program + " is not executable"));
 }
 
-// Its program is killed, and nobody waits for the answers that it does not give.
+// The behaviour's program is killed, and the run does not wait for its answers.
 TEST(CommandLine, BehaviourThatNeverWaitsDoesNotDelayTheEnd) {
   base::testing::TestFolder folder;
   std::filesystem::create_symlink(std::filesystem::absolute(Program("../tests/bad_behaviour")),
@@ -469,11 +471,11 @@ TEST(CommandLine, BehaviourThatNeverWaitsDoesNotDelayTheEnd) {
   const auto start = std::chrono::steady_clock::now();
   run.process().Signal(SIGTERM);
   EXPECT_EQ(run.AwaitEnd().ending, "exit code 130");
-  // Far below the twenty seconds that the calls of its end may take otherwise.
+  // The calls at the end of a behaviour may take twenty seconds, and this limit is far below.
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(8) * base::kSlowdown);
 }
 
-// It cannot be interrupted, and must not hold up the end of the run.
+// The behaviour cannot be interrupted, and must not delay the end of the run.
 TEST(CommandLine, InProcessBehaviourThatNeverReturnsFailsTheRun) {
   base::testing::TestFolder folder;
   const std::string recording = folder.path() / "run.mcap";
@@ -490,7 +492,7 @@ TEST(CommandLine, InProcessBehaviourThatNeverReturnsFailsTheRun) {
   EXPECT_THAT(outcome.err, HasSubstr("the simulation is left to itself"));
   EXPECT_EQ(outcome.LastLine()["phase"], "failed");
   EXPECT_DOUBLE_EQ(outcome.LastLine()["sim_time_s"], 0.2);
-  // Closed, and not just cut off.
+  // The recording is closed, and not just truncated.
   const Outcome info = RunProgram("gsv", {"rec", "info", recording, "--json"});
   EXPECT_EQ(info.ending, "exit code 0") << info.err;
   EXPECT_DOUBLE_EQ(info.LastLine()["end_s"], 0.2) << info.out;

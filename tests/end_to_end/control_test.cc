@@ -1,4 +1,4 @@
-// gsv ps, pause, resume, step, real-time-factor, stop and reset against simulations in other
+// Tests gsv ps, pause, resume, step, real-time-factor, stop and reset with simulations in other
 // processes.
 #include <csignal>
 #include <cstdlib>
@@ -15,8 +15,8 @@ using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using Strings = std::vector<std::string>;
 
-// Runs that register where no runs of other tests do, without the crash reports of other tests'
-// servers.
+// Runs of this test register in a folder of their own, apart from runs and crash reports of other
+// tests.
 class Control : public ::testing::Test {
  protected:
   Control() {
@@ -25,7 +25,7 @@ class Control : public ::testing::Test {
     unsetenv("GSV_BROKER");
   }
 
-  // In lockstep, without an end.
+  // Starts a run in lockstep that has no end.
   static std::unique_ptr<Running> StartRun(Strings more = {}) {
     Strings arguments{"run",     "playground", "--headless", "--lockstep",
                       "--robot", "pebble@0,0", "--seed",     "3"};
@@ -83,7 +83,7 @@ TEST_F(Control, RecordsARunningSimulation) {
   Json({"step", "100"});
   const Outcome stopped = Gsv({"rec", "stop"});
   EXPECT_EQ(stopped.ending, "exit code 0") << stopped.err;
-  EXPECT_EQ(Json({"ps"})["step"], from + 100);  // it continues without it
+  EXPECT_EQ(Json({"ps"})["step"], from + 100);  // the run continues after the command has ended
   const auto info = Json({"rec", "info", path});
   EXPECT_TRUE(info["indexed"]);
   EXPECT_GE(info["duration_s"], 0.1);
@@ -93,7 +93,7 @@ TEST_F(Control, RecordsARunningSimulation) {
 TEST_F(Control, PausesStepsResumesAndStops) {
   const auto run = StartRun();
   EXPECT_EQ(Json({"pause"})["phase"], "paused");
-  const int step = Json({"step"})["step"];  // the step in progress during the pause
+  const int step = Json({"step"})["step"];  // the step that was in progress during the pause
   EXPECT_EQ(Json({"step", "7"})["step"], step + 7);
   EXPECT_EQ(Json({"ps"})["step"], step + 7);
   EXPECT_EQ(Json({"resume"})["phase"], "running");
@@ -139,7 +139,8 @@ TEST_F(Control, SetsTheRealTimeFactor) {
   ExpectError({"real-time-factor"}, 2, "real_time_factor is required");
   EXPECT_EQ(Json({"ps"})["target_factor"], 2.5);
   EXPECT_EQ(Gsv({"factor", "1000000"}).ending, "exit code 0");
-  EXPECT_EQ(run.AwaitEnd().ending, "exit code 0");  // at its first speed: five and a half hours
+  // at its first factor the run would take five and a half hours
+  EXPECT_EQ(run.AwaitEnd().ending, "exit code 0");
 }
 
 TEST_F(Control, RejectsARealTimeFactorInLockstep) {

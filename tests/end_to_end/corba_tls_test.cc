@@ -1,5 +1,5 @@
-// CORBA by TLS, with the real programs: only programs with a certificate of the group's authority
-// may call and be called, from anywhere.
+// Tests CORBA over TLS with the real programs. Only programs with a certificate of the group's
+// authority may call others and be called, from anywhere.
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -31,8 +31,7 @@ int PortOf(const std::string& reference) {
   return std::stoi(reference.substr(reference.rfind(':') + 1));
 }
 
-// Reads until the peer closes the connection. recv() waits for that at most as long as a test may
-// take.
+// Reads until the peer closes the connection. recv() has a timeout, which is that of a test.
 std::string ReadToTheEnd(int socket) {
   std::string all;
   char bytes[512];
@@ -61,7 +60,7 @@ class Peer {
   int socket_;
 };
 
-// Waits for the error output of a handshake.
+// Waits until the program prints an error of a handshake.
 std::string AwaitErrors(const Running& program, const std::string& text) {
   const auto deadline = std::chrono::steady_clock::now() + kProgramTimeout;
   while (program.errors().find(text) == std::string::npos &&
@@ -70,7 +69,8 @@ std::string AwaitErrors(const Running& program, const std::string& text) {
   return program.errors();
 }
 
-// Unix domain sockets would be used before TLS: the name of their folder is too long for one.
+// The programs would prefer Unix domain sockets to TLS. Here the path of their folder is too long
+// for a socket.
 class CorbaTls : public ::testing::Test {
  protected:
   CorbaTls() : runtime_("XDG_RUNTIME_DIR", Runtime()) {}
@@ -140,7 +140,7 @@ TEST_F(CorbaTls, EveryProgramSupportsTls) {
   EXPECT_EQ(ps.ending, "exit code 0") << ps.err;
   EXPECT_THAT(ps.out, HasSubstr("r"));
   EXPECT_EQ(RunProgram("gsv", {"stop", "r", "--broker", broker.reference()}).ending, "exit code 0");
-  // This includes one that starts its own broker.
+  // This includes a program that starts its own broker.
   EXPECT_EQ(RunProgram("gsv", {"run", "playground", "--headless", "--lockstep", "--duration", "1",
                                "--robot", "pebble", "--behaviour", "wander"})
                 .ending,
@@ -155,7 +155,7 @@ TEST_F(CorbaTls, RemoteAccessNeedsACertificate) {
   EXPECT_EQ(refused.ending, "exit code 2");
   EXPECT_THAT(refused.err, HasSubstr("0.0.0.0: other machines can reach this address"));
   EXPECT_THAT(refused.err, HasSubstr("--insecure-corba"));
-  // A behaviour that its broker would call from elsewhere is refused as well.
+  // A behaviour that its broker would call from another machine is refused as well.
   const std::string& there = everywhere.reference();
   const std::string elsewhere = "corbaloc::1.2@" + there.substr(there.find('@') + 1);
   if (elsewhere.find("@127.") == std::string::npos) {
@@ -171,7 +171,7 @@ TEST_F(CorbaTls, ClientWithoutACertificateIsRejected) {
   const Outcome told = broker.Offers();
   EXPECT_EQ(told.ending, "exit code 5");
   EXPECT_THAT(told.err, HasSubstr("it takes TLS, and a certificate"));
-  // A client that tries all the same is not understood.
+  // A client that uses plain TCP nevertheless gets no answer.
   const std::string plain = "corbaloc::1.2@127.0.0.1:" + std::to_string(broker.port());
   const Outcome cut = RunProgram("gsv", {"offers", "--broker", plain + "/TradingService"});
   EXPECT_EQ(cut.ending, "exit code 5");
@@ -195,7 +195,7 @@ TEST_F(CorbaTls, PlainClientOfATlsServiceGetsAnExplanation) {
   EXPECT_THAT(refused.err, HasSubstr("it takes TLS, and a certificate"));
 }
 
-// A program with a certificate does not call services without one on other machines.
+// A program with a certificate must not call services without one on other machines.
 TEST_F(CorbaTls, PlainServicesAreCalledOnThisMachineOnly) {
   OtherHost host(1);
   if (!host.refusal().empty()) GTEST_SKIP() << host.refusal();
@@ -219,7 +219,7 @@ TEST_F(CorbaTls, CertificatesOfAnotherAuthorityAreRejectedBothWays) {
   const Outcome client = broker.Offers();
   EXPECT_EQ(client.ending, "exit code 5");
   EXPECT_THAT(client.err, HasSubstr("its certificate was not issued by this group's authority"));
-  // A client that trusts the server, but is not of its group.
+  // This client trusts the server, but does not belong to its group.
   const Variable trusting("GSV_CORBA_AUTHORITY", group_.File("ca.pem"));
   const Outcome outsider = broker.Offers();
   EXPECT_EQ(outsider.ending, "exit code 5");
@@ -266,17 +266,20 @@ TEST_F(CorbaTls, InvalidFilesPreventTheStart) {
   EXPECT_THAT(refusal("GSV_CORBA_KEY", group_.File("lab-key.pem")), HasSubstr("denied"));
 }
 
-// More connections than the broker has threads, and than pending handshakes.
+// There are more connections than the broker has threads, and more than it allows pending
+// handshakes.
 TEST_F(CorbaTls, StalledHandshakesDelayNoOtherClient) {
   BrokerByTls broker;
   std::vector<std::unique_ptr<Peer>> stalled;
   for (int i = 0; i < 300; ++i) {
     stalled.push_back(std::make_unique<Peer>(broker.port()));
-    if (i % 2 == 0) stalled.back()->Send({"\x16\x03\x01\x02\x00\x01", 6});  // a hello begins
+    // sends the start of a TLS hello
+    if (i % 2 == 0) stalled.back()->Send({"\x16\x03\x01\x02\x00\x01", 6});
   }
   const Outcome offers = broker.Offers();
   EXPECT_EQ(offers.ending, "exit code 0") << offers.err;
-  // The oldest was dropped for the newest; the newest have no more time than others.
+  // The oldest connection was dropped for the newest. The newest ones have no more time than
+  // others.
   EXPECT_THAT(stalled.front()->AwaitEnd(), IsEmpty());
   (void)stalled.back()->AwaitEnd();
   EXPECT_THAT(AwaitErrors(broker.program(), "finish"), HasSubstr("did not finish the handshake"));
@@ -302,7 +305,7 @@ TEST_F(CorbaTls, GarbageEndsOnlyItsOwnConnection) {
     for (const int port : {broker.port(), service}) {
       const Peer peer(port);
       peer.Send(bytes);
-      // Some lack a whole record: those are not closed.
+      // Some messages are shorter than a record. The server does not close those connections.
       if (round % 3 == 0) (void)peer.AwaitEnd();
     }
   }
@@ -316,7 +319,7 @@ std::size_t DescriptorsOf(pid_t pid) {
       fs::directory_iterator("/proc/" + std::to_string(pid) + "/fd"), fs::directory_iterator()));
 }
 
-// They had no address any more when the ORB requested it, and stayed open.
+// Regression: such connections had no address any more when the ORB requested it, and stayed open.
 TEST_F(CorbaTls, DisconnectAfterTheHandshakeLeaksNothing) {
   BrokerByTls broker;
   EXPECT_EQ(broker.Offers().ending, "exit code 0");
@@ -332,7 +335,7 @@ TEST_F(CorbaTls, DisconnectAfterTheHandshakeLeaksNothing) {
   EXPECT_EQ(broker.Offers().ending, "exit code 0");
 }
 
-// omniORB's own transport crashes in this case.
+// Regression: omniORB's own transport crashes in this case.
 TEST_F(CorbaTls, CloseDuringTheHandshakeFailsOnlyThatCall) {
   const int listener = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   sockaddr_in address = broker::Loopback(0);
@@ -370,7 +373,7 @@ TEST_F(CorbaTls, InteroperatesWithOtherOrbs) {
   EXPECT_EQ(ask(group_.File("ca.pem"), group_.File("both.pem")), "alive\n");
 }
 
-// The report of `gsv doctor --security` about a program's sockets.
+// Returns the report of `gsv doctor --security` about a program's sockets.
 std::vector<nlohmann::json> SocketsOf(pid_t pid) {
   std::istringstream lines(RunProgram("gsv", {"doctor", "--security", "--json"}).out);
   for (std::string line; std::getline(lines, line);) {

@@ -1,4 +1,4 @@
-// Offers of a service whose host can no longer be reached.
+// Tests the offers of a service whose host can no longer be reached.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
-// The same world, seed and behaviours give the same state_hash, whatever happens to the processes
-// of the behaviours. See docs/determinism.md. GSV_SOAK is the number of repetitions of each case (1
-// in make test, 20 in make soak); GSV_DEBUG_BUILD_DIR names a debug build for comparison.
+// The same world, seed and behaviours must give the same state_hash, whatever happens to the
+// processes of the behaviours. See docs/determinism.md. GSV_SOAK is the number of repetitions of
+// each case (1 in make test, 20 in make soak). GSV_DEBUG_BUILD_DIR names a debug build for
+// comparison.
 #include <csignal>
 #include <cstdlib>
 #include <thread>
@@ -30,7 +31,7 @@ nlohmann::json ReportOf(const std::string& broker, const std::string& gsv = "gsv
 
 std::string HashOf(const nlohmann::json& report) { return report.value("state_hash", "none"); }
 
-// The reference for all other runs: nothing happens to the programs.
+// The reference for all other runs: the hash of a run in which nothing disturbs the programs.
 std::string UndisturbedHash() {
   const BrokerProcess broker;
   const Fleet fleet(broker.reference());
@@ -101,13 +102,13 @@ TEST(Determinism, HashDoesNotDependOnRandomCallDelays) {
     const Fleet fleet(broker.reference(), {.wrapper = {"env", fault}});
     const auto report = ReportOf(broker.reference());
     ASSERT_EQ(HashOf(report), expected) << fault;
-    // Twelve cycles of eight readings, with two delays of 2 ms each on average: 384 ms for the
-    // readings alone. A tenth of it proves that the delays occurred.
+    // There are twelve cycles of eight readings. Each reading has two delays of 2 ms on average,
+    // which makes 384 ms. A tenth of that proves that the delays occurred.
     EXPECT_GT(report["wall_time_s"], 0.038);
   }
 }
 
-// A delay of 20 ms for every round trip, and TLS.
+// Every round trip is delayed by 20 ms, and uses TLS.
 TEST(Determinism, HashDoesNotDependOnASlowNetwork) {
   const OtherHost host(20);
   if (!host.refusal().empty()) GTEST_SKIP() << host.refusal();
@@ -123,7 +124,7 @@ TEST(Determinism, HashDoesNotDependOnASlowNetwork) {
   }
 }
 
-// The behaviour waits for an answer all the time, as for an image on a busy machine.
+// The behaviour waits for an answer all the time, as it does for an image on a busy machine.
 TEST(Determinism, HashDoesNotDependOnAStopOfTwelveSeconds) {
   const auto hash_of = [](bool is_stopped) {
     Running run("gsv", {"run", "playground", "--robot", "b21r@0,1", "--behaviour", "follow-wall",
@@ -164,7 +165,8 @@ TEST(Determinism, HashDoesNotDependOnThreadsOfInProcessBehaviours) {
 }
 
 TEST(Determinism, HashOfACrowdDoesNotDependOnThreads) {
-  // Enough robots to split the work of the mover, the rays and the behaviours between threads.
+  // There are enough robots to divide the work of the mover, the rays and the behaviours between
+  // threads.
   std::vector<std::string> hashes;
   for (const char* threads : {"1", "2", "5"}) {
     const Outcome outcome = RunProgram("gsv", {"bench", "crowd", "--robots", "800", "--duration",

@@ -1,5 +1,5 @@
-// A behaviour with a fault that is only possible in process: after 200 ms it never returns from its
-// turn.
+// For tests: a behaviour that never returns from its turn after 200 ms. This fault is only possible
+// in process.
 #include <CLI/CLI.hpp>
 
 #include "sdk/behaviour/module.h"

@@ -1,5 +1,5 @@
-// Processes of behaviours that are stopped, continued and killed during the run, and runs that are
-// reset: the results and the reports. See docs/determinism.md.
+// Processes of behaviours are stopped, continued and killed during the run, and runs are reset. The
+// tests check the results and the reports. See docs/determinism.md.
 #include <sys/wait.h>
 
 #include <chrono>
@@ -18,10 +18,10 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// A server, and a fleet for each test.
+// One server for all tests, and one fleet for each test.
 class Faults : public Served {
  protected:
-  // The simulation of FleetRun(). Replaces the programs of earlier ones.
+  // Creates the simulation of FleetRun(), and replaces the programs of earlier ones.
   sba::Simulation_ptr Create(const char* option = "on_failure", const char* value = "go_on") {
     fleet_.reset();
     fleet_.emplace(broker_.reference());
@@ -31,7 +31,7 @@ class Faults : public Served {
     AddFleet(simulation);
     return simulation._retn();
   }
-  // The robot whose behaviour is in that phase.
+  // Returns the robot whose behaviour is in that phase.
   static const sba::RobotState& RobotIn(sba::AgentPhase phase, const sba::SimulationState& state) {
     for (CORBA::ULong i = 0; i < state.robots.length(); ++i) {
       if (state.robots[i].phase == phase) return state.robots[i];
@@ -47,7 +47,8 @@ class Faults : public Served {
     return hash;
   }
   app::ChildProcess& FirstProgram() { return fleet_->program(0).process(); }
-  // A signal takes effect only when its process runs again; until then the program continues.
+  // Stops the first program, and waits for that. A signal takes effect only when the process runs
+  // again; until then the program continues.
   void StopFirstProgram() {
     FirstProgram().Signal(SIGSTOP);
     siginfo_t info;
@@ -111,7 +112,8 @@ TEST_F(Faults, UnresponsiveBehaviourIsSkippedAfterTheDeadline) {
     const sba::SimulationState_var state = simulation->state();
     EXPECT_EQ(CountOf(state, sba::AGENT_UNRESPONSIVE), 1);
     const double stuck = RobotIn(sba::AGENT_UNRESPONSIVE, state).distance_m;
-    EXPECT_LT(stuck, RobotIn(sba::AGENT_WAITING, state).distance_m);  // its robot stopped
+    // the robot of the stopped program stopped as well
+    EXPECT_LT(stuck, RobotIn(sba::AGENT_WAITING, state).distance_m);
     FirstProgram().Signal(SIGCONT);
     simulation->destroy();
     ASSERT_EQ(hashes.back(), hashes.front());
@@ -129,7 +131,8 @@ TEST_F(Faults, UnresponsiveBehaviourFailsTheRunIfThePolicyRequiresIt) {
   EXPECT_THAT(outcome.err, HasSubstr("neither called a wait function nor returned within 1 ms"));
 }
 
-// Whether the death is noticed before or after the clock continues, it takes effect at one instant.
+// The death may be noticed before or after the clock continues. It must take effect at the same
+// instant in both cases.
 TEST_F(Faults, KilledBehaviourIsReportedAtOnceAndEndsAtItsNextWake) {
   std::vector<std::string> hashes;
   for (int round = 0; round < 2 * Rounds(); ++round) {
@@ -142,7 +145,7 @@ TEST_F(Faults, KilledBehaviourIsReportedAtOnceAndEndsAtItsNextWake) {
       AwaitState(simulation,
                  [](const auto& state) { return CountOf(state, sba::AGENT_DEAD) == 1; });
       const std::chrono::duration<double> after = std::chrono::steady_clock::now() - killed;
-      std::cout << "reported after " << after.count() << " s\n";  // limit: 2 s
+      std::cout << "reported after " << after.count() << " s\n";  // the limit is 2 s
       // Nothing else has changed: the clock has stopped.
       EXPECT_EQ(sba::SimulationState_var(simulation->state())->time_ns, kHalfway * 1e9);
     }

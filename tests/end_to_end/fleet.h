@@ -1,5 +1,5 @@
-// Three robots in the playground, driven by three programs of two behaviours: the run whose hash
-// must come out the same whatever happens to the programs.
+// For tests: three robots in the playground, driven by three programs of two behaviours. The hash
+// of the run must not depend on what happens to the programs.
 #pragma once
 
 #include <memory>
@@ -12,13 +12,13 @@ namespace gsv::testing {
 
 inline constexpr double kFleetSeconds = 0.6;  // twelve control cycles
 
-// What is done to the programs.
+// How the programs are disturbed.
 struct Handicap {
-  std::vector<std::string> wrapper;  // see Running
+  std::vector<std::string> wrapper;  // see the constructor of Running
   bool in_reverse_order = false;
 };
 
-// The programs, offered at a broker.
+// The programs of the behaviours, which are offered at a broker.
 class Fleet {
  public:
   explicit Fleet(const std::string& broker, const Handicap& handicap = {});
@@ -28,7 +28,7 @@ class Fleet {
   std::vector<std::unique_ptr<Running>> programs_;
 };
 
-// The command line of `gsv run` with such robots; `more` is added to it.
+// Returns the command line of `gsv run` with such robots, followed by `more`.
 std::vector<std::string> FleetRun(const std::string& broker, std::vector<std::string> more = {});
 
 }  // namespace gsv::testing

@@ -1,4 +1,4 @@
-// A behaviour on another ORB and in another language: examples/tcl/wander.tcl, on Combat.
+// Tests a behaviour on another ORB and in another language: examples/tcl/wander.tcl, on Combat.
 #include <cstdlib>
 
 #include <gmock/gmock.h>

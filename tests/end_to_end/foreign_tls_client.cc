@@ -1,5 +1,6 @@
 // Calls an object's _non_existent with omniORB's own TLS transport, like another vendor's program
-// with a certificate. The options are the ORB's, such as -ORBsslCAFile, then a reference.
+// with a certificate. The arguments are options of the ORB, such as -ORBsslCAFile, and then a
+// reference.
 #include <cstdio>
 
 #include <omniORB4/CORBA.h>

@@ -1,6 +1,6 @@
-// Four robots of one model near each other, driven by one behaviour for two seconds in lockstep:
-// what they do to each other goes the same by a program of its own, inside gsv, and again from the
-// recording.
+// For tests: four robots of one model near each other, driven by one behaviour for two seconds in
+// lockstep. They affect each other. The result must be the same with the behaviour in its own
+// program, inside gsv, and repeated from the recording.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ namespace gsv::testing {
 
 class FourRobots : public ::testing::Test {
  protected:
-  // `model` is SDFormat. `behaviour` is one of the tests' own, offered by gsv-BEHAVIOUR and as a
-  // library.
+  // `model` is SDFormat. `behaviour` is a behaviour of the tests, which exists as a program
+  // gsv-BEHAVIOUR and as a library.
   FourRobots(std::string model, std::string behaviour)
       : model_(std::move(model)), behaviour_(std::move(behaviour)) {}
 

@@ -1,4 +1,4 @@
-// Several simulations in one server: whatever happens in one of them does not affect the others.
+// Several simulations run in one server. What happens in one of them must not affect the others.
 #include <algorithm>
 #include <atomic>
 #include <functional>
@@ -15,10 +15,10 @@
 namespace gsv::testing {
 namespace {
 
-constexpr double kSeconds = 2;  // 40 control cycles of each robot
-constexpr int kFlooding = 12;   // robots whose behaviours never stop calling
+constexpr double kSeconds = 2;  // time for 40 control cycles of each robot
+constexpr int kFlooding = 12;   // number of robots whose behaviours never stop calling
 
-// Calls `work` again and again on separate threads.
+// Calls `work` repeatedly on separate threads.
 class Repeatedly {
  public:
   Repeatedly(int threads, const std::function<void()>& work) {
@@ -43,7 +43,7 @@ class Isolation : public Served {
     bad->AwaitLine("offered at");
     return bad;
   }
-  // A real-time simulation whose robots' behaviours read their sonars as fast as they can.
+  // Creates a real-time simulation whose robots' behaviours read their sonars as fast as they can.
   sba::Simulation_ptr Flood() {
     bad_ = StartBad(broker_.reference(), "flood");
     sba::Simulation_var flooded = service_->create_simulation(Playground(sba::REAL_TIME));
@@ -52,13 +52,13 @@ class Isolation : public Served {
     flooded->start();
     return flooded._retn();
   }
-  // A program that had died would send no calls.
+  // A program that has died would send no calls.
   void ExpectFloodGoesOn(sba::Simulation_ptr flooded) {
     const sba::SimulationState_var state = flooded->state();
     EXPECT_EQ(CountOf(state.in(), sba::AGENT_DEAD) + CountOf(state.in(), sba::AGENT_FINISHED), 0);
     EXPECT_EQ(bad_->process().Ending(), "") << bad_->errors();
   }
-  // Lockstep at full speed.
+  // Creates a simulation in lockstep at full speed.
   sba::Simulation_ptr Rush() {
     sba::Simulation_var rushing = service_->create_simulation(Playground(sba::LOCKSTEP));
     for (const double x : {-1.0, 0.0, 1.0}) AddPebble(rushing, x, "");
@@ -70,7 +70,7 @@ class Isolation : public Served {
   std::unique_ptr<Running> bad_;
 };
 
-// A simulation whose hash is known from a run without others.
+// A simulation whose hash is known from a run beside no others.
 class HashBesideAnotherSimulation : public Isolation {
  protected:
   HashBesideAnotherSimulation() {
@@ -83,7 +83,7 @@ class HashBesideAnotherSimulation : public Isolation {
     simulation_->reset();
     return hash;
   }
-  // Runs at least three times, and then until `holds`.
+  // Repeats the run at least three times, and then until `holds` returns true.
   void ExpectUndisturbedUntil(const std::function<bool()>& holds) {
     const auto give_up = std::chrono::steady_clock::now() + kProgramTimeout;
     for (int run = 0; run < 3 * Rounds() || !holds(); ++run) {
@@ -129,8 +129,8 @@ TEST_F(HashBesideAnotherSimulation, IsUnchangedInAFloodOfCalls) {
     const sba::SimulationState_var state = flooded->state();
     const sba::Simulations_var all = service_->list();
   });
-  // The flood of calls also continues, once all behaviours have started. On a busy machine the
-  // first may count as unresponsive by then, because it reads without ever waiting.
+  // The flood of calls must also continue once all behaviours have started. On a busy machine the
+  // first one may count as unresponsive by then, because it reads without ever waiting.
   ExpectUndisturbedUntil([&] {
     const sba::SimulationState_var state = flooded->state();
     return asking.count() > 100 && CountOf(state.in(), sba::AGENT_INITIALISED) == 0;
@@ -139,7 +139,7 @@ TEST_F(HashBesideAnotherSimulation, IsUnchangedInAFloodOfCalls) {
 }
 
 TEST_F(HashBesideAnotherSimulation, IsUnchangedIfSimulationsAreDestroyedDuringAStep) {
-  // They have behaviours of the same programs.
+  // These simulations have behaviours of the same programs.
   const Repeatedly destroying(2, [&] {
     sba::Simulation_var other = service_->create_simulation(Playground(sba::LOCKSTEP));
     AddPebble(other, -1, "wander");
@@ -152,7 +152,7 @@ TEST_F(HashBesideAnotherSimulation, IsUnchangedIfSimulationsAreDestroyedDuringAS
   ExpectUndisturbedUntil([&] { return destroying.count() > 10; });
 }
 
-// Sleeps for 50 ms again and again, and measures the wall-clock time for that.
+// A behaviour that repeatedly sleeps for 50 ms and measures how much wall-clock time that takes.
 class Meter final : public Behaviour {
  public:
   explicit Meter(std::vector<double>& intervals) : intervals_(intervals) {}
@@ -167,11 +167,11 @@ class Meter final : public Behaviour {
   }
 
  private:
-  std::vector<double>& intervals_;  // s
+  std::vector<double>& intervals_;  // in s
 };
 
-// A simulation in real time, and disturbances. Its lateness depends on the machine and is only
-// printed; it must reach its end.
+// A simulation in real time beside disturbances. Its delays depend on the machine and are only
+// printed. It must reach its end.
 class StepTimeBesideAnotherSimulation : public Isolation {
  protected:
   void RunAndRecord(const char* beside) {
@@ -182,9 +182,9 @@ class StepTimeBesideAnotherSimulation : public Isolation {
     RunTo(simulation, seconds);
     const sba::SimulationState_var state = simulation->state();
     EXPECT_EQ(state->time_ns, static_cast<CORBA::LongLong>(seconds * 1e9));
-    simulation->destroy();  // the meter's run has ended
+    simulation->destroy();  // the run of the meter has ended
     ASSERT_GE(intervals_.size(), 2u);
-    intervals_.erase(intervals_.begin());  // that of the start
+    intervals_.erase(intervals_.begin());  // removes the interval of the start
     std::sort(intervals_.begin(), intervals_.end());
     double sum = 0;
     for (const double interval : intervals_) sum += interval;
@@ -209,13 +209,13 @@ class StepTimeBesideAnotherSimulation : public Isolation {
     const CORBA::String_var name(simulation->add_robot(robot));
   }
 
-  std::vector<double> intervals_;  // s
+  std::vector<double> intervals_;  // in s
 };
 
 TEST_F(StepTimeBesideAnotherSimulation, IsMeasuredAlone) { RunAndRecord("nothing"); }
 
 TEST_F(StepTimeBesideAnotherSimulation, IsMetBesideLockstepAtFullSpeed) {
-  // So many that no processor is idle.
+  // There are so many simulations that no processor is idle.
   std::vector<sba::Simulation_var> rushing(std::thread::hardware_concurrency());
   for (sba::Simulation_var& each : rushing) each = Rush();
   RunAndRecord("lockstep at full speed");

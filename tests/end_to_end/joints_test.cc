@@ -1,4 +1,4 @@
-// A robot's joint, commanded over CORBA and in process.
+// Tests a robot's joint that is commanded over CORBA and in process.
 #include <gmock/gmock.h>
 
 #include "tests/support/programs.h"

@@ -1,5 +1,5 @@
-// Commands and reads a joint, for tests: the lift moves to 0.3 m, and the behaviour fails if it
-// does not arrive.
+// For tests: a behaviour that commands and reads a joint. The lift moves to 0.3 m, and the
+// behaviour fails if it does not arrive.
 #include <cmath>
 #include <stdexcept>
 

@@ -1,4 +1,5 @@
-// Crash reports of the simulations of a killed server, from the next server. With the real program.
+// Tests crash reports: the next server reports the simulations of a killed server. Uses the real
+// program.
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -28,7 +29,7 @@ class CrashReports : public ::testing::Test {
   ~CrashReports() override { server_.reset(); }
 
  protected:
-  // A server with the recordings in that folder.
+  // Starts a server with the recordings in that folder.
   void Serve(const std::string& folder = "recordings") {
     server_.emplace(
         "gsv", std::vector<std::string>{"serve", "--port", "0", "--name", "lab", "--recordings",
@@ -41,7 +42,7 @@ class CrashReports : public ::testing::Test {
     server_->process().Signal(SIGKILL);
     return server_->AwaitEnd().err;
   }
-  // Ends it, and returns its log.
+  // Ends the server and returns its log.
   std::string End() {
     server_->process().Signal(SIGTERM);
     return server_->AwaitEnd().err;
@@ -60,7 +61,7 @@ class CrashReports : public ::testing::Test {
     ASSERT_EQ(Ask("POST", "/api/simulations", scenario.dump()).status, 201);
   }
   fs::path notes() const { return folder_.path() / "state/gsv/servers"; }
-  // Waits until a note fulfils the condition.
+  // Waits until a note of a server fulfils the condition.
   template <typename Condition>
   void AwaitNoted(Condition holds) const {
     const auto give_up = std::chrono::steady_clock::now() + kProgramTimeout;
@@ -75,7 +76,7 @@ class CrashReports : public ::testing::Test {
     }
     FAIL() << "that was never noted";
   }
-  // Waits until some messages are on disk: a recording that has just begun may have none.
+  // Waits until some messages are on disk. A recording that has just begun may have none.
   static void AwaitMessagesIn(const std::string& recording) {
     const auto give_up = std::chrono::steady_clock::now() + kProgramTimeout;
     while (std::chrono::steady_clock::now() < give_up) {
@@ -114,12 +115,12 @@ TEST_F(CrashReports, NextServerReportsTheRunsOfAKilledOneUntilDismissed) {
   });
   AwaitMessagesIn(file);
   Kill();
-  // As if it had been writing its note at that moment.
+  // This imitates a server that was writing its note at that moment.
   ASSERT_EQ(std::distance(fs::directory_iterator(notes()), {}), 1);
   const fs::path note = fs::directory_iterator(notes())->path();
   std::ofstream(note.string() + "." + pid + ".draft") << "{";
 
-  // Before the next server starts.
+  // This is done before the next server starts.
   const Outcome ps = RunProgram("gsv", {"ps"});
   EXPECT_NE(ps.out.find("arena on lab (process " + pid + ") was lost at about"), std::string::npos)
       << ps.out;
@@ -135,7 +136,7 @@ TEST_F(CrashReports, NextServerReportsTheRunsOfAKilledOneUntilDismissed) {
   EXPECT_EQ(lost[0]["replay"], fs::path(file).filename().string());
   EXPECT_EQ(lost[1]["name"], "maze");
   EXPECT_EQ(lost[1]["recording"], "");
-  while (!lost[0].contains("whole_until_s")) lost = LostOnes();  // it is being read
+  while (!lost[0].contains("whole_until_s")) lost = LostOnes();  // the recording is being read
   const std::string mended = folder_.path() / "mended.mcap";
   ASSERT_EQ(RunProgram("gsv", {"rec", "recover", file, "-o", mended}).ending, "exit code 0");
   const json info = json::parse(RunProgram("gsv", {"rec", "info", "--json", mended}).out);
@@ -144,13 +145,13 @@ TEST_F(CrashReports, NextServerReportsTheRunsOfAKilledOneUntilDismissed) {
   EXPECT_EQ(Ask("DELETE", "/api/lost/" + lost[0]["number"].dump()).status, 200);
   EXPECT_EQ(Ask("DELETE", "/api/lost/" + lost[0]["number"].dump()).status, 404);
   ASSERT_EQ(LostOnes().size(), 1u);
-  // A report that nobody has dismissed survives the next crash as well.
+  // A report that nobody has dismissed must survive the next crash as well.
   AwaitNoted([&](const json& noted) { return noted["lost"].size() == 1; });
   Kill();
   Serve();
   ASSERT_EQ(LostOnes().size(), 1u);
   EXPECT_EQ(LostOnes()[0]["name"], "maze");
-  // A regular end counts as one.
+  // The regular end of the server leaves the report.
   EXPECT_NE(End().find("maze on lab (process " + pid + ") was lost at about"), std::string::npos);
   EXPECT_TRUE(fs::is_empty(notes()));
   Serve();
@@ -178,7 +179,7 @@ TEST_F(CrashReports, CleanShutdownLeavesNoReport) {
   EXPECT_EQ(RunProgram("gsv", {"ps"}).out, "");
 }
 
-// After a power failure, or by a malicious user.
+// A note may be damaged by a power failure or a malicious user.
 TEST_F(CrashReports, InvalidNotesAreReportedAndTheServerStarts) {
   Serve();
   Create("arena");

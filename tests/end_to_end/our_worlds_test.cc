@@ -1,4 +1,4 @@
-// The built-in worlds, with the built-in robots.
+// Tests the built-in worlds with the built-in robots.
 #include <gtest/gtest.h>
 
 #include "tests/support/programs.h"

@@ -1,4 +1,4 @@
-// Robots that communicate by radio, each driven by its own program or in gsv.
+// Runs robots that communicate by radio. Each is driven by its own program or inside gsv.
 #include "tests/end_to_end/four_robots.h"
 
 namespace gsv::testing {

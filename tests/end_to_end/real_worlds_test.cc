@@ -1,4 +1,4 @@
-// `gsv run` on worlds and robots that other people made, as the README's users would type it.
+// Runs `gsv run` with worlds and robots of other authors, as a user of the README would type it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ using Strings = std::vector<std::string>;
 struct Case {
   std::string name, world;
   Strings robots;
-  Strings absent;  // what the warnings may name, and nothing else
+  Strings absent;  // files that warnings may report as missing
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -39,7 +39,8 @@ TEST_P(RealWorld, RunsWithMovingRobots) {
   for (const auto& robot : report["robots"]) EXPECT_GT(robot["distance_m"], 1.0) << robot;
   for (const auto& warning : report["warnings"]) {
     const std::string text = warning;
-    // Elements that gsv does not carry out are named; `InstalledSchema` tests hold which they are.
+    // Warnings name the elements that gsv does not support; the tests `InstalledSchema` check the
+    // list.
     if (text.find("not supported") != std::string::npos) continue;
     EXPECT_TRUE(std::any_of(c.absent.begin(), c.absent.end(), [&](const std::string& part) {
       return text.find(part) != std::string::npos;

@@ -1,4 +1,4 @@
-// Recordings as `gsv run` makes them and `gsv rec` shows them.
+// Tests recordings of `gsv run` with `gsv rec`.
 #include <set>
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ using Strings = std::vector<std::string>;
 
 class Record : public ::testing::Test {
  protected:
-  // Half a second of the playground with one robot, recorded.
+  // Records half a second of the playground with one robot.
   Outcome Run(const Strings& more) const {
     Strings arguments{"run",        "playground", "--headless", "--lockstep", "--json", "--robot",
                       "pebble@0,0", "--duration", "0.5",        "--record",   file_};

@@ -1,4 +1,4 @@
-// `gsv replay --resimulate`: repeats a recorded run, with live behaviours.
+// Tests `gsv replay --resimulate`, which repeats a recorded run with live behaviours.
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// A room with one wall, `thickness` m thick, its centre `x` m in front of the robot.
+// A world with one wall, which is `thickness` m thick. Its centre is `x` m in front of the robot.
 std::string Room(double x, double thickness = 0.2) {
   const std::string box =
       "<geometry><box><size>" + std::to_string(thickness) + " 8 1</size></box></geometry>";
@@ -84,7 +84,7 @@ TEST_F(Resimulation, RepeatsChangesOfGravity) {
   EXPECT_THAT(again.out, StartsWith("the new run is equal: "));
 }
 
-// Actors, pedestrians of the world's file and those of an option.
+// The run has actors, and pedestrians of the world file and of an option.
 TEST_F(Resimulation, RepeatsPedestrians) {
   const Outcome recorded =
       RunProgram("gsv", {"run", "hall", "--robot", "pebble@-8,0", "--behaviour", "wander",
@@ -107,13 +107,13 @@ TEST_F(Resimulation, NamesTheFirstDifference) {
   EXPECT_EQ(again.ending, "exit code 1") << again.err;
   const auto report = again.LastLine();
   EXPECT_EQ(report["equal"], false);
-  // The first topic by name that depends on the wall.
+  // This is the first topic by name that depends on the wall.
   EXPECT_EQ(report["first_difference"]["time_s"], 0);
   EXPECT_EQ(report["first_difference"]["topic"], "/gsv/beams");
 }
 
-// In real time the instants of a behaviour depend on the wall clock; those of its commands are
-// kept.
+// In real time the instants of a behaviour depend on the wall clock. The recording keeps the
+// instants of its commands.
 TEST_F(Resimulation, RealTimeRunIsRepeatedFromItsCommands) {
   const Outcome recorded = Record();
   ASSERT_EQ(recorded.ending, "exit code 0") << recorded.err;

@@ -1,4 +1,4 @@
-// sba::ScenarioService as seen by its clients, and the refusals of servers.
+// Tests sba::ScenarioService from the view of its clients, and the refusals of servers.
 #include <gmock/gmock.h>
 
 #include "gsv/broker/client/broker_client.h"
@@ -25,7 +25,7 @@ class ScenarioService : public Served {
     const auto offers = client->Query(broker::ScenarioServiceType().name, "slots == 1", "first", 1);
     there_ = sba::ScenarioService::_narrow(offers->front().object);
   }
-  // The reason for a refusal.
+  // Returns the reason for a refusal.
   std::string Refusal(const char* scenario, const sba::NameValues& options = {}) {
     try {
       const sba::ScenarioRun_var run = there_->run(scenario, options);

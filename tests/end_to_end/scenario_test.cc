@@ -1,4 +1,4 @@
-// Scenario files: `gsv run NAME.yaml`, and the scenario in each recording.
+// Tests scenario files: `gsv run NAME.yaml`, and the scenario in each recording.
 #include <filesystem>
 #include <fstream>
 
@@ -44,7 +44,7 @@ TEST_F(Scenario, FileEqualsOptions) {
   EXPECT_EQ(report["robots"][1]["behaviour"], "wander");
   EXPECT_EQ(report["warnings"].size(), 0u);
 
-  // Options override the file, and add to it.
+  // Options override values of the file, and add to its lists.
   const auto longer = Run(file, {"--duration", "2.5", "--robot", "pebble@2,3"}).LastLine();
   EXPECT_EQ(longer["sim_time_s"], 2.5);
   EXPECT_EQ(longer["robots"].size(), 3u);
@@ -59,7 +59,7 @@ TEST_F(Scenario, FileEqualsOptions) {
 TEST_F(Scenario, ScenarioOfARecordingHasTheSameHash) {
   const std::string recording = folder_.path() / "run.mcap";
   const std::string file = folder_.path() / "again.yaml";
-  // Robots without a place, and one with a behaviour's options.
+  // Two robots have no place, and one has a behaviour with options.
   const Outcome first =
       Run("playground",
           {"--lockstep", "--seed", "5", "--duration", "3", "--robot", "pebble", "--robot", "b21r",

@@ -1,5 +1,5 @@
-// A sensor type outside of the source tree: examples/infrared is built, loaded, recorded, shown,
-// and read through its own IDL interface.
+// Tests a sensor type from outside the source tree. The example examples/infrared is built, loaded,
+// recorded, shown, and read through its own IDL interface.
 #include <cmath>
 #include <cstdlib>
 #include <mutex>
@@ -20,7 +20,7 @@ namespace {
 using ::testing::HasSubstr;
 using Strings = std::vector<std::string>;
 
-// The sensor, 0.1 m ahead of the robot's centre, sees the wall, 0.5 m ahead of the centre.
+// The sensor is 0.1 m ahead of the robot's centre, and the wall is 0.5 m ahead of it.
 constexpr double kDistance = 0.4;
 
 constexpr const char* kWorld = R"(<sdf version='1.9'><world name='w'>
@@ -42,7 +42,8 @@ class SensorPlugin : public ::testing::Test {
     folder_ = new base::testing::TestFolder;
     const std::string source = std::getenv("GSV_SOURCE_DIR"), build = std::getenv("GSV_BUILD_DIR");
     const std::string out = build + "/tests/infrared";
-    // Each test is a separate process; the first builds it, the others wait for that.
+    // Each test is a separate process. The first one builds the example, and the others wait for
+    // that.
     const Outcome built = RunProgram(
         "/usr/bin/flock", {build + "/tests/infrared.lock", "sh", "-ec",
                            R"(cmake -S "$1/examples/infrared" -B "$3" -DGSV_SOURCE_DIR="$1" \
@@ -107,8 +108,8 @@ TEST_F(SensorPlugin, InvalidLibraryIsRejectedWithASentence) {
   EXPECT_THAT(twice.err, HasSubstr("it is taken"));
 }
 
-// A behaviour that reads the sensor by the plug-in's interface, which is not compiled into this
-// test.
+// A behaviour that reads the sensor through the plug-in's interface, which is not compiled into
+// this test.
 class ReadsInInit final : public POA_sba::AgentBehaviour {
  public:
   void init(const char*, sba::Hardware_ptr robot) override {

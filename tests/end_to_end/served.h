@@ -1,4 +1,5 @@
-// A server of simulations in a process of its own, with a broker, called through our IDL's stubs.
+// For tests: a server of simulations in a separate process, with a broker. It is called through the
+// stubs of our IDL.
 #pragma once
 
 #include <chrono>
@@ -12,10 +13,10 @@
 
 namespace gsv::testing {
 
-// How often a case is run: once in make test, GSV_SOAK times in make soak.
+// The number of repetitions of a case: one in make test, and GSV_SOAK in make soak.
 int Rounds();
 
-// The process's ORB, whose calls wait as long as a build with a sanitizer may take.
+// Returns the process's ORB. Its calls have the timeout that a build with a sanitizer needs.
 base::Result<CORBA::ORB_var> StartOrbWithLongTimeout();
 
 class Served : public ::testing::Test {
@@ -24,18 +25,19 @@ class Served : public ::testing::Test {
   static void TearDownTestSuite();
   Served();
 
-  // The playground, kept, with the fleet's seed and without end. Deadline: 60 s.
+  // Describes the playground with the fleet's seed, without an end, and with a deadline of 60 s.
+  // The simulation is kept after its creator has gone.
   static sba::SimulationSpecification Playground(sba::PacingMode pacing);
   static void SetOption(sba::SimulationSpecification& specification, const char* name,
                         const char* value);
-  // A pebble at (x, 0); `behaviour` is an offer's name, or empty.
+  // Adds a pebble at (x, 0). `behaviour` is the name of an offer, or empty.
   static void AddPebble(sba::Simulation_ptr simulation, double x, const std::string& behaviour);
-  // The robots of FleetRun().
+  // Adds the robots of FleetRun().
   static void AddFleet(sba::Simulation_ptr simulation);
 
   static void RunTo(sba::Simulation_ptr simulation, double seconds);
   static sba::SimulationPhase AwaitRest(sba::Simulation_ptr simulation);
-  // Asks until `holds` does.
+  // Queries the state until `holds` returns true.
   template <typename Condition>
   static void AwaitState(sba::Simulation_ptr simulation, Condition holds) {
     const auto give_up = std::chrono::steady_clock::now() + kProgramTimeout;
@@ -46,7 +48,7 @@ class Served : public ::testing::Test {
     FAIL() << "it never came to that";
   }
   static std::string HashOf(sba::Simulation_ptr simulation);
-  // How many robots' behaviours are in that phase.
+  // Returns the number of robots whose behaviour is in that phase.
   static int CountOf(const sba::SimulationState& state, sba::AgentPhase phase);
 
   static inline CORBA::ORB_var orb_;

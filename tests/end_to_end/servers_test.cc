@@ -1,5 +1,5 @@
-// Several servers at one broker: a client gets the least loaded server. The runs of a server that
-// dies are done by others.
+// Tests several servers at one broker. A client gets the least loaded server, and other servers do
+// the runs of a server that dies.
 #include <csignal>
 #include <fstream>
 #include <map>
@@ -31,7 +31,7 @@ std::unique_ptr<Running> Serve(const std::string& broker, const std::string& nam
   return server;
 }
 
-// Waits until this number of a campaign's runs is in its results.
+// Waits until the results contain this number of the campaign's runs.
 void AwaitDone(Running& driver, const std::string& results, int count) {
   for (int done = 0; done < count && driver.process().Ending().empty();) {
     const auto status = RunProgram("gsv", {"campaign", "status", results, "--json"}).LastLine();
@@ -39,7 +39,7 @@ void AwaitDone(Running& driver, const std::string& results, int count) {
   }
 }
 
-// The lines of a campaign's runs, by number: status and hash.
+// Returns status and hash of a campaign's runs, by number.
 std::map<std::string, std::string> RunsOf(const std::string& results, const std::string& csv) {
   EXPECT_EQ(RunProgram("gsv", {"campaign", "report", results, "--csv", csv}).ending, "exit code 0");
   std::ifstream file(csv);
@@ -95,7 +95,7 @@ TEST(Servers, CampaignSurvivesAKilledAndADisconnectedServer) {
   EXPECT_EQ(outcome.LastLine()["done"], 14) << outcome.err;
   EXPECT_EQ(outcome.LastLine()["errors"], 0) << outcome.err;
 
-  // The results on this machine are the same, bit by bit.
+  // The results on this machine must be bit-identical.
   (void)RunProgram("gsv", {"campaign", "run", file, "--results", here});
   const auto runs = RunsOf(there, folder.path() / "there.csv");
   EXPECT_EQ(runs.size(), 14u);
@@ -142,7 +142,7 @@ TEST(Servers, CampaignWithoutServersIsAnError) {
   EXPECT_THAT(one.out, HasSubstr("1 of 1 runs: 1 passed, 0 failed, 0 errors"));
 }
 
-// The server that runs the simulation.
+// Returns the name of the server that runs the simulation.
 std::string ServerOf(const std::string& broker, const std::string& simulation) {
   std::istringstream lines(RunProgram("gsv", {"ps", "--broker", broker, "--json"}).out);
   for (std::string line; std::getline(lines, line);) {
@@ -157,7 +157,7 @@ TEST(Servers, PreferenceForLeastLoadSelectsTheIdleServer) {
   const auto one = Serve(broker.reference(), "one", {}), two = Serve(broker.reference(), "two", {});
   auto application = Application::Connect(broker.reference());
   ASSERT_TRUE(application) << application.error().Sentence();
-  auto orb = StartOrbWithLongTimeout();  // the same: a process has only one
+  auto orb = StartOrbWithLongTimeout();  // the same ORB, because a process has only one
   ASSERT_TRUE(orb);
   auto client = broker::BrokerClient::Connect(*orb, broker.reference());
   ASSERT_TRUE(client);
@@ -210,9 +210,9 @@ TEST(Servers, SimulationOfADeadServerIsReportedAsLost) {
   ASSERT_TRUE(state);
   EXPECT_EQ(state->phase, "lost");
   EXPECT_THAT(state->failure, HasSubstr("no program accepts connections at this address any more"));
-  ASSERT_EQ(state->robots.size(), 1u);  // as it was at the last query
+  ASSERT_EQ(state->robots.size(), 1u);  // the state is that of the last query
   EXPECT_EQ(state->robots[0].place.x, 1);
-  // The application continues with another.
+  // The application continues with another server.
   const auto another = Serve(broker.reference(), "lives", {});
   auto again = (*application)->Create({.world = "playground"}, "", "min load");
   ASSERT_TRUE(again) << again.error().Sentence();

@@ -1,5 +1,5 @@
-// The services as seen by an application: the real server in its own process, and stubs of the IDL
-// here.
+// Tests the services from the view of an application: the real server runs in its own process, and
+// this process has stubs of the IDL.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,14 +15,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// A simulation that is destroyed with this object, however its test ends.
+// A simulation that is destroyed with this object, so that it does not outlive a failed test.
 class OwnSimulation {
  public:
   explicit OwnSimulation(sba::Simulation_ptr simulation) : simulation_(simulation) {}
   ~OwnSimulation() {
     try {
       simulation_->destroy();
-    } catch (const CORBA::Exception&) {  // it has ended already
+    } catch (const CORBA::Exception&) {  // the simulation has ended already
     }
   }
   OwnSimulation(const OwnSimulation&) = delete;
@@ -37,7 +37,7 @@ class OwnSimulation {
   const sba::Simulation_var simulation_;
 };
 
-// One broker, one server and one behaviour program for all tests here.
+// One broker, one server and one behaviour program serve all tests of this file.
 class Services : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -297,14 +297,14 @@ TEST_F(AgentBehaviour, StopWakesAWaitingBehaviour) {
   const CORBA::String_var robot = simulation->add_robot(Pebble(0, 0, "name == 'wander'"));
   ASSERT_EQ(RunTo(simulation, 0.5), sba::PHASE_PAUSED);
   simulation->stop();
-  // The same behaviour runs again: its thread has returned from its wait.
+  // The same behaviour runs again, because its thread has returned from its wait.
   simulation->reset();
   EXPECT_EQ(RunTo(simulation, 0.5), sba::PHASE_PAUSED);
 }
 
-// The SDK's side of the same services.
+// The following tests use the SDK's side of the same services.
 TEST_F(Services, ApplicationNeedsNoCorbaCode) {
-  // One ORB a process: the SDK uses this one.
+  // A process has one ORB, so the SDK uses this one.
   EXPECT_EQ(RunProgram("example-test-wandering",
                        {"--broker", broker_->reference(), "--world", "playground", "--places", "-1",
                         "0", "1", "0", "--seconds", "10"})
@@ -337,7 +337,7 @@ TEST_F(SimulationService, EndsAfterItsCreatorDisconnects) {
   specification.options[0].value = "1";
   const OwnSimulation simulation(service_->create_simulation(specification));
   simulation->start();
-  // A viewer watches, which does not count as a sign of life of the creator.
+  // A connected viewer does not count as a sign of life of the creator.
   const CORBA::String_var viewer(simulation->viewer_url());
   const std::string url =
       std::string(viewer).substr(0, std::string(viewer).find('?')) + "api/simulations";

@@ -1,4 +1,4 @@
-// A server as seen by an operator: limits, metrics, the log. With the real program.
+// Tests a server from the view of an operator: limits, metrics, and the log. Uses the real program.
 #include <map>
 #include <optional>
 #include <regex>
@@ -17,7 +17,7 @@ namespace {
 using gateway::testing::HttpReply;
 using nlohmann::json;
 
-// A server on a port chosen by the system.
+// A server on a port that the system chose.
 class Served {
  public:
   explicit Served(std::vector<std::string> options, const std::vector<std::string>& before = {}) {
@@ -45,7 +45,7 @@ class Served {
     return at == std::string::npos ? -1 : std::stod(text.substr(at + name.size() + 2));
   }
   pid_t pid() { return program_->process().pid(); }
-  // Ends it, and returns its log.
+  // Ends the server and returns its log.
   std::string End() {
     program_->process().Signal(SIGTERM);
     return program_->AwaitEnd().err;
@@ -71,7 +71,7 @@ TEST(Limits, LimitsOfSimulationsAndRobotsApplyAndCanBeSet) {
   const HttpReply third = server.Create("");
   EXPECT_GE(third.status, 400);
   EXPECT_NE(third.body.find("already runs 2 simulations"), std::string::npos) << third.body;
-  // Refused requests have left nothing behind.
+  // Refused requests must leave nothing behind.
   EXPECT_EQ(json::parse(server.Ask("GET", "/api/simulations").body).size(), 2u);
   const std::string name = json::parse(second.body)["name"];
   EXPECT_EQ(server.Ask("DELETE", PathOf(name)).status, 200);
@@ -103,7 +103,7 @@ TEST(Limits, UnknownLimitsAreRejectedWithAListOfTheKnown) {
   EXPECT_NE(unknown.err.find("sensors_of_a_robot"), std::string::npos) << unknown.err;
 }
 
-// Worlds that are not built in are read in a separate process first.
+// Worlds that are not built in are first read in a separate process.
 class UploadedWorld : public ::testing::Test {
  protected:
   static HttpReply Show(const Served& server, const std::string& world) {
@@ -134,12 +134,12 @@ TEST_F(UploadedWorld, ExcessiveMemoryIsReportedAndTheServerContinues) {
   EXPECT_GE(refused.status, 400) << refused.body;
   EXPECT_NE(refused.body.find("reading it takes more than 30000000 bytes"), std::string::npos)
       << refused.body;
-  EXPECT_EQ(server.Create("").status, 201);  // built-in worlds are not tried
+  EXPECT_EQ(server.Create("").status, 201);  // built-in worlds need no separate process
 }
 
 TEST_F(UploadedWorld, EndlessReadingIsReportedAndTheServerContinues) {
   const Served server({"--limit", "reading_seconds=2"});
-  // A reader of it waits for a writer.
+  // The file is a FIFO, so reading it waits for a writer.
   const std::string world = folder_.path() / "endless.sdf";
   ASSERT_EQ(mkfifo(world.c_str(), 0600), 0);
   const HttpReply refused = Show(server, world);
@@ -160,7 +160,7 @@ TEST(Metrics, AreServedByARealServer) {
   const auto deadline = std::chrono::steady_clock::now() + kProgramTimeout;
   while (server.Metric("gsv_steps_total") < 25 && std::chrono::steady_clock::now() < deadline) {
   }
-  // Former viewers still count.
+  // Viewers that have disconnected still count.
   ASSERT_EQ(server.Ask("DELETE", PathOf(name)).status, 200);
   EXPECT_EQ(server.Metric("gsv_steps_total"), 25);
   EXPECT_GT(server.Metric("process_resident_memory_bytes"), 1e6);
@@ -171,7 +171,7 @@ TEST(Log, WritesOneJsonObjectPerLineWithoutTokens) {
   const std::string control = "control-secret-0123456789", watch = "watching-secret-0123456789";
   Served server({"--control-token", control, "--watch-token", watch},
                 {"--log-level", "trace", "--log-format", "json"});
-  // All places where a token, or a part of one, may be.
+  // These are all places in which a token, or a part of one, may be.
   const std::string bearer = "Authorization: Bearer ";
   EXPECT_EQ(server.Ask("GET", "/api/simulations").status, 401);
   EXPECT_EQ(server.Ask("GET", "/api/simulations", "", bearer + watch).status, 200);
@@ -187,7 +187,7 @@ TEST(Log, WritesOneJsonObjectPerLineWithoutTokens) {
   std::istringstream lines(log);
   int refusals = 0;
   for (std::string line; std::getline(lines, line);) {
-    const json event = json::parse(line);  // throws for anything else
+    const json event = json::parse(line);  // throws for anything that is not JSON
     EXPECT_TRUE(std::regex_match(event.at("time").get<std::string>(),
                                  std::regex(R"(\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z)")));
     EXPECT_TRUE(event.at("level").is_string());
@@ -198,7 +198,7 @@ TEST(Log, WritesOneJsonObjectPerLineWithoutTokens) {
   EXPECT_GE(refusals, 5) << log;
 }
 
-// The report of `gsv doctor --security` about a process, by the protocols of its sockets.
+// Returns the report of `gsv doctor --security` about a process, by the protocols of its sockets.
 std::map<std::string, std::vector<json>> ExposureOf(pid_t pid) {
   std::map<std::string, std::vector<json>> sockets;
   std::istringstream lines(RunProgram("gsv", {"doctor", "--security", "--json"}).out);
@@ -247,7 +247,7 @@ TEST(Exposure, CertificateAndTokenGiveNoWarning) {
   EXPECT_TRUE(socket["watching_takes_token"]);
   EXPECT_TRUE(socket["acting_takes_token"]);
   EXPECT_EQ(socket["complaint"], "");
-  // A client without TLS learns nothing else.
+  // A client without TLS gets no other information.
   const HttpReply plain = server.Ask("GET", "/api/server");
   EXPECT_EQ(plain.status, 400);
   EXPECT_NE(plain.body.find("https://"), std::string::npos);

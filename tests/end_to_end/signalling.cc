@@ -1,4 +1,5 @@
-// Blinks, beeps and listens, for tests: drives by what it hears. Fails if it never hears a sound.
+// For tests: a behaviour that switches a lamp, plays sounds and listens. It drives according to the
+// sounds that it hears, and fails if it never hears one.
 #include <stdexcept>
 
 #include "sdk/behaviour/module.h"

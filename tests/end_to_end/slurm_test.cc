@@ -1,4 +1,4 @@
-// `gsv campaign run --engine slurm`, by a real Slurm that the test starts.
+// Tests `gsv campaign run --engine slurm` with a real Slurm that the test starts.
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -27,7 +27,7 @@ class SlurmCampaign : public ::testing::Test {
     if (const std::string missing = SlurmCluster::Missing(); !missing.empty())
       GTEST_SKIP() << missing;
   }
-  // Half of its runs fail: at x = 1 the robot stands out of bounds.
+  // Half of the runs fail, because the robot starts out of bounds at x = 1.
   void WriteCampaign(int runs, const std::string& duration = "0.1") {
     folder_.Write("s.yaml",
                   "world: playground\nduration: " + duration +
@@ -45,7 +45,7 @@ class SlurmCampaign : public ::testing::Test {
   nlohmann::json Status() const {
     return RunProgram("gsv", {"campaign", "status", file_, "--json"}).LastLine();
   }
-  // Until so many are done, or the driver has ended.
+  // Waits until this number of runs is done, or the driver has ended.
   void AwaitDone(int runs, Running& driver) const {
     for (int done = 0; done < runs && driver.process().Ending().empty();) {
       const auto status = Status();
@@ -83,7 +83,8 @@ class SlurmCampaign : public ::testing::Test {
   const std::string file_ = folder_.path() / "c.yaml";
 };
 
-// GSV_SLURM_RUNS is how many runs the campaign has, GSV_SLURM_FIGURES a file for what it cost.
+// GSV_SLURM_RUNS is the number of runs of the campaign. GSV_SLURM_FIGURES is a file for the
+// measured cost.
 TEST_F(SlurmCampaign, RunsCountOnceIfDriverSlurmdAndANodeAreKilled) {
   const char* wanted = std::getenv("GSV_SLURM_RUNS");
   const int runs = wanted != nullptr ? std::atoi(wanted) : 40;
@@ -129,8 +130,9 @@ TEST_F(SlurmCampaign, LostRunsAreSubmittedAgain) {
   {
     Running driver("gsv", arguments);
     AwaitDone(1, driver);
-    // Three tasks an array at most: three jobs. Who cancels them wants them to end.
-    EXPECT_EQ(Files("c.runs", ".json"), 4u);  // and the plan
+    // An array has at most three tasks, so there are three jobs. A user who cancels them wants them
+    // to end.
+    EXPECT_EQ(Files("c.runs", ".json"), 4u);  // three batches and the plan
     SlurmCluster::Ask({"scancel", "--state=PENDING", "--me"});
     const Outcome cancelled = AwaitEnd(driver);
     EXPECT_EQ(cancelled.ending, "exit code 5");
@@ -150,7 +152,7 @@ TEST_F(SlurmCampaign, RunThatCrashesItsTaskThreeTimesIsAnError) {
   folder_.Write("c.yaml", "engine: slurm\nscenario: s.yaml\nparameters: {duration: [1e6, 0.1]}\n");
   SlurmCluster cluster({.nodes = 1});
   Running driver("gsv", RunArguments({"--runs-a-task", "2"}));
-  // Each time the task comes to the first run, which is long, it is killed.
+  // Each time the task begins the first run, which is long, the task is killed.
   while (driver.process().Ending().empty()) {
     if (cluster.Runs("run_000000.yaml")) cluster.KillProcesses("gsv campaign task");
   }
@@ -171,7 +173,8 @@ TEST_F(SlurmCampaign, RefusalBySlurmIsReported) {
   EXPECT_EQ(option.ending, "exit code 5");
   EXPECT_THAT(option.err, HasSubstr("unrecognized option '--no-such-option'"));
   EXPECT_EQ(Files("c.runs", "1.json"), 0u);
-  // Handed out and not waited for; then cancelled, which a second driver takes for lost.
+  // The first driver submits and does not wait. Then the job is cancelled, which a second driver
+  // must notice.
   const Outcome handed = RunProgram("gsv", RunArguments({"--no-wait", "--sbatch=--hold"}));
   EXPECT_THAT(handed.err, HasSubstr("Slurm: submitted 4 runs in 4 tasks, job "));
   EXPECT_EQ(SlurmCluster::Ask({"squeue", "--noheader", "--array"}).empty(), false);

@@ -1,5 +1,4 @@
-// `gsv campaign run --engine ssh`, with real sshds that the test starts or with a replacement for
-// ssh.
+// Tests `gsv campaign run --engine ssh` with real sshds that the test starts, or with a fake ssh.
 #include <csignal>
 #include <fstream>
 #include <set>
@@ -19,7 +18,7 @@ constexpr std::chrono::minutes kCampaignTimeout{5};
 
 class SshCampaign : public ::testing::Test {
  protected:
-  // Half of its runs fail: at x = 1 the robot is out of bounds.
+  // Half of the runs fail, because the robot starts out of bounds at x = 1.
   void WriteCampaign(const SshHosts& hosts, const std::string& names, int runs,
                      const std::string& duration = "0.1") {
     folder_.Write("s.yaml",
@@ -32,7 +31,7 @@ class SshCampaign : public ::testing::Test {
                                 "  seed: {from: 1, to: " +
                                 std::to_string(runs / 2) + "}\n");
   }
-  // Waits until this number is done, or the driver has ended.
+  // Waits until this number of runs is done, or the driver has ended.
   void AwaitDone(int runs, Running& driver) const {
     for (int done = 0; done < runs && driver.process().Ending().empty();) {
       const auto status = RunProgram("gsv", {"campaign", "status", file_, "--json"}).LastLine();

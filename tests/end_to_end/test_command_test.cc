@@ -1,4 +1,4 @@
-// `gsv test`: scenarios as tests.
+// Tests `gsv test`, which runs scenarios as tests.
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -74,7 +74,7 @@ TEST_F(TestCommand, FailureKeepsItsFiles) {
   EXPECT_NEAR(info["start_s"].get<double>(), failed - 3, 0.1) << info;
   EXPECT_EQ(RunProgram("gsv", {"replay", "--headless", left / "run.mcap"}).ending, "exit code 0");
   EXPECT_THAT(TextOf(left / "README.txt"), HasSubstr("#t="));
-  // The command in the report fails at the same instant.
+  // The command in the report must fail at the same instant.
   const Outcome again = RunProgram("gsv", {"run", file, "--lockstep", "--headless", "--json"});
   EXPECT_EQ(again.ending, "exit code 1");
   EXPECT_EQ(again.LastLine()["expectations"][0]["step"],

@@ -1,5 +1,5 @@
-// A behaviour that does not use simulated clocks: it sleeps by the wall clock and never waits for
-// the robot's clock.
+// For tests: a behaviour that does not use simulated clocks. It sleeps by the wall clock and never
+// waits for the robot's clock.
 #include <chrono>
 #include <thread>
 

@@ -1,4 +1,4 @@
-// The built-in worlds and robots, read like by a user.
+// Tests the built-in worlds and robots, as a user reads them.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -74,7 +74,8 @@ TEST_F(Assets, B21rHas24SonarsACameraAndASynchroDrive) {
   ASSERT_TRUE(b21r->drive);
   EXPECT_EQ(b21r->drive->kind, model::DriveKind::kSynchro);
   EXPECT_EQ(b21r->drive->command_timeout, std::chrono::seconds(1));
-  EXPECT_NEAR(model::FootprintRadius(*b21r), 0.263, 0.12);  // of the box around the drum
+  // the box around the drum, whose corners are farther away
+  EXPECT_NEAR(model::FootprintRadius(*b21r), 0.263, 0.12);
   EXPECT_NEAR(model::LowestPoint(*b21r), 0, 1e-9);
 }
 
@@ -106,7 +107,7 @@ TEST_F(Assets, MaterialsHaveTheirTextures) {
     ASSERT_FALSE(visual.materials.empty()) << visual.name;
     if (visual.materials.front().base_colour_map != nullptr) ++textured;
   }
-  EXPECT_EQ(textured, 5);  // plaster, wood, oak, carpet, tiles; not glass
+  EXPECT_EQ(textured, 5);  // plaster, wood, oak, carpet and tiles; glass has no texture
 }
 
 }  // namespace

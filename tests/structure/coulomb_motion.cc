@@ -12,7 +12,7 @@ using geometry::Pose;
 using geometry::Vector3;
 using Three = std::array<double, 3>;
 
-// Cramer's rule.
+// Solves the equations by Cramer's rule.
 Three Solve(const std::array<Three, 3>& rows, const Three& right) {
   const auto determinant = [](const std::array<Three, 3>& m) {
     return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
@@ -29,8 +29,9 @@ Three Solve(const std::array<Three, 3>& rows, const Three& right) {
 }
 
 struct Support {
-  Vector3 point;    // in H
-  Vector3 surface;  // m/s: of the wheel's surface at the point, by its rotation; in H
+  Vector3 point;  // in frame H
+  // the velocity of the wheel's surface at the point because of its rotation, m/s; in frame H
+  Vector3 surface;
   double friction = 1, load = 0;
 };
 
@@ -79,7 +80,7 @@ class Robot {
     return Inverse(world_from_heading_) * in_world;
   }
 
-  // By how much the joint above a link has turned it.
+  // The rotation of a link by the joint above it.
   geometry::Quaternion Steering(int link) const {
     for (std::size_t j = 0; j < model_.joints.size(); ++j) {
       const model::Joint& joint = model_.joints[j];
@@ -90,8 +91,8 @@ class Robot {
     return {};
   }
 
-  // The collision whose surface is nearest to a point on the ground: balls and wheels by their
-  // radius, others by their lowest corner.
+  // The collision whose surface is nearest to a point on the ground. Balls and wheels have their
+  // radius; of others, the lowest corner counts.
   std::pair<int, const model::Collision*> Nearest(const Vector3& point) const {
     std::pair<int, const model::Collision*> nearest{0, nullptr};
     double least = std::numeric_limits<double>::infinity();
@@ -128,7 +129,7 @@ class Robot {
   Pose world_from_model_, world_from_heading_;
 };
 
-// In shares of the weight.
+// Sets the load of each support, as a fraction of the weight.
 void ShareWeight(std::vector<Support>& supports, const Vector3& centre) {
   std::array<Three, 3> rows{};
   for (const Support& s : supports) {
@@ -144,10 +145,11 @@ void ShareWeight(std::vector<Support>& supports, const Vector3& centre) {
   }
 }
 
-// By least squares, weighted anew again and again with one over the slip (Weiszfeld's method).
+// Minimizes the power by iterated least squares, with one over the slip as the weight (Weiszfeld's
+// method).
 GroundMotion LeastPower(const std::vector<Support>& supports) {
   constexpr int kIterations = 100;
-  constexpr double kSticks = 1e-7;  // m/s
+  constexpr double kSticks = 1e-7;  // slip below which a support sticks, m/s
   Three motion{};
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     std::array<Three, 3> rows{};
@@ -195,7 +197,7 @@ std::optional<GroundMotion> CoulombMotion(const dynamics::testing::TestWorld& wo
   if (supports.size() < 3) return std::nullopt;
   ShareWeight(supports, robot.CentreOfMass());
   const GroundMotion motion = LeastPower(supports);
-  // Points on one line carry no robot.
+  // Points on one line cannot support a robot.
   if (!std::isfinite(motion.x + motion.y + motion.turn)) return std::nullopt;
   return motion;
 }

@@ -1,4 +1,4 @@
-// The head of rover4: a behaviour turns its camera by the joints.
+// Tests the head of rover4: a behaviour turns the camera by the joints.
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -19,7 +19,8 @@ using geometry::Pose;
 using geometry::Vector3;
 
 constexpr double kPan = 0.7, kTilt = 0.3;
-constexpr double kMounting = 0.1;  // rad that the camera points down from its bracket
+// the angle in rad by which the camera points down from its bracket
+constexpr double kMounting = 0.1;
 
 class Looks final : public Behaviour {
  public:
@@ -64,7 +65,7 @@ std::shared_ptr<model::Model> Ball() {
   return ball;
 }
 
-// The line of sight of a camera at that place: pan about z, then tilt and the mounting about y.
+// The line of sight of the camera: pan about z, then tilt and the mounting angle about y.
 Vector3 LineOfSight() {
   const double down = kTilt + kMounting;
   return {std::cos(kPan) * std::cos(down), std::sin(kPan) * std::cos(down), -std::sin(down)};
@@ -82,7 +83,7 @@ void TurnHead(model::Movement movement) {
   auto ground = std::make_shared<model::Model>();
   ground->links.resize(1);
   ground->links[0].collisions.push_back({"ground", {}, geometry::Plane{}, {}});
-  // The head rotates about (0.12, 0, 0.4); the ball is 0.7 m from there.
+  // The head rotates about (0.12, 0, 0.4), and the ball is 0.7 m from there.
   const Vector3 head{0.12, 0, 0.4};
   world->models = {{"ground", ground, {}, true},
                    {"ball", Ball(), {head + 0.7 * LineOfSight(), {}}, true}};
@@ -105,7 +106,7 @@ void TurnHead(model::Movement movement) {
   EXPECT_NEAR(reached[0], kPan, 5e-3);
   EXPECT_NEAR(reached[1], kTilt, 5e-3);
 
-  // The rover is level on its wheels, except for their penetration.
+  // The rover stands level on its wheels, except for their penetration.
   const auto snapshot = (*simulation)->snapshot();
   const int body = snapshot->layout->Find("rover");
   for (const model::SensorDescription& sensor : (*simulation)->sensors("rover")) {
@@ -118,7 +119,7 @@ void TurnHead(model::Movement movement) {
   ASSERT_TRUE(reading) << reading.error().Sentence();
   const rendering::Blob ball = rendering::FindBlob(*reading->image, 0);
   EXPECT_GT(ball.pixels, 500);
-  // 0.02 rad are 5.5 pixels.
+  // an angle of 0.02 rad is 5.5 pixels wide
   EXPECT_NEAR(ball.u, 160, 6);
   EXPECT_NEAR(ball.v, 120, 6);
 }

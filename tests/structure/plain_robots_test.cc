@@ -1,4 +1,5 @@
-// Robots as in ROS packages, without any plugin: the drive of each follows from its wheels.
+// Tests robots as they are in ROS packages, without any plugin. The drive of each follows from its
+// wheels.
 #include <gmock/gmock.h>
 
 #include "gsv/base/test_folder.h"
@@ -31,7 +32,7 @@ std::string Joint(const std::string& name, const std::string& type, const std::s
          more + "</joint>";
 }
 
-// A wheel of radius 0.1 m with a horizontal cylinder, as from most exporters.
+// A wheel of radius 0.1 m. Its cylinder is horizontal, as most exporters write it.
 std::string Wheel(const std::string& name, const std::string& parent, const std::string& xyz) {
   return Link(name, "1", "<cylinder radius='0.1' length='0.05'/>") +
          Joint(name + "_joint", "continuous", parent, name, "xyz='" + xyz + "' rpy='-1.5708 0 0'",
@@ -42,14 +43,14 @@ std::string Urdf(const std::string& content) {
   return "<?xml version='1.0'?><robot name='robot'>" + content + "</robot>";
 }
 
-// Like TurtleBot: two wheels and a sliding ball.
+// A robot like TurtleBot, with two wheels and a sliding ball.
 std::string TwoWheelsAndABall() {
   return Urdf(Link("base", "5", "<box size='0.3 0.25 0.1'/>") + Wheel("left", "base", "0 0.16 0") +
               Wheel("right", "base", "0 -0.16 0") + Link("ball", "0.1", "<sphere radius='0.04'/>") +
               Joint("ball_joint", "fixed", "base", "ball", "xyz='-0.12 0 -0.06'", "0 0 1"));
 }
 
-// Like Husky: four fixed wheels.
+// A robot like Husky, with four fixed wheels.
 std::string FourWheels() {
   std::string wheels;
   for (const char* x : {"0.25", "-0.25"}) {
@@ -62,7 +63,7 @@ std::string FourWheels() {
   return Urdf(Link("base", "20", "<box size='0.8 0.4 0.15'/>") + wheels);
 }
 
-// Like the racecars of MIT and F1TENTH: two steered wheels in front.
+// A robot like the racecars of MIT and F1TENTH, with two steered wheels in front.
 std::string Racecar() {
   std::string front;
   for (const char* y : {"0.12", "-0.12"}) {
@@ -78,7 +79,7 @@ std::string Racecar() {
               Wheel("right_rear_wheel", "base", "0 -0.12 0") + front);
 }
 
-// Like industrial arms: fixed to the world.
+// A robot like an industrial arm, which is fixed to the world.
 std::string Arm() {
   const std::string limit = "<limit lower='-3' upper='3' effort='500' velocity='1'/>";
   return Urdf("<link name='world'/>" + Link("base", "5", "<cylinder radius='0.1' length='0.1'/>") +
@@ -99,7 +100,7 @@ class PlainRobotsTest : public testing::TestWithParam<model::Movement> {
     return model ? *model : nullptr;
   }
 
-  // The pose of the robot after two seconds of that command.
+  // Returns the pose of the robot after two seconds of that command.
   geometry::Pose After2s(const std::string& urdf, const world::DriveCommand& command,
                          const std::string& drive = {}) {
     Specification specification = Lockstep(2s);
@@ -133,7 +134,8 @@ class PlainRobotsTest : public testing::TestWithParam<model::Movement> {
   formats::ModelLibrary library_;
 };
 
-// 0.5 m/s for 2 s. With rigid-body dynamics the wheels need a moment to accelerate: 36 mm are lost.
+// The robot drives at 0.5 m/s for 2 s. With rigid-body dynamics the wheels need time to accelerate,
+// so 36 mm are missing.
 TEST_P(PlainRobotsTest, DriveTheCommandedDistance) {
   const double tolerance = is_planar() ? 1e-9 : 0.04;
   for (const std::string& urdf : {TwoWheelsAndABall(), FourWheels(), Racecar()}) {
@@ -146,7 +148,8 @@ TEST_P(PlainRobotsTest, DriveTheCommandedDistance) {
 TEST_P(PlainRobotsTest, TurnOnTheSpotOrAlongAnArc) {
   const geometry::Pose two = After2s(TwoWheelsAndABall(), {0, 0, 0.5});
   EXPECT_NEAR(geometry::Yaw(two.orientation), 1, is_planar() ? 1e-9 : 0.05);
-  // A car follows an arc of radius v / ω about the centre of its rear axle, its origin here.
+  // A car follows an arc of radius v / ω about a point on the axis of its rear axle, whose centre
+  // is its origin.
   const geometry::Pose car = After2s(Racecar(), {0.5, 0, 0.25});
   const double yaw = is_planar() ? 0.5 : geometry::Yaw(car.orientation);
   EXPECT_NEAR(geometry::Yaw(car.orientation), 0.5, is_planar() ? 1e-9 : 0.06);

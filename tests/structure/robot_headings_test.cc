@@ -1,5 +1,5 @@
-// Robots from files drive as commanded, and the same for every heading: ours, and other people's if
-// GSV_REAL_DIR names a folder of them.
+// Tests that robots from files drive as commanded, and equally for every heading. The robots are
+// the built-in ones, and those in the folder GSV_REAL_DIR if it is set.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -26,27 +26,29 @@ using dynamics::testing::TestWorld;
 using geometry::Pose;
 using geometry::Vector3;
 
-constexpr double kStep = 0.01, kSettling = 0.5, kStarting = 1, kSeconds = 1;  // s
+constexpr double kStep = 0.01, kSettling = 0.5, kStarting = 1, kSeconds = 1;  // in s
 constexpr int kHeadings = 8;
 
-// m, rad: planar kinematics, and bases that their drive holds, follow the command to this.
+// Tolerance in m and rad for planar kinematics and for bases that their drive holds.
 constexpr double kExact = 2e-3;
-// A fraction of the command: rolling robots follow Coulomb's law within it, and within the effect of the
-// width of their wheels. The law leaves open how the two edges of a stiff wheel share its load: the wheels may turn
-// the robot about their inner or their outer edges.
+// Tolerance as a fraction of the command, for robots that roll. They follow Coulomb's law within
+// this tolerance and the effect of the width of their wheels. The law does not determine how the
+// two edges of a stiff wheel share its load, so wheels may turn the robot about their inner or
+// their outer edges.
 constexpr double kCoulomb = 0.05;
-// rad: what stands on its wheels leans less.
+// the maximum angle in rad by which a robot on its wheels leans
 constexpr double kLeans = 0.25;
 
-// Where a robot's origin is after the run, in the frame of its start, how far it leans, and its mean
-// motion over the last half of the run.
+// The position of the robot's origin after the run in the frame of its start, its maximum lean, and
+// its mean motion over the last half of the run.
 struct Outcome {
   double forward = 0, left = 0, angle = 0, lean = 0;
   GroundMotion motion;
   double way() const { return std::hypot(forward, left); }
 };
 
-// A run, what its drive commanded meanwhile, and what Coulomb's law makes of its wheels' speeds.
+// A run, the motion that the drive commanded during it, and the motion that follows from the
+// wheels' speeds by Coulomb's law.
 struct Run {
   Outcome is, commanded;
   std::optional<GroundMotion> by_law;
@@ -66,7 +68,7 @@ void AddShare(const GroundMotion& motion, double share, GroundMotion& sum) {
   sum.turn += share * motion.turn;
 }
 
-// The motion is steady when the run begins.
+// Starts the robot. Its motion is steady when the run begins.
 TestWorld Started(const std::shared_ptr<const model::Model>& model,
                   const world::DriveCommand& command, double heading, world::BodyKind kind) {
   TestWorld world = dynamics::testing::WorldOnGround();
@@ -80,7 +82,8 @@ TestWorld Started(const std::shared_ptr<const model::Model>& model,
   EXPECT_TRUE(world.Start());
   world.Run(kSettling, kStep);
   for (int i = 0; i < static_cast<int>(kStarting / kStep + 0.5); ++i) {
-    world.Command("robot", command);  // again and again, since drives stop without commands
+    // the command is repeated, because drives stop without commands
+    world.Command("robot", command);
     world.Step(kStep);
   }
   return world;
@@ -159,13 +162,13 @@ void ExpectCoulombsLaw(const Run& run, const world::DriveCommand& command,
                        const model::Model& model, const std::string& where) {
   const double width = WidthOfWheels(model), track = model.drive->wheel_separation;
   const double turn = std::abs(command.angular), speed = std::abs(command.linear);
-  // From the turn about the outer edges of the wheels to that about the inner ones; what lies off
-  // the axle moves as much more to the side.
+  // The factor is between that of a turn about the wheels' outer edges and that about the inner
+  // ones. A point off the axle also moves sideways by the same factor.
   const double edges = track / (track - width) - track / (track + width);
   const double way = kCoulomb * (speed + turn * track / 2) + turn * width / 2;
   const double angle = (kCoulomb + edges) * (turn + 0.1 * speed);
   if (!run.by_law) {
-    // What rocks stands on its two wheels, which roll.
+    // A robot that rocks stands on its two wheels, which roll.
     EXPECT_WITHIN(run.is.forward, run.commanded.forward, way * kSeconds, "m") << where;
     EXPECT_WITHIN(run.is.left, run.commanded.left, way * kSeconds, "m") << where;
     EXPECT_WITHIN(run.is.angle, run.commanded.angle, angle * kSeconds, "rad") << where;

@@ -1,4 +1,4 @@
-// docs/sensors.md lists every registered sensor type.
+// Tests that docs/sensors.md lists every registered sensor type.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -31,7 +31,7 @@ std::string NamesOf(const sensing::SensorType& type) {
   return type.aliases.empty() ? names : names + ")";
 }
 
-// The name in the form "sensor_msgs/Range".
+// Returns the name in the form "sensor_msgs/Range".
 std::string MessageOf(const sensing::SensorType& type) {
   std::string name(type.schema->name);
   const std::size_t at = name.find("/msg/");

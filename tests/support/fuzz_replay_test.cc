@@ -1,6 +1,6 @@
 // Runs a fuzz target on each file of its corpus, and then for five seconds on random changes of
-// them, with the compiler and the checks of every test. `make fuzz` knows better which changes lead
-// to new code, but requires clang.
+// them. It uses the compiler and the checks of every test. `make fuzz` selects changes that lead to
+// new code, but requires clang.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -29,7 +29,7 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr std::chrono::seconds kTime{5};
 constexpr std::size_t kMostBytes = 16'384;
 
-// By name, so that a seed has the same meaning on every machine.
+// The files are ordered by name, so that a seed has the same meaning on every machine.
 std::map<std::string, Bytes> Corpus() {
   std::map<std::string, Bytes> corpus;
   for (const auto& entry : std::filesystem::directory_iterator(GSV_FUZZ_CORPUS)) {
@@ -56,8 +56,8 @@ class Mutator {
   std::size_t Below(std::size_t end) { return random_() % end; }
   const Bytes& Any() { return inputs_[Below(inputs_.size())]; }
 
-  // Flips a bit, sets a byte to an extreme value, truncates, removes, duplicates, or inserts a
-  // piece of another input.
+  // Changes the input: flips a bit, sets a byte to an extreme value, truncates, removes,
+  // duplicates, or inserts a piece of another input.
   void Change(Bytes& bytes) {
     constexpr std::uint8_t kExtremes[] = {0, 1, 0x7f, 0x80, 0xff};
     if (bytes.empty()) bytes.push_back(0);
@@ -97,7 +97,7 @@ class Mutator {
   std::vector<Bytes> inputs_;
 };
 
-// The current input, which is saved if it crashes the program.
+// The current input. It is saved if it crashes the program.
 Bytes g_input;
 std::string g_kept;
 

@@ -1,5 +1,5 @@
-// Those who may call each other by CORBA: an authority, and a certificate of it for all programs
-// that this test starts as long as the group lasts.
+// For tests: programs that may call each other by CORBA over TLS. The group has an authority, and a
+// certificate for all programs that the test starts during its lifetime.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace gsv::testing {
 
-// A variable of the environment for as long as this lives; what it was before comes back.
+// Sets an environment variable during its lifetime, and restores the previous value.
 class Variable {
  public:
   Variable(const char* name, const std::string& value);
@@ -27,7 +27,7 @@ class Group {
  public:
   Group();
 
-  // "NAME.pem" of the folder in which `gsv certificates make` has put all of it.
+  // The file "NAME.pem" in the folder of `gsv certificates make`.
   std::filesystem::path File(const std::string& name) const {
     return folder_.path() / "tls" / name;
   }

@@ -1,5 +1,5 @@
-// Another host, as far as programs can tell: a network of its own behind a slow link, and a name of
-// its own, so that nobody there takes this host's sockets for theirs.
+// For tests: a network namespace that programs take for another host. It has its own network behind
+// a slow link, and its own host name, so that its programs do not use this host's sockets.
 #pragma once
 
 #include <string>
@@ -11,17 +11,17 @@ namespace gsv::testing {
 
 class OtherHost {
  public:
-  // Every round trip to it takes `milliseconds` longer.
+  // Every round trip to the host takes `milliseconds` longer.
   explicit OtherHost(int milliseconds);
 
-  // Why such a thing is not permitted on this machine; empty when it is.
+  // The reason why this machine does not permit such a namespace; empty if it does.
   const std::string& refusal() const { return refusal_; }
-  // This host, as seen from there.
+  // The address of this host, as seen from the other host.
   const std::string& address_here() const { return address_here_; }
-  // For Running: what runs a program there.
+  // The wrapper for Running that starts a program on the other host.
   std::vector<std::string> wrapper() const;
 
-  // Nothing is refused and nothing answers, as when a cable is pulled.
+  // Cuts the link. Nothing is refused and nothing answers, as if a cable were unplugged.
   void Cut();
   void Mend();
 

@@ -1,4 +1,4 @@
-// Runs GSV's real programs for tests.
+// For tests: runs the real programs of GSV.
 #pragma once
 
 #include <filesystem>
@@ -14,26 +14,29 @@
 
 namespace gsv::testing {
 
-// Wall time after which a program that should have answered has hung.
+// Wall-clock time limit for an answer of a program. A program that exceeds it counts as hung.
 inline constexpr std::chrono::seconds kProgramTimeout{90 * base::kSlowdown};
 
-std::filesystem::path Program(const std::string& name);   // in the build's bin, or a whole path
-std::filesystem::path RealFile(const std::string& path);  // of GSV_REAL_DIR; may not be there
+// `name` is that of a program in the build's bin folder, or a path.
+std::filesystem::path Program(const std::string& name);
+// A path below GSV_REAL_DIR. The file may be missing.
+std::filesystem::path RealFile(const std::string& path);
 
 struct Outcome {
-  std::string ending;  // "exit code 0"
+  std::string ending;  // such as "exit code 0" or "signal 9"
   std::string out, err;
 
-  nlohmann::json LastLine() const;  // of stdout, as JSON
+  nlohmann::json LastLine() const;  // The last line of stdout, as JSON.
 };
 
-// A program in the background, its stderr kept in a file.
+// A program in the background. Its stderr goes to a file.
 class Running {
  public:
-  // `wrapper`: a command line that ends in becoming the program, as nice, taskset and env do.
+  // `wrapper` is a command line that executes the program as its last action, as nice, taskset and
+  // env do.
   Running(const std::string& program, std::vector<std::string> arguments,
           const std::vector<std::string>& wrapper = {});
-  // The first line on stdout that contains `text`, which is waited for.
+  // Waits for the first line on stdout that contains `text`, and returns it.
   std::string AwaitLine(const std::string& text);
   Outcome AwaitEnd();
   app::ChildProcess& process() { return *process_; }
@@ -47,10 +50,10 @@ class Running {
 
 Outcome RunProgram(const std::string& program, std::vector<std::string> arguments);
 
-// The body of the answer from a server on this machine; empty when there is none.
+// Returns the body of the answer of a server on this machine, or an empty text if there is none.
 std::string HttpGet(const std::string& url);
 
-// A broker, on loopback unless told otherwise.
+// A broker process. By default it listens on loopback.
 class BrokerProcess {
  public:
   explicit BrokerProcess(const std::string& address = "127.0.0.1");

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr const char* kPrograms[]{"/usr/sbin/munged", "/usr/sbin/slurmctld", "/usr/sbin/slurmd",
                                   "/usr/bin/sbatch", "/usr/bin/squeue"};
 
-// Ports on which no process listens. All are held until all are known, so that they differ.
+// Finds ports on which no process listens. It holds all of them until the end, so that they differ.
 std::vector<int> FreePorts(int count) {
   std::vector<int> sockets, ports;
   for (int i = 0; i < count; ++i) {
@@ -160,7 +160,7 @@ void SlurmCluster::KillSlurmd(int node) {
 
 void SlurmCluster::LoseNode(int node) {
   KillSlurmd(node);
-  // slurmstepd has its slurmd's environment, a task its job's.
+  // slurmstepd has the environment of its slurmd, and a task has that of its job.
   for (const std::string& variable :
        {"GSV_TEST_NODE=" + NodeName(node), "SLURMD_NODENAME=" + NodeName(node)}) {
     for (const pid_t process : ProcessesWith(variable, "")) kill(process, SIGKILL);

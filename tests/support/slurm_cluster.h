@@ -1,6 +1,6 @@
-// A Slurm of the test's own on this machine: munged, slurmctld and a slurmd for each node, in a
-// temporary folder, as the present user, at ports that the system chose. Nothing of it outlives the
-// object.
+// For tests: a Slurm cluster on this machine with munged, slurmctld and a slurmd for each node. It
+// runs in a temporary folder, as the present user, on ports that the system chose. The destructor
+// removes everything.
 #pragma once
 
 #include <sys/types.h>
@@ -17,32 +17,34 @@ class SlurmCluster {
  public:
   struct Options {
     int nodes = 2;
-    int processors = 2;  // of a node, whatever this machine has
-    std::string more;    // lines for slurm.conf
+    int processors = 2;  // number of processors of a node, independent of this machine
+    std::string more;    // additional lines for slurm.conf
   };
 
-  // Why there can be none here; empty: there can.
+  // The reason why this machine cannot run a cluster; empty if it can.
   static std::string Missing();
 
-  // Returns once all nodes are idle. Slurm's commands find it by $SLURM_CONF until it ends.
+  // Returns when all nodes are idle. Slurm's commands find the cluster by $SLURM_CONF during its
+  // lifetime.
   explicit SlurmCluster(const Options& options);
   SlurmCluster() : SlurmCluster(Options()) {}
   ~SlurmCluster();
   SlurmCluster(const SlurmCluster&) = delete;
   SlurmCluster& operator=(const SlurmCluster&) = delete;
 
-  // kill -9 of the node's slurmd alone: its tasks go on.
+  // Kills only the node's slurmd (SIGKILL). Its tasks continue.
   void KillSlurmd(int node);
   void StartSlurmd(int node);
-  // kill -9 of the node's slurmd, of its tasks and of all that these have started.
+  // Kills the node's slurmd, its tasks and all processes that these have started (SIGKILL).
   void LoseNode(int node);
   void KillController();
-  // Whether one of this cluster's processes has `text` in its command line.
+  // Whether a process of this cluster has `text` in its command line.
   bool Runs(const std::string& text) const;
-  // kill -9 of this cluster's processes whose command line contains `text`; how many there were.
+  // Kills this cluster's processes whose command line contains `text` (SIGKILL). Returns their
+  // number.
   int KillProcesses(const std::string& text) const;
 
-  // What one of Slurm's commands says.
+  // Returns the output of one of Slurm's commands.
   static std::string Ask(std::vector<std::string> command);
 
  private:

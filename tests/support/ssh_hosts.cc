@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 constexpr const char* kSshd = "/usr/sbin/sshd";
 constexpr const char* kKeygen = "/usr/bin/ssh-keygen";
 
-// ssh [-X | -o VALUE]... HOST COMMAND. A host exists while its file exists, which has the processes
-// of its tasks.
+// The fake ssh. Usage: ssh [-X | -o VALUE]... HOST COMMAND. A host exists as long as its file,
+// which has the processes of its tasks.
 constexpr const char* kStandIn = R"(#!/bin/sh
 while [ "${1#-}" != "$1" ]; do
   [ "$1" = -o ] && shift
@@ -66,7 +66,7 @@ std::vector<int> Processes() {
   return processes;
 }
 
-// "PID (sshd) STATE PARENT …"
+// parses "PID (sshd) STATE PARENT …"
 bool IsSshdBelow(int process, int parent) {
   const std::string status = TextOf("/proc/" + std::to_string(process) + "/stat");
   const std::size_t name = status.find(" (sshd) ");
@@ -98,7 +98,7 @@ SshHosts::SshHosts(Kind kind, int count) : kind_(kind), port_(FreePort()) {
     const fs::path program = folder_.Write("ssh", kStandIn);
     fs::permissions(program, fs::perms::owner_all);
   } else {
-    if (getuid() == 0) fs::create_directories("/run/sshd");  // the sshd of root requires it
+    if (getuid() == 0) fs::create_directories("/run/sshd");  // root's sshd requires this folder
     for (const char* key : {"host", "user"})
       RunProgram(kKeygen, {"-q", "-t", "ed25519", "-N", "", "-f", folder_.path() / key});
   }
@@ -151,7 +151,7 @@ void SshHosts::Lose(int host) {
   }
   auto& server = servers_[static_cast<std::size_t>(host)];
   if (server == nullptr) return;
-  // Stopped, so that it starts no connection that would be missed.
+  // The server is stopped first, so that it starts no connection that would be missed.
   server->process().Signal(SIGSTOP);
   KillConnections(server->process().pid());
   server->process().Signal(SIGKILL);

@@ -1,5 +1,5 @@
-// Hosts that ssh reaches, as the present user of this machine: behind real sshds of the test's own,
-// or behind a program that stands in for ssh. Nothing of them outlives the object.
+// For tests: hosts that ssh reaches as the present user of this machine. They are real sshds that
+// the test starts, or a program that replaces ssh. The destructor removes everything.
 #pragma once
 
 #include <memory>
@@ -14,18 +14,18 @@ class SshHosts {
  public:
   enum class Kind { kSshd, kStandIn };
 
-  // Why there can be none of this kind here; empty: there can.
+  // The reason why this machine cannot have hosts of this kind; empty if it can.
   static std::string Missing(Kind kind);
 
-  // Returns once all of them listen, on 127.0.0.1, 127.0.0.2 and so on.
+  // Returns when all of them listen, on 127.0.0.1, 127.0.0.2 and so on.
   SshHosts(Kind kind, int count);
   ~SshHosts();
   SshHosts(const SshHosts&) = delete;
   SshHosts& operator=(const SshHosts&) = delete;
 
-  // What a campaign's file says so that it reaches them: keys of its mapping `ssh`.
+  // The keys of the mapping `ssh` in a campaign's file, with which it reaches these hosts.
   std::string Keys() const;
-  // kill -9 of what listens on the host, and of its connections.
+  // Kills the host's server and its connections (SIGKILL).
   void Lose(int host);
 
  private:
@@ -35,10 +35,10 @@ class SshHosts {
   const Kind kind_;
   const base::testing::TestFolder folder_{};
   const int port_;
-  std::vector<std::unique_ptr<Running>> servers_;  // null: lost, or there is none
+  std::vector<std::unique_ptr<Running>> servers_;  // null for a host that is lost or does not exist
 };
 
-// Processes of this machine whose command line contains `text`.
+// Returns the processes of this machine whose command line contains `text`.
 std::vector<int> ProcessesWith(const std::string& text);
 
 }  // namespace gsv::testing

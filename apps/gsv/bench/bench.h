@@ -29,14 +29,15 @@ inline double Milliseconds(std::chrono::nanoseconds duration) {
   return std::chrono::duration<double, std::milli>(duration).count();
 }
 
-// The processor time of all threads of this process, s.
+// The processor time of all threads of this process, in s.
 inline double ProcessorTime() {
   timespec now;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// The smallest value that at least the fraction `q` does not exceed (nearest rank); 0 if empty.
+// Returns the smallest value that is not less than the fraction `q` of the values (nearest rank); 0
+// if there are none.
 inline double QuantileOf(std::vector<double> values, double q) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
@@ -44,7 +45,7 @@ inline double QuantileOf(std::vector<double> values, double q) {
   return values[std::min(rank, values.size() - 1)];
 }
 
-// Prints to stdout, as one JSON object or one line per figure.
+// Prints figures to stdout, as one JSON object or as one line per figure.
 inline void PrintFigures(const nlohmann::ordered_json& figures, bool as_json) {
   if (as_json) {
     std::printf("%s\n", figures.dump().c_str());

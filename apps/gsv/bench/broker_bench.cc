@@ -37,9 +37,9 @@ using nlohmann::ordered_json;
 constexpr int kClients = 64;
 constexpr const char* kType = "BenchRobot";
 constexpr const char* kScan = "floor > 2 and battery >= 0.25 and speed < 4.5";
-constexpr std::size_t kShown = 10;  // offers of an answer that a client reads
+constexpr std::size_t kShown = 10;  // how many offers of an answer a client reads
 
-// Ten properties, which are equal for equal numbers.
+// Returns ten properties, which are equal for equal numbers.
 std::vector<Property> PropertiesOf(std::uint32_t n) {
   const double unit = static_cast<double>(n * 2654435761u) / 4294967296.0;
   return {{"battery", Value::Float(static_cast<float>(unit))},
@@ -58,7 +58,7 @@ std::vector<Property> PropertiesOf(std::uint32_t n) {
 
 std::string Serial(std::uint32_t n) { return "serial == " + std::to_string(n); }
 
-// The measured operations; many threads may make each call.
+// The measured operations. Many threads may make each call.
 struct Target {
   std::function<base::Status(int client, std::uint32_t number)> export_one;
   std::function<base::Status(int client, const std::string& constraint,
@@ -66,7 +66,7 @@ struct Target {
       query;
 };
 
-// Calls `work` for 0 … count-1 from `clients` threads; returns the duration. Stops at an error.
+// Calls `work` for 0 … count-1 from `clients` threads. Returns the duration. Stops at an error.
 base::Result<Clock::duration> Spread(
     int clients, std::uint32_t count,
     const std::function<base::Status(int client, std::uint32_t n)>& work) {
@@ -89,8 +89,8 @@ base::Result<Clock::duration> Spread(
   return Clock::now() - start;
 }
 
-// The smallest value that at least the fraction `q` does not exceed (nearest rank), in
-// milliseconds.
+// Returns, in milliseconds, the smallest duration that is not less than the fraction `q` of the
+// durations (nearest rank).
 double Quantile(std::vector<Clock::duration> durations, double q) {
   std::sort(durations.begin(), durations.end());
   const auto rank = static_cast<std::size_t>(q * static_cast<double>(durations.size()));
@@ -111,7 +111,7 @@ base::Result<std::vector<Clock::duration>> Time(
   return durations;
 }
 
-// Exports offers, then queries. `bytes_used` returns the broker's memory.
+// Exports offers and then queries them. `bytes_used` returns the broker's memory.
 base::Status Measure(const Target& target, std::uint32_t offers,
                      const std::function<double()>& bytes_used, ordered_json& figures) {
   const double before = bytes_used();

@@ -27,7 +27,7 @@ struct CameraArguments {
   int robots = 50;
   std::string world = "office", model = "b21r";
   bool overview = false;
-  double duration = 10;  // s
+  double duration = 10;  // simulated time, s
   std::string save;
   bool opengl = false, json = false;
 };
@@ -45,7 +45,7 @@ class SnapshotWatch final : public simulation::Observer {
   }
   void OnEvent(const simulation::Event&) override {}
 
-  // The latest snapshot that was not returned before; null if there is none in time.
+  // Returns the latest snapshot that was not returned before, or null if there is none in time.
   std::shared_ptr<const world::Snapshot> Next() {
     base::MutexLock lock(mutex_);
     const bool came = is_new_.wait_for(lock, std::chrono::seconds(10), [&]() GSV_REQUIRES(mutex_) {
@@ -53,7 +53,7 @@ class SnapshotWatch final : public simulation::Observer {
     });
     return came ? handed_over_ = snapshot_ : nullptr;
   }
-  std::vector<double> intervals() {  // ms
+  std::vector<double> intervals() {  // Returns the intervals in ms.
     const base::MutexLock lock(mutex_);
     return intervals_;
   }
@@ -77,7 +77,7 @@ class ImageCheck {
   base::Status Check(const Images& images) {
     if (std::all_of(images.begin(), images.end(), IsBlank)) return Fail("pictures are blank");
     for (std::size_t i = 0; i < images.size(); ++i) {
-      if (IsBlank(images[i])) continue;  // a robot is close to a wall
+      if (IsBlank(images[i])) continue;  // if an image is blank, a robot is close to a wall
       if (i < last_.size() && last_[i]->pixels == images[i]->pixels)
         return Fail("a moving camera's picture is the same as the one before");
       if (i > 0 && images[i]->pixels == images[i - 1]->pixels)
@@ -88,7 +88,7 @@ class ImageCheck {
   }
 
  private:
-  // Stops as early as possible, since its time counts as rendering time.
+  // Stops at the first pixel that differs, because the time of this check counts as rendering time.
   static bool IsBlank(const std::shared_ptr<const model::Image>& image) {
     constexpr int kMinImages = 8;
     std::bitset<256> seen;
@@ -110,10 +110,10 @@ struct Figures {
   std::string renderer;
   std::uint64_t triangles = 0;
   int images = 0;
-  double wall = 0, processor = 0;  // s
-  double least_processor = 1e9;    // s, of a batch
-  std::vector<double> latencies;   // ms from request to images
-  std::vector<double> intervals;   // ms from step to step
+  double wall = 0, processor = 0;  // in s
+  double least_processor = 1e9;    // in s, for one batch
+  std::vector<double> latencies;   // from the request to the images, ms
+  std::vector<double> intervals;   // from one step to the next, ms
 };
 
 base::Status Save(const std::string& folder, const Images& images) {
@@ -154,7 +154,7 @@ base::Result<Figures> Measure(const CameraArguments& arguments,
                                           : scene->RobotViews(*snapshot, arguments.cameras, camera);
     return (*renderer)->Draw(snapshot, views, std::chrono::minutes(5));
   };
-  // Work that is done once for a world is not measured.
+  // The first image includes work that is done once for a world, so it is not measured.
   const auto first = draw(simulation.snapshot());
   if (!first) return base::Fail(first.error());
   if (!arguments.save.empty()) {
@@ -166,7 +166,7 @@ base::Result<Figures> Measure(const CameraArguments& arguments,
   ImageCheck check;
   Clock::time_point start;
   double processor_start = 0;
-  // The first two rounds find out what moves.
+  // In the first two rounds the renderer detects which objects move.
   for (int round = -2;
        round <= 0 || Clock::now() - start < std::chrono::duration<double>(arguments.duration);
        ++round) {

@@ -33,17 +33,17 @@ struct CrowdArguments {
 
 struct CrowdRow {
   int robots = 0, threads = 0;
-  double load = 0;       // s
-  double wall = 0;       // s, of the steps
-  double rss = 0;        // MiB
-  double simulated = 0;  // s
+  double load = 0;       // processor load, s
+  double wall = 0;       // wall-clock time of the steps, s
+  double rss = 0;        // memory, MiB
+  double simulated = 0;  // simulated time, s
   std::uint64_t readings = 0, collisions = 0;
   std::int64_t steps = 0;
   std::string state_hash;
   std::shared_ptr<CrowdCheck> check;  // null without --verify
 };
 
-// The current resident size, not its maximum: rows of one run come one after the other.
+// The current resident size, and not its maximum, because one process measures all rows.
 double ResidentMebibytes() {
   std::ifstream statm("/proc/self/statm");
   double pages = 0, resident = 0;
@@ -51,7 +51,7 @@ double ResidentMebibytes() {
   return resident * 4096 / (1 << 20);
 }
 
-// Passes the controller's data to the check.
+// A controller that passes its readings to the check.
 class CheckedController final : public CrowdController {
  public:
   CheckedController(std::shared_ptr<CrowdCheck> check,
@@ -152,7 +152,8 @@ nlohmann::ordered_json ToJson(const CrowdRow& row) {
   return json;
 }
 
-// The slope of log(time per step) against log(robots), by least squares: 1 is linear growth.
+// The slope of log(time per step) against log(robots), by least squares. A slope of 1 is linear
+// growth.
 double GrowthExponent(const std::vector<CrowdRow>& rows) {
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (const CrowdRow& row : rows) {

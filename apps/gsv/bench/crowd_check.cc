@@ -14,16 +14,16 @@ namespace gsv::app {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kReadingTolerance = 1e-9;  // m
-// The mover lets bodies touch; by its rounding they may seem to overlap.
-constexpr double kOverlapTolerance = 1e-6;  // m
+constexpr double kReadingTolerance = 1e-9;  // in m
+// The mover allows bodies to touch. Because of rounding they may seem to overlap by this much.
+constexpr double kOverlapTolerance = 1e-6;  // in m
 constexpr std::uint64_t kOneIn = 100;
 
 struct Point {
   double x, y;
 };
 
-// A point in the world, in the frame of an upright box.
+// Converts a point in the world to the frame of an upright box.
 Point InBox(const geometry::Pose& box, Point p) {
   const double yaw = geometry::Yaw(box.orientation), c = std::cos(yaw), s = std::sin(yaw);
   const double x = p.x - box.position.x, y = p.y - box.position.y;
@@ -34,8 +34,8 @@ const geometry::Vector3& BoxSize(const world::Body& body) {
   return std::get<geometry::Box>(body.model->links[0].collisions[0].shape).size;
 }
 
-// The distance at which a ray in the plane (unit direction) enters a disc, or leaves it from
-// inside.
+// The distance at which a ray in the plane (unit direction) enters a disc, or leaves it if it
+// starts inside.
 double RayToDisc(Point from, Point along, Point centre, double radius) {
   const double x = centre.x - from.x, y = centre.y - from.y;
   const double b = x * along.x + y * along.y;
@@ -67,7 +67,7 @@ double RayToBox(Point from, Point along, const geometry::Pose& pose,
   return enter >= 0 ? enter : leave;
 }
 
-// The penetration depth of a robot's disc in a box; negative: the distance between them.
+// The penetration depth of a robot's disc in a box. If negative, it is the distance between them.
 double DepthInBox(Point centre, const geometry::Pose& pose, const geometry::Vector3& size) {
   const Point p = InBox(pose, centre);
   const double out_x = std::abs(p.x) - size.x / 2, out_y = std::abs(p.y) - size.y / 2;

@@ -1,5 +1,6 @@
-// Compares a crowd's run with brute force: every overlap after each step, and one reading in a
-// hundred. Both are computed from the definitions of shapes, without the code that the run uses.
+// Compares a crowd's run with brute force. It checks every overlap after each step, and one reading
+// in a hundred. Both are computed from the definitions of shapes, without the code that the run
+// uses.
 //
 // Threads  readings: any; overlaps: the stepping thread.
 #pragma once
@@ -15,7 +16,7 @@ namespace gsv::app {
 
 class CrowdCheck final : public simulation::Observer {
  public:
-  // `readings`: the robot's eight rays at the snapshot.
+  // Checks readings. `readings` are the robot's eight rays at the snapshot.
   void TakeReadings(const world::Snapshot& snapshot, const std::string& robot,
                     const std::vector<double>& readings);
 
@@ -26,7 +27,8 @@ class CrowdCheck final : public simulation::Observer {
   std::uint64_t readings_checked() const { return readings_checked_; }
   std::uint64_t pairs_checked() const { return pairs_checked_; }
   std::uint64_t mismatches() const { return mismatches_; }
-  std::string first_mismatch() const;  // a sentence; empty if there is none
+  // Returns a sentence about the first difference, or an empty text.
+  std::string first_mismatch() const;
 
  private:
   void Report(std::string sentence);

@@ -18,19 +18,19 @@ namespace {
 using Stopwatch = std::chrono::steady_clock;
 using Readings = std::vector<sensing::Reading>;
 
-// The robots' own drums are below this height.
-constexpr double kScannerHeight = 0.4;  // m
+// The scanner is above the robots' own drums.
+constexpr double kScannerHeight = 0.4;  // in m
 
 struct LidarArguments {
   int rays = 360;
-  double range = 10;  // m
+  double range = 10;  // in m
   int threads = 0;
   MovingSceneOptions scene;
-  double duration = 5;  // s
+  double duration = 5;  // simulated time, s
   bool json = false;
 };
 
-// Fails for empty scans, scans that repeat earlier ones, and robots that do not move.
+// Fails for empty scans, for scans that repeat earlier ones, and for robots that do not move.
 class ScanCheck {
  public:
   base::Status Check(const world::Snapshot& snapshot, const std::vector<std::string>& robots,
@@ -63,16 +63,16 @@ class ScanCheck {
     return base::Fail(base::ErrorCode::kUnavailable, what, "bench lidar");
   }
   Readings last_;
-  std::vector<geometry::Pose> poses_;  // of the same robots
+  std::vector<geometry::Pose> poses_;  // earlier poses of the same robots
 };
 
 struct ScanFigures {
   std::uint64_t triangles = 0;
   Solids solids;
   std::int64_t scans = 0, rays = 0;
-  double wall = 0, processor = 0;  // s for readings, including the ray scenes
-  double least_processor = 1e9;    // s, of one instant
-  std::vector<double> instants;    // ms for the readings of one instant
+  double wall = 0, processor = 0;  // time of the readings, including the ray scenes, s
+  double least_processor = 1e9;    // for one instant, s
+  std::vector<double> instants;    // time of the readings of one instant, ms
 };
 
 base::Result<std::unique_ptr<sensing::Sensor>> MakeLidar(const simulation::Simulation& simulation,
@@ -86,14 +86,15 @@ base::Result<std::unique_ptr<sensing::Sensor>> MakeLidar(const simulation::Simul
   return simulation.sensor_types().Find("lidar")->create(description);
 }
 
-// The readings of all robots at one instant, as exchanges would take them.
+// Takes the readings of all robots at one instant, as exchanges would take them.
 class Scanning {
  public:
   Scanning(const sensing::Sensor& lidar, std::vector<std::string> robots, base::ThreadTeam& team)
       : lidar_(lidar), robots_(std::move(robots)), team_(team), readings_(robots_.size()) {}
 
   const Readings& Scan(const std::shared_ptr<const world::Snapshot>& snapshot) {
-    const auto scene = rays_.At(snapshot, &team_);  // kept until all have read
+    // keeps the scene alive until all robots have read
+    const auto scene = rays_.At(snapshot, &team_);
     team_.ParallelFor(robots_.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const sensing::Sampling sampling(snapshot, snapshot->layout->Find(robots_[i]), 1, rays_);
@@ -132,7 +133,8 @@ base::Result<ScanFigures> MeasureScans(const LidarArguments& arguments) {
   figures.triangles = TrianglesIn(*simulation.snapshot()->layout);
   figures.solids = SolidsIn(*simulation.snapshot()->layout);
   ScanCheck check;
-  // Work that is done once for a world is not measured, and the robots accelerate.
+  // The first steps are not measured, because they include work that is done once for a world, and
+  // the robots accelerate.
   constexpr int kStepsToBegin = 100;
   for (int round = -1; figures.wall < arguments.duration; ++round) {
     const auto snapshot = NextSnapshot(simulation, round < 0 ? kStepsToBegin : 1);

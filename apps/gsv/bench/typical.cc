@@ -21,9 +21,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kSeparateCalls = "wander --no-pictures";
 constexpr const char* kExchange = "cruise";
-constexpr int kMaxOfficeRobots = 20;  // robots
+constexpr int kMaxOfficeRobots = 20;  // maximum number of robots in the office
 
-// Durations in milliseconds, from any thread.
+// Collects durations in milliseconds, from any thread.
 class Durations {
  public:
   void Add(Clock::duration duration) {
@@ -40,7 +40,7 @@ class Durations {
                            : std::accumulate(values_.begin(), values_.end(), 0.0) /
                                  static_cast<double>(values_.size());
   }
-  // The smallest value that at least the fraction `q` does not exceed (nearest rank).
+  // The smallest value that is not less than the fraction `q` of the values (nearest rank).
   double quantile(double q) const {
     const base::MutexLock lock(mutex_);
     if (values_.empty()) return 0;
@@ -68,7 +68,7 @@ class UpdateTimer final : public simulation::Observer {
   Durations intervals;
 
  private:
-  Clock::time_point last_;  // stepping thread only
+  Clock::time_point last_;  // used by the stepping thread only
 };
 
 // A camera that measures the time of each image, from request to image.
@@ -104,7 +104,8 @@ struct Row {
   std::shared_ptr<Durations> images = std::make_shared<Durations>();
 };
 
-// A few robots in the office, many on the square of `gsv bench crowd`, unless a world is given.
+// Places the robots. A few robots are in the office, and many are on the square of `gsv bench
+// crowd`, unless a world is given.
 base::Status PlaceRobots(const TypicalArguments& arguments, int robots, RunOptions& options) {
   const bool on_the_square = arguments.world.empty() && robots > kMaxOfficeRobots;
   if (on_the_square) {
@@ -168,7 +169,7 @@ base::Result<Row> RunTypical(const TypicalArguments& arguments, int robots) {
   return row;
 }
 
-// The behaviours' control cycles, with eight sonars each, per robot and second.
+// The number of control cycles per robot and second. A cycle reads eight sonars.
 double CyclesPerRobotSecond(const Row& row) {
   double sonars = 0;
   for (const simulation::RobotStatus& robot : row.status.robots) {

@@ -12,10 +12,11 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr std::chrono::seconds kCommandTimeout{60};
-constexpr std::size_t kMaxOutput = 1 << 20;  // bytes that are stored
-constexpr int kMaxLines = 1000;              // read at a time
+constexpr std::size_t kMaxOutput = 1 << 20;  // maximum number of stored bytes
+constexpr int kMaxLines = 1000;              // number of lines that are read at a time
 
-// The shell finds the program on the PATH, and merges stderr into stdout.
+// Starts a command through the shell, which finds the program on the PATH and merges stderr into
+// stdout.
 base::Result<std::unique_ptr<ChildProcess>> StartMerged(const std::vector<std::string>& command,
                                                         ChildProcess::Input input) {
   std::vector<std::string> line{"/bin/sh", "-c", "exec \"$@\" 2>&1", "sh"};

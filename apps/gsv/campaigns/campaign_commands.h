@@ -5,7 +5,7 @@
 
 namespace gsv::app {
 
-// Threads  one, which lives as long as the programs that it starts.
+// Threads  one thread, which lives as long as the programs that it starts.
 class ChildCommands final : public campaign::CommandRunner {
  public:
   base::Result<campaign::CommandOutcome> Run(const std::vector<std::string>& command) override;

@@ -25,7 +25,8 @@ using campaign::Attempt;
 using campaign::RunResult;
 using campaign::Spool;
 
-constexpr int kRunsWithServers = 64;  // at once, including those that wait for a slot
+// number of concurrent runs, including those that wait for a slot
+constexpr int kRunsWithServers = 64;
 
 int Processors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
@@ -62,7 +63,7 @@ campaign::LocalEngine EngineFor(int jobs, Signals& signals, bool& is_interrupted
   return engine;
 }
 
-// Executes the runs that no earlier attempt at the share has done, and writes a journal.
+// Executes the runs of the share that no earlier attempt has done, and writes a journal.
 int TakeShare(Spool& spool, Attempt attempt, const std::vector<std::int64_t>& runs,
               const EngineOptions& options, Signals& signals, bool until_stdin_closes = false) {
   const auto earlier = spool.Collect(attempt.share);

@@ -1,5 +1,6 @@
-// Executes the runs of a campaign for `gsv campaign run`: here, on servers, by a job queue, or a
-// share of them for another queue. Each function prints errors and returns the exit code.
+// Executes the runs of a campaign for `gsv campaign run`. They are executed on this machine, on
+// servers, or by a job queue; or a share of them is executed for another queue. Each function
+// prints errors and returns the exit code.
 #pragma once
 
 #include <filesystem>
@@ -14,20 +15,20 @@ namespace gsv::app {
 
 struct EngineOptions {
   campaign::Engine engine;
-  int jobs = 0;          // concurrent; 0: one per processor, or as the servers allow
-  double timeout = 300;  // of a run, s of wall-clock time
-  double poll = 0;       // s between queries of the queue; 0: the engine's default
-  bool waits = true;     // waits for the submitted runs
-  std::string failures;  // a folder; empty: failed runs are not recorded
-  std::string broker;    // the broker of the servers for the runs; empty: this machine
-  std::string servers;   // a constraint on the servers; empty: any
+  int jobs = 0;  // concurrent runs; 0 for one per processor, or as many as the servers allow
+  double timeout = 300;  // wall-clock time limit of a run, s
+  double poll = 0;       // time between queries of the queue, s; 0 for the engine's default
+  bool waits = true;     // whether to wait for the submitted runs
+  std::string failures;  // a folder; empty if failed runs are not recorded
+  std::string broker;    // the broker of the servers for the runs; empty for this machine
+  std::string servers;   // a constraint on the servers; empty for any server
 };
 
-// The spool of NAME.sqlite is NAME.runs.
+// Returns the folder of the spool, which is NAME.runs for NAME.sqlite.
 std::filesystem::path SpoolOf(const std::string& results_file);
 
-// Adds the results in the spool, if there is one; creates the results file if necessary. Leaves
-// those that another driver is about to collect.
+// Adds the results in the spool, if there is one. Creates the results file if necessary. Does
+// nothing if another driver is about to collect the results.
 int GatherSpool(const std::string& results_file);
 
 // Returns when all runs are done, after a signal, or when no server is left.
@@ -36,17 +37,19 @@ int RunHere(const campaign::Campaign& campaign, campaign::Results& results,
 int RunByQueue(const campaign::Campaign& campaign, campaign::Results& results,
                const std::string& results_file, const EngineOptions& options, Signals& signals);
 
-// Executes the share's runs into the spool, except those that an earlier attempt has done.
+// Executes the share's runs and stores them in the spool. Runs that an earlier attempt has done are
+// skipped.
 int RunShard(const campaign::Campaign& campaign, const std::string& results_file,
              const Shard& shard, const EngineOptions& options, Signals& signals);
 
-// A task of a batch, which a job queue starts.
+// A task of a batch. A job queue starts it.
 struct TaskArguments {
   std::string batch_file;
   std::size_t task = 0;
-  std::string job = "none", node;   // for the journal; node: empty: this machine's name
-  int jobs = 1;                     // concurrent runs
-  bool until_stdin_closes = false;  // then it ends as after a signal
+  std::string job = "none", node;  // for the journal; `node` is empty for this machine's name
+  int jobs = 1;                    // number of concurrent runs
+  // whether the task ends, as after a signal, when its stdin closes
+  bool until_stdin_closes = false;
 };
 int RunTask(const TaskArguments& arguments, Signals& signals);
 

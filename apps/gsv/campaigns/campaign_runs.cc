@@ -11,7 +11,7 @@ using campaign::RunResult;
 
 namespace {
 
-// The numbers in a run's report, by name.
+// Returns the numbers in a run's report, by name.
 nlohmann::ordered_json MetricsOf(const nlohmann::ordered_json& report) {
   auto metrics = nlohmann::ordered_json::object();
   const auto list = [&](const char* name) {

@@ -1,4 +1,5 @@
-// Executes the runs of a campaign, each in its own child process, here or on a server.
+// Executes the runs of a campaign. Each run is in its own child process on this machine, or on a
+// server.
 #pragma once
 
 #include <atomic>
@@ -11,16 +12,17 @@
 
 namespace gsv::app {
 
-// Threads  Take() from any number at once, on threads that live until it returns.
+// Threads  any number may call Take() at once, if they live until it returns.
 class RunTaker {
  public:
-  // `folder`: for temporary files. `failures`: folder for the recordings of failed runs; empty:
-  // they are not recorded. `timeout`: s of wall-clock time per run. `servers`: execute the runs,
-  // and must outlive this; null: this machine executes them.
+  // `folder` is for temporary files. `failures` is a folder for the recordings of failed runs, or
+  // empty if they are not recorded. `timeout` is the limit of wall-clock time per run, in s.
+  // `servers` execute the runs and must outlive this object; if it is null, this machine executes
+  // them.
   RunTaker(const campaign::Campaign& campaign, std::filesystem::path folder,
            std::filesystem::path failures, double timeout, ScenarioServers* servers = nullptr);
 
-  // Nothing if the run was cancelled.
+  // Executes a run. Returns nullopt if the run was cancelled.
   std::optional<campaign::RunResult> Take(std::int64_t run,
                                           const std::atomic<bool>& is_cancelled) const;
 

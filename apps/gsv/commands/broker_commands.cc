@@ -20,8 +20,9 @@ std::chrono::milliseconds Milliseconds(double seconds) {
   return std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000));
 }
 
-// The default of --data. Only a broker with a fixed port has one, as clients cannot find a broker
-// again on a port that the system chose. Empty if there is no folder for it.
+// Returns the default of --data. Only a broker with a fixed port has a default, because clients
+// cannot find a broker again on a port that the system chose. Empty if there is no folder for the
+// file.
 std::string DefaultDataFile(int port) {
   const char* data = std::getenv("XDG_DATA_HOME");
   const char* home = std::getenv("HOME");
@@ -34,7 +35,7 @@ std::string DefaultDataFile(int port) {
     return {};
   }
   folder /= "gsv";
-  std::error_code ignored;  // opening the file reports the error
+  std::error_code ignored;  // if this fails, opening the file reports the error
   std::filesystem::create_directories(folder, ignored);
   return folder / ("broker-" + std::to_string(port) + ".db");
 }

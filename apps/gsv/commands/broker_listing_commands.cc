@@ -27,7 +27,7 @@ struct Listing {
   CLI::App* remove = nullptr;
   std::string broker;
   bool json = false;
-  std::string name;  // of the added or removed object
+  std::string name;  // name of the added or removed object
 };
 
 struct Actions {

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using campaign::Campaign;
 using campaign::RunResult;
 
-constexpr std::chrono::seconds kLockTimeout{5};  // for a `status` that collects results
+constexpr std::chrono::seconds kLockTimeout{5};  // for a `status` command, which collects results
 
 struct CampaignArguments {
   std::string file, results, csv, svg, html, shard;
@@ -39,7 +39,7 @@ std::string ResultsFile(const CampaignArguments& arguments) {
   return file.extension() == ".sqlite" ? file : fs::path(file).replace_extension(".sqlite");
 }
 
-// Returns kOk, or prints the errors and returns the exit code.
+// Reads the file. Returns kOk, or prints the errors and returns the exit code.
 int ReadCampaignFile(const std::string& file, Campaign& campaign,
                      const campaign::EngineRequest& request, campaign::Engine& engine) {
   base::Problems problems;
@@ -181,7 +181,8 @@ CLI::Option* AddEngineOptions(CLI::App* run, const Arguments& arguments) {
     names.push_back(type.name);
     help += (help.empty() ? "" : "; ") + type.name + ": " + type.help;
     for (const campaign::EngineOption& option : type.options) {
-      if (engine.options.contains(option.flag)) continue;  // two engines may share the option
+      // another engine may have the same option
+      if (engine.options.contains(option.flag)) continue;
       CLI::Option* added = run->add_option(option.flag, engine.options[option.flag], option.help)
                                ->allow_extra_args(false)
                                ->group(type.title);

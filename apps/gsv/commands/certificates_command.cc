@@ -23,7 +23,7 @@ tls::Validity ValidityOf(int days) {
   return validity;
 }
 
-// The default names of a server, without --host.
+// Returns the names of a server that has no --host option.
 std::vector<std::string> UsualHosts() {
   std::vector<std::string> hosts{"localhost", "127.0.0.1", "::1"};
   if (const std::string name = base::HostName(); name != hosts.front()) hosts.push_back(name);
@@ -32,7 +32,7 @@ std::vector<std::string> UsualHosts() {
 
 base::Status MakeCertificates(const CertificatesArguments& arguments) {
   if (!tls::HasAuthority(arguments.folder)) {
-    // It is valid longer than the certificates that it signs.
+    // The authority's certificate is valid longer than those that it signs, by this factor.
     constexpr int kTimesAsLong = 10;
     if (auto ok = tls::MakeAuthority(arguments.folder, ValidityOf(kTimesAsLong * arguments.days));
         !ok) {

@@ -24,7 +24,7 @@ struct CheckArguments {
   std::vector<std::string> model_path, sensor_plugins;
   formats::ReadLimits limits;
   Sandbox sandbox;
-  std::int64_t sandbox_seconds = 0;  // 0: no sandbox
+  std::int64_t sandbox_seconds = 0;  // 0 if there is no sandbox
   bool json = false;
   bool strict = false;
 };
@@ -37,7 +37,7 @@ std::string Listed(const std::vector<std::string>& names) {
   return list.empty() ? "none" : list;
 }
 
-// The drive of the model as a robot, and the joints in <ros2_control>.
+// Describes the drive of the model as a robot, and the joints in <ros2_control>.
 Notes RobotNotes(const std::shared_ptr<const model::Model>& model) {
   Notes notes;
   if (const auto robot = model::AsRobot(model, "")) {
@@ -55,7 +55,7 @@ Notes RobotNotes(const std::shared_ptr<const model::Model>& model) {
   return notes;
 }
 
-// Places of one message that are printed as text; JSON has all.
+// The maximum number of places of one message in the text output. The JSON output has all places.
 constexpr std::size_t kPlacesPrinted = 10;
 
 void Print(const CheckArguments& arguments, const char* severity, const std::string& where,
@@ -115,7 +115,7 @@ void AddCheck(const CommandLine& line, const char* group, const char* what, Read
   command->add_flag("--json", arguments->json, "print one JSON object per line");
   command->add_flag("--strict", arguments->strict,
                     "treat warnings as errors, such as elements that are not supported");
-  // For TryToRead() only; hidden from help.
+  // This option is only for TryToRead(), and is hidden in the help.
   command->add_option("--confined-memory", arguments->sandbox.memory_bytes)->group("");
   command->add_option("--confined-time", arguments->sandbox_seconds)->group("");
   command->callback([arguments, line, read] {

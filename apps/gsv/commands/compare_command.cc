@@ -28,7 +28,7 @@ struct CompareArguments {
   bool json = false;
 };
 
-// "roughness=0.1": a number, true, false or a text.
+// Parses a text such as "roughness=0.1". The value is a number, true, false or a text.
 base::Status SetParameter(const std::string& text, model::Parameters& parameters) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {

@@ -1,4 +1,4 @@
-// Lists and controls simulations in other processes.
+// Commands that list and control simulations in other processes.
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
@@ -26,7 +26,8 @@ using simulation::Phase;
 
 constexpr const char* kControlGroup = "Commands to control running simulations";
 
-// The same object as for the viewer, plus the server at the begin and the state's hash at the end.
+// Returns the same object as for the viewer, with the server at the start and the state's hash at
+// the end.
 std::string Json(const FoundSimulation& simulation) {
   const RemoteServer& server = simulation.server;
   nlohmann::ordered_json json = {{"server",
@@ -38,7 +39,7 @@ std::string Json(const FoundSimulation& simulation) {
   const auto hash = orb::Call(server.Describe(), [&] {
     return std::string(CORBA::String_var(simulation.reference->state_hash()));
   });
-  json["state_hash"] = hash.value_or("");  // it may have ended meanwhile
+  json["state_hash"] = hash.value_or("");  // the simulation may have ended meanwhile
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
@@ -67,10 +68,10 @@ struct Arguments {
   bool json = false;
   std::uint64_t steps = 1;
   double factor = 1;
-  std::map<std::string, std::string> texts;  // of commands in the table, by parameter
+  std::map<std::string, std::string> texts;  // values of commands in the table, by parameter
 };
 
-// Lists the simulations of this user's servers that were killed.
+// Lists the simulations of those servers of this user that were killed.
 int ListLost(const Arguments& arguments) {
   int count = 0;
   for (const LostSimulation& lost : LostSimulationsNoted(arguments.selection.broker)) {
@@ -109,7 +110,8 @@ int List(const Arguments& arguments) {
 
 using Call = std::function<void(sba::Simulation_ptr, const Arguments&)>;
 
-// Waits until the steps are done. A behaviour may take any time for them. False: interrupted.
+// Waits until the steps are done. A behaviour may take any time for them. Returns false if the user
+// interrupts.
 base::Result<bool> AwaitRest(const FoundSimulation& simulation, Signals& signals) {
   auto phase = sba::PHASE_STARTING;
   while (phase == sba::PHASE_STARTING || phase == sba::PHASE_RUNNING) {
@@ -134,7 +136,7 @@ int Steer(const Arguments& arguments, const Call& call, bool awaits_rest, Signal
     if (!rested) return Complain(rested.error());
     if (!*rested) return kInterrupted;
   }
-  // A `gsv run` without a viewer ends when its simulation is stopped; then the last known status is
+  // A `gsv run` without a viewer ends when its simulation is stopped. Then the last known status is
   // used.
   if (const auto status = StatusOf(*simulation)) {
     simulation->status = *status;
@@ -156,7 +158,7 @@ std::shared_ptr<Arguments> AddSelection(CLI::App& command) {
   return arguments;
 }
 
-// `add_value` adds the argument before the simulation's name.
+// Adds a command. `add_value` adds the argument before the simulation's name.
 void AddSteering(const CommandLine& line, const char* name, const char* description, Call call,
                  const std::function<void(CLI::App&, Arguments&)>& add_value = {},
                  bool awaits_rest = false) {
@@ -183,7 +185,7 @@ void AddFactor(CLI::App& command, Arguments& arguments) {
       ->required();
 }
 
-// The name with dashes: set-gravity for set_gravity.
+// Returns the name with dashes, such as set-gravity for set_gravity.
 std::string Dashed(std::string_view name) {
   std::string text(name);
   std::replace(text.begin(), text.end(), '_', '-');
@@ -206,7 +208,7 @@ void AddParameter(const simulation::Parameter& parameter, CLI::App& command, Arg
       ->required(parameter.is_required());
 }
 
-// A command as described by the table, with its parameters as options.
+// Adds a command as the table describes it, with its parameters as options.
 void AddFromTable(const CommandLine& line, const simulation::Command& command) {
   const auto call = [&command](sba::Simulation_ptr simulation, const Arguments& given) {
     const model::Parameters texts(given.texts.begin(), given.texts.end());

@@ -21,7 +21,7 @@ struct ConvertArguments {
   formats::ReadLimits limits;
 };
 
-// The folder of the meshes, beside the file: courier.urdf has courier_meshes/.
+// Returns the folder of the meshes, which is beside the file: courier.urdf has courier_meshes/.
 std::string MeshFolderOf(const fs::path& output) {
   return output.empty() ? "meshes/" : output.stem().string() + "_meshes/";
 }

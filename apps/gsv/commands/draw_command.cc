@@ -35,8 +35,8 @@ struct DrawArguments {
   bool json = false;
 };
 
-// The world as it is when a simulation of it begins: pedestrians stand at their starts. Also draws
-// worlds that cannot be simulated, as long as they have no pedestrians.
+// Returns the world at the start of a simulation, with pedestrians at their starts. It also works
+// for worlds that cannot be simulated, if they have no pedestrians.
 base::Result<std::shared_ptr<const world::Snapshot>> FirstInstant(
     model::WorldDescription description) {
   auto world = std::make_shared<const model::WorldDescription>(std::move(description));
@@ -63,11 +63,11 @@ base::Result<std::shared_ptr<const world::Snapshot>> FirstInstant(
   return snapshot;
 }
 
-// A view from the front, right and above, at the smallest distance that shows everything.
+// Returns a view from the front, right and above, at the smallest distance that shows everything.
 rendering::CameraView ViewOfAll(const std::vector<Vector3>& corners, int width, int height) {
   constexpr double kYaw = 0.75 * std::numbers::pi, kPitch = 0.6, kMargin = 1.05;
   constexpr double kFieldOfView = 0.8;
-  constexpr double kMaxCoordinate = 1e6;  // m: limit of a renderer
+  constexpr double kMaxCoordinate = 1e6;  // the limit of a renderer, m
   const geometry::Quaternion turn = geometry::FromRollPitchYaw({0, kPitch, kYaw});
   const double across = std::tan(kFieldOfView / 2) / kMargin, up = across * height / width;
   constexpr double kEndless = std::numeric_limits<double>::infinity();

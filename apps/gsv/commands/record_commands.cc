@@ -1,4 +1,4 @@
-// Starts and stops the recording of simulations in other processes.
+// Commands that start and stop the recording of simulations in other processes.
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -21,7 +21,7 @@ struct RecordArguments {
 int StartRecording(const RecordArguments& arguments) {
   const auto simulation = FindOneSimulation(arguments.selection);
   if (!simulation) return Complain(simulation.error());
-  // The other process may have another working directory, or be on another machine.
+  // The path becomes absolute, because the other process may have another working directory.
   std::error_code error;
   const std::string path = std::filesystem::absolute(arguments.file, error).string();
   const auto done = orb::Call(simulation->server.Describe(),

@@ -30,7 +30,7 @@ namespace {
 struct RecordingArguments {
   std::string file, other, output;
   std::vector<std::string> topics;
-  double from = -1e9, to = 1e9;  // s
+  double from = -1e9, to = 1e9;  // in s
   double frames_a_second = 25;
   bool json = false, video = false;
 
@@ -39,7 +39,8 @@ struct RecordingArguments {
   }
 };
 
-// A missing recording has the exit code of a missing file, not of a bad model.
+// Prints the error. A missing recording has the exit code of a missing file, and not that of a bad
+// model.
 int Refuse(const base::Error& error) {
   const int code = Complain(error);
   return error.code == base::ErrorCode::kNotFound ? kInfrastructure : code;
@@ -63,7 +64,7 @@ int Recover(const RecordingArguments& arguments) {
   return kOk;
 }
 
-// Refuses a selection that cannot have content, because its ends or its topics are wrong.
+// Rejects a selection that cannot have content, because its ends or its topics are wrong.
 base::Status CheckSelection(const RecordingArguments& arguments,
                             const recording::McapReader& reader) {
   if (arguments.from > arguments.to) {
@@ -172,7 +173,7 @@ int Export(const RecordingArguments& arguments) {
                    "cannot write the file; check the folder and the free space", arguments.output});
 }
 
-// If several attachments have the name, extracts the last.
+// Extracts an attachment: the last one, if several have the name.
 int Extract(const RecordingArguments& arguments) {
   const auto reader = recording::McapReader::Open(arguments.file);
   if (!reader) return Refuse(reader.error());
@@ -226,8 +227,8 @@ struct ReplayArguments {
   bool paused = false;
   bool json = false;
   bool resimulate = false;
-  std::string broker;     // of a repeated simulation
-  bool commands = false;  // of a repeated simulation
+  std::string broker;     // for a repeated simulation
+  bool commands = false;  // for a repeated simulation
 };
 
 // Reads the whole file, message by message, and reports what a replay would show.
@@ -270,7 +271,7 @@ base::Result<std::unique_ptr<gateway::Gateway>> StartGateway(const ReplayArgumen
   options.web_root = ShareFolder() / "web";
   options.docs_root = ShareFolder() / "docs";
   std::error_code error;
-  // The file was opened, so it exists and has a name.
+  // The file could be opened, so it exists and has a name.
   const std::filesystem::path file = std::filesystem::canonical(arguments.file, error);
   options.recordings_folder = file.parent_path();
   options.only_recording = file.filename();
@@ -299,7 +300,7 @@ int Replay(const ReplayArguments& arguments, Signals& signals) {
   if (!gateway) return Complain(gateway.error());
   std::printf("viewer: %s\n", (*gateway)->url().c_str());
   std::fflush(stdout);
-  if (!arguments.paused) (void)(*player)->Start();  // it is paused at the beginning
+  if (!arguments.paused) (void)(*player)->Start();  // the replay is paused at its start
   signals.Wait();
   return kOk;
 }

@@ -46,7 +46,8 @@ void OpenBrowser(const std::string& url) {
   }
 }
 
-// Whether it was stopped for good: a reset also stops it on its way back to the start.
+// Whether the simulation was stopped permanently. A reset also stops it, on its way back to the
+// start.
 bool WasStopped(const Simulation& simulation) {
   const auto events = simulation.events(0);
   const auto last = std::find_if(events.rbegin(), events.rend(), [](const auto& event) {
@@ -55,12 +56,12 @@ bool WasStopped(const Simulation& simulation) {
   return last != events.rend() && last->kind == "stopped";
 }
 
-// Waits until the run is over or somebody interrupts it. Returns the exit code so far.
+// Waits until the run is over or a signal interrupts it. Returns the exit code so far.
 int Await(Runtime& runtime, Simulation& simulation, const RunOptions& options, Signals& signals) {
   using Clock = std::chrono::steady_clock;
   const auto give_up = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                           std::chrono::duration<double>(options.wall_timeout));
-  // With a viewer, someone may stop the run to reset it and start it again.
+  // If there is a viewer, a user may stop the run, reset it and start it again.
   const bool ends_when_stopped = !options.runtime.viewer;
   for (;;) {
     const Phase phase =
@@ -83,7 +84,7 @@ int Await(Runtime& runtime, Simulation& simulation, const RunOptions& options, S
   }
 }
 
-// Whether the scenario requires this end: it kills the behaviour, or a sensor that it reads.
+// Whether the scenario causes this end: a fault kills the behaviour, or a sensor that it reads.
 bool WasToDie(const Simulation& simulation, const std::string& robot) {
   const auto& faults = simulation.specification().faults;
   return std::any_of(faults.begin(), faults.end(), [&](const scenario::Fault& fault) {
@@ -92,7 +93,7 @@ bool WasToDie(const Simulation& simulation, const std::string& robot) {
   });
 }
 
-// Prints the ends of the behaviours; returns the exit code with them.
+// Prints how behaviours ended, and returns the exit code that follows from this.
 int JudgeBehaviours(const Simulation& simulation, int exit_code) {
   const auto status = simulation.status();
   for (const auto& robot : status.robots) {
@@ -115,8 +116,8 @@ void Warn(const std::vector<std::string>& sentences) {
   }
 }
 
-// Problems with selected topics that never existed. A robot that was added during the run may have
-// brought topics that did not exist at the start.
+// Returns problems with selected topics that never existed. A robot that was added during the run
+// may have added topics that did not exist at the start.
 std::vector<std::string> ComplaintsAtTheEnd(const RunOptions& options,
                                             std::vector<std::string> topics_at_start) {
   const auto recorded = recording::McapReader::Open(options.record);
@@ -215,7 +216,7 @@ base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) 
     if (const std::string why = access->Exposure(); !why.empty()) Warn({why});
   }
   std::fflush(notes);
-  std::vector<std::string> topics;  // topics that can be recorded
+  std::vector<std::string> topics;  // the topics that can be recorded
   if (!options.record.empty()) {
     topics = recording::TopicsOf(**simulation);
     Warn(ComplaintsAbout(options.recording, topics));
@@ -257,10 +258,10 @@ void AddRunCommand(const CommandLine& line) {
     const auto result = Run(*options, line.signals);
     line.exit_code = result ? *result : Complain(result.error());
   });
-  // For `gsv test` and campaigns, which start it; hidden in lists of commands.
+  // This command is for `gsv test` and campaigns, and is hidden in lists of commands.
   CLI::App* server =
       line.app.add_subcommand("run-server", "Run simulations as stdin asks for them")->group("");
-  server->allow_extras();  // space for the command line of a run
+  server->allow_extras();  // the arguments are space for the command line of a run
   server->callback([line] { line.exit_code = ServeRuns(line.signals); });
 }
 

@@ -27,7 +27,8 @@ struct TestArguments {
   bool json = false, no_record = false;
 };
 
-// Runs all cases, a limited number at a time, each on its own thread, which waits for its child.
+// Runs all cases, a limited number at a time. Each has its own thread, which waits for a child
+// process.
 class TestSession {
  public:
   TestSession(std::vector<TestCase> cases, const TestOptions& options, bool is_talkative)
@@ -140,7 +141,7 @@ int RunTests(const TestArguments& arguments, Signals& signals) {
   options.record = !arguments.no_record;
   auto share = ShareOf(*std::move(cases), *shard);
   const int jobs = JobsFor(arguments, share.size());
-  // Concurrent runs are not faster with more threads.
+  // Concurrent runs are not faster if they use more threads.
   if (jobs > 1) options.threads = 1;
   TestSession session(std::move(share), options, !arguments.json);
   const std::vector<TestResult> results = session.Run(jobs, signals);
@@ -165,7 +166,7 @@ int RunTests(const TestArguments& arguments, Signals& signals) {
   }
   if (session.is_cancelled()) return kInterrupted;
   if (passed == results.size()) return kOk;
-  // True if every case that did not pass had missing or invalid files.
+  // Whether every case that did not pass had missing or invalid files.
   const bool is_bad_input = std::all_of(results.begin(), results.end(), [](const auto& result) {
     return result.is_bad_input || result.status == TestResult::Status::kPassed;
   });

@@ -12,7 +12,7 @@
 namespace gsv::app {
 namespace {
 
-// The viewer's address of an instance, which is given by that address or by its name.
+// Returns the address of an instance's viewer. `instance` is that address or the instance's name.
 base::Result<std::string> ViewerOf(const std::string& instance, const std::string& broker) {
   if (instance.starts_with("http://") || instance.starts_with("https://")) return instance;
   if (instance.find("://") != std::string::npos) {

@@ -14,9 +14,9 @@ namespace {
 
 constexpr int kRobots = 4;
 constexpr int kCameras = 16;
-constexpr double kMeasured = 1.5;  // s
+constexpr double kMeasured = 1.5;  // duration of the measurement, s
 
-// Images of 320x240 per second, of robots that drive in the office.
+// Returns the number of images of 320x240 per second, for robots that drive in the office.
 base::Result<double> ImageRate(rendering::Renderer& renderer) {
   MovingSceneOptions options;
   options.robots = kRobots;
@@ -30,7 +30,8 @@ base::Result<double> ImageRate(rendering::Renderer& renderer) {
     return images ? base::Status() : base::Fail(images.error());
   };
   if (auto ok = scene->simulation->Start(); !ok) return base::Fail(ok.error());
-  if (auto ok = draw(); !ok) return base::Fail(ok.error());  // work that is done once for a world
+  // the first image includes work that is done once for a world
+  if (auto ok = draw(); !ok) return base::Fail(ok.error());
   const auto start = std::chrono::steady_clock::now();
   double seconds = 0;
   int drawn = 0;
@@ -42,7 +43,7 @@ base::Result<double> ImageRate(rendering::Renderer& renderer) {
   return drawn / seconds;
 }
 
-// True if images can be rendered.
+// Returns true if images can be rendered.
 bool LookAtCameras(bool has_worlds) {
   const auto renderer = rendering::Renderer::Start();
   if (!renderer) {

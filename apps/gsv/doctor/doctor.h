@@ -5,7 +5,7 @@
 
 namespace gsv::app {
 
-// Prints one line per check. Returns the exit code. `broker`: see CheckBroker().
+// Prints one line per check and returns the exit code. For `broker` see CheckBroker().
 int Doctor(const std::string& broker);
 
 }  // namespace gsv::app

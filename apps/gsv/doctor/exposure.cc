@@ -54,7 +54,7 @@ class Connection {
 
   int descriptor() const { return descriptor_; }
 
-  // The first part of the answer; empty: none.
+  // Returns the first part of the answer, or an empty text if there is none.
   std::string Exchange(const std::string& request) const {
     if (!is_open_ || send(descriptor_, request.data(), request.size(), MSG_NOSIGNAL) < 0) return {};
     std::string answer(4096, '\0');
@@ -78,12 +78,12 @@ std::string Asking(const Listener& listener, const char* method, const char* tar
       target, host, body.size(), body);
 }
 
-// "HTTP/1.1 401 …" → 401
+// Returns 401 for "HTTP/1.1 401 …".
 int StatusOf(const std::string& answer) {
   return answer.starts_with("HTTP/1.1 ") && answer.size() > 12 ? std::atoi(answer.c_str() + 9) : 0;
 }
 
-// A LocateRequest of GIOP 1.0, little-endian, for some object key (CORBA 3.0, 15.4.5)
+// A LocateRequest of GIOP 1.0, little-endian, for any object key (CORBA 3.0, 15.4.5)
 std::string AskingForAnObject() {
   const char request[] = "GIOP\1\0\1\3\x0c\0\0\0\1\0\0\0\4\0\0\0none";
   return {request, sizeof request - 1};
@@ -127,7 +127,7 @@ std::string Takes(const Exposure& exposure) {
                                      : "no token";
 }
 
-// The value of an option, given as "--name VALUE" or "--name=VALUE".
+// Returns the value of an option, which is given as "--name VALUE" or "--name=VALUE".
 std::optional<std::string> Option(const ListeningProcess& process, const std::string& name) {
   const std::vector<std::string>& arguments = process.arguments;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
@@ -137,7 +137,7 @@ std::optional<std::string> Option(const ListeningProcess& process, const std::st
   return std::nullopt;
 }
 
-// The folders whose files can be downloaded from it, by its command line.
+// Returns the folders whose files can be downloaded, according to the command line.
 std::vector<std::string> FoldersServed(const ListeningProcess& process, bool has_viewer) {
   if (!has_viewer) return {};
   std::vector<std::string> folders{(ShareFolder() / "web").string()};
@@ -159,7 +159,7 @@ Exposure Probe(const Listener& listener) {
     return exposure;
   }
   const std::string look = Asking(listener, "GET", "/api/server", "");
-  // A control request without effect: a preview of a scenario.
+  // The request needs the permission to control, but has no effect: it previews a scenario.
   const std::string act = Asking(listener, "POST", "/api/preview", "{}");
   const std::string answer = Connection(listener).Exchange(look);
   if (StatusOf(answer) == 0 &&

@@ -1,8 +1,8 @@
-// `gsv doctor --security`: the open ports of GSV on this machine, and the credentials that they
-// need.
+// `gsv doctor --security`: lists the open ports of GSV on this machine, and the credentials that
+// they require.
 //
-// Each listening socket is tested like by an unknown client, whatever the options of its process
-// are. The tests change nothing.
+// Each listening socket is tested as an unknown client would use it, whatever the options of its
+// process are. The tests change nothing.
 #pragma once
 
 #include <string>
@@ -21,7 +21,8 @@ struct Exposure {
 };
 
 Exposure Probe(const Listener& listener);
-// The reason for a change, and the remedy; empty: no change is needed.
+// Returns the reason why the exposure should be changed, and the remedy. Empty if no change is
+// needed.
 std::string ExposureWarning(const Listener& listener, const Exposure& exposure);
 
 // Prints one line per socket. Returns kOk if there is no warning.

@@ -23,9 +23,9 @@
 namespace gsv::app {
 namespace {
 
-// For a hundred behaviours, as many viewers, and the program's own files.
+// Enough for a hundred behaviours, as many viewers, and the program's own files.
 constexpr rlim_t kEnoughDescriptors = 512;
-constexpr double kEnoughRoom = 1;  // GB, for recordings
+constexpr double kEnoughRoom = 1;  // space for recordings, GB
 
 bool CheckDescriptors() {
   rlimit limit{};
@@ -158,7 +158,7 @@ bool CheckBroker(const std::string& broker) {
   }
   std::printf("broker: does not respond: %s; start one with `gsv broker --port N`\n",
               reached.error().Sentence().c_str());
-  return broker.empty();  // an instance without a name may just have ended
+  return broker.empty();  // an instance that was not named may just have ended
 }
 
 }  // namespace gsv::app

@@ -8,10 +8,10 @@
 
 namespace gsv::app {
 
-// False if a part is missing that simulations need.
+// Returns false if a part that simulations need is missing.
 bool CheckMachine();
-// `broker` empty: that of this user's newest instance, if there is one. False if a broker is named
-// that does not answer.
+// Checks a broker. If `broker` is empty, it is that of this user's newest instance, if there is
+// one. Returns false if a named broker does not answer.
 bool CheckBroker(const std::string& broker);
 
 }  // namespace gsv::app

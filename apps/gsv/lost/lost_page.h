@@ -1,4 +1,4 @@
-// Crash reports of earlier servers, over HTTP:
+// Serves crash reports of earlier servers over HTTP:
 //   GET    /api/lost          the list
 //   DELETE /api/lost/NUMBER   dismisses one, which is not shown again
 //

@@ -17,7 +17,7 @@ using simulation::Phase;
 
 constexpr std::chrono::milliseconds kPeriod{500};
 
-// The simulated time of the last readable message; nothing if the file is no recording.
+// Returns the simulated time of the last readable message, or nullopt if the file is no recording.
 std::optional<double> WholeUntil(const std::string& path) {
   const auto reader = recording::McapReader::Open(path);
   if (!reader) return std::nullopt;
@@ -67,7 +67,7 @@ void LostSimulations::TakeOver(const fs::path& folder) {
   }
   Keep(std::move(lost));
   Write();
-  if (!could_write_) return;  // another server may be able to, and must find them
+  if (!could_write_) return;  // another server may be able to write, and must find the notes
   std::error_code ignored;
   for (const fs::path& file : done) fs::remove(file, ignored);
 }

@@ -1,10 +1,10 @@
-// The simulations that earlier servers lost. A server that was killed left a note of its
-// simulations (server_note.h), which the next server with the same folder of recordings takes over.
-// This class also keeps the note of this server.
+// The simulations that earlier servers have lost. A server that was killed left a note of its
+// simulations (server_note.h). The next server with the same folder of recordings takes over the
+// note. This class also writes the note of this server.
 //
-// Threads  any. One thread writes the note after changes, at most twice a second; another reads the
-//          recordings, which may take long.
-// Bounded  keeps the newest kMaxKept.
+// Threads  any. One thread writes the note after changes, at most twice a second. Another one reads
+//          the recordings, which may take long.
+// Bounded  it keeps the newest kMaxKept reports.
 #pragma once
 
 #include <filesystem>
@@ -26,23 +26,25 @@ class LostSimulations {
   static constexpr std::size_t kMaxKept = 100;
 
   struct Server {
-    std::string name;    // in its offer
-    std::string broker;  // its reference
+    std::string name;    // the name in its offer
+    std::string broker;  // the reference of its broker
     std::filesystem::path recordings;
   };
 
-  // Takes over the notes, and logs each simulation. If the state folder cannot be used, logs that a
-  // crash of this server would not be reported. `host` and `recordings` must outlive this.
+  // Takes over the notes of ended servers, and logs each lost simulation. If the state folder
+  // cannot be used, it logs that a crash of this server would not be reported. `host` and
+  // `recordings` must outlive this object.
   LostSimulations(const Server& server, services::SimulationHost& host,
                   gateway::RecordingSwitch& recordings);
-  // A regular end: nothing was lost, and the crash reports end as well.
+  // Called at a regular end. No simulation was lost, so this server's note is removed.
   ~LostSimulations();
 
-  // By number; the numbers stay for the lifetime of this server.
+  // Returns the lost simulations by number. The numbers do not change during the lifetime of this
+  // server.
   std::map<int, LostSimulation> List() const;
-  // The name of its recording, if that is in this server's folder; else empty.
+  // Returns the name of its recording if that is in this server's folder, else an empty text.
   std::string NameInFolder(const LostSimulation& lost) const;
-  // Dismisses one. False if there is none of that number.
+  // Dismisses a report. Returns false if there is none with that number.
   bool Dismiss(int number);
 
  private:
@@ -55,14 +57,14 @@ class LostSimulations {
 
   services::SimulationHost& host_;
   gateway::RecordingSwitch& recordings_;
-  std::filesystem::path file_;  // this server's note; empty: it cannot be written
-  ServerNote note_;             // as it was written last; used by the watching thread
+  std::filesystem::path file_;  // path of this server's note; empty if it cannot be written
+  ServerNote note_;             // the note as it was last written; used by the watching thread
   bool could_write_ = true;
   mutable base::Mutex mutex_;  // guards lost_ and next_
   std::condition_variable_any changed_;
   std::map<int, LostSimulation> lost_ GSV_GUARDED_BY(mutex_);
   int next_ GSV_GUARDED_BY(mutex_) = 1;
-  std::jthread examiner_, watcher_;  // the last members: they use all others
+  std::jthread examiner_, watcher_;  // the last members, because the threads use all others
 };
 
 }  // namespace gsv::app

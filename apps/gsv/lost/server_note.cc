@@ -22,10 +22,11 @@ namespace {
 namespace fs = std::filesystem;
 using NoteJson = nlohmann::json;
 
-constexpr std::streamsize kMaxBytes = 8 << 20;  // of a note: 10,000 simulations with long names
+// maximum size of a note: 10,000 simulations with long names
+constexpr std::streamsize kMaxBytes = 8 << 20;
 constexpr std::size_t kMaxNotes = 1000;
 constexpr std::size_t kMaxSimulations = 10'000;
-constexpr double kMaxTime = 1e12;  // s
+constexpr double kMaxTime = 1e12;  // in s
 
 std::string LineOf(const fs::path& file) {
   std::ifstream stream(file);
@@ -49,7 +50,7 @@ NoteJson ToJson(const std::vector<LostSimulation>& simulations) {
   return list;
 }
 
-// Reads the fields that exist; Ok() returns whether all had the right type.
+// Reads the fields that exist. Ok() returns whether all had the right type.
 class Fields {
  public:
   explicit Fields(const NoteJson& object) : object_(object), ok_(object.is_object()) {}

@@ -26,7 +26,7 @@ LostSimulation Arena() {
 
 class ServerNoteTest : public ::testing::Test {
  protected:
-  // The note in the folder, after `change` of its JSON.
+  // Returns the note in the folder after `change` has changed its JSON.
   NotesFound Changed(const std::function<void(nlohmann::json&)>& change) const {
     ServerNote note;
     note.simulations = {Arena()};

@@ -16,17 +16,17 @@ namespace {
 
 constexpr std::size_t kMaxLine = 64 * 1024;
 
-// In the child: never returns. Another thread may have held malloc's locks during the fork, so this
-// does not allocate. `arguments` ends with null.
-// `input`: -1 for none.
+// Runs in the child and never returns. Another thread may have held malloc's locks during the fork,
+// so this does not allocate. `arguments` ends with null. `input` is -1 for none.
 [[noreturn]] void Execute(char* const* arguments, int input, int output, bool quiet, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != parent) _exit(0);  // the parent ended before prctl()
+  if (getppid() != parent) _exit(0);  // the parent ended before the call of prctl()
   const int nothing = open("/dev/null", O_RDWR);
   dup2(input >= 0 ? input : nothing, STDIN_FILENO);
   dup2(output, STDOUT_FILENO);
   if (quiet) dup2(nothing, STDERR_FILENO);
-  // A terminal's Ctrl-C goes to the parent only, which ends its children in order.
+  // In a process group of its own, the child does not get Ctrl-C of the terminal. The parent gets
+  // it and ends its children in order.
   setpgid(0, 0);
   sigset_t none;
   sigemptyset(&none);

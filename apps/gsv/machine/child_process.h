@@ -1,7 +1,7 @@
-// A program that this one starts, and that ends with it.
+// A child process that ends with this process.
 //
-// Threads  one at a time. The thread that starts it must live as long as this process: the kernel
-//          ends the child when that thread ends.
+// Threads  one at a time. The thread that starts the child must live as long as this process,
+//          because the kernel ends the child when that thread ends.
 #pragma once
 
 #include <sys/types.h>
@@ -19,11 +19,11 @@ namespace gsv::app {
 
 class ChildProcess {
  public:
-  // The child's stdin: empty, or open until this object is destroyed.
+  // The child's stdin is empty, or stays open until this object is destroyed.
   enum class Input { kEmpty, kOpen };
 
-  // `arguments[0]` is the program's path. Its stdout can be read here. It has this process's
-  // stderr, or none if `quiet`.
+  // Starts a program. `arguments[0]` is its path. Its stdout can be read here. It has this
+  // process's stderr, or none if `quiet` is true.
   static base::Result<std::unique_ptr<ChildProcess>> Start(std::vector<std::string> arguments,
                                                            bool quiet, Input input = Input::kEmpty);
   // Sends SIGTERM, and SIGKILL if the child still runs two seconds later.
@@ -32,13 +32,15 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   pid_t pid() const { return pid_; }
-  // Writes to its stdin, which must be kOpen. kUnavailable: it has ended, or closed its stdin.
+  // Writes to the child's stdin, which must be kOpen. Returns kUnavailable if the child has ended
+  // or closed its stdin.
   base::Status Write(std::string_view text);
-  // Its next line on stdout, without the newline. Nothing after its end or the time limit.
+  // Returns the next line of its stdout, without the newline. Returns nullopt after its end or the
+  // time limit.
   std::optional<std::string> ReadLine(std::chrono::milliseconds timeout);
-  // The way in which it ended ("exit code 5", "signal 11"); empty while it runs.
+  // Returns how the child ended, such as "exit code 5" or "signal 11". Empty while it runs.
   std::string Ending();
-  // Waits for its end or the time limit, and returns the same.
+  // Waits for its end or the time limit, and returns Ending().
   std::string AwaitEnd(std::chrono::milliseconds timeout);
   void Signal(int signal);
 
@@ -46,11 +48,11 @@ class ChildProcess {
   ChildProcess(pid_t pid, int input, int output);
 
   const pid_t pid_;
-  const int input_;  // -1: none
+  const int input_;  // -1 if there is none
   const int output_;
-  int pid_descriptor_ = -1;  // becomes readable when it ends
+  int pid_descriptor_ = -1;  // becomes readable when the child ends
   std::string buffer_;
-  std::optional<int> status_;  // of waitpid()
+  std::optional<int> status_;  // the status from waitpid()
 };
 
 }  // namespace gsv::app

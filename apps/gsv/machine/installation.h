@@ -1,4 +1,4 @@
-// The folders of this installation.
+// The folders and files of this installation.
 #pragma once
 
 #include <filesystem>
@@ -9,22 +9,22 @@
 
 namespace gsv::app {
 
-std::filesystem::path ProgramPath();  // this executable
+std::filesystem::path ProgramPath();  // Returns the path of this executable.
 std::filesystem::path ProgramFolder();
-std::filesystem::path ShareFolder();  // worlds, models, the viewer
+std::filesystem::path ShareFolder();  // Returns the folder with worlds, models and the viewer.
 
-// The names of the built-in worlds: "maze", "office"...
+// Returns the names of the built-in worlds, such as "maze" and "office".
 std::vector<std::string> BuiltInWorlds();
 
-// The file of a world, given by path or by the name of a built-in world. Fails with kNotFound, and
-// the known names, if a bare name is neither. Does not check whether a path exists; the reader
-// reports that.
+// Returns the file of a world, which is given by path or by the name of a built-in world. Fails
+// with kNotFound and the known names if a bare name is neither. It does not check whether a path
+// exists; the reader reports that.
 base::Result<std::string> FindWorld(const std::string& world);
 
-// A warning for each entry of a model path that is not an existing folder.
+// Returns a warning for each entry of a model path that is not an existing folder.
 base::Problems CheckModelPath(const std::vector<std::string>& model_path);
 
-// Splits a command such as "wander --no-pictures" at blanks.
+// Splits a command such as "wander --no-pictures" at spaces.
 std::vector<std::string> SplitWords(const std::string& text);
 
 }  // namespace gsv::app

@@ -35,11 +35,11 @@ std::optional<Instance> ReadInstance(const fs::path& file) {
 }  // namespace
 
 std::optional<std::uint64_t> ProcessStart(pid_t pid) {
-  // Field 22 of /proc/PID/stat, see proc(5).
+  // The start time is field 22 of /proc/PID/stat, see proc(5).
   std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
   std::string text;
   if (!std::getline(file, text)) return std::nullopt;
-  // The second field is the program's name in parentheses, and may have any characters.
+  // The second field is the program's name in parentheses, which may contain any characters.
   const std::size_t name_end = text.rfind(')');
   if (name_end == std::string::npos) return std::nullopt;
   std::istringstream fields(text.substr(name_end + 1));

@@ -1,4 +1,4 @@
-// The gsv processes of this user and their brokers: one small file for each process, in
+// The gsv processes of this user, and their brokers. There is one small file for each process, in
 // $XDG_RUNTIME_DIR/gsv or, if that is not set, /tmp/gsv-UID.
 //
 // Threads  any.
@@ -17,20 +17,21 @@
 
 namespace gsv::app {
 
-// The start time of a process, in clock ticks after the machine's start; nothing if there is no
-// process of that number.
+// Returns the start time of a process, in clock ticks after that of the machine. Returns nullopt if
+// there is no process with that number.
 std::optional<std::uint64_t> ProcessStart(pid_t pid);
 
 struct Instance {
   pid_t pid = 0;
-  std::uint64_t started = 0;  // clock ticks after the machine's start; detects a reused pid
-  std::string broker;         // its reference
+  // start, in clock ticks after that of the machine; detects a reused pid
+  std::uint64_t started = 0;
+  std::string broker;  // the reference of its broker
 };
 
-// This process's file, which the destructor removes.
+// The file of this process. The destructor removes it.
 class InstanceRecord {
  public:
-  // Fails if the folder cannot be written, or other users can write to it.
+  // Fails if the folder cannot be written, or if other users can write to it.
   static base::Result<std::unique_ptr<InstanceRecord>> Write(const std::string& broker);
   ~InstanceRecord();
   InstanceRecord(const InstanceRecord&) = delete;
@@ -42,7 +43,7 @@ class InstanceRecord {
   const std::filesystem::path file_;
 };
 
-// The newest first. Ignores and removes the files of processes that have ended.
+// Returns the instances, the newest first. Removes the files of processes that have ended.
 std::vector<Instance> RunningInstances();
 
 }  // namespace gsv::app

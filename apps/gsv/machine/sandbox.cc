@@ -25,14 +25,14 @@ namespace {
 }  // namespace
 
 #if defined(__SANITIZE_ADDRESS__)
-// LeakSanitizer calls this. It would trace its own process, which is refused.
+// LeakSanitizer calls this. It would trace its own process, which the sandbox refuses.
 extern "C" int __lsan_is_turned_off() { return is_in_sandbox; }
 #endif
 
 namespace gsv::app {
 namespace {
 
-// System calls that reading a file never needs.
+// These system calls are never needed to read a file.
 constexpr int kRefused[] = {
     SYS_socket,           SYS_socketpair, SYS_connect,  SYS_bind,   SYS_listen,
     SYS_accept4,          SYS_execve,     SYS_execveat, SYS_fork,   SYS_vfork,
@@ -40,7 +40,8 @@ constexpr int kRefused[] = {
     SYS_process_vm_readv, SYS_unlink,     SYS_unlinkat, SYS_rename, SYS_renameat2,
     SYS_io_uring_setup};
 
-// A classic BPF filter (seccomp(2)): refused calls fail with EPERM, other architectures' are fatal.
+// A classic BPF filter (seccomp(2)). Refused calls fail with EPERM. Calls of other architectures
+// kill the process.
 std::vector<sock_filter> Filter() {
   std::vector<sock_filter> filter{
       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, arch)),
@@ -67,9 +68,9 @@ base::Status EnterSandbox(const Sandbox& bounds) {
   const bool is_bound = (base::kReservesAddressSpace || Bound(RLIMIT_AS, bounds.memory_bytes)) &&
                         Bound(RLIMIT_CPU, static_cast<rlim_t>(bounds.processor_time.count())) &&
                         Bound(RLIMIT_FSIZE, 0) && Bound(RLIMIT_CORE, 0);
-  // Libraries write logs; such a write fails instead of killing the process.
+  // Libraries write logs. Such a write then fails and does not kill the process.
   std::signal(SIGXFSZ, SIG_IGN);
-  // Readers treat an exception as a bad file.
+  // Readers would report an exception as a bad file, so the process exits instead.
   std::set_new_handler([] { _exit(kWantsMoreMemory); });
   std::vector<sock_filter> filter = Filter();
   const sock_fprog program{static_cast<unsigned short>(filter.size()), filter.data()};

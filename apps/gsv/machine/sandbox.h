@@ -9,17 +9,17 @@
 namespace gsv::app {
 
 struct Sandbox {
-  std::size_t memory_bytes = std::size_t{4} << 30;  // of address space
+  std::size_t memory_bytes = std::size_t{4} << 30;  // maximum size of the address space
   std::chrono::seconds processor_time{60};
 };
 
 // The exit code of a sandboxed process that exceeds its memory.
 inline constexpr int kWantsMoreMemory = 70;
 
-// Sandboxes this process for the rest of its life. It ends if it exceeds its memory, and is killed
-// if it exceeds its time. It cannot write files, open sockets or start programs (seccomp(2),
-// setrlimit(2)). It can read files. Call it before threads start. Fails if the kernel has no such
-// filters.
+// Puts this process into a sandbox for the rest of its life. It ends if it exceeds its memory, and
+// is killed if it exceeds its time. It cannot write files, open sockets or start programs
+// (seccomp(2), setrlimit(2)). It can read files. Call it before threads start. Fails if the kernel
+// does not support such filters.
 base::Status EnterSandbox(const Sandbox& bounds);
 
 }  // namespace gsv::app

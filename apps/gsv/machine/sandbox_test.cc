@@ -18,7 +18,7 @@
 namespace gsv::app {
 namespace {
 
-// The waitpid() status of a sandboxed process that calls `what`.
+// Returns the waitpid() status of a process that calls `what` in a sandbox.
 int RunInSandbox(const std::function<int()>& what) {
   const pid_t child = fork();
   if (child == 0) {

@@ -31,7 +31,7 @@ base::Status TryToRead(const std::string& world,
   }
   auto child = ChildProcess::Start(std::move(arguments), true);
   if (!child) return base::Fail(child.error());
-  // Its errors are not needed here; reading them keeps its pipe from filling up.
+  // The errors are not needed here. They are read so that the pipe does not fill up.
   const auto give_up = std::chrono::steady_clock::now() + limits.wall_time;
   const auto left = [&] {
     return std::chrono::ceil<std::chrono::milliseconds>(give_up - std::chrono::steady_clock::now());

@@ -1,8 +1,8 @@
-// Reads an untrusted world in a sandboxed process first. If that crashes, hangs or exceeds its
-// limits, this process is not harmed and gets an error.
+// Reads an untrusted world in a process with a sandbox first. If that process crashes, hangs or
+// exceeds its limits, this process gets an error and is not harmed.
 //
-// Only the regular end of the trial is used: the file is then read again here. docs/security.md
-// describes what this protects against, and what not.
+// Only the way in which the trial ends is used. After a regular end the file is read again here.
+// docs/security.md describes what this protects against, and what it does not.
 #pragma once
 
 #include <chrono>
@@ -19,8 +19,9 @@ struct TrialLimits {
   std::chrono::seconds wall_time{120};
 };
 
-// kBadModel: the trial did not end regularly. `model_path`: folders to search for models.
-// Threads  any; takes as long as reading.
+// Returns kBadModel if the trial did not end regularly. `model_path` has folders to search for
+// models.
+// Threads  any; takes as long as reading the world.
 base::Status TryToRead(const std::string& world,
                        const std::vector<std::filesystem::path>& model_path,
                        const TrialLimits& limits);

@@ -7,12 +7,12 @@ namespace gsv::app {
 namespace {
 
 constexpr std::size_t kWidth = 80;
-constexpr std::size_t kColumn = 28;         // where descriptions begin
-constexpr std::size_t kCommandColumn = 16;  // of commands
+constexpr std::size_t kColumn = 28;         // the column at which descriptions of options begin
+constexpr std::size_t kCommandColumn = 16;  // the column for commands
 constexpr const char* kUngrouped = "Options";
-constexpr char kUnbreakable = '\x01';  // a blank without a line break
+constexpr char kUnbreakable = '\x01';  // stands for a space without a line break
 
-// One entry: the left column, then the wrapped text.
+// Formats one entry: the left column, then the wrapped text.
 std::string Entry(const std::string& left, const std::string& text, std::size_t column) {
   std::string entry = "  " + left;
   std::size_t at = entry.size();
@@ -62,7 +62,8 @@ std::pair<std::string, std::string> TypeAndRange(const CLI::Option& option) {
   return {type.substr(0, colon), range};
 }
 
-// A short and a long name. A second long name is a deprecated one, which the details mention.
+// Returns a short and a long name. A second long name is deprecated, and only the details mention
+// it.
 std::string NamesOf(const CLI::Option& option) {
   if (option.get_positional()) return option.get_name(true);
   const auto& short_names = option.get_snames();
@@ -74,7 +75,7 @@ std::string NamesOf(const CLI::Option& option) {
 
 std::string LeftOf(const CLI::Option& option) {
   std::string left = NamesOf(option);
-  if (option.get_type_size() == 0) return left;  // a flag
+  if (option.get_type_size() == 0) return left;  // the option is a flag
   if (!option.get_positional()) left += " " + TypeAndRange(option).first;
   const bool is_many = option.get_expected_max() == CLI::detail::expected_max_vector_size;
   return is_many && !left.ends_with("...") ? left + " ..." : left;
@@ -88,7 +89,7 @@ std::string TextOf(const CLI::Option& option, bool is_full) {
   if (has_value && !option.get_default_str().empty() &&
       text.find("(default:") == std::string::npos) {
     std::string value = option.get_default_str();
-    if (value.front() == '[') value = value.substr(1, value.size() - 2);  // a list
+    if (value.front() == '[') value = value.substr(1, value.size() - 2);  // the value is a list
     notes.push_back("default: " + value);
   }
   if (option.get_required() && !option.get_positional()) notes.push_back("required");

@@ -2,9 +2,9 @@
 //
 //   --port PORT               port of the viewer (default: 8080) [env: GSV_PORT]
 //
-// An option's description is a short line, and behind a newline, if there is more to say, sentences
-// for its manual page. `--help-all` prints those too, with ranges and with the options that an
-// option needs or excludes: tools/make_man_pages and tools/make_completion read it.
+// An option's description is a short line. If there is more to say, sentences for its manual page
+// follow after a newline. `--help-all` prints these as well, with ranges and with the options that
+// an option needs or excludes. tools/make_man_pages and tools/make_completion read it.
 #pragma once
 
 #include <string>

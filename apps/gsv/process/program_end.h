@@ -3,8 +3,8 @@
 
 namespace gsv::app {
 
-// Flushes what was printed, and returns the exit code; see EndOutput(). Does not return if a
-// behaviour still works on what static destructors would destroy: then it exits without them.
+// Flushes the output and returns the exit code, see EndOutput(). If a behaviour still works on
+// objects that static destructors would destroy, it does not return: it exits without running them.
 int EndProgram(int exit_code);
 
 }  // namespace gsv::app

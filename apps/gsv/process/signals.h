@@ -8,12 +8,12 @@ namespace gsv::app {
 
 class Signals {
  public:
-  // Blocks them for this thread and all threads that it starts later: call it first in main().
-  // SIGHUP stays ignored if it is ignored, as by nohup.
+  // Blocks these signals for this thread and all threads that it starts later. Call it first in
+  // main(). SIGHUP stays ignored if it is ignored, as by nohup.
   Signals();
-  // The received signal; 0: none within `milliseconds`.
+  // Returns the received signal, or 0 if there was none within `milliseconds`.
   int WaitFor(int milliseconds);
-  void Wait();  // for one signal
+  void Wait();  // Waits for one signal.
 
  private:
   sigset_t set_;

@@ -26,7 +26,8 @@ struct Ending {
   std::string errors;
 };
 
-// Writes `text` only after standard error is captured, as capturing flushes every stream.
+// Writes `text` after the capture of standard error has begun, because capturing flushes every
+// stream.
 Ending EndOf(std::FILE* output, const char* text, int exit_code) {
   testing::internal::CaptureStderr();
   std::fputs(text, output);

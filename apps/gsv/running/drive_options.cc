@@ -15,7 +15,7 @@ bool HasModel(const WorldDescription& world, const std::string& name) {
                      [&](const model::PlacedModel& placed) { return placed.name == name; });
 }
 
-// The name of a robot that will be added, unless the name is used.
+// Returns the name that an added robot will have, unless the name is used already.
 base::Result<std::string> NameOf(const scenario::RobotEntry& robot, const std::string& world,
                                  formats::ModelLibrary& library, base::Problems& problems) {
   if (!robot.name.empty() || robot.model.empty()) return robot.name;
@@ -46,7 +46,7 @@ base::Result<std::set<std::string>> OverrideDrives(const std::string& world,
 
 base::Status PrepareDrives(const std::string& file, formats::ModelLibrary& library,
                            RunOptions& options, base::Problems& problems) {
-  base::Problems again;  // reported when the robots are added
+  base::Problems again;  // these problems are reported when the robots are added
   const auto left = OverrideDrives(file, library, options, again);
   if (!left) return base::Fail(left.error());
   scenario::Scenario wanted = options.scenario;

@@ -10,7 +10,8 @@
 namespace gsv::app {
 
 // Sets the drives of --drive in the scenario's robots. Reads `world` into the specification if a
-// model of the world becomes a robot. kInvalidArgument if there is no robot of a name.
+// model of the world becomes a robot. Returns kInvalidArgument if there is no robot with a given
+// name.
 base::Status PrepareDrives(const std::string& world, formats::ModelLibrary& library,
                            RunOptions& options, base::Problems& problems);
 

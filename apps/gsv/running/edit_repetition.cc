@@ -79,12 +79,12 @@ class EditMaker {
   }
 
   base::Result<std::shared_ptr<const model::Model>> ReadModel(const std::string& model) {
-    base::Problems problems;  // were reported when it was added first
+    base::Problems problems;  // these were reported when the robot was first added
     return runtime_.host().library().ReadModel(model, problems,
                                                simulation_.specification().world->source);
   }
 
-  // A robot of the world that was added again was read from the world's file, or from its own.
+  // A robot of the world that was added again was read from the world's file, or from its own file.
   base::Result<std::shared_ptr<const model::Model>> ReadRobot(const Edit& edit) {
     const auto own = ModelInWorld(simulation_, edit.body);
     const bool is_own =
@@ -134,7 +134,7 @@ class EditMaker {
   const RunOptions& options_;
 };
 
-// False after a signal.
+// Returns false after a signal.
 bool AwaitHalt(Simulation& simulation, Signals& signals) {
   for (;;) {
     const Phase phase = simulation.WaitForPhase({Phase::kPaused, Phase::kFinished, Phase::kFailed},
@@ -167,7 +167,7 @@ base::Result<RecordedDoings> ReadDoings(const recording::McapReader& reader,
   using messages::gsv_msgs::LifecycleEvent;
   const recording::Summary& summary = reader.summary();
   RecordedDoings doings;
-  std::vector<LifecycleEvent> told;  // events about edits
+  std::vector<LifecycleEvent> told;  // the events about edits
   bool has_finished = false;
   recording::MessageCursor cursor = reader.Messages();
   for (;;) {

@@ -1,4 +1,4 @@
-// Repeats the edits that people made during a recorded run.
+// Repeats the edits that users made during a recorded run.
 #pragma once
 
 #include <vector>
@@ -10,20 +10,20 @@
 
 namespace gsv::app {
 
-// The actions of people in a recording.
+// The actions of users in a recording.
 struct RecordedDoings {
   std::vector<simulation::Edit> edits;  // in the order in which they were made
-  bool was_held_up = false;             // the run was paused, resumed, ended early, or slowed
+  bool was_held_up = false;  // whether the run was paused, resumed, ended early, or slowed
 };
 
-// Fails, with the name of `file`, if the edits cannot be repeated: the actions before the recording
-// are unknown, or an edit came while behaviours ran (which is allowed with recorded commands,
-// `by_commands`).
+// Reads the actions. Fails, with the name of `file`, if the edits cannot be repeated: the actions
+// before the recording are unknown, or an edit was made while behaviours ran. The latter is allowed
+// with recorded commands (`by_commands`).
 base::Result<RecordedDoings> ReadDoings(const recording::McapReader& reader,
                                         const std::string& file, bool by_commands);
 
 // Starts a populated simulation, pauses it at each of `options.edits` to make the edit, and resumes
-// it. Leaves out edits at or after its end. Returns kOk, or kInterrupted after a signal, with the
+// it. Edits at or after its end are skipped. Returns kOk, or kInterrupted after a signal, with the
 // simulation stopped. Fails if an edit is refused or its model is missing.
 base::Result<int> RunWithEdits(Runtime& runtime, simulation::Simulation& simulation,
                                const RunOptions& options, Signals& signals);

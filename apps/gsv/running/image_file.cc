@@ -32,7 +32,7 @@ base::Status WriteImage(const model::Image& image, const std::string& path) {
 
 base::Status DrawAround(const std::shared_ptr<const world::Snapshot>& snapshot,
                         const std::string& body, const std::string& path) {
-  constexpr double kBack = 5, kPitch = 0.9;  // m, rad
+  constexpr double kBack = 5, kPitch = 0.9;  // in m and in rad
   const int index = snapshot->layout->Find(body);
   const geometry::Pose pose =
       index < 0 ? geometry::Pose()

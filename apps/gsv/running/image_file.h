@@ -9,7 +9,7 @@
 
 namespace gsv::app {
 
-// A sentence if the name does not end with .jpg, .jpeg or .png; else empty.
+// Returns a sentence if the name does not end with .jpg, .jpeg or .png, else an empty text.
 std::string CheckImageName(const std::string& path);
 
 base::Status WriteImage(const model::Image& image, const std::string& path);

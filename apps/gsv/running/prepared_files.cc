@@ -6,9 +6,9 @@
 namespace gsv::app {
 namespace {
 
-constexpr std::size_t kMaxWorlds = 16;  // that are kept at a time
+constexpr std::size_t kMaxWorlds = 16;  // maximum number of worlds that are kept
 
-// Makes no renderer: it would start a thread of its own, and checks of sensors need none.
+// Makes no renderer. A renderer would start a thread, and checks of sensors need none.
 base::Result<std::shared_ptr<formats::ModelLibrary>> MakeLibrary(const RuntimeOptions& options) {
   auto sensors = MakeSensorTypes(
       options.sensors, base::Fail(base::ErrorCode::kUnavailable, "files are read without cameras"));
@@ -48,7 +48,7 @@ void PreparedFiles::Provide(RunOptions& options) {
   options.runtime.library = library_;
   options.prepared_world = WorldAt(*world);
   if (options.prepared_world == nullptr) return;
-  // The library keeps what it read.
+  // The library keeps the files that it has read.
   for (const auto* entries : {&options.scenario.robots, &options.scenario.avatars}) {
     for (const scenario::RobotEntry& entry : *entries) {
       base::Problems reported_by_the_run;

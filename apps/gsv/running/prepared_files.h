@@ -1,7 +1,7 @@
-// Worlds and models that a process has read before it forks for a run. A file is read once: later
-// changes of it have no effect.
+// Worlds and models that a process has read before it forks for a run. Each file is read once, so
+// later changes of it have no effect.
 //
-// Threads  one at a time. Starts no thread.
+// Threads  one at a time. It starts no thread.
 #pragma once
 
 #include <map>
@@ -22,7 +22,7 @@ class PreparedFiles {
   void Provide(RunOptions& options);
 
  private:
-  // Options for reading; files that were read with other options are not used.
+  // The options for reading. Files that were read with other options are not used.
   struct Key {
     std::vector<std::filesystem::path> model_path;
     std::map<std::string, std::string> drives;
@@ -34,7 +34,7 @@ class PreparedFiles {
   std::shared_ptr<const PreparedWorld> WorldAt(const std::string& file);
 
   Key key_;
-  std::shared_ptr<formats::ModelLibrary> library_;                      // null: nothing was read
+  std::shared_ptr<formats::ModelLibrary> library_;                      // null if nothing was read
   std::map<std::string, std::shared_ptr<const PreparedWorld>> worlds_;  // by file
 };
 

@@ -43,8 +43,8 @@ base::Error NotOfARun(const std::string& file) {
 
 // The command line of the recorded run.
 struct RecordedCall {
-  std::vector<std::string> arguments;  // without the program and "run"
-  std::string folder;                  // base of relative paths
+  std::vector<std::string> arguments;  // the arguments after the program and "run"
+  std::string folder;                  // the base of relative paths
 };
 
 base::Result<RecordedCall> CallOf(const recording::RecordingInfo& info) {
@@ -65,7 +65,7 @@ base::Result<RecordedCall> CallOf(const recording::RecordingInfo& info) {
   return base::Fail(NotOfARun(info.path));
 }
 
-// The same run, without options that do not affect it.
+// Returns the options of the recorded run, without those that do not affect it.
 base::Result<RunOptions> OptionsOf(const RecordedCall& call, const std::string& file) {
   CLI::App app;
   RunArguments arguments;
@@ -117,7 +117,7 @@ base::Status Take(const messages::gsv_msgs::ActuatorCommand& message, RecordedRo
   return {};
 }
 
-// A message was sent a step before it was received.
+// A message was sent one step before it was received.
 base::Status Take(const messages::gsv_msgs::Transmission& message, RecordedRobots& robots) {
   const base::SimTime heard = messages::ToSimTime(message.stamp);
   const auto step = static_cast<std::int64_t>(message.step);
@@ -167,7 +167,7 @@ base::Status UseRecordedCommands(const recording::McapReader& reader, RunOptions
                                 base::SimTime from) {
     const RecordedActs& acts = (*robots)[robot];
     hosting::TimedCommands commands = acts.commands;
-    // A removed robot may have had the same name before.
+    // An earlier robot, which was removed, may have had the same name.
     std::erase_if(commands, [&](const hosting::TimedCommand& each) { return each.time < from; });
     return std::make_shared<hosting::RecordedCommands>(behaviour, std::move(commands),
                                                        acts.uses_radio);
@@ -175,7 +175,7 @@ base::Status UseRecordedCommands(const recording::McapReader& reader, RunOptions
   return {};
 }
 
-// All topics of both, except those about the actions of people.
+// Returns the topics of both recordings, except those about the actions of users.
 std::vector<std::string> TopicsWithoutPeople(const recording::McapReader& first,
                                              const recording::McapReader& second) {
   std::set<std::string> topics;
@@ -186,7 +186,7 @@ std::vector<std::string> TopicsWithoutPeople(const recording::McapReader& first,
   return {topics.begin(), topics.end()};
 }
 
-// A run that was not recorded completely cannot be repeated.
+// Rejects a run that was not recorded completely, because it cannot be repeated.
 base::Status CheckThatItIsWhole(const recording::RecordingInfo& info) {
   const auto refuse = [&](const std::string& reason) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
@@ -204,7 +204,8 @@ base::Status CheckThatItIsWhole(const recording::RecordingInfo& info) {
   return {};
 }
 
-// Snapshots and messages that a recorder of a run in real time dropped, because it was too slow.
+// The number of snapshots and messages that the recorder of a real-time run dropped because it was
+// too slow.
 std::uint64_t LeftOut(const recording::RecordingInfo& info) {
   std::uint64_t sum = 0;
   for (const recording::MetadataRecord& record : info.metadata) {
@@ -220,7 +221,8 @@ std::uint64_t LeftOut(const recording::RecordingInfo& info) {
   return sum;
 }
 
-// The time at which the repeated run ends. If people's actions are left out, so is their end.
+// Returns the time at which the repeated run ends. If users' actions are not repeated, their end of
+// the run is not repeated either.
 base::Result<base::SimTime> EndOf(const recording::RecordingInfo& info,
                                   const recording::McapReader& reader, bool with_people) {
   if (with_people) return info.end;
@@ -279,7 +281,7 @@ base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signal
   auto run = OptionsOf(*call, options.file);
   if (!run) return base::Fail(run.error());
   run->runtime.broker = options.broker;
-  run->scenario.expect.clear();  // they were evaluated then
+  run->scenario.expect.clear();  // the expectations were evaluated during the recorded run
   run->record = (folder->path() / "again.mcap").string();
   const bool had_people = doings->was_held_up || !doings->edits.empty();
   const auto end = EndOf(*info, **recorded, !options.commands && !had_people);
@@ -294,7 +296,7 @@ base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signal
 
   const auto again = recording::McapReader::Open(run->record);
   if (!again) return base::Fail(again.error());
-  std::vector<std::string> topics;  // empty: all
+  std::vector<std::string> topics;  // empty for all topics
   if (options.commands) {
     topics = MotionTopics();
   } else if (had_people) {

@@ -10,15 +10,15 @@ namespace gsv::app {
 
 struct ResimulationOptions {
   std::string file;
-  std::string broker;     // empty: its own broker
-  bool commands = false;  // recorded commands instead of live behaviours
+  std::string broker;     // empty if it starts its own broker
+  bool commands = false;  // whether recorded commands are used instead of live behaviours
   bool json = false;
 };
 
-// Runs in lockstep, with the recorded command line and folder, to the recorded end. Compares all
-// topics; with recorded commands only the motion of bodies, as no behaviour then requests images or
-// mounts sensors. Prints the first difference, and returns exit code 1 if there is one.
-// kInvalidArgument if the recording has no command line.
+// Runs in lockstep, with the recorded command line and working directory, to the recorded end.
+// Compares all topics. With recorded commands it compares only the motion of bodies, because no
+// behaviour then requests images or mounts sensors. Prints the first difference, and returns exit
+// code 1 if there is one. Returns kInvalidArgument if the recording has no command line.
 base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signals);
 
 }  // namespace gsv::app

@@ -6,8 +6,8 @@
 
 namespace gsv::app {
 
-// Returns the exit code. Prints progress and the report to stdout and stderr like `gsv run`;
-// `is_quiet` leaves out everything except warnings and errors.
+// Runs the simulation and returns the exit code. Prints progress and the report to stdout and
+// stderr like `gsv run`. If `is_quiet` is true, it prints only warnings and errors.
 base::Result<int> Run(const RunOptions& options, Signals& signals, bool is_quiet = false);
 
 }  // namespace gsv::app

@@ -186,7 +186,7 @@ void AddRunOptions(CLI::App& command, RunArguments& a) {
 
 namespace {
 
-constexpr double kDeadline = 10;  // s of wall-clock time
+constexpr double kDeadline = 10;  // wall-clock time, s
 
 base::Result<base::SimTime> Time(double seconds, const char* option) {
   if (!std::isfinite(seconds) || seconds < 0 || seconds > 1e9) {
@@ -198,7 +198,7 @@ base::Result<base::SimTime> Time(double seconds, const char* option) {
 
 base::Status UnderstandBehaviours(const std::vector<std::string>& texts, RunOptions& options) {
   for (const std::string& text : texts) {
-    // What comes after a blank is the behaviour's own.
+    // The text after the first space has the behaviour's own options.
     const std::size_t equals = text.substr(0, text.find(' ')).find('=');
     if (equals == std::string::npos) {
       options.behaviour = text;
@@ -246,7 +246,7 @@ base::Status UnderstandRobots(const std::vector<std::string>& texts,
   return {};
 }
 
-// The scenario of the file, or the default one.
+// Returns the scenario of the file, or the default one.
 base::Result<scenario::Scenario> ScenarioToStartFrom(const RunArguments& a,
                                                      base::Problems& problems) {
   scenario::Scenario scenario;
@@ -286,7 +286,8 @@ void Override(scenario::Scenario& scenario, const RunArguments& a) {
   if (!a.record_images.empty()) scenario.record_png = a.record_images == "png";
 }
 
-// Warns of options that have no effect together with the others or with the scenario file.
+// Returns warnings about options that have no effect together with the others or with the scenario
+// file.
 base::Problems CheckOptions(const RunArguments& a, const scenario::Scenario& scenario) {
   base::Problems problems = CheckModelPath(scenario.model_path);
   const auto warn = [&](bool is_given, const char* option, const char* why) {

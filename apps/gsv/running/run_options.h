@@ -28,27 +28,28 @@ struct PreparedWorld {
 
 struct RunOptions {
   RuntimeOptions runtime;
-  scenario::Scenario scenario;                         // with the options that override it
-  base::Problems problems;                             // of the scenario's file
-  std::string behaviour;                               // of robots without their own behaviour
-  std::map<std::string, std::string> behaviour_of;     // by robot
-  std::map<std::string, model::Movement> movement_of;  // by robot
-  std::map<std::string, std::string> drive_of;         // by robot: see model/drive_choice.h
-  bool in_process = false;                             // behaviours are plug-ins, not programs
-  // If set, makes the behaviour of a robot that is added at that time, instead of the named one.
+  scenario::Scenario scenario;  // the scenario with the options that override it
+  base::Problems problems;      // problems of the scenario's file
+  std::string behaviour;        // for robots that have no behaviour of their own
+  std::map<std::string, std::string> behaviour_of;     // behaviours by robot
+  std::map<std::string, model::Movement> movement_of;  // movements by robot
+  std::map<std::string, std::string> drive_of;         // drives by robot, see model/drive_choice.h
+  bool in_process = false;  // whether behaviours are plug-ins, and not programs
+  // If set, it makes the behaviour of a robot that is added at that time. The named behaviour is
+  // not used.
   std::function<std::shared_ptr<simulation::BehaviourPort>(
       const std::string& robot, const std::string& behaviour, base::SimTime from)>
       make_behaviour;
-  std::vector<simulation::Edit> edits;  // made during the run, in this order
+  std::vector<simulation::Edit> edits;  // edits to make during the run, in this order
   simulation::Specification specification;
-  std::shared_ptr<const PreparedWorld> prepared_world;  // null: the run reads it
-  std::string record;                                   // a file; empty: no recording
+  std::shared_ptr<const PreparedWorld> prepared_world;  // null if the run reads the world itself
+  std::string record;                                   // a file; empty if the run is not recorded
   RecordingChoice recording;
-  double wall_timeout = 0;    // s; 0: none
-  std::string failure_image;  // file for an image of the first violation; empty: none
+  double wall_timeout = 0;    // in s; 0 for no limit
+  std::string failure_image;  // the file for an image of the first violation; may be empty
   bool open_browser = false;
   bool json = false;
-  bool is_strict = false;  // refuse the run if files have warnings
+  bool is_strict = false;  // whether to refuse the run if files have warnings
 };
 
 // The options as on the command line, before they are parsed.
@@ -60,7 +61,7 @@ struct RunArguments {
   ServerLimits server_limits;
   std::string broker, name, mode_on_failure, record, record_images, failure_image;
   std::vector<std::string> record_topics, record_rates;
-  // Options that a scenario's file may also have are empty if they were not given.
+  // Options that may also be in a scenario file are empty if the user did not give them.
   std::optional<double> duration, step, factor, deadline;
   std::optional<std::uint64_t> seed;
   double wall_timeout = 0;

@@ -23,7 +23,7 @@ base::Result<RunOptions> Parse(Words words) {
   CLI::App app;
   RunArguments arguments;
   AddRunOptions(app, arguments);
-  std::reverse(words.begin(), words.end());  // CLI11 takes them in reverse
+  std::reverse(words.begin(), words.end());  // CLI11 expects the words in reverse order
   try {
     app.parse(words);
   } catch (const CLI::ParseError& error) {
@@ -101,7 +101,7 @@ TEST(RunOptions, RecordingOptionsSetTopicsRatesAndFormat) {
   EXPECT_THAT(options->recording.topics, UnorderedElementsAre("/gsv/poses", "/scout/"));
   EXPECT_EQ(options->recording.poses_rate, 10);
   EXPECT_EQ(options->recording.beams_rate, 0.5);
-  EXPECT_EQ(options->recording.readings_rate, 20);  // the default in --help
+  EXPECT_EQ(options->recording.readings_rate, 20);  // the default that --help prints
   EXPECT_TRUE(options->recording.png);
 }
 

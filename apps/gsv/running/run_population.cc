@@ -17,7 +17,7 @@ namespace {
 
 using simulation::Simulation;
 
-// An absolute path, if a file of this name exists.
+// Returns the absolute path if a file with this name exists, else the name.
 std::string Whole(const std::string& name) {
   std::error_code ignored;
   const std::string file = formats::xacro::FilePart(name);
@@ -26,7 +26,7 @@ std::string Whole(const std::string& name) {
          name.substr(file.size());
 }
 
-// --movement overrides the scenario.
+// Applies --movement, which overrides the scenario.
 base::Status OverrideMovements(const RunOptions& options, const Simulation& simulation,
                                formats::ModelLibrary& library, base::Problems& problems,
                                scenario::Scenario& scenario) {
@@ -52,8 +52,8 @@ base::Status OverrideMovements(const RunOptions& options, const Simulation& simu
                     "--movement " + *left.begin());
 }
 
-// Sets the behaviour of each robot: its own on the command line, that for all robots, or the
-// scenario's.
+// Sets the behaviour of each robot. This is the robot's own one on the command line, or else that
+// for all robots, or else the scenario's.
 base::Status OverrideBehaviours(const RunOptions& options, std::vector<PlacedRobot>& robots) {
   std::set<std::string> names;
   for (PlacedRobot& robot : robots) {
@@ -73,7 +73,7 @@ base::Status OverrideBehaviours(const RunOptions& options, std::vector<PlacedRob
   return {};
 }
 
-// --ros2-namespace names robots that are there, or come by an edit.
+// Checks that --ros2-namespace names robots of the simulation or of an edit.
 base::Status CheckNamespaces(const RunOptions& options, const Simulation& simulation) {
   if (!options.runtime.ros2) return {};
   std::vector<std::string> names;
@@ -88,7 +88,7 @@ base::Status CheckNamespaces(const RunOptions& options, const Simulation& simula
   return {};
 }
 
-// The world's robots without an entry may still get a behaviour.
+// Robots of the world file that have no entry may still get a behaviour.
 void AddThoseOfTheWorld(const Simulation& simulation, std::vector<PlacedRobot>& robots,
                         const std::vector<std::string>& of_world) {
   for (const std::string& name : of_world) {
@@ -101,7 +101,7 @@ void AddThoseOfTheWorld(const Simulation& simulation, std::vector<PlacedRobot>& 
 
 class RunBehaviours {
  public:
-  // `from`: the time at which the robots are added.
+  // `from` is the time at which the robots are added.
   RunBehaviours(Runtime& runtime, const RunOptions& options, base::SimTime from = {})
       : runtime_(runtime), options_(options), from_(from) {}
 
@@ -147,7 +147,7 @@ class RunBehaviours {
   const base::SimTime from_;
 };
 
-// The scenario in which robots without a place have their actual one.
+// Returns the scenario in which robots that had no place have their actual one.
 scenario::Scenario StartsOf(const Population& population, const scenario::Scenario& asked) {
   scenario::Scenario starts;
   const auto add = [](const std::vector<PlacedRobot>& placed,
@@ -162,7 +162,7 @@ scenario::Scenario StartsOf(const Population& population, const scenario::Scenar
   return starts;
 }
 
-// The actual scenario.
+// Returns the actual scenario of the run.
 scenario::Scenario Told(const Simulation& simulation, const RunOptions& options,
                         const Population& population) {
   scenario::Scenario told = recording::ScenarioOf(simulation);
@@ -209,7 +209,8 @@ base::Result<scenario::Scenario> PopulateRun(Runtime& runtime, Simulation& simul
   formats::ModelLibrary& library = runtime.host().library();
   std::vector<std::string> of_world;
   for (const auto& robot : simulation.status().robots) {
-    // The behaviour for all applies to robots; a station gets one only by its name.
+    // The behaviour for all robots does not apply to stations. A station gets a behaviour only by
+    // its name.
     if (!robot.is_station || options.behaviour_of.contains(robot.name)) {
       of_world.push_back(robot.name);
     }

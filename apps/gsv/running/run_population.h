@@ -5,14 +5,14 @@
 
 namespace gsv::app {
 
-// Adds the scenario's robots and the avatars, and sets the behaviours of all, including the world's
-// robots. Starts missing programs. Returns the actual scenario, which places the same robots at
-// exactly the same poses when it is run again.
+// Adds the scenario's robots and avatars, and sets the behaviours of all robots, including those of
+// the world file. Starts missing programs. Returns the actual scenario: running it again places the
+// same robots at exactly the same poses.
 base::Result<scenario::Scenario> PopulateRun(Runtime& runtime, simulation::Simulation& simulation,
                                              const RunOptions& options, base::Problems& problems);
 
-// The behaviour of a robot that is added at that time, with its program started if necessary; null
-// if the robot has none.
+// Returns the behaviour of a robot that is added at that time, or null if the robot has none.
+// Starts the behaviour's program if necessary.
 base::Result<std::shared_ptr<simulation::BehaviourPort>> LateBehaviour(
     Runtime& runtime, const RunOptions& options, const scenario::RobotEntry& robot,
     base::SimTime from);

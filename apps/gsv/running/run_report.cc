@@ -76,7 +76,7 @@ std::string JsonReport(const simulation::Simulation& simulation,
                                {"warnings", warnings},
                                {"failure", status.failure},
                                {"expectations", std::move(expectations)}};
-  // Names from files may have any bytes: invalid UTF-8 is replaced.
+  // Names from files may contain any bytes, so invalid UTF-8 is replaced.
   return report.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 

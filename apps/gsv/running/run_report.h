@@ -1,4 +1,4 @@
-// The report of `gsv run` at the end.
+// The report that `gsv run` prints at the end.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace gsv::app {
 
-// One line of JSON: sim_time_s, wall_time_s, real_time_factor, steps, late_steps, state_hash,
-// phase, robots:[{name, model, behaviour, agent, pose:{x_m,y_m,z_m,yaw_rad}, distance_m,
-// collisions, readings:{sonar: count, …}}], warnings:[…], failure, expectations:[{name, yaml,
-// where, holds, step, time_s, detail, measured:[{what, lowest, lowest_s, highest, highest_s,
+// Returns one line of JSON: sim_time_s, wall_time_s, real_time_factor, steps, late_steps,
+// state_hash, phase, robots:[{name, model, behaviour, agent, pose:{x_m,y_m,z_m,yaw_rad},
+// distance_m, collisions, readings:{sonar: count, …}}], warnings:[…], failure, expectations:[{name,
+// yaml, where, holds, step, time_s, detail, measured:[{what, lowest, lowest_s, highest, highest_s,
 // last}]}].
 std::string JsonReport(const simulation::Simulation& simulation,
                        const std::vector<std::string>& warnings,
                        const std::vector<verdict::Finding>& findings);
 
-// The same as text.
+// Returns the report as text.
 std::string TextReport(const simulation::Simulation& simulation,
                        const std::vector<verdict::Finding>& findings);
 

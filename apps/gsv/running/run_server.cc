@@ -41,13 +41,14 @@ namespace {
 using base::ErrorCode;
 using base::Result;
 
-constexpr std::size_t kMaxRequest = 1 << 20;  // bytes
-// For a run to end in order after SIGTERM; less than the timeout of ~ChildProcess().
+constexpr std::size_t kMaxRequest = 1 << 20;  // in bytes
+// Time limit for a run to end in order after SIGTERM. It is shorter than the timeout of
+// ~ChildProcess().
 constexpr std::chrono::milliseconds kEndTimeout{1500};
 
 struct RunRequest {
   std::vector<std::string> arguments;
-  std::string output, errors;  // files
+  std::string output, errors;  // paths of files
 };
 
 Result<RunRequest> ParseRequest(const std::string& line) {
@@ -72,8 +73,8 @@ Result<RunOptions> OptionsOf(const RunRequest& request) {
   return Understand(arguments);
 }
 
-// Behaviours in process need no broker, and robots without behaviours need none. Nobody looks for
-// such a run: it is a child of `gsv test` or of a campaign.
+// A broker is not needed for behaviours in this process and for robots without behaviours. Other
+// programs need not find such a run, because it is a child process of `gsv test` or of a campaign.
 bool NeedsBroker(const RunOptions& options) {
   if (!options.edits.empty() || options.runtime.viewer) return true;
   const bool has_option = !options.behaviour.empty() || !options.behaviour_of.empty();
@@ -101,15 +102,15 @@ bool Redirect(const std::string& file, int descriptor) {
 }
 
 // Makes `ps` show this process with these arguments. The kernel shows the memory in which the
-// arguments of the program are, and zeros fill the rest of it; trials/prepared_runs.cc makes it long
-// enough for most.
+// program's arguments are, and zeros fill the rest of it. trials/prepared_runs.cc makes this memory
+// long enough for most command lines.
 void ShowAs(const std::vector<std::string>& arguments) {
   std::ifstream file("/proc/self/stat");
   std::string stat((std::istreambuf_iterator<char>(file)), {});
   const std::size_t name_end = stat.rfind(')');
   if (name_end == std::string::npos) return;
   std::istringstream fields(stat.substr(name_end + 1));
-  constexpr int kArgStart = 48;  // proc(5) counts from 1; the third follows the name
+  constexpr int kArgStart = 48;  // proc(5) counts fields from 1; the third field follows the name
   std::string skipped;
   for (int i = 3; i < kArgStart; ++i) fields >> skipped;
   std::uintptr_t start = 0, end = 0;
@@ -126,8 +127,8 @@ std::vector<std::string> CommandLineOf(const RunRequest& request) {
   return arguments;
 }
 
-// Of a process with several threads only one survives fork(), and locks of the others stay locked.
-// Nothing of GSV's makes threads before a run; a plug-in may.
+// Executes the run after a fork. If a process has several threads, only one survives fork(), and
+// locks that others hold stay locked. GSV itself starts no threads before a run, but a plug-in may.
 [[noreturn]] void ExecuteRun(const RunRequest& request) {
   std::vector<std::string> arguments = CommandLineOf(request);
   std::vector<char*> argv;
@@ -158,7 +159,7 @@ std::vector<std::string> CommandLineOf(const RunRequest& request) {
   }
   exit_code = EndProgram(exit_code);
   std::fflush(nullptr);
-  // Static destructors would copy the memory that this process shares with the run server.
+  // Static destructors would copy memory that this process shares with the run server.
   std::_Exit(exit_code);
 }
 
@@ -187,7 +188,7 @@ class RunServer {
   }
 
  private:
-  // Nothing: stdin ended, or a signal came.
+  // Returns nullopt if stdin has ended, or after a signal.
   std::optional<std::string> NextLine() {
     for (;;) {
       if (const std::size_t end = buffer_.find('\n'); end != std::string::npos) {
@@ -205,7 +206,7 @@ class RunServer {
     }
   }
 
-  // How the run ended; nothing if this process is to end.
+  // Returns how the run ended, or nullopt if this process shall end.
   std::optional<std::string> Serve(const RunRequest& request) {
     auto options = OptionsOf(request);
     if (options) {
@@ -245,7 +246,7 @@ class RunServer {
 }  // namespace
 
 int ServeRuns(Signals& signals) {
-  unsetenv("GSV_BROKER");  // a run has a broker of its own
+  unsetenv("GSV_BROKER");  // a run has its own broker
   ShowAs({ProgramPath().string(), "run-server"});
   return RunServer(signals).Serve();
 }

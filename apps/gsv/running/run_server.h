@@ -1,4 +1,4 @@
-// The other side of trials/prepared_runs.h: a process that forks for each run, so that a run starts
+// The server side of trials/prepared_runs.h. This process forks for each run, so that a run starts
 // with the program linked and its files read.
 #pragma once
 
@@ -6,13 +6,14 @@
 
 namespace gsv::app {
 
-// Reads requests from stdin, one JSON object a line:
+// Reads requests from stdin, one JSON object per line:
 //   {"arguments": [those of `gsv run`], "stdout": FILE, "stderr": FILE}
-// and answers each on stdout, after the run, with a line: "exit code N" or "signal N". One run at a
-// time. Returns the exit code when stdin ends or a signal that ends the program has come; then it
-// ends the run first.
+// and answers each request on stdout, after the run, with a line "exit code N" or "signal N". It
+// executes one run at a time. Returns the exit code when stdin ends, or after a signal that ends
+// the program; then it ends the run first.
 //
-// A run is a child process: its crash ends nothing else. The calling process must have one thread.
+// A run is a child process, so its crash ends nothing else. The calling process must have only one
+// thread.
 int ServeRuns(Signals& signals);
 
 }  // namespace gsv::app

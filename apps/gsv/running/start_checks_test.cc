@@ -19,7 +19,7 @@ std::shared_ptr<const model::Model> BoxOf(const geometry::Vector3& size) {
   return model;
 }
 
-// Walls around a square of 10 m, 1 m high.
+// Walls of 1 m height around a square of 10 m.
 std::vector<world::Body> Walls() {
   std::vector<world::Body> bodies;
   const auto add = [&](const char* name, const geometry::Vector3& size, double x, double y) {
@@ -35,7 +35,7 @@ std::vector<world::Body> Walls() {
   return bodies;
 }
 
-// The warnings about a robot that starts there.
+// Returns the warnings about a robot that starts there.
 std::vector<std::string> Warnings(std::vector<world::Body> bodies, double x, double y, double yaw,
                                   world::BodyKind kind = world::BodyKind::kPlanarBase) {
   world::Body robot;

@@ -23,10 +23,10 @@ using base::ErrorCode;
 using base::Fail;
 using messages::sensor_msgs::CompressedImage;
 
-// A limit for recordings with wrong time stamps.
+// Limits the video of a recording with wrong time stamps.
 constexpr std::uint64_t kMaxFrames = 10'000'000;
 
-// ffmpeg, which reads images from its standard input.
+// Runs ffmpeg, which reads images from its standard input.
 class Encoder {
  public:
   static base::Result<std::unique_ptr<Encoder>> Start(const VideoOptions& options,
@@ -37,7 +37,7 @@ class Encoder {
         options.ffmpeg, "-hide_banner", "-loglevel", "error", "-n", "-f", "image2pipe",
         "-framerate", fmt::format("{}", options.frames_a_second), "-c:v",
         format == "png" ? "png" : "mjpeg", "-i", "-",
-        // Most players require even sides and this pixel format.
+        // Most players require even side lengths and this pixel format.
         "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", options.output};
     std::vector<char*> pointers;
     pointers.reserve(arguments.size() + 1);
@@ -64,7 +64,7 @@ class Encoder {
   Encoder(const Encoder&) = delete;
   Encoder& operator=(const Encoder&) = delete;
 
-  // False if it accepts no more.
+  // Returns false if ffmpeg accepts no more images.
   bool Write(const std::vector<std::uint8_t>& bytes) {
     for (std::size_t done = 0; done < bytes.size();) {
       const ssize_t size = write(input_, bytes.data() + done, bytes.size() - done);
@@ -75,7 +75,7 @@ class Encoder {
     return true;
   }
 
-  // Waits until the video is written; returns whether it was.
+  // Waits until the video is written. Returns whether that succeeded.
   bool Finish() {
     if (input_ >= 0) close(std::exchange(input_, -1));
     if (pid_ >= 0) waitpid(std::exchange(pid_, -1), &status_, 0);
@@ -84,7 +84,7 @@ class Encoder {
 
  private:
   Encoder(pid_t pid, int input) : pid_(pid), input_(input) {
-    std::signal(SIGPIPE, SIG_IGN);  // its end appears as an error of write()
+    std::signal(SIGPIPE, SIG_IGN);  // the end of ffmpeg appears as an error of write()
   }
 
   pid_t pid_;
@@ -138,7 +138,8 @@ class Exporter {
       return Fail(ErrorCode::kInvalidArgument,
                   "the video would be too long; select a part with --from and --to");
     }
-    // Frames before this image's instant; slightly earlier counts as equal.
+    // Writes the frames before this image's instant. An image that is slightly early counts as
+    // equal.
     for (; static_cast<double>(frames_) < due - 1e-6; ++frames_) {
       if (!encoder_->Write(shown_)) return NotFinished();
     }
@@ -158,7 +159,7 @@ class Exporter {
   base::SimTime start_{};
   std::string format_;
   std::vector<std::uint8_t> shown_;  // the image of the next frame
-  std::uint64_t frames_ = 0;         // written
+  std::uint64_t frames_ = 0;         // number of written frames
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
-// Exports the images of one topic of a recording as a video, with ffmpeg.
+// Exports the images of one topic of a recording as a video, using ffmpeg.
 //
-// Errors  kUnavailable if there is no ffmpeg; kInvalidArgument if the topic has no images, or if
-//         the file exists already.
+// Errors  kUnavailable if ffmpeg is missing; kInvalidArgument if the topic has no images, or if the
+//         file exists already.
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@
 namespace gsv::app {
 
 struct VideoOptions {
-  std::string output;  // the extension selects the format: .mp4
+  std::string output;  // the extension selects the format, for example .mp4
   double frames_a_second = 25;
-  std::string ffmpeg = "ffmpeg";  // found in PATH
+  std::string ffmpeg = "ffmpeg";  // searched on the PATH
 };
 
-// A frame shows the newest image at its instant, so that a recorded second is a second of video.
-// Returns the number of frames.
+// Exports the video and returns the number of frames. A frame shows the newest image at its
+// instant, so that a recorded second is a second of video.
 base::Result<std::uint64_t> ExportVideo(const recording::McapReader& reader,
                                         const recording::Selection& selection,
                                         const VideoOptions& options);

@@ -18,7 +18,7 @@ namespace {
 using messages::sensor_msgs::CompressedImage;
 using std::chrono::milliseconds;
 
-// Images are single letters, and a program that stores its input replaces ffmpeg.
+// In these tests an image is a single letter. A program that stores its input replaces ffmpeg.
 class VideoExportTest : public testing::Test {
  protected:
   VideoExportTest() {
@@ -69,7 +69,7 @@ class VideoExportTest : public testing::Test {
 
 TEST_F(VideoExportTest, AFrameShowsTheNewestImageAtItsInstant) {
   Record({{milliseconds(1000), 'a'}, {milliseconds(1250), 'b'}, {milliseconds(1300), 'c'}});
-  // Frames at 1.0, 1.1, 1.2 and 1.3 s.
+  // The frames are at 1.0, 1.1, 1.2 and 1.3 s.
   EXPECT_EQ(Export().value(), 4u);
   EXPECT_EQ(Text(options_.output), "aaac");
   const std::string arguments = Text(options_.output + ".arguments");

@@ -11,12 +11,12 @@ namespace {
 
 using geometry::PlanarPose;
 
-constexpr double kAreaPerRobot = 10;  // m²
-constexpr double kBoxSide = 1;        // m
-constexpr double kWallHeight = 1;     // m
+constexpr double kAreaPerRobot = 10;  // in m²
+constexpr double kBoxSide = 1;        // in m
+constexpr double kWallHeight = 1;     // in m
 constexpr double kWallThickness = 0.2;
 
-// The grid whose cells are the places of the robots; boxes are on every second of its inner
+// The grid whose cells are the places of the robots. Boxes are on every second of its inner
 // corners.
 struct Raster {
   explicit Raster(int robots)
@@ -26,7 +26,7 @@ struct Raster {
   double side() const { return columns * field; }
 
   int columns;
-  double field;  // m
+  double field;  // side of the square, m
 };
 
 model::PlacedModel StandingBox(std::string name, const geometry::Vector3& size,

@@ -1,5 +1,5 @@
-// The crowd with which other simulators were measured: robots that wander on a walled square with
-// 10 m² per robot and a box of 1 m for every four.
+// The crowd with which other simulators were measured. Robots wander on a walled square with 10 m²
+// per robot. For every four robots there is a box of 1 m.
 #pragma once
 
 #include <memory>
@@ -10,17 +10,18 @@
 namespace gsv::app {
 
 // A robot of the crowd is a disc.
-inline constexpr double kCrowdRobotRadius = 0.175;  // m
-inline constexpr double kCrowdRange = 5;            // m: length of its eight rays
-inline constexpr double kCrowdRayHeight = 0.15;     // m
+inline constexpr double kCrowdRobotRadius = 0.175;  // in m
+inline constexpr double kCrowdRange = 5;            // length of its eight rays, m
+inline constexpr double kCrowdRayHeight = 0.15;     // in m
 inline constexpr int kCrowdRays = 8;
 
-// The world with walls, boxes and ground.
+// Returns the world with walls, boxes and ground.
 std::shared_ptr<const model::WorldDescription> CrowdWorld(int robots, std::uint64_t seed);
-// The robots in it, without behaviours.
+// Returns the robots of the crowd, without behaviours.
 std::vector<simulation::RobotSpecification> CrowdRobots(int robots, std::uint64_t seed);
 
-// Reads the eight rays every 50 ms. Drives forward if there is space, else turns to the freer side.
+// Reads the eight rays every 50 ms. It drives forward if there is space, else it turns to the freer
+// side.
 class CrowdController : public Controller {
  public:
   CrowdController() : Controller(std::chrono::milliseconds(50)) {}
@@ -28,7 +29,7 @@ class CrowdController : public Controller {
   DriveCommand Control(const std::vector<Reading>& readings) override;
 
  private:
-  int turn_ = 0;  // +1: to the left, -1: to the right, 0: going forward
+  int turn_ = 0;  // +1 for a turn to the left, -1 to the right, 0 for driving forward
 };
 
 }  // namespace gsv::app

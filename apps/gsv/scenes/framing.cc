@@ -15,8 +15,8 @@ using geometry::Pose;
 using geometry::Vector3;
 
 constexpr double kBoundless = std::numeric_limits<double>::infinity();
-// A body is too far away if its distance exceeds kFarRadii radii of all nearer bodies, and
-// kFarMetres.
+// A body is too far away if its distance exceeds kFarMetres plus kFarRadii times the radius of all
+// nearer bodies.
 constexpr double kFarRadii = 20, kFarMetres = 100;
 // A body is ground if its height is at most kFlat of its width, and its area is at least kMuchMore
 // times that of the other bodies.
@@ -81,7 +81,7 @@ struct SeenBody {
   double radius() const { return Norm(bounds.max - bounds.min) / 2; }
 };
 
-// The median of their centres, axis by axis; the origin for fewer than three bodies.
+// Returns the median of their centres for each axis, or the origin for fewer than three bodies.
 Vector3 MiddleOf(const std::vector<SeenBody>& bodies) {
   if (bodies.size() < 3) return {};
   const auto median = [&](double Vector3::*axis) {
@@ -99,7 +99,7 @@ void DropFarAway(std::vector<SeenBody>& bodies) {
   const auto distance = [&](const SeenBody& body) { return Norm(body.centre() - middle); };
   std::stable_sort(bodies.begin(), bodies.end(),
                    [&](const SeenBody& a, const SeenBody& b) { return distance(a) < distance(b); });
-  double radius = 0;  // about the centre, of the bodies so far
+  double radius = 0;  // the radius about the centre that contains the bodies so far
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const double nearest = distance(bodies[i]) - bodies[i].radius();
     // At least half of the bodies must be nearer.
@@ -111,7 +111,7 @@ void DropFarAway(std::vector<SeenBody>& bodies) {
   }
 }
 
-// The bodies without the ground, unless there is only ground.
+// Returns the bodies without the ground, unless there is only ground.
 std::vector<const Seen*> WhatStands(const std::vector<SeenBody>& bodies) {
   std::vector<const Seen*> all, standing;
   Bounds of_all = Nothing(), of_standing = Nothing();
@@ -128,7 +128,7 @@ std::vector<const Seen*> WhatStands(const std::vector<SeenBody>& bodies) {
   return standing.empty() || !is_ground_large ? all : standing;
 }
 
-// The lowest visible point in the model's frame, at zero joint positions.
+// Returns the height of the lowest visible point in the model's frame, with all joints at zero.
 double LowestToSee(const model::Model& model) {
   double lowest = kBoundless;
   for (const model::Link& link : model.links) {

@@ -1,4 +1,4 @@
-// The part of a world that an overview image shows.
+// Finds the part of a world that an overview image shows.
 #pragma once
 
 #include <vector>
@@ -8,15 +8,16 @@
 
 namespace gsv::app {
 
-// The corners, in the world, of the boxes around all visible bodies. Left out are infinite planes,
-// ground that reaches far beyond the bodies on it, and bodies so far away that the others would be
-// too small to see. If nothing is left, a box of 2 m about the origin. Never empty.
+// Returns the corners, in the world, of the boxes around all visible bodies. It ignores infinite
+// planes, ground that reaches far beyond the bodies on it, and bodies so far away that the others
+// would be too small to see. If no body remains, it returns a box of 2 m about the origin. Never
+// empty.
 std::vector<geometry::Vector3> CornersToShow(const world::Snapshot& snapshot);
 
-// Whether a world is a single model, as it is read if a model is given as a world: it has at most a
-// ground besides.
+// Whether a world consists of a single model and at most a ground. A model that is given as a world
+// is read so.
 bool IsModelAlone(const model::WorldDescription& world);
-// Places such a model on the ground, since the origin of a model may be anywhere in it.
+// Places such a model on the ground, because the origin of a model may be anywhere in it.
 void StandModelOnGround(model::WorldDescription& world);
 
 }  // namespace gsv::app

@@ -21,7 +21,7 @@ world::Body BoxAt(const char* name, const Vector3& size, const Vector3& centre) 
   return body;
 }
 
-// The box that an image of these bodies shows.
+// Returns the box that an image of these bodies shows.
 geometry::Bounds Shown(std::vector<world::Body> bodies) {
   world::Snapshot snapshot;
   snapshot.layout =

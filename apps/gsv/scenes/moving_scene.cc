@@ -17,7 +17,7 @@ namespace {
 using geometry::PlanarPose;
 using geometry::Vector3;
 
-constexpr double kEyeHeight = 1.1;  // m
+constexpr double kEyeHeight = 1.1;  // in m
 constexpr int kMaxScenePlacements = 2000;
 
 class DriveInCircles final : public Controller {
@@ -31,7 +31,7 @@ std::shared_ptr<simulation::BehaviourPort> Circles() {
       "circles", [] { return std::make_unique<DriveInCircles>(); });
 }
 
-// Makes collision shapes visible, on a floor.
+// Returns the square of the crowd with visible collision shapes, and with a floor.
 std::shared_ptr<const model::WorldDescription> VisibleSquare(int robots) {
   auto world = std::make_shared<model::WorldDescription>(*CrowdWorld(robots, 1));
   for (model::PlacedModel& placed : world->models) {
@@ -59,7 +59,7 @@ void CollideWithVisuals(model::WorldDescription& world) {
     if (!placed.is_static) continue;
     auto model = std::make_shared<model::Model>(*placed.model);
     for (model::Link& link : model->links) {
-      // Removes infinite shapes, which would be drawn at their full size, and collide everywhere.
+      // Removes infinite shapes, which would be drawn at their full size and collide everywhere.
       std::erase_if(link.collisions, [](const model::Collision& collision) {
         return !std::holds_alternative<geometry::Plane>(collision.shape);
       });
@@ -147,7 +147,7 @@ std::vector<rendering::CameraView> MovingScene::RobotViews(
     const int body = snapshot.layout->Find(robots[static_cast<std::size_t>(i % n)]);
     const geometry::Pose& world_from_robot =
         snapshot.state.bodies[static_cast<std::size_t>(body)].world_from_model;
-    const int earlier = i / n;  // cameras on the same robot
+    const int earlier = i / n;  // the number of earlier cameras on the same robot
     const double yaw = 0.5 * std::sin(0.7 * t + i) + 2.1 * earlier;
     const geometry::Pose robot_from_camera{{0.13 * std::cos(yaw), 0.13 * std::sin(yaw), kEyeHeight},
                                            geometry::FromRollPitchYaw({0, 0.1, yaw})};
@@ -165,7 +165,7 @@ std::vector<rendering::CameraView> MovingScene::Overviews(
         snapshot.state.bodies[static_cast<std::size_t>(body)].world_from_model.position;
     radius = std::max(radius, std::hypot(p.x, p.y));
   }
-  // From 45° above, the smaller of the two fields of view covers the circle of the robots.
+  // From 45° above, the smaller of the two fields of view must cover the circle of the robots.
   const double half_height = std::min(1.0, static_cast<double>(camera.height) / camera.width) *
                              std::tan(0.5 * camera.horizontal_fov);
   const double distance = radius / std::sin(std::atan(half_height));

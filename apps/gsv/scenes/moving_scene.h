@@ -12,25 +12,25 @@
 namespace gsv::app {
 
 struct MovingSceneOptions {
-  std::string world = "office";  // as for `gsv run`, or "square": that of the crowd, with a floor
+  std::string world = "office";  // as for `gsv run`, or "square" for that of the crowd with a floor
   std::string model = "b21r";
   int robots = 50;
   simulation::Mode mode = simulation::Mode::kRealTime;
-  // Static bodies collide with their visuals, mesh by mesh, instead of their simpler collision
-  // shapes.
+  // Whether static bodies collide with their visuals, mesh by mesh, and not with their simpler
+  // collision shapes.
   bool collide_with_visuals = false;
 };
 
 struct MovingScene {
-  // Robots get the first free places on a spiral about the origin; on the square, those of the
-  // crowd.
+  // Creates the scene. Robots get the first free places on a spiral about the origin, or those of
+  // the crowd on the square.
   static base::Result<MovingScene> Create(const MovingSceneOptions& options);
 
-  // Views from the robots' heads in changing directions; several cameras of a robot look several
-  // ways.
+  // Returns views from the robots' heads in changing directions. Several cameras of one robot look
+  // in different directions.
   std::vector<rendering::CameraView> RobotViews(const world::Snapshot& snapshot, int count,
                                                 const rendering::CameraParameters& camera) const;
-  // Circling views from above, at such a distance that all robots are in view.
+  // Returns views from above that circle, at such a distance that all robots are visible.
   std::vector<rendering::CameraView> Overviews(const world::Snapshot& snapshot, int count,
                                                const rendering::CameraParameters& camera) const;
 
@@ -38,7 +38,7 @@ struct MovingScene {
   std::vector<std::string> robots;
 };
 
-// The number of visible triangles.
+// Returns the number of visible triangles.
 std::uint64_t TrianglesIn(const world::Layout& layout);
 // The objects that rays can hit: the triangles of meshes, and other shapes.
 struct Solids {

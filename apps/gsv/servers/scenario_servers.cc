@@ -17,9 +17,11 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr std::size_t kMaxScenarioServers = 1000;
-constexpr int kMaxLostServers = 5;  // lost one after the other with the same run
+// how many servers may be lost one after the other with the same run
+constexpr int kMaxLostServers = 5;
 constexpr seconds kRefreshPeriod{1}, kSilence{10}, kAvoidLost{30}, kWithoutServers{60};
-constexpr milliseconds kServerCallTimeout{5000};  // the server answers a wait for the end after two
+// the server answers a wait for the end after two seconds
+constexpr milliseconds kServerCallTimeout{5000};
 
 base::Error NoServers(const std::string& broker, const std::string& constraint) {
   return {base::ErrorCode::kUnavailable,
@@ -34,8 +36,9 @@ class LostServerCheck {
  public:
   bool IsLostAfter(const base::Error& error) {
     ++failures_;
-    if (error.code == base::ErrorCode::kEnded) return true;  // it was restarted, or dropped the run
-    // A broken connection is no proof, but a port that then refuses connections is: the process has
+    // the server was restarted, or dropped the run
+    if (error.code == base::ErrorCode::kEnded) return true;
+    // A broken connection proves nothing. If the port then refuses connections, the process has
     // ended.
     if (error.code != base::ErrorCode::kTimeout && failures_ > 1) return true;
     return Clock::now() - heard_ >= kSilence;
@@ -90,7 +93,7 @@ ScenarioServers::~ScenarioServers() {
 base::Status ScenarioServers::Refresh() {
   auto offers = broker_.Query(broker::ScenarioServiceType().name, constraint_, "min load",
                               kMaxScenarioServers);
-  // A broker with which no such server has ever registered does not know the type.
+  // A broker does not know the type if no such server has ever registered with it.
   if (!offers && offers.error().code == base::ErrorCode::kNotFound) offers.emplace();
   const base::MutexLock lock(mutex_);
   is_refreshing_ = false;
@@ -140,7 +143,7 @@ std::shared_ptr<ScenarioServers::Server> ScenarioServers::Acquire(
     if (!is_refreshing_ && Clock::now() - refreshed_ >= kRefreshPeriod) {
       is_refreshing_ = true;
       lock.unlock();
-      (void)Refresh();  // if the broker is away, uses the known servers
+      (void)Refresh();  // if the broker does not answer, the known servers are used
       lock.lock();
     }
     if (auto server = Roomiest()) {
@@ -228,7 +231,8 @@ ScenarioServers::Ending ScenarioServers::RunAt(Server& server, const std::string
     lost_check.RecordAnswer();
     if (*outcome == nullptr) continue;
     result = std::move(**outcome);
-    (void)orb::Call(server.name, [&] { run->destroy(); });  // otherwise it is dropped after a time
+    // if this fails, the server drops the run after a time
+    (void)orb::Call(server.name, [&] { run->destroy(); });
     return Ending::kDone;
   }
   (void)orb::Call(server.name, [&] { run->destroy(); });

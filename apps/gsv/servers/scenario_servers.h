@@ -1,11 +1,11 @@
-// Servers that run scenarios for others, found through a broker: for campaigns with more runs than
-// one machine can do.
+// Servers that run scenarios for other processes, found through a broker. They serve campaigns that
+// have more runs than one machine can do.
 //
-// Servers may join and leave during the work: the broker is queried about once a second. A server
-// that was killed, or that cannot be reached for ten seconds, is lost, and its runs in progress are
+// Servers may be added and removed during the work: the broker is queried about once a second. A
+// server is lost if it was killed, or cannot be reached for ten seconds. Its runs in progress are
 // given to another server.
 //
-// Threads  any number call Run(), each for its own run.
+// Threads  any number may call Run(), each for its own run.
 #pragma once
 
 #include <atomic>
@@ -23,28 +23,29 @@ namespace gsv::app {
 
 class ScenarioServers {
  public:
-  // `constraint`: over the properties of gsv::ScenarioService (docs/services.md); empty: any.
-  // kUnavailable if there is none. Starts this process's ORB.
+  // Finds the servers. `constraint` uses the properties of gsv::ScenarioService (docs/services.md),
+  // and may be empty. Returns kUnavailable if there is no server. Starts this process's ORB.
   static base::Result<std::unique_ptr<ScenarioServers>> Find(const std::string& broker,
                                                              const std::string& constraint);
   ~ScenarioServers();
 
-  // Runs the scenario on the server with most free slots, and waits for a slot. Returns the
-  // outcome: status, message, report, wall-clock time. kInterrupted if the run was cancelled or no
-  // servers are left.
+  // Runs the scenario on the server with most free slots; waits until a slot is free. Returns the
+  // outcome: status, message, report, wall-clock time. Returns kInterrupted if the run was
+  // cancelled or no servers are left.
   TestResult Run(const std::string& scenario, double timeout,
                  const std::atomic<bool>& is_cancelled);
 
-  // The reason for giving up: there was no server for a minute. Empty: it has not given up.
+  // The reason for giving up: there was no server for a minute. Empty if it has not given up.
   std::string failure() const;
 
  private:
   using Clock = std::chrono::steady_clock;
   struct Server {
-    std::string key, name;  // its reference; its name for users
+    std::string key, name;  // its reference, and its name for users
     sba::ScenarioService_var service;
     int slots = 0, given = 0;
-    Clock::time_point avoided_until{};  // it was lost, or has no free slot
+    // the time until which it gets no runs, because it was lost or has no free slot
+    Clock::time_point avoided_until{};
   };
   enum class Ending { kDone, kNoRoom, kLost };
 
@@ -54,7 +55,8 @@ class ScenarioServers {
   base::Status Refresh();
   void Merge(const std::vector<broker::FoundOffer>& offers) GSV_REQUIRES(mutex_);
   std::shared_ptr<Server> Acquire(const std::atomic<bool>& is_cancelled);
-  std::shared_ptr<Server> Roomiest() GSV_REQUIRES(mutex_);  // null: none has a free slot
+  // Returns the server with most free slots, or null if none has a free slot.
+  std::shared_ptr<Server> Roomiest() GSV_REQUIRES(mutex_);
   void Release(Server& server, Ending ending);
   Ending RunAt(Server& server, const std::string& scenario, double timeout,
                const std::atomic<bool>& is_cancelled, TestResult& result);
@@ -68,7 +70,7 @@ class ScenarioServers {
       GSV_GUARDED_BY(mutex_);  // in the order of the broker
   bool is_refreshing_ GSV_GUARDED_BY(mutex_) = false;
   Clock::time_point refreshed_ GSV_GUARDED_BY(mutex_){},
-      served_{};  // served_: when a server existed last
+      served_{};  // the last time at which a server existed
   std::string failure_ GSV_GUARDED_BY(mutex_);
 };
 

@@ -23,10 +23,11 @@ using RunClock = std::chrono::steady_clock;
 using RunSeconds = std::chrono::duration<double>;
 
 constexpr std::chrono::milliseconds kRunLease{2000};
-constexpr double kDefaultTimeout = 300, kDefaultAbandoned = 60;  // s of wall-clock time
-constexpr std::size_t kMaxKept = 1000;  // runs, including those whose outcome nobody has fetched
+constexpr double kDefaultTimeout = 300, kDefaultAbandoned = 60;  // wall-clock time, s
+// number of runs, including those whose outcome no client has fetched
+constexpr std::size_t kMaxKept = 1000;
 
-// Checks that a server can run the scenario; otherwise throws Refused with the reason.
+// Checks that a server can run the scenario. Otherwise throws Refused with the reason.
 void RefuseUnlessRunnable(const std::string& text) {
   base::Problems problems;
   const auto scenario = orb::ValueOrThrow(scenario::ParseScenario(text, "scenario", problems),
@@ -148,7 +149,7 @@ class ScenarioRunServant final : public POA_sba::ScenarioRun {
   mutable base::Mutex mutex_;
   base::ConditionVariable ended_;
   std::optional<TestResult> result_ GSV_GUARDED_BY(mutex_);
-  std::jthread thread_;  // the last member: it uses all others
+  std::jthread thread_;  // the last member, because the thread uses all others
 };
 
 namespace {
@@ -197,7 +198,7 @@ int ScenarioServiceServant::under_way() const {
 void ScenarioServiceServant::Forget(ScenarioRunServant* run) {
   {
     const base::MutexLock lock(mutex_);
-    if (runs_.erase(run) == 0) return;  // another thread has
+    if (runs_.erase(run) == 0) return;  // another thread has removed it
   }
   const PortableServer::ObjectId_var id = poa_->servant_to_id(run);
   poa_->deactivate_object(id);
@@ -218,7 +219,7 @@ void ScenarioServiceServant::EndAbandoned() {
       run->Cancel();
       Forget(run.in());
     }
-    abandoned.clear();  // waits for the end of the runs
+    abandoned.clear();  // the destructors wait for the end of the runs
     lock.lock();
   }
 }

@@ -1,6 +1,7 @@
-// Implements sba::ScenarioService: whole scenarios, each run in a child process, as by `gsv test`.
+// Implements sba::ScenarioService. It runs whole scenarios, each in a child process, as `gsv test`
+// does.
 //
-// Threads  ORB threads; one more per run, and one that ends abandoned runs.
+// Threads  those of the ORB, one more per run, and one that ends abandoned runs.
 #pragma once
 
 #include <set>
@@ -16,14 +17,14 @@ class ScenarioRunServant;
 
 class ScenarioServiceServant final : public POA_sba::ScenarioService {
  public:
-  // `capacity`: number of concurrent runs; 0: none.
+  // `capacity` is the number of concurrent runs, or 0 for none.
   ScenarioServiceServant(PortableServer::POA_ptr poa, int capacity);
   ~ScenarioServiceServant() override;
 
   sba::ScenarioRun_ptr run(const char* scenario, const sba::NameValues& options) override;
 
   int under_way() const;
-  // Ends all runs; later calls on their references fail.
+  // Ends all runs. Later calls on their references fail.
   void Close();
 
  private:
@@ -37,7 +38,7 @@ class ScenarioServiceServant final : public POA_sba::ScenarioService {
   mutable base::Mutex mutex_;
   base::ConditionVariable closing_changed_;
   bool closing_ GSV_GUARDED_BY(mutex_) = false;
-  std::set<ScenarioRunServant*> runs_ GSV_GUARDED_BY(mutex_);  // the POA holds them
+  std::set<ScenarioRunServant*> runs_ GSV_GUARDED_BY(mutex_);  // owned by the POA
   std::jthread janitor_;
 };
 

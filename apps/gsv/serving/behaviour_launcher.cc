@@ -22,8 +22,8 @@ constexpr std::chrono::seconds kStartTimeout{60};
 constexpr int kMaxPrograms = 64;
 
 struct FoundProgram {
-  std::string path;         // empty: there is no program that can be started
-  std::string unstartable;  // the first file of that name that is not executable
+  std::string path;         // empty if there is no program that can be started
+  std::string unstartable;  // the first file with that name that is not executable
 };
 
 FoundProgram FindProgram(const std::string& name) {

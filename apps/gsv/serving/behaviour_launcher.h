@@ -13,25 +13,25 @@
 
 namespace gsv::app {
 
-// The behaviours whose programs gsv-NAME lie beside this one, in alphabetical order.
+// Returns the behaviours whose programs gsv-NAME are beside this program, in alphabetical order.
 std::vector<std::string> BehaviourPrograms();
 
 class BehaviourLauncher {
  public:
-  // `broker` must outlive this.
+  // `broker` must outlive this object.
   explicit BehaviourLauncher(broker::BrokerClient& broker) : broker_(broker) {}
-  // Ends the programs: SIGTERM to all at once, and SIGKILL to those that still run after the time
-  // limit.
+  // Ends the programs. Sends SIGTERM to all at once, and SIGKILL to those that still run after the
+  // time limit.
   ~BehaviourLauncher();
   BehaviourLauncher(const BehaviourLauncher&) = delete;
   BehaviourLauncher& operator=(const BehaviourLauncher&) = delete;
 
-  // Wall-clock time limit for all programs together to end (default: 2 s).
+  // Sets the wall-clock time limit for all programs together to end (default: 2 s).
   void SetEndTimeout(std::chrono::milliseconds timeout) { end_timeout_ = timeout; }
 
   // Makes sure that the behaviour is offered. If it is not, starts `programs` processes of
   // gsv-NAME, which is beside this program or on PATH, and waits until they offer it. `behaviour`
-  // is a name and, after blanks, options for the program; the whole text is the name of the offer.
+  // is a name and, after spaces, options for the program. The whole text is the name of the offer.
   base::Status Ensure(const std::string& behaviour, int programs);
 
  private:

@@ -22,9 +22,9 @@ using gateway::Response;
 using nlohmann::ordered_json;
 
 constexpr std::chrono::seconds kTimeout{3};
-constexpr std::size_t kShown = 200;  // offers of one kind: those that match, and the others
+constexpr std::size_t kShown = 200;  // maximum number of offers that match, and of others
 
-// The output of `print`, one JSON value per line.
+// Returns the output of `print` as a list; each line is one JSON value.
 template <typename Print>
 ordered_json Values(const Print& print) {
   std::stringstream lines;

@@ -1,4 +1,4 @@
-// The requests of the viewer's broker page, over HTTP:
+// Serves the requests of the viewer's broker page over HTTP:
 //   GET /api/broker/types   the service types
 //   GET /api/broker/offers?type=&constraint=&preference=
 //                           offers of a type: matches, and for the others the term that failed

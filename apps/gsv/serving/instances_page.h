@@ -1,8 +1,8 @@
-// The request of the viewer's page "Join", over HTTP:
+// Serves the request of the viewer's page "Join" over HTTP:
 //   GET /api/instances   every gsv that the broker knows, and its simulations
 //
-// Threads  any. One query of the instances runs at a time; other requests meanwhile get the last
-//          answer.
+// Threads  any. One query of the instances runs at a time. Other requests during that time get the
+//          last answer.
 #pragma once
 
 #include <string>

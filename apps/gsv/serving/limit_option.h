@@ -11,9 +11,9 @@ class Option;
 
 namespace gsv::app {
 
-// `limits` must outlive the parsing.
+// Adds the option. `limits` must outlive the parsing.
 CLI::Option* AddLimitOption(CLI::App& command, formats::ReadLimits& limits);
-// The same for commands that serve simulations.
+// Adds the option for commands that serve simulations.
 CLI::Option* AddLimitOption(CLI::App& command, formats::ReadLimits& limits, ServerLimits& server);
 
 }  // namespace gsv::app

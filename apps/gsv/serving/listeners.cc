@@ -29,7 +29,8 @@ std::string ReadWhole(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Converts "0100007F" and the like: 32-bit words of the address in this machine's byte order.
+// Converts a text such as "0100007F", which has 32-bit words of the address in this machine's byte
+// order.
 std::string AddressText(std::string_view hex) {
   std::array<std::uint32_t, 4> words{};
   const std::size_t count = hex.size() / 8;
@@ -48,7 +49,7 @@ void AddUnixSockets(std::string_view table, SocketsByInode& sockets) {
   constexpr std::string_view kAcceptsConnections = "00010000";
   std::istringstream lines{std::string(table)};
   std::string line;
-  std::getline(lines, line);  // its heading
+  std::getline(lines, line);  // skips the heading
   while (std::getline(lines, line)) {
     std::istringstream fields(line);
     std::string address, references, protocol, flags, type, state, path;
@@ -88,13 +89,13 @@ std::vector<Listener> ListenersOf(const fs::path& process) {
   return listeners;
 }
 
-// The sockets of a state in a table of TCP or UDP, by inode.
+// Returns the sockets of a state in a table of TCP or UDP, by inode.
 std::vector<std::pair<std::uint64_t, Listener>> ParseInternetTable(std::string_view table,
                                                                    std::string_view wanted) {
   std::vector<std::pair<std::uint64_t, Listener>> sockets;
   std::istringstream lines{std::string(table)};
   std::string line;
-  std::getline(lines, line);  // its heading
+  std::getline(lines, line);  // skips the heading
   while (std::getline(lines, line)) {
     std::istringstream fields(line);
     std::string number, local, remote, state, queues, timer, retransmits, uid, timeout;
@@ -125,11 +126,12 @@ bool Listener::IsLocal() const {
 }
 
 std::vector<std::pair<std::uint64_t, Listener>> ParseSocketTable(std::string_view table) {
-  return ParseInternetTable(table, "0A");  // it listens
+  return ParseInternetTable(table, "0A");  // 0A is the state of a listening socket
 }
 
 std::vector<std::pair<std::uint64_t, Listener>> ParseDdsSockets(std::string_view table) {
-  auto sockets = ParseInternetTable(table, "07");  // it is connected to nobody
+  // 07 is the state of a socket that is not connected
+  auto sockets = ParseInternetTable(table, "07");
   std::erase_if(sockets, [](const auto& socket) {
     return socket.second.port < kFirstDdsPort || socket.second.port > kLastDdsPort;
   });

@@ -12,27 +12,29 @@
 namespace gsv::app {
 
 struct Listener {
-  std::string address;     // "127.0.0.1", "0.0.0.0", "::"; or the path of a Unix domain socket
-  std::uint16_t port = 0;  // 0: a Unix domain socket
-  bool is_dds = false;     // a UDP socket of ROS 2
+  // such as "127.0.0.1", "0.0.0.0" or "::"; or the path of a Unix domain socket
+  std::string address;
+  std::uint16_t port = 0;  // 0 for a Unix domain socket
+  bool is_dds = false;     // whether it is a UDP socket of ROS 2
 
-  bool IsLocal() const;  // only this machine can reach it
+  bool IsLocal() const;  // Whether only this machine can reach it.
 };
 
 struct ListeningProcess {
   pid_t pid = 0;
-  std::vector<std::string> arguments;  // without tokens
+  std::vector<std::string> arguments;  // tokens are removed
   std::string folder;                  // its working directory
   std::vector<Listener> listeners;
 };
 
-// By pid. Processes of other users are not found, nor those that end meanwhile.
+// Returns the processes by pid. It does not find processes of other users, and those that end
+// during the search.
 std::vector<ListeningProcess> FindListeningProcesses();
 
-// The listening sockets in a table of the form of /proc/net/tcp and tcp6, by inode.
+// Returns the listening sockets in a table of the form of /proc/net/tcp and tcp6, by inode.
 std::vector<std::pair<std::uint64_t, Listener>> ParseSocketTable(std::string_view table);
-// The sockets at ports of DDS in a table of the form of /proc/net/udp, by inode. Ports of domains
-// above 101 are left out, as they are among the kernel's ephemeral ports.
+// Returns the sockets at ports of DDS in a table of the form of /proc/net/udp, by inode. Ports of
+// domains above 101 are ignored, because they are among the kernel's ephemeral ports.
 std::vector<std::pair<std::uint64_t, Listener>> ParseDdsSockets(std::string_view table);
 
 }  // namespace gsv::app

@@ -33,7 +33,7 @@ using gateway::Route;
 struct Operation {
   std::string summary, permission;
   bool needs_control = false;
-  std::set<std::string> parameters;  // of the path
+  std::set<std::string> parameters;  // the parameters in the path
 
   friend bool operator==(const Operation&, const Operation&) = default;
   friend std::ostream& operator<<(std::ostream& out, const Operation& operation) {
@@ -43,12 +43,12 @@ struct Operation {
     return out << "}";
   }
 };
-// By "METHOD /path/{parameter}".
+// The key is "METHOD /path/{parameter}".
 using Operations = std::map<std::string, Operation>;
 
 const std::string kFile = std::string(std::getenv("GSV_SOURCE_DIR")) + "/docs/api.yaml";
 
-// The path parameters that a description declares as required.
+// Adds the path parameters that a description declares as required.
 void AddDeclared(const YAML::Node& file, const YAML::Node& parameters,
                  std::set<std::string>& declared) {
   for (const YAML::Node& each : parameters) {
@@ -89,7 +89,8 @@ const char* Spelling(Permission permission) {
                                             : "control";
 }
 
-// "{path...}" is {path} in a description, whose parameters are single segments.
+// Returns the path as a description has it, with {path} for "{path...}". Its parameters are single
+// segments.
 std::string AddressOf(const Route& route) {
   return route.method + " " + std::regex_replace(route.pattern, std::regex(R"(\.\.\.\})"), "}");
 }
@@ -112,7 +113,7 @@ class NoRecordings final : public gateway::RecordingSwitch {
   State RecordingOf(const std::string&) override { return {}; }
 };
 
-// A gateway for each of the three sets of routes, with everything that programs serve.
+// Starts a gateway for each of the three sets of routes, with everything that programs serve.
 class OpenApiTest : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -19,7 +19,8 @@ constexpr std::chrono::milliseconds kBrokerTimeout{3000};
 // Stopping and resetting wait for behaviours, which have 10 s for each call.
 constexpr std::chrono::milliseconds kCallTimeout{30'000};
 constexpr std::size_t kMaxOfferedServers = 1000;
-constexpr std::size_t kMaxInstances = 64;  // that are called at the same time
+// maximum number of instances that are called at the same time
+constexpr std::size_t kMaxInstances = 64;
 
 std::string TextOf(const broker::PropertyList& properties, const char* name) {
   const broker::Value* value = properties.Find(name);
@@ -74,7 +75,7 @@ base::Status AddSimulationsAt(CORBA::ORB_ptr orb, const std::string& reference,
   const auto offers =
       client->Query(broker::SimulationServiceType().name, "", "first", kMaxOfferedServers);
   if (!offers) {
-    // No simulation was offered there so far.
+    // No simulation has been offered there so far.
     if (offers.error().code == base::ErrorCode::kNotFound) return {};
     return base::Fail(offers.error());
   }
@@ -87,7 +88,7 @@ base::Status AddSimulationsAt(CORBA::ORB_ptr orb, const std::string& reference,
   return {};
 }
 
-// Every broker once; those of the newest instances first.
+// Returns every broker once. Those of the newest instances come first.
 std::vector<std::string> BrokersOfInstances() {
   std::vector<std::string> brokers;
   for (const Instance& instance : RunningInstances()) {
@@ -158,7 +159,7 @@ base::Result<std::vector<RemoteInstance>> ListInstances(CORBA::ORB_ptr orb,
         instance.simulations.push_back(std::move(simulation.status));
     });
   }
-  askers.clear();  // each ends by its time-outs
+  askers.clear();  // each thread ends after its timeouts
   return instances;
 }
 
@@ -209,7 +210,7 @@ base::Result<RemoteServer> FindOneInstance(const Selection& selection) {
                                                kMaxOfferedServers)
                                : base::Fail(client.error());
     if (!offers && is_named) return base::Fail(offers.error());
-    if (!offers) continue;  // the user's own instances may just have ended
+    if (!offers) continue;  // an instance of the user may just have ended
     for (const broker::FoundOffer& offer : *offers) {
       RemoteServer server = ServerFrom(offer.properties, client->reference());
       if (IsMeant(selection, server)) found.push_back(std::move(server));

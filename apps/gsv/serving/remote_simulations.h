@@ -1,7 +1,7 @@
 // Finds the simulations on the servers of brokers, for the command line.
 //
 // Errors   see broker::BrokerClient.
-// Threads  one at a time. Starts this process's ORB.
+// Threads  one at a time. The functions start this process's ORB.
 #pragma once
 
 #include <string>
@@ -14,11 +14,11 @@
 namespace gsv::app {
 
 struct RemoteServer {
-  std::string name;   // "gsv run"
-  std::string place;  // "host:pid"
+  std::string name;   // such as "gsv run"
+  std::string place;  // the process as "host:pid"
   std::string pid;
-  std::string viewer_url;  // empty: none
-  std::string broker;      // the broker that offers it
+  std::string viewer_url;  // empty if it has no viewer
+  std::string broker;      // the reference of the broker that offers it
 
   std::string Describe() const { return name + " (" + place + ")"; }
 };
@@ -26,37 +26,37 @@ struct RemoteServer {
 struct FoundSimulation {
   RemoteServer server;
   sba::Simulation_var reference;
-  simulation::SimulationStatus status;  // at the time of the search
+  simulation::SimulationStatus status;  // the status at the time of the search
 };
 
 // Selects simulations.
 struct Selection {
-  std::string broker;      // empty: the brokers of this user's running instances, the newest first
-  std::string server;      // empty: any; else an offer's name, its pid or "host:pid"
-  std::string simulation;  // empty: any
+  std::string broker;  // empty for the brokers of this user's running instances, the newest first
+  std::string server;  // an offer's name, its pid or "host:pid"; empty for any server
+  std::string simulation;  // empty for any simulation
 };
 
-// Adds a sentence to `silent` for each server that does not answer. A broker that does not answer
-// is an error if it was named.
+// Finds the selected simulations. Adds a sentence to `silent` for each server that does not answer.
+// If a broker was named and does not answer, this is an error.
 base::Result<std::vector<FoundSimulation>> FindSimulations(const Selection& selection,
                                                            std::vector<std::string>& silent);
 
-// The selected simulation. Without a selection: that of the newest instance.
+// Returns the selected simulation. If nothing is selected, it is that of the newest instance.
 base::Result<FoundSimulation> FindOneSimulation(const Selection& selection);
 
-// The selected instance, whether it runs a simulation or not. Without a selection: this user's
-// newest.
+// Returns the selected instance, even if it runs no simulation. If nothing is selected, it is this
+// user's newest instance.
 base::Result<RemoteServer> FindOneInstance(const Selection& selection);
 
-// A server that a broker offers, and its simulations.
+// A server that a broker offers, with its simulations.
 struct RemoteInstance {
   RemoteServer server;
   std::vector<simulation::SimulationStatus> simulations;
-  std::string problem;  // why they are not known; empty: no problem
+  std::string problem;  // the reason why the simulations are not known; empty if they are
 };
 
-// Queries all servers that a broker offers, at most 64, at the same time. Takes a few seconds if
-// some do not answer. Any thread.
+// Queries at the same time all servers that a broker offers, at most 64. Takes a few seconds if
+// some do not answer. Any thread may call it.
 base::Result<std::vector<RemoteInstance>> ListInstances(CORBA::ORB_ptr orb,
                                                         const std::string& broker);
 

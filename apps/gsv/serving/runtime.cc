@@ -27,7 +27,7 @@
 namespace gsv::app {
 namespace {
 
-// It takes 0.1 s, but must also succeed on a very busy machine.
+// Starting a broker takes 0.1 s, but must also succeed on a very busy machine.
 constexpr std::chrono::seconds kBrokerStartTimeout{60};
 // Time limit for the programs of behaviours to end if somebody waits for it.
 constexpr std::chrono::milliseconds kHurriedPrograms{500};
@@ -123,7 +123,7 @@ base::Status Runtime::StartBroker(const RuntimeOptions& options) {
   if (!normalised) return base::Fail(normalised.error());
   orb::OrbOptions orb_options;
   orb_options.local_socket = true;
-  orb_options.check_request = &broker::CheckRequest;  // evalDP requests the load
+  orb_options.check_request = &broker::CheckRequest;  // the load is requested by calls of evalDP
   if (const std::string host = broker::HostOf(*normalised); !host.empty()) {
     auto local = orb::LocalAddressTowards(host);
     if (!local) return base::Fail(local.error());
@@ -242,7 +242,8 @@ void Runtime::EndSoon() {
 
 Runtime::~Runtime() {
   record_.reset();
-  for (const std::string& offer : offers_) (void)broker_->Withdraw(offer);  // it may have ended
+  // a call may fail, because the broker may have ended
+  for (const std::string& offer : offers_) (void)broker_->Withdraw(offer);
   if (scenarios_.in() != nullptr) scenarios_->Close();
   gateway_.reset();
   ros2_.reset();
@@ -251,10 +252,10 @@ Runtime::~Runtime() {
     for (const auto& simulation : host_->List()) (void)simulation->Stop();
   }
   if (recordings_ != nullptr) recordings_->StopAll();
-  lost_.reset();  // from here on nothing is reported as lost
+  lost_.reset();  // from here on no simulation is reported as lost
   if (service_.in() != nullptr) service_->Close();
   if (host_ != nullptr) {
-    // Ending a simulation calls its behaviours, so it comes before their programs end.
+    // Ending a simulation calls its behaviours, so this happens before their programs end.
     for (const auto& simulation : host_->List())
       (void)host_->Remove(simulation->specification().name);
   }

@@ -1,5 +1,5 @@
 // The parts of a gsv process that runs simulations: an ORB, a broker (its own or an existing one),
-// sensors with a renderer, simulations, behaviours, the services, the gateway.
+// sensors with a renderer, simulations, behaviours, the services, and the gateway.
 //
 // Threads  created and destroyed on the main thread.
 #pragma once
@@ -32,19 +32,20 @@ class Recordings;
 class SimulationBuilder;
 
 struct RuntimeOptions {
-  std::string broker;      // empty: a broker of its own, on loopback, for as long as this lives
-  bool has_broker = true;  // false: no behaviours over CORBA, no services, no viewer
+  std::string broker;  // the reference of a broker; if empty, it starts its own one, on loopback
+  // if false, there are no behaviours over CORBA, no services and no viewer
+  bool has_broker = true;
   std::vector<std::filesystem::path> model_path;
-  std::map<std::string, std::string> drives;  // by model, see ReadOptions::drives
-  // A library that has read files already, with these options; null: a new one.
+  std::map<std::string, std::string> drives;  // drives by model, see ReadOptions::drives
+  // A library that has already read files with these options; null for a new one.
   std::shared_ptr<formats::ModelLibrary> library;
   SensorTypeOptions sensors;
   formats::ReadLimits limits;
   ServerLimits server_limits;
   bool viewer = true;
   ViewerOptions web;
-  std::optional<ros2::Options> ros2;  // empty: no ROS 2
-  // The name of a server whose crash is reported by the next start; empty: no crash reports.
+  std::optional<ros2::Options> ros2;  // empty if there is no ROS 2 bridge
+  // The name of the server, whose crash the next start reports. Empty if it needs no crash reports.
   std::string noted_as;
 };
 
@@ -58,15 +59,15 @@ class Runtime {
   BehaviourLauncher& launcher() { return *launcher_; }
   broker::BrokerClient& broker() { return *broker_; }
   Recordings& recordings() { return *recordings_; }
-  Ros2Access* ros2() { return ros2_.get(); }                     // null: no ROS 2
-  const std::string& viewer_url() const { return viewer_url_; }  // empty: none
+  Ros2Access* ros2() { return ros2_.get(); }  // Null if there is no ROS 2 bridge.
+  const std::string& viewer_url() const { return viewer_url_; }  // Empty if there is no viewer.
 
   // Registers sba::SimulationService, with the existing simulations, at the broker for the lifetime
-  // of this. Writes a note for this user's other commands. If `scenarios` > 0, also registers
-  // sba::ScenarioService for that number of concurrent scenarios.
+  // of this object. Writes a note for this user's other commands. If `scenarios` > 0, it also
+  // registers sba::ScenarioService for that number of concurrent scenarios.
   base::Status OfferService(const std::string& name, int scenarios = 0);
 
-  // Call it when the process must end: behaviours that do not return have one more second.
+  // Call this when the process must end. Behaviours that do not return get one more second.
   void EndSoon();
 
  private:
@@ -81,7 +82,7 @@ class Runtime {
   std::unique_ptr<broker::BrokerClient> broker_;
   std::shared_ptr<services::SimulationHost> host_;
   std::unique_ptr<Recordings> recordings_;
-  std::unique_ptr<LostSimulations> lost_;  // null: no crash reports
+  std::unique_ptr<LostSimulations> lost_;  // null if there are no crash reports
   std::unique_ptr<services::BrokerBehaviours> behaviours_;
   std::unique_ptr<BehaviourLauncher> launcher_;
   std::unique_ptr<SimulationBuilder> builder_;
@@ -91,7 +92,7 @@ class Runtime {
   PortableServer::Servant_var<services::SimulationServiceServant> service_;
   PortableServer::Servant_var<ScenarioServiceServant> scenarios_;
   PortableServer::Servant_var<services::ServerLoad> load_;
-  std::vector<std::string> offers_;  // their ids
+  std::vector<std::string> offers_;  // ids of the offers
   std::unique_ptr<InstanceRecord> record_;
 };
 

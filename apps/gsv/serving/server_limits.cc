@@ -8,7 +8,7 @@ namespace {
 
 struct NamedLimit {
   const char* name;
-  std::uint64_t most;  // to which it can be raised
+  std::uint64_t most;  // the value to which the limit can be raised
   void (*set)(ServerLimits&, std::uint64_t);
 };
 

@@ -1,4 +1,4 @@
-// The limits of a server that runs simulations; docs/limits.md lists the names.
+// The limits of a server that runs simulations. docs/limits.md lists the names.
 #pragma once
 
 #include <cstddef>
@@ -20,12 +20,13 @@ struct ServerLimits {
   gateway::recordings::SessionLimits replays;
 };
 
-// Whether there is a limit of that name.
+// Whether there is a limit with that name.
 bool IsServerLimit(const std::string& name);
 std::string ServerLimitNames();
 
-// Sets a limit: "robots=500", for which IsServerLimit("robots") must hold. kInvalidArgument: the
-// number is not positive, or larger than the maximum of that limit.
+// Sets a limit from a text such as "robots=500", for which IsServerLimit("robots") must return
+// true. Returns kInvalidArgument if the number is not positive, or larger than the maximum of that
+// limit.
 base::Status SetServerLimit(const std::string& text, ServerLimits& limits);
 
 }  // namespace gsv::app

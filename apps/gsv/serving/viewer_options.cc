@@ -9,7 +9,7 @@ namespace {
 
 std::function<void(const std::string&)> TakeToken(std::string& token) {
   return [&token](const std::string& text) {
-    // No message may contain the token.
+    // Messages must not contain the token.
     if (const auto good = gateway::access::CheckToken(text); !good) {
       throw CLI::ValidationError(good.error().Sentence());
     }

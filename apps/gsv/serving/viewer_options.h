@@ -1,4 +1,4 @@
-// Options for the viewer of a command: its address, and what it may show besides simulations.
+// Options for the viewer of a command: its address, and what it can show besides simulations.
 #pragma once
 
 #include <functional>
@@ -14,15 +14,16 @@ class App;
 
 namespace gsv::app {
 
-// Groups of options in the help of commands that serve a viewer.
+// The groups of options in the help of commands that serve a viewer.
 inline constexpr const char* kViewerGroup = "Viewer";
 inline constexpr const char* kNetworkGroup = "Network and security";
 
 struct ViewerOptions {
-  int port = -1;                     // 0: the system chooses; -1: the default, or another if in use
-  std::string recordings;            // a folder; empty: the current one
+  // 0 if the system chooses it; -1 for the default, or for another one if that is in use
+  int port = -1;
+  std::string recordings;            // a folder; empty for the current one
   std::string listen = "127.0.0.1";  // an address of this machine
-  std::vector<std::string> names;    // names of this machine that browsers may use for it
+  std::vector<std::string> names;    // the names of this machine that browsers may use for it
   gateway::access::Tokens tokens;
   gateway::TlsFiles tls;
 };
@@ -35,7 +36,7 @@ void AddRecordingsOption(CLI::App& command, ViewerOptions& options);
 // Adds --broker, for commands that start a broker if none is given.
 void AddBrokerOption(CLI::App& command, std::string& broker);
 
-// Starts a gateway if it was requested; `gateway` has the rest of its options.
+// Starts a gateway if the user requested it. `gateway` has the rest of its options.
 base::Result<std::unique_ptr<gateway::Gateway>> StartViewer(
     const ViewerOptions& options, gateway::GatewayOptions gateway,
     const std::function<

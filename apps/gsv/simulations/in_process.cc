@@ -48,7 +48,8 @@ base::Result<std::shared_ptr<simulation::BehaviourPort>> InProcessBehaviour(
   BehaviourFactory factory = (*module)->configure(app);
   try {
     app.parse(
-        std::vector<std::string>(words.rbegin(), words.rend() - 1));  // CLI11 takes them in reverse
+        // CLI11 expects the words in reverse order
+        std::vector<std::string>(words.rbegin(), words.rend() - 1));
   } catch (const CLI::ParseError& error) {
     return base::Fail(base::ErrorCode::kInvalidArgument, error.what(), "--behaviour " + behaviour);
   }

@@ -22,8 +22,8 @@ bool IsRobot(const model::Model& model) {
          model::GuessDrive(model).kind != model::DriveKind::kNone;
 }
 
-// A drive needs a plugin (or a URDF, which has its own element for it), so that a library of
-// furniture need not be read completely.
+// Whether the model may have a drive. A drive needs a plugin (or a URDF, which has its own element
+// for it). So a library of furniture need not be read completely.
 bool MayHaveDrive(const fs::path& folder) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
@@ -46,7 +46,7 @@ std::vector<std::string> FindRobotModels(formats::ModelLibrary& library,
     std::error_code ignored;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
       if (!entry.is_directory(ignored) || !MayHaveDrive(entry.path())) continue;
-      base::Problems problems;  // reported when the model is used
+      base::Problems problems;  // these problems are reported when the model is used
       const auto model = library.ReadModel(entry.path(), problems);
       if (model && IsRobot(**model)) names.insert(entry.path().filename());
     }

@@ -14,14 +14,14 @@ using simulation::Simulation;
 
 constexpr int kPlacesTried = 400;
 
-// Adds the list's element to the path of the invalid field.
+// Adds the element of the list to the path of the invalid field.
 tl::unexpected<FieldError> WrongIn(const char* list, std::size_t i, FieldError wrong) {
   std::string element = std::string(list) + "[" + std::to_string(i) + "]";
   wrong.field = wrong.field.empty() ? element : element + "." + wrong.field;
   return tl::make_unexpected(std::move(wrong));
 }
 
-// The nth place of a spiral about the origin, with about a metre between neighbours.
+// Returns the n-th place of a spiral about the origin. Adjacent places are about a metre apart.
 scenario::Place SpiralPlace(int n) {
   const double turns = std::sqrt(static_cast<double>(n));
   const double angle = turns * std::numbers::pi * 2 / 1.8;
@@ -78,7 +78,8 @@ base::Status AddAtFreePlace(Simulation& simulation, RobotSpecification robot,
   return base::Fail(refusal);
 }
 
-// Adds all robots with a place at once (a crowd is not added robot by robot), then the others.
+// Adds all robots that have a place at once, because adding a crowd robot by robot is slow. Then it
+// adds the others.
 class ListPlacing {
  public:
   ListPlacing(Simulation& simulation, formats::ModelLibrary& library, const char* list,
@@ -138,7 +139,8 @@ class ListPlacing {
     return {};
   }
 
-  // The error names the robot. A robot that gets the name of its model has no name yet.
+  // Returns the error with the name of the robot. A robot that will be named after its model has no
+  // name yet.
   FieldError BlameFor(const base::Error& error) const {
     for (const Waiting& each : with_place_) {
       if (each.placed.entry.name != error.where) continue;
@@ -237,7 +239,8 @@ FieldResult<std::string> AddOneObject(Simulation& simulation, formats::ModelLibr
     auto name = simulation.AddObject(object);
     if (name) return *std::move(name);
     refusal = name.error();
-    // Another place would not help: the error is about its name or model, or the simulation runs.
+    // Another place would not help, because the error is about the name or the model, or the
+    // simulation runs.
     if (refusal.code != base::ErrorCode::kBadModel) break;
   }
   return WrongField("", refusal);

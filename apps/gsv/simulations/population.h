@@ -1,7 +1,7 @@
 // Adds a scenario's robots and avatars to a simulation and sets their behaviours, for `gsv run` and
 // for simulations created in the viewer.
 //
-// Errors  name the part of the scenario, as in "robots[1].model".
+// Errors  an error names the part of the scenario, such as "robots[1].model".
 #pragma once
 
 #include <functional>
@@ -20,21 +20,21 @@ using gateway::FieldError;
 using gateway::FieldResult;
 
 struct PlacedRobot {
-  scenario::RobotEntry entry;  // with its actual name, and its place if it has a model
-  std::size_t index = 0;       // in the scenario's list
+  scenario::RobotEntry entry;  // with its actual name, and with its place if it has a model
+  std::size_t index = 0;       // the index in the scenario's list
 };
 
 struct Population {
-  std::vector<PlacedRobot> robots, avatars;  // in the order in which they were added
+  std::vector<PlacedRobot> robots, avatars;  // both in the order in which they were added
 };
 
 // Adds the robots and the avatars, without behaviours. A robot without a model must exist in the
-// world. A robot without a place gets the first free one on a spiral about the origin. Adds the
+// world. A robot without a place gets the first free place on a spiral about the origin. Adds the
 // problems of model files to `problems`.
 FieldResult<Population> Populate(simulation::Simulation& simulation, formats::ModelLibrary& library,
                                  const scenario::Scenario& scenario, base::Problems& problems);
 
-// Makes a robot's behaviour; null if it has none.
+// Makes a robot's behaviour. Returns null if the robot has none.
 using BehaviourMaker = std::function<FieldResult<std::shared_ptr<simulation::BehaviourPort>>(
     const scenario::RobotEntry&)>;
 
@@ -42,19 +42,19 @@ tl::expected<void, FieldError> GiveBehaviours(simulation::Simulation& simulation
                                               const std::vector<PlacedRobot>& robots,
                                               const BehaviourMaker& make);
 
-// The model of a robot in the simulation's world file, whether it is still there or not; null if
-// the world has no model of that name.
+// Returns the model that a robot has in the simulation's world file, even if the robot was removed.
+// Returns null if the world has no model with that name.
 std::shared_ptr<const model::Model> ModelInWorld(const simulation::Simulation& simulation,
                                                  const std::string& name);
 
-// Adds one robot or avatar, with its behaviour; without a model, the one of that name in the world.
-// Returns its actual name.
+// Adds one robot or avatar, with its behaviour. If it has no model, the one with its name in the
+// world is used. Returns its actual name.
 FieldResult<std::string> AddOne(simulation::Simulation& simulation, formats::ModelLibrary& library,
                                 const scenario::RobotEntry& robot, bool is_avatar,
                                 const BehaviourMaker& make, base::Problems& problems);
 
-// Adds an object that is not a robot; without a place, at the first free one, like a robot. Returns
-// its actual name.
+// Adds an object that is not a robot. If it has no place, it gets the first free one, like a robot.
+// Returns its actual name.
 FieldResult<std::string> AddOneObject(simulation::Simulation& simulation,
                                       formats::ModelLibrary& library,
                                       const gateway::ObjectRequest& object,

@@ -30,7 +30,8 @@ std::vector<std::string> ArgumentsOfThisProcess() {
   for (std::string argument; std::getline(file, argument, '\0');) {
     arguments.push_back(std::move(argument));
   }
-  // A forked run has its arguments in a longer memory; see running/run_server.cc.
+  // A forked run has its arguments in a longer block of memory, which ends in empty ones; see
+  // running/run_server.cc.
   while (!arguments.empty() && arguments.back().empty()) arguments.pop_back();
   return arguments;
 }
@@ -44,7 +45,7 @@ std::vector<std::string> WithoutSecrets(std::vector<std::string> arguments) {
   std::vector<std::string> rest;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     if (is_secret(arguments[i])) {
-      ++i;  // with its value
+      ++i;  // skips the value of the option
     } else if (!is_secret(arguments[i].substr(0, arguments[i].find('=')))) {
       rest.push_back(std::move(arguments[i]));
     }
@@ -77,7 +78,7 @@ recording::RecorderOptions Options(const RecordingChoice& choice, bool is_of_com
 
 constexpr double kMinRate = 0.001, kMaxRate = 10'000;
 
-// Any existing path that is not a folder is a file, or a device.
+// Whether an existing path is a file or a device, and not a folder.
 bool NamesAFile(const std::string& path) {
   std::error_code ignored;
   return path.ends_with(".mcap") ||
@@ -148,7 +149,7 @@ base::Status Recordings::FinishThatWhichIsOver(
   base::MutexLock lock(mutex_);
   const auto found = recordings_.find(name);
   if (found == recordings_.end()) return {};
-  // A recording is over when its simulation is gone, was reset, or the disk failed.
+  // A recording is over if its simulation was destroyed or reset, or if the disk failed.
   if (found->second.simulation.lock() == simulation && found->second.recorder->is_recording()) {
     return base::Fail(
         base::ErrorCode::kInvalidArgument,
@@ -226,8 +227,8 @@ Recordings::Totals Recordings::totals() {
   const base::MutexLock lock(mutex_);
   Totals totals = ended_;
   for (const auto& [name, recording] : recordings_) Add(StateOf(recording), totals);
-  // A recording that is being finished counts in neither for a moment, but totals must not
-  // decrease.
+  // A recording that is being finished is in neither total for a moment, but the reported totals
+  // must not decrease.
   told_ = {totals.under_way, std::max(totals.messages, told_.messages),
            std::max(totals.dropped, told_.dropped), std::max(totals.bytes, told_.bytes)};
   return told_;

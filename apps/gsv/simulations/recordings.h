@@ -1,4 +1,4 @@
-// The current recordings of this process, at most one per simulation.
+// The current recordings of this process. A simulation has at most one.
 //
 // Threads  any. Starting writes the models, and stopping waits for the disk. Queries of the state
 //          wait for neither.
@@ -28,65 +28,68 @@ namespace gsv::app {
 inline constexpr std::string_view kArgumentsKey = "arguments";
 inline constexpr std::string_view kFolderKey = "folder";
 
-// The selection of topics and rates; rates in Hz of simulated time.
+// The selected topics and rates. Rates are in Hz of simulated time.
 struct RecordingChoice {
-  std::vector<std::string> topics;  // empty: all; a topic with a trailing "/" selects all below it
+  // empty for all topics; a topic with a trailing "/" selects all topics below it
+  std::vector<std::string> topics;
   double poses_rate = 50, readings_rate = 20, images_rate = 1, beams_rate = 10;
-  bool png = false;  // images as PNG, else JPEG
-  // The scenario to attach; default: derived from the simulation.
+  bool png = false;  // true for images as PNG, false for JPEG
+  // The scenario to attach. By default it is derived from the simulation.
   std::optional<scenario::Scenario> scenario{};
 };
 
-// A command line without tokens, so that it may be published.
+// Returns a command line without tokens, which may be published.
 std::vector<std::string> WithoutSecrets(std::vector<std::string> arguments);
 
-// A sentence for each pattern in a selection that matches none of `topics`, with the topics that
-// there are.
+// Returns a sentence for each pattern of a selection that matches none of `topics`. The sentence
+// lists the topics.
 std::vector<std::string> ComplaintsAbout(const RecordingChoice& choice,
                                          const std::vector<std::string>& topics);
 
-// Sets one rate, from "KIND=HZ" with poses, readings, images or beams.
+// Sets one rate, from "KIND=HZ". KIND is poses, readings, images or beams.
 base::Status SetRate(const std::string& text, RecordingChoice& choice);
 
-// The absolute path of a folder; empty: the current one. kInvalidArgument: it is not a folder.
+// Returns the absolute path of a folder; an empty path is the current one. Returns kInvalidArgument
+// if it is not a folder.
 base::Result<std::filesystem::path> RecordingsFolder(const std::filesystem::path& folder);
 
 class Recordings final : public gateway::RecordingSwitch {
  public:
-  // `folder`: for recordings that are started in the viewer.
+  // `folder` is for recordings that are started in the viewer.
   explicit Recordings(std::filesystem::path folder);
   ~Recordings() override;
 
-  // Only recordings of this simulation contain the arguments of this process: those of its `gsv
-  // run`, with which the recording can be simulated again.
+  // Sets the simulation of the `gsv run` command. Only its recordings contain the arguments of this
+  // process, with which the recording can be simulated again.
   void SetSimulationOfCommand(const std::shared_ptr<simulation::Simulation>& simulation);
 
-  // `path` ends in ".mcap": a single file; else a folder for rosbag2. kInvalidArgument if the
-  // simulation is being recorded, or the path exists already.
+  // Starts a recording. If `path` ends in ".mcap", it is a single file; otherwise it is a folder
+  // for rosbag2. Returns kInvalidArgument if the simulation is being recorded, or if the path
+  // exists already.
   base::Status Start(std::shared_ptr<simulation::Simulation> simulation, const std::string& path,
                      const RecordingChoice& choice = {});
   const std::filesystem::path& folder() const { return folder_; }
 
-  // Records to NAME-TIME.mcap in that folder, with the default selection.
+  // Records to NAME-TIME.mcap in the folder, with the default selection.
   base::Status Record(const std::shared_ptr<simulation::Simulation>& simulation) override;
   base::Status StopRecording(const std::string& simulation) override { return Stop(simulation); }
   State RecordingOf(const std::string& simulation) override;
   Totals totals() override;
-  // kNotFound if that simulation is not recorded. Any other error is that which ended the
-  // recording.
+  // Stops a recording. Returns kNotFound if the simulation is not being recorded. Any other error
+  // is the one that ended the recording.
   base::Status Stop(const std::string& simulation);
-  // Returns the first error, if there is one; logs the others.
+  // Stops all recordings. Returns the first error, if there is one, and logs the others.
   base::Status StopAll();
 
  private:
   struct Recording {
     std::weak_ptr<simulation::Simulation> simulation;
     std::string path;
-    std::string bag;  // the file in a rosbag2 folder; empty: a single file
+    std::string bag;  // the file in a rosbag2 folder; empty for a single file
     std::unique_ptr<recording::SimulationRecorder> recorder;
   };
-  // Finishes an ended recording before a new one. kInvalidArgument if the simulation is being
-  // recorded.
+  // Finishes a recording that has ended, before a new one starts. Returns kInvalidArgument if the
+  // simulation is being recorded.
   base::Status FinishThatWhichIsOver(const std::shared_ptr<simulation::Simulation>& simulation);
   static base::Status Finish(Recording& recording);
   static State StateOf(const Recording& recording);
@@ -94,13 +97,14 @@ class Recordings final : public gateway::RecordingSwitch {
   void CountEnded(const Recording& recording);
 
   const std::filesystem::path folder_;
-  base::Mutex starting_;  // one at a time; taken before mutex_
+  base::Mutex starting_;  // held while a recording starts; locked before mutex_
   base::Mutex mutex_;     // never held while waiting for the disk
-  std::map<std::string, Recording> recordings_ GSV_GUARDED_BY(mutex_);  // by the simulation's name
+  // by the name of the simulation
+  std::map<std::string, Recording> recordings_ GSV_GUARDED_BY(mutex_);
   std::map<std::string, State> last_
-      GSV_GUARDED_BY(mutex_);            // ended ones, by the simulation's name
-  Totals ended_ GSV_GUARDED_BY(mutex_);  // of the ended ones
-  Totals told_ GSV_GUARDED_BY(mutex_);   // as returned last
+      GSV_GUARDED_BY(mutex_);  // recordings that have ended, by the name of the simulation
+  Totals ended_ GSV_GUARDED_BY(mutex_);  // totals of those
+  Totals told_ GSV_GUARDED_BY(mutex_);   // the totals that were last returned
   std::weak_ptr<simulation::Simulation> of_command_ GSV_GUARDED_BY(mutex_);
 };
 

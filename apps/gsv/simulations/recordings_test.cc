@@ -61,7 +61,8 @@ TEST_F(RecordingsTest, TheFileNamesTheProgramThatWroteIt) {
   EXPECT_FALSE(metadata["gsv.simulation"]["gsv_version"].empty());
   EXPECT_NE(metadata["gsv.simulation"]["command"].find(program_invocation_short_name),
             std::string::npos);
-  // The scenario, the scene, and the models of the disc and the wall: visuals and collision shapes.
+  // The attachments are the scenario, the scene, and the visuals and collision shapes of the disc
+  // and the wall.
   ASSERT_EQ(info->attachments.size(), 6u);
   EXPECT_EQ(info->attachments[0].name, "scenario.yaml");
   EXPECT_TRUE(info->attachments[2].name.starts_with("models/"));

@@ -1,4 +1,4 @@
-// The drives of robots whose files define none.
+// Finds the drives of robots whose files define none.
 #pragma once
 
 #include <map>
@@ -13,15 +13,15 @@
 
 namespace gsv::app {
 
-// The world with drives for those of its models that the scenario lists as robots: the drive in the
-// entry, else a guessed one. Returns the same world if nothing changes.
+// Returns the world with drives for those of its models that the scenario lists as robots. The
+// drive is that of the entry, or else a guessed one. Returns the same world if nothing changes.
 base::Result<std::shared_ptr<const model::WorldDescription>> WithDrives(
     std::shared_ptr<const model::WorldDescription> world, const scenario::Scenario& scenario);
 
-// Parses --drive, ROBOT=KIND[,KEY=VALUE]…, by robot. kInvalidArgument with the option.
+// Parses --drive, ROBOT=KIND[,KEY=VALUE]…, by robot. Returns kInvalidArgument with the option.
 base::Result<std::map<std::string, std::string>> ParseDrives(const std::vector<std::string>& texts);
 
-// "NAME: drive: …", once for each model of a robot whose file defines no drive.
+// Returns "NAME: drive: …" once for each model of a robot whose file defines no drive.
 std::vector<std::string> DriveNotes(const simulation::Simulation& simulation);
 
 }  // namespace gsv::app

@@ -1,4 +1,4 @@
-// The sensor types of this program: built-in ones, cameras, and those of plug-ins.
+// The sensor types of this program: the built-in ones, cameras, and those of plug-ins.
 #pragma once
 
 #include <filesystem>
@@ -19,19 +19,20 @@ class Option;
 namespace gsv::app {
 
 struct SensorTypeOptions {
-  std::vector<std::filesystem::path> plugins;  // in addition to those of GSV_SENSOR_PLUGIN_PATH
-  // Changes the camera type before it is registered; may be empty.
+  std::vector<std::filesystem::path> plugins;  // in addition to those in GSV_SENSOR_PLUGIN_PATH
+  // Changes the camera type before it is registered. It may be empty.
   std::function<void(sensing::SensorType&)> adapt_camera;
 };
 
-// Without a renderer, cameras can be created but not read. Fails if a plug-in cannot be loaded.
+// Registers the sensor types. If there is no renderer, cameras can be created but not read. Fails
+// if a plug-in cannot be loaded.
 base::Result<std::shared_ptr<const sensing::SensorRegistry>> MakeSensorTypes(
     const SensorTypeOptions& options, base::Result<std::shared_ptr<rendering::Renderer>> renderer);
 
-// For formats::ReadOptions: checks sensors by these types.
+// Returns a check of sensors by these types, for formats::ReadOptions.
 formats::SensorCheck CheckBy(std::shared_ptr<const sensing::SensorRegistry> types);
 
-// Adds --sensor-plugin, for all commands that use sensors. `plugins` must outlive the parsing.
+// Adds --sensor-plugin to a command that uses sensors. `plugins` must outlive the parsing.
 CLI::Option* AddSensorPluginOption(CLI::App& command, std::vector<std::string>& plugins);
 
 }  // namespace gsv::app

@@ -41,11 +41,11 @@ simulation::Specification SpecificationOf(const scenario::Scenario& scenario) {
   specification.duration = base::FromSeconds(scenario.duration.value_or(0));
   specification.seed = scenario.seed.value_or(0);
   specification.pedestrians = scenario.pedestrians;
-  specification.keep = true;  // its page may be closed
+  specification.keep = true;  // the page that creates the simulation may be closed
   return specification;
 }
 
-// A built-in world.
+// Whether the file is that of a built-in world.
 bool IsWorldOfOurs(const fs::path& file) {
   std::error_code ignored;
   return fs::equivalent(file.parent_path(), ShareFolder() / "worlds", ignored);
@@ -142,7 +142,8 @@ FieldResult<SimulationBuilder::Preview> SimulationBuilder::Show(const Simulation
   if (!world) return tl::make_unexpected(world.error());
   simulation::Specification specification = SpecificationOf(request.scenario);
   specification.name = "preview";
-  specification.mode = simulation::Mode::kRealTime;  // on one thread: it takes no steps
+  // one thread suffices, because the simulation takes no steps
+  specification.mode = simulation::Mode::kRealTime;
   auto driven = WithDrives(world->world, request.scenario);
   if (!driven) return WrongField("robots", driven.error());
   specification.world = *std::move(driven);
@@ -164,7 +165,7 @@ FieldResult<std::shared_ptr<Simulation>> SimulationBuilder::Create(
   auto driven = WithDrives(world->world, request.scenario);
   if (!driven) return WrongField("robots", driven.error());
   specification.world = *std::move(driven);
-  base::Problems problems;  // the world's problems were reported with its preview
+  base::Problems problems;  // the world's problems were already reported with its preview
   auto created = host_.Create(std::move(specification), {}, problems);
   if (!created) return WrongField("name", created.error());
   const std::string name = (*created)->specification().name;
@@ -185,7 +186,8 @@ FieldResult<std::shared_ptr<Simulation>> SimulationBuilder::Create(
 }
 
 base::Status SimulationBuilder::Destroy(const std::string& simulation) {
-  (void)recordings_.Stop(simulation);  // most are not recorded
+  // this fails for most simulations, because they are not recorded
+  (void)recordings_.Stop(simulation);
   const base::MutexLock lock(mutex_);
   if (service_ != nullptr && service_->Destroy(simulation)) return {};
   if (const auto found = host_.Find(simulation)) (void)found->Stop();

@@ -1,7 +1,7 @@
-// Builds simulations for requests over HTTP: worlds and models from files, behaviours from the
+// Builds simulations for HTTP requests. Worlds and models come from files, and behaviours from the
 // broker.
 //
-// Threads  any. Several may be in progress at once.
+// Threads  any. Several requests may be in progress at once.
 #pragma once
 
 #include <filesystem>
@@ -23,8 +23,8 @@ namespace gsv::app {
 
 class SimulationBuilder final : public gateway::SimulationFactory {
  public:
-  // All must outlive this. `model_path`: folders with further models. `reading`: for worlds that
-  // are not built in.
+  // All arguments must outlive this object. `model_path` has folders with further models. `reading`
+  // has the limits for worlds that are not built in.
   SimulationBuilder(services::SimulationHost& host, services::BrokerBehaviours& behaviours,
                     broker::BrokerClient& broker, Recordings& recordings,
                     std::vector<std::filesystem::path> model_path, const TrialLimits& reading = {})
@@ -36,7 +36,7 @@ class SimulationBuilder final : public gateway::SimulationFactory {
         finder_(model_path_),
         reading_(reading) {}
 
-  // Simulations that are created later are also listed in that service; null: no longer.
+  // Lists simulations that are created later in that service as well. Null ends this.
   void OfferThrough(services::SimulationServiceServant* service);
 
   std::vector<std::string> Worlds() override;
@@ -56,7 +56,7 @@ class SimulationBuilder final : public gateway::SimulationFactory {
 
  private:
   using SimulationPointer = std::shared_ptr<simulation::Simulation>;
-  // A recently read world: filling a world with robots requests it again and again.
+  // A recently read world. A user who fills a world with robots requests it repeatedly.
   struct KnownWorld {
     std::string file;
     std::filesystem::file_time_type changed;
@@ -79,7 +79,7 @@ class SimulationBuilder final : public gateway::SimulationFactory {
   const formats::ResourceFinder finder_;
   const TrialLimits reading_;
   base::Mutex mutex_;
-  std::vector<KnownWorld> known_ GSV_GUARDED_BY(mutex_);  // the newest last
+  std::vector<KnownWorld> known_ GSV_GUARDED_BY(mutex_);  // the newest is last
   services::SimulationServiceServant* service_ GSV_GUARDED_BY(mutex_) = nullptr;
 };
 

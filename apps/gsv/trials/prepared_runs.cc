@@ -7,7 +7,8 @@
 namespace gsv::app {
 namespace {
 
-constexpr std::size_t kTitleBytes = 4096;  // for the command line of a run, which `ps` shows
+// the size of the memory for a run's command line, which `ps` shows
+constexpr std::size_t kTitleBytes = 4096;
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-// The scenarios of `gsv test` and `gsv campaign`, each run in its own child process, and the
-// results.
+// The scenarios of `gsv test` and `gsv campaign`, and their results. Each scenario runs in its own
+// child process.
 #pragma once
 
 #include <atomic>
@@ -14,29 +14,29 @@
 namespace gsv::app {
 
 struct TestCase {
-  std::string file;  // as given
-  std::string name;  // the file's path, without its extension
+  std::string file;  // as the user gave it
+  std::string name;  // the path of the file without its extension
 };
 
-// The scenarios of files and folders (all *.yaml in a folder, by name). Adds their problems to
-// `problems`; kNotFound if a name matches nothing.
+// Returns the scenarios of files and folders. A folder has all its *.yaml, ordered by name. Adds
+// their problems to `problems`. Returns kNotFound if a name matches nothing.
 base::Result<std::vector<TestCase>> FindTestCases(const std::vector<std::string>& names,
                                                   base::Problems& problems);
 
-// "2/3": the second of three shares.
+// A part of the cases. "2/3" is the second of three shares.
 struct Shard {
   std::size_t index = 1, count = 1;
 };
 base::Result<Shard> ParseShard(const std::string& text);
-// Every count-th case, so that shares have about equal sizes.
+// Returns every n-th case, so that shares have about equal sizes.
 std::vector<TestCase> ShareOf(std::vector<TestCase> cases, const Shard& shard);
 
 struct TestOptions {
-  std::filesystem::path failures;   // folder for files of failures; empty: nothing is kept
-  int threads = 0;                  // per run; 0: as `gsv run` chooses
-  double timeout = 300;             // s of wall-clock time per run
-  double kept_seconds = 10;         // s of a recording before the failure
-  std::vector<std::string> drives;  // see --drive of `gsv run`
+  std::filesystem::path failures;   // folder for the files of failures; empty if none are kept
+  int threads = 0;                  // number of threads per run; 0 if `gsv run` chooses it
+  double timeout = 300;             // wall-clock time limit per run, s
+  double kept_seconds = 10;         // how many seconds of the recording before the failure are kept
+  std::vector<std::string> drives;  // see the option --drive of `gsv run`
   int repeat = 1;
   bool record = true;
 };
@@ -45,19 +45,19 @@ struct TestResult {
   enum class Status { kPassed, kFailed, kError, kInterrupted };
   TestCase test;
   Status status = Status::kError;
-  std::string message;        // why it did not pass
-  bool is_bad_input = false;  // a file that it names is missing or invalid
-  std::string folder;         // with the files of a failure; empty: none
-  std::string command;        // that repeats it
+  std::string message;        // the reason why it did not pass
+  bool is_bad_input = false;  // whether a file that it names is missing or invalid
+  std::string folder;         // the folder with the files of the failure; may be empty
+  std::string command;        // the command that repeats it
   double wall_seconds = 0;
-  std::vector<std::string> hashes;  // by repetition
-  nlohmann::ordered_json report;    // of `gsv run`, for the last repetition; empty: none
+  std::vector<std::string> hashes;  // state hashes of the repetitions
+  nlohmann::ordered_json report;    // the report of `gsv run` for the last repetition; may be empty
 };
 
-// Runs it for each repetition, until it fails. Ends the run if `is_cancelled`.
+// Runs the case for each repetition, until it fails. Ends the run if `is_cancelled` becomes true.
 //
-// Threads  any number at once, each for its own case; the calling thread must live until it
-//          returns.
+// Threads  any number at once, each for its own case. The calling thread must live until the
+//          function returns.
 TestResult RunTestCase(const TestCase& test, const TestOptions& options,
                        const std::atomic<bool>& is_cancelled);
 

@@ -29,7 +29,7 @@ std::string Indented(const std::string& text) {
   return indented;
 }
 
-// Leaves out characters that XML 1.0 does not allow.
+// Omits characters that XML 1.0 does not allow.
 std::string Escaped(const std::string& text) {
   std::string escaped;
   for (const char c : text) {

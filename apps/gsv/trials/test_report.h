@@ -8,15 +8,15 @@
 
 namespace gsv::app {
 
-// One line, and for a failure the reason and where to look.
+// Returns one line, and for a failure also the reason and the place of its files.
 std::string ToText(const TestResult& result);
 
-// JUnit's XML for Jenkins and GitLab: one <testcase> per scenario, <failure> for violated
-// expectations, <error> for runs without a result.
+// Returns JUnit's XML for Jenkins and GitLab. It has one <testcase> per scenario, <failure> for
+// violated expectations, and <error> for runs without a result.
 std::string ToJUnit(const std::vector<TestResult>& results, double wall_seconds);
 
-// {passed, failed, errors, wall_s, results: [{scenario, file, status, message, folder, command,
-// wall_s, state_hashes, report}]}; `report` is the output of `gsv run --json`.
+// Returns {passed, failed, errors, wall_s, results: [{scenario, file, status, message, folder,
+// command, wall_s, state_hashes, report}]}. `report` is the output of `gsv run --json`.
 std::string ToJson(const std::vector<TestResult>& results, double wall_seconds);
 
 std::size_t Count(const std::vector<TestResult>& results, TestResult::Status status);

@@ -22,12 +22,12 @@ using Seconds = std::chrono::duration<double>;
 using TestClock = std::chrono::steady_clock;
 
 constexpr auto kPollPeriod = std::chrono::milliseconds(100);
-constexpr double kSecondsAfter = 1;  // s of simulated time in the recording after the failure
-constexpr double kExtraTime = 30;    // s of wall-clock time after the child's own time-out
-constexpr std::size_t kMaxErrorLength = 4000;  // characters of the child's errors
+constexpr double kSecondsAfter = 1;  // simulated time that the recording keeps after the failure, s
+constexpr double kExtraTime = 30;    // wall-clock time after the timeout of the child itself, s
+constexpr std::size_t kMaxErrorLength = 4000;  // maximum number of characters of the child's errors
 
 struct ChildOutcome {
-  std::string ending;  // "exit code 0"; empty: it was cancelled
+  std::string ending;  // such as "exit code 0"; empty if it was cancelled
   std::string errors;
   nlohmann::ordered_json report;
 };
@@ -59,7 +59,8 @@ std::vector<std::string> ArgumentsFor(const TestCase& test, const TestOptions& o
   return arguments;
 }
 
-// A process that serves runs ends with the thread that started it, so each thread has its own.
+// Returns the run server of this thread. A run server ends with the thread that started it, so each
+// thread has its own.
 PreparedRuns& RunsOfThread() {
   thread_local PreparedRuns runs;
   return runs;
@@ -88,7 +89,7 @@ base::Result<ChildOutcome> RunChild(const TestCase& test, const TestOptions& opt
   return outcome;
 }
 
-// The time of the first violation, and its robot.
+// Returns the time of the first violation, and its robot.
 double FailureTime(const nlohmann::ordered_json& report) {
   double first = report.value("sim_time_s", 0.0);
   for (const auto& expectation : report.value("expectations", nlohmann::ordered_json::array())) {
