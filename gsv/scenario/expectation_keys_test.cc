@@ -11,7 +11,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-std::vector<std::string> ProblemsIn(const std::string& text) {
+std::vector<std::string> ProblemsInKeys(const std::string& text) {
   base::Problems problems;
   const auto scenario = ParseScenario(text, "t.yaml", problems);
   if (!scenario) return {scenario.error().Sentence()};
@@ -24,7 +24,7 @@ Scenario ReadWhole(const std::string& text) {
   base::Problems problems;
   const auto scenario = ParseScenario(text, "t.yaml", problems);
   EXPECT_TRUE(scenario) << scenario.error().Sentence();
-  EXPECT_THAT(ProblemsIn(text), IsEmpty());
+  EXPECT_THAT(ProblemsInKeys(text), IsEmpty());
   return scenario.value_or(Scenario());
 }
 
@@ -84,15 +84,15 @@ TEST(TestKeys, EveryKeyIsReadAndWrittenBack) {
 
 TEST(TestKeys, ErrorsInFaultsAreReportedWithTheirPlace) {
   EXPECT_THAT(
-      ProblemsIn("faults:\n"
-                 "  - {sensor: scout/front}\n"
-                 "  - {at: 1, sensor: scout}\n"
-                 "  - {at: 1, behaviour: scout/front}\n"
-                 "  - {at: 1, sensor: a/b, motor: a}\n"
-                 "  - {at: 1}\n"
-                 "  - {at: 1, move: crate, x: 1}\n"
-                 "  - {at: 1, joint: gate/hinge}\n"
-                 "  - {at: -1, motor: a, fails: error}\n"),
+      ProblemsInKeys("faults:\n"
+                     "  - {sensor: scout/front}\n"
+                     "  - {at: 1, sensor: scout}\n"
+                     "  - {at: 1, behaviour: scout/front}\n"
+                     "  - {at: 1, sensor: a/b, motor: a}\n"
+                     "  - {at: 1}\n"
+                     "  - {at: 1, move: crate, x: 1}\n"
+                     "  - {at: 1, joint: gate/hinge}\n"
+                     "  - {at: -1, motor: a, fails: error}\n"),
       ElementsAre(
           "t.yaml:2:5: it says when: at is needed, in seconds",
           "t.yaml:3:21: sensor must be as in ROBOT/sensor",
@@ -107,18 +107,18 @@ TEST(TestKeys, ErrorsInFaultsAreReportedWithTheirPlace) {
 
 TEST(TestKeys, ErrorsInExpectationsAreReportedWithTheirPlace) {
   EXPECT_THAT(
-      ProblemsIn("duration: 10\n"
-                 "expect:\n"
-                 "  - {never: scout}\n"
-                 "  - {never_collides: scout, ended: scout}\n"
-                 "  - {speed: {robot: scout, at_most: 1}, by: 3}\n"
-                 "  - {eventually: {speed: {robot: a}}, by: 11}\n"
-                 "  - {always: {speed: {robot: a, at_least: 2, at_most: 1}}, from: 5, by: 4}\n"
-                 "  - {before: [{ended: a}]}\n"
-                 "  - {inside: {robot: a, x: [2, 1]}}\n"
-                 "  - {reaches: {x: 1, y: 2}}\n"
-                 "  - {distance: {between: [a, a], at_most: 1}}\n"
-                 "  - {sensor: {of: scout, take: median, at_most: 1}}\n"),
+      ProblemsInKeys("duration: 10\n"
+                     "expect:\n"
+                     "  - {never: scout}\n"
+                     "  - {never_collides: scout, ended: scout}\n"
+                     "  - {speed: {robot: scout, at_most: 1}, by: 3}\n"
+                     "  - {eventually: {speed: {robot: a}}, by: 11}\n"
+                     "  - {always: {speed: {robot: a, at_least: 2, at_most: 1}}, from: 5, by: 4}\n"
+                     "  - {before: [{ended: a}]}\n"
+                     "  - {inside: {robot: a, x: [2, 1]}}\n"
+                     "  - {reaches: {x: 1, y: 2}}\n"
+                     "  - {distance: {between: [a, a], at_most: 1}}\n"
+                     "  - {sensor: {of: scout, take: median, at_most: 1}}\n"),
       ElementsAre(HasSubstr("t.yaml:3:5: a condition has one operator of reaches, "),
                   HasSubstr("t.yaml:3:6: there is no key \"never\" here"),
                   "t.yaml:4:36: there is one operator in a condition; here are never_collides "
@@ -134,7 +134,7 @@ TEST(TestKeys, ErrorsInExpectationsAreReportedWithTheirPlace) {
                   "t.yaml:11:26: between must be two names, as in [scout, crate]",
                   "t.yaml:12:19: of must be a sensor, as in scout/front",
                   "t.yaml:12:32: take must be min, max or mean, found \"median\""));
-  EXPECT_THAT(ProblemsIn("expect: [{ended: a}]"),
+  EXPECT_THAT(ProblemsInKeys("expect: [{ended: a}]"),
               ElementsAre("t.yaml:1:9: what is expected needs an end by which it is judged: "
                           "duration"));
 }
@@ -146,10 +146,10 @@ TEST(TestKeys, AtMostAThousandFaultsAndExpectationsAreAccepted) {
     expect += "  - {ended: r}\n";
   }
   EXPECT_EQ(ReadWhole(faults).faults.size(), 1000u);
-  EXPECT_THAT(ProblemsIn(faults + "  - {at: 5, behaviour: r}\n"),
+  EXPECT_THAT(ProblemsInKeys(faults + "  - {at: 5, behaviour: r}\n"),
               ElementsAre(HasSubstr("faults has at most 1000 entries")));
-  EXPECT_THAT(ProblemsIn(expect), IsEmpty());
-  EXPECT_THAT(ProblemsIn(expect + "  - {ended: r}\n"),
+  EXPECT_THAT(ProblemsInKeys(expect), IsEmpty());
+  EXPECT_THAT(ProblemsInKeys(expect + "  - {ended: r}\n"),
               ElementsAre(HasSubstr("expect has at most 1000 entries")));
 }
 
@@ -159,7 +159,7 @@ TEST(TestKeys, AliasesCannotExpandToALargeFormula) {
     const std::string before = "*a" + std::to_string(i - 1);
     text += "  - &a" + std::to_string(i) + " {all: [" + before + ", " + before + "]}\n";
   }
-  EXPECT_THAT(ProblemsIn(text),
+  EXPECT_THAT(ProblemsInKeys(text),
               ::testing::Contains(HasSubstr("expectations have at most 1000 parts, 16 deep")));
 }
 
