@@ -13,12 +13,12 @@ namespace {
 using namespace gsv;
 
 constexpr Colour kYellow{1, 0.7, 0}, kGreen{0, 1, 0}, kRed{1, 0, 0};
-constexpr double kBetweenTheJaws = 0.03;  // m from the sonar
+constexpr double kBetweenTheJaws = 0.03;  // distance from the sonar, m
 constexpr double kBackOff = 0.3;          // m
 constexpr double kBackOffSpeed = 0.15;    // m/s
 
 struct FetchGoal {
-  double x = 0, y = 0;      // m, world: the place where it releases the body
+  double x = 0, y = 0;      // the place in the world where it releases the body, m
   double tolerance = 0.05;  // m
 };
 
@@ -68,7 +68,7 @@ class Fetch final : public Behaviour {
     return robot.IsRunning();
   }
 
-  // Until the fingers hold a body or are closed.
+  // Drives until the fingers hold a body or are closed.
   bool Take(Robot& robot) {
     (void)gripper_->Grasp();
     for (;;) {

@@ -1,4 +1,5 @@
-// Where a wanderer goes next: forward where its sonars leave room, else it turns to the freer side.
+// The rule by which a wandering robot drives: forward where its sonars detect space, else it turns
+// to the freer side.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 
 namespace gsv {
 
-// Asked once a control cycle.
+// Call it once per control cycle.
 class WanderRule {
  public:
   DriveCommand Decide(double radius, const std::vector<SonarRing::Echo>& echoes) {
@@ -17,15 +18,15 @@ class WanderRule {
     const double ahead = Nearest(echoes, 0.0, 0.9);
     const double left = Nearest(echoes, 0.9, 0.9);
     const double right = Nearest(echoes, -0.9, 0.9);
-    // Starts to turn a good length before an obstacle, and turns until there is more room.
+    // The robot starts to turn early before an obstacle, and turns until there is more space.
     const double enough = radius + (turn_ != 0 ? 0.7 : 0.4);
     if (ahead < enough) {
       if (turn_ == 0) turn_ = left >= right ? 1 : -1;
       return {0.0, 0.9 * turn_};
     }
     turn_ = 0;
-    // Drifts to one side and then to the other: straight lines see little of a room. After a while
-    // it tries another way: something between the beams may hold it.
+    // The robot drifts to one side and then to the other, because a straight path shows little of a
+    // room. After a while it tries another way, because an object between the beams may block it.
     forward_ = (forward_ + 1) % kReconsiderAfter;
     if (forward_ == 0) reconsidering_ = kReconsiderFor;
     const double speed = std::clamp(0.5 * (ahead - radius), 0.1, 0.4);
@@ -33,7 +34,7 @@ class WanderRule {
   }
 
  private:
-  // Backs out where there is room behind, then turns.
+  // Drives backwards if there is space behind, then turns.
   DriveCommand Reconsider(double radius, const std::vector<SonarRing::Echo>& echoes) {
     --reconsidering_;
     const bool room_behind = Nearest(echoes, std::numbers::pi, 0.9) > radius + 0.25;
@@ -41,13 +42,13 @@ class WanderRule {
     return {0.0, 0.9};
   }
 
-  // In control cycles.
+  // in control cycles
   static constexpr int kReconsiderAfter = 200;
   static constexpr int kReconsiderFor = 40;
 
-  int turn_ = 0;           // +1: to the left, -1: to the right, 0: going forward
-  int forward_ = 0;        // control cycles spent going forward
-  int reconsidering_ = 0;  // control cycles of it that are left
+  int turn_ = 0;           // +1 for a turn to the left, -1 to the right, 0 for driving forward
+  int forward_ = 0;        // number of control cycles spent driving forward
+  int reconsidering_ = 0;  // remaining control cycles of Reconsider()
 };
 
 }  // namespace gsv

@@ -1,5 +1,5 @@
-// Two processes that hand a futex to each other: the least that a call to another process on the same
-// machine can take. Prints the nanoseconds of one handover there and back.
+// Two processes pass a futex to each other. This is the shortest time that a call to another
+// process on the same machine can take. Prints the nanoseconds of one handover there and back.
 //
 // usage: handover [REPETITIONS]
 #include <linux/futex.h>

@@ -1,5 +1,5 @@
-// A robot behind sba::Hardware without a simulator: finds a behaviour at the broker, gives it its
-// own hardware, and lets it drive for a while.
+// A robot that implements sba::Hardware without a simulator. It finds a behaviour at the broker,
+// gives it its own hardware, and lets it drive for a while.
 //
 // Its "hardware" is a cart on a straight track in front of a wall, in wall-clock time: the sonar
 // measures the remaining distance. A real robot's driver would read its devices here.
@@ -31,7 +31,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kRadius = 0.2;         // m
 constexpr double kMaxRange = 5.0;       // m
-constexpr double kStartDistance = 1.5;  // m from the wall
+constexpr double kStartDistance = 1.5;  // distance from the wall, m
 
 double Seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
@@ -44,7 +44,7 @@ class Cart {
     linear_ = linear, angular_ = angular;
     ++commands_;
   }
-  // The reading of a sonar at `bearing` from straight ahead.
+  // The reading of a sonar that points to `bearing` from straight ahead.
   double Range(double bearing) {
     const std::lock_guard lock(mutex_);
     Advance();
@@ -140,7 +140,7 @@ class CartSonar final : public POA_sba::Sonar {
   const double bearing_;
 };
 
-// It has no built-in sensors; only sonars can be created.
+// The cart has no built-in sensors. Only sonars can be created.
 class CartSensors final : public POA_sba::SensorFactory {
  public:
   explicit CartSensors(Cart& cart) : cart_(cart) {}

@@ -48,7 +48,7 @@ TEST(FaultDelay, DelaysRepeatWithTheSeedAndStayBelowTheLimit) {
   EXPECT_NEAR(static_cast<double>((sum / 1000).count()), 10e6, 5 * 20e6 / 109.5);
 }
 
-TEST(FaultDelay, WithoutALimitNothingIsDelayed) { EXPECT_EQ(NthDelay({7, 0ms}, 3), 0ns); }
+TEST(FaultDelay, WithoutALimitCallsAreNotDelayed) { EXPECT_EQ(NthDelay({7, 0ms}, 3), 0ns); }
 
 }  // namespace
 }  // namespace gsv::sdk

@@ -15,7 +15,7 @@ CODE = "CODE"
 @dataclass(frozen=True)
 class Text:
     line: int  # of its first character, from 1
-    kind: str  # "docs", "heading", "cell", "help", "ui", "comment", "name"
+    kind: str  # "docs", "heading", "cell", "help", "ui", "comment", "name", "test"
     words: str
 
 
@@ -217,6 +217,25 @@ def texts_of_header(source):
     yield from names_in(source)
 
 
+TEST_CASE = re.compile(r"^TEST(?:_F|_P)?\(\s*\w+,\s*(\w+)\s*\)", re.MULTILINE)
+
+
+def test_names_in(source):
+    """The names of GoogleTest's test cases, without their suites."""
+    for found in TEST_CASE.finditer(source):
+        yield Text(source.count("\n", 0, found.start()) + 1, "test", found.group(1))
+
+
+def texts_of_source(source):
+    yield from texts_of_comments(source)
+    yield from test_names_in(source)
+
+
+def texts_of_program(source):
+    yield from texts_of_help(source)
+    yield from texts_of_source(source)
+
+
 def texts_of_openapi(source):
     """Summaries and descriptions of an OpenAPI document in YAML."""
     lines = source.splitlines()
@@ -247,9 +266,13 @@ SOURCES = (
     ("docs/**/*.md", texts_of_markdown),
     ("web/*.md", texts_of_markdown),
     ("docs/api.yaml", texts_of_openapi),
-    ("apps/**/*.cc", texts_of_help),
-    ("behaviours/**/*.cc", texts_of_help),
-    ("sdk/**/*.cc", texts_of_help),
+    ("apps/**/*.cc", texts_of_program),
+    ("behaviours/**/*.cc", texts_of_program),
+    ("sdk/**/*.cc", texts_of_program),
+    ("gsv/**/*.cc", texts_of_source),
+    ("tests/**/*.cc", texts_of_source),
+    ("apps/**/*.h", texts_of_header),
+    ("tests/**/*.h", texts_of_header),
     ("web/*.html", texts_of_html),
     ("web/src/**/*.ts", texts_of_typescript),
     ("gsv/**/*.h", texts_of_header),

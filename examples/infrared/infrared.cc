@@ -27,7 +27,7 @@ using namespace gsv;
 
 // The layout of its readings.
 struct Proximity {
-  double distance = std::numeric_limits<double>::infinity();  // infinite: nothing within max
+  double distance = std::numeric_limits<double>::infinity();  // infinite if nothing is within max
   double voltage = 0;
   static constexpr auto kFields =
       std::make_tuple(readings::Value("distance", "m", &Proximity::distance, "range"),

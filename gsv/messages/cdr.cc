@@ -10,7 +10,7 @@ namespace {
 constexpr std::array<std::byte, 4> kEncapsulation{std::byte{0}, std::byte{1}, std::byte{0},
                                                   std::byte{0}};
 
-// Fast DDS rounds a message up to a multiple of four bytes.
+// Fast DDS rounds the size of a message up to a multiple of four bytes.
 constexpr std::size_t kMostTrailingBytes = 3;
 
 }  // namespace

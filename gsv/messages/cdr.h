@@ -1,11 +1,11 @@
-// Messages to bytes and back: ROS 2's serialisation.
+// Converts messages to bytes and back, in ROS 2's serialisation.
 //
 // Format   XCDR version 1, little endian (OMG DDS-XTypes 1.3, section 7.4.3): a four-byte
 //          encapsulation header 00 01 00 00, then the fields; each primitive is aligned to its
 //          size, counted from the end of that header. A string is its length with the final NUL
 //          (uint32), its bytes and the NUL; a sequence is its count (uint32) and its elements.
-// Errors   writing cannot fail; reading takes any bytes, and what they claim never makes it
-//          allocate more than a small multiple of what is there.
+// Errors   writing cannot fail. Reading accepts any bytes. It never allocates more than a small
+//          multiple of the size of these bytes, whatever lengths they declare.
 //
 // The generated functions (gsv/messages/sensor_msgs.h and so on) are used as
 //   Encode(range, bytes);                                   // appends a whole message
@@ -35,7 +35,7 @@ using Bytes = std::vector<std::byte>;
 // Appends one message to a buffer.
 class CdrWriter {
  public:
-  // `out` must outlive the writer. What it holds stays; the encapsulation header is appended.
+  // `out` must outlive the writer. Its content is kept, and the encapsulation header is appended.
   explicit CdrWriter(Bytes& out);
 
   template <typename Number>
@@ -44,8 +44,8 @@ class CdrWriter {
   void Write(std::string_view text);
   void WriteCount(std::size_t count);
 
-  // `size` bytes of numbers of one kind, as they lie in memory. Nothing, not even padding, is
-  // written if there are none.
+  // Writes `size` bytes of numbers of one kind, in their memory representation. If there are none,
+  // it writes nothing, not even padding.
   void WriteBlock(const void* data, std::size_t size, std::size_t alignment) {
     if (size == 0) return;
     const std::size_t padding = (origin_ - out_.size()) & (alignment - 1);
@@ -56,11 +56,11 @@ class CdrWriter {
 
  private:
   Bytes& out_;
-  std::size_t origin_;  // where alignment is counted from
+  std::size_t origin_;  // the position from which alignment is counted
 };
 
-// Takes one message apart. The first thing that does not fit makes it fail; from then on every
-// read gives zero, an empty string or an empty sequence.
+// Reads one message. The first value that does not fit makes the reader fail. From then on every
+// read returns zero, an empty string or an empty sequence.
 class CdrReader {
  public:
   // `bytes` must outlive the reader.
@@ -79,13 +79,13 @@ class CdrReader {
     }
   }
   void Read(std::string& text);
-  // The count of a sequence whose elements take at least `element_size` bytes each; 0 if so many
-  // cannot be there.
+  // Reads the count of a sequence whose elements take at least `element_size` bytes each. Returns 0
+  // if the message is too short for so many.
   std::size_t ReadCount(std::size_t element_size);
   void ReadBlock(void* data, std::size_t size, std::size_t alignment);
 
-  // Whether all went well and the message is at its end, up to the padding that some writers
-  // append.
+  // Returns an error if a value did not fit, or if the message has more bytes than the padding that
+  // some writers append.
   base::Status Finish() const;
 
  private:
@@ -104,7 +104,7 @@ void Encode(const Message& message, Bytes& out) {
   Encode(message, writer);
 }
 
-// The message that `bytes` hold, or kCorrupt with the type and the place.
+// Decodes the message in `bytes`. Returns kCorrupt with the type and the place if they are invalid.
 template <typename Message>
 [[nodiscard]] base::Result<Message> Decode(std::span<const std::byte> bytes) {
   CdrReader reader(bytes);

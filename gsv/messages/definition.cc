@@ -15,10 +15,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr int kDeepest = 16;                    // structs in structs
-constexpr std::size_t kMostTypes = 500;         // of a schema
-constexpr std::size_t kMostFields = 1000;       // of a type
-constexpr std::size_t kMostValues = 4'000'000;  // of a message
+constexpr int kDeepest = 16;                    // maximum nesting of structs
+constexpr std::size_t kMostTypes = 500;         // maximum number of types in a schema
+constexpr std::size_t kMostFields = 1000;       // maximum number of fields of a type
+constexpr std::size_t kMostValues = 4'000'000;  // maximum number of values in a message
 
 tl::unexpected<base::Error> Bad(std::string message, std::string_view where) {
   return base::Fail(base::ErrorCode::kCorrupt, std::move(message), std::string(where));
@@ -40,7 +40,7 @@ std::vector<std::string> Words(std::string_view line) {
   return words;
 }
 
-// The number if the whole text is one.
+// Returns the number if the whole text is one.
 std::optional<std::size_t> Number(std::string_view text) {
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -125,7 +125,7 @@ base::Status Definition::AddStruct(const std::string& type, std::string_view tex
 }
 
 base::Status Definition::Check() const {
-  // A type that contains itself would be infinite: the nesting of structs is limited.
+  // A type that contains itself would be infinite, so the nesting of structs is limited.
   std::vector<std::pair<std::string, int>> open{{root_, 0}};
   std::map<std::string, int> deepest;
   while (!open.empty()) {
@@ -152,7 +152,7 @@ class Decoder {
         in_({reinterpret_cast<const char*>(cdr.data()) + 4, cdr.size() - 4},
             cdr[1] == std::byte{1}) {}
 
-  // False if the bytes do not fit the type.
+  // Returns false if the bytes do not fit the type.
   bool Read(const std::string& type, ordered_json& out) {
     out = ordered_json::object();
     for (const Definition::Field& field : definition_.structs_.at(type)) {
@@ -219,7 +219,7 @@ class Decoder {
 
   bool ReadString(ordered_json& out) {
     std::string_view text = in_.Octets();
-    text.remove_suffix(text.empty() ? 0 : 1);  // the zero at its end
+    text.remove_suffix(text.empty() ? 0 : 1);  // removes the terminating zero
     out = std::string(text);
     return in_.ok();
   }

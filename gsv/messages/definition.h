@@ -1,7 +1,8 @@
-// Messages whose types are only known from a schema's text: those of a recording, whoever wrote it.
+// Decodes messages whose types are known only from the text of a schema, such as those of a
+// recording of any program.
 //
-// Input    hostile: text and data come from a file. Nesting, lengths and the size of what is
-//          decoded are bounded.
+// Input    untrusted: text and data come from a file. Nesting, lengths and the size of the result
+//          are limited.
 // Sources  ROS 2 interface definition (design.ros2.org/articles/legacy_interface_definition.html);
 //          CDR as in OMG DDSI-RTPS, little and big endian, plain (XCDR1).
 #pragma once
@@ -21,12 +22,12 @@ namespace gsv::messages {
 
 class Definition {
  public:
-  // `name` as in a schema, "sensor_msgs/msg/Range"; `text` is the type's definition and those of
-  // the types it uses, as in Schema::text.
+  // Parses a schema. `name` has the form "sensor_msgs/msg/Range". `text` is the definition of the
+  // type and of the types that it uses, as in Schema::text.
   static base::Result<Definition> Parse(std::string_view name, std::string_view text);
 
-  // A message as JSON, with its fields in order. Octets (images, point clouds) become
-  // {"bytes": COUNT}, as nobody reads them as text.
+  // Decodes a message as JSON, with its fields in order. Octets (images, point clouds) become
+  // {"bytes": COUNT}, because users do not read them as text.
   base::Result<nlohmann::ordered_json> Decode(std::span<const std::byte> cdr) const;
 
  private:
@@ -37,15 +38,15 @@ class Definition {
   struct Field {
     std::string name;
     Kind kind = Kind::kBool;
-    std::size_t size = 1;     // bytes of a number
-    std::string struct_type;  // kStruct: "package/Name"
+    std::size_t size = 1;     // size of a number in bytes
+    std::string struct_type;  // for kStruct, as "package/Name"
     Shape shape = Shape::kSingle;
-    std::size_t length = 0;  // kArray
+    std::size_t length = 0;  // for kArray
   };
   using Struct = std::vector<Field>;
 
   base::Status AddStruct(const std::string& type, std::string_view text);
-  base::Status Check() const;  // all types are there, and none holds itself
+  base::Status Check() const;  // Checks that all types are defined and that none contains itself.
 
   std::string root_;
   std::map<std::string, Struct> structs_;  // by "package/Name"

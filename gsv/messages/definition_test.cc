@@ -35,7 +35,8 @@ b/Part part
 MSG: b/Part
 bool on
 string<=10 unit)");
-  // kind 7; padding; at (1.0, -2.0); "ab"; two steps after their count; on; padding; "m".
+  // The fields are kind 7, padding, at (1.0, -2.0), "ab", two steps after their count, on, padding,
+  // "m".
   const auto message =
       definition.Decode(Cdr({0, 1, 0, 0,                                                     //
                              7, 0, 0, 0, 0,   0,   0,    0,                                  //
@@ -63,7 +64,7 @@ TEST(Definition, OctetsAreCounted) {
   EXPECT_EQ((*message)["last"], 9);
 }
 
-// Each of our own types, as encoded by the generated code, must be read exactly to its end.
+// Each message that the generated code has encoded must be read exactly to its end.
 TEST(Definition, ReadsEveryTypeOfGsv) {
   ForEachType([](const Schema& schema, auto message) {
     const Definition definition = Parsed(schema.name, schema.text);
@@ -82,15 +83,15 @@ TEST(Definition, ReadsEveryTypeOfGsv) {
 }
 
 TEST(Definition, InvalidSchemasAreRejected) {
-  EXPECT_FALSE(Definition::Parse("a/A", "b/B thing\n"));     // lacks b/B
-  EXPECT_FALSE(Definition::Parse("a/A", "A[] children\n"));  // contains itself
+  EXPECT_FALSE(Definition::Parse("a/A", "b/B thing\n"));     // the type b/B is missing
+  EXPECT_FALSE(Definition::Parse("a/A", "A[] children\n"));  // the type contains itself
   EXPECT_FALSE(Definition::Parse("a/A", "wstring wide\n"));
 }
 
 TEST(Definition, WrongLengthsAreRejected) {
   const Definition numbers = Parsed("a/A", "float64[] values\n");
   EXPECT_FALSE(numbers.Decode(Cdr({0, 1, 0, 0, 0xff, 0xff, 0xff, 0xff})));
-  // An empty struct has no bytes, but the number of them is limited.
+  // An empty struct has no bytes, so the number of such structs is limited.
   const Definition nothings = Parsed("a/A", "B[] values\n====\nMSG: a/B\n");
   EXPECT_FALSE(nothings.Decode(Cdr({0, 1, 0, 0, 0xff, 0xff, 0xff, 0x7f})));
   EXPECT_FALSE(nothings.Decode({}));

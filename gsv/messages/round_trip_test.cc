@@ -1,4 +1,4 @@
-// Every message type is written and read back, complete and damaged.
+// Writes and reads every message type, both complete and damaged.
 #include <gtest/gtest.h>
 
 #include "gsv/messages/sample_filler.h"
@@ -37,7 +37,7 @@ TEST(RoundTrip, TruncatedMessagesAreRejected) {
   });
 }
 
-// Whatever a flipped bit changes in lengths and counts, the result is a message or an error.
+// A flipped bit may change lengths and counts. The result must be a message or an error.
 TEST(RoundTrip, FlippedBitsCauseNoReadOutsideTheMessage) {
   ForEachType([](const Schema& schema, auto message) {
     Bytes bytes = Sample(message, 3);

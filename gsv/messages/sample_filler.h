@@ -1,5 +1,5 @@
-// Gives each field of a message, in order, the next value of a simple series, for tests. The same
-// rule stands in interop_test.mjs: it is what both sides agree on without sharing code.
+// For tests: sets each field of a message, in order, to the next value of a simple series.
+// interop_test.mjs has the same rule, so that both sides expect equal values without sharing code.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,14 @@ class SampleFiller {
  public:
   explicit SampleFiller(std::uint32_t seed) : next_(seed) {}
 
-  // n mod 4 elements.
+  // A sequence has n mod 4 elements.
   std::size_t Count() { return next_++ % 4; }
-  // n odd.
+  // A flag is true if n is odd.
   void Value(bool& value) { value = next_++ % 2 == 1; }
-  // n times "x", at most six.
+  // A string has at most six times "x".
   void Value(std::string& value) { value.assign(next_++ % 7, 'x'); }
-  // Whole numbers: n mod 100, negative where that can be and n is odd. Others: n + 0.5.
+  // Integers are n mod 100, and negative if the type allows that and n is odd. Other numbers are n
+  // + 0.5.
   template <typename Number>
   void Value(Number& value) {
     const std::uint32_t n = next_++;

@@ -1,16 +1,17 @@
-// How a message type describes itself to those who read it later: in a recording, over the wire.
+// The description of a message type for programs that read its messages later: in a recording, or
+// over a network.
 #pragma once
 
 #include <string_view>
 
 namespace gsv::messages {
 
-// All views live as long as the program.
+// All views are valid until the program ends.
 struct Schema {
-  std::string_view name;      // "sensor_msgs/msg/Range"
-  std::string_view encoding;  // "ros2msg"
-  // The type's definition followed by those of all types it uses, each after a line of eighty
-  // '=' and "MSG: package/Name": what rosbag2 and MCAP's readers expect.
+  std::string_view name;      // such as "sensor_msgs/msg/Range"
+  std::string_view encoding;  // always "ros2msg"
+  // The definition of the type, followed by those of all types that it uses, each after a line of
+  // eighty '=' and "MSG: package/Name". Readers of rosbag2 and MCAP expect this form.
   std::string_view text;
 };
 

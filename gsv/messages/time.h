@@ -1,6 +1,6 @@
-// Simulated time as messages carry it.
+// Converts simulated time to the time in messages.
 //
-// Range  times from 0 to 2^31 s; ROS's seconds are 32 bits.
+// Range  times from 0 to 2^31 s, because ROS's seconds have 32 bits.
 #pragma once
 
 #include "gsv/base/sim_time.h"

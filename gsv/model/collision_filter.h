@@ -1,4 +1,5 @@
-// Which collisions can collide with each other: SDFormat's <category_bitmask> and <collide_bitmask>.
+// Determines which collisions can collide with each other: SDFormat's <category_bitmask> and
+// <collide_bitmask>.
 #pragma once
 
 #include <cstdint>
@@ -6,24 +7,24 @@
 namespace gsv::model {
 
 struct CollisionFilter {
-  std::uint16_t category = 0xFFFF;  // of the collision itself
-  std::uint16_t collides = 0xFFFF;  // the categories that it meets
+  std::uint16_t category = 0xFFFF;  // the category of the collision itself
+  std::uint16_t collides = 0xFFFF;  // the categories with which it collides
   friend bool operator==(const CollisionFilter&, const CollisionFilter&) = default;
 };
 
-// Whether two collisions meet, as SDFormat 1.9 defines it for <category_bitmask>: one of them is
-// enough to want it.
+// Whether two collisions can collide, as SDFormat 1.9 defines it for <category_bitmask>: it is
+// enough if one of them collides with the other's category.
 inline bool Meet(const CollisionFilter& a, const CollisionFilter& b) {
   return ((a.category & b.collides) | (b.category & a.collides)) != 0;
 }
 
-// Meets whatever one of the two meets.
+// Returns a filter that collides with everything that one of the two collides with.
 inline CollisionFilter Union(const CollisionFilter& a, const CollisionFilter& b) {
   return {static_cast<std::uint16_t>(a.category | b.category),
           static_cast<std::uint16_t>(a.collides | b.collides)};
 }
 
-// Meets nothing.
+// A filter that collides with nothing.
 inline constexpr CollisionFilter kMeetsNothing{0, 0};
 
 }  // namespace gsv::model

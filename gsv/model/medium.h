@@ -10,23 +10,23 @@
 
 namespace gsv::model {
 
-// Pushes each link that has wind with `drag` times its mass times the velocity of the wind against
-// it, at its centre of mass: Gazebo's WindEffects.
+// Wind as in Gazebo's WindEffects. It pushes each link that has wind at its centre of mass, with
+// `drag` times its mass times the relative velocity of the wind.
 struct Wind {
   geometry::Vector3 velocity;  // m/s
-  double drag = 1;             // 1/s: <force_approximation_scaling_factor>
+  double drag = 1;             // in 1/s: <force_approximation_scaling_factor>
 };
 
-// Lifts bodies with the weight of what they displace, at the centre of the displaced volume:
-// Gazebo's Buoyancy.
+// A fluid as in Gazebo's Buoyancy. It lifts bodies by the weight of the displaced fluid, at the
+// centre of the displaced volume.
 struct Fluid {
   struct Layer {
-    double above = 0;    // m: the layer begins at this height
+    double above = 0;    // the height at which the layer begins, m
     double density = 0;  // kg/m³
   };
-  double density = 1000;      // kg/m³, below all layers
-  std::vector<Layer> layers;  // by height, ascending; each ends where the next begins
-  // Models ("boat") and links ("boat::hull") that are lifted; empty: all.
+  double density = 1000;      // density below all layers, kg/m³
+  std::vector<Layer> layers;  // by ascending height; each layer ends where the next one begins
+  // The models ("boat") and links ("boat::hull") that are lifted; empty for all.
   std::vector<std::string> lifted;
 };
 

@@ -26,15 +26,15 @@ struct Visual {
   // One per material slot of a mesh; other shapes use the first. Never empty.
   std::vector<Material> materials{Material{}};
   bool cast_shadows = true;
-  std::optional<double> temperature = std::nullopt;  // K; default: the temperature of the air
+  std::optional<double> temperature = std::nullopt;  // in K; nullopt for the temperature of the air
 };
 
 // Coulomb friction and restitution, as in SDFormat's <surface>.
 struct Surface {
   double friction = 1.0;   // along friction_direction
-  double friction2 = 1.0;  // across
+  double friction2 = 1.0;  // friction across that direction
   double restitution = 0.0;
-  // In the collision's frame, unit length; zero: the world's x axis.
+  // in the collision's frame, of unit length; zero for the world's x axis
   geometry::Vector3 friction_direction;
   CollisionFilter filter;
 };
@@ -60,10 +60,11 @@ struct Link {
   std::vector<Visual> visuals;
   std::vector<Collision> collisions;
   bool has_gravity = true;
-  bool has_wind = false;      // the world's wind pushes it
-  bool is_kinematic = false;  // no force moves it, only its drive or its joint's command
-  // The share of its velocity that it loses in each step of the world's length: SDFormat's
-  // <velocity_decay>, as Gazebo has it with ODE. In [0, 1].
+  bool has_wind = false;  // whether the world's wind pushes it
+  // whether no force moves it, but only its drive or the command of its joint
+  bool is_kinematic = false;
+  // The fraction of its velocity that it loses in each step of the world's length, in [0, 1]:
+  // SDFormat's <velocity_decay>, as Gazebo applies it with ODE.
   double linear_decay = 0, angular_decay = 0;
 };
 
@@ -72,7 +73,7 @@ enum class JointKind {
   kRevolute,
   kContinuous,
   kPrismatic,
-  // One of three consecutive joints that form a ball joint, see SplitJoint() in gsv/formats.
+  // one of three consecutive joints that form a ball joint, see SplitJoint() in gsv/formats
   kBall,
   kScrew,  // rotates, and slides by thread_pitch times the angle
 };
@@ -137,12 +138,12 @@ struct Model {
   std::vector<Link> links;                 // links[0] is the canonical link; never empty
   std::vector<Joint> joints;               // a forest: no link is the child of two joints
   std::vector<JointTarget> joint_targets;  // at most one per joint
-  std::vector<double> start_positions;     // of the joints, where it starts; empty: zero
+  std::vector<double> start_positions;     // initial positions of the joints; empty for zero
   std::vector<SensorDescription> sensors;
   std::vector<ControlSystem> control_systems;
-  std::optional<Drive> drive;             // present: a robot that can be given a behaviour
-  Movement movement = Movement::kPlanar;  // of a model with a drive
-  std::shared_ptr<const Script> script;   // of an actor; else null
+  std::optional<Drive> drive;             // set for a robot that can be given a behaviour
+  Movement movement = Movement::kPlanar;  // for a model with a drive
+  std::shared_ptr<const Script> script;   // for an actor, else null
 };
 
 // The radius about the model's origin, in its xy plane, of a circle that contains the boxes around
@@ -152,7 +153,7 @@ double FootprintRadius(const Model& model);
 // The lowest z, in the model's frame, of the boxes around all collisions except planes; 0 if there
 // are none. Exact for boxes; a lower bound for tilted round shapes.
 double LowestPoint(const Model& model);
-// The same relative to the origin for a rotated model.
+// The lowest z relative to the origin, for a rotated model.
 double LowestPoint(const Model& model, const geometry::Quaternion& world_from_model);
 
 }  // namespace gsv::model

@@ -23,20 +23,21 @@ struct PedestrianGoal {
 struct PedestrianGroup {
   std::string name = "pedestrian";  // its members are NAME_1, NAME_2, …
   int count = 1;
-  // Goals in turn, then again from the first; members stay within a single goal. There is no path
-  // planning: each goal must be in sight of the previous one.
+  // The goals in their order; after the last one the first follows. If there is a single goal,
+  // members stay within it. There is no path planning, so each goal must be in sight of the
+  // previous one.
   std::vector<PedestrianGoal> route;
-  double z = 0;                                 // of the floor
-  double speed = 1.34, speed_deviation = 0.26;  // m/s: desired speeds are normally distributed
-  double radius = 0.25, height = 1.75;          // of the collision cylinder
+  double z = 0;                                 // height of the floor
+  double speed = 1.34, speed_deviation = 0.26;  // in m/s; desired speeds have a normal distribution
+  double radius = 0.25, height = 1.75;          // size of the collision cylinder
 
   friend bool operator==(const PedestrianGroup&, const PedestrianGroup&) = default;
 };
 
-inline constexpr int kMaxPedestrians = 100'000;  // per group
+inline constexpr int kMaxPedestrians = 100'000;  // maximum per group
 
-// Refuses (kInvalidArgument) groups without goals, counts and sizes out of range, and numbers that
-// are not finite.
+// Rejects groups without goals, counts and sizes out of range, and numbers that are not finite
+// (kInvalidArgument).
 base::Status Check(const PedestrianGroup& group);
 
 // The model of a member: a simple figure that faces along x, with its feet at z = 0, in one of

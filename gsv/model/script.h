@@ -18,15 +18,16 @@ struct Waypoint {
 };
 
 struct Trajectory {
-  std::vector<Waypoint> waypoints;    // by time, ascending, each time once, the first at 0
-  double tension = 0;                 // in [0, 1]; 1: it is linear between waypoints
-  bool animated_by_distance = false;  // interpolate_x: the gait follows the distance, not the time
+  std::vector<Waypoint> waypoints;  // by time, ascending, each time once, the first at 0
+  double tension = 0;               // in [0, 1]; with 1 the motion is linear between waypoints
+  // interpolate_x: whether the gait follows the distance, and not the time
+  bool animated_by_distance = false;
 };
 
 // Joint positions of a model over time: a gait.
 struct Animation {
-  base::SimTime length{0};  // above zero; then the animation repeats
-  double distance = 0;      // m that the gait covers in `length`; 0: unknown
+  base::SimTime length{0};  // above zero; the animation repeats after it
+  double distance = 0;      // the distance that the gait covers in `length`, m; 0 if it is unknown
   int joint_count = 0;
   std::vector<double> positions;  // keyframes, evenly over `length`, of joint_count values each
   int frame_count() const {
@@ -36,10 +37,10 @@ struct Animation {
 
 struct Script {
   bool loops = true;
-  base::SimTime delay{0};  // not negative: before each start
+  base::SimTime delay{0};  // the delay before each start; not negative
   bool starts_by_itself = true;
   std::vector<Trajectory> trajectories;        // one after the other; may be empty
-  std::shared_ptr<const Animation> animation;  // null: joints do not move
+  std::shared_ptr<const Animation> animation;  // null if joints do not move
 };
 
 // The pose of a script's actor before the start, in the trajectory's frame.

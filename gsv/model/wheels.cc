@@ -13,14 +13,15 @@ namespace {
 using geometry::Pose;
 using geometry::Vector3;
 
-constexpr int kDirections = 16;      // in which a wheel's extent is measured
-constexpr double kRoundness = 0.88;  // least extent over largest: a 12-sided mesh is round
+constexpr int kDirections = 16;  // number of directions in which a wheel's extent is measured
+// minimum ratio of the smallest to the largest extent; a 12-sided mesh counts as round
+constexpr double kRoundness = 0.88;
 constexpr double kMinRadius = 0.005;
-constexpr double kLevel = 0.35;    // sine of an axis' slope: wheels may have camber
-constexpr double kUpright = 0.9;   // cosine between a swivel and the vertical
+constexpr double kLevel = 0.35;    // maximum sine of an axis' slope, because wheels may have camber
+constexpr double kUpright = 0.9;   // minimum cosine between a swivel and the vertical
 constexpr double kManyTurns = 20;  // rad
 
-// The extent of a shape along a direction of its own frame, from its origin.
+// The extent of a shape from its origin, along a direction in its own frame.
 struct Reach {
   Vector3 d;  // unit length
 
@@ -55,7 +56,7 @@ struct Reach {
   }
 };
 
-// The extent of shapes about an axis through `origin`: in directions across it, and along it.
+// The extent of shapes about an axis through `origin`, both across the axis and along it.
 class Extent {
  public:
   Extent(const Vector3& origin, const Vector3& axis) : origin_(origin), axis_(axis) {
@@ -121,7 +122,7 @@ Vector3 AxisInModel(const Joint& joint) { return joint.model_from_joint.orientat
 
 std::optional<int> SwivelOf(const Model& model, int joint) {
   int link = model.joints[static_cast<std::size_t>(joint)].parent;
-  // The joints are a forest: this ends.
+  // The loop ends, because the joints are a forest.
   while (link >= 0) {
     const int above = JointInto(model, link);
     if (above < 0) break;

@@ -16,33 +16,34 @@
 namespace gsv::orb {
 
 struct OrbOptions {
-  std::string host = "127.0.0.1";  // the address to listen on
-  int port = 0;                    // 0: the system chooses
+  std::string host = "127.0.0.1";  // the address on which it listens
+  int port = 0;                    // 0 if the system chooses the port
   bool local_socket = false;       // also listen on a local socket if possible, see local_socket.h
-  std::uint64_t max_message_bytes = 64u << 20;  // with its header
+  std::uint64_t max_message_bytes = 64u << 20;  // including its header
   std::chrono::seconds message_time{30};        // time limit for receiving a message
   std::chrono::milliseconds call_timeout{10'000};
-  // Removes arguments that crash omniORB, see broker::CheckRequest(). Null: no check.
+  // Removes arguments that crash omniORB, see broker::CheckRequest(). Null for no check.
   void (*check_request)(std::string& message) = nullptr;
-  // A call in progress occupies its connection: use at least the number of agents that wait at the
-  // same time.
+  // The maximum number of connections to one server. A call in progress occupies its connection, so
+  // use at least the number of agents that wait at the same time.
   int max_connections_per_server = 4096;
 };
 
-// Starts the ORB and its root POA. Fails with a sentence when the port is taken, a certificate
-// cannot be used, or the address takes one.
+// Starts the ORB and its root POA. Fails with a sentence if the port is in use, if a certificate is
+// invalid, or if the address requires one.
 base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options);
 
-// The process's ORB. If none was started, starts one for outgoing calls only.
+// Returns the process's ORB. If none was started, it starts one for outgoing calls only.
 base::Result<CORBA::ORB_var> CallingOrb();
 
-PortableServer::POA_ptr RootPoa(CORBA::ORB_ptr orb);  // the caller owns the reference
+// Returns the root POA; the caller owns the reference.
+PortableServer::POA_ptr RootPoa(CORBA::ORB_ptr orb);
 
-// The local address from which `host` is reached, to listen on for peers there; "127.0.0.1" for a
-// loopback host.
+// Returns the local address from which `host` is reached, on which peers there can be served. It is
+// "127.0.0.1" for a loopback host.
 base::Result<std::string> LocalAddressTowards(const std::string& host);
 
-// The host and port that a reference points to, by TCP or TLS, "127.0.0.1:40123"; empty if it
+// Returns the host and port of a reference, by TCP or TLS, such as "127.0.0.1:40123". Empty if it
 // contains none.
 std::string AddressOf(CORBA::Object_ptr object);
 

@@ -11,7 +11,7 @@ namespace {
 
 using messages::visualization_msgs::Marker;
 
-constexpr double kDash = 0.02;  // of a beam's length
+constexpr double kDash = 0.02;  // as a fraction of a beam's length
 
 Marker MarkerOf(const std::string& robot, base::SimTime time) {
   Marker marker;
@@ -23,7 +23,7 @@ Marker MarkerOf(const std::string& robot, base::SimTime time) {
   return marker;
 }
 
-// Pairs of points.
+// Returns a marker of pairs of points.
 Marker LinesOf(const std::string& robot, base::SimTime time,
                const std::vector<geometry::Vector3>& points_in_world) {
   Marker marker = MarkerOf(robot, time);

@@ -36,10 +36,12 @@ namespace gsv::readings {
 
 template <typename Struct, typename Member>
 struct Field {
-  const char* name;  // the member's
-  const char* unit;  // "m", "rad/s"; empty: none, or its parts have units
+  const char* name;  // the name of the member
+  const char* unit;  // such as "m" or "rad/s"; empty if it has none, or if its parts have units
   Member Struct::*member;
-  const char* path;  // of the field in the type's message; null: the name, empty: the parts' paths
+  // the field's path in the message of the type; null for the name, empty for the paths of the
+  // parts
+  const char* path;
   bool is_optional;  // may be missing at the end of the values
 };
 

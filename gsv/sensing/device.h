@@ -16,20 +16,21 @@ class Device : public Sensor {
  public:
   const Device* device() const final { return this; }
 
-  // Whether it has a state while it is open, like a radio. Other devices have one from their first
-  // command until they are removed from the robot.
+  // Whether it has a state while it is open, like a radio. Other devices have a state from their
+  // first command until they are removed from the robot.
   virtual bool IsOnWhileOpen() const { return false; }
-  // Whether its commands are messages (`word`: the receiving robot, `content`), each of which is
-  // sent. For other devices the last command of a step counts.
+  // Whether its commands are messages, each of which is sent: `word` is the receiving robot, and
+  // `content` the message. For other devices the last command of a step applies.
   virtual bool SendsMessages() const { return false; }
   // The initial command.
   virtual std::optional<world::DeviceCommand> first() const { return std::nullopt; }
-  // Refuses an invalid command.
+  // Rejects an invalid command.
   virtual base::Status Check(const world::DeviceCommand& command) const = 0;
 
-  // Its state when it is opened; for devices with IsOnWhileOpen().
+  // Returns its state when it is opened; for devices with IsOnWhileOpen().
   virtual world::DeviceStatePtr SwitchedOn(const std::string& /*robot*/) const { return nullptr; }
-  // Its state with `command` applied from the step's instant on. `before` is null if it has none.
+  // Returns its state with `command` applied from the step's instant on. `before` is null if it has
+  // none.
   virtual world::DeviceStatePtr Apply(const std::string& robot, const world::DeviceStatePtr& before,
                                       const world::DeviceCommand& command,
                                       world::DeviceStep& step) const = 0;
@@ -40,7 +41,7 @@ class Device : public Sensor {
   world::DeviceMount MountOn(const std::string& robot) const {
     return {robot, description().name, description().link, description().link_from_sensor};
   }
-  // Its state; null if it has none.
+  // Returns its state, or null if it has none.
   const world::DeviceState* StateIn(const Sampling& sampling) const {
     return world::FindDevice(sampling.snapshot()->state.devices.get(), sampling.robot().name,
                              description().name);

@@ -67,12 +67,13 @@ TEST(Drift, ChangesLittleInAShortTime) {
   for (double t = 0; t < 1500; t += 0.37) {
     const double step =
         DriftAt(FromSeconds(t + 1e-3), 10, kSeed, 1) - DriftAt(FromSeconds(t), 10, kSeed, 1);
-    // sqrt(2 dt / correlation time) is 0.014; five times that, and what interpolation adds.
+    // The bound is five times sqrt(2 dt / correlation time) = 0.014, plus the effect of the
+    // interpolation.
     EXPECT_LT(std::abs(step), 0.12) << t;
   }
 }
 
-// A robot with an altimeter; what is read of the height 5 above a reference of 0.
+// A robot has an altimeter, whose readings are of the height 5 above a reference of 0.
 class NoiseTest : public ::testing::Test {
  protected:
   NoiseTest() {

@@ -1,7 +1,7 @@
 // Named parameter sets of devices that are sold or that were measured.
 //
-// A sensor asks for one with the parameter "preset" (<gsv:preset>hc_sr04</gsv:preset>). Parameters
-// that the sensor has itself win over those of the preset. A sensor without a preset is not changed.
+// A sensor selects one with the parameter "preset" (<gsv:preset>hc_sr04</gsv:preset>). Parameters
+// of the sensor itself override those of the preset. A sensor without a preset is not changed.
 #pragma once
 
 #include <string>
@@ -14,15 +14,15 @@ namespace gsv::sensing {
 
 struct Preset {
   std::string type, name;
-  std::string source;  // a sentence: where the numbers come from
+  std::string source;  // a sentence with the source of the numbers
   model::Parameters parameters;
 };
 
 // By type, then name.
 const std::vector<Preset>& Presets();
 
-// The description with its preset's parameters filled in. `type` is the sensor type's own name, not
-// an alias. kInvalidArgument, naming those that there are, for an unknown preset.
+// Returns the description with its preset's parameters filled in. `type` is the sensor type's own
+// name, not an alias. An unknown preset is a kInvalidArgument error that lists the known ones.
 base::Result<model::SensorDescription> WithPreset(const std::string& type,
                                                   const model::SensorDescription& description);
 

@@ -99,15 +99,15 @@ class DeviceState {
 
   // The following functions return the device's next state, or null if it does not change.
   //
-  // Called before the bodies move, after the commands of this step.
+  // Called before the bodies move, after the commands of this step were applied.
   virtual DeviceStatePtr BeforeStep(DeviceStep&) const { return nullptr; }
   // Called after bodies were added, removed or placed (`placed`). The device's robot exists.
   virtual DeviceStatePtr CarryOver(const Layout&, const std::vector<std::string>& /*placed*/,
                                    base::SimTime /*now*/) const {
     return nullptr;
   }
-  // Called after the bodies have moved to their poses at `time`: moves what the device itself
-  // moves.
+  // Called after the bodies have moved to their poses at `time`. Moves the bodies that the device
+  // itself moves.
   virtual void AfterMove(const Layout&, base::SimTime /*time*/, State&) const {}
 
  private:

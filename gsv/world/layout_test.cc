@@ -38,7 +38,7 @@ TEST(KindOf, FollowsDriveMovementAndCollisions) {
   }
 }
 
-TEST(KindOf, IsStaticIfTheWorldOrTheModelSaysSo) {
+TEST(KindOf, IsStaticForAStaticWorldOrModel) {
   model::Model model = ModelWith(false, true);
   const auto kind_of = [&](bool is_placed_static) {
     return KindOf({"box", std::make_shared<model::Model>(model), {}, is_placed_static});

@@ -61,7 +61,7 @@ TEST(WheelOdometry, DrivesStraightByTheDistanceOfTheWheels) {
   EXPECT_NEAR(odometry.linear, 2, 1e-9);
 }
 
-TEST(WheelOdometry, FollowsAnArcExactlyWhateverTheStep) {
+TEST(WheelOdometry, FollowsAnArcExactlyForAnyStep) {
   // A quarter of a circle of radius 1 to the left.
   const double left = (1 - kSeparation / 2) * kPi / 2, right = (1 + kSeparation / 2) * kPi / 2;
   for (const int steps : {1, 7, 1000}) {

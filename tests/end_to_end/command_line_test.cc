@@ -224,7 +224,7 @@ TEST(CommandLine, BenchTypicalReportsARowForEachNumberOfRobots) {
   }
 }
 
-TEST(CommandLine, BenchRigidGivesOneHashForEachSceneWhateverTheThreads) {
+TEST(CommandLine, BenchRigidGivesOneHashForAnyNumberOfThreads) {
   std::set<std::string> hashes;
   const Strings scenes{"rovers", "boxes", "terrain", "arms"};
   for (const std::string& scene : scenes) {

@@ -1,4 +1,4 @@
-// A stranger to GSV's own ROS 2: Cyclone DDS, with types that its idlc generated from IDL.
+// A ROS 2 peer that shares no code with GSV: Cyclone DDS, with types that its idlc generated from IDL.
 //
 //   ros2_peer listen [--count N] TYPE:TOPIC…     prints N samples of each as JSON, one a line
 //   ros2_peer count --seconds S TYPE:TOPIC…      prints how soon each topic had a sample, and how many samples

@@ -118,7 +118,7 @@ void Warn(const std::vector<std::string>& sentences) {
 
 // Returns problems with selected topics that never existed. A robot that was added during the run
 // may have added topics that did not exist at the start.
-std::vector<std::string> ComplaintsAtTheEnd(const RunOptions& options,
+std::vector<std::string> ProblemsAtTheEnd(const RunOptions& options,
                                             std::vector<std::string> topics_at_start) {
   const auto recorded = recording::McapReader::Open(options.record);
   if (!recorded) return {};  // the disk failed, which was reported already
@@ -128,7 +128,7 @@ std::vector<std::string> ComplaintsAtTheEnd(const RunOptions& options,
   std::sort(topics_at_start.begin(), topics_at_start.end());
   topics_at_start.erase(std::unique(topics_at_start.begin(), topics_at_start.end()),
                         topics_at_start.end());
-  return ComplaintsAbout(options.recording, topics_at_start);
+  return ProblemsOf(options.recording, topics_at_start);
 }
 
 // Prints the violated expectations, and renders an image at the first violation.
@@ -219,7 +219,7 @@ base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) 
   std::vector<std::string> topics;  // the topics that can be recorded
   if (!options.record.empty()) {
     topics = recording::TopicsOf(**simulation);
-    Warn(ComplaintsAbout(options.recording, topics));
+    Warn(ProblemsOf(options.recording, topics));
     RecordingChoice choice = options.recording;
     choice.scenario = *std::move(told);
     if (auto ok = (*runtime)->recordings().Start(*simulation, options.record, choice); !ok)
@@ -233,7 +233,7 @@ base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) 
   if (auto ok = (*runtime)->recordings().StopAll(); !ok) exit_code = Complain(ok.error());
   if (is_quiet) return exit_code;
   if (!options.recording.topics.empty()) {
-    for (std::string& sentence : ComplaintsAtTheEnd(options, std::move(topics))) {
+    for (std::string& sentence : ProblemsAtTheEnd(options, std::move(topics))) {
       warnings.push_back(std::move(sentence));
     }
   }

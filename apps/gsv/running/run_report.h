@@ -9,11 +9,11 @@
 
 namespace gsv::app {
 
-// Returns one line of JSON: sim_time_s, wall_time_s, real_time_factor, steps, late_steps,
-// state_hash, phase, robots:[{name, model, behaviour, agent, pose:{x_m,y_m,z_m,yaw_rad},
-// distance_m, collisions, readings:{sonar: count, …}}], warnings:[…], failure, expectations:[{name,
-// yaml, where, holds, step, time_s, detail, measured:[{what, lowest, lowest_s, highest, highest_s,
-// last}]}].
+// Returns one line of JSON:
+//   sim_time_s, wall_time_s, real_time_factor, steps, late_steps, state_hash, phase, failure,
+//   robots:[{name, model, behaviour, agent, pose:{x_m,y_m,z_m,yaw_rad}, distance_m, collisions,
+//   readings:{sonar: count, …}}], warnings:[…], expectations:[{name, yaml, where, holds, step,
+//   time_s, detail, measured:[{what, lowest, lowest_s, highest, highest_s, last}]}]
 std::string JsonReport(const simulation::Simulation& simulation,
                        const std::vector<std::string>& warnings,
                        const std::vector<verdict::Finding>& findings);

@@ -87,7 +87,7 @@ bool NamesAFile(const std::string& path) {
 
 }  // namespace
 
-std::vector<std::string> ComplaintsAbout(const RecordingChoice& choice,
+std::vector<std::string> ProblemsOf(const RecordingChoice& choice,
                                          const std::vector<std::string>& topics) {
   constexpr std::size_t kMaxListed = 24;
   std::vector<std::string> sentences;
@@ -229,9 +229,9 @@ Recordings::Totals Recordings::totals() {
   for (const auto& [name, recording] : recordings_) Add(StateOf(recording), totals);
   // A recording that is being finished is in neither total for a moment, but the reported totals
   // must not decrease.
-  told_ = {totals.under_way, std::max(totals.messages, told_.messages),
-           std::max(totals.dropped, told_.dropped), std::max(totals.bytes, told_.bytes)};
-  return told_;
+  reported_ = {totals.under_way, std::max(totals.messages, reported_.messages),
+           std::max(totals.dropped, reported_.dropped), std::max(totals.bytes, reported_.bytes)};
+  return reported_;
 }
 
 Recordings::State Recordings::StateOf(const Recording& recording) {

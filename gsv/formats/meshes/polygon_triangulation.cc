@@ -68,9 +68,9 @@ Hit FirstHit(const Ring& ring, const Vector2& eye) {
   return hit;
 }
 
-// The corner of `ring` that is visible from `eye`. It is the right end of the edge that the ray
-// meets, unless reflex corners are between them; then it is the one with the smallest angle to the
-// ray, and of those the nearest. ring.size() if there is none.
+// The corner of `ring` that is visible from `eye`, or ring.size() if there is none. It is the right
+// end of the edge that the ray meets. If reflex corners are between them, it is the reflex corner
+// with the smallest angle to the ray, and of those the nearest.
 std::size_t VisibleCorner(const Ring& ring, const Vector2& eye) {
   const Hit hit = FirstHit(ring, eye);
   if (std::isinf(hit.x)) return ring.size();

@@ -1,4 +1,5 @@
-// Any text, up to a NUL, as a type's definition, and any bytes after it as a message of that type.
+// Parses any text up to a NUL as the definition of a type, and decodes the bytes after it as a
+// message of that type.
 #include <algorithm>
 #include <cstdint>
 

@@ -1,9 +1,9 @@
-// Checks the arguments and results of operations in a message's bytes, before the ORB unmarshals
-// them. Only operations that pass an `any` or a TypeCode need it: what omniORB 4.2.5 does not
-// survive is in these (type_code_check.h).
+// Checks the arguments and results of operations in the bytes of a message, before the ORB
+// unmarshals them. Only operations that pass an `any` or a TypeCode need it, because omniORB 4.2.5
+// crashes on some malformed ones (type_code_check.h).
 //
-// A message that is refused loses its body: the ORB then answers, or raises, MARSHAL, and the
-// connection continues.
+// The body of an invalid message is removed. The ORB then answers with MARSHAL, or raises it, and
+// the connection continues.
 #pragma once
 
 #include <cstdint>
@@ -24,45 +24,45 @@ namespace gsv::orb {
 //                  a union: its discriminator's size, each member with its label as an unsigned
 //                  decimal number, the default member last
 struct Signature {
-  std::string_view name;  // an operation's, or an exception's repository id
+  std::string_view name;  // the name of an operation, or the repository id of an exception
   std::string_view types;
 };
 
-// The operations that contain an `any` or a TypeCode. Messages of all others are not checked. tools/omniidl/signatures.py
-// makes them from IDL.
+// The operations that contain an `any` or a TypeCode. Messages of other operations are not checked.
+// tools/omniidl/signatures.py makes this table from IDL.
 struct Signatures {
   std::span<const Signature> requests;
   std::span<const Signature> replies;
   std::span<const Signature> exceptions;
 };
 
-// Checks `message`, which is a whole one, if it is a request.
+// Checks `message` if it is a request. It must be complete.
 void CheckRequest(const Signatures& signatures, std::string& message);
 
 // Whether the encapsulation begins with values of these types.
 bool HasTypes(std::string_view encapsulation, std::string_view types);
 
-// Checks the replies that come on one connection. It remembers the connection's requests, as
+// Checks the replies that arrive on one connection. It remembers the connection's requests, because
 // replies do not name their operation.
 class ReplyCheck {
  public:
-  // `signatures` must outlive it.
+  // `signatures` must outlive this object.
   explicit ReplyCheck(const Signatures& signatures) : signatures_(signatures) {}
 
-  // `bytes` are about to be sent. They follow what was sent before and lie in one message; a
-  // request's header comes in one piece.
+  // Call this before `bytes` are sent. They follow the bytes that were sent before, and belong to
+  // one message. The header of a request comes in one piece.
   void Sending(std::string_view bytes);
-  // The first `count` of them were sent.
+  // Call this after the first `count` of these bytes were sent.
   void Sent(std::size_t count);
-  // Checks `message`, which is a whole one, if it is a reply. One that nobody waits for is refused.
+  // Checks `message` if it is a reply. It must be complete. A reply without a request is rejected.
   void Check(std::string& message);
 
  private:
   std::string_view TypesOfReply(std::uint32_t id) const;
 
   const Signatures& signatures_;
-  std::size_t rest_ = 0;                             // bytes of the message that is being sent
-  std::map<std::uint32_t, std::string> operations_;  // by request id
+  std::size_t rest_ = 0;  // remaining bytes of the message that is being sent
+  std::map<std::uint32_t, std::string> operations_;  // operations by request id
 };
 
 }  // namespace gsv::orb

@@ -20,7 +20,7 @@ struct Case {
 
 RawCdr LongLong(RawCdr before) { return before.Align(8).ULong(1).ULong(2); }
 
-// Each has only values of its types.
+// Each message has only values of its types.
 const Case kCases[] = {
     {"numbers of each size", "1248", LongLong(RawCdr().Octet(1).UShort(2).ULong(3))},
     {"a string", "s", RawCdr().String("text")},
@@ -40,11 +40,11 @@ const Case kCases[] = {
 };
 
 std::string Encapsulated(const RawCdr& values) {
-  // Alignment counts from the byte order; that of the values begins four bytes later.
+  // Alignment counts from the byte order. That of the values begins four bytes later.
   return std::string("\x01\0\0\0", 4) + values.bytes();
 }
 
-// Whether the bytes have these types after the three bytes behind the byte order.
+// Whether the bytes have these types, beginning three bytes behind the byte order.
 bool HasTypesOf(const Case& each, const std::string& bytes) {
   return HasTypes(bytes, "111" + std::string(each.types));
 }
@@ -97,11 +97,11 @@ TEST(RequestCheckTest, IgnoresUnlistedOperations) {
   EXPECT_EQ(message, other);
 }
 
-// The rest of the reply `body` to a request of `operation`.
+// Returns the rest of the reply `body` to a request of `operation`, after the check.
 std::string CheckedReply(const std::string& operation, const std::string& body) {
   ReplyCheck check(kSignatures);
   const std::string request = RawRequest("key", operation, "", 7);
-  // The header comes in one piece, the rest possibly not.
+  // The header arrives in one piece. The rest may arrive in several.
   check.Sending(request);
   check.Sent(request.size() - 1);
   check.Sending(request.substr(request.size() - 1));

@@ -7,7 +7,7 @@
 namespace gsv::orb {
 namespace {
 
-// CORBA::TCKind.
+// The values of CORBA::TCKind.
 enum TypeCodeKind : std::uint32_t {
   kNull = 0,
   kVoid = 1,
@@ -41,7 +41,7 @@ enum TypeCodeKind : std::uint32_t {
 constexpr std::uint32_t kIndirection = 0xFFFFFFFF;
 
 struct FixedSize {
-  std::size_t size = 0;  // 0: none
+  std::size_t size = 0;  // 0 if it has no fixed size
   std::size_t alignment = 1;
 };
 
@@ -147,7 +147,7 @@ std::size_t TypeCodeCheck::Repeated(CdrReader& in) {
   return found->second;
 }
 
-// Sets `type.size` to 0 if they do not fit.
+// Sets `type.size` to 0 if the parameters are invalid.
 void TypeCodeCheck::ReadParameters(Type& type, CdrReader in, std::size_t depth) {
   if (type.kind != kSequence && type.kind != kArray) {
     in.String();
@@ -216,7 +216,8 @@ void TypeCodeCheck::ReadAny(CdrReader& in, std::size_t depth) {
   ReadValue(type, in, depth + 1);
 }
 
-// Reads a type without parameters, as most are. False for any other, which is not read.
+// Reads a type without parameters, as most types are. Returns false for any other type and does not
+// read it.
 bool TypeCodeCheck::ReadSimpleAny(CdrReader& in) {
   CdrReader behind = in;
   const std::uint32_t kind = behind.ULong();

@@ -1,7 +1,7 @@
-// Checks TypeCodes and the values that they describe before the ORB reads them: omniORB 4.2.5 fails
-// on some malformed ones, and the memory it takes is quadratic in their depth.
+// Checks TypeCodes and the values that they describe before the ORB reads them. omniORB 4.2.5
+// crashes on some malformed ones, and needs memory that is quadratic in their depth.
 //
-// Also refused, though they are valid CORBA: recursive types, value types, and what exceeds the
+// Some valid CORBA is also rejected: recursive types, value types, and anything that exceeds the
 // limits below.
 //
 // Source  CORBA 3.1 part 2, 7.3.5 (TypeCodes), 7.3.2 and 7.3.4 (values).
@@ -19,13 +19,14 @@ namespace gsv::orb {
 using base::CdrReader;
 
 struct TypeCodeLimits {
-  std::size_t depth = 64;      // of types in types and values in values, together
-  std::size_t types = 4096;    // in one message; one that is referred to counts again
-  std::size_t values = 65536;  // in one message, but for elements of a fixed size
+  std::size_t depth = 64;  // nesting of types and of values, together
+  // number of types in one message; a type counts again for each reference to it
+  std::size_t types = 4096;
+  std::size_t values = 65536;  // number of values in one message, without elements of a fixed size
 };
 
-// The TypeCodes of one message. The functions move the reader behind what they read, or make it
-// fail.
+// The TypeCodes of one message. After a function the reader is behind the part that it read, or has
+// failed.
 class TypeCodeCheck {
  public:
   explicit TypeCodeCheck(const TypeCodeLimits& limits = {}) : limits_(limits) {}
@@ -37,11 +38,13 @@ class TypeCodeCheck {
   struct Type {
     std::uint32_t kind = 0;
     std::size_t depth = 1;
-    std::size_t size = 1;            // with all that it is made of
-    std::uint32_t length = 0;        // of an array; an enumeration's names; a fixed-point's digits
-    std::vector<std::size_t> parts;  // members, an element, what is named; a union's first is its
-                                     // discriminator
-    std::vector<std::uint64_t> labels;  // a union's, one for each member
+    std::size_t size = 1;  // size of the type with all its parts
+    // length of an array, number of names of an enumeration, or digits of a fixed-point type
+    std::uint32_t length = 0;
+    // the members, the element, or the aliased type; for a union the first part is the
+    // discriminator
+    std::vector<std::size_t> parts;
+    std::vector<std::uint64_t> labels;  // labels of a union, one for each member
     std::int32_t default_member = -1;
   };
 
@@ -62,7 +65,8 @@ class TypeCodeCheck {
 
   TypeCodeLimits limits_;
   std::vector<Type> types_;
-  std::map<const char*, std::size_t> read_;  // by where they begin, in the present TypeCode
+  // types by the address at which they begin, in the present TypeCode
+  std::map<const char*, std::size_t> read_;
   std::size_t type_count_ = 0;
   std::size_t value_count_ = 0;
 };

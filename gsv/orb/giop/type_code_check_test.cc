@@ -23,10 +23,10 @@ constexpr std::uint32_t kArray = 20;
 constexpr std::uint32_t kAlias = 21;
 constexpr std::uint32_t kFixed = 28;
 
-// The encapsulated parameters of a TypeCode.
+// Returns the start of encapsulated parameters of a TypeCode.
 RawCdr Parameters() { return RawCdr().Octet(1); }
 RawCdr Named() { return Parameters().String("IDL:T:1.0").String("T"); }
-// `before` and a TypeCode of `kind` with `parameters`.
+// Returns `before` and a TypeCode of `kind` with `parameters`.
 RawCdr With(RawCdr before, std::uint32_t kind, const RawCdr& parameters) {
   return before.ULong(kind).Octets(parameters.bytes());
 }
@@ -80,7 +80,7 @@ TEST(TypeCodeCheckTest, RejectsUnusableKinds) {
   }
 }
 
-// A type with a scale of 108 crashed the broker.
+// Regression: a type with a scale of 108 crashed the broker.
 TEST(TypeCodeCheckTest, RejectsFixedWithMoreDecimalsThanDigits) {
   EXPECT_TRUE(IsTypeCode(RawCdr().ULong(kFixed).UShort(19).UShort(4)));
   EXPECT_TRUE(IsTypeCode(RawCdr().ULong(kFixed).UShort(31).UShort(31)));
@@ -102,7 +102,8 @@ TEST(TypeCodeCheckTest, AcceptsAReferenceToAnEarlierType) {
     members.Raw(inner.bytes()).String("b").ULong(0xFFFFFFFF);
     return With({}, kStruct, members.ULong(back));
   };
-  // From the offset to the inner type: the mark, "b" and its length, and the type itself.
+  // The distance from the offset to the inner type covers the mark, "b" and its length, and the
+  // type itself.
   const auto distance = static_cast<std::uint32_t>(inner.bytes().size() + 4 + 4 + 4);
   EXPECT_TRUE(IsTypeCode(pair(0u - distance)));
   EXPECT_FALSE(IsTypeCode(pair(0u - distance + 4)));
@@ -111,7 +112,7 @@ TEST(TypeCodeCheckTest, AcceptsAReferenceToAnEarlierType) {
 }
 
 TEST(TypeCodeCheckTest, RejectsATypeThatContainsItself) {
-  // A sequence whose element type is 12 bytes before the offset: itself.
+  // The element type is 12 bytes before the offset, which is the sequence itself.
   EXPECT_FALSE(
       IsTypeCode(With({}, kSequence, Parameters().ULong(0xFFFFFFFF).ULong(0u - 16).ULong(0))));
 }

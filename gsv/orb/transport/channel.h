@@ -1,4 +1,4 @@
-// Moves bytes over a connected socket, as they are or by TLS (tls_channel.h).
+// Transfers bytes over a connected socket, without encryption or by TLS (tls_channel.h).
 //
 // Threads  any; one may receive while another sends.
 #pragma once
@@ -15,20 +15,21 @@ class Channel {
  public:
   virtual ~Channel() = default;
 
-  // As recv() and send() with MSG_DONTWAIT, but never 0: -1 with EAGAIN when nothing moves now.
+  // Like recv() and send() with MSG_DONTWAIT, but they never return 0. If no bytes can be
+  // transferred now, they return -1 with EAGAIN.
   virtual ssize_t TryReceive(void* buffer, std::size_t size) = 0;
   virtual ssize_t TrySend(const void* buffer, std::size_t size) = 0;
-  // As omniORB's connections: the bytes moved, 0 after `deadline`, -1 when the connection is over.
-  // A deadline of zero is none.
+  // Like the functions of omniORB's connections. They return the number of bytes, 0 after
+  // `deadline`, or -1 if the connection has ended. A deadline of zero means none.
   virtual int Receive(void* buffer, std::size_t size, const omni_time_t& deadline) = 0;
   virtual int Send(const void* buffer, std::size_t size, const omni_time_t& deadline) = 0;
-  // Whether bytes have come that poll() does not know of.
+  // Whether bytes have arrived that poll() does not report.
   virtual bool HasBytes() { return false; }
-  // Tells the peer that no more bytes follow, where the protocol can.
+  // Informs the peer that no more bytes follow, if the protocol supports that.
   virtual void Close() {}
 };
 
-// Bytes as they are. The socket remains the caller's.
+// Transfers bytes without encryption. The caller keeps the ownership of the socket.
 class PlainChannel final : public Channel {
  public:
   explicit PlainChannel(int socket) : socket_(socket) {}
@@ -42,8 +43,8 @@ class PlainChannel final : public Channel {
   const int socket_;
 };
 
-// Waits until poll() reports `events`. 1: it does, or a signal came; 0: after `deadline`; -1: it
-// failed.
+// Waits until poll() reports `events`. Returns 1 if it does, or after a signal; 0 after `deadline`;
+// -1 if poll() failed.
 int AwaitSocket(int socket, short events, const omni_time_t& deadline);
 
 }  // namespace gsv::orb

@@ -15,12 +15,12 @@ class Unwatched final : public omni::SocketCollection {
   CORBA::Boolean notifyReadable(omni::SocketHolder* /*holder*/) override { return true; }
 };
 omni::SocketCollection& UnwatchedSockets() {
-  static auto& collection = *new Unwatched;  // an ORB may outlive statics
+  static auto& collection = *new Unwatched;  // an ORB may outlive static objects
   return collection;
 }
 
-// `ask` is getsockname() or getpeername(). A disconnected peer has no address, but the ORB requires
-// one.
+// Returns an address. `ask` is getsockname() or getpeername(). A disconnected peer has no address,
+// but the ORB requires one.
 template <typename Ask>
 std::string AddressOfEnd(int socket, const char* scheme, const Ask& ask) {
   sockaddr_storage address{};

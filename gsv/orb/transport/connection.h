@@ -1,10 +1,11 @@
-// A connection of the ORB: over TCP, TLS or a local socket; made by a client or by this process.
+// A connection of the ORB over TCP, TLS or a local socket. Either a client or this process has
+// opened it.
 //
-// It joins fragments, holds messages to their limits and shows them to its hooks
-// (connection_policy.h); the ORB gets complete messages only. A connection that this process makes
-// does so only where it has hooks.
+// It joins fragments, applies the limits to messages and passes them to its hooks
+// (connection_policy.h). The ORB gets only complete messages. A connection that this process has
+// opened does so only if it has hooks.
 //
-// Threads  as omniORB's connections: one reads at a time, one sends at a time.
+// Threads  as for omniORB's connections: one reads at a time, and one sends at a time.
 #pragma once
 
 #include <atomic>
@@ -19,13 +20,14 @@
 
 namespace gsv::orb {
 
-// As URIs: "giop:tcp:127.0.0.1:40123".
+// The addresses as URIs, such as "giop:tcp:127.0.0.1:40123".
 struct ConnectionAddresses {
   std::string own, peer;
 };
-// Those of a connected TCP socket. `scheme`: "giop:tcp" or "giop:ssl".
+// Returns the addresses of a connected TCP socket. `scheme` is "giop:tcp" or "giop:ssl".
 ConnectionAddresses AddressesOfTcp(int socket, const char* scheme);
-// Those of a socket in the file system, where a peer has no name. `server`: "giop:unix:FILE".
+// Returns the addresses of a socket in the file system, where a peer has no name. `server` is
+// "giop:unix:FILE".
 ConnectionAddresses AddressesOfAcceptedLocal(const std::string& server);
 ConnectionAddresses AddressesOfMadeLocal(const std::string& server);
 
@@ -33,7 +35,7 @@ class Connection : public omni::giopConnection,
                    public omni::SocketHolder,
                    public ConnectionControl {
  public:
-  // One that a client made. It owns the socket. `collection`: watches it.
+  // A connection that a client has opened. It owns the socket. `collection` watches it.
   Connection(int socket, std::unique_ptr<Channel> channel, ConnectionAddresses addresses,
              omni::SocketCollection& collection, const ConnectionPolicy& policy);
   ~Connection() override;
@@ -49,13 +51,13 @@ class Connection : public omni::giopConnection,
   CORBA::Boolean Peek() override;
 
   bool Gather() override;
-  // Called where Gather() has just returned false, when no thread of the ORB reads.
+  // Called after Gather() has returned false, when no thread of the ORB reads.
   bool has_begun() const override GSV_NO_THREAD_SAFETY_ANALYSIS { return incoming_.has_begun(); }
   void Watch() override { setSelectable(1, false); }
   void End() override { Shutdown(); }
 
  protected:
-  // One that this process makes.
+  // A connection that this process has opened.
   Connection(int socket, std::unique_ptr<Channel> channel, ConnectionAddresses addresses,
              const ConnectionPolicy& policy);
 
@@ -80,8 +82,8 @@ class ActiveConnection final : public omni::giopActiveConnection, public Connect
                    const ConnectionPolicy& policy)
       : Connection(socket, std::move(channel), std::move(addresses), policy) {}
 
-  // omniORB watches connections of its own for calls that come back on them, which only
-  // bidirectional GIOP has. No ORB here offers that.
+  // omniORB watches its own connections for incoming calls, which only bidirectional GIOP has. No
+  // ORB here supports that.
   omni::giopActiveCollection* registerMonitor() override { return nullptr; }
   omni::giopConnection& getConnection() override { return *this; }
 };

@@ -13,7 +13,7 @@ struct Current {
       std::make_shared<ConnectionPolicy>();
 };
 Current& CurrentPolicy() {
-  static auto& current = *new Current;  // an ORB may outlive statics
+  static auto& current = *new Current;  // an ORB may outlive static objects
   return current;
 }
 

@@ -19,11 +19,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kHandshakeTime{10}, kFarewellTime{1};
-constexpr std::size_t kMaxPendingHandshakes = 256;  // the oldest is dropped beyond them
+constexpr std::size_t kMaxPendingHandshakes = 256;  // beyond this number, the oldest one is dropped
 
 }  // namespace
 
-// A client that has not sent its certificate yet, or that was refused and must read the reason.
+// A client that has not sent its certificate yet, or that was rejected and must read the reason.
 class PendingHandshake : public omni::SocketHolder {
  public:
   PendingHandshake(int socket, omni::SocketCollection& collection,
@@ -77,7 +77,8 @@ class PendingHandshake : public omni::SocketHolder {
   bool is_refused_ = false, is_gone_ = false;
 };
 
-// Becomes readable regularly while it is set, as Select() may sleep for ever.
+// Becomes readable at regular intervals while it is set, because Select() may otherwise sleep for
+// ever.
 class Alarm : public omni::SocketHolder {
  public:
   explicit Alarm(omni::SocketCollection& collection)

@@ -1,8 +1,8 @@
 // Accepts connections for an endpoint, and watches them for the ORB.
 //
-// With TLS, the thread that accepts also does the handshakes: a step whenever bytes have come,
-// without waiting. A peer that stalls delays nobody, and the ORB sees no peer before it has shown
-// its certificate.
+// With TLS, the accepting thread also does the handshakes. It does a step whenever bytes have
+// arrived, without waiting. So a peer that stalls delays no other, and the ORB sees a peer only
+// after the peer has shown its certificate.
 //
 // Threads  Await() and Notify(): the thread that accepts. Poke(): any.
 #pragma once
@@ -22,20 +22,20 @@ class PendingHandshake;
 
 class Listener {
  public:
-  // `collection`, which must outlive it, watches the endpoint and its connections. Without a
-  // context there is no TLS.
+  // `collection`, which must outlive the listener, watches the endpoint and its connections. If
+  // there is no context, TLS is not used.
   Listener(omni::SocketCollection& collection, std::shared_ptr<const TlsContext> context);
   ~Listener();
 
   bool speaks_tls() const { return context_ != nullptr; }
-  // As AcceptAndMonitor() of omniORB's endpoints: waits for the next connection, and calls
-  // `readable` for each that the ORB shall read meanwhile. Null after Poke().
+  // Like AcceptAndMonitor() of omniORB's endpoints: waits for the next connection, and calls
+  // `readable` for each connection that the ORB shall read meanwhile. Returns null after Poke().
   omni::giopConnection* Await(omni::giopConnection::notifyReadable_t readable, void* cookie);
   void Poke() { poked_ = true; }
 
   // Takes over the socket of a client.
   void Accept(int socket, ConnectionAddresses addresses);
-  // Bytes have come for one of those that the collection watches, except the endpoint.
+  // Called when bytes have arrived on a socket that the collection watches, except the endpoint.
   void Notify(omni::SocketHolder* holder);
 
  private:
@@ -46,9 +46,9 @@ class Listener {
   omni::SocketCollection& collection_;
   const std::shared_ptr<const ConnectionPolicy> policy_ = CurrentConnectionPolicy();
   const std::shared_ptr<const TlsContext> context_;
-  std::deque<Connection*> accepted_;  // those that the ORB does not know yet
-  std::vector<std::unique_ptr<PendingHandshake>> pending_handshakes_;  // the oldest first
-  std::unique_ptr<Alarm> alarm_;                                       // rings while there are any
+  std::deque<Connection*> accepted_;  // accepted connections that the ORB does not know yet
+  std::vector<std::unique_ptr<PendingHandshake>> pending_handshakes_;  // the oldest one is first
+  std::unique_ptr<Alarm> alarm_;  // set while there are pending handshakes
   omni::giopConnection::notifyReadable_t readable_ = nullptr;
   void* cookie_ = nullptr;
   std::atomic<bool> poked_ = false;

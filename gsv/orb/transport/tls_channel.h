@@ -1,4 +1,4 @@
-// TLS over one connection. Both ends show a certificate of the same authority, or it fails.
+// TLS over one connection. Both ends must show a certificate of the same authority, or it fails.
 //
 // Versions 1.2 and 1.3 (RFC 5246, RFC 8446), without resumption and renegotiation: every
 //          connection is a handshake of its own. The host's name is not compared with the
@@ -25,17 +25,17 @@ class TlsChannel final : public Channel {
   enum class Side { kServer, kClient };
   enum class Step { kDone, kWantsToRead, kWantsToWrite, kFailed };
 
-  // The socket remains the caller's; it no longer blocks.
+  // The caller keeps the ownership of the socket. The socket becomes non-blocking.
   TlsChannel(std::shared_ptr<const TlsContext> context, int socket, Side side);
   ~TlsChannel() override;
   TlsChannel(const TlsChannel&) = delete;
   TlsChannel& operator=(const TlsChannel&) = delete;
 
-  // As far as it goes without waiting.
+  // Continues the handshake as far as possible without waiting.
   Step Handshake();
-  // Whether it was done before `deadline`.
+  // Waits for the handshake. Returns whether it was done before `deadline`.
   bool AwaitHandshake(const omni_time_t& deadline, bool& timed_out);
-  // Why it failed, as a sentence about the peer: "it shows no certificate".
+  // The reason of the failure, as a sentence about the peer, such as "it shows no certificate".
   std::string failure() const;
 
   ssize_t TryReceive(void* buffer, std::size_t size) override;
@@ -59,7 +59,8 @@ class TlsChannel final : public Channel {
   std::string failure_ GSV_GUARDED_BY(mutex_);
 };
 
-// Why the last TLS connection that this thread asked for failed, once; empty: it did not.
+// Returns once why the last TLS connection that this thread requested has failed. Empty if it has
+// not.
 std::string TakeTlsFailure();
 void NoteTlsFailure(std::string why);
 

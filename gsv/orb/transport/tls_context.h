@@ -1,4 +1,4 @@
-// The certificate that this process shows by TLS, and the authority whose certificates it takes.
+// The certificate that this process shows by TLS, and the authority whose certificates it accepts.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@ struct CorbaCertificate {
 
 class TlsContext {
  public:
-  // Fails with a sentence that names the file which cannot be used.
+  // Reads the files. Fails with a sentence that names the invalid file.
   static base::Result<std::shared_ptr<const TlsContext>> Read(const CorbaCertificate& files);
   ~TlsContext();
   TlsContext(const TlsContext&) = delete;

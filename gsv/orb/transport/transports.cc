@@ -80,7 +80,7 @@ struct Installed {
   std::optional<CorbaCertificate> certificate GSV_GUARDED_BY(mutex);     // of the current one
 };
 Installed& InstalledTransports() {
-  static auto& installed = *new Installed;  // an ORB may outlive statics
+  static auto& installed = *new Installed;  // an ORB may outlive static objects
   return installed;
 }
 

@@ -12,11 +12,11 @@
 
 namespace gsv::orb {
 
-// Call it before each ORB_init(). Without a certificate there are no endpoints for TLS, and calls
-// to them fail with a sentence. Fails where the certificate's files cannot be used.
+// Call it before each ORB_init(). If there is no certificate, there are no endpoints for TLS, and
+// calls to such endpoints fail with a sentence. Fails if the files of the certificate are invalid.
 base::Status InstallTransports(const std::optional<CorbaCertificate>& certificate);
 
-// Whether the last call of InstallTransports() gave a certificate.
+// Whether the last call of InstallTransports() had a certificate.
 bool SpeaksTls();
 
 }  // namespace gsv::orb

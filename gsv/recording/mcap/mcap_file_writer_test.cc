@@ -82,7 +82,7 @@ TEST(McapFileWriter, ClosesAChunkWhenItIsLargeEnough) {
   EXPECT_EQ((*reader)->summary().message_count, 7U);
 }
 
-// Whatever the size of the disk, the first error is reported and kept, and all chunks that were
+// For any size of the disk, the first error is reported and kept, and all chunks that were
 // complete by then can be read.
 TEST(McapFileWriter, KeepsCompleteChunksWhenTheDiskIsFull) {
   const std::size_t needed = ThreeChunks().size();

@@ -119,7 +119,8 @@ struct Surface {
   float n_dot_v;
 };
 
-// What `surface` sends towards the camera of light of strength 1 that comes from `to_light`.
+// The light that `surface` reflects towards the camera, for a source of strength 1 in the
+// direction `to_light`.
 vec3 Reflect(Surface surface, vec3 to_light, vec3 to_view, float n_dot_l) {
   vec3 h = normalize(to_light + to_view);
   float n_dot_h = clamp(dot(surface.normal, h), 0.0, 1.0);
@@ -267,7 +268,7 @@ void main() {
 const std::string kSkyVertexShader = kFrame + R"(
 out vec3 v_direction;
 void main() {
-  // One triangle over the whole picture, infinitely far.
+  // One triangle over the whole image, infinitely far.
   vec2 p = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
   v_direction = view_forward.xyz + p.x * view_right.xyz + p.y * view_down.xyz;
   gl_Position = vec4(p, 0.0, 1.0);

@@ -1,4 +1,5 @@
-// Lamps, speakers and microphones: what they take, what they show, what is heard.
+// Tests lamps, speakers and microphones: the commands that they accept, their readings, and the
+// sounds that microphones hear.
 #include <cmath>
 #include <limits>
 
@@ -33,7 +34,7 @@ std::unique_ptr<Sensor> MakeDevice(const SensorType& type, model::Parameters par
   return made ? *std::move(made) : nullptr;
 }
 
-// The device's state from `since` on.
+// Returns the state of a device from `since` on.
 world::DeviceStatePtr Commanded(const Sensor& device, const std::string& robot,
                                 const world::DeviceCommand& command,
                                 const world::DeviceStatePtr& before = nullptr,
@@ -189,7 +190,7 @@ TEST_F(ActuatorReadings, GripperHoldsABodyUntilItOpens) {
   EXPECT_EQ(Commanded(*gripper, "ear", {{1}, ""}, holding, 3s)->grasp(), nullptr);
 }
 
-// Recordings hold hashes: the order of fields is part of their format.
+// Recordings contain hashes, so the order of fields is part of their format.
 TEST_F(ActuatorReadings, HashIncludesTheGraspedBody) {
   const auto setup = std::make_shared<const GripperSetup>();
   const geometry::Pose link_from_held{{1, 2, 3}, geometry::FromRollPitchYaw({0, 0, 0.5})};
@@ -210,7 +211,7 @@ TEST_F(ActuatorReadings, HashIncludesTheGraspedBody) {
   EXPECT_EQ(hash.Digest(), expected.Digest());
 }
 
-// L = L1 + 20 lg(volume) - 20 lg(r / 1 m), and levels add up as powers.
+// The level is L = L1 + 20 lg(volume) - 20 lg(r / 1 m), and levels add up as powers.
 TEST_F(ActuatorReadings, MicrophoneHearsByTheInverseSquareLaw) {
   const auto microphone = MakeDevice(MicrophoneType(), {{"ambient", -100.0}});
   const auto speaker = MakeDevice(SpeakerType(), {{"loudness", 85.0}});
@@ -233,7 +234,7 @@ TEST_F(ActuatorReadings, MicrophoneHearsByTheInverseSquareLaw) {
                 "dB");
   EXPECT_EQ(both.values[1], 440);
   EXPECT_EQ(both.labels->front(), "near/speaker");
-  // Its own robot's speaker is no nearer than 0.1 m.
+  // The speaker of the microphone's own robot counts as at least 0.1 m away.
   Publish({Commanded(*speaker, "ear", {{440, 2, 1}, "tone"})});
   EXPECT_WITHIN(Sampled(*microphone, "ear").values[0], 85 + 20, 1e-9, "dB");
 }

@@ -2,13 +2,13 @@
 //
 // Frame       sensor frame; the bumper spans the bearings within half of field_of_view of its x
 //             axis.
-// Parameters  field_of_view (rad, 2 pi: all around), collision (the names of the collisions that
-//             sense contacts, one per line; default: all of the robot; see
-//             gsv/model/collision_names.h. An unknown name senses nothing), ground (whether to
-//             report what the robot stands on, that is points whose normal points down within 45
-//             degrees; default: only if `collision` names some).
+// Parameters  field_of_view (rad, 2 pi: all around). collision: the names of the collisions that
+//             sense contacts, one per line (default: all of the robot); see
+//             gsv/model/collision_names.h. An unknown name senses nothing. ground: whether to
+//             report the ground, that is points whose normal points down within 45 degrees
+//             (default: only if `collision` has names).
 // Readings    for each point of each contact eight values {point x, y, z (m), normal x, y, z from
-//             the robot to the other body, depth (m), closing speed (m/s)}, and the name of the
+//             the robot to the other body, depth (m), closing speed (m/s)}, with the name of the
 //             other body as label. As a message: gsv_msgs/Bumper.
 #pragma once
 

@@ -1,8 +1,8 @@
-// How fast the sonars of a crowd are: run in a release build.
+// Measures the speed of a crowd's sonars. Run it in a release build.
 //
-// A walled square with 10 m² a robot, a box for every four of them, eight sonars on each robot. All
-// sonars are read at one instant, the robots move on, and so forth. A time is that of one instant:
-// making the scene ready and casting all rays.
+// Robots are on a walled square with 10 m² per robot. There is a box for every four robots, and
+// each robot has eight sonars. All sonars are read at one instant, then the robots move, and this
+// repeats. A measured time is that of one instant: preparing the scene and casting all rays.
 
 #include <benchmark/benchmark.h>
 
@@ -25,7 +25,7 @@ using geometry::Pose;
 using geometry::Vector3;
 
 constexpr int kSonars = 8;
-constexpr double kStep = 0.05;  // s
+constexpr double kStep = 0.05;  // simulated time between instants, s
 
 std::shared_ptr<model::Model> CrowdRobot(const geometry::Shape& shape) {
   auto robot = testing::ModelOf(shape);
@@ -71,7 +71,7 @@ class Crowd {
   const std::vector<int>& robots() const { return robots_; }
   const model::Model& model() const { return *snapshot_->layout->bodies[robots_[0]].model; }
 
-  // Each robot drives on at 0.5 m/s, where it would leave the square it turns about.
+  // Each robot drives forward at 0.5 m/s. It turns about if it would leave the square.
   void Move() {
     auto moved = std::make_shared<world::Snapshot>(*snapshot_);
     ++moved->state.step;
@@ -104,15 +104,16 @@ geometry::Shape RobotShape(int kind) {
   return geometry::Cylinder{0.175, 0.3};
 }
 
-// Of all threads, in seconds.
+// The processor time of all threads, in seconds.
 double ProcessorTime() {
   timespec now;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// Runs `read` once an instant, the robots moving in between. Besides the mean it tells the quickest
-// instant and the least processor time that one took, for machines that do other things as well.
+// Calls `read` once per instant; the robots move between instants. Besides the mean it reports the
+// fastest instant and the minimum processor time of an instant, for machines that also do other
+// work.
 template <class Read>
 void RunCrowd(benchmark::State& bench, Crowd& crowd, const Read& read) {
   using Clock = std::chrono::steady_clock;

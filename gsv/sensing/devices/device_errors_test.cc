@@ -1,5 +1,5 @@
-// What real devices get wrong, against closed forms: presets, lidar_errors.h, odometry_drift.h, the
-// full model of sound_cone.h and the Allan parameters of imu.h.
+// Compares the errors of real devices with closed forms: presets, lidar_errors.h, odometry_drift.h,
+// the full model of sound_cone.h and the Allan parameters of imu.h.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -122,7 +122,7 @@ TEST_F(DeviceErrors, LidarMissesSlantedSurfaces) {
   const std::vector<double> ranges = Read(*lidar);
   EXPECT_TRUE(std::isfinite(ranges[50]));
   EXPECT_EQ(ranges[0], kInfinity);
-  // 2 / cos t = 6 sqrt(cos t) at 61.3 degrees; a tenth of the reach on both sides is open.
+  // 2 / cos t = 6 sqrt(cos t) at 61.3 degrees. A tenth of the reach on both sides is not tested.
   for (int i = 0; i < 101; ++i) {
     const double angle = std::abs(-1.4 + 2.8 * i / 100);
     if (angle < 50 * kDegree) {
@@ -146,8 +146,8 @@ TEST_F(DeviceErrors, LidarMixesTwoSurfacesAtAnEdge) {
       if (range > 2.2 && range < 3.8) ++between;
     }
   }
-  // Two edges with a beam on either side. Each looks to the edge's side half of the time, and
-  // covers it with the probability divergence / step = 0.6.
+  // There are two edges with a beam on either side. A beam is mixed towards the edge's side half of
+  // the time, and covers the edge with the probability divergence / step = 0.6.
   const double expected = 4 * 0.5 * 0.6 * 0.8 * scans;
   EXPECT_WITHIN_PERCENT(between, expected, 15);
 }
@@ -194,7 +194,7 @@ TEST_F(DeviceErrors, OdometryErrorsAccumulateOverTheDistance) {
     now->state.step = number;
     return now;
   };
-  // A quarter turn about a point 1 m to the left, in 90 steps.
+  // The robot drives a quarter turn about a point 1 m to the left, in 90 steps.
   for (int i = 0; i <= 90; ++i) {
     const double angle = i * kDegree;
     geometry::PlanarPosition& place = snapshot_->state.bodies[body].odometry.place;
@@ -206,7 +206,7 @@ TEST_F(DeviceErrors, OdometryErrorsAccumulateOverTheDistance) {
   }
   snapshot_->state.devices = std::make_shared<world::DeviceStates>(world::DeviceStates{state});
   const std::vector<double> read = Read(*odometer, 90);
-  // An arc of 1.1 times the length and 0.9 times the angle.
+  // The estimate is an arc of 1.1 times the length and 0.9 times the angle.
   const double turn = 81 * kDegree, radius = 1.1 / 0.9;
   EXPECT_WITHIN(read[0], radius * std::sin(turn), 0.02, "m");
   EXPECT_WITHIN(read[1], radius * (1 - std::cos(turn)), 0.02, "m");
@@ -239,7 +239,7 @@ TEST_F(DeviceErrors, SmallTargetIsDetectedAtAShorterRange) {
                                   {"threshold", 0.14},
                                   {"gain_range", 1.55}}))[0] < 3.9;
   };
-  // Part = threshold max(1, distance / gain range)
+  // The detected part is threshold max(1, distance / gain range).
   double expected = 0.1;
   while (0.025 / std::sqrt(wave_length * expected / 2) > 0.155 * std::max(1.0, expected / 1.55)) {
     expected += 0.001;
@@ -249,7 +249,8 @@ TEST_F(DeviceErrors, SmallTargetIsDetectedAtAShorterRange) {
 }
 
 TEST_F(DeviceErrors, CornerIsDetectedByItsSecondReflection) {
-  // Two smooth walls at right angles, 45 degrees to either side of the axis, meet 2 m ahead.
+  // Two smooth walls are at right angles, 45 degrees to either side of the axis, and meet 2 m
+  // ahead.
   const auto wall = [](const char* name, double side) {
     return testing::Placed{
         name, testing::ModelOf(geometry::Box{{3, 0.02, 3}}),
@@ -265,8 +266,8 @@ TEST_F(DeviceErrors, CornerIsDetectedByItsSecondReflection) {
 }
 
 TEST_F(DeviceErrors, SonarsThatFireTogetherHaveCrosstalk) {
-  // Two sonars 0.5 m apart, both turned by 25 degrees to the point 1 m ahead in their middle, where
-  // each alone hears nothing of a smooth wall.
+  // Two sonars are 0.5 m apart. Both are turned by 25 degrees to the point 1 m ahead of their
+  // middle. Each alone detects nothing of a smooth wall there.
   const auto turned = [](const char* name, double y) {
     model::SensorDescription sonar;
     sonar.name = name;
@@ -325,7 +326,8 @@ TEST_F(DeviceErrors, RangingNoiseGrowsWithDistance) {
     sum += off, squares += off * off;
   }
   EXPECT_WITHIN(sum / kReadings, 0, 0.005, "m");
-  EXPECT_WITHIN(std::sqrt(squares / kReadings), 0.05, 0.003, "m");  // of 0.03 and 0.04
+  // the combined deviation of 0.03 and 0.04
+  EXPECT_WITHIN(std::sqrt(squares / kReadings), 0.05, 0.003, "m");
 }
 
 }  // namespace

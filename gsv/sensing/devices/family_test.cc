@@ -1,4 +1,4 @@
-// The sensors that feel motion, place and touch, against closed forms.
+// Compares the sensors of motion, position and contact with closed forms.
 #include <cmath>
 #include <string>
 #include <tuple>
@@ -26,8 +26,8 @@ using ::testing::TestWithParam;
 
 using geometry::kPi;
 
-// A robot at (1, 0) that faces y, with an arm that turns about its z axis; another robot 3 m before
-// it, a box that hides a third one, and a floor.
+// A robot is at (1, 0) and faces y. It has an arm that turns about its z axis. Another robot is 3 m
+// in front of it. There are also a box that hides a third robot, and a floor.
 class SensorTypesTest : public ::testing::Test {
  protected:
   SensorTypesTest() {
@@ -86,7 +86,7 @@ class SensorTypesTest : public ::testing::Test {
 using Units = std::vector<std::string>;
 const Units kImu = {"rad/s", "rad/s", "rad/s", "m/s²", "m/s²", "m/s²"};
 
-// Values whose unit is named leave behind how near they came.
+// Records the errors of values that have a unit, see EXPECT_WITHIN.
 void ExpectValues(const Reading& reading, const std::vector<double>& expected,
                   const Units& units = {}, double bound = 1e-12) {
   ASSERT_GE(reading.values.size(), expected.size());
@@ -101,7 +101,7 @@ void ExpectValues(const Reading& reading, const std::vector<double>& expected,
 
 TEST_F(SensorTypesTest, ImuAtRestReadsTheSupportingForce) {
   ExpectValues(Sample(DescriptionOf("imu")), {0, 0, 0, 0, 0, 9.8}, kImu);
-  // On its left side, what holds it up comes from its right: along its own y, upwards.
+  // The robot lies on its left side, so the supporting force comes from its right, along its own y.
   body().world_from_model.orientation = geometry::FromRollPitchYaw({kPi / 2, 0, 0});
   ExpectValues(Sample(DescriptionOf("imu")), {0, 0, 0, 0, 9.8, 0}, kImu);
 }
@@ -116,7 +116,7 @@ TEST_F(SensorTypesTest, ImuOnATurntableReadsTheCentripetalAcceleration) {
   const double rate = 3;
   body().angular_velocity = {0, 0, rate};
   ExpectValues(Sample(DescriptionOf("imu")), {0, 0, rate, -rate * rate * 0.2, 0, 9.8}, kImu);
-  // That speeds up.
+  // The turntable accelerates.
   acceleration().angular = {0, 0, 2};
   ExpectValues(Sample(DescriptionOf("imu")), {0, 0, rate, -rate * rate * 0.2, 2 * 0.2, 9.8}, kImu);
 }
@@ -127,7 +127,7 @@ TEST_F(SensorTypesTest, ImuOnATurretReadsItsTurningRate) {
   snapshot_->state.joint_positions[0] = 1.1;
   snapshot_->state.joint_velocities[0] = 2;
   ExpectValues(Sample(description), {0, 0, 2, -4 * 0.2, 0, 9.8}, kImu);
-  // On a base that turns the other way it stands still.
+  // The turret stands still in the world, because its base turns the other way.
   body().angular_velocity = {0, 0, -2};
   ExpectValues(Sample(description), {0, 0, 0, 0, 0, 9.8}, kImu);
 }
@@ -146,7 +146,7 @@ TEST_F(SensorTypesTest, ImuReadsItsOrientationIfEnabled) {
   EXPECT_NEAR(message.orientation.z, std::sqrt(0.5), 1e-12);
 }
 
-// The robot faces y, a quarter turn from x; the world's x points 30 degrees north of east.
+// The robot faces y, a quarter turn from x. The world's x points 30 degrees north of east.
 TEST_F(SensorTypesTest, ImuReadsItsOrientationInTheGivenFrame) {
   model::WorldDescription world = *world_;
   world.origin = model::GeodeticOrigin{0, 0, 0, kPi / 6};
@@ -156,15 +156,15 @@ TEST_F(SensorTypesTest, ImuReadsItsOrientationInTheGivenFrame) {
   snapshot_->layout = layout;
   struct Case {
     std::string localization;
-    geometry::Vector3 forward, up;  // the robot's axes in the reference frame
+    geometry::Vector3 forward, up;  // the expected axes of the robot in the reference frame
   };
   const double c = std::cos(kPi * 2 / 3), s = std::sin(kPi * 2 / 3);
   for (const Case& expected :
        {Case{"ENU", {c, s, 0}, {0, 0, 1}}, Case{"NED", {s, c, 0}, {0, 0, -1}},
         Case{"NWU", {s, -c, 0}, {0, 0, 1}},
-        // Forward is up, and up points to the right of the world's x.
+        // The robot's forward axis is up, and up points to the right of the world's x.
         Case{"GRAV_UP", {0, 0, 1}, {0, -1, 0}}, Case{"GRAV_DOWN", {0, 0, -1}, {0, 1, 0}},
-        // A frame that is turned with the robot.
+        // This frame turns with the robot.
         Case{"CUSTOM", {1, 0, 0}, {0, 0, 1}}}) {
     const auto values =
         Sample(DescriptionOf("imu",
@@ -181,7 +181,7 @@ TEST_F(SensorTypesTest, ImuReadsItsOrientationInTheGivenFrame) {
 }
 
 TEST_F(SensorTypesTest, MagnetometerRotatesTheFieldIntoItsFrame) {
-  // It faces y: its x is the world's y, its y the world's -x.
+  // The robot faces y, so its x is the world's y, and its y is the world's -x.
   ExpectValues(Sample(DescriptionOf("magnetometer")), {2e-5, -1e-5, -4e-5}, {"T", "T", "T"}, 1e-18);
   EXPECT_NEAR(
       Sent<messages::sensor_msgs::MagneticField>(DescriptionOf("magnetometer")).magnetic_field.x,
@@ -208,7 +208,7 @@ TEST_F(SensorTypesTest, GnssReceiverNeedsAGeographicOrigin) {
 TEST_F(SensorTypesTest, GnssReceiverReadsPositionAndVelocity) {
   world_->origin = {.latitude = 0, .longitude = 0, .elevation = 100, .heading = 0};
   body().linear_velocity = {1, 2, 3};
-  // On the equator, 1 m east and 0.2 m north of the origin, 100.3 m up.
+  // The receiver is on the equator, 1 m east and 0.2 m north of the origin, and 100.3 m above it.
   const double a = 6378137.0 + 100.3, e2 = (2 - 1 / 298.257223563) / 298.257223563;
   const Reading reading = Sample(DescriptionOf("navsat"));
   ExpectValues(reading, {0.2 / (6378137.0 * (1 - e2) + 100.3) * 180 / kPi, 1 / a * 180 / kPi},
@@ -238,7 +238,8 @@ TEST_F(SensorTypesTest, OdometerReadsTheWheelOdometry) {
 TEST_F(SensorTypesTest, BumperReadsTheContactPoint) {
   EXPECT_TRUE(Sample(DescriptionOf("bumper")).values.empty());
   const int other = snapshot_->layout->Find("other"), floor = snapshot_->layout->Find("floor");
-  // By the other one, whose index is lower, straight ahead; by the floor; behind.
+  // The contacts are with the other robot, whose index is lower, straight ahead; with the floor;
+  // and with a body behind.
   snapshot_->contacts = {{other, body_, {1, 0.5, 0.3}, {0, -1, 0}, 0.01, true, 0.4},
                          {body_, floor, {1, 0, 0}, {0, 0, -1}, 0.001},
                          {body_, floor, {1, -0.5, 0.3}, {0, -1, 0}, 0.02}};
@@ -249,7 +250,7 @@ TEST_F(SensorTypesTest, BumperReadsTheContactPoint) {
   const Reading ahead = Sample(DescriptionOf("contact", {{"field_of_view", kPi}}));
   EXPECT_EQ(*ahead.labels, std::vector<std::string>{"other"});
   EXPECT_EQ(Sample(DescriptionOf("contact", {{"ground", true}})).values.size(), 24u);
-  // What carries the robot counts as ground, whatever its normal.
+  // A body that carries the robot counts as ground, whatever its normal is.
   snapshot_->contacts[2].supports = true;
   EXPECT_EQ(Sample(DescriptionOf("contact")).values.size(), 8u);
   EXPECT_EQ(Sample(DescriptionOf("contact", {{"ground", true}})).values.size(), 24u);
@@ -265,7 +266,7 @@ TEST_F(SensorTypesTest, BumperReadsTheContactPoint) {
   EXPECT_NEAR(lines[0].from.x, 0.3, 1e-12);
 }
 
-// A body with a plate before it and one behind it, which meets a wall with its front.
+// A body has a plate in front and one behind. It touches a wall with the front.
 class NamedCollisionsTest : public ::testing::Test {
  protected:
   NamedCollisionsTest() {
@@ -338,7 +339,7 @@ TEST_F(SensorTypesTest, JointEncodersCountTurns) {
   const Reading reading = Sample(DescriptionOf("joint_state"));
   ExpectValues(reading, {1, -0.5}, {"rad", "rad/s"});
   EXPECT_EQ(*reading.labels, std::vector<std::string>{"turret"});
-  // Of 1 rad a hundred counts a turn show fifteen.
+  // With a hundred counts per turn, 1 rad is fifteen counts.
   ExpectValues(Sample(DescriptionOf("joint_encoders", {{"counts_per_turn", 100.0}})),
                {15 * 2 * kPi / 100, -0.5}, {"rad", "rad/s"});
   const auto message = Sent<messages::sensor_msgs::JointState>(DescriptionOf("joint_encoders"));
@@ -356,7 +357,8 @@ TEST_F(SensorTypesTest, BatteryDischargesWithTimeAndDistance) {
   snapshot_->state.time = std::chrono::minutes(30);
   body().distance = 300;
   body().linear_velocity = {0, 0.5, 0};
-  // 0.5 Ah for half an hour at 1 A and 0.5 Ah for 300 m leave 1 of 2 Ah; 1 A + 3 A a m/s are drawn.
+  // Half an hour at 1 A takes 0.5 Ah, and 300 m take another 0.5 Ah, so 1 of 2 Ah remains. The
+  // current is 1 A + 3 A per m/s.
   ExpectValues(Sample(DescriptionOf("battery", parameters)), {11 - 0.5 * 4, 4, 1, 2, 0.5},
                {"V", "A", "Ah", "Ah"});
   const auto message =
@@ -370,9 +372,10 @@ TEST_F(SensorTypesTest, BatteryDischargesWithTimeAndDistance) {
 TEST_F(SensorTypesTest, LogicalCameraListsTheModelsInView) {
   auto wide = DescriptionOf("logical_camera", {{"horizontal_fov", 2.0}});
   const Reading reading = Sample(wide);
-  // The box to the right is in view, the one behind it is hidden, the floor has no middle.
+  // The box to the right is in view, the robot behind it is hidden, and the floor has no centre.
   EXPECT_EQ(*reading.labels, (std::vector<std::string>{"box", "other"}));
-  // From (1, 0.2, 0.3), facing y: the other one at (1, 3, 0.3) is 2.8 m ahead, turned to the right.
+  // From (1, 0.2, 0.3) and facing y, the other robot at (1, 3, 0.3) is 2.8 m ahead and turned to
+  // the right.
   ASSERT_EQ(reading.values.size(), 12u);
   EXPECT_NEAR(reading.values[6], 2.8, 1e-12);
   EXPECT_NEAR(reading.values[7], 0, 1e-12);
@@ -389,7 +392,7 @@ TEST_F(SensorTypesTest, LogicalCameraListsTheModelsInView) {
   EXPECT_NEAR(message.detections[0].bbox.center.position.x, 2.8, 1e-12);
 }
 
-// Each value is the same whoever was read before, and another for another seed.
+// A value must not depend on the sensors that were read before, and must differ for another seed.
 TEST_F(SensorTypesTest, NoiseDoesNotDependOnOtherReadings) {
   const std::vector<model::SensorDescription> all = {
       DescriptionOf("imu", {{"angular_velocity.x.noise.stddev", 1.0},

@@ -7,7 +7,7 @@ namespace {
 
 using geometry::Vector3;
 
-constexpr double kMajor = 6378137.0;  // m: half of the ellipsoid's long axis
+constexpr double kMajor = 6378137.0;  // half of the ellipsoid's major axis, m
 constexpr double kFlattening = 1 / 298.257223563;
 constexpr double kMinor = kMajor * (1 - kFlattening);
 constexpr double kEccentricity2 = kFlattening * (2 - kFlattening);
@@ -25,7 +25,7 @@ Vector3 EcefOf(const GeodeticPlace& place) {
 
 GeodeticPlace PlaceOf(const Vector3& p) {
   const double from_axis = std::hypot(p.x, p.y);
-  // `reduced` is the angle by which the ellipse's point is found on its circle.
+  // `reduced` is the reduced latitude: the angle of the ellipse's point on its circle.
   double reduced = std::atan2(kMajor * p.z, kMinor * from_axis);
   double latitude = 0;
   for (int i = 0; i < 4; ++i) {
@@ -35,7 +35,7 @@ GeodeticPlace PlaceOf(const Vector3& p) {
     reduced = std::atan2((1 - kFlattening) * std::sin(latitude), std::cos(latitude));
   }
   const double s = std::sin(latitude), c = std::cos(latitude);
-  // Along the normal, which is well told everywhere, at the poles too.
+  // The altitude is computed along the normal, which is well defined everywhere, also at the poles.
   const double altitude = from_axis * c + p.z * s - kMajor * std::sqrt(1 - kEccentricity2 * s * s);
   return {latitude, std::atan2(p.y, p.x), altitude};
 }

@@ -1,6 +1,6 @@
-// Positions on the earth for positions in a world.
+// Converts positions in a world to positions on the earth.
 //
-// Model    the world's z points up at its origin; its x and y lie in the plane that touches the
+// Model    the world's z points up at its origin. Its x and y lie in the tangent plane of the
 //          ellipsoid (WGS84) there.
 // Sources  National Imagery and Mapping Agency, TR8350.2, "Department of Defense World Geodetic
 //          System 1984", chapter 3, for the ellipsoid; B. R. Bowring, "Transformation from spatial

@@ -25,17 +25,18 @@ std::set<std::string> HeldBodies(const world::State& state) {
   return names;
 }
 
-// What is between the jaws, and how wide it is.
+// The body between the fingers, and its width.
 struct Between {
   int body = -1;
   double width = 0;
 };
 
-// Rays across, from where the open jaws are: both find the same thing.
+// Casts rays across the opening from both open fingers. Both rays must hit the same body.
 std::optional<Between> FindBetween(const world::DeviceStep& step, const Pose& world_from_gripper,
                                    const GripperSetup& gripper, int robot) {
-  constexpr std::array<double, 3> kAlong = {1.0 / 6, 0.5, 5.0 / 6};  // of the jaws' length
-  constexpr std::array<double, 3> kUp = {-1.0 / 3, 0, 1.0 / 3};      // of their height
+  // as fractions of the fingers' length
+  constexpr std::array<double, 3> kAlong = {1.0 / 6, 0.5, 5.0 / 6};
+  constexpr std::array<double, 3> kUp = {-1.0 / 3, 0, 1.0 / 3};  // as fractions of their height
   const auto cast = [&](double x, double side, double z) {
     const Vector3 from{x * gripper.reach, side * gripper.opening / 2, z * gripper.height};
     return step.rays.Cast({world_from_gripper * from,
@@ -50,7 +51,7 @@ std::optional<Between> FindBetween(const world::DeviceStep& step, const Pose& wo
       if (!left || !right || left->body != right->body) continue;
       const world::Body& body = step.now->layout->bodies[static_cast<std::size_t>(left->body)];
       if (!IsLoose(body) || held.contains(body.name)) continue;
-      // What reaches beyond a jaw is met from within, on its far side.
+      // A ray from inside a body that reaches beyond a finger hits the body's far side.
       const double width = gripper.opening - left->distance - right->distance;
       if (width > 0 && (!found || width > found->width)) found = Between{left->body, width};
     }
@@ -96,7 +97,7 @@ world::ActuatorState::GraspForHash GripperState::grasp_for_hash() const {
 world::DeviceStatePtr GripperState::BeforeStep(world::DeviceStep& step) const {
   if (opens() || hold_) return nullptr;
   const base::SimTime time = step.state.time;
-  if (OpeningAt(time) <= 0) return nullptr;  // closed on nothing
+  if (OpeningAt(time) <= 0) return nullptr;  // the fingers have closed and hold nothing
   const int index = step.now->layout->Find(robot());
   if (index < 0) return nullptr;
   const Pose world_from_link = world::LinkPose(*step.now, index, mount().link);

@@ -1,9 +1,9 @@
 // The state of a gripper that follows a command: its fingers and its attachment.
 //
-// Held         an attached body collides as a part of the robot that holds it, has no weight, and
-//              is not moved by anything else.
-// Determinism  grippers are stepped in the order of their robots' names: if two close on one body,
-//              the first attaches it.
+// Held         an attached body collides as a part of the robot that holds it. It has no weight,
+//              and nothing else moves it.
+// Determinism  grippers are stepped in the order of their robots' names. If two of them close on
+//              one body, the first attaches it.
 #pragma once
 
 #include <memory>

@@ -15,8 +15,8 @@ namespace {
 using geometry::Quaternion;
 using geometry::Vector3;
 
-constexpr double kDrawnPerForce = 0.03;  // m a m/s²
-constexpr double kUsualRate = 100;       // Hz, of a sensor without an update rate
+constexpr double kDrawnPerForce = 0.03;  // length of the drawn line, m per m/s²
+constexpr double kUsualRate = 100;       // in Hz, for a sensor without an update rate
 
 class Imu final : public SensorOf<readings::Imu, messages::sensor_msgs::Imu> {
  public:
@@ -66,10 +66,10 @@ class Imu final : public SensorOf<readings::Imu, messages::sensor_msgs::Imu> {
   }
 
  private:
-  // The three terms of an Allan plot, of `quantity`'s three axes alike.
+  // Reads the three terms of an Allan plot, which apply to all three axes of `quantity`.
   void ReadAllan(ParameterReader& reader, const std::string& quantity, double limit,
                  std::size_t first_channel) {
-    // The flicker floor lies at 0.664 times the deviation of a slowly drifting bias (IEEE 952).
+    // The flicker floor is at 0.664 times the deviation of a slowly drifting bias (IEEE 952).
     constexpr double kFloor = 0.664, kInstabilityTime = 100, kWalkTime = 3600;  // s
     const double density = reader.Number(quantity + ".noise_density", 0, 0, limit);
     const double instability = reader.Number(quantity + ".bias_instability", 0, 0, limit);
@@ -92,7 +92,7 @@ class Imu final : public SensorOf<readings::Imu, messages::sensor_msgs::Imu> {
     if (const auto& q = motion.world_from_sensor) {
       message.orientation = {q->x, q->y, q->z, q->w};
     } else {
-      message.orientation_covariance[0] = -1;  // there is none
+      message.orientation_covariance[0] = -1;  // there is no orientation
     }
     return message;
   }
@@ -106,7 +106,8 @@ class Imu final : public SensorOf<readings::Imu, messages::sensor_msgs::Imu> {
   const bool has_orientation_;
   const OrientationReference reference_;
   std::array<NoiseModel, 6> noise_;
-  // By term (white noise and bias instability; random walk), then angular velocity and force.
+  // By term (first white noise and bias instability, then random walk), then by angular velocity
+  // and force.
   std::array<std::array<NoiseModel, 2>, 2> allan_;
 };
 

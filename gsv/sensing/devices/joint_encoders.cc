@@ -67,7 +67,7 @@ class JointEncoders final
     return count * std::floor(position / count);
   }
 
-  const std::string joint_;  // empty: all
+  const std::string joint_;  // empty for all joints
   const double counts_per_turn_;
   const NoiseModel position_noise_, velocity_noise_;
 };

@@ -10,7 +10,7 @@
 namespace gsv::sensing {
 namespace {
 
-// A lamp as its parameters describe it, switched off; its colour is that of a command without one.
+// Returns the lamp of the parameters, switched off. Its colour is used for commands without one.
 world::Glow ReadLamp(ParameterReader& reader) {
   world::Glow lamp;
   const geometry::Vector3 colour = reader.Triple("colour", {1, 1, 1}, 0, 1);
@@ -94,7 +94,7 @@ class Lamp final : public SensorOf<readings::Lamp, messages::gsv_msgs::Lamp, Act
   }
 
   const world::Glow lamp_;
-  const double brightness_;  // at the start
+  const double brightness_;  // the brightness at the start
 };
 
 }  // namespace

@@ -34,7 +34,7 @@ std::vector<Vector3> Directions(const LidarSettings& settings) {
   return directions;
 }
 
-// MessageType is a LaserScan of one row, or a LidarScan of several.
+// MessageType is LaserScan for one row, or LidarScan for several.
 template <typename MessageType>
 class Lidar final : public SensorOf<readings::Lidar, MessageType> {
  public:
@@ -89,7 +89,7 @@ class Lidar final : public SensorOf<readings::Lidar, MessageType> {
             all.subspan(static_cast<std::size_t>(row) * beams, beams)};
   }
 
-  // A dropout is an echo that is missed.
+  // A dropout is a beam without an echo.
   double Disturbed(const NoisyReading& noisy, std::size_t beam, double distance) const {
     if (distance == kInfinity) return distance;
     const double read = noisy.Read(*settings_.full_noise, beam, distance);
@@ -97,7 +97,8 @@ class Lidar final : public SensorOf<readings::Lidar, MessageType> {
   }
 
   double Measured(double distance, base::Noise& noise) const {
-    // Every beam draws, so that one beam's noise does not hang on what another hits.
+    // Every beam draws a number, so that the noise of one beam does not depend on what another beam
+    // hits.
     const double error = settings_.noise_stddev > 0
                              ? settings_.noise_mean + settings_.noise_stddev * noise.Gaussian()
                              : settings_.noise_mean;

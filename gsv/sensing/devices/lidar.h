@@ -1,19 +1,19 @@
-// A laser scanner: ranges over a fan, or several fans above each other, of beams.
+// A laser scanner: it measures ranges along a fan of beams, or along several fans above each other.
 //
 // Frame       sensor frame: a beam at azimuth a (about z, counter-clockwise from x) and elevation e
 //             (upwards) points to (cos e cos a, cos e sin a, sin e). The robot's own body is not
 //             hit.
-// Reading     values: metres, by elevation from the lowest, within it by azimuth from the smallest.
-//             As in REP-117 a hit nearer than range.min reads -infinity, none within range.max
-//             +infinity.
-// Parameters  SDFormat's, flattened. scan.horizontal.samples (360), .resolution (1: beams for each
-//             sample), .min_angle (-pi), .max_angle (pi - one beam's width); scan.vertical.* the
-//             same (1 sample at 0). With one beam the angle is min_angle. range.min (0.08),
-//             range.max (10). noise (m), see noise.h: a bias is each beam's own, a dropout reads as
-//             nothing hit, and what lies within the limits is kept there. Of range.resolution
-//             nothing is made, as in Gazebo.
-// Message     with one fan a sensor_msgs/LaserScan. With several a gsv_msgs/LidarScan, which holds
-//             all ranges, and beside it (/ROBOT/SENSOR/points) a sensor_msgs/PointCloud2, see
+// Reading     ranges in metres, by elevation from the lowest row, and within a row by azimuth from
+//             the smallest. As in REP-117, a hit nearer than range.min reads -infinity, and no hit
+//             within range.max reads +infinity.
+// Parameters  SDFormat's, flattened. scan.horizontal.samples (360), .resolution (1: beams per
+//             sample), .min_angle (-pi), .max_angle (pi minus the width of one beam);
+//             scan.vertical.* likewise (1 sample at 0). A single beam has min_angle. range.min
+//             (0.08), range.max (10). noise (m), see noise.h: each beam has its own bias, a dropout
+//             reads as no hit, and noise does not move a range beyond the limits. range.resolution
+//             has no effect, as in Gazebo.
+// Message     sensor_msgs/LaserScan for one fan. For several fans gsv_msgs/LidarScan, which has all
+//             ranges, and in addition (/ROBOT/SENSOR/points) a sensor_msgs/PointCloud2, see
 //             lidar_messages.h.
 #pragma once
 

@@ -10,10 +10,11 @@ namespace {
 
 using geometry::kInfinity;
 
-constexpr double kLargestTangent = 20;  // at a grazing angle of 3 degrees
-constexpr double kEdge = 0.1;           // m from one surface to the next: it is another one
+constexpr double kLargestTangent = 20;  // the tangent at a grazing angle of 3 degrees
+// two ranges that differ by more than this (m) are of different surfaces
+constexpr double kEdge = 0.1;
 
-// The tangent of the angle of incidence, from the neighbouring beams that hit the same surface.
+// The tangent of the angle of incidence, from the adjacent beams that hit the same surface.
 double TangentAt(double before, double range, double after, double step) {
   const bool has_before = std::abs(before - range) < kEdge + 0.1 * range;
   const bool has_after = std::abs(after - range) < kEdge + 0.1 * range;
@@ -66,14 +67,14 @@ void Disturb(const LidarErrors& errors, const Sampling& sampling,
     const double after = i + 1 < exact.size() ? exact[i + 1] : range;
     const double tangent = step > 0 ? TangentAt(before, range, after, step) : 0;
     if (errors.reach > 0) {
-      // The last tenth of the reach is where some echoes are lost and others are not.
+      // In the last tenth of the reach, some echoes are lost and others are not.
       const double reach = errors.reach * std::pow(1 + tangent * tangent, -0.25);
       if (range > reach * (1 + 0.05 * fading)) {
         ranges[i] = kInfinity;
         continue;
       }
     }
-    // Half of the beam's width lies towards either neighbour.
+    // Half of the beam's width is on the side of each adjacent beam.
     const double other = edge < 0.5 ? before : after;
     if (std::isfinite(other) && std::abs(other - range) > kEdge + 0.1 * range &&
         std::abs(2 * edge - (edge < 0.5 ? 0.5 : 1.5)) < covered / 2) {

@@ -1,18 +1,18 @@
-// Errors of real lidars beside white noise. They depend on how far a surface is, how it is turned
-// (from the ranges of the neighbouring beams), and where it ends.
+// Errors of real lidars besides white noise. They depend on the distance of a surface, on its angle
+// (from the ranges of the adjacent beams), and on its edges.
 //
-// Parameters  all 0 by default, which changes nothing:
-//             range_noise (m a metre): deviation that grows with range.
-//             incidence_noise (m): deviation for each unit of the tangent of the angle of incidence.
-//             beam_divergence (rad): a beam that wide that meets an edge measures something between
-//             the two surfaces (mixed pixel), with the probability that it covers the edge.
-//             reach (m): from how far a surface that is met squarely still gives an echo. One that is
-//             turned gives as little from reach times the root of the cosine.
-//             short_probability, short_range (m, 1): shares of beams that meet something which the
-//             world does not show (dust, people), at exponentially distributed ranges.
-// Source      for the shares: Thrun, Burgard and Fox, "Probabilistic Robotics", section 6.3. For the
-//             cosine: Lambert's law and the equation of the lidar.
-// Determinism keyed by (seed, robot, sensor, step) and the beam.
+// Parameters  all are 0 by default, which changes nothing. range_noise (m per metre): deviation
+//             that grows with range. incidence_noise (m): deviation per unit of the tangent of the
+//             angle of incidence. beam_divergence (rad): width of a beam. A beam on an edge
+//             measures a range between the two surfaces (mixed pixel), with the probability that it
+//             covers the edge. reach (m): the range up to which a surface at right angles gives an
+//             echo. For other angles the reach is multiplied by the root of the cosine.
+//             short_probability, short_range (m, 1): the fraction of beams that hit objects which
+//             the world does not have (dust, people), and the mean of their exponentially
+//             distributed ranges.
+// Source      for the fractions: Thrun, Burgard and Fox, "Probabilistic Robotics", section 6.3. For
+//             the cosine: Lambert's law and the equation of the lidar.
+// keyed by (seed, robot, sensor, step) and the beam.
 #pragma once
 
 #include <span>
@@ -36,8 +36,8 @@ struct LidarErrors {
 
 LidarErrors ReadLidarErrors(ParameterReader& reader);
 
-// Changes the ranges of one row. `step` (rad) lies between beams; `first_beam` numbers them.
-// Infinite ranges are beams without an echo.
+// Changes the ranges of one row. `step` (rad) is the angle between beams, and `first_beam` the
+// number of the first. Infinite ranges are beams without an echo.
 void Disturb(const LidarErrors& errors, const Sampling& sampling,
              const model::SensorDescription& description, double step, std::size_t first_beam,
              std::span<double> ranges);

@@ -1,4 +1,4 @@
-// A lidar's scan as messages. The headers and scan_time are left to the caller.
+// Converts a lidar's scan to messages. The caller sets the headers and scan_time.
 #pragma once
 
 #include <span>
@@ -10,15 +10,15 @@
 
 namespace gsv::sensing {
 
-// `ranges`: row by row from the lowest, in m.
+// Writes a scan. `ranges` are in m, row by row from the lowest.
 void Write(const LidarSettings& settings, std::span<const double> ranges,
            messages::sensor_msgs::LaserScan& scan);
 void Write(const LidarSettings& settings, std::span<const double> ranges,
            messages::gsv_msgs::LidarScan& scan);
 
-// A point for each beam in the sensor's frame (fields x, y, z in m as float32, and ring, the row
-// from the lowest, as uint16), ordered by rows; NaN where nothing was measured. `directions` has
-// unit vectors, as many as `ranges`.
+// Returns a point for each beam in the sensor's frame, ordered by rows; NaN where nothing was
+// measured. The fields are x, y, z in m as float32, and ring, the row counted from the lowest, as
+// uint16. `directions` has as many unit vectors as `ranges` has values.
 messages::sensor_msgs::PointCloud2 PointsOf(std::span<const geometry::Vector3> directions, int rows,
                                             std::span<const double> ranges);
 

@@ -9,7 +9,7 @@
 
 namespace gsv::sensing {
 
-// Beams at evenly spaced angles, both ends included.
+// Beams at evenly spaced angles, including both ends.
 struct Angles {
   int count = 1;
   double first = 0, last = 0;
@@ -22,12 +22,12 @@ struct Angles {
 struct LidarSettings {
   Angles horizontal, vertical;
   double min = 0, max = 0;
-  double noise_mean = 0, noise_stddev = 0;  // of white noise alone, drawn beam after beam
-  std::optional<NoiseModel> full_noise;     // any other
-  LidarErrors errors;                       // before the noise
+  double noise_mean = 0, noise_stddev = 0;  // white noise without other terms, drawn beam by beam
+  std::optional<NoiseModel> full_noise;     // for any other noise
+  LidarErrors errors;                       // applied before the noise
 };
 
-// Refuses by the reader.
+// Reads the settings. Reports invalid parameters to the reader.
 LidarSettings ReadLidarSettings(ParameterReader& reader);
 
 }  // namespace gsv::sensing

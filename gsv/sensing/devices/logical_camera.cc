@@ -18,7 +18,8 @@ using geometry::kInfinity;
 using geometry::Pose;
 using geometry::Vector3;
 
-// The middle of the box around a model's collisions, joints at zero; empty without any.
+// The centre of the box around a model's collisions, with all joints at zero; nullopt if it has
+// none.
 std::optional<Vector3> CentreOf(const model::Model& model) {
   Vector3 low{kInfinity, kInfinity, kInfinity}, high = -low;
   for (const model::Link& link : model.links) {
@@ -121,7 +122,7 @@ class LogicalCamera final
 
   const double near_, far_;
   const Frustum frustum_;
-  const double half_width_, half_height_;  // at a distance of 1
+  const double half_width_, half_height_;  // of the view at a distance of 1
   const bool hides_, robots_only_;
 };
 

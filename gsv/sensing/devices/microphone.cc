@@ -14,7 +14,7 @@ constexpr double kMinSourceDistance = 0.1;  // m
 
 double Power(double level) { return std::pow(10, level / 10); }
 
-// dB at `point`; nothing where the source's robot is not there.
+// The level in dB at `point`; nullopt if the robot of the source is not in the world.
 std::optional<double> LevelAt(const geometry::Vector3& point, const world::DeviceMount& source,
                               const world::Sound& sound, const world::Snapshot& snapshot) {
   const int body = snapshot.layout->Find(source.robot);

@@ -35,7 +35,7 @@ class Navsat final : public SensorOf<readings::Navsat, messages::sensor_msgs::Na
     }
     const SensorMotion motion = MotionOf(sampling, description());
     const NoisyReading noisy(sampling, description());
-    // Errors are made in metres, before these become angles.
+    // Errors are added in metres, before the position is converted to angles.
     const Vector3& p = motion.world_from_sensor.position;
     const Vector3 point{noisy.Read(across_, 0, p.x), noisy.Read(across_, 1, p.y),
                         noisy.Read(up_, 2, p.z)};

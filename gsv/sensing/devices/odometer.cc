@@ -14,7 +14,7 @@
 namespace gsv::sensing {
 namespace {
 
-// From "ROBOT/SENSOR".
+// Returns ROBOT of "ROBOT/SENSOR".
 std::string_view RobotOf(std::string_view frame) { return frame.substr(0, frame.rfind('/')); }
 
 using OdometryMessage = messages::nav_msgs::Odometry;
@@ -39,12 +39,12 @@ class VelocityNoise {
       : linear_(ReadNoise(reader, "linear.noise", 1e3)),
         angular_(ReadNoise(reader, "angular.noise", 1e3)) {}
 
-  // The reading at `place`.
+  // Returns the reading for the position `place`.
   readings::Odometry Read(const Sampling& sampling, const model::SensorDescription& description,
                           const geometry::PlanarPosition& place, double linear,
                           double angular) const {
     const NoisyReading noisy(sampling, description);
-    // Of a base that cannot move sideways it is 0, and stays so.
+    // The lateral velocity of a base that cannot move sideways is 0, and gets no noise.
     const double lateral = sampling.snapshot()->state.bodies[sampling.body()].drive.actual.lateral;
     return {.x = place.x,
             .y = place.y,
@@ -80,7 +80,7 @@ class Odometer final : public SensorOf<readings::Odometry, OdometryMessage> {
   const VelocityNoise noise_;
 };
 
-// One whose errors add up, so that it keeps a state.
+// An odometer whose errors accumulate, so that it keeps a state.
 class DriftingOdometer final : public SensorOf<readings::Odometry, OdometryMessage, Device> {
  public:
   DriftingOdometer(const model::SensorDescription& description, ParameterReader& reader)

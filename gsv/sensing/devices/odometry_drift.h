@@ -1,12 +1,13 @@
-// Errors of odometry that add up: wheels that are not as large or as far apart as the robot takes
-// them for, and slip that nobody foresees.
+// Errors of odometry that accumulate. They come from wheels whose size or distance differs from the
+// robot's parameters, and from random slip.
 //
-// Model        of each step's way ds and turn da the odometry makes ds' = scale.linear ds + a random
-//              part of variance random.linear_per_metre^2 |ds|, and da' = scale.angular da + one of
-//              variance random.angular_per_metre^2 |ds| + random.angular_per_radian^2 |da|. So the
-//              variance of a way does not depend on the length of the steps that it is divided into.
+// Model        for the distance ds and the turn da of each step, the odometry has ds' =
+//              scale.linear ds + a random part of variance random.linear_per_metre^2 |ds|, and da'
+//              = scale.angular da + a random part of variance random.angular_per_metre^2 |ds| +
+//              random.angular_per_radian^2 |da|. So the variance over a distance does not depend on
+//              the length of the steps.
 // Source       Thrun, Burgard and Fox, "Probabilistic Robotics", section 5.4, whose coefficients
-//              are those of variances.
+//              are variances.
 // Determinism  each step's draws are keyed by (seed, robot, sensor, step).
 #pragma once
 
@@ -31,7 +32,7 @@ struct OdometryDrift {
 
 OdometryDrift ReadOdometryDrift(ParameterReader& reader);
 
-// The odometry's estimate of a way (m) and a turn (rad), with three standard normal draws.
+// The odometry's estimate of a distance (m) and a turn (rad), from three standard normal numbers.
 struct OdometryStep {
   double way = 0, turn = 0;
 };

@@ -13,10 +13,10 @@ std::string NameOfParameter(const char* name) {
   return std::string("orientation_reference_frame.") + name;
 }
 
-// Turns vectors of the world into those of a frame whose z axis is `z` and whose x axis is the
-// level part of `along_x`; both have unit length and are at right angles.
+// The rotation from the world to a frame whose z axis is `z`, and whose x axis is the horizontal
+// part of `along_x`. Both are unit vectors at right angles.
 Quaternion QuaternionToFrame(const Vector3& along_x, const Vector3& z) {
-  // The shortest turn of z onto (0, 0, 1); from straight below it, half a turn about x.
+  // The shortest rotation of z to (0, 0, 1). If z points straight down, it is half a turn about x.
   const bool is_below = z.z < -1 + 1e-12;
   const Quaternion upright =
       is_below ? Quaternion{0, 1, 0, 0} : geometry::Normalized({1 + z.z, z.y, -z.x, 0});
@@ -56,7 +56,8 @@ Quaternion OrientationReference::AlongGravity(const Vector3& gravity) const {
   const Vector3 down = geometry::Normalized(gravity);
   const Vector3 z = kind_ == Kind::kGravityUp ? -down : down;
   Vector3 level = along_x_ - Dot(along_x_, z) * z;
-  if (!(geometry::Norm(level) > 1e-9)) {  // it points along gravity: any direction will do
+  // the vector points along gravity, so any direction is valid
+  if (!(geometry::Norm(level) > 1e-9)) {
     const Vector3 other = std::abs(z.x) < 0.5 ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
     level = other - Dot(other, z) * z;
   }
@@ -75,7 +76,7 @@ Quaternion OrientationReference::ReferenceFromWorld(const model::WorldDescriptio
       return turned(0);
     case Kind::kNwu:
       return turned(-std::numbers::pi / 2);
-    case Kind::kNed:  // east and north change places, and up is down
+    case Kind::kNed:  // x and y are exchanged, and z points down
       return Quaternion{0, std::sqrt(0.5), std::sqrt(0.5), 0} * turned(0);
     case Kind::kGravityUp:
     case Kind::kGravityDown:

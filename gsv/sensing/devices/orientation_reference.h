@@ -1,4 +1,4 @@
-// The frame in which an IMU gives its orientation: SDFormat's <orientation_reference_frame>.
+// The frame in which an IMU returns its orientation: SDFormat's <orientation_reference_frame>.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace gsv::sensing {
 
-// East, north and up are those of the world's place on the earth: x points east, turned by the
-// heading of <spherical_coordinates>; without one, x points east.
+// East, north and up are those of the world's place on the earth. x points east, turned by the
+// heading of <spherical_coordinates>, if there is one.
 class OrientationReference {
  public:
   // Parameters orientation_reference_frame.localization (default: the world's frame),
@@ -18,7 +18,7 @@ class OrientationReference {
 
   // Whether it is the world's frame itself.
   bool is_world() const { return is_world_; }
-  // Turns vectors of the world's frame into vectors of the reference frame.
+  // The rotation of vectors from the world's frame to the reference frame.
   geometry::Quaternion ReferenceFromWorld(const model::WorldDescription& world) const;
 
  private:
@@ -28,7 +28,8 @@ class OrientationReference {
   Kind kind_ = Kind::kCustom;
   bool is_world_ = true;
   geometry::Quaternion custom_from_world_;
-  geometry::Vector3 along_x_{1, 0, 0};  // GRAV_UP and GRAV_DOWN: x points there, as far as level
+  // for GRAV_UP and GRAV_DOWN: x points along the horizontal part of this
+  geometry::Vector3 along_x_{1, 0, 0};
 };
 
 }  // namespace gsv::sensing

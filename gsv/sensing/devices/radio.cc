@@ -63,7 +63,7 @@ class Radio final : public SensorOf<readings::Radio, messages::gsv_msgs::Radio, 
     return std::make_shared<const RadioState>(MountOn(robot), setup_, errors_);
   }
 
-  // A radio that is not on sends as well.
+  // A radio that is not open can send as well.
   world::DeviceStatePtr Apply(const std::string& robot, const world::DeviceStatePtr& before,
                               const world::DeviceCommand& command,
                               world::DeviceStep& step) const override {

@@ -41,7 +41,7 @@ std::vector<std::optional<double>> RadioState::Arriving(const world::DeviceStep&
       arriving.back() = HeardAt(sent.from, here, step.rays);
       continue;
     }
-    // What fades up may be heard from where it would be too weak.
+    // Fading may amplify a message, so a message that is too weak without fading may be received.
     world::RadioSetup keen = *setup_;
     keen.sensitivity = -300;
     world::Antenna there = here;
@@ -65,7 +65,7 @@ bool RadioState::IsLost(const world::DeviceStep& step, std::size_t place,
     if (noise.Uniform() < errors_.loss_probability) return true;
   }
   if (errors_.capture_ratio == 0) return false;
-  double others = 0;  // mW
+  double others = 0;  // power in mW
   for (std::size_t i = 0; i < arriving.size(); ++i) {
     if (!arriving[i] || step.transmissions[i].message->sender == message.sender) continue;
     others += std::pow(10, *arriving[i] / 10);
@@ -77,9 +77,10 @@ world::DeviceStatePtr RadioState::BeforeStep(world::DeviceStep& step) const {
   if (step.transmissions.empty()) return nullptr;
   const world::Antenna here = AntennaOf(*step.now, mount(), setup_);
   if (here.body < 0) return nullptr;
-  std::vector<std::optional<double>> arriving;  // where errors need those of all messages
+  // used if errors depend on the strengths of all messages
+  std::vector<std::optional<double>> arriving;
   if (!errors_.is_none()) arriving = Arriving(step, here);
-  std::shared_ptr<RadioState> changed;  // null until it hears something
+  std::shared_ptr<RadioState> changed;  // null until it receives a message
   for (std::size_t i = 0; i < step.transmissions.size(); ++i) {
     world::Transmission& sent = step.transmissions[i];
     const world::RadioMessage& message = *sent.message;

@@ -17,16 +17,17 @@ namespace gsv::sensing {
 
 struct HeardMessage {
   world::RadioMessagePtr message;
-  std::uint64_t number = 0;  // counts what this radio has heard, from 1
+  std::uint64_t number = 0;  // counts the received messages, from 1
   double strength = 0;       // dBm
 };
 
-// Errors of the radio channel, at the receiver. All 0: none.
+// Errors of the radio channel at the receiver. With 0 there are none.
 struct RadioErrors {
-  double fading = 0;            // dB: deviation of each message's strength
-  double loss_probability = 0;  // of a message that is strong enough
-  double capture_ratio = 0;     // dB above all else that is sent in the same step; 0: radios do not
-                                // disturb each other
+  double fading = 0;            // deviation of each message's strength, dB
+  double loss_probability = 0;  // for a message that is strong enough
+  // required margin above everything else that is sent in the same step, dB; 0: radios do not
+  // disturb each other
+  double capture_ratio = 0;
   bool is_none() const { return fading == 0 && loss_probability == 0 && capture_ratio == 0; }
 };
 
@@ -35,20 +36,22 @@ class RadioState final : public world::DeviceState {
   RadioState(world::DeviceMount mount, world::RadioSetupPtr setup, const RadioErrors& errors = {})
       : DeviceState(std::move(mount)), setup_(std::move(setup)), errors_(errors) {}
 
-  std::uint64_t heard() const { return heard_; }                     // since it was switched on
-  const std::vector<HeardMessage>& inbox() const { return inbox_; }  // the last, oldest first
+  // The number of messages received since it was switched on.
+  std::uint64_t heard() const { return heard_; }
+  // The latest messages, the oldest first.
+  const std::vector<HeardMessage>& inbox() const { return inbox_; }
   const world::RadioSetup& setup() const { return *setup_; }
 
   void AddToHash(base::Hash& hash) const override;
-  // Hears what this step's transmissions bring to its antenna, and enters itself there.
+  // Receives the transmissions of this step at its antenna, and adds itself to their receivers.
   world::DeviceStatePtr BeforeStep(world::DeviceStep& step) const override;
 
-  // Puts a message into the inbox; the oldest goes where there is no room.
+  // Puts a message into the inbox. If it is full, the oldest message is removed.
   void Hear(const world::RadioMessagePtr& message, double strength);
 
  private:
-  // The strength (dBm) at which each transmission arrives, as it fades; nothing of those that do not
-  // arrive. Own ones do not.
+  // The strength (dBm) at which each transmission arrives, including fading; nullopt for those that
+  // do not arrive. The radio's own transmissions do not arrive.
   std::vector<std::optional<double>> Arriving(const world::DeviceStep& step,
                                               const world::Antenna& here) const;
   bool IsLost(const world::DeviceStep& step, std::size_t place,

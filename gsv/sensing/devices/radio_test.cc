@@ -1,4 +1,4 @@
-// Radio links against the Friis equation, and what a radio shows of what it has heard.
+// Compares radio links with the Friis equation, and tests the received messages of a radio.
 #include "gsv/sensing/devices/radio.h"
 
 #include <cmath>
@@ -18,7 +18,8 @@ namespace {
 using geometry::Box;
 using geometry::PlanarPose;
 
-// Two robots 8 m apart along x, each with its antenna in its middle, and what stands between.
+// Two robots are 8 m apart along x, each with its antenna at its centre. Bodies may be between
+// them.
 class RadioLink : public ::testing::Test {
  protected:
   void Stand(std::vector<testing::Placed> between = {}) {
@@ -77,7 +78,7 @@ TEST_F(RadioLink, EndsAtTheSendersRange) {
   EXPECT_TRUE(Heard());
   from_.range = 7.999;
   EXPECT_FALSE(Heard());
-  from_.range = 0, to_.range = 1;  // the receiver's bounds what it sends
+  from_.range = 0, to_.range = 1;  // the range of the receiver limits only what it sends
   EXPECT_TRUE(Heard());
 }
 
@@ -204,7 +205,7 @@ TEST(Radio, ReturnsReceivedMessages) {
   EXPECT_EQ(decoded->messages[0].content, (std::vector<std::uint8_t>{'a', 0, 'b', 0xff}));
 }
 
-// Recordings hold hashes: the order of fields is part of their format.
+// Recordings contain hashes, so the order of fields is part of their format.
 TEST(Radio, HashIncludesReceivedMessages) {
   const auto radio = MakeRadio();
   ASSERT_TRUE(radio);
@@ -215,14 +216,15 @@ TEST(Radio, HashIncludesReceivedMessages) {
   state.AddToHash(hash);
   expected.Add(std::string_view("robot"));
   expected.Add(std::string_view("radio"));
-  expected.Add(std::uint64_t{1});  // messages heard
-  expected.Add(std::uint64_t{1});  // the number of the one in its inbox
+  expected.Add(std::uint64_t{1});  // the number of received messages
+  expected.Add(std::uint64_t{1});  // the number of the message in its inbox
   expected.Add(-41.5);
   expected.Add(message->digest);
   EXPECT_EQ(hash.Digest(), expected.Digest());
 }
 
-// What "b" hears of messages that "a" and perhaps "c" send in one step each.
+// The fraction of messages that "b" receives, of those that "a" and perhaps "c" send in one step
+// each.
 class RadioOnTheAir : public RadioLink {
  protected:
   std::vector<double> Strengths(const RadioErrors& errors, int messages, bool c_sends = false) {
@@ -272,7 +274,7 @@ TEST_F(RadioOnTheAir, FadesWithTheConfiguredDeviation) {
 
 TEST_F(RadioOnTheAir, ReceivesNeitherOfTwoSignalsOfSimilarPower) {
   RadioErrors errors;
-  errors.capture_ratio = 6;  // dB
+  errors.capture_ratio = 6;  // in dB
   EXPECT_EQ(Strengths(errors, 5).size(), 5u);
   EXPECT_EQ(Strengths(errors, 5, /*c_sends=*/true).size(), 0u);
   errors.capture_ratio = 0;

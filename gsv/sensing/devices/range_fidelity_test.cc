@@ -1,6 +1,6 @@
-// What lidar and sonar read of a plane, a sphere, a cylinder and a box, each of them and the sensor
-// at random poses, against closed forms in the world's frame. docs/fidelity.md lists what is
-// expected.
+// Compares the readings of lidar and sonar with closed forms in the world's frame. They measure a
+// plane, a sphere, a cylinder and a box. The shapes and the sensor have random poses.
+// docs/fidelity.md lists the tolerances.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -25,13 +25,13 @@ using geometry::kPi;
 constexpr double kNothing = geometry::kInfinity;
 constexpr int kAzimuths = 24, kElevations = 9;
 
-// A half-line; `direction` is of unit length.
+// A half-line. `direction` is a unit vector.
 struct Line {
   Vector3 origin, direction;
   Vector3 At(double distance) const { return origin + distance * direction; }
 };
 
-// The smallest of distances that are ahead.
+// Finds the smallest of the distances that are ahead.
 class Nearest {
  public:
   void Offer(double distance) {
@@ -62,13 +62,14 @@ double ToSphere(const Line& line, const Pose& pose) {
   const double b = Dot(line.direction, from_centre);
   const double root =
       std::sqrt(b * b - Dot(from_centre, from_centre) + kSphere.radius * kSphere.radius);
-  Nearest nearest;  // without a root: not a number, and that is not ahead
+  Nearest nearest;  // NaN if there is no root, and NaN is not ahead
   nearest.Offer(-b - root);
   nearest.Offer(-b + root);
   return nearest.distance();
 }
 
-// On the mantle |m + t e| = r, where m and e are o - c and d across the axis; and the lids.
+// The mantle satisfies |m + t e| = r, where m and e are o - c and d across the axis. The lids are
+// planes.
 double ToCylinder(const Line& line, const Pose& pose) {
   const double radius = kCylinder.radius, half = kCylinder.length / 2;
   const Vector3 axis = pose.orientation * Vector3{0, 0, 1};
@@ -122,7 +123,7 @@ class RangeFidelity : public ::testing::Test {
     return {reading->values.begin(), reading->values.end()};
   }
 
-  // Of 160 poses each of thing, robot and sensor.
+  // Tests 160 poses each of shape, robot and sensor.
   template <typename Distance>
   void Compare(const geometry::Shape& shape, const Distance& distance_to) {
     testing::Random random(3);

@@ -1,16 +1,16 @@
 // The sensor type "ranging": the distance to a radio anchor, as tags of ultra-wideband (UWB) radio
 // measure it by the time of flight.
 //
-// Model       true distance + noise + bias_per_metre x distance + wall_delay x walls. The white noise
-//             has the variance noise.stddev^2 + (range_noise x distance)^2 + wall_noise^2 x walls.
-//             A wall is a solid on the line of sight, as for radios (radio_link.h). Sound and time
-//             play no role: the distance is that of the sampled instant.
+// Model       true distance + noise + bias_per_metre x distance + wall_delay x walls. The white
+//             noise has the variance noise.stddev^2 + (range_noise x distance)^2 + wall_noise^2 x
+//             walls. A wall is a solid on the line of sight, as for radios (radio_link.h). The
+//             distance is that of the sampled instant; the time of flight is ignored.
 // Parameters  anchor (name of the model to which it measures; required), min (0) and max (50): m,
 //             noise (m; its mean is a bias), range_noise (0): m per metre, bias_per_metre (0),
-//             wall_delay (0): m per wall, wall_noise (0): m per root of a wall, max_walls (8): behind
-//             more the anchor is not heard.
+//             wall_delay (0): m per wall, wall_noise (0): m per root of a wall, max_walls (8): an
+//             anchor behind more walls is not received.
 // Readings    Ranging, below. As a message: sensor_msgs/Range with an infinite range for no echo.
-// Errors      An anchor that is not in the world is not heard.
+// Errors      an anchor that is not in the world is not received.
 #pragma once
 
 #include <limits>
@@ -23,7 +23,7 @@ namespace gsv::sensing {
 
 struct Ranging {
   static constexpr const char* kType = "ranging";
-  double distance = std::numeric_limits<double>::infinity();  // infinite: not heard
+  double distance = std::numeric_limits<double>::infinity();  // infinite if it is not received
   static constexpr auto kFields =
       std::make_tuple(readings::Value("distance", "m", &Ranging::distance, "range"));
 };

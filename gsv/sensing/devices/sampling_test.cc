@@ -1,5 +1,5 @@
-// Readings of a crowd: those of sensors that share a sampling, and of any number of threads, are
-// those that each takes alone, and what brute force finds.
+// Compares the readings of a crowd. Sensors that share a sampling, with any number of threads, must
+// have the readings that each takes alone, and those of a brute-force search.
 #include <gtest/gtest.h>
 
 #include "gsv/base/thread_team.h"
@@ -29,8 +29,8 @@ model::SensorDescription SensorOf(const std::string& type, double angle) {
   return description;
 }
 
-// Robots, boxes and a lorry that moves too, on a ground with one wall, `room` square metres for
-// each robot.
+// A world with robots, boxes and a moving lorry, on a ground with one wall. Each robot has `room`
+// square metres.
 std::shared_ptr<world::Snapshot> MakeCrowd(int robots, double room) {
   Random random(41);
   const double half = std::sqrt(room * robots) / 2;
@@ -74,7 +74,7 @@ class SamplingTest : public ::testing::Test {
     return robots;
   }
 
-  // Robot by robot, those of one with a sampling in common.
+  // Reads robot by robot. The sensors of one robot share a sampling.
   std::vector<Reading> ReadAll(const std::shared_ptr<const world::Snapshot>& snapshot,
                                int threads) const {
     const std::vector<int> robots = Robots(*snapshot);
@@ -104,7 +104,8 @@ class SamplingTest : public ::testing::Test {
 };
 
 TEST_F(SamplingTest, EqualsSequentialSamplingForAnyNumberOfThreads) {
-  for (const double room : {10.0, 0.5}) {  // as in a hall; too many around to be gathered
+  // once with much space, and once with too many bodies for a candidate set
+  for (const double room : {10.0, 0.5}) {
     const auto snapshot = MakeCrowd(120, room);
     RaySceneCache rays;
     const std::vector<int> robots = Robots(*snapshot);

@@ -11,12 +11,12 @@ using geometry::Cross;
 using geometry::Pose;
 using geometry::Vector3;
 
-// A point that moves with a frame that turns.
+// The motion of a point that is fixed in a rotating frame.
 struct Frame {
   Vector3 place, velocity, acceleration;
   Vector3 angular_velocity, angular_acceleration;
 
-  // Another point of the same rigid body.
+  // Moves to another point of the same rigid body.
   void MoveTo(const Vector3& to) {
     const Vector3 arm = to - place;
     const Vector3 around = Cross(angular_velocity, arm);
@@ -25,7 +25,7 @@ struct Frame {
     place = to;
   }
 
-  // On to what hangs from a joint here, `rate` being along or about `axis`.
+  // Passes a joint at this point to the link that it moves. `rate` is along or about `axis`.
   void PassJoint(const model::Joint& joint, const Vector3& axis, double rate) {
     if (joint.kind == model::JointKind::kPrismatic) {
       velocity += rate * axis;
@@ -38,7 +38,7 @@ struct Frame {
   }
 };
 
-// The joints from the root to a link.
+// Returns the joints from the root to a link.
 std::vector<int> JointsTo(const model::Model& model, int link) {
   std::vector<int> chain;
   while (link >= 0 && chain.size() < model.links.size()) {

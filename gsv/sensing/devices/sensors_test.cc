@@ -28,7 +28,7 @@ base::Result<std::unique_ptr<Sensor>> Make(const model::SensorDescription& descr
   return BuiltInSensors().Find(description.type)->create(description);
 }
 
-// A robot of radius 0.25 at (1, 0), facing y, and a wall whose near face is at y = 4.
+// A robot of radius 0.25 is at (1, 0) and faces y. The near face of a wall is at y = 4.
 class SensorTest : public ::testing::Test {
  protected:
   SensorTest() {
@@ -68,7 +68,7 @@ TEST_F(SensorTest, SonarIgnoresItsOwnRobot) {
   EXPECT_EQ(reading.time, base::FromSeconds(1.7));
 }
 
-TEST_F(SensorTest, SonarReportsMaximumRangeWhenNothingIsHit) {
+TEST_F(SensorTest, SonarReportsMaximumRangeWithoutAnEcho) {
   EXPECT_EQ(Sample(DescriptionOf("sonar", {{"max", 3.0}})).values[0], 3.0);
 }
 
@@ -110,7 +110,7 @@ model::Parameters Scan(double samples, double min_angle, double max_angle) {
 TEST_F(SensorTest, LidarMeasuresAlongItsAngles) {
   const Reading reading = Sample(DescriptionOf("lidar", Scan(5, -kPi / 2, kPi / 2)));
   ASSERT_EQ(reading.values.size(), 5u);
-  // The wall runs across, 3.8 m ahead: 3.8 / cos(45°) is beyond 5 m.
+  // The wall is across the path, 3.8 m ahead. 3.8 / cos(45°) is beyond 5 m.
   EXPECT_EQ(reading.values[0], kInfinity);
   EXPECT_EQ(reading.values[1], kInfinity);
   EXPECT_NEAR(reading.values[2], 3.8, 1e-12);
@@ -149,8 +149,8 @@ TEST_F(SensorTest, SingleRowLidarBecomesALaserScanMessage) {
   EXPECT_FLOAT_EQ(scan.ranges[2], 3.8f);
 }
 
-// Three rows of two beams, of which the middle one is level: to the wall 3.8 m ahead, and 45° to
-// its side, beyond 5 m.
+// Three rows of two beams, with the middle row level. One beam hits the wall 3.8 m ahead. The other
+// points 45° to the side, where the wall is beyond 5 m.
 model::Parameters ThreeRows() {
   auto parameters = Scan(2, 0, kPi / 4);
   parameters["scan.vertical.samples"] = 3.0;

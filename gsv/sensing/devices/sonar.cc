@@ -21,7 +21,7 @@ using geometry::Vector3;
 struct SonarSettings {
   double min = 0, max = 5;
   double field_of_view = 0.26;
-  std::optional<SoundSettings> sound;  // of a cone
+  std::optional<SoundSettings> sound;  // for a cone
   NoiseModel noise;
 };
 
@@ -55,7 +55,7 @@ class Sonar final : public SensorOf<readings::Sonar, messages::sensor_msgs::Rang
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {
     const geometry::Pose world_from_sonar = sampling.WorldFromSensor(description());
-    double echo = Echo(sampling, world_from_sonar);  // infinite: none
+    double echo = Echo(sampling, world_from_sonar);  // infinite if there is no echo
     if (!settings_.noise.is_none() && std::isfinite(echo)) {
       echo = NoisyReading(sampling, description()).Read(settings_.noise, 0, echo);
     }
@@ -75,7 +75,7 @@ class Sonar final : public SensorOf<readings::Sonar, messages::sensor_msgs::Rang
                            world_from_sonar.orientation * Vector3{1, 0, 0}, settings_.max});
   }
 
-  // The sonars of the robot's model that fire when this one does.
+  // Returns the sonars of the robot's model that fire at the same time.
   std::vector<SoundCone::Sender> Others(const Sampling& sampling) const {
     std::vector<SoundCone::Sender> others;
     if (settings_.sound->firing_slot == 0) return others;
@@ -118,7 +118,7 @@ class Sonar final : public SensorOf<readings::Sonar, messages::sensor_msgs::Rang
 
   const SonarSettings settings_;
   std::optional<SoundCone> cone_;
-  // The sonars of the last robot's model that fire together with this one: places in its sensors.
+  // Caches, for the last robot's model, the indices of the sonars that fire at the same time.
   mutable base::Mutex mutex_;
   mutable std::shared_ptr<const model::Model> others_of_ GSV_GUARDED_BY(mutex_);
   mutable std::vector<std::pair<std::size_t, SoundSettings>> others_ GSV_GUARDED_BY(mutex_);

@@ -15,8 +15,8 @@ namespace {
 using geometry::Vector3;
 
 using geometry::kPi;
-constexpr double kSpeedOfSound = 343;  // m/s, in air of 20 degrees
-constexpr double kMaxConeAngle = 0.6;  // rad: what sends wider than this is cut off here
+constexpr double kSpeedOfSound = 343;  // in air of 20 degrees, m/s
+constexpr double kMaxConeAngle = 0.6;  // wider beams are cut off at this angle, rad
 constexpr int kMaxRings = 24;
 constexpr double kMaxSpacing = 0.1;  // rad
 
@@ -72,7 +72,7 @@ double SoundCone::NearestEcho(const Sampling& sampling, const geometry::Pose& wo
   std::vector<std::optional<Hit>> hits(rays.size());
   sampling.Rays().Cast(rays, sampling.body(), hits);
   std::vector<Echo> echoes;
-  std::map<int, std::size_t> nearest_of;  // by body, a place in rays
+  std::map<int, std::size_t> nearest_of;  // for each body, an index in rays
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (!hits[i]) continue;
     const double strength = EchoOf(rays[i], *hits[i], beams_[i].strength);
@@ -103,7 +103,8 @@ double SoundCone::NearestHeard(const Sampling& sampling, std::vector<Echo> echoe
   std::sort(echoes.begin(), echoes.end(), [](const Echo& a, const Echo& b) {
     return std::tie(a.distance, b.strength) < std::tie(b.distance, a.strength);
   });
-  // Echoes that lie close together come from one target: the strongest of them stands for it.
+  // Echoes whose distances differ by less than this come from one target, which is represented by
+  // the strongest of them.
   constexpr double kOneTarget = 0.02;  // of the distance
   constexpr int kMostTargets = 6;
   int targets = 0;
@@ -131,7 +132,8 @@ double SoundCone::FilledPart(const Sampling& sampling, const Echo& echo) const {
       Cross(ray.direction, std::abs(ray.direction.z) < 0.9 ? Vector3{0, 0, 1} : Vector3{1, 0, 0}));
   const Vector3 across = Cross(ray.direction, aside);
   const Vector3 middle = distance * ray.direction;
-  // How far the surface lies within an eighth of a wave of the plane across the sound's way.
+  // The distance over which the surface deviates by less than an eighth of a wave from the plane
+  // across the sound's path.
   const auto extent = [&](const Vector3& way) {
     const auto is_filled = [&](double offset) {
       const Vector3 there = middle + offset * way;
@@ -157,7 +159,8 @@ void SoundCone::AddSecondReflections(const Sampling& sampling, std::span<const R
                                      std::span<const std::optional<Hit>> hits, double max_distance,
                                      std::vector<Echo>& echoes) const {
   constexpr double kOffTheSurface = 1e-6;
-  constexpr double kOblique = 0.2;  // rad off the normal; nearer to it the first echo is heard
+  // angle from the normal in rad; for smaller angles the first echo is detected
+  constexpr double kOblique = 0.2;
   std::vector<Ray> mirrored;
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -180,14 +183,15 @@ void SoundCone::AddSecondReflections(const Sampling& sampling, std::span<const R
     const Vector3& out = rays[place].direction;
     const Vector3& onward = mirrored[i].direction;
     const double cosine = std::clamp(-Dot(onward, seconds[i]->normal), -1.0, 1.0);
-    // Back the same way from a surface at right angles, mirrored twice more; or back by the corner.
+    // The sound returns the same way from a surface at right angles, and so is reflected twice
+    // more. Or it returns by a corner.
     const double same_way = once * once * Mirrored(std::acos(cosine));
     const Vector3 home = onward + 2 * cosine * seconds[i]->normal;
     const double corner = once * Mirrored(std::acos(std::clamp(-Dot(home, out), -1.0, 1.0)) / 2);
     const double first = hits[place]->distance, second = seconds[i]->distance;
     const double whole = first + second;
-    // From a corner the sound comes back beside itself; its last leg is the way out of the second
-    // surface, and half of all legs is the distance of the corner's edge.
+    // From a corner the sound returns beside its own path. Its last leg is the way from the second
+    // surface. Half of all legs is the distance of the corner's edge.
     const double by_corner = first + second * (1 + Dot(out, onward)) / 2;
     const double strength = beams_[place].strength * std::max(same_way, corner);
     const double distance = same_way >= corner ? whole : by_corner;
@@ -210,14 +214,15 @@ void SoundCone::AddCrosstalk(const Sender& sender, std::span<const Ray> rays,
     if (length < 1e-6) continue;
     const Vector3 out = (1 / length) * way;
     const double along = Dot(out, axis);
-    if (along < kLeastCosine) continue;  // beyond the sender's lobe
+    if (along < kLeastCosine) continue;  // the point is outside the sender's lobe
     const double heard = std::sqrt(beams_[i].strength);
     const Vector3 half = geometry::Normalized(out + rays[i].direction);
     const double cosine = std::clamp(-Dot(half, hits[i]->normal), -1.0, 1.0);
     const double returned = heard * ((1 - sound_.roughness) * Mirrored(std::acos(cosine)) +
                                      sound_.roughness * std::max(cosine, 0.0));
     const double distance = (length + hits[i]->distance) / 2;
-    if (!IsHeard(returned, distance)) continue;  // not even on the sender's axis
+    // it would not even be detected on the sender's axis
+    if (!IsHeard(returned, distance)) continue;
     const double strength =
         returned * std::abs(Directivity(sender.sound, std::acos(std::min(along, 1.0))));
     if (IsHeard(strength, distance)) echoes.push_back({distance, strength, rays[i], *hits[i]});

@@ -19,7 +19,7 @@ using geometry::PlanarPose;
 constexpr double kDegrees = std::numbers::pi / 180;
 constexpr double kMax = 6;
 
-// What a cone at the origin hears that looks along x.
+// The reading of a cone at the origin that points along x.
 double Heard(const std::vector<testing::Placed>& things, model::Parameters parameters = {}) {
   std::vector<testing::Placed> placed = things;
   placed.push_back({"robot", testing::ModelOf(geometry::Sphere{0.05}), {}, false});
@@ -86,7 +86,7 @@ TEST(SoundCone, DetectsARoughWallWhereTheBeamFirstMeetsIt) {
 }
 
 TEST(SoundCone, DetectsAPostBesideItsAxisThatARayMisses) {
-  // Its nearest point lies on the line to its middle, 5 degrees off the axis.
+  // The post's nearest point is on the line to its centre, 5 degrees off the axis.
   const std::vector<testing::Placed> post = {
       {"post", testing::ModelOf(geometry::Cylinder{0.05, 2}),
        PlanarPose(2 * std::cos(5 * kDegrees), 2 * std::sin(5 * kDegrees), 0, 0), true}};

@@ -142,8 +142,8 @@ C Along(const Ray& ray, const geometry::Ellipsoid& ellipsoid) {
           Scaled(nearest + half * direction, shrink)};
 }
 
-// The chord inside the cone with its apex at +length/2, where x² + y² <= k² w² with the depth w
-// below the apex and the slope k: A t² + 2 B t + C <= 0 along the ray.
+// The chord inside the cone, whose apex is at +length/2. With the depth w below the apex and the
+// slope k, a point is inside if x² + y² <= k² w². Along the ray this is A t² + 2 B t + C <= 0.
 template <class C>
 C Along(const Ray& ray, const geometry::Cone& cone) {
   const double k = cone.radius / cone.length;
