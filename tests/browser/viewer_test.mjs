@@ -219,7 +219,7 @@ test("a click on a robot selects it and shows where it is", async () => {
   // Another robot may stand in front of it.
   assert.ok((await robotsInView()).some(({ name }) => name === title));
   const { pose } = (await ask("")).robots.find(({ name }) => name === title);
-  const shown = await inspector.locator("dd").first().textContent();
+  const shown = await inspector.locator(".inspector-rows dd").first().textContent();
   const [x, y] = shown.split(",").map(Number.parseFloat);
   assert.ok(Math.hypot(x - pose.x_m, y - pose.y_m) < 0.02, `${shown} is not ${JSON.stringify(pose)}`);
   await keepPicture(page, "run");

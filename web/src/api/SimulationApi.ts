@@ -8,6 +8,8 @@ import type { CommandArguments, CommandDescription } from "./commands";
 import { parseCommands } from "./commands";
 import type { CurveOf, WholeCurve } from "./curve";
 import { curveQuery, parseCurve } from "./curve";
+import type { OutputLine } from "./health";
+import { parseOutput } from "./health";
 import type { Recording } from "./recording";
 import { parseRecording } from "./recording";
 import type { RecordedEvent, RecordedLine, Replay } from "./replay";
@@ -114,6 +116,11 @@ export class SimulationApi {
   // The log of a recording, by time.
   async log(name: string): Promise<RecordedLine[]> {
     return parseLog(await this.server.get(`${simulationPath(name)}/log`));
+  }
+
+  // What a robot's behaviour printed last.
+  async output(name: string, robot: string): Promise<OutputLine[]> {
+    return parseOutput(await this.server.get(`${simulationPath(name)}/health?robot=${encodeURIComponent(robot)}`));
   }
 
   // A value over the whole of a recording, as far as it is read; at most so many points.

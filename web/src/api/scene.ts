@@ -103,8 +103,20 @@ export function parseScene(json: unknown): SceneDescription {
 }
 
 // Who has sensors: robots, avatars and stations.
-export function robotsOf(scene: SceneDescription | null): SceneBody[] {
-  return scene ? scene.bodies.filter(hasAgent) : [];
+export function robotsOf(scene: SceneDescription | null): readonly SceneBody[] {
+  return scene ? robotsOfScene(scene) : [];
+}
+
+const robotsOfScene = oncePerScene((scene) => scene.bodies.filter(hasAgent));
+
+// A scene never changes, and of a thousand robots the answer takes long.
+function oncePerScene<Result>(compute: (scene: SceneDescription) => Result): (scene: SceneDescription) => Result {
+  const known = new WeakMap<SceneDescription, { result: Result }>();
+  return (scene) => {
+    let found = known.get(scene);
+    if (!found) known.set(scene, (found = { result: compute(scene) }));
+    return found.result;
+  };
 }
 
 export function hasAgent({ isRobot, isAvatar, isStation }: SceneBody): boolean {
@@ -117,13 +129,17 @@ export interface CameraChoice {
   topic: string;
 }
 
-export function camerasOf(scene: SceneDescription | null): CameraChoice[] {
-  return robotsOf(scene).flatMap((body) =>
+export function camerasOf(scene: SceneDescription | null): readonly CameraChoice[] {
+  return scene ? camerasOfScene(scene) : [];
+}
+
+const camerasOfScene = oncePerScene((scene) =>
+  robotsOf(scene).flatMap((body) =>
     body.sensors
       .filter((sensor) => sensor.overlay === "picture")
       .map((sensor) => ({ robot: body.name, sensor: sensor.name, topic: sensor.topic })),
-  );
-}
+  ),
+);
 
 function parseBody(value: unknown, where: string): SceneBody {
   const body = objectAt(value, where);

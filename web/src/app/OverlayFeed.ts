@@ -77,9 +77,17 @@ export class OverlayFeed {
   ) {}
 
   start(): void {
+    // What it depends on, as the state changes many times a second and may hold thousands of sensors.
     this.store.watch(
-      (state) => [state.simulation, ...topicsToDraw(state)],
-      ([simulation, ...topics]) => this.listen(simulation ?? null, topics as string[]),
+      ({ simulation, scene, shown, selection, viewMode, replay }) => ({
+        simulation,
+        scene,
+        shown,
+        selection,
+        viewMode,
+        isReplay: replay !== null,
+      }),
+      ({ simulation }) => this.listen(simulation, topicsToDraw(this.store.get())),
       shallowEqual,
     );
   }

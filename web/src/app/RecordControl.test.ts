@@ -13,10 +13,11 @@ afterEach(() => vi.useRealTimers());
 async function recording(first = OFF) {
   const api = { recording: vi.fn(async () => first), record: vi.fn(async () => ON) };
   const { app, store } = testApp({ abilities: { ...initialState.abilities, records: true } }, api);
-  const button = createRecordButton(app);
+  const place = createRecordButton(app);
+  const button = place.querySelector("button")!;
   app.records.start();
   await vi.advanceTimersByTimeAsync(0);
-  return { api, app, store, button };
+  return { api, app, store, place, button };
 }
 
 test("the button shows what another viewer switched on, and its size", async () => {
@@ -31,11 +32,13 @@ test("the button shows what another viewer switched on, and its size", async () 
 
 test("a press records, another ends it and says how to replay", async () => {
   const { api, app, store } = await recording();
-  await app.records.toggle();
+  app.records.press();
+  await vi.advanceTimersByTimeAsync(0);
   expect(api.record).toHaveBeenLastCalledWith("house", true);
   expect(store.get().recording).toEqual(ON);
   api.record.mockResolvedValue({ ...ON, isOn: false });
-  await app.records.toggle();
+  app.records.press();
+  await vi.advanceTimersByTimeAsync(0);
   expect(api.record).toHaveBeenLastCalledWith("house", false);
   expect(store.get().notices.at(-1)!.sentence).toBe("Recording saved. Replay it on the page Recordings, or with: gsv replay '/tmp/a run.mcap'");
 });
@@ -52,7 +55,27 @@ test("where the server does not record, or something is replayed, there is no bu
 test("a refusal is told", async () => {
   const { api, app, store } = await recording();
   api.record.mockRejectedValueOnce(new Error("the disk is full"));
-  await app.records.toggle();
+  app.records.press();
+  await vi.advanceTimersByTimeAsync(0);
   expect(store.get().notices.at(-1)!.sentence).toBe("the disk is full");
   expect(store.get().recording).toEqual(OFF);
+});
+
+test("what was not started on this page ends only after a question", async () => {
+  const { api, app, store, place } = await recording(ON);
+  const card = place.querySelector<HTMLElement>(".record-question")!;
+  expect(card.hidden).toBe(true);
+  app.records.press();
+  expect(api.record).not.toHaveBeenCalled();
+  expect(card.hidden).toBe(false);
+  expect(card.textContent).toContain("/tmp/a run.mcap");
+  const answer = (label: string) => [...card.querySelectorAll("button")].find((each) => each.textContent === label)!.click();
+  answer("Continue recording");
+  expect(card.hidden).toBe(true);
+  expect(api.record).not.toHaveBeenCalled();
+  app.records.press();
+  answer("End recording");
+  await vi.advanceTimersByTimeAsync(0);
+  expect(api.record).toHaveBeenCalledWith("house", false);
+  expect(store.get().stopRecordingAsked).toBe(false);
 });

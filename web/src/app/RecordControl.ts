@@ -11,6 +11,7 @@ const POLL_MS = 1500;
 
 export class RecordControl {
   private timer: ReturnType<typeof setTimeout> | undefined;
+  private startedHere = ""; // the path of the recording that this page has started
 
   constructor(
     private readonly store: Store<State>,
@@ -19,22 +20,40 @@ export class RecordControl {
 
   start(): void {
     this.store.watch(
-      ({ simulation, abilities, replay, connection }) =>
-        abilities.records && replay === null && connection.phase === "open" ? simulation : null,
-      (simulation) => {
+      ({ simulation, abilities, replay, connection }) => ({
+        simulation: abilities.records && replay === null ? simulation : null,
+        isOpen: connection.phase === "open",
+      }),
+      ({ simulation, isOpen }, before) => {
         clearTimeout(this.timer);
-        this.store.set({ recording: null });
-        if (simulation !== null) void this.ask(simulation);
+        // A server that has ended has left its last recording behind.
+        if (simulation !== before?.simulation) this.store.set({ recording: null });
+        if (simulation !== null && isOpen) void this.ask(simulation);
       },
+      shallowEqual,
     );
   }
 
-  async toggle(): Promise<void> {
+  // One press ends only what was started on this page: a command line, or another viewer, may count on a
+  // recording. Another one is asked about first.
+  press(): void {
+    const { recording } = this.store.get();
+    if (recording?.isOn && recording.path !== this.startedHere) this.store.set({ stopRecordingAsked: true });
+    else void this.toggle();
+  }
+
+  answer(stops: boolean): void {
+    this.store.set({ stopRecordingAsked: false });
+    if (stops && this.store.get().recording?.isOn) void this.toggle();
+  }
+
+  private async toggle(): Promise<void> {
     const { simulation, recording } = this.store.get();
     if (!simulation || !recording) return;
     try {
       const now = await this.api.record(simulation, !recording.isOn);
       this.take(simulation, now);
+      if (now.isOn) this.startedHere = now.path;
       notify(this.store, "note", now.isOn ? `Recording to ${now.path}` : `Recording saved. Replay it on the page Recordings, or with: gsv replay ${quoted(now.path)}`);
     } catch (error) {
       notify(this.store, "error", (error as Error).message);
@@ -51,7 +70,11 @@ export class RecordControl {
 
   private take(simulation: string, recording: Recording): void {
     const { simulation: watched, recording: known } = this.store.get();
-    if (watched === simulation && !shallowEqual(recording, known)) this.store.set({ recording });
+    if (watched !== simulation || shallowEqual(recording, known)) return;
+    this.store.set(({ stopRecordingAsked }) => ({
+      recording,
+      stopRecordingAsked: stopRecordingAsked && recording.isOn,
+    }));
   }
 }
 

@@ -40,6 +40,7 @@ const NOTHING_WATCHED: Partial<State> = {
   replay: null,
   events: [],
   health: null,
+  endSeen: false,
   expectations: [],
   wishedTime: null,
   selection: null,
@@ -147,6 +148,7 @@ export class Session implements TopicSource {
     const known = this.store.get().status;
     const failure = status.failure || (status.phase === "failed" ? (known?.failure ?? "") : "");
     this.store.set({ status: { ...status, failure }, time: status.time });
+    if (status.phase !== "finished" && status.phase !== "failed" && this.store.get().endSeen) this.store.set({ endSeen: false });
     this.takeReplay(status);
   }
 

@@ -13,6 +13,7 @@ export function panelPorts(app: App, api: SimulationApi): PanelPorts {
       figures: () => api.metrics.figures(),
       parameter: (name) => session.parameter(name),
       log: (simulation) => api.log(simulation),
+      output: (simulation, robot) => api.output(simulation, robot),
       curve: (simulation, of, most) => api.curve(simulation, of, most),
     },
     commands: {

@@ -85,3 +85,9 @@ test("a server that takes a token is shown the one that is typed", async () => {
   expect(admit.mock.calls).toEqual([["secret"]]);
   expect(host.querySelector(".token-field")).toBeNull();
 });
+
+test("a replay's page says that there is no broker", async () => {
+  const missing: [number, unknown] = [404, { error: "there is nothing at this address" }];
+  const { host } = await open({ types: missing, links: missing });
+  expect(host.querySelector(".answer")!.textContent).toContain("A replay has no broker.");
+});

@@ -1,5 +1,6 @@
 // The broker page: service types, the offers of the chosen one with a constraint to try, and links.
 import { showFrame } from "../frame/frame";
+import { NO_BROKER, isMissing } from "../frame/noBroker";
 import { needsToken } from "../api/JsonServer";
 import { element } from "../ui/element";
 import { createTokenForm } from "../ui/tokenForm";
@@ -116,11 +117,12 @@ export class BrokerPage {
       this.links.replaceChildren(...links.map(linkRow));
       if (links.length === 0) this.links.replaceChildren(element("li", {}, hint("None.")));
     } catch (error) {
-      this.links.replaceChildren(element("li", {}, hint((error as Error).message)));
+      this.links.replaceChildren(element("li", {}, hint(isMissing(error) ? "None." : (error as Error).message)));
     }
   }
 
   private complain(error: unknown): void {
+    if (isMissing(error)) return this.answer.replaceChildren(hint(NO_BROKER));
     const sentence = element("p", { class: "problem", role: "alert" }, (error as Error).message);
     this.answer.replaceChildren(sentence, ...(needsToken(error) ? [this.tokenForm()] : []));
   }

@@ -1,6 +1,7 @@
 // A page that is one list, asked for again and again: what it shows comes and goes.
 import { needsToken } from "../api/JsonServer";
 import { element, setText } from "../ui/element";
+import { isMissing } from "./noBroker";
 import { createTokenForm } from "../ui/tokenForm";
 import type { Frame } from "./frame";
 import { showFrame } from "./frame";
@@ -17,6 +18,7 @@ export interface ListSource<Item> {
   title: string; // the page's
   label: string; // the list's
   empty: string | Node; // instead of no items
+  missing?: string; // why a server may not know the address that is fetched
   fetch(): Promise<Listing<Item>>;
   show(item: Item): HTMLElement; // a list item
   admit(token: string): void; // it is shown to the server from now on
@@ -77,7 +79,7 @@ export class ListPage<Item> {
   }
 
   private complain(error: unknown): void {
-    setText(this.wrong, (error as Error).message);
+    setText(this.wrong, (isMissing(error) && this.source.missing) || (error as Error).message);
     this.wrong.hidden = false;
     this.token.hidden = !needsToken(error);
   }

@@ -1,5 +1,6 @@
 // The page on which one joins a simulation: every instance that the broker knows, and what it runs.
 import type { JsonServer } from "../api/JsonServer";
+import { NO_BROKER } from "../frame/noBroker";
 import { ListPage } from "../frame/ListPage";
 import { element } from "../ui/element";
 import { replayUrl } from "../recordings/recordings";
@@ -18,6 +19,7 @@ export function createJoinPage(
     admit,
     title: "Join",
     label: "Instances",
+    missing: NO_BROKER,
     empty: "No instances found. Start one with `gsv run` or `gsv serve`.",
     fetch: async () => {
       const [{ broker, instances }, lost] = await Promise.all([fetchInstances(server), fetchLost(server)]);

@@ -7,7 +7,7 @@ import type { ShownState } from "../state/health";
 import { SHOWN_STATES, STATE_WORDS } from "../state/health";
 import { summaryOf } from "../state/expectations";
 import { shallowEqual } from "../state/Store";
-import { element, setText } from "../ui/element";
+import { element, setAttribute, setText } from "../ui/element";
 
 const EXPECTATIONS_PANEL = "expectations";
 // All is well first, then the worst.
@@ -80,7 +80,7 @@ function chip(app: App, state: ShownState) {
   const place = () => {
     const isChosen = app.store.get().robotFilter.state === state;
     button.hidden = count === 0 && !isChosen;
-    button.setAttribute("aria-pressed", String(isChosen));
+    setAttribute(button, "aria-pressed", String(isChosen));
   };
   app.store.watch(({ robotFilter }) => robotFilter.state === state, place);
   const show = (value: number) => {

@@ -3,6 +3,7 @@ import { scene } from "../scene/testScene";
 import type { State } from "../state/State";
 import { initialState } from "../state/State";
 import { situationOf } from "./Overlay";
+import { simulationStatus } from "./testApp";
 
 const open: State = { ...initialState, view: "open", connection: { phase: "open" } };
 const waiting: State = { ...open, connection: { phase: "waiting", attempt: 1, retryAtMs: 0 } };
@@ -19,6 +20,16 @@ test("the page says what it waits for, from the first connection to the scene", 
 test("a server that never answered differs from one that was lost", () => {
   expect(situationOf(waiting)).toBe("unreachable");
   expect(situationOf({ ...waiting, simulation: "house", scene: scene() })).toBe("lost");
+});
+
+test("a run that has ended is finished, not lost, until its summary is closed", () => {
+  const shown = { ...open, simulation: "house", scene: scene(), status: simulationStatus("finished") };
+  expect(situationOf(shown)).toBe("ended");
+  expect(situationOf({ ...shown, connection: waiting.connection })).toBe("ended");
+  expect(situationOf({ ...shown, status: simulationStatus("failed") })).toBe("ended");
+  expect(situationOf({ ...shown, status: simulationStatus("stopped") })).toBe("none");
+  expect(situationOf({ ...shown, endSeen: true })).toBe("none");
+  expect(situationOf({ ...shown, replay: { start: 0, end: 1, speed: 1, loop: false } })).toBe("none");
 });
 
 test("the notice of a lost connection stays while the next attempt is under way", () => {

@@ -3,9 +3,23 @@ import type { App } from "../app/App";
 import type { State } from "../state/State";
 import { shallowEqual } from "../state/Store";
 import { element } from "../ui/element";
+import { createEndCard as endCard } from "./EndCard";
 import { createTokenForm } from "../ui/tokenForm";
 
-type Situation = "refused" | "missing" | "none" | "connecting" | "unreachable" | "lost" | "no-simulation" | "loading" | "no-webgl" | "webgl-lost";
+type Situation = "refused" | "missing" | "none" | "connecting" | "unreachable" | "lost" | "ended" | "no-simulation" | "loading" | "no-webgl" | "webgl-lost";
+
+// A run is over: its server has ended with it, or is still there. What is replayed starts again.
+export function hasEnded({ status, replay }: State): boolean {
+  return replay === null && (status?.phase === "finished" || status?.phase === "failed");
+}
+
+// What the summary of a run that has ended depends on.
+function whatEnded(state: State): string {
+  const { connection, recording, abilities, expectations } = state;
+  if (!hasEnded(state)) return "";
+  const isThere = connection.phase === "open";
+  return [isThere, recording?.path, abilities.recordings, ...expectations.map(({ verdict }) => verdict)].join(" ");
+}
 
 export function situationOf(state: State): Situation {
   const { connection, simulations, simulation, view, setUp, missing, refusal } = state;
@@ -16,6 +30,7 @@ export function situationOf(state: State): Situation {
     if (view === "none") return "no-webgl";
     return view === "interrupted" ? "webgl-lost" : scene ? "none" : "loading";
   }
+  if (state.scene && hasEnded(state)) return state.endSeen ? "none" : "ended";
   if (connection.phase !== "open" && state.scene) return "lost";
   if (connection.phase === "waiting") return "unreachable";
   if (simulations !== null && simulations.length === 0 && simulation === null) return "no-simulation";
@@ -28,12 +43,13 @@ export function situationOf(state: State): Situation {
 export function createOverlay(app: App): HTMLElement {
   const place = element("div", { class: "overlay", "aria-live": "polite" });
   app.store.watch(
-    situationOf,
-    (situation) => {
+    (state) => ({ situation: situationOf(state), of: whatEnded(state) }),
+    ({ situation }) => {
       place.hidden = situation === "none";
       place.dataset.situation = situation;
       place.replaceChildren(...content(app, situation));
     },
+    shallowEqual,
   );
   return place;
 }
@@ -80,6 +96,8 @@ function content(app: App, situation: Situation): Node[] {
           element("code", {}, "gsv run WORLD --robot MODEL@x,y --behaviour wander"),
         ),
       ];
+    case "ended":
+      return [endCard(app)];
     case "unreachable":
       return [
         message(

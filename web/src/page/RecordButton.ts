@@ -11,7 +11,7 @@ export function createRecordButton(app: App): HTMLElement {
   const size = element("span", { class: "number" });
   const button = element(
     "button",
-    { class: "button record", type: "button", "aria-label": "Record", onclick: () => void app.records.toggle() },
+    { class: "button record", type: "button", "aria-label": "Record", onclick: () => app.records.press() },
     icon("record"),
     size,
   );
@@ -29,7 +29,27 @@ export function createRecordButton(app: App): HTMLElement {
     },
     shallowEqual,
   );
-  return button;
+  return element("div", { class: "record-place" }, button, question(app));
+}
+
+function question(app: App): HTMLElement {
+  const path = element("p", {});
+  const answer = (label: string, stops: boolean) =>
+    element("button", { class: "button", type: "button", onclick: () => app.records.answer(stops) }, label);
+  const card = element(
+    "div",
+    { class: "card record-question", role: "alertdialog", "aria-label": "End the recording?" },
+    path,
+    element("div", {}, answer("End recording", true), answer("Continue recording", false)),
+  );
+  app.store.watch(
+    ({ stopRecordingAsked, recording }) => (stopRecordingAsked ? (recording?.path ?? "") : null),
+    (asked) => {
+      card.hidden = asked === null;
+      setText(path, `This recording was not started on this page. End the recording to ${asked}?`);
+    },
+  );
+  return card;
 }
 
 function titleOf({ isOn, path, droppedMessages }: Recording): string {

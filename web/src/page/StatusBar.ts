@@ -5,6 +5,7 @@ import type { SimulationStatus } from "../api/status";
 import type { State } from "../state/State";
 import { phaseLabel } from "../state/actions";
 import { shallowEqual } from "../state/Store";
+import { hasEnded } from "./Overlay";
 import { element, setText } from "../ui/element";
 import { count, formatFactor, formatTime } from "../ui/format";
 
@@ -89,7 +90,9 @@ function lag({ phase, mode, realTimeFactor, targetFactor }: SimulationStatus): s
   return `Running at ${share} % of the target speed`;
 }
 
-function connectionLabel({ connection, modelsMissing, replay }: State): string {
+function connectionLabel(state: State): string {
+  const { connection, modelsMissing, replay } = state;
+  if (connection.phase !== "open" && hasEnded(state)) return "Server ended";
   if (connection.phase === "connecting") return "Connecting…";
   if (connection.phase === "waiting") return "Connection lost";
   return modelsMissing > 0 ? `Loading ${count(modelsMissing, "model")}…` : replay ? "Replay" : "Live";

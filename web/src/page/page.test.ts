@@ -140,7 +140,7 @@ test("a press on a row selects its robot, and the inspector shows where it is", 
   expect(tree.querySelector(".robot")?.getAttribute("aria-pressed")).toBe("true");
   store.set({ selectedPose: POSE });
   expect(inspector.hidden).toBe(false);
-  const values = [...inspector.querySelectorAll("dd")].slice(0, 4).map((value) => value.textContent);
+  const values = [...inspector.querySelectorAll(".inspector-rows dd")].slice(0, 4).map((value) => value.textContent);
   expect(values).toEqual(["1.23, 0.00, 0.00 m", "90.0°", "0.30 m/s", "-30.0°/s"]);
 });
 

@@ -21,6 +21,15 @@ export const PANELS: readonly Panel[] = [
     load: () => import("./log/LogPanel"),
   },
   {
+    id: "expectations",
+    title: "Expectations",
+    hint: "Expectations of the scenario: verdicts and margins",
+    picture: "check",
+    key: "E",
+    isAvailable: ({ expectations }) => expectations.length > 0,
+    load: () => import("./expectations/ExpectationsPanel"),
+  },
+  {
     id: "diagnostics",
     title: "Diagnostics",
     hint: "Diagnostics: failed robots and server health",

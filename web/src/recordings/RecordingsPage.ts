@@ -31,17 +31,19 @@ function noRecordings(): Node {
 }
 
 function recordingItem(line: RecordingLine): HTMLElement {
-  const { name, size, modified, state } = line;
-  const about = [formatDate(modified), formatSize(size)].filter(Boolean).join(" · ");
+  const { name, size, modified, state, world, robots, verdict, sentence, violation } = line;
+  const what = [world, robots > 0 && count(robots, "robot"), formatDate(modified), formatSize(size)];
+  const about = what.filter(Boolean).join(" · ");
   return element(
     "li",
     { class: "card frame-item recording" },
     element("h2", {}, name),
     element("p", { class: "dim" }, about),
+    verdict !== "" && element("p", { class: verdict === "failed" ? "field-error" : "" }, [verdict, sentence].filter(Boolean).join(": ")),
     element(
       "div",
       { class: "frame-row" },
-      state !== "unreadable" && element("a", { class: "button", href: replayUrl(name), "aria-label": `Replay ${name}` }, "Replay"),
+      state !== "unreadable" && element("a", { class: "button", href: replayUrl(name, violation), "aria-label": `Replay ${name}` }, "Replay"),
       content(line),
     ),
   );

@@ -10,6 +10,11 @@ export interface RecordingLine {
   problem: string; // why it cannot be read
   duration: number; // s, simulated; of those that are complete
   messages: number;
+  world: string; // empty: not known
+  robots: number; // 0: not known
+  verdict: string; // of the test that kept it; empty: none
+  sentence: string; // what failed
+  violation: number | null; // s, simulated
 }
 
 export interface Recordings {
@@ -41,10 +46,15 @@ function parseRecordingLine(json: unknown): RecordingLine {
     problem: textOr(line.problem, ""),
     duration: numberOr(line.duration_s, 0),
     messages: numberOr(line.messages, 0),
+    world: textOr(line.world, ""),
+    robots: numberOr(line.robots, 0),
+    verdict: textOr(line.verdict, ""),
+    sentence: textOr(line.sentence, ""),
+    violation: typeof line.violation_s === "number" ? line.violation_s : null,
   };
 }
 
-// The page that replays it, for oneself.
-export function replayUrl(name: string): string {
-  return `./?recording=${encodeURIComponent(name)}`;
+// The page that replays it, for oneself; from that simulated second on.
+export function replayUrl(name: string, from: number | null = null): string {
+  return `./?recording=${encodeURIComponent(name)}${from === null ? "" : `#t=${from}`}`;
 }

@@ -6,6 +6,17 @@ import { BoxGeometry, BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh } 
 const CORNERS = 24; // of a box, one for each face that meets there
 const UNIT = new BoxGeometry(2, 2, 2);
 
+// Of each corner: on which side of the middle it lies along x, y, z (bits 0 to 2); twice the axis of its face's
+// normal, and 1 where that points forward.
+const SIDES = Uint8Array.from({ length: CORNERS }, (_, corner) =>
+  [0, 1, 2].reduce((bits, k) => bits | (UNIT.getAttribute("position").getComponent(corner, k) > 0 ? 1 << k : 0), 0),
+);
+const FACES = Uint8Array.from({ length: CORNERS }, (_, corner) => {
+  const along = [0, 1, 2].map((k) => UNIT.getAttribute("normal").getComponent(corner, k));
+  const axis = along.findIndex((value) => Math.abs(value) > 0.5);
+  return 2 * axis + (along[axis]! > 0 ? 1 : 0);
+});
+
 export class BoxCrowd {
   readonly mesh: Mesh;
   private readonly positions: Float32Array;
@@ -35,23 +46,23 @@ export class BoxCrowd {
 
   // `matrices`: world_from_box of each, sixteen numbers, column by column.
   place(matrices: ArrayLike<number>): void {
-    const corners = UNIT.getAttribute("position").array;
-    const directions = UNIT.getAttribute("normal").array;
     const [mx, my, mz] = this.middle as [number, number, number];
     const [hx, hy, hz] = this.half as [number, number, number];
     const { positions, normals } = this;
-    for (let box = 0, at = 0; box < this.count; box++) {
+    for (let box = 0; box < this.count; box++) {
       const m = 16 * box;
-      for (let k = 0; k < 3 * CORNERS; k += 3, at += 3) {
-        const x = mx + hx * corners[k]!;
-        const y = my + hy * corners[k + 1]!;
-        const z = mz + hz * corners[k + 2]!;
-        for (let row = 0; row < 3; row++) {
-          const a = matrices[m + row]!;
-          const b = matrices[m + 4 + row]!;
-          const c = matrices[m + 8 + row]!;
-          positions[at + row] = a * x + b * y + c * z + matrices[m + 12 + row]!;
-          normals[at + row] = a * directions[k]! + b * directions[k + 1]! + c * directions[k + 2]!;
+      const from = 3 * CORNERS * box;
+      for (let row = 0; row < 3; row++) {
+        const [a, b, c] = [matrices[m + row]!, matrices[m + 4 + row]!, matrices[m + 8 + row]!];
+        const middle = a * mx + b * my + c * mz + matrices[m + 12 + row]!;
+        const [x, y, z] = [a * hx, b * hy, c * hz];
+        for (let corner = 0, at = from + row; corner < CORNERS; corner++, at += 3) {
+          const sides = SIDES[corner]!;
+          positions[at] =
+            middle + ((sides & 1) === 0 ? -x : x) + ((sides & 2) === 0 ? -y : y) + ((sides & 4) === 0 ? -z : z);
+          const face = FACES[corner]!;
+          const along = face >> 1 === 0 ? a : face >> 1 === 1 ? b : c;
+          normals[at] = (face & 1) === 0 ? -along : along;
         }
       }
     }

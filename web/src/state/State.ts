@@ -52,6 +52,8 @@ export interface State {
   people: People; // who else is watching, and who holds control
   editing: Editing | null; // null: what stands in the simulation is not being changed
   recording: Recording | null; // of the simulation; null: it cannot be recorded, or not known yet
+  stopRecordingAsked: boolean; // whether the viewer is asked if it is to end
+  endSeen: boolean; // whether the viewer has closed the summary of a run that ended
   setUp: SetUp | null; // null: no simulation is being put together
   // null: not known yet.
   simulations: SimulationSummary[] | null;
@@ -92,6 +94,8 @@ export const initialState: State = {
   people: NO_PEOPLE,
   editing: null,
   recording: null,
+  stopRecordingAsked: false,
+  endSeen: false,
   setUp: null,
   simulations: null,
   simulation: null,

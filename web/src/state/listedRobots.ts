@@ -1,13 +1,30 @@
 // The robots of a simulation as they are listed: their status, what each is, and how it is doing.
 import { robotsOf } from "../api/scene";
 import type { SceneDescription } from "../api/scene";
+import type { RobotStatus } from "../api/status";
+import type { Health } from "./health";
 import { stateOf } from "./health";
 import type { ListedRobot, RobotKind } from "./robotList";
 import type { State } from "./State";
 
-export function listedRobots({ status, health, scene }: State): ListedRobot[] {
+export function listedRobots({ status, health, scene }: State): readonly ListedRobot[] {
+  const robots = status?.robots;
+  const isKnown = latest.robots === robots && latest.health === health && latest.scene === scene;
+  if (!isKnown) latest = { robots, health, scene, listed: listed(robots ?? [], health, scene) };
+  return latest.listed;
+}
+
+// Several parts of the page ask after each change.
+let latest: {
+  robots: readonly RobotStatus[] | undefined;
+  health: Health | null;
+  scene: SceneDescription | null;
+  listed: readonly ListedRobot[];
+} = { robots: undefined, health: null, scene: null, listed: [] };
+
+function listed(robots: readonly RobotStatus[], health: Health | null, scene: SceneDescription | null): ListedRobot[] {
   const kinds = kindsOf(scene);
-  return (status?.robots ?? []).map((robot) => {
+  return robots.map((robot) => {
     const kind = kinds.get(robot.name) ?? "robot";
     const state = stateOf(health, robot);
     return {

@@ -12,7 +12,7 @@ export interface Mark {
 // The part of the span that two marks need to be told apart.
 const NARROWEST_SHARE = 1 / 250;
 const MOST_LINES = 6;
-const BAD = ["agent_dead", "agent_unresponsive", "failed"];
+const BAD = ["agent_dead", "agent_unresponsive", "failed", "expectation_violated"];
 
 export function shareOf(time: number, { start, end }: Replay): number {
   return end > start ? Math.min(1, Math.max(0, (time - start) / (end - start))) : 0;

@@ -81,9 +81,8 @@ export function createCameraPane({ state, topics, cameras }: Ports): HTMLElement
   fold.addEventListener("click", () => cameras.open(false));
   reopen.addEventListener("click", () => cameras.open(true));
   state.watch(
-    ({ scene }) => camerasOf(scene).map(({ topic }) => topic),
-    () => fillChoice(choice, camerasOf(state.get().scene), state.get().camera),
-    shallowEqual,
+    ({ scene }) => camerasOf(scene),
+    (all) => fillChoice(choice, all, state.get().camera),
   );
   state.watch(
     ({ camera }) => camera,
@@ -112,7 +111,7 @@ function headButton(picture: "enlarge" | "close", label: string): HTMLButtonElem
   );
 }
 
-function fillChoice(choice: HTMLSelectElement, cameras: CameraChoice[], chosen: CameraChoice | null): void {
+function fillChoice(choice: HTMLSelectElement, cameras: readonly CameraChoice[], chosen: CameraChoice | null): void {
   choice.replaceChildren(
     ...cameras.map(({ robot, sensor, topic }) => new Option(robot + SEPARATOR + sensor, topic)),
   );

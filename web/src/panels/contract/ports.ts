@@ -5,6 +5,7 @@
 import type { ServerFigures } from "../../api/MetricsApi";
 import type { CommandArguments, CommandDescription } from "../../api/commands";
 import type { CurveOf, WholeCurve } from "../../api/curve";
+import type { OutputLine } from "../../api/health";
 import type { RecordedLine } from "../../api/replay";
 import type { CameraChoice } from "../../api/scene";
 import type { ParameterValue } from "../../protocol/FoxgloveClient";
@@ -34,6 +35,8 @@ export interface ServerPort {
   parameter(name: string): Promise<ParameterValue | null>;
   // The lines of a recording's log.
   log(simulation: string): Promise<RecordedLine[]>;
+  // What a robot's behaviour printed last.
+  output(simulation: string, robot: string): Promise<OutputLine[]>;
   // What is read so far of one value over a whole recording, in at most `most` samples.
   curve(simulation: string, of: CurveOf, most: number): Promise<WholeCurve>;
 }

@@ -45,6 +45,7 @@ export function testPorts(state: Partial<State> = {}, server: Partial<PanelPorts
       figures: vi.fn(async () => new Map()),
       parameter: vi.fn(async () => null),
       log: vi.fn(async () => []),
+      output: vi.fn(async () => []),
       curve: vi.fn(async () => Promise.reject(new Error("no curve"))),
       ...server,
     },

@@ -7,9 +7,11 @@ import { formatDistance, formatNumber } from "../../ui/format";
 import { icon } from "../../ui/icons";
 import type { PanelPorts } from "../contract/ports";
 import { plotButton } from "./plotButton";
+import { createOutput } from "./Output";
 import { createSensorList } from "./SensorList";
+import { createWhy } from "./Why";
 
-type Ports = Pick<PanelPorts, "state" | "topics" | "robots" | "cameras" | "plots" | "notices">;
+type Ports = Pick<PanelPorts, "state" | "topics" | "server" | "robots" | "cameras" | "plots" | "notices">;
 
 const ROWS = [
   "Position",
@@ -48,9 +50,11 @@ export function createInspector(ports: Ports): HTMLElement {
     "section",
     { class: "card inspector", "aria-label": "Selected robot" },
     element("div", { class: "card-head" }, title, closeButton(ports)),
+    createWhy(ports),
     list,
     copyButtons(ports),
     detail,
+    createOutput(ports),
     createSensorList(ports),
   );
   const set = (row: Row, text: string) => setText(values.get(row)!, text);

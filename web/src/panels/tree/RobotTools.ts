@@ -48,7 +48,7 @@ export function createRobotTools(ports: Ports): HTMLElement {
       grouping.value = filter.grouping;
       setText(problem, queryOf(filter.text).problem);
       chip.hidden = filter.state === null;
-      setText(chip, filter.state === null ? "" : `Only ${STATE_WORDS[filter.state]} ×`);
+      setText(chip, filter.state === null ? "All states" : `Only ${STATE_WORDS[filter.state]} ×`);
     },
   );
   ports.state.watch(isOfUse, (isShown) => (tools.hidden = !isShown));

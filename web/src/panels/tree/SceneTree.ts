@@ -34,12 +34,16 @@ export function createSceneTree(ports: Ports, pages: HTMLElement): HTMLElement {
     shallowEqual,
   );
   ports.state.watch(
-    ({ status, scene }) => headingFor(status?.robots ?? [], stationsOf(scene)),
-    (text) => setText(heading, text),
+    ({ status, scene }) => ({ robots: status?.robots, scene }),
+    ({ robots: statuses, scene }) => setText(heading, headingFor(statuses ?? [], stationsOf(scene))),
+    shallowEqual,
   );
   ports.state.watch(
     ({ status }) => status === null || status.robots.length > 0,
-    (hidden) => (empty.hidden = hidden),
+    (hidden) => {
+      empty.hidden = hidden;
+      robots.element.hidden = !hidden;
+    },
   );
   ports.state.watch(
     ({ selection }) => selection,

@@ -29,6 +29,9 @@ export class VirtualRows<Entry> {
   private tops: number[] = [0]; // of each entry, and the end of the last one
   private rows = new Map<string, PlacedRow<Entry>>(); // by key
   private readonly spare: PlacedRow<Entry>[] = [];
+  private total = 0; // px, of all entries
+  private scrollTop = 0; // as last asked for
+  private height = HEIGHT_WITHOUT_LAYOUT_PX;
 
   constructor(
     private readonly kinds: RowKinds<Entry>,
@@ -36,8 +39,8 @@ export class VirtualRows<Entry> {
   ) {
     this.list = element("ul", { class: "robots", "aria-label": label });
     this.scroller = element("div", { class: "robot-scroll" }, this.list);
-    this.scroller.addEventListener("scroll", () => this.draw(), { passive: true });
-    if (typeof ResizeObserver !== "undefined") new ResizeObserver(() => this.draw()).observe(this.scroller);
+    this.scroller.addEventListener("scroll", () => this.look(), { passive: true });
+    if (typeof ResizeObserver !== "undefined") new ResizeObserver(() => this.look()).observe(this.scroller);
   }
 
   show(entries: readonly Entry[]): void {
@@ -45,25 +48,31 @@ export class VirtualRows<Entry> {
     const tops = [0];
     for (let i = 0; i < entries.length; i++) tops.push(tops[i]! + this.kinds.heightOf(entries[i]!));
     this.tops = tops;
-    this.list.style.height = `${tops.at(-1)}px`;
+    const height = tops.at(-1)!;
+    if (height !== this.total) this.list.style.height = `${height}px`;
+    this.total = height;
     this.draw();
   }
 
   scrollTo(index: number): void {
-    const height = this.height;
+    this.look();
+    const { height } = this;
     const [top, bottom] = [this.tops[index]!, this.tops[index + 1]!];
-    const { scrollTop } = this.scroller;
+    const { scrollTop } = this;
     if (top < scrollTop) this.scroller.scrollTop = top;
     else if (bottom > scrollTop + height) this.scroller.scrollTop = bottom - height;
+    this.look();
+  }
+
+  // Where one has scrolled to. Asked only then: the browser lays the page out to answer.
+  private look(): void {
+    this.scrollTop = this.scroller.scrollTop;
+    this.height = this.scroller.clientHeight || HEIGHT_WITHOUT_LAYOUT_PX;
     this.draw();
   }
 
-  private get height(): number {
-    return this.scroller.clientHeight || HEIGHT_WITHOUT_LAYOUT_PX;
-  }
-
   private draw(): void {
-    const { scrollTop } = this.scroller;
+    const { scrollTop } = this;
     const first = this.indexAt(scrollTop - BEYOND_PX);
     const last = Math.min(this.entries.length - 1, this.indexAt(scrollTop + this.height + BEYOND_PX));
     const inSight = this.entries.slice(first, last + 1);

@@ -1,0 +1,20 @@
+// What a robot's behaviour printed, as the server keeps it.
+import { listAt, numberOr, objectAt, textOr } from "./json";
+
+export interface OutputLine {
+  time: number; // s, simulated
+  level: number; // as rcl_interfaces/msg/Log has it
+  text: string;
+}
+
+const LEVELS: Record<string, number> = { stdout: 20, stderr: 30 };
+
+// The last lines of the first robot that is reported.
+export function parseOutput(json: unknown): OutputLine[] {
+  const [robot] = listAt(objectAt(json, "health").robots ?? [], "health.robots");
+  if (robot === undefined) return [];
+  return listAt(objectAt(robot, "robot").output ?? [], "robot.output").map((each) => {
+    const line = objectAt(each, "line");
+    return { time: numberOr(line.time_s, 0), level: LEVELS[textOr(line.stream, "")] ?? 40, text: textOr(line.text, "") };
+  });
+}

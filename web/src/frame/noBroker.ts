@@ -1,0 +1,8 @@
+// A server without a broker has none of the broker's addresses: it replays a recording.
+import { ApiError } from "../api/JsonServer";
+
+export const NO_BROKER = "A replay has no broker. Start a simulation with gsv run or gsv serve, and open this page there.";
+
+export function isMissing(error: unknown): boolean {
+  return error instanceof ApiError && error.httpStatus === 404;
+}
