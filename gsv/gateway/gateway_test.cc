@@ -218,6 +218,18 @@ TEST_F(GatewayTest, APortInUseIsAnError) {
   EXPECT_NE(other.error().message.find("--port 0"), std::string::npos);
 }
 
+TEST_F(GatewayTest, StopSendsTheLastState) {
+  Viewer viewer(port());
+  viewer.Subscribe(1, "/gsv/status");
+  EXPECT_EQ(Decoded<SimulationStatus>(viewer.ReceiveData(1)).state, "created");
+  ASSERT_TRUE(simulation_->Start());
+  std::thread stopper([&] { gateway_->Stop(); });
+  EXPECT_EQ(Decoded<SimulationStatus>(viewer.ReceiveData(1)).state, "running");
+  while (viewer.Receive()) {
+  }
+  stopper.join();
+}
+
 TEST_F(GatewayTest, StopsWithManyViewers) {
   simulation_->Advance(std::chrono::seconds(1));
   Viewer first(port()), second(port());
