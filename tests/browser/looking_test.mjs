@@ -133,6 +133,7 @@ test("the browser remembers what is shown", async () => {
     "Contacts",
     "Trails",
     "Names",
+    "States",
     "Grid",
     "Actuators and radio",
   ]);

@@ -79,7 +79,8 @@ function chip(app: App, state: ShownState) {
   let count = 0;
   const place = () => {
     const isChosen = app.store.get().robotFilter.state === state;
-    button.hidden = count === 0 && !isChosen;
+    const isHidden = count === 0 && !isChosen;
+    if (button.hidden !== isHidden) button.hidden = isHidden;
     setAttribute(button, "aria-pressed", String(isChosen));
   };
   app.store.watch(({ robotFilter }) => robotFilter.state === state, place);

@@ -80,13 +80,18 @@ export function stateOf(health: Health | null, robot: Pick<RobotStatus, "name" |
   return health.robots.get(robot.name)?.state ?? "moving";
 }
 
+// The higher, the worse. Asked for thousands of robots several times a second.
+const BADNESS = Object.fromEntries(
+  SHOWN_STATES.map((state, i) => [state, SHOWN_STATES.length - i]),
+) as Record<ShownState, number>;
+
 export function badness(state: ShownState): number {
-  return SHOWN_STATES.length - SHOWN_STATES.indexOf(state);
+  return BADNESS[state];
 }
 
 // Something that a person should look at.
 export function isTrouble(state: ShownState): boolean {
-  return badness(state) >= badness("told");
+  return BADNESS[state] >= BADNESS.told;
 }
 
 // "has not moved for 20 s: commanded 0, sonar_00 reads 0.26 m".

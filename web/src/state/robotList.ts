@@ -112,9 +112,11 @@ export class NameOrder {
 // The rows of the list.
 export function entriesOf(robots: readonly ListedRobot[], filter: RobotFilter, order = new NameOrder()): Entry[] {
   const ranks = order.ranksOf(robots);
-  const rank = ({ status }: ListedRobot) => ranks.get(status.name) ?? 0;
   const key = keyOf(filter.sorting);
-  const sorted = [...filtered(robots, filter)].sort((a, b) => key(b) - key(a) || rank(a) - rank(b));
+  const sorted = filtered(robots, filter)
+    .map((robot) => ({ robot, key: key(robot), rank: ranks.get(robot.status.name) ?? 0 }))
+    .sort((a, b) => b.key - a.key || a.rank - b.rank)
+    .map(({ robot }) => robot);
   return filter.grouping === "none" ? sorted : grouped(sorted, filter.grouping);
 }
 
