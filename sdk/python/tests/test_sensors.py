@@ -193,3 +193,10 @@ def test_an_exchange_reads_what_is_open(simulate, world):
                       lambda robot, _: robot.exchange(0.0, 0.0, until=0.15))
     assert set(readings) == {"sonar_00", "where"}
     assert readings["where"].time == 0.15 and readings["where"].values.shape == (6,)
+
+
+def test_a_radio_tag_is_read_as_a_general_sensor(simulate, world):
+    measured = in_run(simulate, world,
+                      lambda robot: robot.create("ranging", "tag", gsv.Placement(z=0.3), {"anchor": "wall"}),
+                      lambda robot, tag: (tag.measure().values[0], tag.traits.type))
+    assert measured == (pytest.approx(math.hypot(2.5, 0.2), abs=1e-6), "ranging")
