@@ -41,6 +41,10 @@ class TryFiles(unittest.TestCase):
             "light/model.sdf": '<sdf version="1.9"><light name="lamp" type="point"/></sdf>',
             "crate/model.config": '<model><name>crate</name><sdf version="1.9">model.sdf</sdf></model>',
             "crate/model.sdf": f'<sdf version="1.9">{MODEL}</sdf>',
+            "joint.urdf": '<robot name="r"><link name="a"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" '
+                          'ixy="0" ixz="0" iyz="0"/></inertial></link><link name="b"><inertial><mass value="1"/>'
+                          '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>'
+                          '<joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint></robot>',
             "notes.xml": "<notes/>",
         }
         with tempfile.TemporaryDirectory() as folder:
@@ -50,11 +54,12 @@ class TryFiles(unittest.TestCase):
                 path.write_text(text)
             rows, code, text, images = tried(folder)
         self.assertEqual({name: row["state"] for name, row in rows.items()},
-                         {"absent.sdf": "lacks", "crate": "ok", "torn.urdf": "refused", "whole.world": "ok"})
+                         {"absent.sdf": "lacks", "crate": "ok", "joint.urdf": "ok", "torn.urdf": "refused",
+                          "whole.world": "ok"})
         self.assertEqual(code, 0)
-        self.assertIn("| all | 4 | 75.0 % | 2 | 0 | 1 | 1 | 0 |", text)
+        self.assertIn("| all | 5 | 80.0 % | 3 | 0 | 1 | 1 | 0 |", text)
         self.assertIn("nowhere", text)
-        self.assertEqual(len(images), 3)
+        self.assertEqual(len(images), 4)
 
     def test_a_program_that_dies_is_a_crash(self):
         with tempfile.TemporaryDirectory() as folder:
