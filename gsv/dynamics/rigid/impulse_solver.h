@@ -11,6 +11,7 @@
 //          docs/adr/062-islands-are-solved-apart.md.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <vector>
 
@@ -18,6 +19,7 @@
 
 #include "gsv/base/thread_team.h"
 #include "gsv/dynamics/rigid/impulse_rows.h"
+#include "gsv/dynamics/rigid/tree_mass.h"
 
 namespace gsv::dynamics {
 
@@ -38,8 +40,22 @@ class ImpulseSolver final : public btMultiBodyConstraintSolver {
                                              btTypedConstraint** constraints, int constraint_count,
                                              const btContactSolverInfo& info,
                                              btIDebugDraw* debug) override;
+  // Writes the rows of contacts and joints. Those of trees take their masses from TreeMass.
+  void convertContacts(btPersistentManifold** manifolds, int count,
+                       const btContactSolverInfo& info) override;
 
  private:
+  // One of the two that a contact acts on: a tree of links, or a body of m_tmpSolverBodyPool.
+  struct ContactSide {
+    btMultiBody* tree = nullptr;
+    int link = -1, size = 0, delta_velocity = 0;
+    TreeMass* mass = nullptr;
+    std::array<btVector3, TreeMass::kMaxSize> motions;  // of the point, by the tree's velocities
+    int solver_body = -1;
+    btRigidBody* body = nullptr;  // null: nothing moves it
+    btVector3 arm;                // from the centre of mass to the point
+    double sign = 1;              // of the row's axis
+  };
   // A body or a tree of links that impulses move.
   struct Node {
     btMultiBody* tree = nullptr;  // null: the body of m_tmpSolverBodyPool
@@ -59,6 +75,17 @@ class ImpulseSolver final : public btMultiBodyConstraintSolver {
     int row = 0;
   };
 
+  TreeMass& MassOf(btMultiBody& tree);
+  ContactSide SideOfContact(const btCollisionObject& object, const btVector3& point, double sign,
+                            const btContactSolverInfo& info);
+  double WriteSide(const ContactSide& side, const btVector3& axis, double seconds,
+                   int& jacobian_index, btVector3& turning_response, double& velocity);
+  double WriteContactRow(const ContactSide& a, const ContactSide& b, const btVector3& axis,
+                         btManifoldPoint& point, const btContactSolverInfo& info,
+                         btMultiBodySolverConstraint& row);
+  void AddTreeContact(const btPersistentManifold& manifold, btManifoldPoint& point,
+                      const btContactSolverInfo& info);
+  void AddTreeContacts(btPersistentManifold& manifold, const btContactSolverInfo& info);
   void AddNodes();
   int NodeOf(int solver_body) const;
   int NodeOf(btMultiBody* tree, int bullets_first);
@@ -92,6 +119,8 @@ class ImpulseSolver final : public btMultiBodyConstraintSolver {
   void StoreAll();
 
   base::ThreadTeam* team_;
+  std::deque<TreeMass> tree_masses_;  // of this substep, by the trees' user index
+  int tree_mass_count_ = 0;
   std::vector<Node> nodes_;
   std::vector<int> node_of_body_, node_of_tree_;  // by index in the pool; by bullets_first; or -1
   std::deque<Island> islands_;                    // memory for as many as there have been
