@@ -128,6 +128,11 @@ void ImpulseRows::WriteEquations(bool shares_loads) {
   const std::size_t n = free_.size(), count = rows_.size();
   matrix_.resize(n * n);
   unknown_.resize(n);
+  slipping_.clear();
+  for (std::size_t c = 0; c < cones_.size(); ++c) {
+    const int normal = place_[static_cast<std::size_t>(cones_[c].normal_row)];
+    if (slips_[c] && !turns_[c] && normal >= 0) slipping_.push_back(static_cast<int>(c));
+  }
   for (std::size_t i = 0; i < n; ++i) {
     const Row& row = At(free_[i]);
     const double* couplings = couplings_.data() + static_cast<std::size_t>(free_[i]) * count;
@@ -135,12 +140,11 @@ void ImpulseRows::WriteEquations(bool shares_loads) {
     matrix_[i * n + i] += row.softness + kRidge * row.mass_inverse;
     unknown_[i] = row.target - VelocityOf(row) - row.softness * row.impulse;
     if (shares_loads) unknown_[i] -= kRidge * row.mass_inverse * row.impulse;
-    for (std::size_t c = 0; c < cones_.size(); ++c) {
-      const Cone& cone = cones_[c];
-      const int normal = place_[static_cast<std::size_t>(cone.normal_row)];
-      if (!slips_[c] || turns_[c] || normal < 0) continue;
+    for (const int c : slipping_) {
+      const Cone& cone = cones_[static_cast<std::size_t>(c)];
       const double share = 1 / impulse(cone.normal_row);
-      matrix_[i * n + static_cast<std::size_t>(normal)] +=
+      matrix_[i * n +
+              static_cast<std::size_t>(place_[static_cast<std::size_t>(cone.normal_row)])] +=
           share * (impulse(cone.first_row) * couplings[cone.first_row] +
                    impulse(cone.first_row + 1) * couplings[cone.first_row + 1]);
     }

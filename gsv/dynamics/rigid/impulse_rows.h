@@ -134,6 +134,7 @@ class ImpulseRows {
   std::vector<int> place_;                // of each row in free_, or -1
   std::vector<int> last_block_;           // of each body's place in velocities_, or -1
   std::vector<bool> slips_;               // of each cone: its friction is at its limit
+  std::vector<int> slipping_;             // cones that slip without turning
   std::vector<bool> turns_;               // of each cone that slips: its rows are free
   std::vector<double> matrix_, unknown_;  // of free_
   std::vector<double> velocities_before_, impulses_before_;

@@ -108,5 +108,36 @@ TEST(ImpulseRows, FrictionHoldsWhatItCan) {
   EXPECT_NEAR(y, 0, 1e-12);
 }
 
+// A sliding body on two feet, whose centre of mass is above them: friction presses the foot in front
+// to the ground and lifts the other one. Its degrees of freedom are x, y, z and the pitch.
+TEST(ImpulseRows, ASlidingBodyOnTwoFeetIsGuessedFromItsSlip) {
+  constexpr double kMass = 3, kInertia = 0.2, kHeight = 0.1, kHalf = 0.25, kFriction = 0.5;
+  ImpulseRows rows;
+  const std::array<double, 4> moved{2, 0, -1, 0};
+  const int body = rows.AddBody(moved);
+  const auto add = [&](const std::array<double, 4>& jacobian, double lower, double upper) {
+    const std::array<double, 4> response{jacobian[0] / kMass, jacobian[1] / kMass,
+                                         jacobian[2] / kMass, jacobian[3] / kInertia};
+    return rows.AddRow({body, jacobian, response}, {}, {0, 0, lower, upper}, 0);
+  };
+  std::array<int, 2> normals, cones;
+  for (int i = 0; i < 2; ++i) normals[i] = add({0, 0, 1, i == 0 ? -kHalf : kHalf}, 0, kNoBound);
+  for (int i = 0; i < 2; ++i) {
+    const int along = add({1, 0, 0, -kHeight}, -1, 1);
+    add({0, 1, 0, 0}, -1, 1);
+    cones[i] = rows.AddCone(normals[i], along, kFriction, {{{1, 0}, {0, 1}}});
+  }
+  EXPECT_LE(rows.Solve(80, 1e-8), 2);
+  // The moments about the centre of mass: half * (front - rear) = height * friction * (front + rear).
+  const double shift = kFriction * kHeight / kHalf;
+  EXPECT_NEAR(rows.impulse(normals[0]), kMass / 2 * (1 + shift), 1e-7);
+  EXPECT_NEAR(rows.impulse(normals[1]), kMass / 2 * (1 - shift), 1e-7);
+  for (int i = 0; i < 2; ++i) {
+    const auto [along, across] = rows.ConeImpulse(cones[i]);
+    EXPECT_NEAR(along, -kFriction * rows.impulse(normals[i]), 1e-7);
+    EXPECT_NEAR(across, 0, 1e-7);
+  }
+}
+
 }  // namespace
 }  // namespace gsv::dynamics

@@ -19,6 +19,7 @@
 
 #include "gsv/base/thread_team.h"
 #include "gsv/dynamics/rigid/impulse_rows.h"
+#include "gsv/dynamics/rigid/joint_row.h"
 #include "gsv/dynamics/rigid/tree_mass.h"
 
 namespace gsv::dynamics {
@@ -78,6 +79,10 @@ class ImpulseSolver final : public btMultiBodyConstraintSolver {
   TreeMass& MassOf(btMultiBody& tree);
   ContactSide SideOfContact(const btCollisionObject& object, const btVector3& point, double sign,
                             const btContactSolverInfo& info);
+  int DeltaVelocityOf(btMultiBody& tree);
+  int NewJacobian(int size);
+  void AddJointRows(const btContactSolverInfo& info);
+  void AddJointRow(const JointRow& joint);
   double WriteSide(const ContactSide& side, const btVector3& axis, double seconds,
                    int& jacobian_index, btVector3& turning_response, double& velocity);
   double WriteContactRow(const ContactSide& a, const ContactSide& b, const btVector3& axis,
@@ -121,6 +126,8 @@ class ImpulseSolver final : public btMultiBodyConstraintSolver {
   base::ThreadTeam* team_;
   std::deque<TreeMass> tree_masses_;  // of this substep, by the trees' user index
   int tree_mass_count_ = 0;
+  std::vector<btMultiBodyConstraint*> other_joints_;  // that are no JointRow
+  int jacobian_count_ = 0;                            // the most values of jacobians so far
   std::vector<Node> nodes_;
   std::vector<int> node_of_body_, node_of_tree_;  // by index in the pool; by bullets_first; or -1
   std::deque<Island> islands_;                    // memory for as many as there have been

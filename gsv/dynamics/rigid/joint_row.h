@@ -16,6 +16,14 @@ class JointRow final : public btMultiBodyJointMotor {
   // Gives way: the rate misses `rate` by `softness` times the impulse, which has no bounds.
   void Soften(double rate, double softness);
 
+  btMultiBody& tree() const { return *m_bodyA; }
+  // Of the joint, among the tree's velocities.
+  int velocity() const { return 6 + m_bodyA->getLink(m_linkA).m_dofOffset; }
+  double rate() const { return m_desiredVelocity; }
+  double lower() const { return lower_; }
+  double upper() const { return upper_; }
+  double softness() const { return softness_; }
+
   void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& bullet,
                             const btContactSolverInfo& info) override;
 

@@ -1,5 +1,7 @@
 #include "gsv/dynamics/rigid/plane_pairs.h"
 
+#include <LinearMath/btAabbUtil2.h>
+
 #include "gsv/dynamics/rigid/shape_filter.h"
 
 namespace gsv::dynamics {
@@ -31,6 +33,8 @@ void LookAtPairsThatMayTouch(btBroadphasePair& pair, btCollisionDispatcher& disp
   const btBroadphaseProxy &a = *pair.m_pProxy0, &b = *pair.m_pProxy1;
   if (!ShapesMeet(ObjectOf(a).getCollisionShape(), ObjectOf(b).getCollisionShape())) return;
   const bool is_new = pair.m_algorithm == nullptr;
+  // The broad phase keeps wider boxes.
+  if (is_new && !TestAabbAgainstAabb2(a.m_aabbMin, a.m_aabbMax, b.m_aabbMin, b.m_aabbMax)) return;
   if (is_new && ((IsPlane(a) && IsAbove(b, a)) || (IsPlane(b) && IsAbove(a, b)))) return;
   btCollisionDispatcher::defaultNearCallback(pair, dispatcher, info);
 }

@@ -1,6 +1,7 @@
-// The rows of contacts of trees of links, written to Bullet's arrays. ImpulseSolver takes them from
+// The rows of contacts and joints of trees of links, written to Bullet's arrays. ImpulseSolver takes them from
 // there.
 #include <algorithm>
+#include <utility>
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
@@ -11,7 +12,7 @@ namespace gsv::dynamics {
 namespace {
 
 // m/s: what a body of Bullet's does at a point at the end of a step, but for impulses.
-btVector3 VelocityAt(const btRigidBody& body, const btVector3& arm, double seconds) {
+btVector3 VelocityOfPoint(const btRigidBody& body, const btVector3& arm, double seconds) {
   const btVector3 turning = body.getInvInertiaTensorWorld() * body.getTotalTorque() * seconds;
   return body.getVelocityInLocalPoint(arm) + turning.cross(arm) +
          body.getTotalForce() * body.getInvMass() * seconds;
@@ -22,6 +23,9 @@ btVector3 VelocityAt(const btRigidBody& body, const btVector3& arm, double secon
 void ImpulseSolver::convertContacts(btPersistentManifold** manifolds, int count,
                                     const btContactSolverInfo& info) {
   tree_mass_count_ = 0;
+  // Bullet frees these for each substep, and lets them grow row by row.
+  m_data.m_jacobians.reserve(jacobian_count_);
+  m_data.m_deltaVelocitiesUnitImpulse.reserve(jacobian_count_);
   for (int i = 0; i < count; ++i) {
     btPersistentManifold& manifold = *manifolds[i];
     const auto* a = btMultiBodyLinkCollider::upcast(manifold.getBody0());
@@ -37,8 +41,8 @@ void ImpulseSolver::convertContacts(btPersistentManifold** manifolds, int count,
       convertMultiBodyContact(&manifold, info);
     }
   }
-  // Those of joints.
-  btMultiBodyConstraintSolver::convertContacts(nullptr, 0, info);
+  AddJointRows(info);
+  jacobian_count_ = std::max(jacobian_count_, m_data.m_jacobians.size());
 }
 
 TreeMass& ImpulseSolver::MassOf(btMultiBody& tree) {
@@ -54,6 +58,70 @@ TreeMass& ImpulseSolver::MassOf(btMultiBody& tree) {
   TreeMass& mass = tree_masses_[static_cast<std::size_t>(tree_mass_count_++)];
   mass.Set(tree);
   return mass;
+}
+
+// Where the tree's changes of velocities begin.
+int ImpulseSolver::DeltaVelocityOf(btMultiBody& tree) {
+  if (tree.getCompanionId() < 0) {
+    const int first = m_data.m_deltaVelocities.size();
+    tree.setCompanionId(first);
+    m_data.m_deltaVelocities.resize(first + TreeMass::SizeOf(tree), 0);
+  }
+  return tree.getCompanionId();
+}
+
+// Where a new row's jacobian and response begin; they are not initialised.
+int ImpulseSolver::NewJacobian(int size) {
+  const int first = m_data.m_jacobians.size();
+  m_data.m_jacobians.resizeNoInitialize(first + size);
+  m_data.m_deltaVelocitiesUnitImpulse.resizeNoInitialize(first + size);
+  return first;
+}
+
+void ImpulseSolver::AddJointRows(const btContactSolverInfo& info) {
+  other_joints_.clear();
+  for (int i = 0; i < m_tmpNumMultiBodyConstraints; ++i) {
+    btMultiBodyConstraint* const joint = m_tmpMultiBodyConstraints[i];
+    const auto* row = dynamic_cast<const JointRow*>(joint);
+    if (row == nullptr || TreeMass::SizeOf(row->tree()) > TreeMass::kMaxSize) {
+      other_joints_.push_back(joint);
+    } else if (row->lower() != 0 || row->upper() != 0) {
+      AddJointRow(*row);
+    }
+  }
+  // Bullet writes the others, before or after.
+  const int count =
+      std::exchange(m_tmpNumMultiBodyConstraints, static_cast<int>(other_joints_.size()));
+  auto** const all = std::exchange(m_tmpMultiBodyConstraints, other_joints_.data());
+  btMultiBodyConstraintSolver::convertContacts(nullptr, 0, info);
+  m_tmpNumMultiBodyConstraints = count;
+  m_tmpMultiBodyConstraints = all;
+}
+
+void ImpulseSolver::AddJointRow(const JointRow& joint) {
+  btMultiBody& tree = joint.tree();
+  const auto response = MassOf(tree).ResponseTo(joint.velocity());
+  const auto velocity = static_cast<std::size_t>(joint.velocity());
+  auto& row = m_multiBodyNonContactConstraints.expandNonInitializing();
+  row = btMultiBodySolverConstraint();
+  row.m_contactNormal1 = row.m_contactNormal2 = btVector3(0, 0, 0);
+  row.m_relpos1CrossNormal = row.m_relpos2CrossNormal = btVector3(0, 0, 0);
+  row.m_multiBodyA = &tree;
+  row.m_deltaVelAindex = DeltaVelocityOf(tree);
+  row.m_deltaVelBindex = row.m_jacBindex = -1;
+  row.m_jacAindex = NewJacobian(static_cast<int>(response.size()));
+  for (std::size_t i = 0; i < response.size(); ++i) {
+    m_data.m_jacobians[row.m_jacAindex + static_cast<int>(i)] = i == velocity ? 1 : 0;
+    m_data.m_deltaVelocitiesUnitImpulse[row.m_jacAindex + static_cast<int>(i)] = response[i];
+  }
+  row.m_originalContactPoint = nullptr;
+  row.m_appliedImpulse = row.m_appliedPushImpulse = row.m_rhsPenetration = 0;
+  row.m_friction = 0;
+  row.m_jacDiagABInv = 1 / (response[velocity] + joint.softness());
+  row.m_cfm = joint.softness() * row.m_jacDiagABInv;
+  row.m_rhs = (joint.rate() - tree.getVelocityVector()[velocity]) * row.m_jacDiagABInv;
+  row.m_lowerLimit = joint.lower();
+  row.m_upperLimit = joint.upper();
 }
 
 ImpulseSolver::ContactSide ImpulseSolver::SideOfContact(const btCollisionObject& object,
@@ -77,12 +145,7 @@ ImpulseSolver::ContactSide ImpulseSolver::SideOfContact(const btCollisionObject&
   side.arm =
       point - (side.link < 0 ? side.tree->getBasePos()
                              : side.tree->getLink(side.link).m_cachedWorldTransform.getOrigin());
-  side.delta_velocity = side.tree->getCompanionId();
-  if (side.delta_velocity < 0) {
-    side.delta_velocity = m_data.m_deltaVelocities.size();
-    side.tree->setCompanionId(side.delta_velocity);
-    m_data.m_deltaVelocities.resize(side.delta_velocity + side.size, 0);
-  }
+  side.delta_velocity = DeltaVelocityOf(*side.tree);
   const auto motions = side.mass->MotionOf(side.link, point);
   std::copy(motions.begin(), motions.end(), side.motions.begin());
   return side;
@@ -97,12 +160,10 @@ double ImpulseSolver::WriteSide(const ContactSide& side, const btVector3& axis, 
     const btVector3 turning = side.sign * side.arm.cross(axis);
     turning_response =
         side.body->getInvInertiaTensorWorld() * turning * side.body->getAngularFactor();
-    velocity += side.sign * axis.dot(VelocityAt(*side.body, side.arm, seconds));
+    velocity += side.sign * axis.dot(VelocityOfPoint(*side.body, side.arm, seconds));
     return side.body->getInvMass() + turning_response.dot(turning);
   }
-  jacobian_index = m_data.m_jacobians.size();
-  m_data.m_jacobians.resizeNoInitialize(jacobian_index + side.size);
-  m_data.m_deltaVelocitiesUnitImpulse.resizeNoInitialize(jacobian_index + side.size);
+  jacobian_index = NewJacobian(side.size);
   double* const jacobian = &m_data.m_jacobians[jacobian_index];
   double* const response = &m_data.m_deltaVelocitiesUnitImpulse[jacobian_index];
   const btScalar* const velocities = side.tree->getVelocityVector();

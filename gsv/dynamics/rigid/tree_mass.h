@@ -27,6 +27,11 @@ class TreeMass {
 
   // For each velocity of the tree the velocity of a point of a link by it; -1 is the base.
   std::span<const btVector3> MotionOf(int link, const btVector3& point_in_world);
+  // The changes of all velocities by a unit impulse on one of them.
+  std::span<const double> ResponseTo(int velocity) const {
+    return std::span(inverse_).subspan(static_cast<std::size_t>(velocity * size_),
+                                       static_cast<std::size_t>(size_));
+  }
   // response = inverse mass * jacobian, both of the tree's size.
   void Respond(const double* jacobian, double* response) const;
 
