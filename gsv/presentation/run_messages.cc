@@ -30,8 +30,16 @@ messages::gsv_msgs::RobotStatus RobotMessage(const simulation::RobotStatus& robo
   return message;
 }
 
+std::uint8_t LevelOfOutput(const simulation::Event& event) {
+  if (event.kind == simulation::kStdoutEvent) return Log::kInfo;
+  if (event.kind == simulation::kStderrEvent) return Log::kWarn;
+  return event.detail.ends_with("exit code 0") ? Log::kInfo : Log::kError;
+}
+
 std::uint8_t LevelOf(std::string_view event) {
-  if (event == "agent_dead" || event == "failed") return Log::kError;
+  if (event == "agent_dead" || event == "failed" || event == "expectation_violated") {
+    return Log::kError;
+  }
   if (event == "agent_unresponsive" || event == "behaviour_silent" || event == "robot_moved") {
     return Log::kWarn;
   }
@@ -113,6 +121,12 @@ messages::rcl_interfaces::Log LogMessage(const simulation::Event& event) {
   message.stamp = messages::ToMessage(event.time);
   message.level = LevelOf(event.kind);
   message.name = event.robot.empty() ? "gsv" : event.robot;
+  if (simulation::IsOutput(event)) {
+    message.level = LevelOfOutput(event);
+    message.msg = event.detail;
+    if (event.kind != simulation::kProgramEndedEvent) message.file = event.kind;
+    return message;
+  }
   message.msg = event.kind;
   std::replace(message.msg.begin(), message.msg.end(), '_', ' ');
   if (!event.detail.empty()) message.msg += ": " + event.detail;

@@ -12,7 +12,8 @@ namespace gsv::presentation {
 messages::gsv_msgs::SimulationStatus StatusMessage(const simulation::SimulationStatus& status);
 messages::gsv_msgs::LifecycleEvent EventMessage(const simulation::Event& event);
 
-// An event as a log message from the robot, or from "gsv" for the simulation. Failures of a
+// An event as a log message from the robot, or from "gsv" for the simulation. A line of output is
+// the message itself, with the stream as its file: information on stdout, a warning on stderr. Failures of a
 // behaviour or the simulation are errors; requests that could not be carried out are warnings.
 messages::rcl_interfaces::Log LogMessage(const simulation::Event& event);
 

@@ -58,6 +58,10 @@ inline constexpr TopicOf<messages::gsv_msgs::SimulationStatus> kStatus{"/gsv/sta
 inline constexpr TopicOf<messages::diagnostic_msgs::DiagnosticArray> kDiagnostics{"/diagnostics"};
 inline constexpr TopicOf<messages::gsv_msgs::LifecycleEvent> kEvents{"/gsv/events"};
 inline constexpr TopicOf<messages::rcl_interfaces::Log> kLog{"/rosout"};
+// The lines that behaviours' programs print.
+inline constexpr TopicOf<messages::rcl_interfaces::Log> kOutput{"/gsv/output"};
+inline constexpr TopicOf<messages::gsv_msgs::Health> kHealth{"/gsv/health"};
+inline constexpr TopicOf<messages::gsv_msgs::Expectations> kExpectations{"/gsv/expectations"};
 inline constexpr TopicOf<messages::gsv_msgs::Command> kCommands{"/gsv/commands"};
 inline constexpr TopicOf<messages::gsv_msgs::ActuatorCommand> kActuators{"/gsv/actuators"};
 inline constexpr TopicOf<messages::gsv_msgs::Contact> kContacts{"/gsv/contacts"};

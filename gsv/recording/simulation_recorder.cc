@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "gsv/base/check.h"
 #include "gsv/base/log.h"
 #include "gsv/scenario/scenario_file.h"
@@ -30,17 +32,35 @@ MetadataRecord Describe(const Simulation& simulation, const StringMap& further) 
                          {"seed", std::to_string(specification.seed)},
                          {"step_ns", std::to_string(step.count())},
                          {"factor", std::to_string(specification.factor)}}};
+  record.values["robots"] = std::to_string(simulation.status().CountRobots());
   if (simulation.was_edited()) record.values["edited"] = "true";
   record.values.insert(further.begin(), further.end());
   return record;
 }
 
+// The verdict of the expectations, and the first violation.
+void AddVerdict(const std::vector<simulation::ExpectationState>& states, StringMap& result) {
+  using Verdict = simulation::ExpectationState::Verdict;
+  if (states.empty()) return;
+  const simulation::ExpectationState* first = nullptr;
+  for (const simulation::ExpectationState& state : states) {
+    if (state.verdict != Verdict::kViolated) continue;
+    if (first == nullptr || state.step < first->step) first = &state;
+  }
+  result["verdict"] = first == nullptr ? "passed" : "failed";
+  if (first == nullptr) return;
+  result["sentence"] = first->name + ": " + first->detail;
+  result["violation_s"] = fmt::format("{:g}", base::ToSeconds(first->time));
+}
+
 // Returns the result of the run, at the end of its recording.
 StringMap ResultOf(const Simulation& simulation) {
   const simulation::SimulationStatus status = simulation.status();
-  return {{"phase", ToString(status.phase)},
-          {"step", std::to_string(status.step)},
-          {"state_hash", simulation.state_hash()}};
+  StringMap result{{"phase", ToString(status.phase)},
+                   {"step", std::to_string(status.step)},
+                   {"state_hash", simulation.state_hash()}};
+  AddVerdict(simulation.expectations(), result);
+  return result;
 }
 
 WhenFull WhenFullFor(simulation::Mode mode) {
@@ -74,6 +94,8 @@ SimulationRecorder::SimulationRecorder(const std::shared_ptr<Simulation>& simula
       states_(*writer_, options.poses_rate, {.topics = options.topics}),
       sensors_(*writer_, types_, simulation->specification().seed,
                {options.sensors, {.topics = options.topics}, std::move(options.write_png)}),
+      health_(*writer_, {.topics = options.topics}, types_, simulation->specification().seed,
+              simulation->specification().stuck_after),
       scene_(*writer_, types_, std::move(options.write_glb)),
       sources_(*writer_),
       feed_(std::make_shared<SimulationFeed>(
@@ -100,7 +122,7 @@ void SimulationRecorder::RecordFirst(const Simulation& simulation) {
   const std::shared_ptr<const world::Snapshot> snapshot = simulation.snapshot();
   Record(Observation{snapshot,
                      std::make_shared<SensorLists>(SensorsOf(simulation, *snapshot->layout)),
-                     simulation.status()});
+                     simulation.status(), simulation.expectations()});
   for (const simulation::Edit& edit : EditsBeforeStart(simulation)) states_.RecordEdit(edit);
 }
 
@@ -147,7 +169,7 @@ void SimulationRecorder::Record(const Observation& observation) {
   // The first and the last snapshot come from the simulation itself. They may also be delivered by
   // the feed.
   if (latest_ && snapshot.state.step <= latest_->state.step) {
-    if (observation.status) states_.RecordStatus(*observation.status);
+    RecordStatusOf(observation);
     return;
   }
   // The last snapshot may have a robot that was added after the last step. The robot is not part of
@@ -157,11 +179,19 @@ void SimulationRecorder::Record(const Observation& observation) {
     scene_.Attach(snapshot, *observation.sensors);
     sources_.AttachRobots(snapshot);
     sensors_.Mount(*observation.sensors, snapshot);
+    health_.Mount(observation.sensors);
   }
   states_.Record(observation.snapshot);
-  if (observation.status) states_.RecordStatus(*observation.status);
+  RecordStatusOf(observation);
   sensors_.Record(observation.snapshot);
   latest_ = observation.snapshot;
+}
+
+void SimulationRecorder::RecordStatusOf(const Observation& observation) {
+  if (!observation.status) return;
+  states_.RecordStatus(*observation.status);
+  states_.RecordExpectations(observation.status->time, observation.expectations);
+  health_.Record(observation.snapshot, *observation.status);
 }
 
 // A replay needs the last observed state to end with it.

@@ -18,6 +18,7 @@
 #include "gsv/recording/attachments/scenario_attachment.h"
 #include "gsv/recording/attachments/scene_attachments.h"
 #include "gsv/recording/attachments/source_attachments.h"
+#include "gsv/recording/topics/health_topic.h"
 #include "gsv/recording/topics/sensor_recorder.h"
 #include "gsv/recording/topics/simulation_feed.h"
 #include "gsv/recording/topics/state_topics.h"
@@ -64,6 +65,7 @@ class SimulationRecorder {
   void Run();
   void Record(const Occurrence& occurrence);
   void Record(const Observation& observation);
+  void RecordStatusOf(const Observation& observation);
   void WriteEnd();
 
   const std::weak_ptr<simulation::Simulation> simulation_;
@@ -71,6 +73,7 @@ class SimulationRecorder {
   const std::shared_ptr<const sensing::SensorRegistry> types_;
   StateTopics states_;
   SensorRecorder sensors_;
+  HealthTopic health_;
   SceneAttachments scene_;
   SourceAttachments sources_;
   std::shared_ptr<SimulationFeed> feed_;

@@ -32,6 +32,10 @@ struct Quantity {
     kSensor,   // a value of the sensor `second` of `first`
     kEnded,    // 1 if the behaviour of `first` has finished or died, else 0
     kTime,     // simulated time, s
+    // The time for which `first` was commanded to move and did not, s; 0 if it moves or is not
+    // commanded to (simulation/history/motion_history.h). If `first` is empty: the longest time of
+    // all robots.
+    kStuck,
   };
   // How one number is taken from the values of a reading.
   enum class Take { kMin, kMax, kMean, kOne };
@@ -50,6 +54,7 @@ struct Formula {
   // For kAtom, which holds if the quantity is in [min, max]. A quantity that is not available is in
   // no interval.
   Quantity quantity{};
+  // kStuck: negative means Specification::stuck_after.
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   // The operands. kUntil has two: the first one holds until the second one does. kNot, kAlways and

@@ -14,6 +14,7 @@ using QuantityKind = Quantity::Kind;
 constexpr double kMax = 1e9;                    // the limit of any measured number
 constexpr double kNear = 0.25;                  // default tolerance of a position, m
 constexpr double kYawNear = 0.261799387799149;  // default tolerance of a yaw, rad (15 degrees)
+constexpr double kStuckAfterOfRun = -1;         // see Formula::min
 
 Formula Atom(QuantityKind kind, std::string first, double least, double most) {
   Formula atom;
@@ -79,7 +80,7 @@ class FormulaReader {
     const char* key;
     ReadOperator read;
   };
-  static const std::array<Operator, 22> kOperators;
+  static const std::array<Operator, 24> kOperators;
 
   Formula ReadNode(const YAML::Node& node, std::string field, int depth) {
     YamlMapping mapping(node, std::move(field), place_);
@@ -95,7 +96,7 @@ class FormulaReader {
     if ((from || by) && !is_temporal) {
       mapping.AddProblem(from ? "from" : "by",
                          "only what is about time has from and by: always, eventually, until, "
-                         "before, reaches, stays_within, never_collides, distance_at_least");
+                         "before, reaches, stays_within, never, never_collides, distance_at_least");
       return;
     }
     formula.from = from.value_or(0);
@@ -277,6 +278,30 @@ class FormulaReader {
   Formula NeverCollides(const YAML::Node& node, YamlMapping& m, const std::string& key, int depth) {
     return Joined(FormulaKind::kAlways, {Not(Contact(node, m, key, depth))});
   }
+  // A robot's name, or {robot, after}; without a robot it is about all of them.
+  Formula Stuck(const YAML::Node& node, YamlMapping& m, const std::string& key, int) {
+    Formula atom = Atom(QuantityKind::kStuck, "", kStuckAfterOfRun, kMax);
+    if (node.IsScalar()) {
+      atom.quantity.first = node.Scalar();
+      return atom;
+    }
+    YamlMapping of(node, m.FieldOf(key), place_);
+    atom.quantity.first = of.Text("robot").value_or("");
+    if (const auto after = of.Number("after", 0.1, kMaxDuration)) atom.min = *after;
+    return atom;
+  }
+  // `never: stuck` is about all robots.
+  Formula Never(const YAML::Node& node, YamlMapping& m, const std::string& key, int depth) {
+    Formula condition;
+    if (!node.IsScalar()) {
+      condition = ReadNode(node, m.FieldOf(key), depth + 1);
+    } else if (node.Scalar() == "stuck") {
+      condition = Atom(QuantityKind::kStuck, "", kStuckAfterOfRun, kMax);
+    } else {
+      m.AddProblem(key, "never must be stuck or a condition, as in never: {contact: scout}");
+    }
+    return Joined(FormulaKind::kAlways, {Not(std::move(condition))});
+  }
   Formula Ended(const YAML::Node& node, YamlMapping& m, const std::string& key, int) {
     if (!node.IsScalar()) m.AddProblem(key, key + " must be a robot's name");
     return Atom(QuantityKind::kEnded, node.IsScalar() ? node.Scalar() : "", 1, 1);
@@ -326,11 +351,12 @@ class FormulaReader {
   int count_ = 0;
 };
 
-const std::array<FormulaReader::Operator, 22> FormulaReader::kOperators = {{
+const std::array<FormulaReader::Operator, 24> FormulaReader::kOperators = {{
     {"reaches", &FormulaReader::Reaches},
     {"stays_within", &FormulaReader::StaysWithin},
     {"never_collides", &FormulaReader::NeverCollides},
     {"distance_at_least", &FormulaReader::DistanceAtLeast},
+    {"never", &FormulaReader::Never},
     {"before", &FormulaReader::Before},
     {"always", &FormulaReader::Always},
     {"eventually", &FormulaReader::Eventually},
@@ -346,6 +372,7 @@ const std::array<FormulaReader::Operator, 22> FormulaReader::kOperators = {{
     {"travelled", &FormulaReader::Travelled},
     {"distance", &FormulaReader::Distance},
     {"contact", &FormulaReader::Contact},
+    {"stuck", &FormulaReader::Stuck},
     {"sensor", &FormulaReader::Sensor},
     {"ended", &FormulaReader::Ended},
     {"time", &FormulaReader::Time},

@@ -44,6 +44,7 @@ struct Scenario {
   std::optional<double> factor;          // the target real-time factor, > 0
   std::optional<double> step, duration;  // simulated time, s
   std::optional<double> deadline;        // wall-clock time that a behaviour may run, s
+  std::optional<double> stuck_after;     // see Specification::stuck_after, simulated time, s
   std::optional<bool> fails_with_behaviour;
   std::optional<bool> in_process;  // whether behaviours are plug-ins, and not programs
   std::vector<std::string> model_path;

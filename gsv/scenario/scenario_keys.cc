@@ -178,6 +178,7 @@ Scenario ReadScenarioKeys(const YAML::Node& node, const YamlPlace& place) {
   scenario.step = ReadStep(mapping);
   scenario.duration = mapping.Number("duration", 0, kMaxDuration);
   scenario.deadline = mapping.Number("deadline", 0, kMaxDuration);
+  scenario.stuck_after = mapping.Number("stuck_after", 0.1, kMaxDuration);
   scenario.fails_with_behaviour = mapping.IsSecondOf("on_failure", "go_on", "fail");
   scenario.in_process = mapping.Flag("in_process");
   scenario.model_path = mapping.Texts("model_path");

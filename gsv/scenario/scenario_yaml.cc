@@ -205,6 +205,7 @@ std::string ToYaml(const Scenario& scenario) {
   writer.PutNumber("step", scenario.step);
   writer.PutNumber("duration", scenario.duration);
   writer.PutNumber("deadline", scenario.deadline);
+  writer.PutNumber("stuck_after", scenario.stuck_after);
   writer.PutChoice("on_failure", scenario.fails_with_behaviour, "go_on", "fail");
   writer.PutChoice("in_process", scenario.in_process, "false", "true");
   if (!scenario.model_path.empty()) writer.Put("model_path", List(scenario.model_path));

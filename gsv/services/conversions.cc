@@ -176,6 +176,34 @@ sba::Measurement ToIdl(const std::string& sensor, const sensing::Reading& readin
   return measurement;
 }
 
+sba::RobotHealths ToIdl(const health::Report& report) {
+  sba::RobotHealths robots;
+  robots.length(static_cast<CORBA::ULong>(report.robots.size()));
+  for (CORBA::ULong i = 0; i < robots.length(); ++i) {
+    const health::RobotHealth& health = report.robots[i];
+    robots[i].name = health.robot.c_str();
+    robots[i].state = health::ToString(health.state);
+    robots[i].level = static_cast<CORBA::UShort>(health.level);
+    robots[i].since_ns = static_cast<sba::TimeNs>(health.since.count());
+    robots[i].sentence = health::Sentence(health, report.time).c_str();
+  }
+  return robots;
+}
+
+sba::OutputLines OutputToIdl(const std::vector<simulation::Event>& lines, std::string_view robot) {
+  sba::OutputLines out;
+  for (const simulation::Event& line : lines) {
+    if (!robot.empty() && line.robot != robot) continue;
+    const CORBA::ULong i = out.length();
+    out.length(i + 1);
+    out[i].time_ns = static_cast<sba::TimeNs>(line.time.count());
+    out[i].robot = line.robot.c_str();
+    out[i].stream = line.kind == simulation::kProgramEndedEvent ? "" : line.kind.c_str();
+    out[i].text = line.detail.c_str();
+  }
+  return out;
+}
+
 sba::SimulationPhase ToIdl(simulation::Phase phase) {
   switch (phase) {
     case simulation::Phase::kCreated:

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "gsv/geometry/pose.h"
+#include "gsv/health/health.h"
 #include "gsv/model/sensor_description.h"
 #include "gsv/sensing/reading.h"
 #include "gsv/simulation/commands/command.h"
@@ -38,6 +39,9 @@ sba::SimulationState ToIdl(const simulation::SimulationStatus& status);
 // Members that are not in the IDL (wall-clock times, numbers of readings, avatars) keep their
 // defaults.
 simulation::SimulationStatus FromIdl(const sba::SimulationState& state);
+sba::RobotHealths ToIdl(const health::Report& report);
+// Lines of output (simulation::IsOutput()) of one robot or behaviour, or of all.
+sba::OutputLines OutputToIdl(const std::vector<simulation::Event>& lines, std::string_view robot);
 sba::SimulationPhase ToIdl(simulation::Phase phase);
 simulation::Phase FromIdl(sba::SimulationPhase phase);
 

@@ -7,6 +7,7 @@
 #include <malloc.h>
 
 #include "gsv/base/log.h"
+#include "gsv/health/health_book.h"
 #include "gsv/orb/errors.h"
 #include "gsv/orb/orb.h"
 #include "gsv/services/conversions.h"
@@ -176,6 +177,16 @@ void SimulationServant::reset() {
 sba::SimulationState* SimulationServant::state() {
   NoteContact();
   return new sba::SimulationState(ToIdl(simulation_->status()));
+}
+
+sba::RobotHealths* SimulationServant::health() {
+  NoteContact();
+  return new sba::RobotHealths(ToIdl(health::HealthNow(*simulation_)));
+}
+
+sba::OutputLines* SimulationServant::output(const char* robot) {
+  NoteContact();
+  return new sba::OutputLines(OutputToIdl(simulation_->outputs(0), robot));
 }
 
 sba::SimulationPhase SimulationServant::await_change(sba::SimulationPhase known) {

@@ -47,6 +47,8 @@ class SimulationServant final : public POA_sba::Simulation {
   void stop() override;
   void reset() override;
   sba::SimulationState* state() override;
+  sba::RobotHealths* health() override;
+  sba::OutputLines* output(const char* robot) override;
   sba::SimulationPhase await_change(sba::SimulationPhase known) override;
   char* state_hash() override;
   char* viewer_url() override;

@@ -48,6 +48,16 @@ struct ObjectSpecification {
   bool on_ground = true;
 };
 
+// Judges the expectations of a scenario while the simulation runs.
+//
+// Threads  any.
+class ExpectationSource {
+ public:
+  virtual ~ExpectationSource() = default;
+  // At the latest judged state, in the order of the scenario.
+  virtual std::vector<ExpectationState> states() const = 0;
+};
+
 class Simulation : public std::enable_shared_from_this<Simulation> {
  public:
   // Creates a simulation. `sensors` must outlive it. Fails if the specification or the world is
@@ -149,6 +159,15 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // Returns the events from number `first` on, counted from 0. Only a limited number is kept; the
   // oldest events are dropped.
   virtual std::vector<Event> events(std::uint64_t first) const = 0;
+  // The same for the output of behaviours' programs, which has numbers of its own.
+  virtual std::vector<Event> outputs(std::uint64_t first) const = 0;
+  // Emits an event at the current step. Not from Observer::OnEvent().
+  virtual void Emit(std::string_view kind, const std::string& robot, const std::string& detail) = 0;
+
+  // Sets the source of expectations(), which may end before the simulation.
+  virtual void SetExpectations(std::weak_ptr<const ExpectationSource> source) = 0;
+  // Empty if nothing is expected.
+  virtual std::vector<ExpectationState> expectations() const = 0;
 
   // Whether a body was added, removed or placed after the first start.
   virtual bool was_edited() const = 0;

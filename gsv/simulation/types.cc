@@ -54,6 +54,18 @@ const char* ToString(Edit::Moment moment) {
   return "";
 }
 
+const char* ToString(ExpectationState::Verdict verdict) {
+  switch (verdict) {
+    case ExpectationState::Verdict::kPending:
+      return "pending";
+    case ExpectationState::Verdict::kHolds:
+      return "holds";
+    case ExpectationState::Verdict::kViolated:
+      return "violated";
+  }
+  return "";
+}
+
 const char* ToString(AgentPhase phase) {
   switch (phase) {
     case AgentPhase::kNone:

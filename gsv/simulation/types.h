@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gsv/base/sim_time.h"
@@ -15,6 +17,7 @@
 #include "gsv/scenario/fault.h"
 #include "gsv/sensing/reading.h"
 #include "gsv/simulation/edit.h"
+#include "gsv/world/state.h"
 
 namespace gsv::simulation {
 
@@ -54,25 +57,49 @@ struct Specification {
   // The number of threads for bodies and local behaviours. 0 stands for the number of processors in
   // lockstep, else for one.
   int threads = 0;
+  // A robot is stuck if it was commanded to move for this long without moving. > 0.
+  SimTime stuck_after = std::chrono::seconds(5);
 };
 
 enum class AgentPhase { kNone, kInitialised, kRunning, kWaiting, kFinished, kUnresponsive, kDead };
 
 const char* ToString(AgentPhase phase);
 
+// How the base of a robot has moved, sampled every 0.1 s of simulated time
+// (history/motion_history.h).
+struct Motion {
+  bool is_moving = false;
+  bool has_moved = false;  // ever since the start, or since it was added
+  SimTime since{0};        // since when it moves, or does not
+  bool is_stuck = false;   // commanded to move for Specification::stuck_after, without effect
+  // Simulated time for which it was commanded to move since it moved last.
+  SimTime commanded_for{0};
+  world::DriveCommand command;  // in effect: zero after the drive's command timeout
+  double linear = 0;            // m/s, the speed of its origin
+  double angular = 0;           // rad/s, about the vertical
+  std::string contact;          // a body that it touches, besides the ground; empty: none
+  SimTime contact_since{0};
+};
+
 struct RobotStatus {
   std::string name;
   std::string model;
   std::string behaviour;  // empty if it has none
+  std::string behaviour_place;  // "host:pid" of its program
   bool is_avatar = false;
   bool is_station = false;  // whether it is an object with sensors (world/station.h)
   AgentPhase phase = AgentPhase::kNone;
   std::string detail;  // the reason why it is dead or unresponsive
+  SimTime detail_since{0};
   geometry::Pose world_from_robot;
   double distance = 0;  // driven distance, m
   std::uint64_t collisions = 0;
   // how many readings the behaviour took, by sensor type
   std::map<std::string, std::uint64_t> readings;
+  Motion motion;
+  // The wall-clock time for which its behaviour has run without waiting; 0 while it waits, and if the
+  // simulation does not manage its time.
+  std::chrono::nanoseconds running_for{0};
 };
 
 struct SimulationStatus {
@@ -92,6 +119,7 @@ struct SimulationStatus {
   std::string waiting_for;
   std::string failure;              // the reason why it failed
   std::uint64_t events = 0;         // number of lifecycle events so far
+  std::uint64_t outputs = 0;        // number of lines that the programs of behaviours printed
   std::vector<RobotStatus> robots;  // ordered by name, including avatars and stations
 
   std::size_t CountRobots() const {  // Stations do not count.
@@ -109,5 +137,45 @@ struct Event {
   std::string detail;
   std::shared_ptr<const Edit> edit;  // null if the event is not an edit
 };
+
+// Output of behaviours' programs consists of events, too: a line on stdout, a line on stderr, and
+// the end of a program. They depend on the wall clock, and are kept apart from the other events.
+inline constexpr std::string_view kStdoutEvent = "stdout";
+inline constexpr std::string_view kStderrEvent = "stderr";
+inline constexpr std::string_view kProgramEndedEvent = "program_ended";
+
+inline bool IsOutput(const Event& event) {
+  return event.kind == kStdoutEvent || event.kind == kStderrEvent ||
+         event.kind == kProgramEndedEvent;
+}
+
+// An expectation of a scenario during the run.
+struct ExpectationState {
+  enum class Verdict { kPending, kHolds, kViolated };
+
+  std::string name;
+  std::string yaml;   // complete, on one line
+  std::string where;  // in the scenario file
+  Verdict verdict = Verdict::kPending;
+  std::int64_t step = 0;  // of the verdict
+  SimTime time{0};
+  // The smallest distance to the limit so far, negative beyond it; of a condition that must become
+  // true, the best so far. Nothing if it is not measured.
+  std::optional<double> margin;
+  std::string unit;  // of the margin; empty: none
+  SimTime margin_at{0};
+  std::string detail;               // of a violation
+  std::vector<std::string> bodies;  // that it is about
+  struct Place {
+    double x = 0, y = 0, radius = 0;  // m
+  };
+  std::vector<Place> places;
+  struct Box {
+    double x_min = 0, x_max = 0, y_min = 0, y_max = 0;  // m; infinite: no limit
+  };
+  std::vector<Box> boxes;
+};
+
+const char* ToString(ExpectationState::Verdict verdict);
 
 }  // namespace gsv::simulation

@@ -1,5 +1,6 @@
 #include "gsv/verdict/judge.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gsv::verdict {
@@ -27,6 +28,12 @@ std::string Bounds(const scenario::Formula& atom) {
 
 std::string Told(const MeasuredAtom& measured) {
   const scenario::Quantity& quantity = measured.atom.quantity;
+  if (quantity.kind == scenario::Quantity::Kind::kStuck) {
+    const std::string who = quantity.first.empty() ? measured.about : quantity.first;
+    if (!Lies(measured.atom, measured.last)) return "no robot was stuck";
+    return who + " was stuck: it was commanded to move for " + InWords(measured.last) +
+           " s and did not";
+  }
   const std::string what = Describe(quantity);
   using QuantityKind = scenario::Quantity::Kind;
   if (quantity.kind == QuantityKind::kContact || quantity.kind == QuantityKind::kEnded) {
@@ -52,6 +59,27 @@ void Note(std::optional<double> value, double now, MeasuredAtom& measured) {
   }
   measured.was_measured = true;
   measured.last = *value;
+}
+
+// With the time after which a robot is stuck where the scenario leaves it out.
+scenario::Formula WithStuckAfter(scenario::Formula formula, base::SimTime stuck_after) {
+  if (formula.quantity.kind == scenario::Quantity::Kind::kStuck && formula.min < 0) {
+    formula.min = base::ToSeconds(stuck_after);
+  }
+  for (scenario::Formula& part : formula.parts) {
+    part = WithStuckAfter(std::move(part), stuck_after);
+  }
+  return formula;
+}
+
+void AddBodies(const MeasuredAtom& measured, std::vector<std::string>& bodies) {
+  const scenario::Quantity& quantity = measured.atom.quantity;
+  const bool is_sensor = quantity.kind == scenario::Quantity::Kind::kSensor;
+  for (const std::string& name :
+       {measured.about, quantity.first, is_sensor ? std::string() : quantity.second}) {
+    const bool is_known = std::find(bodies.begin(), bodies.end(), name) != bodies.end();
+    if (!name.empty() && !is_known) bodies.push_back(name);
+  }
 }
 
 base::Status CheckAtoms(const std::vector<MeasuredAtom>& atoms, const Measure& measure,
@@ -80,15 +108,18 @@ base::Result<std::shared_ptr<Judge>> Judge::Attach(
   std::shared_ptr<Judge> judge(new Judge(simulation));
   for (const scenario::Expectation& expectation : expectations) {
     Finding finding{expectation.name, expectation.yaml, expectation.source.text};
-    Monitor monitor(expectation.formula, [&](const scenario::Formula& atom) {
+    const scenario::Formula formula =
+        WithStuckAfter(expectation.formula, simulation.specification().stuck_after);
+    Monitor monitor(formula, [&](const scenario::Formula& atom) {
       finding.atoms.push_back({atom});
       return static_cast<int>(finding.atoms.size() - 1);
     });
     if (auto ok = CheckAtoms(finding.atoms, judge->measure_, finding.where); !ok)
       return base::Fail(ok.error());
     const base::MutexLock lock(judge->mutex_);
-    judge->pending_.push_back({std::move(finding), std::move(monitor)});
+    judge->pending_.push_back({std::move(finding), std::move(monitor), formula, MarginOf(formula)});
   }
+  simulation.SetExpectations(judge);
   judge->JudgeState(simulation.snapshot());
   simulation.AddObserver(judge);
   return judge;
@@ -102,28 +133,72 @@ void Judge::OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) {
 void Judge::JudgeState(const std::shared_ptr<const world::Snapshot>& snapshot) {
   const base::MutexLock lock(mutex_);
   latest_ = snapshot;
+  if (pending_.empty()) return;
   measure_.MoveTo(snapshot);
   const double now = base::ToSeconds(snapshot->state.time);
   for (Pending& pending : pending_) {
     if (pending.monitor.verdict()) continue;
     std::vector<bool> holds;
+    std::vector<std::optional<double>> values;
     for (MeasuredAtom& measured : pending.finding.atoms) {
       const auto value = measure_.Of(measured.atom.quantity);
       Note(value, now, measured);
+      values.push_back(value);
+      if (measured.atom.quantity.kind == scenario::Quantity::Kind::kStuck) {
+        measured.about = measure_.stuck_longest();
+      }
       holds.push_back(Lies(measured.atom, value));
     }
+    if (pending.margin) pending.margin->Note(snapshot->state.time, values);
     pending.monitor.Step(snapshot->state.time, simulation_.specification().step,
                          [&](int atom) { return holds[static_cast<std::size_t>(atom)]; });
     if (pending.monitor.verdict()) RecordVerdict(pending, snapshot);
   }
 }
 
-void Judge::RecordVerdict(Pending& pending,
-                          const std::shared_ptr<const world::Snapshot>& snapshot) {
+void Judge::RecordVerdict(Pending& pending, const std::shared_ptr<const world::Snapshot>& snapshot,
+                          bool is_end) {
   pending.finding.holds = *pending.monitor.verdict();
   pending.finding.step = snapshot->state.step;
   pending.finding.time = snapshot->state.time;
   if (!pending.finding.holds && first_violation_ == nullptr) first_violation_ = snapshot;
+  if (!is_end || !pending.finding.holds) EmitVerdict(pending.finding);
+}
+
+void Judge::EmitVerdict(const Finding& finding) {
+  if (finding.holds) {
+    simulation_.Emit("expectation_held", "", finding.name);
+    return;
+  }
+  std::string robot;
+  for (const MeasuredAtom& measured : finding.atoms) {
+    if (!robot.empty()) break;
+    robot = measured.about.empty() ? measured.atom.quantity.first : measured.about;
+  }
+  simulation_.Emit("expectation_violated", robot, finding.name + ": " + finding.Sentence());
+}
+
+std::vector<simulation::ExpectationState> Judge::states() const {
+  using Verdict = simulation::ExpectationState::Verdict;
+  const base::MutexLock lock(mutex_);
+  std::vector<simulation::ExpectationState> states;
+  for (const Pending& pending : pending_) {
+    const Finding& finding = pending.finding;
+    simulation::ExpectationState& state = states.emplace_back();
+    state.name = finding.name;
+    state.yaml = finding.yaml;
+    state.where = finding.where;
+    if (const auto verdict = pending.monitor.verdict()) {
+      state.verdict = *verdict ? Verdict::kHolds : Verdict::kViolated;
+      state.step = finding.step;
+      state.time = finding.time;
+      if (!*verdict) state.detail = finding.Sentence();
+    }
+    if (pending.margin) pending.margin->Fill(state);
+    AddShapes(pending.formula, state);
+    for (const MeasuredAtom& measured : finding.atoms) AddBodies(measured, state.bodies);
+  }
+  return states;
 }
 
 std::vector<Finding> Judge::Finish() {
@@ -134,7 +209,7 @@ std::vector<Finding> Judge::Finish() {
   for (Pending& pending : pending_) {
     if (!pending.monitor.verdict()) {
       pending.monitor.End();
-      RecordVerdict(pending, latest_);
+      RecordVerdict(pending, latest_, true);
     }
     findings.push_back(pending.finding);
   }

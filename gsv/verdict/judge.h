@@ -6,12 +6,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gsv/base/mutex.h"
 #include "gsv/scenario/scenario.h"
 #include "gsv/simulation/simulation.h"
+#include "gsv/verdict/margin.h"
 #include "gsv/verdict/measure.h"
 #include "gsv/verdict/monitor.h"
 
@@ -23,6 +25,7 @@ struct MeasuredAtom {
   // up to the verdict; `last` is the value at the verdict
   double lowest = 0, highest = 0, last = 0;
   double lowest_at = 0, highest_at = 0;  // in s
+  std::string about;  // the robot, if the quantity is about any robot
 };
 
 struct Finding {
@@ -38,15 +41,19 @@ struct Finding {
   std::string Sentence() const;
 };
 
-class Judge final : public simulation::Observer {
+class Judge final : public simulation::Observer, public simulation::ExpectationSource {
  public:
   // Observes the simulation until the judge is destroyed. The simulation must have its robots and
   // must not have started. An expectation about an unknown body is an error that names its place.
+  // Each verdict before the end of the run is an event, "expectation_violated" or
+  // "expectation_held"; a violation at the end is one, too.
   static base::Result<std::shared_ptr<Judge>> Attach(
       const std::vector<scenario::Expectation>& expectations, simulation::Simulation& simulation);
 
   void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) override;
   void OnEvent(const simulation::Event&) override {}
+
+  std::vector<simulation::ExpectationState> states() const override;
 
   // Returns the findings in the order of the expectations. Waits until the last state was
   // evaluated.
@@ -58,12 +65,15 @@ class Judge final : public simulation::Observer {
   struct Pending {
     Finding finding;
     Monitor monitor;
+    scenario::Formula formula;
+    std::optional<Margin> margin;
   };
   explicit Judge(simulation::Simulation& simulation)
       : simulation_(simulation), measure_(simulation) {}
   void JudgeState(const std::shared_ptr<const world::Snapshot>& snapshot);
-  void RecordVerdict(Pending& pending, const std::shared_ptr<const world::Snapshot>& snapshot)
-      GSV_REQUIRES(mutex_);
+  void RecordVerdict(Pending& pending, const std::shared_ptr<const world::Snapshot>& snapshot,
+                     bool is_end = false) GSV_REQUIRES(mutex_);
+  void EmitVerdict(const Finding& finding);
 
   simulation::Simulation& simulation_;
   Measure measure_;

@@ -100,6 +100,52 @@ TEST(Judge, SeesFaultsAtTheirInstant) {
   EXPECT_EQ(lost.time, 2010ms);
 }
 
+TEST(Judge, ARobotIsStuckOnceItWasCommandedToMoveForSoLong) {
+  // The disc stands at the wall from 5.4 s on; its motion is sampled every 0.1 s.
+  const Finding stuck = One("{never: {stuck: {robot: scout, after: 2}}}");
+  EXPECT_FALSE(stuck.holds);
+  EXPECT_NEAR(base::ToSeconds(stuck.time), 7.4, 0.21);
+  EXPECT_THAT(stuck.Sentence(),
+              HasSubstr("scout was stuck: it was commanded to move for 2 s and did not"));
+  EXPECT_TRUE(One("{never: {stuck: {robot: tall, after: 2}}}").holds) << "nobody commands it";
+  EXPECT_TRUE(One("{never: stuck}").holds) << "the run ends before the 5 s";
+  const Finding any = One("{never: {stuck: {after: 2}}}");
+  EXPECT_FALSE(any.holds);
+  EXPECT_EQ(any.time, stuck.time);
+  EXPECT_THAT(any.Sentence(), HasSubstr("scout was stuck"));
+  EXPECT_TRUE(One("{eventually: {stuck: {robot: scout, after: 2}}}").holds);
+}
+
+TEST(Judge, TheStateOfEachExpectationIsKnownDuringTheRun) {
+  const auto scenario = ScenarioOf(
+      "  - {name: hits nothing, never_collides: scout}\n"
+      "  - {name: arrives, reaches: {robot: scout, x: 1.25, y: 0}}\n"
+      "  - {name: is quick, eventually: {speed: {robot: scout, at_least: 9}}}\n");
+  const auto simulation = Make(Lockstep(8s));
+  ASSERT_TRUE(simulation->AddRobot(Robot("scout", 0, 0, Drives(0.5))));
+  const auto judge = Judge::Attach(scenario.expect, *simulation);
+  ASSERT_TRUE(judge);
+  using Verdict = ExpectationState::Verdict;
+  auto states = simulation->expectations();
+  ASSERT_EQ(states.size(), 3u);
+  EXPECT_EQ(states[0].verdict, Verdict::kPending);
+  RunToEnd(*simulation);
+  (void)(*judge)->Finish();
+  states = simulation->expectations();
+  EXPECT_EQ(states[0].verdict, Verdict::kViolated);
+  EXPECT_EQ(states[0].bodies, std::vector<std::string>{"scout"});
+  EXPECT_EQ(states[1].verdict, Verdict::kHolds);
+  EXPECT_GE(states[1].margin.value(), 0);
+  EXPECT_LT(states[1].margin.value(), 0.01);
+  EXPECT_EQ(states[2].verdict, Verdict::kViolated);
+  std::vector<std::string> events;
+  for (const Event& event : simulation->events(0)) {
+    if (event.kind.starts_with("expectation")) events.push_back(event.kind + " " + event.robot);
+  }
+  EXPECT_EQ(events, (std::vector<std::string>{"expectation_held ", "expectation_violated scout",
+                                              "expectation_violated scout"}));
+}
+
 TEST(Judge, MissingRobotOrSensorIsAnErrorWithItsPlace) {
   const auto simulation = Make(Lockstep(1s));
   ASSERT_TRUE(simulation->AddRobot(Robot("scout", 0, 0)));

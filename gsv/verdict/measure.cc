@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "gsv/base/spelling.h"
 #include "gsv/simulation/robots/mounted_sensor.h"
 
 namespace gsv::verdict {
@@ -50,6 +51,9 @@ std::string Describe(const scenario::Quantity& quantity) {
       return "the end of " + first + "'s behaviour";
     case QuantityKind::kTime:
       return "the time";
+    case QuantityKind::kStuck:
+      return "the time for which " + (first.empty() ? std::string("a robot") : first) +
+             " was commanded to move and did not";
   }
   return "";
 }
@@ -67,6 +71,7 @@ const char* UnitOf(const scenario::Quantity& quantity) {
     case QuantityKind::kTurning:
       return " rad/s";
     case QuantityKind::kTime:
+    case QuantityKind::kStuck:
       return " s";
     default:
       return " m";
@@ -78,12 +83,21 @@ base::Status Measure::Check(const scenario::Quantity& quantity) const {
     return base::Fail(base::ErrorCode::kBadModel, std::move(message));
   };
   if (quantity.kind == QuantityKind::kTime) return {};
+  if (quantity.kind == QuantityKind::kStuck && quantity.first.empty()) return {};
   const auto layout = simulation_.snapshot()->layout;
   const bool is_pair = quantity.kind == QuantityKind::kDistance ||
                        (quantity.kind == QuantityKind::kContact && !quantity.second.empty());
   for (const std::string* name : {&quantity.first, is_pair ? &quantity.second : nullptr}) {
-    if (name != nullptr && layout->Find(*name) < 0)
-      return refuse("nothing that stands in the world is called \"" + *name + "\"");
+    if (name == nullptr || layout->Find(*name) >= 0) continue;
+    std::vector<std::string> known;
+    for (const world::Body& body : layout->bodies) known.push_back(body.name);
+    return refuse("nothing that stands in the world is called \"" + *name + "\"" +
+                  base::DidYouMean(*name, known));
+  }
+  if (quantity.kind == QuantityKind::kStuck) {
+    if (layout->bodies[static_cast<std::size_t>(layout->Find(quantity.first))].is_robot())
+      return {};
+    return refuse("\"" + quantity.first + "\" is no robot");
   }
   if (quantity.kind != QuantityKind::kSensor && quantity.kind != QuantityKind::kEnded) return {};
   const auto agent = simulation_.agent(quantity.first);
@@ -100,6 +114,33 @@ base::Status Measure::Check(const scenario::Quantity& quantity) const {
 void Measure::MoveTo(std::shared_ptr<const world::Snapshot> snapshot) {
   snapshot_ = std::move(snapshot);
   is_status_new_ = false;
+  motions_.Follow(*snapshot_);
+}
+
+double Measure::SecondsStuck(int body) const {
+  const simulation::Motion motion = motions_.Of(*snapshot_, body);
+  return simulation::IsStuck(motion, base::SimTime(0)) ? base::ToSeconds(motion.commanded_for) : 0;
+}
+
+std::optional<double> Measure::OfStuck(const std::string& robot) const {
+  const std::string name = robot.empty() ? stuck_longest() : robot;
+  if (name.empty()) return 0;
+  const int body = snapshot_->layout->Find(name);
+  return body < 0 ? std::nullopt : std::optional(SecondsStuck(body));
+}
+
+std::string Measure::stuck_longest() const {
+  double longest = 0;
+  std::string name;
+  const auto& bodies = snapshot_->layout->bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i].is_robot()) continue;
+    const double seconds = SecondsStuck(static_cast<int>(i));
+    if (seconds <= longest) continue;
+    longest = seconds;
+    name = bodies[i].name;
+  }
+  return name;
 }
 
 const world::BodyState* Measure::StateOf(const std::string& body) const {
@@ -169,6 +210,8 @@ std::optional<double> Measure::Of(const scenario::Quantity& quantity) {
       return OfContact(quantity);
     case QuantityKind::kEnded:
       return HasEnded(quantity.first) ? 1 : 0;
+    case QuantityKind::kStuck:
+      return OfStuck(quantity.first);
     default:
       break;
   }

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "gsv/scenario/expectation.h"
+#include "gsv/simulation/history/motion_history.h"
 #include "gsv/simulation/simulation.h"
 
 namespace gsv::verdict {
@@ -30,15 +31,20 @@ class Measure {
   void MoveTo(std::shared_ptr<const world::Snapshot> snapshot);
   // Returns the value, or nullopt if its body was removed or its sensor fails.
   std::optional<double> Of(const scenario::Quantity& quantity);
+  // The robot that is commanded to move without effect for the longest time; empty: none.
+  std::string stuck_longest() const;
 
  private:
   const world::BodyState* StateOf(const std::string& body) const;
   std::optional<double> OfSensor(const scenario::Quantity& quantity) const;
   std::optional<double> OfContact(const scenario::Quantity& quantity) const;
   bool HasEnded(const std::string& robot);
+  double SecondsStuck(int body) const;
+  std::optional<double> OfStuck(const std::string& robot) const;
 
   simulation::Simulation& simulation_;
   std::shared_ptr<const world::Snapshot> snapshot_;
+  simulation::MotionHistory motions_;
   std::optional<simulation::SimulationStatus> status_;
   bool is_status_new_ = false;  // for the current snapshot
 };

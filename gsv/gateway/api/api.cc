@@ -4,12 +4,27 @@
 
 #include "gsv/gateway/api/answers.h"
 #include "gsv/gateway/api/command_json.h"
+#include "gsv/gateway/api/health_json.h"
 #include "gsv/gateway/api/simulation_routes.h"
 #include "gsv/gateway/api/status_json.h"
 #include "gsv/gateway/live/sensor_topics.h"
 #include "gsv/presentation/scene_json.h"
 
 namespace gsv::gateway {
+namespace {
+
+// Answers about the robot of `?robot=NAME`, or about all.
+template <typename Make>
+Response OfRobot(const simulation::Simulation& simulation, const Request& request, Make make) {
+  const auto found = request.target.query.find("robot");
+  const std::string robot = found == request.target.query.end() ? "" : found->second;
+  if (!robot.empty() && simulation.agent(robot) == nullptr) {
+    return ErrorResponse(404, "there is no robot '" + robot + "'");
+  }
+  return JsonResponse(200, make(robot));
+}
+
+}  // namespace
 
 Api::Api(std::shared_ptr<SimulationDirectory> directory, ModelStore::WriteGlb write_glb,
          RecordingSwitch* recordings, SimulationFactory* factory, bool has_replays,
@@ -40,6 +55,18 @@ std::vector<Route> Api::Routes() {
          return JsonResponse(200, StatusJson(of_name->status()));
        }),
        "Get the status of a simulation"},
+      {"GET", simulation + "/health", kWatch, false, kReaders,
+       of([](const auto& of_name, const Request& request) {
+         return OfRobot(*of_name, request,
+                        [&](const std::string& robot) { return HealthJson(*of_name, robot); });
+       }),
+       "Get what each robot does and why, and the expectations"},
+      {"GET", simulation + "/output", kWatch, false, kReaders,
+       of([](const auto& of_name, const Request& request) {
+         return OfRobot(*of_name, request,
+                        [&](const std::string& robot) { return OutputJson(*of_name, robot); });
+       }),
+       "Get the last lines that behaviours' programs printed"},
       {"GET", simulation + "/scene", kWatch, false, kReaders,
        of([this](const auto& of_name, const Request&) { return Scene(of_name); }),
        "Get the scene of a simulation, with bodies and their appearance"},

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "gsv/health/health.h"
+
 namespace gsv::gateway {
 namespace {
 
@@ -10,6 +12,12 @@ using OrderedJson = nlohmann::ordered_json;
 // Names and messages may have bytes that are not UTF-8; they are replaced.
 std::string Dump(const OrderedJson& json) {
   return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+}
+
+OrderedJson ShortHealthJson(const health::RobotHealth& health) {
+  return {{"state", health::ToString(health.state)},
+          {"level", static_cast<int>(health.level)},
+          {"since_s", base::ToSeconds(health.since)}};
 }
 
 OrderedJson RobotJson(const simulation::RobotStatus& robot) {
@@ -58,7 +66,14 @@ OrderedJson ToJson(const ReplayClock& clock) {
 
 }  // namespace
 
-std::string StatusJson(const simulation::SimulationStatus& status) { return Dump(ToJson(status)); }
+std::string StatusJson(const simulation::SimulationStatus& status) {
+  OrderedJson json = ToJson(status);
+  for (std::size_t i = 0; i < status.robots.size(); ++i) {
+    if (status.robots[i].is_station) continue;
+    json["robots"][i]["health"] = ShortHealthJson(health::HealthOf(status.robots[i], status));
+  }
+  return Dump(json);
+}
 
 std::string StatusJson(const simulation::SimulationStatus& status, const ReplayClock& replay) {
   OrderedJson json = ToJson(status);

@@ -10,7 +10,7 @@
 
 namespace gsv::gateway {
 
-// The complete status; for a replay with "replay" from ReplayJson().
+// The complete status; for a replay with "replay" from ReplayJson(), and without the robots' health.
 std::string StatusJson(const simulation::SimulationStatus& status);
 std::string StatusJson(const simulation::SimulationStatus& status, const ReplayClock& replay);
 // {"start_s", "end_s", "time_s", "speed", "loop"}

@@ -22,36 +22,50 @@ SharedBytes EncodedLog(const simulation::Event& event) {
 }  // namespace
 
 EventTopics::EventTopics(std::shared_ptr<Hub> hub) : hub_(std::move(hub)) {
-  const auto channels = hub_->Advertise({ChannelFor(topics::kEvents), ChannelFor(topics::kLog)});
-  topics_ = {{channels[0], presentation::FindTopic(topics::kEvents.name)->history, EncodedEvent},
-             {channels[1], presentation::FindTopic(topics::kLog.name)->history, EncodedLog}};
+  const auto channels = hub_->Advertise(
+      {ChannelFor(topics::kEvents), ChannelFor(topics::kLog), ChannelFor(topics::kOutput)});
+  const auto history = [](const char* topic) { return presentation::FindTopic(topic)->history; };
+  using simulation::Simulation;
+  using simulation::SimulationStatus;
+  events_ = {&Simulation::events,
+             &SimulationStatus::events,
+             {{channels[0], history(topics::kEvents.name), EncodedEvent},
+              {channels[1], history(topics::kLog.name), EncodedLog}}};
+  output_ = {&Simulation::outputs,
+             &SimulationStatus::outputs,
+             {{channels[2], history(topics::kOutput.name), EncodedLog}}};
 }
 
 void EventTopics::Publish(const simulation::Simulation& simulation) {
-  for (const simulation::Event& event : TakeNew(simulation)) {
-    for (const Topic& topic : topics_) {
+  Publish(simulation, events_);
+  Publish(simulation, output_);
+}
+
+void EventTopics::Publish(const simulation::Simulation& simulation, Source& source) {
+  for (const simulation::Event& event : TakeNew(simulation, source)) {
+    for (const Topic& topic : source.topics) {
       if (!hub_->IsSubscribed(topic.channel)) continue;
       hub_->Publish(topic.channel, {base::NanosecondsOf(event.time), topic.encode(event)},
                     Hub::Audience::kEstablished);
     }
   }
-  for (const Topic& topic : topics_) {
-    if (hub_->HasNewSubscribers(topic.channel)) Welcome(topic, simulation);
+  for (const Topic& topic : source.topics) {
+    if (hub_->HasNewSubscribers(topic.channel)) Welcome(topic, (simulation.*source.since)(0));
   }
 }
 
-std::vector<simulation::Event> EventTopics::TakeNew(const simulation::Simulation& simulation) {
-  if (simulation.events(next_).empty()) return {};
+std::vector<simulation::Event> EventTopics::TakeNew(const simulation::Simulation& simulation,
+                                                    Source& source) {
+  if ((simulation.*source.since)(source.next).empty()) return {};
   // The simulation drops its oldest events, so that the count of all events gives the position. It
   // is read before the events, so that it is not ahead of them.
-  const std::uint64_t count = simulation.status().events;
-  std::vector<simulation::Event> events = simulation.events(next_);
-  next_ = std::max(next_ + events.size(), count);
+  const std::uint64_t count = simulation.status().*source.count;
+  std::vector<simulation::Event> events = (simulation.*source.since)(source.next);
+  source.next = std::max(source.next + events.size(), count);
   return events;
 }
 
-void EventTopics::Welcome(const Topic& topic, const simulation::Simulation& simulation) {
-  const std::vector<simulation::Event> past = simulation.events(0);
+void EventTopics::Welcome(const Topic& topic, const std::vector<simulation::Event>& past) {
   std::vector<Hub::Message> messages;
   for (std::size_t i = past.size() - std::min(past.size(), topic.history); i < past.size(); ++i) {
     messages.push_back({base::NanosecondsOf(past[i].time), topic.encode(past[i])});

@@ -1,5 +1,5 @@
-// The live topics of events: /gsv/events, and /rosout as a log for ROS tools. New subscribers get
-// the newest earlier events.
+// The live topics of events: /gsv/events, /rosout as a log for ROS tools, and /gsv/output with the
+// lines that behaviours' programs print. New subscribers get the newest earlier events.
 //
 // Threads  Publish() from one thread.
 #pragma once
@@ -17,7 +17,7 @@ class EventTopics {
   // Advertises the topics.
   explicit EventTopics(std::shared_ptr<Hub> hub);
 
-  // Publishes the events since the last call.
+  // Publishes the events and the output since the last call.
   void Publish(const simulation::Simulation& simulation);
 
  private:
@@ -26,12 +26,20 @@ class EventTopics {
     std::size_t history = 0;
     SharedBytes (*encode)(const simulation::Event& event) = nullptr;
   };
-  std::vector<simulation::Event> TakeNew(const simulation::Simulation& simulation);
-  void Welcome(const Topic& topic, const simulation::Simulation& simulation);
+  // Events or output, and the topics that publish them.
+  struct Source {
+    std::vector<simulation::Event> (simulation::Simulation::*since)(std::uint64_t first) const;
+    std::uint64_t simulation::SimulationStatus::*count;
+    std::vector<Topic> topics;
+    std::uint64_t next = 0;  // number of the first unpublished event
+  };
+  static std::vector<simulation::Event> TakeNew(const simulation::Simulation& simulation,
+                                                Source& source);
+  void Publish(const simulation::Simulation& simulation, Source& source);
+  void Welcome(const Topic& topic, const std::vector<simulation::Event>& past);
 
   const std::shared_ptr<Hub> hub_;
-  std::vector<Topic> topics_;
-  std::uint64_t next_ = 0;  // number of the first unpublished event
+  Source events_, output_;
 };
 
 }  // namespace gsv::gateway

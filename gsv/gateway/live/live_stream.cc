@@ -35,6 +35,7 @@ LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation
       snapshot_topics_(4),
       status_(hub_),
       events_(hub_),
+      health_(hub_),
       refresh_pacing_(kRefreshRate),
       commands_(hub_),
       contacts_(hub_, topics::kContacts, CollectContacts),
@@ -63,6 +64,7 @@ void LiveStream::Round(const std::shared_ptr<simulation::Simulation>& simulation
   for (SnapshotTopic& topic : snapshot_topics_) Publish(topic, snapshot, now);
   status_.Publish(*simulation, now);
   events_.Publish(*simulation);
+  health_.Publish(*simulation, now);
   commands_.Publish(*snapshot);
   viewers_.Publish(now);
   sensors_->Publish(simulation, snapshot, now);

@@ -11,6 +11,7 @@
 #include "gsv/gateway/foxglove/hub.h"
 #include "gsv/gateway/live/command_topic.h"
 #include "gsv/gateway/live/event_topics.h"
+#include "gsv/gateway/live/health_topics.h"
 #include "gsv/gateway/live/pacing.h"
 #include "gsv/gateway/live/sensor_topics.h"
 #include "gsv/gateway/live/status_topics.h"
@@ -77,6 +78,7 @@ class LiveStream {
 
   StatusTopics status_;
   EventTopics events_;
+  HealthTopics health_;
 
   std::shared_ptr<const world::Layout> layout_;
   std::vector<presentation::PoseEntry> pose_list_;  // of layout_

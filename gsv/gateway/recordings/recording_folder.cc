@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <tuple>
 #include <utility>
@@ -15,6 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxListed = 1000;
+constexpr std::size_t kMaxTextBytes = 1000;
+constexpr const char* kFailuresFolder = "gsv-failures";
 
 // A finished file ends with the magic bytes. Any other file would have to be read as a whole.
 bool IsFinished(const fs::path& file) {
@@ -24,6 +28,41 @@ bool IsFinished(const fs::path& file) {
   in.read(end.data(), end.size());
   return in && std::equal(end.begin(), end.end(), recording::kMagic.begin(),
                           [](char a, std::byte b) { return static_cast<std::byte>(a) == b; });
+}
+
+// The value as a number; nothing if it is none.
+std::optional<double> NumberIn(const recording::StringMap& values, const std::string& key) {
+  const auto found = values.find(key);
+  if (found == values.end()) return std::nullopt;
+  char* end = nullptr;
+  const double number = std::strtod(found->second.c_str(), &end);
+  const bool is_number = end != found->second.c_str() && *end == '\0' && std::isfinite(number);
+  return is_number ? std::optional(number) : std::nullopt;
+}
+
+std::string TextIn(const recording::StringMap& values, const std::string& key) {
+  const auto found = values.find(key);
+  return found == values.end() ? "" : found->second.substr(0, kMaxTextBytes);
+}
+
+void AddMetadata(const recording::McapReader& reader, RecordingLine& line) {
+  for (const recording::MetadataIndexRecord& index : reader.summary().metadata) {
+    if (index.name != "gsv.simulation" && index.name != "gsv.result") continue;
+    const auto record = reader.Read(index);
+    if (!record) continue;
+    const recording::StringMap& values = record->values;
+    if (index.name == "gsv.simulation") {
+      line.world = TextIn(values, "world");
+      const auto robots = NumberIn(values, "robots");
+      if (robots && *robots >= 0 && *robots <= 1e9) {
+        line.robots = static_cast<std::uint64_t>(*robots);
+      }
+    } else {
+      line.verdict = TextIn(values, "verdict");
+      line.sentence = TextIn(values, "sentence");
+      line.violation_s = NumberIn(values, "violation_s");
+    }
+  }
 }
 
 RecordingLine WithContent(RecordingLine line, const fs::path& file) {
@@ -41,12 +80,18 @@ RecordingLine WithContent(RecordingLine line, const fs::path& file) {
   line.start = summary.start;
   line.end = summary.end;
   line.messages = summary.message_count;
+  AddMetadata(**reader, line);
   return line;
 }
 
 }  // namespace
 
 bool RecordingFolder::IsName(const std::string& name) const {
+  const std::string failures = std::string(kFailuresFolder) + "/";
+  if (only_.empty() && name.starts_with(failures)) {
+    const std::string below = name.substr(failures.size());
+    return below.find('/') == std::string::npos && IsName(below);
+  }
   if (name.empty() || name.front() == '.' || name.find('/') != std::string::npos) return false;
   if (name.find('\0') != std::string::npos) return false;
   return only_.empty() || name == only_;
@@ -61,8 +106,8 @@ fs::path RecordingFolder::FileOf(const fs::path& path) const {
   const fs::file_status status = fs::symlink_status(path, error);
   fs::path file = path;
   if (fs::is_directory(status)) {
-    if (!fs::is_regular_file(fs::symlink_status(path / "metadata.yaml", error))) return {};
-    file = recording::RecordingFile(path);
+    const bool is_bag = fs::is_regular_file(fs::symlink_status(path / "metadata.yaml", error));
+    file = is_bag ? fs::path(recording::RecordingFile(path)) : path / "run.mcap";
   }
   const bool is_file =
       file.extension() == ".mcap" && fs::is_regular_file(fs::symlink_status(file, error));
@@ -70,7 +115,11 @@ fs::path RecordingFolder::FileOf(const fs::path& path) const {
 }
 
 base::Result<std::string> RecordingFolder::Find(const std::string& name) const {
-  if (IsName(name)) {
+  std::error_code error;
+  const bool is_below = name.find('/') != std::string::npos;
+  const bool is_link =
+      is_below && fs::is_symlink(fs::symlink_status(folder_ / kFailuresFolder, error));
+  if (IsName(name) && !is_link) {
     if (const fs::path file = FileOf(folder_ / name); !file.empty()) return file.string();
   }
   return base::Fail(base::ErrorCode::kNotFound,
@@ -105,15 +154,23 @@ RecordingFolder::Listing RecordingFolder::List() {
     fs::path file;
   };
   std::vector<Found> found;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder_, error), end; !error && entry != end;
-       entry.increment(error)) {
-    const std::string name = entry->path().filename();
-    if (!IsName(name)) continue;
-    fs::path file = FileOf(entry->path());
-    if (file.empty()) continue;
-    std::error_code ignored;
-    found.push_back({fs::last_write_time(file, ignored), name, std::move(file)});
+  const auto look_into = [&](const fs::path& folder, const std::string& prefix) {
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+      const std::string name = prefix + entry->path().filename().string();
+      if (!IsName(name)) continue;
+      fs::path file = FileOf(entry->path());
+      if (file.empty()) continue;
+      std::error_code ignored;
+      found.push_back({fs::last_write_time(file, ignored), name, std::move(file)});
+    }
+  };
+  look_into(folder_, "");
+  std::error_code ignored;
+  const fs::path failures = folder_ / kFailuresFolder;
+  if (only_.empty() && fs::is_directory(fs::symlink_status(failures, ignored))) {
+    look_into(failures, std::string(kFailuresFolder) + "/");
   }
   std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
     return std::tie(b.modified, a.name) < std::tie(a.modified, b.name);

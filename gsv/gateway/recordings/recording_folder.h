@@ -1,7 +1,10 @@
 // The recordings that viewers may replay: those in one folder, or a single one.
 //
-// Input    untrusted names and files. Only files directly in the folder count, and no links that
-//          leave it.
+// A recording is a file NAME.mcap, a folder that rosbag2 opens, or a folder with run.mcap that
+// `gsv test` keeps of a failure. The failures in the folder gsv-failures count as well, under the
+// names gsv-failures/NAME.
+//
+// Input    untrusted names and files. Only these files count, and no links that leave the folder.
 // Threads  any. List() reads the index of each new file.
 // Bounded  the newest thousand recordings.
 #pragma once
@@ -9,6 +12,7 @@
 #include <chrono>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +36,12 @@ struct RecordingLine {
   std::string problem;  // a sentence, if it is unreadable
   base::SimTime start{}, end{};
   std::uint64_t messages = 0;
+  // Empty or nothing if the recording does not contain it.
+  std::string world;
+  std::optional<std::uint64_t> robots;
+  std::string verdict;                // "passed" or "failed"
+  std::string sentence;               // of the first violation
+  std::optional<double> violation_s;  // its simulated time
 };
 
 class RecordingFolder {

@@ -45,6 +45,11 @@ RecordingsJson LineJson(const RecordingLine& line) {
     json["start_s"] = base::ToSeconds(line.start);
     json["duration_s"] = base::ToSeconds(line.end - line.start);
     json["messages"] = line.messages;
+    if (!line.world.empty()) json["world"] = line.world;
+    if (line.robots) json["robots"] = *line.robots;
+    if (!line.verdict.empty()) json["verdict"] = line.verdict;
+    if (!line.sentence.empty()) json["sentence"] = line.sentence;
+    if (line.violation_s) json["violation_s"] = *line.violation_s;
   }
   return json;
 }

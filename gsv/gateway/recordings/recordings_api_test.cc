@@ -103,6 +103,27 @@ TEST_F(RecordingsApiTest, NothingOutsideOfTheFolderIsOpened) {
             std::string::npos);
 }
 
+TEST_F(RecordingsApiTest, FailuresOfTestsAreListedWithWorldAndRobots) {
+  fs::create_directories(folder_ / "gsv-failures" / "turns");
+  fs::copy_file(folder_ / "run.mcap", folder_ / "gsv-failures" / "turns" / "run.mcap");
+  fs::create_directory_symlink("turns", folder_ / "gsv-failures" / "elsewhere");
+  std::map<std::string, json> lines;
+  for (const json& line : json::parse(Get("/api/recordings").body)["recordings"]) {
+    lines[line["name"]] = line;
+  }
+  ASSERT_EQ(lines.size(), 2u);
+  const json& failure = lines["gsv-failures/turns"];
+  EXPECT_EQ(failure["state"], "complete");
+  EXPECT_EQ(failure["world"], lines["run.mcap"]["world"]);
+  EXPECT_GE(failure["robots"], 1) << failure;
+  EXPECT_EQ(Post("/api/recordings/gsv-failures%2Fturns/replay").status,
+            Post("/api/recordings/run.mcap/replay").status);
+  for (const char* name : {"gsv-failures%2Felsewhere", "gsv-failures%2F..", "gsv-failures%2F",
+                           "gsv-failures%2Fturns%2Frun.mcap", "turns%2Frun.mcap"}) {
+    EXPECT_EQ(Post("/api/recordings/" + std::string(name) + "/replay").status, 404) << name;
+  }
+}
+
 TEST_F(RecordingsApiTest, TwoViewersOfOneRecordingAreAtDifferentInstants) {
   const std::string a = OpenReplay();
   const std::string b = OpenReplay();

@@ -309,6 +309,7 @@ simulation::SimulationStatus ScriptedSimulation::status() const {
   status.target_factor = factor_;
   status.real_time_factor = phase_ == Phase::kRunning ? 1 : 0;
   status.events = events_.size();
+  status.outputs = outputs_.size();
   for (std::size_t i = 0; i < layout_->bodies.size(); ++i) {
     const world::Body& body = layout_->bodies[i];
     if (!body.is_robot()) continue;
@@ -321,6 +322,9 @@ simulation::SimulationStatus ScriptedSimulation::status() const {
         body.is_avatar() ? simulation::AgentPhase::kNone : simulation::AgentPhase::kRunning;
     robot.world_from_robot = snapshot_->state.bodies[i].world_from_model;
     robot.distance = snapshot_->state.bodies[i].distance;
+    if (const auto set = motions_.find(robot.name); set != motions_.end()) {
+      robot.motion = set->second;
+    }
     status.robots.push_back(std::move(robot));
   }
   return status;
@@ -388,6 +392,39 @@ std::vector<simulation::Event> ScriptedSimulation::events(std::uint64_t first) c
   const std::lock_guard lock(mutex_);
   const std::size_t begin = std::min<std::size_t>(first, events_.size());
   return {events_.begin() + static_cast<std::ptrdiff_t>(begin), events_.end()};
+}
+
+std::vector<simulation::Event> ScriptedSimulation::outputs(std::uint64_t first) const {
+  const std::lock_guard lock(mutex_);
+  const std::size_t begin = std::min<std::size_t>(first, outputs_.size());
+  return {outputs_.begin() + static_cast<std::ptrdiff_t>(begin), outputs_.end()};
+}
+
+void ScriptedSimulation::Emit(std::string_view kind, const std::string& robot,
+                              const std::string& detail) {
+  const std::lock_guard lock(mutex_);
+  const simulation::Event event{snapshot_->state.step, time_, std::string(kind), robot, detail, {}};
+  (simulation::IsOutput(event) ? outputs_ : events_).push_back(event);
+}
+
+void ScriptedSimulation::SetExpectations(
+    std::weak_ptr<const simulation::ExpectationSource> source) {
+  const std::lock_guard lock(mutex_);
+  expectations_ = std::move(source);
+}
+
+std::vector<simulation::ExpectationState> ScriptedSimulation::expectations() const {
+  std::shared_ptr<const simulation::ExpectationSource> source;
+  {
+    const std::lock_guard lock(mutex_);
+    source = expectations_.lock();
+  }
+  return source == nullptr ? std::vector<simulation::ExpectationState>() : source->states();
+}
+
+void ScriptedSimulation::SetMotion(const std::string& robot, const simulation::Motion& motion) {
+  const std::lock_guard lock(mutex_);
+  motions_[robot] = motion;
 }
 
 void ScriptedSimulation::AddObserver(std::shared_ptr<simulation::Observer> observer) {

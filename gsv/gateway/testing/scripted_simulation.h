@@ -74,6 +74,12 @@ class ScriptedSimulation final : public simulation::Simulation {
   std::vector<model::SensorDescription> sensors(const std::string& robot) const override;
   const sensing::SensorRegistry& sensor_types() const override { return sensor_types_; }
   std::vector<simulation::Event> events(std::uint64_t first) const override;
+  std::vector<simulation::Event> outputs(std::uint64_t first) const override;
+  void Emit(std::string_view kind, const std::string& robot, const std::string& detail) override;
+  void SetExpectations(std::weak_ptr<const simulation::ExpectationSource> source) override;
+  std::vector<simulation::ExpectationState> expectations() const override;
+  // Sets the motion of a robot in status().
+  void SetMotion(const std::string& robot, const simulation::Motion& motion);
   void AddObserver(std::shared_ptr<simulation::Observer> observer) override;
   void RemoveObserver(const std::shared_ptr<simulation::Observer>& observer) override;
 
@@ -98,7 +104,9 @@ class ScriptedSimulation final : public simulation::Simulation {
   base::SimTime time_{0};
   std::shared_ptr<const world::Layout> layout_;
   std::shared_ptr<const world::Snapshot> snapshot_;
-  std::vector<simulation::Event> events_;
+  std::vector<simulation::Event> events_, outputs_;
+  std::weak_ptr<const simulation::ExpectationSource> expectations_;
+  std::map<std::string, simulation::Motion> motions_;  // by robot
   std::map<std::string, std::vector<model::SensorDescription>> mounted_;
   std::map<std::string, world::DriveState> drive_states_;  // by robot
   std::function<base::Status(const std::string&)> on_watch_;

@@ -41,6 +41,9 @@ scenario::Scenario ScenarioOf(const Simulation& simulation) {
   scenario.step = ShortSeconds(specification.step);
   scenario.duration = ShortSeconds(specification.duration);
   scenario.deadline = ShortSeconds(specification.deadline);
+  if (specification.stuck_after != simulation::Specification().stuck_after) {
+    scenario.stuck_after = ShortSeconds(specification.stuck_after);
+  }
   scenario.faults = specification.faults;
   scenario.pedestrians = specification.pedestrians;
   scenario.fails_with_behaviour = specification.on_failure == simulation::FailurePolicy::kFail;

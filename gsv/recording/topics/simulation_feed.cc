@@ -29,7 +29,10 @@ SimulationFeed::SimulationFeed(const simulation::Simulation& simulation, FeedOpt
 Observation SimulationFeed::Observe(const std::shared_ptr<const world::Snapshot>& snapshot) {
   Observation observation{snapshot, nullptr, std::nullopt};
   const base::SimTime time = snapshot->state.time;
-  if (status_instants_.Pass(time)) observation.status = simulation_.status();
+  if (status_instants_.Pass(time)) {
+    observation.status = simulation_.status();
+    observation.expectations = simulation_.expectations();
+  }
   if (sensor_instants_.Pass(time) || layout_ != snapshot->layout) {
     observation.sensors = std::make_shared<SensorLists>(SensorsOf(simulation_, *snapshot->layout));
     layout_ = snapshot->layout;
@@ -92,7 +95,8 @@ void SimulationFeed::CloseAtLatest() {
     const base::MutexLock lock(mutex_);
     if (!closed_) {
       // The snapshot is taken last, because the simulation may be running.
-      queue_.emplace_back(Observation{simulation_.snapshot(), nullptr, status});
+      queue_.emplace_back(
+          Observation{simulation_.snapshot(), nullptr, status, simulation_.expectations()});
       ++snapshots_;
     }
     closed_ = true;

@@ -33,6 +33,8 @@ struct Observation {
   std::shared_ptr<const world::Snapshot> snapshot;
   std::shared_ptr<const SensorLists> sensors;  // null if they are unchanged, or were not checked
   std::optional<simulation::SimulationStatus> status;  // set at the rate of the status
+  // Set with the status; empty if nothing is expected.
+  std::vector<simulation::ExpectationState> expectations{};
 };
 using Occurrence = std::variant<Observation, simulation::Event>;
 

@@ -5,6 +5,7 @@
 #include "gsv/base/hash.h"
 #include "gsv/messages/time.h"
 #include "gsv/presentation/edit_message.h"
+#include "gsv/presentation/health_messages.h"
 
 namespace gsv::recording {
 
@@ -14,6 +15,7 @@ namespace {
 
 constexpr base::SimTime kHashPeriod = std::chrono::seconds(1);
 constexpr base::SimTime kDiagnosticsPeriod = std::chrono::seconds(1);
+constexpr base::SimTime kExpectationsPeriod = std::chrono::seconds(1);
 
 bool IsSameOrder(const world::DriveState& a, const world::DriveState& b) {
   return a.command == b.command && a.command_time == b.command_time;
@@ -25,6 +27,7 @@ StateTopics::StateTopics(McapWriter& writer, double poses_rate, const Selection&
     : poses_instants_(base::FromSeconds(1 / poses_rate)),
       hash_instants_(kHashPeriod),
       diagnostics_instants_(kDiagnosticsPeriod),
+      expectations_instants_(kExpectationsPeriod),
       clock_(writer, selection, topics::kClock),
       poses_(writer, selection, topics::kPoses),
       transforms_(writer, selection, topics::kTransforms),
@@ -36,6 +39,8 @@ StateTopics::StateTopics(McapWriter& writer, double poses_rate, const Selection&
       diagnostics_(writer, selection, topics::kDiagnostics),
       events_(writer, selection, topics::kEvents),
       log_(writer, selection, topics::kLog),
+      output_(writer, selection, topics::kOutput),
+      expectations_(writer, selection, topics::kExpectations),
       hash_(writer, selection, topics::kStateHash),
       writer_(writer) {}
 
@@ -126,7 +131,22 @@ void StateTopics::RecordStatus(const simulation::SimulationStatus& status) {
   }
 }
 
+void StateTopics::RecordExpectations(base::SimTime time,
+                                     const std::vector<simulation::ExpectationState>& states) {
+  std::vector<simulation::ExpectationState::Verdict> verdicts;
+  verdicts.reserve(states.size());
+  for (const auto& state : states) verdicts.push_back(state.verdict);
+  const bool is_due = expectations_instants_.Pass(time);
+  if (!expectations_.is_wanted() || states.empty() || (!is_due && verdicts == verdicts_)) return;
+  verdicts_ = std::move(verdicts);
+  expectations_.Write(time, presentation::ExpectationsMessage(time, states));
+}
+
 void StateTopics::RecordEvent(const simulation::Event& event) {
+  if (simulation::IsOutput(event)) {
+    output_.Write(event.time, presentation::LogMessage(event));
+    return;
+  }
   events_.Write(event.time, presentation::EventMessage(event));
   log_.Write(event.time, presentation::LogMessage(event));
   if (event.edit != nullptr) RecordEdit(*event.edit);

@@ -29,6 +29,9 @@ class StateTopics {
   void RecordNow(const world::Snapshot& snapshot);
 
   void RecordStatus(const simulation::SimulationStatus& status);
+  // Writes them at each change of a verdict and every second.
+  void RecordExpectations(base::SimTime time,
+                          const std::vector<simulation::ExpectationState>& states);
   void RecordEvent(const simulation::Event& event);
   void RecordEdit(const simulation::Edit& edit);
 
@@ -43,6 +46,8 @@ class StateTopics {
   Instants poses_instants_;
   Instants hash_instants_;
   Instants diagnostics_instants_;
+  Instants expectations_instants_;
+  std::vector<simulation::ExpectationState::Verdict> verdicts_;  // the last written verdicts
   std::optional<std::int64_t> poses_step_;  // the step of the last written poses
   std::shared_ptr<const world::Layout> layout_;
   std::vector<presentation::PoseEntry> pose_list_;    // poses of the bodies of layout_
@@ -61,6 +66,8 @@ class StateTopics {
   TopicWriter<messages::diagnostic_msgs::DiagnosticArray> diagnostics_;
   TopicWriter<messages::gsv_msgs::LifecycleEvent> events_;
   TopicWriter<messages::rcl_interfaces::Log> log_;
+  TopicWriter<messages::rcl_interfaces::Log> output_;
+  TopicWriter<messages::gsv_msgs::Expectations> expectations_;
   TopicWriter<messages::gsv_msgs::StateHash> hash_;
   std::optional<TopicWriter<messages::gsv_msgs::Edit>> edits_;
   McapWriter& writer_;

@@ -10,24 +10,41 @@ void EventLog::Emit(std::string kind, std::string robot, std::string detail,
   const Event event{snapshot->state.step, snapshot->state.time, std::move(kind),
                     std::move(robot),     std::move(detail),    std::move(edit)};
   const base::MutexLock lock(mutex_);
-  events_.push_back(event);
-  if (events_.size() > capacity_) {
-    events_.pop_front();
-    ++dropped_;
-  }
+  (IsOutput(event) ? outputs_ : events_).Add(event);
   for (const auto& observer : observers_) observer->OnEvent(event);
+}
+
+void EventLog::Kept::Add(const Event& event) {
+  events.push_back(event);
+  if (events.size() <= capacity) return;
+  events.pop_front();
+  ++dropped;
+}
+
+std::vector<Event> EventLog::Kept::Since(std::uint64_t first) const {
+  const std::uint64_t skip = first > dropped ? first - dropped : 0;
+  if (skip >= events.size()) return {};
+  return {events.begin() + static_cast<std::ptrdiff_t>(skip), events.end()};
 }
 
 std::vector<Event> EventLog::Since(std::uint64_t first) const {
   const base::MutexLock lock(mutex_);
-  const std::uint64_t skip = first > dropped_ ? first - dropped_ : 0;
-  if (skip >= events_.size()) return {};
-  return {events_.begin() + static_cast<std::ptrdiff_t>(skip), events_.end()};
+  return events_.Since(first);
+}
+
+std::vector<Event> EventLog::OutputsSince(std::uint64_t first) const {
+  const base::MutexLock lock(mutex_);
+  return outputs_.Since(first);
 }
 
 std::uint64_t EventLog::count() const {
   const base::MutexLock lock(mutex_);
-  return dropped_ + events_.size();
+  return events_.dropped + events_.events.size();
+}
+
+std::uint64_t EventLog::output_count() const {
+  const base::MutexLock lock(mutex_);
+  return outputs_.dropped + outputs_.events.size();
 }
 
 void EventLog::AddObserver(std::shared_ptr<Observer> observer) {

@@ -21,7 +21,7 @@ class EventLog {
   // Events carry the step and time of the latest snapshot of `history`, which outlives the log. The
   // log keeps the newest `capacity` events.
   explicit EventLog(const SnapshotHistory& history, std::size_t capacity = 10'000)
-      : history_(history), capacity_(capacity) {}
+      : history_(history), events_{capacity}, outputs_{kMaxOutputs} {}
 
   // Appends an event and passes it to every observer, with the log's lock held.
   void Emit(std::string kind, std::string robot = {}, std::string detail = {},
@@ -31,6 +31,9 @@ class EventLog {
   std::vector<Event> Since(std::uint64_t first) const;
   // The number of events so far, including dropped ones.
   std::uint64_t count() const;
+  // The same for output (IsOutput()), which neither Since() returns nor count() counts.
+  std::vector<Event> OutputsSince(std::uint64_t first) const;
+  std::uint64_t output_count() const;
 
   void AddObserver(std::shared_ptr<Observer> observer);
   void RemoveObserver(const std::shared_ptr<Observer>& observer);
@@ -38,12 +41,22 @@ class EventLog {
   void Publish(const std::shared_ptr<const world::Snapshot>& snapshot) const;
 
  private:
+  static constexpr std::size_t kMaxOutputs = 2000;
+
+  struct Kept {
+    std::size_t capacity = 0;
+    std::deque<Event> events{};
+    std::uint64_t dropped = 0;
+
+    void Add(const Event& event);
+    std::vector<Event> Since(std::uint64_t first) const;
+  };
+
   const SnapshotHistory& history_;
-  const std::size_t capacity_;
 
   mutable base::Mutex mutex_;
-  std::deque<Event> events_ GSV_GUARDED_BY(mutex_);
-  std::uint64_t dropped_ GSV_GUARDED_BY(mutex_) = 0;
+  Kept events_ GSV_GUARDED_BY(mutex_);
+  Kept outputs_ GSV_GUARDED_BY(mutex_);
   std::vector<std::shared_ptr<Observer>> observers_ GSV_GUARDED_BY(mutex_);
 };
 

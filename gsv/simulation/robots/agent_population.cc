@@ -122,9 +122,11 @@ void AgentPopulation::CheckForDeaths() {
   }
 }
 
-std::vector<RobotStatus> AgentPopulation::Statuses(const world::Snapshot& snapshot) const {
+std::vector<RobotStatus> AgentPopulation::Statuses(const world::Snapshot& snapshot,
+                                                   SimTime stuck_after) const {
   std::vector<RobotStatus> statuses;
   statuses.reserve(agents_.size());
+  const std::vector<int> partners = ContactPartners(snapshot);
   for (const auto& [name, agent] : agents_) {
     RobotStatus& status = statuses.emplace_back();
     agent->FillStatus(status);
@@ -135,6 +137,12 @@ std::vector<RobotStatus> AgentPopulation::Statuses(const world::Snapshot& snapsh
     status.world_from_robot = state.world_from_model;
     status.distance = state.distance;
     status.collisions = state.collisions;
+    status.motion = shared_->motions.Of(snapshot, body);
+    status.motion.is_stuck = IsStuck(status.motion, stuck_after);
+    const int partner = state.in_contact ? partners[static_cast<std::size_t>(body)] : -1;
+    if (partner >= 0) {
+      status.motion.contact = snapshot.layout->bodies[static_cast<std::size_t>(partner)].name;
+    }
   }
   return statuses;
 }

@@ -59,7 +59,7 @@ class AgentPopulation {
   void ReportIfFailed(RobotAgent& agent, const char* what, const base::Status& status)
       GSV_EXCLUDES(simulation_mutex);
 
-  std::vector<RobotStatus> Statuses(const world::Snapshot& snapshot) const
+  std::vector<RobotStatus> Statuses(const world::Snapshot& snapshot, SimTime stuck_after) const
       GSV_REQUIRES(simulation_mutex);
   // The first robot for which the simulation has waited longer than 0.1 s, with the time. Empty if
   // there is none.

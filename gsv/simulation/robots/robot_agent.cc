@@ -362,6 +362,7 @@ RobotAgent::Woken RobotAgent::Wake(SimTime now, WallTime wall_now) {
 
 void RobotAgent::MarkUnresponsive(std::string detail) {
   fate_ = Fate::kUnresponsive;
+  detail_since_ = shared_->now;
   detail_ = std::move(detail);
   StopDriving();
   wait_event_.Open();
@@ -370,6 +371,7 @@ void RobotAgent::MarkUnresponsive(std::string detail) {
 
 void RobotAgent::ReportDeath(std::string detail) {
   death_reported_ = true;
+  detail_since_ = shared_->now;
   detail_ = std::move(detail);
   shared_->has_reported_deaths = true;
   UpdateRunningCount();
@@ -467,8 +469,10 @@ void RobotAgent::FillStatus(RobotStatus& status) const {
   status.name = robot_;
   status.model = model_->name;
   status.behaviour = behaviour_ != nullptr ? behaviour_->name() : "";
+  status.behaviour_place = behaviour_ != nullptr ? behaviour_->place() : "";
   status.is_avatar = is_avatar_;
   status.detail = detail_;
+  status.detail_since = detail_since_;
   status.readings = rack_.readings_by_type();
   if (behaviour_ == nullptr) {
     status.phase = AgentPhase::kNone;
@@ -482,6 +486,8 @@ void RobotAgent::FillStatus(RobotStatus& status) const {
     status.phase = AgentPhase::kFinished;
   } else {
     status.phase = clocks_.IsRunning() ? AgentPhase::kRunning : AgentPhase::kWaiting;
+    const bool is_expected_to_wait = clocks_.IsRunning() && behaviour_->time_managed();
+    if (is_expected_to_wait) status.running_for = WallNow() - running_since_;
   }
 }
 

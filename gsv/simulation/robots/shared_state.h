@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gsv/base/mutex.h"
+#include "gsv/simulation/history/motion_history.h"
 #include "gsv/simulation/history/snapshot_history.h"
 #include "gsv/simulation/robots/sensor_rack.h"
 #include "gsv/simulation/robots/timer_queue.h"
@@ -45,6 +46,7 @@ struct SharedState {
   // The reason with which the calls of agents end; empty while they may continue.
   std::string end_reason GSV_GUARDED_BY(simulation_mutex);
   SimTime now GSV_GUARDED_BY(simulation_mutex){0};
+  MotionHistory motions GSV_GUARDED_BY(simulation_mutex);
 
   // Agents register here. A function that removes an agent from the world removes its entries.
   //

@@ -271,6 +271,7 @@ void StepLoop::EndStep(const std::shared_ptr<const world::Snapshot>& snapshot, W
   // The snapshot and its phase become visible together: see Simulation::status().
   shared.history.Publish(snapshot);
   shared.now = snapshot->state.time;
+  shared.motions.Follow(*snapshot);
   parts_.life_cycle.pace().StepEnds(start, end, shared.now);
   const RunControl::Change change = run_.EndStep(shared.now);
   if (change == RunControl::Change::kNone) return;

@@ -120,6 +120,7 @@ SteppingSimulation::SteppingSimulation(Specification specification,
     if (world::HasAgent(body)) agents_.Add(body.name, body.model, false, nullptr);
   }
   agents_.AssignBodies(*world_.layout());
+  shared_->motions.Follow(*shared_->history.latest());
 }
 
 SteppingSimulation::~SteppingSimulation() {
@@ -169,6 +170,7 @@ SimulationStatus SteppingSimulation::status() const {
   status.mode = specification_.mode;
   status.step_size = specification_.step;
   status.events = events_.count();
+  status.outputs = events_.output_count();
   const SimulationLock lock(*shared_);
   const auto snapshot = shared_->history.latest();
   status.phase = run_.phase();
@@ -176,7 +178,7 @@ SimulationStatus SteppingSimulation::status() const {
   status.step = snapshot->state.step;
   status.time = snapshot->state.time;
   life_cycle_.pace().FillStatus(status);
-  status.robots = agents_.Statuses(*snapshot);
+  status.robots = agents_.Statuses(*snapshot, specification_.stuck_after);
   if (run_.is_running()) status.waiting_for = agents_.WaitingFor();
   return status;
 }
@@ -219,6 +221,20 @@ base::Result<sensing::Reading> SteppingSimulation::Watch(const std::string& robo
 std::vector<model::SensorDescription> SteppingSimulation::sensors(const std::string& robot) const {
   const auto found = FindAgent(robot);
   return found == nullptr ? std::vector<model::SensorDescription>() : found->Sensors();
+}
+
+void SteppingSimulation::SetExpectations(std::weak_ptr<const ExpectationSource> source) {
+  const base::MutexLock lock(expectations_mutex_);
+  expectations_ = std::move(source);
+}
+
+std::vector<ExpectationState> SteppingSimulation::expectations() const {
+  std::shared_ptr<const ExpectationSource> source;
+  {
+    const base::MutexLock lock(expectations_mutex_);
+    source = expectations_.lock();
+  }
+  return source == nullptr ? std::vector<ExpectationState>() : source->states();
 }
 
 void SteppingSimulation::AddObserver(std::shared_ptr<Observer> observer) {

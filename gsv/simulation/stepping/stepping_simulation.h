@@ -70,6 +70,14 @@ class SteppingSimulation final : public Simulation {
   std::vector<model::SensorDescription> sensors(const std::string& robot) const override;
   const sensing::SensorRegistry& sensor_types() const override { return *sensors_; }
   std::vector<Event> events(std::uint64_t first) const override { return events_.Since(first); }
+  std::vector<Event> outputs(std::uint64_t first) const override {
+    return events_.OutputsSince(first);
+  }
+  void Emit(std::string_view kind, const std::string& robot, const std::string& detail) override {
+    events_.Emit(std::string(kind), robot, detail);
+  }
+  void SetExpectations(std::weak_ptr<const ExpectationSource> source) override;
+  std::vector<ExpectationState> expectations() const override;
   void AddObserver(std::shared_ptr<Observer> observer) override;
   void RemoveObserver(const std::shared_ptr<Observer>& observer) override;
 
@@ -112,6 +120,8 @@ class SteppingSimulation final : public Simulation {
   Watchdog watchdog_;
   base::Mutex control_mutex_;
   RobotModels robot_models_ GSV_GUARDED_BY(control_mutex_);
+  mutable base::Mutex expectations_mutex_;
+  std::weak_ptr<const ExpectationSource> expectations_ GSV_GUARDED_BY(expectations_mutex_);
 };
 
 }  // namespace gsv::simulation

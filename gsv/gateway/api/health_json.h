@@ -1,0 +1,16 @@
+// The health of a simulation's robots, their behaviours' output and its expectations as JSON
+// (docs/api.yaml).
+#pragma once
+
+#include <string>
+
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::gateway {
+
+// Of one robot, or of all if `robot` is empty. Reads range sensors of robots that do not move.
+std::string HealthJson(simulation::Simulation& simulation, const std::string& robot);
+// The lines that behaviours' programs printed, of one robot or of all.
+std::string OutputJson(const simulation::Simulation& simulation, const std::string& robot);
+
+}  // namespace gsv::gateway

@@ -1,0 +1,44 @@
+// The live topics /gsv/health and /gsv/expectations: at each change, at most twice per second, for
+// subscribers only.
+//
+// Threads  Publish() from one thread.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "gsv/gateway/foxglove/hub.h"
+#include "gsv/gateway/live/pacing.h"
+#include "gsv/health/health_book.h"
+#include "gsv/messages/gsv_msgs.h"
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::gateway {
+
+class HealthTopics {
+ public:
+  // Advertises the topics.
+  explicit HealthTopics(std::shared_ptr<Hub> hub);
+
+  void Publish(simulation::Simulation& simulation, WallTime now);
+
+ private:
+  struct Topic {
+    foxglove::ChannelId channel = 0;
+    Pacing pacing;
+    std::optional<Hub::Message> latest{};
+  };
+  // Whether the topic needs a message now.
+  bool IsDue(const Topic& topic, WallTime now) const;
+  void PublishHealth(simulation::Simulation& simulation, WallTime now);
+  void PublishExpectations(const simulation::Simulation& simulation, WallTime now);
+  void Send(Topic& topic, bool is_news, base::SimTime time, SharedBytes payload, WallTime now);
+
+  const std::shared_ptr<Hub> hub_;
+  Topic health_, expectations_;
+  health::HealthBook book_;
+  messages::gsv_msgs::Health health_sent_;
+  messages::gsv_msgs::Expectations expectations_sent_;
+};
+
+}  // namespace gsv::gateway

@@ -1,0 +1,54 @@
+// Keeps the health of a simulation's robots up to date, with the range sensors of those that do not
+// move.
+//
+// Bounded  readings per update. A robot that stands keeps its last reading, which is renewed every
+//          5 s of simulated time.
+// Threads  one at a time.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "gsv/health/health.h"
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::health {
+
+// Access to the sensors of robots. Readings must not change the simulation.
+struct SensorAccess {
+  std::function<std::vector<model::SensorDescription>(const std::string& robot)> sensors;
+  std::function<base::Result<sensing::Reading>(const std::string& robot, const std::string& sensor)>
+      read;
+  const sensing::SensorRegistry* types = nullptr;  // never null
+};
+
+// By Simulation::Watch(); `simulation` must outlive it.
+SensorAccess SensorsOf(simulation::Simulation& simulation);
+
+// The shortest distance that the robot's range sensors (sonar, lidar and their like) read, if it is
+// less than 1 m.
+std::optional<Limit> FindLimit(const std::string& robot, const SensorAccess& access);
+
+class HealthBook {
+ public:
+  // `robots_read`: the number of robots whose sensors one update reads.
+  explicit HealthBook(std::size_t robots_read = 64) : robots_read_(robots_read) {}
+
+  Report Update(const simulation::SimulationStatus& status, base::SimTime stuck_after,
+                const SensorAccess& access);
+
+ private:
+  struct Known {
+    State state = State::kMoving;
+    base::SimTime since{0}, read_at{0};
+    std::optional<Limit> limit;
+  };
+  const std::size_t robots_read_;
+  std::map<std::string, Known> known_;  // robots that do not move
+};
+
+// The health now, with the sensors of at most 500 robots.
+Report HealthNow(simulation::Simulation& simulation);
+
+}  // namespace gsv::health

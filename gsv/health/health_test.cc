@@ -1,0 +1,195 @@
+#include "gsv/health/health_book.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gsv/sensing/devices/built_in.h"
+
+namespace gsv::health {
+namespace {
+
+using namespace std::chrono_literals;
+using simulation::AgentPhase;
+
+simulation::RobotStatus Robot(const std::string& name = "pebble") {
+  simulation::RobotStatus robot;
+  robot.name = name;
+  robot.behaviour = "wander";
+  robot.phase = AgentPhase::kWaiting;
+  robot.motion.has_moved = true;
+  robot.motion.since = 15700ms;
+  return robot;
+}
+
+simulation::SimulationStatus At(base::SimTime time, std::vector<simulation::RobotStatus> robots) {
+  simulation::SimulationStatus status;
+  status.phase = simulation::Phase::kRunning;
+  status.time = time;
+  status.robots = std::move(robots);
+  return status;
+}
+
+RobotHealth HealthOf(const simulation::RobotStatus& robot) {
+  return health::HealthOf(robot, At(35700ms, {robot}));
+}
+
+TEST(Health, ARobotThatStandsHasItsCommandAndItsNearestRangeAsReasons) {
+  RobotHealth health = HealthOf(Robot());
+  SetLimit(Limit{"sonar_00", 0.257}, health);
+  EXPECT_EQ(health.state, State::kStanding);
+  EXPECT_EQ(Sentence(health, 35700ms),
+            "has not moved for 20 s: commanded 0, sonar_00 reads 0.26 m");
+  EXPECT_EQ(FinalSentence(health), "stood still from 15.7 s: commanded 0, sonar_00 reads 0.26 m");
+}
+
+TEST(Health, StandingIsAWarningAfterTenSecondsIfItsBehaviourRuns) {
+  simulation::RobotStatus robot = Robot();
+  const auto level = [&](base::SimTime now) {
+    return health::HealthOf(robot, At(now, {robot})).level;
+  };
+  EXPECT_EQ(level(25600ms), Level::kFine);
+  EXPECT_EQ(level(25700ms), Level::kWarning);
+  robot.phase = AgentPhase::kFinished;
+  EXPECT_EQ(level(25700ms), Level::kFine);
+  robot.phase = AgentPhase::kNone;
+  robot.behaviour.clear();
+  EXPECT_EQ(level(25700ms), Level::kFine);
+  EXPECT_EQ(HealthOf(robot).reason, "it has no behaviour");
+}
+
+TEST(Health, ARobotThatMovesIsFine) {
+  simulation::RobotStatus robot = Robot();
+  robot.motion.is_moving = true;
+  robot.motion.command.linear = 0.3;
+  robot.motion.linear = 0.29;
+  const RobotHealth health = HealthOf(robot);
+  EXPECT_EQ(health.state, State::kMoving);
+  EXPECT_EQ(health.level, Level::kFine);
+  EXPECT_EQ(Sentence(health, 18700ms), "has been moving for 3.0 s: commanded 0.3 m/s");
+  EXPECT_EQ(FinalSentence(health), "");
+}
+
+TEST(Health, AStuckRobotNamesCommandAndContactPartner) {
+  simulation::RobotStatus robot = Robot();
+  robot.motion.is_stuck = true;
+  robot.motion.command = {.linear = 0.3, .angular = -0.5};
+  robot.motion.contact = "shelf_3";
+  const RobotHealth health = HealthOf(robot);
+  EXPECT_EQ(health.state, State::kStuck);
+  EXPECT_EQ(health.level, Level::kWarning);
+  EXPECT_EQ(Sentence(health, 35700ms),
+            "has been stuck for 20 s: commanded 0.3 m/s and -0.5 rad/s, touches shelf_3");
+}
+
+TEST(Health, AContactCountsSinceItBegan) {
+  simulation::RobotStatus robot = Robot();
+  robot.motion.is_moving = true;
+  robot.motion.contact = "wall";
+  robot.motion.contact_since = 30s;
+  const RobotHealth health = HealthOf(robot);
+  EXPECT_EQ(health.state, State::kContact);
+  EXPECT_EQ(Sentence(health, 32500ms), "has been in contact for 2.5 s: commanded 0, touches wall");
+}
+
+TEST(Health, ADeadBehaviourIsAnError) {
+  simulation::RobotStatus robot = Robot();
+  robot.phase = AgentPhase::kDead;
+  robot.detail = "its process has ended or refuses connections";
+  robot.detail_since = 5s;
+  const RobotHealth health = HealthOf(robot);
+  EXPECT_EQ(health.level, Level::kError);
+  EXPECT_EQ(FinalSentence(health),
+            "was dead from 5.0 s: its behaviour wander died: its process has ended or refuses "
+            "connections");
+}
+
+TEST(Health, ABehaviourThatDoesNotWaitIsLate) {
+  simulation::RobotStatus robot = Robot();
+  robot.running_for = 2s;
+  simulation::SimulationStatus status = At(20s, {robot});
+  EXPECT_EQ(health::HealthOf(robot, status).reason,
+            "its behaviour wander runs without calling a wait function");
+  status.mode = simulation::Mode::kLockstep;
+  EXPECT_EQ(health::HealthOf(robot, status).state, State::kLate);
+  EXPECT_EQ(health::HealthOf(robot, status).reason,
+            "the simulation waits for its behaviour wander");
+  status.phase = simulation::Phase::kPaused;
+  EXPECT_EQ(health::HealthOf(robot, status).state, State::kStanding);
+}
+
+// Robots with a sonar each, which counts its readings.
+class HealthBookTest : public ::testing::Test {
+ protected:
+  HealthBookTest() {
+    sensing::AddBuiltInSensors(types_);
+    access_.types = &types_;
+    access_.sensors = [](const std::string&) {
+      model::SensorDescription sonar;
+      sonar.name = "front";
+      sonar.type = "sonar";
+      model::SensorDescription compass;
+      compass.name = "compass";
+      compass.type = "magnetometer";
+      return std::vector{sonar, compass};
+    };
+    access_.read = [this](const std::string&, const std::string& sensor) {
+      ++readings_;
+      EXPECT_EQ(sensor, "front");
+      sensing::Reading reading;
+      reading.values.push_back(range_);
+      return base::Result<sensing::Reading>(reading);
+    };
+  }
+
+  sensing::SensorRegistry types_;
+  SensorAccess access_;
+  int readings_ = 0;
+  double range_ = 0.4;
+};
+
+TEST_F(HealthBookTest, CountsRobotsByStateWithoutStations) {
+  simulation::RobotStatus moving = Robot("a"), station = Robot("camera");
+  moving.motion.is_moving = true;
+  station.is_station = true;
+  HealthBook book;
+  const Report report =
+      book.Update(At(20s, {moving, Robot("b"), Robot("c"), station}), 5s, access_);
+  EXPECT_EQ(report.CountOf(State::kMoving), 1u);
+  EXPECT_EQ(report.CountOf(State::kStanding), 2u);
+  EXPECT_EQ(Summary(report), "1 moves, 2 stand");
+  ASSERT_EQ(report.robots.size(), 3u);
+  EXPECT_EQ(report.robots[1].limit, (Limit{"front", 0.4}));
+}
+
+TEST_F(HealthBookTest, ReadsTheSensorsOfARobotThatStandsEveryFiveSeconds) {
+  HealthBook book;
+  for (base::SimTime now = 16s; now < 21s; now += 500ms) {
+    (void)book.Update(At(now, {Robot()}), 5s, access_);
+  }
+  EXPECT_EQ(readings_, 1);
+  range_ = 0.3;
+  const Report report = book.Update(At(21s, {Robot()}), 5s, access_);
+  EXPECT_EQ(readings_, 2);
+  EXPECT_EQ(report.robots[0].limit->value, 0.3);
+}
+
+TEST_F(HealthBookTest, ReadsTheSensorsOfNoMoreRobotsThanItMay) {
+  HealthBook book(2);
+  std::vector<simulation::RobotStatus> robots;
+  for (const char* name : {"a", "b", "c", "d", "e"}) robots.push_back(Robot(name));
+  (void)book.Update(At(20s, robots), 5s, access_);
+  EXPECT_EQ(readings_, 2);
+  (void)book.Update(At(20s, robots), 5s, access_);
+  const Report report = book.Update(At(20s, robots), 5s, access_);
+  EXPECT_EQ(readings_, 5);
+  EXPECT_TRUE(report.robots[4].limit);
+}
+
+TEST_F(HealthBookTest, ARangeOfMoreThanAMetreLimitsNobody) {
+  range_ = 1.5;
+  HealthBook book;
+  EXPECT_FALSE(book.Update(At(20s, {Robot()}), 5s, access_).robots[0].limit);
+}
+
+}  // namespace
+}  // namespace gsv::health

@@ -1,0 +1,18 @@
+// The health of robots and the expectations of a run as messages.
+#pragma once
+
+#include "gsv/health/health.h"
+#include "gsv/messages/gsv_msgs.h"
+#include "gsv/simulation/types.h"
+
+namespace gsv::presentation {
+
+// Without the robots that move.
+messages::gsv_msgs::Health HealthMessage(const health::Report& report);
+// Whether a message differs in more than time and actual motion, so that it is worth sending.
+bool IsNews(const messages::gsv_msgs::Health& message, const messages::gsv_msgs::Health& sent);
+
+messages::gsv_msgs::Expectations ExpectationsMessage(
+    base::SimTime time, const std::vector<simulation::ExpectationState>& states);
+
+}  // namespace gsv::presentation

@@ -1,0 +1,49 @@
+// Records /gsv/health at each change, looked for every 0.5 s of simulated time, and every 10 s.
+//
+// Readings are functions of the snapshot, so they are sampled here, without an effect on the
+// simulation.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "gsv/health/health_book.h"
+#include "gsv/recording/topics/instants.h"
+#include "gsv/recording/topics/simulation_feed.h"
+#include "gsv/recording/topics/topic_writer.h"
+#include "gsv/sensing/sensor_set.h"
+
+namespace gsv::recording {
+
+class HealthTopic {
+ public:
+  // `writer` must outlive this. `seed` and `stuck_after` are the simulation's.
+  HealthTopic(McapWriter& writer, const Selection& selection,
+              std::shared_ptr<const sensing::SensorRegistry> types, std::uint64_t seed,
+              base::SimTime stuck_after);
+
+  // Sets the sensors from now on.
+  void Mount(std::shared_ptr<const SensorLists> lists) { lists_ = std::move(lists); }
+  // Writes what is due. `status` is that of the snapshot.
+  void Record(const std::shared_ptr<const world::Snapshot>& snapshot,
+              const simulation::SimulationStatus& status);
+
+ private:
+  base::Result<sensing::Reading> Read(const std::shared_ptr<const world::Snapshot>& snapshot,
+                                      const std::string& robot, const std::string& sensor);
+
+  TopicWriter<messages::gsv_msgs::Health> topic_;
+  const std::shared_ptr<const sensing::SensorRegistry> types_;
+  const std::uint64_t seed_;
+  const base::SimTime stuck_after_;
+  sensing::SensorSet made_;                                                // of types_
+  std::map<std::string, std::shared_ptr<const sensing::Sensor>> sensors_;  // by "robot/sensor"
+  sensing::RaySceneCache rays_;
+  std::shared_ptr<const SensorLists> lists_;
+  Instants instants_;
+  health::HealthBook book_;
+  std::optional<messages::gsv_msgs::Health> written_;
+  base::SimTime written_at_{0};
+};
+
+}  // namespace gsv::recording

@@ -1,0 +1,41 @@
+// How close an expectation came to its limit: the robustness of signal temporal logic (A. Donzé and
+// O. Maler, 2010), for expectations that are one condition over time.
+//
+// Units  those of the measured numbers.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gsv/scenario/expectation.h"
+#include "gsv/simulation/types.h"
+
+namespace gsv::verdict {
+
+class Margin {
+ public:
+  // `values` are those of the formula's atoms at `now`, in the order of Monitor.
+  void Note(base::SimTime now, const std::vector<std::optional<double>>& values);
+  // Sets margin, unit and instant.
+  void Fill(simulation::ExpectationState& state) const;
+
+ private:
+  friend std::optional<Margin> MarginOf(const scenario::Formula& formula);
+
+  scenario::Formula condition_;
+  bool must_come_ = false;  // eventually: the greatest distance counts, else the smallest one
+  base::SimTime from_{0};
+  std::optional<base::SimTime> by_;
+  std::string unit_;
+  std::optional<double> margin_;
+  base::SimTime at_{0};
+};
+
+// Nothing for other formulas, and for conditions that are not measured, such as contacts.
+std::optional<Margin> MarginOf(const scenario::Formula& formula);
+
+// Adds the circles and boxes in which bodies should be or not be.
+void AddShapes(const scenario::Formula& formula, simulation::ExpectationState& state);
+
+}  // namespace gsv::verdict
