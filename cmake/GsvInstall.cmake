@@ -48,6 +48,18 @@ install(CODE "execute_process(COMMAND_ERROR_IS_FATAL ANY
   COMMAND \"${CMAKE_SOURCE_DIR}/tools/make_man_pages\" \"${CMAKE_BINARY_DIR}/bin/gsv\"
     \"${CMAKE_SOURCE_DIR}/docs/gsv.1.in\" \"${GSV_MAN}\")" COMPONENT gsv)
 install(DIRECTORY ${GSV_MAN} DESTINATION share/man COMPONENT gsv)
+# The shells' completion, likewise, in the folders in which they look below /usr.
+set(GSV_COMPLETION ${CMAKE_BINARY_DIR}/share/completion)
+foreach(COMPLETION bash:bash-completion/completions/gsv zsh:zsh/vendor-completions/_gsv
+    fish:fish/vendor_completions.d/gsv.fish)
+  string(REGEX MATCH "^[a-z]+" SHELL ${COMPLETION})
+  string(REGEX REPLACE "^[a-z]+:" "" FILE ${COMPLETION})
+  get_filename_component(FOLDER ${FILE} DIRECTORY)
+  install(CODE "file(MAKE_DIRECTORY \"${GSV_COMPLETION}/${FOLDER}\")
+    execute_process(COMMAND_ERROR_IS_FATAL ANY COMMAND \"${CMAKE_BINARY_DIR}/bin/gsv\" completion ${SHELL}
+      OUTPUT_FILE \"${GSV_COMPLETION}/${FILE}\")" COMPONENT gsv)
+  install(FILES ${GSV_COMPLETION}/${FILE} DESTINATION share/${FOLDER} COMPONENT gsv)
+endforeach()
 
 # libgsv: the shared library alone. libgsv-dev: what compiles against it.
 install(TARGETS gsv_shared_sdk EXPORT gsvTargets

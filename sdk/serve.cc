@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 
 #include <CLI/CLI.hpp>
 
@@ -42,6 +43,9 @@ sigset_t BlockSignals() {
   return signals;
 }
 
+// Whether a gsv started this program and reads all of its output.
+bool IsCaptured() { return std::getenv("GSV_OUTPUT_CAPTURED") != nullptr; }
+
 int Serve(const Arguments& arguments, const BehaviourModule& module, BehaviourFactory factory,
           const sigset_t& signals) {
   auto offered = OfferedBehaviour::Offer(arguments.broker,
@@ -51,8 +55,9 @@ int Serve(const Arguments& arguments, const BehaviourModule& module, BehaviourFa
   // The parent process may wait for this line on stdout.
   std::printf("%s: offered at %s\n", arguments.name.c_str(), (*offered)->broker().c_str());
   std::fflush(stdout);
-  // The parent process reads no further output, so the behaviour's output goes to stderr.
-  if (arguments.exit_with_parent) dup2(STDERR_FILENO, STDOUT_FILENO);
+  // A gsv that captures the output reads on, line by line. Other parent processes do not: then the
+  // behaviour's output goes to stderr.
+  if (arguments.exit_with_parent && !IsCaptured()) dup2(STDERR_FILENO, STDOUT_FILENO);
   int signal = 0;
   sigwait(&signals, &signal);
   // A behaviour that does not return from its run would delay the end, so a second signal ends the
@@ -64,6 +69,7 @@ int Serve(const Arguments& arguments, const BehaviourModule& module, BehaviourFa
 }  // namespace
 
 int ServeBehaviour(int argc, char** argv, const BehaviourModule& module) {
+  if (IsCaptured()) std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
   Arguments arguments;
   arguments.name = module.name;
   CLI::App app(module.description);

@@ -142,7 +142,7 @@ void GroupCommands(CLI::App& app) {
       {"Commands for recordings", {"rec", "replay"}},
       {"Commands for files", {"list", "world", "model"}},
       {"Commands for logs of real robots", {"compare", "fit"}},
-      {"Commands for this machine", {"doctor", "bench", "certificates"}}};
+      {"Commands for this machine", {"doctor", "completion", "bench", "certificates"}}};
   for (const auto& [group, commands] : groups) {
     for (const char* command : commands) app.get_subcommand(command)->group(group);
   }
@@ -185,6 +185,7 @@ int main(int argc, char** argv) {
   AddConvertCommand(line);
   AddDrawCommand(line);
   AddListCommand(line);
+  AddCompletionCommand(line);
   AddMapCommands(line);
   AddCompareCommands(line);
   AddBrokerCommands(line);

@@ -185,7 +185,7 @@ TEST_F(HealthBookTest, ReadsTheSensorsOfNoMoreRobotsThanItMay) {
   EXPECT_TRUE(report.robots[4].limit);
 }
 
-TEST_F(HealthBookTest, ARangeOfMoreThanAMetreLimitsNobody) {
+TEST_F(HealthBookTest, ARangeOfMoreThanAMetreIsNoLimit) {
   range_ = 1.5;
   HealthBook book;
   EXPECT_FALSE(book.Update(At(20s, {Robot()}), 5s, access_).robots[0].limit);

@@ -84,7 +84,7 @@ struct Motion {
 struct RobotStatus {
   std::string name;
   std::string model;
-  std::string behaviour;  // empty if it has none
+  std::string behaviour;        // empty if it has none
   std::string behaviour_place;  // "host:pid" of its program
   bool is_avatar = false;
   bool is_station = false;  // whether it is an object with sensors (world/station.h)

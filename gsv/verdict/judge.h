@@ -25,7 +25,7 @@ struct MeasuredAtom {
   // up to the verdict; `last` is the value at the verdict
   double lowest = 0, highest = 0, last = 0;
   double lowest_at = 0, highest_at = 0;  // in s
-  std::string about;  // the robot, if the quantity is about any robot
+  std::string about;                     // the robot, if the quantity is about any robot
 };
 
 struct Finding {

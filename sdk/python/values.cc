@@ -48,6 +48,21 @@ base::SimTime TimeFrom(double seconds) {
   return base::FromSeconds(seconds);
 }
 
+namespace {
+
+// " in wander.py line 12": the innermost frame of a traceback; empty without one.
+std::string PlaceOf(const py::object& trace) {
+  if (trace.is_none()) return {};
+  const py::list frames = py::module_::import("traceback").attr("extract_tb")(trace);
+  if (frames.empty()) return {};
+  const py::object frame = frames[frames.size() - 1];
+  const auto file = frame.attr("filename").cast<std::string>();
+  const auto line = py::str(frame.attr("lineno")).cast<std::string>();
+  return " in " + file.substr(file.rfind('/') + 1) + " line " + line;
+}
+
+}  // namespace
+
 void CallPython(const std::function<void()>& call) {
   const py::gil_scoped_acquire gil;
   std::string raised;
@@ -60,6 +75,7 @@ void CallPython(const std::function<void()>& call) {
     raised = py::str(error.type().attr("__name__")).cast<std::string>() + ": " +
              py::str(error.value()).cast<std::string>();
     const py::object trace = error.trace() ? error.trace() : py::none();
+    raised += PlaceOf(trace);
     py::module_::import("traceback").attr("print_exception")(error.type(), error.value(), trace);
   }
   throw std::runtime_error(raised);

@@ -74,6 +74,16 @@ TEST_F(TestCommand, FailureKeepsItsFiles) {
   EXPECT_NEAR(info["start_s"].get<double>(), failed - 3, 0.1) << info;
   EXPECT_EQ(RunProgram("gsv", {"replay", "--headless", left / "run.mcap"}).ending, "exit code 0");
   EXPECT_THAT(TextOf(left / "README.txt"), HasSubstr("#t="));
+  EXPECT_GE(info["start_s"].get<double>() + info["duration_s"].get<double>(),
+            std::min(failed + 1.9, 13.9))
+      << "the recording spans the violation";
+  const auto listed = RunProgram("gsv", {"rec", "list", left.parent_path(), "--json"}).LastLine();
+  EXPECT_EQ(listed["name"], left.filename().string());
+  EXPECT_EQ(listed["verdict"], "failed") << listed;
+  EXPECT_THAT(listed["sentence"].get<std::string>(), HasSubstr("too far: violated at "));
+  EXPECT_NEAR(listed["violation_s"].get<double>(), failed, 1e-3);
+  EXPECT_EQ(listed["world"], "playground");
+  EXPECT_EQ(listed["robots"], 1);
   // The command in the report must fail at the same instant.
   const Outcome again = RunProgram("gsv", {"run", file, "--lockstep", "--headless", "--json"});
   EXPECT_EQ(again.ending, "exit code 1");
@@ -105,10 +115,10 @@ TEST_F(TestCommand, ShardsTogetherRunEveryScenario) {
 
 TEST_F(TestCommand, InvalidInputIsReportedBeforeAnythingRuns) {
   const std::string good = Scenario("good.yaml", "");
-  const std::string bad = Scenario("bad.yaml", "expect: [{never: pebble}]\n");
+  const std::string bad = Scenario("bad.yaml", "expect: [{nevermore: pebble}]\n");
   const Outcome run = Test({good, bad});
   EXPECT_EQ(run.ending, "exit code 3");
-  EXPECT_THAT(run.err, HasSubstr(bad + ":4:11: there is no key \"never\" here"));
+  EXPECT_THAT(run.err, HasSubstr(bad + ":4:11: there is no key \"nevermore\" here"));
   EXPECT_THAT(run.out, Not(HasSubstr("PASS")));
   EXPECT_EQ(Test({folder_.path() / "none.yaml"}).ending, "exit code 3");
   EXPECT_EQ(Test({good, "--shard", "3/2"}).ending, "exit code 2");

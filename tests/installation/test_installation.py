@@ -62,6 +62,12 @@ def test_every_command_has_a_manual_page(prefix):
     assert {page.name for page in pages.iterdir()} == {"gsv.1", *(f"gsv-{name}.1" for name in names)}
 
 
+def test_shells_find_the_completion(prefix):
+    for file in ("bash-completion/completions/gsv", "zsh/vendor-completions/_gsv",
+                 "fish/vendor_completions.d/gsv.fish"):
+        assert "resume" in (prefix / "share" / file).read_text(), file
+
+
 def test_the_documentation_site_is_installed_where_it_was_built(prefix):
     if not (BUILD / "share/gsv/docs/index.html").exists():
         pytest.skip("the site was not built: mkdocs or doxygen is not installed")

@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "apps/gsv/machine/running_instances.h"
 #include "apps/gsv/process/exit_code.h"
 #include "gsv/broker/client/broker_administration.h"
 #include "gsv/broker/client/offer_listing.h"
@@ -36,6 +37,19 @@ struct Actions {
   std::function<base::Status()> remove;
 };
 
+// Sets the broker of this user's newest instance, unless one was named.
+base::Status FindBroker(std::string& broker) {
+  if (!broker.empty()) return {};
+  const std::vector<Instance> instances = RunningInstances();
+  if (instances.empty()) {
+    return base::Fail(base::ErrorCode::kUnavailable,
+                      "no gsv of this user is running, so no broker is known; give its address "
+                      "with --broker");
+  }
+  broker = instances.front().broker;
+  return {};
+}
+
 template <typename Arguments>
 std::shared_ptr<Arguments> AddListing(const CommandLine& line, const char* name,
                                       const char* description, const char* one,
@@ -44,10 +58,11 @@ std::shared_ptr<Arguments> AddListing(const CommandLine& line, const char* name,
   command->group(kBrokerGroup);
   auto arguments = std::make_shared<Arguments>();
   command
-      ->add_option("--broker", arguments->broker, "broker, corbaloc::1.2@HOST:PORT/TradingService")
+      ->add_option("--broker", arguments->broker,
+                   "broker (default: that of your newest running gsv)\n"
+                   "The address has the form corbaloc::1.2@HOST:PORT/TradingService.")
       ->type_name("ADDRESS")
-      ->envname("GSV_BROKER")
-      ->required();
+      ->envname("GSV_BROKER");
   command->add_flag("--json", arguments->json, "print one JSON object per line");
   const std::string which(one);
   arguments->list = command->add_subcommand(
@@ -57,6 +72,10 @@ std::shared_ptr<Arguments> AddListing(const CommandLine& line, const char* name,
   for (CLI::App* sub : {arguments->list, arguments->add, arguments->remove}) sub->fallthrough();
   command->require_subcommand(0, 1);
   command->callback([arguments, line, actions_of] {
+    if (auto found = FindBroker(arguments->broker); !found) {
+      line.exit_code = Complain(found.error());
+      return;
+    }
     const Actions actions = actions_of(*arguments);
     const auto& action = arguments->add->parsed()      ? actions.add
                          : arguments->remove->parsed() ? actions.remove

@@ -31,6 +31,7 @@ void AddControlCommands(const CommandLine& line);  // ps, and those on a simulat
 void AddBenchCommands(const CommandLine& line);    // bench
 void AddTestCommand(const CommandLine& line);
 void AddListCommand(const CommandLine& line);
+void AddCompletionCommand(const CommandLine& line);
 void AddViewCommand(const CommandLine& line);
 void AddRos2Commands(const CommandLine& line);  // ros2 topics, nodes, echo, hz
 

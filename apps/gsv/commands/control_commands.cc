@@ -36,6 +36,17 @@ std::string Json(const FoundSimulation& simulation) {
                                    {"broker", server.broker},
                                    {"viewer_url", server.viewer_url}}}};
   json.update(nlohmann::ordered_json::parse(gateway::StatusJson(simulation.status)));
+  const auto healths = HealthOf(simulation);
+  for (auto& robot : json["robots"]) {
+    robot.erase("health");  // it was computed without the robot's motion
+    const auto found = healths.find(robot.value("name", ""));
+    if (found == healths.end()) continue;
+    const RemoteHealth& health = found->second;
+    robot["health"] = {{"state", health.state},
+                       {"level", health.level},
+                       {"since_s", base::ToSeconds(health.since)},
+                       {"sentence", health.sentence}};
+  }
   const auto hash = orb::Call(server.Describe(), [&] {
     return std::string(CORBA::String_var(simulation.reference->state_hash()));
   });
@@ -43,10 +54,14 @@ std::string Json(const FoundSimulation& simulation) {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-void PrintRobot(const simulation::RobotStatus& robot) {
+// Prints its health if the server reports it, else the detail of its state.
+void PrintRobot(const simulation::RobotStatus& robot,
+                const std::map<std::string, RemoteHealth>& healths) {
   const std::string behaviour = robot.behaviour.empty() ? "-" : robot.behaviour;
+  const auto health = healths.find(robot.name);
+  const std::string& text = health == healths.end() ? robot.detail : health->second.sentence;
   std::printf("  %-20s %-16s %s%s%s\n", robot.name.c_str(), behaviour.c_str(),
-              ToString(robot.phase), robot.detail.empty() ? "" : ": ", robot.detail.c_str());
+              ToString(robot.phase), text.empty() ? "" : ": ", text.c_str());
 }
 
 void Print(const FoundSimulation& simulation) {
@@ -58,7 +73,8 @@ void Print(const FoundSimulation& simulation) {
               status.name.c_str(), simulation.server.Describe().c_str(), ToString(status.phase),
               base::ToSeconds(status.time), ToString(status.mode), status.real_time_factor,
               target.c_str(), status.late_steps);
-  for (const auto& robot : status.robots) PrintRobot(robot);
+  const auto healths = HealthOf(simulation);
+  for (const auto& robot : status.robots) PrintRobot(robot, healths);
   if (!status.waiting_for.empty()) std::printf("  waiting for %s\n", status.waiting_for.c_str());
   if (!status.failure.empty()) std::printf("  failed: %s\n", status.failure.c_str());
 }
@@ -69,6 +85,7 @@ struct Arguments {
   std::uint64_t steps = 1;
   double factor = 1;
   std::map<std::string, std::string> texts;  // values of commands in the table, by parameter
+  std::string robot;                         // the robot whose output is printed; empty for all
 };
 
 // Lists the simulations of those servers of this user that were killed.
@@ -106,6 +123,30 @@ int List(const Arguments& arguments) {
   if (simulations->empty() && lost == 0 && !arguments.json)
     std::fprintf(stderr, "gsv: no simulation is running\n");
   return kOk;
+}
+
+// Prints the lines that behaviours' programs have printed.
+int PrintOutput(const Arguments& arguments) {
+  const auto simulation = FindOneSimulation(arguments.selection);
+  if (!simulation) return Complain(simulation.error());
+  const auto printed = orb::Call(simulation->server.Describe(), [&] {
+    sba::OutputLines_var lines = simulation->reference->output(arguments.robot.c_str());
+    for (CORBA::ULong i = 0; i < lines->length(); ++i) {
+      const sba::OutputLine& line = lines[i];
+      const double time = static_cast<double>(line.time_ns) * 1e-9;
+      if (arguments.json) {
+        const nlohmann::ordered_json json{{"time_s", time},
+                                          {"robot", std::string(line.robot)},
+                                          {"stream", std::string(line.stream)},
+                                          {"text", std::string(line.text)}};
+        std::puts(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+      } else {
+        std::printf("%9.3f s  %s: %s\n", time, std::string(line.robot).c_str(),
+                    std::string(line.text).c_str());
+      }
+    }
+  });
+  return printed ? kOk : Complain(printed.error());
 }
 
 using Call = std::function<void(sba::Simulation_ptr, const Arguments&)>;
@@ -231,6 +272,15 @@ void AddControlCommands(const CommandLine& line) {
   auto arguments = AddSelection(*list);
   list->add_option("simulation", arguments->selection.simulation, "only simulations of this name");
   list->callback([arguments, line] { line.exit_code = List(*arguments); });
+
+  CLI::App* output =
+      line.app.add_subcommand("output", "Print the last lines that behaviours have printed");
+  output->group(kControlGroup);
+  auto of_output = AddSelection(*output);
+  output->add_option("--robot", of_output->robot, "only the output of this robot's behaviour")
+      ->type_name("ROBOT");
+  AddSimulationName(*output, of_output->selection);
+  output->callback([of_output, line] { line.exit_code = PrintOutput(*of_output); });
 
   AddSteering(line, "pause", "Pause a running simulation",
               [](sba::Simulation_ptr simulation, const Arguments&) { simulation->pause(); });

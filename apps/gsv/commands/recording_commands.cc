@@ -14,11 +14,16 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/gsv/commands/commands.h"
+#include "apps/gsv/commands/recording_list_command.h"
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/running/browser.h"
+#include "apps/gsv/running/recording_difference.h"
 #include "apps/gsv/running/resimulation.h"
 #include "apps/gsv/running/video_export.h"
 #include "apps/gsv/serving/viewer_options.h"
+#include "gsv/base/spelling.h"
+#include "gsv/gateway/http/target.h"
 #include "gsv/recording/attachments/scene_attachments.h"
 #include "gsv/recording/reading/decoded_messages.h"
 #include "gsv/recording/reading/recording_info.h"
@@ -77,8 +82,12 @@ base::Status CheckSelection(const RecordingArguments& arguments,
                     [&](const auto& each) { return one.Has(each.second.topic); })) {
       continue;
     }
+    std::vector<std::string> known;
+    for (const auto& [id, channel] : channels) known.push_back(channel.topic);
     return base::Fail(base::ErrorCode::kNotFound,
-                      "the recording has no such topic; `gsv rec info` lists its topics", topic);
+                      "the recording has no such topic; `gsv rec info` lists its topics" +
+                          base::DidYouMean(topic, known),
+                      topic);
   }
   return {};
 }
@@ -207,24 +216,25 @@ int Diff(const RecordingArguments& arguments) {
   if (!first) return Refuse(first.error());
   const auto second = recording::McapReader::Open(arguments.other);
   if (!second) return Refuse(second.error());
-  const auto difference = recording::FirstDifference(**first, **second);
+  const auto difference = Compare(**first, **second);
   if (!difference) return Refuse(difference.error());
-  if (arguments.json) {
-    nlohmann::ordered_json json{{"equal", !difference->has_value()}};
-    if (*difference) json.update(ToJson(**difference));
-    std::puts(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-  } else {
-    std::puts(*difference ? (*difference)->Sentence().c_str() : "the recordings are equal");
-  }
-  return *difference ? kAssertionFailed : kOk;
+  const std::string text =
+      arguments.json
+          ? difference->Json().dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"
+          : difference->Text();
+  std::fputs(text.c_str(), stdout);
+  return difference->messages ? kAssertionFailed : kOk;
 }
 
 struct ReplayArguments {
   std::string file;
   ViewerOptions web;
   gateway::ReplayOptions options;
+  double at = -1;      // s; < 0: the start
+  std::string select;  // robot that the viewer selects
   bool headless = false;
   bool paused = false;
+  bool open = false;
   bool json = false;
   bool resimulate = false;
   std::string broker;     // for a repeated simulation
@@ -280,6 +290,14 @@ base::Result<std::unique_ptr<gateway::Gateway>> StartGateway(const ReplayArgumen
   });
 }
 
+// The part of the viewer's address that selects an instant and a robot.
+std::string AtInstant(const ReplayArguments& arguments) {
+  if (arguments.at < 0) return {};
+  char text[48];
+  std::snprintf(text, sizeof text, "#t=%g", arguments.at);
+  return text + (arguments.select.empty() ? "" : "&select=" + gateway::Escape(arguments.select));
+}
+
 int Replay(const ReplayArguments& arguments, Signals& signals) {
   if (arguments.json && !arguments.headless && !arguments.resimulate) {
     return Complain({base::ErrorCode::kInvalidArgument,
@@ -298,8 +316,11 @@ int Replay(const ReplayArguments& arguments, Signals& signals) {
   }
   auto gateway = StartGateway(arguments, **player);
   if (!gateway) return Complain(gateway.error());
-  std::printf("viewer: %s\n", (*gateway)->url().c_str());
+  if (arguments.at >= 0) (*player)->Seek(base::FromSeconds(arguments.at));
+  const std::string url = (*gateway)->url() + AtInstant(arguments);
+  std::printf("viewer: %s\n", url.c_str());
   std::fflush(stdout);
+  if (arguments.open) OpenBrowser(url);
   if (!arguments.paused) (void)(*player)->Start();  // the replay is paused at its start
   signals.Wait();
   return kOk;
@@ -317,6 +338,14 @@ void AddReplayCommand(const CommandLine& line) {
       ->type_name("F")
       ->check(CLI::Range(0.001, 1000.0))
       ->capture_default_str();
+  CLI::Option* at =
+      command->add_option("--at", arguments->at, "simulated time at which the replay begins")
+          ->type_name("SECONDS")
+          ->check(CLI::Range(0.0, 1e9));
+  command->add_option("--select", arguments->select, "robot that the viewer selects, with --at")
+      ->type_name("ROBOT")
+      ->needs(at);
+  command->add_flag("--open", arguments->open, "open the viewer in a browser");
   command->add_flag("--loop", arguments->options.loop, "start again at the end");
   command->add_flag("--paused", arguments->paused,
                     "wait at the beginning until a viewer starts the replay");
@@ -352,6 +381,8 @@ std::shared_ptr<RecordingArguments> AddArguments(CLI::App& command) {
 void AddRecordingCommands(const CommandLine& line) {
   CLI::App* rec = line.app.add_subcommand("rec", "Inspect, repair and convert recordings");
   rec->require_subcommand(1);
+
+  AddRecordingListCommand(line, *rec);
 
   CLI::App* info = rec->add_subcommand("info", "Print the contents of a recording");
   const auto info_arguments = AddArguments(*info);

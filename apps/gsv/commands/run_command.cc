@@ -1,8 +1,5 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 
 #include <CLI/CLI.hpp>
 
@@ -10,6 +7,7 @@
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/process/problem_report.h"
+#include "apps/gsv/running/browser.h"
 #include "apps/gsv/running/drive_options.h"
 #include "apps/gsv/running/edit_repetition.h"
 #include "apps/gsv/running/image_file.h"
@@ -19,6 +17,7 @@
 #include "apps/gsv/running/run_server.h"
 #include "apps/gsv/simulations/recordings.h"
 #include "apps/gsv/simulations/robot_drives.h"
+#include "gsv/base/log.h"
 #include "gsv/recording/mcap/mcap_reader.h"
 #include "gsv/recording/topics/topics.h"
 #include "gsv/verdict/judge.h"
@@ -36,14 +35,6 @@ bool PrintErrors(const base::Problems& problems) {
   const auto errors = GroupedSentences(problems, base::Problem::Severity::kError);
   for (const std::string& error : errors) std::fprintf(stderr, "gsv: error: %s\n", error.c_str());
   return !errors.empty();
-}
-
-void OpenBrowser(const std::string& url) {
-  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
-  if (fork() == 0) {
-    execlp("xdg-open", "xdg-open", url.c_str(), nullptr);
-    _exit(127);
-  }
 }
 
 // Whether the simulation was stopped permanently. A reset also stops it, on its way back to the
@@ -204,12 +195,15 @@ base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) 
   if (options.runtime.has_broker) {
     if (auto ok = (*runtime)->OfferService("gsv run"); !ok) return base::Fail(ok.error());
   }
-  if (options.runtime.has_broker && !is_quiet)
-    std::fprintf(notes, "broker: %s\n", (*runtime)->broker().reference().c_str());
   if (const std::string& url = (*runtime)->viewer_url(); !url.empty()) {
     std::fprintf(notes, "viewer: %s\n", url.c_str());
     if (options.open_browser) OpenBrowser(url);
   }
+  // With a viewer, only programs need the broker's address, and `gsv ps` finds it.
+  const bool shows_broker =
+      (*runtime)->viewer_url().empty() || spdlog::should_log(spdlog::level::debug);
+  if (options.runtime.has_broker && !is_quiet && shows_broker)
+    std::fprintf(notes, "broker: %s\n", (*runtime)->broker().reference().c_str());
   if (Ros2Access* const access = (*runtime)->ros2()) {
     access->Publish(*simulation);
     if (!is_quiet) std::fprintf(notes, "ros2: %s\n", access->Description().c_str());
@@ -229,7 +223,12 @@ base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) 
   if (!started || *started != kOk) return started;
   int exit_code = JudgeBehaviours(**simulation, Await(**runtime, **simulation, options, signals));
   std::vector<verdict::Finding> findings;
-  exit_code = JudgeExpectations(**judge, options, findings, exit_code);
+  if (is_quiet) {
+    (void)(*judge)->Finish();
+  } else {
+    exit_code = JudgeExpectations(**judge, options, findings, exit_code);
+  }
+  if (options.runtime.has_broker) (*runtime)->launcher().SettleOutput();
   if (auto ok = (*runtime)->recordings().StopAll(); !ok) exit_code = Complain(ok.error());
   if (is_quiet) return exit_code;
   if (!options.recording.topics.empty()) {

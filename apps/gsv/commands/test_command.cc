@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <thread>
 
@@ -10,6 +11,8 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/gsv/commands/commands.h"
+#include "apps/gsv/machine/child_process.h"
+#include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/simulations/robot_drives.h"
 #include "apps/gsv/trials/test_cases.h"
@@ -24,7 +27,7 @@ struct TestArguments {
   std::string junit, shard = "1/1", failures = "gsv-failures";
   TestOptions options;
   int jobs = 0;
-  bool json = false, no_record = false;
+  bool json = false, no_record = false, open = false;
 };
 
 // Runs all cases, a limited number at a time. Each has its own thread, which waits for a child
@@ -122,6 +125,33 @@ int JobsFor(const TestArguments& arguments, std::size_t cases) {
   return std::min(jobs, static_cast<int>(std::max<std::size_t>(cases, 1)));
 }
 
+// Replays the recording of the first failure, from its violation, until a signal comes.
+void OpenFirstFailure(const std::vector<TestResult>& results, Signals& signals) {
+  for (const TestResult& result : results) {
+    const auto file = std::filesystem::path(result.folder) / "run.mcap";
+    std::error_code ignored;
+    if (result.folder.empty() || !std::filesystem::exists(file, ignored)) continue;
+    std::vector<std::string> command{ProgramPath(), "replay",
+                                     "--paused",    "--open",
+                                     "--at",        fmt::format("{:g}", result.failed_at)};
+    if (!result.about.empty()) command.insert(command.end(), {"--select", result.about});
+    command.push_back(file);
+    const auto replay = ChildProcess::Start(std::move(command), false);
+    if (!replay) {
+      Complain(replay.error());
+      return;
+    }
+    const auto line = (*replay)->ReadLine(std::chrono::seconds(60));
+    if (!line) return;  // it has said why on stderr
+    std::fprintf(stderr, "%s (the first failure, %s; end with Ctrl-C)\n", line->c_str(),
+                 result.test.name.c_str());
+    while (signals.WaitFor(100) == 0 && (*replay)->Ending().empty()) {
+    }
+    return;
+  }
+  std::fprintf(stderr, "gsv: there is no recording of a failure to open\n");
+}
+
 int RunTests(const TestArguments& arguments, Signals& signals) {
   const auto start = std::chrono::steady_clock::now();
   base::Problems problems;
@@ -165,6 +195,7 @@ int RunTests(const TestArguments& arguments, Signals& signals) {
                 Count(results, TestResult::Status::kFailed), errors, errors == 1 ? "" : "s", wall);
   }
   if (session.is_cancelled()) return kInterrupted;
+  if (arguments.open) OpenFirstFailure(results, signals);
   if (passed == results.size()) return kOk;
   // Whether every case that did not pass had missing or invalid files.
   const bool is_bad_input = std::all_of(results.begin(), results.end(), [](const auto& result) {
@@ -223,6 +254,18 @@ void AddTestCommand(const CommandLine& line) {
       ->check(CLI::Range(0.0, 1e9))
       ->capture_default_str()
       ->type_name("SECONDS")
+      ->group(kResultGroup);
+  command
+      ->add_option("--keep-after", arguments->options.kept_after,
+                   "simulated time to keep after a failure")
+      ->check(CLI::Range(0.0, 1e9))
+      ->capture_default_str()
+      ->type_name("SECONDS")
+      ->group(kResultGroup);
+  command
+      ->add_flag("--open", arguments->open,
+                 "replay the first failure, from its violation, in a browser\n"
+                 "The replay ends with Ctrl-C.")
       ->group(kResultGroup);
   command
       ->add_flag("--no-record", arguments->no_record,

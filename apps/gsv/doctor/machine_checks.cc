@@ -14,6 +14,8 @@
 #include <filesystem>
 #include <sstream>
 
+#include "apps/gsv/machine/child_process.h"
+#include "apps/gsv/machine/installation.h"
 #include "apps/gsv/machine/running_instances.h"
 #include "gsv/base/user_folder.h"
 #include "gsv/broker/client/broker_client.h"
@@ -83,13 +85,53 @@ void CheckLibrary(const char* name, const char* what, const char* package) {
   }
 }
 
-bool IsOnPath(const char* program) {
+// Its path; empty: it is not on PATH.
+std::string FindOnPath(const char* program) {
   const char* const path = std::getenv("PATH");
   std::istringstream folders(path != nullptr ? path : "");
   for (std::string folder; std::getline(folders, folder, ':');) {
-    if (access((std::filesystem::path(folder) / program).c_str(), X_OK) == 0) return true;
+    const auto file = std::filesystem::path(folder) / program;
+    if (access(file.c_str(), X_OK) == 0) return file;
   }
-  return false;
+  return {};
+}
+
+// The folder of the Python module that belongs to this program; empty: none.
+std::string OwnPythonFolder() {
+  const auto root = ProgramFolder().parent_path();
+  for (const char* folder : {"lib/python3/dist-packages", "python", "sdk/python"}) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(root / folder / "gsv", ignored)) return root / folder;
+  }
+  return {};
+}
+
+// Behaviours in Python need the module gsv. Nothing else does, so that this never fails.
+void CheckPython() {
+  const std::string python = FindOnPath("python3");
+  if (python.empty()) {
+    std::printf("python: not installed; behaviours in Python need it: apt-get install python3\n");
+    return;
+  }
+  const auto child =
+      ChildProcess::Start({python, "-c",
+                           "import platform; print(platform.python_version(), flush=True)\n"
+                           "import gsv; print(gsv.__file__)"},
+                          true);
+  const auto version =
+      child ? (*child)->ReadLine(std::chrono::seconds(20)) : std::optional<std::string>();
+  if (!version) {
+    std::printf("python: %s does not run\n", python.c_str());
+    return;
+  }
+  if (const auto module = (*child)->ReadLine(std::chrono::seconds(20))) {
+    std::printf("python: ok, %s with the module %s\n", version->c_str(), module->c_str());
+    return;
+  }
+  const std::string own = OwnPythonFolder();
+  std::printf("python: %s, without the module gsv, which behaviours in Python need; %s%s\n",
+              version->c_str(),
+              own.empty() ? "install the package python3-gsv" : "use PYTHONPATH=", own.c_str());
 }
 
 bool CheckRoom() {
@@ -122,9 +164,10 @@ bool CheckMachine() {
   CheckLibrary("libEGL.so.1", "EGL", "libegl1 libgl1-mesa-dri");
   std::printf(
       "video: %s\n",
-      IsOnPath("ffmpeg")
+      !FindOnPath("ffmpeg").empty()
           ? "ok, ffmpeg is installed"
           : "ffmpeg is not installed; `gsv rec export --video` needs it: apt-get install ffmpeg");
+  CheckPython();
   const bool folder = CheckUserFolder();
   const bool room = CheckRoom();
   return descriptors && folder && room;

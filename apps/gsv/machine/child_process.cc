@@ -16,63 +16,105 @@ namespace {
 
 constexpr std::size_t kMaxLine = 64 * 1024;
 
-// Runs in the child and never returns. Another thread may have held malloc's locks during the fork,
-// so this does not allocate. `arguments` ends with null. `input` is -1 for none.
-[[noreturn]] void Execute(char* const* arguments, int input, int output, bool quiet, pid_t parent) {
+struct Ends {
+  int input = -1, output = -1, errors = -1;  // of the child; -1: none, or the parent's
+};
+
+// Runs in the child and never returns. Another thread may have held malloc's locks during the fork, so this
+// does not allocate. `arguments` and `environment` end with null.
+[[noreturn]] void Execute(char* const* arguments, char* const* environment, const Ends& ends,
+                          bool quiet, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(0);  // the parent ended before the call of prctl()
   const int nothing = open("/dev/null", O_RDWR);
-  dup2(input >= 0 ? input : nothing, STDIN_FILENO);
-  dup2(output, STDOUT_FILENO);
+  dup2(ends.input >= 0 ? ends.input : nothing, STDIN_FILENO);
+  dup2(ends.output, STDOUT_FILENO);
   if (quiet) dup2(nothing, STDERR_FILENO);
+  if (ends.errors >= 0) dup2(ends.errors, STDERR_FILENO);
   // In a process group of its own, the child does not get Ctrl-C of the terminal. The parent gets
   // it and ends its children in order.
   setpgid(0, 0);
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  execv(arguments[0], arguments);
+  execve(arguments[0], arguments, environment);
   _exit(127);
 }
+
+// Pointers to the words, and null.
+std::vector<char*> PointersTo(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+// A pipe whose ends close themselves unless they are taken.
+class Pipe {
+ public:
+  Pipe() = default;
+  ~Pipe() {
+    for (const int end : ends_) {
+      if (end >= 0) close(end);
+    }
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  bool Open() { return pipe2(ends_, O_CLOEXEC) == 0; }
+  int read_end() const { return ends_[0]; }
+  int write_end() const { return ends_[1]; }
+  int TakeReadEnd() { return std::exchange(ends_[0], -1); }
+  int TakeWriteEnd() { return std::exchange(ends_[1], -1); }
+
+ private:
+  int ends_[2] = {-1, -1};
+};
 
 }  // namespace
 
 base::Result<std::unique_ptr<ChildProcess>> ChildProcess::Start(std::vector<std::string> arguments,
                                                                 bool quiet, Input input) {
+  return Start(std::move(arguments), {quiet, input, false, {}});
+}
+
+base::Result<std::unique_ptr<ChildProcess>> ChildProcess::StartCaptured(
+    std::vector<std::string> arguments, std::vector<std::string> environment) {
+  return Start(std::move(arguments), {false, Input::kEmpty, true, std::move(environment)});
+}
+
+base::Result<std::unique_ptr<ChildProcess>> ChildProcess::Start(std::vector<std::string> arguments,
+                                                                Streams streams) {
   const auto fail = [&](int error) {
     return base::Fail(base::ErrorCode::kUnavailable,
                       std::string("cannot be started: ") + std::strerror(error), arguments.front());
   };
-  int output_ends[2], input_ends[2] = {-1, -1};
-  if (access(arguments.front().c_str(), X_OK) != 0 || pipe2(output_ends, O_CLOEXEC) != 0)
-    return fail(errno);
-  if (input == Input::kOpen && pipe2(input_ends, O_CLOEXEC) != 0) {
-    const int error = errno;
-    for (const int end : output_ends) close(end);
-    return fail(error);
-  }
-  std::vector<char*> argv;
-  argv.reserve(arguments.size() + 1);
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  argv.push_back(nullptr);
+  Pipe output, input, errors;
+  if (access(arguments.front().c_str(), X_OK) != 0 || !output.Open()) return fail(errno);
+  if (streams.input == Input::kOpen && !input.Open()) return fail(errno);
+  if (streams.captures_errors && !errors.Open()) return fail(errno);
+  std::vector<char*> argv = PointersTo(arguments);
+  std::vector<char*> environment = PointersTo(streams.environment);
+  environment.pop_back();
+  for (char** variable = environ; *variable != nullptr; ++variable)
+    environment.push_back(*variable);
+  environment.push_back(nullptr);
   const pid_t parent = getpid();
   const pid_t pid = fork();
-  if (pid == 0) Execute(argv.data(), input_ends[0], output_ends[1], quiet, parent);
-  const int fork_error = errno;
-  close(output_ends[1]);
-  if (input_ends[0] >= 0) close(input_ends[0]);
-  if (pid < 0) {
-    close(output_ends[0]);
-    if (input_ends[1] >= 0) close(input_ends[1]);
-    return fail(fork_error);
+  if (pid == 0) {
+    Execute(argv.data(), environment.data(),
+            {input.read_end(), output.write_end(), errors.write_end()}, streams.quiet, parent);
   }
-  return std::unique_ptr<ChildProcess>(new ChildProcess(pid, input_ends[1], output_ends[0]));
+  if (pid < 0) return fail(errno);
+  return std::unique_ptr<ChildProcess>(
+      new ChildProcess(pid, input.TakeWriteEnd(), output.TakeReadEnd(), errors.TakeReadEnd()));
 }
 
-ChildProcess::ChildProcess(pid_t pid, int input, int output)
+ChildProcess::ChildProcess(pid_t pid, int input, int output, int errors)
     : pid_(pid),
       input_(input),
       output_(output),
+      errors_(errors),
       pid_descriptor_(static_cast<int>(syscall(SYS_pidfd_open, pid, 0))) {}
 
 ChildProcess::~ChildProcess() {
@@ -85,6 +127,7 @@ ChildProcess::~ChildProcess() {
   }
   if (input_ >= 0) close(input_);
   close(output_);
+  if (errors_ >= 0) close(errors_);
   close(pid_descriptor_);
 }
 

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "gsv/base/error.h"
@@ -26,12 +27,22 @@ class ChildProcess {
   // process's stderr, or none if `quiet` is true.
   static base::Result<std::unique_ptr<ChildProcess>> Start(std::vector<std::string> arguments,
                                                            bool quiet, Input input = Input::kEmpty);
+  // The same, with its stderr in a pipe. `environment` has further variables, as NAME=VALUE.
+  static base::Result<std::unique_ptr<ChildProcess>> StartCaptured(
+      std::vector<std::string> arguments, std::vector<std::string> environment);
   // Sends SIGTERM, and SIGKILL if the child still runs two seconds later.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   pid_t pid() const { return pid_; }
+  // Descriptors for OutputReader, valid during the lifetime of this object. Errors: -1 unless it is
+  // captured.
+  int output() const { return output_; }
+  int errors() const { return errors_; }
+  int pid_descriptor() const { return pid_descriptor_; }
+  // Returns and clears the output that ReadLine() has read beyond its lines.
+  std::string TakeBuffer() { return std::exchange(buffer_, {}); }
   // Writes to the child's stdin, which must be kOpen. Returns kUnavailable if the child has ended
   // or closed its stdin.
   base::Status Write(std::string_view text);
@@ -45,11 +56,20 @@ class ChildProcess {
   void Signal(int signal);
 
  private:
-  ChildProcess(pid_t pid, int input, int output);
+  struct Streams {
+    bool quiet = false;
+    Input input = Input::kEmpty;
+    bool captures_errors = false;
+    std::vector<std::string> environment;
+  };
+  static base::Result<std::unique_ptr<ChildProcess>> Start(std::vector<std::string> arguments,
+                                                           Streams streams);
+  ChildProcess(pid_t pid, int input, int output, int errors);
 
   const pid_t pid_;
   const int input_;  // -1 if there is none
   const int output_;
+  const int errors_;         // -1 if there is none
   int pid_descriptor_ = -1;  // becomes readable when the child ends
   std::string buffer_;
   std::optional<int> status_;  // the status from waitpid()

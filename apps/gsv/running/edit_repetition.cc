@@ -187,6 +187,7 @@ base::Result<RecordedDoings> ReadDoings(const recording::McapReader& reader,
       if (!message) return base::Fail(message.error());
       doings.was_held_up = doings.was_held_up || IsHoldingUp(message->event);
       has_finished = has_finished || message->event == "finished";
+      doings.has_verdicts = doings.has_verdicts || message->event.starts_with("expectation_");
       if (IsEdit(message->event)) told.push_back(*std::move(message));
     }
   }

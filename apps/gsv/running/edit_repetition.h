@@ -13,7 +13,8 @@ namespace gsv::app {
 // The actions of users in a recording.
 struct RecordedDoings {
   std::vector<simulation::Edit> edits;  // in the order in which they were made
-  bool was_held_up = false;  // whether the run was paused, resumed, ended early, or slowed
+  bool was_held_up = false;   // whether the run was paused, resumed, ended early, or slowed
+  bool has_verdicts = false;  // whether there are events about expectations
 };
 
 // Reads the actions. Fails, with the name of `file`, if the edits cannot be repeated: the actions

@@ -281,7 +281,9 @@ base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signal
   auto run = OptionsOf(*call, options.file);
   if (!run) return base::Fail(run.error());
   run->runtime.broker = options.broker;
-  run->scenario.expect.clear();  // the expectations were evaluated during the recorded run
+  // The expectations were evaluated during the recorded run. If their verdicts are among its events,
+  // they must be evaluated again.
+  if (!doings->has_verdicts) run->scenario.expect.clear();
   run->record = (folder->path() / "again.mcap").string();
   const bool had_people = doings->was_held_up || !doings->edits.empty();
   const auto end = EndOf(*info, **recorded, !options.commands && !had_people);

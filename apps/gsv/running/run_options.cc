@@ -1,6 +1,9 @@
 #include "apps/gsv/running/run_options.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -9,6 +12,7 @@
 #include "apps/gsv/serving/limit_option.h"
 #include "apps/gsv/simulations/robot_drives.h"
 #include "apps/gsv/simulations/sensor_types.h"
+#include "gsv/base/spelling.h"
 #include "gsv/scenario/scenario_file.h"
 
 namespace gsv::app {
@@ -24,6 +28,13 @@ void AddWorldOptions(CLI::App& command, RunArguments& a) {
       "override what a scenario file says.");
   command.add_option("--robot", a.robots, "add a robot at a pose (m, rad; yaw also as 90deg)")
       ->type_name("MODEL[@X,Y[,YAW]]")
+      ->group(kGroup);
+  command
+      .add_option("--place", a.place,
+                  "put N robots of the --robot without a pose on a grid, or at random\n"
+                  "The grid has cells of 1 m. Random places follow --seed. The model is pebble if "
+                  "there is no --robot.")
+      ->type_name("grid:N|random:N")
       ->group(kGroup);
   command.add_option("--avatar", a.avatars, "add an avatar that people steer from the viewer")
       ->type_name("MODEL[@X,Y[,YAW]]")
@@ -85,6 +96,13 @@ void AddBehaviourOptions(CLI::App& command, RunArguments& a) {
       ->check(CLI::IsMember({"go_on", "fail"}))
       ->default_str("go_on")
       ->type_name("go_on|fail")
+      ->group(kGroup);
+  command
+      .add_option("--stuck-after", a.stuck_after,
+                  "simulated time after which a robot is stuck that does not move as commanded")
+      ->default_str("5")
+      ->check(CLI::Range(0.1, 1e9))
+      ->type_name("SECONDS")
       ->group(kGroup);
   command.add_option("--deadline", a.deadline, "wall-clock time between two waits of a behaviour")
       ->default_str("10")
@@ -236,6 +254,45 @@ base::Status UnderstandTopics(const std::vector<std::string>& topics) {
   return {};
 }
 
+constexpr int kMaxPlaced = 2000;
+
+// "grid:50", "random:50": makes that many robots of the one that was given without a pose.
+base::Status UnderstandPlace(const std::string& text, std::vector<scenario::RobotEntry>& robots,
+                             RunOptions& options) {
+  if (text.empty()) return {};
+  const auto fail = [&](std::string message) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, std::move(message), "--place " + text);
+  };
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const std::string kind = text.substr(0, colon);
+  int count = 0;
+  const char* const begin = text.data() + std::min(colon + 1, text.size());
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(begin, end, count);
+  if (kind != "grid" && kind != "random") {
+    return fail("expected grid:N or random:N" + base::DidYouMean(kind, {"grid", "random"}));
+  }
+  if (error != std::errc() || rest != end || count < 1 || count > kMaxPlaced) {
+    return fail("expected a number of robots from 1 to " + std::to_string(kMaxPlaced) + " after " +
+                kind + ":");
+  }
+  std::vector<std::size_t> without_place;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    if (!robots[i].start) without_place.push_back(i);
+  }
+  if (without_place.size() > 1)
+    return fail("needs one --robot MODEL without a pose, found several");
+  scenario::RobotEntry robot{.model = "pebble"};
+  if (!without_place.empty()) {
+    robot = robots[without_place[0]];
+    robots.erase(robots.begin() + static_cast<std::ptrdiff_t>(without_place[0]));
+  }
+  robots.insert(robots.end(), static_cast<std::size_t>(count), robot);
+  options.placing = {kind == "grid" ? Placing::Kind::kGrid : Placing::Kind::kRandom, count,
+                     options.scenario.seed.value_or(0)};
+  return {};
+}
+
 base::Status UnderstandRobots(const std::vector<std::string>& texts,
                               std::vector<scenario::RobotEntry>& robots) {
   for (const std::string& text : texts) {
@@ -254,7 +311,7 @@ base::Result<scenario::Scenario> ScenarioToStartFrom(const RunArguments& a,
     auto read = scenario::ReadScenario(a.world, problems);
     if (!read) return read;
     scenario = *std::move(read);
-  } else if (a.world.empty() && a.robots.empty()) {
+  } else if (a.world.empty() && a.robots.empty() && a.place.empty()) {
     return scenario::DefaultScenario();
   } else {
     scenario.world = a.world;
@@ -276,6 +333,7 @@ void Override(scenario::Scenario& scenario, const RunArguments& a) {
   Override(scenario.step, a.step);
   Override(scenario.duration, a.duration);
   Override(scenario.deadline, a.deadline);
+  Override(scenario.stuck_after, a.stuck_after);
   if (a.lockstep) scenario.lockstep = true;
   if (a.real_time) scenario.lockstep = false;
   if (a.in_process) scenario.in_process = true;
@@ -317,6 +375,7 @@ base::Status UnderstandTimes(const scenario::Scenario& scenario,
   }
   specification.duration = *duration;
   specification.step = *step;
+  if (scenario.stuck_after) specification.stuck_after = base::FromSeconds(*scenario.stuck_after);
   specification.deadline = std::chrono::duration_cast<std::chrono::milliseconds>(*deadline);
   return {};
 }
@@ -371,8 +430,10 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
   for (base::Problem& problem : CheckOptions(a, options.scenario)) {
     options.problems.push_back(std::move(problem));
   }
-  if (auto ok = UnderstandRobots(a.robots, options.scenario.robots); !ok)
-    return base::Fail(ok.error());
+  std::vector<scenario::RobotEntry> robots;
+  if (auto ok = UnderstandRobots(a.robots, robots); !ok) return base::Fail(ok.error());
+  if (auto ok = UnderstandPlace(a.place, robots, options); !ok) return base::Fail(ok.error());
+  std::move(robots.begin(), robots.end(), std::back_inserter(options.scenario.robots));
   if (auto ok = UnderstandRobots(a.avatars, options.scenario.avatars); !ok)
     return base::Fail(ok.error());
   for (const std::string& text : a.pedestrians) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/gsv/serving/runtime.h"
+#include "apps/gsv/simulations/population.h"
 #include "apps/gsv/simulations/recordings.h"
 #include "gsv/scenario/scenario.h"
 #include "gsv/simulation/behaviour_port.h"
@@ -35,6 +36,7 @@ struct RunOptions {
   std::map<std::string, model::Movement> movement_of;  // movements by robot
   std::map<std::string, std::string> drive_of;         // drives by robot, see model/drive_choice.h
   bool in_process = false;  // whether behaviours are plug-ins, and not programs
+  Placing placing;          // of robots without a place
   // If set, it makes the behaviour of a robot that is added at that time. The named behaviour is
   // not used.
   std::function<std::shared_ptr<simulation::BehaviourPort>(
@@ -54,7 +56,7 @@ struct RunOptions {
 
 // The options as on the command line, before they are parsed.
 struct RunArguments {
-  std::string world;
+  std::string world, place;
   std::vector<std::string> robots, avatars, pedestrians, behaviours, movements, drives, model_path,
       sensor_plugins;
   formats::ReadLimits limits;
@@ -62,7 +64,7 @@ struct RunArguments {
   std::string broker, name, mode_on_failure, record, record_images, failure_image;
   std::vector<std::string> record_topics, record_rates;
   // Options that may also be in a scenario file are empty if the user did not give them.
-  std::optional<double> duration, step, factor, deadline;
+  std::optional<double> duration, step, factor, deadline, stuck_after;
   std::optional<std::uint64_t> seed;
   double wall_timeout = 0;
   int threads = 0;

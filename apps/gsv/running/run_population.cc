@@ -218,7 +218,7 @@ base::Result<scenario::Scenario> PopulateRun(Runtime& runtime, Simulation& simul
   scenario::Scenario scenario = options.scenario;
   if (auto ok = OverrideMovements(options, simulation, library, problems, scenario); !ok)
     return base::Fail(ok.error());
-  auto population = Populate(simulation, library, scenario, problems);
+  auto population = Populate(simulation, library, scenario, problems, options.placing);
   if (!population) return base::Fail(population.error().error);
   for (base::Problem& problem :
        CheckStarts(simulation.snapshot(), StartsOf(*population, options.scenario))) {

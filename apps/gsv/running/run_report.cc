@@ -1,8 +1,11 @@
 #include "apps/gsv/running/run_report.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
+
+#include "gsv/health/health_book.h"
 
 namespace gsv::app {
 namespace {
@@ -16,7 +19,32 @@ const char* BehaviourText(const simulation::RobotStatus& robot) {
   return robot.is_station ? "(station)" : "-";
 }
 
-ordered_json RobotJson(const simulation::RobotStatus& robot) {
+// "1 collision", "2 collisions"
+std::string Counted(std::uint64_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+const char* OutcomeText(simulation::Phase phase) {
+  using simulation::Phase;
+  switch (phase) {
+    case Phase::kFinished:
+      return "Finished";
+    case Phase::kFailed:
+      return "Failed";
+    case Phase::kStopped:
+      return "Stopped";
+    default:
+      return ToString(phase);
+  }
+}
+
+const health::RobotHealth* HealthIn(const health::Report& report, const std::string& robot) {
+  const auto found = std::find_if(report.robots.begin(), report.robots.end(),
+                                  [&](const auto& each) { return each.robot == robot; });
+  return found == report.robots.end() ? nullptr : &*found;
+}
+
+ordered_json RobotJson(const simulation::RobotStatus& robot, const health::Report& report) {
   const geometry::Pose& pose = robot.world_from_robot;
   ordered_json readings = ordered_json::object();
   for (const auto& [type, count] : robot.readings) readings[type] = count;
@@ -33,6 +61,12 @@ ordered_json RobotJson(const simulation::RobotStatus& robot) {
                     {"collisions", robot.collisions},
                     {"readings", std::move(readings)}};
   if (robot.is_station) json["is_station"] = true;
+  if (const health::RobotHealth* health = HealthIn(report, robot.name)) {
+    json["health"] = {{"state", health::ToString(health->state)},
+                      {"level", static_cast<int>(health->level)},
+                      {"since_s", Seconds(health->since)},
+                      {"sentence", health::FinalSentence(*health)}};
+  }
   return json;
 }
 
@@ -57,12 +91,12 @@ ordered_json FindingJson(const verdict::Finding& finding) {
 
 }  // namespace
 
-std::string JsonReport(const simulation::Simulation& simulation,
-                       const std::vector<std::string>& warnings,
+std::string JsonReport(simulation::Simulation& simulation, const std::vector<std::string>& warnings,
                        const std::vector<verdict::Finding>& findings) {
   const simulation::SimulationStatus status = simulation.status();
   ordered_json robots = ordered_json::array();
-  for (const auto& robot : status.robots) robots.push_back(RobotJson(robot));
+  const health::Report health = health::HealthNow(simulation);
+  for (const auto& robot : status.robots) robots.push_back(RobotJson(robot, health));
   ordered_json expectations = ordered_json::array();
   for (const auto& finding : findings) expectations.push_back(FindingJson(finding));
   const ordered_json report = {{"sim_time_s", Seconds(status.time)},
@@ -80,21 +114,25 @@ std::string JsonReport(const simulation::Simulation& simulation,
   return report.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-std::string TextReport(const simulation::Simulation& simulation,
+std::string TextReport(simulation::Simulation& simulation,
                        const std::vector<verdict::Finding>& findings) {
   const simulation::SimulationStatus status = simulation.status();
   char line[512];
   std::snprintf(line, sizeof line,
                 "%s after %.2f s simulated in %.2f s (%.2f x real time), %lld steps, %llu late\n",
-                ToString(status.phase), Seconds(status.time), Seconds(status.wall_time),
+                OutcomeText(status.phase), Seconds(status.time), Seconds(status.wall_time),
                 status.real_time_factor, static_cast<long long>(status.step),
                 static_cast<unsigned long long>(status.late_steps));
   std::string text = line;
+  const health::Report report = health::HealthNow(simulation);
+  if (report.robots.size() > 1) text += "  " + health::Summary(report) + "\n";
   for (const auto& robot : status.robots) {
-    std::snprintf(line, sizeof line, "  %-20.64s %-14.64s %-12s %7.2f m  %llu collisions\n",
-                  robot.name.c_str(), BehaviourText(robot), ToString(robot.phase), robot.distance,
-                  static_cast<unsigned long long>(robot.collisions));
-    text += line;
+    std::snprintf(line, sizeof line, "  %-20.64s %-14.64s %-12s %7.2f m  ", robot.name.c_str(),
+                  BehaviourText(robot), ToString(robot.phase), robot.distance);
+    text += line + Counted(robot.collisions, "collision");
+    const health::RobotHealth* health = HealthIn(report, robot.name);
+    const std::string sentence = health == nullptr ? "" : health::FinalSentence(*health);
+    text += (sentence.empty() ? "" : "; " + sentence) + "\n";
   }
   for (const verdict::Finding& finding : findings) {
     text += (finding.holds ? "  ok    " : "  FAIL  ") + finding.name +

@@ -49,6 +49,13 @@ FoundProgram FindProgram(const std::string& name) {
   return found;
 }
 
+// Tells sdk/serve.cc that stdout is read as well, and has both streams arrive line by line.
+std::vector<std::string> CapturedEnvironment() {
+  std::vector<std::string> variables{"GSV_OUTPUT_CAPTURED=1"};
+  if (std::getenv("PYTHONUNBUFFERED") == nullptr) variables.emplace_back("PYTHONUNBUFFERED=1");
+  return variables;
+}
+
 base::Error NoProgram(const std::string& behaviour, const std::string& name,
                       const FoundProgram& found, const std::string& broker) {
   const std::string program =
@@ -79,6 +86,7 @@ std::vector<std::string> BehaviourPrograms() {
 }
 
 BehaviourLauncher::~BehaviourLauncher() {
+  output_.ExpectEnds();
   const auto give_up = std::chrono::steady_clock::now() + end_timeout_;
   for (const auto& child : children_) child->Signal(SIGTERM);
   for (const auto& child : children_) {
@@ -108,18 +116,26 @@ base::Status BehaviourLauncher::Ensure(const std::string& behaviour, int program
   command.insert(command.end(), words.begin() + 1, words.end());
   std::vector<ChildProcess*> started;
   for (int i = 0; i < std::min(programs, kMaxPrograms); ++i) {
-    auto child = ChildProcess::Start(command, false);
+    auto child = ChildProcess::StartCaptured(command, CapturedEnvironment());
     if (!child) return base::Fail(child.error());
+    output_.Begin(**child, behaviour);
     started.push_back(child->get());
     children_.push_back(*std::move(child));
   }
   for (ChildProcess* child : started) {
-    if (child->ReadLine(kStartTimeout)) continue;
+    if (child->ReadLine(kStartTimeout)) {
+      output_.BeginOutput(*child);
+      continue;
+    }
     const std::string ending = child->Ending();
-    return base::Fail(
-        base::ErrorCode::kBehaviour,
-        ending.empty() ? "did not offer its behaviour in time" : "ended at once with " + ending,
-        program);
+    if (ending.empty()) {
+      return base::Fail(base::ErrorCode::kBehaviour, "did not offer its behaviour in time",
+                        program);
+    }
+    const std::string error = output_.LastErrorOf(*child);
+    return base::Fail(base::ErrorCode::kBehaviour,
+                      "ended at once with " + ending + (error.empty() ? "" : ": " + error),
+                      program);
   }
   return {};
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/gsv/machine/child_process.h"
+#include "apps/gsv/serving/behaviour_output.h"
 #include "gsv/broker/client/broker_client.h"
 
 namespace gsv::app {
@@ -18,8 +19,9 @@ std::vector<std::string> BehaviourPrograms();
 
 class BehaviourLauncher {
  public:
-  // `broker` must outlive this object.
-  explicit BehaviourLauncher(broker::BrokerClient& broker) : broker_(broker) {}
+  // `broker` must outlive this object. `list`: see BehaviourOutput.
+  BehaviourLauncher(broker::BrokerClient& broker, BehaviourOutput::ListSimulations list)
+      : broker_(broker), output_(std::move(list)) {}
   // Ends the programs. Sends SIGTERM to all at once, and SIGKILL to those that still run after the
   // time limit.
   ~BehaviourLauncher();
@@ -29,6 +31,9 @@ class BehaviourLauncher {
   // Sets the wall-clock time limit for all programs together to end (default: 2 s).
   void SetEndTimeout(std::chrono::milliseconds timeout) { end_timeout_ = timeout; }
 
+  // See BehaviourOutput::Settle().
+  void SettleOutput() { output_.Settle(); }
+
   // Makes sure that the behaviour is offered. If it is not, starts `programs` processes of
   // gsv-NAME, which is beside this program or on PATH, and waits until they offer it. `behaviour`
   // is a name and, after spaces, options for the program. The whole text is the name of the offer.
@@ -37,6 +42,7 @@ class BehaviourLauncher {
  private:
   broker::BrokerClient& broker_;
   std::vector<std::unique_ptr<ChildProcess>> children_;
+  BehaviourOutput output_;  // of children_
   std::chrono::milliseconds end_timeout_{2000};
 };
 

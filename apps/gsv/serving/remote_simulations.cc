@@ -235,4 +235,19 @@ base::Result<simulation::SimulationStatus> StatusOf(const FoundSimulation& simul
   });
 }
 
+std::map<std::string, RemoteHealth> HealthOf(const FoundSimulation& simulation) {
+  std::map<std::string, RemoteHealth> robots;
+  // Servers of earlier releases do not know the operation.
+  (void)orb::Call(simulation.server.Describe(), [&] {
+    sba::RobotHealths_var list = simulation.reference->health();
+    for (CORBA::ULong i = 0; i < list->length(); ++i) {
+      const sba::RobotHealth& each = list[i];
+      robots[std::string(each.name)] = {std::string(each.state), std::string(each.sentence),
+                                        each.level,
+                                        base::SimTime(static_cast<std::int64_t>(each.since_ns))};
+    }
+  });
+  return robots;
+}
+
 }  // namespace gsv::app

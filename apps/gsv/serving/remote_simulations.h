@@ -4,6 +4,7 @@
 // Threads  one at a time. The functions start this process's ORB.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -61,5 +62,13 @@ base::Result<std::vector<RemoteInstance>> ListInstances(CORBA::ORB_ptr orb,
                                                         const std::string& broker);
 
 base::Result<simulation::SimulationStatus> StatusOf(const FoundSimulation& simulation);
+
+struct RemoteHealth {
+  std::string state, sentence;
+  int level = 0;
+  base::SimTime since{0};
+};
+// The health of its robots by name; empty if the server does not report it.
+std::map<std::string, RemoteHealth> HealthOf(const FoundSimulation& simulation);
 
 }  // namespace gsv::app

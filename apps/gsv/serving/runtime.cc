@@ -85,7 +85,8 @@ base::Result<std::unique_ptr<Runtime>> Runtime::Start(const RuntimeOptions& opti
   if (!options.has_broker) return runtime;
   const PortableServer::POA_var poa = orb::RootPoa(runtime->orb_);
   runtime->behaviours_ = std::make_unique<services::BrokerBehaviours>(*runtime->broker_, poa);
-  runtime->launcher_ = std::make_unique<BehaviourLauncher>(*runtime->broker_);
+  runtime->launcher_ = std::make_unique<BehaviourLauncher>(
+      *runtime->broker_, [host = runtime->host_] { return host->List(); });
   runtime->builder_ = std::make_unique<SimulationBuilder>(
       *runtime->host_, *runtime->behaviours_, *runtime->broker_, *runtime->recordings_,
       options.model_path, options.server_limits.reading);

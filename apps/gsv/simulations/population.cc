@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "gsv/base/random.h"
+
 namespace gsv::app {
 namespace {
 
@@ -26,6 +28,40 @@ scenario::Place SpiralPlace(int n) {
   const double turns = std::sqrt(static_cast<double>(n));
   const double angle = turns * std::numbers::pi * 2 / 1.8;
   return {0.7 * turns * std::cos(angle), 0.7 * turns * std::sin(angle), {}, angle};
+}
+
+// The nth cell of a grid of 1 m: ring by ring about the origin.
+scenario::Place GridPlace(int n) {
+  if (n == 0) return {0, 0, {}, 0};
+  const int ring = static_cast<int>(std::ceil((std::sqrt(n + 1.0) - 1) / 2));
+  const int side = 2 * ring;
+  const int at = n - (side - 1) * (side - 1);  // in the ring, counted from its first corner
+  const int along = at % side - ring;
+  switch (at / side) {
+    case 0:
+      return {static_cast<double>(ring), static_cast<double>(along), {}, 0};
+    case 1:
+      return {static_cast<double>(-along), static_cast<double>(ring), {}, 0};
+    case 2:
+      return {static_cast<double>(-ring), static_cast<double>(-along), {}, 0};
+    default:
+      return {static_cast<double>(along), static_cast<double>(-ring), {}, 0};
+  }
+}
+
+// A place in a disc with about 5 m² for each robot.
+scenario::Place RandomPlace(int n, const Placing& placing) {
+  base::Noise noise(placing.seed, base::StableId("places"), n);
+  const double radius = std::sqrt(5.0 * std::max(placing.count, 1) / std::numbers::pi);
+  const double distance = radius * std::sqrt(noise.Uniform());
+  const double angle = 2 * std::numbers::pi * noise.Uniform();
+  const double yaw = std::numbers::pi * (2 * noise.Uniform() - 1);
+  return {distance * std::cos(angle), distance * std::sin(angle), {}, yaw};
+}
+
+scenario::Place PlaceNumber(int n, const Placing& placing) {
+  if (placing.kind == Placing::Kind::kGrid) return GridPlace(n);
+  return placing.kind == Placing::Kind::kRandom ? RandomPlace(n, placing) : SpiralPlace(n);
 }
 
 void Stand(const scenario::Place& place, RobotSpecification& robot) {
@@ -60,12 +96,14 @@ FieldResult<RobotSpecification> Specify(const Simulation& simulation,
   return robot;
 }
 
-// Sets the entry's name and place to the actual ones.
+// Sets the entry's name and place to the actual ones. Tries the places from number `next` on, which
+// becomes the one after the place that was free.
 base::Status AddAtFreePlace(Simulation& simulation, RobotSpecification robot,
-                            scenario::RobotEntry& entry) {
+                            scenario::RobotEntry& entry, const Placing& placing, int& next) {
   base::Error refusal;
-  for (int n = 0; n < kPlacesTried; ++n) {
-    const scenario::Place place = SpiralPlace(n);
+  const int end = next + kPlacesTried;
+  while (next < end) {
+    const scenario::Place place = PlaceNumber(next++, placing);
     Stand(place, robot);
     auto name = simulation.AddRobot(robot);
     if (name) {
@@ -83,12 +121,13 @@ base::Status AddAtFreePlace(Simulation& simulation, RobotSpecification robot,
 class ListPlacing {
  public:
   ListPlacing(Simulation& simulation, formats::ModelLibrary& library, const char* list,
-              base::Problems& problems)
+              base::Problems& problems, const Placing& placing)
       : simulation_(simulation),
         library_(library),
         list_(list),
         is_avatars_(list == std::string_view("avatars")),
-        problems_(problems) {}
+        problems_(problems),
+        placing_(placing) {}
 
   FieldResult<std::vector<PlacedRobot>> Place(const std::vector<scenario::RobotEntry>& entries) {
     for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -101,8 +140,12 @@ class ListPlacing {
       (entries[i].start ? with_place_ : without_).push_back({{entries[i], i}, *std::move(robot)});
     }
     if (auto ok = PlaceTogether(); !ok) return tl::make_unexpected(ok.error());
+    int next = 0;
     for (Waiting& each : without_) {
-      if (auto ok = AddAtFreePlace(simulation_, std::move(each.robot), each.placed.entry); !ok)
+      if (placing_.kind == Placing::Kind::kSpiral) next = 0;
+      if (auto ok =
+              AddAtFreePlace(simulation_, std::move(each.robot), each.placed.entry, placing_, next);
+          !ok)
         return WrongIn(list_, each.placed.index, {ok.error(), ""});
       placed_.push_back(std::move(each.placed));
     }
@@ -154,6 +197,7 @@ class ListPlacing {
   const char* const list_;
   const bool is_avatars_;
   base::Problems& problems_;
+  const Placing placing_;
   std::vector<Waiting> with_place_, without_;
   std::vector<PlacedRobot> of_world_, placed_;
 };
@@ -169,10 +213,12 @@ std::shared_ptr<const model::Model> ModelInWorld(const Simulation& simulation,
 }
 
 FieldResult<Population> Populate(Simulation& simulation, formats::ModelLibrary& library,
-                                 const scenario::Scenario& scenario, base::Problems& problems) {
-  auto robots = ListPlacing(simulation, library, "robots", problems).Place(scenario.robots);
+                                 const scenario::Scenario& scenario, base::Problems& problems,
+                                 const Placing& placing) {
+  auto robots =
+      ListPlacing(simulation, library, "robots", problems, placing).Place(scenario.robots);
   if (!robots) return tl::make_unexpected(robots.error());
-  auto avatars = ListPlacing(simulation, library, "avatars", problems).Place(scenario.avatars);
+  auto avatars = ListPlacing(simulation, library, "avatars", problems, {}).Place(scenario.avatars);
   if (!avatars) return tl::make_unexpected(avatars.error());
   return Population{*std::move(robots), *std::move(avatars)};
 }
@@ -203,7 +249,8 @@ FieldResult<std::string> AddOne(Simulation& simulation, formats::ModelLibrary& l
   scenario::RobotEntry placed = entry;
   base::Status added;
   if (!entry.start) {
-    added = AddAtFreePlace(simulation, *robot, placed);
+    int next = 0;
+    added = AddAtFreePlace(simulation, *robot, placed, {}, next);
   } else if (auto name = simulation.AddRobot(*robot)) {
     placed.name = *std::move(name);
   } else {

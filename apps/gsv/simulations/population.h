@@ -19,6 +19,14 @@ namespace gsv::app {
 using gateway::FieldError;
 using gateway::FieldResult;
 
+// Where robots without a place are put.
+struct Placing {
+  enum class Kind { kSpiral, kGrid, kRandom };
+  Kind kind = Kind::kSpiral;
+  int count = 0;           // of all robots that are placed so
+  std::uint64_t seed = 0;  // of kRandom
+};
+
 struct PlacedRobot {
   scenario::RobotEntry entry;  // with its actual name, and with its place if it has a model
   std::size_t index = 0;       // the index in the scenario's list
@@ -29,10 +37,13 @@ struct Population {
 };
 
 // Adds the robots and the avatars, without behaviours. A robot without a model must exist in the
-// world. A robot without a place gets the first free place on a spiral about the origin. Adds the
+// world. A robot without a place gets a free one. By default it is the
+// first on a spiral about the origin. On a grid, robots get one cell of 1 m after the other, from
+// the origin outwards. Random places are in a disc that grows with the number of robots. Adds the
 // problems of model files to `problems`.
 FieldResult<Population> Populate(simulation::Simulation& simulation, formats::ModelLibrary& library,
-                                 const scenario::Scenario& scenario, base::Problems& problems);
+                                 const scenario::Scenario& scenario, base::Problems& problems,
+                                 const Placing& placing = {});
 
 // Makes a robot's behaviour. Returns null if the robot has none.
 using BehaviourMaker = std::function<FieldResult<std::shared_ptr<simulation::BehaviourPort>>(

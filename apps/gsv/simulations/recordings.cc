@@ -15,6 +15,7 @@
 
 #include "gsv/base/host_name.h"
 #include "gsv/base/log.h"
+#include "gsv/base/spelling.h"
 #include "gsv/formats/gltf/gltf_writer.h"
 #include "gsv/recording/mcap/bag_folder.h"
 #include "gsv/recording/simulation_recorder.h"
@@ -102,7 +103,8 @@ std::vector<std::string> ProblemsOf(const RecordingChoice& choice,
         is_folder
             ? fmt::format("there is no topic of this name; use \"{}/\" for all topics below it",
                           pattern)
-            : "there is no topic of this name or below it; topics are " + there));
+            : "there is no topic of this name or below it; topics are " + there +
+                  base::DidYouMean(pattern, topics)));
   }
   return sentences;
 }

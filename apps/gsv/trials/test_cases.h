@@ -36,6 +36,7 @@ struct TestOptions {
   int threads = 0;                  // number of threads per run; 0 if `gsv run` chooses it
   double timeout = 300;             // wall-clock time limit per run, s
   double kept_seconds = 10;         // how many seconds of the recording before the failure are kept
+  double kept_after = 2;            // the same after the failure
   std::vector<std::string> drives;  // see the option --drive of `gsv run`
   int repeat = 1;
   bool record = true;
@@ -48,6 +49,8 @@ struct TestResult {
   std::string message;        // the reason why it did not pass
   bool is_bad_input = false;  // whether a file that it names is missing or invalid
   std::string folder;         // the folder with the files of the failure; may be empty
+  double failed_at = 0;       // simulated time of the first violation, else of the end, s
+  std::string about;          // the robot that the failure is about; may be empty
   std::string command;        // the command that repeats it
   double wall_seconds = 0;
   std::vector<std::string> hashes;  // state hashes of the repetitions

@@ -22,8 +22,7 @@ using Seconds = std::chrono::duration<double>;
 using TestClock = std::chrono::steady_clock;
 
 constexpr auto kPollPeriod = std::chrono::milliseconds(100);
-constexpr double kSecondsAfter = 1;  // simulated time that the recording keeps after the failure, s
-constexpr double kExtraTime = 30;    // wall-clock time after the timeout of the child itself, s
+constexpr double kExtraTime = 30;  // wall-clock time after the timeout of the child itself, s
 constexpr std::size_t kMaxErrorLength = 4000;  // maximum number of characters of the child's errors
 
 struct ChildOutcome {
@@ -89,7 +88,27 @@ base::Result<ChildOutcome> RunChild(const TestCase& test, const TestOptions& opt
   return outcome;
 }
 
-// Returns the time of the first violation, and its robot.
+// The first robot of the run that the message names.
+std::string RobotIn(const nlohmann::ordered_json& report, const std::string& message) {
+  for (const auto& robot : report.value("robots", nlohmann::ordered_json::array())) {
+    std::string name = robot.value("name", "");
+    if (message.find(name) != std::string::npos) return name;
+  }
+  return {};
+}
+
+// The health of the robots that do not move at the end, a sentence per line.
+std::string HealthIn(const nlohmann::ordered_json& report) {
+  std::string text;
+  for (const auto& robot : report.value("robots", nlohmann::ordered_json::array())) {
+    const std::string sentence =
+        robot.value("health", nlohmann::ordered_json::object()).value("sentence", "");
+    if (!sentence.empty()) text += "  " + robot.value("name", "") + " " + sentence + "\n";
+  }
+  return text;
+}
+
+// Returns the time of the first violation.
 double FailureTime(const nlohmann::ordered_json& report) {
   double first = report.value("sim_time_s", 0.0);
   for (const auto& expectation : report.value("expectations", nlohmann::ordered_json::array())) {
@@ -134,26 +153,26 @@ void KeepFailure(const fs::path& folder, const TestOptions& options, const Child
   }
   fs::copy_file(result.test.file, kept / "scenario.yaml", ignored);
   const double failed = FailureTime(outcome.report);
+  result.failed_at = failed;
+  result.about = RobotIn(outcome.report, result.message);
   std::string text =
       result.message + "\n\nState hash: " + outcome.report.value("state_hash", "none") +
       "\nThe seed is in scenario.yaml, a copy.\n\nAgain:\n  " + result.command + "\n";
+  if (const std::string health = HealthIn(outcome.report); !health.empty()) {
+    text += "\nAt the end:\n" + health;
+  }
   if (fs::exists(folder / "run.mcap", ignored)) {
     const recording::Selection last{{},
                                     base::FromSeconds(std::max(0.0, failed - options.kept_seconds)),
-                                    base::FromSeconds(failed + kSecondsAfter)};
+                                    base::FromSeconds(failed + options.kept_after)};
     const fs::path file = kept / "run.mcap";
     if (const auto cut = recording::Recover(folder / "run.mcap", file, last); !cut) {
       text += "\nCannot keep the recording: " + cut.error().Sentence() + "\n";
     } else {
-      std::string about;
-      for (const auto& robot : outcome.report.value("robots", nlohmann::ordered_json::array())) {
-        const std::string each = robot.value("name", "");
-        if (about.empty() && result.message.find(each) != std::string::npos) about = each;
-      }
-      const std::string select = about.empty() ? "" : "&select=" + about;
+      const std::string select = result.about.empty() ? "" : "&select=" + result.about;
       text += fmt::format(
-          "\nSee it in the viewer:\n  gsv replay --paused --port 8080 {}\n  "
-          "http://127.0.0.1:8080/#t={:g}{}\n",
+          "\nSee it in the viewer:\n  gsv replay --paused --at {1:g} --open {0}\n"
+          "or\n  gsv replay --paused --port 8080 {0}\n  http://127.0.0.1:8080/#t={1:g}{2}\n",
           Quoted(file), failed, select);
     }
   }

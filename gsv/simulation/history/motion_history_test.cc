@@ -87,7 +87,7 @@ TEST_F(MotionHistoryTest, TurningIsMoving) {
   EXPECT_TRUE(Now().is_moving);
 }
 
-TEST_F(MotionHistoryTest, IsStuckAfterTheTimeForWhichItWasToldToMove) {
+TEST_F(MotionHistoryTest, IsStuckAfterItWasCommandedToMoveForTheTime) {
   Run(3s, 0.5);
   robot().drive.command.linear = 0.5;
   Run(4900ms, 0);

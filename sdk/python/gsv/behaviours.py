@@ -110,8 +110,11 @@ def serve(name: str, make: Callable[..., Any], parser: Optional[argparse.Argumen
         with _Signals() as signals, Offer(options.broker, options.name, make_one,
                                           parser.description or doc, time_managed) as offer:
             print(f"{options.name}: offered at {offer.broker}", flush=True)
-            if options.exit_with_parent:  # who reads no further: prints go where errors go
-                os.dup2(2, 1)
+            if options.exit_with_parent:
+                # A gsv that captures the output reads on. Other parents do not: then prints go
+                # where errors go.
+                if "GSV_OUTPUT_CAPTURED" not in os.environ:
+                    os.dup2(2, 1)
                 sys.stdout.reconfigure(line_buffering=True)  # type: ignore[attr-defined]
             signals.wait()
     except Error as error:

@@ -1,4 +1,5 @@
 """A behaviour in Python is as good a citizen as one in C++."""
+import json
 import os
 import signal
 import subprocess
@@ -289,3 +290,51 @@ def test_gsv_run_starts_a_program_in_python_by_its_name(tmp_path, examples):
          "first-in-python", "--lockstep", "--duration", "1", "--headless"],
         capture_output=True, text=True, env=environment)
     assert ended.returncode == 0, ended.stderr
+
+
+def run_recorded(tmp_path, name, body):
+    """Runs a behaviour `body`, of a robot `pebble`, and returns the run and its recorded output."""
+    script = tmp_path / f"gsv-{name}"
+    script.write_text(f"#!{sys.executable}\n{body}")
+    script.chmod(0o755)
+    recording = tmp_path / f"{name}.mcap"
+    environment = dict(os.environ, PATH=f"{tmp_path}:{os.environ['PATH']}")
+    ended = subprocess.run(
+        [find_program("gsv"), "run", "playground", "--robot", "pebble@0,0", "--behaviour", name,
+         "--lockstep", "--duration", "1", "--headless", "--record", recording],
+        capture_output=True, text=True, env=environment, timeout=120)
+    printed = subprocess.run(
+        [find_program("gsv"), "rec", "cat", recording, "--topic", "/gsv/output"],
+        capture_output=True, text=True)
+    return ended, [json.loads(line)["message"] for line in printed.stdout.splitlines()]
+
+
+def test_what_a_behaviour_printed_before_it_died_is_recorded_and_reported(tmp_path):
+    ended, lines = run_recorded(tmp_path, "faller", """import gsv
+class Faller(gsv.Behaviour):
+    def run(self, robot):
+        print("on my way")
+        robot.sleep_for(0.5)
+        raise ValueError("too far")
+gsv.serve("faller", Faller)
+""")
+    assert ended.returncode == 4, ended.stderr
+    assert "ValueError: too far in gsv-faller line 7" in ended.stderr
+    assert "[faller] on my way" in ended.stderr
+    assert "was dead from 0.5 s" in ended.stdout
+    assert ("pebble", "on my way", "stdout") in [(m["name"], m["msg"], m["file"]) for m in lines]
+    assert ("pebble", "ValueError: too far", "stderr") in [
+        (m["name"], m["msg"], m["file"]) for m in lines]
+
+
+def test_the_end_of_a_behaviours_program_is_recorded_with_its_last_error(tmp_path):
+    ended, lines = run_recorded(tmp_path, "crasher", """import os, sys, gsv
+class Crasher(gsv.Behaviour):
+    def run(self, robot):
+        print("OSError: the wheel is off", file=sys.stderr, flush=True)
+        os._exit(3)
+gsv.serve("crasher", Crasher)
+""")
+    assert ended.returncode == 4, ended.stderr
+    assert "behaviour crasher ended with exit code 3: OSError: the wheel is off" in [
+        m["msg"] for m in lines]

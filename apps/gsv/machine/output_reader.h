@@ -1,0 +1,79 @@
+// Reads what child processes print, line by line, on a thread of its own, so that no child waits
+// for room in a pipe.
+//
+// Bounded  a line has at most 16 KiB; a longer one continues in the next.
+// Threads  Add() and the destructor from one thread; the callbacks run on the reader's thread.
+#pragma once
+
+#include <sys/types.h>
+
+#include <functional>
+#include <map>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "gsv/base/mutex.h"
+
+namespace gsv::app {
+
+class ChildProcess;
+
+class OutputReader {
+ public:
+  enum class Stream { kOutput, kErrors };
+  struct Callbacks {
+    std::function<void(pid_t pid, Stream stream, const std::string& line)> on_line;
+    // After its last line. `ending` is "exit code 1" or "signal 11".
+    std::function<void(pid_t pid, const std::string& ending)> on_end;
+    // Every 0.2 s, and after each burst of lines.
+    std::function<void()> on_pause;
+  };
+
+  explicit OutputReader(Callbacks callbacks);
+  ~OutputReader();
+  OutputReader(const OutputReader&) = delete;
+  OutputReader& operator=(const OutputReader&) = delete;
+
+  // Begins with stderr. The child must be captured, and outlive this object.
+  void AddErrors(const ChildProcess& child);
+  // Also stdout; the caller no longer reads it.
+  void AddOutput(ChildProcess& child);
+  // Waits until all that the children have printed so far was read, for at most half a second.
+  void Settle();
+
+ private:
+  struct Source {
+    pid_t pid = 0;
+    int descriptor = -1;  // -1: closed
+    Stream stream = Stream::kErrors;
+    std::string partial;
+  };
+  struct Child {
+    int pid_descriptor = -1;
+    bool has_ended = false;
+  };
+
+  void Run();
+  // False: the stream has ended.
+  bool Read(Source& source);
+  void ReadRest(Source& source);
+  void Emit(const Source& source, const std::string& line);
+  void EndChild(pid_t pid);
+  void Wake();
+
+  const Callbacks callbacks_;
+  int wake_ends_[2] = {-1, -1};
+  base::Mutex mutex_;
+  std::vector<Source> added_ GSV_GUARDED_BY(mutex_);
+  std::map<pid_t, int> added_children_ GSV_GUARDED_BY(mutex_);  // their pid descriptors
+  bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
+  bool is_settling_ GSV_GUARDED_BY(mutex_) = false;
+  base::ConditionVariable settled_;
+  // Used by the thread.
+  std::vector<Source> sources_;
+  std::map<pid_t, Child> children_;
+  std::jthread thread_;
+};
+
+}  // namespace gsv::app

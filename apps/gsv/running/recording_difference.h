@@ -1,0 +1,30 @@
+// Where two recordings differ, for people: first their scenarios, then the first message, with the
+// robot that it is about.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "gsv/recording/mcap/mcap_reader.h"
+#include "gsv/recording/reading/decoded_messages.h"
+
+namespace gsv::app {
+
+struct RecordingDifference {
+  // Lines of the attached scenarios that only one of them has, at most 20 each.
+  std::vector<std::string> only_in_first, only_in_second;
+  std::optional<recording::Difference> messages;
+  std::string robot;  // or body, which the first different message is about; empty: unknown
+
+  // At most 60 lines.
+  std::string Text() const;
+  nlohmann::ordered_json Json() const;
+};
+
+base::Result<RecordingDifference> Compare(const recording::McapReader& first,
+                                          const recording::McapReader& second);
+
+}  // namespace gsv::app

@@ -1,0 +1,80 @@
+// The output of the behaviour programs that this process starts: passes it on to stderr, and emits
+// each line as an event of the simulations whose robots the program serves (IsOutput()).
+//
+// A line belongs to the robot that the program serves, or, if it serves several, to its behaviour.
+// Lines from before a robot has the behaviour are kept until it has.
+//
+// Bounded  200 lines per second and program, of 2000 bytes each; more are counted.
+// Threads  created, used and destroyed on the main thread.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/gsv/machine/output_reader.h"
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::app {
+
+class ChildProcess;
+
+// The last error of a program's stderr: a Python exception with its file and line, as in
+// "ValueError: too far in wander.py line 12", else the last line. Empty: there is none.
+std::string LastError(const std::vector<std::string>& lines);
+
+class BehaviourOutput {
+ public:
+  using ListSimulations = std::function<std::vector<std::shared_ptr<simulation::Simulation>>()>;
+
+  // `list` returns the simulations of this process; any thread calls it.
+  explicit BehaviourOutput(ListSimulations list);
+  ~BehaviourOutput();
+
+  // Begins with the program's stderr.
+  void Begin(const ChildProcess& program, const std::string& behaviour);
+  // The program has reported that it is ready: its stdout is its own from here on.
+  void BeginOutput(ChildProcess& program);
+  // The last error of a program that has ended; see LastError(). Waits for its last lines, for at
+  // most a second.
+  std::string LastErrorOf(const ChildProcess& program);
+  // Waits until what the programs have printed so far was emitted.
+  void Settle() { reader_->Settle(); }
+  // From now on the ends of programs are expected.
+  void ExpectEnds();
+
+ private:
+  struct Line {
+    std::string_view kind;
+    std::string text;
+  };
+  struct Program {
+    std::string behaviour;
+    std::vector<Line> waiting;                       // for a robot
+    std::vector<std::string> errors{};               // the last lines of stderr
+    std::chrono::steady_clock::time_point second{};  // begin of the present one
+    int lines = 0;                                   // in it
+    int left_out = 0;
+    bool has_ended = false;
+  };
+
+  void OnLine(pid_t pid, OutputReader::Stream stream, const std::string& line);
+  void OnEnd(pid_t pid, const std::string& ending);
+  void Emit(pid_t pid, Program& program, std::string_view kind, std::string text)
+      GSV_REQUIRES(mutex_);
+  // Emits the waiting lines, if there is a robot.
+  void Flush(pid_t pid, Program& program) GSV_REQUIRES(mutex_);
+  void FlushAll();
+
+  const ListSimulations list_;
+  base::Mutex mutex_;
+  base::ConditionVariable ended_;
+  std::map<pid_t, Program> programs_ GSV_GUARDED_BY(mutex_);
+  bool expects_ends_ GSV_GUARDED_BY(mutex_) = false;
+  std::unique_ptr<OutputReader> reader_;
+};
+
+}  // namespace gsv::app
