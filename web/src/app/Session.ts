@@ -107,6 +107,8 @@ export class Session implements TopicSource {
     this.sceneText = "";
     this.store.set({ ...NOTHING_WATCHED, simulation: name });
     this.connect(name);
+    // The list needs neither the stream nor the scene, which take long to come for a crowd.
+    if (this.instant === null) void this.fetchStatus(name);
   }
 
   // One that was created just now.
@@ -264,9 +266,8 @@ export class Session implements TopicSource {
     const instant = this.instant;
     this.instant = null;
     if (instant !== null) await this.api.seek(name, instant).catch(() => {}); // then it stands at its start
-    await this.fetchScene(name);
+    await Promise.all([this.fetchScene(name), this.fetchStatus(name)]);
     this.wishes.lookSoon();
-    await this.fetchStatus(name);
   }
 
   // After a server's restart the simulation may be gone: then look for what is there now.

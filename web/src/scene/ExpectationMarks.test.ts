@@ -21,6 +21,9 @@ test("a goal is a circle and a zone a box on the floor", () => {
   expect(marks.lines.visible).toBe(false);
   marks.set([{ ...NONE, boxes: [[0, 2, -1, 1]] }]);
   expect(marks.segments).toBe(4);
+  marks.set([{ ...NONE, boxes: [[-3, 0.15, -Infinity, Infinity]] }]);
+  const lines = marks.lines.geometry.getAttribute("position").array.slice(0, 24);
+  expect(lines.every(Number.isFinite)).toBe(true);
   marks.set([{ ...NONE, places: [[1, 2, 0.5]] }]);
   expect(marks.segments).toBe(48);
   expect(marks.lines.visible).toBe(true);

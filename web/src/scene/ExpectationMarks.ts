@@ -6,6 +6,7 @@ import type { Rgb } from "./LineLayer";
 import { LineLayer, rgb } from "./LineLayer";
 
 const ABOVE_FLOOR = 0.03; // m
+const FARTHEST = 500; // m; a box may be open to a side
 const CORNERS = 48; // of a circle
 const COLOURS: Record<Verdict, Rgb> = {
   pending: rgb(0x1f6feb),
@@ -48,7 +49,8 @@ export class ExpectationMarks {
     for (let i = 0; i < CORNERS; i++) this.drawn.add(WORLD, corner(i), corner(i + 1), colour);
   }
 
-  private box([x0, x1, y0, y1]: Expectation["boxes"][number], colour: Rgb): void {
+  private box(limits: Expectation["boxes"][number], colour: Rgb): void {
+    const [x0, x1, y0, y1] = limits.map((limit) => Math.min(FARTHEST, Math.max(-FARTHEST, limit))) as [number, number, number, number];
     const corners = [
       [x0, y0],
       [x1, y0],

@@ -43,7 +43,7 @@ function row(ports: Ports, expectation: Expectation): HTMLElement {
     element("span", { class: "number dim", title: "Smallest distance to the limit, and when" }, margin && `margin ${margin}`),
     element("span", { class: "expectation-state" }, verdictWord(verdict), instant(ports, expectation)),
     detail !== "" && element("span", { class: "expectation-text" }, detail),
-    element("span", { class: "expectation-text" }, yaml, ...expectation.bodies.flatMap((body) => [" ", bodyButton(ports, body)])),
+    element("span", { class: "expectation-text" }, name === yaml ? "" : yaml, ...expectation.bodies.flatMap((body) => [" ", bodyButton(ports, body)])),
   );
 }
 
