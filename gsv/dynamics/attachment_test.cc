@@ -38,7 +38,7 @@ void CarryCrate(TestWorld& world) {
   world.body("crate").world_from_model = world.body("robot").world_from_model * kLinkFromCrate;
 }
 
-TEST(Attachment, IsStoppedByWhatItsHolderRunsInto) {
+TEST(Attachment, AttachedBodyStopsItsHolderAtAWall) {
   TestWorld world = GraspScene();
   ASSERT_TRUE(world.Start());
   ASSERT_TRUE(world.engine().Attach(HoldCrate(world), world.state()));
@@ -47,7 +47,7 @@ TEST(Attachment, IsStoppedByWhatItsHolderRunsInto) {
   EXPECT_NEAR(world.position("robot").x, 1 - 0.35 - kCrateSide / 2, 1e-4);
 }
 
-TEST(Attachment, EqualsAModelThatHasTheShapesFromTheStart) {
+TEST(Attachment, EqualsOneModelWithAllShapes) {
   TestWorld attached = GraspScene();
   ASSERT_TRUE(attached.Start());
   ASSERT_TRUE(attached.engine().Attach(HoldCrate(attached), attached.state()));
@@ -75,7 +75,7 @@ TEST(Attachment, EqualsAModelThatHasTheShapesFromTheStart) {
   }
 }
 
-TEST(Attachment, LeavesTheHeldBodyWhereTheStateHasIt) {
+TEST(Attachment, KeepsTheAttachedBodyAtItsPoseInTheState) {
   TestWorld world = GraspScene();
   ASSERT_TRUE(world.Start());
   ASSERT_TRUE(world.engine().Attach(HoldCrate(world), world.state()));
@@ -83,7 +83,7 @@ TEST(Attachment, LeavesTheHeldBodyWhereTheStateHasIt) {
   EXPECT_EQ(world.body("crate").world_from_model, kLinkFromCrate);
 }
 
-TEST(Attachment, FallsOnceItIsDetached) {
+TEST(Attachment, DetachedBodyFalls) {
   TestWorld world = GraspScene();
   ASSERT_TRUE(world.Start());
   ASSERT_TRUE(world.engine().Attach(HoldCrate(world), world.state()));
@@ -92,7 +92,7 @@ TEST(Attachment, FallsOnceItIsDetached) {
   EXPECT_NEAR(world.position("crate").z, kCrateSide / 2, 1e-3);
 }
 
-TEST(Attachment, IsForgottenWithTheNextLayout) {
+TEST(Attachment, EndsWithTheNextLayout) {
   TestWorld world = GraspScene();
   ASSERT_TRUE(world.Start());
   ASSERT_TRUE(world.engine().Attach(HoldCrate(world), world.state()));
@@ -101,7 +101,7 @@ TEST(Attachment, IsForgottenWithTheNextLayout) {
   EXPECT_NEAR(world.position("crate").z, kCrateSide / 2, 1e-3);
 }
 
-TEST(Attachment, DoesNotDependOnTheOrderInWhichBodiesWereAttached) {
+TEST(Attachment, DoesNotDependOnTheOrderOfAttaching) {
   const auto digest_after = [](bool crate_first) {
     TestWorld world = GraspScene();
     EXPECT_TRUE(world.Start());
@@ -117,7 +117,7 @@ TEST(Attachment, DoesNotDependOnTheOrderInWhichBodiesWereAttached) {
   EXPECT_EQ(digest_after(true), digest_after(false));
 }
 
-TEST(Attachment, ShowsInOverlapsAtOnce) {
+TEST(Attachment, AffectsOverlapsAtOnce) {
   TestWorld world = GraspScene();
   ASSERT_TRUE(world.Start());
   const int robot = world.layout().Find("robot");
@@ -129,7 +129,7 @@ TEST(Attachment, ShowsInOverlapsAtOnce) {
   EXPECT_EQ(overlaps[0].second, world.layout().Find("wall"));
 }
 
-TEST(Attachment, IsRefusedWhereItMakesNoSense) {
+TEST(Attachment, InvalidAttachmentIsRejected) {
   TestWorld world = GraspScene();
   ASSERT_TRUE(world.Start());
   const auto refuses = [&](int holder, int link, int held) {

@@ -1,4 +1,4 @@
-// What contacts say of the impulses between bodies.
+// Tests the impulses that contacts report.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ double ImpulseBetween(const TestWorld& world, const std::vector<world::Contact>&
 
 class Collision : public ::testing::TestWithParam<double> {};
 
-TEST_P(Collision, HasTheImpulseThatTurnsABodyRound) {
+TEST_P(Collision, ImpulseReversesABody) {
   const double restitution = GetParam(), mass = 3, speed = 1.5;
   const model::Surface surface = SurfaceWith(0, restitution);
   TestWorld world = WorldOnGround(SurfaceWith(0, 0));
@@ -54,7 +54,7 @@ TEST_P(Collision, HasTheImpulseThatTurnsABodyRound) {
 
 INSTANTIATE_TEST_SUITE_P(Restitutions, Collision, ::testing::Values(0.0, 0.5, 1.0));
 
-TEST(Impulse, OfABoxOnAnotherIsItsWeightTimesTheStep) {
+TEST(Impulse, OfAStackedBoxIsItsWeightTimesTheStep) {
   TestWorld world = WorldOnGround();
   world.AddRigid("lower", SolidOf(kImpulseBox, 4), At(0, 0, 0.15));
   world.AddRigid("upper", SolidOf(kImpulseBox, 2), At(0, 0, 0.45));
@@ -64,7 +64,7 @@ TEST(Impulse, OfABoxOnAnotherIsItsWeightTimesTheStep) {
               1e-3);
 }
 
-TEST(Impulse, OfAPushIsTheFrictionThatItOvercomesTimesTheStep) {
+TEST(Impulse, OfAPushIsTheFrictionTimesTheStep) {
   auto robot = testing::DiscRobot();
   robot->links[0].inertial.mass = 20;
   TestWorld world = WorldOnGround(SurfaceWith(0.5, 0));
@@ -78,7 +78,7 @@ TEST(Impulse, OfAPushIsTheFrictionThatItOvercomesTimesTheStep) {
   EXPECT_NEAR(impulse, 0.5 * 2 * testing::kG * 1, 0.2);
 }
 
-TEST(Impulse, IsUnknownWherePlanarKinematicsStopsARobot) {
+TEST(Impulse, IsUnknownForAStopByPlanarKinematics) {
   TestWorld world = WorldOnGround();
   world.AddRobot("robot", testing::DiscRobot(), {});
   world.AddBox("wall", {0.2, 4, 1}, 0.4, 0);

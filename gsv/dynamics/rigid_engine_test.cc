@@ -71,7 +71,7 @@ TEST(RigidEngine, MovesTheRigidBodiesOfAWorld) {
   EXPECT_NEAR(world.position("box").z, 10 - testing::kG / 2, 1e-9);
 }
 
-TEST(RigidEngine, KeepsWhatItRemembersInTheHashedState) {
+TEST(RigidEngine, KeepsItsMemoryInTheHashedState) {
   TestWorld world = FallingWorld();
   world.AddRigid("box", SmallBox(), At(0, 0, 10));
   ASSERT_TRUE(world.Start());
@@ -83,7 +83,7 @@ TEST(RigidEngine, KeepsWhatItRemembersInTheHashedState) {
   EXPECT_NE(world.Digest(), digest);
 }
 
-TEST(RigidEngine, SaysHowFastARobotPushes) {
+TEST(RigidEngine, ReturnsTheSpeedOfAPush) {
   TestWorld world = FallingWorld();
   world.AddRobot("robot", testing::DiscRobot(), {});
   world.AddRigid("box", SmallBox(), At(0.31, 0, 0.2));

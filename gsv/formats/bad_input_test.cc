@@ -75,7 +75,7 @@ TEST_F(BadInputTest, RefusesFilesBeyondTheLimits) {
               HasSubstr("limit of 1 models"));
 }
 
-TEST_F(BadInputTest, LeavesOutTheIncludeThatClosesACycle) {
+TEST_F(BadInputTest, SkipsTheIncludeThatClosesACycle) {
   const auto including = [](const std::string& other) {
     return "<sdf version='1.9'><model name='m'><link name='l'/><include><uri>model://" + other +
            "</uri></include></model></sdf>";
@@ -131,7 +131,7 @@ TEST_F(BadInputTest, ReportsShapesWithoutSize) {
   }
 }
 
-TEST_F(BadInputTest, SaysThatAWorldIsNoRobot) {
+TEST_F(BadInputTest, ReportsAWorldThatIsGivenAsARobot) {
   const auto file = folder_.Write("w.sdf", "<sdf version='1.9'><world name='w'/></sdf>");
   EXPECT_THAT(ModelLibrary().ReadModel(file.string(), problems_).error().Sentence(),
               HasSubstr("holds a world"));

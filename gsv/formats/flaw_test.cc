@@ -110,7 +110,7 @@ TEST_F(FlawTest, AFlawOfTheWorldItselfLeavesItsModels) {
   }
 }
 
-TEST_F(FlawTest, AReferenceToNothingIsLeftOut) {
+TEST_F(FlawTest, DanglingReferenceIsIgnored) {
   const std::pair<const char*, const char*> contents[] = {
       {"<link name='b'><pose relative_to='nope'>0 0 1 0 0 0</pose></link>", "relative to nope"},
       {"<link name='b'/><frame name='f' attached_to='nope'/>", "attached to nope"},
@@ -135,7 +135,7 @@ TEST_F(FlawTest, AReferenceToNothingIsLeftOut) {
   }
 }
 
-TEST_F(FlawTest, AModelWithoutLinksIsLeftOut) {
+TEST_F(FlawTest, ModelWithoutLinksIsSkipped) {
   EXPECT_THAT(World("<model name='empty'/>").models, SizeIs(1));
   EXPECT_THAT(Said(), ElementsAre(HasSubstr("\"empty\" has no links; it is ignored")));
 }

@@ -77,7 +77,7 @@ TEST_F(HostileInputTest, NonFiniteValuesAreReportedWithTheirPlace) {
   }
 }
 
-TEST_F(HostileInputTest, AUrdfThatIsCutOffIsRefused) {
+TEST_F(HostileInputTest, TruncatedUrdfIsRejected) {
   const std::string urdf =
       "<robot name='r'>\n<link name='a'><inertial><mass value='1'/></inertial></link>\n</robot>";
   for (const std::size_t length : {std::size_t{20}, urdf.size() / 2, urdf.size() - 3}) {
@@ -98,7 +98,7 @@ std::string Gltf(const std::string& index_bytes, int byte_length) {
          index_bytes + "\"}]}";
 }
 
-TEST_F(HostileInputTest, AGltfWhoseIndicesOrBuffersReachTooFarIsRefused) {
+TEST_F(HostileInputTest, GltfWithOutOfRangeIndicesOrBuffersIsRejected) {
   EXPECT_TRUE(Mesh("good.gltf", Gltf("AAEC", 39)).has_value());    // 0, 1, 2
   EXPECT_FALSE(Mesh("index.gltf", Gltf("AAH/", 39)).has_value());  // 0, 1, 255
   EXPECT_FALSE(Mesh("short.gltf", Gltf("", 39)).has_value());
@@ -135,7 +135,7 @@ std::string TriangleData() {
 }
 
 // Found by the fuzzer: assimp allocated 3 GB for a file of 700 bytes.
-TEST_F(HostileInputTest, AGlbWhoseChunksReachBeyondItsEndIsRefused) {
+TEST_F(HostileInputTest, GlbWithChunksBeyondItsEndIsRejected) {
   const auto good = Mesh("good.glb", Glb(TriangleJson(), TriangleData()));
   ASSERT_TRUE(good.has_value()) << good.error().Sentence();
   EXPECT_EQ(good->triangles->triangles.size(), 1u);
@@ -150,7 +150,7 @@ TEST_F(HostileInputTest, AGlbWhoseChunksReachBeyondItsEndIsRefused) {
   }
 }
 
-TEST_F(HostileInputTest, AGltfThatDeclaresMoreThanTheLimitsIsRefused) {
+TEST_F(HostileInputTest, GltfThatDeclaresMoreThanTheLimitsIsRejected) {
   for (const char* claim :
        {R"(,"sparse":{"count":1000000000000})", R"(,"byteOffset":-1)", R"(,"byteOffset":1e300)",
         R"(,"sparse":{"count":1,"indices":{"byteOffset":99999999999999}})"}) {
@@ -165,7 +165,7 @@ TEST_F(HostileInputTest, AGltfThatDeclaresMoreThanTheLimitsIsRefused) {
                   .has_value());
 }
 
-TEST_F(HostileInputTest, AGltfThatIsNestedWithoutEndIsRefused) {
+TEST_F(HostileInputTest, EndlesslyNestedGltfIsRejected) {
   constexpr int kLevels = 200'000;
   const std::string nested = std::string(kLevels, '[') + std::string(kLevels, ']');
   const auto mesh = Mesh("deep.glb", Glb(TriangleJson("", nested), TriangleData()));

@@ -70,7 +70,7 @@ TEST_F(SdfActor, ReadsTheScriptInTheOrderOfItsTrajectories) {
   EXPECT_EQ(world.models[0].world_from_model.position, (Vector3{11, 0, 1}));
 }
 
-TEST_F(SdfActor, ShowsItsSkinAndCanBeRunInto) {
+TEST_F(SdfActor, ShowsItsSkinAndHasCollisions) {
   WriteSkin();
   const auto world =
       World("<actor name='a'><skin><filename>skin.obj</filename><scale>2</scale></skin></actor>");

@@ -77,7 +77,7 @@ TEST_F(SdfMedium, LinksAreReadWithWindKinematicAndDecay) {
   EXPECT_TRUE(problems_.empty());
 }
 
-TEST_F(SdfMedium, ADecayOutsideOfZeroToOneIsLeftOut) {
+TEST_F(SdfMedium, DecayOutsideOfZeroToOneIsIgnored) {
   const auto model =
       ModelOf("<link name='a'><velocity_decay><linear>1.5</linear></velocity_decay></link>");
   EXPECT_EQ(model.links.at(0).linear_decay, 0);

@@ -41,7 +41,7 @@ TEST_F(SdfPedestrians, AreReadWithTheirRoute) {
   EXPECT_EQ(*world.pedestrians[0], expected);
 }
 
-TEST_F(SdfPedestrians, AreLeftOutWhenTheyAreInvalid) {
+TEST_F(SdfPedestrians, InvalidGroupsAreSkipped) {
   const auto world = World(R"(<gsv:pedestrians/>
       <gsv:pedestrians><gsv:goal>here</gsv:goal></gsv:pedestrians>
       <gsv:pedestrians><gsv:goal>1 2 3 4</gsv:goal></gsv:pedestrians>

@@ -111,7 +111,7 @@ TEST_F(SdfReaderTest, GroundPlaneAndSunNeedNoFile) {
   EXPECT_EQ(world.lights[0].kind, model::Light::Kind::kDirectional);
 }
 
-TEST_F(SdfReaderTest, NamesOtherModelsOfTheWebAndGoesOn) {
+TEST_F(SdfReaderTest, ReportsOtherModelsOfTheWebAndContinues) {
   const auto world = World(
       "<world "
       "name='w'>\n<include><uri>https://fuel.gazebosim.org/1.0/x/models/Cone</uri></include>\n"
@@ -565,7 +565,7 @@ TEST_F(SdfReaderTest, ReadsElementsOfVersionsSince110) {
   }
 }
 
-TEST_F(SdfReaderTest, NamesWhatIsNewAndNotSupported) {
+TEST_F(SdfReaderTest, ReportsNewUnsupportedElements) {
   (void)World(R"(<world name='w'><model name='m'><link name='a'>
     <inertial><fluid_added_mass><xx>2</xx></fluid_added_mass></inertial></link><link name='b'/>
     <joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz>

@@ -179,7 +179,7 @@ TEST_F(UrdfRoundTripTest, KeepsAStaticModelAndOneThatIsHeldByTheWorld) {
 }
 
 // A door leaf whose frame is in its middle turns about its edge: that takes a link at the edge.
-TEST_F(UrdfRoundTripTest, PutsALinkWhereAJointTurnsBesideItsChildsFrame) {
+TEST_F(UrdfRoundTripTest, AddsALinkIfTheJointIsOutsideItsChildsFrame) {
   const ModelPointer door = ReadText(
       "<sdf version='1.9'><model name='m'><link name='frame'/><link name='leaf'><pose>0.4 0 1 0 0 "
       "0</pose></link>"
@@ -197,7 +197,7 @@ TEST_F(UrdfRoundTripTest, PutsALinkWhereAJointTurnsBesideItsChildsFrame) {
   EXPECT_NEAR(hinge->position_limits.max, 1.5, kNear);
 }
 
-TEST_F(UrdfRoundTripTest, NamesWhatIsLeftOut) {
+TEST_F(UrdfRoundTripTest, ReportsOmittedElements) {
   const ModelPointer loose = ReadText(
       "<sdf version='1.9'><model name='m'><link name='a'><sensor name='s' type='imu'/></link>"
       "<link name='b'><pose>1 0 0 0 0 0</pose></link></model></sdf>");
@@ -220,7 +220,7 @@ TEST_F(UrdfRoundTripTest, EscapesNamesAndWritesTheSameTextEachTime) {
   EXPECT_THAT(first.text, HasSubstr("name=\"left &amp; right\""));
 }
 
-TEST_F(UrdfRoundTripTest, KeepsOurRobots) {
+TEST_F(UrdfRoundTripTest, KeepsTheBuiltInRobots) {
   const fs::path models = fs::path(std::getenv("GSV_SOURCE_DIR")) / "assets/models";
   for (const char* name : {"pebble", "courier", "rover4", "b21r", "porter"}) {
     ExpectSame(*Read((models / name).string(), problems_));
@@ -234,7 +234,7 @@ double MassOf(const model::Model& model) {
 }
 
 // Links that the tree of URDF needs besides are merged with what is fixed to them, which has their names then.
-TEST_F(UrdfRoundTripTest, KeepsMassAndJointsOfRobotsOfOthers) {
+TEST_F(UrdfRoundTripTest, KeepsMassAndJointsOfRealRobots) {
   if (RealFolder().empty()) GTEST_SKIP() << "GSV_REAL_DIR names no folder of real worlds";
   for (const char* name :
        {"turtlebot3/models/turtlebot3_burger", "turtlebot3/models/turtlebot3_waffle",

@@ -34,7 +34,7 @@ class WorldStateTest : public ::testing::Test {
   base::Problems problems_;
 };
 
-TEST_F(WorldStateTest, PutsModelsAndLightsWhereTheyWereSaved) {
+TEST_F(WorldStateTest, PlacesModelsAndLightsAtTheirSavedPoses) {
   const auto world =
       World("<model name='a'>" + std::string(kSavedBox) + "<model name='b'>" + kSavedBox +
             "<light name='sun' type='point'><pose>0 0 9 0 0 0</pose></light>"
@@ -51,7 +51,7 @@ TEST_F(WorldStateTest, PutsModelsAndLightsWhereTheyWereSaved) {
 }
 
 // Gazebo Classic writes the pose of each link in the world; the link's pose takes precedence.
-TEST_F(WorldStateTest, PutsAModelWhereItsLinkWas) {
+TEST_F(WorldStateTest, PlacesAModelByThePoseOfItsLink) {
   const auto world = World("<model name='a'>" + std::string(kSavedBox) +
                            "<state world_name='w'><model name='a'><pose>7 7 7 0 0 0</pose>"
                            "<link name='l'><pose>2 3 4.5 0 0 0</pose></link></model></state>");
@@ -60,7 +60,7 @@ TEST_F(WorldStateTest, PutsAModelWhereItsLinkWas) {
 }
 
 // The hinge is in the base: rotated by 0.5, the hand is at (cos 0.5, sin 0.5) before it.
-TEST_F(WorldStateTest, TurnsJointsToWhereTheirLinksWere) {
+TEST_F(WorldStateTest, SetsJointsByThePosesOfTheirLinks) {
   const auto world = World(std::string(kSavedArm) +
                            "<state world_name='w'><model name='arm'><pose>5 0 0 0 0 0</pose>"
                            "<link name='base'><pose>5 0 0 0 0 0</pose></link><link name='hand'>"
@@ -71,7 +71,7 @@ TEST_F(WorldStateTest, TurnsJointsToWhereTheirLinksWere) {
   EXPECT_NEAR(world.models[0].model->start_positions[0], 0.5, 1e-12);
 }
 
-TEST_F(WorldStateTest, TurnsJointsByTheirAngleWhereNoLinkIsWritten) {
+TEST_F(WorldStateTest, SetsJointsByTheirAnglesWithoutLinkPoses) {
   const auto world = World(std::string(kSavedArm) +
                            "<state world_name='w'><model name='arm'>"
                            "<joint name='hinge'><angle axis='0'>0.25</angle></joint>"
@@ -93,7 +93,7 @@ TEST_F(WorldStateTest, InsertsAndDeletesModels) {
   EXPECT_EQ(world.models[1].world_from_model.position, (Vector3{9, 0, 0}));
 }
 
-TEST_F(WorldStateTest, LeavesOutTheStateOfAnotherWorld) {
+TEST_F(WorldStateTest, IgnoresTheStateOfAnotherWorld) {
   const auto world = World("<model name='a'>" + std::string(kSavedBox) +
                            "<state world_name='default'><model name='a'><pose>7 7 7 0 0 0</pose>"
                            "</model></state>");

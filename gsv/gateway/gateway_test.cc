@@ -78,7 +78,7 @@ TEST_F(GatewayTest, ViewersCommandTheSimulationByServices) {
   EXPECT_THROW(Viewer(port(), "/ws", "foxglove.sdk.v1", "http://evil.example"), std::runtime_error);
 }
 
-TEST_F(GatewayTest, ViewersReadHowTheSimulationWasSetUpAndChangeNothing) {
+TEST_F(GatewayTest, ViewersCanReadTheParametersOfTheSimulation) {
   Viewer viewer(port());
   viewer.SendText(R"({"op":"subscribeParameterUpdates","parameterNames":["/gsv/phase"]})");
   viewer.SendText(
@@ -146,7 +146,7 @@ TEST_F(GatewayTest, AViewerSeesTheRobotsMove) {
   EXPECT_NEAR(after.poses[7 * 3 + 1], std::sin(1), 1e-12);
 }
 
-TEST_F(GatewayTest, SeveralViewersWatchSeveralThings) {
+TEST_F(GatewayTest, ViewersCanSubscribeToDifferentTopics) {
   Viewer first(port()), second(port(), "/ws?simulation=arena", "foxglove.websocket.v1");
   first.Subscribe(1, "/gsv/status");
   second.Subscribe(5, "/robot_0/camera");
@@ -167,7 +167,7 @@ TEST_F(GatewayTest, EachSimulationHasItsOwnStream) {
   EXPECT_THROW(Viewer(port(), "/ws?simulation=third"), std::runtime_error);
 }
 
-TEST_F(GatewayTest, ASlowCameraDelaysNothingElse) {
+TEST_F(GatewayTest, SlowCameraDelaysNoOtherTopic) {
   std::mutex gate;
   std::unique_lock closed(gate);
   simulation_->set_on_watch([&](const std::string& sensor) -> base::Status {

@@ -110,7 +110,7 @@ FittedDevice FitLidar(const Log& log, const std::vector<ScanPair>& pairs) {
   return device;
 }
 
-// What a sonar's reflections depend on is searched for, a parameter at a time.
+// A parameter of a sonar's reflections, which is searched one at a time.
 struct Searched {
   const char* name;
   const char* unit;

@@ -83,7 +83,7 @@ model::WorldDescription TargetAt(double distance, double width, double height) {
   return world;
 }
 
-// What the small transducer has in common in all tries.
+// The common setup of all tests of the small transducer.
 class BeamTest {
  public:
   BeamTest(double threshold, double gain_range)

@@ -12,7 +12,7 @@
 namespace gsv::reality {
 namespace {
 
-TEST(Statistics, AreThoseOfTextbooks) {
+TEST(Statistics, EqualTextbookValues) {
   const std::vector<double> values = {2, 4, 4, 4, 5, 5, 7, 9};
   EXPECT_EQ(Summarize(values).mean, 5);
   EXPECT_WITHIN(Summarize(values).deviation, std::sqrt(32.0 / 7), 1e-12, "");
@@ -22,14 +22,14 @@ TEST(Statistics, AreThoseOfTextbooks) {
   EXPECT_WITHIN(RobustDeviation({1, 2, 3, 4, 100}), 1.4826, 1e-12, "");
 }
 
-TEST(Statistics, TellDistributionsApart) {
+TEST(Statistics, DistinguishDistributions) {
   EXPECT_EQ(KolmogorovSmirnov({1, 2, 3}, {1, 2, 3}), 0);
   EXPECT_EQ(KolmogorovSmirnov({1, 2}, {3, 4}), 1);
   EXPECT_WITHIN(KolmogorovSmirnov({1, 2, 3, 4}, {3, 4, 5, 6}), 0.5, 1e-12, "");
   EXPECT_EQ(KolmogorovSmirnov({}, {1}), 1);
 }
 
-TEST(Statistics, FindHowValuesFollowEachOther) {
+TEST(Statistics, ComputeCorrelations) {
   // First-order: x' = 0.7 x + noise has the autocorrelation 0.7.
   base::Noise noise(1, 2, 3);
   std::vector<double> values = {0};

@@ -90,7 +90,7 @@ void JoinWalls(const Log& log, const std::vector<RangeScan>& scans, LogOdds& odd
           std::hypot(next_x - x, next_y - y) < kLongestGap) {
         odds.AddWall(x, y, next_x, next_y);
       } else if (std::isfinite(range) && !is_lost && std::hypot(moved_x, moved_y) < kLongestGap) {
-        // Two walls: each goes on, along the way, to the middle.
+        // There are two walls. Each continues along the way to the middle.
         odds.AddWall(x, y, x + moved_x / 2, y + moved_y / 2);
         odds.AddWall(next_x - moved_x / 2, next_y - moved_y / 2, next_x, next_y);
       }

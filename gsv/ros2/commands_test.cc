@@ -43,7 +43,7 @@ TEST(CommandInput, DrivesARobotThatHasNoBehaviour) {
   EXPECT_NEAR(robot.XAtTheEnd(), 0.5, 0.02);  // 0.5 m/s for 1 s, the first step before it acts
 }
 
-TEST(CommandInput, RefusesWhatIsNotFinite) {
+TEST(CommandInput, RejectsNonFiniteCommands) {
   CommandedRobot robot;
   Twist twist;
   twist.linear.z = std::numeric_limits<double>::infinity();  // not looked at, and yet refused
@@ -100,7 +100,7 @@ TEST(Float64MultiArray, IsReadWithItsLayout) {
   }
 }
 
-TEST(Float64MultiArray, ClaimsNoMoreThanItHolds) {
+TEST(Float64MultiArray, RejectsALayoutBeyondItsData) {
   messages::Bytes bytes;
   messages::CdrWriter writer(bytes);
   writer.WriteCount(0xffffffff);

@@ -22,7 +22,7 @@ TEST(RosGraph, HasGidsOfTheDistributionsSize) {
   EXPECT_EQ(jazzy[jazzy.size() - 16], std::byte{1});
 }
 
-TEST(RosGraph, IsReadAsItWasWritten) {
+TEST(RosGraph, IsReadBackUnchanged) {
   const std::vector<NodeInfo> nodes{{"/", "gsv", {dds::Guid{1, 2}}, {dds::Guid{3}}},
                                     {"/pebble", "robot", {}, {dds::Guid{4}, dds::Guid{5}}}};
   for (const Distro distro : {Distro::kHumble, Distro::kJazzy}) {

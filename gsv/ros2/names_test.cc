@@ -5,12 +5,12 @@
 namespace gsv::ros2 {
 namespace {
 
-TEST(RosNames, AreMangledAsRosDoes) {
+TEST(RosNames, AreEncodedAsInRos) {
   EXPECT_EQ(DdsTopicName("/pebble/scan"), "rt/pebble/scan");
   EXPECT_EQ(DdsTypeName("sensor_msgs/msg/LaserScan"), "sensor_msgs::msg::dds_::LaserScan_");
 }
 
-TEST(RosNames, ComeBackFromTheWire) {
+TEST(RosNames, AreDecodedFromDdsNames) {
   EXPECT_EQ(RosTopicName("rt/pebble/scan"), "/pebble/scan");
   EXPECT_EQ(RosTypeName("sensor_msgs::msg::dds_::LaserScan_"), "sensor_msgs/msg/LaserScan");
   EXPECT_EQ(RosTopicName("ros_discovery_info"), "");
@@ -31,7 +31,7 @@ TEST(RosNames, KnowNamespaces) {
   }
 }
 
-TEST(RosNames, StandInTheirNamespace) {
+TEST(RosNames, IncludeTheirNamespace) {
   EXPECT_EQ(InNamespace("/", "scan"), "/scan");
   EXPECT_EQ(InNamespace("/pebble", "scan"), "/pebble/scan");
 }

@@ -12,7 +12,7 @@ Environment Of(std::map<std::string, std::string> values) {
   };
 }
 
-TEST(Ros2Options, StayOnThisMachineUnlessToldOtherwise) {
+TEST(Ros2Options, DefaultToThisMachineOnly) {
   const auto participant = ParticipantFor({}, Of({}));
   ASSERT_TRUE(participant);
   EXPECT_EQ(participant->range, dds::Range::kLocalhost);
@@ -20,7 +20,7 @@ TEST(Ros2Options, StayOnThisMachineUnlessToldOtherwise) {
   EXPECT_FALSE(IsExposed(*participant));
 }
 
-TEST(Ros2Options, TakeDomainRangeAndPeersFromTheEnvironment) {
+TEST(Ros2Options, ReadDomainRangeAndPeersFromTheEnvironment) {
   const auto subnet = ParticipantFor({}, Of({{"ROS_DOMAIN_ID", "42"},
                                              {"ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET"},
                                              {"ROS_STATIC_PEERS", "10.0.0.2;robot.local"}}));
@@ -34,7 +34,7 @@ TEST(Ros2Options, TakeDomainRangeAndPeersFromTheEnvironment) {
   EXPECT_EQ(peers->peers, std::vector<std::string>{"10.0.0.2"});
 }
 
-TEST(Ros2Options, GoOverTheEnvironment) {
+TEST(Ros2Options, OverrideTheEnvironment) {
   const auto participant = ParticipantFor(
       {.range = dds::Range::kLocalhost},
       Of({{"ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET"}, {"ROS_STATIC_PEERS", "10.0.0.2"}}));

@@ -124,7 +124,7 @@ void RobotTopics::AddSensor(const Context& context, model::SensorDescription des
   sources_.push_back(std::make_unique<SensorSource>(std::move(sensor), std::move(outputs), node_));
 }
 
-// What ROS 2 expects of every robot, whether or not its model has a sensor for it.
+// Adds the topics that ROS 2 expects of every robot, even if its model has no sensor for them.
 void RobotTopics::AddImplied(const Context& context) {
   const sensing::SensorRegistry& types = context.simulation.sensor_types();
   const auto add = [&](const char* type) {

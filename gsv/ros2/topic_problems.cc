@@ -12,7 +12,7 @@
 namespace gsv::ros2 {
 namespace {
 
-// What matters of an endpoint. Many endpoints are equal in it.
+// The properties of an endpoint that are compared. Many endpoints have equal ones.
 struct Side {
   std::string type, hash;
   bool is_reliable = false, is_transient_local = false;

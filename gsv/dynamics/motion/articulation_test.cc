@@ -23,7 +23,7 @@ model::Joint JointBetween(int parent, int child, model::JointKind kind) {
   return joint;
 }
 
-TEST(Articulation, LinksThatAreFixedToEachOtherAreOnePart) {
+TEST(Articulation, FixedLinksAreOnePart) {
   model::Model model;
   model.links = {LinkAt(0, 1), LinkAt(3, 2), LinkAt(5, 4)};
   model.joints = {JointBetween(0, 1, model::JointKind::kFixed),
@@ -35,8 +35,8 @@ TEST(Articulation, LinksThatAreFixedToEachOtherAreOnePart) {
   EXPECT_EQ(articulation.parts[1].parent, 0);
   EXPECT_FALSE(articulation.is_fixed);
   EXPECT_DOUBLE_EQ(articulation.mass, 7);
-  // Two bodies of 1 kg at 0 m and 2 kg at 3 m: the centre lies at 2 m, and about it, across the
-  // line between them, 0.5 + 0.5 + 1 * 2² + 2 * 1² = 7 kg m².
+  // A body of 1 kg is at 0 m and one of 2 kg at 3 m, so their centre is at 2 m. The moment about
+  // it, across the line between them, is 0.5 + 0.5 + 1 * 2² + 2 * 1² = 7 kg m².
   const Part& base = articulation.parts[0];
   EXPECT_DOUBLE_EQ(base.mass, 3);
   EXPECT_NEAR(base.model_from_part.position.x, 2, 1e-12);
@@ -45,7 +45,7 @@ TEST(Articulation, LinksThatAreFixedToEachOtherAreOnePart) {
   EXPECT_NEAR(base.inertia.z, 7, 1e-12);
 }
 
-TEST(Articulation, FindsThePrincipalAxes) {
+TEST(Articulation, ComputesThePrincipalAxes) {
   // A body with moments 1, 2 and 3, described in axes that are turned against its own.
   const geometry::Quaternion turned = geometry::FromRollPitchYaw({0.3, -0.5, 1.1});
   model::Model model;
@@ -59,7 +59,8 @@ TEST(Articulation, FindsThePrincipalAxes) {
   inertial.ixx = product(x, x), inertial.iyy = product(y, y), inertial.izz = product(z, z);
   inertial.ixy = product(x, y), inertial.ixz = product(x, z), inertial.iyz = product(y, z);
   const Part part = MakeArticulation(model).parts[0];
-  // Whatever the order of the axes: a torque about each is met by its own moment.
+  // The order of the axes is arbitrary. A torque about each axis must accelerate it by the moment
+  // of that axis.
   for (const auto& [axis, moment] :
        {std::pair(x, part.inertia.x), std::pair(y, part.inertia.y), std::pair(z, part.inertia.z)}) {
     const auto a = turned * (part.model_from_part.orientation * axis);
@@ -68,7 +69,7 @@ TEST(Articulation, FindsThePrincipalAxes) {
   }
 }
 
-TEST(Articulation, AModelThatHangsFromTheWorldIsFixed) {
+TEST(Articulation, ModelOnAJointToTheWorldHasAFixedBase) {
   model::Model model;
   model.links = {LinkAt(0, 1), LinkAt(1, 1)};
   model.joints = {JointBetween(-1, 0, model::JointKind::kFixed),

@@ -74,7 +74,7 @@ TEST(DriveKinematics, AcceleratesAndBrakesWithinItsLimits) {
   EXPECT_NEAR(state.actual.linear, -0.5, 1e-12);
 }
 
-TEST(DriveKinematics, BrakesWhenTheCommandIsTooOld) {
+TEST(DriveKinematics, BrakesAfterTheCommandTimeout) {
   model::Model model = FourWheels(DriveKind::kDifferential);
   model.drive->command_timeout = FromSeconds(0.5);
   const DriveKinematics drive = Make(model);
@@ -84,7 +84,7 @@ TEST(DriveKinematics, BrakesWhenTheCommandIsTooOld) {
   EXPECT_EQ(drive.Next(state, FromSeconds(2.5), 0.01), (world::DriveCommand{}));
 }
 
-TEST(DriveKinematics, TakesWhatIsNotFiniteAsZeroAndWhatIsAbsurdAsTheFastest) {
+TEST(DriveKinematics, NonFiniteCommandsAreZeroAndLargeOnesAreLimited) {
   const DriveKinematics drive = Make(FourWheels(DriveKind::kDifferential));
   const double nan = std::nan("");
   EXPECT_EQ(drive.Next(Commanded({nan, nan, INFINITY}), {}, 0.01), (world::DriveCommand{}));
@@ -107,7 +107,7 @@ TEST(DriveKinematics, AckermannTurnsNoTighterThanItsSteering) {
   EXPECT_EQ(twist.x, 2);
 }
 
-TEST(DriveKinematics, AckermannWheelsPointAtRightAnglesToTheCentreOfTheTurn) {
+TEST(DriveKinematics, AckermannWheelsAreTangentToTheirCircles) {
   const model::Model model = FourWheels(DriveKind::kAckermann);
   const DriveKinematics drive = Make(model);
   std::vector<double> positions(6), velocities(6);
@@ -144,14 +144,14 @@ TEST(DriveKinematics, MecanumWheelsMoveTheBaseSideways) {
   EXPECT_EQ(drive.Next(Commanded({0, 1, 0}), {}, 0.01).lateral, 1);
 }
 
-TEST(DriveKinematics, SynchroWheelsAllRollAlike) {
+TEST(DriveKinematics, SynchroWheelsRollEqually) {
   const DriveKinematics drive = Make(FourWheels(DriveKind::kSynchro));
   std::vector<double> positions(6), velocities(6);
   drive.TurnJoints({1, 0, 2}, {1, 0, 2}, 1, positions, velocities);
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(positions[i], 10, 1e-12);
 }
 
-TEST(DriveKinematics, RefusesWhatMakesNoSense) {
+TEST(DriveKinematics, RejectsInvalidDrives) {
   const auto message = [](auto change) {
     model::Model model = FourWheels(DriveKind::kAckermann);
     change(*model.drive);

@@ -33,14 +33,14 @@ Wrench WrenchOfModel(const std::shared_ptr<const model::Model>& model,
   return WrenchOf(media[0], part, {part.model_from_part, {}, {}}, description, 0.001);
 }
 
-TEST(MediumForces, AreNoneWhereNothingSurroundsABody) {
+TEST(MediumForces, AreZeroWithoutAMedium) {
   const auto model = BoxOf({});
   const world::Layout layout = LayoutOf(model, {});
   EXPECT_TRUE(MakeMedium(layout, layout.bodies[0], MakeArticulation(*model)).empty());
 }
 
 // The lift acts at the centre of the volume: half a metre beside the centre of mass.
-TEST(MediumForces, LiftAtTheCentreOfTheVolume) {
+TEST(MediumForces, ActAtTheCentreOfTheDisplacedVolume) {
   model::WorldDescription world;
   world.fluid = model::Fluid{1000, {}, {}};
   const Wrench wrench = WrenchOfModel(BoxOf({{0.5, 0, 0}, {}}), world);

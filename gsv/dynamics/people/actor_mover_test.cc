@@ -41,7 +41,7 @@ TEST(ActorMover, MovesAnActorAlongItsTrajectory) {
   EXPECT_NEAR(world.body("walker").distance, 16, 1e-9);
 }
 
-TEST(ActorMover, TakesAnActorWithNoSpeedFromTheEndToTheStart) {
+TEST(ActorMover, LoopFromTheEndToTheStartAddsNoSpeed) {
   auto model = WalkerOf(false);
   auto script = std::make_shared<model::Script>(*model->script);
   script->loops = true;
@@ -69,7 +69,7 @@ TEST(ActorMover, StopsARobotThatRunsIntoIt) {
   EXPECT_EQ(world.body("robot").collisions, 1u);
 }
 
-TEST(ActorMover, WalksIntoARobotThatStandsInItsWay) {
+TEST(ActorMover, WalksThroughAStandingRobot) {
   TestWorld world(MakeWorldEngine());
   world.AddActor("walker", WalkerOf(false), {});
   world.AddRobot("robot", testing::DiscRobot(), PlanarPose(4.3, 0, 0, 0));
@@ -88,7 +88,7 @@ TEST(ActorMover, WalksIntoARobotThatStandsInItsWay) {
   EXPECT_NEAR(world.position("robot").x, 4.8, 1e-5);
 }
 
-TEST(ActorMover, PushesWhatForcesMove) {
+TEST(ActorMover, PushesRigidBodies) {
   TestWorld world = testing::WorldOnGround();
   world.AddActor("walker", WalkerOf(false), {});
   world.AddRigid("box", testing::SolidOf(geometry::Box{{0.4, 0.4, 0.4}}, 5),
@@ -120,7 +120,7 @@ std::shared_ptr<model::Model> AnimatedWalker(bool by_distance) {
   return model;
 }
 
-TEST(ActorMover, ShowsTheFrameWhoseTimeHasCome) {
+TEST(ActorMover, ShowsTheAnimationFrameOfTheTime) {
   TestWorld world(MakeWorldEngine());
   world.AddActor("walker", AnimatedWalker(false), {});
   ASSERT_TRUE(world.Start());
@@ -130,7 +130,7 @@ TEST(ActorMover, ShowsTheFrameWhoseTimeHasCome) {
   EXPECT_EQ(world.joint("walker", 0), 1);
 }
 
-TEST(ActorMover, ShowsTheFrameOfTheDistanceWalked) {
+TEST(ActorMover, ShowsTheAnimationFrameOfTheDistance) {
   TestWorld world(MakeWorldEngine());
   world.AddActor("walker", AnimatedWalker(true), {});
   ASSERT_TRUE(world.Start());
@@ -144,7 +144,7 @@ TEST(ActorMover, ShowsTheFrameOfTheDistanceWalked) {
   }
 }
 
-TEST(ActorMover, RepeatsToTheBit) {
+TEST(ActorMover, IsRepeatable) {
   const auto digest = [] {
     TestWorld world = testing::WorldOnGround();
     world.AddActor("walker", WalkerOf(true), PlanarPose(0.1, 0.2, 0, 0.3));

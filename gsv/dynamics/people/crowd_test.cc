@@ -32,7 +32,7 @@ void AddPedestrian(TestWorld& world, const std::string& name,
   world.AddPedestrian(name, pedestrian, start);
 }
 
-TEST(Crowd, LetsOneAloneReachItsDesiredSpeed) {
+TEST(Crowd, SinglePedestrianReachesItsDesiredSpeed) {
   TestWorld world(MakeWorldEngine());
   AddPedestrian(world, "ann", GroupTo({{0, 0}, {100, 0}}), {}, 1.2);
   ASSERT_TRUE(world.Start());
@@ -44,7 +44,7 @@ TEST(Crowd, LetsOneAloneReachItsDesiredSpeed) {
   EXPECT_EQ(world.position("ann").y, 0);
 }
 
-TEST(Crowd, TurnsABodyToWhereItWalks) {
+TEST(Crowd, PedestrianFacesItsDirectionOfMotion) {
   TestWorld world(MakeWorldEngine());
   AddPedestrian(world, "ann", GroupTo({{0, 0}, {0, 100}}), {});
   ASSERT_TRUE(world.Start());
@@ -53,7 +53,7 @@ TEST(Crowd, TurnsABodyToWhereItWalks) {
   EXPECT_NEAR(world.body("ann").linear_velocity.y, 1.34, 1e-3);
 }
 
-TEST(Crowd, LetsTwoWhoMeetHeadOnPassSymmetrically) {
+TEST(Crowd, TwoPedestriansPassSymmetrically) {
   TestWorld world(MakeWorldEngine());
   AddPedestrian(world, "ann", GroupTo({{0, 0}, {8, 0}}), PlanarPose(-8, -0.1, 0, 0));
   AddPedestrian(world, "bob", GroupTo({{0, 0}, {-8, 0}}), PlanarPose(8, 0.1, 0, kTurned));
@@ -75,7 +75,7 @@ TEST(Crowd, LetsTwoWhoMeetHeadOnPassSymmetrically) {
   EXPECT_GT(world.position("ann").x, 4);
 }
 
-TEST(Crowd, SendsThemFromGoalToGoal) {
+TEST(Crowd, PedestriansWalkFromGoalToGoal) {
   TestWorld world(MakeWorldEngine());
   AddPedestrian(world, "ann", GroupTo({{0, 0}, {4, 0}}), {});
   ASSERT_TRUE(world.Start());
@@ -89,7 +89,7 @@ TEST(Crowd, SendsThemFromGoalToGoal) {
   EXPECT_LT(world.position("ann").x, 3);
 }
 
-TEST(Crowd, KeepsTheMiddleOfACorridor) {
+TEST(Crowd, PedestrianWalksInTheMiddleOfACorridor) {
   TestWorld world(MakeWorldEngine());
   world.AddBox("left", {40, 0.2, 2}, 0, 1.1);
   world.AddBox("right", {40, 0.2, 2}, 0, -1.1);
@@ -100,7 +100,7 @@ TEST(Crowd, KeepsTheMiddleOfACorridor) {
   EXPECT_GT(world.position("ann").x, 2);
 }
 
-TEST(Crowd, GivesWayToARobotAndIsRunIntoByOne) {
+TEST(Crowd, PedestriansAvoidARobotAndStopAFastOne) {
   TestWorld world(MakeWorldEngine());
   world.AddRobot("robot", testing::DiscRobot(), PlanarPose(4, 0, 0, 0));
   AddPedestrian(world, "ann", GroupTo({{0, 0}, {9, 0}}), {});
@@ -140,7 +140,7 @@ TestWorld Square(int people, int threads) {
   return world;
 }
 
-TEST(Crowd, RepeatsToTheBitWhateverTheThreads) {
+TEST(Crowd, IsRepeatableForAnyNumberOfThreads) {
   const auto digest = [](int threads) {
     TestWorld world = Square(300, threads);
     EXPECT_TRUE(world.Start());
@@ -162,7 +162,7 @@ TEST(Crowd, NeverOverlaps) {
   }
 }
 
-TEST(Crowd, IsAnObstacleToWhatForcesMove) {
+TEST(Crowd, IsAnObstacleForRigidBodies) {
   TestWorld world = testing::WorldOnGround();
   AddPedestrian(world, "ann", GroupTo({{0, 0}, {10, 0}}), {});
   world.AddRigid("ball", testing::SolidOf(geometry::Sphere{0.2}, 0.5), testing::At(4, 0, 0.2));

@@ -47,8 +47,8 @@ void FindEllipses(std::size_t count, double* __restrict x, double* __restrict y,
   }
 }
 
-// What RepulsionByOther() does from its exponential on, and AsSeen(). The forces replace the
-// directions.
+// Computes the part of RepulsionByOther() after its exponential, and AsSeen(). The forces replace
+// the directions.
 GSV_FOR_EACH_PROCESSOR
 void FindForces(std::size_t count, const double* __restrict power, const double* __restrict sum,
                 const double* __restrict b, const double* __restrict wanted_x,

@@ -13,7 +13,7 @@ namespace {
 
 using geometry::Vector2;
 
-TEST(Repulsions, AreThoseOfSinglePairsToTheBitInTheOrderOfTheCalls) {
+TEST(Repulsions, EqualTheSumOfSinglePairsInOrder) {
   constexpr std::uint32_t kWalkers = 7;
   std::vector<Vector2> forces(kWalkers), expected(kWalkers);
   Repulsions repulsions;

@@ -53,7 +53,7 @@ TEST(PoseOnTrajectory, FollowsTheHermitePolynomialWithinASegment) {
   EXPECT_NEAR(XAt(trajectory, 0.5), 0.375, 1e-12);
 }
 
-TEST(PoseOnTrajectory, IsStraightAndStopsAtWaypointsUnderFullTension) {
+TEST(PoseOnTrajectory, IsLinearAndStopsAtWaypointsAtFullTension) {
   const auto trajectory = TrajectoryOf(
       {{0, PlanarPose(0, 0, 0, 0)}, {2, PlanarPose(4, 2, 0, 0)}, {4, PlanarPose(0, 9, 0, 0)}}, 1);
   for (const double u : {0.1, 0.25, 0.5, 0.9}) {
@@ -63,7 +63,7 @@ TEST(PoseOnTrajectory, IsStraightAndStopsAtWaypointsUnderFullTension) {
   }
 }
 
-TEST(PoseOnTrajectory, RoundsAClosedOneOff) {
+TEST(PoseOnTrajectory, IsSmoothAtTheEndOfAClosedTrajectory) {
   // A square: at its first corner the tangent is (next - last but one) / 2 = (1, -1).
   const auto square = TrajectoryOf({{0, PlanarPose(0, 0, 0, 0)},
                                     {1, PlanarPose(2, 0, 0, 0)},
@@ -78,7 +78,7 @@ TEST(PoseOnTrajectory, RoundsAClosedOneOff) {
   EXPECT_NEAR(just_before.y / 1e-4, 1, 1e-3);
 }
 
-TEST(PoseOnTrajectory, TurnsEvenlyTheShorterWay) {
+TEST(PoseOnTrajectory, RotatesUniformlyAlongTheShorterArc) {
   const auto trajectory = TrajectoryOf({{0, PlanarPose(0, 0, 0, 3)}, {1, PlanarPose(0, 0, 0, -3)}});
   const double turn = 2 * 3.14159265358979323846 - 6;
   EXPECT_NEAR(geometry::WrapAngle(geometry::Yaw(PoseOn(trajectory, FromSeconds(0.25)).orientation) -
@@ -118,7 +118,7 @@ TEST(ScriptInstant, RunsTrajectoriesOneAfterTheOther) {
   EXPECT_NEAR(InstantOf(script, FromSeconds(3.5)).pose.position.x, 0.5, 1e-12);
 }
 
-TEST(ScriptInstant, StandsWhenNothingStartsIt) {
+TEST(ScriptInstant, StaysAtTheStartUntilItIsStarted) {
   model::Script script =
       ScriptOf(TrajectoryOf({{0, PlanarPose(1, 0, 0, 0)}, {4, PlanarPose(5, 0, 0, 0)}}));
   script.starts_by_itself = false;

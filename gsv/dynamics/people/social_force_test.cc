@@ -19,7 +19,7 @@ double PotentialAt(Vector2 apart, Vector2 velocity) {
   return 2.1 * std::exp(-b / 0.3);
 }
 
-TEST(SocialForce, IsTheGradientOfThePotentialTurnedAside) {
+TEST(SocialForce, IsTheRotatedGradientOfThePotential) {
   constexpr double kStep = 1e-6;
   for (const Vector2 apart : {Vector2{0.8, 0.3}, Vector2{-1.2, 0.9}, Vector2{0.1, -0.6}}) {
     for (const Vector2 velocity : {Vector2{0, 0}, Vector2{-1.2, 0.1}, Vector2{0.3, 1.1}}) {
@@ -37,7 +37,7 @@ TEST(SocialForce, IsTheGradientOfThePotentialTurnedAside) {
   }
 }
 
-TEST(SocialForce, OfAStandingOtherDecaysWithTheDistance) {
+TEST(SocialForce, OfAStandingPedestrianDecaysWithTheDistance) {
   // Without a stride b is the distance.
   EXPECT_NEAR(LengthOf(RepulsionByOther({0.9, 0}, {})), 7 * std::exp(-3.0), 1e-12);
 }
@@ -49,7 +49,7 @@ TEST(SocialForce, OfAWallDecaysWithTheDistance) {
   EXPECT_NEAR(RepulsionByWall({0, 1}, -0.1).y, 50, 1e-12);
 }
 
-TEST(SocialForce, CountsHalfFromBehind) {
+TEST(SocialForce, IsHalvedFromBehind) {
   const Vector2 from_ahead{-1, 0}, from_behind{1, 0};
   EXPECT_EQ(AsSeen(from_ahead, {1, 0}), from_ahead);
   EXPECT_EQ(AsSeen(from_behind, {1, 0}), (Vector2{0.5, 0}));
@@ -62,7 +62,7 @@ TEST(SocialForce, CountsHalfFromBehind) {
   EXPECT_NEAR(LengthOf(AsSeen(from(101), {1, 0})), 0.5, 1e-12);
 }
 
-TEST(SocialForce, ShortensTheDistanceToWhatIsThick) {
+TEST(SocialForce, UsesTheDistanceToTheSurface) {
   EXPECT_EQ(Apart({2, 0}, 0.1, 0.1), (Vector2{2, 0}));
   EXPECT_NEAR(Apart({2, 0}, 0.25, 0.25).x, 1.7, 1e-12);
   EXPECT_NEAR(Apart({2, 0}, 0.25, 1.25).x, 0.7, 1e-12);

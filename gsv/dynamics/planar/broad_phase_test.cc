@@ -11,7 +11,7 @@
 namespace gsv::dynamics {
 namespace {
 
-TEST(BroadPhase, FindsTheSamePairsAsComparingAll) {
+TEST(BroadPhase, EqualsABruteForceComparison) {
   base::Noise noise(1, 1, 1);
   BroadPhase finder;
   for (int round = 0; round < 30; ++round) {
@@ -33,7 +33,7 @@ TEST(BroadPhase, FindsTheSamePairsAsComparingAll) {
   }
 }
 
-TEST(ObstacleField, FindsAllThatIsNear) {
+TEST(ObstacleField, FindsAllNearObstacles) {
   base::Noise noise(2, 2, 2);
   const auto uniform = [&](double low, double high) {
     return low + (high - low) * noise.Uniform();

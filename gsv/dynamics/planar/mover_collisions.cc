@@ -161,7 +161,7 @@ std::optional<Impact> MoverCollisions::PairImpact(const Motions& motions,
   std::optional<Impact> impact;
   if (both > 0) impact = FirstImpact(pair, a, b, both);
   if (impact || end <= both) return impact;
-  // One has come to its end and stands; the other goes on.
+  // One of them has reached its end and stands still; the other continues.
   a.start = Advance(a.start, a.twist, both);
   b.start = Advance(b.start, b.twist, both);
   (first_time <= both ? a : b).twist = geometry::Twist{};

@@ -63,11 +63,11 @@ TEST(PlanarFidelity, ASquarePathWithoutWheelErrorsEndsAtItsStart) {
   }
 }
 
-TEST(PlanarFidelity, UnequalWheelsMissItByTheTextbooksError) {
-  // J. Borenstein and L. Feng, "Measurement and correction of systematic odometry errors in mobile
-  // robots", IEEE Trans. Robotics and Automation 12(6), 1996: with the ratio E of the right wheel's
-  // diameter to the left one's, each side is an arc of radius R = b/2 (E + 1) / (E - 1) that turns
-  // by beta = L / R, and the end is off by 2 L beta along both axes.
+TEST(PlanarFidelity, UnequalWheelsMissTheStartByTheClosedForm) {
+  // Source: J. Borenstein and L. Feng, "Measurement and correction of systematic odometry errors in
+  // mobile robots", IEEE Trans. Robotics and Automation 12(6), 1996. E is the ratio of the right
+  // wheel's diameter to the left one's. Then each side is an arc of radius R = b/2 (E + 1) / (E -
+  // 1) that turns by beta = L / R. The end is off by 2 L beta along both axes.
   base::testing::Table table("umbmark");
   for (const double ratio : {1.00002, 1.00005, 1.0001, 1.00015, 1.0002}) {
     const double left = 2 / (1 + ratio), right = 2 * ratio / (1 + ratio);

@@ -48,7 +48,7 @@ class TeamMover final : public PlanarMover {
   void ForEachChunk(const Work& work);
 
   void Slice(const world::State& state);
-  // Slices the loose bodies that a mover may meet in a step of so many seconds.
+  // Slices the dynamic bodies that a mover may meet in a step of so many seconds.
   void LookForLoose(const world::State& state, double seconds);
   void AddSight(std::uint32_t mover);
   void Begin(const world::State& state, double seconds);
@@ -64,7 +64,7 @@ class TeamMover final : public PlanarMover {
 
   const std::shared_ptr<base::ThreadTeam> team_;
   PlanarScene scene_;
-  std::vector<Sight> sights_;  // of the movers, where there are loose bodies
+  std::vector<Sight> sights_;  // of the movers, if there are dynamic bodies
   MoverMotions motions_;
   NearObstacles obstacles_;
   MoverCollisions pairs_;
@@ -217,7 +217,7 @@ void TeamMover::TurnOnTheSpot() {
   for (const Stopped& stopped : stopped_) {
     world::DriveCommand& motion = motions_.drives[stopped.mover];
     const double time = motions_.times[stopped.mover];
-    // A slide goes on in its direction in the world, which the base has turned against.
+    // A slide continues in its direction in the world, while the base has turned.
     const double angle = motion.angular * time;
     motion = {motion.linear * std::cos(angle) + motion.lateral * std::sin(angle),
               motion.lateral * std::cos(angle) - motion.linear * std::sin(angle), motion.angular};

@@ -45,7 +45,7 @@ std::vector<std::uint64_t> DigestsOfRun(const std::shared_ptr<const model::Model
   return digests;
 }
 
-TEST(PlanarMoverCrowd, IsTheSameToTheBitForAnyNumberOfThreads) {
+TEST(PlanarMoverCrowd, IsEqualForAnyNumberOfThreads) {
   const auto sliding =
       testing::RobotOf(geometry::Box{{0.3, 0.2, 0.4}}, 0.4, model::DriveKind::kVelocity);
   const auto expect_same = [](const auto& robot, int longest) {
@@ -61,9 +61,9 @@ TEST(PlanarMoverCrowd, IsTheSameToTheBitForAnyNumberOfThreads) {
   expect_same(sliding, 300);
 }
 
-// What is remembered from step to step spares searches, but a mover that remembers nothing, or
-// something else, takes the same step.
-TEST(PlanarMoverCrowd, RemembersNothingThatChangesTheOutcome) {
+// A mover caches data from step to step to spare searches. A mover with an empty cache, or with
+// another one, must take the same step.
+TEST(PlanarMoverCrowd, CachesDoNotChangeTheResult) {
   Crowd crowd(150, testing::BoxRobot(0.3, 0.2), MakeWorldEngine(), kDense);
   ASSERT_TRUE(crowd.Start());
   for (int i = 0; i < 400; ++i) {
@@ -94,7 +94,7 @@ TEST(PlanarMoverCrowd, RemembersNothingThatChangesTheOutcome) {
   }
 }
 
-TEST(PlanarMoverCrowd, OverlapsOfABodyAreThoseOfAllThatConcernIt) {
+TEST(PlanarMoverCrowd, OverlapsOfABodyAreASubsetOfAllOverlaps) {
   Crowd crowd(150, testing::BoxRobot(0.3, 0.2), MakeWorldEngine(), kDense);
   ASSERT_TRUE(crowd.Start());
   for (int i = 0; i < 300; ++i) crowd.Step();

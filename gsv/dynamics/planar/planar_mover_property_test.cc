@@ -1,5 +1,6 @@
-// What must hold in every world, tried in random ones. Overlaps are judged by code that shares
-// nothing with the mover: points on the solids' surfaces in space against the solids' equations.
+// Tests properties that must hold in every world, in random worlds. Overlaps are detected by code
+// that shares nothing with the mover: points on the solids' surfaces are inserted into the solids'
+// equations.
 
 #include <algorithm>
 
@@ -254,7 +255,7 @@ void CommandAll(TestWorld& world, Random& random) {
   }
 }
 
-TEST(PlanarMoverProperty, TheJudgeSeesOverlaps) {
+TEST(PlanarMoverProperty, TestDetectsOverlaps) {
   TestWorld world(MakeWorldEngine());
   world.AddRobot("robot", testing::DiscRobot(0.25), geometry::PlanarPose(0, 0, 0, 0));
   world.AddBox("wall", {0.1, 4, 1}, 0.299, 0);  // a millimetre deep
@@ -264,7 +265,7 @@ TEST(PlanarMoverProperty, TheJudgeSeesOverlaps) {
   EXPECT_NEAR(DeepestPoint(solids[0], solids[1]), 1e-3, 1e-9);
 }
 
-TEST(PlanarMoverProperty, NobodyEndsInsideAnything) {
+TEST(PlanarMoverProperty, BodiesNeverOverlap) {
   int contacts = 0;
   for (std::uint64_t seed = 0; seed < 25; ++seed) {
     RandomWorld made(seed);
@@ -292,7 +293,7 @@ std::uint64_t DigestAfterRun(std::vector<RandomWorld::Placed> bodies, std::uint6
   return world.Digest();
 }
 
-TEST(PlanarMoverProperty, RepeatsBitForBitInAnyOrderOfInsertion) {
+TEST(PlanarMoverProperty, DoesNotDependOnTheOrderOfInsertion) {
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     RandomWorld made(seed);
     const std::uint64_t digest = DigestAfterRun(made.bodies, seed);
@@ -302,7 +303,7 @@ TEST(PlanarMoverProperty, RepeatsBitForBitInAnyOrderOfInsertion) {
   }
 }
 
-TEST(PlanarMoverProperty, KeepsNothingThatChangesTheOutcome) {
+TEST(PlanarMoverProperty, CachesDoNotChangeTheResult) {
   RandomWorld made(3);
   TestWorld world = RandomWorld::Make(made.bodies);
   Random commands(3);
@@ -331,7 +332,7 @@ TEST(PlanarMoverProperty, KeepsNothingThatChangesTheOutcome) {
   }
 }
 
-TEST(PlanarMoverProperty, ACrowdInACorridorNeverOverlapsAndGetsThrough) {
+TEST(PlanarMoverProperty, CrowdPassesACorridorWithoutOverlaps) {
   TestWorld world(MakeWorldEngine());
   world.AddBox("left", {40, 0.1, 1}, 0, 1.05);
   world.AddBox("right", {40, 0.1, 1}, 0, -1.05);
@@ -345,7 +346,7 @@ TEST(PlanarMoverProperty, ACrowdInACorridorNeverOverlapsAndGetsThrough) {
     world.Step(0.05);
     EXPECT_TRUE(world.engine().Overlaps(world.state(), 0).empty()) << i;
   }
-  // Whoever leads its lane is held up by nobody.
+  // Nothing delays the first robot of each lane.
   for (int i = 0; i < 3; ++i) {
     EXPECT_NEAR(world.body("r" + std::to_string(i)).distance, 15 * (0.2 + 0.05 * i), 1e-9);
   }

@@ -35,7 +35,7 @@ TEST(PlanarMover, DrivesAHalfCircleExactly) {
   EXPECT_NEAR(world.body("robot").distance, 2 * angle, 1e-12);
 }
 
-TEST(PlanarMover, ComesBackFromASquare) {
+TEST(PlanarMover, ReturnsToTheStartOfASquare) {
   TestWorld world = Empty();
   world.AddRobot("robot", DiscRobot(), PlanarPose(3, -1, 0, 0.3));
   ASSERT_TRUE(world.Start());
@@ -64,7 +64,7 @@ TEST(PlanarMover, KeepsRollAndPitch) {
   EXPECT_NEAR(angles.yaw, 1.5, 1e-9);
 }
 
-TEST(PlanarMover, StopsWhereTheWallIs) {
+TEST(PlanarMover, StopsAtAWall) {
   TestWorld world = Empty();
   world.AddRobot("robot", DiscRobot(0.2), PlanarPose(0, 0, 0, 0));
   world.AddBox("wall", {0.1, 4, 1}, 2, 0);
@@ -79,7 +79,7 @@ TEST(PlanarMover, StopsWhereTheWallIs) {
   EXPECT_NEAR(world.body("robot").distance, 1.75, kGap);
 }
 
-TEST(PlanarMover, NeverStepsOverAThinWall) {
+TEST(PlanarMover, DoesNotTunnelThroughAThinWall) {
   for (const double yaw : {0.0, 0.3, 1.0}) {
     TestWorld world = Empty();
     world.AddRobot("robot", BoxRobot(0.4, 0.3), PlanarPose(0, 0, 0, yaw));
@@ -93,7 +93,7 @@ TEST(PlanarMover, NeverStepsOverAThinWall) {
   }
 }
 
-TEST(PlanarMover, ReportsAContactOnceAsBegun) {
+TEST(PlanarMover, ReportsTheBeginOfAContactOnce) {
   TestWorld world = Empty();
   world.AddRobot("robot", DiscRobot(0.2), PlanarPose(0, 0, 0, 0));
   world.AddBox("wall", {0.1, 4, 1}, 0.3, 0);  // 5 cm ahead
@@ -137,7 +137,7 @@ TEST(PlanarMover, TurnsOnTheSpotAgainstAWallAndDrivesAway) {
   EXPECT_FALSE(world.body("robot").in_contact);
 }
 
-TEST(PlanarMover, ABoxDoesNotTurnIntoAWallBesideIt) {
+TEST(PlanarMover, BoxDoesNotRotateIntoAWall) {
   TestWorld world = Empty();
   world.AddRobot("robot", BoxRobot(0.6, 0.2), PlanarPose(0, 0, 0, 0));
   world.AddBox("wall", {4, 0.1, 1}, 0, 0.25);  // its face is 0.1 m from the robot's side
@@ -155,7 +155,7 @@ TEST(PlanarMover, ABoxDoesNotTurnIntoAWallBesideIt) {
   EXPECT_NEAR(world.yaw("robot"), expected - 0.1, 1e-5);
 }
 
-TEST(PlanarMover, RobotsHeadOnMeetInTheMiddle) {
+TEST(PlanarMover, HeadOnRobotsMeetInTheMiddle) {
   TestWorld world = Empty();
   world.AddRobot("a", DiscRobot(0.2), PlanarPose(-1, 0, 0, 0));
   world.AddRobot("b", DiscRobot(0.2), PlanarPose(1, 0, 0, kPi));
@@ -170,7 +170,7 @@ TEST(PlanarMover, RobotsHeadOnMeetInTheMiddle) {
   EXPECT_EQ(world.body("b").collisions, 1u);
 }
 
-TEST(PlanarMover, WhoIsPushedFromBehindDrivesOn) {
+TEST(PlanarMover, RobotThatIsHitFromBehindContinues) {
   TestWorld world = Empty();
   world.AddRobot("fast", DiscRobot(0.2), PlanarPose(0, 0, 0, 0));
   world.AddRobot("slow", DiscRobot(0.2), PlanarPose(0.5, 0, 0, 0));
@@ -195,7 +195,7 @@ TEST(PlanarMover, RobotsOnDifferentFloorsPassEachOther) {
   EXPECT_NEAR(world.position("b").x, -1, 1e-9);
 }
 
-TEST(PlanarMover, AFloorUnderTheWheelsIsNoObstacleButItsEdgeIsOne) {
+TEST(PlanarMover, FloorIsNoObstacleButItsEdgeIsOne) {
   TestWorld world = Empty();
   world.AddBox("slab", {6, 6, 0.19}, 0, 0);
   world.AddRobot("inside", DiscRobot(0.2), PlanarPose(0, 0, 0.19, 0));
@@ -220,7 +220,7 @@ TEST(PlanarMover, DrivesUnderATableAndStopsAtItsLegs) {
   EXPECT_NEAR(world.position("low").x, 2 - 0.05 - 0.2, kGap);
 }
 
-TEST(PlanarMover, AMeshWallStopsToo) {
+TEST(PlanarMover, MeshWallIsAnObstacle) {
   auto mesh = std::make_shared<geometry::TriangleMesh>();
   mesh->positions = {{0, -2, 0}, {0, 2, 0}, {0, 2, 2}, {0, -2, 2}};
   mesh->triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -235,7 +235,7 @@ TEST(PlanarMover, AMeshWallStopsToo) {
   EXPECT_EQ(contacts.size(), 1u);
 }
 
-TEST(PlanarMover, AGroundPlaneIsNoObstacleAndASteepPlaneIsAWall) {
+TEST(PlanarMover, GroundPlaneIsNoObstacleAndSteepPlaneIsAWall) {
   TestWorld world = Empty();
   world.AddStatic("ground", testing::ModelOf(geometry::Plane{{0, 0, 1}, {100, 100}}), {});
   world.AddStatic("wall", testing::ModelOf(geometry::Plane{{-1, 0, 0}, {1, 1}}),
@@ -247,7 +247,7 @@ TEST(PlanarMover, AGroundPlaneIsNoObstacleAndASteepPlaneIsAWall) {
   EXPECT_NEAR(world.position("robot").x, 2.8, kGap);
 }
 
-TEST(PlanarMover, ABaseThatCanMoveSidewaysSlidesAlong) {
+TEST(PlanarMover, OmnidirectionalBaseSlidesAlongAWall) {
   TestWorld world = Empty();
   world.AddRobot("robot",
                  testing::RobotOf(geometry::Cylinder{0.2, 0.4}, 0.4, model::DriveKind::kVelocity),
@@ -279,7 +279,7 @@ TEST(PlanarMover, StartsAgainWithinItsLimitsAfterAContact) {
   EXPECT_NEAR(world.body("robot").drive.actual.linear, -0.01, 1e-12);
 }
 
-TEST(PlanarMover, WheelsTurnAsFarAsTheyRoll) {
+TEST(PlanarMover, WheelAnglesEqualTheRolledDistance) {
   auto robot = std::const_pointer_cast<model::Model>(DiscRobot(0.2));
   robot->links.resize(3);
   for (const double side : {1.0, -1.0}) {
@@ -307,7 +307,7 @@ TEST(PlanarMover, WheelsTurnAsFarAsTheyRoll) {
   EXPECT_NEAR(world.joint_velocity("robot", 1), -0.55 / 0.05, 1e-12);
 }
 
-TEST(PlanarMover, OverlapsNamesWhoStandsInWhat) {
+TEST(PlanarMover, OverlapsReturnsTheOverlappingPairs) {
   TestWorld world = Empty();
   world.AddRobot("a", DiscRobot(0.2), PlanarPose(0, 0, 0, 0));
   world.AddRobot("b", DiscRobot(0.2), PlanarPose(0.3, 0, 0, 0));
@@ -325,7 +325,7 @@ TEST(PlanarMover, OverlapsNamesWhoStandsInWhat) {
   EXPECT_NEAR(overlaps[1].depth, 0.15, 1e-9);
 }
 
-TEST(PlanarMover, WhoStartsInsideAWallMayLeaveIt) {
+TEST(PlanarMover, RobotThatStartsInsideAWallCanLeaveIt) {
   TestWorld world = Empty();
   world.AddRobot("robot", DiscRobot(0.2), PlanarPose(0, 0, 0, 0));
   world.AddBox("wall", {1, 4, 1}, 0.6, 0);  // 10 cm deep
@@ -338,7 +338,7 @@ TEST(PlanarMover, WhoStartsInsideAWallMayLeaveIt) {
   EXPECT_NEAR(world.position("robot").x, -1, kGap);
 }
 
-TEST(PlanarMover, WhatIsMovedFromOutsideIsMetWhereItIs) {
+TEST(PlanarMover, ObstacleIsUsedAtItsNewPoseAfterAMove) {
   TestWorld world = Empty();
   world.AddRobot("robot", DiscRobot(0.2), PlanarPose(0, 0, 0, 0));
   auto box = testing::ModelOf(geometry::Box{{0.2, 0.2, 0.2}});
@@ -351,7 +351,7 @@ TEST(PlanarMover, WhatIsMovedFromOutsideIsMetWhereItIs) {
   EXPECT_NEAR(world.position("robot").x, 2 - 0.1 - 0.2, kGap);
 }
 
-TEST(PlanarMover, RefusesADriveThatMakesNoSense) {
+TEST(PlanarMover, RejectsAnInvalidDrive) {
   auto robot = std::const_pointer_cast<model::Model>(DiscRobot());
   robot->drive->linear_velocity = {1, -1};
   TestWorld world = Empty();

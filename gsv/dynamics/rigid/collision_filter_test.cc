@@ -36,7 +36,7 @@ geometry::Shape CubeAsMesh() {
       geometry::Tessellate(geometry::Box{{1, 1, 1}}))};
 }
 
-TEST(CollisionFilter, TwoMeetIfOneHasACategoryThatTheOtherCollidesWith) {
+TEST(CollisionFilter, BodiesCollideIfOneSelectsTheOthersCategory) {
   EXPECT_TRUE(model::Meet({}, {}));
   EXPECT_FALSE(model::Meet({0, 0}, {}));
   EXPECT_FALSE(model::Meet({1, 1}, {2, 2}));
@@ -44,7 +44,7 @@ TEST(CollisionFilter, TwoMeetIfOneHasACategoryThatTheOtherCollidesWith) {
   EXPECT_TRUE(model::Meet({1, 0}, {2, 1}));
 }
 
-TEST(CollisionFilter, ABodyThatMeetsNothingFallsThroughTheGround) {
+TEST(CollisionFilter, BodyThatCollidesWithNothingFallsThroughTheGround) {
   TestWorld world = WorldOnGround();
   world.AddRigid("box", SolidOf(geometry::Box{{0.2, 0.2, 0.2}}, 1, SurfaceWith({0, 0})),
                  At(0, 0, 1));
@@ -54,7 +54,7 @@ TEST(CollisionFilter, ABodyThatMeetsNothingFallsThroughTheGround) {
 }
 
 // Onto a box and a mesh: each meets the one of two bodies whose bits it shares.
-TEST(CollisionFilter, ABodyRestsOnWhatSharesItsBits) {
+TEST(CollisionFilter, BodyRestsOnABodyOfItsCategory) {
   for (const geometry::Shape& shape : {geometry::Shape(geometry::Box{{1, 1, 1}}), CubeAsMesh()}) {
     TestWorld world(MakeWorldEngine());
     world.AddStatic("table", Filtered(ModelOf(shape), {2, 2}), At(0, 0, -0.5));
@@ -69,7 +69,7 @@ TEST(CollisionFilter, ABodyRestsOnWhatSharesItsBits) {
 }
 
 // Each shape of a body collides by its own bits.
-TEST(CollisionFilter, ShapesOfOneBodyAreToldApart) {
+TEST(CollisionFilter, ShapesOfOneBodyHaveTheirOwnFilters) {
   TestWorld world(MakeWorldEngine());
   world.AddStatic("ground", Filtered(testing::GroundOf(), {2, 2}), {});
   auto model = SolidOf(geometry::Box{{0.2, 0.2, 0.2}}, 1, SurfaceWith({2, 2}));
@@ -83,7 +83,7 @@ TEST(CollisionFilter, ShapesOfOneBodyAreToldApart) {
   EXPECT_NEAR(world.position("box").z, 0.1, 1e-3);
 }
 
-TEST(CollisionFilter, BodiesOfForeignBitsFallThroughEachOther) {
+TEST(CollisionFilter, BodiesOfDifferentCategoriesFallThroughEachOther) {
   TestWorld world(MakeWorldEngine());
   world.AddStatic("ground", testing::GroundOf(), {});
   const geometry::Box cube{{0.2, 0.2, 0.2}};
@@ -94,7 +94,7 @@ TEST(CollisionFilter, BodiesOfForeignBitsFallThroughEachOther) {
   EXPECT_NEAR(world.position("high").z, 0.1, 1e-3);
 }
 
-TEST(CollisionFilter, APlanarRobotDrivesThroughWallsOfForeignBits) {
+TEST(CollisionFilter, PlanarRobotDrivesThroughWallsOfOtherCategories) {
   for (const auto& [bits, x] : {std::pair<std::uint16_t, double>{1, 0.8}, {2, 2}}) {
     TestWorld world(MakeWorldEngine());
     world.AddStatic("wall", Filtered(ModelOf(geometry::Box{{0.2, 4, 1}}), {1, 1}),
@@ -107,7 +107,7 @@ TEST(CollisionFilter, APlanarRobotDrivesThroughWallsOfForeignBits) {
   }
 }
 
-TEST(CollisionFilter, PlanarRobotsOfForeignBitsDriveThroughEachOther) {
+TEST(CollisionFilter, PlanarRobotsOfDifferentCategoriesPassThroughEachOther) {
   for (const auto& [bits, x] : {std::pair<std::uint16_t, double>{1, 0.5}, {2, 2}}) {
     TestWorld world(MakeWorldEngine());
     world.AddRobot("standing", Filtered(BoxRobot(0.5, 0.3), {1, 1}), At(1, 0, 0));

@@ -36,7 +36,7 @@ class FreeBody final : public MovingBody {
     object_.setUserPointer(&owner);
     object_.setCollisionFlags(object_.getCollisionFlags() |
                               btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
-    // What bounces must reach what it bounces off at its full speed.
+    // A body that bounces must reach the other body at its full speed.
     if (plan.solids[0].bounces()) object_.setContactProcessingThreshold(0);
     if (plan.kinematics) servo_.emplace(*plan.kinematics, body, state.time);
     if (is_kinematic()) {
@@ -94,7 +94,7 @@ class FreeBody final : public MovingBody {
   const Part& part() const { return plan_.articulation.parts[0]; }
   bool is_kinematic() const { return part().is_kinematic && !plan_.articulation.is_fixed; }
 
-  // What stands still for good does not meet it.
+  // Static bodies do not collide with it.
   void AddKinematic(btMultiBodyDynamicsWorld& world) {
     object_.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT |
                               btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);

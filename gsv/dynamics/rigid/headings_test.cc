@@ -141,7 +141,7 @@ struct Case {
   const char* name;
   std::shared_ptr<model::Model> model;
   world::DriveCommand command;
-  double turned = 1;  // of the angle that is told
+  double turned = 1;  // as a fraction of the commanded angle
 };
 
 // Coulomb's friction at four points of equal load, whose wheels turn as told: about the middle
@@ -188,7 +188,7 @@ Outcome Expected(const Case& c) {
   return outcome;
 }
 
-TEST(Headings, ACommandDoesTheSameForEveryHeading) {
+TEST(Headings, CommandHasTheSameEffectForEveryHeading) {
   for (const Case& c : Cases()) {
     for (const auto kind : {world::BodyKind::kRigidBody, world::BodyKind::kPlanarBase}) {
       Case of = c;
@@ -213,7 +213,7 @@ TEST(Headings, ACommandDoesTheSameForEveryHeading) {
   }
 }
 
-TEST(Headings, ASkiddingRobotTurnsEquallyFarAtEachHeading) {
+TEST(Headings, SkidSteeredRobotTurnsEquallyAtEachHeading) {
   const auto model = FourWheels();
   double least = 10, most = 0;
   for (int i = 0; i < 8; ++i) {

@@ -10,9 +10,10 @@
 namespace gsv::dynamics {
 namespace {
 
-// The impulses of least energy within a circle: of (a0, a1), both above 0, and pulls (b0, b1) the x
-// with a x = b, or where that lies outside of the circle, (a + shift) x = b on it. Newton's method
-// on 1 / |x(shift)| is monotonic from below (Moré and Sorensen 1983). `shift` is where it begins.
+// The impulses of least energy within a circle. For (a0, a1), both above 0, and pulls (b0, b1), it
+// is the x with a x = b. If that is outside of the circle, it is the x on the circle with (a +
+// shift) x = b. Newton's method on 1 / |x(shift)| is monotonic from below (Moré and Sorensen 1983).
+// It begins at `shift`.
 [[gnu::always_inline]] inline std::array<double, 2> WithinCircle(double a0, double a1, double b0,
                                                                  double b1, double radius,
                                                                  double& shift) {
@@ -177,7 +178,7 @@ std::array<double, 2> ImpulseRows::ConeImpulse(int cone) const {
 [[gnu::always_inline]] inline void ImpulseRows::SolveCone(Cone& cone) {
   Row &a = At(cone.first_row), &b = At(cone.first_row + 1);
   const double radius = RadiusOf(cone);
-  // What moves in one direction alone.
+  // One of the bodies can move in one direction only.
   if (a.mass_inverse == 0 || b.mass_inverse == 0) {
     for (Row* row : {&a, &b}) {
       row->lower = -radius;

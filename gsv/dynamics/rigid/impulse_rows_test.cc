@@ -20,7 +20,7 @@ TEST(SolveLinear, SolvesEquationsThatNeedPivots) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(b[i], 1.0 + static_cast<double>(i), 1e-14);
 }
 
-TEST(SolveLinear, RefusesASingularMatrix) {
+TEST(SolveLinear, RejectsASingularMatrix) {
   std::array<double, 4> a{1, 2, 2, 4};
   std::array<double, 2> b{1, 2};
   EXPECT_FALSE(SolveLinear(a, b));
@@ -48,7 +48,7 @@ class Column {
   std::vector<int> first_;
 };
 
-TEST(ImpulseRows, EachOfAColumnCarriesWhatIsAboveIt) {
+TEST(ImpulseRows, BoxesOfAStackCarryTheWeightAbove) {
   for (const double heaviest : {1.0, 1e3, 1e6}) {
     Column column({1, 1, 1, heaviest});
     EXPECT_LT(column.rows().Solve(200, 1e-10), 40) << heaviest;
@@ -58,7 +58,7 @@ TEST(ImpulseRows, EachOfAColumnCarriesWhatIsAboveIt) {
   }
 }
 
-TEST(ImpulseRows, ASoftRowGivesWay) {
+TEST(ImpulseRows, SoftRowYields) {
   ImpulseRows rows;
   const std::array<double, 1> velocity{2}, unit{1}, response{0.5};
   rows.AddRow({rows.AddBody(velocity), unit, response}, {}, {0, 1.5, -kNoBound, kNoBound}, 0);
@@ -84,7 +84,7 @@ std::array<double, 2> SlipAfter(double angle, double speed, const ImpulseRows::A
   return {rows.velocities(body, 3)[0], rows.velocities(body, 3)[1]};
 }
 
-TEST(ImpulseRows, FrictionPointsAgainstTheSlipWhateverTheMasses) {
+TEST(ImpulseRows, FrictionOpposesTheSlipForAnyMasses) {
   for (const double angle : {0.0, 0.4, 0.8, 1.2, 1.5}) {
     const auto [x, y] = SlipAfter(angle, 5, {{{1, 0}, {0, 1}}});
     const double speed = std::sqrt(x * x + y * y);
@@ -102,7 +102,7 @@ TEST(ImpulseRows, FrictionDoesNotDependOnItsAxes) {
   EXPECT_NEAR(y, turned_y, 1e-9);
 }
 
-TEST(ImpulseRows, FrictionHoldsWhatItCan) {
+TEST(ImpulseRows, FrictionHoldsUpToItsLimit) {
   const auto [x, y] = SlipAfter(0.9, 0.2, {{{1, 0}, {0, 1}}});
   EXPECT_NEAR(x, 0, 1e-12);
   EXPECT_NEAR(y, 0, 1e-12);

@@ -83,7 +83,7 @@ int ImpulseSolver::NodeOf(btMultiBody* tree, int bullets_first) {
   return known;
 }
 
-// What a row acts on, or -1.
+// Returns the node on which a row acts, or -1.
 int ImpulseSolver::NodeOf(const btSolverConstraint& row, bool is_first) {
   return NodeOf(is_first ? row.m_solverBodyIdA : row.m_solverBodyIdB);
 }

@@ -1,4 +1,4 @@
-// What does not touch does not matter: to the bit.
+// Tests that bodies which do not touch have no effect on each other: results are bit-identical.
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -67,7 +67,7 @@ void ExpectTheSame(TestWorld& a, TestWorld& b, const std::string& name) {
   EXPECT_EQ(x.angular_velocity, y.angular_velocity) << name;
 }
 
-TEST(Islands, BodiesFarAwayChangeNoBit) {
+TEST(Islands, BodiesFarAwayHaveNoEffect) {
   TestWorld alone = WorldWith(0);
   for (const int far_bodies : {1, 30}) {
     TestWorld crowded = WorldWith(far_bodies);
@@ -86,7 +86,7 @@ TEST(Islands, BodiesFarAwayChangeNoBit) {
   EXPECT_EQ(alone.body("sliding").linear_velocity, geometry::Vector3{});
 }
 
-TEST(Islands, AreSolvedTheSameByAnyNumberOfThreads) {
+TEST(Islands, AreEqualForAnyNumberOfThreads) {
   std::vector<std::uint64_t> digests;
   for (const int threads : {1, 2, 3}) {
     TestWorld world(MakeWorldEngine(std::make_shared<base::ThreadTeam>(threads)));

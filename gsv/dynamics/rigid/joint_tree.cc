@@ -300,7 +300,8 @@ void JointTree::Drive(double seconds) {
   servo_->kinematics().TurnJoints({}, motion, seconds, wanted_positions_, wanted_rates_);
 }
 
-// What a joint is to do now: its drive's part in it, or what it is told.
+// Returns the present command of a joint: that of the drive if the joint belongs to it, else the
+// joint's own.
 world::JointCommand JointTree::CommandOf(int joint) const {
   if (servo_) {
     const model::Drive& drive = *plan_.model->drive;
@@ -320,7 +321,8 @@ void JointTree::Move(const Motor& motor, double rate, double seconds) {
   motor.row->Set(std::clamp(rate, -fastest, fastest), -impulse, impulse);
 }
 
-// Whatever force it takes: without a command, or with one of effort, the joint stands.
+// Moves the joint regardless of forces. Without a command, or with a command of effort, the joint
+// does not move.
 void JointTree::MoveKinematic(const Motor& motor, const world::JointCommand& command,
                               double seconds) {
   double rate = 0;

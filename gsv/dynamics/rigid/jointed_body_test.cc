@@ -1,4 +1,4 @@
-// Joints and wheels that move by forces, against closed forms.
+// Compares joints and wheels with rigid-body dynamics with closed forms.
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ double PeriodOf(double amplitude, double& highest) {
   return (ended - begun) / 10;
 }
 
-TEST(JointedBody, APendulumHasItsPeriod) {
+TEST(JointedBody, PendulumHasItsClosedFormPeriod) {
   base::testing::Table table("pendulum");
   const double inertia = 1e-4 + kPendulum * kPendulum;
   for (const double amplitude : {0.05, 0.3, 0.6, 1.0, 1.5, 2.0, 2.5}) {
@@ -93,7 +93,7 @@ TEST(JointedBody, DampingLetsALinkSinkAtItsTerminalSpeed) {
   EXPECT_WITHIN_PERCENT(world.joint_velocity("slider", 0), -kG / 20, 3);
 }
 
-TEST(JointedBody, DampingTakesAJointToItsTerminalRateHoweverLightTheLink) {
+TEST(JointedBody, DampingLimitsTheRateOfAJointWithALightLink) {
   for (const double inertia : {1e-6, 1e-4, 1e-3, 0.1}) {
     auto model = Hanging(model::JointKind::kContinuous, 0, {0, 0, 1});
     model->links[0].inertial.ixx = model->links[0].inertial.iyy = model->links[0].inertial.izz =
@@ -108,7 +108,7 @@ TEST(JointedBody, DampingTakesAJointToItsTerminalRateHoweverLightTheLink) {
   }
 }
 
-TEST(JointedBody, AJointKeepsItsLimitOfVelocityUnderAnyEffort) {
+TEST(JointedBody, JointRespectsItsVelocityLimitUnderAnyEffort) {
   auto model = Hanging(model::JointKind::kContinuous, 0, {0, 0, 1});
   model->joints[0].velocity_limit = 0.5;
   TestWorld world(MakeWorldEngine());
@@ -123,7 +123,7 @@ TEST(JointedBody, AJointKeepsItsLimitOfVelocityUnderAnyEffort) {
   }
 }
 
-TEST(JointedBody, AFallingLinkKeepsItsLimitOfVelocity) {
+TEST(JointedBody, FallingLinkRespectsItsVelocityLimit) {
   auto model = Hanging(model::JointKind::kPrismatic, 0, {0, 0, 1});
   model->joints[0].velocity_limit = 0.3;
   TestWorld world(MakeWorldEngine());
@@ -143,7 +143,7 @@ TEST(JointedBody, FrictionHoldsAJoint) {
   EXPECT_WITHIN(world.joint("slider", 0), 0, 1e-6, "m");
 }
 
-TEST(JointedBody, AJointGoesWhereItIsTold) {
+TEST(JointedBody, JointReachesItsCommandedPosition) {
   using Kind = world::JointCommand::Kind;
   TestWorld world(MakeWorldEngine());
   world.AddRigid("arm", Hanging(model::JointKind::kRevolute, 0.5), At(0, 0, 2));
@@ -210,7 +210,7 @@ std::shared_ptr<model::Model> WheeledRobot() {
   return model;
 }
 
-TEST(JointedBody, ARobotRollsAsFarAsItsWheelsTurn) {
+TEST(JointedBody, RobotRollsTheDistanceOfItsWheels) {
   TestWorld world = WorldOnGround();
   world.AddRigid("robot", WheeledRobot(), {});
   ASSERT_TRUE(world.Start());
@@ -224,7 +224,7 @@ TEST(JointedBody, ARobotRollsAsFarAsItsWheelsTurn) {
   EXPECT_NEAR(world.body("robot").drive.actual.linear, 0.5, 1e-9);
 }
 
-TEST(JointedBody, ARobotTurnsAsItsWheelsDo) {
+TEST(JointedBody, RobotTurnsByTheDifferenceOfItsWheels) {
   TestWorld world = WorldOnGround();
   world.AddRigid("robot", WheeledRobot(), {});
   ASSERT_TRUE(world.Start());
@@ -237,7 +237,7 @@ TEST(JointedBody, ARobotTurnsAsItsWheelsDo) {
   EXPECT_NEAR(world.position("robot").y, 0, 0.02);
 }
 
-TEST(JointedBody, ARobotOnASlipperySlopeSlidesWhileItsOdometryStandsStill) {
+TEST(JointedBody, RobotSlidesOnASlopeWithoutOdometry) {
   const double angle = 0.2, mu = 0.1;
   const Pose incline{{0, 0, 0}, geometry::FromAxisAngle({0, 1, 0}, angle)};
   TestWorld world(MakeWorldEngine());
@@ -253,7 +253,7 @@ TEST(JointedBody, ARobotOnASlipperySlopeSlidesWhileItsOdometryStandsStill) {
   EXPECT_NEAR(world.joint("robot", 0), 0, 1e-6);
 }
 
-TEST(JointedBody, ARobotClimbsARampThatAPlanarOneStopsAt) {
+TEST(JointedBody, RobotClimbsARampThatStopsAPlanarRobot) {
   TestWorld world = WorldOnGround();
   // Its upper face begins at the ground at x = 1 and rises by one in five.
   const double slope = std::atan(0.2);
@@ -268,7 +268,7 @@ TEST(JointedBody, ARobotClimbsARampThatAPlanarOneStopsAt) {
   EXPECT_WITHIN(world.position("robot").z, 0.2 * (world.position("robot").x - 1), 0.03, "m");
 }
 
-TEST(JointedBody, ARunRepeatsToTheBitFromAnyState) {
+TEST(JointedBody, RunIsRepeatableFromAnyState) {
   const auto make = [] {
     TestWorld world = WorldOnGround();
     world.AddRigid("robot", WheeledRobot(), At(0, 0, 0));

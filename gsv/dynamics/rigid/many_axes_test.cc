@@ -54,7 +54,7 @@ Vector3 BobOf(const TestWorld& world, const model::Model& model) {
   return world::LinkPoses(model, world.state().joint_positions)[0] * Vector3{0, 0, -kLength};
 }
 
-TEST(ManyAxes, APendulumOnABallGoesRoundInACone) {
+TEST(ManyAxes, PendulumOnABallJointMovesOnACone) {
   // With the same inertia about all axes the bob goes round at W² = g / (l cos a).
   const double angle = 0.7, rate = std::sqrt(kG / (kLength * std::cos(angle)));
   const auto model = BallPendulum();
@@ -125,7 +125,7 @@ TEST(ManyAxes, AUniversalJointSwingsAboutBothAxes) {
   EXPECT_WITHIN(world.joint("pendulum", 1), -0.03, 5e-4, "rad");
 }
 
-TEST(ManyAxes, ACrossIsDampedAsWhatHangsFromIt) {
+TEST(ManyAxes, UniversalJointIsDamped) {
   auto model = HangingBy(JointKind::kContinuous, {{1, 0, 0}, {0, 1, 0}});
   model->joints[0].damping = 0.2;
   TestWorld world(MakeWorldEngine());
@@ -136,7 +136,7 @@ TEST(ManyAxes, ACrossIsDampedAsWhatHangsFromIt) {
   EXPECT_NEAR(world.joint("pendulum", 0), 0, 1e-3);
 }
 
-TEST(ManyAxes, AScrewSinksAsItTurns) {
+TEST(ManyAxes, ScrewJointMovesAlongItsAxisAsItTurns) {
   const double pitch = 0.1, inertia = 0.01;
   auto model = testing::ModelOf(geometry::Sphere{0.05});
   model->links[0].inertial = {1, {}, inertia, inertia, inertia};
@@ -148,7 +148,7 @@ TEST(ManyAxes, AScrewSinksAsItTurns) {
   world.AddRigid("nut", model, At(0, 0, 5));
   ASSERT_TRUE(world.Start());
   world.Run(0.5, 0.001);
-  // What falls by `pitch` a radian has to be turned as well.
+  // A body that falls by `pitch` per radian must also be rotated.
   const double angle = -kG * pitch / (inertia + pitch * pitch) * 0.5 * 0.5 / 2;
   EXPECT_WITHIN_PERCENT(world.joint("nut", 0), angle, 0.5);
   const Pose nut = world::LinkPoses(*model, world.state().joint_positions)[0];
@@ -156,7 +156,7 @@ TEST(ManyAxes, AScrewSinksAsItTurns) {
   EXPECT_NEAR(geometry::WrapAngle(geometry::Yaw(nut.orientation) - world.joint("nut", 0)), 0, 1e-9);
 }
 
-TEST(ManyAxes, WhatHasNoGravityFloats) {
+TEST(ManyAxes, LinkWithoutGravityFloats) {
   auto balloon = SolidOf(geometry::Sphere{0.1}, 2);
   balloon->links[0].has_gravity = false;
   auto arm = HangingBy(JointKind::kRevolute, {{0, 1, 0}});
@@ -184,7 +184,7 @@ double SlidingDistance(const model::Surface& surface, double yaw) {
   return world.position("box").x;
 }
 
-TEST(ManyAxes, ASurfaceMaySlipMoreInOneDirection) {
+TEST(ManyAxes, FrictionMayDifferBetweenDirections) {
   model::Surface surface{0.5, 0.1, 0, {1, 0, 0}};
   const double along = 2 * 2 / (2 * 0.5 * kG), across = 2 * 2 / (2 * 0.1 * kG);
   EXPECT_WITHIN_PERCENT(SlidingDistance(surface, 0), along, 1);
@@ -193,7 +193,7 @@ TEST(ManyAxes, ASurfaceMaySlipMoreInOneDirection) {
   EXPECT_WITHIN_PERCENT(SlidingDistance(surface, 0), across, 1);
 }
 
-TEST(ManyAxes, AModelsControllersActFromTheStart) {
+TEST(ManyAxes, ModelsControllersApplyFromTheStart) {
   auto slider = HangingBy(JointKind::kPrismatic, {{1, 0, 0}});
   slider->joint_targets.push_back({0, model::JointTarget::Kind::kVelocity, 0.4});
   auto arm = HangingBy(JointKind::kRevolute, {{0, 1, 0}});

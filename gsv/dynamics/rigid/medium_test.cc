@@ -24,7 +24,7 @@ std::shared_ptr<model::Model> Cube(double mass) {
 }
 
 // v = v0 (1 - k)^(t/h) without gravity, with the world's own step h as SDFormat's decay has it.
-TEST(VelocityDecay, TakesItsShareInEachStepOfTheWorld) {
+TEST(VelocityDecay, ReducesTheVelocityInEachStepOfTheWorld) {
   for (const double step : {0.001, 0.004}) {
     TestWorld world(MakeWorldEngine());
     world.description().gravity = {};
@@ -54,7 +54,7 @@ TEST(VelocityDecay, EndsAFallAtItsTerminalVelocity) {
 }
 
 // Two links on a fixed joint: each loses the share of its own momentum.
-TEST(VelocityDecay, OfLinksThatAreFixedTogetherCountsByTheirMass) {
+TEST(VelocityDecay, OfFixedLinksIsWeightedByTheirMass) {
   TestWorld world(MakeWorldEngine());
   world.description().gravity = {};
   auto model = Cube(3);
@@ -71,7 +71,7 @@ TEST(VelocityDecay, OfLinksThatAreFixedTogetherCountsByTheirMass) {
 }
 
 // v' = d (w - v): v = w (1 - exp(-d t)).
-TEST(Wind, TakesABodyAlongByTheDifferenceOfVelocities) {
+TEST(Wind, ForceIsProportionalToTheRelativeVelocity) {
   TestWorld world(MakeWorldEngine());
   world.description().gravity = {};
   world.description().wind = model::Wind{{2, -1, 0}, 0.5};
@@ -89,7 +89,7 @@ TEST(Wind, TakesABodyAlongByTheDifferenceOfVelocities) {
 }
 
 // A pendulum of one link hangs where the wind's and the weight's torques balance: tan a = d w / g.
-TEST(Wind, HoldsAPendulumAside) {
+TEST(Wind, DeflectsAPendulum) {
   TestWorld world(MakeWorldEngine());
   world.description().wind = model::Wind{{3, 0, 0}, 2};
   auto model = Cube(1);
@@ -106,7 +106,7 @@ TEST(Wind, HoldsAPendulumAside) {
 }
 
 // It rises with (rho V / m - 1) g.
-TEST(Buoyancy, LiftsWhatIsLighterThanTheFluid) {
+TEST(Buoyancy, LiftsBodiesLighterThanTheFluid) {
   TestWorld world(MakeWorldEngine());
   world.description().fluid = model::Fluid{1000, {}, {}};
   world.AddRigid("box", Cube(5), At(0, 0, -10));
@@ -132,7 +132,7 @@ TEST(Buoyancy, LiftsOnlyTheModelsThatItNames) {
 
 // Archimedes: of a flat box, which floats upright, the share is under water that its density is of
 // the water's.
-TEST(Buoyancy, BodiesFloatAsDeepAsTheirDensitySays) {
+TEST(Buoyancy, BoxFloatsAtTheDepthOfItsDensity) {
   for (const double share : {0.25, 0.5, 0.9}) {
     TestWorld world(MakeWorldEngine());
     world.description().fluid = model::Fluid{1000, {{0, 0}}, {}};
@@ -147,7 +147,7 @@ TEST(Buoyancy, BodiesFloatAsDeepAsTheirDensitySays) {
 }
 
 // A ball of half the water's density has its centre in the surface.
-TEST(Buoyancy, ABallFloatsAsDeepAsItsDensitySays) {
+TEST(Buoyancy, BallFloatsAtTheDepthOfItsDensity) {
   TestWorld world(MakeWorldEngine());
   world.description().fluid = model::Fluid{1000, {{1, 0}}, {}};
   auto model = SolidOf(geometry::Sphere{0.3}, 500 * 4 * pi / 3 * 0.027);
@@ -159,7 +159,7 @@ TEST(Buoyancy, ABallFloatsAsDeepAsItsDensitySays) {
 }
 
 // A log that floats upright falls over: the centre of what it displaces is below its own.
-TEST(Buoyancy, TurnsALogOnItsSide) {
+TEST(Buoyancy, RotatesALogOntoItsSide) {
   TestWorld world(MakeWorldEngine());
   world.description().fluid = model::Fluid{1000, {{0, 0}}, {}};
   auto model = SolidOf(geometry::Cylinder{0.1, 1}, 500 * pi * 0.01);
@@ -171,7 +171,7 @@ TEST(Buoyancy, TurnsALogOnItsSide) {
   EXPECT_NEAR(along.z, 0, 0.05);
 }
 
-TEST(KinematicLink, IsMovedByNothing) {
+TEST(KinematicLink, IgnoresForces) {
   TestWorld world = WorldOnGround();
   auto model = Cube(1);
   model->links[0].is_kinematic = true;
@@ -184,7 +184,7 @@ TEST(KinematicLink, IsMovedByNothing) {
   EXPECT_NEAR(world.position("stone").z, 1.2, 2e-3);
 }
 
-TEST(KinematicLink, MovesAtItsVelocityAndTakesOthersAlong) {
+TEST(KinematicLink, MovesAtItsVelocityAndCarriesOtherBodies) {
   TestWorld world = WorldOnGround();
   auto pusher = Cube(1);
   pusher->links[0].is_kinematic = true;
@@ -198,7 +198,7 @@ TEST(KinematicLink, MovesAtItsVelocityAndTakesOthersAlong) {
   EXPECT_NEAR(world.position("crate").x, 1.3, 5e-3);
 }
 
-TEST(KinematicLink, WithADriveMovesAsTheDriveIsTold) {
+TEST(KinematicLink, WithADriveFollowsTheDrivesCommand) {
   TestWorld world = WorldOnGround();
   auto model = Cube(1);
   model->links[0].is_kinematic = true;
@@ -215,7 +215,7 @@ TEST(KinematicLink, WithADriveMovesAsTheDriveIsTold) {
 }
 
 // A load does not move the arm; the command of its joint turns it.
-TEST(KinematicLink, BelowAJointObeysTheJointsCommandAlone) {
+TEST(KinematicLink, OnAJointFollowsOnlyTheJointsCommand) {
   TestWorld world(MakeWorldEngine());
   auto model = Cube(1);
   model->links.push_back(testing::LinkOf(geometry::Box{{0.1, 0.1, 0.1}}, At(0.5, 0, 0)));

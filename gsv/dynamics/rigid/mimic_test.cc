@@ -69,7 +69,7 @@ TEST(Mimic, AJointOfAPlanarRobotFollowsItsLeader) {
   EXPECT_NEAR(world.joint("robot", 1), -0.4, 1e-12);
 }
 
-TEST(Mimic, AJointThatFollowsTakesNoCommands) {
+TEST(Mimic, MimicJointRejectsCommands) {
   TestWorld world(MakeWorldEngine());
   world.AddRigid("gripper", Fingers({1, 1, 0, 0}), At(0, 0, 1));
   ASSERT_TRUE(world.Start());

@@ -32,7 +32,7 @@ TEST(Pushing, ARobotPushesABoxAtTheSpeedItDrives) {
   EXPECT_GT(world.body("box").collisions, 0u);
 }
 
-TEST(Pushing, ARobotThatAcceleratesSlowlyPushesAllTheSame) {
+TEST(Pushing, SlowlyAcceleratingRobotPushesAsWell) {
   auto robot = Robot();
   robot->drive->linear_acceleration = {-1, 1};
   TestWorld world = WorldOnGround();
@@ -80,7 +80,7 @@ TEST(Pushing, ABallBouncesOffARobotThatStands) {
   EXPECT_LT(world.position("ball").x, -0.3 + 1e-4);
 }
 
-TEST(Pushing, WhatLiesOnARobotRidesAlong) {
+TEST(Pushing, BodyOnARobotMovesWithIt) {
   TestWorld world = WorldOnGround();
   world.AddRobot("robot", Robot(), At(0, 0, 0));
   world.AddRigid("parcel", SolidOf(geometry::Box{{0.1, 0.1, 0.1}}, 1), At(0, 0, 0.45));

@@ -12,7 +12,7 @@ namespace {
 
 // m: closer than this is touching.
 constexpr double kTouchingDistance = 1e-4;
-// What is below and steeper than 45° to nothing carries.
+// A body carries another from below if the normal is within 45° of the vertical (its cosine).
 constexpr double kCarries = 0.70710678118654757;
 
 const Owner& OwnerOf(const btCollisionObjectWrapper* wrapper) {

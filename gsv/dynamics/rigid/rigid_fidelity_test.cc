@@ -41,7 +41,7 @@ TEST(RigidFidelity, ABodyFallsAlongTheParabola) {
   EXPECT_NEAR(world.body("ball").linear_velocity.z, 2 - kG, 1e-9);
 }
 
-TEST(RigidFidelity, AStepOfAnySizeGivesTheSameFall) {
+TEST(RigidFidelity, FallDoesNotDependOnTheStepSize) {
   for (const double step : {0.0005, 0.004, 0.25}) {
     TestWorld world = WorldOnGround();
     world.AddRigid("ball", SolidOf(geometry::Sphere{0.1}, 2), At(0, 0, 10));
@@ -51,7 +51,7 @@ TEST(RigidFidelity, AStepOfAnySizeGivesTheSameFall) {
   }
 }
 
-TEST(RigidFidelity, ABallBouncesToTheSquareOfItsRestitution) {
+TEST(RigidFidelity, BallBouncesToTheHeightOfItsRestitution) {
   base::testing::Table table("bounce");
   for (const double restitution : {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}) {
     TestWorld world = WorldOnGround(SurfaceOf(1, 1));
@@ -86,7 +86,7 @@ TEST(RigidFidelity, ASlidingBoxStopsAfterTheFrictionDistance) {
   EXPECT_EQ(world.body("box").linear_velocity, Vector3{});
 }
 
-TEST(RigidFidelity, ABallThatLandsOnTwoEdgesIsNotThrownToOneSide) {
+TEST(RigidFidelity, BallOnTwoEdgesIsNotDeflected) {
   // 0.5 m between the edges: the ball comes to lie with its middle sqrt(0.5² - 0.25²) above them.
   for (const double height : {1.5, 2.0, 2.5, 3.0, 3.5, 4.0}) {
     TestWorld world(MakeWorldEngine());
@@ -116,7 +116,7 @@ double SpeedAfterLanding(double friction, double height_more) {
   return world.body("ball").linear_velocity.x;
 }
 
-TEST(RigidFidelity, ABallThatLandsIsSlowedByFrictionTimesTheImpact) {
+TEST(RigidFidelity, FrictionAtAnImpactIsProportionalToTheImpulse) {
   // The ground is found at different distances within a step.
   for (const double more : {0.0, 3e-4, 7e-4, 1.3e-3, 1.9e-3}) {
     EXPECT_WITHIN(SpeedAfterLanding(0.1, more), 3 - 0.1 * 2 - 0.1 * kG * 0.05, 2e-3, "m/s") << more;
@@ -208,7 +208,7 @@ TEST(RigidFidelity, ABoxAtRestNeitherSinksNorDrifts) {
   EXPECT_EQ(world.position("box"), settled);
 }
 
-TEST(RigidFidelity, AStackStandsForAMinute) {
+TEST(RigidFidelity, StackIsStableForAMinute) {
   TestWorld world = WorldOnGround();
   const auto box = SolidOf(geometry::Box{{0.5, 0.5, 0.5}}, 1);
   for (int i = 0; i < 5; ++i) {
@@ -231,7 +231,7 @@ TEST(RigidFidelity, AStackStandsForAMinute) {
 }
 
 // One cube on another, at rest from the beginning.
-TEST(RigidFidelity, AHeavyBoxStandsOnALightOne) {
+TEST(RigidFidelity, HeavyBoxOnALightBoxIsStable) {
   for (const double mass : {10.0, 1e3, 1e5}) {
     TestWorld world = WorldOnGround();
     world.AddRigid("light", SolidOf(geometry::Box{{0.2, 0.2, 0.2}}, 1), At(0, 0, 0.1));
@@ -244,7 +244,7 @@ TEST(RigidFidelity, AHeavyBoxStandsOnALightOne) {
   }
 }
 
-TEST(RigidFidelity, ASlabStandsOnFourLightLegs) {
+TEST(RigidFidelity, SlabOnFourLightLegsIsStable) {
   TestWorld world = WorldOnGround();
   for (int i = 0; i < 4; ++i) {
     world.AddRigid("leg" + std::to_string(i), SolidOf(geometry::Box{{0.1, 0.1, 0.5}}, 1),
@@ -290,7 +290,7 @@ TEST(RigidFidelity, EnergyNeverGrows) {
     world.Step(kStep);
     const double now = EnergyOf(world);
     if (i % 5 == 0) table.Row({kStep * (i + 1), now});
-    // What a substep's rounding of a turn and the slop of a contact make.
+    // The tolerance covers the rounding of a rotation in a substep, and the slop of a contact.
     ASSERT_WITHIN(100 * std::max(now - energy, 0.0) / most, 0, 0.02, "% a step") << i;
     energy = now;
   }

@@ -1,4 +1,4 @@
-// What must hold in every world with rigid bodies.
+// Tests properties that must hold in every world with rigid bodies.
 #include <gtest/gtest.h>
 
 #include "gsv/base/random.h"
@@ -41,7 +41,7 @@ TestWorld Heap(std::uint64_t seed, const Vector3& offset = {}) {
   return world;
 }
 
-TEST(RigidProperty, ARunRepeatsToTheBit) {
+TEST(RigidProperty, RunIsRepeatable) {
   TestWorld first = Heap(1), second = Heap(1);
   for (int i = 0; i < 300; ++i) {
     first.Step(0.01);
@@ -50,7 +50,7 @@ TEST(RigidProperty, ARunRepeatsToTheBit) {
   }
 }
 
-TEST(RigidProperty, AStepDependsOnTheStateAlone) {
+TEST(RigidProperty, StepDependsOnlyOnTheState) {
   // Another engine, that has seen nothing of the way there, takes the same step.
   TestWorld lived = Heap(2), fresh = Heap(2);
   lived.Run(1, 0.01);
@@ -60,7 +60,7 @@ TEST(RigidProperty, AStepDependsOnTheStateAlone) {
   EXPECT_EQ(lived.Digest(), fresh.Digest());
 }
 
-TEST(RigidProperty, AskingForOverlapsLeavesNoTrace) {
+TEST(RigidProperty, OverlapQueriesDoNotChangeTheState) {
   TestWorld first = Heap(3), second = Heap(3);
   for (int i = 0; i < 100; ++i) {
     first.Step(0.01);
@@ -70,7 +70,7 @@ TEST(RigidProperty, AskingForOverlapsLeavesNoTrace) {
   EXPECT_EQ(first.Digest(), second.Digest());
 }
 
-TEST(RigidProperty, NothingFallsThroughTheGroundAndNoRobotEntersAnything) {
+TEST(RigidProperty, BodiesNeverPenetrateTheGroundOrEachOther) {
   for (std::uint64_t seed = 10; seed < 13; ++seed) {
     TestWorld world = Heap(seed);
     for (int i = 0; i < 300; ++i) {
@@ -79,7 +79,7 @@ TEST(RigidProperty, NothingFallsThroughTheGroundAndNoRobotEntersAnything) {
         ASSERT_GT(world.position("solid" + std::to_string(s)).z, 0.05) << seed << ", step " << i;
       }
     }
-    // What a robot runs into it touches; what falls onto one may be pressed against it.
+    // A robot touches a body that it runs into, and a falling body may be pressed against a robot.
     double deepest = 0;
     for (const auto& overlap : world.engine().Overlaps(world.state(), 0)) {
       deepest = std::max(deepest, overlap.depth);
@@ -90,7 +90,7 @@ TEST(RigidProperty, NothingFallsThroughTheGroundAndNoRobotEntersAnything) {
   }
 }
 
-TEST(RigidProperty, TheWorldMayBeAnywhere) {
+TEST(RigidProperty, ResultDoesNotDependOnTheWorldsPosition) {
   // By a power of two, so that the start is the same but for few bits; before chaos makes much of
   // them.
   TestWorld here = Heap(4), there = Heap(4, {128, -64, 0});

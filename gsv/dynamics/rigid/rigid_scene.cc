@@ -169,7 +169,7 @@ base::Status RigidScene::SetLayout(std::shared_ptr<const world::Layout> layout) 
   planar_.clear();
   shapes_.NextLayout();
   const auto& bodies = layout_->bodies;
-  // Where nothing moves by forces, nothing is to be made.
+  // Without rigid bodies, there is nothing to create.
   if (std::none_of(bodies.begin(), bodies.end(), [](const auto& body) { return body.is_rigid(); }))
     return {};
   for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {

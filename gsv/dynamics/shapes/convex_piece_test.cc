@@ -27,7 +27,7 @@ TEST(Separate, OfDiscsIsTheGapBetweenThem) {
   EXPECT_NEAR(Separate(Disc({0, 0}, 1), Disc({1, 0}, 1)).distance, -1, 1e-15);
 }
 
-TEST(Separate, OfADiscAndAPolygonIsToItsFaceOrItsCorner) {
+TEST(Separate, OfADiscAndAPolygonIsMeasuredToFaceOrCorner) {
   const ConvexPiece box = Rectangle(0, 0, 2, 1);
   EXPECT_NEAR(Separate(Disc({5, 0.5}, 1), box).distance, 2, 1e-15);
   EXPECT_NEAR(Separate(Disc({5, 5}, 1), box).distance, 4, 1e-15);
@@ -35,7 +35,7 @@ TEST(Separate, OfADiscAndAPolygonIsToItsFaceOrItsCorner) {
   EXPECT_NEAR(Separate(box, Disc({5, 0.5}, 1)).normal.x, 1, 1e-15);
 }
 
-TEST(Separate, OfPolygonsIsBetweenFacesOrCornersOrHowDeepTheyOverlap) {
+TEST(Separate, OfPolygonsIsTheDistanceOrThePenetration) {
   const ConvexPiece box = Rectangle(0, 0, 2, 1);
   EXPECT_NEAR(Separate(box, Rectangle(5, 0, 1, 1)).distance, 2, 1e-15);
   EXPECT_NEAR(Separate(box, Rectangle(6, 5, 1, 1)).distance, std::hypot(3, 3), 1e-15);
@@ -44,7 +44,7 @@ TEST(Separate, OfPolygonsIsBetweenFacesOrCornersOrHowDeepTheyOverlap) {
   EXPECT_NEAR(overlap.normal.x, 1, 1e-15);
 }
 
-TEST(Separate, OfSegmentsMindsTheirEnds) {
+TEST(Separate, OfSegmentsConsidersTheirEnds) {
   const ConvexPiece segment = Hull({{-1, 0}, {1, 0}});
   EXPECT_EQ(segment.vertex_count, 2);
   EXPECT_NEAR(Separate(Disc({3, 0}, 0.5), segment).distance, 1.5, 1e-15);
@@ -53,7 +53,7 @@ TEST(Separate, OfSegmentsMindsTheirEnds) {
   EXPECT_NEAR(Separate(Rectangle(3, 0, 1, 1), segment).distance, 1, 1e-15);
 }
 
-TEST(Separate, KnowsAMicrometreBesideALongWall) {
+TEST(Separate, IsExactToAMicrometreBesideALongWall) {
   const ConvexPiece wall = Rectangle(100, 0.05, 200, 0.05);
   const ConvexPiece box = Rectangle(37.3, -0.2 - 1e-6, 0.3, 0.2);
   const Separation s = Separate(box, wall);
@@ -123,7 +123,7 @@ TEST(Hull, KeepsCornersOnlyAndTurnsCounterClockwise) {
   }
 }
 
-TEST(Hull, OfManyCornersHoldsThemAllAndLittleMore) {
+TEST(Hull, OfManyCornersEnclosesThemTightly) {
   constexpr int kCorners = 100;
   std::vector<Vector2> points;
   points.reserve(kCorners);
@@ -134,7 +134,7 @@ TEST(Hull, OfManyCornersHoldsThemAllAndLittleMore) {
   for (const Vector2 v : hull.points()) EXPECT_LE(std::sqrt(Dot(v, v)), 1.02);
 }
 
-TEST(Contains, KnowsWhatLiesWithin) {
+TEST(Contains, IsTrueForInnerPoints) {
   EXPECT_TRUE(Contains(Disc({0, 0}, 1), Rectangle(0, 0, 0.7, 0.7), 0));
   EXPECT_FALSE(Contains(Disc({0, 0}, 1), Rectangle(0, 0, 0.8, 0.7), 0));
   EXPECT_TRUE(Contains(Rectangle(0, 0, 1, 1), Disc({0.5, 0}, 0.5), 1e-12));

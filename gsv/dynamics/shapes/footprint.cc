@@ -38,7 +38,7 @@ void DropCovered(std::vector<Footprint::Piece>& pieces) {
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     bool covered = false;
     for (std::size_t j = 0; j < pieces.size() && !covered; ++j) {
-      // Of two that cover each other the first stays.
+      // If two pieces cover each other, the first one is kept.
       covered = i != j && Covers(pieces[j], pieces[i]) && (j < i || !Covers(pieces[i], pieces[j]));
     }
     if (!covered) kept.push_back(pieces[i]);

@@ -10,7 +10,7 @@ namespace {
 using geometry::PlanarPose;
 using testing::LinkOf;
 
-TEST(Footprint, LeavesOutWhatLiesWithinAnotherPiece) {
+TEST(Footprint, OmitsPiecesInsideAnother) {
   auto model = testing::BoxRobot(0.6, 0.4);  // 0.4 high
   model->links.push_back(LinkOf(geometry::Sphere{0.1}, PlanarPose(0, 0, 0.2, 0)));
   model->links.push_back(LinkOf(geometry::Box{{0.6, 0.4, 0.4}}, PlanarPose(0, 0, 0.2, 0)));
@@ -30,7 +30,7 @@ TEST(Footprint, KeepsAMastAboveTheBase) {
   EXPECT_EQ(footprint.pieces[1].shape.vertex_count, 1);
 }
 
-TEST(Footprint, OfManyPartsIsAFewLayersThatHoldThem) {
+TEST(Footprint, OfManyPartsIsAFewLayersAroundThem) {
   auto model = std::make_shared<model::Model>();
   for (int i = 0; i < 300; ++i) {
     model->links.push_back(

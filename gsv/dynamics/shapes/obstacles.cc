@@ -94,7 +94,7 @@ std::vector<Obstacle> CollectLooseObstacles(const world::Layout& layout, const w
 }
 
 double LooseRadius(const world::Body& body) {
-  // What an actor collides with is fixed to its frame.
+  // The collision shapes of an actor are fixed to its frame.
   if (!body.model->joints.empty() && !body.is_actor())
     return std::numeric_limits<double>::infinity();
   const std::vector<double> zero(body.model->joints.size(), 0.0);

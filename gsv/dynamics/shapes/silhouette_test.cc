@@ -50,14 +50,14 @@ TEST(Silhouette, OfALyingCapsuleIsAStadium) {
   EXPECT_NEAR(ReachY(piece), 0.3, 1e-12);
 }
 
-TEST(Silhouette, OfATurnedBoxHasItsCorners) {
+TEST(Silhouette, OfARotatedBoxHasItsCorners) {
   const ConvexPiece piece =
       Silhouette(geometry::Box{{2, 1, 1}}, geometry::PlanarPose(0, 0, 0, kPi / 4));
   EXPECT_EQ(piece.vertex_count, 4);
   EXPECT_NEAR(ReachX(piece), 1.5 / std::sqrt(2), 1e-12);
 }
 
-TEST(Heights, AreThoseOfTheShape) {
+TEST(Heights, EqualThoseOfTheShape) {
   const Pose askew{{0, 0, 1}, FromAxisAngle({1, 0, 0}, kPi / 6)};
   const Interval heights = Heights(geometry::Cylinder{0.3, 1}, askew);
   const double expected = 0.5 * std::cos(kPi / 6) + 0.3 * std::sin(kPi / 6);
@@ -78,7 +78,7 @@ TEST(Slice, OfASphereIsItsWidestCircleBetweenTheHeights) {
   EXPECT_TRUE(Sliced(sphere, {}, {1, 2}).empty());
 }
 
-TEST(Slice, OfAConeIsWidestAtItsFoot) {
+TEST(Slice, OfAConeIsWidestAtItsBase) {
   EXPECT_NEAR(Sliced(geometry::Cone{1, 2}, {}, {0, 5})[0].radius, 0.5, 1e-12);
   const Pose upside_down{{0, 0, 0}, FromAxisAngle({1, 0, 0}, kPi)};
   EXPECT_NEAR(Sliced(geometry::Cone{1, 2}, upside_down, {-5, 0})[0].radius, 0.5, 1e-12);
@@ -94,7 +94,7 @@ TEST(Slice, OfATiltedBoardIsThePartBetweenTheHeights) {
   EXPECT_NEAR(ReachY(pieces[0]), 1, 1e-9);
 }
 
-TEST(Slice, OfATiltedCylinderHoldsItAndLittleMore) {
+TEST(Slice, OfATiltedCylinderEnclosesItTightly) {
   const Pose tilted{{0, 0, 0}, FromAxisAngle({0, 1, 0}, 0.5)};
   const auto pieces = Sliced(geometry::Cylinder{0.3, 4}, tilted, {-0.1, 0.1});
   ASSERT_EQ(pieces.size(), 1u);
@@ -117,7 +117,7 @@ TEST(Slice, OfAMeshIsOnePieceForEachTriangleBetweenTheHeights) {
   EXPECT_NEAR(ReachX(pieces[0]), 0.5, 1e-12);
 }
 
-TEST(Slice, LeavesOutWhatOnlyTouchesTheHeights) {
+TEST(Slice, OmitsShapesThatOnlyTouchTheHeights) {
   EXPECT_TRUE(Sliced(geometry::Box{{1, 1, 1}}, {}, {0.5, 2}).empty());
   EXPECT_TRUE(Sliced(geometry::Box{{1, 1, 1}}, {}, {-2, -0.5}).empty());
   EXPECT_EQ(Sliced(geometry::Box{{1, 1, 1}}, {}, {0.49, 2}).size(), 1u);

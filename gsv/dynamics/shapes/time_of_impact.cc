@@ -8,7 +8,7 @@
 namespace gsv::dynamics {
 namespace {
 
-constexpr double kFloorGap = 0.25e-6;  // what rounding may leave of kStopGap
+constexpr double kFloorGap = 0.25e-6;  // the part of kStopGap that remains after rounding
 constexpr int kMaxAdvances = 64;       // then the pieces are stopped where they are
 constexpr double kApproach = 1e-9;     // m/s; less is sliding
 constexpr double kNoise = 1e-12;       // m/s; less is rounding

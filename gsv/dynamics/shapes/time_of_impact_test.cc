@@ -30,7 +30,7 @@ TEST(Advance, FollowsACircle) {
   }
 }
 
-TEST(Advance, MovesSidewaysToo) {
+TEST(Advance, CanMoveSideways) {
   const geometry::PlanarPosition end = geometry::Advance({}, {0, 2, std::numbers::pi}, 1);
   // Half a circle of radius 2 / pi, starting to the left: it ends at x = -2 r.
   EXPECT_NEAR(end.x, -4 / std::numbers::pi, 1e-12);
@@ -51,7 +51,7 @@ std::optional<Impact> Find(const MovingPiece& a, const ConvexPiece& standing, do
   return FindImpact(a, standing, end, Separate(AtStart(a), standing).normal);
 }
 
-TEST(FindImpact, OfADiscAndAWallIsWhenTheGapIsUsedUp) {
+TEST(FindImpact, OfADiscAndAWallIsTheTimeAtWhichTheGapCloses) {
   const ConvexPiece disc = Disc({}, 0.5), wall = Hull({{3, -5}, {3, 5}});
   const auto impact = Find({&disc, {}, {2, 0, 0}}, wall, 10);
   ASSERT_TRUE(impact);
@@ -63,7 +63,7 @@ TEST(FindImpact, OfADiscAndAWallIsWhenTheGapIsUsedUp) {
   EXPECT_FALSE(Find({&disc, {}, {-2, 0, 0}}, wall, 10));
 }
 
-TEST(FindImpact, SlidingAlongAWallIsNone) {
+TEST(FindImpact, IsEmptyForSlidingAlongAWall) {
   const ConvexPiece disc = Disc({}, 0.5), wall = Hull({{-100, 0.5 + 0.6e-6}, {100, 0.5 + 0.6e-6}});
   EXPECT_FALSE(Find({&disc, {}, {5, 0, 0}}, wall, 10));
   EXPECT_FALSE(Find({&disc, {}, {5, 0, -1}}, wall, 1));  // turning away
@@ -72,7 +72,7 @@ TEST(FindImpact, SlidingAlongAWallIsNone) {
   EXPECT_LT(into->time, 1e-3);
 }
 
-TEST(FindImpact, SaysWhoseMotionClosesTheGap) {
+TEST(FindImpact, ReturnsWhichMotionClosesTheGap) {
   const ConvexPiece disc = Disc({}, 0.5);
   const MovingPiece slow{&disc, {2, 0, 1, 0}, {0.5, 0, 0}};
   const auto behind = Find({&disc, {}, {1.5, 0, 0}}, slow, 10);
@@ -96,7 +96,7 @@ double GapAt(const MovingPiece& a, const MovingPiece& b, double time) {
   return Separate(placed_a, placed_b).distance;
 }
 
-TEST(FindImpact, AgreesWithLookingAtEveryMoment) {
+TEST(FindImpact, EqualsADenseSampling) {
   base::Noise noise(5, 6, 7);
   const auto uniform = [&](double low, double high) {
     return low + (high - low) * noise.Uniform();

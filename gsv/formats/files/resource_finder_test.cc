@@ -66,7 +66,7 @@ TEST(ResourceFinder, RefusesAbsolutePathsWhereTheyAreNotAllowed) {
   EXPECT_FALSE(ResourceFinder({}, false).Find("file://" + mesh.string()).has_value());
 }
 
-TEST(ResourceFinder, ReportsThatTheWebIsNotSearched) {
+TEST(ResourceFinder, ReportsModelsOfTheWebAsNotSearched) {
   const auto found = ResourceFinder().Find("https://fuel.gazebosim.org/1.0/x/models/Cone");
   ASSERT_FALSE(found.has_value());
   EXPECT_THAT(found.error().message, HasSubstr("on the web"));
@@ -86,7 +86,7 @@ TEST(ResourceFinder, NamesTheFoldersThatHoldAModelOfAnyFormat) {
   EXPECT_THAT(names, testing::Not(testing::Contains("meshes")));
 }
 
-TEST(ModelFileIn, TakesTheNewestVersionThatCanBeRead) {
+TEST(ModelFileIn, SelectsTheNewestReadableVersion) {
   const base::testing::TestFolder folder;
   for (const char* version : {"1.2", "1.4", "1.9", "1.11"}) {
     folder.Write(std::string(version) + ".sdf", Empty(version));

@@ -15,7 +15,7 @@ void ExpectFault(std::string_view text, int line, int column, const std::string&
   EXPECT_THAT(fault->sentence, HasSubstr(sentence)) << text;
 }
 
-TEST(XmlFault, IsNoneInWellFormedText) {
+TEST(XmlFault, IsAbsentInWellFormedText) {
   EXPECT_FALSE(
       FindXmlFault("<?xml version='1.0'?>\n<!DOCTYPE a>\n<!-- < & --><a b='<' c = \"'\">"
                    "<![CDATA[ <x> ]]><d/>text</a >\n"));

@@ -163,7 +163,7 @@ TEST(WriteGlb, SharesVerticesBetweenPartsAndTexturesBetweenMaterials) {
   EXPECT_EQ(scene->mNumTextures, 1u);
 }
 
-TEST(WriteGlb, MaterialsKeepTheirLook) {
+TEST(WriteGlb, MaterialsKeepTheirAppearance) {
   model::Material material;
   material.base_colour = {0.5, 1, 0, 0.25};
   material.metalness = 0.75;

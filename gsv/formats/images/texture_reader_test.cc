@@ -52,7 +52,7 @@ TEST(TextureReader, ReadsAPngWithAnEmptyChunk) {
   EXPECT_THAT((*image)->pixels, ElementsAre(1, 2, 3, 4, 5, 6));
 }
 
-TEST(TextureReader, DropsAnAlphaChannelThatHidesNothing) {
+TEST(TextureReader, DropsAnOpaqueAlphaChannel) {
   const base::testing::TestFolder folder;
   const std::string opaque = "\x03\x02\x01\xff", half = "\x03\x02\x01\x80";
   TextureReader reader{ReadLimits{}};

@@ -70,7 +70,7 @@ class MeshReaderTest : public testing::Test {
   base::Problems problems_;
 };
 
-TEST_F(MeshReaderTest, AppliesTheUnitOfColladaAndLeavesItsAxes) {
+TEST_F(MeshReaderTest, AppliesTheUnitOfColladaButNotItsAxes) {
   for (const char* up : {"X_UP", "Y_UP", "Z_UP"}) {
     const auto mesh = Read("a.dae", Collada("<unit name='inch' meter='0.0254'/><up_axis>" +
                                                 std::string(up) + "</up_axis>",
@@ -225,7 +225,7 @@ TEST_F(MeshReaderTest, ReadsEachFileOnce) {
   EXPECT_EQ(reader.Read(path, "", false, problems_)->triangles, first->triangles);
 }
 
-TEST_F(MeshReaderTest, ReadsTheTrianglesThatACutOffStlHolds) {
+TEST_F(MeshReaderTest, ReadsTheTrianglesOfATruncatedStl) {
   const auto mesh = Read("cut.stl", BinaryStl(1'000'000'000, {{0, 0, 0, 1, 0, 0, 0, 1, 0}}));
   ASSERT_TRUE(mesh.has_value()) << mesh.error().Sentence();
   EXPECT_THAT(mesh->triangles->triangles, SizeIs(1));

@@ -35,7 +35,7 @@ TEST(ExtrudeOutlines, MakesAPrismOfEitherSenseOfRotation) {
   EXPECT_NEAR(Volume(ExtrudeOutlines({square}, 1.5).value()), 1.5, 1e-12);
 }
 
-TEST(ExtrudeOutlines, FollowsDents) {
+TEST(ExtrudeOutlines, KeepsConcaveOutlines) {
   // A square of side 1 with a triangle of base 1 and height 0.5 cut from its right side.
   const Outline arrow = {{-0.5, -0.5}, {-0.5, 0.5}, {0.5, 0.5}, {0, 0}, {0.5, -0.5}};
   EXPECT_NEAR(Volume(ExtrudeOutlines({arrow}, 1).value()), 0.75, 1e-12);
@@ -79,7 +79,7 @@ TEST(ExtrudeOutlines, RefusesOutlinesWithoutArea) {
   EXPECT_FALSE(ExtrudeOutlines({{{0, 0}, {INFINITY, 0}, {2, 1}}}, 1).has_value());
 }
 
-TEST(ExtrudeOutlines, EndsOnOutlinesThatCrossThemselves) {
+TEST(ExtrudeOutlines, TerminatesOnSelfIntersectingOutlines) {
   // A bow tie whose halves differ in size: either result is acceptable, but it must end.
   const auto mesh = ExtrudeOutlines({{{0, 0}, {2, 2}, {2, 0}, {0, 3}}}, 1);
   EXPECT_TRUE(!mesh.has_value() || !mesh->triangles.empty());

@@ -41,7 +41,7 @@ TEST_F(SkinnedMeshTest, GivesEachBoneItsTriangles) {
   }
 }
 
-TEST_F(SkinnedMeshTest, TurnsBonesAsTheAnimationHasThem) {
+TEST_F(SkinnedMeshTest, RotatesBonesByTheAnimation) {
   const auto mesh = Read(kBendingDae);
   ASSERT_TRUE(mesh) << mesh.error().Sentence();
   EXPECT_NEAR(mesh->length, 1, 1e-6);

@@ -55,7 +55,7 @@ TEST(JointForest, KeepsTheWorldAtTheTop) {
   EXPECT_EQ(joints[0].child, 0);
 }
 
-TEST(JointForest, TakesOutJointsThatCloseALoop) {
+TEST(JointForest, RemovesJointsThatCloseALoop) {
   std::vector<Joint> joints = {Between("a", 0, 1),    Between("b", 1, 2),  Between("c", 2, 0),
                                Between("self", 1, 1), Between("w", -1, 0), Between("w2", -1, 2)};
   EXPECT_THAT(MakeForest(3, joints), ElementsAre("c", "self", "w2"));

@@ -44,7 +44,7 @@ int ExpectSame(const sdf::Element& ours, const sdf::Element& theirs, const std::
   return compared;
 }
 
-TEST(SdfSchema, IsThatOfLibsdformat) {
+TEST(SdfSchema, EqualsTheSchemaOfLibsdformat) {
   const sdf::SDFPtr theirs(new sdf::SDF);
   ASSERT_TRUE(sdf::init(theirs));
   const sdf::ElementPtr ours = MakeSdfSchema();
@@ -52,7 +52,7 @@ TEST(SdfSchema, IsThatOfLibsdformat) {
   EXPECT_GT(ExpectSame(*ours, *theirs->Root(), "sdf"), 1000);
 }
 
-TEST(SdfSchema, LeavesOutWhatIsNotWanted) {
+TEST(SdfSchema, OmitsUnwantedElements) {
   const sdf::ElementPtr schema = MakeSdfSchema({"sensor", "actor", "frame"});
   const sdf::ElementPtr world = schema->GetElementDescription("world");
   EXPECT_FALSE(world->HasElementDescription("actor"));

@@ -103,7 +103,7 @@ TEST(ElementAudit, IgnoresForeignElementsAndThoseWithoutEffect) {
       IsEmpty());
 }
 
-TEST(ElementAudit, LeavesElementsOfSensorsOfOtherTypesAlone) {
+TEST(ElementAudit, IgnoresElementsOfOtherSensorTypes) {
   EXPECT_THAT(AuditOfLink("<sensor name='s' type='positioning'><noise/></sensor>"), IsEmpty());
   EXPECT_THAT(AuditOfLink("<sensor name='s' type='imu'><noise/></sensor>"), SizeIs(1));
 }

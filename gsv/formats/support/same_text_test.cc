@@ -14,7 +14,7 @@ TEST(SameText, ComparesNumbersByTheirValue) {
   EXPECT_FALSE(SaysTheSame("0 0", "0 0 0"));
 }
 
-TEST(SameText, ComparesTruthAndWords) {
+TEST(SameText, ComparesBooleansAndWords) {
   EXPECT_TRUE(SaysTheSame("true", "1"));
   EXPECT_TRUE(SaysTheSame("false", "0"));
   EXPECT_TRUE(SaysTheSame("", "  "));

@@ -22,7 +22,7 @@ std::string TextOf(const std::string& expression) {
 }
 
 // Python 3.11 prints these values for the same expressions.
-TEST(Evaluation, GivesWhatPythonGives) {
+TEST(Evaluation, EqualsPython) {
   const std::pair<const char*, const char*> cases[] = {
       {"1 + 2 * 3", "7"},
       {"7 / 2", "3.5"},
@@ -130,7 +130,7 @@ TEST(Evaluation, KnowsProperties) {
   EXPECT_EQ(TextOf("1 if True else unknown"), "1");
 }
 
-TEST(Evaluation, RefusesWithASentence) {
+TEST(Evaluation, RejectsInvalidExpressionsWithASentence) {
   const std::pair<const char*, const char*> cases[] = {
       {"unknown + 1", "\"unknown\" is not defined"},
       {"1 / 0", "division by zero"},

@@ -52,7 +52,7 @@ TEST_F(ExpanderTest, PutsPropertiesIntoAttributesAndTexts) {
   EXPECT_EQ(Expanded("<xacro:property name='p' value='5 -2'/><a p='${p}'/>"), "<a p=\"5 -2\"/>");
 }
 
-TEST_F(ExpanderTest, RefusesPropertiesThatNeedThemselves) {
+TEST_F(ExpanderTest, RejectsRecursiveProperties) {
   EXPECT_THAT(Expanded("<xacro:property name='a' value='${b}'/>\n"
                        "<xacro:property name='b' value='${a + 1}'/><x a='${a}'/>"),
               HasSubstr("robot.xacro:1: the property \"a\" needs itself"));
@@ -115,7 +115,7 @@ TEST_F(ExpanderTest, GivesPropertiesToOuterScopes) {
               HasSubstr("\"p\" is not defined"));
 }
 
-TEST_F(ExpanderTest, GoesInOrder) {
+TEST_F(ExpanderTest, ExpandsInDocumentOrder) {
   EXPECT_EQ(Expanded("<xacro:property name='p' value='1'/><a p='${p}'/>"
                      "<xacro:property name='p' value='2'/><a p='${p}'/>"),
             "<a p=\"1\"/><a p=\"2\"/>");
@@ -165,7 +165,7 @@ TEST_F(ExpanderTest, PassesOnTheMessagesOfAFile) {
   EXPECT_THAT(Expanded("<a>${xacro.fatal('no such arm')}</a>"), HasSubstr("refused"));
 }
 
-TEST_F(ExpanderTest, LeavesOutCallsOfMacrosInAMissingFile) {
+TEST_F(ExpanderTest, SkipsCallsOfMacrosInAMissingFile) {
   EXPECT_EQ(Expanded("\n<xacro:include filename='absent.xacro'/>\n<xacro:lidar name='l'/><a/>"),
             "<a/>");
   ASSERT_THAT(problems_, SizeIs(2));
@@ -220,7 +220,7 @@ TEST_F(ExpanderTest, RefusesFilesThatIncludeThemselves) {
               HasSubstr("again.xacro:1: files include each other deeper than 16"));
 }
 
-TEST_F(ExpanderTest, ReachesNoFileOutsideWhereAbsolutePathsAreNotAllowed) {
+TEST_F(ExpanderTest, ReadsNoFileOutsideItsFolderIfAbsolutePathsAreForbidden) {
   allows_absolute_paths_ = false;
   EXPECT_EQ(Expanded("<xacro:include filename='/etc/hostname'/>"), "");
   ASSERT_THAT(problems_, SizeIs(1));
@@ -247,7 +247,7 @@ TEST_F(ExpanderTest, MakesElementsAttributesAndCallsByName) {
             "<f/><foo k=\"2\"/>");
 }
 
-TEST_F(ExpanderTest, TakesTheOldFormWithoutPrefixInRobotDescriptions) {
+TEST_F(ExpanderTest, AcceptsTheOldFormWithoutPrefix) {
   EXPECT_EQ(Expanded("<property name='r' value='2'/><macro name='tyre' params='n'><t n='${n}'/>"
                      "</macro><tyre n='${r}'/><if value='${r > 1}'><a/></if>"
                      "<include><uri>model://x</uri></include>"),
@@ -271,7 +271,7 @@ TEST_F(ExpanderTest, CallsMacrosOfThemselves) {
               HasSubstr("nested deeper than 500"));
 }
 
-TEST_F(ExpanderTest, EndsEndlessExpansion) {
+TEST_F(ExpanderTest, StopsEndlessExpansion) {
   limits_.xml_bytes = 1u << 20;
   const std::string doubling =
       "<xacro:macro name='m' params='n *b'><xacro:if value='${n > 0}'><xacro:m n='${n - 1}'><x>"

@@ -93,7 +93,7 @@ TEST_F(ApiTest, SwitchesTheRecordingOnAndOff) {
             "this server cannot record simulations");
 }
 
-TEST_F(ApiTest, ReturnsARobotsTopicsAndHasThemListed) {
+TEST_F(ApiTest, ReturnsTheTopicsOfARobotAndAdvertisesThem) {
   std::vector<std::string> listed;
   Api api(directory_, nullptr, nullptr, nullptr, false,
           [&](const auto& simulation, const std::string& robot) {
@@ -140,7 +140,7 @@ TEST_F(ApiTest, ReturnsTheStatus) {
   EXPECT_NEAR(robot["distance_m"].get<double>(), 1, 1e-12);
 }
 
-TEST_F(ApiTest, TheButtonsWork) {
+TEST_F(ApiTest, PauseStepResumeAndResetWork) {
   EXPECT_EQ(AskJson("POST", path_ + "/start", 200, "{}")["phase"], "running");
   EXPECT_EQ(AskJson("POST", path_ + "/pause", 200, "{}")["phase"], "paused");
   EXPECT_EQ(AskJson("POST", path_ + "/step", 200, R"({"count":3})")["step"], 3);

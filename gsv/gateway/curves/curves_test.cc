@@ -17,7 +17,7 @@ using nlohmann::ordered_json;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-TEST(CurvePoints, HoldsEverySampleWhileTheyFit) {
+TEST(CurvePoints, KeepsEverySampleWhileThereIsSpace) {
   CurvePoints points(0ms, 100ms, 4);
   for (const double value : {1.0, 2.0, kInfinity, 3.0}) {
     points.Add(points.samples() * 10ms, value);
@@ -27,7 +27,7 @@ TEST(CurvePoints, HoldsEverySampleWhileTheyFit) {
   EXPECT_EQ(points.Points(), expected);
 }
 
-TEST(CurvePoints, LosesNoSpikeWhenTheyDoNotFit) {
+TEST(CurvePoints, KeepsSpikesWhenThereIsNoSpace) {
   CurvePoints points(0ms, 999ms, 20);
   for (int i = 0; i < 1000; ++i) {
     points.Add(i * 1ms, i == 543 ? 100.0 : i == 544 ? -100.0 : std::sin(i * 0.01));
@@ -48,7 +48,7 @@ TEST(CurvePoints, KeepsAPointOfBinsWithoutAFiniteSample) {
   EXPECT_EQ(points.Points(), expected);
 }
 
-TEST(CurvePoints, StaysBoundedWhateverTheTimes) {
+TEST(CurvePoints, IsBoundedForAnyTimes) {
   CurvePoints points(50ms, 10ms, 10);
   for (int i = 0; i < 100; ++i) points.Add((i % 7 - 3) * 1'000'000ms, i);
   EXPECT_LE(points.Points().size(), 10u);
@@ -90,7 +90,7 @@ TEST(FieldValue, FindsTheValuesThatTheViewerLists) {
   }
 }
 
-TEST(FieldValue, LeavesOutNonFiniteValues) {
+TEST(FieldValue, OmitsNonFiniteValues) {
   ordered_json message;
   message["ranges"] = ordered_json::array();
   for (int i = 0; i < 9; ++i) message["ranges"].push_back(i == 4 ? 2.5 : kInfinity);
@@ -171,7 +171,7 @@ TEST_F(RecordedCurvesTest, EndsAtItsTimeLimitAndReportsIt) {
   EXPECT_NE(curve.problem.find("too long"), std::string::npos) << curve.problem;
 }
 
-TEST_F(RecordedCurvesTest, KeepsAFewAndReadsForgottenOnesAgain) {
+TEST_F(RecordedCurvesTest, CachesAFewCurvesAndReadsOthersAgain) {
   RecordedCurves curves(*reader_, scene_);
   for (std::size_t max_points = 2; max_points < 60; ++max_points) {
     (void)curves.Get(

@@ -41,7 +41,7 @@ TEST_F(StaticFilesTest, RootIsTheIndexAndIsCheckedEachTime) {
   EXPECT_EQ(response.cache_control, "no-cache");
 }
 
-TEST_F(StaticFilesTest, AssetsAreKeptForGood) {
+TEST_F(StaticFilesTest, AssetsAreCachedPermanently) {
   const Response response = Get("/assets/app-1a2b.js");
   EXPECT_EQ(response.body.view(), "let x;");
   EXPECT_EQ(response.content_type, "text/javascript; charset=utf-8");

@@ -19,7 +19,7 @@ int CountIn(std::chrono::seconds length, microseconds round, WallTime start) {
   return count;
 }
 
-TEST(Pacing, KeepsItsMeanRateWhateverTheRounds) {
+TEST(Pacing, KeepsItsMeanRateForAnyPolling) {
   const WallTime start = WallTime{} + std::chrono::hours(5);
   for (const microseconds round :
        {microseconds(1000), microseconds(33'333), microseconds(99'999)}) {

@@ -184,7 +184,7 @@ TEST_F(MetricsTest, CountViewersAndSentBytes) {
   EXPECT_EQ(Value("gsv_viewers"), 0);
 }
 
-TEST_F(MetricsTest, HaveNoLabelThatPeopleChoose) {
+TEST_F(MetricsTest, HaveNoUserDefinedLabels) {
   Start();
   static const std::set<std::string> kAllowed{"phase", "of", "status", "version"};
   for (const auto& [name, family] : Metrics()) {

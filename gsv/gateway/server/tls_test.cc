@@ -115,7 +115,7 @@ TEST_F(TlsTest, OtherClientsDoNotTrustIt) {
   EXPECT_THROW(greet(folder() + "/ca.pem", "10.0.0.1"), boost::system::system_error);
 }
 
-TEST_F(TlsTest, OnlyItsOwnSecurePagesMayAsk) {
+TEST_F(TlsTest, AcceptsRequestsFromItsOwnSecurePagesOnly) {
   StartSecure();
   const std::string own = "127.0.0.1:" + std::to_string(port()) + "\r\n";
   EXPECT_EQ(FetchSecurely("Origin: https://" + own).first, 200);
@@ -148,7 +148,7 @@ TEST_F(TlsTest, GarbageDoesNoHarm) {
   EXPECT_EQ(FetchSecurely().first, 200);
 }
 
-TEST_F(TlsTest, AViewerWatchesOverIt) {
+TEST_F(TlsTest, ViewerCanConnectOverTls) {
   StartSecure();
   Client client(port(), folder() + "/ca.pem", "127.0.0.1");
   client.stream.handshake(asio::ssl::stream_base::client);
@@ -165,7 +165,7 @@ TEST_F(TlsTest, AViewerWatchesOverIt) {
   EXPECT_FALSE(error) << error.message();
 }
 
-TEST_F(TlsTest, ACertificateThatCannotBeUsedStartsNothing) {
+TEST_F(TlsTest, InvalidCertificatePreventsTheStart) {
   ASSERT_TRUE(tls::MakeCertificate(folder(), {"old", {}, {-hours(48), -hours(24)}}));
   ASSERT_TRUE(tls::MakeCertificate(folder(), {"other", {}, {}}));
   const auto refusal = [&](const TlsFiles& files) {

@@ -77,7 +77,7 @@ TEST_F(ServerTest, ClosesWithASentenceOnMessagesThatAreTooLong) {
   EXPECT_EQ(viewer.close_code(), 1009);
 }
 
-TEST_F(ServerTest, AFrameThatLiesAboutItsLengthEndsItsOwnConnectionOnly) {
+TEST_F(ServerTest, FrameWithAWrongLengthEndsOnlyItsConnection) {
   ServerOptions options;
   options.limits.message_bytes = 1000;
   Start(options);
@@ -100,7 +100,7 @@ TEST_F(ServerTest, AFrameThatLiesAboutItsLengthEndsItsOwnConnectionOnly) {
   EXPECT_EQ(other.ReceiveText("serverInfo")["name"], "echo");
 }
 
-TEST_F(ServerTest, AStalledReaderLosesTheOldestDataAndDelaysNobodyElse) {
+TEST_F(ServerTest, StalledReaderLosesTheOldestDataAndDelaysNoOther) {
   ServerOptions options;
   options.limits.send.data_messages = 4;
   options.limits.idle_time = std::chrono::minutes(10);  // it reads nothing, so it misses pings

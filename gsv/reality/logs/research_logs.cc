@@ -22,7 +22,7 @@ fs::path Companion(const fs::path& path, const std::string& ending) {
   return path.parent_path() / (name.substr(0, name.rfind('_')) + ending);
 }
 
-// What a log in metres would look like to a reader of millimetres.
+// Detects a log in metres, which would be read as millimetres.
 base::Status CheckUnit(double largest, double least_credible, const char* unit,
                        const fs::path& path) {
   if (largest >= least_credible) return {};

@@ -46,7 +46,7 @@ world::Snapshot WithoutRobots(const model::WorldDescription& description) {
   return snapshot;
 }
 
-// Of all that may be collided with but planes.
+// The bounds of everything that has collisions, except planes.
 geometry::Bounds Extent(const std::shared_ptr<const world::Snapshot>& snapshot) {
   using geometry::kInfinity;
   geometry::Bounds all{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};

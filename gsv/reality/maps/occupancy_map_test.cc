@@ -50,7 +50,7 @@ TEST_F(OccupancyMapTest, ReadsNegatedAndRawMaps) {
   EXPECT_THAT(raw.cells, ElementsAre(Cell::kOccupied, Cell::kFree, Cell::kUnknown));
 }
 
-TEST_F(OccupancyMapTest, RefusesWhatIsNoMap) {
+TEST_F(OccupancyMapTest, RejectsFilesThatAreNotMaps) {
   EXPECT_THAT(Refusal(kYaml, ""), HasSubstr("map.pgm: no such file"));
   EXPECT_THAT(Refusal(kYaml, "P5\n3 2\n255\nab"),
               HasSubstr("the PGM is cut off: it has 2 of 6 pixels"));
@@ -89,7 +89,7 @@ TEST_F(OccupancyMapTest, JoinsCellsToBoxes) {
   EXPECT_EQ(boxes[1].width, 3);
 }
 
-TEST_F(OccupancyMapTest, ComesBackFromTheWorldItMakes) {
+TEST_F(OccupancyMapTest, IsRecoveredFromTheWorldThatItMakes) {
   OccupancyMap map;
   map.width = 6, map.height = 5, map.resolution = 0.5, map.origin_x = -1.5, map.origin_y = 1;
   map.cells.assign(30, Cell::kFree);

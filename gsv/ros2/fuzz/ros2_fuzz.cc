@@ -1,4 +1,5 @@
-// What other participants send: commands, the node graph and the USER_DATA of endpoints.
+// Fuzzes the input from other participants: commands, the node graph and the USER_DATA of
+// endpoints.
 #include <cstddef>
 #include <cstdint>
 #include <span>

@@ -82,7 +82,7 @@ TEST_F(EntityFilterTest, RefusesExpressionsThatWouldTakeLong) {
   }
 }
 
-TEST_F(EntityFilterTest, RefusesWhatIsNotSupported) {
+TEST_F(EntityFilterTest, RejectsUnsupportedFilters) {
   EntityFilters filters;
   filters.tags.tags = {"red"};
   EXPECT_EQ(Refusal(filters), base::ErrorCode::kUnavailable);

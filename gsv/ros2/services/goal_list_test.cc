@@ -33,13 +33,13 @@ std::vector<GoalList::Status> StatesAfter(const CancelGoalRequest& request) {
 constexpr auto kExecuting = GoalStatus::kStatusExecuting, kAccepted = GoalStatus::kStatusAccepted,
                kCanceling = GoalStatus::kStatusCanceling;
 
-TEST(GoalList, RefusesAGoalThatItKnows) {
+TEST(GoalList, RejectsADuplicateGoal) {
   GoalList goals = TwoGoals();
   EXPECT_FALSE(goals.Accept(IdOf(1), {3, 0}));
   EXPECT_EQ(goals.StatusOf(IdOf(9)), GoalStatus::kStatusUnknown);
 }
 
-TEST(GoalList, CancelsTheGoalsThatTheRequestMeans) {
+TEST(GoalList, CancelsTheRequestedGoals) {
   using States = std::vector<GoalList::Status>;
   EXPECT_EQ(StatesAfter({}), (States{kCanceling, kCanceling}));
   EXPECT_EQ(StatesAfter({{{IdOf(2)}, {0, 0}}}), (States{kExecuting, kCanceling}));
@@ -47,7 +47,7 @@ TEST(GoalList, CancelsTheGoalsThatTheRequestMeans) {
   EXPECT_EQ(StatesAfter({{{IdOf(2)}, {1, 0}}}), (States{kCanceling, kCanceling}));
 }
 
-TEST(GoalList, SaysWhyNothingIsCancelled) {
+TEST(GoalList, ReportsWhyNoGoalIsCancelled) {
   GoalList goals = TwoGoals();
   EXPECT_EQ(goals.Cancel({{{IdOf(9)}, {0, 0}}}).return_code,
             CancelGoalResponse::kErrorUnknownGoalId);

@@ -53,12 +53,12 @@ TEST_F(RunServicesTest, PausesAStoppedSimulationBeforeItsFirstStep) {
   EXPECT_EQ(step(), 0);
 }
 
-TEST_F(RunServicesTest, SaysThatItIsInTheState) {
+TEST_F(RunServicesTest, ReportsThatItIsInTheStateAlready) {
   EXPECT_EQ(Enter(kStopped).result, SetSimulationStateResponse::kAlreadyInTargetState);
   EXPECT_EQ(Enter(9).result, SetSimulationStateResponse::kIncorrectTransition);
 }
 
-TEST_F(RunServicesTest, LeavesTheEndByAResetOnly) {
+TEST_F(RunServicesTest, LeavesTheEndedStateOnlyByAReset) {
   EXPECT_EQ(Enter(kQuitting).result, Result::kResultOk);
   EXPECT_TRUE(Reaches(Phase::kStopped));
   EXPECT_EQ(Enter(kPlaying).result, SetSimulationStateResponse::kIncorrectTransition);
