@@ -74,7 +74,8 @@ class OutputReader {
 
   private take({ stamp, level, name, msg }: LogMessage): void {
     const time = seconds(stamp);
-    const behaviour = this.ports.state.get().status?.robots.find((each) => each.name === this.robot)?.behaviour;
+    const robot = this.ports.state.get().status?.robots.find((each) => each.name === this.robot);
+    const behaviour = robot?.behaviour.split(" ")[0]; // without its options
     if ((name === this.robot || (behaviour && name === behaviour)) && time > this.newest) this.add({ time, level, text: msg });
   }
 
