@@ -34,10 +34,11 @@ using messages::rosgraph_msgs::Clock;
 using messages::tf2_msgs::TFMessage;
 using simulation::Simulation;
 
-constexpr base::SimTime kClockPeriod = std::chrono::milliseconds(10);
 constexpr base::SimTime kTransformPeriod = std::chrono::milliseconds(20);
-// Wall time: how soon new robots and sensors are noticed, and how often diagnostics are sent.
+// Wall time: how often diagnostics are sent, and other publishers are looked at.
 constexpr std::chrono::milliseconds kRefreshPeriod{1000};
+// How soon a change of robots and sensors is noticed that no event reports.
+constexpr std::chrono::milliseconds kFollowPeriod{3000};
 constexpr std::chrono::milliseconds kTimeout{250};
 
 using WallClock = std::chrono::steady_clock;
@@ -51,6 +52,7 @@ class SimulationBridge final : public Bridge {
  private:
   void Run();
   void Refresh(Simulation& simulation);
+  void Follow(Simulation& simulation);
   bool FollowRobots(Simulation& simulation, const world::Snapshot& snapshot);
   std::string NamespaceOf(const std::string& body) const;
   base::Status SetNamespace(const std::string& robot, const std::string& name_space);
@@ -59,6 +61,7 @@ class SimulationBridge final : public Bridge {
   void SendGraph();
   void FollowReaders();
   void Publish(const SnapshotPointer& snapshot);
+  void Repeat();
   template <typename Visit>
   void VisitSources(const Visit& visit);
 
@@ -70,6 +73,7 @@ class SimulationBridge final : public Bridge {
   const std::shared_ptr<Feed> feed_;
   std::atomic<bool> is_stopping_{false};
   std::atomic<bool> has_matched_{true};
+  std::atomic<bool> repeats_clock_{false};
   mutable base::Mutex namespaces_mutex_;
   std::map<std::string, std::string> namespaces_ GSV_GUARDED_BY(namespaces_mutex_);  // by robot
 
@@ -128,13 +132,20 @@ SimulationBridge::SimulationBridge(dds::Participant& participant, Options option
       [this](const std::string& robot, const std::string& name_space) {
         return SetNamespace(robot, name_space);
       });
+  Follow(*simulation);
   Refresh(*simulation);
   simulation->AddObserver(feed_);
   thread_ = std::thread([this] { Run(); });
+  if (options_.steps == nullptr) return;
+  options_.steps->RepeatBy([this] {
+    repeats_clock_ = true;
+    feed_->Wake();
+  });
 }
 
 SimulationBridge::~SimulationBridge() {
   services_.reset();
+  if (options_.steps != nullptr) options_.steps->RepeatBy({});
   is_stopping_ = true;
   feed_->Close();
   thread_.join();
@@ -148,6 +159,7 @@ SimulationBridge::~SimulationBridge() {
 
 void SimulationBridge::Run() {
   auto refreshed = WallClock::now();
+  auto followed = refreshed;
   std::shared_ptr<const world::Layout> layout;
   while (!is_stopping_) {
     const Feed::News news = feed_->Next(kTimeout);
@@ -157,18 +169,24 @@ void SimulationBridge::Run() {
     const bool is_new = news.snapshot != nullptr && news.snapshot->layout != layout;
     if (is_new) layout = news.snapshot->layout;
     const auto now = WallClock::now();
-    if (is_new || now - refreshed >= kRefreshPeriod) {
+    const bool follows = is_new || !news.events.empty() || now - followed >= kFollowPeriod;
+    if (follows || now - refreshed >= kRefreshPeriod) {
       const std::shared_ptr<Simulation> simulation = simulation_.lock();
       if (simulation == nullptr) return;
+      if (follows) {
+        Follow(*simulation);
+        followed = now;
+      }
       Refresh(*simulation);
       refreshed = now;
     }
     if (has_matched_.exchange(false)) FollowReaders();
     if (news.snapshot != nullptr) Publish(news.snapshot);
+    if (repeats_clock_.exchange(false)) Repeat();
   }
 }
 
-void SimulationBridge::Refresh(Simulation& simulation) {
+void SimulationBridge::Follow(Simulation& simulation) {
   const std::shared_ptr<const world::Snapshot> snapshot = simulation.snapshot();
   if (FollowRobots(simulation, *snapshot)) {
     SendStaticFrames(*snapshot);
@@ -176,6 +194,9 @@ void SimulationBridge::Refresh(Simulation& simulation) {
   }
   CheckNamespaces(simulation);
   SendGraph();
+}
+
+void SimulationBridge::Refresh(Simulation& simulation) {
   const std::vector<dds::Endpoint> endpoints = participant_.endpoints();
   for (const auto& [body, robot] : robots_) robot->CheckPublishers(endpoints);
   if (diagnostics_ != nullptr && diagnostics_->has_readers()) {
@@ -187,7 +208,8 @@ void SimulationBridge::Refresh(Simulation& simulation) {
 bool SimulationBridge::FollowRobots(Simulation& simulation, const world::Snapshot& snapshot) {
   std::set<std::string> with_behaviour;
   for (const simulation::RobotStatus& robot : simulation.status().robots) {
-    if (!robot.behaviour.empty() || robot.is_avatar || robot.is_station) {
+    const bool has_own = !robot.behaviour.empty() && robot.behaviour != kRos2Behaviour;
+    if (has_own || robot.is_avatar || robot.is_station) {
       with_behaviour.insert(robot.name);
     }
   }
@@ -296,6 +318,25 @@ void SimulationBridge::Publish(const SnapshotPointer& snapshot) {
     }
   });
   if (!slow.empty()) slow_.Offer(std::move(slow), moment, is_lockstep_);
+}
+
+// A step waits for a node: /clock again, and before the first step everything, because no step has published it.
+void SimulationBridge::Repeat() {
+  const std::shared_ptr<Simulation> simulation = simulation_.lock();
+  if (simulation == nullptr) return;
+  const SnapshotPointer snapshot = simulation->snapshot();
+  const Moment moment{snapshot, seed_, rays_};
+  const bool is_first = snapshot->state.step == 0;
+  std::vector<Source*> slow;
+  VisitSources([&](Source& source) {
+    if (!source.is_wanted() || (!is_first && &source != sources_.front().get())) return;
+    if (source.takes_long()) {
+      slow.push_back(&source);
+    } else {
+      source.Publish(moment);
+    }
+  });
+  if (!slow.empty()) slow_.Offer(std::move(slow), moment, true);
 }
 
 }  // namespace

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "gsv/base/log.h"
 #include "gsv/messages/cdr.h"
 #include "gsv/messages/geometry_msgs.h"
+#include "gsv/messages/time.h"
 
 namespace gsv::ros2 {
 namespace {
@@ -53,8 +55,9 @@ base::Result<std::vector<double>> DecodeFloat64MultiArray(std::span<const std::b
   return values;
 }
 
-CommandInput::CommandInput(const std::shared_ptr<simulation::Agent>& agent)
-    : agent_(agent), robot_(agent->robot()) {}
+CommandInput::CommandInput(const std::shared_ptr<simulation::Agent>& agent,
+                           std::shared_ptr<NodeSteps> steps)
+    : agent_(agent), steps_(std::move(steps)), robot_(agent->robot()) {}
 
 void CommandInput::TakeTwist(std::span<const std::byte> sample) {
   const auto twist = messages::Decode<Twist>(sample);
@@ -69,7 +72,9 @@ void CommandInput::TakeTwistStamped(std::span<const std::byte> sample) {
   if (!stamped) return Note(base::Fail(stamped.error()), kCommandTopic);
   const auto command = CommandOf(stamped->twist);
   if (!command) return Note(base::Fail(command.error()), kCommandTopic);
-  Apply(*command);
+  if (steps_ == nullptr || !steps_->IsOpen(robot_)) return Apply(*command);
+  ++taken_;
+  steps_->Offer(robot_, messages::ToSimTime(stamped->header.stamp), *command);
 }
 
 void CommandInput::Apply(const world::DriveCommand& command) {

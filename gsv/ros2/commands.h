@@ -12,13 +12,16 @@
 #include <string>
 #include <vector>
 
+#include "gsv/ros2/node_steps.h"
 #include "gsv/simulation/agent.h"
 
 namespace gsv::ros2 {
 
 class CommandInput {
  public:
-  explicit CommandInput(const std::shared_ptr<simulation::Agent>& agent);
+  // `steps` may be null; while the robot is open in it, stamped commands go there.
+  explicit CommandInput(const std::shared_ptr<simulation::Agent>& agent,
+                        std::shared_ptr<NodeSteps> steps = nullptr);
 
   // geometry_msgs/msg/Twist: linear x and y in m/s, angular z in rad/s; the rest is not looked at, but must be
   // finite.
@@ -43,6 +46,7 @@ class CommandInput {
   void Note(const base::Status& status, const char* topic);
 
   const std::weak_ptr<simulation::Agent> agent_;
+  const std::shared_ptr<NodeSteps> steps_;
   const std::string robot_;
   std::atomic<std::uint64_t> taken_{0};
   std::atomic<std::uint64_t> refused_{0};

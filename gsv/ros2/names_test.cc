@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/ros2/recording_bridge.h"
+
 namespace gsv::ros2 {
 namespace {
 
@@ -34,6 +36,12 @@ TEST(RosNames, KnowNamespaces) {
 TEST(RosNames, IncludeTheirNamespace) {
   EXPECT_EQ(InNamespace("/", "scan"), "/scan");
   EXPECT_EQ(InNamespace("/pebble", "scan"), "/pebble/scan");
+}
+
+TEST(Names, OfRecordedTopicsAreMadeValid) {
+  EXPECT_EQ(PublishedTopic("/pebble/camera"), "/pebble/camera");
+  EXPECT_EQ(PublishedTopic("tall one//2d/"), "/tall_one/_2d");
+  EXPECT_EQ(PublishedTopic("//"), "");
 }
 
 }  // namespace

@@ -7,8 +7,12 @@
 #include <string>
 
 #include "gsv/ros2/dds/participant.h"
+#include "gsv/ros2/node_steps.h"
 
 namespace gsv::ros2 {
+
+// The period of /clock, in simulated time.
+inline constexpr base::SimTime kClockPeriod = std::chrono::milliseconds(10);
 
 // Distributions differ in what discovery carries.
 enum class Distro { kHumble, kJazzy, kKilted, kLyrical };
@@ -18,6 +22,7 @@ struct Options {
   Distro distro = Distro::kJazzy;
   std::map<std::string, std::string> namespaces{};  // by robot; of others "/ROBOT"
   bool is_cmd_vel_stamped = false;                  // TwistStamped, else Twist
+  std::shared_ptr<NodeSteps> steps{};  // nodes step the robots that are open in it; null: none
 };
 
 base::Result<Distro> ParseDistro(const std::string& text);

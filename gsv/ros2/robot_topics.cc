@@ -151,7 +151,7 @@ void RobotTopics::AddImplied(const Context& context) {
 void RobotTopics::TakeCommands(const Context& context) {
   const std::shared_ptr<simulation::Agent> agent = context.simulation.agent(body_);
   if (agent == nullptr) return;
-  const auto input = std::make_shared<CommandInput>(agent);
+  const auto input = std::make_shared<CommandInput>(agent, context.options.steps);
   if (has_odometry_) {
     const bool is_stamped = context.options.is_cmd_vel_stamped;
     drive_type_ = is_stamped ? "geometry_msgs/msg/TwistStamped" : "geometry_msgs/msg/Twist";

@@ -32,6 +32,14 @@ struct RobotEntry {
   friend bool operator==(const RobotEntry&, const RobotEntry&) = default;
 };
 
+// The publication to ROS 2 nodes. Empty texts stand for the defaults of the command line.
+struct Ros2Settings {
+  std::string range, cmd_vel, distro;
+  std::map<std::string, std::string> namespaces;  // by robot
+
+  friend bool operator==(const Ros2Settings&, const Ros2Settings&) = default;
+};
+
 // A scenario. The program that runs it chooses defaults for absent values.
 struct Scenario {
   std::string world;  // a file, folder or name
@@ -53,6 +61,7 @@ struct Scenario {
   // rates in Hz of simulated time, by the kind of message
   std::map<std::string, double> record_rates;
   std::optional<bool> record_png;  // true for images as PNG, false for JPEG
+  std::optional<Ros2Settings> ros2;  // absent if it is not published to ROS 2 nodes
   std::vector<Fault> faults;
   std::vector<Expectation> expect;
 

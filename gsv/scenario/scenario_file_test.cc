@@ -131,9 +131,24 @@ TEST(ScenarioFile, WrittenScenarioIsReadBackUnchanged) {
   scenario.record_topics = {"/gsv/", "/a b"};
   scenario.record_rates = {{"beams", 0.001}};
   scenario.record_png = false;
+  scenario.ros2 = {
+      "localhost", "twist_stamped", "humble", {{"a: b", "/"}, {"pebble", "/fleet/one"}}};
   EXPECT_EQ(Parsed(ToYaml(scenario)), scenario) << ToYaml(scenario);
   EXPECT_EQ(Parsed(ToYaml(DefaultScenario())), DefaultScenario());
   EXPECT_EQ(Parsed(ToYaml(Scenario())), Scenario());
+}
+
+TEST(ScenarioFile, Ros2IsAFlagOrSettings) {
+  EXPECT_EQ(Parsed("ros2: false").ros2, std::nullopt);
+  EXPECT_EQ(Parsed("ros2: true").ros2, Ros2Settings());
+  EXPECT_EQ(Parsed("ros2: {distro: kilted, namespaces: {pebble: /}}").ros2,
+            (Ros2Settings{"", "", "kilted", {{"pebble", "/"}}}));
+  EXPECT_THAT(
+      Complaints("ros2:\n  range: world\n  namespaces: {pebble: fleet}\n"),
+      ElementsAre("room.yaml:2:10: range must be one of localhost, subnet, found \"world\"",
+                  "room.yaml:3:24: a namespace must begin with a slash, such as /fleet, or / "
+                  "for none"));
+  EXPECT_EQ(Complaints("ros2: maybe").size(), 1u);
 }
 
 TEST(ScenarioFile, EachErrorHasLineAndColumn) {

@@ -104,6 +104,47 @@ std::map<std::string, double> ReadRates(YamlMapping& mapping) {
   return rates;
 }
 
+// One of these words; empty if the key is absent.
+std::string ReadWord(YamlMapping& mapping, const char* key,
+                     std::initializer_list<const char*> words) {
+  const std::string word = mapping.Text(key).value_or("");
+  if (word.empty() || std::find(words.begin(), words.end(), word) != words.end()) return word;
+  std::string list;
+  for (const char* each : words) list += (list.empty() ? "" : ", ") + std::string(each);
+  mapping.AddProblem(key,
+                     std::string(key) + " must be one of " + list + ", found \"" + word + "\"");
+  return {};
+}
+
+// true, false, or a mapping of settings.
+std::optional<Ros2Settings> ReadRos2(YamlMapping& mapping) {
+  const auto node = mapping.Any("ros2");
+  if (!node) return std::nullopt;
+  const std::string word = node->IsScalar() ? node->Scalar() : "";
+  if (word == "false") return std::nullopt;
+  Ros2Settings settings;
+  if (word == "true") return settings;
+  YamlMapping keys(*node, mapping.FieldOf("ros2"), mapping.place());
+  settings.range = ReadWord(keys, "range", {"localhost", "subnet"});
+  settings.cmd_vel = ReadWord(keys, "cmd_vel", {"twist", "twist_stamped"});
+  settings.distro = ReadWord(keys, "distro", {"humble", "jazzy", "kilted", "lyrical"});
+  const auto namespaces = keys.Any("namespaces");
+  if (!namespaces) return settings;
+  YamlMapping robots(*namespaces, keys.FieldOf("namespaces"), mapping.place());
+  if (!robots.is_mapping()) return settings;
+  for (const auto& entry : *namespaces) {
+    const std::string robot = entry.first.Scalar();
+    const std::string name_space = robots.Text(robot).value_or("");
+    if (name_space.starts_with('/')) {
+      settings.namespaces[robot] = name_space;
+    } else {
+      robots.AddProblem(robot,
+                        "a namespace must begin with a slash, such as /fleet, or / for none");
+    }
+  }
+  return settings;
+}
+
 // `factor` is the deprecated name of the key.
 std::optional<double> ReadRealTimeFactor(YamlMapping& mapping) {
   const auto factor = mapping.Number("real_time_factor", kMinRealTimeFactor, kMaxRealTimeFactor);
@@ -189,6 +230,7 @@ Scenario ReadScenarioKeys(const YAML::Node& node, const YamlPlace& place) {
   scenario.record_topics = mapping.Texts("record_topics");
   scenario.record_rates = ReadRates(mapping);
   scenario.record_png = mapping.IsSecondOf("record_pictures", "jpeg", "png");
+  scenario.ros2 = ReadRos2(mapping);
   scenario.faults = ReadFaults(mapping);
   scenario.expect = ReadExpectations(mapping, scenario.duration.value_or(0));
   return scenario;

@@ -177,6 +177,21 @@ std::string Rates(const std::map<std::string, double>& rates) {
   return "{" + list + "}";
 }
 
+std::string Fields(const Ros2Settings& settings) {
+  std::string fields, robots;
+  const auto add = [](std::string& list, const std::string& key, const std::string& value) {
+    list += (list.empty() ? "" : ", ") + key + ": " + value;
+  };
+  if (!settings.range.empty()) add(fields, "range", settings.range);
+  if (!settings.cmd_vel.empty()) add(fields, "cmd_vel", settings.cmd_vel);
+  if (!settings.distro.empty()) add(fields, "distro", settings.distro);
+  for (const auto& [robot, name_space] : settings.namespaces) {
+    add(robots, Text(robot), Text(name_space));
+  }
+  if (!robots.empty()) add(fields, "namespaces", "{" + robots + "}");
+  return fields.empty() ? "true" : "{" + fields + "}";
+}
+
 }  // namespace
 
 std::string OneLineYaml(const YAML::Node& node) {
@@ -216,6 +231,7 @@ std::string ToYaml(const Scenario& scenario) {
   if (!scenario.record_topics.empty()) writer.Put("record_topics", List(scenario.record_topics));
   if (!scenario.record_rates.empty()) writer.Put("record_rates", Rates(scenario.record_rates));
   writer.PutChoice("record_pictures", scenario.record_png, "jpeg", "png");
+  if (scenario.ros2) writer.Put("ros2", Fields(*scenario.ros2));
   writer.PutFaults(scenario.faults);
   writer.PutExpectations(scenario.expect);
   const std::string yaml = writer.Take();

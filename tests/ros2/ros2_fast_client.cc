@@ -24,7 +24,8 @@ using messages::simulation_interfaces::GetEntityStateResponse;
 
 constexpr const char* kService = "/gsv/get_entity_state";
 constexpr const char* kType = "simulation_interfaces/srv/GetEntityState";
-constexpr dds::Qos kQos{.depth = 1000};
+// The reader also gets the replies to all other clients.
+constexpr dds::Qos kQos{.depth = 20'000, .heartbeat_ms = 20};
 constexpr std::chrono::seconds kPatience{60};
 
 [[noreturn]] void Die(const std::string& why) {

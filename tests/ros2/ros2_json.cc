@@ -129,7 +129,26 @@ Json ToJson(const sensor_msgs_msg_dds__Image_& message) {
           {"encoding", message.encoding},
           {"is_bigendian", message.is_bigendian},
           {"step", message.step},
-          {"data", {{"bytes", message.data._length}}}};
+          {"data", {{"bytes", message.data._length}}},
+          {"first", message.data._length < 3
+                        ? Json()
+                        : Json::array({message.data._buffer[0], message.data._buffer[1],
+                                       message.data._buffer[2]})}};
+}
+
+Json ToJson(const sensor_msgs_msg_dds__CameraInfo_& message) {
+  return {
+      {"header", Of(message.header)},
+      {"height", message.height},
+      {"width", message.width},
+      {"distortion_model", message.distortion_model},
+      {"d", Numbers(message.d)},
+      {"k", List(message.k)},
+      {"r", List(message.r)},
+      {"p", List(message.p)},
+      {"binning", {message.binning_x, message.binning_y}},
+      {"roi", {message.roi.x_offset, message.roi.y_offset, message.roi.height, message.roi.width}},
+      {"do_rectify", message.roi.do_rectify}};
 }
 
 Json ToJson(const rcl_interfaces_msg_dds__Log_& message) {

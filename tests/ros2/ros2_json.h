@@ -20,7 +20,8 @@ Json ToJson(const sensor_msgs_msg_dds__LaserScan_& message);
 Json ToJson(const sensor_msgs_msg_dds__Range_& message);
 Json ToJson(const sensor_msgs_msg_dds__Imu_& message);
 Json ToJson(const sensor_msgs_msg_dds__JointState_& message);
-// The pixels as {"bytes": how many}.
+Json ToJson(const sensor_msgs_msg_dds__CameraInfo_& message);
+// The pixels as {"bytes": how many}, with the first three.
 Json ToJson(const sensor_msgs_msg_dds__Image_& message);
 Json ToJson(const rcl_interfaces_msg_dds__Log_& message);
 

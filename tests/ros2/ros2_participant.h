@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <dds/dds.h>
+#include <dds/ddsrt/log.h>
 #include <nlohmann/json.hpp>
 
 namespace gsv::ros2_peer {
@@ -17,7 +18,6 @@ namespace gsv::ros2_peer {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-// Without the messages on replies to clients of another convention, which do not decode.
 inline constexpr const char* kLoopback =
     "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" "
     "multicast=\"false\"/></Interfaces>"
@@ -25,7 +25,7 @@ inline constexpr const char* kLoopback =
     "ParticipantIndex>"
     "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex><Peers><Peer "
     "Address=\"127.0.0.1\"/></Peers>"
-    "</Discovery><Tracing><Verbosity>none</Verbosity></Tracing></Domain></CycloneDDS>";
+    "</Discovery></Domain></CycloneDDS>";
 
 [[noreturn]] inline void Die(const std::string& message) {
   std::fprintf(stderr, "ros2_peer: %s\n", message.c_str());
@@ -45,7 +45,7 @@ struct Type {
 struct Arguments {
   dds_domainid_t domain = 0;
   int count = 1, window = 100;
-  double timeout = 20, distance = 1, seconds = 10;
+  double timeout = 20, distance = 1, seconds = 10, speed = 0.2;
   bool is_stamped = false, uses_multicast = false;
   std::vector<std::string> words;
 };
@@ -55,6 +55,8 @@ class Participant {
   explicit Participant(const Arguments& arguments)
       : deadline_(Clock::now() +
                   std::chrono::milliseconds(static_cast<std::int64_t>(1000 * arguments.timeout))) {
+    // Replies to clients of another convention do not decode, which would be logged.
+    dds_set_log_mask(0);
     if (!arguments.uses_multicast) {
       Made(dds_create_domain(arguments.domain, kLoopback), "a domain");
     }
@@ -109,6 +111,9 @@ class Participant {
         Made(dds_create_writer(entity_, Topic(type, topic), qos, nullptr), "a writer of " + topic);
     dds_delete_qos(qos);
     return writer;
+  }
+  dds_entity_t WriterOf(const dds_topic_descriptor_t& type, const std::string& name) {
+    return Endpoint(&dds_create_writer, type, name, 10);
   }
   // From here on WaitForData() ends when this reader has something.
   void Watch(dds_entity_t reader) {

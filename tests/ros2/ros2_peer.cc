@@ -4,10 +4,14 @@
 //   ros2_peer count --seconds S TYPE:TOPIC…      prints how soon each topic had a sample, and how many samples
 //                                                came in S seconds after that
 //   ros2_peer drive --distance M [--stamped] ROBOT   sends cmd_vel until ROBOT/odom shows M metres
+//   ros2_peer step --seconds S [--speed V] ROBOT answers each /clock with a TwistStamped of its time, until S seconds of
+//                                                simulated time are over
 //   ros2_peer disturb ROBOT                      publishes bad commands: another type on cmd_vel, NaN and
 //                                                infinities, and 10,000 commands from a second publisher
 //   ros2_peer call                               calls the services in the lines of its standard input (ros2_calls.h)
 //   ros2_peer call-many ENTITY                   calls get_entity_state --count times, --window at a time
+//   ros2_peer malformed ROBOT                    sends samples that are cut, and ones with huge counts, to its commands
+//                                                and to a service of /gsv
 //   ros2_peer endpoints TOPIC…                   prints endpoints of others until each topic (rt/clock) was
 //                                                among them: topic, type, QoS, user data
 //
@@ -54,7 +58,7 @@ const std::map<std::string, Type>& Types() {
       GSV_PEER_TYPE(nav_msgs, Odometry),          GSV_PEER_TYPE(sensor_msgs, LaserScan),
       GSV_PEER_TYPE(sensor_msgs, Range),          GSV_PEER_TYPE(sensor_msgs, Imu),
       GSV_PEER_TYPE(sensor_msgs, JointState),     GSV_PEER_TYPE(sensor_msgs, Image),
-      GSV_PEER_TYPE(rcl_interfaces, Log)};
+      GSV_PEER_TYPE(sensor_msgs, CameraInfo),     GSV_PEER_TYPE(rcl_interfaces, Log)};
 #undef GSV_PEER_TYPE
   return kTypes;
 }
@@ -83,6 +87,8 @@ Arguments Parse(int count, char** words) {
       arguments.window = static_cast<int>(value());
     } else if (word == "--seconds") {
       arguments.seconds = value();
+    } else if (word == "--speed") {
+      arguments.speed = value();
     } else if (word == "--distance") {
       arguments.distance = value();
     } else if (word == "--stamped") {
@@ -221,6 +227,35 @@ int Drive(const Arguments& arguments) {
   return 0;
 }
 
+// As a node that steps a robot in lockstep.
+int Step(const Arguments& arguments) {
+  if (arguments.words.size() != 1) Die("step needs one robot, such as /pebble");
+  Participant participant(arguments);
+  const dds_entity_t clock = participant.Reader(TypeNamed("rosgraph_msgs/msg/Clock"), "/clock");
+  const dds_entity_t command = participant.Writer(TypeNamed("geometry_msgs/msg/TwistStamped"),
+                                                  arguments.words.front() + "/cmd_vel");
+  participant.Watch(clock);
+  double time = 0;
+  std::uint64_t commands = 0;
+  while (time < arguments.seconds) {
+    if (!participant.WaitForData()) return 1;
+    while (TakeOne(clock, [&](const void* sample) {
+      const auto& now = static_cast<const rosgraph_msgs_msg_dds__Clock_*>(sample)->clock;
+      time = now.sec + 1e-9 * now.nanosec;
+      geometry_msgs_msg_dds__TwistStamped_ twist{};
+      char frame[] = "";
+      twist.header.stamp = now;
+      twist.header.frame_id = frame;
+      twist.twist.linear.x = arguments.speed;
+      dds_write(command, &twist);
+      ++commands;
+    })) {
+    }
+  }
+  Print({{"time", time}, {"commands", commands}});
+  return 0;
+}
+
 // Whether a reader of this writer was found before the time was over.
 bool WaitForReader(Participant& participant, dds_entity_t writer) {
   dds_publication_matched_status_t status{};
@@ -264,6 +299,62 @@ int Disturb(const Arguments& arguments) {
   }
   Print({{"finite", std::isfinite(x)}, {"commands", kRounds * kCommandsEach}});
   return std::isfinite(x) ? 0 : 1;
+}
+
+// A type of this content under another name.
+dds_topic_descriptor_t Disguised(const dds_topic_descriptor_t& content, const char* name) {
+  return {.m_size = content.m_size,
+          .m_align = content.m_align,
+          .m_flagset = content.m_flagset & ~DDS_TOPIC_XTYPES_METADATA,
+          .m_nkeys = content.m_nkeys,
+          .m_typename = name,
+          .m_keys = content.m_keys,
+          .m_nops = content.m_nops,
+          .m_ops = content.m_ops,
+          .m_meta = ""};
+}
+
+// Each sample goes out with an odometry, so that gsv is seen to run on.
+int Malformed(const Arguments& arguments) {
+  if (arguments.words.size() != 1) Die("malformed needs one robot, such as /arm");
+  const std::string robot = "rt" + arguments.words.front();
+  const std::pair<std::string, const char*> targets[] = {
+      {robot + "/cmd_vel", "geometry_msgs::msg::dds_::Twist_"},
+      {robot + "/joint_trajectory", "trajectory_msgs::msg::dds_::JointTrajectory_"},
+      {robot + "/joint_position_controller/commands", "std_msgs::msg::dds_::Float64MultiArray_"},
+      {"rq/gsv/get_entity_stateRequest",
+       "simulation_interfaces::srv::dds_::GetEntityState_Request_"},
+      {"rq/gsv/set_parametersRequest", "rcl_interfaces::srv::dds_::SetParameters_Request_"}};
+  Participant participant(arguments);
+  Participant second(arguments, participant);  // a topic has one type in a participant
+  const dds_entity_t odometry =
+      participant.Reader(TypeNamed("nav_msgs/msg/Odometry"), arguments.words.front() + "/odom");
+  participant.Watch(odometry);
+  std::vector<dds_entity_t> cut, huge;
+  for (const auto& [topic, type] : targets) {
+    cut.push_back(participant.WriterOf(Disguised(gsv_peer_Cut_desc, type), topic));
+    huge.push_back(second.WriterOf(Disguised(gsv_peer_Words_desc, type), topic));
+  }
+  for (const auto* writers : {&cut, &huge}) {
+    for (const dds_entity_t writer : *writers) {
+      if (!WaitForReader(participant, writer)) return 1;
+    }
+  }
+  constexpr std::uint32_t kCounts[] = {0xffffffff, 0x7fffffff, 0x10000000, 0x00000fff};
+  int rounds = 0;
+  while (rounds < 20) {
+    if (!participant.WaitForData()) return 1;
+    while (TakeOne(odometry, [&](const void*) {
+      const gsv_peer_Cut octet{7};
+      gsv_peer_Words words{};
+      std::fill(std::begin(words.numbers), std::end(words.numbers), kCounts[rounds++ % 4]);
+      for (const dds_entity_t writer : cut) dds_write(writer, &octet);
+      for (const dds_entity_t writer : huge) dds_write(writer, &words);
+    })) {
+    }
+  }
+  Print({{"rounds", rounds}});
+  return 0;
 }
 
 Json EndpointJson(const dds_builtintopic_endpoint_t& endpoint, const char* kind) {
@@ -318,12 +409,15 @@ int Endpoints(const Arguments& arguments) {
 }
 
 int Main(int count, char** words) {
-  if (count < 2) Die("expected listen, count, drive, disturb, call, call-many or endpoints");
+  if (count < 2)
+    Die("expected listen, count, drive, step, disturb, malformed, call, call-many or endpoints");
   const std::string command = words[1];
   const Arguments arguments = Parse(count, words);
   if (command == "listen") return Listen(arguments);
   if (command == "count") return Count(arguments);
   if (command == "drive") return Drive(arguments);
+  if (command == "malformed") return Malformed(arguments);
+  if (command == "step") return Step(arguments);
   if (command == "disturb") return Disturb(arguments);
   if (command == "call") {
     Participant participant(arguments);
@@ -335,7 +429,8 @@ int Main(int count, char** words) {
     return CallMany(participant, arguments.words[0], arguments.count, arguments.window);
   }
   if (command == "endpoints") return Endpoints(arguments);
-  Die("expected listen, count, drive, disturb, call, call-many or endpoints, found " + command);
+  Die("expected listen, count, drive, step, disturb, call, call-many or endpoints, found " +
+      command);
 }
 
 }  // namespace

@@ -130,6 +130,59 @@ class ForeignPeer(unittest.TestCase):
             result = peer("drive", "--distance", "1", "/pebble")[0]
         self.assertGreaterEqual(result["distance"], 1)
 
+    def test_a_replay_publishes_the_recorded_topics(self):
+        with tempfile.TemporaryDirectory() as folder:
+            recording = os.path.join(folder, "run.mcap")
+            subprocess.run([GSV, "run", "office", "--robot", "pebble@1,1", "--lockstep", "--duration", "30",
+                            "--headless", "--record", recording], check=True, capture_output=True)
+            gsv = subprocess.Popen([GSV, "replay", recording, "--ros2", "--port", "0"],
+                                   env={**os.environ, "ROS_DOMAIN_ID": str(DOMAIN)},
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            try:
+                samples = peer("listen", "--count", "2", "rosgraph_msgs/msg/Clock:/clock",
+                               "tf2_msgs/msg/TFMessage:/tf", "sensor_msgs/msg/Range:/pebble/sonar_00")
+            finally:
+                gsv.terminate()
+                log = gsv.communicate(timeout=30)[1]
+        self.assertEqual(log, "")
+        by_topic = {}
+        for sample in samples:
+            by_topic.setdefault(sample["topic"], []).append(sample["message"])
+        self.assertIn("pebble/base_link", [t["child_frame_id"] for t in by_topic["/tf"][0]["transforms"]])
+        first, second = (m["header"]["stamp"] for m in by_topic["/pebble/sonar_00"])
+        self.assertLess((first["sec"], first["nanosec"]), (second["sec"], second["nanosec"]))
+        self.assertEqual(by_topic["/pebble/sonar_00"][0]["header"]["frame_id"], "pebble/sonar_00")
+
+    def step(self, speed):
+        """A run in lockstep whose robot a node steps: its report, and the node's."""
+        gsv = subprocess.Popen(
+            [GSV, "run", "office", "--robot", "pebble@0,0", "--behaviour", "ros2", "--ros2", "--ros2-cmd-vel",
+             "twist_stamped", "--lockstep", "--duration", "1", "--headless", "--json"],
+            env={**os.environ, "ROS_DOMAIN_ID": str(DOMAIN)},
+            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        node = subprocess.Popen([PEER, "step", "/pebble", "--speed", str(speed), "--seconds", "0.99", "--domain",
+                                 str(DOMAIN), "--timeout", "40"], stdout=subprocess.DEVNULL)
+        report = json.loads(gsv.communicate(timeout=60)[0])
+        node.terminate()
+        node.wait(timeout=30)
+        return report
+
+    def test_a_node_steps_a_robot_in_lockstep_reproducibly(self):
+        first, second, faster = self.step(0.2), self.step(0.2), self.step(0.3)
+        self.assertEqual(first["state_hash"], second["state_hash"])
+        self.assertNotEqual(first["state_hash"], faster["state_hash"])
+        distance = first["robots"][0]["distance_m"]
+        self.assertGreater(distance, 0.15)  # 0.2 m/s for 1 s, less the time to accelerate
+        self.assertLess(distance, 0.2 + 1e-9)
+
+    def test_a_step_waits_for_its_node_until_the_deadline(self):
+        done = subprocess.run(
+            [GSV, "run", "office", "--robot", "pebble", "--behaviour", "ros2", "--ros2", "--ros2-cmd-vel",
+             "twist_stamped", "--lockstep", "--duration", "0.1", "--deadline", "0.5", "--headless"],
+            env={**os.environ, "ROS_DOMAIN_ID": str(DOMAIN)}, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 4, done.stdout + done.stderr)
+        self.assertIn("unresponsive", done.stdout + done.stderr)
+
     def test_reports_bad_commands_once_and_keeps_driving(self):
         with running_gsv() as gsv:
             result = peer("disturb", "/pebble")[0]
@@ -150,7 +203,8 @@ class ForeignPeer(unittest.TestCase):
 
     def test_doctor_finds_why_a_subscription_gets_nothing(self):
         with running_gsv(), listening("sensor_msgs/msg/Image:/pebble/odom"):
-            done = subprocess.run([GSV, "ros2", "doctor", "--seconds", "2"],
+            peer("endpoints", "rt/pebble/odom")
+            done = subprocess.run([GSV, "ros2", "doctor", "--seconds", "4"],
                                   env={**os.environ, "ROS_DOMAIN_ID": str(DOMAIN)},
                                   capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 5, done.stdout)

@@ -21,6 +21,7 @@
 #include "apps/gsv/running/recording_difference.h"
 #include "apps/gsv/running/resimulation.h"
 #include "apps/gsv/running/video_export.h"
+#include "apps/gsv/serving/ros2_access.h"
 #include "apps/gsv/serving/viewer_options.h"
 #include "gsv/base/spelling.h"
 #include "gsv/gateway/http/target.h"
@@ -229,6 +230,7 @@ int Diff(const RecordingArguments& arguments) {
 struct ReplayArguments {
   std::string file;
   ViewerOptions web;
+  Ros2Arguments ros2;
   gateway::ReplayOptions options;
   double at = -1;      // s; < 0: the start
   std::string select;  // robot that the viewer selects
@@ -303,6 +305,13 @@ int Replay(const ReplayArguments& arguments, Signals& signals) {
     return Complain({base::ErrorCode::kInvalidArgument,
                      "has an effect only with --headless or --resimulate", "--json"});
   }
+  auto ros2 = Understand(arguments.ros2);
+  if (!ros2) return Complain(ros2.error());
+  if (*ros2 && (arguments.headless || arguments.resimulate)) {
+    return Complain({base::ErrorCode::kInvalidArgument,
+                     "has no effect with --headless or --resimulate, which play nothing",
+                     "--ros2"});
+  }
   if (arguments.resimulate) {
     const auto end =
         Resimulate({arguments.file, arguments.broker, arguments.commands, arguments.json}, signals);
@@ -319,6 +328,16 @@ int Replay(const ReplayArguments& arguments, Signals& signals) {
   if (arguments.at >= 0) (*player)->Seek(base::FromSeconds(arguments.at));
   const std::string url = (*gateway)->url() + AtInstant(arguments);
   std::printf("viewer: %s\n", url.c_str());
+  std::unique_ptr<Ros2Replay> published;
+  if (*ros2) {
+    auto started = Ros2Replay::Start(**ros2, arguments.file, [&player = **player] {
+      const gateway::ReplayClock clock = player.clock();
+      return ros2::RecordingBridge::Position{clock.position(), clock.speed()};
+    });
+    if (!started) return Complain(started.error());
+    published = *std::move(started);
+    std::printf("ros2: %s\n", published->Description().c_str());
+  }
   std::fflush(stdout);
   if (arguments.open) OpenBrowser(url);
   if (!arguments.paused) (void)(*player)->Start();  // the replay is paused at its start
@@ -332,6 +351,7 @@ void AddReplayCommand(const CommandLine& line) {
   command->add_option("file", arguments->file, "recording: file NAME.mcap or folder NAME")
       ->required();
   AddViewerOptions(*command, arguments->web);
+  AddRos2ReplayOptions(*command, arguments->ros2);
   command
       ->add_option("--speed", arguments->options.speed,
                    "recorded seconds per second of wall-clock time")

@@ -464,9 +464,12 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
   options.runtime.server_limits = a.server_limits;
   options.runtime.viewer = !a.headless;
   options.runtime.web = a.web;
-  auto ros2 = Understand(a.ros2);
+  auto ros2 = Understand(WithSettings(a.ros2, options.scenario.ros2));
   if (!ros2) return base::Fail(ros2.error());
   options.runtime.ros2 = *std::move(ros2);
+  const bool is_stepped = options.runtime.ros2 && options.runtime.ros2->is_cmd_vel_stamped &&
+                          options.specification.mode == simulation::Mode::kLockstep;
+  if (is_stepped) options.runtime.ros2->steps = std::make_shared<ros2::NodeSteps>();
   options.wall_timeout = a.wall_timeout;
   options.failure_image = a.failure_image;
   options.open_browser = a.open;

@@ -122,7 +122,11 @@ class RunBehaviours {
   FieldResult<std::shared_ptr<simulation::BehaviourPort>> Make(const scenario::RobotEntry& robot) {
     if (robot.behaviour.empty() && robot.behaviour_constraint.empty()) return nullptr;
     if (robot.behaviour == kRos2Behaviour) {
-      if (options_.runtime.ros2) return nullptr;
+      const auto& ros2 = options_.runtime.ros2;
+      if (ros2 && ros2->steps != nullptr) {
+        return std::make_shared<ros2::NodeBehaviour>(ros2->steps, ros2::kClockPeriod);
+      }
+      if (ros2) return nullptr;
       return tl::make_unexpected(
           FieldError{{base::ErrorCode::kInvalidArgument, "a robot with this behaviour needs --ros2",
                       "--behaviour ros2"},

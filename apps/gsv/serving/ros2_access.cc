@@ -15,43 +15,77 @@ namespace {
 
 // The period at which the list of simulations is checked.
 constexpr std::chrono::milliseconds kWatchPeriod{200};
+constexpr const char* kRos2Group = "ROS 2";
 
 tl::unexpected<base::Error> RefuseRos2(const base::Error& error, const char* option) {
   return base::Fail(error.code, error.message, option);
 }
 
-}  // namespace
-
-void AddRos2Options(CLI::App& command, Ros2Arguments& arguments) {
-  constexpr const char* kGroup = "ROS 2";
-  command
-      .add_flag("--ros2", arguments.is_on,
-                "publish robots as ROS 2 topics, and take commands\n"
-                "ROS_DOMAIN_ID and the other variables of ROS 2 apply.")
-      ->group(kGroup);
+void AddRange(CLI::App& command, Ros2Arguments& arguments) {
   command
       .add_option("--ros2-range", arguments.range,
                   "reach of discovery (default: localhost)\n"
                   "Without this option, ROS_AUTOMATIC_DISCOVERY_RANGE applies if it is set.")
       ->type_name("localhost|subnet")
-      ->group(kGroup);
+      ->group(kRos2Group);
+}
+
+void AddDistro(CLI::App& command, Ros2Arguments& arguments) {
+  command
+      .add_option("--ros2-distro", arguments.distro,
+                  "distribution of the other nodes (default: jazzy)")
+      ->type_name("humble|jazzy|kilted|lyrical")
+      ->group(kRos2Group);
+}
+
+}  // namespace
+
+void AddRos2ReplayOptions(CLI::App& command, Ros2Arguments& arguments) {
+  AddRange(command, arguments);
+  AddDistro(command, arguments);
+  command
+      .add_flag("--ros2", arguments.is_on,
+                "publish the recording as ROS 2 topics while it is replayed\n"
+                "ROS_DOMAIN_ID and the other variables of ROS 2 apply.")
+      ->group(kRos2Group);
+}
+
+void AddRos2Options(CLI::App& command, Ros2Arguments& arguments) {
+  command
+      .add_flag("--ros2", arguments.is_on,
+                "publish robots as ROS 2 topics, and take commands\n"
+                "ROS_DOMAIN_ID and the other variables of ROS 2 apply.")
+      ->group(kRos2Group);
+  AddRange(command, arguments);
   command
       .add_option("--ros2-namespace", arguments.namespaces,
                   "namespace of a robot's topics (default: /ROBOT)\n"
                   "pebble=/ stands for no namespace.")
       ->type_name("ROBOT=NAMESPACE")
-      ->group(kGroup);
+      ->group(kRos2Group);
   command
       .add_option("--ros2-cmd-vel", arguments.cmd_vel,
                   "message type of cmd_vel (default: twist)\n"
                   "Nav2 of Kilted and later sends twist_stamped.")
       ->type_name("twist|twist_stamped")
-      ->group(kGroup);
-  command
-      .add_option("--ros2-distro", arguments.distro,
-                  "distribution of the other nodes (default: jazzy)")
-      ->type_name("humble|jazzy|kilted|lyrical")
-      ->group(kGroup);
+      ->group(kRos2Group);
+  AddDistro(command, arguments);
+}
+
+Ros2Arguments WithSettings(Ros2Arguments arguments,
+                           const std::optional<scenario::Ros2Settings>& settings) {
+  if (!settings) return arguments;
+  arguments.is_on = true;
+  if (arguments.range.empty()) arguments.range = settings->range;
+  if (arguments.cmd_vel.empty()) arguments.cmd_vel = settings->cmd_vel;
+  if (arguments.distro.empty()) arguments.distro = settings->distro;
+  std::vector<std::string> namespaces;
+  for (const auto& [robot, name_space] : settings->namespaces) {
+    namespaces.push_back(robot + "=" + name_space);
+  }
+  // The later one of a robot counts.
+  arguments.namespaces.insert(arguments.namespaces.begin(), namespaces.begin(), namespaces.end());
+  return arguments;
 }
 
 base::Result<std::optional<ros2::Options>> Understand(const Ros2Arguments& arguments) {
@@ -95,6 +129,27 @@ base::Result<std::unique_ptr<ros2::dds::Participant>> MakeParticipant(
   const auto module = ros2::dds::LoadModule({ProgramFolder() / "../lib/gsv"});
   if (!module) return base::Fail(module.error());
   return (*module)->make(options);
+}
+
+base::Result<std::unique_ptr<Ros2Replay>> Ros2Replay::Start(
+    const ros2::Options& options, const std::string& path,
+    std::function<ros2::RecordingBridge::Position()> position) {
+  std::unique_ptr<Ros2Replay> replay(new Ros2Replay);
+  auto reach = ros2::ParticipantFor(options, ros2::ProcessEnvironment);
+  if (!reach) return base::Fail(reach.error());
+  replay->reach_ = *std::move(reach);
+  auto participant = MakeParticipant(replay->reach_);
+  if (!participant) return base::Fail(participant.error());
+  replay->participant_ = *std::move(participant);
+  auto bridge = ros2::RecordingBridge::Start(*replay->participant_, options.distro, path,
+                                             std::move(position));
+  if (!bridge) return base::Fail(bridge.error());
+  replay->bridge_ = *std::move(bridge);
+  if (ros2::IsExposed(replay->reach_)) {
+    spdlog::warn(
+        "the recording is published to other machines. Use --ros2-range localhost to prevent that");
+  }
+  return replay;
 }
 
 base::Result<std::unique_ptr<Ros2Access>> Ros2Access::Start(ros2::Options options,

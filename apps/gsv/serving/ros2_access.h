@@ -15,6 +15,8 @@
 #include "gsv/ros2/bridge.h"
 #include "gsv/ros2/dds/participant.h"
 #include "gsv/ros2/options.h"
+#include "gsv/ros2/recording_bridge.h"
+#include "gsv/scenario/scenario.h"
 
 namespace CLI {
 class App;
@@ -22,8 +24,7 @@ class App;
 
 namespace gsv::app {
 
-// ROS 2 nodes drive a robot of this behaviour, as they drive one without a behaviour.
-inline constexpr const char* kRos2Behaviour = "ros2";
+using ros2::kRos2Behaviour;
 
 // The options as the user gave them.
 struct Ros2Arguments {
@@ -35,6 +36,11 @@ struct Ros2Arguments {
 // Adds --ros2, --ros2-range, --ros2-namespace, --ros2-cmd-vel and --ros2-distro. `arguments` outlives the
 // parsing.
 void AddRos2Options(CLI::App& command, Ros2Arguments& arguments);
+// The same for `gsv replay`: --ros2, --ros2-range and --ros2-distro.
+void AddRos2ReplayOptions(CLI::App& command, Ros2Arguments& arguments);
+// The options, with a scenario's settings where the user gave none.
+Ros2Arguments WithSettings(Ros2Arguments arguments,
+                           const std::optional<scenario::Ros2Settings>& settings);
 // Nothing without --ros2; fails when another of the options is given without it.
 base::Result<std::optional<ros2::Options>> Understand(const Ros2Arguments& arguments);
 
@@ -44,6 +50,24 @@ base::Result<std::unique_ptr<ros2::dds::Participant>> MakeParticipant(
 
 // The domain and its range: "domain 0, this machine only".
 std::string DescribeReach(const ros2::dds::ParticipantOptions& options);
+
+// A recording that is published while it is replayed.
+class Ros2Replay {
+ public:
+  // Logs a warning if other machines can reach it.
+  static base::Result<std::unique_ptr<Ros2Replay>> Start(
+      const ros2::Options& options, const std::string& path,
+      std::function<ros2::RecordingBridge::Position()> position);
+
+  std::string Description() const { return DescribeReach(reach_); }
+
+ private:
+  Ros2Replay() = default;
+
+  ros2::dds::ParticipantOptions reach_;
+  std::unique_ptr<ros2::dds::Participant> participant_;
+  std::unique_ptr<ros2::RecordingBridge> bridge_;
+};
 
 class Ros2Access {
  public:

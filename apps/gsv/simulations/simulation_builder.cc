@@ -159,6 +159,12 @@ FieldResult<SimulationBuilder::Preview> SimulationBuilder::Show(const Simulation
 
 FieldResult<std::shared_ptr<Simulation>> SimulationBuilder::Create(
     const SimulationRequest& request) {
+  if (request.scenario.ros2) {
+    return WrongField("ros2", {base::ErrorCode::kInvalidArgument,
+                               "a server publishes its simulations by its own options: start it "
+                               "with gsv serve --ros2",
+                               {}});
+  }
   auto world = ReadWorld(request.scenario.world);
   if (!world) return tl::make_unexpected(world.error());
   simulation::Specification specification = SpecificationOf(request.scenario);

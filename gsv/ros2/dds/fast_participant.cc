@@ -91,6 +91,7 @@ void Apply(const Topic& topic, EndpointQos& qos) {
   qos.history().kind = fast::KEEP_LAST_HISTORY_QOS;
   qos.history().depth = topic.qos.depth;
   auto& limits = qos.resource_limits();
+  limits.max_samples = std::max(limits.max_samples, topic.qos.depth);
   limits.max_samples_per_instance = std::max(limits.max_samples_per_instance, topic.qos.depth);
   qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.data_sharing().off();

@@ -128,9 +128,9 @@ base::Result<int> FindEntity(const world::Snapshot& snapshot, const std::string&
 
 void OfferEntityServices(ServedSimulation& served) {
   served.Offer<interfaces::GetEntitiesRequest, interfaces::GetEntitiesResponse>(
-      "get_entities", "GetEntities", Lane::kQuick, &GetEntities);
+      "get_entities", "GetEntities", Lane::kLists, &GetEntities);
   served.Offer<interfaces::GetEntitiesStatesRequest, interfaces::GetEntitiesStatesResponse>(
-      "get_entities_states", "GetEntitiesStates", Lane::kQuick, &GetEntitiesStates);
+      "get_entities_states", "GetEntitiesStates", Lane::kLists, &GetEntitiesStates);
   served.Offer<interfaces::GetEntityInfoRequest, interfaces::GetEntityInfoResponse>(
       "get_entity_info", "GetEntityInfo", Lane::kQuick, &GetEntityInfo);
   served.Offer<interfaces::GetEntityStateRequest, interfaces::GetEntityStateResponse>(

@@ -26,9 +26,12 @@ constexpr std::chrono::milliseconds kRetry{10};
 constexpr std::size_t kEncapsulation = 4;
 constexpr std::size_t kCycloneHeader = 16;
 
-// Deep enough for clients that send their requests without waiting for replies. A reply that a client's socket had no
-// room for is sent again after a heartbeat, provided that it is still among the last ones.
-constexpr dds::Qos kServiceQos{.depth = 5000, .heartbeat_ms = 20};
+// Deep enough for clients that send their requests without waiting for replies, or get no processor for some seconds.
+// A reply that a client's socket had no room for is sent again after a heartbeat, provided that it is still among the
+// last ones.
+constexpr dds::Qos kServiceQos{.depth = 20'000, .heartbeat_ms = 20};
+// Memory is bounded by fewer of those replies that may be large.
+constexpr dds::Qos kListQos{.depth = 200, .heartbeat_ms = 20};
 
 std::vector<std::byte> Joined(std::span<const std::byte> head, std::span<const std::byte> middle,
                               std::span<const std::byte> tail) {
@@ -153,7 +156,8 @@ void ServiceHost::OfferBytes(const std::string& service, const std::string& type
                              Handler handler) {
   const std::string hash = has_hashes_ ? TypeHashUserData(type) : std::string();
   const ServiceTopic in = RequestTopic(service, type), out = ResponseTopic(service, type);
-  auto writer = participant_.MakeWriter({out.name, out.type, kServiceQos, hash}, {});
+  const dds::Qos& qos = lane == Lane::kLists ? kListQos : kServiceQos;
+  auto writer = participant_.MakeWriter({out.name, out.type, qos, hash}, {});
   if (!writer) {
     spdlog::warn("no ROS 2 service: {}", writer.error().Sentence());
     return;
@@ -193,7 +197,9 @@ dds::Writer* ServiceHost::Advertise(const std::string& topic, const std::string&
 }
 
 bool ServiceHost::Do(Lane lane, std::function<void()> job) {
-  ServiceWorker& worker = lane == Lane::kQuick ? quick_ : lane == Lane::kSlow ? slow_ : stepping_;
+  ServiceWorker& worker = lane == Lane::kSlow       ? slow_
+                          : lane == Lane::kStepping ? stepping_
+                                                    : quick_;
   return worker.Add(std::move(job));
 }
 

@@ -7,7 +7,7 @@
 // Requests are untrusted input. One that does not decode gets no reply, and the first of a service is logged.
 //
 // Threads  Offer…(), Advertise() and the destructor on one. Handlers run on the threads of the host, one for each
-//          lane, so that a slow request does not delay the quick ones. The rest on any.
+//          lane (quick ones and lists share one), so that a slow request does not delay the quick ones. The rest on any.
 // Bounded  10,000 requests wait; further ones are dropped, and the first is logged.
 #pragma once
 
@@ -32,6 +32,7 @@ class ServiceHost {
  public:
   enum class Lane {
     kQuick,     // answered at once
+    kLists,     // answered at once, with replies that may be large
     kSlow,      // reads files, or waits for the simulation
     kStepping,  // takes as long as the simulation does
   };

@@ -1,0 +1,86 @@
+// Lets ROS 2 nodes step robots in lockstep: a step waits for the command that carries the time of the last /clock.
+//
+// A node answers each /clock with a TwistStamped of the same time. Commands with another time are ignored.
+//
+// Threads  any.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "gsv/base/mutex.h"
+#include "gsv/simulation/agent.h"
+#include "gsv/simulation/behaviour_port.h"
+
+namespace gsv::ros2 {
+
+// The name of the behaviour of robots that ROS 2 nodes drive.
+inline constexpr const char* kRos2Behaviour = "ros2";
+
+// The commands of nodes, and the robots that wait for them.
+class NodeSteps {
+ public:
+  // `is_open`: a robot is stepped by a node from now on, or its node is not waited for any longer.
+  void Open(const std::string& robot, bool is_open);
+  bool IsOpen(const std::string& robot) const;
+
+  // A command that a node sent with that time.
+  void Offer(const std::string& robot, base::SimTime stamp, const world::DriveCommand& command);
+  // Waits for the command of this time; nothing once the robot is closed. Repeats /clock meanwhile.
+  std::optional<world::DriveCommand> Await(const std::string& robot, base::SimTime time);
+
+  // `repeat` sends /clock again, for nodes that came late or lost it; empty: nothing does. It returns at once.
+  void RepeatBy(std::function<void()> repeat);
+
+ private:
+  struct Robot {
+    bool is_open = false;
+    std::optional<base::SimTime> stamp{};  // of the newest command
+    world::DriveCommand command{};
+    std::optional<base::SimTime> awaited{};
+    bool has_warned = false;
+  };
+
+  mutable base::Mutex mutex_;
+  base::ConditionVariable changed_;
+  std::map<std::string, Robot> robots_ GSV_GUARDED_BY(mutex_);
+  base::Mutex repeat_mutex_;
+  std::function<void()> repeat_ GSV_GUARDED_BY(repeat_mutex_);
+};
+
+// The agent of such a robot: at each instant of /clock it waits for its node, applies the command, and waits for the
+// next instant. The simulation's deadline applies as for every behaviour.
+class NodeBehaviour final : public simulation::BehaviourPort {
+ public:
+  // `period` is that of /clock.
+  NodeBehaviour(std::shared_ptr<NodeSteps> steps, base::SimTime period);
+  ~NodeBehaviour() override;
+
+  base::Status Init(const std::shared_ptr<simulation::Agent>& agent) override;
+  base::Status Start() override;
+  base::Status Stop() override;
+  base::Status Pause() override { return {}; }
+  base::Status Resume() override { return {}; }
+  void Destroy() override;
+  bool IsDead() override { return false; }
+  bool time_managed() const override { return true; }
+  const std::string& name() const override { return name_; }
+  const std::string& place() const override { return place_; }
+
+ private:
+  void Run(simulation::Agent& agent, simulation::ClockId clock);
+
+  const std::shared_ptr<NodeSteps> steps_;
+  const base::SimTime period_;
+  const std::string name_ = kRos2Behaviour;
+  const std::string place_ = "ROS 2";
+  std::shared_ptr<simulation::Agent> agent_;
+  std::string robot_;
+  std::thread thread_;
+};
+
+}  // namespace gsv::ros2
