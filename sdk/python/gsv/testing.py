@@ -59,7 +59,7 @@ class PrivateSimulator:
 
     def __init__(self, *options: str) -> None:
         self._children: list[subprocess.Popen[str]] = []
-        self._complaints: list[Any] = []
+        self._error_files: list[Any] = []
         try:
             line = self._run("broker: ", find_program("gsv"), "serve", "--headless", *options)
             self.broker = line.removeprefix("broker: ")
@@ -84,9 +84,9 @@ class PrivateSimulator:
             child.wait()
             assert child.stdout
             child.stdout.close()
-        for complaints in self._complaints:
-            complaints.close()
-        self._children, self._complaints = [], []
+        for errors in self._error_files:
+            errors.close()
+        self._children, self._error_files = [], []
 
     def __enter__(self) -> PrivateSimulator:
         return self
@@ -99,19 +99,19 @@ class PrivateSimulator:
         environment = dict(os.environ)
         if self._children:
             environment["GSV_BROKER"] = self.broker
-        complaints = tempfile.TemporaryFile("w+")
-        self._complaints.append(complaints)
+        errors = tempfile.TemporaryFile("w+")
+        self._error_files.append(errors)
         child = subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *command], text=True,
                                  stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                 stderr=complaints, env=environment)
+                                 stderr=errors, env=environment)
         self._children.append(child)
         assert child.stdout
         for line in child.stdout:
             if awaited in line:
                 return line.strip()
-        complaints.seek(0)
+        errors.seek(0)
         raise Unavailable(f"{' '.join(command)} ended with exit code {child.wait()}: "
-                          f"{complaints.read().strip()}")
+                          f"{errors.read().strip()}")
 
 
 @dataclass(frozen=True)
@@ -171,10 +171,10 @@ else:
 
         def expect(*arguments: Union[str, os.PathLike[str]]) -> list[ScenarioResult]:
             results = run_scenarios("--failures", tmp_path / "gsv-failures", *arguments)
-            complaints = [f"{each.scenario}: {each.message}\n{each.folder}"
-                          for each in results if each.status != "passed"]
-            if complaints:
-                pytest.fail("\n".join(complaints), pytrace=False)
+            failures = [f"{each.scenario}: {each.message}\n{each.folder}"
+                        for each in results if each.status != "passed"]
+            if failures:
+                pytest.fail("\n".join(failures), pytrace=False)
             return results
 
         return expect

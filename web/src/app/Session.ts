@@ -23,7 +23,7 @@ import type {
 import { seconds } from "../protocol/messages";
 import { expectationOf } from "../state/expectations";
 import { healthOf } from "../state/health";
-import { withComplaint } from "../state/complaints";
+import { withServerWarning } from "../state/serverWarnings";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 import { shallowEqual } from "../state/Store";
@@ -47,7 +47,7 @@ const NOTHING_WATCHED: Partial<State> = {
   selectedPose: null,
   viewMode: "orbit",
   camera: null,
-  complaints: [],
+  serverWarnings: [],
 };
 
 // What the page's address asks for, if it does.
@@ -231,7 +231,7 @@ export class Session implements TopicSource {
       },
       onProblem: (sentence) => {
         notify(this.store, "error", sentence);
-        this.store.set(({ complaints }) => ({ complaints: withComplaint(complaints, sentence) }));
+        this.store.set(({ serverWarnings }) => ({ serverWarnings: withServerWarning(serverWarnings, sentence) }));
       },
     });
     this.client = client;

@@ -77,7 +77,7 @@ export interface State {
   cameraOpen: boolean; // whether its picture is shown
   plots: Plots;
   openPanels: readonly string[]; // by id, as panels/registry.ts has them
-  complaints: readonly string[]; // of the server
+  serverWarnings: readonly string[];
   pending: Action | "factor" | null; // sent to the server, not answered yet
   notices: Notice[];
   helpOpen: boolean;
@@ -118,7 +118,7 @@ export const initialState: State = {
   cameraOpen: true,
   plots: NO_PLOTS,
   openPanels: [],
-  complaints: [],
+  serverWarnings: [],
   pending: null,
   notices: [],
   helpOpen: false,

@@ -54,7 +54,7 @@ test("robots that are unwell are named, the worst first; good news is short", ()
 });
 
 test("what the server tells of itself and of this page's updates is shown, what it does not tell is left out", () => {
-  const complaints = ["camera: there is nothing to draw with"];
+  const serverWarnings = ["camera: there is nothing to draw with"];
   const diagnostics = {
     dropped: 12,
     server: new Map([
@@ -65,8 +65,8 @@ test("what the server tells of itself and of this page's updates is shown, what 
       ["process_max_fds", 1024],
     ]),
   };
-  const { texts } = open(diagnostics, { complaints });
-  expect(texts("Complaints")).toEqual([["", "camera: there is nothing to draw with"]]);
+  const { texts } = open(diagnostics, { serverWarnings });
+  expect(texts("Warnings of the server")).toEqual([["", "camera: there is nothing to draw with"]]);
   expect(texts("This page")).toContainEqual(["updates dropped for this page", "12"]);
   expect(texts("Server")).toEqual([
     ["viewers", "3"],

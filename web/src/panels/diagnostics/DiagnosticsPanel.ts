@@ -1,5 +1,5 @@
-// How things are: the simulation, the robots that are unwell, what the server complained of, this page
-// and the server. Good news is short.
+// The panel Diagnostics: the simulation, failed robots, warnings of the server, this page, and the
+// figures of the server.
 import type { ServerFigures } from "../../api/MetricsApi";
 import { Store, shallowEqual } from "../../state/Store";
 import { element } from "../../ui/element";
@@ -12,13 +12,13 @@ import { DiagnosticsFeed } from "./DiagnosticsFeed";
 import type { Diagnosis, Diagnostics } from "./diagnostics";
 import { NO_DIAGNOSTICS, unwell } from "./diagnostics";
 
-const MOST_ROWS = 100;
+const MAX_ROWS = 100;
 const NOTHING_YET = "No data yet. The panel fills when the server responds.";
 
 export function mount({ state, topics, server }: Pick<PanelPorts, "state" | "topics" | "server">): MountedPanel {
   const store = new Store<Diagnostics>(NO_DIAGNOSTICS);
   const feed = new DiagnosticsFeed(store, topics, server);
-  // What is known of one simulation is not so of another.
+  // The data of one simulation does not apply to another.
   state.watch(
     ({ simulation }) => simulation,
     () => store.set(NO_DIAGNOSTICS),
@@ -26,15 +26,16 @@ export function mount({ state, topics, server }: Pick<PanelPorts, "state" | "top
   return panelOf(store, state, () => feed.start());
 }
 
-// The panel of what is in the store; `start` has it collected, until the function that it gives is called.
+// Makes the panel for the data in the store. `start` begins to collect the data, and returns a function
+// that ends this.
 export function panelOf(store: Store<Diagnostics>, state: PanelPorts["state"], start: () => () => void): MountedPanel {
   const simulation = createFacts("Simulation", NOTHING_YET);
   const robots = createFacts("Robots", NOTHING_YET);
-  const complaints = createFacts("Complaints", "None.");
+  const warnings = createFacts("Warnings of the server", "None.");
   const page = createFacts("This page", NOTHING_YET);
   const server = createFacts("Server", "This server reports no figures.");
   const body = element("div", { class: "facts-body", tabindex: "0", role: "region", "aria-label": "State" });
-  body.append(...[simulation, robots, complaints, page, server].map((each) => each.element));
+  body.append(...[simulation, robots, warnings, page, server].map((each) => each.element));
   const show = () => {
     const diagnostics = store.get();
     simulation.show(simulationFacts(diagnostics.simulation));
@@ -48,8 +49,8 @@ export function panelOf(store: Store<Diagnostics>, state: PanelPorts["state"], s
       store.watch((diagnostics) => diagnostics, show, shallowEqual),
       state.watch(({ framesPerSecond }) => Math.round(framesPerSecond), show),
       state.watch(
-        (known) => known.complaints,
-        (sentences) => complaints.show(sentences.map((sentence): Fact => ["", sentence])),
+        (known) => known.serverWarnings,
+        (sentences) => warnings.show(sentences.map((sentence): Fact => ["", sentence])),
       ),
     ];
     return () => ends.forEach((end) => end());
@@ -67,8 +68,8 @@ function robotFacts({ robots }: Diagnostics): Fact[] {
   const bad = unwell(robots);
   const good = robots.length - bad.length;
   const rest: Fact[] = good > 0 ? [["", bad.length === 0 ? `${count(good, "robot")} OK.` : `${good} more OK.`]] : [];
-  const rows = bad.slice(0, MOST_ROWS).map(({ name, message, health }): Fact => [name, message, health]);
-  const cut: Fact[] = bad.length > MOST_ROWS ? [["", `${bad.length - MOST_ROWS} more failed.`]] : [];
+  const rows = bad.slice(0, MAX_ROWS).map(({ name, message, health }): Fact => [name, message, health]);
+  const cut: Fact[] = bad.length > MAX_ROWS ? [["", `${bad.length - MAX_ROWS} more failed.`]] : [];
   return [...rows, ...cut, ...rest];
 }
 
