@@ -199,6 +199,30 @@ TEST_F(SdfRobotTest, TakesASteeringOnlyPluginWithoutWheels) {
   EXPECT_THAT(problems_, IsEmpty());
 }
 
+TEST_F(SdfRobotTest, ReadsATrackedVehicleAsADifferentialDriveWithoutWheels) {
+  const auto model =
+      Read("<sdf version='1.9'><model name='digger'><link name='base'/>" +
+           Plugin("gz-sim-tracked-vehicle-system", "gz::sim::systems::TrackedVehicle",
+                  "<left_track><link>base</link></left_track><right_track><link>base</link>"
+                  "</right_track><tracks_separation>0.6</tracks_separation>") +
+           "</model></sdf>");
+  ASSERT_TRUE(model->drive.has_value());
+  EXPECT_EQ(model->drive->kind, DriveKind::kDifferential);
+  EXPECT_THAT(model->drive->left_wheels, IsEmpty());
+  EXPECT_DOUBLE_EQ(model->drive->wheel_separation, 0.6);
+  EXPECT_THAT(problems_, IsEmpty());
+}
+
+TEST_F(SdfRobotTest, GuessesADriveInsteadOfOneWithoutAWheelBase) {
+  const auto model = Read(Robot(Plugin("libgazebo_ros_ackermann_drive.so", "car",
+                                       "<front_left_joint>fl_joint</front_left_joint>"
+                                       "<front_right_joint>fr_joint</front_right_joint>")));
+  ASSERT_TRUE(model->drive.has_value());
+  EXPECT_NE(model->drive->kind, DriveKind::kAckermann);
+  ASSERT_FALSE(problems_.empty());
+  EXPECT_THAT(problems_[0].message, HasSubstr("it has no wheel base"));
+}
+
 TEST_F(SdfRobotTest, ReadsRos2ControlWithItsInterfaces) {
   const auto model = Read(Robot(
       "<ros2_control name='base' type='system'><hardware><plugin>some/Hardware</plugin></hardware>"

@@ -28,6 +28,7 @@ std::optional<DriveKind> KindOf(const std::string& file_name, const std::string&
       {"ackermannsteering", DriveKind::kAckermann}, {"ackermanndrive", DriveKind::kAckermann},
       {"mecanumdrive", DriveKind::kMecanum},        {"velocitycontrol", DriveKind::kVelocity},
       {"planarmove", DriveKind::kVelocity},         {"synchrodrive", DriveKind::kSynchro},
+      {"trackedvehicle", DriveKind::kDifferential},
   };
   for (const std::string& text : {file_name, name}) {
     std::string plain;
@@ -52,10 +53,10 @@ class DriveReader {
     drive_.kind = kind;
     drive_.left_wheels =
         Joints({"left_joint", "leftJoint", "left_front", "left_rear", "leftFrontJoint",
-                "leftRearJoint", "front_left_joint", "back_left_joint"});
+                "leftRearJoint", "front_left_joint", "back_left_joint", "rear_left_joint"});
     drive_.right_wheels =
         Joints({"right_joint", "rightJoint", "right_front", "right_rear", "rightFrontJoint",
-                "rightRearJoint", "front_right_joint", "back_right_joint"});
+                "rightRearJoint", "front_right_joint", "back_right_joint", "rear_right_joint"});
     if (kind == DriveKind::kAckermann) {
       drive_.steered = Joints({"left_steering_joint", "right_steering_joint"});
     }
@@ -63,8 +64,15 @@ class DriveReader {
     const bool paired = kind == DriveKind::kDifferential || kind == DriveKind::kAckermann ||
                         kind == DriveKind::kMecanum;
     const bool has_sides = !drive_.left_wheels.empty() && !drive_.right_wheels.empty();
-    if (!is_complete_ || (paired && !has_sides)) return GuessInstead();
+    // Tracks are surfaces of links, without joints: the drive holds the base.
+    const bool has_tracks = plugin_->HasElement("tracks_separation");
+    if (!is_complete_ || (paired && !has_sides && !has_tracks)) return GuessInstead();
     ReadSizes();
+    if (kind == DriveKind::kAckermann && !(drive_.wheel_base > 0)) {
+      context_.Warn("the drive names no wheels one behind the other, so that it has no wheel base",
+                    Place());
+      return GuessInstead();
+    }
     ReadLimits();
     return drive_;
   }
@@ -79,7 +87,8 @@ class DriveReader {
 
   Drive GuessInstead() {
     const bool only_steers = is_complete_ && OnlySteers();
-    if (is_complete_ && !only_steers) {
+    const bool has_sides = !drive_.left_wheels.empty() && !drive_.right_wheels.empty();
+    if (is_complete_ && !only_steers && !has_sides) {
       context_.Warn("the drive names no joint of a left and of a right wheel", Place());
     }
     drive_ = model::GuessDrive(model_);
@@ -139,8 +148,8 @@ class DriveReader {
   }
 
   void ReadSizes() {
-    drive_.wheel_separation =
-        Positive({"wheel_separation", "wheelSeparation"}, MeasuredSeparation());
+    drive_.wheel_separation = Positive({"wheel_separation", "wheelSeparation", "tracks_separation"},
+                                       MeasuredSeparation());
     const auto diameter = Number({"wheel_diameter", "wheelDiameter"});
     drive_.wheel_radius = diameter && *diameter > 0
                               ? *diameter / 2
@@ -151,7 +160,7 @@ class DriveReader {
     drive_.right_wheel_scale =
         Positive({"right_wheel_radius"}, drive_.wheel_radius) / drive_.wheel_radius;
     drive_.wheel_base = Positive({"wheel_base", "wheelbase"}, MeasuredWheelBase());
-    drive_.steering_limit = Positive({"steering_limit"}, drive_.steering_limit);
+    drive_.steering_limit = Positive({"steering_limit", "max_steer"}, drive_.steering_limit);
   }
 
   // A limit in both directions; a lone maximum also applies backwards, as in Gazebo.

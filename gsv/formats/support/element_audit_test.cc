@@ -131,6 +131,12 @@ TEST(ElementAudit, ComparesUrdfWithItsOwnElements) {
                       "<transmission name='t'><anything/></transmission></robot>",
                       0),
               IsEmpty());
+  EXPECT_THAT(AuditOf("<robot name='r'><ros2_control name='c' type='system'><hardware><plugin>p/P"
+                      "</plugin></hardware><joint name='j'><command_interface name='velocity'>"
+                      "<param name='min'>-1</param></command_interface>"
+                      "<state_interface name='position'/></joint></ros2_control></robot>",
+                      0),
+              IsEmpty());
   EXPECT_THAT(
       AuditOf("<robot name='r'><link name='l'><visual><geometry><box sise='1 1 1'/></geometry>"
               "</visual></link><joint name='j' type='revolute'><mimic joint='k'/><axs xyz='0 0 1'/>"

@@ -13,6 +13,8 @@ const std::string_view kKnownPlugins = R"table(
 + velocitycontrol; an omnidirectional base
 + planarmove; an omnidirectional base
 + synchrodrive; a synchro drive
++ trackedvehicle; a differential drive that holds the base
+. trackcontroller; the drive of a tracked vehicle moves its base
 + jointpositioncontroller; the target of a joint
 + jointcontroller; the target of a joint
 - systems::buoyancyengine; nothing changes what a body displaces

@@ -13,7 +13,7 @@ joint:urdf_joint* +
 material:urdf_material* +
 gazebo:gazebo* +
 transmission* . ; joints are driven by behaviours; the drive is guessed, or given by a plugin
-ros2_control* +
+ros2_control:ros2_control* +
 sensor* - ; GSV reads sensors from <gazebo>
 [urdf_link]
 @name +
@@ -41,6 +41,34 @@ collision/geometry:urdf_geometry +
 collision/verbose .
 collision/contact_coefficients - ; <gazebo> gives friction and contacts
 collision/material .
+[ros2_control]
+@name +
+@type +
+@rw_rate .
+@is_async .
+hardware .
+joint:ros2_control_joint* +
+sensor* . ; GSV reads sensors from <gazebo>
+gpio* - ; there are no inputs and outputs besides joints and sensors
+transmission* . ; joints are driven by behaviours
+[ros2_control_joint]
+@name +
+@mimic .
+@multiplier .
+command_interface* +
+command_interface/@name +
+command_interface/@data_type .
+command_interface/param* .
+command_interface/param/@name .
+command_interface/limits .
+state_interface* +
+state_interface/@name +
+state_interface/@data_type .
+state_interface/param* .
+state_interface/param/@name .
+param* .
+param/@name .
+limits .
 [origin]
 @xyz +
 @rpy +

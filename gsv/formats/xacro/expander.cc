@@ -419,7 +419,8 @@ base::Status Expander::BindDefault(const Parameter& parameter, const NodePtr& no
   if (!parameter.otherwise) {
     return Unfit("the call lacks the parameter \"" + parameter.name + "\"");
   }
-  const auto value = Evaluate(*parameter.otherwise, *node, context.scope);
+  // A default of a macro in a namespace may use the properties there.
+  const auto value = Evaluate(*parameter.otherwise, *node, *inner.parent());
   if (!value) return base::Fail(value.error());
   inner.Set(parameter.name, *value, node, false);
   return {};

@@ -154,6 +154,10 @@ TEST_F(ExpanderTest, IncludesFilesBesideItAndInNamespaces) {
                      "<xacro:include filename='parts/wheel.xacro' ns='P'/>"
                      "<xacro:P.m/><a w='${w}' pw='${P.w}'/>"),
             "<tyre/><m w=\"2\"/><a w=\"1\" pw=\"2\"/>");
+  folder_.Write("sized.xacro",
+                "<robot><xacro:property name='w' value='2'/><xacro:macro name='m' "
+                "params='size:=${2 * w}'><m s='${size}'/></xacro:macro></robot>");
+  EXPECT_EQ(Expanded("<xacro:include filename='sized.xacro' ns='P'/><xacro:P.m/>"), "<m s=\"4\"/>");
   EXPECT_EQ(Expanded("<xacro:include filename='absent.xacro' optional='true'/><a/>"), "<a/>");
   EXPECT_THAT(problems_, SizeIs(1));
 }
