@@ -20,8 +20,9 @@ using model::JointKind;
 using ModelPointer = std::shared_ptr<const model::Model>;
 using testing::HasSubstr;
 
-constexpr double kNear = 1e-9;    // of numbers that are written in decimal
-constexpr double kSingle = 2e-5;  // of meshes, whose coordinates are rounded to single precision
+constexpr double kNear = 1e-9;  // tolerance of numbers that are written in decimal
+// tolerance of meshes, whose coordinates are rounded to single precision
+constexpr double kSingle = 2e-5;
 
 double Between(const Vector3& a, const Vector3& b) { return Norm(a - b); }
 

@@ -27,14 +27,14 @@
 namespace gsv::gateway {
 
 struct GatewayOptions : ServerOptions {
-  std::string version;  // of the program, for /metrics
-  // Null: /metrics has no numbers of the broker.
+  std::string version;  // version of the program, for /metrics
+  // If null, /metrics has no numbers of the broker.
   std::function<metrics::BrokerCalls()> broker_calls{};
   std::filesystem::path web_root;     // the viewer's files; may be absent
   std::filesystem::path docs_root{};  // the documentation's files; may be absent
-  // Null: recording is not available. Must outlive the gateway.
+  // If null, recording is not available. It must outlive the gateway.
   RecordingSwitch* recordings = nullptr;
-  // Null: simulations cannot be created. Must outlive the gateway.
+  // If null, simulations cannot be created. It must outlive the gateway.
   SimulationFactory* factory = nullptr;
   // The folder of recordings to list and replay; empty: none.
   std::filesystem::path recordings_folder{};
@@ -46,7 +46,8 @@ struct GatewayOptions : ServerOptions {
 
 // An instance whose simulations are relayed.
 struct RelayedInstance {
-  std::string url;          // as printed by it: "http://192.168.1.7:8080/"
+  // the address that the other instance prints, such as "http://192.168.1.7:8080/"
+  std::string url;
   std::string token{};      // used for all clients of the relay; empty: none
   std::string authority{};  // a PEM file with the certificates to trust; empty: the system's
 };

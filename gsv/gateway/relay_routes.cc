@@ -118,7 +118,7 @@ class RelayRoutes final : public RouteSet {
   boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{
       io_.get_executor()};
   base::Mutex mutex_;
-  // By socket and name; "": the first simulation.
+  // By socket and name of the simulation. An empty name stands for the first simulation.
   std::map<std::pair<std::string, std::string>, std::shared_ptr<upstream::Stream>> streams_
       GSV_GUARDED_BY(mutex_);
   std::thread thread_;

@@ -32,7 +32,7 @@ struct Ellipsoid {
 struct Cone {
   double radius = 0.5, length = 1;
 };
-// As a collision: a half-space below the plane. As a visual: a rectangle of this size.
+// A collision is a half-space below the plane. A visual is a rectangle of this size.
 struct Plane {
   Vector3 normal{0, 0, 1};  // unit length
   Vector2 size{1, 1};

@@ -29,7 +29,7 @@ struct VolumeBelow {
 };
 VolumeBelow BelowHeight(const TriangleMesh& mesh, const Pose& world_from_mesh, double height);
 
-// The same of a sphere: the cap, in closed form.
+// The part of a sphere below the plane, which is a cap, in closed form.
 VolumeBelow SphereBelowHeight(double radius, const Vector3& centre_in_world, double height);
 
 }  // namespace gsv::geometry

@@ -92,7 +92,7 @@ class CdrReader {
   void Fail(const char* what);
   std::size_t remaining() const { return bytes_.size() - position_; }
 
-  std::span<const std::byte> bytes_;  // after the encapsulation header
+  std::span<const std::byte> bytes_;  // the bytes after the encapsulation header
   std::size_t position_ = 0;
   const char* failure_ = nullptr;
 };

@@ -225,7 +225,7 @@ class Decoder {
   }
 
   const Definition& definition_;
-  base::CdrReader in_;  // after the encapsulation header
+  base::CdrReader in_;  // starts after the encapsulation header
   std::size_t values_ = 0;
 };
 

@@ -12,11 +12,14 @@ namespace {
 
 using geometry::Vector3;
 
-constexpr double kAcross = 0.9;       // cosine between an axis and the model's y axis
-constexpr double kIdlerRadius = 0.8;  // of the largest wheel's: smaller ones are not driven
-constexpr double kMiddle = 0.25;      // of the half track: wheels nearer to the middle are casters
-constexpr double kNarrowest = 0.01;   // m, half track
-constexpr double kTrail = 0.15;       // of the radius: how far a caster lags behind its swivel
+constexpr double kAcross = 0.9;  // cosine between an axis and the model's y axis
+// wheels below this fraction of the largest wheel's radius are not driven
+constexpr double kIdlerRadius = 0.8;
+// wheels nearer to the middle than this fraction of the half track are casters
+constexpr double kMiddle = 0.25;
+constexpr double kNarrowest = 0.01;  // m, half track
+// how far a caster is behind its swivel, as a fraction of the radius
+constexpr double kTrail = 0.15;
 constexpr double kMaxSteeringAngle = 1.4;  // rad
 constexpr double kFullTurn = 6.2;          // rad
 

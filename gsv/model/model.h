@@ -130,7 +130,7 @@ enum class Movement {
 struct Script;  // gsv/model/script.h
 
 struct Model {
-  std::string name;    // from the file
+  std::string name;    // the name in the file
   std::string source;  // the file it was read from, for messages
   bool is_static = false;
   // The pose in the file, used in a world if no other pose is given.

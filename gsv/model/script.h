@@ -18,7 +18,7 @@ struct Waypoint {
 };
 
 struct Trajectory {
-  std::vector<Waypoint> waypoints;  // by time, ascending, each time once, the first at 0
+  std::vector<Waypoint> waypoints;  // in ascending order of time, each time once, the first at 0
   double tension = 0;               // in [0, 1]; with 1 the motion is linear between waypoints
   // interpolate_x: whether the gait follows the distance, and not the time
   bool animated_by_distance = false;

@@ -13,7 +13,7 @@ namespace gsv::model {
 
 // A link that is round about the axis of its joint.
 struct Wheel {
-  int joint = 0;  // of the wheel; an index into Model::joints, as all below
+  int joint = 0;  // the joint of the wheel; an index in Model::joints, like all below
   geometry::Vector3 centre;
   geometry::Vector3 axis;     // unit length
   double radius = 0;          // 0: the link has no shape

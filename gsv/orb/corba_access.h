@@ -28,7 +28,7 @@ CorbaAccess AccessFromEnvironment();
 // Checks whether a server may listen there. kInvalidArgument: the sentence says what is required.
 base::Status CheckListening(const CorbaAccess& access, const std::string& host);
 
-// True for 127.0.0.0/8, ::1 and "localhost".
+// Returns true for 127.0.0.0/8, ::1 and "localhost".
 bool IsLoopback(std::string_view host);
 
 // Settings for CORBA::ORB_init() that apply the environment's variables.

@@ -83,7 +83,8 @@ base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
       {"strictIIOP", "0"},
       {"traceLevel", "0"},
       {"unixTransportPermission", "0600"},
-      {local_endpoint.empty() ? nullptr : "endPoint", local_endpoint.c_str()},  // or the end
+      // without a local endpoint, this null ends the list
+      {local_endpoint.empty() ? nullptr : "endPoint", local_endpoint.c_str()},
       {nullptr, nullptr},
   };
   SetConnectionPolicy(PolicyOf(options));

@@ -37,19 +37,19 @@ struct Topic {
   bool is_live = true;
   bool is_recorded = true;
   Replay replay = Replay::kNewest;
-  bool is_reproducible = true;  // the same in every run, and so a part of content hashes
+  bool is_reproducible = true;  // whether it is equal in every run, and so a part of content hashes
   std::size_t history = 1;      // number of earlier messages that a new live subscriber gets
 };
 
 std::span<const Topic> Topics();
-// Null if it is not in the table.
+// Returns null if the topic is not in the table.
 const Topic* FindTopic(std::string_view name);
 
 namespace topics {
 
 inline constexpr TopicOf<messages::rosgraph_msgs::Clock> kClock{"/clock"};
 inline constexpr TopicOf<messages::gsv_msgs::Poses> kPoses{"/gsv/poses"};
-// The same for viewers, rounded.
+// The poses for viewers, rounded.
 inline constexpr TopicOf<messages::gsv_msgs::PackedPoses> kPackedPoses{"/gsv/packed_poses"};
 inline constexpr TopicOf<messages::tf2_msgs::TFMessage> kTransforms{"/tf"};
 inline constexpr TopicOf<messages::tf2_msgs::TFMessage> kSensorTransforms{"/tf_static"};
@@ -67,7 +67,7 @@ inline constexpr TopicOf<messages::gsv_msgs::ActuatorCommand> kActuators{"/gsv/a
 inline constexpr TopicOf<messages::gsv_msgs::Contact> kContacts{"/gsv/contacts"};
 inline constexpr TopicOf<messages::gsv_msgs::Transmission> kRadio{"/gsv/radio"};
 inline constexpr TopicOf<messages::gsv_msgs::StateHash> kStateHash{"/gsv/state_hash"};
-// In every recording of an edited simulation, whatever topics are selected.
+// This topic is in every recording of an edited simulation, whatever topics are selected.
 inline constexpr TopicOf<messages::gsv_msgs::Edit> kEdits{"/gsv/edits"};
 inline constexpr TopicOf<messages::std_msgs::String> kViewers{"/gsv/viewers"};
 

@@ -52,7 +52,7 @@ struct Colour {
 
 struct Sonar {
   static constexpr const char* kType = "sonar";
-  double range = 0;  // to the nearest echo; the maximum range if there is none
+  double range = 0;  // distance to the nearest echo; the maximum range if there is none
   static constexpr auto kFields = std::make_tuple(Value("range", "m", &Sonar::range));
 };
 
@@ -86,7 +86,7 @@ struct Odometry {
   static constexpr const char* kType = "odometry";
   double x = 0, y = 0, yaw = 0;
   double linear = 0, angular = 0;
-  double lateral = 0;  // to the left; missing in readings of gsv 0.1 and earlier
+  double lateral = 0;  // velocity to the left; missing in readings of gsv 0.1 and earlier
   static constexpr auto kFields =
       std::make_tuple(Value("x", "m", &Odometry::x, "pose.pose.position"),
                       Value("y", "m", &Odometry::y, "pose.pose.position"),
@@ -183,7 +183,7 @@ struct LogicalCamera {
 };
 
 struct HeardMessage {
-  std::uint64_t number = 0;  // from 1, since the radio was opened
+  std::uint64_t number = 0;  // counted from 1, since the radio was opened
   double sent = 0;
   double strength = 0;
   std::string sender;          // robot
@@ -202,9 +202,10 @@ struct Radio {
 
 struct Microphone {
   static constexpr const char* kType = "microphone";
-  double level = 0;      // re 20 uPa, of all sounds
-  double frequency = 0;  // of the loudest sound; 0: no sound is louder than the ambient noise
-  std::string source;    // ROBOT/SPEAKER of the loudest sound
+  double level = 0;  // re 20 uPa, of all sounds
+  // frequency of the loudest sound; 0 if no sound is louder than the ambient noise
+  double frequency = 0;
+  std::string source;  // ROBOT/SPEAKER of the loudest sound
   static constexpr auto kFields =
       std::make_tuple(Value("level", "dB", &Microphone::level, "level_db"),
                       Value("frequency", "Hz", &Microphone::frequency, "frequency_hz"),
@@ -244,7 +245,8 @@ struct Speaker {
 // The image itself is not a part of the values.
 struct Camera {
   static constexpr const char* kType = "camera";
-  static constexpr const char* kWideAngleType = "wideangle_camera";  // with another lens
+  // the type of a camera with a wide-angle lens
+  static constexpr const char* kWideAngleType = "wideangle_camera";
   int width = 0, height = 0;
   static constexpr auto kFields =
       std::make_tuple(Value("width", "px", &Camera::width), Value("height", "px", &Camera::height));

@@ -42,7 +42,7 @@ std::string Listed(const Columns& columns, Multiplicity occurs) {
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const Layout::Column& column = columns[i];
     if (column.occurs != occurs) continue;
-    // In a group, without the list's own name.
+    // Names in a group omit the name of the list.
     std::string name = column.name;
     if (occurs == Multiplicity::kRepeated) name = name.substr(name.find('.') + 1);
     text += (text.empty() ? "" : ", ") + Shortened(name, before);

@@ -19,7 +19,7 @@ enum class Multiplicity {
 // The path of a field through its structs, with the unit that it inherits.
 struct Place {
   std::string name;  // "touches.point.x"
-  std::string unit;  // of the innermost field with a unit
+  std::string unit;  // unit of the innermost field that has one
   std::string path;  // in the message: "contacts.point.x"
   Multiplicity occurs = Multiplicity::kOnce;
 

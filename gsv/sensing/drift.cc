@@ -22,7 +22,7 @@ double DriftAt(base::SimTime time, double correlation_time, std::uint64_t seed,
   };
   double first = draw(block, 0), last = draw(block + 1, 0);
   double place = blocks - block;  // in [0, 1) of the interval
-  double length = kBlock;         // of the interval, in correlation times
+  double length = kBlock;         // length of the interval, in correlation times
   std::uint64_t node = 1;         // in the order of a heap
   for (int i = 0; i < kHalvings; ++i) {
     length /= 2;

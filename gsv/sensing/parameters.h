@@ -23,7 +23,7 @@ class ParameterReader {
   // The number of that name, or `otherwise` if it is absent. It must lie in [low, high].
   double Number(const std::string& name, double otherwise, double low, double high);
 
-  // The same for an integer.
+  // Returns the integer with that name, or `otherwise` if it is absent. It must be in [low, high].
   int Count(const std::string& name, int otherwise, int low, int high);
 
   // A flag; a number is true unless it is 0.
@@ -36,7 +36,7 @@ class ParameterReader {
   geometry::Vector2 Pair(const std::string& name, geometry::Vector2 otherwise, double low,
                          double high);
 
-  // The same for three numbers: "1 0.5 0".
+  // Returns three numbers, written as text: "1 0.5 0". Each must be in [low, high].
   geometry::Vector3 Triple(const std::string& name, geometry::Vector3 otherwise, double low,
                            double high);
 

@@ -18,7 +18,7 @@ struct Preset {
   model::Parameters parameters;
 };
 
-// By type, then name.
+// All presets, ordered by type and then by name.
 const std::vector<Preset>& Presets();
 
 // Returns the description with its preset's parameters filled in. `type` is the sensor type's own

@@ -43,9 +43,10 @@ struct SensorType {
   // Creates a sensor. Refuses parameters out of range with a sentence that names them.
   std::function<base::Result<std::unique_ptr<Sensor>>(const model::SensorDescription&)> create;
 
-  const messages::Schema* schema = nullptr;  // of Sensor::Encode(); null: no message
-  readings::Layout layout;                   // of the readings; empty: unknown
-  std::optional<Companion> companion;        // of cameras only, which also have an optical frame
+  // the schema of Sensor::Encode(); null if there is no message
+  const messages::Schema* schema = nullptr;
+  readings::Layout layout;             // layout of the readings; empty if it is unknown
+  std::optional<Companion> companion;  // for cameras only, which also have an optical frame
   Overlay overlay = Overlay::kNone;
 
   // For a type whose messages depend on the sensor's description; empty: those above.

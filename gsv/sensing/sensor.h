@@ -30,7 +30,7 @@ class Sampling {
 
   // Moves to another robot at the same instant.
   void MoveTo(int body);
-  // The same at another instant; `body` is an index in that snapshot's layout.
+  // Returns the sampling at another instant. `body` is an index in that snapshot's layout.
   Sampling At(std::shared_ptr<const world::Snapshot> snapshot, int body) const {
     return {std::move(snapshot), body, seed_, rays_};
   }
@@ -126,7 +126,7 @@ class Sensor {
                                      const std::string& /*frame_id*/) const {
     return Bytes();
   }
-  // The same for the companion message, if the type has one.
+  // Encodes the companion message, if the type has one.
   virtual Bytes EncodeCompanion(base::SimTime /*time*/, const std::string& /*frame_id*/) const {
     return {};
   }

@@ -36,7 +36,7 @@ class SharedSensor final : public ForwardingSensor {
 
 bool SharedReadings::IsOf(const Entry& entry, const Sensor& sensor,
                           const Sampling& sampling) const {
-  // By owner: a snapshot's address may be another one's by now.
+  // Compares the owners, because another snapshot may have the same address by now.
   return entry.body == sampling.body() && entry.seed == sampling.seed() &&
          !entry.snapshot.owner_before(sampling.snapshot()) &&
          !sampling.snapshot().owner_before(entry.snapshot) &&

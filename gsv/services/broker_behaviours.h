@@ -28,7 +28,8 @@ class BrokerBehaviours final : public BehaviourSource {
   PortableServer::POA_var poa_;
   const std::shared_ptr<StopTimeout> stop_timeout_ = std::make_shared<StopTimeout>();
   base::Mutex mutex_;
-  std::map<std::string, int> robots_of_ GSV_GUARDED_BY(mutex_);  // by "host:pid" of the program
+  // number of robots, by "host:pid" of the program
+  std::map<std::string, int> robots_of_ GSV_GUARDED_BY(mutex_);
 };
 
 }  // namespace gsv::services

@@ -110,7 +110,7 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
   bool closing_ GSV_GUARDED_BY(mutex_) = false;
   bool has_destroyed_ GSV_GUARDED_BY(mutex_) = false;  // since the janitor's last round
   std::map<std::string, SimulationServant*> servants_
-      GSV_GUARDED_BY(mutex_);  // by simulation; the POA holds them
+      GSV_GUARDED_BY(mutex_);  // by simulation; owned by the POA
   std::jthread janitor_;
 };
 

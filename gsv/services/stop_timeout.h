@@ -17,7 +17,7 @@ class StopTimeout {
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::milliseconds kNormal{10'000};
   static constexpr std::chrono::milliseconds kShortened{1'000};
-  static constexpr std::chrono::milliseconds kMin{20};  // for later calls
+  static constexpr std::chrono::milliseconds kMin{20};  // the time limit for later calls
 
   void Shorten() { until_ = Clock::now() + kShortened; }
   bool is_shortened() const { return until_.load() != Clock::time_point::max(); }

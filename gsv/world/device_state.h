@@ -71,13 +71,13 @@ struct Grasp {
 // The robot and name of a device, and its mounting.
 struct DeviceMount {
   std::string robot, device;
-  int link = 0;  // of the robot's model
+  int link = 0;  // a link of the robot's model
   geometry::Pose link_from_device;
 };
 
 class DeviceState;
 using DeviceStatePtr = std::shared_ptr<const DeviceState>;
-using DeviceStates = std::vector<DeviceStatePtr>;  // by robot, then device
+using DeviceStates = std::vector<DeviceStatePtr>;  // Ordered by robot, then by device.
 
 class DeviceState {
  public:

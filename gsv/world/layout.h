@@ -31,7 +31,7 @@ struct Pedestrian;  // gsv/world/pedestrian.h
 // The kind of a body of this model, unless it is an avatar. `movement` applies to a model with a
 // drive; without a drive only rigid-body dynamics can move the body.
 BodyKind KindOf(const model::Model& model, bool is_static, model::Movement movement);
-// The same for a model of a world file.
+// Returns the kind of a body for a model of a world file.
 BodyKind KindOf(const model::PlacedModel& placed);
 
 // One placed model. `first_joint` and `first_link` are the offsets of its joints and links in
@@ -41,7 +41,7 @@ struct Body {
   std::shared_ptr<const model::Model> model;
   geometry::Pose initial_pose;  // world_from_model when the simulation starts
   BodyKind kind = BodyKind::kUnmoved;
-  std::shared_ptr<const Pedestrian> pedestrian;  // of kPedestrian; else null
+  std::shared_ptr<const Pedestrian> pedestrian;  // set for kPedestrian, else null
 
   bool is_static() const { return kind == BodyKind::kStatic; }
   bool is_avatar() const { return kind == BodyKind::kAvatar; }
@@ -61,7 +61,7 @@ struct Body {
 
 struct Layout {
   std::uint32_t version = 0;  // grows with each change
-  std::vector<Body> bodies;   // by name, ascending
+  std::vector<Body> bodies;   // ordered by name
   int joint_count = 0;
   int link_count = 0;
   std::shared_ptr<const model::WorldDescription> description;  // light, sky, gravity; never null

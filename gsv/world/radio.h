@@ -34,7 +34,7 @@ struct RadioMessage {
   std::string receiver;  // robot; empty: all
   base::SimTime sent{0};
   std::string content;       // bytes
-  std::uint64_t digest = 0;  // of all the above, made by Sealed()
+  std::uint64_t digest = 0;  // digest of all the above, made by Sealed()
 };
 using RadioMessagePtr = std::shared_ptr<const RadioMessage>;
 

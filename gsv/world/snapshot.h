@@ -52,9 +52,11 @@ struct Acceleration {
 struct Snapshot {
   std::shared_ptr<const Layout> layout;  // never null
   State state;
-  std::vector<Contact> contacts;            // of the last step, by (first, second, supports)
-  std::vector<Acceleration> accelerations;  // as Layout::bodies; empty before the first step
-  std::vector<Transmission> transmissions;  // of the last step, in the order of senders
+  std::vector<Contact> contacts;  // contacts of the last step, ordered by (first, second, supports)
+  // in the order of Layout::bodies; empty before the first step
+  std::vector<Acceleration> accelerations;
+  // messages sent in the last step, in the order of senders
+  std::vector<Transmission> transmissions;
 };
 
 // Called around a step, in this order: keeps the velocities before it, and computes closing speeds

@@ -38,7 +38,7 @@ struct DriveState {
 
 // The pose of a base by dead reckoning of its wheels, relative to the start; see wheel_odometry.h.
 struct Odometry {
-  geometry::PlanarPosition place;  // of its reference point, in the frame of its start
+  geometry::PlanarPosition place;  // position of its reference point, in the frame of its start
   double linear = 0, angular = 0;  // m/s, rad/s: over the last step
 };
 
@@ -77,11 +77,12 @@ class EngineState {
 struct State {
   std::int64_t step = 0;
   base::SimTime time{0};
-  std::vector<BodyState> bodies;        // as Layout::bodies
+  std::vector<BodyState> bodies;        // in the order of Layout::bodies
   std::vector<double> joint_positions;  // body b's start at Layout::bodies[b].first_joint
   // The values of a ball joint are its angular velocity about the three axes of the child.
   std::vector<double> joint_velocities;
-  std::vector<JointCommand> joint_commands;  // as joint_positions; empty: no commands so far
+  // in the order of joint_positions; empty if there were no commands so far
+  std::vector<JointCommand> joint_commands;
   // Number of goals that each pedestrian has reached, as `bodies`; empty: no pedestrians.
   std::vector<std::uint32_t> goals;
   std::shared_ptr<const DeviceStates> devices;  // null: no device has had a state

@@ -31,7 +31,7 @@ struct Articulation {
   // The base does not move: a joint holds a link to the world, or the base is kinematic and parts
   // hang from it.
   bool is_fixed = false;
-  double mass = 0;  // of all parts
+  double mass = 0;  // mass of all parts
 };
 
 // Links that hang from no joint belong to the base, which moves with the model's frame, and so does

@@ -17,7 +17,7 @@ class AttachedLayout {
   // Forgets all attachments.
   void Reset(std::shared_ptr<const world::Layout> layout);
 
-  // As Engine has them.
+  // Like the operations of Engine.
   base::Status Attach(const Attachment& attachment, const world::State& state);
   void Detach(int held_body);
 

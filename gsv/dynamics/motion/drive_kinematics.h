@@ -75,7 +75,7 @@ class DriveKinematics {
   };
   struct Steered {
     int joint = 0;
-    double sign = 1;     // of the joint's axis along z
+    double sign = 1;     // sign of the joint's axis along z
     double lateral = 0;  // m to the left
   };
 

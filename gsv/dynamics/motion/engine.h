@@ -18,9 +18,9 @@ namespace gsv::dynamics {
 // indices in the layout.
 struct Attachment {
   int holder_body = 0;
-  int holder_link = 0;  // of the holder's model
+  int holder_link = 0;  // a link of the holder's model
   int held_body = 0;
-  geometry::Pose link_from_held;  // of the held model's frame
+  geometry::Pose link_from_held;  // pose of the held model's frame
 };
 
 class Engine {

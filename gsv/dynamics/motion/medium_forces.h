@@ -15,12 +15,13 @@ namespace gsv::dynamics {
 
 // A collision shape that displaces fluid, in its part's frame.
 struct Displacer {
-  double volume = 0;                 // m³
-  geometry::Vector3 centre;          // of the volume
-  double radius = 0;                 // of a sphere; else 0
-  geometry::TriangleMesh surface{};  // of others, closed; empty where the fluid has no layers
-  double reach = 0;                  // m: no point is farther from `centre`
-  double volume_of_surface = 0;      // m³: less than `volume` where the shape is round
+  double volume = 0;         // m³
+  geometry::Vector3 centre;  // centre of the volume
+  double radius = 0;         // radius of a sphere; 0 for other shapes
+  // closed surface of other shapes; empty if the fluid has no layers
+  geometry::TriangleMesh surface{};
+  double reach = 0;              // m: no point is farther from `centre`
+  double volume_of_surface = 0;  // m³: less than `volume` where the shape is round
 };
 
 // The properties of one part of a body that these forces depend on.

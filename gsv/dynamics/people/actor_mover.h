@@ -31,7 +31,7 @@ class ActorMover {
     const model::Script* script = nullptr;
     geometry::Pose world_from_trajectory;
     int first_joint = 0;
-    std::vector<std::vector<double>> ways;  // by trajectory: see WaysAlong()
+    std::vector<std::vector<double>> ways;  // by trajectory, see WaysAlong()
   };
   static void Pose(const Actor& actor, const ScriptInstant& instant, world::State& state);
 

@@ -46,7 +46,7 @@ class Crowd {
   struct Walker {
     int body = 0;
     const world::Pedestrian* pedestrian = nullptr;
-    std::size_t level = 0;  // of walls
+    std::size_t level = 0;  // the level of the walls that it sees
     // Its goal after `reached` others, kept so that it is drawn once.
     bool has_goal = false;
     std::uint32_t reached = 0;
@@ -71,7 +71,7 @@ class Crowd {
   // `walkers` are indices.
   void DecideFor(std::span<const std::uint32_t> walkers, double seconds, double left, Block& block,
                  world::State& state);
-  // Where it wants to go, as a direction; counts a goal that it has reached.
+  // Returns the direction to the walker's goal. Counts a goal that it has reached.
   Vector2 DirectionOf(Walker& walker, world::State& state) const;
   void AddForcesOfOthers(const Walker& walker, std::uint32_t index, const world::BodyState& body,
                          Block& block) const;

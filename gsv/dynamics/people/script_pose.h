@@ -24,7 +24,7 @@ namespace gsv::dynamics {
 struct ScriptInstant {
   geometry::Pose pose;         // trajectory_from_actor
   std::int64_t cycle = 0;      // how often the script has begun anew
-  std::size_t trajectory = 0;  // that the actor follows
+  std::size_t trajectory = 0;  // the trajectory that the actor follows
   base::SimTime since{0};      // since that trajectory's start
 };
 

@@ -26,7 +26,7 @@
 namespace gsv::dynamics {
 
 inline constexpr double kRelaxationTime = 0.5;  // s
-inline constexpr double kMaxSpeedFactor = 1.3;  // of the desired speed
+inline constexpr double kMaxSpeedFactor = 1.3;  // as a factor of the desired speed
 inline constexpr double kOthersReach = 3;   // m between centres: beyond it others count for nothing
 inline constexpr double kWallsReach = 1.2;  // m: the same of walls
 

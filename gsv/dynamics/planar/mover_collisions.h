@@ -112,8 +112,8 @@ class MoverCollisions {
   std::vector<PiecePair> pieces_;
   std::vector<BodyPair> touching_;
 
-  std::vector<Outcome> outcomes_;               // of the movers in pairs_
-  std::vector<std::optional<Impact>> impacts_;  // of pairs_, in this iteration
+  std::vector<Outcome> outcomes_;               // outcomes of the movers in pairs_
+  std::vector<std::optional<Impact>> impacts_;  // impacts of pairs_ in this iteration
 };
 
 }  // namespace gsv::dynamics

@@ -14,7 +14,7 @@
 
 namespace gsv::dynamics {
 
-// Where a body stands and how it heads, without a detour through angles.
+// Returns position and heading of a body, without computing angles.
 inline geometry::PlanarPosition PositionOf(const geometry::Pose& pose) {
   const geometry::Quaternion& q = pose.orientation;
   const double cosine = 1 - 2 * (q.y * q.y + q.z * q.z), sine = 2 * (q.w * q.z + q.x * q.y);
@@ -30,7 +30,7 @@ inline double SpeedOf(const geometry::Twist& twist) {
 // The path of a mover within a step.
 struct Journey {
   Travel travel;
-  double distance = 0;  // of the model's origin
+  double distance = 0;  // distance that the model's origin has travelled
 };
 
 class MoverMotions {
@@ -61,7 +61,7 @@ class MoverMotions {
   std::vector<geometry::Twist> twists;      // in this leg
   std::vector<double> times;                // in this leg; 0 for a mover at rest
   std::vector<double> reaches;              // how far any part may get in this step
-  std::vector<Vector2> normals;             // of stopped movers: towards the obstacle
+  std::vector<Vector2> normals;  // for stopped movers, the direction towards the obstacle
 
  private:
   const PlanarScene& scene_;

@@ -56,7 +56,7 @@ class NearObstacles {
     Vector2 centre;
     double radius = -1;
   };
-  struct alignas(64) Chunk {  // of its own cache line, since threads write next to each other
+  struct alignas(64) Chunk {  // each has its own cache line, because threads write to adjacent ones
     std::vector<Near> near;
     std::vector<BodyPair> touching;
   };

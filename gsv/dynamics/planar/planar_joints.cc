@@ -7,7 +7,7 @@ namespace {
 
 using Kind = world::JointCommand::Kind;
 
-// Where a joint is after `seconds`.
+// Returns the position of a joint after `seconds`.
 double Next(const model::Joint& joint, const world::JointCommand& command, double position,
             double seconds) {
   const double most = joint.velocity_limit * seconds;
@@ -18,7 +18,7 @@ double Next(const model::Joint& joint, const world::JointCommand& command, doubl
   return std::clamp(next, joint.position_limits.min, joint.position_limits.max);
 }
 
-// Those that follow others: where their leaders are now.
+// Moves the joints that follow others to the positions of their leaders.
 void MoveFollowers(const world::Body& body, double seconds, world::State& state) {
   for (std::size_t j = 0; j < body.model->joints.size(); ++j) {
     const model::Joint& joint = body.model->joints[j];

@@ -37,9 +37,9 @@ class TeamMover final : public PlanarMover {
     double remaining;  // s of this step
     Journey journey;
   };
-  struct alignas(64) Chunk {  // of its own cache line, since threads write next to each other
+  struct alignas(64) Chunk {  // each has its own cache line, because threads write to adjacent ones
     bool is_as_sliced, has_room;
-    std::vector<std::uint32_t> in_contact;  // before the step
+    std::vector<std::uint32_t> in_contact;  // movers in contact before the step
     std::vector<Stopped> stopped;
   };
 
@@ -71,7 +71,7 @@ class TeamMover final : public PlanarMover {
   std::vector<Chunk> chunks_;
   std::vector<BodyPair> touching_;         // at the step's start, ascending
   std::vector<Stopped> stopped_;           // in this step, ascending
-  std::vector<std::uint32_t> neighbours_;  // for OverlapsOf()
+  std::vector<std::uint32_t> neighbours_;  // used by OverlapsOf()
 };
 
 base::Status TeamMover::SetLayout(std::shared_ptr<const world::Layout> layout) {

@@ -20,7 +20,7 @@ using geometry::Vector3;
 using testing::TestWorld;
 
 using geometry::kPi;
-constexpr double kClimb = 0.05;  // of robots with the default wheel radius of 0.1
+constexpr double kClimb = 0.05;  // climb height of robots with the default wheel radius of 0.1
 
 class Random {
  public:
@@ -94,9 +94,9 @@ struct Solid {
   Shape shape;
   Pose world_from_solid;
   bool robot;
-  double ground;                 // of a robot: below this it drives over things
+  double ground;                 // a robot drives over obstacles below this height
   std::vector<Vector3> surface;  // points, in its own frame
-  double radius;                 // of a ball around them
+  double radius;                 // radius of a sphere around the points
 };
 
 std::vector<Solid> SolidsOf(const world::Layout& layout, const world::State& state) {

@@ -41,7 +41,7 @@ struct MoverKind {
 struct Mover {
   int body = 0;  // index in the layout; movers are in the order of bodies
   std::uint32_t kind = 0;
-  std::uint32_t first_level = 0;  // of its pieces, see PlanarScene::level()
+  std::uint32_t first_level = 0;  // first level of its pieces, see PlanarScene::level()
   int first_joint = 0, joint_count = 0;
 };
 
@@ -74,7 +74,7 @@ class PlanarScene {
   const Footprint& footprint(std::size_t mover) const {
     return kinds_[movers_[mover].kind].footprint;
   }
-  // Of a piece of the mover's footprint; -1: too low to run into obstacles.
+  // The level of a piece of the mover's footprint; -1 if it is too low to run into obstacles.
   int level(const Mover& mover, std::size_t piece) const {
     return levels_[mover.first_level + piece];
   }
@@ -95,15 +95,15 @@ class PlanarScene {
   std::vector<MoverKind> kinds_;
   std::vector<Mover> movers_;
   std::vector<int> levels_;
-  std::vector<Interval> intervals_;  // of the levels
+  std::vector<Interval> intervals_;  // height intervals of the levels
   std::vector<int> standing_;        // bodies that are neither movers nor dynamic obstacles
-  std::vector<geometry::Pose> standing_poses_;  // as sliced
-  std::vector<double> heights_;                 // of movers, as sliced
+  std::vector<geometry::Pose> standing_poses_;  // poses of static bodies when they were sliced
+  std::vector<double> heights_;                 // heights of the movers when obstacles were sliced
   std::vector<ObstacleField> fields_;
   std::vector<int> loose_;           // bodies that are rigid, and actors
   std::vector<double> loose_radii_;  // theirs
   std::vector<int> seen_;            // those of them that are sliced
-  std::vector<double> loose_state_;  // as sliced: who they are, their poses and joints
+  std::vector<double> loose_state_;  // bodies, poses and joints when they were sliced
   std::vector<ObstacleField> loose_fields_;
   bool is_sliced_ = false, is_loose_sliced_ = false;
 };

@@ -230,7 +230,7 @@ void ImpulseSolver::AddTreeContact(const btPersistentManifold& manifold, btManif
   const double bounce =
       restitutionCurve(closing, point.m_combinedRestitution, info.m_restitutionVelocityThreshold);
   const double distance = point.getDistance() + info.m_linearSlop;
-  // What is apart may close by the end of the step; what overlaps is taken apart bit by bit.
+  // A gap may close by the end of the step. An overlap is removed over several steps.
   const double share = distance > 0 ? 1 : info.m_erp2;
   normal.m_rhs = (std::max(bounce, 0.0) - closing - share * distance / info.m_timeStep) *
                  normal.m_jacDiagABInv;

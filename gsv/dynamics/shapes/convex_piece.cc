@@ -144,7 +144,7 @@ Separation Separate(const ConvexPiece& a, const ConvexPiece& b) {
   bool apart = gap > 0;
   if (apart) {
     result.normal = GapDirection(closest, gap);
-    // Of pieces that overlap, the closest vertex and edge are no separating pair.
+    // If the pieces overlap, the closest vertex and edge do not separate them.
     apart = (a.vertex_count == 1 && b.vertex_count <= 2) ||
             Lowest(b, result.normal) - Highest(a, result.normal) > 0;
     result.distance = gap;

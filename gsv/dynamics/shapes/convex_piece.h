@@ -46,12 +46,12 @@ void Place(const ConvexPiece& piece, double x, double y, double cosine, double s
 struct Separation {
   double distance = 0;  // below 0: how deep they overlap, along the normal
   Vector2 normal;       // unit length, from the first to the second
-  Vector2 point;        // where they are closest, halfway between them
+  Vector2 point;        // the point at which they are closest, halfway between them
 };
 
 Separation Separate(const ConvexPiece& a, const ConvexPiece& b);
 
-// From a point to the nearest point of the piece; 0 inside its polygon.
+// Returns the distance from a point to the nearest point of the piece; 0 inside its polygon.
 double DistanceTo(const ConvexPiece& piece, Vector2 point);
 
 // Whether every point of `inner` lies in `outer` (within `tolerance`). May miss it when `outer` has

@@ -22,12 +22,12 @@ struct Footprint {
   struct Piece {
     ConvexPiece shape;
     Interval heights;
-    Vector2 centre;  // of a disc that holds the piece, and its radius
+    Vector2 centre;  // centre and radius of a disc that contains the piece
     double radius = 0;
     model::CollisionFilter filter{};
   };
   std::vector<Piece> pieces;  // empty if the model collides with nothing
-  Interval heights;           // of all of them
+  Interval heights;           // height interval of all of them
   double radius = 0;          // about the model's origin
 };
 

@@ -17,7 +17,7 @@ namespace gsv::dynamics {
 
 struct Obstacle {
   ConvexPiece shape;
-  Vector2 centre;  // of a disc that holds the shape, and its radius
+  Vector2 centre;  // centre and radius of a disc that contains the shape
   double radius = 0;
   int body = 0;  // index in the layout
   model::CollisionFilter filter{};
@@ -77,7 +77,7 @@ class ObstacleField {
   double margin_ = 0;
   double left_ = 0, bottom_ = 0, per_cell_ = 1;
   int columns_ = 0, rows_ = 0;
-  std::vector<std::uint32_t> cell_start_;  // of each cell's run in entries_, and the end
+  std::vector<std::uint32_t> cell_start_;  // start of each cell's entries in entries_, and the end
   std::vector<std::uint32_t> entries_;
 };
 

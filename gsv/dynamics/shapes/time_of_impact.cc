@@ -9,7 +9,7 @@ namespace gsv::dynamics {
 namespace {
 
 constexpr double kFloorGap = 0.25e-6;  // the part of kStopGap that remains after rounding
-constexpr int kMaxAdvances = 64;       // then the pieces are stopped where they are
+constexpr int kMaxAdvances = 64;       // after this number the pieces are stopped
 constexpr double kApproach = 1e-9;     // m/s; less is sliding
 constexpr double kNoise = 1e-12;       // m/s; less is rounding
 
@@ -58,7 +58,7 @@ double TimeToClose(double gap, double speed, double acceleration) {
 // The first time at which some pair of corners may have come within `keep` of each other.
 struct FirstMeeting {
   double time;
-  double gap = 0;    // of that pair, now
+  double gap = 0;    // the present gap of that pair
   double speed = 0;  // at which it closes, now
 };
 

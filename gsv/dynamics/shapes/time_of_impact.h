@@ -25,7 +25,7 @@ inline constexpr double kStopGap = 0.5e-6;
 struct MovingPiece {
   const ConvexPiece* piece = nullptr;
   geometry::PlanarPosition start;  // at time 0
-  geometry::Twist twist;           // from then on
+  geometry::Twist twist;           // velocity from then on
 };
 
 inline void Place(const ConvexPiece& piece, const geometry::PlanarPosition& at,
@@ -35,7 +35,7 @@ inline void Place(const ConvexPiece& piece, const geometry::PlanarPosition& at,
 
 struct Impact {
   double time = 0;
-  Vector2 normal;                  // from the first to the second
+  Vector2 normal;                  // points from the first to the second
   bool first_approaches = false;   // its own motion closes the gap
   bool second_approaches = false;  // at least one of the two approaches
 };
@@ -45,7 +45,7 @@ struct Impact {
 std::optional<Impact> FindImpact(const MovingPiece& first, const MovingPiece& second, double end,
                                  Vector2 normal);
 
-// The same against a piece that stands still, given in the world.
+// Finds the impact on a static piece, which is given in the world.
 std::optional<Impact> FindImpact(const MovingPiece& first, const ConvexPiece& standing, double end,
                                  Vector2 normal);
 

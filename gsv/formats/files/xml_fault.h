@@ -8,7 +8,7 @@
 namespace gsv::formats {
 
 struct XmlFault {
-  int line = 1, column = 1;  // from 1; columns count bytes
+  int line = 1, column = 1;  // counted from 1; columns count bytes
   std::string sentence;      // the fault and a remedy: "<model> is not closed. Add </model>."
 };
 

@@ -196,7 +196,7 @@ TEST(WriteGlb, EqualModelsGiveEqualBytes) { EXPECT_EQ(Glb(Robot()), Glb(Robot())
 
 TEST(WriteGlb, AModelWithoutVisualsIsReadable) {
   model::Model model;
-  model.name = "ghost \xff";  // not UTF-8
+  model.name = "ghost \xff";  // the name is not UTF-8
   model.links.resize(1);
   model.links[0].name = "base";
   const Bytes glb = Glb(model);
@@ -230,7 +230,7 @@ TEST(EncodeForWeb, UsesTheOriginalFileUnchanged) {
   image->source = path.string();
   EXPECT_EQ(EncodeForWeb(*image, true).bytes, png.bytes);
   EXPECT_EQ(EncodeForWeb(*image, false).mime_type, "image/jpeg");
-  image->width = 2, image->height = 8;  // not the size of the file's image
+  image->width = 2, image->height = 8;  // this is not the size of the image in the file
   EXPECT_EQ(EncodeForWeb(*image, true).mime_type, "image/jpeg");
   std::filesystem::remove(path);
 }

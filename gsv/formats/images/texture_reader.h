@@ -33,7 +33,7 @@ class TextureReader {
   std::shared_ptr<const model::Image> Combine(const std::shared_ptr<const model::Image>& roughness,
                                               const std::shared_ptr<const model::Image>& metalness);
 
-  // The same image with 3 channels, for a material that ignores its alpha.
+  // Returns the image with 3 channels, for a material that ignores its alpha.
   std::shared_ptr<const model::Image> Opaque(const std::shared_ptr<const model::Image>& image);
 
  private:

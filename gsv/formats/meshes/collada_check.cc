@@ -109,7 +109,8 @@ class Checker : public tinyxml2::XMLVisitor {
 
  private:
   double bytes_;
-  std::map<std::string, double> arrays_;  // by id: number of values (the smallest, if several)
+  // number of values by id; the smallest, if several arrays have the id
+  std::map<std::string, double> arrays_;
   std::vector<Accessor> accessors_;
 };
 

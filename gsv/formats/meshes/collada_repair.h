@@ -9,7 +9,7 @@ namespace gsv::formats {
 
 struct ColladaRepair {
   std::vector<std::string> changes;                // a sentence for each part that was left out
-  std::multimap<std::string, std::string> ids_of;  // by name: ids of nodes and geometries
+  std::multimap<std::string, std::string> ids_of;  // ids of nodes and geometries by name
 };
 
 // Changes `text` where necessary: comments are dropped, images without a file stay without one,

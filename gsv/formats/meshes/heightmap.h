@@ -14,7 +14,7 @@ namespace gsv::formats {
 geometry::TriangleMesh HeightmapMesh(const model::Image& image, const geometry::Vector3& size,
                                      int max_vertices);
 
-// The same for a height grid: its lowest height is at 0 and its highest at size.z.
+// Makes a mesh of a height grid. Its lowest height is at 0 and its highest at size.z.
 geometry::TriangleMesh HeightmapMesh(const HeightGrid& grid, const geometry::Vector3& size,
                                      int max_vertices);
 

@@ -26,7 +26,7 @@ namespace gsv::formats {
 
 struct MeshFile {
   std::shared_ptr<const geometry::TriangleMesh> triangles;
-  std::vector<model::Material> materials;  // of the mesh's parts, by index
+  std::vector<model::Material> materials;  // materials of the mesh's parts, by index
 };
 
 class MeshReader {

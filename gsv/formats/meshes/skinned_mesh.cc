@@ -67,7 +67,7 @@ class Skeleton {
 
   explicit Skeleton(const aiScene& scene) { Add(*scene.mRootNode, -1, kDeepestBone); }
 
-  // False if the animation moves none of the nodes.
+  // Returns false if the animation moves none of the nodes.
   bool Animate(const aiScene& motion) {
     bool any = false;
     for (unsigned a = 0; a < motion.mNumAnimations; ++a) {
@@ -335,7 +335,7 @@ base::Result<SkinnedMesh> ReadSkinnedMesh(const std::filesystem::path& skin,
   mesh.length = skeleton.length();
   mesh.materials = ReadMeshMaterials(*scene->scene, skin, textures, limits, problems);
   std::vector<TriangleMesh>& pieces = cutter.meshes();
-  std::vector<std::size_t> nodes;  // of the bones
+  std::vector<std::size_t> nodes;  // nodes of the bones
   for (std::size_t n = 0; n < pieces.size(); ++n) {
     if (pieces[n].triangles.empty()) continue;
     for (geometry::MeshPart& part : pieces[n].parts) {

@@ -30,7 +30,7 @@ struct SkinnedMesh {
     std::vector<geometry::Pose> skin_from_bone;               // one per frame
   };
   std::vector<Bone> bones;
-  std::vector<model::Material> materials;  // of the parts of the meshes, by index
+  std::vector<model::Material> materials;  // materials of the parts of the meshes, by index
   std::vector<geometry::Vector3> root;     // one per frame: position of the root bone in the skin
   double length = 0;                       // s, above zero
 };

@@ -14,7 +14,8 @@ struct SdfText {
   std::string text;
 };
 
-using IncludedFiles = std::map<std::string, SdfText>;  // by what an <include>'s <uri> names
+// The key is what the <uri> of an <include> names.
+using IncludedFiles = std::map<std::string, SdfText>;
 
 // Provides texts as files. libsdformat reads an included file only by its name, so that each text
 // gets the name of a memory file, for the lifetime of this object.

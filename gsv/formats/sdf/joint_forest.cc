@@ -18,7 +18,7 @@ class Forest {
   Forest(std::size_t links, std::vector<Joint>& joints)
       : joints_(joints), joint_above_(links, kNone) {}
 
-  // False if the joint closes a loop.
+  // Adds a joint. Returns false if it closes a loop.
   bool Add(std::size_t index) {
     Joint& joint = joints_[index];
     if (joint.parent >= 0 && RootOf(joint.parent) == RootOf(joint.child)) return false;

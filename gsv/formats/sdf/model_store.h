@@ -25,7 +25,7 @@ namespace gsv::formats {
 struct StoredFile {
   FramedModel framed;  // its model is null if the file holds a light
   std::optional<model::Light> light;
-  geometry::Pose world_from_light;  // from the file
+  geometry::Pose world_from_light;  // the pose in the file
   base::Problems problems;
   base::Problems broken_rules;  // see ReadOptions::check_rules
 };
@@ -44,7 +44,7 @@ class ModelStore {
   base::Result<std::shared_ptr<const StoredFile>> Read(const std::filesystem::path& file,
                                                        const std::string& plugins = {});
 
-  // The same for a file whose XML was read already, with the problems found by that.
+  // Stores a file whose XML was read already, with the problems that were found.
   base::Result<std::shared_ptr<const StoredFile>> Take(XmlFile xml, base::Problems problems);
 
   bool checks_rules() const { return check_rules_; }

@@ -15,7 +15,7 @@ namespace gsv::formats {
 struct OgreMaterial {
   std::optional<model::Colour> ambient, diffuse, specular, emissive;
   double shininess = 0;
-  std::string texture;  // of the first texture unit
+  std::string texture;  // file of the first texture unit
 };
 
 // The materials of a script by name. Reads `material NAME [: PARENT] { technique { pass { … } } }`

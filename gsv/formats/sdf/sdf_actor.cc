@@ -22,7 +22,7 @@ using geometry::Vector3;
 using tinyxml2::XMLElement;
 
 constexpr double kLongestScript = 1e8;  // s
-constexpr int kFreedoms = 6;            // of a bone
+constexpr int kFreedoms = 6;            // number of degrees of freedom of a bone
 
 std::string TextOf(const XMLElement* element) {
   return element == nullptr || element->GetText() == nullptr ? "" : element->GetText();
@@ -191,7 +191,7 @@ class ActorReader {
     return chosen;
   }
 
-  // False, with a warning, if the skin is not animated.
+  // Returns false, with a warning, if the skin is not animated.
   bool ReadSkin(const XMLElement& animation, const std::filesystem::path& skin, double scale) {
     const auto refuse = [&](const std::string& why) {
       context_.Warn("the animation is not supported, and the skin keeps its shape: " + why,
@@ -239,7 +239,7 @@ class ActorReader {
 
   XMLElement& actor_;
   const ReadingContext& context_;
-  std::map<std::string, bool> follows_way_;  // by animation: interpolate_x
+  std::map<std::string, bool> follows_way_;  // value of interpolate_x, by animation
   std::shared_ptr<const SkinnedMesh> skin_;
 };
 

@@ -23,7 +23,8 @@ namespace {
 
 using base::Problem;
 
-constexpr int kMaxRepairs = 64;  // of one document; each needs another reading
+// maximum number of repairs of one document; each requires another parse
+constexpr int kMaxRepairs = 64;
 constexpr std::size_t kLongestMessage = 300;
 
 // libsdformat names text that is not from a file "<data-string>" or "<urdf-string>", and does not
@@ -92,7 +93,8 @@ void NameSources(const sdf::ElementPtr& element, const IncludedFileServer& serve
 // libsdformat reads, it copies the element's description with all descriptions below it. None of these
 // elements is required, and libsdformat makes none of them from others, except from URDF.
 sdf::ElementPtr SchemaFor(const std::string& text) GSV_REQUIRES(SdformatMutex()) {
-  static std::map<std::set<std::string>, sdf::ElementPtr> schemas;  // by what they are without
+  // schemas by the set of omitted elements
+  static std::map<std::set<std::string>, sdf::ElementPtr> schemas;
   std::set<std::string> absent;
   if (text.find("<sdf") != std::string::npos) {
     for (const char* name :

@@ -14,7 +14,7 @@ namespace gsv::formats {
 struct SdfShape {
   geometry::Shape shape;
   geometry::Pose visual_from_shape;        // a heightmap is at its <pos>
-  std::vector<model::Material> materials;  // of a mesh; else empty
+  std::vector<model::Material> materials;  // materials of a mesh; empty for other shapes
 };
 
 // kNotFound: a file is missing; kBadModel: the shape is invalid or of unknown kind. `element` is

@@ -54,7 +54,7 @@ class TargetReader {
 
   // The limit of a position controller's effort.
   void Limit(Joint& joint) const {
-    const double most = Number("cmd_max", -1);  // as in Gazebo: default: no limit
+    const double most = Number("cmd_max", -1);  // Gazebo has no limit by default
     if (!(most > 0)) return;
     const bool by_velocity = plugin_->HasElement("use_velocity_commands") &&
                              plugin_->Get<std::string>("use_velocity_commands") != "false" &&

@@ -340,7 +340,8 @@ class ModelReader {
   std::vector<std::pair<sdf::ElementPtr, std::string>> pending_sensors_;
   std::vector<std::pair<sdf::ElementPtr, std::string>> pending_plugins_;
   std::set<std::string> sensor_names_;
-  std::set<std::string> static_links_;  // of static models inside this one, or of this one
+  // links of this model if it is static, and of static models inside it
+  std::set<std::string> static_links_;
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 namespace gsv::formats {
 
-// Null, with a problem, for an invalid group.
+// Reads a group. Returns null and adds a problem if it is invalid.
 std::shared_ptr<const model::PedestrianGroup> ReadPedestrians(const tinyxml2::XMLElement& element,
                                                               const ReadingContext& context);
 

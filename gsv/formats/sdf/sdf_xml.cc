@@ -20,7 +20,7 @@ using base::Problem;
 using tinyxml2::XMLElement;
 
 constexpr int kOldestVersion = 103;
-constexpr int kNewestVersion = 109;  // of libsdformat
+constexpr int kNewestVersion = 109;  // the newest version that libsdformat supports
 constexpr int kNewestKnownMinor = 12;
 constexpr int kNewestKnown = 100 + kNewestKnownMinor;
 

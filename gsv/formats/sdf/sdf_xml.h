@@ -19,12 +19,12 @@ enum class XmlDialect { kSdf, kUrdf };
 
 struct XmlFile {
   std::filesystem::path path;
-  std::filesystem::path named;         // with the arguments for xacro, as given to ReadXml()
-  std::vector<ElementSource> sources;  // of a xacro file: the user data of its elements
+  std::filesystem::path named;  // the name as given to ReadXml(), with the arguments for xacro
+  std::vector<ElementSource> sources;  // for a xacro file, the user data of its elements
   std::unique_ptr<tinyxml2::XMLDocument> document;
   tinyxml2::XMLElement* root = nullptr;  // <sdf> or <robot>
   XmlDialect dialect = XmlDialect::kSdf;
-  std::string version;    // of <sdf>, no newer than 1.9
+  std::string version;    // version of <sdf>, at most 1.9
   int minor_version = 0;  // 11 for an <sdf> of version 1.11; 0 for <robot>
 };
 

@@ -16,7 +16,7 @@ namespace {
 using tinyxml2::XMLElement;
 
 constexpr double kBallRadius = 0.05;     // m
-constexpr char kNoUrdfLimit[] = "1e16";  // as SDFormat writes it
+constexpr char kNoUrdfLimit[] = "1e16";  // the limit that SDFormat writes for none
 
 // The requirement of urdfdom for an attribute, and the value that replaces an invalid one.
 struct Attribute {

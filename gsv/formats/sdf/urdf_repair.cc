@@ -234,7 +234,8 @@ class UrdfRepair {
   // libsdformat drops a link without mass, with its joint and everything below. Links that are
   // fixed together need one mass.
   void GiveMass() {
-    std::map<std::string, bool> has_mass;  // by the top link of links that are fixed together
+    // by the top link of each group of links that are fixed together
+    std::map<std::string, bool> has_mass;
     std::vector<std::string> order;
     for (auto* link = robot_.FirstChildElement("link"); link != nullptr;
          link = link->NextSiblingElement("link")) {
@@ -288,7 +289,7 @@ class UrdfRepair {
   base::Problems& problems_;
   std::map<std::string, XMLElement*> links_;
   std::vector<UrdfJoint> joints_;
-  std::map<std::string, std::size_t> above_;  // by child: its joint
+  std::map<std::string, std::size_t> above_;  // the joint above each link, by the link
 };
 
 }  // namespace

@@ -75,7 +75,7 @@ class WorldReader {
     WrittenPose at;
     std::string placement_frame;
     std::optional<bool> is_static;
-    bool poses_itself = false;                 // by the pose in its file
+    bool poses_itself = false;                 // whether its file sets the pose
     std::size_t distinct = 0;                  // inline: index into distinct_
     std::shared_ptr<const StoredFile> stored;  // included
   };

@@ -13,7 +13,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-constexpr int kMostSteps = 100;  // from frame to frame
+constexpr int kMostSteps = 100;  // maximum number of steps from frame to frame
 
 std::string Trimmed(const char* text) {
   const std::string_view whole = text == nullptr ? std::string_view() : text;

@@ -34,7 +34,7 @@ struct ElementSupport {
 
   using ByName = std::map<std::string, std::unique_ptr<ElementSupport>, std::less<>>;
   ByName children, attributes;
-  const ElementSupport* definition = nullptr;  // that lists more content
+  const ElementSupport* definition = nullptr;  // the definition that lists more content
 
   // For a definition that accepts the elements of others (URDF's <gazebo>).
   std::vector<const ElementSupport*> borrowed;

@@ -18,12 +18,13 @@ struct UrdfJoint {
   std::string name, type;  // "fixed", "revolute", "continuous", "prismatic", "floating"
   std::string parent, child;
   geometry::Pose parent_from_child;
-  geometry::Vector3 axis{1, 0, 0};       // in the child's frame
-  const model::Joint* source = nullptr;  // with limits and dynamics; null: added here
+  geometry::Vector3 axis{1, 0, 0};  // in the child's frame
+  // the source of limits and dynamics; null for a joint that is added here
+  const model::Joint* source = nullptr;
 };
 
 struct UrdfTree {
-  std::vector<std::string> empty_links;  // that the model does not have
+  std::vector<std::string> empty_links;  // links that the model does not have
   std::vector<UrdfJoint> joints;
 };
 

@@ -17,7 +17,7 @@ namespace {
 using geometry::Pose;
 using geometry::Vector3;
 
-constexpr double kUnlimited = 1e16;  // as SDFormat writes "none"
+constexpr double kUnlimited = 1e16;  // the value that SDFormat writes for "none"
 constexpr int kSegments = 32;        // around a round shape that becomes a mesh
 
 std::string Numbers(std::initializer_list<double> values) {
@@ -302,7 +302,7 @@ class UrdfText {
   tinyxml2::XMLPrinter out_;
   Urdf urdf_;
   std::map<ColourKey, std::string> materials_;
-  // By pointer, which orders nothing that is written.
+  // The order of the pointers does not affect the output.
   std::map<std::pair<const geometry::TriangleMesh*, std::optional<std::size_t>>, std::string>
       mesh_files_;
 };

@@ -119,7 +119,7 @@ Expander::Handler Expander::HandlerOf(const Node& node, bool takes_plain_names) 
   struct Known {
     const char* name;
     Handler handler;
-    std::vector<const char*> attributes;  // of the form without the prefix
+    std::vector<const char*> attributes;  // attributes of the form without the prefix
   };
   static const std::vector<Known> kKnown{
       {"property", &Expander::OnProperty, {"name", "value"}},
@@ -150,7 +150,7 @@ Expander::Handler Expander::HandlerOf(const Node& node, bool takes_plain_names) 
 base::Status Expander::Element(const NodePtr& node, Node& parent, Context& context) {
   const bool is_prefixed = node->text.starts_with("xacro:");
   const std::string name = WithoutPrefix(node->text);
-  // As in xacro, a macro named "call" hides the element.
+  // A macro named "call" hides the element, as it does in xacro.
   if (is_prefixed || (takes_plain_names_ && !IsOfUrdf(name))) {
     const auto [macro, home] = context.space.FindMacro(name);
     const bool is_call = macro != nullptr && (is_prefixed || LooksLikeCall(*node, *macro));

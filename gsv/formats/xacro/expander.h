@@ -25,7 +25,7 @@ class Expander {
   struct Context {
     Scope& scope;
     Space& space;
-    int line = 0;           // of the call in the main file; 0: its own
+    int line = 0;           // line of the call in the main file; 0 for the file's own line
     int includes_left = 0;  // the depth to which files may still include others
   };
   using Handler = base::Status (Expander::*)(const NodePtr&, Node& parent, Context&);

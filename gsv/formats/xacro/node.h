@@ -22,7 +22,7 @@ struct Node {
   int line = 0;       // in `file`
   int call_line = 0;  // in the main file: its own, or that of the call or include
 
-  // Null if there is none.
+  // Returns null if there is none.
   const std::string* attribute(const std::string& name) const;
   std::string place() const;  // "file:line"
 };

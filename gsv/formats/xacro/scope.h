@@ -22,7 +22,7 @@ struct Property {
   Value value;
   NodePtr defined_at;
   bool is_lazy = false;
-  bool is_resolving = false;  // to detect properties that need themselves
+  bool is_resolving = false;  // detects properties that need themselves
 };
 
 // The nodes that <xacro:insert_block> inserts.

@@ -36,7 +36,7 @@ struct Value {
   const T* as() const {
     return std::get_if<T>(&content);
   }
-  // Of a list or tuple; else null.
+  // Returns the elements of a list or tuple, else null.
   const List* items() const;
   const Dictionary* dictionary() const;
   bool is_number() const;  // bool, int or float
@@ -49,12 +49,12 @@ Value MakeDictionary(Dictionary entries);
 // "int", "str", … for messages.
 const char* TypeName(const Value& value);
 
-// As Python's str(): floats as the shortest text that reads back as the same number.
+// Equals Python's str(). Floats become the shortest text that is read back as the same number.
 std::string ToText(const Value& value);
 std::string FloatText(double value);
 
 bool IsTrue(const Value& value);
-// As Python's ==: numbers by value, other types differ.
+// Equals Python's ==. Numbers are compared by value, and values of other types differ.
 bool AreEqual(const Value& a, const Value& b);
 
 // Converts a property's or a parameter's text to a number or truth value if it is one: "2" is 2,

@@ -13,7 +13,8 @@ namespace gsv::gateway::access {
 
 // The credentials of a request.
 struct Credentials {
-  // From "Authorization: Bearer TOKEN", or from a WebSocket's "?token=TOKEN"; empty: none.
+  // the token of "Authorization: Bearer TOKEN", or of a WebSocket's "?token=TOKEN"; empty if there
+  // is none
   std::string token;
 };
 

@@ -22,8 +22,8 @@
 namespace gsv::gateway::access {
 
 struct ControlLimits {
-  std::chrono::milliseconds absence{8'000};  // after which a silent viewer expires
-  std::chrono::milliseconds answer{20'000};  // to a request for control
+  std::chrono::milliseconds absence{8'000};  // a viewer that is silent for this long expires
+  std::chrono::milliseconds answer{20'000};  // time limit for the answer to a request for control
 };
 
 class ViewerRegistry {

@@ -23,7 +23,7 @@ class ViewersTopic {
   const std::shared_ptr<Hub> hub_;
   ViewerRegistry* const registry_;
   foxglove::ChannelId channel_ = 0;
-  std::uint64_t version_ = 0;  // of the last message
+  std::uint64_t version_ = 0;  // the version of the last message
 };
 
 }  // namespace gsv::gateway::access

@@ -9,7 +9,7 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-constexpr std::size_t kLastLines = 20;  // of output, with each robot's health
+constexpr std::size_t kLastLines = 20;  // number of lines of output in each robot's health
 
 std::string HealthText(const OrderedJson& json) {
   return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);

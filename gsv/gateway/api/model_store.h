@@ -26,10 +26,11 @@ class ModelStore {
 
   // The model's identity, for Glb().
   std::string Identify(const std::shared_ptr<const model::Model>& model);
-  // The same for its collision shapes; empty: none.
+  // Returns the identifier of the model's collision shapes, or an empty text if it has none.
   std::string IdentifyCollisions(const std::shared_ptr<const model::Model>& model);
 
-  // The same as functions for scenes, valid during the lifetime of this object.
+  // Returns these operations as functions for scenes. They are valid during the lifetime of this
+  // object.
   std::function<std::string(const std::shared_ptr<const model::Model>&)> identify() {
     return [this](const auto& model) { return Identify(model); };
   }

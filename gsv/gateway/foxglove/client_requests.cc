@@ -9,7 +9,7 @@ namespace {
 using foxglove::Parameter;
 using foxglove::StatusLevel;
 
-constexpr int kMaxCalls = 8;              // of one client, in progress
+constexpr int kMaxCalls = 8;  // maximum number of calls of one client that are in progress
 constexpr std::size_t kMaxProblems = 10;  // in one request
 // Each client has its own value; a client gets it if it requests this name.
 constexpr const char* kDroppedUpdates = "/gsv/dropped_updates";

@@ -49,7 +49,7 @@ class ClientRequests {
     std::shared_ptr<std::atomic<int>> calls = std::make_shared<std::atomic<int>>(0);
   };
 
-  // Null if the client has reached the limit of pending calls.
+  // Returns null if the client has reached the limit of pending calls.
   std::shared_ptr<std::atomic<int>> BeginCall(Client* client);
   void PublishParameters();
   void PublishPlayback(bool has_jumped);
@@ -58,7 +58,7 @@ class ClientRequests {
   mutable base::Mutex mutex_;
   std::map<Client*, ClientState> clients_ GSV_GUARDED_BY(mutex_);
   std::vector<foxglove::Parameter> sent_ GSV_GUARDED_BY(mutex_);  // the parameters as sent last
-  foxglove::PlaybackState playback_ GSV_GUARDED_BY(mutex_);       // as sent last
+  foxglove::PlaybackState playback_ GSV_GUARDED_BY(mutex_);       // the state that was last sent
 };
 
 }  // namespace gsv::gateway

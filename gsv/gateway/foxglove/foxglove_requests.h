@@ -48,7 +48,7 @@ struct ServiceCall {
   std::string request;  // bytes
 };
 struct PlaybackControl {
-  bool play = false;  // else pause
+  bool play = false;  // true for play, false for pause
   float speed = 1;
   std::optional<std::uint64_t> seek_ns;
   std::string request;

@@ -49,7 +49,8 @@ class Hub {
   bool IsSubscribed(foxglove::ChannelId channel) const;
   // Whether there are subscribers without a message on this channel so far.
   bool HasNewSubscribers(foxglove::ChannelId channel) const;
-  // In order. The cost grows with the number of subscriptions, not of channels.
+  // Returns the channels in order. The cost grows with the number of subscriptions, not of
+  // channels.
   std::vector<foxglove::ChannelId> SubscribedChannels() const;
 
   struct Message {
@@ -113,7 +114,7 @@ class Hub {
   std::uint64_t next_member_ GSV_GUARDED_BY(mutex_) = 1;
   std::deque<SharedBytes> statuses_ GSV_GUARDED_BY(mutex_);
   bool has_graph_changed_ GSV_GUARDED_BY(mutex_) = false;
-  foxglove::ConnectionGraph graph_ GSV_GUARDED_BY(mutex_);  // as sent last
+  foxglove::ConnectionGraph graph_ GSV_GUARDED_BY(mutex_);  // the graph that was last sent
   ClientRequests requests_;
   bool closed_ GSV_GUARDED_BY(mutex_) = false;
   CloseCode close_code_ GSV_GUARDED_BY(mutex_){};

@@ -21,7 +21,8 @@ struct Request {
   std::string content_type;
   std::string if_none_match;  // the header's value, or empty
   std::string viewer;  // the viewer's key (Gsv-Viewer), or empty; see access/viewer_registry.h
-  std::map<std::string, std::string, std::less<>> parameters;  // of the path, by name; see Route
+  // parameters of the path by name, see Route
+  std::map<std::string, std::string, std::less<>> parameters;
 
   // A parameter of the route's pattern. The pattern must have this parameter (GSV_CHECK).
   const std::string& Parameter(std::string_view name) const;
@@ -31,7 +32,7 @@ struct Response {
   int status = 200;
   std::string content_type;
   SharedBytes body;
-  std::string etag;  // with its quotes; empty: none
+  std::string etag;  // the tag with its quotes; empty if there is none
   std::string cache_control = "no-store";
   std::string allow;  // 405: the methods that are allowed
   // Whether pages of this server may show the response in a frame. Other pages never may.

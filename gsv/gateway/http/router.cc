@@ -33,9 +33,9 @@ struct Router::Node {
 
   std::map<std::string, std::unique_ptr<Node>, std::less<>> literals;
   std::unique_ptr<Node> parameter, rest;
-  std::string name, suffix;                 // of the parameter that leads here
-  std::vector<const Route*> routes;         // routes that end here
-  Permission least = Permission::kControl;  // of the routes here and below
+  std::string name, suffix;          // name and suffix of the parameter that leads to this node
+  std::vector<const Route*> routes;  // routes that end here
+  Permission least = Permission::kControl;  // the lowest permission of the routes here and below
 };
 
 Router::Node* Router::Node::Child(std::string_view segment) {

@@ -34,7 +34,7 @@ class StaticFiles {
  private:
   Response Explain() const;
 
-  std::filesystem::path given_;  // as given by the user
+  std::filesystem::path given_;  // the path as the user gave it
   std::filesystem::path root_;   // canonical; empty if there is no such directory
 };
 

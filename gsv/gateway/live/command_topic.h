@@ -28,7 +28,7 @@ class CommandTopic {
   const std::shared_ptr<Hub> hub_;
   foxglove::ChannelId channel_ = 0;
   std::shared_ptr<const world::Layout> layout_;
-  std::vector<world::DriveState> sent_;  // by body of layout_: the command as sent last
+  std::vector<world::DriveState> sent_;  // the command that was last sent, by body of layout_
   std::size_t next_ = 0;                 // first body of the next round
 };
 

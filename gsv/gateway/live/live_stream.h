@@ -81,7 +81,7 @@ class LiveStream {
   HealthTopics health_;
 
   std::shared_ptr<const world::Layout> layout_;
-  std::vector<presentation::PoseEntry> pose_list_;  // of layout_
+  std::vector<presentation::PoseEntry> pose_list_;  // poses of the bodies of layout_
   Pacing refresh_pacing_;
   std::weak_ptr<const world::Snapshot> time_of_;  // the last snapshot whose time was published
   CommandTopic commands_;

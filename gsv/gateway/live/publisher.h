@@ -57,7 +57,7 @@ class Publisher {
   std::vector<Entry> entries_ GSV_GUARDED_BY(mutex_);
   bool is_woken_ GSV_GUARDED_BY(mutex_) = false;
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
-  Pacing directory_pacing_;  // of thread_
+  Pacing directory_pacing_;  // used by thread_ only
   std::thread thread_;
 };
 

@@ -48,7 +48,7 @@ struct SensorTopics::Sensor {
   }
 
   foxglove::ChannelId channel = 0;            // 0: none
-  foxglove::ChannelId companion_channel = 0;  // the same
+  foxglove::ChannelId companion_channel = 0;  // 0: none
   bool is_wanted = false;                     // it has channels because its robot is requested
   Pacing pacing;
   std::optional<std::int64_t> asked_at_step;  // step of the latest snapshot when it was last read

@@ -36,7 +36,7 @@ TEST_F(LiveStreamTest, AReadingIsTakenOnlyForSubscribersAndOnlyWhenTimeHasPassed
   Subscribe(1, "/robot_0/front_sonar");
   const auto range = Decoded<messages::sensor_msgs::Range>(RoundUntil(1, 1));
   EXPECT_EQ(range.header.frame_id, "robot_0/front_sonar");
-  // From (1, 0) northwards there is no obstacle for 5 m.
+  // Northwards from (1, 0) there is no obstacle for 5 m.
   EXPECT_FLOAT_EQ(range.range, 5);
   Round(seconds(1));
   simulation_->Advance(milliseconds(10));
@@ -190,7 +190,7 @@ TEST_F(LiveStreamTest, ASlowReadingIsTakenLessOften) {
   const WallTime asked = now_;
   RoundUntil(1, 1);
   simulation_->Advance(milliseconds(10));
-  // By its rate another would be due, but it may use only a tenth of the time.
+  // A reading is due by the sensor's rate, but readings may use only a tenth of the time.
   now_ = asked;
   Round(9 * kLong);
   simulation_->Advance(milliseconds(10));

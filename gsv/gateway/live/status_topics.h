@@ -26,7 +26,7 @@ class StatusTopics {
     foxglove::ChannelId channel = 0;
     SharedBytes (*encode)(const simulation::SimulationStatus& status) = nullptr;
     Pacing pacing;
-    std::optional<simulation::Phase> phase{};  // as published last
+    std::optional<simulation::Phase> phase{};  // the phase that was last published
     Hub::Message latest{};
   };
   void Publish(Topic& topic, const simulation::Simulation& simulation, WallTime now);

@@ -32,7 +32,7 @@ class WantedRobots {
   std::set<std::string> requests_ GSV_GUARDED_BY(mutex_);
   // Used by the thread that takes the requests.
   std::set<std::string> wanted_;
-  std::list<std::string> in_order_;  // the same in the order of requests
+  std::list<std::string> in_order_;  // the robots in the order of requests
 };
 
 }  // namespace gsv::gateway

@@ -7,11 +7,11 @@ namespace gsv::gateway::metrics {
 
 struct ProcessUsage {
   std::uint64_t resident_bytes = 0;
-  std::uint64_t allocated_bytes = 0;  // by malloc, without its cached memory
+  std::uint64_t allocated_bytes = 0;  // memory allocated by malloc, without its cached memory
   std::uint64_t threads = 0;
   std::uint64_t descriptors = 0;
   std::uint64_t max_descriptors = 0;  // limit of descriptors
-  double processor_seconds = 0;       // of all threads
+  double processor_seconds = 0;       // time of all threads
   double start_time = 0;              // s since 1970
   double uptime = 0;                  // s
 };

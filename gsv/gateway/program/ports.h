@@ -19,7 +19,7 @@ class SimulationDirectory {
 
   // In the order for users. A viewer opens the first by default.
   virtual std::vector<std::shared_ptr<simulation::Simulation>> List() = 0;
-  // Null if the name is unknown.
+  // Returns null if the name is unknown.
   virtual std::shared_ptr<simulation::Simulation> Find(const std::string& name) = 0;
 };
 
@@ -30,7 +30,7 @@ class RecordingSwitch {
  public:
   struct State {
     bool is_recording = false;
-    std::string path;            // of the current or the last recording
+    std::string path;            // path of the current or the last recording
     std::uint64_t messages = 0;  // so far
     std::uint64_t dropped = 0;   // messages dropped for a slow disk
     std::uint64_t bytes = 0;     // written

@@ -28,7 +28,7 @@ inline tl::unexpected<FieldError> WrongField(std::string field, base::Error erro
 
 struct SimulationRequest {
   scenario::Scenario scenario;
-  bool record = false;  // to a file that the server chooses
+  bool record = false;  // whether to record to a file that the server chooses
 };
 
 // The requested pose of a body.
@@ -61,14 +61,14 @@ class SimulationFactory {
     std::string start_command;  // command of a program that offers one
   };
   struct Preview {
-    std::shared_ptr<simulation::Simulation> simulation;  // not listed and never runs
+    std::shared_ptr<simulation::Simulation> simulation;  // it is not listed and never runs
     std::vector<std::string> warnings;                   // problems of the files
   };
 
   virtual ~SimulationFactory() = default;
 
   virtual std::vector<std::string> Worlds() = 0;  // ours
-  // That can be robots, built-in and on the model path.
+  // Returns the models that can be robots, both built-in and on the model path.
   virtual std::vector<ModelLine> Models() = 0;
   virtual std::vector<std::string> Objects() = 0;  // including models that are not robots
   virtual base::Result<Behaviours> FindBehaviours(const std::string& constraint) = 0;

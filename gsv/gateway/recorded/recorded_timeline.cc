@@ -54,7 +54,8 @@ base::SimTime RecordedTimeline::PoseBeside(base::SimTime time, std::int64_t coun
     return nearest(*a) < nearest(*b);
   });
   const auto wanted = static_cast<std::size_t>(std::abs(count));
-  std::set<base::SimTime> distances;  // of poses, the nearest first; at most as many as needed
+  // distances to poses, the nearest first; at most as many as needed
+  std::set<base::SimTime> distances;
   for (const MessageBlock* block : blocks) {
     if (distances.size() == wanted && nearest(*block) > *distances.rbegin()) break;
     const base::Result<recording::BlockMessages> content = reader_.Messages(*block);

@@ -29,7 +29,7 @@ struct RecordingLine {
     kUnreadable,
   };
 
-  std::string name;        // of the file, or of the folder that rosbag2 opens
+  std::string name;        // name of the file, or of the folder that rosbag2 opens
   std::uint64_t size = 0;  // bytes
   std::chrono::system_clock::time_point modified;
   State state = State::kComplete;
@@ -40,7 +40,7 @@ struct RecordingLine {
   std::string world;
   std::optional<std::uint64_t> robots;
   std::string verdict;                // "passed" or "failed"
-  std::string sentence;               // of the first violation
+  std::string sentence;               // the sentence of the first violation
   std::optional<double> violation_s;  // its simulated time
 };
 

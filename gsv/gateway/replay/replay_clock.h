@@ -34,7 +34,7 @@ class ReplayClock {
   base::Status Resume();
   // Advances by `time` and pauses.
   base::Status Step(base::SimTime time);
-  void Rewind();  // to the start, paused
+  void Rewind();  // Returns to the start, paused.
   // Moves within the recording, and continues playing if it played.
   void Seek(base::SimTime time);
   // Moves within the recording and pauses.

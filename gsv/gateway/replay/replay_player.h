@@ -30,7 +30,7 @@ class ReplayPlayer {
                                                           const ReplayOptions& options);
   ~ReplayPlayer();
 
-  const std::string& name() const { return name_; }  // of the recorded simulation
+  const std::string& name() const { return name_; }  // The name of the recorded simulation.
   const std::shared_ptr<Hub>& hub() const { return stream_.hub(); }
   const RecordedScene& scene() const { return scene_; }
   const RecordedTimeline& timeline() const { return timeline_; }

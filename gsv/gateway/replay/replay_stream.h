@@ -81,7 +81,7 @@ class ReplayStream {
   std::map<std::uint16_t, Track> tracks_;
   WantedRobots wanted_;
   std::optional<recording::MessageCursor> cursor_;
-  std::optional<recording::MessageRecord> next_;  // of cursor_
+  std::optional<recording::MessageRecord> next_;  // the next message of cursor_
   std::optional<base::SimTime> published_time_;
   std::optional<simulation::Phase> published_phase_;
   Pacing status_pacing_;
@@ -89,8 +89,8 @@ class ReplayStream {
   int warnings_ = 0;
 
   mutable base::Mutex mutex_;
-  SharedBytes status_ GSV_GUARDED_BY(mutex_);  // as recorded
-  SharedBytes poses_ GSV_GUARDED_BY(mutex_);   // as recorded
+  SharedBytes status_ GSV_GUARDED_BY(mutex_);  // the status as it was recorded
+  SharedBytes poses_ GSV_GUARDED_BY(mutex_);   // the poses as they were recorded
 };
 
 }  // namespace gsv::gateway

@@ -47,7 +47,7 @@ class ConnectionSlot {
 // A slot for one upload, as uploads are held in memory.
 class UploadSlot {
  public:
-  // Null if none is free.
+  // Returns null if no slot is free.
   static std::unique_ptr<UploadSlot> Take(std::shared_ptr<ServerContext> context) {
     const std::size_t limit = context->options.limits.uploads_at_once;
     auto slot = std::unique_ptr<UploadSlot>(new UploadSlot(std::move(context)));

@@ -54,7 +54,8 @@ constexpr std::chrono::minutes kUploadTime{5};
 
 // Time limit for a client to begin TLS, and to close the connection.
 constexpr std::chrono::seconds kLeaveTime{1};
-constexpr std::chrono::milliseconds kHandshakeTime{10'000};  // or a request's, if that is shorter
+// or the time limit of a request, if that is shorter
+constexpr std::chrono::milliseconds kHandshakeTime{10'000};
 
 std::string PathOf(const Target& target) {
   std::string path;
@@ -119,7 +120,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     const auto& request = parser_->get();
     version_ = request.version();
     is_head_ = request.method() == http::verb::head;
-    keep_alive_ = false;  // for answers before the whole request was read
+    keep_alive_ = false;  // for answers that are sent before the whole request was read
     principal_.reset();
     target_ = ParseTarget(View(request.target()));
     match_ = target_ ? context_->handler.router().Find(Method(), *target_) : Router::Match();

@@ -35,7 +35,7 @@ class SendQueue {
  public:
   explicit SendQueue(const SendLimits& limits) : limits_(limits) {}
 
-  // False: the queue is full; the message was not queued.
+  // Returns false if the queue is full; the message was not queued.
   [[nodiscard]] bool PushControl(SharedBytes message, bool is_text = true);
   // Always keeps the newest message. Returns the number of dropped older ones.
   std::size_t PushData(const foxglove::BinaryHeader& header, SharedBytes payload);

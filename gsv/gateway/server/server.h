@@ -24,10 +24,11 @@ struct ServerLimits {
   std::size_t connections = 256;
   std::uint32_t header_bytes = 16u << 10;
   std::uint64_t body_bytes = 64u << 10;
-  std::uint64_t upload_bytes = 64u << 20;          // of one file
-  std::size_t uploads_at_once = 4;                 // each is held in memory until it is complete
-  std::size_t message_bytes = 256u << 10;          // of one WebSocket message from a client
-  std::chrono::milliseconds request_time{30'000};  // to send a request, or to receive the response
+  std::uint64_t upload_bytes = 64u << 20;  // maximum size of one file
+  std::size_t uploads_at_once = 4;         // each is held in memory until it is complete
+  std::size_t message_bytes = 256u << 10;  // maximum size of one WebSocket message from a client
+  // time limit to send a request, or to receive the response
+  std::chrono::milliseconds request_time{30'000};
   // Time without an answer to pings after which a viewer is disconnected.
   std::chrono::milliseconds idle_time{60'000};
   SendLimits send;

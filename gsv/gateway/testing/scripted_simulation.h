@@ -60,7 +60,7 @@ class ScriptedSimulation final : public simulation::Simulation {
   base::Status Reset() override;
   base::Status SetRealTimeFactor(double factor) override;
   base::Status SetGravity(std::optional<double> z) override;
-  std::optional<double> gravity() const;  // as it was set last
+  std::optional<double> gravity() const;  // The gravity that was last set.
   double real_time_factor() const override;
   const simulation::Specification& specification() const override { return specification_; }
   simulation::SimulationStatus status() const override;

@@ -57,7 +57,7 @@ class Viewer {
                   const std::string& origin = "");
   ~Viewer();
 
-  const std::string& subprotocol() const;  // that the server chose
+  const std::string& subprotocol() const;  // The subprotocol that the server chose.
   void SendText(const std::string& text);
   void SendBinary(const std::string& bytes);
   void SendRaw(const std::string& bytes);  // past the protocol
@@ -73,7 +73,7 @@ class Viewer {
   // Returns `success` and `message` of the response.
   std::pair<bool, std::string> CallService(const std::string& name,
                                            const std::string& request = "");
-  // The same for a call that is refused; returns the sentence.
+  // Makes a call that must be refused, and returns the sentence.
   std::string CallRefusedService(const std::string& name);
   // Waits for the advertisement of a topic, then subscribes.
   void Subscribe(foxglove::SubscriptionId id, const std::string& topic);

@@ -56,7 +56,7 @@ class ByteStream {
   // Ends the connection of a WebSocket in order.
   void Teardown(boost::beast::role_type role, Completion then);
 
-  // The same for Boost.Beast.
+  // Implements the concept AsyncReadStream of Boost.Beast.
   template <typename Buffers, typename Token>
   auto async_read_some(const Buffers& buffers, Token&& token) {
     return boost::asio::async_initiate<Token, void(error_code, std::size_t)>(

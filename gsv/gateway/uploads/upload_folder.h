@@ -20,7 +20,7 @@ namespace gsv::gateway::uploads {
 struct UploadLimits {
   std::size_t files = 5'000;                     // in all
   std::uint64_t bytes = std::uint64_t{1} << 30;  // in all
-  std::size_t depth = 12;                        // of folders
+  std::size_t depth = 12;                        // maximum depth of folders
 };
 
 class UploadFolder {

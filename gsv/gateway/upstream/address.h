@@ -12,9 +12,9 @@
 namespace gsv::gateway::upstream {
 
 struct Address {
-  std::string host;                                  // a name or an address; IPv6 without brackets
-  std::string port;                                  // digits
-  std::string token{};                               // for the other instance; empty: none
+  std::string host;     // a name or an address; IPv6 without brackets
+  std::string port;     // digits
+  std::string token{};  // the token for the other instance; empty if there is none
   std::shared_ptr<boost::asio::ssl::context> tls{};  // trusted authorities, for https; null: http
 
   std::string Authority() const;  // "host:port", "[::1]:port"

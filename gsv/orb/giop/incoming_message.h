@@ -14,7 +14,7 @@ class IncomingMessage {
   // Returns whether there is a message for the ORB, also if it is refused. CancelRequest messages
   // are dropped, as no servant supports them.
   bool IsThere();
-  // True if the whole message has arrived and no part of it has been passed to the ORB.
+  // Whether the whole message has arrived and no part of it has been passed to the ORB.
   bool is_new() const {
     return assembly_.state() == MessageAssembly::State::kComplete && handed_out_ == 0;
   }

@@ -19,8 +19,8 @@
 namespace gsv::orb {
 
 struct MessageLimits {
-  std::size_t bytes = 64u << 20;  // of a message, with its header
-  std::chrono::seconds time{30};  // from a message's first byte to its last
+  std::size_t bytes = 64u << 20;  // maximum size of a message with its header
+  std::chrono::seconds time{30};  // maximum time from a message's first byte to its last
 };
 
 // The operations of hooks on their connection. Any thread.

@@ -77,7 +77,8 @@ struct Installed {
   std::unique_ptr<TcpTransport> tcp GSV_GUARDED_BY(mutex);
   std::unique_ptr<LocalTransport> local GSV_GUARDED_BY(mutex);
   std::vector<std::unique_ptr<TlsTransport>> tls GSV_GUARDED_BY(mutex);  // the last one is current
-  std::optional<CorbaCertificate> certificate GSV_GUARDED_BY(mutex);     // of the current one
+  // certificate of the current transport
+  std::optional<CorbaCertificate> certificate GSV_GUARDED_BY(mutex);
 };
 Installed& InstalledTransports() {
   static auto& installed = *new Installed;  // an ORB may outlive static objects

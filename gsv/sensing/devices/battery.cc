@@ -63,7 +63,8 @@ class Battery final : public SensorOf<readings::Battery, messages::sensor_msgs::
     message.charge = static_cast<float>(battery.charge);
     message.capacity = message.design_capacity = static_cast<float>(battery.capacity);
     message.percentage = static_cast<float>(battery.fraction);
-    message.temperature = std::numeric_limits<float>::quiet_NaN();  // not measured
+    // the temperature is not measured
+    message.temperature = std::numeric_limits<float>::quiet_NaN();
     message.power_supply_status = Message::kPowerSupplyStatusDischarging;
     message.present = true;
     return message;

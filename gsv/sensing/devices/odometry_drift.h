@@ -51,7 +51,7 @@ class DriftState final : public world::DeviceState {
                                   const std::vector<std::string>& placed,
                                   base::SimTime now) const override;
 
-  // With what the robot has moved since the last step.
+  // Returns the estimate after the motion since the last step.
   geometry::PlanarPosition EstimateAt(const world::Snapshot& now, int body,
                                       std::uint64_t seed) const;
 

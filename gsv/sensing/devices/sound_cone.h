@@ -76,7 +76,7 @@ class SoundCone {
 
   struct Echo {
     double distance = 0, strength = 0;
-    Ray ray;  // to the surface that returns it
+    Ray ray;  // the ray to the surface that returns the echo
     Hit hit;
   };
 

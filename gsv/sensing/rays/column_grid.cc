@@ -10,7 +10,7 @@ using geometry::Bounds;
 // The number of columns per box, and the mean number of columns that list a box.
 constexpr double kColumnsPerBox = 2;
 constexpr std::size_t kMaxEntriesPerBox = 8;
-// In each direction: an index has 16 bits.
+// The maximum in each direction, because an index has 16 bits.
 constexpr double kMaxColumns = 30'000;
 
 }  // namespace
@@ -94,7 +94,7 @@ bool ColumnGrid::Near(const geometry::Vector3& place, double reach, FoundBoxes& 
   const int right = index(place.x + reach - low_x_, columns_);
   const int front = index(place.y - reach - low_y_, rows_);
   const int back = index(place.y + reach - low_y_, rows_);
-  // Of a box's entries, only the first in the square of columns counts.
+  // A box may have several entries in the square of columns. Only the first one counts.
   std::uint32_t row_mark = 0;
   std::size_t count = found.count;
   for (int row = front; row <= back; ++row, row_mark = kFirstRow) {

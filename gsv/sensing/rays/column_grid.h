@@ -90,7 +90,7 @@ class ColumnGrid {
   int columns_ = 0, rows_ = 0;       // without the ring
   double occupancy_ = 0;
   std::vector<Range> ranges_;
-  std::vector<std::uint32_t> starts_{0, 0};  // of each column in `entries_`, and the end
+  std::vector<std::uint32_t> starts_{0, 0};  // the start of each column in `entries_`, and the end
   std::vector<std::uint32_t> entries_;
 };
 

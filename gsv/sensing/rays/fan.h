@@ -22,7 +22,7 @@ struct Fan {
   double first = 0, step = 0;                     // rad; step > 0 unless there is one ray
   double elevation = 0;                           // rad
   double max_distance = 0;                        // m
-  std::span<const geometry::Vector3> directions;  // of the rays, in the fan's frame, unit length
+  std::span<const geometry::Vector3> directions;  // unit vectors along the rays, in the fan's frame
 };
 
 // The part of a fan that a solid may occlude: azimuths between `from` and `to`, or all.
@@ -45,7 +45,7 @@ void ForRaysIn(const Sector& sector, const Fan& fan, const Visit& visit) {
     return;
   }
   constexpr double kTurn = 2 * std::numbers::pi;
-  constexpr double kRounding = 1e-6;  // of a step
+  constexpr double kRounding = 1e-6;  // as a fraction of a step
   const double last = fan.first + static_cast<double>(count - 1) * fan.step;
   const double width = sector.to - sector.from;
   const double slack = kRounding * fan.step;

@@ -32,9 +32,9 @@ struct LayoutSolids {
   LayoutSolids& operator=(const LayoutSolids&) = delete;
 
   std::shared_ptr<const world::Layout> layout;
-  SolidSet standing;  // of all static bodies
+  SolidSet standing;  // the solids of all static bodies
   std::vector<std::vector<Part>> models;
-  std::vector<BodyPart> moving;  // by body, unbounded ones last
+  std::vector<BodyPart> moving;  // ordered by body, with unbounded parts last
   std::size_t bounded = 0;       // number of bounded ones in `moving`
 };
 

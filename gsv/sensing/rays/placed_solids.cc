@@ -155,7 +155,7 @@ double PlacedSolids::Range(const Ray& ray, int ignored_body) const {
 struct PlacedSolids::Shading {
   Sector sector;
   bool is_standing = false;
-  std::uint32_t number = 0;  // of the static shape, or of the part
+  std::uint32_t number = 0;  // number of the static shape, or of the part
 };
 
 bool PlacedSolids::FindShadings(const Fan& fan, int ignored_body,

@@ -50,7 +50,7 @@ class PlacedSolids final : public RayScene {
   // many.
   bool FindShadings(const Fan& fan, int ignored_body, std::vector<Shading>& shadings) const;
   void CastAtUnindexed(const Ray& ray, int ignored_body, Nearest& nearest) const;
-  // False if CastAtUnindexed() finds nothing for all rays of a fan.
+  // Returns false if CastAtUnindexed() finds nothing for all rays of a fan.
   bool UnindexedReach(const Fan& fan, int ignored_body) const;
   // Casts the rays that a solid may occlude at it, all from the fan's origin. directions[i] is the
   // direction of ray i in the world; `batch` is working memory.
@@ -59,11 +59,11 @@ class PlacedSolids final : public RayScene {
                 RayBatch& batch) const;
 
   std::shared_ptr<const LayoutSolids> solids_;
-  // As LayoutSolids::moving; the last two for bounded parts only.
+  // In the order of LayoutSolids::moving. The last two are for bounded parts only.
   std::vector<PlacedPart> parts_;
   std::vector<PlacedSphere> spheres_;
   std::vector<geometry::Bounds> boxes_;
-  BoxIndex index_;  // of boxes_
+  BoxIndex index_;  // the index of boxes_
 };
 
 }  // namespace gsv::sensing

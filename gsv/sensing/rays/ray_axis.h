@@ -8,7 +8,7 @@ namespace gsv::sensing {
 
 struct RayAxis {
   double origin, direction;
-  double inverse;  // of the direction; kept finite, so that no product with zero is undefined
+  double inverse;  // one over the direction; kept finite, so that no product with zero is undefined
   bool is_falling;
 
   RayAxis(double o, double d)

@@ -56,7 +56,7 @@ class RaySceneCache::Impl {
   };
   struct Entry {
     std::shared_ptr<const world::Snapshot> snapshot;
-    std::shared_ptr<Solids> solids;  // of the snapshot's layout
+    std::shared_ptr<Solids> solids;  // solids of the snapshot's layout
     std::once_flag is_built;
     std::shared_ptr<const RayScene> scene;  // null before
   };
@@ -91,7 +91,7 @@ class RaySceneCache::Impl {
 
   const std::shared_ptr<Pool> pool_ = std::make_shared<Pool>();
   base::Mutex mutex_;
-  std::shared_ptr<Solids> solids_ GSV_GUARDED_BY(mutex_);             // of the newest layout
+  std::shared_ptr<Solids> solids_ GSV_GUARDED_BY(mutex_);             // solids of the newest layout
   std::deque<std::shared_ptr<Entry>> recent_ GSV_GUARDED_BY(mutex_);  // the newest last
 };
 

@@ -21,7 +21,7 @@ namespace gsv::sensing {
 using world::Hit;
 using world::Ray;
 
-// The same ray in another frame, with the given length in metres.
+// Returns the ray in another frame, with the given length in metres.
 inline Ray Moved(const geometry::Pose& to_from, const Ray& ray, double length) {
   return {to_from * ray.origin, to_from.orientation * ray.direction, length};
 }
@@ -32,7 +32,7 @@ class RayScene : public world::RayCaster {
  public:
   using world::RayCaster::Cast;
 
-  // The same for many rays; hits[i] is rays[i]'s.
+  // Casts many rays. hits[i] is the result for rays[i].
   virtual void Cast(std::span<const Ray> rays, int ignored_body,
                     std::span<std::optional<Hit>> hits) const = 0;
 

@@ -28,7 +28,7 @@ struct Span {
   bool empty() const { return !(enter <= leave); }
 };
 
-// The same with the outward normals at both ends (of any length).
+// A span with the outward normals at both ends (of any length).
 struct Chord : Span {
   Vector3 enter_normal, leave_normal;
 

@@ -68,13 +68,13 @@ class SolidSet {
   bool endless() const { return !planes_.empty(); }
   // The bounding box of all but the planes.
   const geometry::Bounds& bounds() const { return bounds_; }
-  // The same.
+  // The bounding sphere.
   BoundingSphere ball() const;
 
   // Finds a hit nearer than `nearest` on the ray, not of `ignored_body`.
   void Cast(const Ray& ray, int ignored_body, Nearest& nearest, const Bearer& bearer = {}) const;
 
-  // The same in parts: all shapes, one shape, and the rest.
+  // Casts the ray at a part of the set: all shapes, one shape, or the rest.
   void CastAtShapes(const Ray& ray, int ignored_body, Nearest& nearest,
                     const Bearer& bearer = {}) const;
   void CastAtShape(std::uint32_t shape, const Ray& ray, int ignored_body, Nearest& nearest,
