@@ -144,7 +144,7 @@ void CompareScans(const Log& log, const std::vector<ScanPair>& pairs, Comparison
             real[i], simulated[i], count);
     }
   } else {
-    // By sectors of thirty degrees.
+    // The means of sectors of thirty degrees.
     const auto mean = [](const std::vector<double>& values, std::size_t from, std::size_t to) {
       double sum = 0;
       for (std::size_t i = from; i < to; ++i) sum += values[i];

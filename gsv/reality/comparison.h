@@ -38,16 +38,16 @@ struct CompareOptions {
   // The world's walls are updated by the scans of every other block: doors that are open now, and
   // what stands elsewhere.
   bool update_world = false;
-  std::string preset;            // of the log's scanner or odometry
+  std::string preset;            // the preset of the log's scanner or odometry
   model::Parameters parameters;  // win over the preset
-  // Of single sonars of a ring, by beam; win over `parameters`. May be empty.
+  // Parameters of single sonars of a ring, by beam. They override `parameters`. May be empty.
   std::vector<model::Parameters> beam_parameters;
-  std::optional<TimedPose> start;  // of the first scan in the world
+  std::optional<TimedPose> start;  // pose of the first scan in the world
   double wheel_distance = 0.3;     // m
   double height = 0.2;             // m: where the scanner is mounted
   std::uint64_t seed = 1;
-  int runs = 20;                // of odometry, with seeds from `seed` on
-  std::size_t max_scans = 400;  // that are simulated, evenly chosen
+  int runs = 20;                // number of odometry runs, with seeds from `seed` on
+  std::size_t max_scans = 400;  // number of scans to simulate, evenly chosen
 };
 
 // All that the log has. kInvalidArgument for a log without anything to compare, for a preset of

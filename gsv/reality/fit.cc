@@ -19,7 +19,7 @@ constexpr double kFitWindow = 5;       // s
 constexpr double kFitTolerance = 0.5;  // m
 constexpr double kInterval = 1.96;
 
-constexpr std::size_t kParts = 10;  // of the data, for jackknife intervals
+constexpr std::size_t kParts = 10;  // number of parts of the data, for jackknife intervals
 
 template <typename T>
 std::vector<T> Without(const std::vector<T>& all, std::size_t part) {

@@ -1,4 +1,4 @@
-// Where a robot with a lidar stood in a world, from its scans and its odometry.
+// Estimates the poses of a robot with a lidar in a world, from its scans and its odometry.
 //
 // Method  a likelihood field (Thrun, Burgard, Fox, "Probabilistic Robotics", section 6.4): the
 //         distance from each cell to the nearest occupied one. The first pose is searched for

@@ -87,7 +87,7 @@ RangingFit FittedTo(const std::vector<RadioRange>& ranges) {
 base::Result<std::vector<double>> SimulatedRanges(const Log& log, const CompareOptions& options) {
   model::WorldDescription world;
   if (options.world) world = *options.world;
-  std::map<int, std::vector<std::size_t>> places;  // by anchor, in log.radio
+  std::map<int, std::vector<std::size_t>> places;  // indices in log.radio, by anchor
   for (std::size_t i = 0; i < log.radio.size(); ++i) {
     std::vector<std::size_t>& of_anchor = places[log.radio[i].anchor];
     if (of_anchor.empty()) world.models.push_back(AnchorAt(log.radio[i]));

@@ -23,7 +23,7 @@ struct RadioGroup {
   std::string name;
   std::vector<double> real, simulated;  // without what was not heard
 };
-// By anchor, then by metres of distance; groups of less than 20 ranges are left out.
+// Groups errors by anchor, then by metres of distance. Groups of less than 20 ranges are omitted.
 std::vector<RadioGroup> Grouped(const std::vector<RadioErrors>& errors);
 
 // A ranging sensor whose bias and scatter are linear in the distance, fitted to the even blocks.

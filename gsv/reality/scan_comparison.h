@@ -26,7 +26,7 @@ std::vector<double> EchoShares(const std::vector<ScanPair>& pairs, bool of_real)
 // Differences of a beam's reading from one scan to the next where the robot did not move, by the
 // root of two: their deviation is that of one reading.
 std::vector<double> RestDifferences(const std::vector<RangeScan>& scans);
-// The same of simulated readings; pairs must follow each other in time.
+// Returns the differences of simulated readings. Pairs must be in the order of time.
 std::vector<double> RestDifferences(const std::vector<ScanPair>& pairs);
 
 // The median distance between real and simulated ranges of each scan.

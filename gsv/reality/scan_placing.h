@@ -18,14 +18,14 @@ struct PlacedScans {
 // The log with the poses of its scans, where they follow from its wheels alone.
 Log WithBases(Log log, const CompareOptions& options);
 
-// The scans of the log's even blocks (`for_fitting`) or of its odd ones. A world that is fitted or
-// updated has seen the even blocks; for fitting, the first half of each of them, and the second
-// halves are read. Otherwise the world would answer for the device.
-// kInvalidArgument where no world or no path can be found.
+// Returns the scans of the log's even blocks (`for_fitting`) or of its odd ones. A world that is
+// fitted or updated is made from the even blocks, so these cannot be used to judge the device. For
+// fitting, the first half of each even block makes the world, and the second half is compared.
+// Returns kInvalidArgument if no world or no path can be found.
 base::Result<PlacedScans> PlaceScans(const Log& log, const CompareOptions& options,
                                      bool for_fitting);
 
-// The same scans as the simulated device reads them.
+// Returns the same scans with the readings of the simulated device.
 base::Result<std::vector<ScanPair>> PairScans(const PlacedScans& placed, const Log& log,
                                               const CompareOptions& options);
 

@@ -9,7 +9,7 @@ namespace gsv::reality {
 
 struct Summary {
   std::size_t count = 0;
-  double mean = 0, deviation = 0;  // of a sample: divided by count - 1
+  double mean = 0, deviation = 0;  // for a sample: divided by count - 1
 };
 Summary Summarize(std::span<const double> values);
 
@@ -27,7 +27,7 @@ double JackknifeInterval(const std::vector<double>& without);
 // The largest distance between the two distribution functions, in [0, 1]; 1 if one is empty.
 double KolmogorovSmirnov(std::vector<double> first, std::vector<double> second);
 
-// Of values that follow each other, in [-1, 1]; 0 where they do not vary.
+// The autocorrelation of consecutive values, in [-1, 1]; 0 if they do not vary.
 double Autocorrelation(std::span<const double> values, std::size_t lag);
 
 }  // namespace gsv::reality

@@ -73,8 +73,8 @@ class LogOdds {
 void JoinWalls(const Log& log, const std::vector<RangeScan>& scans, LogOdds& odds) {
   for (std::size_t i = 0; i < log.beam_angles.size(); ++i) {
     if (std::abs(log.beam_angles[i]) < kSideways) continue;
-    double x = 0, y = 0, range = geometry::kInfinity;  // of the last echo
-    TimedPose from;                                    // where it was heard
+    double x = 0, y = 0, range = geometry::kInfinity;  // place and range of the last echo
+    TimedPose from;                                    // the pose from which it was measured
     bool is_lost = false;                              // nothing was heard since
     for (const RangeScan& scan : scans) {
       if (!scan.base || i >= scan.ranges.size()) continue;

@@ -83,13 +83,13 @@ class SimulationBridge final : public Bridge {
   sensing::RaySceneCache rays_;
   Graph graph_;
   Node node_;
-  std::vector<std::unique_ptr<Source>> sources_;  // of the simulation as a whole
+  std::vector<std::unique_ptr<Source>> sources_;  // sources of the simulation as a whole
   RobotDescriptions descriptions_;
   dds::Writer* static_frames_ = nullptr;
   dds::Writer* log_ = nullptr;
   dds::Writer* diagnostics_ = nullptr;
   std::map<std::string, std::unique_ptr<RobotTopics>> robots_;  // by body
-  SlowLane slow_;                                               // after what it uses
+  SlowLane slow_;  // declared last, because it uses the members above
   bool has_checked_namespaces_ = false;
   std::unique_ptr<SimulationServices> services_;
   std::thread thread_;

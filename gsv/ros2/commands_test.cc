@@ -46,7 +46,8 @@ TEST(CommandInput, DrivesARobotThatHasNoBehaviour) {
 TEST(CommandInput, RejectsNonFiniteCommands) {
   CommandedRobot robot;
   Twist twist;
-  twist.linear.z = std::numeric_limits<double>::infinity();  // not looked at, and yet refused
+  // this component is not used, but is rejected nevertheless
+  twist.linear.z = std::numeric_limits<double>::infinity();
   messages::Bytes sideways;
   messages::Encode(twist, sideways);
   robot.input->TakeTwist(TwistBytes(std::numeric_limits<double>::quiet_NaN()));

@@ -27,7 +27,7 @@ class Feed final : public simulation::Observer {
   void OnSnapshot(const SnapshotPointer& snapshot) override;
   void OnEvent(const simulation::Event& event) override;
 
-  // From here on snapshots at the multiples of these periods are taken, and no others.
+  // From now on it takes only snapshots at the multiples of these periods.
   void SetPeriods(const std::set<base::SimTime>& periods);
 
   struct News {

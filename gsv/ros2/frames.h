@@ -45,7 +45,7 @@ class Frames {
   std::string base_;
 };
 
-// Where a robot believes to be by its wheels.
+// Returns the pose of a robot according to its wheel odometry.
 geometry::Pose OdometryPose(const world::Odometry& odometry);
 
 }  // namespace gsv::ros2

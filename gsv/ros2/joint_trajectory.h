@@ -20,9 +20,9 @@ struct JointTrajectory {
   static constexpr std::size_t kMaxPoints = 100'000;
 
   struct Point {
-    base::SimTime time{};            // after the start; grows from point to point
+    base::SimTime time{};            // time after the start; increases from point to point
     std::vector<double> positions;   // one for each joint
-    std::vector<double> velocities;  // as many, or none
+    std::vector<double> velocities;  // as many as positions, or none
   };
 
   std::optional<base::SimTime> start;  // empty: at once

@@ -65,7 +65,7 @@ TEST(JointTrajectory, IsLinearWithoutVelocities) {
   EXPECT_THAT(read->PositionsAt(9s, {0, 0}), ElementsAre(3, 0));
 }
 
-// From rest to rest: 3 s² - 2 s³, a quarter of the way at 0.15625.
+// The path from rest to rest is 3 s² - 2 s³, which is 0.15625 at a quarter of the time.
 TEST(JointTrajectory, IsCubicWithVelocities) {
   const auto read = ReadTrajectory({"elbow"}, {PointAt(2, {1}, {0}), PointAt(4, {1}, {1})}, 7);
   ASSERT_TRUE(read) << read.error().Sentence();

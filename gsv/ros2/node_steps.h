@@ -39,7 +39,7 @@ class NodeSteps {
  private:
   struct Robot {
     bool is_open = false;
-    std::optional<base::SimTime> stamp{};  // of the newest command
+    std::optional<base::SimTime> stamp{};  // time stamp of the newest command
     world::DriveCommand command{};
     std::optional<base::SimTime> awaited{};
     bool has_warned = false;

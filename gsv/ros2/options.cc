@@ -36,7 +36,7 @@ bool IsThisMachine(const std::string& peer) {
   return peer == "localhost" || peer.starts_with("127.");
 }
 
-// Nothing where the environment does not say.
+// Returns nullopt if the environment does not set the range.
 base::Result<std::optional<dds::Range>> RangeOf(const Environment& environment) {
   const std::string only = environment("ROS_LOCALHOST_ONLY");
   if (!only.empty() && only != "0" && only != "1") {

@@ -20,8 +20,9 @@ enum class Distro { kHumble, kJazzy, kKilted, kLyrical };
 struct Options {
   std::optional<dds::Range> range{};  // empty: as the environment says, else localhost
   Distro distro = Distro::kJazzy;
-  std::map<std::string, std::string> namespaces{};  // by robot; of others "/ROBOT"
-  bool is_cmd_vel_stamped = false;                  // TwistStamped, else Twist
+  // namespaces by robot; a robot that is not listed has "/ROBOT"
+  std::map<std::string, std::string> namespaces{};
+  bool is_cmd_vel_stamped = false;     // TwistStamped, else Twist
   std::shared_ptr<NodeSteps> steps{};  // nodes step the robots that are open in it; null: none
 };
 

@@ -68,7 +68,7 @@ class RobotTopics {
   const bool takes_commands_;
   const std::vector<model::SensorDescription> sensors_;
   const Frames frames_;
-  std::vector<bool> is_optical_;                  // as sensors_
+  std::vector<bool> is_optical_;                  // in the order of sensors_
   std::vector<std::unique_ptr<Source>> sources_;  // before node_, whose readers call them
   Node node_;
   dds::Writer* description_ = nullptr;  // null: it was sent, or the participant refuses it

@@ -32,7 +32,7 @@ class SlowLane {
   std::vector<Source*> sources_ GSV_GUARDED_BY(mutex_);
   std::unique_ptr<Moment> moment_ GSV_GUARDED_BY(mutex_);  // null: idle
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
-  std::unique_ptr<base::ThreadTeam> team_;  // of thread_
+  std::unique_ptr<base::ThreadTeam> team_;  // used by thread_ only
   std::thread thread_;
 };
 

@@ -16,7 +16,7 @@ namespace gsv::ros2 {
 // A source's messages are a function of this.
 struct Moment {
   std::shared_ptr<const world::Snapshot> snapshot;
-  std::uint64_t seed = 0;  // of the simulation
+  std::uint64_t seed = 0;  // seed of the simulation
   sensing::RaySceneCache& rays;
 };
 

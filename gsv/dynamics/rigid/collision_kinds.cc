@@ -71,7 +71,7 @@ class CylinderOnPlane final : public btCollisionAlgorithm {
       down.normalize();
       aside = axis.cross(down);
     } else {
-      // The same points of the rim as before, wherever it leans to.
+      // Uses the same points of the rim as before, in whatever direction the cylinder leans.
       down = world_from_cylinder.getBasis().getColumn(0);
       aside = world_from_cylinder.getBasis().getColumn(1);
     }

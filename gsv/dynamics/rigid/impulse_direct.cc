@@ -72,7 +72,7 @@ void ImpulseRows::ChooseFree() {
     choose(cone.first_row);
     choose(cone.first_row + 1);
   }
-  // Where a contact slips, its friction turns with the slip.
+  // If a contact slips, its friction follows the direction of the slip.
   constexpr double kStands = 1e-9;  // m/s
   std::size_t turning = 0;
   for (std::size_t i = 0; i < cones_.size(); ++i) turning += slips_[i] ? 2 : 0;

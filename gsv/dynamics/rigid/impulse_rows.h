@@ -35,7 +35,7 @@ class ImpulseRows {
  public:
   // The effect of a row on one body: spans of equal size, one value a degree of freedom.
   struct Side {
-    int first = 0;                     // of the body's velocities, from AddBody()
+    int first = 0;                     // index of the body's velocities, from AddBody()
     std::span<const double> jacobian;  // empty: none, or a body that nothing moves
     std::span<const double> response;  // change of velocities by a unit impulse
   };
@@ -79,7 +79,7 @@ class ImpulseRows {
   // All lengths are multiples of four: what is beyond a body's degrees of freedom is zero.
   struct Block {
     int first = 0, count = 0, start = 0;  // in velocities_; in jacobians_ and responses_
-    int begin = 0, end = 0;               // where its jacobian is not zero, from `start`
+    int begin = 0, end = 0;               // range in which its jacobian is not zero, from `start`
     int next = -1;                        // the next block on the same body (CoupleAll())
   };
   struct Row {
@@ -93,7 +93,7 @@ class ImpulseRows {
     int normal_row, first_row;
     double friction;
     Axes axes;
-    double shift;  // of the last solution on the circle, where the next one begins
+    double shift;  // the shift of the last solution on the circle, from which the next one begins
   };
 
   Row& At(int row) { return rows_[static_cast<std::size_t>(row)]; }
@@ -131,12 +131,12 @@ class ImpulseRows {
   // The linear equations of the rows that are within their bounds.
   std::vector<double> couplings_;         // J M⁻¹ Jᵀ of all rows, once it is asked for
   std::vector<int> free_;                 // rows
-  std::vector<int> place_;                // of each row in free_, or -1
-  std::vector<int> last_block_;           // of each body's place in velocities_, or -1
-  std::vector<bool> slips_;               // of each cone: its friction is at its limit
+  std::vector<int> place_;                // place of each row in free_, or -1
+  std::vector<int> last_block_;           // place of each body in velocities_, or -1
+  std::vector<bool> slips_;               // for each cone, whether its friction is at its limit
   std::vector<int> slipping_;             // cones that slip without turning
-  std::vector<bool> turns_;               // of each cone that slips: its rows are free
-  std::vector<double> matrix_, unknown_;  // of free_
+  std::vector<bool> turns_;               // for each cone that slips, whether its rows are free
+  std::vector<double> matrix_, unknown_;  // matrix and unknowns of free_
   std::vector<double> velocities_before_, impulses_before_;
 };
 

@@ -15,7 +15,7 @@ constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
 TEST(SolveLinear, SolvesEquationsThatNeedPivots) {
   std::array<double, 9> a{0, 2, 1, 1, 1, 0, 3, 0, -1};
-  std::array<double, 3> b{7, 3, 0};  // of x = (1, 2, 3)
+  std::array<double, 3> b{7, 3, 0};  // the right side for x = (1, 2, 3)
   ASSERT_TRUE(SolveLinear(a, b));
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(b[i], 1.0 + static_cast<double>(i), 1e-14);
 }

@@ -330,7 +330,7 @@ void ImpulseSolver::StoreAll() {
 }
 
 void ImpulseSolver::SolveIslands(const btContactSolverInfo& info) {
-  // To wake a thread costs as much as some islands of this size.
+  // Waking a thread costs as much as solving some islands of this size.
   constexpr std::size_t kGrain = 4;
   const double tolerance = info.m_leastSquaresResidualThreshold;
   const auto iterations_of = [](const Island& island) {

@@ -51,11 +51,12 @@ class ImpulseSolver final : public btMultiBodyConstraintSolver {
     btMultiBody* tree = nullptr;
     int link = -1, size = 0, delta_velocity = 0;
     TreeMass* mass = nullptr;
-    std::array<btVector3, TreeMass::kMaxSize> motions;  // of the point, by the tree's velocities
+    // motion of the point, by the tree's velocities
+    std::array<btVector3, TreeMass::kMaxSize> motions;
     int solver_body = -1;
     btRigidBody* body = nullptr;  // null: nothing moves it
-    btVector3 arm;                // from the centre of mass to the point
-    double sign = 1;              // of the row's axis
+    btVector3 arm;                // vector from the centre of mass to the point
+    double sign = 1;              // sign of the row's axis
   };
   // A body or a tree of links that impulses move.
   struct Node {
@@ -63,14 +64,14 @@ class ImpulseSolver final : public btMultiBodyConstraintSolver {
     int bullets_first = 0;        // in the pool; of a tree in m_data.m_deltaVelocities
     int parent = 0;               // another node of the same island, or itself
     int island = -1;              // in islands_; -1: no row acts on it
-    int first = 0, count = 0;     // of its velocities in the island's rows
+    int first = 0, count = 0;     // range of its velocities in the island's rows
   };
   struct Island {
     ImpulseRows rows;
     std::vector<int> contacts;  // in m_tmpSolverContactConstraintPool
     int bodies = 0;
   };
-  // Where a row of Bullet's has gone.
+  // The place to which a row of Bullet's was moved.
   struct Place {
     Island* island = nullptr;
     int row = 0;
@@ -124,16 +125,17 @@ class ImpulseSolver final : public btMultiBodyConstraintSolver {
   void StoreAll();
 
   base::ThreadTeam* team_;
-  std::deque<TreeMass> tree_masses_;  // of this substep, by the trees' user index
+  std::deque<TreeMass> tree_masses_;  // for this substep, by the trees' user index
   int tree_mass_count_ = 0;
-  std::vector<btMultiBodyConstraint*> other_joints_;  // that are no JointRow
+  std::vector<btMultiBodyConstraint*> other_joints_;  // constraints that are not a JointRow
   int jacobian_count_ = 0;                            // the most values of jacobians so far
   std::vector<Node> nodes_;
-  std::vector<int> node_of_body_, node_of_tree_;  // by index in the pool; by bullets_first; or -1
-  std::deque<Island> islands_;                    // memory for as many as there have been
+  // by index in the pool; by bullets_first; -1 for none
+  std::vector<int> node_of_body_, node_of_tree_;
+  std::deque<Island> islands_;  // memory for as many as there have been
   std::size_t island_count_ = 0;
   std::vector<Place> rows_, cones_;         // in Bullet's order: constraints, contacts, friction
-  double jacobian_[2][6], response_[2][6];  // of the row that is being added
+  double jacobian_[2][6], response_[2][6];  // for the row that is being added
 };
 
 }  // namespace gsv::dynamics

@@ -54,8 +54,8 @@ class JointTree final : public MovingBody {
 
  private:
   struct Motor {
-    int link;                           // of tree_
-    int joint;                          // of the model
+    int link;                           // index of a link in tree_
+    int joint;                          // index of a joint in the model
     std::unique_ptr<JointRow> row;      // moves it, or rubs
     std::unique_ptr<JointRow> damper;   // null without damping
     std::unique_ptr<JointRow> limiter;  // null without a limit of velocity
@@ -106,8 +106,9 @@ class JointTree final : public MovingBody {
   std::vector<Ball> balls_;
   std::vector<Screw> screws_;
   std::optional<DriveServo> servo_;
-  std::vector<world::JointCommand> commands_;            // of the model's joints; may be empty
-  std::vector<double> wanted_positions_, wanted_rates_;  // of the drive's joints
+  std::vector<world::JointCommand> commands_;  // commands of the model's joints; may be empty
+  // positions and rates that the drive wants of its joints
+  std::vector<double> wanted_positions_, wanted_rates_;
   const btVector3 gravity_;
   double grip_;
   double resting_speed_before_;
@@ -333,11 +334,12 @@ void JointTree::MoveKinematic(const Motor& motor, const world::JointCommand& com
   ForceTo(motor, rate, seconds);
 }
 
-// As fast as its leader, and towards where it should be. The leader does not feel it.
+// Moves at the leader's rate, and towards the position that follows from it. The leader gets no
+// reaction.
 void JointTree::Follow(const Motor& motor, const model::Mimic& mimic, double seconds) {
   const auto leader = std::find_if(motors_.begin(), motors_.end(),
                                    [&](const Motor& other) { return other.joint == mimic.leader; });
-  double position = 0, rate = 0;  // of a leader that does not move
+  double position = 0, rate = 0;  // the values for a leader that does not move
   if (leader != motors_.end()) {
     position = tree_.getJointPos(leader->link);
     rate = tree_.getJointVel(leader->link);
@@ -400,7 +402,8 @@ void JointTree::BeforeSubstep(double seconds) {
 // Wind, fluids and the decay of velocities, on each part.
 void JointTree::Immerse(double seconds) {
   const auto count = static_cast<std::size_t>(tree_.getNumLinks()) + 1;
-  std::vector<btVector3> turning(count), moving(count);  // of each part, in its own frame
+  // velocities of each part, in its own frame
+  std::vector<btVector3> turning(count), moving(count);
   tree_.compTreeLinkVelocities(turning.data(), moving.data());
   for (std::size_t i = 0; i < count; ++i) {
     const int link = static_cast<int>(i) - 1;

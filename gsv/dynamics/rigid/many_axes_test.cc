@@ -85,7 +85,7 @@ TEST(ManyAxes, ABallJointRotatesAboutAnyAxis) {
   ASSERT_TRUE(world.Start());
   world.state().joint_positions = {0.2, 2, -0.4};
   world.state().joint_velocities = {3, 0, 2};
-  // From hanging to standing.
+  // the energy between the lowest and the highest position
   constexpr double kHighestEnergy = 2 * kG * kLength, step = 0.001;
   const auto measure = [&](double& energy, double& turning) {
     const Vector3 before = BobOf(world, *model);

@@ -44,7 +44,7 @@ TEST(Mimic, AJointFollowsItsLeader) {
   EXPECT_NEAR(world.joint("gripper", 2), -1.5 * (0.8 - 0.1) + 0.2, 5e-3);
 }
 
-// In motion, too: at the leader's rate.
+// The joint must also move at the leader's rate.
 TEST(Mimic, AJointMovesAtItsLeadersRate) {
   TestWorld world(MakeWorldEngine());
   world.AddRigid("gripper", Fingers({1, 2, 0, 0}), At(0, 0, 1));

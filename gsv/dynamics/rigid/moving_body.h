@@ -24,7 +24,7 @@ class MovingBody {
   // m: half of the least thickness of any part.
   virtual double Thickness() const = 0;
   virtual void Bounds(btVector3& low, btVector3& high) const = 0;
-  // Null for a tree of links.
+  // Returns null for a tree of links.
   virtual btRigidBody* rigid() { return nullptr; }
 
   // Writes pose and velocity to `state`, except for bodies that were at rest and still are.

@@ -12,7 +12,7 @@ using testing::SolidOf;
 using testing::TestWorld;
 using testing::WorldOnGround;
 
-// Of 20 kg: it pushes with at most 196 N.
+// A robot of 20 kg, which pushes with at most 196 N.
 std::shared_ptr<model::Model> Robot() {
   auto robot = testing::DiscRobot(0.2);
   robot->links[0].inertial.mass = 20;

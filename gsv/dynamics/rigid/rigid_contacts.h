@@ -41,7 +41,7 @@ class RigidContacts {
 
  private:
   struct Found {
-    world::Contact contact;  // of one point, in one substep
+    world::Contact contact;  // the contact at one point, in one substep
     int substep;
   };
 

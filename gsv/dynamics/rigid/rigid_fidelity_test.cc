@@ -120,7 +120,7 @@ TEST(RigidFidelity, FrictionAtAnImpactIsProportionalToTheImpulse) {
   // The ground is found at different distances within a step.
   for (const double more : {0.0, 3e-4, 7e-4, 1.3e-3, 1.9e-3}) {
     EXPECT_WITHIN(SpeedAfterLanding(0.1, more), 3 - 0.1 * 2 - 0.1 * kG * 0.05, 2e-3, "m/s") << more;
-    // Of so much friction it rolls at once: 5/7 of the speed.
+    // With so much friction the ball rolls at once, at 5/7 of the speed.
     EXPECT_WITHIN(SpeedAfterLanding(1, more), 3 * 5 / 7.0, 2e-3, "m/s") << more;
   }
 }

@@ -19,7 +19,7 @@ namespace gsv::dynamics {
 struct Solid {
   int body = 0;                          // index in the layout
   btCollisionShape* shape = nullptr;     // never null
-  std::vector<model::Surface> surfaces;  // of the children of a compound, else one
+  std::vector<model::Surface> surfaces;  // surfaces of the children of a compound, else one surface
   double thickness = 1;  // half of the thinnest child's least extent, if that is less than 1 m
   double radius = 0;     // about the origin of the shape's frame
 
@@ -31,8 +31,8 @@ struct RigidBody {
   int body = 0;
   const model::Model* model = nullptr;
   Articulation articulation;
-  std::vector<Solid> solids;      // of its parts
-  std::vector<PartMedium> media;  // of its parts; empty if no medium pushes it
+  std::vector<Solid> solids;      // the solids of its parts
+  std::vector<PartMedium> media;  // the media of its parts; empty if no medium pushes it
   std::optional<DriveKinematics> kinematics;
   int first_joint = 0;
   bool is_jointed() const { return articulation.parts.size() > 1; }

@@ -164,7 +164,8 @@ void RigidWorld::AddPushes(std::span<const Push> pushes) {
     if (object == nullptr) continue;
     btVector3 low, high;
     object->getAabb(low, high);
-    // Where what is about to tip leans on the robot: as low as the two face each other.
+    // The point at which a tipping body leans on the robot: the lowest height at which they face
+    // each other.
     btVector3 point = ToBullet(push.point);
     point.setZ(std::max(push.low, low.z()));
     pushes_.back() = std::make_unique<PushConstraint>(*object, point, ToBullet(push.normal),

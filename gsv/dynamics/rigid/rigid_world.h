@@ -45,7 +45,7 @@ class RigidWorld {
   std::vector<world::Contact> OverlapsOf(int body, double tolerance);
   // Writes where the rigid bodies are and how they move.
   void Store(world::State& state) const;
-  // Where each rigid body may get to in a step like this one, from where it is.
+  // Returns the areas that the rigid bodies may reach in a step like this one.
   std::vector<Area> MakeAreas() const;
 
  private:
@@ -74,9 +74,9 @@ class RigidWorld {
   const double seconds_;
 
   std::deque<Owner> owners_;
-  std::deque<FrictionAxes> friction_axes_;  // of contacts
+  std::deque<FrictionAxes> friction_axes_;  // friction axes of contacts
   std::vector<std::unique_ptr<btCollisionObject>> objects_;
-  std::vector<std::unique_ptr<MovingBody>> bodies_;  // as scene_.bodies()
+  std::vector<std::unique_ptr<MovingBody>> bodies_;  // in the order of scene_.bodies()
   std::vector<Planar> planar_;
   std::vector<std::unique_ptr<PushConstraint>> pushes_;
 

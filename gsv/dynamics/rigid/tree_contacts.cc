@@ -70,7 +70,7 @@ int ImpulseSolver::DeltaVelocityOf(btMultiBody& tree) {
   return tree.getCompanionId();
 }
 
-// Where a new row's jacobian and response begin; they are not initialised.
+// Returns the index at which a new row's jacobian and response begin. They are not initialised.
 int ImpulseSolver::NewJacobian(int size) {
   const int first = m_data.m_jacobians.size();
   m_data.m_jacobians.resizeNoInitialize(first + size);
@@ -129,7 +129,8 @@ ImpulseSolver::ContactSide ImpulseSolver::SideOfContact(const btCollisionObject&
                                                         const btContactSolverInfo& info) {
   ContactSide side;
   side.sign = sign;
-  auto& mutable_object = const_cast<btCollisionObject&>(object);  // as in Bullet's own solver
+  // Bullet's own solver does the same
+  auto& mutable_object = const_cast<btCollisionObject&>(object);
   auto* collider = btMultiBodyLinkCollider::upcast(&mutable_object);
   if (collider == nullptr) {
     side.solver_body = getOrInitSolverBody(mutable_object, info.m_timeStep);

@@ -56,9 +56,10 @@ class TreeMass {
   }
 
   const btMultiBody* tree_ = nullptr;
-  int size_ = 0, first_ = 0;            // first_: 6 for a fixed base, whose velocities stay zero
-  std::vector<btMatrix3x3> rotations_;  // of the base and the links, as all that follow
-  std::vector<btVector3> positions_;    // from the base's centre of mass
+  int size_ = 0, first_ = 0;  // first_: 6 for a fixed base, whose velocities stay zero
+  // rotations of the base and the links, like all members that follow
+  std::vector<btMatrix3x3> rotations_;
+  std::vector<btVector3> positions_;  // relative to the base's centre of mass
   std::vector<Inertia> inertias_;
   std::vector<Motion> motions_;  // by velocity
   std::vector<double> masses_, inverse_;

@@ -35,7 +35,7 @@ struct TimedWheels {
 struct RangeScan {
   double time = 0;
   std::vector<double> ranges;
-  std::optional<TimedPose> base;  // where the log says the robot was
+  std::optional<TimedPose> base;  // the pose of the robot according to the log
 };
 
 // One measured distance to a radio anchor, and the distance by the reference system.
@@ -47,13 +47,13 @@ struct RadioRange {
 };
 
 struct Log {
-  std::vector<TimedPose> truth;  // by a reference system: motion capture, overhead camera
+  std::vector<TimedPose> truth;  // poses from a reference system: motion capture, overhead camera
   bool truth_has_yaw = true;
-  std::vector<TimedPose> odometry;  // as the robot itself reckoned
+  std::vector<TimedPose> odometry;  // poses from the robot's own odometry
   std::vector<TimedTwist> commands;
   std::vector<TimedWheels> wheels;
   std::vector<double> beam_angles;
-  double max_range = 0;          // of beams; a reading there is none
+  double max_range = 0;          // the maximum range of beams; such a reading means no echo
   double sensor_forward = 0;     // m from the base to the sensor, along x
   bool is_sonar = false;         // beams are cones of sound
   std::vector<RangeScan> scans;  // each of beam_angles.size() ranges

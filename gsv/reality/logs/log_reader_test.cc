@@ -125,7 +125,7 @@ TEST_F(LogReaderTest, ReadsMotionCaptureBesideCommands) {
   const Log log = Read(folder_.Write("Robot1_Odometry.dat", "10.0 0.1 0.2\n"), "mrclam");
   ASSERT_THAT(log.truth, SizeIs(2));
   EXPECT_EQ(log.commands[0].linear, 0.1);
-  // From 3 to -3 over pi.
+  // The yaw goes from 3 to -3 through pi.
   EXPECT_WITHIN(WrappedAngle(PoseAt(log.truth, 0.25)->yaw - geometry::kPi), 0, 1e-12, "rad");
 }
 

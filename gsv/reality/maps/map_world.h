@@ -1,4 +1,4 @@
-// From an occupancy map to a world, and back.
+// Converts an occupancy map to a world, and a world to a map.
 #pragma once
 
 #include <string>

@@ -285,7 +285,7 @@ class FastReader final : public Reader, fast::DataReaderListener {
   fast::Subscriber& subscriber_;
   const std::function<void(std::span<const std::byte>)> on_message_;
   const std::function<void(std::span<const std::byte>, const Request&)> on_request_;
-  std::vector<std::byte> sample_;  // of the thread that calls on_data_available
+  std::vector<std::byte> sample_;  // used by the thread that calls on_data_available
   std::atomic<int> writers_{0};
   fast::DataReader* reader_ = nullptr;
 };

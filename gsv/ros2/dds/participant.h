@@ -20,7 +20,7 @@
 
 namespace gsv::ros2::dds {
 
-// As RTPS sends it: twelve bytes of prefix, four of entity.
+// As RTPS sends it: twelve bytes of prefix, then four bytes of the entity.
 using Guid = std::array<std::uint8_t, 16>;
 
 struct Qos {
@@ -37,7 +37,7 @@ struct Topic {
   std::string name;  // "rt/pebble/scan"
   std::string type;  // "sensor_msgs::msg::dds_::LaserScan_"
   Qos qos;
-  std::string user_data;  // of the endpoint; empty: none
+  std::string user_data;  // USER_DATA of the endpoint; may be empty
 };
 
 // How far discovery reaches.
@@ -56,7 +56,8 @@ struct ParticipantOptions {
   bool watches_endpoints = false;    // endpoints() works
 };
 
-// By this a reply names its request: the client's endpoint and the number of the request.
+// Identifies the request to which a reply belongs: the client's endpoint and the number of the
+// request.
 struct SampleIdentity {
   Guid writer{};
   std::int64_t sequence = 0;
@@ -65,8 +66,8 @@ struct SampleIdentity {
 // The identities of a request of a service, or of a reply.
 struct Request {
   Guid writer{};            // the endpoint that sent it
-  SampleIdentity identity;  // for the reply
-  SampleIdentity related;   // of the request that a reply answers
+  SampleIdentity identity;  // the identity for the reply
+  SampleIdentity related;   // the identity of the request to which a reply belongs
 };
 
 class Writer {
@@ -87,7 +88,7 @@ class Reader {
  public:
   virtual ~Reader() = default;
   virtual Guid guid() const = 0;
-  virtual int writers() const = 0;  // that match
+  virtual int writers() const = 0;  // The number of matching writers.
 };
 
 // An endpoint of another participant.
@@ -113,7 +114,7 @@ class Participant {
       const Topic& topic,
       std::function<void(std::span<const std::byte>, const Request&)> on_request) = 0;
   virtual Guid guid() const = 0;
-  // Those that are known now, in the order of their GUIDs.
+  // Returns the known endpoints, ordered by their GUIDs.
   virtual std::vector<Endpoint> endpoints() const = 0;
 };
 

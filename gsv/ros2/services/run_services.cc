@@ -133,7 +133,7 @@ interfaces::Result EnterState(Simulation& simulation, std::uint8_t state) {
 
 base::Status TakeSteps(Simulation& simulation, std::uint64_t steps,
                        const std::function<bool()>& stops) {
-  constexpr std::uint64_t kMaxSteps = 1'000'000'000;  // of Simulation::Step()
+  constexpr std::uint64_t kMaxSteps = 1'000'000'000;  // the maximum of Simulation::Step()
   const std::int64_t first = simulation.snapshot()->state.step;
   const auto count = static_cast<std::int64_t>(std::min(steps, kMaxSteps + 1));
   if (auto ok = simulation.Step(count); !ok) return ok;

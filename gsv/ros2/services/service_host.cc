@@ -121,7 +121,7 @@ class ServiceHost::Outbox {
   base::ConditionVariable changed_;
   std::deque<Unsent> unsent_ GSV_GUARDED_BY(mutex_);
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
-  std::thread thread_;  // after what it uses
+  std::thread thread_;  // declared last, because it uses the members above
 };
 
 void ServiceHost::Replier::Send(messages::Bytes response) const {

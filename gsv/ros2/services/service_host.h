@@ -54,7 +54,7 @@ class ServiceHost {
     friend class ServiceHost;
     std::weak_ptr<Service> service_;
     dds::Request request_;
-    std::vector<std::byte> header_;  // of rmw_cyclonedds
+    std::vector<std::byte> header_;  // the header that rmw_cyclonedds expects
   };
   using Handler = std::function<void(std::span<const std::byte> request, const Replier& reply)>;
 

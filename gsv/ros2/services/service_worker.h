@@ -22,7 +22,7 @@ class ServiceWorker {
   ServiceWorker(const ServiceWorker&) = delete;
   ServiceWorker& operator=(const ServiceWorker&) = delete;
 
-  // False when the job is refused.
+  // Returns false if the job is refused.
   bool Add(Job job) {
     {
       const base::MutexLock lock(mutex_);
@@ -65,7 +65,7 @@ class ServiceWorker {
   base::ConditionVariable changed_;
   std::deque<Job> jobs_ GSV_GUARDED_BY(mutex_);
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
-  std::thread thread_;  // after what it uses
+  std::thread thread_;  // declared last, because it uses the members above
 };
 
 }  // namespace gsv::ros2

@@ -10,7 +10,7 @@ namespace interfaces = messages::simulation_interfaces;
 using simulation::Simulation;
 using Lane = ServiceHost::Lane;
 
-constexpr int kMaxNumber = 10'000;  // of a name that is taken
+constexpr int kMaxNumber = 10'000;  // the maximum number that is appended to a name that is taken
 constexpr std::size_t kMaxName = 200;
 
 using SpawnResponse = interfaces::SpawnEntityResponse;

@@ -14,7 +14,7 @@
 namespace gsv::ros2 {
 
 struct SpawnRequest {
-  std::string uri;   // as Spawnable::uri, or the file of a model
+  std::string uri;   // in the form of Spawnable::uri, or the file of a model
   std::string name;  // empty: the model's name, numbered if taken
   geometry::Pose world_from_entity;
   bool on_ground = false;  // stands on the floor; the height is ignored

@@ -36,7 +36,7 @@ class StepAction {
   dds::Writer* status_ = nullptr;    // the same
   mutable base::Mutex mutex_;
   GoalList goals_ GSV_GUARDED_BY(mutex_);
-  std::map<GoalList::Id, Outcome> outcomes_ GSV_GUARDED_BY(mutex_);  // of finished goals
+  std::map<GoalList::Id, Outcome> outcomes_ GSV_GUARDED_BY(mutex_);  // outcomes of finished goals
   std::multimap<GoalList::Id, ServiceHost::Replier> waiting_ GSV_GUARDED_BY(mutex_);
 };
 

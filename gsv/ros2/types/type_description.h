@@ -17,8 +17,8 @@ namespace gsv::ros2 {
 // type_description_interfaces/msg/FieldType.
 struct FieldType {
   std::uint8_t id = 0;                // the kind of value, and 48, 96 or 144 above it for arrays
-  std::uint64_t capacity = 0;         // of a fixed array or a bounded sequence
-  std::uint64_t string_capacity = 0;  // of a bounded string
+  std::uint64_t capacity = 0;         // size of a fixed array or maximum of a bounded sequence
+  std::uint64_t string_capacity = 0;  // maximum length of a bounded string
   std::string nested_type;            // "geometry_msgs/msg/Vector3"
 };
 
@@ -33,7 +33,7 @@ using Fields = std::vector<FieldDescription>;
 struct TypeDescription {
   std::string name;  // "sensor_msgs/msg/LaserScan", "rcl_interfaces/srv/GetParameters"
   Fields fields;
-  std::map<std::string, Fields> referenced;  // by name
+  std::map<std::string, Fields> referenced;  // types by name
 };
 
 // Reads a schema in the encoding "ros2msg". Constants and default values are no part of a description.
