@@ -107,6 +107,12 @@ FittedDevice FitLidar(const Log& log, const std::vector<ScanPair>& pairs) {
         const double shorter = MixtureOf(some, true, kFitTolerance).shorter;
         return nearer > 0 ? std::min(1.0, shorter * beams / nearer) : 0;
       }));
+  // Short readings that the log does not determine to a half are left out; the default is none.
+  const std::size_t shared = device.parameters.size() - 2;
+  const bool is_known = std::all_of(
+      device.parameters.begin() + static_cast<std::ptrdiff_t>(shared), device.parameters.end(),
+      [](const FittedParameter& each) { return each.confidence < each.value / 2; });
+  if (!is_known) device.parameters.resize(shared);
   return device;
 }
 

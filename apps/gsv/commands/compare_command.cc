@@ -63,7 +63,15 @@ base::Result<Read> ReadAll(const CompareArguments& arguments) {
     read.options.start = {0, arguments.start[0], arguments.start[1], arguments.start[2]};
   }
   base::Problems problems;
-  auto log = reality::ReadLog(arguments.log, arguments.format, problems);
+  std::string format = arguments.format;
+  if (format.empty()) {
+    auto guessed = reality::GuessLogFormat(arguments.log);
+    if (!guessed) return base::Fail(guessed.error());
+    format = *std::move(guessed);
+    std::fprintf(stderr, "gsv: reading %s as %s; override with --as\n", arguments.log.c_str(),
+                 format.c_str());
+  }
+  auto log = reality::ReadLog(arguments.log, format, problems);
   if (log && !arguments.world.empty()) {
     const auto found = FindWorld(arguments.world);
     if (!found) return base::Fail(found.error());
@@ -153,8 +161,8 @@ std::shared_ptr<CompareArguments> AddOptions(CLI::App& command) {
       ->type_name("FILE");
   command
       .add_option("--as", arguments->format,
-                  fmt::format("format of the log: {}", fmt::join(reality::LogFormats(), ", ")))
-      ->required()
+                  fmt::format("format of the log: {} (default: guessed)",
+                              fmt::join(reality::LogFormats(), ", ")))
       ->type_name("FORMAT")
       ->check(CLI::IsMember(reality::LogFormats()));
   command

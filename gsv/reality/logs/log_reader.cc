@@ -1,6 +1,9 @@
 #include "gsv/reality/logs/log_reader.h"
 
 #include <algorithm>
+#include <array>
+#include <fstream>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -44,7 +47,41 @@ void StartAtZero(Log& log) {
   }
 }
 
+// By the first word of the first 64 lines that has one of the two formats' names; empty: by none.
+std::string FormatOfTextLog(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::array<char, 1 << 16> start{};
+  file.read(start.data(), start.size());
+  std::string_view text(start.data(), static_cast<std::size_t>(file.gcount()));
+  for (int line = 0; line < 64 && !text.empty(); ++line) {
+    const std::string_view word = text.substr(0, text.find_first_of(" \t\r\n"));
+    if (word == "L" || word == "O") return "robotdata";
+    for (const std::string_view known :
+         {"PARAM", "ODOM", "FLASER", "RLASER", "ROBOTLASER1", "RAWLASER1", "TRUEPOS"}) {
+      if (word == known) return "carmen";
+    }
+    const std::size_t end = text.find('\n');
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+  return {};
+}
+
 }  // namespace
+
+base::Result<std::string> GuessLogFormat(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  std::error_code error;
+  if (path.extension() == ".mcap" || std::filesystem::is_directory(path, error)) return "mcap";
+  if (name == "measurement.txt") return "sonar-ring";
+  if (name.ends_with("_scan.txt")) return "arena";
+  if (name.ends_with("_Odometry.dat")) return "mrclam";
+  if (name.ends_with("_Input.txt")) return "uwb";
+  if (std::string format = FormatOfTextLog(path); !format.empty()) return format;
+  return base::Fail(base::ErrorCode::kInvalidArgument,
+                    fmt::format("cannot guess the format of this log. Use --as with one of {}",
+                                fmt::join(LogFormats(), ", ")),
+                    path.string());
+}
 
 std::vector<std::string> LogFormats() {
   std::vector<std::string> names;

@@ -17,6 +17,10 @@ namespace gsv::reality {
 // In the order in which help lists them.
 std::vector<std::string> LogFormats();
 
+// The format of a log, by the name of its file and, for *.log, its first lines. kInvalidArgument if
+// they do not show it.
+base::Result<std::string> GuessLogFormat(const std::filesystem::path& path);
+
 // `path` is the file that the format names first; its companions are found beside it.
 base::Result<Log> ReadLog(const std::filesystem::path& path, const std::string& format,
                           base::Problems& problems);

@@ -51,6 +51,22 @@ TEST_F(LogReaderTest, ReadsTheOdometryOfACarmenLog) {
   EXPECT_THAT(problems_, IsEmpty());
 }
 
+TEST_F(LogReaderTest, GuessesTheFormatFromNameAndFirstLines) {
+  const auto guess = [](const std::filesystem::path& path) {
+    const auto format = GuessLogFormat(path);
+    return format ? *format : format.error().Sentence();
+  };
+  EXPECT_EQ(guess(folder_.Write("a.log", kOdometry)), "carmen");
+  EXPECT_EQ(guess(folder_.Write("b.log", "O 1 2 0.5 0.1\n")), "robotdata");
+  EXPECT_EQ(guess("Robot1_Odometry.dat"), "mrclam");
+  EXPECT_EQ(guess("r4_scan.txt"), "arena");
+  EXPECT_EQ(guess("Indoor_Input.txt"), "uwb");
+  EXPECT_EQ(guess("ring/measurement.txt"), "sonar-ring");
+  EXPECT_EQ(guess("run.mcap"), "mcap");
+  EXPECT_THAT(guess(folder_.Write("c.log", "hello\n")), HasSubstr("Use --as with one of"));
+  EXPECT_THAT(guess("/nowhere/d.log"), HasSubstr("Use --as"));
+}
+
 TEST_F(LogReaderTest, ReadsAScanOfACarmenLogFromRightToLeft) {
   const Log log =
       Read(folder_.Write("a.log", "FLASER 3 1.0 2.0 81.9 5 6 0.2 0 0 0 9 host 4\n"), "carmen");
