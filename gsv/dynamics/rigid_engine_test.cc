@@ -15,8 +15,8 @@ struct StepCount final : world::EngineState {
   const std::int64_t steps;
 };
 
-// Bodies fall without touching anything, but what is pushed slides at half the speed that the push
-// wants. It counts its steps, in the state.
+// An engine in which bodies fall without touching anything. A pushed body slides at half the speed
+// of the push. The state counts its steps.
 class FallingEngine final : public RigidEngine {
  public:
   base::Status SetLayout(std::shared_ptr<const world::Layout> layout) override {

@@ -129,7 +129,7 @@ class WorldEngine final : public Engine {
   }
 
   AttachedLayout attached_;
-  std::shared_ptr<const world::Layout> layout_;  // with what is attached
+  std::shared_ptr<const world::Layout> layout_;  // includes the attached bodies
   ActorMover actors_;
   Crowd crowd_;
   std::unique_ptr<PlanarMover> planar_;

@@ -234,7 +234,8 @@ double MassOf(const model::Model& model) {
   return mass;
 }
 
-// Links that the tree of URDF needs besides are merged with what is fixed to them, which has their names then.
+// Links that only URDF's tree needs are merged with the links that are fixed to them, and these
+// then have their names.
 TEST_F(UrdfRoundTripTest, KeepsMassAndJointsOfRealRobots) {
   if (RealFolder().empty()) GTEST_SKIP() << "GSV_REAL_DIR names no folder of real worlds";
   for (const char* name :

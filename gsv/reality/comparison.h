@@ -35,8 +35,8 @@ struct Comparison {
 
 struct CompareOptions {
   std::optional<model::WorldDescription> world;  // none: fitted to every other block of the log
-  // The world's walls are updated by the scans of every other block: doors that are open now, and
-  // what stands elsewhere.
+  // Whether the world's walls are updated by the scans of every other block. The update shows doors
+  // that are open and objects that have moved.
   bool update_world = false;
   std::string preset;            // the preset of the log's scanner or odometry
   model::Parameters parameters;  // win over the preset

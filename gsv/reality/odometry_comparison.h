@@ -1,4 +1,4 @@
-// How the odometry of a robot, or what it was commanded, stands to where it went.
+// Compares the odometry of a robot, or its commands, with its true motion.
 #pragma once
 
 #include <vector>

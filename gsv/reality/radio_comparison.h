@@ -21,7 +21,7 @@ struct RadioErrors {
 // The errors of one anchor ("to anchor 105"), or at some distances ("from 1 to 2 m").
 struct RadioGroup {
   std::string name;
-  std::vector<double> real, simulated;  // without what was not heard
+  std::vector<double> real, simulated;  // both without ranges that were not received
 };
 // Groups errors by anchor, then by metres of distance. Groups of less than 20 ranges are omitted.
 std::vector<RadioGroup> Grouped(const std::vector<RadioErrors>& errors);

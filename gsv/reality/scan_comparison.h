@@ -7,7 +7,8 @@
 
 namespace gsv::reality {
 
-// A real scan, what the simulated device read there, and what it would read without any error.
+// A real scan, the reading of the simulated device at the same place, and that of a device without
+// errors.
 struct ScanPair {
   TimedPose pose;
   std::vector<double> real, simulated, exact;  // m; infinite: no echo

@@ -1,5 +1,5 @@
-// Where the scans of a log were taken, in a world that is given or fitted, and what the simulated
-// device reads there.
+// Finds the poses of a log's scans in a given or fitted world, and the readings of the simulated
+// device there.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// A world fitted to a log's own readings, where nobody has a map of the place.
+// Fits a world to a log's own readings, if there is no map of the place.
 #pragma once
 
 #include "gsv/model/world_description.h"

@@ -33,7 +33,7 @@ class Source {
   virtual bool is_wanted() const = 0;
   // Publish() waits for something outside of its thread, such as a renderer.
   virtual bool takes_long() const { return false; }
-  // Encodes and sends what is listened to.
+  // Encodes and sends messages on topics that have subscriptions.
   virtual void Publish(const Moment& moment) = 0;
 
  private:

@@ -1,5 +1,5 @@
-// A layout with attachments, as engines compute with it: the shapes of what is held belong to the
-// link that holds it, and the held body itself is static and collides with nothing.
+// A layout with attachments, in the form that engines compute with. The shapes of an attached body
+// belong to the link that holds it. The attached body itself is static and collides with nothing.
 //
 // Determinism  the outcome depends on which attachments there are, not on the order in which they
 //              were made.

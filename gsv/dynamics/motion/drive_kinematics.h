@@ -36,8 +36,8 @@ class DriveKinematics {
   // A person's or a bodiless base: takes whatever velocity it is given.
   static DriveKinematics Free();
 
-  // Motion in the next step, from the motion now and the command (ignored once it is older than the
-  // drive's timeout; what is not finite counts as zero).
+  // Returns the motion in the next step from the present motion and the command. A command that is
+  // older than the drive's timeout is ignored, and non-finite values count as zero.
   world::DriveCommand Next(const world::DriveState& state, base::SimTime now,
                            double step_seconds) const;
 
@@ -54,7 +54,7 @@ class DriveKinematics {
   bool can_turn_on_the_spot() const {
     return drive_.kind != model::DriveKind::kAckermann && drive_.kind != model::DriveKind::kNone;
   }
-  // May slide along what it runs into.
+  // Whether the base may slide along an obstacle.
   bool can_move_sideways() const {
     return drive_.kind == model::DriveKind::kMecanum || drive_.kind == model::DriveKind::kVelocity;
   }

@@ -14,7 +14,7 @@
 
 namespace gsv::dynamics {
 
-// A body that a link of another body carries, as a gripper carries what it has grasped. Bodies are
+// A body that a link of another body carries, as a gripper carries a grasped body. Bodies are
 // indices in the layout.
 struct Attachment {
   int holder_body = 0;

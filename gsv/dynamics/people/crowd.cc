@@ -12,12 +12,12 @@ namespace {
 
 constexpr double kTurningTime = 0.3;   // s
 constexpr double kFastestTurn = 4;     // rad/s
-constexpr double kStandsStill = 0.05;  // m/s: who is slower keeps its heading
+constexpr double kStandsStill = 0.05;  // a slower pedestrian keeps its heading, m/s
 constexpr double kSameSide = 0.5;      // the cosine of 60 degrees
 constexpr double kRoundingOfCells = 1e-9;
 
-// The heights between which a body takes up room, over its origin's; only roughly for what is not
-// upright.
+// The interval of heights of a body above its origin. For a body that is not upright it is
+// approximate.
 double HeightOf(const model::Model& model) {
   double top = 0;
   for (const model::Link& link : model.links) {

@@ -37,7 +37,7 @@ class Repulsions {
     ++count_;
   }
 
-  // Adds what is not added yet.
+  // Adds the pairs that are not added yet.
   void Finish(std::span<geometry::Vector2> forces);
 
  private:

@@ -9,7 +9,7 @@
 //            diameter of an ellipse through the pedestrian, r = x - x_other, and s the other's
 //            velocity times dt, the length of a stride as it is seen ahead.
 //              V0 = 2.1 m²/s², sigma = 0.3 m, dt = 2 s
-// Sight      w is 1 for who is within 100 degrees of e, and 0.5 behind.
+// Sight      w is 1 for pedestrians within 100 degrees of e, and 0.5 for those behind.
 // Walls      f = (U0 / R) exp(-d / R) away from the wall's nearest point, d away.
 //              U0 = 10 m²/s², R = 0.2 m
 // Driving    tau = 0.5 s. The driving term is integrated exactly, the forces by Euler's method: a

@@ -1,4 +1,4 @@
-// Which movers may run into what stands still, and when they do.
+// Finds the static obstacles that movers may run into, and the times of the contacts.
 //
 // Clearance    of each mover it is remembered how much room there was around it when it was last
 //              looked at; while it keeps to that room nothing is searched. It only ever spares
@@ -27,7 +27,7 @@ class NearObstacles {
 
   // Starts a chunk's list; then its movers are to be added in ascending order.
   void Clear(std::size_t chunk);
-  // Adds what a mover at `at` may meet if no part of it moves further than `travel`.
+  // Adds the obstacles that a mover at `at` may touch if no part of it moves further than `travel`.
   void Find(std::size_t chunk, std::uint32_t mover, const geometry::PlanarPosition& at,
             double travel);
 
@@ -39,7 +39,7 @@ class NearObstacles {
 
   // Appends to `touching` who touched what when it was found.
   void AddTouching(std::vector<BodyPair>& touching) const;
-  // Offers the contacts of all movers at `positions` with what was found.
+  // Passes on the contacts of all movers at `positions` with the obstacles that were found.
   void Collect(std::span<const geometry::PlanarPosition> positions,
                ContactCollector& contacts) const;
 

@@ -1,4 +1,4 @@
-// Planar robots against the textbook. docs/fidelity.md lists what is expected.
+// Compares planar robots with textbook values. docs/fidelity.md lists the tolerances.
 
 #include <gtest/gtest.h>
 

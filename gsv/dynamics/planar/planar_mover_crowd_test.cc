@@ -1,4 +1,5 @@
-// Crowds: what many robots, several threads and what the mover remembers must not change.
+// Tests crowds. Many robots, several threads and the caches of the mover must not change the
+// result.
 
 #include <algorithm>
 

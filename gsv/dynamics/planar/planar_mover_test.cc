@@ -15,7 +15,7 @@ using testing::DiscRobot;
 using testing::TestWorld;
 
 using geometry::kPi;
-constexpr double kGap = 1e-6;  // between what touches
+constexpr double kGap = 1e-6;  // gap between bodies that touch
 
 TestWorld Empty() { return TestWorld(MakeWorldEngine()); }
 

@@ -22,8 +22,8 @@ class PlanarPushes {
   std::span<Push> Find(base::SimTime step, const world::State& before, const world::State& state,
                        const std::vector<world::Contact>& contacts);
 
-  // After the rigid bodies were moved: a robot that pushes continues as fast as what it pushes.
-  // The slowest of several that it pushes limits its speed.
+  // Call this after the rigid bodies were moved. A robot that pushes continues as fast as the
+  // pushed body. The slowest of several pushed bodies limits its speed.
   void LimitSpeeds(base::SimTime step, const world::State& before, world::State& state) const;
   // Sets the impulses of the contacts through which robots pushed.
   void SetImpulses(std::vector<world::Contact>& contacts) const;

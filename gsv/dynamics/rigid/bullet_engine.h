@@ -6,8 +6,8 @@
 //             until no velocity changes by more than 1e-7 m/s in an iteration, in 80 iterations at
 //             most. Islands of more than 20 rigid bodies get fewer: 1,600 over their number, but at
 //             least 25. Bodies rest 10 µm deep in each other.
-// At rest     what neither moves nor accelerates by more than 0.1 m/s² keeps its place to the bit.
-//             While all rest, a step costs next to nothing.
+// At rest     a body that neither moves nor accelerates by more than 0.1 m/s² keeps its pose
+//             bit-identical. While all bodies rest, a step takes almost no time.
 // Memory      8 MiB once there are rigid bodies.
 //
 // Threads     one thread at a time; the team helps to solve islands. The result does not depend on

@@ -1,5 +1,5 @@
-// Which algorithm finds the contacts of two shapes: Bullet's, but for two kinds of pairs. Private to
-// this folder: it includes Bullet.
+// Selects the algorithm that finds the contacts of two shapes: Bullet's, except for two kinds of
+// pairs. Private to this folder: it includes Bullet.
 //
 // Sphere    against any convex shape: one point. Bullet finds further points by turning a shape a
 //           little, which moves a sphere's only point.

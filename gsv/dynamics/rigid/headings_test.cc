@@ -1,5 +1,5 @@
-// Floors have no north: what comes of a command is the same for every heading, and what the command
-// or Coulomb's friction says.
+// The effect of a command must be the same for every heading, and must follow the command or
+// Coulomb's friction.
 #include <array>
 #include <cmath>
 #include <vector>
@@ -144,8 +144,8 @@ struct Case {
   double turned = 1;  // as a fraction of the commanded angle
 };
 
-// Coulomb's friction at four points of equal load, whose wheels turn as told: about the middle
-// each slips along and across, and the moments are in balance at B² / (B² + L²).
+// Coulomb's friction at four points of equal load, whose wheels turn as commanded. About the middle
+// each point slips along and across, and the moments are in balance at B² / (B² + L²).
 constexpr double kSkids = kTrack * kTrack / (kTrack * kTrack + kBase * kBase);
 
 std::vector<Case> Cases() {
@@ -171,7 +171,8 @@ std::vector<Case> Cases() {
   return cases;
 }
 
-// Along arcs, within the limits of acceleration, with what skids turning less than told.
+// Returns the motion along arcs, within the limits of acceleration. Skidding robots turn less than
+// commanded.
 Outcome Expected(const Case& c) {
   const double share = c.turned;
   Outcome outcome;

@@ -93,8 +93,8 @@ std::array<double, 2> ImpulseRows::MissingOf(const Cone& cone) const {
   return {a.target - VelocityOf(a), b.target - VelocityOf(b)};
 }
 
-// Friction x of a contact that slips is radius * e / |e|, where e is what is missing. Along e it
-// changes with the radius, and across e as e turns: Newton's method on both.
+// The friction x of a contact that slips is radius * e / |e|, where e is the missing velocity.
+// Along e it changes with the radius, and across e as e turns: Newton's method on both.
 void ImpulseRows::WriteSlip(const Cone& cone) {
   const std::size_t n = free_.size(), count = rows_.size();
   const auto first = static_cast<std::size_t>(place_[static_cast<std::size_t>(cone.first_row)]);

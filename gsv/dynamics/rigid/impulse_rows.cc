@@ -111,7 +111,7 @@ void ImpulseRows::Weigh(Row& row) const {
   row.mass_inverse = moved > kNothing ? moved + row.softness : 0;
 }
 
-// A joint's row asks for one velocity of its tree, and not at all for those of its other side.
+// A joint's row changes one velocity of its tree, and none of the other side's tree.
 void ImpulseRows::Trim() {
   for (Row& row : rows_) {
     for (Block& side : row.sides) {

@@ -15,12 +15,12 @@
 //           problems are accelerated as a nonsmooth nonlinear conjugate gradient: Silcowitz-Hansen
 //           and others, The Visual Computer 26 (2010). Masses of a thousand to one and long chains
 //           of joints would take Gauss-Seidel alone thousands of iterations.
-// Start     from no impulses: what moves along a surface slips, all other contacts stick and carry.
-//           Linear equations give the impulses of this guess.
+// Start     from zero impulses. A body that moves along a surface slips, and all other contacts
+//           stick and carry. Linear equations give the impulses of this guess.
 // Loads     where there are more rows than are needed (a base on two wheels and two casters), they
 //           share the load as equal springs would, up to kMaxDirect.
 // Threads   one thread at a time.
-// Determinism  Solve() is a function of what was added, in that order.
+// Determinism  Solve() is a function of the added rows and bodies, in their order.
 #pragma once
 
 #include <array>
@@ -52,7 +52,8 @@ class ImpulseRows {
   int AddBody(std::span<const double> velocities);
   std::span<const double> velocities(int first, int count) const;
 
-  // `impulse` is what has acted already: its effect is part of the velocities. Returns the row.
+  // Adds a row and returns its index. `impulse` has been applied already: its effect is part of the
+  // velocities.
   int AddRow(const Side& a, const Side& b, const Limits& limits, double impulse);
   // The row asks for this share of its target. Only before AddCone().
   void ScaleTarget(int row, double share) { At(row).target *= share; }
@@ -76,7 +77,7 @@ class ImpulseRows {
   std::array<double, 2> ConeImpulse(int cone) const;
 
  private:
-  // All lengths are multiples of four: what is beyond a body's degrees of freedom is zero.
+  // All lengths are multiples of four. Elements beyond a body's degrees of freedom are zero.
   struct Block {
     int first = 0, count = 0, start = 0;  // in velocities_; in jacobians_ and responses_
     int begin = 0, end = 0;               // range in which its jacobian is not zero, from `start`

@@ -45,7 +45,7 @@ ImpulseRows::Axes AxesOf(const btSolverConstraint& /*first*/,
                          const btSolverConstraint& /*second*/) {
   return kAsTheyAre;
 }
-// For contacts of trees Bullet takes axes of the world, whatever the point asks for.
+// For contacts of trees, Bullet uses axes of the world and ignores those of the point.
 ImpulseRows::Axes AxesOf(const btMultiBodySolverConstraint& first,
                          const btMultiBodySolverConstraint& second) {
   const auto& point = *static_cast<const btManifoldPoint*>(first.m_originalContactPoint);

@@ -1,5 +1,5 @@
-// One row of constraint on one joint of a tree: what moves, brakes, damps or limits it. Private to
-// this folder: it includes Bullet.
+// One constraint row on one joint of a tree. It moves, brakes, damps or limits the joint. Private
+// to this folder: it includes Bullet.
 #pragma once
 
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>

@@ -422,7 +422,7 @@ void JointTree::Immerse(double seconds) {
   }
 }
 
-// Bullet pulls at all parts.
+// Bullet applies gravity to all parts, so this cancels it for weightless ones.
 void JointTree::LiftWhatIsWeightless() {
   for (std::size_t i = 0; i < parts().size(); ++i) {
     const Part& part = parts()[i];

@@ -230,8 +230,8 @@ TEST(JointedBody, RobotTurnsByTheDifferenceOfItsWheels) {
   ASSERT_TRUE(world.Start());
   world.Command("robot", {0, 0, 1});
   world.Run(1.5, 0.01);
-  // Its tyres are 2 cm wide and scrub: where in that width they hold, 15 cm from the middle of the
-  // robot give or take one, nobody can tell.
+  // Its tyres are 2 cm wide and slip sideways. They may hold anywhere in that width, which is 14 to
+  // 16 cm from the middle of the robot.
   EXPECT_WITHIN_PERCENT(world.yaw("robot"), 1.5, 100 * (1 - 0.15 / 0.16));
   EXPECT_NEAR(world.position("robot").x, 0, 0.02);
   EXPECT_NEAR(world.position("robot").y, 0, 0.02);

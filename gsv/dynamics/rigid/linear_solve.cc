@@ -41,7 +41,7 @@ bool SolveLinear(std::span<double> a, std::span<double> b) {
     for (std::size_t row = column + 1; row < n; ++row) {
       const double factor = a[row * n + column] * inverse;
       if (factor == 0) continue;
-      // From the last multiple of four on: what is left of the column is not read again.
+      // Starts at the last multiple of four, because the rest of the column is not read again.
       double* const changed = a.data() + row * n;
       const double* const taken = a.data() + column * n;
       std::size_t k = (column + 1) / kFour * kFour;

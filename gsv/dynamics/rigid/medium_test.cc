@@ -42,7 +42,7 @@ TEST(VelocityDecay, ReducesTheVelocityInEachStepOfTheWorld) {
   }
 }
 
-// Terminal velocity: what gravity adds in a step is what the decay takes.
+// At the terminal velocity, gravity adds as much in a step as the decay removes.
 TEST(VelocityDecay, EndsAFallAtItsTerminalVelocity) {
   TestWorld world(MakeWorldEngine());
   auto model = Cube(2);
@@ -158,7 +158,8 @@ TEST(Buoyancy, BallFloatsAtTheDepthOfItsDensity) {
   EXPECT_NEAR(world.position("ball").z, 1, 2e-3);
 }
 
-// A log that floats upright falls over: the centre of what it displaces is below its own.
+// A log that floats upright falls over, because the centre of the displaced volume is below its own
+// centre.
 TEST(Buoyancy, RotatesALogOntoItsSide) {
   TestWorld world(MakeWorldEngine());
   world.description().fluid = model::Fluid{1000, {{0, 0}}, {}};

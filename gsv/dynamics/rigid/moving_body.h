@@ -17,7 +17,7 @@ class MovingBody {
 
   // Follows commands for the next substep.
   virtual void BeforeSubstep(double seconds) = 0;
-  // Applies what the explicit integration does not.
+  // Applies the effects that the explicit integration does not include.
   virtual void AfterSubstep(double seconds) = 0;
   // An upper bound of the speed of all points, in m/s.
   virtual double Speed() const = 0;

@@ -91,8 +91,8 @@ TEST(RigidProperty, BodiesNeverPenetrateTheGroundOrEachOther) {
 }
 
 TEST(RigidProperty, ResultDoesNotDependOnTheWorldsPosition) {
-  // By a power of two, so that the start is the same but for few bits; before chaos makes much of
-  // them.
+  // The distance is a power of two, so that the starts differ only in a few bits, before chaos
+  // amplifies them.
   TestWorld here = Heap(4), there = Heap(4, {128, -64, 0});
   here.Run(0.3, 0.01);
   there.Run(0.3, 0.01);

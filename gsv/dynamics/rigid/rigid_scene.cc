@@ -16,8 +16,8 @@ bool IsIdentity(const btTransform& transform) {
          (a[1] - b[1]).length() < kRounding && (a[2] - b[2]).length() < kRounding;
 }
 
-// Adds children to a compound and keeps count of what they are like. A solid of one child needs no
-// compound, which costs as much as its contacts.
+// Adds children to a compound and records their properties. A solid of one child needs no compound,
+// which costs as much as its contacts.
 class SolidBuilder {
  public:
   SolidBuilder(int body, btCompoundShape* compound) : compound_(compound) { solid_.body = body; }

@@ -21,7 +21,7 @@ constexpr double kPassable = 0.4;
 
 // (m/s)²: until no velocity changes by more in an iteration.
 constexpr double kConverged = 1e-14;
-// m: how deep bodies rest in each other, so that what touches goes on touching.
+// penetration of resting bodies, so that they stay in contact, m
 constexpr double kSlop = 1e-5;
 // m/s: what meets slower does not bounce.
 constexpr double kBounces = 0.05;

@@ -11,7 +11,7 @@
 namespace gsv::dynamics {
 namespace {
 
-// m/s: what a body of Bullet's does at a point at the end of a step, but for impulses.
+// The velocity of a rigid body of Bullet's at a point at the end of a step, without impulses, m/s.
 btVector3 VelocityOfPoint(const btRigidBody& body, const btVector3& arm, double seconds) {
   const btVector3 turning = body.getInvInertiaTensorWorld() * body.getTotalTorque() * seconds;
   return body.getVelocityInLocalPoint(arm) + turning.cross(arm) +

@@ -17,8 +17,8 @@ struct BodyPair {
 
 class ContactCollector {
  public:
-  // Fills `contacts`, which it clears; what is further apart than `gap` is no contact (below 0:
-  // what overlaps by less than -gap).
+  // Clears and fills `contacts`. Bodies further apart than `gap` have no contact. If `gap` is below
+  // 0, bodies that overlap by less than -gap have none.
   ContactCollector(std::vector<world::Contact>& contacts, double gap);
 
   // Where a piece of the first lies to a piece of the second. Of the pieces of one pair of bodies

@@ -33,7 +33,8 @@ void CompareVerticesWithEdges(std::span<const Vector2> vertices, std::span<const
     const Vector2 edge = polygon[k + 1 == polygon.size() ? 0 : k + 1] - from;
     const double squared_length = Dot(edge, edge);
     for (const Vector2 vertex : vertices) {
-      // Most are further from the edge's line than what was found is; this tells without dividing.
+      // Most vertices are further from the edge's line than the best distance so far. This test
+      // avoids the division for them.
       const double across = Cross(edge, vertex - from);
       if (across * across > kClearly * best.squared * squared_length) continue;
       const double along = Dot(vertex - from, edge);

@@ -34,8 +34,9 @@ struct Footprint {
 // `tilt` turns the model's frame into one whose z axis is up (normally the identity).
 Footprint MakeFootprint(const model::Model& model, const geometry::Quaternion& tilt);
 
-// How high an edge the model drives over: what is lower than this above its lowest point is ground
-// to it. Half a wheel's radius, between 1 and 5 cm, and at most half the model's height.
+// The height of an edge that the model can drive over. Anything lower than this above its lowest
+// point counts as ground. It is half a wheel's radius, between 1 and 5 cm, and at most half the
+// model's height.
 double ClimbHeight(const model::Model& model, const Footprint& footprint);
 
 }  // namespace gsv::dynamics

@@ -61,7 +61,7 @@ void ObstacleField::LayOutGrid() {
     right = std::max(right, o.centre.x + o.radius + margin_);
     top = std::max(top, o.centre.y + o.radius + margin_);
   }
-  // The outermost cells stay empty: they stand for all that lies beyond.
+  // The outermost cells stay empty. They represent everything outside the grid.
   double size = std::max(kSmallestCell, margin_);
   double entries = 0, cells = 0;
   do {

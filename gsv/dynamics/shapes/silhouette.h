@@ -1,4 +1,5 @@
-// Shapes seen from above: what a shape, or the part of it between two heights, covers of the plane.
+// Shapes seen from above: the area that a shape, or its part between two heights, covers in the
+// plane.
 //
 // Frames  `pose` takes the shape's frame to a frame whose z axis is up; silhouettes are in the xy
 //         plane of that frame.

@@ -111,7 +111,8 @@ TEST(Slice, OfAMeshIsOnePieceForEachTriangleBetweenTheHeights) {
   mesh->positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 2}, {5, 5, 3}, {6, 5, 3}, {5, 6, 3}};
   mesh->triangles = {{0, 1, 2}, {3, 4, 5}};
   const auto pieces = Sliced(geometry::Mesh{mesh, {1, 2, 1}}, {}, {1, 2.5});
-  // Of the upright triangle what is above z = 1: from x = 0 to 0.5. The lying one is too high.
+  // The part of the upright triangle above z = 1 is from x = 0 to 0.5. The horizontal triangle is
+  // too high.
   ASSERT_EQ(pieces.size(), 1u);
   EXPECT_EQ(pieces[0].vertex_count, 2);
   EXPECT_NEAR(ReachX(pieces[0]), 0.5, 1e-12);

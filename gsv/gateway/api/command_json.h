@@ -23,7 +23,7 @@ base::Result<simulation::Arguments> ParseArguments(const simulation::Command& co
 // not have is left out.
 std::string CommandsJson();
 
-// {"linear_m_s": v, "lateral_m_s": v, "angular_rad_s": w}; what is absent is 0.
+// Parses {"linear_m_s": v, "lateral_m_s": v, "angular_rad_s": w}. A missing value is 0.
 base::Result<world::DriveCommand> ParseDriveCommand(std::string_view body);
 
 // {"record": true or false}.

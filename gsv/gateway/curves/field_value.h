@@ -2,7 +2,7 @@
 // joined with dots, and at the end
 //   [I]            a number of a list that has at most eight
 //   [NAME]         a number that stands beside this one of the message's names (JointState)
-//   .min .max .mean   of a longer list, of what is finite
+//   .min .max .mean   of the finite values of a longer list
 //   .count [0]     of a list of things
 //   .roll .pitch .yaw   of a rotation, in radians
 //

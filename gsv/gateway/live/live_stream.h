@@ -45,7 +45,7 @@ class LiveStream {
   // See SensorTopics. From any thread.
   void WantSensorsOf(const std::string& robot) { sensors_->Want(robot); }
 
-  // Publishes what is due. Encodes subscribed topics only.
+  // Publishes the messages that are due. Encodes subscribed topics only.
   void Round(const std::shared_ptr<simulation::Simulation>& simulation, WallTime now);
 
  private:

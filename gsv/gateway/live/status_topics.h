@@ -18,7 +18,7 @@ class StatusTopics {
   // Advertises the topics.
   explicit StatusTopics(std::shared_ptr<Hub> hub);
 
-  // Publishes what is due, if there are subscribers.
+  // Publishes the messages that are due, if there are subscribers.
   void Publish(const simulation::Simulation& simulation, WallTime now);
 
  private:

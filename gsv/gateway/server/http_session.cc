@@ -334,7 +334,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     Drain();
   }
 
-  // Reads what the client still sends, so that closing does not discard the answer on its way.
+  // Reads the rest that the client sends, so that closing does not discard the answer on its way.
   void Drain() {
     is_idle_ = true;
     tcp().expires_after(kLeaveTime);

@@ -16,7 +16,7 @@ base::Result<std::string> WorldOfMap(const OccupancyMap& map, const std::string&
 struct SliceOptions {
   double resolution = 0.05;  // m
   double height = 0.2;       // m over the world's origin, where the world is cut
-  double margin = 0.5;       // m around what stands there
+  double margin = 0.5;       // margin around the bodies, m
 };
 
 // The world cut at a height, as a robot that maps it finds it: the surfaces of what stands there when
