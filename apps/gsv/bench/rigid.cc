@@ -43,8 +43,8 @@ base::Result<std::shared_ptr<simulation::Simulation>> RunRigid(const RigidArgume
   auto simulation = simulation::Simulation::Create(specification, sensors);
   if (!simulation) return simulation;
   if (auto ok = (*simulation)->Start(); !ok) return base::Fail(ok.error());
-  constexpr auto kPatience = std::chrono::hours(24);
-  if ((*simulation)->WaitForPhase({Phase::kFinished, Phase::kFailed}, kPatience) ==
+  constexpr auto kMaxRunTime = std::chrono::hours(24);
+  if ((*simulation)->WaitForPhase({Phase::kFinished, Phase::kFailed}, kMaxRunTime) ==
       Phase::kFailed) {
     return base::Fail(base::ErrorCode::kUnavailable, (*simulation)->status().failure, "rigid");
   }
