@@ -162,9 +162,9 @@ class Services(unittest.TestCase):
                            "--timeout", "60"]] * 2]
             clients = [subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)
                        for command in commands]
-            for client in clients:
-                output = client.communicate(timeout=100)[0]
-                self.assertEqual(json.loads(output), {"calls": 10000, "replies": 10000}, client.args[0])
+            outputs = [client.communicate(timeout=100)[0] for client in clients]
+        for output, client in zip(outputs, clients):
+            self.assertEqual(json.loads(output), {"calls": 10000, "replies": 10000}, client.args[0])
 
 
 if __name__ == "__main__":
