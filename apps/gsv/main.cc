@@ -139,7 +139,7 @@ std::string UsageSentence(const CLI::App* app, const CLI::Error& error) {
 void GroupCommands(CLI::App& app) {
   const std::pair<const char*, std::vector<const char*>> groups[]{
       {"Commands to run simulations", {"run", "serve", "view", "test", "campaign"}},
-      {"Commands for recordings", {"rec", "replay"}},
+      {"Commands for recordings", {"rec", "replay", "snapshot", "film"}},
       {"Commands for files", {"list", "world", "model"}},
       {"Commands for logs of real robots", {"compare", "fit"}},
       {"Commands for this machine", {"doctor", "completion", "bench", "certificates"}}};
@@ -181,6 +181,8 @@ int main(int argc, char** argv) {
   AddControlCommands(line);
   AddRecordingCommands(line);
   AddRecordCommands(line);
+  AddSnapshotCommand(line);
+  AddFilmCommand(line);
   AddCheckCommands(line);
   AddConvertCommand(line);
   AddDrawCommand(line);

@@ -53,6 +53,7 @@ class LocalGateway final : public Gateway, private Handler {
 
  private:
   void Handle(const Route& route, Request request, Respond respond) override {
+    if (route.later) return route.later(request, respond);
     WorkerPool& workers = route.pool == Pool::kReaders ? readers_ : commanders_;
     const bool is_accepted = workers.Submit(
         [&route, respond, request = std::move(request)] { respond(route.handler(request)); });

@@ -5,6 +5,7 @@
 #include "gsv/formats/gltf/gltf_writer.h"
 #include "gsv/gateway/access/viewers_api.h"
 #include "gsv/gateway/api/api.h"
+#include "gsv/gateway/drawing/view_routes.h"
 #include "gsv/gateway/http/openapi.h"
 #include "gsv/gateway/live/publisher.h"
 #include "gsv/gateway/recordings/recordings_api.h"
@@ -39,8 +40,11 @@ class LiveRoutes final : public RouteSet {
     std::vector<Route> routes = api_.Routes();
     Append(routes, viewers_.Routes());
     if (uploads_) Append(routes, uploads_->Routes());
-    if (recordings_) Append(routes, recordings_->Routes());
+    if (recordings_) Append(routes, recordings_->Routes(drawer_));
     Append(routes, more_routes_);
+    Append(routes, drawing::ViewRoutes("", drawer_, [this](const Request& request) {
+             return FindViewed(request);
+           }));
     routes.push_back(OpenApiRoute());
     routes.push_back(SocketRoute(
         "/ws", true, [this](const Request& request) { return FindHub(request); },
@@ -53,13 +57,14 @@ class LiveRoutes final : public RouteSet {
   }
 
   void Stop() override {
+    drawer_.Stop();
     publisher_.Stop();
     watchers_.Stop();
     if (recordings_) recordings_->sessions().Stop();
   }
 
  private:
-  base::Result<std::shared_ptr<Hub>> FindHub(const Request& request) {
+  base::Result<std::shared_ptr<simulation::Simulation>> FindSimulation(const Request& request) {
     const auto& query = request.target.query;
     const auto name = query.find("simulation");
     std::shared_ptr<simulation::Simulation> simulation;
@@ -68,11 +73,25 @@ class LiveRoutes final : public RouteSet {
     } else if (const auto all = directory_->List(); !all.empty()) {
       simulation = all.front();
     }
-    if (simulation) return publisher_.HubOf(simulation);
+    if (simulation) return simulation;
     return base::Fail(base::ErrorCode::kNotFound,
                       name != query.end()
                           ? "there is no simulation '" + name->second + "'"
                           : "there is no simulation yet; create one, then connect again");
+  }
+
+  base::Result<std::shared_ptr<Hub>> FindHub(const Request& request) {
+    const auto simulation = FindSimulation(request);
+    if (!simulation) return base::Fail(simulation.error());
+    return publisher_.HubOf(*simulation);
+  }
+
+  base::Result<drawing::ViewedWorld> FindViewed(const Request& request) {
+    const auto found = FindSimulation(request);
+    if (!found) return base::Fail(found.error());
+    return drawing::ViewedWorld{(*found)->status().name, *found, [simulation = *found] {
+                                  return drawing::MakeLiveSource(simulation);
+                                }};
   }
 
   const std::vector<Route> more_routes_;
@@ -83,6 +102,7 @@ class LiveRoutes final : public RouteSet {
   std::optional<uploads::UploadsApi> uploads_;
   WorkerPool watchers_{2, kWaitingReadings};
   Publisher publisher_;
+  drawing::ViewDrawer drawer_;
 };
 
 }  // namespace

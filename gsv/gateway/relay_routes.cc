@@ -74,6 +74,22 @@ class RelayRoutes final : public RouteSet {
         {"GET", "/replays/{session}/api/{path...}", kWatch, false, kReaders, forward},
         {"POST", "/replays/{session}/api/{path...}", kWatch, false, kCommanders, forward},
     };
+    for (const char* const image :
+         {"/view.jpg", "/view.png", "/replays/{session}/view.jpg", "/replays/{session}/view.png"}) {
+      routes.push_back({"GET", image, kWatch, false, kReaders,
+                        [this](const Request& request) { return ForwardImage(request); }});
+      routes.back().accepts_token_in_query = true;
+    }
+    for (const char* const stream : {"/view.mjpeg", "/replays/{session}/view.mjpeg"}) {
+      routes.push_back({"GET", stream, kWatch, false, kReaders, [this](const Request&) {
+                          return ErrorResponse(
+                              501,
+                              "a relay does not forward a stream of images; ask "
+                              "for view.jpg again and again, or open view.mjpeg at " +
+                                  address_.Url());
+                        }});
+      routes.back().accepts_token_in_query = true;
+    }
     for (Route& route : routes) {
       route.summary = "Forwarded";
       route.takes_file = route.pattern.starts_with("/api/uploads/");
@@ -91,6 +107,25 @@ class RelayRoutes final : public RouteSet {
   }
 
  private:
+  // Without the client's token, which is the relay's.
+  Response ForwardImage(const Request& request) {
+    Request forwarded = request;
+    forwarded.raw_target.clear();
+    for (const std::string& segment : request.target.segments) {
+      forwarded.raw_target += "/" + Escape(segment);
+    }
+    char separator = '?';
+    for (const auto& [name, value] : request.target.query) {
+      if (name == "token") continue;
+      forwarded.raw_target += separator + Escape(name) + "=" + Escape(value);
+      separator = '&';
+    }
+    base::Result<Response> answer = upstream::Fetch(address_, forwarded, kRequestTime);
+    if (!answer) return ErrorResponse(answer.error());
+    answer->allows_other_sites = true;
+    return *std::move(answer);
+  }
+
   // `socket`: path of the stream at the other instance.
   base::Result<std::shared_ptr<Hub>> FindHub(const Request& request, const std::string& socket) {
     const auto& query = request.target.query;

@@ -4,6 +4,7 @@
 
 #include "gsv/gateway/access/viewers_api.h"
 #include "gsv/gateway/api/replay_api.h"
+#include "gsv/gateway/drawing/view_routes.h"
 #include "gsv/gateway/http/openapi.h"
 #include "gsv/gateway/recordings/recordings_api.h"
 #include "gsv/gateway/route_set.h"
@@ -25,7 +26,10 @@ class ReplayRouteSet final : public RouteSet {
     std::vector<Route> routes =
         ReplayRoutes([replay = Replay{player, only_recording_}](const Request&) { return replay; });
     Append(routes, viewers_.Routes());
-    if (recordings_) Append(routes, recordings_->Routes());
+    if (recordings_) Append(routes, recordings_->Routes(drawer_));
+    Append(routes, drawing::ViewRoutes("", drawer_, [this](const Request& request) {
+             return FindViewed(request);
+           }));
     routes.push_back(OpenApiRoute());
     routes.push_back(SocketRoute(
         "/ws", true, [this](const Request& request) { return FindHub(request); },
@@ -38,24 +42,39 @@ class ReplayRouteSet final : public RouteSet {
   }
 
   void Stop() override {
+    drawer_.Stop();
     player_.Stop();
     if (recordings_) recordings_->sessions().Stop();
   }
 
  private:
   base::Result<std::shared_ptr<Hub>> FindHub(const Request& request) const {
+    if (auto ok = CheckName(request); !ok) return base::Fail(ok.error());
+    return player_.hub();
+  }
+
+  base::Result<drawing::ViewedWorld> FindViewed(const Request& request) const {
+    if (auto ok = CheckName(request); !ok) return base::Fail(ok.error());
+    return drawing::ViewedWorld{player_.name(), player_pointer_, [player = player_pointer_] {
+                                  return drawing::MakeReplaySource(player);
+                                }};
+  }
+
+  base::Status CheckName(const Request& request) const {
     const auto& query = request.target.query;
     const auto name = query.find("simulation");
-    if (name == query.end() || name->second == player_.name()) return player_.hub();
+    if (name == query.end() || name->second == player_.name()) return {};
     return base::Fail(base::ErrorCode::kNotFound, "there is no simulation '" + name->second +
                                                       "'; this is a replay of '" + player_.name() +
                                                       "'");
   }
 
   ReplayPlayer& player_;
+  const std::shared_ptr<ReplayPlayer> player_pointer_{&player_, [](ReplayPlayer*) {}};
   const std::string only_recording_;
   access::ViewersApi viewers_;
   std::optional<recordings::RecordingsApi> recordings_;
+  drawing::ViewDrawer drawer_;
 };
 
 }  // namespace

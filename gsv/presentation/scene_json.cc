@@ -67,6 +67,8 @@ Json LightJson(const model::Light& light) {
           {"colour", ColourJson(light.diffuse)},
           {"intensity", light.intensity},
           {"range_m", light.range},
+          {"attenuation",
+           {light.constant_attenuation, light.linear_attenuation, light.quadratic_attenuation}},
           {"inner_angle_rad", light.inner_angle},
           {"outer_angle_rad", light.outer_angle},
           {"cast_shadows", light.cast_shadows}};
@@ -92,6 +94,7 @@ Json SensorsJson(const SceneSource& source, const world::Body& body, sensing::Se
               {"type", type->name},
               {"overlay", OverlayName(type->overlay)},
               {"link", body.model->links[sensor.link].name},
+              {"pose", PoseJson(sensor.link_from_sensor)},
               {"topic", SensorTopic(body.name, sensor.name)}};
     // By the path of a field in the sensor's message; a path includes all fields below it.
     if (auto units = type->layout.Units(); !units.empty()) json["units"] = std::move(units);

@@ -26,6 +26,8 @@ void AddConvertCommand(const CommandLine& line);  // model convert; after AddChe
 void AddMapCommands(const CommandLine& line);  // world from-map, to-map; after AddCheckCommands()
 void AddRecordingCommands(const CommandLine& line);  // rec, replay
 void AddRecordCommands(const CommandLine& line);   // rec start, stop; after AddRecordingCommands()
+void AddSnapshotCommand(const CommandLine& line);
+void AddFilmCommand(const CommandLine& line);
 void AddCompareCommands(const CommandLine& line);  // compare, fit
 void AddControlCommands(const CommandLine& line);  // ps, and those on a simulation
 void AddBenchCommands(const CommandLine& line);    // bench

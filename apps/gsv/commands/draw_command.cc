@@ -13,13 +13,14 @@
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/running/image_file.h"
-#include "apps/gsv/scenes/framing.h"
+#include "apps/gsv/scenes/model_alone.h"
 #include "apps/gsv/scenes/moving_scene.h"
 #include "apps/gsv/serving/limit_option.h"
 #include "gsv/formats/sdf_reader.h"
 #include "gsv/geometry/box_corners.h"
 #include "gsv/rendering/renderer.h"
 #include "gsv/simulation/simulation.h"
+#include "gsv/view/framing.h"
 
 namespace gsv::app {
 namespace {
@@ -63,37 +64,6 @@ base::Result<std::shared_ptr<const world::Snapshot>> FirstInstant(
   return snapshot;
 }
 
-// Returns a view from the front, right and above, at the smallest distance that shows everything.
-rendering::CameraView ViewOfAll(const std::vector<Vector3>& corners, int width, int height) {
-  constexpr double kYaw = 0.75 * std::numbers::pi, kPitch = 0.6, kMargin = 1.05;
-  constexpr double kFieldOfView = 0.8;
-  constexpr double kMaxCoordinate = 1e6;  // the limit of a renderer, m
-  const geometry::Quaternion turn = geometry::FromRollPitchYaw({0, kPitch, kYaw});
-  const double across = std::tan(kFieldOfView / 2) / kMargin, up = across * height / width;
-  constexpr double kEndless = std::numeric_limits<double>::infinity();
-  Vector3 low{kEndless, kEndless, kEndless}, high{-kEndless, -kEndless, -kEndless};
-  std::vector<Vector3> turned;
-  for (const Vector3& corner : corners) {
-    const Vector3 p = geometry::Inverse(turn) * corner;
-    turned.push_back(p);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const Vector3 middle = (low + high) * 0.5;
-  double back = 0;  // distance from the centre
-  for (const Vector3& p : turned) {
-    const Vector3 q = p - middle;
-    back = std::max({back, std::abs(q.y) / across - q.x, std::abs(q.z) / up - q.x});
-  }
-  rendering::CameraParameters camera;
-  camera.width = width;
-  camera.height = height;
-  camera.horizontal_fov = kFieldOfView;
-  camera.far = std::min(10 * back + 10, kMaxCoordinate);
-  camera.near = std::clamp(1e-2 * back, 1e-3, camera.far / 10);
-  return {{turn * (middle - Vector3{back, 0, 0}), turn}, camera};
-}
-
 int Run(const DrawArguments& arguments) {
   const auto file = FindWorld(arguments.file);
   if (!file) return Complain(file.error());
@@ -117,8 +87,9 @@ int Run(const DrawArguments& arguments) {
   const auto& snapshot = *first;
   auto renderer = rendering::Renderer::Start();
   if (!renderer) return Complain(renderer.error());
-  const auto view = ViewOfAll(CornersToShow(*snapshot), arguments.width, arguments.height);
-  const auto image = (*renderer)->Draw(snapshot, view, std::chrono::minutes(1));
+  const rendering::CameraView overview =
+      view::ViewOfAll(view::CornersToShow(*snapshot), arguments.width, arguments.height);
+  const auto image = (*renderer)->Draw(snapshot, overview, std::chrono::minutes(1));
   if (!image) return Complain(image.error());
   if (auto written = WriteImage(**image, arguments.image); !written) {
     return Complain(written.error());

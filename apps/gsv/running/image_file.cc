@@ -1,5 +1,7 @@
 #include "apps/gsv/running/image_file.h"
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 
 #include "gsv/rendering/images/jpeg.h"
@@ -22,12 +24,16 @@ base::Status WriteImage(const model::Image& image, const std::string& path) {
   const auto bytes =
       EndsAsPng(path) ? rendering::EncodePng(image) : rendering::EncodeJpeg(image, 88);
   if (!bytes) return base::Fail(bytes.error());
+  return WriteImageFile({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path);
+}
+
+base::Status WriteImageFile(std::string_view bytes, const std::string& path) {
+  errno = 0;
   std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes->data()),
-             static_cast<std::streamsize>(bytes->size()));
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (file.flush()) return {};
   return base::Fail(base::ErrorCode::kUnavailable,
-                    "cannot be written; choose a file in an existing folder", path);
+                    "cannot be written: " + std::string(std::strerror(errno)), path);
 }
 
 base::Status DrawAround(const std::shared_ptr<const world::Snapshot>& snapshot,

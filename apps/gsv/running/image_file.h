@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "gsv/base/error.h"
 #include "gsv/model/image.h"
@@ -13,6 +14,8 @@ namespace gsv::app {
 std::string CheckImageName(const std::string& path);
 
 base::Status WriteImage(const model::Image& image, const std::string& path);
+// Writes an encoded image.
+base::Status WriteImageFile(std::string_view bytes, const std::string& path);
 
 // Renders a body and its environment, from behind and above.
 base::Status DrawAround(const std::shared_ptr<const world::Snapshot>& snapshot,

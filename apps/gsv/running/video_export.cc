@@ -1,19 +1,13 @@
 #include "apps/gsv/running/video_export.h"
 
-#include <cerrno>
-#include <csignal>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
+#include "apps/gsv/running/ffmpeg.h"
 #include "gsv/messages/sensor_msgs.h"
 
 namespace gsv::app {
@@ -25,72 +19,6 @@ using messages::sensor_msgs::CompressedImage;
 
 // Limits the video of a recording with wrong time stamps.
 constexpr std::uint64_t kMaxFrames = 10'000'000;
-
-// Runs ffmpeg, which reads images from its standard input.
-class Encoder {
- public:
-  static base::Result<std::unique_ptr<Encoder>> Start(const VideoOptions& options,
-                                                      const std::string& format) {
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) return Fail(ErrorCode::kUnavailable, "cannot make a pipe");
-    std::vector<std::string> arguments{
-        options.ffmpeg, "-hide_banner", "-loglevel", "error", "-n", "-f", "image2pipe",
-        "-framerate", fmt::format("{}", options.frames_a_second), "-c:v",
-        format == "png" ? "png" : "mjpeg", "-i", "-",
-        // Most players require even side lengths and this pixel format.
-        "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", options.output};
-    std::vector<char*> pointers;
-    pointers.reserve(arguments.size() + 1);
-    for (std::string& argument : arguments) pointers.push_back(argument.data());
-    pointers.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
-    pid_t pid = -1;
-    const int failure =
-        posix_spawnp(&pid, options.ffmpeg.c_str(), &actions, nullptr, pointers.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    close(ends[0]);
-    if (failure != 0) {
-      close(ends[1]);
-      return Fail(ErrorCode::kUnavailable,
-                  "cannot make a video: ffmpeg is not installed. Install it (apt-get install "
-                  "ffmpeg), or export the images without --video");
-    }
-    return std::unique_ptr<Encoder>(new Encoder(pid, ends[1]));
-  }
-
-  ~Encoder() { (void)Finish(); }
-  Encoder(const Encoder&) = delete;
-  Encoder& operator=(const Encoder&) = delete;
-
-  // Returns false if ffmpeg accepts no more images.
-  bool Write(const std::vector<std::uint8_t>& bytes) {
-    for (std::size_t done = 0; done < bytes.size();) {
-      const ssize_t size = write(input_, bytes.data() + done, bytes.size() - done);
-      if (size < 0 && errno == EINTR) continue;
-      if (size < 0) return false;
-      done += static_cast<std::size_t>(size);
-    }
-    return true;
-  }
-
-  // Waits until the video is written. Returns whether that succeeded.
-  bool Finish() {
-    if (input_ >= 0) close(std::exchange(input_, -1));
-    if (pid_ >= 0) waitpid(std::exchange(pid_, -1), &status_, 0);
-    return WIFEXITED(status_) && WEXITSTATUS(status_) == 0;
-  }
-
- private:
-  Encoder(pid_t pid, int input) : pid_(pid), input_(input) {
-    std::signal(SIGPIPE, SIG_IGN);  // the end of ffmpeg appears as an error of write()
-  }
-
-  pid_t pid_;
-  int input_;
-  int status_ = -1;
-};
 
 class Exporter {
  public:
@@ -122,7 +50,11 @@ class Exporter {
   base::Status Take(base::SimTime time, const CompressedImage& image) {
     if (image.data.empty()) return {};
     if (!encoder_) {
-      auto encoder = Encoder::Start(options_, image.format);
+      auto encoder = Ffmpeg::Start(
+          options_.ffmpeg,
+          {"-f", "image2pipe", "-framerate", fmt::format("{}", options_.frames_a_second), "-c:v",
+           image.format == "png" ? "png" : "mjpeg"},
+          {}, options_.output, "export the images without --video");
       if (!encoder) return Fail(encoder.error());
       encoder_ = *std::move(encoder);
       start_ = time;
@@ -155,7 +87,7 @@ class Exporter {
   const recording::McapReader& reader_;
   const recording::Selection& selection_;
   const VideoOptions& options_;
-  std::unique_ptr<Encoder> encoder_;
+  std::unique_ptr<Ffmpeg> encoder_;
   base::SimTime start_{};
   std::string format_;
   std::vector<std::uint8_t> shown_;  // the image of the next frame

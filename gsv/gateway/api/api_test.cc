@@ -247,7 +247,7 @@ TEST_F(ApiTest, TheSceneDescribesAllBodies) {
   EXPECT_EQ(robot["links"], json::parse(R"(["base","left_wheel","right_wheel"])"));
   EXPECT_EQ(robot["sensors"][0],
             json::parse(R"({"name":"front_sonar","type":"sonar","overlay":"lines","link":"base",
-                            "topic":"/robot_0/front_sonar","units":{"range":"m"}})"));
+                            "pose":[0.25,0,0.2,0,0,0,1],"topic":"/robot_0/front_sonar","units":{"range":"m"}})"));
   EXPECT_EQ(robot["sensors"][3]["overlay"], "picture");
   EXPECT_EQ(scene["poses"].size(), 9u);
   EXPECT_EQ(scene["poses"][3], json::parse(R"({"body":6,"link":null})"));

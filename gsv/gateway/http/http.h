@@ -3,11 +3,15 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "gsv/base/error.h"
 #include "gsv/gateway/foxglove/shared_bytes.h"
+#include "gsv/gateway/http/body_stream.h"
 #include "gsv/gateway/http/target.h"
 
 namespace gsv::gateway {
@@ -37,6 +41,11 @@ struct Response {
   std::string allow;  // 405: the methods that are allowed
   // Whether pages of this server may show the response in a frame. Other pages never may.
   bool allows_own_frames = false;
+  // Whether pages of other sites may embed the response, as an image.
+  bool allows_other_sites = false;
+  std::vector<std::pair<std::string, std::string>> headers{};  // further ones
+  // Follows the header instead of `body`, and ends the connection; null: none.
+  std::shared_ptr<BodyStream> stream{};
 };
 
 // May be called from any thread, exactly once.

@@ -42,6 +42,10 @@ struct Route {
   bool takes_file = false;
   // The hub of WebSockets at this address; null: no WebSockets.
   FindHub find_hub{};
+  // Answers later, instead of `handler`: called on the server's thread, and must return at once.
+  std::function<void(const Request&, const Respond&)> later{};
+  // Whether the query may have the token, as for a WebSocket: an image in a page has no headers.
+  bool accepts_token_in_query = false;
 };
 
 // A route for WebSockets. Plain requests are answered with 426.

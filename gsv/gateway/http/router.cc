@@ -78,7 +78,7 @@ Router::Router(std::vector<Route> routes)
 Router::~Router() = default;
 
 void Router::Add(const Route& route) {
-  GSV_CHECK(route.handler != nullptr);
+  GSV_CHECK(route.handler != nullptr || route.later != nullptr);
   Node* node = root_.get();
   bool names_simulation = false, has_ended = false;
   for (const std::string_view segment : SegmentsOf(route.pattern)) {

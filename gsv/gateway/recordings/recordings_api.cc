@@ -56,7 +56,7 @@ RecordingsJson LineJson(const RecordingLine& line) {
 
 }  // namespace
 
-std::vector<Route> RecordingsApi::Routes() {
+std::vector<Route> RecordingsApi::Routes(drawing::ViewDrawer& drawer) {
   using enum Permission;
   using enum Pool;
   std::vector<Route> routes{
@@ -67,6 +67,9 @@ std::vector<Route> RecordingsApi::Routes() {
        "Open a recording as your own replay"},
   };
   Append(routes, sessions_.Routes());
+  Append(routes, drawing::ViewRoutes("/replays/{session}", drawer, [this](const Request& request) {
+           return sessions_.FindViewed(request.Parameter("session"));
+         }));
   return routes;
 }
 

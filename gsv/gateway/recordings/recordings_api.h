@@ -17,8 +17,9 @@ class RecordingsApi {
                          const SessionLimits& limits = {})
       : folder_(std::move(folder), std::move(only)), sessions_(limits) {}
 
-  // Includes the routes of the sessions. The handlers are valid during the lifetime of this object.
-  std::vector<Route> Routes();
+  // Includes the routes of the sessions, whose images `drawer` draws. The handlers are valid during
+  // the lifetime of this object and of the drawer.
+  std::vector<Route> Routes(drawing::ViewDrawer& drawer);
 
   ReplaySessions& sessions() { return sessions_; }
   const RecordingFolder& folder() const { return folder_; }

@@ -43,6 +43,14 @@ std::map<std::string, ReplaySessions::Entry> ReplaySessions::TakeUnwatched() {
   return unwatched;
 }
 
+base::Result<drawing::ViewedWorld> ReplaySessions::FindViewed(const std::string& name) {
+  const auto replay = Find(name);
+  if (!replay) return base::Fail(replay.error());
+  return drawing::ViewedWorld{"replays/" + name, replay->player, [player = replay->player] {
+                                return drawing::MakeReplaySource(player);
+                              }};
+}
+
 base::Result<Replay> ReplaySessions::Find(const std::string& name) {
   const base::MutexLock lock(mutex_);
   const auto found = sessions_.find(name);

@@ -14,6 +14,7 @@
 
 #include "gsv/base/mutex.h"
 #include "gsv/gateway/api/replay_api.h"
+#include "gsv/gateway/drawing/view_routes.h"
 #include "gsv/gateway/replay/replay_player.h"
 
 namespace gsv::gateway::recordings {
@@ -37,6 +38,8 @@ class ReplaySessions {
   std::vector<Route> Routes();
   // The hub of a session. Its users keep the session.
   base::Result<std::shared_ptr<Hub>> FindHub(const std::string& name);
+  // The world that the images of a session show.
+  base::Result<drawing::ViewedWorld> FindViewed(const std::string& name);
 
   // Ends all sessions and refuses further ones.
   void Stop();

@@ -33,6 +33,7 @@ class ReplayPlayer {
   const std::string& name() const { return name_; }  // The name of the recorded simulation.
   const std::shared_ptr<Hub>& hub() const { return stream_.hub(); }
   const RecordedScene& scene() const { return scene_; }
+  const recording::McapReader& reader() const { return *reader_; }
   const RecordedTimeline& timeline() const { return timeline_; }
   // Curves over the whole recording.
   curves::RecordedCurves& curves() { return curves_; }
@@ -42,6 +43,8 @@ class ReplayPlayer {
   // The status as of a simulation, at the replay's position.
   simulation::SimulationStatus status() const;
   base::Result<SharedBytes> SceneNow() const;
+  // The recorded poses at the replay's position; empty: none yet.
+  messages::gsv_msgs::Poses poses() const { return stream_.recorded_poses(); }
   ReplayClock clock() const;
 
   base::Status Start();

@@ -173,11 +173,12 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     return is_head_ ? std::string_view("GET") : View(parser_->get().method_string());
   }
 
-  // A parameter of a WebSocket's query: a page cannot set its headers.
+  // A parameter of the query of a WebSocket or an image: a page cannot set their headers.
   std::string SocketQuery(const std::string& name) const {
-    const bool is_socket = match_.route != nullptr && match_.route->find_hub != nullptr;
+    const bool is_read = match_.route != nullptr && (match_.route->find_hub != nullptr ||
+                                                     match_.route->accepts_token_in_query);
     const auto found = target_->query.find(name);
-    return is_socket && found != target_->query.end() ? found->second : std::string();
+    return is_read && found != target_->query.end() ? found->second : std::string();
   }
 
   std::string ViewerKey() const {
@@ -277,10 +278,12 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
 
   void Write(Response response) {
     ++context_->traffic->answers.at(static_cast<std::size_t>(response.status / 100));
-    keep_alive_ = keep_alive_ && !context_->stopping;
-    if (is_head_ || response.status == 304) {
+    keep_alive_ = keep_alive_ && !context_->stopping && !response.stream;
+    if (response.stream && !is_head_) return WriteStream(response);
+    if (is_head_ || response.status == 304 || response.status == 204) {
       http::response<http::empty_body> message = Header<http::empty_body>(response);
-      if (response.status != 304) message.content_length(response.body.size());
+      const bool has_length = response.status != 304 && response.status != 204 && !response.stream;
+      if (has_length) message.content_length(response.body.size());
       return Send(std::move(message), {});
     }
     http::response<SpanBody> message = Header<SpanBody>(response);
@@ -303,7 +306,9 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     message.set("X-Content-Type-Options", "nosniff");
     message.set("Content-Security-Policy",
                 response.allows_own_frames ? "frame-ancestors 'self'" : "frame-ancestors 'none'");
-    message.set("Cross-Origin-Resource-Policy", "same-origin");
+    message.set("Cross-Origin-Resource-Policy",
+                response.allows_other_sites ? "cross-origin" : "same-origin");
+    for (const auto& [name, value] : response.headers) message.set(name, value);
     message.keep_alive(keep_alive_);
     return message;
   }
@@ -318,6 +323,43 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
         [self = shared_from_this(), message, bytes](error_code error, std::size_t length) {
           self->context_->traffic->sent_bytes += length;
           self->OnWritten(error);
+        });
+  }
+
+  // Sends the header, then the parts of the stream.
+  void WriteStream(const Response& response) {
+    struct Message {
+      explicit Message(http::response<http::empty_body> made) : header(std::move(made)) {}
+      http::response<http::empty_body> header;
+      http::response_serializer<http::empty_body> serializer{header};
+    };
+    auto message = std::make_shared<Message>(Header<http::empty_body>(response));
+    tcp().expires_after(limits().request_time);
+    http::async_write_header(stream_, message->serializer,
+                             [self = shared_from_this(), message, parts = response.stream](
+                                 error_code error, std::size_t) {
+                               if (!error) self->WriteNextPart(parts);
+                             });
+  }
+
+  void WriteNextPart(const std::shared_ptr<BodyStream>& parts) {
+    if (context_->stopping) return OnWritten({});
+    tcp().expires_never();  // the stream has its own limits
+    parts->Next([self = shared_from_this(), parts](std::optional<SharedBytes> part) {
+      boost::asio::post(self->stream_.get_executor(), [self, parts, part = std::move(part)] {
+        if (!part) return self->OnWritten({});
+        self->WritePart(parts, *part);
+      });
+    });
+  }
+
+  void WritePart(const std::shared_ptr<BodyStream>& parts, const SharedBytes& part) {
+    tcp().expires_after(limits().request_time);
+    boost::asio::async_write(
+        stream_, boost::asio::buffer(part.data(), part.size()),
+        [self = shared_from_this(), parts, part](error_code error, std::size_t length) {
+          self->context_->traffic->sent_bytes += length;
+          if (!error) self->WriteNextPart(parts);
         });
   }
 

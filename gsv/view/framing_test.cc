@@ -1,8 +1,8 @@
-#include "apps/gsv/scenes/framing.h"
+#include "gsv/view/framing.h"
 
 #include <gtest/gtest.h>
 
-namespace gsv::app {
+namespace gsv::view {
 namespace {
 
 using geometry::Vector3;
@@ -69,18 +69,17 @@ TEST(Framing, ShowsGroundThatIsAsLargeAsTheBodiesOnIt) {
   EXPECT_EQ(Shown({BoxAt("ground", {100, 100, 0.1}, {0, 0, -0.05})}).max.x, 50);
 }
 
-TEST(Framing, PlacesAModelOnTheGroundForAnyOrigin) {
-  model::WorldDescription world;
-  world.name = "walker";
-  const world::Body body = BoxAt("walker", {0.4, 0.4, 1.6}, {});
-  world.models.push_back({"ground_plane", BoxAt("ground_plane", {1, 1, 1}, {}).model, {}, true});
-  world.models.push_back({"walker", body.model, {{0, 0, 0.3}, {}}, false});
-  ASSERT_TRUE(IsModelAlone(world));
-  StandModelOnGround(world);
-  EXPECT_DOUBLE_EQ(world.models.back().world_from_model.position.z, 0.8);
-  world.name = "hall";
-  EXPECT_FALSE(IsModelAlone(world));
+TEST(Framing, TheOverviewProjectsAllCornersIntoTheImage) {
+  const std::vector<Vector3> corners{{-30, -0.5, 0}, {2.5, 4, 1}, {0, 0, 7}};
+  const rendering::CameraView all = ViewOfAll(corners, 640, 480);
+  const double focal = rendering::FocalLength(all.parameters);
+  for (const Vector3& corner : corners) {
+    const Vector3 p = geometry::Inverse(all.world_from_camera) * corner;
+    EXPECT_GT(p.x, all.parameters.near);
+    EXPECT_LE(std::abs(focal * p.y / p.x), 320);
+    EXPECT_LE(std::abs(focal * p.z / p.x), 240);
+  }
 }
 
 }  // namespace
-}  // namespace gsv::app
+}  // namespace gsv::view

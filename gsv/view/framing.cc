@@ -1,13 +1,14 @@
-#include "apps/gsv/scenes/framing.h"
+#include "gsv/view/framing.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "gsv/geometry/box_corners.h"
 
-namespace gsv::app {
+namespace gsv::view {
 namespace {
 
 using geometry::Bounds;
@@ -128,21 +129,6 @@ std::vector<const Seen*> WhatStands(const std::vector<SeenBody>& bodies) {
   return standing.empty() || !is_ground_large ? all : standing;
 }
 
-// Returns the height of the lowest visible point in the model's frame, with all joints at zero.
-double LowestToSee(const model::Model& model) {
-  double lowest = kBoundless;
-  for (const model::Link& link : model.links) {
-    for (const model::Visual& visual : link.visuals) {
-      if (std::holds_alternative<geometry::Plane>(visual.shape)) continue;
-      const Pose model_from_visual = link.model_from_link * visual.link_from_visual;
-      for (const Vector3& corner : geometry::CornersOf(geometry::BoundsOf(visual.shape))) {
-        lowest = std::min(lowest, (model_from_visual * corner).z);
-      }
-    }
-  }
-  return lowest;
-}
-
 }  // namespace
 
 std::vector<Vector3> CornersToShow(const world::Snapshot& snapshot) {
@@ -161,15 +147,34 @@ std::vector<Vector3> CornersToShow(const world::Snapshot& snapshot) {
   return corners;
 }
 
-bool IsModelAlone(const model::WorldDescription& world) {
-  return !world.models.empty() && world.models.size() <= 2 &&
-         world.models.back().model->name == world.name;
+rendering::CameraView ViewOfAll(const std::vector<Vector3>& corners, int width, int height) {
+  constexpr double kYaw = 0.75 * std::numbers::pi, kPitch = 0.6, kMargin = 1.05;
+  constexpr double kFieldOfView = 0.8;
+  constexpr double kMaxCoordinate = 1e6;  // m: limit of a renderer
+  const geometry::Quaternion turn = geometry::FromRollPitchYaw({0, kPitch, kYaw});
+  const double across = std::tan(kFieldOfView / 2) / kMargin, up = across * height / width;
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  Vector3 low{kEndless, kEndless, kEndless}, high{-kEndless, -kEndless, -kEndless};
+  std::vector<Vector3> turned;
+  for (const Vector3& corner : corners) {
+    const Vector3 p = geometry::Inverse(turn) * corner;
+    turned.push_back(p);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const Vector3 middle = (low + high) * 0.5;
+  double back = 0;  // distance from the centre
+  for (const Vector3& p : turned) {
+    const Vector3 q = p - middle;
+    back = std::max({back, std::abs(q.y) / across - q.x, std::abs(q.z) / up - q.x});
+  }
+  rendering::CameraParameters camera;
+  camera.width = width;
+  camera.height = height;
+  camera.horizontal_fov = kFieldOfView;
+  camera.far = std::min(10 * back + 10, kMaxCoordinate);
+  camera.near = std::clamp(1e-2 * back, 1e-3, camera.far / 10);
+  return {{turn * (middle - Vector3{back, 0, 0}), turn}, camera};
 }
 
-void StandModelOnGround(model::WorldDescription& world) {
-  model::PlacedModel& placed = world.models.back();
-  const double lowest = LowestToSee(*placed.model);
-  if (std::isfinite(lowest)) placed.world_from_model.position.z = -lowest;
-}
-
-}  // namespace gsv::app
+}  // namespace gsv::view

@@ -1,0 +1,60 @@
+#include "apps/gsv/commands/camera_options.h"
+
+#include <string>
+
+namespace gsv::app {
+namespace {
+
+// Throws the sentence of an error, so that CLI11 prints it with the option's name.
+template <typename T>
+T OrComplain(base::Result<T> result, const char* option) {
+  if (!result) throw CLI::ValidationError(option, result.error().Sentence());
+  return *std::move(result);
+}
+
+}  // namespace
+
+void AddCameraOptions(CLI::App& command, view::Camera& camera) {
+  command
+      .add_option_function<std::string>(
+          "--size",
+          [&camera](const std::string& text) {
+            if (auto set = view::SetSize(text, camera); !set) {
+              throw CLI::ValidationError("--size", set.error().Sentence());
+            }
+          },
+          "size of the image in pixels (default: 1280x720)")
+      ->type_name("WIDTHxHEIGHT");
+  command
+      .add_option_function<std::string>(
+          "--eye",
+          [&camera](const std::string& text) {
+            camera.eye = OrComplain(view::ParsePoint(text, "the eye"), "--eye");
+          },
+          "position of the camera in metres; with --follow, in the robot's frame")
+      ->type_name("X,Y,Z");
+  command
+      .add_option_function<std::string>(
+          "--target",
+          [&camera](const std::string& text) {
+            camera.target = OrComplain(view::ParsePoint(text, "the target"), "--target");
+          },
+          "point in the middle of the image, in metres (default: the whole world is shown)")
+      ->type_name("X,Y,Z");
+  command.add_option("--follow", camera.follow, "robot that the camera follows")
+      ->type_name("ROBOT");
+  command
+      .add_option("--camera", camera.sensor,
+                  "camera of a robot, whose view the image shows, without noise and distortion")
+      ->type_name("ROBOT/CAMERA");
+  command
+      .add_option_function<std::string>(
+          "--fov",
+          [&camera](const std::string& text) {
+            camera.field_of_view = OrComplain(view::ParseFieldOfView(text), "--fov");
+          },
+          "vertical field of view (default: 45)")
+      ->type_name("DEGREES");
+}
+
+}  // namespace gsv::app

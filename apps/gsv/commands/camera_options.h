@@ -1,0 +1,14 @@
+// The options by which commands place the camera of an image.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "gsv/view/camera.h"
+
+namespace gsv::app {
+
+// Adds --size, --eye, --target, --follow, --camera and --fov. `camera` must outlive the command
+// line.
+void AddCameraOptions(CLI::App& command, view::Camera& camera);
+
+}  // namespace gsv::app

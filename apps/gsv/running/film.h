@@ -1,0 +1,40 @@
+// Writes frames to a film: a video (.webm, .mp4) by ffmpeg, an animated PNG (.apng), or a new
+// folder of PNG files.
+//
+// Errors   kInvalidArgument for a name of another kind, or if it exists already; kUnavailable with
+//          the reason if it cannot be written, or if a video needs ffmpeg and there is none. An
+//          unfinished film is removed.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "gsv/base/error.h"
+#include "gsv/model/image.h"
+
+namespace gsv::app {
+
+struct FilmOptions {
+  std::string output;
+  double frames_a_second = 25;
+  std::uint64_t frames = 0;  // that will be added
+  int width = 0, height = 0;
+  std::string ffmpeg = "ffmpeg";  // found in PATH
+};
+
+// A sentence if the name is that of no film; else empty.
+std::string CheckFilmName(const std::string& path);
+
+class Film {
+ public:
+  static base::Result<std::unique_ptr<Film>> Start(const FilmOptions& options);
+  virtual ~Film() = default;
+
+  // Adds an RGB image of the film's size.
+  virtual base::Status Add(const model::Image& image) = 0;
+  // Completes the film. Without this call, the destructor removes it.
+  virtual base::Status Finish() = 0;
+};
+
+}  // namespace gsv::app

@@ -1,0 +1,23 @@
+// Reads the GLB files of WriteGlb() (gltf_writer.h), to render models without their original files.
+//
+// Result   a model with links, visuals and materials only: no joints, collisions or sensors. A flat
+//          rectangle without a texture is a geometry::Plane again, so that it is rendered as ground.
+// Input    untrusted. kCorrupt with a sentence if the file is not one of WriteGlb(). Textures that
+//          cannot be decoded are left out.
+// Threads  any.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "gsv/base/error.h"
+#include "gsv/model/model.h"
+
+namespace gsv::formats {
+
+// `name`: of the file, for messages.
+[[nodiscard]] base::Result<model::Model> ReadGlb(std::span<const std::uint8_t> bytes,
+                                                 const std::string& name);
+
+}  // namespace gsv::formats

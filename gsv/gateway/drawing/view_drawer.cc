@@ -1,0 +1,241 @@
+#include "gsv/gateway/drawing/view_drawer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "gsv/rendering/images/jpeg.h"
+#include "gsv/rendering/images/png.h"
+
+namespace gsv::gateway::drawing {
+namespace {
+
+using base::ErrorCode;
+using base::Fail;
+
+// Between two looks at a world that somebody waits for.
+constexpr std::chrono::milliseconds kLook{5};
+// Worlds that nobody looks at are forgotten.
+constexpr std::chrono::seconds kForget{10};
+constexpr std::size_t kKeptImages = 16;
+
+base::Error Ended() { return {ErrorCode::kEnded, "the server is shutting down", {}}; }
+
+}  // namespace
+
+ViewDrawer::ViewDrawer(const DrawingLimits& limits) : limits_(limits), thread_([this] { Run(); }) {}
+
+ViewDrawer::~ViewDrawer() { Stop(); }
+
+base::Result<std::shared_ptr<ViewDrawer::Seat>> ViewDrawer::Take(const ViewRequest& request) {
+  const std::int64_t pixels = std::int64_t{request.camera.width} * request.camera.height;
+  if (pixels > limits_.pixels) {
+    return Fail(ErrorCode::kInvalidArgument,
+                fmt::format("an image of {} pixels is too large; the limit is {} pixels", pixels,
+                            limits_.pixels));
+  }
+  const base::MutexLock lock(mutex_);
+  std::erase_if(seats_, [](const auto& seat) { return seat.expired(); });
+  if (seats_.size() >= limits_.viewers) {
+    return Fail(
+        ErrorCode::kUnavailable,
+        fmt::format("{} viewers get images of the server already, which is the limit; close "
+                    "one of them",
+                    limits_.viewers));
+  }
+  std::vector<ViewRequest> views;
+  for (const auto& weak : seats_) {
+    const auto seat = weak.lock();
+    if (!seat) continue;
+    const bool is_known = std::find(views.begin(), views.end(), seat->request()) != views.end();
+    if (!is_known) views.push_back(seat->request());
+  }
+  const bool is_shared = std::find(views.begin(), views.end(), request) != views.end();
+  if (!is_shared && views.size() >= limits_.views) {
+    return Fail(ErrorCode::kUnavailable,
+                fmt::format("the server draws {} views already, which is the limit; close one of "
+                            "them, or use the camera of another",
+                            limits_.views));
+  }
+  auto seat = std::make_shared<Seat>(request);
+  seats_.push_back(seat);
+  return seat;
+}
+
+void ViewDrawer::SetSource(const std::string& world, const std::weak_ptr<const void>& identity,
+                           const MakeSource& make) {
+  const base::MutexLock lock(mutex_);
+  World& entry = worlds_[world];
+  entry.used = Clock::now();
+  if (entry.source != nullptr && entry.identity.lock() == identity.lock()) return;
+  entry.identity = identity;
+  entry.source = make();
+  entry.snapshot = nullptr;
+}
+
+void ViewDrawer::Ask(std::shared_ptr<Seat> seat, std::uint64_t after, Clock::time_point earliest,
+                     std::chrono::milliseconds timeout, Answer answer) {
+  {
+    const base::MutexLock lock(mutex_);
+    if (!stopping_) {
+      const auto begin = std::max(Clock::now(), earliest);
+      pending_.push_back({std::move(seat), after, earliest, begin + timeout, std::move(answer)});
+      changed_.notify_all();
+      return;
+    }
+  }
+  answer(Fail(Ended()));
+}
+
+void ViewDrawer::Stop() {
+  {
+    const base::MutexLock lock(mutex_);
+    stopping_ = true;
+    changed_.notify_all();
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+void ViewDrawer::Run() {
+  for (;;) {
+    std::vector<std::string> wanted;
+    {
+      base::MutexLock lock(mutex_);
+      DropUnused();
+      changed_.wait_for(lock, kForget,
+                        [this]() GSV_REQUIRES(mutex_) { return stopping_ || !pending_.empty(); });
+      if (stopping_) break;
+      for (const Pending& each : pending_) wanted.push_back(each.seat->request().world);
+    }
+    std::sort(wanted.begin(), wanted.end());
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+    bool has_served = false;
+    for (const std::string& name : wanted) has_served = Serve(name) || has_served;
+    if (has_served || wanted.empty()) continue;
+    base::MutexLock lock(mutex_);
+    const std::size_t known = pending_.size();
+    changed_.wait_for(lock, kLook,
+                      [&]() GSV_REQUIRES(mutex_) { return stopping_ || pending_.size() != known; });
+  }
+  std::vector<Pending> ended;
+  {
+    const base::MutexLock lock(mutex_);
+    ended = std::exchange(pending_, {});
+    worlds_.clear();
+  }
+  for (const Pending& each : ended) each.answer(Fail(Ended()));
+}
+
+void ViewDrawer::DropUnused() {
+  const auto now = Clock::now();
+  std::erase_if(worlds_, [&](const auto& entry) GSV_REQUIRES(mutex_) {
+    const bool is_wanted = std::any_of(pending_.begin(), pending_.end(), [&](const Pending& each) {
+      return each.seat->request().world == entry.first;
+    });
+    return !is_wanted && now - entry.second.used > kForget;
+  });
+  if (worlds_.empty()) kept_.clear();
+}
+
+bool ViewDrawer::Serve(const std::string& name) {
+  std::shared_ptr<ViewSource> source;
+  {
+    const base::MutexLock lock(mutex_);
+    const auto found = worlds_.find(name);
+    if (found != worlds_.end()) source = found->second.source;
+  }
+  base::Result<ViewInstant> instant =
+      source ? source->Now()
+             : base::Result<ViewInstant>(Fail(ErrorCode::kEnded, "the simulation is gone"));
+  std::uint64_t number = 0;
+  if (instant) {
+    const base::MutexLock lock(mutex_);
+    World& world = worlds_[name];
+    // A source that was replaced meanwhile is looked at in the next round.
+    if (world.source != source) return true;
+    if (world.snapshot != instant->snapshot) {
+      world.snapshot = instant->snapshot;
+      world.number = ++next_number_;
+    }
+    world.used = Clock::now();
+    number = world.number;
+  }
+  std::vector<Pending> due = TakeDue(name, number);
+  if (due.empty()) return false;
+  if (instant) {
+    Draw(*instant, number, std::move(due));
+  } else {
+    for (const Pending& each : due) each.answer(Fail(instant.error()));
+  }
+  return true;
+}
+
+// Number 0: all of the world.
+std::vector<ViewDrawer::Pending> ViewDrawer::TakeDue(const std::string& name,
+                                                     std::uint64_t number) {
+  std::vector<Pending> due;
+  const base::MutexLock lock(mutex_);
+  const auto now = Clock::now();
+  std::erase_if(pending_, [&](Pending& each) {
+    if (each.seat->request().world != name) return false;
+    const bool has_changed = each.after != number && now >= each.earliest;
+    if (number != 0 && !has_changed && now < each.deadline) return false;
+    due.push_back(std::move(each));
+    return true;
+  });
+  return due;
+}
+
+void ViewDrawer::Draw(const ViewInstant& instant, std::uint64_t number, std::vector<Pending> due) {
+  while (!due.empty()) {
+    // All that ask for the same image.
+    const ViewRequest request = due.front().seat->request();
+    const auto others = std::stable_partition(due.begin(), due.end(), [&](const Pending& each) {
+      return each.seat->request() == request;
+    });
+    std::vector<Pending> same(std::make_move_iterator(due.begin()),
+                              std::make_move_iterator(others));
+    due.erase(due.begin(), others);
+    base::Result<DrawnImage> answer;
+    const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {
+      return kept.image.number == number && kept.request == request;
+    });
+    if (known != kept_.end()) {
+      answer = known->image;
+    } else if (const auto placed = view::Place(request.camera, instant.lookup); !placed) {
+      answer = Fail(placed.error());
+    } else {
+      if (renderer_ == nullptr) {
+        auto renderer = rendering::Renderer::Start();
+        if (renderer) renderer_ = *std::move(renderer);
+        if (!renderer) answer = Fail(renderer.error());
+      }
+      if (renderer_ != nullptr) {
+        const auto image = renderer_->Draw(instant.snapshot, *placed);
+        const auto bytes = image ? Encode(**image, request) : Fail(image.error());
+        answer = bytes ? base::Result<DrawnImage>(DrawnImage{*bytes, number, instant.time})
+                       : Fail(bytes.error());
+      }
+    }
+    if (answer && known == kept_.end()) {
+      std::erase_if(kept_, [&](const Kept& kept) { return kept.request == request; });
+      if (kept_.size() >= kKeptImages) kept_.erase(kept_.begin());
+      kept_.push_back({request, *answer});
+    }
+    for (Pending& each : same) {
+      each.seat.reset();  // before its viewer may ask again
+      each.answer(answer);
+    }
+  }
+}
+
+base::Result<SharedBytes> ViewDrawer::Encode(const model::Image& image,
+                                             const ViewRequest& request) const {
+  auto bytes = request.format == ImageFormat::kPng ? rendering::EncodePng(image)
+                                                   : rendering::EncodeJpeg(image, request.quality);
+  if (!bytes) return Fail(bytes.error());
+  return SharedBytes(*std::move(bytes));
+}
+
+}  // namespace gsv::gateway::drawing

@@ -1,0 +1,127 @@
+// Draws the views that viewers ask for, on its own thread: never on a stepping thread.
+//
+// A viewer asks for the next image with the number of the last one that it got. So images are drawn
+// only if something has changed, and only as fast as the viewer takes them. Requests with the same
+// camera share one image.
+//
+// Threads  any; answers come from its thread, or from the caller's if a request is refused.
+// Bounded  views: see DrawingLimits.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "gsv/base/mutex.h"
+#include "gsv/gateway/drawing/view_source.h"
+#include "gsv/gateway/foxglove/shared_bytes.h"
+#include "gsv/rendering/renderer.h"
+
+namespace gsv::gateway::drawing {
+
+struct DrawingLimits {
+  std::size_t views = 8;              // different cameras at the same time
+  std::size_t viewers = 64;           // requests and streams at the same time
+  std::int64_t pixels = 3840 * 2160;  // of one image
+};
+
+enum class ImageFormat { kJpeg, kPng };
+
+// Equal requests share an image.
+struct ViewRequest {
+  std::string world;  // key of the source: a name
+  view::Camera camera;
+  ImageFormat format = ImageFormat::kJpeg;
+  int quality = 80;  // of a JPEG, 1 to 100
+  friend bool operator==(const ViewRequest&, const ViewRequest&) = default;
+};
+
+struct DrawnImage {
+  SharedBytes bytes;
+  std::uint64_t number = 0;  // grows with each change of the world
+  base::SimTime time{};
+};
+
+class ViewDrawer {
+ public:
+  using Clock = std::chrono::steady_clock;
+  using Answer = std::function<void(base::Result<DrawnImage>)>;
+  using MakeSource = std::function<std::unique_ptr<ViewSource>()>;
+
+  explicit ViewDrawer(const DrawingLimits& limits = {});
+  ~ViewDrawer();
+
+  // A place among the viewers, for as long as it exists. kUnavailable, with a sentence, if there are
+  // too many; kInvalidArgument for an image that is too large.
+  class Seat;
+  base::Result<std::shared_ptr<Seat>> Take(const ViewRequest& request);
+
+  // Says what the world of that name is. `identity` is the object behind it: another one replaces
+  // the source.
+  void SetSource(const std::string& world, const std::weak_ptr<const void>& identity,
+                 const MakeSource& make);
+
+  // Answers with the world's image once its number differs from `after` (0: at once), but not
+  // before `earliest`. After `timeout` without a change, answers with the present image.
+  void Ask(std::shared_ptr<Seat> seat, std::uint64_t after, Clock::time_point earliest,
+           std::chrono::milliseconds timeout, Answer answer);
+
+  // Answers all pending requests with kEnded, and refuses further ones.
+  void Stop();
+
+ private:
+  struct World {
+    std::weak_ptr<const void> identity;
+    std::shared_ptr<ViewSource> source;
+    std::shared_ptr<const world::Snapshot> snapshot;  // the newest that was looked at
+    std::uint64_t number = 0;                         // of that
+    Clock::time_point used{};
+  };
+  struct Pending {
+    std::shared_ptr<Seat> seat;
+    std::uint64_t after = 0;
+    Clock::time_point earliest, deadline;
+    Answer answer;
+  };
+  struct Kept {
+    ViewRequest request;
+    DrawnImage image;
+  };
+
+  void Run();
+  void DropUnused();
+  // Answers what is due in one world. Whether anything was.
+  bool Serve(const std::string& name);
+  std::vector<Pending> TakeDue(const std::string& name, std::uint64_t number);
+  void Draw(const ViewInstant& instant, std::uint64_t number, std::vector<Pending> due);
+  base::Result<SharedBytes> Encode(const model::Image& image, const ViewRequest& request) const;
+
+  const DrawingLimits limits_;
+  std::shared_ptr<rendering::Renderer> renderer_;  // of the thread; null until it is needed
+  std::uint64_t next_number_ = 0;                  // of the thread
+  std::vector<Kept> kept_;                         // of the thread: the last images
+
+  base::Mutex mutex_;
+  base::ConditionVariable changed_;
+  std::map<std::string, World> worlds_ GSV_GUARDED_BY(mutex_);
+  std::vector<Pending> pending_ GSV_GUARDED_BY(mutex_);
+  std::vector<std::weak_ptr<Seat>> seats_ GSV_GUARDED_BY(mutex_);
+  bool stopping_ GSV_GUARDED_BY(mutex_) = false;
+  std::thread thread_;
+};
+
+class ViewDrawer::Seat {
+ public:
+  explicit Seat(ViewRequest request) : request_(std::move(request)) {}
+  const ViewRequest& request() const { return request_; }
+
+ private:
+  const ViewRequest request_;
+};
+
+}  // namespace gsv::gateway::drawing

@@ -1,0 +1,224 @@
+#include "gsv/gateway/drawing/view_drawer.h"
+
+#include <atomic>
+#include <future>
+
+#include <gtest/gtest.h>
+
+#include "gsv/gateway/drawing/view_routes.h"
+
+namespace gsv::gateway::drawing {
+namespace {
+
+using namespace std::chrono_literals;
+constexpr auto kLimit = 60s;
+
+// A world with a green floor, whose snapshot changes on request.
+class FakeSource final : public ViewSource {
+ public:
+  FakeSource() { Change(); }
+
+  base::Result<ViewInstant> Now() override {
+    ++looks;
+    if (has_ended) return base::Fail(base::ErrorCode::kEnded, "the simulation has been removed");
+    const base::MutexLock lock(mutex_);
+    const auto snapshot = snapshot_;
+    return ViewInstant{
+        snapshot,
+        {[](const std::string&) { return std::optional<geometry::Pose>(); },
+         [](const std::string&, const std::string&) -> base::Result<view::SensorView> {
+           return base::Fail(base::ErrorCode::kNotFound, "there is no camera");
+         },
+         [] {
+           return std::vector<geometry::Vector3>{{-1, -1, 0}, {1, 1, 1}};
+         }},
+        snapshot->state.time};
+  }
+
+  void Change() {
+    auto model = std::make_shared<model::Model>();
+    model->links.resize(1);
+    model->links[0].visuals.resize(1);
+    model->links[0].visuals[0].shape = geometry::Box{{1, 1, 1}};
+    world::Body body;
+    body.name = "box";
+    body.model = model;
+    auto snapshot = std::make_shared<world::Snapshot>();
+    snapshot->layout =
+        world::MakeLayout(1, {body}, std::make_shared<const model::WorldDescription>());
+    snapshot->state = world::InitialState(*snapshot->layout);
+    const base::MutexLock lock(mutex_);
+    snapshot->state.time = std::chrono::seconds(++changes_);
+    snapshot_ = snapshot;
+  }
+
+  std::atomic<int> looks = 0;
+  std::atomic<bool> has_ended = false;
+
+ private:
+  base::Mutex mutex_;
+  int changes_ GSV_GUARDED_BY(mutex_) = 0;
+  std::shared_ptr<const world::Snapshot> snapshot_ GSV_GUARDED_BY(mutex_);
+};
+
+// The source of a ViewDrawer, which a test keeps.
+class Borrowed final : public ViewSource {
+ public:
+  explicit Borrowed(std::shared_ptr<FakeSource> source) : source_(std::move(source)) {}
+  base::Result<ViewInstant> Now() override { return source_->Now(); }
+
+ private:
+  const std::shared_ptr<FakeSource> source_;
+};
+
+class ViewDrawerTest : public ::testing::Test {
+ protected:
+  ViewDrawerTest() { Show(drawer_); }
+
+  void Show(ViewDrawer& drawer) {
+    drawer.SetSource("office", source_, [this] { return std::make_unique<Borrowed>(source_); });
+  }
+
+  static ViewRequest Request(int width = 32) {
+    ViewRequest request;
+    request.world = "office";
+    request.camera.width = width;
+    request.camera.height = 24;
+    return request;
+  }
+
+  std::future<base::Result<DrawnImage>> Ask(const ViewRequest& request, std::uint64_t after = 0,
+                                            std::chrono::milliseconds timeout = 30s) {
+    auto promise = std::make_shared<std::promise<base::Result<DrawnImage>>>();
+    auto future = promise->get_future();
+    auto seat = drawer_.Take(request);
+    EXPECT_TRUE(seat) << seat.error().Sentence();
+    drawer_.Ask(*seat, after, {}, timeout, [promise](base::Result<DrawnImage> image) {
+      promise->set_value(std::move(image));
+    });
+    return future;
+  }
+
+  static base::Result<DrawnImage> Get(std::future<base::Result<DrawnImage>>&& future) {
+    if (future.wait_for(kLimit) != std::future_status::ready) {
+      return base::Fail(base::ErrorCode::kTimeout, "no answer");
+    }
+    return future.get();
+  }
+
+  const std::shared_ptr<FakeSource> source_ = std::make_shared<FakeSource>();
+  ViewDrawer drawer_{DrawingLimits{.views = 2, .viewers = 3, .pixels = 10'000}};
+};
+
+TEST_F(ViewDrawerTest, DrawsAtOnceAndThenOnlyOnChange) {
+  const auto first = Get(Ask(Request()));
+  if (!first && first.error().code == base::ErrorCode::kUnavailable) {
+    GTEST_SKIP() << first.error().Sentence();
+  }
+  ASSERT_TRUE(first) << first.error().Sentence();
+  EXPECT_EQ(first->bytes.view().substr(0, 2), "\xff\xd8");
+  EXPECT_EQ(first->time, 1s);
+  // Nothing has changed: the same image after the timeout.
+  const auto same = Get(Ask(Request(), first->number, 1ms));
+  ASSERT_TRUE(same);
+  EXPECT_EQ(same->number, first->number);
+  EXPECT_EQ(same->bytes.data(), first->bytes.data());  // it was not drawn again
+  auto next = Ask(Request(), first->number);
+  source_->Change();
+  const auto changed = Get(std::move(next));
+  ASSERT_TRUE(changed);
+  EXPECT_GT(changed->number, first->number);
+  EXPECT_EQ(changed->time, 2s);
+}
+
+TEST_F(ViewDrawerTest, RequestsWithTheSameCameraShareAnImage) {
+  const auto first = Get(Ask(Request()));
+  if (!first) GTEST_SKIP() << first.error().Sentence();
+  const auto second = Get(Ask(Request()));
+  ASSERT_TRUE(second);
+  EXPECT_EQ(second->bytes.data(), first->bytes.data());
+  const auto other = Get(Ask(Request(33)));
+  ASSERT_TRUE(other);
+  EXPECT_NE(other->bytes.data(), first->bytes.data());
+}
+
+TEST_F(ViewDrawerTest, BoundsViewsAndViewers) {
+  const auto one = drawer_.Take(Request(32));
+  const auto two = drawer_.Take(Request(33));
+  ASSERT_TRUE(one && two);
+  const auto third_view = drawer_.Take(Request(34));
+  ASSERT_FALSE(third_view);
+  EXPECT_EQ(third_view.error().message,
+            "the server draws 2 views already, which is the limit; close one of them, or use the "
+            "camera of another");
+  {
+    const auto shared = drawer_.Take(Request(33));
+    ASSERT_TRUE(shared);
+    const auto fourth = drawer_.Take(Request(33));
+    ASSERT_FALSE(fourth);
+    EXPECT_EQ(fourth.error().code, base::ErrorCode::kUnavailable);
+    EXPECT_NE(fourth.error().message.find("3 viewers"), std::string::npos);
+  }
+  EXPECT_TRUE(drawer_.Take(Request(33)));  // a place is free again
+  const auto huge = drawer_.Take(Request(4000));
+  ASSERT_FALSE(huge);
+  EXPECT_EQ(huge.error().code, base::ErrorCode::kInvalidArgument);
+}
+
+TEST_F(ViewDrawerTest, AnErrorOfTheSourceReachesEveryViewer) {
+  source_->has_ended = true;
+  const auto image = Get(Ask(Request()));
+  ASSERT_FALSE(image);
+  EXPECT_EQ(image.error().message, "the simulation has been removed");
+}
+
+TEST_F(ViewDrawerTest, ACameraThatCannotBePlacedIsAnError) {
+  ViewRequest request = Request();
+  request.camera.follow = "nobody";
+  const auto image = Get(Ask(request));
+  ASSERT_FALSE(image);
+  EXPECT_EQ(image.error().code, base::ErrorCode::kNotFound);
+}
+
+TEST_F(ViewDrawerTest, StoppingAnswersPendingRequests) {
+  const auto first = Get(Ask(Request()));
+  auto waiting = Ask(Request(), first ? first->number : 1);
+  drawer_.Stop();
+  const auto image = Get(std::move(waiting));
+  ASSERT_FALSE(image);
+  EXPECT_EQ(Get(Ask(Request())).error().code, base::ErrorCode::kEnded);
+}
+
+base::Result<ViewQuery> Parsed(const std::string& query, bool is_stream = false) {
+  return ParseViewQuery(*ParseTarget("/view.jpg?" + query), is_stream);
+}
+
+TEST(ViewQuery, ReadsTheCamera) {
+  const auto query =
+      Parsed("size=320x200&pixel_ratio=1.5&eye=1,2,3&target=4,5,6&fov=60&quality=50&after=7");
+  ASSERT_TRUE(query) << query.error().Sentence();
+  EXPECT_EQ(query->view.camera.width, 480);
+  EXPECT_EQ(query->view.camera.height, 300);
+  EXPECT_EQ(query->view.camera.eye, (geometry::Vector3{1, 2, 3}));
+  EXPECT_EQ(query->view.camera.field_of_view, 60);
+  EXPECT_EQ(query->view.quality, 50);
+  EXPECT_EQ(query->after, 7u);
+  EXPECT_DOUBLE_EQ(Parsed("fps=5", true)->frames_a_second, 5);
+}
+
+TEST(ViewQuery, RefusesWhatItCannotUse) {
+  for (const char* query :
+       {"size=0x0", "size=100000x100000", "size=big", "eye=1,2,3", "eye=1&target=2", "fov=0",
+        "quality=0", "quality=x", "after=-1", "pixel_ratio=9", "size=4000x4000&pixel_ratio=4",
+        "fps=5", "eys=1,2,3", "camera=pebble"}) {
+    const auto parsed = Parsed(query);
+    ASSERT_FALSE(parsed) << query;
+    EXPECT_EQ(parsed.error().code, base::ErrorCode::kInvalidArgument) << query;
+    EXPECT_FALSE(parsed.error().message.empty());
+  }
+  EXPECT_NE(Parsed("eys=1,2,3").error().message.find("there is no parameter 'eys'; use"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace gsv::gateway::drawing

@@ -1,0 +1,37 @@
+// Images of a simulation or a replay, drawn on the server: PREFIX/view.jpg, PREFIX/view.png and
+// PREFIX/view.mjpeg. docs/viewer.md and docs/api.yaml describe the parameters.
+//
+// Errors  400 for a parameter that cannot be used, 404 for a robot or camera that is not there, 503
+//         if too many views are drawn; each with a sentence.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gsv/gateway/drawing/view_drawer.h"
+#include "gsv/gateway/http/route.h"
+
+namespace gsv::gateway::drawing {
+
+// The world that a request wants to see.
+struct ViewedWorld {
+  std::string name;                    // unique in this server
+  std::weak_ptr<const void> identity;  // see ViewDrawer::SetSource()
+  ViewDrawer::MakeSource make;
+};
+using FindWorld = std::function<base::Result<ViewedWorld>(const Request&)>;
+
+// Parses the parameters of the query. `is_stream`: of view.mjpeg.
+struct ViewQuery {
+  ViewRequest view;
+  std::optional<std::uint64_t> after;  // number of the image that the client has
+  double frames_a_second = 15;         // at most
+};
+base::Result<ViewQuery> ParseViewQuery(const Target& target, bool is_stream);
+
+// `drawer` must outlive the routes. `find` is called on the server's thread, and returns at once.
+std::vector<Route> ViewRoutes(const std::string& prefix, ViewDrawer& drawer, const FindWorld& find);
+
+}  // namespace gsv::gateway::drawing

@@ -1,0 +1,35 @@
+// A world that is drawn on the server: a running simulation or a replay.
+//
+// Threads  one at a time.
+#pragma once
+
+#include <memory>
+
+#include "gsv/base/error.h"
+#include "gsv/gateway/replay/replay_player.h"
+#include "gsv/simulation/simulation.h"
+#include "gsv/view/camera.h"
+#include "gsv/world/snapshot.h"
+
+namespace gsv::gateway::drawing {
+
+struct ViewInstant {
+  // Another object if anything has changed.
+  std::shared_ptr<const world::Snapshot> snapshot;
+  view::SceneLookup lookup;  // valid until the next Now()
+  base::SimTime time{};
+};
+
+class ViewSource {
+ public:
+  virtual ~ViewSource() = default;
+  // kEnded if the simulation is gone; kNotFound if a recording has nothing to draw.
+  virtual base::Result<ViewInstant> Now() = 0;
+};
+
+// Does not keep the simulation alive.
+std::unique_ptr<ViewSource> MakeLiveSource(
+    const std::shared_ptr<simulation::Simulation>& simulation);
+std::unique_ptr<ViewSource> MakeReplaySource(std::shared_ptr<ReplayPlayer> player);
+
+}  // namespace gsv::gateway::drawing

@@ -1,0 +1,32 @@
+// Encodes animated PNG files (APNG), part by part; lossless. Readers that do not know APNG show the
+// first frame.
+// Format  Portable Network Graphics (PNG) Specification (Third Edition), section 11.3.6.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/model/image.h"
+
+namespace gsv::rendering {
+
+class ApngEncoder {
+ public:
+  // `frames_a_second` from 0.1 to 240; it is rounded to a hundredth. Plays once.
+  ApngEncoder(std::uint32_t frames, double frames_a_second);
+
+  // The bytes of the next frame, which has the size of the first one; the first frame's begin the
+  // file. kInvalidArgument for an image without pixels or of another size.
+  base::Result<std::vector<std::uint8_t>> Add(const model::Image& image);
+  // The end of the file.
+  static std::vector<std::uint8_t> End();
+
+ private:
+  std::uint32_t frames_;
+  std::uint16_t delay_denominator_;  // of hundredths
+  std::uint32_t next_ = 0;           // sequence number of the next chunk
+  int width_ = 0, height_ = 0;
+};
+
+}  // namespace gsv::rendering

@@ -1,0 +1,64 @@
+// The camera of a view: how a user names it, and where it is at an instant.
+//
+// Frames  eye and target in the world; with `follow` in the robot's frame without its pitch and
+//         roll: x ahead, y left, z up.
+// Units   metres, degrees, pixels.
+// Errors  sentences that name the parameter and its limits (kInvalidArgument), or the robot or
+//         camera that is not there (kNotFound).
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "gsv/base/error.h"
+#include "gsv/rendering/lenses/camera_view.h"
+
+namespace gsv::view {
+
+inline constexpr int kMinSide = 16;
+inline constexpr double kMinFieldOfView = 1, kMaxFieldOfView = 150;  // degrees
+
+struct Camera {
+  int width = 1280, height = 720;
+  std::optional<geometry::Vector3> eye, target;
+  std::optional<double> field_of_view;  // vertical, degrees; default: 45
+  std::string follow;                   // a robot; empty: none
+  std::string sensor;                   // "ROBOT/CAMERA": the view of this camera; empty: none
+
+  friend bool operator==(const Camera&, const Camera&) = default;
+};
+
+// "1280x720", each side from kMinSide to rendering::kMaxImageSide.
+base::Status SetSize(std::string_view text, Camera& camera);
+// Each side as SetSize() has it.
+base::Status CheckSize(int width, int height);
+// "1,2.5,-3": three finite numbers. `name`: for the sentence.
+base::Result<geometry::Vector3> ParsePoint(std::string_view text, const std::string& name);
+// A finite number from kMinFieldOfView to kMaxFieldOfView.
+base::Result<double> ParseFieldOfView(std::string_view text);
+// Refuses an eye without a target unless a robot is followed, and a sensor with any of them.
+base::Status Check(const Camera& camera);
+
+// A camera sensor at an instant.
+struct SensorView {
+  geometry::Pose world_from_sensor;
+  double horizontal_fov = 0;  // rad
+};
+
+// The parts of a scene to which a camera may refer.
+struct SceneLookup {
+  // The pose of a body, or nothing.
+  std::function<std::optional<geometry::Pose>(const std::string& body)> pose;
+  // A camera of a robot. The error names what is missing.
+  std::function<base::Result<SensorView>(const std::string& robot, const std::string& sensor)>
+      sensor;
+  // The corners that the default view shows.
+  std::function<std::vector<geometry::Vector3>()> corners;
+};
+
+// Checks the camera, and returns its view.
+base::Result<rendering::CameraView> Place(const Camera& camera, const SceneLookup& lookup);
+
+}  // namespace gsv::view
