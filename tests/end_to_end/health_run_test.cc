@@ -1,5 +1,6 @@
 // Tests how the command line explains the state of robots, recordings and brokers.
 #include <set>
+#include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -97,15 +98,15 @@ TEST_F(HealthRun, RobotsArePlacedOnAGridOrAtRandom) {
 
 TEST_F(HealthRun, ADifferenceNamesScenarioAndRobot) {
   const std::string first = folder_.path() / "first.mcap", second = folder_.path() / "second.mcap";
-  const Strings robots{"--robot", "pebble@0,0", "--behaviour", "wander", "--in-process"};
-  for (const auto& [file, seed] : {std::pair(first, "1"), std::pair(second, "2")}) {
-    Strings more{"--seed", seed, "--record", file};
-    more.insert(more.end(), robots.begin(), robots.end());
-    EXPECT_EQ(Run(more).ending, "exit code 0");
+  for (const auto& [file, robot, seed] :
+       {std::tuple(first, "pebble@0,0", "1"), std::tuple(second, "pebble@0,1", "2")}) {
+    EXPECT_EQ(Run({"--seed", seed, "--record", file, "--robot", robot}).ending, "exit code 0");
   }
   const Outcome diff = Gsv({"rec", "diff", first, second});
   EXPECT_EQ(diff.ending, "exit code 1");
-  EXPECT_THAT(diff.out, HasSubstr("the scenarios differ:\n  first:  seed: 1\n  second: seed: 2\n"));
+  EXPECT_THAT(diff.out, HasSubstr("the scenarios differ:\n"));
+  EXPECT_THAT(diff.out, HasSubstr("  first:  seed: 1\n"));
+  EXPECT_THAT(diff.out, HasSubstr("  second: seed: 2\n"));
   EXPECT_THAT(diff.out, HasSubstr("pebble: "));
   EXPECT_LT(std::count(diff.out.begin(), diff.out.end(), '\n'), 60);
   const Outcome list = Gsv({"rec", "list", folder_.path()});

@@ -33,7 +33,9 @@ struct CompletedCommand {
 std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 // Type names such as "jpeg|png" list the values of an option.
-std::vector<std::string> ValuesIn(const std::string& type_name) {
+std::vector<std::string> ValuesIn(const std::string& with_checks) {
+  // CLI11 appends the checks of the option, as in "jpeg|png:{jpeg,png}".
+  const std::string type_name = with_checks.substr(0, with_checks.find(":{"));
   const bool is_list = type_name.find('|') != std::string::npos &&
                        type_name.find_first_of("[]=<, ") == std::string::npos;
   if (!is_list) return {};

@@ -113,11 +113,12 @@ void CheckPython() {
     std::printf("python: not installed; behaviours in Python need it: apt-get install python3\n");
     return;
   }
-  const auto child =
-      ChildProcess::Start({python, "-c",
-                           "import platform; print(platform.python_version(), flush=True)\n"
-                           "import gsv; print(gsv.__file__)"},
-                          true);
+  const auto child = ChildProcess::Start(
+      {python, "-c",
+       "import platform, sys; print(platform.python_version(), flush=True)\n"
+       "sys.path = [folder for folder in sys.path if folder]  # not the current one\n"
+       "import gsv; gsv.__file__ and print(gsv.__file__)"},
+      true);
   const auto version =
       child ? (*child)->ReadLine(std::chrono::seconds(20)) : std::optional<std::string>();
   if (!version) {

@@ -135,7 +135,9 @@ std::string RecordingDifference::Text() const {
     for (const std::string& line : only_in_first) text += "  first:  " + line + "\n";
     for (const std::string& line : only_in_second) text += "  second: " + line + "\n";
   }
-  if (!messages) return text + "the recordings are equal\n";
+  if (!messages) {
+    return text + (text.empty() ? "the recordings are equal\n" : "the messages are equal\n");
+  }
   recording::Difference shown = *messages;
   shown.in_first = Shortened(shown.in_first);
   shown.in_second = Shortened(shown.in_second);
