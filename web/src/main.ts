@@ -127,7 +127,17 @@ function connectWorld(world: World3D): void {
     world.setPoses(posesOf(message));
     showSelectedPose();
   };
-  session.subscribe<PosesMessage | PackedPosesMessage>(PACKED_POSES, takePoses, { orElse: POSES });
+  let endPoses = () => {};
+  store.watch(
+    ({ editing }) => editing !== null,
+    (isEditing) => {
+      endPoses();
+      // What is edited is put back to the bit where it stood.
+      endPoses = isEditing
+        ? session.subscribe<PosesMessage>(POSES, takePoses)
+        : session.subscribe<PosesMessage | PackedPosesMessage>(PACKED_POSES, takePoses, { orElse: POSES });
+    },
+  );
   store.watch(
     ({ scene }) => scene,
     (scene) => {
