@@ -119,7 +119,7 @@ test("the view keeps its picture until it is drawn in another size", async () =>
   const drawn = page.evaluate(
     () =>
       new Promise((resolve) => {
-        const canvas = document.querySelector("main.view > canvas");
+        const canvas = document.querySelector(".view > canvas");
         const width = Object.getOwnPropertyDescriptor(HTMLCanvasElement.prototype, "width");
         const lookAfterwards = () => {
           delete canvas.width;

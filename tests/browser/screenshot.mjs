@@ -48,7 +48,7 @@ try {
     (then) => window.gsv.frames > then + 3 || window.gsv.phase !== "running",
     frames,
   );
-  const target = values["only-view"] ? page.locator("main.view") : page;
+  const target = values["only-view"] ? page.locator(".view") : page;
   await target.screenshot({ path: file });
 } finally {
   await browser.close();

@@ -89,7 +89,7 @@ test("the page says that the canvas is lost, and the picture comes back", async 
   await show("Names", false);
   const clip = await viewClip();
   await page.evaluate(() => {
-    const gl = document.querySelector("main.view > canvas").getContext("webgl2");
+    const gl = document.querySelector(".view > canvas").getContext("webgl2");
     window.testContext = gl.getExtension("WEBGL_lose_context");
     window.testContext.loseContext();
   });

@@ -2,14 +2,12 @@
 import assert from "node:assert/strict";
 import { setTimeout } from "node:timers/promises";
 
-const CARDS_WIDTH_PX = 300; // the inspector and the camera lie at the view's right
 const LONGEST_WAIT_MS = 60_000; // two pictures of a busy machine may take ten seconds
 const ASK_AGAIN_MS = 20; // asking without a pause takes a processor from those who are to answer
 
-// The 3D view without the cards over it.
+// Where the 3D view is on the page.
 export async function viewClip(page) {
-  const box = await page.locator("main.view").boundingBox();
-  return { ...box, width: box.width - CARDS_WIDTH_PX };
+  return page.locator(".view").boundingBox();
 }
 
 export async function phaseIs(page, phase) {

@@ -3,6 +3,7 @@ import "./style/page.css";
 import "./style/panels.css";
 import "./style/robots.css";
 import "./style/setUp.css";
+import "./style/workspace.css";
 import { SimulationApi } from "./api/SimulationApi";
 import { pageCredentials } from "./api/credentials";
 import { robotsOf } from "./api/scene";
@@ -14,10 +15,8 @@ import { Session } from "./app/Session";
 import { notify } from "./app/notices";
 import { AvatarSteering } from "./input/AvatarSteering";
 import { listenForKeys } from "./input/Keyboard";
-import { createCameraPane } from "./panels/camera/CameraPane";
 import { createHelpSheet } from "./page/HelpSheet";
 import { createHealthStrip } from "./page/HealthStrip";
-import { createInspector } from "./panels/inspector/Inspector";
 import { createNotices } from "./page/Notices";
 import { createOverlay } from "./page/Overlay";
 import { createControlQuestion } from "./page/PeopleMenu";
@@ -25,9 +24,10 @@ import { createSceneTree } from "./panels/tree/SceneTree";
 import { createStatusBar } from "./page/StatusBar";
 import { createTimeline } from "./page/Timeline";
 import { createToolbar } from "./page/Toolbar";
-import { createEditPanel } from "./page/EditPanel";
+import { editPanel } from "./page/EditPanel";
+import { createPanelBar } from "./page/PanelBar";
+import { createViewTools } from "./page/ViewTools";
 import { pageNames } from "./page/pageLinks";
-import { createPanelDock } from "./panels/PanelDock";
 import { PANELS } from "./panels/registry";
 import type { PackedPosesMessage, PosesMessage } from "./protocol/messages";
 import { PACKED_POSES, POSES, posesOf } from "./protocol/packedPoses";
@@ -45,6 +45,9 @@ import { initialState } from "./state/State";
 import { Store, shallowEqual } from "./state/Store";
 import { exposeForTests } from "./testing";
 import { element } from "./ui/element";
+import { Workspace } from "./workspace/Workspace";
+import { STANDARD } from "./workspace/presets";
+import { linkedView } from "./state/link";
 
 // The page's address may carry: simulation=NAME, which one to join; recording=NAME, which one to
 // replay; quality=high, which keeps the
@@ -87,7 +90,7 @@ function createWorld(host: HTMLElement, inSoftware: boolean): World3D | null {
   }
 }
 
-const view = element("main", { class: "view" });
+const view = element("section", { class: "view", "aria-label": "3D view" });
 const selected = new SelectedPose();
 const session = new Session(
   api,
@@ -220,24 +223,31 @@ async function drive(avatar: string, wish: Parameters<SimulationApi["drive"]>[2]
 
 const page = document.getElementById("app")!;
 const toggleSidebar = () => page.classList.toggle("sidebar-open");
-view.append(
-  element("div", { class: "cards" }, createInspector(ports), createCameraPane(ports)),
-  createEditPanel(app),
-  createOverlay(app),
-  createControlQuestion(app),
-  createNotices(app),
+view.append(createOverlay(app), createControlQuestion(app), createNotices(app));
+const workspace = new Workspace(
+  { body: view, tools: createViewTools(app) },
+  { panels: [...PANELS, editPanel(app)], ports, setOpen: (openPanels) => store.set({ openPanels }) },
+  (space) => STANDARD.layout(space),
 );
+const sceneTree = createSceneTree(ports, pageNames(app));
+// On a narrow screen it covers the view: it goes when a robot is chosen.
+sceneTree.addEventListener("click", ({ target }) => {
+  if (target instanceof Element && target.closest("[data-robot], [data-object]")) page.classList.remove("sidebar-open");
+});
 page.append(
   createToolbar(app, toggleSidebar),
   createHealthStrip(app),
-  createSceneTree(ports, pageNames(app)),
+  sceneTree,
   createSetUpPanel(app),
-  view,
-  createPanelDock(PANELS, ports, (id) => app.panels.close(id)),
+  workspace.element,
+  createPanelBar(app, PANELS),
   createTimeline(app),
   createStatusBar(app),
   createHelpSheet(app),
 );
+app.panels.host = workspace;
+app.layouts.start(workspace, linkedView(location.hash).layout);
+workspace.onChange = (layout) => app.layouts.changed(layout);
 store.watch(
   ({ simulation }) => simulation,
   (simulation) => (document.title = simulation ? `${simulation} · GSV` : "GSV"),

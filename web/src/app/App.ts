@@ -15,9 +15,13 @@ import type { RobotFilter } from "../state/robotList";
 import { chosenOf } from "../state/editing";
 import type { State, ViewMode } from "../state/State";
 import type { Store } from "../state/Store";
+import { EDIT_PANEL } from "../state/editing";
+import { PANELS } from "../panels/registry";
 import { download, fileName } from "../ui/files";
+import { VIEW } from "../workspace/layout";
 import { EditControl } from "./EditControl";
 import { Filming } from "./Filming";
+import { LayoutControl } from "./LayoutControl";
 import { LinkControl } from "./LinkControl";
 import { dismiss, notify } from "./notices";
 import { PanelControl } from "./PanelControl";
@@ -29,6 +33,7 @@ import type { Session } from "./Session";
 import { SetUpControl } from "./SetUpControl";
 
 const PLOTS_PANEL = "plots";
+const IMAGES_PANEL = "images";
 
 export class App {
   readonly replay: ReplayControl;
@@ -38,6 +43,7 @@ export class App {
   readonly records: RecordControl;
   readonly people: PeopleControl;
   readonly panels: PanelControl;
+  readonly layouts: LayoutControl;
   private readonly filming: Filming;
 
   constructor(
@@ -52,7 +58,8 @@ export class App {
       pause: () => this.act("pause"),
       seek: (time: number) => this.replay.seek(time),
     };
-    this.link = new LinkControl(store, linked, world);
+    this.layouts = new LayoutControl(store, browserStorage(), new Set([VIEW, EDIT_PANEL, ...PANELS.map(({ id }) => id)]));
+    this.link = new LinkControl(store, linked, world, this.layouts);
     this.setUp = new SetUpControl(store, session, api.setUp);
     this.edits = new EditControl(store, api.setUp, { placeOf: (body) => placeIn(world(), body) }, () =>
       this.act("pause"),
@@ -188,7 +195,8 @@ export class App {
   }
 
   showCamera(camera: CameraChoice): void {
-    this.store.set({ camera, cameraOpen: true });
+    this.store.set({ camera });
+    this.panels.open(IMAGES_PANEL);
   }
 
   // Draws a value against simulated time from now on.

@@ -15,6 +15,11 @@ export interface LinkedPage {
   seek(time: number): Promise<void>; // s, simulated: of a recording
 }
 
+export interface LinkedLayouts {
+  readonly linkText: string | null;
+  showText(text: string, what: string): boolean;
+}
+
 export class LinkControl {
   private wanted: LinkedView | null = null;
   private instant: number | null = null; // s, simulated: to go to when it can be done
@@ -23,6 +28,7 @@ export class LinkControl {
     private readonly store: Store<State>,
     private readonly page: LinkedPage,
     private readonly place: () => Place | null, // null where there is no 3D view
+    private readonly layouts: LinkedLayouts | null = null,
   ) {}
 
   // Shows what the address asks for, now or as soon as it is there, and whenever it changes.
@@ -31,7 +37,11 @@ export class LinkControl {
       this.wanted = linkedView(window.location.hash);
       this.show();
     };
-    window.addEventListener("hashchange", read);
+    window.addEventListener("hashchange", () => {
+      read();
+      const { layout } = linkedView(window.location.hash);
+      if (layout !== null) this.layouts?.showText(layout, "The layout in the link");
+    });
     this.store.watch(
       ({ scene, status, view }) => scene !== null && status !== null && view !== "starting",
       () => this.show(),
@@ -51,7 +61,7 @@ export class LinkControl {
     // Who opens a recording's link has a replay of their own.
     if (replay && abilities.recording !== "") url.searchParams.set("recording", abilities.recording);
     const viewpoint = this.place()?.viewpoint ?? null;
-    url.hash = hashOf({ time: replay ? time : null, viewpoint, selection, viewMode, shown });
+    url.hash = hashOf({ time: replay ? time : null, viewpoint, selection, viewMode, shown, layout: this.layouts?.linkText ?? null });
     return url.href;
   }
 

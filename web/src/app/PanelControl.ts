@@ -2,11 +2,21 @@
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 
+// Where panels stand.
+export interface PanelHost {
+  isInSight(id: string): boolean; // false: it is closed, or behind another tab
+  reveal(id: string): void;
+}
+
 export class PanelControl {
+  host: PanelHost | null = null;
+
   constructor(private readonly store: Store<State>) {}
 
+  // A panel that is behind another tab comes to the front.
   open(id: string): void {
     this.store.set(({ openPanels }) => (openPanels.includes(id) ? {} : { openPanels: [...openPanels, id] }));
+    this.host?.reveal(id);
   }
 
   close(id: string): void {
@@ -14,7 +24,8 @@ export class PanelControl {
   }
 
   toggle(id: string): void {
-    if (this.store.get().openPanels.includes(id)) this.close(id);
+    const isSeen = this.host?.isInSight(id) ?? true;
+    if (this.store.get().openPanels.includes(id) && isSeen) this.close(id);
     else this.open(id);
   }
 }

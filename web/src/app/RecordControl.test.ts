@@ -27,7 +27,7 @@ test("the button shows what another viewer switched on, and its size", async () 
   api.recording.mockResolvedValue(ON);
   await vi.advanceTimersByTimeAsync(2000);
   expect(button.getAttribute("aria-pressed")).toBe("true");
-  expect(button.textContent).toBe("2.4 MB");
+  expect(button.querySelector(".number")!.textContent).toBe("2.4 MB");
 });
 
 test("a press records, another ends it and says how to replay", async () => {

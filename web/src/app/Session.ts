@@ -7,7 +7,7 @@ import { camerasOf } from "../api/scene";
 import type { SimulationStatus } from "../api/status";
 import { statusFromMessage } from "../api/status";
 import { backoffMs } from "../protocol/Backoff";
-import type { ClientEvents, ParameterValue } from "../protocol/FoxgloveClient";
+import type { ClientEvents, ParameterValue, TopicCount } from "../protocol/FoxgloveClient";
 import { FoxgloveClient } from "../protocol/FoxgloveClient";
 import type { TopicOptions, TopicSource } from "../protocol/SharedTopics";
 import { SharedTopics } from "../protocol/SharedTopics";
@@ -48,7 +48,10 @@ const NOTHING_WATCHED: Partial<State> = {
   viewMode: "orbit",
   camera: null,
   serverWarnings: [],
+  topics: [],
 };
+
+const NO_COUNTS: ReadonlyMap<string, TopicCount> = new Map();
 
 // What the page's address asks for, if it does.
 export interface Wanted {
@@ -59,7 +62,8 @@ export interface Wanted {
 export const NOTHING_WANTED: Wanted = { simulation: null, recording: null };
 
 // The live stream, as far as the session needs it.
-export type LiveClient = Pick<FoxgloveClient, "connect" | "close" | "retryNow" | "subscribe" | "parameter" | "missingTopics">;
+export type LiveClient = Pick<FoxgloveClient, "connect" | "close" | "retryNow" | "subscribe" | "parameter" | "missingTopics"> &
+  Partial<Pick<FoxgloveClient, "counts">>;
 export type ClientFactory = (url: string, events: ClientEvents) => LiveClient;
 
 type LayoutMessage = Pick<PosesMessage, "layout_version">;
@@ -139,6 +143,11 @@ export class Session implements TopicSource {
 
   get readTopics(): string[] {
     return this.topics.read;
+  }
+
+  // What has come on each topic that is read.
+  counts(): ReadonlyMap<string, TopicCount> {
+    return this.client?.counts ?? NO_COUNTS;
   }
 
   // What the stream's server says of a parameter; null when it says nothing.
@@ -229,6 +238,7 @@ export class Session implements TopicSource {
         if (connection.phase === "open") void this.opened(name);
         else if (connection.phase === "waiting") void this.checkStillThere(name);
       },
+      onTopics: (topics) => this.store.set({ topics }),
       onProblem: (sentence) => {
         notify(this.store, "error", sentence);
         this.store.set(({ serverWarnings }) => ({ serverWarnings: withServerWarning(serverWarnings, sentence) }));

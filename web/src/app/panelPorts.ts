@@ -9,6 +9,7 @@ export function panelPorts(app: App, api: SimulationApi): PanelPorts {
   return {
     state: store,
     topics: session,
+    traffic: { counts: () => session.counts() },
     server: {
       figures: () => api.metrics.figures(),
       parameter: (name) => session.parameter(name),
@@ -27,10 +28,7 @@ export function panelPorts(app: App, api: SimulationApi): PanelPorts {
       filter: (change) => app.filterRobots(change),
       follow: () => app.toggleViewMode("follow"),
     },
-    cameras: {
-      show: (camera) => app.showCamera(camera),
-      open: (cameraOpen) => store.set({ cameraOpen }),
-    },
+    cameras: { show: (camera) => app.showCamera(camera) },
     plots: {
       add: (source, key, unit) => app.plot(source, key, unit),
       remove: (curve) => app.unplot(curve),

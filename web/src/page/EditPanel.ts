@@ -1,9 +1,10 @@
-// What changes who stands in a simulation that stands still, and what lies about.
+// The panel in which robots and objects of a paused simulation are added, turned and removed.
 import type { App } from "../app/App";
 import type { Behaviours } from "../api/SetUpApi";
 import type { State } from "../state/State";
 import { shallowEqual } from "../state/Store";
-import { chosenOf, copiesOf } from "../state/editing";
+import type { Panel } from "../panels/contract/Panel";
+import { EDIT_PANEL, chosenOf, copiesOf } from "../state/editing";
 import { EMPTY_SCENARIO, newRobot } from "../api/scenario";
 import type { Option } from "../ui/fields";
 import { choiceField, textField } from "../ui/fields";
@@ -17,7 +18,29 @@ const TURN = Math.PI / 12;
 const OBJECT = "object ";
 const COPY = "copy ";
 
-export function createEditPanel(app: App): HTMLElement {
+// Open while one edits; closing it ends that.
+export function editPanel(app: App): Panel {
+  app.store.watch(
+    ({ editing }) => editing !== null,
+    (isOn) => (isOn ? app.panels.open(EDIT_PANEL) : app.panels.close(EDIT_PANEL)),
+  );
+  app.store.watch(
+    ({ openPanels }) => openPanels.includes(EDIT_PANEL),
+    (isOpen) => !isOpen && app.store.get().editing && void app.edits.toggle(),
+  );
+  return {
+    id: EDIT_PANEL,
+    title: "Edit",
+    hint: "Move, add and remove robots and objects",
+    picture: "edit",
+    place: "top-side",
+    isAvailable: ({ editing }) => editing !== null,
+    absence: "Press Edit at the top to edit the simulation.",
+    load: async () => ({ mount: () => ({ body: createEditPanel(app) }) }),
+  };
+}
+
+function createEditPanel(app: App): HTMLElement {
   const model = choiceField("Model", () => offerBehaviour());
   const behaviour = choiceField("Behaviour", () => {});
   const drive = textField("Drive", "as its model says, else guessed", (text) => (driveText = text));
@@ -33,8 +56,8 @@ export function createEditPanel(app: App): HTMLElement {
   const redo = pictureButton("Redo", "redo", () => app.redo());
   const hint = element("p", { class: "hint" });
   const panel = element(
-    "section",
-    { class: "card edit", "aria-label": "Edit" },
+    "div",
+    { class: "edit-body" },
     element("div", { class: "field-pair" }, model.element, behaviour.element, add),
     element("div", { class: "field-pair" }, drive.element),
     element("div", { class: "edit-buttons" }, undo, redo, ...turns, remove),
@@ -66,7 +89,6 @@ export function createEditPanel(app: App): HTMLElement {
   app.store.watch(
     ({ editing }) => editing,
     (editing) => {
-      panel.hidden = editing === null;
       if (!editing) return;
       name(undo, "Undo", editing.undo.at(-1), editing.isBusy);
       name(redo, "Redo", editing.redo.at(-1), editing.isBusy);

@@ -12,7 +12,6 @@ const FIRST_STEPS = 10;
 
 export function createPaceMenu(app: App): HTMLElement {
   const menu = createMenu("Speed and steps", "gauge", speedPart(app), stepsPart(app));
-  menu.button.classList.remove("plain");
   app.store.watch(
     ({ status, connection, people }) => status !== null && connection.phase === "open" && mayAct(people),
     (enabled) => (menu.button.disabled = !enabled),

@@ -11,8 +11,9 @@ export function createRecordButton(app: App): HTMLElement {
   const size = element("span", { class: "number" });
   const button = element(
     "button",
-    { class: "button record", type: "button", "aria-label": "Record", onclick: () => app.records.press() },
+    { class: "button plain worded record", type: "button", "aria-label": "Record", onclick: () => app.records.press() },
     icon("record"),
+    element("span", { class: "word", "aria-hidden": "true" }, "Record"),
     size,
   );
   app.store.watch(

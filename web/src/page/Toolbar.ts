@@ -1,16 +1,14 @@
-// The bar at the top: which simulation, the buttons that run it, and the views.
+// The bar at the top: which simulation, the buttons that run it, layouts, sharing, and the other pages.
 import type { App } from "../app/App";
 import type { Action } from "../api/SimulationApi";
-import type { Panel } from "../panels/contract/Panel";
-import { PANELS } from "../panels/registry";
-import type { ViewMode } from "../state/State";
 import { canAct, canEdit, isAllowed, mainAction } from "../state/actions";
 import { shallowEqual } from "../state/Store";
 import { element } from "../ui/element";
 import type { IconName } from "../ui/icons";
+import { iconButton } from "../ui/iconButton";
 import { icon, setIcon } from "../ui/icons";
 import { createRecordButton } from "./RecordButton";
-import { createOverlayMenu } from "./OverlayMenu";
+import { createLayoutMenu } from "./LayoutMenu";
 import { createPaceMenu } from "./PaceMenu";
 import { createPeopleMenu } from "./PeopleMenu";
 import { pageLinks } from "./pageLinks";
@@ -31,20 +29,13 @@ export function createToolbar(app: App, toggleSidebar: () => void): HTMLElement 
     transport(app),
     element(
       "div",
-      { class: "toolbar-views", role: "group", "aria-label": "View" },
-      viewButton("home", "Reset view", "R", () => app.resetView()),
-      viewButton("top", "Top view", "T", () => app.topView()),
-      modeButton(app, "follow", "follow", "Follow", "F"),
-      modeButton(app, "chase", "chase", "Chase", "C"),
-      modeButton(app, "eye", "eye", "Robot's eye", "V"),
-      element("span", { class: "divider", "aria-hidden": "true" }),
-      createOverlayMenu(app),
-      ...PANELS.map((panel) => panelButton(app, panel)),
+      { class: "toolbar-views" },
+      createLayoutMenu(app),
       createShareMenu(app),
       createPeopleMenu(app),
       element("span", { class: "divider", "aria-hidden": "true" }),
       ...pageLinks(app),
-      viewButton("help", "Help", "?", () => app.openHelp(true)),
+      iconButton({ picture: "help", label: "Help", key: "?", onclick: () => app.openHelp(true) }),
     ),
   );
 }
@@ -71,11 +62,7 @@ function transport(app: App): HTMLElement {
 
 function newButton(app: App): HTMLElement {
   const label = "New simulation";
-  const button = element(
-    "button",
-    { class: "button plain", type: "button", "aria-label": label, title: label, onclick: () => void app.setUp.open() },
-    icon("add"),
-  );
+  const button = iconButton({ picture: "add", label, word: "New", onclick: () => void app.setUp.open() });
   app.store.watch(
     ({ abilities, setUp }) => abilities.creates && setUp === null,
     (shown) => (button.hidden = !shown),
@@ -86,11 +73,7 @@ function newButton(app: App): HTMLElement {
 // What runs is paused first.
 function editButton(app: App): HTMLElement {
   const title = "Move, add and remove robots (paused)";
-  const button = element(
-    "button",
-    { class: "button", type: "button", "aria-label": "Edit", title, onclick: () => void app.edits.toggle() },
-    icon("edit"),
-  );
+  const button = iconButton({ picture: "edit", label: "Edit", title, onclick: () => void app.edits.toggle() });
   app.store.watch(
     (state) => ({ on: state.editing !== null, able: canEdit(state), shown: state.abilities.creates }),
     ({ on, able, shown }) => {
@@ -104,17 +87,9 @@ function editButton(app: App): HTMLElement {
 }
 
 function sidebarButton(toggle: () => void): HTMLElement {
-  return element(
-    "button",
-    {
-      class: "button plain sidebar-toggle",
-      type: "button",
-      "aria-label": "Robots",
-      title: "Robots",
-      onclick: toggle,
-    },
-    icon("list"),
-  );
+  const button = iconButton({ picture: "list", label: "Robots", onclick: toggle });
+  button.classList.add("sidebar-toggle");
+  return button;
 }
 
 // A name where there is one simulation, a choice where there are several.
@@ -170,51 +145,11 @@ function mainButton(app: App): HTMLElement {
   return button;
 }
 
-function actionButton(
-  app: App,
-  action: Action,
-  picture: IconName,
-  label: string,
-  title: string,
-): HTMLElement {
-  const button = element(
-    "button",
-    { class: "button", type: "button", "aria-label": label, title, onclick: () => void app.act(action) },
-    icon(picture),
-  );
+function actionButton(app: App, action: Action, picture: IconName, label: string, title: string): HTMLElement {
+  const button = iconButton({ picture, label, title, onclick: () => void app.act(action) });
   app.store.watch(
     (state) => canAct(state) && isAllowed(state.status?.phase, action),
     (enabled) => (button.disabled = !enabled),
   );
-  return button;
-}
-
-// Without a key it has no shortcut.
-function viewButton(picture: IconName, label: string, key: string, onclick: () => void): HTMLElement {
-  const shortcut = key !== "" && { "aria-keyshortcuts": key };
-  const title = shortcut ? `${label} (${key})` : label;
-  return element(
-    "button",
-    { class: "button plain", type: "button", "aria-label": label, ...shortcut, title, onclick },
-    icon(picture),
-  );
-}
-
-function modeButton(app: App, mode: ViewMode, picture: IconName, label: string, key: string): HTMLElement {
-  const button = viewButton(picture, label, key, () => app.toggleViewMode(mode));
-  app.store.watch(
-    ({ viewMode }) => viewMode === mode,
-    (isOn) => button.setAttribute("aria-pressed", String(isOn)),
-  );
-  return button;
-}
-
-function panelButton(app: App, { id, title, picture, key = "", isAvailable }: Panel): HTMLElement {
-  const button = viewButton(picture, title, key, () => app.panels.toggle(id));
-  app.store.watch(
-    ({ openPanels }) => openPanels.includes(id),
-    (open) => button.setAttribute("aria-pressed", String(open)),
-  );
-  app.store.watch(isAvailable, (available) => (button.hidden = !available));
   return button;
 }

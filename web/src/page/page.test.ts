@@ -4,6 +4,8 @@ import { body, scene } from "../scene/testScene";
 import { createInspector, poseText, startText } from "../panels/inspector/Inspector";
 import { createHelpSheet } from "./HelpSheet";
 import { createNotices } from "./Notices";
+import { createPanelBar } from "./PanelBar";
+import { PANELS } from "../panels/registry";
 import { createSceneTree } from "../panels/tree/SceneTree";
 import { createStatusBar } from "./StatusBar";
 import { robotStatus, simulationStatus, testApp } from "./testApp";
@@ -196,7 +198,7 @@ test("a notice can be dismissed", () => {
 
 test("panels are opened and closed by their buttons, whoever opened them", () => {
   const { app, store } = testApp();
-  const button = createToolbar(app, () => {}).querySelector('[aria-label="Status"]')!;
+  const button = createPanelBar(app, PANELS).querySelector('[aria-label="Status"]')!;
   expect(button.getAttribute("aria-pressed")).toBe("false");
   (button as HTMLButtonElement).click();
   expect(store.get().openPanels).toEqual(["status"]);

@@ -26,8 +26,9 @@ function isLive({ replay }: State): boolean {
 
 // As pictures in the toolbar.
 export function pageLinks(app: App): HTMLElement[] {
-  return LINKS.map(({ picture, href, label, isOffered }) => {
-    const link = element("a", { class: "button plain", href, "aria-label": label, title: label }, icon(picture));
+  return LINKS.map(({ picture, href, name, label, isOffered }) => {
+    const word = element("span", { class: "word", "aria-hidden": "true" }, name);
+    const link = element("a", { class: "button plain worded", href, "aria-label": label, title: label }, icon(picture), word);
     return whileOffered(app, link, isOffered);
   });
 }

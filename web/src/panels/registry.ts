@@ -3,6 +3,24 @@ import type { Panel } from "./contract/Panel";
 
 export const PANELS: readonly Panel[] = [
   {
+    id: "inspector",
+    title: "Inspector",
+    hint: "Selected robot: pose, behaviour and sensors",
+    picture: "inspect",
+    place: "side",
+    isAvailable: () => true,
+    load: () => import("./inspector/InspectorPanel"),
+  },
+  {
+    id: "images",
+    title: "Images",
+    hint: "Camera images",
+    picture: "camera",
+    place: "side",
+    isAvailable: () => true,
+    load: () => import("./camera/CameraPane"),
+  },
+  {
     id: "plots",
     title: "Plots",
     hint: "Plots against simulated time",
@@ -10,6 +28,15 @@ export const PANELS: readonly Panel[] = [
     key: "P",
     isAvailable: () => true,
     load: () => import("./plots/PlotPanel"),
+  },
+  {
+    id: "topics",
+    title: "Topics",
+    hint: "Topics with their rates, and the newest message of any",
+    picture: "topics",
+    key: "K",
+    isAvailable: () => true,
+    load: () => import("./topics/TopicsPanel"),
   },
   {
     id: "log",
@@ -53,6 +80,7 @@ export const PANELS: readonly Panel[] = [
     hint: "Commands of the simulation",
     picture: "gauge",
     isAvailable: ({ replay }) => replay === null,
+    absence: "A recording takes no commands. Open a running simulation.",
     load: () => import("./commands/CommandsPanel"),
   },
 ];

@@ -23,6 +23,19 @@ export interface ClientEvents {
   onConnection(state: ConnectionState): void;
   // Something that the server sent could not be understood, or it reports a problem itself.
   onProblem(sentence: string): void;
+  // The topics that the server offers are others.
+  onTopics?(topics: TopicInfo[]): void;
+}
+
+export interface TopicInfo {
+  name: string;
+  type: string; // "sensor_msgs/msg/LaserScan"
+}
+
+// What has come on a topic since the page was loaded.
+export interface TopicCount {
+  messages: number;
+  bytes: number;
 }
 
 type Handler = (message: unknown) => void;
@@ -50,6 +63,7 @@ export class FoxgloveClient implements TopicSource {
   private readonly channelOf = new Map<number, { subscription: Subscription; channel: Channel }>();
   private readonly decoders = new MessageDecoders();
   private readonly reported = new Set<string>();
+  private readonly counted = new Map<string, TopicCount>(); // by topic
   private readonly questions = new Map<string, (value: ParameterValue | null) => void>(); // by parameter
   private hasParameters = false;
 
@@ -80,6 +94,11 @@ export class FoxgloveClient implements TopicSource {
 
   get topics(): string[] {
     return [...this.channels.values()].map((channel) => channel.topic);
+  }
+
+  // Of the topics that are or were subscribed.
+  get counts(): ReadonlyMap<string, TopicCount> {
+    return this.counted;
   }
 
   // Those that are subscribed here and that the server does not offer.
@@ -208,6 +227,7 @@ export class FoxgloveClient implements TopicSource {
   private advertise(channels: Channel[]): void {
     for (const channel of channels) this.channels.set(channel.id, channel);
     this.request([...this.subscriptions]);
+    this.tellTopics();
   }
 
   private unadvertise(ids: number[]): void {
@@ -217,6 +237,13 @@ export class FoxgloveClient implements TopicSource {
       this.channelOf.delete(id);
       subscription.id = null;
     }
+    this.tellTopics();
+  }
+
+  private tellTopics(): void {
+    const topics = [...this.channels.values()].map(({ topic, schemaName }) => ({ name: topic, type: schemaName }));
+    topics.sort((a, b) => (a.name < b.name ? -1 : 1));
+    this.events.onTopics?.(topics);
   }
 
   private request(subscriptions: Subscription[]): void {
@@ -238,9 +265,17 @@ export class FoxgloveClient implements TopicSource {
     const entry = this.channelOf.get(frame.getUint32(1, true));
     if (!entry) return; // unsubscribed while this was under way
     const { subscription, channel } = entry;
+    this.count(channel.topic, frame.byteLength);
     const payload = new DataView(frame.buffer, frame.byteOffset + MESSAGE_DATA_HEADER_BYTES);
     if (subscription.newestOnly) this.handOverLater(subscription, channel, payload);
     else this.handOver(subscription, channel, payload);
+  }
+
+  private count(topic: string, bytes: number): void {
+    const known = this.counted.get(topic);
+    if (!known) return void this.counted.set(topic, { messages: 1, bytes });
+    known.messages += 1;
+    known.bytes += bytes;
   }
 
   // After the messages that have arrived already.

@@ -6,7 +6,7 @@ import type { RecordedEvent, Replay } from "../api/replay";
 import type { CameraChoice, SceneDescription } from "../api/scene";
 import type { Abilities } from "../api/SetUpApi";
 import type { SimulationStatus, SimulationSummary } from "../api/status";
-import type { ConnectionState } from "../protocol/FoxgloveClient";
+import type { ConnectionState, TopicInfo } from "../protocol/FoxgloveClient";
 import type { People } from "../api/ViewersApi";
 import type { Editing } from "./editing";
 import type { Expectation } from "./expectations";
@@ -16,6 +16,7 @@ import type { Shown } from "./overlays";
 import { FIRST_SHOWN } from "./overlays";
 import type { RobotFilter } from "./robotList";
 import { NO_FILTER } from "./robotList";
+import type { SavedLayout } from "./layouts";
 import type { SetUp } from "./setUp";
 import type { Plots } from "./plots";
 import { NO_PLOTS } from "./plots";
@@ -74,10 +75,11 @@ export interface State {
   viewMode: ViewMode;
   shown: Shown;
   camera: CameraChoice | null;
-  cameraOpen: boolean; // whether its picture is shown
   plots: Plots;
   openPanels: readonly string[]; // by id, as panels/registry.ts has them
   serverWarnings: readonly string[];
+  layouts: readonly SavedLayout[]; // in this browser
+  topics: readonly TopicInfo[]; // that the server offers, by name
   pending: Action | "factor" | null; // sent to the server, not answered yet
   notices: Notice[];
   helpOpen: boolean;
@@ -115,10 +117,11 @@ export const initialState: State = {
   viewMode: "orbit",
   shown: FIRST_SHOWN,
   camera: null,
-  cameraOpen: true,
   plots: NO_PLOTS,
   openPanels: [],
   serverWarnings: [],
+  layouts: [],
+  topics: [],
   pending: null,
   notices: [],
   helpOpen: false,

@@ -2,6 +2,8 @@
 import type { Behaviours, ModelChoice } from "../api/SetUpApi";
 import type { SceneDescription } from "../api/scene";
 
+export const EDIT_PANEL = "edit"; // open while one edits
+
 export interface Editing {
   models: ModelChoice[];
   objects: string[]; // models of things that are no robots

@@ -3,7 +3,7 @@ import type { LinkedView } from "./link";
 import { hashOf, linkedView } from "./link";
 import { FIRST_SHOWN } from "./overlays";
 
-const NOTHING = { time: null, viewpoint: null, selection: null, viewMode: null, shown: null };
+const NOTHING = { time: null, viewpoint: null, selection: null, viewMode: null, shown: null, layout: null };
 
 test("a view comes out of its link as it went in", () => {
   const view: LinkedView = {
@@ -12,6 +12,7 @@ test("a view comes out of its link as it went in", () => {
     selection: "a b&c=<d>",
     viewMode: "chase",
     shown: { ...FIRST_SHOWN, trails: true, grid: false },
+    layout: "r(view~740,c(inspector.log*~600,images~400)~260)",
   };
   expect(linkedView(hashOf(view))).toEqual(view);
 });

@@ -1,4 +1,4 @@
-// A view as the end of an address: #t=12.5&view=X,Y,Z,X,Y,Z&select=NAME&mode=chase&show=beams,grid.
+// A view as the end of an address: #t=12.5&view=X,Y,Z,X,Y,Z&select=NAME&mode=chase&show=beams,grid&layout=drive.
 // Any part may be missing, and is then as it would be without a link.
 import type { OverlayName, Shown } from "./overlays";
 import { OVERLAY_NAMES } from "./overlays";
@@ -13,18 +13,20 @@ export interface LinkedView {
   selection: string | null;
   viewMode: ViewMode | null;
   shown: Shown | null;
+  layout: string | null; // a preset's name or a text of workspace/layout.ts, not checked
 }
 
 const MODES: readonly ViewMode[] = ["orbit", "follow", "chase", "eye"];
 const FARTHEST = 1e6; // m
 
-export function hashOf({ time, viewpoint, selection, viewMode, shown }: LinkedView): string {
+export function hashOf({ time, viewpoint, selection, viewMode, shown, layout }: LinkedView): string {
   const parts: string[] = [];
   if (time !== null) parts.push(`t=${short(time, 6)}`);
   if (viewpoint) parts.push(`view=${viewpoint.map((value) => short(value, 3)).join(",")}`);
   if (selection !== null) parts.push(`select=${encodeURIComponent(selection)}`);
   if (viewMode !== null && viewMode !== "orbit") parts.push(`mode=${viewMode}`);
   if (shown) parts.push(`show=${OVERLAY_NAMES.filter((name) => shown[name]).join(",")}`);
+  if (layout !== null) parts.push(`layout=${layout}`); // its letters need no escape
   return `#${parts.join("&")}`;
 }
 
@@ -39,6 +41,7 @@ export function linkedView(hash: string): LinkedView {
     selection: parts.get("select") || null,
     viewMode: mode ?? null,
     shown: shownOf(parts.get("show")),
+    layout: parts.get("layout") || null,
   };
 }
 

@@ -1,7 +1,10 @@
 // Which values are drawn against simulated time.
 
 export type Source =
-  { kind: "simulation" } | { kind: "robot"; robot: string } | { kind: "sensor"; topic: string };
+  | { kind: "simulation" }
+  | { kind: "robot"; robot: string }
+  | { kind: "sensor"; topic: string } // the key is a value's name (live/values.ts)
+  | { kind: "topic"; topic: string }; // the key is a field's path (live/fieldPath.ts)
 
 export interface Curve {
   id: string;
@@ -46,7 +49,7 @@ export function curveId(source: Source, key: string): string {
 
 // "b21r speed", "b21r sonar_03 range", "real-time factor".
 export function curveName({ source, key }: Pick<Curve, "source" | "key">): string {
-  if (source.kind === "sensor") return `${source.topic.replace(/^\//, "").replaceAll("/", " ")} ${key}`;
+  if (source.kind === "sensor" || source.kind === "topic") return `${source.topic.replace(/^\//, "").replaceAll("/", " ")} ${key}`;
   const values = source.kind === "robot" ? ROBOT_VALUES : SIMULATION_VALUES;
   const label = values.find((value) => value.key === key)?.label ?? key;
   return source.kind === "robot" ? `${source.robot} ${label}` : label;

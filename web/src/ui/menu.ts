@@ -1,31 +1,47 @@
-// A button that opens a small sheet of choices. A press elsewhere or Esc closes it.
+// A button that opens a small sheet of choices, above everything else on the page. A press elsewhere or Esc
+// closes it.
 import { element } from "./element";
 import type { IconName } from "./icons";
 import { icon } from "./icons";
+
+const GAP_PX = 6;
+const EDGE_PX = 8;
 
 export interface Menu {
   element: HTMLElement;
   button: HTMLButtonElement;
   sheet: HTMLElement;
+  close(): void;
 }
 
+// `word` stands below the icon where the page is wide enough.
 export function createMenu(label: string, picture: IconName, ...items: HTMLElement[]): Menu {
   const button = element(
     "button",
-    { class: "button plain", type: "button", "aria-label": label, title: label, "aria-expanded": "false" },
+    { class: "button plain worded", type: "button", "aria-label": label, title: label, "aria-expanded": "false" },
     icon(picture),
+    element("span", { class: "word", "aria-hidden": "true" }, wordOf(label)),
   );
-  const sheet = element("div", { class: "card menu-sheet", role: "group", "aria-label": label }, ...items);
+  const sheet = element("div", { class: "card menu-sheet", role: "group", "aria-label": label, popover: "manual" }, ...items);
   sheet.hidden = true;
   const place = element("div", { class: "menu" }, button, sheet);
 
   const open = (value: boolean) => {
+    if (value === !sheet.hidden) return;
     sheet.hidden = !value;
+    if (value) {
+      sheet.showPopover?.();
+      standBelow(button, sheet);
+    } else if (sheet.isConnected) {
+      sheet.hidePopover?.();
+    }
     button.setAttribute("aria-expanded", String(value));
     const listen = value ? addEventListener : removeEventListener;
     listen("pointerdown", closeOutside, true);
     listen("keydown", closeByKey, true);
+    listen("resize", close);
   };
+  const close = () => open(false);
   const closeOutside = (event: Event) => {
     if (!(event.target instanceof Node && place.contains(event.target))) open(false);
   };
@@ -37,7 +53,24 @@ export function createMenu(label: string, picture: IconName, ...items: HTMLEleme
     if (hadFocus) button.focus();
   };
   button.addEventListener("click", () => open(sheet.hidden));
-  return { element: place, button, sheet };
+  return { element: place, button, sheet, close };
+}
+
+// "Speed and steps" → "Speed".
+function wordOf(label: string): string {
+  return label.split(" ")[0]!;
+}
+
+// Within the window, wherever the button is.
+function standBelow(button: HTMLElement, sheet: HTMLElement): void {
+  const at = button.getBoundingClientRect();
+  const { innerWidth, innerHeight } = button.ownerDocument.defaultView ?? window;
+  const { width, height } = sheet.getBoundingClientRect();
+  const left = Math.max(EDGE_PX, Math.min(at.left, innerWidth - width - EDGE_PX));
+  const isBelow = at.bottom + GAP_PX + height <= innerHeight - EDGE_PX;
+  const top = isBelow ? at.bottom + GAP_PX : Math.max(EDGE_PX, at.top - GAP_PX - height);
+  sheet.style.left = `${left}px`;
+  sheet.style.top = `${top}px`;
 }
 
 export function menuItem(

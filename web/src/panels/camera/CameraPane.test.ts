@@ -4,7 +4,7 @@ import type { SceneSensor } from "../../api/scene";
 import { camerasOf } from "../../api/scene";
 import type { State } from "../../state/State";
 import { body, scene } from "../../scene/testScene";
-import { createCameraPane } from "./CameraPane";
+import { mount } from "./CameraPane";
 import { testPorts } from "../contract/testPorts";
 
 const EYE: SceneSensor = { name: "eye", type: "camera", overlay: "picture", link: "base", topic: "/a/eye", view: null };
@@ -14,9 +14,10 @@ const SCENE = scene({ bodies: [body("a", { sensors: [EYE] })] });
 beforeEach(() => void vi.spyOn(HTMLCanvasElement.prototype, "getContext").mockReturnValue(null));
 
 function opened(state: Partial<State>) {
-  const { ports, store, topics } = testPorts({ scene: SCENE, camera: camerasOf(SCENE)[0]!, cameraOpen: true, ...state });
-  const pane = createCameraPane(ports);
-  return { store, topics, waiting: () => pane.querySelector(".picture-waiting")!.textContent };
+  const { ports, store, topics } = testPorts({ scene: SCENE, camera: camerasOf(SCENE)[0]!, ...state });
+  const { body, whileOpen } = mount(ports);
+  whileOpen!();
+  return { store, topics, waiting: () => body.querySelector(".picture-waiting")!.textContent };
 }
 
 test("a camera is listened to once there is a view, and its picture waited for", () => {
@@ -25,6 +26,16 @@ test("a camera is listened to once there is a view, and its picture waited for",
   expect(topics.read).toEqual([]);
   store.set({ view: "open" });
   expect(topics.read).toEqual(["/a/eye"]);
+});
+
+test("nothing is listened to while the panel is out of sight", () => {
+  const { ports, topics } = testPorts({ scene: SCENE, camera: camerasOf(SCENE)[0]! });
+  const { whileOpen } = mount(ports);
+  expect(topics.read).toEqual([]);
+  const end = whileOpen!();
+  expect(topics.read).toEqual(["/a/eye"]);
+  end();
+  expect(topics.read).toEqual([]);
 });
 
 test("a recording that has no picture yet is not waited for", () => {

@@ -1,4 +1,4 @@
-// The pictures of one robot's camera, as they arrive. It listens only while it is open.
+// The images of one robot's camera, as they arrive. It listens only while it is in sight.
 import type { CameraChoice } from "../../api/scene";
 import { camerasOf } from "../../api/scene";
 import type { ColouredImage } from "../../live/greyPng";
@@ -8,7 +8,7 @@ import { seconds } from "../../protocol/messages";
 import { shallowEqual } from "../../state/Store";
 import { element, setText } from "../../ui/element";
 import { formatTime } from "../../ui/format";
-import { icon } from "../../ui/icons";
+import type { MountedPanel } from "../contract/Panel";
 import type { PanelPorts } from "../contract/ports";
 
 type Ports = Pick<PanelPorts, "state" | "topics" | "cameras">;
@@ -16,28 +16,16 @@ type Ports = Pick<PanelPorts, "state" | "topics" | "cameras">;
 const SEPARATOR = " · ";
 const SAME_INSTANT_S = 1e-6;
 
-export function createCameraPane({ state, topics, cameras }: Ports): HTMLElement {
+export function mount({ state, topics, cameras }: Ports): MountedPanel {
   const choice = element("select", { "aria-label": "Camera" });
   const picture = element("canvas", { class: "picture", role: "img", "aria-label": "Camera image" });
   picture.width = picture.height = 1;
   const caption = element("span", { class: "picture-time number" });
   const waiting = element("p", { class: "picture-waiting" });
   const body = element("div", { class: "picture-frame" }, picture, waiting, caption);
-  const enlarge = headButton("enlarge", "Enlarge camera image");
-  const fold = headButton("close", "Close camera image");
-  const reopen = element(
-    "button",
-    { class: "button camera-reopen", type: "button", "aria-label": "Open camera image", title: "Camera" },
-    icon("camera"),
-  );
-  const card = element(
-    "section",
-    { class: "card camera-pane", "aria-label": "Camera" },
-    element("div", { class: "card-head" }, choice, enlarge, fold),
-    body,
-  );
-  const pane = element("div", { class: "camera-place" }, card, reopen);
+  const hint = element("p", { class: "hint" }, "No robot has a camera.");
 
+  let isOpen = false;
   let unsubscribe = () => {};
   let shownTime = -Infinity; // s, of the picture
   // A recording may have been moved to before its first picture.
@@ -58,28 +46,22 @@ export function createCameraPane({ state, topics, cameras }: Ports): HTMLElement
     painter.clear();
     setText(caption, "");
     waiting.hidden = false;
-    const { cameraOpen, view, replay } = state.get();
+    const { view, replay } = state.get();
     // A recording holds those that somebody asked for; what it has, it gives at once.
     setText(waiting, replay ? "The recording has no image of this camera up to this time." : "Waiting for an image…");
-    card.hidden = !camera || !cameraOpen;
-    reopen.hidden = !camera || cameraOpen;
-    if (camera && cameraOpen) choice.value = camera.topic;
+    body.hidden = choice.hidden = !camera;
+    hint.hidden = camera !== null;
+    if (camera) choice.value = camera.topic;
     // A canvas takes its first picture only when the browser has started what draws.
-    if (camera && cameraOpen && view !== "starting") {
+    if (camera && isOpen && view !== "starting") {
       unsubscribe = topics.subscribe<CompressedImageMessage>(camera.topic, (image) => painter.take(image));
     }
   };
-  
+
   choice.addEventListener("change", () => {
     const camera = camerasOf(state.get().scene).find(({ topic }) => topic === choice.value);
     if (camera) cameras.show(camera);
   });
-  enlarge.addEventListener("click", () => {
-    const large = card.classList.toggle("large");
-    enlarge.setAttribute("aria-pressed", String(large));
-  });
-  fold.addEventListener("click", () => cameras.open(false));
-  reopen.addEventListener("click", () => cameras.open(true));
   state.watch(
     ({ scene }) => camerasOf(scene),
     (all) => fillChoice(choice, all, state.get().camera),
@@ -91,24 +73,26 @@ export function createCameraPane({ state, topics, cameras }: Ports): HTMLElement
   );
   // Another simulation has another stream, even under the same topic's name.
   state.watch(
-    ({ simulation, cameraOpen, view, replay }) => ({
+    ({ simulation, view, replay }) => ({
       simulation,
-      cameraOpen,
       isStarting: view === "starting",
       isRecorded: replay !== null,
     }),
     () => listen(state.get().camera),
     shallowEqual,
   );
-  return pane;
-}
-
-function headButton(picture: "enlarge" | "close", label: string): HTMLButtonElement {
-  return element(
-    "button",
-    { class: "button plain small", type: "button", "aria-label": label, title: label },
-    icon(picture),
-  );
+  const follow = (open: boolean) => {
+    isOpen = open;
+    listen(state.get().camera);
+  };
+  return {
+    body: element("div", { class: "camera-body" }, hint, body),
+    tools: [choice],
+    whileOpen: () => {
+      follow(true);
+      return () => follow(false);
+    },
+  };
 }
 
 function fillChoice(choice: HTMLSelectElement, cameras: readonly CameraChoice[], chosen: CameraChoice | null): void {

@@ -8,7 +8,7 @@ import type { CurveOf, WholeCurve } from "../../api/curve";
 import type { OutputLine } from "../../api/health";
 import type { RecordedLine } from "../../api/replay";
 import type { CameraChoice } from "../../api/scene";
-import type { ParameterValue } from "../../protocol/FoxgloveClient";
+import type { ParameterValue, TopicCount } from "../../protocol/FoxgloveClient";
 import type { TopicSource } from "../../protocol/SharedTopics";
 import type { Source } from "../../state/plots";
 import type { RobotFilter } from "../../state/robotList";
@@ -18,6 +18,7 @@ import type { StateReader } from "../../state/Store";
 export interface PanelPorts {
   state: StateReader<State>; // what the page knows; it is changed through the other ports
   topics: TopicSource; // of the simulation that is watched, and then of the next one
+  traffic: TrafficPort;
   server: ServerPort;
   commands: CommandsPort;
   replay: ReplayPort;
@@ -25,6 +26,11 @@ export interface PanelPorts {
   cameras: CamerasPort;
   plots: PlotsPort;
   notices: NoticesPort;
+}
+
+export interface TrafficPort {
+  // Messages and bytes that have come on each topic that the page reads or has read.
+  counts(): ReadonlyMap<string, TopicCount>;
 }
 
 // Questions that the live stream does not answer. Promises reject with the server's sentence.
@@ -61,8 +67,7 @@ export interface RobotsPort {
 }
 
 export interface CamerasPort {
-  show(camera: CameraChoice): void; // and opens its pane
-  open(isOpen: boolean): void;
+  show(camera: CameraChoice): void; // and opens the images
 }
 
 export interface PlotsPort {

@@ -41,6 +41,7 @@ export function testPorts(state: Partial<State> = {}, server: Partial<PanelPorts
   const ports = {
     state: store,
     topics,
+    traffic: { counts: vi.fn(() => new Map()) },
     server: {
       figures: vi.fn(async () => new Map()),
       parameter: vi.fn(async () => null),
@@ -57,7 +58,7 @@ export function testPorts(state: Partial<State> = {}, server: Partial<PanelPorts
       filter: vi.fn((change: object) => store.set(({ robotFilter }) => ({ robotFilter: { ...robotFilter, ...change } }))),
       follow: vi.fn(),
     },
-    cameras: { show: vi.fn(), open: vi.fn() },
+    cameras: { show: vi.fn() },
     plots: {
       add: vi.fn(),
       remove: vi.fn(),

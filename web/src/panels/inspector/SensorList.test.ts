@@ -57,7 +57,7 @@ test("they are heard only while the list is open, and only those of one robot", 
 });
 
 test("a camera's row brings its picture", () => {
-  const { ports } = testPorts({ scene: SCENE, selection: "a", cameraOpen: false });
+  const { ports } = testPorts({ scene: SCENE, selection: "a" });
   createSensorList(ports).querySelector<HTMLButtonElement>('[data-sensor="eye"] button')!.click();
   expect(ports.cameras.show).toHaveBeenCalledWith({ robot: "a", sensor: "eye", topic: "/a/eye" });
 });

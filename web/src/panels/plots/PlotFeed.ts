@@ -5,6 +5,7 @@ import type { WholeCurve } from "../../api/curve";
 import type { SceneDescription } from "../../api/scene";
 import { robotsOf } from "../../api/scene";
 import { shortWay } from "../../live/angle";
+import { numberAt, parsePath } from "../../live/fieldPath";
 import { anglesOf, stampOf, valuesOf } from "../../live/values";
 import { Series } from "../../live/Series";
 import type { TopicSource } from "../../protocol/SharedTopics";
@@ -121,6 +122,13 @@ export class PlotFeed {
     this.goOn(time);
     const values = Object.fromEntries(valuesOf(message).map(({ key, value }) => [key, value]));
     this.add(({ source }) => source.kind === "sensor" && source.topic === topic, time, values);
+    const isField = ({ source }: Curve) => source.kind === "topic" && source.topic === topic;
+    const fields: Record<string, number> = {};
+    for (const { key } of this.state.get().plots.curves.filter(isField)) {
+      const value = numberAt(message, parsePath(key) ?? []);
+      if (value !== null) fields[key] = value;
+    }
+    this.add(isField, time, fields);
   }
 
   private add(isMeant: (curve: Curve) => boolean, time: number, values: Record<string, number>): void {
@@ -173,7 +181,10 @@ export class PlotFeed {
 
   private subscribe(topic: string): () => void {
     if (topic === POSES_TOPIC) {
-      return this.topics.subscribe<PosesMessage>(topic, (message) => this.takePoses(message));
+      return this.topics.subscribe<PosesMessage>(topic, (message) => {
+        this.takePoses(message);
+        this.takeReading(topic, message);
+      });
     }
     return this.topics.subscribe<unknown>(topic, (message) => this.takeReading(topic, message));
   }
@@ -193,5 +204,7 @@ function topicsOf(curves: readonly Curve[], scene: SceneDescription | null): str
   const plotted = new Set(curves.flatMap(({ source }) => (source.kind === "sensor" ? [source.topic] : [])));
   const present = robotsOf(scene).flatMap(({ sensors }) => sensors.map(({ topic }) => topic));
   const needsPoses = scene !== null && curves.some(({ source }) => source.kind === "robot");
-  return [...present.filter((topic) => plotted.has(topic)), ...(needsPoses ? [POSES_TOPIC] : [])];
+  const fields = new Set(curves.flatMap(({ source }) => (source.kind === "topic" ? [source.topic] : [])));
+  const readings = new Set([...present.filter((topic) => plotted.has(topic)), ...(scene ? fields : [])]);
+  return [...readings, ...(needsPoses && !readings.has(POSES_TOPIC) ? [POSES_TOPIC] : [])];
 }

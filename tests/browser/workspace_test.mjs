@@ -1,0 +1,183 @@
+// The workspace: panels are docked, tabbed, moved, maximised and closed; layouts are kept, linked and shared as
+// files. On a phone everything can be reached.
+import assert from "node:assert/strict";
+import fs from "node:fs";
+import path from "node:path";
+import { after, before, test } from "node:test";
+import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { startServer } from "./server.mjs";
+import { until } from "./viewing.mjs";
+
+let server;
+let browser;
+let page;
+let faults;
+
+before(async () => {
+  server = await startServer(["playground", "--robot", "pebble@0,-1.5", "--behaviour", "wander"]);
+  browser = await openBrowser({ width: 1366, height: 768 });
+  ({ page, faults } = await openPage(browser, server.url));
+  await waitUntilDrawn(page);
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+const press = (name, of = page) => of.getByRole("button", { name, exact: true }).click();
+const part = (name, of = page) => of.getByRole("region", { name, exact: true });
+const boxOf = (name, of = page) => part(name, of).boundingBox();
+
+async function chooseLayout(title, of = page) {
+  await press("Layout", of);
+  await of.getByRole("group", { name: "Layout" }).getByRole("button", { name: title, exact: true }).click();
+}
+
+function overlap(a, b) {
+  const width = Math.min(a.x + a.width, b.x + b.width) - Math.max(a.x, b.x);
+  const height = Math.min(a.y + a.height, b.y + b.height) - Math.max(a.y, b.y);
+  return Math.max(0, Math.round(width) - 1) * Math.max(0, Math.round(height) - 1);
+}
+
+test("no panel covers the view", async () => {
+  await chooseLayout("Debug a behaviour");
+  const view = await page.locator(".view").boundingBox();
+  assert.ok(view.width > 400 && view.height > 250, JSON.stringify(view));
+  for (const name of ["Inspector", "Images", "Plots", "Log"]) {
+    const box = await boxOf(name);
+    assert.ok(box.width > 100 && box.height > 80, `${name} has ${JSON.stringify(box)}`);
+    assert.equal(overlap(view, box), 0, name);
+  }
+});
+
+test("a tab is dragged to another part, and beside the view", async () => {
+  await chooseLayout("Watch a crowd");
+  const tab = page.getByRole("tab", { name: "Log", exact: true });
+  const view = await page.locator(".view").boundingBox();
+  await tab.dragTo(page.locator(".view"), { targetPosition: { x: view.width - 20, y: view.height / 2 } });
+  await until(async () => ((await boxOf("Log"))?.x ?? 0) > view.x + view.width / 3, "the log at the right of the view");
+  assert.equal(overlap(await page.locator(".view").boundingBox(), await boxOf("Log")), 0);
+});
+
+test("a panel is moved without a drag, maximised, restored and closed", async () => {
+  await chooseLayout("Watch a crowd");
+  await page.getByRole("tab", { name: "Status", exact: true }).click();
+  await press("Arrange status");
+  await press("Move to the left of the view");
+  await until(async () => ((await boxOf("Status"))?.x ?? 1e9) < (await page.locator(".view").boundingBox()).x, "the status at the left");
+  const former = (await boxOf("Status")).width;
+  await press("Arrange status");
+  await press("Maximise");
+  const whole = await page.locator(".workspace").boundingBox();
+  await until(async () => (await boxOf("Status"))?.width > whole.width - 10, "the whole workspace");
+  await press("Arrange status");
+  await press("Restore the size");
+  await until(async () => Math.abs((await boxOf("Status")).width - former) < 5, "its former size");
+  await press("Close status");
+  await part("Status").waitFor({ state: "detached" });
+  assert.equal(await page.getByRole("button", { name: "Status", exact: true }).getAttribute("aria-pressed"), "false");
+});
+
+test("a border between two parts is moved", async () => {
+  await chooseLayout("Standard");
+  const before = await boxOf("Inspector");
+  const y = before.y + before.height / 3;
+  await page.mouse.move(before.x, y);
+  await page.mouse.down();
+  await page.mouse.move(before.x - 120, y, { steps: 5 });
+  await page.mouse.up();
+  const after = await boxOf("Inspector");
+  assert.ok(Math.abs(after.width - before.width - 120) < 12, `${before.width} became ${after.width}`);
+});
+
+test("a layout is saved by name, and there again after the page was loaded anew", async () => {
+  await chooseLayout("Watch a crowd");
+  await press("Plots");
+  await part("Plots").waitFor();
+  await press("Layout");
+  await page.getByLabel("Name of the layout").fill("Night shift");
+  await press("Save");
+  await page.getByText("Layout Night shift saved in this browser.").waitFor();
+  await page.keyboard.press("Escape");
+  await page.reload();
+  await waitUntilDrawn(page);
+  await part("Plots").waitFor(); // as it was left
+  await chooseLayout("Standard");
+  await part("Inspector").waitFor();
+  await part("Plots").waitFor({ state: "detached" });
+  await chooseLayout("Night shift");
+  await part("Plots").waitFor();
+});
+
+test("a layout is exported to a file, and imported from it", async () => {
+  await chooseLayout("Replay a failure");
+  await part("Log").waitFor();
+  await press("Layout");
+  const download = page.waitForEvent("download");
+  await press("Export layout");
+  const file = path.join(browser.profile, "layout.json");
+  await (await download).saveAs(file);
+  const told = JSON.parse(fs.readFileSync(file, "utf8"));
+  assert.equal(told.gsv_layout, 1);
+  assert.match(told.layout, /log/);
+  await chooseLayout("Standard");
+  await part("Log").waitFor({ state: "detached" });
+  await page.getByLabel("Layout file").setInputFiles(file);
+  await part("Log").waitFor();
+  fs.writeFileSync(file, "{}");
+  await page.getByLabel("Layout file").setInputFiles(file);
+  await page.getByText('layout.json is no layout: it has no "gsv_layout".').waitFor();
+});
+
+test("a link brings its layout; a broken one is said, and the standard layout shown", async () => {
+  const { page: linked } = await openPage(browser, `${server.url}#layout=c(view~500,status.log*~500)`);
+  await waitUntilDrawn(linked);
+  await part("Log", linked).waitFor();
+  assert.deepEqual(
+    await linked.getByRole("tab").evaluateAll((tabs) => tabs.map((tab) => tab.getAttribute("aria-label"))),
+    ["View", "Status", "Log"],
+  );
+  await linked.goto(`${server.url}#layout=r(view`);
+  await linked.getByText(/^The layout in the link cannot be shown: expected ~ and a share/).waitFor();
+  await part("Inspector", linked).waitFor();
+  await linked.close();
+});
+
+test("a panel has a window of its own, and returns", async () => {
+  await chooseLayout("Watch a crowd");
+  await page.getByRole("tab", { name: "Status", exact: true }).click();
+  await press("Arrange status");
+  const opened = page.waitForEvent("popup");
+  await press("Open in own window");
+  const popup = await opened;
+  await popup.locator(".panel.status tbody tr").first().waitFor();
+  await popup.close();
+  await page.locator(".panel.status tbody tr").first().waitFor();
+});
+
+test("on a phone every panel, view and layout can be reached", async () => {
+  await page.setViewportSize({ width: 390, height: 780 });
+  await chooseLayout("Standard");
+  await press("Status");
+  await page.locator(".panel.status tbody tr").first().waitFor();
+  const [view, status] = [await page.locator(".view").boundingBox(), await boxOf("Status")];
+  assert.ok(view.width > 380 && status.width > 380 && status.y > view.y + 100, JSON.stringify({ view, status }));
+  await press("Robots");
+  await page.locator("[data-robot]").first().click();
+  await page.locator("[data-robot]").first().waitFor({ state: "hidden" }); // the sheet closes after a choice
+  await page.getByRole("tab", { name: "Inspector", exact: true }).click();
+  await page.getByRole("region", { name: "Selected robot" }).waitFor();
+  const outside = await page.evaluate(() =>
+    [...document.querySelectorAll("button:not([hidden])")]
+      .filter((button) => button.checkVisibility() && !button.closest(".panel-bar, .menu-sheet, [hidden]"))
+      .map((button) => ({ name: button.getAttribute("aria-label") ?? button.textContent, box: button.getBoundingClientRect() }))
+      .filter(({ box }) => box.width > 0 && (box.left < -1 || box.right > innerWidth + 1))
+      .map(({ name }) => name),
+  );
+  assert.deepEqual(outside, []);
+});
+
+test("nothing went wrong, and nothing was asked of another host", () => {
+  assert.deepEqual(faults, []);
+});

@@ -1,0 +1,124 @@
+// Shows, saves and shares layouts of the workspace. What cannot be shown is said in a sentence, and the
+// standard layout is shown instead.
+import type { SavedLayout } from "../state/layouts";
+import { MAX_NAME, MAX_SAVED, fileOf, fromFile, keepCurrent, keepLayouts, loadCurrent, loadLayouts } from "../state/layouts";
+import type { State } from "../state/State";
+import type { Store } from "../state/Store";
+import { download } from "../ui/files";
+import type { Split } from "../workspace/layout";
+import { readLayout, textOf } from "../workspace/layout";
+import type { Preset, Space } from "../workspace/presets";
+import { PRESETS, STANDARD } from "../workspace/presets";
+import { notify } from "./notices";
+
+const MAX_FILE_BYTES = 64_000;
+
+// Where layouts are shown.
+export interface LayoutHost {
+  readonly layout: string;
+  readonly space: Space;
+  show(layout: Split): void;
+}
+
+export class LayoutControl {
+  private host: LayoutHost | null = null;
+
+  constructor(
+    private readonly store: Store<State>,
+    private readonly storage: Storage | null,
+    private readonly known: ReadonlySet<string>, // ids of panels
+  ) {
+    store.set({ layouts: loadLayouts(storage) });
+  }
+
+  // `linked`: what the page's address asks for; null: nothing.
+  start(host: LayoutHost, linked: string | null): void {
+    this.host = host;
+    const kept = loadCurrent(this.storage);
+    if (linked !== null) this.showText(linked, "The layout in the link");
+    else if (kept !== null) this.showText(kept, "The last layout of this browser");
+    else this.showPreset(STANDARD);
+  }
+
+  changed(text: string): void {
+    keepCurrent(this.storage, text);
+  }
+
+  showPreset(preset: Preset): void {
+    const { host } = this;
+    host?.show(preset.layout(host.space));
+  }
+
+  showSaved({ name, text }: SavedLayout): void {
+    this.showText(text, `The layout ${name}`);
+  }
+
+  // A preset's name, or a layout's text; `what` names it where it cannot be shown. Whether it could be.
+  showText(text: string, what: string): boolean {
+    const preset = PRESETS.find(({ name }) => name === text);
+    if (preset) {
+      this.showPreset(preset);
+      return true;
+    }
+    const read = readLayout(text, this.known);
+    if ("problem" in read) {
+      notify(this.store, "error", `${what} cannot be shown: ${read.problem}. The page shows the standard layout.`);
+      this.showPreset(STANDARD);
+      return false;
+    }
+    if (read.unknown.length > 0) {
+      notify(this.store, "note", `${what} is of another version of GSV: it has panels that this page lacks (${read.unknown.slice(0, 5).join(", ")}).`);
+    }
+    this.host?.show(read.layout);
+    return true;
+  }
+
+  // The preset's name where a preset is shown; null: the standard layout.
+  get linkText(): string | null {
+    const { host } = this;
+    if (!host) return null;
+    const text = host.layout;
+    const preset = PRESETS.find(({ layout }) => textOf(layout(host.space)) === text);
+    return preset ? (preset === STANDARD ? null : preset.name) : text;
+  }
+
+  // Under a name that is in use the layout is replaced.
+  save(name: string): void {
+    const { host } = this;
+    const trimmed = name.trim().slice(0, MAX_NAME);
+    if (!host || trimmed === "") return notify(this.store, "error", "Type a name for the layout first.");
+    const others = this.store.get().layouts.filter((each) => each.name !== trimmed);
+    if (others.length >= MAX_SAVED) {
+      return notify(this.store, "error", `${MAX_SAVED} layouts are saved already. Delete one first.`);
+    }
+    this.keep([...others, { name: trimmed, text: host.layout }]);
+    notify(this.store, "note", `Layout ${trimmed} saved in this browser.`);
+  }
+
+  remove(name: string): void {
+    this.keep(this.store.get().layouts.filter((each) => each.name !== name));
+  }
+
+  exportFile(): void {
+    if (!this.host) return;
+    const saved = { name: "Layout", text: this.host.layout };
+    download("gsv-layout.json", new Blob([fileOf(saved)], { type: "application/json" }));
+  }
+
+  async importFile(file: File): Promise<void> {
+    const refuse = (problem: string) => notify(this.store, "error", `${file.name} is no layout: ${problem}.`);
+    if (file.size > MAX_FILE_BYTES) return refuse(`it has ${file.size} bytes; the limit is ${MAX_FILE_BYTES}`);
+    const read = fromFile(await file.text());
+    if ("problem" in read) return refuse(read.problem);
+    if (!this.showText(read.text, `The layout in ${file.name}`)) return;
+    const others = this.store.get().layouts.filter(({ name }) => name !== read.name);
+    if (others.length < MAX_SAVED) this.keep([...others, read]);
+  }
+
+  private keep(layouts: SavedLayout[]): void {
+    this.store.set({ layouts });
+    if (!keepLayouts(this.storage, layouts)) {
+      notify(this.store, "error", "This browser does not keep layouts. Export the layout to a file instead.");
+    }
+  }
+}

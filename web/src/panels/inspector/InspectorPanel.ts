@@ -1,0 +1,16 @@
+// The inspector as a panel; without a selection it says how to get one.
+import { element } from "../../ui/element";
+import type { MountedPanel } from "../contract/Panel";
+import type { PanelPorts } from "../contract/ports";
+import { createInspector } from "./Inspector";
+
+type Ports = Pick<PanelPorts, "state" | "topics" | "robots" | "cameras" | "plots" | "notices">;
+
+export function mount(ports: Ports): MountedPanel {
+  const hint = element("p", { class: "hint" }, "Select a robot in the view or in the list to see what it does and what its sensors read.");
+  ports.state.watch(
+    ({ selection, setUp }) => selection !== null && setUp === null,
+    (isSelected) => (hint.hidden = isSelected),
+  );
+  return { body: element("div", { class: "inspector-body" }, hint, createInspector(ports)) };
+}

@@ -1,0 +1,37 @@
+// Messages and bytes a second, from counters that only grow.
+export interface Count {
+  messages: number;
+  bytes: number;
+}
+
+export interface Traffic {
+  rate: number; // messages a second of wall-clock time
+  bytesPerSecond: number;
+}
+
+const WINDOW_MS = 3000;
+
+export class Rates {
+  private readonly samples: { atMs: number; counts: ReadonlyMap<string, Count> }[] = [];
+
+  // Takes the counters of now; gives what came since the oldest sample that is kept.
+  update(counts: ReadonlyMap<string, Count>, nowMs: number): Map<string, Traffic> {
+    const copy = new Map([...counts].map(([topic, { messages, bytes }]) => [topic, { messages, bytes }]));
+    this.samples.push({ atMs: nowMs, counts: copy });
+    while (this.samples.length > 2 && nowMs - this.samples[1]!.atMs >= WINDOW_MS) this.samples.shift();
+    const oldest = this.samples[0]!;
+    const seconds = (nowMs - oldest.atMs) / 1000;
+    const traffic = new Map<string, Traffic>();
+    if (seconds <= 0) return traffic;
+    for (const [topic, { messages, bytes }] of copy) {
+      const before = oldest.counts.get(topic) ?? { messages: 0, bytes: 0 };
+      const rate = Math.max(0, messages - before.messages) / seconds;
+      traffic.set(topic, { rate, bytesPerSecond: Math.max(0, bytes - before.bytes) / seconds });
+    }
+    return traffic;
+  }
+
+  clear(): void {
+    this.samples.length = 0;
+  }
+}

@@ -1,0 +1,41 @@
+import { expect, test } from "vitest";
+import { fileOf, fromFile, keepLayouts, loadLayouts } from "./layouts";
+
+function storage(kept: string | null = null) {
+  const items = new Map(kept === null ? [] : [["gsv.layouts", kept]]);
+  return {
+    getItem: (key: string) => items.get(key) ?? null,
+    setItem: (key: string, value: string) => void items.set(key, value),
+  };
+}
+
+test("saved layouts are there again", () => {
+  const own = storage();
+  const saved = [{ name: "Mine", text: "r(view~500)" }];
+  expect(keepLayouts(own, saved)).toBe(true);
+  expect(loadLayouts(own)).toEqual(saved);
+});
+
+test.each(["{", "null", "7", '[{"name":1}]', '[{"name":"","text":"view"}]', '[null]'])("of what others wrote (%s) nothing is taken", (kept) => {
+  expect(loadLayouts(storage(kept))).toEqual([]);
+});
+
+test("a browser that keeps nothing says so", () => {
+  expect(keepLayouts(null, [])).toBe(false);
+  const full = { setItem: () => { throw new Error("full"); } };
+  expect(keepLayouts(full, [])).toBe(false);
+});
+
+test("a layout comes out of its file as it went in", () => {
+  const saved = { name: "Night shift", text: "r(view~700,log~300)" };
+  expect(fromFile(fileOf(saved))).toEqual(saved);
+});
+
+test.each([
+  ["view", "it is not JSON"],
+  ["null", 'it has no "gsv_layout"'],
+  ['{"gsv_layout": 2, "layout": "view"}', "it has version 2; this page reads version 1"],
+  ['{"gsv_layout": 1}', 'it has no text "layout"'],
+])("the file %s is refused: %s", (content, problem) => {
+  expect(fromFile(content)).toEqual({ problem });
+});

@@ -1,0 +1,30 @@
+// A button with an icon, a word below it where the page is wide enough, and a tooltip.
+import { element } from "./element";
+import type { IconName } from "./icons";
+import { icon } from "./icons";
+
+export interface IconButton {
+  picture: IconName;
+  label: string; // its name
+  word?: string; // below the icon (default: the label)
+  title?: string; // what happens (default: the label)
+  key?: string; // its single key, shown in the tooltip
+  onclick(): void;
+}
+
+export function iconButton({ picture, label, word = label, title = label, key = "", onclick }: IconButton): HTMLButtonElement {
+  const shortcut = key !== "" && { "aria-keyshortcuts": key };
+  return element(
+    "button",
+    {
+      class: "button plain worded",
+      type: "button",
+      "aria-label": label,
+      ...shortcut,
+      title: key === "" ? title : `${title} (${key})`,
+      onclick,
+    },
+    icon(picture),
+    element("span", { class: "word", "aria-hidden": "true" }, word),
+  );
+}

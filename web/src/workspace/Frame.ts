@@ -1,0 +1,72 @@
+// What stands in the workspace for one panel: its tools and its body, or the reason why there are none. It
+// fetches the panel when it is in sight for the first time, and keeps it from then on.
+import type { MountedPanel, Panel } from "../panels/contract/Panel";
+import type { PanelPorts } from "../panels/contract/ports";
+import { element, setText } from "../ui/element";
+
+export class Frame {
+  readonly element: HTMLElement;
+  private readonly absence = element("p", { class: "panel-absent hint" });
+  private readonly content = element("div", { class: "panel-content" });
+  private mounted: MountedPanel | null = null;
+  private isLoading = false;
+  private isInSight = false;
+  private end: (() => void) | null = null; // null: nothing is read for it
+
+  constructor(
+    private readonly panel: Panel,
+    private readonly ports: PanelPorts,
+    private readonly close: (id: string) => void,
+  ) {
+    this.element = element("div", { class: `panel ${panel.id}` }, this.absence, this.content);
+    this.absence.hidden = true;
+    ports.state.watch(panel.isAvailable, () => void this.follow());
+  }
+
+  // Whether the panel is in sight: its tab is in front.
+  show(isInSight: boolean): void {
+    this.isInSight = isInSight;
+    void this.follow();
+  }
+
+  private get isWanted(): boolean {
+    return this.isInSight && this.panel.isAvailable(this.ports.state.get());
+  }
+
+  private async follow(): Promise<void> {
+    const isAvailable = this.panel.isAvailable(this.ports.state.get());
+    this.absence.hidden = isAvailable;
+    this.content.hidden = !isAvailable;
+    setText(this.absence, isAvailable ? "" : (this.panel.absence ?? "This panel has nothing to show here."));
+    if (this.isWanted && !this.mounted && !(await this.load())) return;
+    if (!this.mounted || this.isWanted === (this.end !== null)) return;
+    if (this.isWanted) {
+      this.end = this.mounted.whileOpen?.() ?? (() => {});
+    } else {
+      this.end?.();
+      this.end = null;
+    }
+  }
+
+  // Whether this call has brought the panel.
+  private async load(): Promise<boolean> {
+    if (this.isLoading) return false; // who asked first shows it
+    this.isLoading = true;
+    const { id, title, load } = this.panel;
+    try {
+      const { mount } = await load();
+      const mounted = mount(this.ports);
+      if (mounted.tools?.length) this.content.append(element("div", { class: "panel-tools" }, ...mounted.tools));
+      this.content.append(mounted.body);
+      this.mounted = mounted;
+      return true;
+    } catch (error) {
+      const reason = (error as Error).message;
+      this.ports.notices.notify("error", `The panel ${title} cannot be opened: ${reason}. Reload the page and try again.`);
+      this.close(id);
+      return false;
+    } finally {
+      this.isLoading = false;
+    }
+  }
+}

@@ -1,0 +1,80 @@
+// The layouts that come with the page. Sizes are chosen for the space that there is: a column of facts does
+// not grow with the window.
+import type { Part, Split } from "./layout";
+import { VIEW } from "./layout";
+
+export interface Space {
+  width: number; // CSS pixels
+  height: number;
+}
+
+export interface Preset {
+  name: string; // in links and menus
+  title: string;
+  hint: string;
+  layout(space: Space): Split;
+}
+
+const SIDE_PX = 280;
+const WIDE_SIDE_PX = 380;
+const BELOW_PX = 240;
+
+export const PRESETS: readonly Preset[] = [
+  {
+    name: "standard",
+    title: "Standard",
+    hint: "View, inspector and camera",
+    layout: ({ width }) => beside(width, SIDE_PX, tabs(VIEW), column([tabs("inspector"), 620], [tabs("images"), 380])),
+  },
+  {
+    name: "drive",
+    title: "Drive",
+    hint: "Large camera image and the inspector beside the view",
+    layout: ({ width }) => beside(width, WIDE_SIDE_PX, tabs(VIEW), column([tabs("images"), 550], [tabs("inspector"), 450])),
+  },
+  {
+    name: "debug",
+    title: "Debug a behaviour",
+    hint: "Inspector, plots, and the log",
+    layout: ({ width, height }) =>
+      beside(width, SIDE_PX, below(height, tabs(VIEW), row([tabs("plots"), 500], [tabs("log"), 500])), column([tabs("inspector"), 650], [tabs("images"), 350])),
+  },
+  {
+    name: "crowd",
+    title: "Watch a crowd",
+    hint: "Large view with diagnostics, status and log below it",
+    layout: ({ height }) => below(height, tabs(VIEW), tabs("diagnostics", "status", "log")),
+  },
+  {
+    name: "replay",
+    title: "Replay a failure",
+    hint: "Plots and log below the view, inspector and camera beside it",
+    layout: ({ width, height }) =>
+      beside(width, SIDE_PX, below(height, tabs(VIEW), row([tabs("log"), 500], [tabs("plots"), 500])), column([tabs("inspector", "status"), 600], [tabs("images"), 400])),
+  },
+];
+
+export const STANDARD = PRESETS[0]!;
+
+function tabs(...ids: string[]): Part {
+  return { tabs: ids, front: ids[0]! };
+}
+
+function row(...parts: [Part, number][]): Split {
+  return { split: "row", parts: parts.map(([part, share]) => ({ part, share })) };
+}
+
+function column(...parts: [Part, number][]): Split {
+  return { split: "column", parts: parts.map(([part, share]) => ({ part, share })) };
+}
+
+// The side is so wide, and at most half of all.
+function beside(width: number, sidePx: number, main: Part, side: Part): Split {
+  const share = Math.round(1000 * Math.min(0.5, sidePx / Math.max(1, width)));
+  return row([main, 1000 - share], [side, share]);
+}
+
+function below(height: number, main: Part, lower: Part): Split {
+  const share = Math.round(1000 * Math.min(0.5, BELOW_PX / Math.max(1, height)));
+  return column([main, 1000 - share], [lower, share]);
+}
