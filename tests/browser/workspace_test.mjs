@@ -156,6 +156,19 @@ test("a panel has a window of its own, and returns", async () => {
   await page.locator(".panel.status tbody tr").first().waitFor();
 });
 
+test("topics are listed with types and rates, and a field of any message is read and plotted", async () => {
+  await chooseLayout("Watch a crowd");
+  await press("Topics");
+  await page.getByLabel("Text in topic or type").fill("/gsv/status");
+  const row = page.locator(".topic-list tbody tr").first();
+  await row.getByText("gsv_msgs/msg/SimulationStatus").waitFor();
+  await row.getByRole("button", { name: "/gsv/status" }).click();
+  await page.locator(".message-tree").getByText('"real_time"').waitFor();
+  await until(async () => Number(await row.locator("td").nth(2).textContent()) > 0, "a rate");
+  await press("Plot step");
+  await page.locator(".plot-legend").getByText("gsv status step").waitFor();
+});
+
 test("on a phone every panel, view and layout can be reached", async () => {
   await page.setViewportSize({ width: 390, height: 780 });
   await chooseLayout("Standard");

@@ -1,10 +1,9 @@
 // The inspector as a panel; without a selection it says how to get one.
 import { element } from "../../ui/element";
 import type { MountedPanel } from "../contract/Panel";
-import type { PanelPorts } from "../contract/ports";
 import { createInspector } from "./Inspector";
 
-type Ports = Pick<PanelPorts, "state" | "topics" | "robots" | "cameras" | "plots" | "notices">;
+type Ports = Parameters<typeof createInspector>[0];
 
 export function mount(ports: Ports): MountedPanel {
   const hint = element("p", { class: "hint" }, "Select a robot in the view or in the list to see what it does and what its sensors read.");
