@@ -18,7 +18,7 @@ import type { Store } from "../state/Store";
 import { EDIT_PANEL } from "../state/editing";
 import { PANELS } from "../panels/registry";
 import { download, fileName } from "../ui/files";
-import { VIEW } from "../workspace/layout";
+import { VIEW } from "../state/layout";
 import { EditControl } from "./EditControl";
 import { Filming } from "./Filming";
 import { LayoutControl } from "./LayoutControl";

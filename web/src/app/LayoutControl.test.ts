@@ -2,8 +2,8 @@ import { expect, test, vi } from "vitest";
 import type { State } from "../state/State";
 import { initialState } from "../state/State";
 import { Store } from "../state/Store";
-import type { Split } from "../workspace/layout";
-import { textOf } from "../workspace/layout";
+import type { Split } from "../state/layout";
+import { textOf } from "../state/layout";
 import { STANDARD } from "../workspace/presets";
 import { LayoutControl } from "./LayoutControl";
 

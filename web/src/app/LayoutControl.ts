@@ -5,8 +5,8 @@ import { MAX_NAME, MAX_SAVED, fileOf, fromFile, keepCurrent, keepLayouts, loadCu
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 import { download } from "../ui/files";
-import type { Split } from "../workspace/layout";
-import { readLayout, textOf } from "../workspace/layout";
+import type { Split } from "../state/layout";
+import { readLayout, textOf } from "../state/layout";
 import type { Preset, Space } from "../workspace/presets";
 import { PRESETS, STANDARD } from "../workspace/presets";
 import { notify } from "./notices";

@@ -1,9 +1,9 @@
 // The layouts that a person has saved, by name, and the one that is shown.
-import { MAX_LAYOUT_CHARACTERS } from "../workspace/layout";
+import { MAX_LAYOUT_CHARACTERS } from "./layout";
 
 export interface SavedLayout {
   name: string;
-  text: string; // as workspace/layout.ts describes it
+  text: string; // as state/layout.ts describes it
 }
 
 export const MAX_SAVED = 40;

@@ -13,7 +13,7 @@ export interface LinkedView {
   selection: string | null;
   viewMode: ViewMode | null;
   shown: Shown | null;
-  layout: string | null; // a preset's name or a text of workspace/layout.ts, not checked
+  layout: string | null; // a preset's name or a text of state/layout.ts, not checked
 }
 
 const MODES: readonly ViewMode[] = ["orbit", "follow", "chase", "eye"];

@@ -3,7 +3,7 @@ import type { DockviewApi, DockviewGroupPanel, IDockviewPanel, IHeaderActionsRen
 import { element, setText } from "../ui/element";
 import { icon } from "../ui/icons";
 import { createMenu } from "../ui/menu";
-import { VIEW } from "./layout";
+import { VIEW } from "../state/layout";
 
 export interface HeadParts {
   viewTools: HTMLElement[]; // stand where the view is

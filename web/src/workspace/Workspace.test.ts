@@ -4,7 +4,7 @@ import type { Panel } from "../panels/contract/Panel";
 import { testPorts } from "../panels/contract/testPorts";
 import type { State } from "../state/State";
 import { element } from "../ui/element";
-import { readLayout } from "./layout";
+import { readLayout } from "../state/layout";
 import { Workspace } from "./Workspace";
 
 beforeAll(() => {

@@ -10,8 +10,8 @@ import { element } from "../ui/element";
 import { fromDockview, toDockview } from "./dockviewLayout";
 import { Frame } from "./Frame";
 import { createGroupHead } from "./GroupHead";
-import type { Split } from "./layout";
-import { VIEW, narrowLayout, panelsOf, textOf } from "./layout";
+import type { Split } from "../state/layout";
+import { VIEW, narrowLayout, panelsOf, textOf } from "../state/layout";
 import type { Space } from "./presets";
 
 const SIDE_PX = 300;

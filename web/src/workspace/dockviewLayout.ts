@@ -1,7 +1,7 @@
 // Layouts of this page as dockview reads and writes them, in CSS pixels.
 import type { SerializedDockview } from "dockview";
 import { Orientation } from "dockview";
-import type { Part, Split } from "./layout";
+import type { Part, Split } from "../state/layout";
 import type { Space } from "./presets";
 
 type GridNode = SerializedDockview["grid"]["root"];

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
-import type { Split } from "./layout";
-import { MAX_LAYOUT_CHARACTERS, narrowLayout, panelsOf, readLayout, textOf } from "./layout";
+import type { Split } from "../state/layout";
+import { MAX_LAYOUT_CHARACTERS, narrowLayout, panelsOf, readLayout, textOf } from "../state/layout";
 import { fromDockview, toDockview } from "./dockviewLayout";
 import { PRESETS } from "./presets";
 

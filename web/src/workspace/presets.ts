@@ -1,7 +1,7 @@
 // The layouts that come with the page. Sizes are chosen for the space that there is: a column of facts does
 // not grow with the window.
-import type { Part, Split } from "./layout";
-import { VIEW } from "./layout";
+import type { Part, Split } from "../state/layout";
+import { VIEW } from "../state/layout";
 
 export interface Space {
   width: number; // CSS pixels
