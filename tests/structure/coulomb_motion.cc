@@ -1,5 +1,6 @@
 #include "tests/structure/coulomb_motion.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -33,6 +34,7 @@ struct Support {
   // the velocity of the wheel's surface at the point because of its rotation, m/s; in frame H
   Vector3 surface;
   double friction = 1, load = 0;
+  int link = 0;
 };
 
 class Robot {
@@ -62,9 +64,11 @@ class Robot {
     const Vector3 point = Inverse(world_from_model_) * point_in_world;
     const auto [link, collision] = Nearest(point);
     support.friction = std::min(1.0, collision->surface.friction);
+    support.link = link;
     for (std::size_t j = 0; j < model_.joints.size(); ++j) {
       const model::Joint& joint = model_.joints[j];
       if (joint.child != link || joint.kind == model::JointKind::kFixed) continue;
+      if (joint.kind == model::JointKind::kBall) support.friction = 0;
       const double speed = state_.joint_velocities[static_cast<std::size_t>(first_joint_) + j];
       const Vector3 axis =
           Steering(joint.parent) * (joint.model_from_joint.orientation * joint.axis);
@@ -129,8 +133,45 @@ class Robot {
   Pose world_from_model_, world_from_heading_;
 };
 
+// Mean square distances of the points from their mean, along x and y, and their product.
+struct Spread {
+  double x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+  double narrowest() const { return (xx + yy) / 2 - std::hypot((xx - yy) / 2, xy); }
+  // The direction in which they spread most, as an angle from x.
+  double direction() const { return std::atan2(2 * xy, xx - yy) / 2; }
+};
+
+Spread SpreadOf(const std::vector<Support>& supports) {
+  Spread spread;
+  const double share = 1.0 / static_cast<double>(supports.size());
+  for (const Support& s : supports) {
+    spread.x += share * s.point.x;
+    spread.y += share * s.point.y;
+  }
+  for (const Support& s : supports) {
+    const double x = s.point.x - spread.x, y = s.point.y - spread.y;
+    spread.xx += share * x * x;
+    spread.yy += share * y * y;
+    spread.xy += share * x * y;
+  }
+  return spread;
+}
+
+void ShareAlongLine(std::vector<Support>& supports, const Spread& spread, const Vector3& centre) {
+  const double x = std::cos(spread.direction()), y = std::sin(spread.direction());
+  const double share = 1.0 / static_cast<double>(supports.size());
+  const double to_centre = (centre.x - spread.x) * x + (centre.y - spread.y) * y;
+  for (Support& s : supports) {
+    const double along = (s.point.x - spread.x) * x + (s.point.y - spread.y) * y;
+    s.load = std::max(0.0, share * (1 + along * to_centre / (spread.xx + spread.yy)));
+  }
+}
+
 // Sets the load of each support, as a fraction of the weight.
 void ShareWeight(std::vector<Support>& supports, const Vector3& centre) {
+  constexpr double kLine = 1e-3;  // smallest spread across a line, m
+  const Spread spread = SpreadOf(supports);
+  if (spread.narrowest() < kLine * kLine) return ShareAlongLine(supports, spread, centre);
   std::array<Three, 3> rows{};
   for (const Support& s : supports) {
     const Three of{1, s.point.x - centre.x, s.point.y - centre.y};
@@ -142,6 +183,39 @@ void ShareWeight(std::vector<Support>& supports, const Vector3& centre) {
   for (Support& s : supports) {
     s.load = std::max(
         0.0, share[0] + share[1] * (s.point.x - centre.x) + share[2] * (s.point.y - centre.y));
+  }
+}
+
+// Returns the links that stand on several points side by side.
+std::vector<int> WideLinks(const std::vector<Support>& supports) {
+  constexpr double kSame = 1e-4;  // m
+  std::vector<int> wide;
+  for (const Support& a : supports) {
+    for (const Support& b : supports) {
+      if (a.link == b.link && a.point.y > b.point.y + kSame &&
+          std::find(wide.begin(), wide.end(), a.link) == wide.end()) {
+        wide.push_back(a.link);
+      }
+    }
+  }
+  return wide;
+}
+
+// Moves a link's load to its points to the left of its middle, or to the right.
+void MoveLoad(std::vector<Support>& supports, int link, bool to_left) {
+  double load = 0, mean = 0, points = 0, chosen = 0;
+  for (const Support& s : supports) {
+    if (s.link != link) continue;
+    load += s.load;
+    mean += s.point.y;
+    ++points;
+  }
+  const auto is_chosen = [&](const Support& s) {
+    return s.link == link && (s.point.y > mean / points) == to_left;
+  };
+  for (const Support& s : supports) chosen += is_chosen(s) ? 1 : 0;
+  for (Support& s : supports) {
+    if (s.link == link) s.load = is_chosen(s) ? load / chosen : 0;
   }
 }
 
@@ -175,6 +249,13 @@ GroundMotion LeastPower(const std::vector<Support>& supports) {
   return {motion[0], motion[1], motion[2]};
 }
 
+void Extend(CoulombRange& range, const GroundMotion& motion) {
+  for (const auto part : {&GroundMotion::x, &GroundMotion::y, &GroundMotion::turn}) {
+    range.least.*part = std::min(range.least.*part, motion.*part);
+    range.most.*part = std::max(range.most.*part, motion.*part);
+  }
+}
+
 }  // namespace
 
 GroundMotion MotionOf(const world::BodyState& body) {
@@ -184,7 +265,7 @@ GroundMotion MotionOf(const world::BodyState& body) {
   return {v.x, v.y, body.angular_velocity.z};
 }
 
-std::optional<GroundMotion> CoulombMotion(const dynamics::testing::TestWorld& world, int body,
+std::optional<CoulombRange> CoulombMotion(const dynamics::testing::TestWorld& world, int body,
                                           const std::vector<world::Contact>& contacts) {
   const Robot robot(world, body);
   std::vector<Support> supports;
@@ -194,12 +275,18 @@ std::optional<GroundMotion> CoulombMotion(const dynamics::testing::TestWorld& wo
       supports.push_back(robot.SupportAt(at.point));
     }
   }
-  if (supports.size() < 3) return std::nullopt;
+  if (supports.size() < 2) return std::nullopt;
   ShareWeight(supports, robot.CentreOfMass());
-  const GroundMotion motion = LeastPower(supports);
-  // Points on one line cannot support a robot.
-  if (!std::isfinite(motion.x + motion.y + motion.turn)) return std::nullopt;
-  return motion;
+  const GroundMotion both = LeastPower(supports);
+  CoulombRange range{both, both, both};
+  const std::vector<int> wide = WideLinks(supports);
+  for (unsigned lefts = 0; lefts < 1u << wide.size(); ++lefts) {
+    std::vector<Support> edges = supports;
+    for (std::size_t i = 0; i < wide.size(); ++i) MoveLoad(edges, wide[i], (lefts >> i & 1) != 0);
+    Extend(range, LeastPower(edges));
+  }
+  if (!std::isfinite(both.x + both.y + both.turn)) return std::nullopt;
+  return range;
 }
 
 }  // namespace gsv

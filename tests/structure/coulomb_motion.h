@@ -7,7 +7,13 @@
 //         Sanderson, "Minimization of energy in quasi-static manipulation", IEEE Trans. Robotics
 //         and Automation 5 (1989)).
 // Loads   a linear function of the contact point's position, such that the loads carry the weight
-//         at the centre of mass. Equal springs would have the same loads.
+//         at the centre of mass. Equal springs would have the same loads. If all points are on one line, as with a robot that
+//         rocks on its two wheels, the function is linear along this line.
+// Wheels  a stiff wheel of width w stands on its two edges, which may share its load in any
+//         way. The edge with more load rolls, the other slips. Two wheels at a distance B thus turn a
+//         robot at B / (B + w) to B / (B - w) of the rate of thin wheels: outer or inner edges roll.
+//         If the left edges roll, or the right ones, its middle moves by w / 2 times the rate.
+// Balls   a ball in a ball joint rolls in each direction: it carries load without friction.
 // Frame   the heading frame H: at the model's origin, x along its heading, z up.
 #pragma once
 
@@ -23,13 +29,19 @@ struct GroundMotion {
   double x = 0, y = 0, turn = 0;
 };
 
+// The motion by Coulomb's law if both edges of each wheel carry its load, and the least and the
+// greatest value of each part of it over all choices of one edge of each wheel.
+struct CoulombRange {
+  GroundMotion both, least, most;
+};
+
 // Returns the motion according to the body's state.
 GroundMotion MotionOf(const world::BodyState& body);
 
 // Returns the motion according to Coulomb's law. `contacts` are those of the last step, in which
-// the body touches only the ground, with a friction of 1. Returns nullopt if it has fewer than
-// three contact points, or if all are on one line.
-std::optional<GroundMotion> CoulombMotion(const dynamics::testing::TestWorld& world, int body,
+// the body touches only the ground, with a friction of 1. Returns nullopt if it has fewer than two
+// contact points.
+std::optional<CoulombRange> CoulombMotion(const dynamics::testing::TestWorld& world, int body,
                                           const std::vector<world::Contact>& contacts);
 
 }  // namespace gsv
