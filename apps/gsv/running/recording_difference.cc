@@ -70,7 +70,7 @@ std::string NameInMessage(const nlohmann::ordered_json& message, const std::stri
   std::string name;
   std::istringstream path(field);
   for (std::string key; at != nullptr;) {
-    for (const char* naming : {"robot", "name", "child_frame_id", "first"}) {
+    for (const char* naming : {"robot", "name", "child_frame_id", "first", "ns"}) {
       if (at->is_object() && at->contains(naming) && (*at)[naming].is_string()) {
         name = (*at)[naming].get<std::string>();
         break;
