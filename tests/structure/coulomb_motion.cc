@@ -251,8 +251,8 @@ GroundMotion LeastPower(const std::vector<Support>& supports) {
 
 void Extend(CoulombRange& range, const GroundMotion& motion) {
   for (const auto part : {&GroundMotion::x, &GroundMotion::y, &GroundMotion::turn}) {
-    range.least.*part = std::min(range.least.*part, motion.*part);
-    range.most.*part = std::max(range.most.*part, motion.*part);
+    range.min.*part = std::min(range.min.*part, motion.*part);
+    range.max.*part = std::max(range.max.*part, motion.*part);
   }
 }
 

@@ -7,8 +7,8 @@
 //         Sanderson, "Minimization of energy in quasi-static manipulation", IEEE Trans. Robotics
 //         and Automation 5 (1989)).
 // Loads   a linear function of the contact point's position, such that the loads carry the weight
-//         at the centre of mass. Equal springs would have the same loads. If all points are on one line, as with a robot that
-//         rocks on its two wheels, the function is linear along this line.
+//         at the centre of mass. Equal springs would have the same loads. If all points are on one
+//         line, as with a robot that rocks on its two wheels, the function is linear along this line.
 // Wheels  a stiff wheel of width w stands on its two edges, which may share its load in any
 //         way. The edge with more load rolls, the other slips. Two wheels at a distance B thus turn a
 //         robot at B / (B + w) to B / (B - w) of the rate of thin wheels: outer or inner edges roll.
@@ -29,10 +29,10 @@ struct GroundMotion {
   double x = 0, y = 0, turn = 0;
 };
 
-// The motion by Coulomb's law if both edges of each wheel carry its load, and the least and the
-// greatest value of each part of it over all choices of one edge of each wheel.
+// The motion by Coulomb's law if both edges of each wheel carry its load, and the minimum and the
+// maximum of each part of it over all choices of one edge of each wheel.
 struct CoulombRange {
-  GroundMotion both, least, most;
+  GroundMotion both, min, max;
 };
 
 // Returns the motion according to the body's state.

@@ -69,8 +69,8 @@ void AddShare(const GroundMotion& motion, double share, GroundMotion& sum) {
 
 void AddShare(const CoulombRange& range, double share, CoulombRange& sum) {
   AddShare(range.both, share, sum.both);
-  AddShare(range.least, share, sum.least);
-  AddShare(range.most, share, sum.most);
+  AddShare(range.min, share, sum.min);
+  AddShare(range.max, share, sum.max);
 }
 
 // Starts the robot. Its motion is steady when the run begins.
@@ -155,8 +155,8 @@ void ExpectAsCommanded(const Run& run, const std::string& where) {
 
 void ExpectInRange(double value, const CoulombRange& range, double GroundMotion::*part,
                    double tolerance, const std::string& where) {
-  EXPECT_GE(value, range.least.*part - tolerance) << where;
-  EXPECT_LE(value, range.most.*part + tolerance) << where;
+  EXPECT_GE(value, range.min.*part - tolerance) << where;
+  EXPECT_LE(value, range.max.*part + tolerance) << where;
 }
 
 void ExpectCoulombsLaw(const Run& run, const world::DriveCommand& command,
