@@ -80,6 +80,16 @@ test("the viewer, with all its panels, and the sheet of keys", async () => {
   await page.getByRole("button", { name: "Overlays", exact: true }).click();
   await judge(page);
   await page.keyboard.press("Escape");
+  await page.getByRole("button", { name: "Topics", exact: true }).click();
+  await page.locator('[data-topic="/gsv/status"]').click();
+  await page.locator(".tree-line").first().waitFor();
+  await page.getByRole("button", { name: "Layout", exact: true }).click();
+  await judge(page);
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("Control+k");
+  await page.locator(".palette-item").first().waitFor();
+  await judge(page);
+  await page.keyboard.press("Escape");
   await page.keyboard.press("?");
   await page.getByRole("dialog").waitFor();
   await judge(page);

@@ -169,6 +169,23 @@ test("topics are listed with types and rates, and a field of any message is read
   await page.locator(".plot-legend").getByText("gsv status step").waitFor();
 });
 
+test("the command palette finds commands, robots, topics and panels", async () => {
+  const find = async (text) => {
+    await page.keyboard.press("Control+k");
+    await page.getByRole("combobox", { name: "Command, robot, topic or panel" }).fill(text);
+    await page.keyboard.press("Enter");
+    await page.locator("dialog.palette").waitFor({ state: "hidden" });
+  };
+  await find("layout standard");
+  await part("Inspector").waitFor();
+  await find("robot pebble");
+  await page.getByRole("region", { name: "Selected robot" }).getByRole("heading", { name: "pebble" }).waitFor();
+  await find("topic /gsv/events");
+  await part("Topics").getByRole("heading", { name: "/gsv/events" }).waitFor();
+  await find("run pause");
+  await page.waitForFunction(() => window.gsv.phase === "paused");
+});
+
 test("on a phone every panel, view and layout can be reached", async () => {
   await page.setViewportSize({ width: 390, height: 780 });
   await chooseLayout("Standard");

@@ -16,6 +16,7 @@ import { notify } from "./app/notices";
 import { AvatarSteering } from "./input/AvatarSteering";
 import { listenForKeys } from "./input/Keyboard";
 import { createHelpSheet } from "./page/HelpSheet";
+import { createPalette } from "./page/Palette";
 import { createHealthStrip } from "./page/HealthStrip";
 import { createNotices } from "./page/Notices";
 import { createOverlay } from "./page/Overlay";
@@ -244,6 +245,7 @@ page.append(
   createTimeline(app),
   createStatusBar(app),
   createHelpSheet(app),
+  createPalette(app),
 );
 app.panels.host = workspace;
 app.layouts.start(workspace, linkedView(location.hash).layout);

@@ -34,6 +34,7 @@ import { SetUpControl } from "./SetUpControl";
 
 const PLOTS_PANEL = "plots";
 const IMAGES_PANEL = "images";
+const TOPICS_PANEL = "topics";
 
 export class App {
   readonly replay: ReplayControl;
@@ -230,6 +231,16 @@ export class App {
     const link = this.link.linkTo(location.href);
     history.replaceState(null, "", link);
     void this.copy(link, "Link copied.");
+  }
+
+  openPalette(paletteOpen: boolean): void {
+    this.store.set({ paletteOpen });
+  }
+
+  // Shows the messages of a topic.
+  showTopic(topic: string): void {
+    this.store.set({ topic });
+    this.panels.open(TOPICS_PANEL);
   }
 
   openHelp(open: boolean): void {

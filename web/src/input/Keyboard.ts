@@ -89,8 +89,18 @@ export function isTyping(target: EventTarget | null): boolean {
   return target.closest("input:not([type=range]), textarea, select, [contenteditable], dialog") !== null;
 }
 
+// Ctrl K (Cmd K), wherever the focus is.
+export function isPaletteKey({ key, ctrlKey, metaKey, altKey, shiftKey }: Key): boolean {
+  return key.toLowerCase() === "k" && (ctrlKey || metaKey) && !altKey && !shiftKey;
+}
+
 export function listenForKeys(app: App, page: Pick<Window, "addEventListener"> = window): void {
   page.addEventListener("keydown", (event) => {
+    if (isPaletteKey(event)) {
+      event.preventDefault();
+      app.openPalette(!app.store.get().paletteOpen);
+      return;
+    }
     if (isTyping(event.target)) return;
     if (isSingleKey(event) && !app.store.get().singleKeys) return;
     const move = app.store.get().replay && replayCommandOf(event);

@@ -27,6 +27,7 @@ const KEYS: [heading: string, lines: Line[]][] = [
       [["V"], "View from the robot"],
       [["O"], "Free view"],
       [["Esc"], "Deselect or close"],
+      [["Ctrl K"], "Find a command, robot, topic or panel"],
       [["?"], "Show this help"],
     ],
   ],

@@ -30,6 +30,7 @@ export function createToolbar(app: App, toggleSidebar: () => void): HTMLElement 
     element(
       "div",
       { class: "toolbar-views" },
+      findButton(app),
       createLayoutMenu(app),
       createShareMenu(app),
       createPeopleMenu(app),
@@ -58,6 +59,10 @@ function transport(app: App): HTMLElement {
     (isElsewhere) => (group.hidden = isElsewhere),
   );
   return group;
+}
+
+function findButton(app: App): HTMLElement {
+  return iconButton({ picture: "find", label: "Find", title: "Find a command, robot, topic or panel (Ctrl K)", onclick: () => app.openPalette(true) });
 }
 
 function newButton(app: App): HTMLElement {

@@ -80,9 +80,11 @@ export interface State {
   serverWarnings: readonly string[];
   layouts: readonly SavedLayout[]; // in this browser
   topics: readonly TopicInfo[]; // that the server offers, by name
+  topic: string | null; // whose messages are shown
   pending: Action | "factor" | null; // sent to the server, not answered yet
   notices: Notice[];
   helpOpen: boolean;
+  paletteOpen: boolean;
   singleKeys: boolean; // whether single keys are commands
   filming: boolean;
   framesPerSecond: number;
@@ -122,9 +124,11 @@ export const initialState: State = {
   serverWarnings: [],
   layouts: [],
   topics: [],
+  topic: null,
   pending: null,
   notices: [],
   helpOpen: false,
+  paletteOpen: false,
   singleKeys: true,
   filming: false,
   framesPerSecond: 0,

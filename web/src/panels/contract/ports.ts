@@ -31,6 +31,7 @@ export interface PanelPorts {
 export interface TrafficPort {
   // Messages and bytes that have come on each topic that the page reads or has read.
   counts(): ReadonlyMap<string, TopicCount>;
+  choose(topic: string | null): void; // whose messages are shown
 }
 
 // Questions that the live stream does not answer. Promises reject with the server's sentence.

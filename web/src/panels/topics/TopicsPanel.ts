@@ -19,7 +19,7 @@ const MAX_MEASURED = 100;
 const MAX_COPIED = 1_000_000; // characters
 
 export function mount({ state, topics, traffic, plots, notices }: Ports): MountedPanel {
-  let chosen: string | null = null;
+  let chosen = state.get().topic;
   let isPaused = false;
   let isOpen = false;
   let end = () => {};
@@ -53,9 +53,7 @@ export function mount({ state, topics, traffic, plots, notices }: Ports): Mounte
   );
 
   const list = new TopicList((topic) => {
-    chosen = topic === chosen ? null : topic;
-    list.select(chosen);
-    listen();
+    traffic.choose(topic === chosen ? null : topic);
   });
   const draw = () => {
     timer = undefined;
@@ -122,9 +120,17 @@ export function mount({ state, topics, traffic, plots, notices }: Ports): Mounte
       },
       shallowEqual,
     );
-    listen();
+    const unwatchChoice = state.watch(
+      ({ topic }) => topic,
+      (topic) => {
+        chosen = topic;
+        list.select(chosen);
+        listen();
+      },
+    );
     return () => {
       isOpen = false;
+      unwatchChoice();
       count();
       unwatch();
       clearInterval(clock);

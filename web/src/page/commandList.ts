@@ -1,0 +1,95 @@
+// Everything that the command palette finds: commands, panels, layouts, robots and topics.
+import type { App } from "../app/App";
+import { PANELS } from "../panels/registry";
+import { canAct, canEdit, isAllowed, mainAction } from "../state/actions";
+import { OVERLAYS } from "../state/overlays";
+import { PRESETS } from "../workspace/presets";
+
+export interface Command {
+  group: string; // "Panel", "Robot"
+  label: string;
+  key?: string; // its single key
+  run(): void;
+}
+
+const MAX_FOUND = 50;
+
+// Those that can be done now.
+export function commandsOf(app: App): Command[] {
+  return [...runCommands(app), ...viewCommands(app), ...placeCommands(app), ...robotCommands(app), ...topicCommands(app)];
+}
+
+// Those that have each word of the text; what begins with the text comes first.
+export function findCommands(commands: readonly Command[], text: string): Command[] {
+  const words = text.toLowerCase().split(/\s+/).filter(Boolean);
+  const fitting = commands.filter(({ group, label }) => {
+    const whole = `${group} ${label}`.toLowerCase();
+    return words.every((word) => whole.includes(word));
+  });
+  const begins = ({ label }: Command) => label.toLowerCase().startsWith(words[0] ?? "");
+  return [...fitting.filter(begins), ...fitting.filter((each) => !begins(each))].slice(0, MAX_FOUND);
+}
+
+function runCommands(app: App): Command[] {
+  const state = app.store.get();
+  const phase = state.status?.phase;
+  const commands: Command[] = [];
+  const add = (isPossible: boolean, label: string, run: () => void, key?: string) => {
+    if (isPossible) commands.push({ group: "Run", label, run, ...(key && { key }) });
+  };
+  const may = canAct(state);
+  const main = mainAction(phase);
+  if (state.replay) {
+    add(true, "Play or pause the recording", () => app.startPauseOrResume(), "Space");
+  } else {
+    add(may && isAllowed(phase, main), `${main.charAt(0).toUpperCase()}${main.slice(1)}`, () => app.startPauseOrResume(), "Space");
+    add(may && isAllowed(phase, "step"), "Take one step", () => app.stepOnce(), "N");
+    add(may && isAllowed(phase, "stop"), "Stop", () => void app.act("stop"));
+    add(may && isAllowed(phase, "reset"), "Reset", () => void app.act("reset"));
+    add(canEdit(state), state.editing ? "End editing" : "Edit", () => void app.edits.toggle());
+  }
+  add(state.abilities.creates && state.setUp === null, "New simulation", () => void app.setUp.open());
+  return commands;
+}
+
+function viewCommands(app: App): Command[] {
+  const { shown } = app.store.get();
+  const view = (label: string, key: string, run: () => void): Command => ({ group: "View", label, key, run });
+  return [
+    view("Reset view", "R", () => app.resetView()),
+    view("Top view", "T", () => app.topView()),
+    view("Follow", "F", () => app.toggleViewMode("follow")),
+    view("Chase", "C", () => app.toggleViewMode("chase")),
+    view("Robot's eye", "V", () => app.toggleViewMode("eye")),
+    view("Free view", "O", () => app.orbit()),
+    view("Copy link", "L", () => app.copyLink()),
+    view("Save image", "X", () => void app.savePicture()),
+    view("Record video", "M", () => app.film()),
+    ...OVERLAYS.map(({ name, label, key }) => ({
+      group: "Overlay",
+      label: `${shown[name] ? "Hide" : "Show"} ${label.toLowerCase()}`,
+      key,
+      run: () => app.toggle(name),
+    })),
+  ];
+}
+
+function placeCommands(app: App): Command[] {
+  const state = app.store.get();
+  const panels = PANELS.filter(({ isAvailable }) => isAvailable(state));
+  return [
+    ...panels.map(({ id, title, key }) => ({ group: "Panel", label: title, ...(key && { key }), run: () => app.panels.open(id) })),
+    ...PRESETS.map((preset) => ({ group: "Layout", label: preset.title, run: () => app.layouts.showPreset(preset) })),
+    ...state.layouts.map((saved) => ({ group: "Layout", label: saved.name, run: () => app.layouts.showSaved(saved) })),
+    { group: "Help", label: "Keys and gestures", key: "?", run: () => app.openHelp(true) },
+  ];
+}
+
+function robotCommands(app: App): Command[] {
+  const robots = app.store.get().status?.robots ?? [];
+  return robots.map(({ name }) => ({ group: "Robot", label: name, run: () => app.select(name) }));
+}
+
+function topicCommands(app: App): Command[] {
+  return app.store.get().topics.map(({ name }) => ({ group: "Topic", label: name, run: () => app.showTopic(name) }));
+}
