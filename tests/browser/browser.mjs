@@ -24,18 +24,31 @@ const ARGUMENTS = [
 ];
 const ACTION_TIMEOUT_MS = 60_000; // two browsers may share two busy cores
 
-// Opens a browser on `profile`, a folder; close() ends it and removes that.
-export async function openBrowser({ width = 1280, height = 800, colorScheme = "light" } = {}) {
+// Opens a browser on `profile`, a folder; close() ends it and removes that. `drawer`: who draws the view,
+// "browser", "server", or null for the page's own choice. Without `webgl` it is as Chrome is on a machine
+// without a graphics card.
+export async function openBrowser({
+  width = 1280,
+  height = 800,
+  colorScheme = "light",
+  drawer = "browser",
+  webgl = true,
+} = {}) {
   const profile = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-browser-"));
   const context = await chromium.launchPersistentContext(profile, {
     executablePath: EXECUTABLE,
     headless: true,
-    args: ARGUMENTS,
+    args: webgl ? ARGUMENTS : [...ARGUMENTS.filter((each) => !each.includes("swiftshader")), "--disable-3d-apis"],
     viewport: { width, height },
     colorScheme,
     reducedMotion: "reduce",
   });
   context.setDefaultTimeout(ACTION_TIMEOUT_MS);
+  if (drawer !== null) {
+    await context.addInitScript((value) => {
+      if (location.protocol.startsWith("http")) localStorage.setItem("gsv.drawer", value);
+    }, drawer);
+  }
   return {
     context,
     profile,

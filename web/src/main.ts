@@ -1,5 +1,6 @@
 // Puts the page together: one store, the session that fills it, the 3D view, and the panels.
 import "./style/page.css";
+import "./style/drawn.css";
 import "./style/panels.css";
 import "./style/robots.css";
 import "./style/setUp.css";
@@ -49,6 +50,9 @@ import { element } from "./ui/element";
 import { Workspace } from "./workspace/Workspace";
 import { STANDARD } from "./workspace/presets";
 import { linkedView } from "./state/link";
+import { createDrawerSwitch } from "./page/DrawerSwitch";
+import { chosenDrawer, keepDrawer, startDrawing } from "./app/startDrawing";
+import type { ViewChoice } from "./app/ViewChoice";
 
 // The page's address may carry: simulation=NAME, which one to join; recording=NAME, which one to
 // replay; quality=high, which keeps the
@@ -66,6 +70,7 @@ const api = new SimulationApi(document.baseURI, credentials.fetch, credentials);
 
 // The 3D view comes once the browser has started what draws.
 let world: World3D | null = null;
+let drawing: ViewChoice | null = null;
 const library = new ModelLibrary(
   (id) => api.modelUrl(id),
   () => credentials.headers,
@@ -81,7 +86,10 @@ function createWorld(host: HTMLElement, inSoftware: boolean): World3D | null {
         onPlace: (body, place) => app.place(body, place),
         onModelsMissing: (modelsMissing) => store.set({ modelsMissing }),
         onProblem: (sentence) => notify(store, "error", sentence),
-        onFrameRate: (framesPerSecond) => store.set({ framesPerSecond }),
+        onFrameRate: (framesPerSecond) => {
+          store.set({ framesPerSecond });
+          drawing?.frameRate(framesPerSecond);
+        },
         onGraphics: (isThere) => store.set({ view: isThere ? "open" : "interrupted" }),
       },
     );
@@ -122,8 +130,9 @@ async function openWorld(): Promise<void> {
   const inSoftware = await graphics;
   unwatch();
   world = createWorld(view, inSoftware);
-  if (world) connectWorld(world);
-  store.set({ view: world ? "open" : "none" });
+  if (!world) return store.set({ view: "none" });
+  connectWorld(world);
+  drawing = startDrawing(store, api, world, { inSoftware, chosen: chosenDrawer(storage, parameters) });
 }
 
 function connectWorld(world: World3D): void {
@@ -223,6 +232,8 @@ async function drive(avatar: string, wish: Parameters<SimulationApi["drive"]>[2]
 }
 
 const page = document.getElementById("app")!;
+const statusBar = createStatusBar(app);
+statusBar.append(createDrawerSwitch(store, () => drawing, (drawer) => keepDrawer(storage, drawer)));
 const toggleSidebar = () => page.classList.toggle("sidebar-open");
 view.append(createOverlay(app), createControlQuestion(app), createNotices(app));
 const workspace = new Workspace(
@@ -243,7 +254,7 @@ page.append(
   workspace.element,
   createPanelBar(app, PANELS),
   createTimeline(app),
-  createStatusBar(app),
+  statusBar,
   createHelpSheet(app),
   createPalette(app),
 );

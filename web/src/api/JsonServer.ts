@@ -53,6 +53,11 @@ export class JsonServer {
     });
   }
 
+  // Any response, as it is.
+  fetch(path: string, signal: AbortSignal): Promise<Response> {
+    return this.fetchPage(this.url(path), { signal });
+  }
+
   // Sends a file as it is.
   put(path: string, content: Blob, timeoutMs: number): Promise<unknown> {
     return this.request(path, { method: "PUT", body: content, signal: AbortSignal.timeout(timeoutMs) });

@@ -76,6 +76,11 @@ export class SimulationApi {
     return parseScene(await this.server.get(`${simulationPath(name)}/scene`));
   }
 
+  // An image of the view, which the server draws; `query`: of view.jpg in docs/api.yaml.
+  image(name: string, query: string, signal: AbortSignal): Promise<Response> {
+    return this.server.fetch(`view.jpg?simulation=${encodeURIComponent(name)}&${query}`, signal);
+  }
+
   async act(name: string, action: Action, count = 1): Promise<SimulationStatus> {
     const body = action === "step" ? { count } : {};
     return parseStatus(await this.server.post(`${simulationPath(name)}/${action}`, body, ACTION_TIMEOUT_MS));

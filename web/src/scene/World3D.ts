@@ -1,6 +1,6 @@
 // The 3D view: the only place where three.js and the rest of the page meet. Frames are drawn when
 // something changed. Positions on the screen are in CSS pixels of the page.
-import type { Matrix4, WebGLRenderer } from "three";
+import type { Matrix4, Object3D } from "three";
 import { Scene } from "three";
 import type { SceneDescription } from "../api/scene";
 import { hasAgent } from "../api/scene";
@@ -24,7 +24,8 @@ import type { ScreenPlace } from "./picking";
 import { nearest, onClick, rayThrough, screenPlaceOf } from "./picking";
 import { pngOf, videoOf } from "./capture";
 import { Quality } from "./Quality";
-import { makeRenderer } from "./renderer";
+import type { ViewRenderer } from "./renderer";
+import { makeBareRenderer, makeRenderer } from "./renderer";
 import { RenderLoop } from "./RenderLoop";
 import { RobotPlaces } from "./RobotPlaces";
 import type { RobotStates } from "./RobotSigns";
@@ -33,6 +34,7 @@ import { RobotWatch } from "./RobotWatch";
 import { SceneParts } from "./SceneParts";
 import { ShadowPace } from "./ShadowPace";
 import { ShownPoses } from "./ShownPoses";
+import type { DrawnView } from "../view/DrawnView";
 
 // Where a graphics card draws, and where none does: there the beams of a crowd would take longer than all
 // the rest.
@@ -54,7 +56,9 @@ export interface WorldOptions {
 }
 
 export class World3D {
-  private readonly renderer: WebGLRenderer;
+  readonly canDraw: boolean; // the browser has WebGL 2
+  private readonly renderer: ViewRenderer;
+  private drawn: DrawnView | null = null; // not null: the server draws
   private readonly scene = new Scene();
   private readonly rig: CameraRig;
   private readonly library: ModelLibrary;
@@ -77,14 +81,15 @@ export class World3D {
   private readonly frameRate: FrameRate;
   private readonly shadows = new ShadowPace();
 
-  // Throws where the browser has no WebGL 2.
   constructor(
     private readonly host: HTMLElement,
     options: WorldOptions,
     private readonly events: WorldEvents,
   ) {
     const isFine = options.fixedQuality || !options.inSoftware;
-    this.renderer = makeRenderer(isFine);
+    const gl = makeRenderer(isFine);
+    this.canDraw = gl !== null;
+    this.renderer = gl ?? makeBareRenderer();
     this.overlays = new OverlayLayers(isFine ? MOST_BEAMS : MOST_BEAMS_IN_SOFTWARE, !isFine);
     const canvas = this.renderer.domElement;
     this.quality = new Quality(devicePixelRatio, options.fixedQuality);
@@ -98,7 +103,7 @@ export class World3D {
     this.loop = new RenderLoop(
       (now) => this.draw(now),
       (took) => this.tookFrame(took),
-      fenceOf(this.renderer.getContext() as WebGL2RenderingContext),
+      gl ? fenceOf(gl.getContext() as WebGL2RenderingContext) : undefined,
     );
     this.rig = new CameraRig(
       canvas,
@@ -237,17 +242,29 @@ export class World3D {
     this.loop.request();
   }
 
+  // Shows images of the server from now on; null: the browser draws.
+  drawBy(drawn: DrawnView | null): void {
+    this.drawn?.dispose();
+    this.drawn = drawn;
+    if (drawn) this.renderer.domElement.after(drawn.canvas);
+    this.refresh();
+  }
+
+  private get surface(): HTMLCanvasElement {
+    return this.drawn?.canvas ?? this.renderer.domElement;
+  }
+
   // What is seen at present, with the names, as PNG.
   picture(): Promise<Blob> {
     this.draw(performance.now());
-    return pngOf(this.renderer.domElement, (context) => {
+    return pngOf(this.surface, (context) => {
       if (this.shown.labels) this.signs.labels.paint(context, this.width);
     });
   }
 
   // What is seen from now on, without the names.
   video(): MediaStream {
-    return videoOf(this.renderer.domElement);
+    return videoOf(this.surface);
   }
 
   // world_from_robot as last reported and its simulated time; null while unknown.
@@ -357,7 +374,7 @@ export class World3D {
   }
 
   private draw(now: number): boolean {
-    if (!this.hasGraphics) return false;
+    if (!this.hasGraphics && !this.drawn) return false;
     if (!this.arranger.holds && this.poses.show(now)) {
       this.shadows.moved();
       this.watch.move();
@@ -373,10 +390,18 @@ export class World3D {
     if (this.shadows.areDue(isMoving)) this.renderer.shadowMap.needsUpdate = true;
     this.resizeCanvas();
     this.signs.placeMarks(this.rig.camera, this.height, this.renderer.getPixelRatio(), this.shown);
-    this.renderer.render(this.scene, this.rig.camera);
+    this.render();
     this.signs.placeLabels(this.rig.camera, this.width, this.height, this.watch.selection, this.shown);
-    this.frameRate.count(this.frames, now);
+    this.frameRate.count(this.drawn?.images ?? this.frames, now);
     return isFlying || isMoving;
+  }
+
+  private render(): void {
+    if (!this.drawn) return this.renderer.render(this.scene, this.rig.camera);
+    const { overlays, signs, watch, arranger } = this;
+    const painted: Object3D[] = [overlays.group, signs.marks.points, watch.ring.mesh, arranger.handle.group];
+    if (this.parts && this.shown.grid) painted.unshift(this.parts.grid);
+    this.drawn.show(this.rig.camera, this.width, this.height, painted);
   }
 
   private click(place: ScreenPlace): void {

@@ -1,18 +1,44 @@
 // The canvas of the 3D view and what draws on it.
 import { NeutralToneMapping, PCFShadowMap, WebGLRenderer } from "three";
 
-// `isFine`: edges are smoothed. Throws where the browser has no WebGL 2.
-export function makeRenderer(isFine: boolean): WebGLRenderer {
+// What the view needs of a renderer.
+export type ViewRenderer = Pick<
+  WebGLRenderer,
+  "domElement" | "render" | "setSize" | "setPixelRatio" | "getPixelRatio"
+> & { shadowMap: Pick<WebGLRenderer["shadowMap"], "needsUpdate"> };
+
+// A canvas that takes the pointer, on which nothing is drawn: the server draws the view.
+export function makeBareRenderer(): ViewRenderer {
+  return {
+    domElement: makeCanvas(),
+    shadowMap: { needsUpdate: false },
+    render: () => {},
+    setPixelRatio: () => {},
+    getPixelRatio: () => 1,
+    setSize(width: number, height: number) {
+      this.domElement.style.width = `${width}px`;
+      this.domElement.style.height = `${height}px`;
+    },
+  };
+}
+
+function makeCanvas(): HTMLCanvasElement {
   const canvas = document.createElement("canvas");
   canvas.setAttribute("aria-label", "The simulated world");
   canvas.setAttribute("role", "img");
+  return canvas;
+}
+
+// `isFine`: edges are smoothed. Null where the browser has no WebGL 2.
+export function makeRenderer(isFine: boolean): WebGLRenderer | null {
+  const canvas = makeCanvas();
   // Opaque: nothing of the page shows through.
   const context = canvas.getContext("webgl2", {
     alpha: false,
     antialias: isFine,
     powerPreference: "high-performance",
   });
-  if (!context) throw new Error("this browser does not support WebGL 2");
+  if (!context) return null;
   const renderer = new WebGLRenderer({ canvas, context });
   renderer.toneMapping = NeutralToneMapping;
   renderer.shadowMap.enabled = true;

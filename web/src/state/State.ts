@@ -42,6 +42,9 @@ export interface RobotPose {
 // Whether the browser draws in 3D.
 export type View = "starting" | "open" | "interrupted" | "none"; // interrupted: the browser took WebGL away
 
+// Who draws the view.
+export type Drawer = "browser" | "server";
+
 // How the eye moves: by hand; along with the selected robot; along and turning with it; as its eye.
 export type ViewMode = "orbit" | "follow" | "chase" | "eye";
 
@@ -65,6 +68,7 @@ export interface State {
   events: RecordedEvent[]; // of the recording, by time
   wishedTime: number | null; // s: the instant of the recording that was asked for and is not there yet
   view: View;
+  drawnBy: Drawer | null; // null: the view has not started
   scene: SceneDescription | null;
   modelsMissing: number; // shapes that are still being fetched
   health: Health | null; // null: the server does not report it
@@ -109,6 +113,7 @@ export const initialState: State = {
   events: [],
   wishedTime: null,
   view: "starting",
+  drawnBy: null,
   scene: null,
   modelsMissing: 0,
   health: null,

@@ -1,0 +1,99 @@
+// The view as the server draws it: in a browser without WebGL, and by choice.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { startServer } from "./server.mjs";
+
+const SIMULATION = ["playground", "--robot", "pebble@0,0", "--behaviour", "wander"];
+
+let server;
+let browser;
+let page;
+let faults;
+
+before(async () => {
+  server = await startServer(SIMULATION);
+  browser = await openBrowser({ width: 1024, height: 680, drawer: null, webgl: false });
+  ({ page, faults } = await openPage(browser, server.url));
+  await waitUntilDrawn(page);
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+// The number of different colours in the image, and a sum that changes with it.
+async function lookAtImage() {
+  return page.evaluate(() => {
+    const canvas = document.querySelector(".drawn-view");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const colours = new Set();
+    let sum = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      const colour = (data[i] << 16) | (data[i + 1] << 8) | data[i + 2];
+      colours.add(colour);
+      sum = (Math.imul(sum, 31) + colour) | 0;
+    }
+    return { colours: colours.size, sum, width: canvas.width, height: canvas.height };
+  });
+}
+
+async function untilOtherImage(sum) {
+  for (;;) {
+    await page.waitForFunction((then) => window.gsv.frames > then, await page.evaluate(() => window.gsv.frames));
+    const image = await lookAtImage();
+    if (image.sum !== sum) return image;
+  }
+}
+
+test("without WebGL the server draws the view at the size of the window", async () => {
+  assert.equal(await page.evaluate(() => document.createElement("canvas").getContext("webgl2")), null);
+  await page.locator(".drawn-view").waitFor();
+  await page.waitForFunction(() => document.querySelector(".drawn-view").width > 300);
+  const image = await lookAtImage();
+  assert.ok(image.colours > 100, `only ${image.colours} colours`);
+  const size = await page.evaluate(() => {
+    const { width, height } = document.querySelector(".view").getBoundingClientRect();
+    return { width: Math.floor(width), height: Math.floor(height) };
+  });
+  assert.ok(Math.abs(image.width - size.width) <= 1 && Math.abs(image.height - size.height) <= 1);
+  assert.equal(await page.getByTestId("drawer").textContent(), "drawn by the server");
+  assert.ok(await page.getByTestId("drawer").isDisabled());
+});
+
+test("the image follows the simulation and the camera", async () => {
+  const first = await lookAtImage();
+  const moved = await untilOtherImage(first.sum);
+  await page.keyboard.press("t"); // from above
+  await untilOtherImage(moved.sum);
+});
+
+test("robots have their names over the image, and a click selects one", async () => {
+  await page.locator(".view").getByText("pebble", { exact: true }).first().waitFor();
+  const place = await page.evaluate(() => window.gsv.robotScreenPosition("pebble"));
+  await page.mouse.click(place.x, place.y);
+  await page.waitForFunction(() => document.body.textContent.includes("pebble") && location !== null);
+  await page.getByRole("heading", { name: "pebble" }).first().waitFor();
+});
+
+test("nothing goes wrong meanwhile", () => {
+  assert.deepEqual(faults, []);
+});
+
+test("with WebGL one chooses who draws", async () => {
+  const other = await openBrowser({ width: 1024, height: 680 });
+  try {
+    const { page: drawn } = await openPage(other, `${server.url}?view=server`);
+    await waitUntilDrawn(drawn);
+    const choice = drawn.getByTestId("drawer");
+    assert.equal(await choice.textContent(), "drawn by the server");
+    await choice.click();
+    await drawn.waitForFunction(() => document.querySelector(".drawn-view") === null);
+    assert.equal(await choice.textContent(), "drawn by the browser");
+    await choice.click();
+    await drawn.locator(".drawn-view").waitFor();
+  } finally {
+    await other.close();
+  }
+});

@@ -1,0 +1,63 @@
+import { expect, test, vi } from "vitest";
+import { initialState } from "../state/State";
+import type { State } from "../state/State";
+import { Store } from "../state/Store";
+import type { ChoiceOptions } from "./ViewChoice";
+import { ViewChoice } from "./ViewChoice";
+
+function started(options: Partial<ChoiceOptions> = {}) {
+  const store = new Store<State>(initialState);
+  const use = vi.fn();
+  const choice = new ViewChoice(store, { canDraw: true, inSoftware: true, chosen: null, ...options }, use);
+  choice.start();
+  return { choice, drawer: () => store.get().drawnBy, use };
+}
+
+function tell(choice: ViewChoice, framesPerSecond: number, seconds: number): void {
+  for (let i = 0; i < seconds; i++) choice.frameRate(framesPerSecond);
+}
+
+test("without WebGL the server draws, and there is no choice", () => {
+  const { choice, drawer, use } = started({ canDraw: false });
+  expect(drawer()).toBe("server");
+  expect(use).toHaveBeenCalledWith("server");
+  expect(choice.other).toBeNull();
+  expect(choice.serverFailed()).toBe(false);
+});
+
+test("in software the server draws after five slow seconds in a row", () => {
+  const { choice, drawer } = started();
+  tell(choice, 4, 4);
+  tell(choice, 15, 1);
+  tell(choice, 4, 4);
+  expect(drawer()).toBe("browser");
+  tell(choice, 4, 1);
+  expect(drawer()).toBe("server");
+});
+
+test("a graphics card keeps drawing, however slow", () => {
+  const { choice, drawer } = started({ inSoftware: false });
+  tell(choice, 4, 20);
+  expect(drawer()).toBe("browser");
+});
+
+test("a choice by hand stays", () => {
+  const { choice, drawer } = started();
+  choice.choose("server");
+  expect(drawer()).toBe("server");
+  choice.choose("browser");
+  tell(choice, 2, 20);
+  expect(drawer()).toBe("browser");
+  expect(started({ chosen: "server" }).drawer()).toBe("server");
+  const kept = started({ chosen: "browser" });
+  tell(kept.choice, 2, 20);
+  expect(kept.drawer()).toBe("browser");
+});
+
+test("the browser draws again if the server cannot, and stays", () => {
+  const { choice, drawer } = started();
+  tell(choice, 4, 5);
+  expect(choice.serverFailed()).toBe(true);
+  tell(choice, 4, 20);
+  expect(drawer()).toBe("browser");
+});

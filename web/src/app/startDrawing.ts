@@ -1,0 +1,80 @@
+// Starts the view: by the browser or by the server, as ViewChoice says.
+import type { SimulationApi } from "../api/SimulationApi";
+import type { World3D } from "../scene/World3D";
+import type { Drawer, State } from "../state/State";
+import type { Store } from "../state/Store";
+import { DrawnView } from "../view/DrawnView";
+import { notify } from "./notices";
+import { ViewChoice } from "./ViewChoice";
+
+const KEY = "gsv.drawer";
+
+export function keepDrawer(storage: Storage | null, drawer: Drawer): void {
+  storage?.setItem(KEY, drawer);
+}
+
+// The choice by hand: view=server or view=browser in the address, else the one that was kept.
+export function chosenDrawer(storage: Storage | null, parameters: URLSearchParams): string | null {
+  return parameters.get("view") ?? storage?.getItem(KEY) ?? null;
+}
+
+export function startDrawing(
+  store: Store<State>,
+  api: SimulationApi,
+  world: World3D,
+  options: { inSoftware: boolean; chosen: string | null },
+): ViewChoice {
+  let choice: ViewChoice;
+  const fetchImage = async (query: string, signal: AbortSignal) => {
+    await untilVisible();
+    await until(store, ({ simulation, connection }) => simulation !== null && connection.phase === "open");
+    return api.image(store.get().simulation!, query, signal);
+  };
+  const fail = (sentence: string) => {
+    notify(store, "error", sentence);
+    if (!choice.serverFailed()) store.set({ view: "none" });
+  };
+  const use = (drawer: Drawer) => {
+    // What is being put together is not on the server yet.
+    const isOnServer = drawer === "server" && store.get().setUp === null;
+    if (!isOnServer) {
+      world.drawBy(null);
+      store.set({ view: world.canDraw ? "open" : "none" });
+      return;
+    }
+    if (world.canDraw) store.set({ view: "open" });
+    else store.set({ view: "starting" });
+    world.drawBy(new DrawnView(fetchImage, { onImage: () => store.set({ view: "open" }), onProblem: fail }));
+  };
+  choice = new ViewChoice(store, { ...options, canDraw: world.canDraw }, use);
+  choice.start();
+  let isSettingUp = store.get().setUp !== null;
+  store.watch(
+    ({ setUp }) => setUp !== null,
+    (isOn) => {
+      if (isOn === isSettingUp) return;
+      isSettingUp = isOn;
+      if (store.get().drawnBy === "server") use("server");
+    },
+  );
+  return choice;
+}
+
+// A page in the background needs no images.
+async function untilVisible(): Promise<void> {
+  while (document.hidden) {
+    await new Promise((resolve) => document.addEventListener("visibilitychange", resolve, { once: true }));
+  }
+}
+
+function until(store: Store<State>, holds: (state: State) => boolean): Promise<void> {
+  if (holds(store.get())) return Promise.resolve();
+  return new Promise((resolve) => {
+    const unwatch = store.watch(holds, (isTrue) => {
+      if (!isTrue) return;
+      resolve();
+      // It may be told at once, before there is anything to end.
+      queueMicrotask(() => unwatch());
+    });
+  });
+}

@@ -1,0 +1,103 @@
+// Fetches images that the server draws, one after another: the next one is asked for when the last
+// has come, so that a slow connection gets fewer images, and never old ones.
+
+// The camera as the server takes it; lengths in metres, the size in pixels.
+export interface ServerCamera {
+  eye: readonly [number, number, number];
+  target: readonly [number, number, number];
+  fieldOfViewDeg: number; // vertical
+  width: number;
+  height: number;
+}
+
+export interface FeedEvents {
+  // An image, and the camera that it was drawn for.
+  onImage(image: Blob, camera: ServerCamera): void;
+  // The server draws none, with its sentence. The feed has ended.
+  onProblem(sentence: string): void;
+}
+
+export type FetchImage = (query: string, signal: AbortSignal) => Promise<Response>;
+
+const RETRY_MS = 1000;
+const TRIES = 3; // in a row that may fail, as while the server restarts
+
+export class ImageFeed {
+  images = 0;
+  private wanted: ServerCamera | null = null;
+  private shown = ""; // the camera of the last image, as a query
+  private number = ""; // of the last image
+  private asking: AbortController | null = null;
+  private failures = 0;
+  private isEnded = false;
+  private asked = ""; // the camera of the request under way
+
+  constructor(
+    private readonly fetchImage: FetchImage,
+    private readonly events: FeedEvents,
+  ) {}
+
+  // Shows this camera's images from now on.
+  show(camera: ServerCamera): void {
+    const isOther = this.wanted === null || queryOf(this.wanted) !== queryOf(camera);
+    this.wanted = camera;
+    if (this.isEnded || !isOther) return;
+    // A request that waits for a change is of no use any more; one that is being drawn is.
+    if (this.asking && this.number !== "" && this.shown === this.asked) this.asking.abort();
+    else if (!this.asking) void this.ask();
+  }
+
+  end(): void {
+    this.isEnded = true;
+    this.asking?.abort();
+  }
+
+  private async ask(): Promise<void> {
+    while (!this.isEnded && this.wanted) {
+      const camera = this.wanted;
+      this.asked = queryOf(camera);
+      this.asking = new AbortController();
+      const after = this.asked === this.shown && this.number !== "" ? `&after=${this.number}` : "";
+      const problem = await this.take(camera, this.asked + after, this.asking.signal);
+      if (this.isEnded) return;
+      if (problem === null) {
+        this.failures = 0;
+      } else if (++this.failures >= TRIES) {
+        this.isEnded = true;
+        this.events.onProblem(problem);
+      } else {
+        await new Promise((resolve) => setTimeout(resolve, RETRY_MS));
+      }
+    }
+    this.asking = null;
+  }
+
+  // The problem's sentence; null where there is none.
+  private async take(camera: ServerCamera, query: string, signal: AbortSignal): Promise<string | null> {
+    try {
+      const response = await this.fetchImage(query, signal);
+      if (response.status === 204) return null;
+      if (!response.ok) return await sentenceOf(response);
+      const image = await response.blob();
+      if (this.isEnded) return null;
+      this.shown = queryOf(camera);
+      this.number = (response.headers.get("etag") ?? "").replaceAll('"', "");
+      this.images += 1;
+      this.events.onImage(image, camera);
+      return null;
+    } catch (error) {
+      if (signal.aborted) return null;
+      return `The server cannot be reached: ${(error as Error).message}`;
+    }
+  }
+}
+
+export function queryOf({ eye, target, fieldOfViewDeg, width, height }: ServerCamera): string {
+  const point = (place: readonly number[]) => place.map((value) => value.toFixed(4)).join(",");
+  return `size=${width}x${height}&eye=${point(eye)}&target=${point(target)}&fov=${fieldOfViewDeg.toFixed(3)}`;
+}
+
+async function sentenceOf(response: Response): Promise<string> {
+  const answer = (await response.json().catch(() => null)) as { error?: unknown } | null;
+  return typeof answer?.error === "string" ? answer.error : `The server returned an error: ${response.status}.`;
+}

@@ -1,0 +1,67 @@
+import { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, PerspectiveCamera, Points, PointsMaterial } from "three";
+import { expect, test } from "vitest";
+import { OverlayPainter } from "./OverlayPainter";
+
+// What was painted: the ends of lines, and the corners of squares.
+function fakeContext() {
+  const lines: number[][] = [];
+  const squares: number[][] = [];
+  let from: number[] = [];
+  const context = {
+    beginPath: () => {},
+    moveTo: (x: number, y: number) => (from = [x, y]),
+    lineTo: (x: number, y: number) => lines.push([...from, x, y]),
+    stroke: () => {},
+    fill: () => {},
+    fillRect: (x: number, y: number, width: number, height: number) => squares.push([x + width / 2, y + height / 2]),
+  };
+  return { lines, squares, context: context as unknown as CanvasRenderingContext2D };
+}
+
+// At the origin, looking along x with z up, 90° high: at 1 m ahead, 1 m up is the upper edge.
+function camera(): PerspectiveCamera {
+  const eye = new PerspectiveCamera(90, 2, 0.1, 100);
+  eye.up.set(0, 0, 1);
+  eye.lookAt(1, 0, 0);
+  eye.updateMatrixWorld();
+  return eye;
+}
+
+function geometry(numbers: number[]): BufferGeometry {
+  const made = new BufferGeometry();
+  made.setAttribute("position", new BufferAttribute(new Float32Array(numbers), 3));
+  return made;
+}
+
+test("lines and points are painted where the camera sees them", () => {
+  const { lines, squares, context } = fakeContext();
+  const painter = new OverlayPainter(context, 200, 100, camera());
+  const line = new LineSegments(geometry([2, 0, 0, 2, 2, 2]), new LineBasicMaterial());
+  line.geometry.setDrawRange(0, 2);
+  const point = new Points(geometry([4, -4, 0]), new PointsMaterial());
+  point.position.set(0, 0, 2); // at 4 m ahead, 4 m to the right, 2 m up
+  painter.paint([line, point]);
+  // The middle; 2 m to the left and up at a distance of 2 m: half of the half width, the upper edge.
+  expect(lines[0]!.map((value) => Math.round(value * 1e3) / 1e3 + 0)).toEqual([100, 50, 50, 0]);
+  expect(squares[0]!.map((value) => Math.round(value * 1e3) / 1e3)).toEqual([150, 25]);
+});
+
+test("nothing is painted behind the camera, or of hidden objects", () => {
+  const { lines, squares, context } = fakeContext();
+  const painter = new OverlayPainter(context, 200, 100, camera());
+  const behind = new LineSegments(geometry([-2, 0, 0, -2, 2, 2]), new LineBasicMaterial());
+  const hidden = new Points(geometry([4, 0, 0]), new PointsMaterial());
+  hidden.visible = false;
+  painter.paint([behind, hidden]);
+  expect(lines).toEqual([]);
+  expect(squares).toEqual([]);
+});
+
+test("a line that passes the camera is cut in front of it", () => {
+  const { lines, context } = fakeContext();
+  const through = new LineSegments(geometry([-2, 0, 0, 2, 0, 1]), new LineBasicMaterial());
+  new OverlayPainter(context, 200, 100, camera()).paint([through]);
+  expect(lines).toHaveLength(1);
+  expect(lines[0]!.every(Number.isFinite)).toBe(true);
+  expect(lines[0]!.slice(2).map(Math.round)).toEqual([100, 25]);
+});

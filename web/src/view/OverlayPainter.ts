@@ -1,0 +1,142 @@
+// Paints the lines, points and plain surfaces of overlays over an image, projected by its camera. They
+// lie on top: an image has no depths that could hide them.
+import type { BufferAttribute, BufferGeometry, Camera, InterleavedBufferAttribute, Object3D } from "three";
+import { Color, LineSegments, Matrix4, Mesh, Points, Vector4 } from "three";
+import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
+
+type Attribute = BufferAttribute | InterleavedBufferAttribute;
+type Corner = readonly [x: number, y: number, w: number];
+
+const NEAR_W = 1e-3;
+const MOST = 20_000; // segments, points or triangles of one object
+const LINE_PX = 1.5;
+const POINT_PX = 3;
+
+export class OverlayPainter {
+  private readonly clipFromWorld = new Matrix4();
+  private readonly clipFromObject = new Matrix4();
+
+  constructor(
+    private readonly context: CanvasRenderingContext2D,
+    private readonly width: number,
+    private readonly height: number,
+    camera: Camera,
+  ) {
+    this.clipFromWorld.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
+  }
+
+  // Paints what is visible of these objects and below them.
+  paint(roots: readonly Object3D[]): void {
+    for (const root of roots) {
+      root.updateMatrixWorld();
+      root.traverseVisible((object) => this.paintObject(object));
+    }
+  }
+
+  private paintObject(object: Object3D): void {
+    this.clipFromObject.multiplyMatrices(this.clipFromWorld, object.matrixWorld);
+    // Wide lines are a mesh for three.js, too.
+    if (object instanceof LineSegments2) this.paintWideLines(object);
+    else if (object instanceof LineSegments) this.paintLines(object);
+    else if (object instanceof Points) this.paintPoints(object);
+    else if (object instanceof Mesh) this.paintSurface(object);
+  }
+
+  private paintWideLines({ geometry, material }: LineSegments2): void {
+    const { instanceStart: from, instanceEnd: to, instanceColorStart: colours } = geometry.attributes;
+    if (!from || !to) return;
+    this.context.globalAlpha = opacityOf(material);
+    for (let i = 0; i < Math.min(geometry.instanceCount, from.count, MOST); i++) {
+      this.paintLine(this.corner(from, i), this.corner(to, i), colourAt(colours, i));
+    }
+    this.context.globalAlpha = 1;
+  }
+
+  private paintLines({ geometry, material }: LineSegments): void {
+    const { position, color } = geometry.attributes;
+    if (!position) return;
+    const plain = plainColour(material);
+    this.context.globalAlpha = opacityOf(material);
+    const end = Math.min(geometry.drawRange.count, position.count, 2 * MOST);
+    for (let i = 0; i + 1 < end; i += 2) {
+      this.paintLine(this.corner(position, i), this.corner(position, i + 1), color ? colourAt(color, i) : plain);
+    }
+    this.context.globalAlpha = 1;
+  }
+
+  private paintPoints({ geometry, material }: Points): void {
+    const { position, color } = geometry.attributes;
+    if (!position) return;
+    const plain = plainColour(material);
+    for (let i = 0; i < Math.min(geometry.drawRange.count, position.count, MOST); i++) {
+      const [x, y, w] = this.corner(position, i);
+      if (w < NEAR_W) continue;
+      this.context.fillStyle = color ? colourAt(color, i) : plain;
+      this.context.fillRect(x / w - POINT_PX / 2, y / w - POINT_PX / 2, POINT_PX, POINT_PX);
+    }
+  }
+
+  private paintSurface({ geometry, material }: Mesh): void {
+    const { position } = geometry.attributes;
+    if (!position) return;
+    this.context.fillStyle = plainColour(material);
+    this.context.globalAlpha = opacityOf(material);
+    for (const [a, b, c] of trianglesOf(geometry)) {
+      const corners = [a, b, c].map((index) => this.corner(position, index));
+      if (corners.some(([, , w]) => w < NEAR_W)) continue;
+      this.context.beginPath();
+      for (const [x, y, w] of corners) this.context.lineTo(x / w, y / w);
+      this.context.fill();
+    }
+    this.context.globalAlpha = 1;
+  }
+
+  // In pixels, multiplied by w, which is positive in front of the camera.
+  private corner(attribute: Attribute, index: number): Corner {
+    const { x, y, w } = new Vector4(attribute.getX(index), attribute.getY(index), attribute.getZ(index), 1).applyMatrix4(
+      this.clipFromObject,
+    );
+    return [((x + w) / 2) * this.width, ((w - y) / 2) * this.height, w];
+  }
+
+  private paintLine(from: Corner, to: Corner, colour: string): void {
+    if (from[2] < NEAR_W && to[2] < NEAR_W) return;
+    const [a, b] = from[2] < NEAR_W ? [cut(from, to), to] : to[2] < NEAR_W ? [from, cut(to, from)] : [from, to];
+    this.context.strokeStyle = colour;
+    this.context.lineWidth = LINE_PX;
+    this.context.beginPath();
+    this.context.moveTo(a[0] / a[2], a[1] / a[2]);
+    this.context.lineTo(b[0] / b[2], b[1] / b[2]);
+    this.context.stroke();
+  }
+}
+
+// The point of the line just in front of the camera.
+function cut(behind: Corner, ahead: Corner): Corner {
+  const share = (NEAR_W - behind[2]) / (ahead[2] - behind[2]);
+  return [behind[0] + share * (ahead[0] - behind[0]), behind[1] + share * (ahead[1] - behind[1]), NEAR_W];
+}
+
+function* trianglesOf(geometry: BufferGeometry): Generator<[number, number, number]> {
+  const { index } = geometry;
+  const count = Math.min(index?.count ?? geometry.attributes.position!.count, 3 * MOST);
+  const at = (i: number) => (index ? index.getX(i) : i);
+  for (let i = 0; i + 2 < count; i += 3) yield [at(i), at(i + 1), at(i + 2)];
+}
+
+const colour = new Color();
+
+function colourAt(colours: Attribute | undefined, index: number): string {
+  if (!colours) return "white";
+  return colour.setRGB(colours.getX(index), colours.getY(index), colours.getZ(index)).getStyle();
+}
+
+function plainColour(material: unknown): string {
+  const its = (material as { color?: Color }).color;
+  return its instanceof Color ? its.getStyle() : "white";
+}
+
+function opacityOf(material: unknown): number {
+  const { transparent, opacity } = material as { transparent?: boolean; opacity?: number };
+  return transparent ? (opacity ?? 1) : 1;
+}
