@@ -35,6 +35,8 @@ export function crowd(folder, robots) {
 // the list and the inspector, and that picture was drawn; and how many rows of the list were written
 // anew for it. `robot` is null where a press missed them all, and so none is selected any more.
 export async function noteClicks(page) {
+  // Rows stay where they are: the worst come first otherwise, and a row moves when a state changes.
+  await page.getByRole("combobox", { name: "Order" }).selectOption("name");
   await page.evaluate(() => {
     const noted = (window.testClicks = []);
     let pressed = null;
