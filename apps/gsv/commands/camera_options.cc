@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "apps/gsv/process/exit_code.h"
+
 namespace gsv::app {
 namespace {
 
@@ -13,6 +15,11 @@ T OrComplain(base::Result<T> result, const char* option) {
 }
 
 }  // namespace
+
+int RefuseImage(const base::Error& error) {
+  const int code = Complain(error);
+  return error.code == base::ErrorCode::kNotFound ? kInfrastructure : code;
+}
 
 void AddCameraOptions(CLI::App& command, view::Camera& camera) {
   command

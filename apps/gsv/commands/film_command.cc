@@ -39,32 +39,32 @@ base::Result<std::uint64_t> FramesOf(const FilmArguments& arguments, base::SimTi
 
 // Frame i shows the recorded instant from + i * speed / frames_a_second.
 int MakeFilm(const FilmArguments& arguments, Signals& signals) {
-  if (auto ok = view::Check(arguments.camera); !ok) return Complain(ok.error());
+  if (auto ok = view::Check(arguments.camera); !ok) return RefuseImage(ok.error());
   const auto images = RecordedImages::Open(arguments.file);
-  if (!images) return Complain(images.error());
+  if (!images) return RefuseImage(images.error());
   const base::SimTime from =
       arguments.from ? base::FromSeconds(*arguments.from) : (*images)->start();
   const base::SimTime to = arguments.to ? base::FromSeconds(*arguments.to) : (*images)->end();
   for (const base::SimTime time : {from, to}) {
-    if (auto ok = (*images)->Check(time); !ok) return Complain(ok.error());
+    if (auto ok = (*images)->Check(time); !ok) return RefuseImage(ok.error());
   }
   const auto frames = FramesOf(arguments, from, to);
-  if (!frames) return Complain(frames.error());
+  if (!frames) return RefuseImage(frames.error());
   FilmOptions options = arguments.film;
   options.frames = *frames;
   options.width = arguments.camera.width;
   options.height = arguments.camera.height;
   const auto film = Film::Start(options);
-  if (!film) return Complain(film.error());
+  if (!film) return RefuseImage(film.error());
   const double seconds_a_frame = arguments.speed / options.frames_a_second;
   for (std::uint64_t i = 0; i < *frames; ++i) {
     if (signals.WaitFor(0) != 0) return kInterrupted;
     const auto time = from + base::FromSeconds(static_cast<double>(i) * seconds_a_frame);
     const auto image = (*images)->Draw(time, arguments.camera);
-    if (!image) return Complain(image.error());
-    if (auto added = (*film)->Add(**image); !added) return Complain(added.error());
+    if (!image) return RefuseImage(image.error());
+    if (auto added = (*film)->Add(**image); !added) return RefuseImage(added.error());
   }
-  if (auto finished = (*film)->Finish(); !finished) return Complain(finished.error());
+  if (auto finished = (*film)->Finish(); !finished) return RefuseImage(finished.error());
   std::printf("%s: %llu frames, %.3f s\n", options.output.c_str(),
               static_cast<unsigned long long>(*frames),
               static_cast<double>(*frames) / options.frames_a_second);

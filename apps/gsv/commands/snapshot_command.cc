@@ -27,13 +27,13 @@ struct SnapshotArguments {
 
 int DrawRecording(const SnapshotArguments& arguments) {
   const auto images = RecordedImages::Open(arguments.selection.simulation);
-  if (!images) return Complain(images.error());
+  if (!images) return RefuseImage(images.error());
   const base::SimTime time = arguments.at ? base::FromSeconds(*arguments.at) : (*images)->end();
-  if (auto ok = (*images)->Check(time); !ok) return Complain(ok.error());
+  if (auto ok = (*images)->Check(time); !ok) return RefuseImage(ok.error());
   const auto image = (*images)->Draw(time, arguments.camera);
-  if (!image) return Complain(image.error());
+  if (!image) return RefuseImage(image.error());
   if (auto written = WriteImage(**image, arguments.output); !written) {
-    return Complain(written.error());
+    return RefuseImage(written.error());
   }
   std::printf("%s: %d x %d pixels, at %.3f s\n", arguments.output.c_str(), (*image)->width,
               (*image)->height, base::ToSeconds(time));
@@ -75,29 +75,29 @@ base::Error RefusalOf(const gateway::Response& response) {
 // The server of the simulation draws it, as it is now.
 int DrawSimulation(const SnapshotArguments& arguments) {
   if (arguments.at) {
-    return Complain({base::ErrorCode::kInvalidArgument,
-                     "selects an instant of a recording; a running simulation is drawn as it is "
-                     "now",
-                     "--at"});
+    return RefuseImage({base::ErrorCode::kInvalidArgument,
+                        "selects an instant of a recording; a running simulation is drawn as it is "
+                        "now",
+                        "--at"});
   }
   const auto found = FindOneSimulation(arguments.selection);
-  if (!found) return Complain(found.error());
+  if (!found) return RefuseImage(found.error());
   if (found->server.viewer_url.empty()) {
-    return Complain({base::ErrorCode::kUnavailable,
-                     "cannot be drawn: it runs without a viewer. Start it without --headless",
-                     found->server.Describe()});
+    return RefuseImage({base::ErrorCode::kUnavailable,
+                        "cannot be drawn: it runs without a viewer. Start it without --headless",
+                        found->server.Describe()});
   }
   auto address = gateway::upstream::ParseAddress(found->server.viewer_url, arguments.authority);
-  if (!address) return Complain(address.error());
+  if (!address) return RefuseImage(address.error());
   address->token = arguments.token;
   gateway::Request request;
   request.method = "GET";
   request.raw_target = TargetOf(arguments, found->status.name);
   const auto response = gateway::upstream::Fetch(*address, request, std::chrono::seconds(60));
-  if (!response) return Complain(response.error());
-  if (response->status != 200) return Complain(RefusalOf(*response));
+  if (!response) return RefuseImage(response.error());
+  if (response->status != 200) return RefuseImage(RefusalOf(*response));
   if (auto ok = WriteImageFile(response->body.view(), arguments.output); !ok) {
-    return Complain(ok.error());
+    return RefuseImage(ok.error());
   }
   std::printf("%s: %d x %d pixels, of %s\n", arguments.output.c_str(), arguments.camera.width,
               arguments.camera.height, found->status.name.c_str());
@@ -105,7 +105,7 @@ int DrawSimulation(const SnapshotArguments& arguments) {
 }
 
 int TakeSnapshot(const SnapshotArguments& arguments) {
-  if (auto ok = view::Check(arguments.camera); !ok) return Complain(ok.error());
+  if (auto ok = view::Check(arguments.camera); !ok) return RefuseImage(ok.error());
   const std::string& source = arguments.selection.simulation;
   std::error_code ignored;
   const bool is_file = source.ends_with(".mcap") || source.find('/') != std::string::npos ||
