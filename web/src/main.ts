@@ -233,7 +233,7 @@ async function drive(avatar: string, wish: Parameters<SimulationApi["drive"]>[2]
 
 const page = document.getElementById("app")!;
 const statusBar = createStatusBar(app);
-statusBar.append(createDrawerSwitch(store, () => drawing, (drawer) => keepDrawer(storage, drawer)));
+statusBar.append(createDrawerSwitch(store, () => drawing, () => world?.canDraw ?? false, (drawer) => keepDrawer(storage, drawer)));
 const toggleSidebar = () => page.classList.toggle("sidebar-open");
 view.append(createOverlay(app), createControlQuestion(app), createNotices(app));
 const workspace = new Workspace(

@@ -10,8 +10,13 @@ const TITLE: Record<Drawer, string> = {
   server: "Let this browser draw the view",
 };
 
-// `choice` is null until the view has started.
-export function createDrawerSwitch(store: Store<State>, choice: () => ViewChoice | null, keep: (drawer: Drawer) => void): HTMLElement {
+// `choice` is null until the view has started; `canDraw`: whether the browser has WebGL.
+export function createDrawerSwitch(
+  store: Store<State>,
+  choice: () => ViewChoice | null,
+  canDraw: () => boolean,
+  keep: (drawer: Drawer) => void,
+): HTMLElement {
   const button = element("button", { class: "drawer-switch dim", type: "button", "data-testid": "drawer" });
   button.addEventListener("click", () => {
     const other = choice()?.other;
@@ -25,7 +30,7 @@ export function createDrawerSwitch(store: Store<State>, choice: () => ViewChoice
       button.hidden = drawer === null;
       if (drawer === null) return;
       setText(button, TEXT[drawer]);
-      const hasChoice = choice()?.other !== null;
+      const hasChoice = drawer === "browser" || canDraw();
       button.disabled = !hasChoice;
       button.title = hasChoice ? TITLE[drawer] : "This browser has no WebGL, so the server draws the view";
     },
