@@ -245,15 +245,18 @@ TEST_F(FlawTest, AModelIsPlacedByItsOwnFrame) {
   EXPECT_THAT(Said(), IsEmpty());
 }
 
-TEST_F(FlawTest, ALoopOfJointsLosesItsLast) {
+TEST_F(FlawTest, LastJointOfALoopClosesItWithoutLimits) {
   const auto joint = [](const std::string& parent, const std::string& child) {
     return "<joint name='" + parent + child + "' type='revolute'><parent>" + parent +
-           "</parent><child>" + child + "</child><axis><xyz>0 1 0</xyz></axis></joint>";
+           "</parent><child>" + child +
+           "</child><axis><xyz>0 1 0</xyz><limit><lower>-1</lower></limit></axis></joint>";
   };
   const auto model =
       Model("m.sdf", FlawModel("m", "<link name='a'/><link name='b'/><link name='c'/>" +
                                         joint("a", "b") + joint("b", "c") + joint("a", "c")));
   EXPECT_THAT(JointsOf(*model), ElementsAre("ab", "bc"));
+  ASSERT_EQ(model->loop_joints.size(), 1u);
+  EXPECT_EQ(model->loop_joints[0].name, "ac");
   EXPECT_THAT(Said(), ElementsAre(HasSubstr("\"ac\" closes a loop")));
 }
 

@@ -89,6 +89,42 @@ TEST_F(SdfJointTest, AScrewHasItsPitchInMetresARadian) {
   EXPECT_THAT(problems_[0].message, HasSubstr("must have a pitch"));
 }
 
+// SDFormat: from the reference body, the child turns -ratio times as far as the parent. An output
+// shaft about the opposite axis turns by the opposite angle.
+TEST_F(SdfJointTest, GearboxCouplesTheJointsOfItsTwoLinks) {
+  const auto shaft = [](const std::string& name, const std::string& parent,
+                        const std::string& child, const std::string& axis) {
+    return "<joint name='" + name + "' type='revolute'><parent>" + parent + "</parent><child>" +
+           child + "</child><axis><xyz>" + axis + "</xyz></axis></joint>";
+  };
+  const std::string links = "<link name='frame'/><link name='motor'/><link name='wheel'/>";
+  const auto gearbox = [](const std::string& reference, const std::string& axis) {
+    return "<joint name='gears' type='gearbox'><parent>motor</parent><child>wheel</child>"
+           "<gearbox_ratio>4</gearbox_ratio><gearbox_reference_body>" +
+           reference + "</gearbox_reference_body><axis><xyz>" + axis +
+           "</xyz></axis><axis2><xyz>0 1 0</xyz></axis2></joint>";
+  };
+  const std::string shafts = shaft("in", "frame", "motor", "0 1 0");
+  const auto model =
+      Read(links + shafts + shaft("out", "frame", "wheel", "0 1 0") + gearbox("frame", "0 1 0"));
+  EXPECT_THAT(problems_, IsEmpty());
+  ASSERT_THAT(model->joints, SizeIs(2));
+  ASSERT_TRUE(model->joints[1].mimic);
+  EXPECT_EQ(model->joints[1].mimic->leader, 0);
+  EXPECT_EQ(model->joints[1].mimic->multiplier, -4);
+  const auto reversed =
+      Read(links + shafts + shaft("out", "frame", "wheel", "0 -1 0") + gearbox("frame", "0 1 0"));
+  EXPECT_EQ(reversed->joints[1].mimic->multiplier, 4);
+
+  for (const std::string& wrong : {gearbox("nothing", "0 1 0"), gearbox("frame", "1 0 0")}) {
+    problems_.clear();
+    const auto free = Read(links + shafts + shaft("out", "frame", "wheel", "0 1 0") + wrong);
+    ASSERT_THAT(problems_, SizeIs(1));
+    EXPECT_THAT(problems_[0].Sentence(), HasSubstr("the gearbox \"gears\""));
+    EXPECT_FALSE(free->joints[1].mimic);
+  }
+}
+
 TEST_F(SdfJointTest, ReadsTheTargetsOfGazebosControllers) {
   const auto model = Read(
       "<link name='a'/><link name='b'/><link name='c'/>"

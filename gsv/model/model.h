@@ -83,7 +83,8 @@ inline bool TakesCommands(JointKind kind) {
   return kind != JointKind::kFixed && kind != JointKind::kBall;
 }
 
-// A joint that follows another one: its position is multiplier * (leader - reference) + offset.
+// A joint that follows another one, as gears do: its position is multiplier * (leader - reference) +
+// offset. With rigid-body dynamics the leader feels the reaction.
 struct Mimic {
   int leader = 0;  // index in Model::joints
   double multiplier = 1, offset = 0, reference = 0;
@@ -135,8 +136,12 @@ struct Model {
   bool is_static = false;
   // The pose in the file, used in a world if no other pose is given.
   geometry::Pose default_pose;
-  std::vector<Link> links;                 // links[0] is the canonical link; never empty
-  std::vector<Joint> joints;               // a forest: no link is the child of two joints
+  std::vector<Link> links;    // links[0] is the canonical link; never empty
+  std::vector<Joint> joints;  // a forest: no link is the child of two joints
+  // They close loops of links: each holds two links of the forest together, with rigid-body
+  // dynamics only. It has no position in a state, takes no commands, and has no limits or losses.
+  // Their kinds: fixed, revolute, continuous, prismatic, ball.
+  std::vector<Joint> loop_joints;
   std::vector<JointTarget> joint_targets;  // at most one per joint
   std::vector<double> start_positions;     // initial positions of the joints; empty for zero
   std::vector<SensorDescription> sensors;

@@ -5,7 +5,8 @@
 
 namespace gsv::dynamics {
 
-JointRow::JointRow(btMultiBody& tree, int link) : btMultiBodyJointMotor(&tree, link, 0.0, 0.0) {}
+JointRow::JointRow(btMultiBody& tree, int link)
+    : btMultiBodyJointMotor(&tree, link, 0.0, 0.0), other_link_(link) {}
 
 void JointRow::Set(double rate, double lower, double upper) {
   setVelocityTarget(rate);
@@ -20,6 +21,17 @@ void JointRow::Soften(double rate, double softness) {
   constexpr double kNoBound = std::numeric_limits<double>::infinity();
   Set(rate, -kNoBound, kNoBound);
   softness_ = softness;
+}
+
+void JointRow::Couple(int other_link, double ratio) {
+  other_link_ = other_link;
+  ratio_ = ratio;
+  m_numDofsFinalized = -1;
+}
+
+void JointRow::finalizeMultiDof() {
+  btMultiBodyJointMotor::finalizeMultiDof();
+  if (other_link_ != m_linkA) jacobianA(0)[6 + m_bodyA->getLink(other_link_).m_dofOffset] = -ratio_;
 }
 
 void JointRow::createConstraintRows(btMultiBodyConstraintArray& rows,

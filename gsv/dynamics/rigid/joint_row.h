@@ -16,6 +16,10 @@ class JointRow final : public btMultiBodyJointMotor {
   // Gives way: the rate misses `rate` by `softness` times the impulse, which has no bounds.
   void Soften(double rate, double softness);
 
+  // From now on, what it holds at a rate is the joint's position less `ratio` times that of another
+  // joint of the tree, which gets the impulse's reaction: -ratio times the impulse.
+  void Couple(int other_link, double ratio);
+
   btMultiBody& tree() const { return *m_bodyA; }
   // Of the joint, among the tree's velocities.
   int velocity() const { return 6 + m_bodyA->getLink(m_linkA).m_dofOffset; }
@@ -23,12 +27,18 @@ class JointRow final : public btMultiBodyJointMotor {
   double lower() const { return lower_; }
   double upper() const { return upper_; }
   double softness() const { return softness_; }
+  // The velocity and the ratio of Couple(). Uncoupled: its own, and 0.
+  int other_velocity() const { return 6 + m_bodyA->getLink(other_link_).m_dofOffset; }
+  double ratio() const { return ratio_; }
 
+  void finalizeMultiDof() override;
   void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& bullet,
                             const btContactSolverInfo& info) override;
 
  private:
   double lower_ = 0, upper_ = 0, softness_ = 0;
+  int other_link_;
+  double ratio_ = 0;
 };
 
 }  // namespace gsv::dynamics

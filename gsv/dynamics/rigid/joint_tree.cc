@@ -9,6 +9,7 @@
 #include "gsv/dynamics/motion/ball_angles.h"
 #include "gsv/dynamics/motion/drive_servo.h"
 #include "gsv/dynamics/rigid/joint_row.h"
+#include "gsv/dynamics/rigid/loop_rows.h"
 #include "gsv/dynamics/rigid/moving_body.h"
 
 namespace gsv::dynamics {
@@ -93,6 +94,9 @@ class JointTree final : public MovingBody {
   void Follow(const Motor& motor, const model::Mimic& mimic, double seconds);
   void MoveKinematic(const Motor& motor, const world::JointCommand& command, double seconds);
   void Push(const Motor& motor, double force, double seconds);
+  void CoupleFollowers();
+  void CloseLoops(btMultiBodyDynamicsWorld& world);
+  LoopRows::End EndOf(int link, const model::Joint& joint) const;
   std::unique_ptr<JointRow> AddJointRow(int link, btMultiBodyDynamicsWorld& world);
   Pose WorldFromModel() const;
   double RestingSpeed() const;
@@ -102,6 +106,7 @@ class JointTree final : public MovingBody {
   btMultiBody tree_;
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
   std::vector<std::unique_ptr<btMultiBodyConstraint>> limits_;
+  std::vector<std::unique_ptr<LoopRows>> loops_;
   std::vector<Motor> motors_;
   std::vector<Ball> balls_;
   std::vector<Screw> screws_;
@@ -146,6 +151,8 @@ JointTree::JointTree(const RigidBody& plan, const model::WorldDescription& world
     commands_.assign(first, first + static_cast<std::ptrdiff_t>(plan.model->joints.size()));
   }
   AddLimitsAndMotors(world);
+  CoupleFollowers();
+  CloseLoops(world);
   resting_speed_before_ = RestingSpeed();
 }
 
@@ -273,6 +280,35 @@ void JointTree::AddLimitsAndMotors(btMultiBodyDynamicsWorld& world) {
   }
 }
 
+void JointTree::CoupleFollowers() {
+  for (const Motor& motor : motors_) {
+    const auto& mimic = plan_.model->joints[static_cast<std::size_t>(motor.joint)].mimic;
+    if (!mimic) continue;
+    for (const Motor& leader : motors_) {
+      if (leader.joint == mimic->leader) motor.row->Couple(leader.link, mimic->multiplier);
+    }
+  }
+}
+
+// An end at the world (-1) is at the base, which then does not move.
+LoopRows::End JointTree::EndOf(int link, const model::Joint& joint) const {
+  const std::vector<int>& part_of_link = plan_.articulation.part_of_link;
+  const int part = link < 0 ? 0 : part_of_link[static_cast<std::size_t>(link)];
+  const Pose& model_from_part = parts()[static_cast<std::size_t>(part)].model_from_part;
+  const btTransform part_from_joint = ToBullet(Inverse(model_from_part) * joint.model_from_joint);
+  const btQuaternion axis_from_z = shortestArcQuat({0, 0, 1}, ToBullet(joint.axis));
+  return {part - 1, part_from_joint * btTransform(axis_from_z)};
+}
+
+void JointTree::CloseLoops(btMultiBodyDynamicsWorld& world) {
+  for (const model::Joint& joint : plan_.model->loop_joints) {
+    const LoopRows::End parent = EndOf(joint.parent, joint), child = EndOf(joint.child, joint);
+    if (parent.link == child.link) continue;
+    world.addMultiBodyConstraint(
+        loops_.emplace_back(std::make_unique<LoopRows>(tree_, parent, child, joint.kind)).get());
+  }
+}
+
 std::unique_ptr<JointRow> JointTree::AddJointRow(int link, btMultiBodyDynamicsWorld& world) {
   auto row = std::make_unique<JointRow>(tree_, link);
   world.addMultiBodyConstraint(row.get());
@@ -334,19 +370,15 @@ void JointTree::MoveKinematic(const Motor& motor, const world::JointCommand& com
   ForceTo(motor, rate, seconds);
 }
 
-// Moves at the leader's rate, and towards the position that follows from it. The leader gets no
-// reaction.
+// As gears do: the joint moves at its leader's rate times the multiplier, and towards where it
+// should be. The leader feels the reaction.
 void JointTree::Follow(const Motor& motor, const model::Mimic& mimic, double seconds) {
   const auto leader = std::find_if(motors_.begin(), motors_.end(),
                                    [&](const Motor& other) { return other.joint == mimic.leader; });
-  double position = 0, rate = 0;  // the values for a leader that does not move
-  if (leader != motors_.end()) {
-    position = tree_.getJointPos(leader->link);
-    rate = tree_.getJointVel(leader->link);
-  }
+  // A leader that does not move is at 0.
+  const double position = leader == motors_.end() ? 0 : tree_.getJointPos(leader->link);
   const double wanted = mimic.multiplier * (position - mimic.reference) + mimic.offset;
-  ForceTo(motor, mimic.multiplier * rate + kServoGain * (wanted - tree_.getJointPos(motor.link)),
-          seconds);
+  ForceTo(motor, kServoGain * (wanted - tree_.getJointPos(motor.link)), seconds);
 }
 
 void JointTree::ForceTo(const Motor& motor, double rate, double seconds) {

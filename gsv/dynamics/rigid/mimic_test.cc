@@ -1,6 +1,7 @@
 // Joints that follow others, in both movements.
 #include <gtest/gtest.h>
 
+#include "gsv/base/test_within.h"
 #include "gsv/dynamics/testing/test_rigid_world.h"
 
 namespace gsv::dynamics {
@@ -37,7 +38,7 @@ TEST(Mimic, AJointFollowsItsLeader) {
   world.AddRigid("gripper", Fingers({1, -1.5, 0.2, 0.1}), At(0, 0, 1));
   ASSERT_TRUE(world.Start());
   world.Run(2, 0.002);
-  EXPECT_NEAR(world.joint("gripper", 2), 0.2 + 1.5 * 0.1, 2e-3);
+  EXPECT_NEAR(world.joint("gripper", 2), 0.2 - 1.5 * (world.joint("gripper", 1) - 0.1), 2e-3);
   world.CommandJoint("gripper", 1, {Kind::kPosition, 0.8});
   world.Run(3, 0.002);
   EXPECT_NEAR(world.joint("gripper", 1), 0.8, 2e-3);
@@ -53,6 +54,26 @@ TEST(Mimic, AJointMovesAtItsLeadersRate) {
   world.Run(2, 0.002);
   EXPECT_NEAR(world.joint_velocity("gripper", 2), 0.6, 1e-3);
   EXPECT_NEAR(world.joint("gripper", 2), 2 * world.joint("gripper", 1), 5e-3);
+}
+
+// A gear with the ratio n: the leader turns its own inertia and n² that of its follower, so that a
+// torque t gives it the acceleration t / (I1 + n² I2).
+TEST(Mimic, LeaderAcceleratesTheInertiaOfItsFollower) {
+  auto model = Fingers({1, -3, 0, 0});
+  for (model::Link& link : model->links) link.has_gravity = false;
+  for (model::Joint& joint : model->joints) joint.position_limits = {};
+  for (std::size_t finger : {1, 2}) {
+    model->joints[finger].axis = {1, 0, 0};
+    model->links[finger].inertial.ixx = finger == 1 ? 2e-4 : 5e-4;
+  }
+  TestWorld world(MakeWorldEngine());
+  world.AddRigid("gearbox", model, At(0, 0, 1));
+  ASSERT_TRUE(world.Start());
+  world.CommandJoint("gearbox", 1, {Kind::kEffort, 0.01});
+  world.Run(0.5, 0.001);
+  const double rate = 0.01 / (2e-4 + 9 * 5e-4) * 0.5;
+  EXPECT_WITHIN_PERCENT(world.joint_velocity("gearbox", 1), rate, 1);
+  EXPECT_WITHIN_PERCENT(world.joint_velocity("gearbox", 2), -3 * rate, 1);
 }
 
 TEST(Mimic, AJointOfAPlanarRobotFollowsItsLeader) {

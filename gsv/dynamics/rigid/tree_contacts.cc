@@ -100,8 +100,13 @@ void ImpulseSolver::AddJointRows(const btContactSolverInfo& info) {
 
 void ImpulseSolver::AddJointRow(const JointRow& joint) {
   btMultiBody& tree = joint.tree();
-  const auto response = MassOf(tree).ResponseTo(joint.velocity());
+  const TreeMass& mass = MassOf(tree);
+  const auto response = mass.ResponseTo(joint.velocity());
+  const auto reaction = mass.ResponseTo(joint.other_velocity());
   const auto velocity = static_cast<std::size_t>(joint.velocity());
+  const auto other = static_cast<std::size_t>(joint.other_velocity());
+  const double ratio = joint.ratio();
+  const auto response_of = [&](std::size_t i) { return response[i] - ratio * reaction[i]; };
   auto& row = m_multiBodyNonContactConstraints.expandNonInitializing();
   row = btMultiBodySolverConstraint();
   row.m_contactNormal1 = row.m_contactNormal2 = btVector3(0, 0, 0);
@@ -111,15 +116,18 @@ void ImpulseSolver::AddJointRow(const JointRow& joint) {
   row.m_deltaVelBindex = row.m_jacBindex = -1;
   row.m_jacAindex = NewJacobian(static_cast<int>(response.size()));
   for (std::size_t i = 0; i < response.size(); ++i) {
-    m_data.m_jacobians[row.m_jacAindex + static_cast<int>(i)] = i == velocity ? 1 : 0;
-    m_data.m_deltaVelocitiesUnitImpulse[row.m_jacAindex + static_cast<int>(i)] = response[i];
+    m_data.m_jacobians[row.m_jacAindex + static_cast<int>(i)] =
+        i == velocity ? 1 : (i == other ? -ratio : 0);
+    m_data.m_deltaVelocitiesUnitImpulse[row.m_jacAindex + static_cast<int>(i)] = response_of(i);
   }
   row.m_originalContactPoint = nullptr;
   row.m_appliedImpulse = row.m_appliedPushImpulse = row.m_rhsPenetration = 0;
   row.m_friction = 0;
-  row.m_jacDiagABInv = 1 / (response[velocity] + joint.softness());
+  row.m_jacDiagABInv = 1 / (response_of(velocity) - ratio * response_of(other) + joint.softness());
+  const btScalar* const velocities = tree.getVelocityVector();
   row.m_cfm = joint.softness() * row.m_jacDiagABInv;
-  row.m_rhs = (joint.rate() - tree.getVelocityVector()[velocity]) * row.m_jacDiagABInv;
+  row.m_rhs =
+      (joint.rate() - (velocities[velocity] - ratio * velocities[other])) * row.m_jacDiagABInv;
   row.m_lowerLimit = joint.lower();
   row.m_upperLimit = joint.upper();
 }

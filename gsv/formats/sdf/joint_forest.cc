@@ -71,12 +71,12 @@ class Forest {
 
 }  // namespace
 
-std::vector<std::string> MakeForest(std::size_t links, std::vector<Joint>& joints) {
+std::vector<Joint> MakeForest(std::size_t links, std::vector<Joint>& joints) {
   Forest forest(links, joints);
-  std::vector<std::string> loops;
+  std::vector<Joint> loops;
   for (std::size_t i = 0; i < joints.size(); ++i) {
     if (forest.Add(i)) continue;
-    loops.push_back(joints[i].name);
+    loops.push_back(joints[i]);
     joints[i].child = -1;
   }
   std::erase_if(joints, [](const Joint& joint) { return joint.child < 0; });

@@ -121,9 +121,6 @@ JointKind KindOf(sdf::JointType type) {
 void AddJoint(const sdf::Joint& source, Joint joint, const std::string& place,
               const ReadingContext& context, model::Model& model) {
   joint.kind = KindOf(source.Type());
-  if (source.Type() == sdf::JointType::GEARBOX) {
-    context.Warn("gearbox joints are not supported; the joint is fixed", place);
-  }
   if (joint.kind == JointKind::kScrew) {
     joint.thread_pitch = ThreadPitch(source);
     if (!std::isfinite(joint.thread_pitch)) {

@@ -16,6 +16,7 @@
 #include "gsv/formats/sdf/joint_forest.h"
 #include "gsv/formats/sdf/sdf_document.h"
 #include "gsv/formats/sdf/sdf_drive.h"
+#include "gsv/formats/sdf/sdf_gearbox.h"
 #include "gsv/formats/sdf/sdf_joint.h"
 #include "gsv/formats/sdf/sdf_joint_target.h"
 #include "gsv/formats/sdf/sdf_link.h"
@@ -48,7 +49,10 @@ class ModelReader {
     PutFirst(source.CanonicalLinkAndRelativeName().second);
     for (const auto& [joint, scope, place] : pending_joints_) AddJoint(*joint, scope, place);
     FixStaticLinks();
-    ReportLoops(MakeForest(model_.links.size(), model_.joints));
+    KeepLoops(MakeForest(model_.links.size(), model_.joints));
+    for (const Gearbox& each : gearboxes_) {
+      CoupleGearbox(*each.source, each.joint, each.reference, each.place, context_, model_);
+    }
     for (const auto& [sensor, scope] : pending_sensors_) AddSensor(sensor, scope);
     for (const auto& [plugin, scope] : pending_plugins_) {
       AddDrive(plugin, scope);
@@ -162,6 +166,11 @@ class ModelReader {
     }
     joint.model_from_joint = frames_[joint.name];
     joint_children_[joint.name] = joint.child;
+    if (source.Type() == sdf::JointType::GEARBOX) {
+      const auto reference = source.Element()->Get<std::string>("gearbox_reference_body", "").first;
+      gearboxes_.push_back({&source, std::move(joint), LinkIndex(scope + reference), place});
+      return;
+    }
     formats::AddJoint(source, std::move(joint), place, context_, model_);
   }
 
@@ -193,12 +202,33 @@ class ModelReader {
     model_.joints.insert(model_.joints.begin(), to_world.begin(), to_world.end());
   }
 
-  void ReportLoops(const std::vector<std::string>& loops) {
-    for (const std::string& name : loops) {
-      context_.Warn(
-          "the joint \"" + name + "\" closes a loop, which is not supported; it is ignored",
-          context_.source.string());
+  // The joint itself, which the forest does not hold, keeps the loop closed.
+  void KeepLoops(std::vector<Joint> loops) {
+    for (Joint& joint : loops) {
+      const std::string name = "the joint \"" + joint.name + "\" closes a loop";
+      const bool has_limits =
+          joint.kind != model::JointKind::kContinuous &&
+          (std::isfinite(joint.position_limits.min) || std::isfinite(joint.position_limits.max));
+      if (joint.kind == model::JointKind::kScrew || IsPartOfAChain(joint)) {
+        context_.Warn(name + ", which only fixed, revolute and prismatic joints can; it is ignored",
+                      context_.source.string());
+        continue;
+      }
+      if (has_limits || joint.damping > 0 || joint.friction > 0) {
+        context_.Warn(name + "; its limits, damping and friction are left out",
+                      context_.source.string());
+      }
+      model_.loop_joints.push_back(std::move(joint));
     }
+  }
+
+  // One of the joints that a ball or universal joint became.
+  bool IsPartOfAChain(const Joint& joint) const {
+    const auto is_cross = [&](int link) {
+      return link >= 0 &&
+             model_.links[static_cast<std::size_t>(link)].name.find("::cross") != std::string::npos;
+    };
+    return joint.kind == model::JointKind::kBall || is_cross(joint.parent) || is_cross(joint.child);
   }
 
   void Check(const model::SensorDescription& sensor, const std::string& place) const {
@@ -332,10 +362,18 @@ class ModelReader {
     std::string scope, place;
   };
 
+  struct Gearbox {
+    const sdf::Joint* source;
+    Joint joint;
+    int reference;  // link index, or -1
+    std::string place;
+  };
+
   const ReadingContext& context_;
   Model model_;
   std::map<std::string, Pose> frames_;
   std::vector<PendingJoint> pending_joints_;
+  std::vector<Gearbox> gearboxes_;
   std::map<std::string, int> joint_children_;  // link indices
   std::vector<std::pair<sdf::ElementPtr, std::string>> pending_sensors_;
   std::vector<std::pair<sdf::ElementPtr, std::string>> pending_plugins_;

@@ -387,8 +387,8 @@ axis2/xyz + 1.4- =0 0 1
 axis2/xyz/@expressed_in + 1.7- =
 child + 1.4-
 frame:frame* - 1.5-1.6 ; the frame is not used
-gearbox_ratio - 1.4- =1.0 ; gearbox joints are fixed
-gearbox_reference_body - 1.4- ; gearbox joints are fixed
+gearbox_ratio + 1.4- =1.0
+gearbox_reference_body + 1.4-
 parent + 1.4-
 physics + 1.4-
 physics/ode - 1.4- ; the solver settings of this engine are not used; GSV has its own
