@@ -144,11 +144,11 @@ TEST(ScenarioFile, Ros2IsAFlagOrSettings) {
   EXPECT_EQ(Parsed("ros2: {distro: kilted, namespaces: {pebble: /}}").ros2,
             (Ros2Settings{"", "", "kilted", {{"pebble", "/"}}}));
   EXPECT_THAT(
-      Complaints("ros2:\n  range: world\n  namespaces: {pebble: fleet}\n"),
+      ProblemsIn("ros2:\n  range: world\n  namespaces: {pebble: fleet}\n"),
       ElementsAre("room.yaml:2:10: range must be one of localhost, subnet, found \"world\"",
                   "room.yaml:3:24: a namespace must begin with a slash, such as /fleet, or / "
                   "for none"));
-  EXPECT_EQ(Complaints("ros2: maybe").size(), 1u);
+  EXPECT_EQ(ProblemsIn("ros2: maybe").size(), 1u);
 }
 
 TEST(ScenarioFile, EachErrorHasLineAndColumn) {
