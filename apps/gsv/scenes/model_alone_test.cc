@@ -5,7 +5,7 @@
 namespace gsv::app {
 namespace {
 
-std::shared_ptr<const model::Model> BoxOf(const geometry::Vector3& size) {
+std::shared_ptr<const model::Model> ModelOfBox(const geometry::Vector3& size) {
   auto model = std::make_shared<model::Model>();
   model->links.resize(1);
   model->links[0].visuals.resize(1);
@@ -16,9 +16,9 @@ std::shared_ptr<const model::Model> BoxOf(const geometry::Vector3& size) {
 TEST(ModelAlone, StandsOnItsGroundWhereverItsOriginIs) {
   model::WorldDescription world;
   world.name = "walker";
-  auto walker = std::make_shared<model::Model>(*BoxOf({0.4, 0.4, 1.6}));
+  auto walker = std::make_shared<model::Model>(*ModelOfBox({0.4, 0.4, 1.6}));
   walker->name = "walker";
-  world.models.push_back({"ground_plane", BoxOf({1, 1, 1}), {}, true});
+  world.models.push_back({"ground_plane", ModelOfBox({1, 1, 1}), {}, true});
   world.models.push_back({"walker", walker, {{0, 0, 0.3}, {}}, false});
   ASSERT_TRUE(IsModelAlone(world));
   StandModelOnGround(world);
