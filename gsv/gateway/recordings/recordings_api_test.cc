@@ -108,9 +108,8 @@ TEST_F(RecordingsApiTest, FailuresOfTestsAreListedWithWorldAndRobots) {
   fs::copy_file(folder_ / "run.mcap", folder_ / "gsv-failures" / "turns" / "run.mcap");
   fs::create_directory_symlink("turns", folder_ / "gsv-failures" / "elsewhere");
   std::map<std::string, json> lines;
-  for (const json& line : json::parse(Get("/api/recordings").body)["recordings"]) {
-    lines[line["name"]] = line;
-  }
+  const json answer = json::parse(Get("/api/recordings").body);
+  for (const json& line : answer["recordings"]) lines[line["name"]] = line;
   ASSERT_EQ(lines.size(), 2u);
   const json& failure = lines["gsv-failures/turns"];
   EXPECT_EQ(failure["state"], "complete");
