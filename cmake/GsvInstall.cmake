@@ -87,7 +87,7 @@ install(FILES ${IDL_FILES} DESTINATION share/idl/gsv COMPONENT libgsv-dev)
 # broker's client and the stubs; a sensor from outside, the rest.
 foreach(FOLDER sdk sdk/behaviour gsv/base gsv/readings gsv/broker/client gsv/broker/language gsv/broker/offers
     gsv/geometry gsv/model gsv/messages gsv/world gsv/sensing/rays gsv/sensing gsv/simulation/pace
-    gsv/simulation/robots gsv/simulation/commands gsv/simulation gsv/services)
+    gsv/simulation/robots gsv/simulation/commands gsv/simulation gsv/health gsv/services)
   file(GLOB HEADERS CONFIGURE_DEPENDS ${FOLDER}/*.h)
   install(FILES ${HEADERS} DESTINATION include/gsv/${FOLDER} COMPONENT libgsv-dev)
 endforeach()

@@ -60,7 +60,7 @@ struct Scenario {
   std::vector<std::string> record_topics;
   // rates in Hz of simulated time, by the kind of message
   std::map<std::string, double> record_rates;
-  std::optional<bool> record_png;  // true for images as PNG, false for JPEG
+  std::optional<bool> record_png;    // true for images as PNG, false for JPEG
   std::optional<Ros2Settings> ros2;  // absent if it is not published to ROS 2 nodes
   std::vector<Fault> faults;
   std::vector<Expectation> expect;

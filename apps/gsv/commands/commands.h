@@ -25,7 +25,7 @@ void AddDrawCommand(const CommandLine& line);     // world draw; after AddCheckC
 void AddConvertCommand(const CommandLine& line);  // model convert; after AddCheckCommands()
 void AddMapCommands(const CommandLine& line);  // world from-map, to-map; after AddCheckCommands()
 void AddRecordingCommands(const CommandLine& line);  // rec, replay
-void AddRecordCommands(const CommandLine& line);   // rec start, stop; after AddRecordingCommands()
+void AddRecordCommands(const CommandLine& line);  // rec start, stop; after AddRecordingCommands()
 void AddSnapshotCommand(const CommandLine& line);
 void AddFilmCommand(const CommandLine& line);
 void AddCompareCommands(const CommandLine& line);  // compare, fit

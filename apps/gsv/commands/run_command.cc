@@ -110,7 +110,7 @@ void Warn(const std::vector<std::string>& sentences) {
 // Returns problems with selected topics that never existed. A robot that was added during the run
 // may have added topics that did not exist at the start.
 std::vector<std::string> ProblemsAtTheEnd(const RunOptions& options,
-                                            std::vector<std::string> topics_at_start) {
+                                          std::vector<std::string> topics_at_start) {
   const auto recorded = recording::McapReader::Open(options.record);
   if (!recorded) return {};  // the disk failed, which was reported already
   for (const auto& [id, channel] : (*recorded)->summary().channels) {

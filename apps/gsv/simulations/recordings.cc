@@ -89,7 +89,7 @@ bool NamesAFile(const std::string& path) {
 }  // namespace
 
 std::vector<std::string> ProblemsOf(const RecordingChoice& choice,
-                                         const std::vector<std::string>& topics) {
+                                    const std::vector<std::string>& topics) {
   constexpr std::size_t kMaxListed = 24;
   std::vector<std::string> sentences;
   for (const std::string& pattern : recording::UnmatchedPatterns(topics, choice.topics)) {
@@ -232,7 +232,8 @@ Recordings::Totals Recordings::totals() {
   // A recording that is being finished is in neither total for a moment, but the reported totals
   // must not decrease.
   reported_ = {totals.under_way, std::max(totals.messages, reported_.messages),
-           std::max(totals.dropped, reported_.dropped), std::max(totals.bytes, reported_.bytes)};
+               std::max(totals.dropped, reported_.dropped),
+               std::max(totals.bytes, reported_.bytes)};
   return reported_;
 }
 

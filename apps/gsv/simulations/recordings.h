@@ -44,7 +44,7 @@ std::vector<std::string> WithoutSecrets(std::vector<std::string> arguments);
 // Returns a sentence for each pattern of a selection that matches none of `topics`. The sentence
 // lists the topics.
 std::vector<std::string> ProblemsOf(const RecordingChoice& choice,
-                                         const std::vector<std::string>& topics);
+                                    const std::vector<std::string>& topics);
 
 // Sets one rate, from "KIND=HZ". KIND is poses, readings, images or beams.
 base::Status SetRate(const std::string& text, RecordingChoice& choice);
@@ -103,8 +103,8 @@ class Recordings final : public gateway::RecordingSwitch {
   std::map<std::string, Recording> recordings_ GSV_GUARDED_BY(mutex_);
   std::map<std::string, State> last_
       GSV_GUARDED_BY(mutex_);  // recordings that have ended, by the name of the simulation
-  Totals ended_ GSV_GUARDED_BY(mutex_);  // totals of those
-  Totals reported_ GSV_GUARDED_BY(mutex_);   // the totals that were last returned
+  Totals ended_ GSV_GUARDED_BY(mutex_);     // totals of those
+  Totals reported_ GSV_GUARDED_BY(mutex_);  // the totals that were last returned
   std::weak_ptr<simulation::Simulation> of_command_ GSV_GUARDED_BY(mutex_);
 };
 

@@ -9,7 +9,7 @@ import { createMenu } from "../ui/menu";
 export function createPeopleMenu(app: App): HTMLElement {
   const list = element("ul", { class: "people", "aria-label": "Viewers" });
   const menu = createMenu("Viewers", "people", nameField(app), list, controlButton(app));
-  const number = element("span", { class: "number people-count" });
+  const number = element("span", { class: "number people-count", "aria-hidden": "true" });
   menu.button.append(number);
   app.store.watch(
     ({ people }) => people,
