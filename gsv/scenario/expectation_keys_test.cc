@@ -110,6 +110,7 @@ TEST(TestKeys, ErrorsInExpectationsAreReportedWithTheirPlace) {
       ProblemsInKeys("duration: 10\n"
                      "expect:\n"
                      "  - {never: scout}\n"
+                     "  - {newer: scout}\n"
                      "  - {never_collides: scout, ended: scout}\n"
                      "  - {speed: {robot: scout, at_most: 1}, by: 3}\n"
                      "  - {eventually: {speed: {robot: a}}, by: 11}\n"
@@ -119,21 +120,22 @@ TEST(TestKeys, ErrorsInExpectationsAreReportedWithTheirPlace) {
                      "  - {reaches: {x: 1, y: 2}}\n"
                      "  - {distance: {between: [a, a], at_most: 1}}\n"
                      "  - {sensor: {of: scout, take: median, at_most: 1}}\n"),
-      ElementsAre(HasSubstr("t.yaml:3:5: a condition has one operator of reaches, "),
-                  HasSubstr("t.yaml:3:6: there is no key \"never\" here"),
-                  "t.yaml:4:36: there is one operator in a condition; here are never_collides "
+      ElementsAre("t.yaml:3:13: never must be stuck or a condition, as in never: {contact: scout}",
+                  HasSubstr("t.yaml:4:5: a condition has one operator of reaches, "),
+                  HasSubstr("t.yaml:4:6: there is no key \"newer\" here"),
+                  "t.yaml:5:36: there is one operator in a condition; here are never_collides "
                   "and ended",
-                  HasSubstr("t.yaml:5:45: only what is about time has from and by"),
-                  "t.yaml:6:26: at_least and at_most, or one of them, are needed",
-                  "t.yaml:6:43: by lies after the end of the run, at duration",
-                  "t.yaml:7:55: at_most lies below at_least",
-                  HasSubstr("t.yaml:7:73: by lies before from"),
-                  "t.yaml:8:14: before must be a list of 2 conditions",
-                  HasSubstr("t.yaml:9:28: x must be two numbers"),
-                  "t.yaml:10:15: robot is needed: a robot's or an object's name",
-                  "t.yaml:11:26: between must be two names, as in [scout, crate]",
-                  "t.yaml:12:19: of must be a sensor, as in scout/front",
-                  "t.yaml:12:32: take must be min, max or mean, found \"median\""));
+                  HasSubstr("t.yaml:6:45: only what is about time has from and by"),
+                  "t.yaml:7:26: at_least and at_most, or one of them, are needed",
+                  "t.yaml:7:43: by lies after the end of the run, at duration",
+                  "t.yaml:8:55: at_most lies below at_least",
+                  HasSubstr("t.yaml:8:73: by lies before from"),
+                  "t.yaml:9:14: before must be a list of 2 conditions",
+                  HasSubstr("t.yaml:10:28: x must be two numbers"),
+                  "t.yaml:11:15: robot is needed: a robot's or an object's name",
+                  "t.yaml:12:26: between must be two names, as in [scout, crate]",
+                  "t.yaml:13:19: of must be a sensor, as in scout/front",
+                  "t.yaml:13:32: take must be min, max or mean, found \"median\""));
   EXPECT_THAT(ProblemsInKeys("expect: [{ended: a}]"),
               ElementsAre("t.yaml:1:9: what is expected needs an end by which it is judged: "
                           "duration"));

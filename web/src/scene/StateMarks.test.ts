@@ -38,3 +38,9 @@ test("more robots than before have room", () => {
   layer.place(tops, { states: many.map(() => 3), radii: many.map(() => 0.2), isChosen: null }, camera, HEIGHT, 1);
   expect(layer.count).toBe(300);
 });
+
+test("a view without robots has no marks", () => {
+  const layer = new StateMarks();
+  layer.place(new Float64Array(0), { states: [], radii: [], isChosen: null }, camera, HEIGHT, 1);
+  expect(layer.count).toBe(0);
+});

@@ -78,6 +78,7 @@ export class StateMarks {
   // `tops`: x y z above each robot, in the world; the picture is so many pixels of the page high.
   place(tops: Float64Array, robots: MarkedRobots, camera: PerspectiveCamera, height: number, ratio: number): void {
     const total = tops.length / 3;
+    if (total === 0) return this.hide();
     if (total > this.capacity) this.grow(total);
     const { geometry, material } = this.points;
     material.uniforms.glyphs!.value ??= glyphTexture();
