@@ -75,8 +75,11 @@ class ApngFilm final : public Film {
  public:
   explicit ApngFilm(const FilmOptions& options)
       : file_(options.output),
-        encoder_(static_cast<std::uint32_t>(options.frames), options.frames_a_second),
-        stream_(options.output, std::ios::binary) {}
+        encoder_(static_cast<std::uint32_t>(options.frames), options.frames_a_second) {
+    errno = 0;
+    stream_.open(options.output, std::ios::binary);
+    open_error_ = errno;
+  }
 
   base::Status Add(const model::Image& image) override {
     const auto bytes = encoder_.Add(image);
@@ -94,13 +97,15 @@ class ApngFilm final : public Film {
     stream_.write(reinterpret_cast<const char*>(bytes.data()),
                   static_cast<std::streamsize>(bytes.size()));
     if (stream_.flush()) return {};
+    const int error = stream_.is_open() ? errno : open_error_;
     return Fail(ErrorCode::kUnavailable,
-                "cannot write the film: " + std::string(std::strerror(errno)), file_.path());
+                "cannot write the film: " + std::string(std::strerror(error)), file_.path());
   }
 
   UnfinishedFile file_;
   rendering::ApngEncoder encoder_;
   std::ofstream stream_;
+  int open_error_ = 0;  // errno
 };
 
 class FolderFilm final : public Film {
