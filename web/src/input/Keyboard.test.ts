@@ -79,10 +79,11 @@ test("the timeline's slider leaves keys to the page", () => {
 });
 
 test("keys are left alone where somebody types or chooses", () => {
-  document.body.innerHTML = "<input><select></select><dialog><button></button></dialog><p></p>";
+  document.body.innerHTML = "<input><select></select><dialog open><button></button></dialog><dialog class=closed><input></dialog><p></p>";
   expect(isTyping(document.querySelector("input"))).toBe(true);
   expect(isTyping(document.querySelector("select"))).toBe(true);
   expect(isTyping(document.querySelector("dialog button"))).toBe(true);
+  expect(isTyping(document.querySelector(".closed input"))).toBe(false);
   expect(isTyping(document.querySelector("p"))).toBe(false);
   expect(isTyping(window)).toBe(false);
 });

@@ -83,9 +83,11 @@ export function isSingleKey({ key, ctrlKey, altKey, metaKey }: Key): boolean {
   return [...key].length === 1 && !ctrlKey && !altKey && !metaKey;
 }
 
-// Whether keys belong to the element that has the focus. The timeline's slider leaves them to the page.
+// Whether keys belong to the element that has the focus. The timeline's slider leaves them to the page, and so does
+// a dialog that was just closed, whose field has the focus for a moment more.
 export function isTyping(target: EventTarget | null): boolean {
   if (!(target instanceof Element)) return false;
+  if (target.closest("dialog:not([open])")) return false;
   return target.closest("input:not([type=range]), textarea, select, [contenteditable], dialog") !== null;
 }
 
