@@ -144,11 +144,11 @@ SimulationBridge::SimulationBridge(dds::Participant& participant, Options option
 }
 
 SimulationBridge::~SimulationBridge() {
-  services_.reset();
   if (options_.steps != nullptr) options_.steps->RepeatBy({});
   is_stopping_ = true;
   feed_->Close();
   thread_.join();
+  services_.reset();  // the thread names them in the graph
   if (const auto simulation = simulation_.lock()) simulation->RemoveObserver(feed_);
   slow_.Drain();
   if (feed_->dropped() > 0) {
