@@ -154,17 +154,17 @@ class Services(unittest.TestCase):
             self.assertEqual(client.call("get_parameters use_sim_time"), {"type": 1, "bool_value": True})
             self.assertEqual(client.call("get_parameters other"), {"type": 0, "bool_value": False})
 
-    def test_lose_no_reply_of_10000_to_clients_of_both_conventions_at_once(self):
+    def test_lose_no_reply_to_clients_of_both_conventions_at_once(self):
         with running_gsv():
             environment = {**os.environ, "ROS_DOMAIN_ID": DOMAIN}
-            commands = [[FAST_CLIENT, PLUGINS, "pebble", "10000", "100"],
-                        *[[PEER, "call-many", "pebble", "--count", "10000", "--window", "100", "--domain", DOMAIN,
+            commands = [[FAST_CLIENT, PLUGINS, "pebble", "1000", "20"],
+                        *[[PEER, "call-many", "pebble", "--count", "1000", "--window", "20", "--domain", DOMAIN,
                            "--timeout", "60"]] * 2]
             clients = [subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)
                        for command in commands]
             outputs = [client.communicate(timeout=100)[0] for client in clients]
         for output, client in zip(outputs, clients):
-            self.assertEqual(json.loads(output), {"calls": 10000, "replies": 10000}, client.args[0])
+            self.assertEqual(json.loads(output), {"calls": 1000, "replies": 1000}, client.args[0])
 
 
 if __name__ == "__main__":
