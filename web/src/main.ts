@@ -145,7 +145,7 @@ function connectWorld(world: World3D): void {
     ({ editing }) => editing !== null,
     (isEditing) => {
       endPoses();
-      // What is edited is put back to the bit where it stood.
+      // Undo restores poses to the bit, so editing needs the exact ones.
       endPoses = isEditing
         ? session.subscribe<PosesMessage>(POSES, takePoses)
         : session.subscribe<PosesMessage | PackedPosesMessage>(PACKED_POSES, takePoses, { orElse: POSES });

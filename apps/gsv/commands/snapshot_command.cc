@@ -122,7 +122,7 @@ void AddSnapshotCommand(const CommandLine& line) {
   command->add_option(
       "source", arguments->selection.simulation,
       "recording (NAME.mcap or folder), or running simulation (default: your newest)");
-  command->add_option("-o,--output", arguments->output, "image to write, .jpg or .png")
+  command->add_option("-o,--output", arguments->output, "image to write, .jpg, .jpeg or .png")
       ->type_name("FILE")
       ->required()
       ->check(CheckImageName);

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kTurnsAPiece = 16;
 
 // Reason for a pause without a request.
-constexpr const char* kReachedTarget = "as far as it was told to run";
+constexpr const char* kReachedTarget = "the requested time is reached";
 
 // Gives the calling thread priority over a crowd of behaviours, which all want to run at the
 // instant of a step. The system may refuse this: a higher priority needs CAP_SYS_NICE or a limit

@@ -1,5 +1,5 @@
-// Who draws the view: the browser, or the server where the browser has no WebGL or is slow. A choice
-// by hand is kept.
+// Chooses whether the browser or the server draws the view. The server draws it if the browser has no WebGL or
+// is slow. If a person chooses, that choice is kept.
 import type { Store } from "../state/Store";
 import type { Drawer, State } from "../state/State";
 

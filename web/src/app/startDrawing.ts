@@ -35,7 +35,7 @@ export function startDrawing(
     if (!choice.serverFailed()) store.set({ view: "none" });
   };
   const use = (drawer: Drawer) => {
-    // What is being put together is not on the server yet.
+    // The server does not have a simulation that is still being set up.
     const isOnServer = drawer === "server" && store.get().setUp === null;
     if (!isOnServer) {
       world.drawBy(null);

@@ -1,5 +1,5 @@
-// A mark at each robot that is far away, in trouble, or chosen by the filter: its state's colour and, for those
-// who do not see colours, its state's shape. One draw call, on top of everything.
+// A mark at each robot that is far away, in trouble, or chosen by the filter: the colour of
+// its state, and a shape for people who do not see colours. All marks are one draw call, above everything else.
 import type { PerspectiveCamera } from "three";
 import {
   BufferAttribute,

@@ -42,7 +42,7 @@ export interface RobotPose {
 // Whether the browser draws in 3D.
 export type View = "starting" | "open" | "interrupted" | "none"; // interrupted: the browser took WebGL away
 
-// Who draws the view.
+// The program that draws the view.
 export type Drawer = "browser" | "server";
 
 // How the eye moves: by hand; along with the selected robot; along and turning with it; as its eye.
