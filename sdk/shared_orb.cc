@@ -8,7 +8,7 @@
 namespace gsv::sdk {
 namespace {
 
-// Locks the only ORB of the process, which its users share, while the ORB starts or ends.
+// Protects the start and the end of the process's only ORB, which all users share.
 base::Mutex shared_orb_mutex;
 std::weak_ptr<SharedOrb> shared_orb;
 

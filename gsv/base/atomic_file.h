@@ -15,8 +15,8 @@ namespace gsv::base {
 // The event that a written file survives: the end of the process, or a loss of power.
 enum class Durability { kProcess, kPowerLoss };  // kPowerLoss waits until the disk has the data
 
-// Writes a temporary file beside `file` and renames it. kUnavailable if it cannot be written: the
-// previous file stays, and no temporary file remains.
+// Writes a temporary file beside `file` and renames it. Returns kUnavailable if the file cannot be
+// written; the previous file stays, and no temporary file remains.
 Status WriteAtomically(const std::filesystem::path& file, std::string_view text,
                        Durability durability);
 

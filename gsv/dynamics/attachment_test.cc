@@ -33,7 +33,7 @@ Attachment HoldCrate(const TestWorld& world, const Pose& link_from_held = kLinkF
   return {world.layout().Find("robot"), 0, world.layout().Find("crate"), link_from_held};
 }
 
-// Puts the crate where the robot holds it, as whoever attached it does.
+// Puts the crate where the robot holds it. This is the task of the code that attached it.
 void CarryCrate(TestWorld& world) {
   world.body("crate").world_from_model = world.body("robot").world_from_model * kLinkFromCrate;
 }

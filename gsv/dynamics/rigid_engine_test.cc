@@ -1,4 +1,4 @@
-// The world's engine with another engine of rigid-body dynamics than Bullet.
+// Tests the world's engine with an engine of rigid-body dynamics other than Bullet.
 #include <gtest/gtest.h>
 
 #include "gsv/dynamics/testing/test_rigid_world.h"

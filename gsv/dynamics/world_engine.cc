@@ -70,13 +70,13 @@ class WorldEngine final : public Engine {
   }
 
   void UseAttachments() {
-    // All took the same bodies before.
+    // All of them accepted these bodies before.
     if (auto layout = attached_.TakeChanged()) GSV_CHECK(UseLayout(std::move(layout)));
   }
 
-  // Actors move first: they make way for nobody. Of the others, planar bodies move
-  // first, past rigid ones that stand still. Where that stopped any, they push,
-  // and are moved once more past the rigid bodies as they are then.
+  // Actors move first, because they stop for nobody. Then planar bodies move, while rigid bodies
+  // stand still. Planar bodies that were stopped by rigid ones push them. After the rigid bodies
+  // have moved, the planar bodies move again from the start of the step.
   void MoveAll(base::SimTime step, world::State& state, std::vector<world::Contact>& contacts) {
     before_ = state;
     actors_.Move(step, state, &before_);
@@ -106,8 +106,8 @@ class WorldEngine final : public Engine {
     }
   }
 
-  // Adds the contacts of the rigid bodies to those of the planar ones, and counts both for the
-  // rigid bodies.
+  // Adds the contacts of the rigid bodies to those of the planar ones, and updates the rigid
+  // bodies' counts of contacts with both.
   void AddRigidContacts(world::State& state, std::vector<world::Contact>& contacts) const {
     contacts.insert(contacts.end(), rigid_contacts_.begin(), rigid_contacts_.end());
     for (std::size_t i = 0; i < layout_->bodies.size(); ++i) {

@@ -97,7 +97,7 @@ class ModelLibrary::Reader {
     auto found = store_.finder().Find(has_scheme ? name : "model://" + name, named_in);
     if (!found) {
       return Fail(ErrorCode::kBadModel, "there is no model \"" + name +
-                                            "\": neither such a file nor one of that name "
+                                            "\": there is no such file, and no model of that name "
                                             "beside the world or on the model path" +
                                             base::DidYouMean(name, store_.finder().ModelNames()));
     }

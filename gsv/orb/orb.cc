@@ -145,7 +145,7 @@ base::Result<std::string> LocalAddressTowards(const std::string& host) {
   if (descriptor >= 0) close(descriptor);
   std::array<char, INET_ADDRSTRLEN> text{};
   if (!ok || inet_ntop(AF_INET, &local.sin_addr, text.data(), text.size()) == nullptr) {
-    return base::Fail(base::ErrorCode::kUnavailable, "no local address reaches that host", host);
+    return base::Fail(base::ErrorCode::kUnavailable, "there is no route to that host", host);
   }
   return std::string(text.data());
 }

@@ -18,8 +18,8 @@ namespace gsv::reality {
 namespace {
 
 constexpr double kWindow = 5;  // s
-// m: a hit of a laser. The walls of a map of cells are a few cells thick, and nobody knows where in
-// them the surface lies.
+// m: tolerance for a hit of a laser. The walls of a grid map are several cells thick, and the
+// position of the surface within them is unknown.
 constexpr double kTolerance = 0.5;
 constexpr double k95 = 1.96;
 
@@ -144,7 +144,7 @@ void CompareScans(const Log& log, const std::vector<ScanPair>& pairs, Comparison
             real[i], simulated[i], count);
     }
   } else {
-    // The means of sectors of thirty degrees.
+    // The mean of each sector of thirty degrees.
     const auto mean = [](const std::vector<double>& values, std::size_t from, std::size_t to) {
       double sum = 0;
       for (std::size_t i = from; i < to; ++i) sum += values[i];
@@ -209,7 +209,7 @@ void CompareScans(const Log& log, const std::vector<ScanPair>& pairs, Comparison
   result.series.push_back(std::move(residuals));
 }
 
-// A device that stands still where the log's robot first did.
+// A device that stays at the first place of the log's robot.
 void CompareAtRest(const Log& log, const model::WorldDescription& world,
                    const CompareOptions& options, const TimedPose& pose, Comparison& result) {
   const std::vector<double> real = RestDifferences(log.scans);

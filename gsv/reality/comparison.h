@@ -1,4 +1,4 @@
-// A log of a real robot beside the same devices as GSV simulates them.
+// Compares the log of a real robot with GSV's simulation of the same devices.
 //
 // Determinism  functions of the log, the options and the seed.
 #pragma once
@@ -15,14 +15,14 @@
 
 namespace gsv::reality {
 
-// One statistic. `confidence`: half the width of the interval in which the simulated figure lies
-// with 95 %; 0 where it does not vary.
+// One statistic. `confidence`: half the width of the 95 % interval of the simulated value; 0 if the
+// value does not vary.
 struct Row {
   std::string device, what, unit;
   double real = 0, simulated = 0, confidence = 0;
 };
 
-// The distribution of one quantity in both, for a plot.
+// The real and the simulated distribution of one quantity, for a plot.
 struct Series {
   std::string what, unit;
   std::vector<double> real, simulated;
@@ -50,11 +50,11 @@ struct CompareOptions {
   std::size_t max_scans = 400;  // number of scans to simulate, evenly chosen
 };
 
-// All that the log has. kInvalidArgument for a log without anything to compare, for a preset of
-// another type and for parameters that are refused.
+// Compares everything that the log contains. Returns kInvalidArgument for a log with nothing to
+// compare, for a preset of another type, and for invalid parameters.
 base::Result<Comparison> Compare(const Log& log, const CompareOptions& options);
 
-// One parameter that fits the log, and half the width of its interval of 95 %.
+// A parameter fitted to the log, and half the width of its 95 % interval.
 struct FittedParameter {
   std::string name, unit;
   double value = 0, confidence = 0;
@@ -63,13 +63,14 @@ struct FittedDevice {
   std::string type, name;
   std::vector<FittedParameter> parameters;
 };
-// Fitted to the readings of the even blocks; of odometry to all windows. Of a ring of sonars one device a beam, in
-// their order. kInvalidArgument as Compare().
+// Fits the parameters to the readings of the even blocks, or for odometry to all windows. For a
+// ring of sonars, returns one device for each beam, in their order. Returns kInvalidArgument in the
+// same cases as Compare().
 base::Result<std::vector<FittedDevice>> Fit(const Log& log, const CompareOptions& options);
 
 // An SDFormat sensor for each device.
 std::string ToSdf(const std::vector<FittedDevice>& devices);
-// The distribution functions of all series as an SVG image.
+// Returns the distribution functions of all series as an SVG image.
 std::string ToSvg(const Comparison& comparison);
 
 }  // namespace gsv::reality

@@ -1,4 +1,4 @@
-// Comparisons and fits of small logs whose errors are known.
+// Tests comparisons and fits with small logs whose errors are known.
 #include "gsv/reality/comparison.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Parameters of simulated devices from a log, see comparison.h.
+// Fits parameters of simulated devices to a log, see comparison.h.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -59,7 +59,7 @@ FittedDevice FitOdometry(const Log& log, const CompareOptions& options) {
   return device;
 }
 
-// The value that a function gives of the scans, and its interval.
+// The result of a function of the scans, and its 95 % interval.
 template <typename Estimate>
 FittedParameter Estimated(const char* name, const char* unit, const std::vector<ScanPair>& pairs,
                           const Estimate& estimate) {
@@ -95,7 +95,7 @@ FittedDevice FitLidar(const Log& log, const std::vector<ScanPair>& pairs) {
   const double scale = device.parameters.back().value;
   device.parameters.push_back(
       Estimated("short_probability", "", pairs, [scale](const std::vector<ScanPair>& some) {
-        // Some of what would be met lies behind the surface and is never met.
+        // Some of the drawn short distances lie behind the surface and have no effect.
         double nearer = 0, beams = 0;
         for (const ScanPair& pair : some) {
           for (const double exact : pair.exact) {
@@ -107,7 +107,8 @@ FittedDevice FitLidar(const Log& log, const std::vector<ScanPair>& pairs) {
         const double shorter = MixtureOf(some, true, kFitTolerance).shorter;
         return nearer > 0 ? std::min(1.0, shorter * beams / nearer) : 0;
       }));
-  // Short readings that the log does not determine to a half are left out; the default is none.
+  // Omits parameters of short readings whose interval is wider than half their value. By default
+  // there are no short readings.
   const std::size_t shared = device.parameters.size() - 2;
   const bool is_known = std::all_of(
       device.parameters.begin() + static_cast<std::ptrdiff_t>(shared), device.parameters.end(),
@@ -116,7 +117,7 @@ FittedDevice FitLidar(const Log& log, const std::vector<ScanPair>& pairs) {
   return device;
 }
 
-// A parameter of a sonar's reflections, which is searched one at a time.
+// A parameter of a sonar's reflections. The search changes one parameter at a time.
 struct Searched {
   const char* name;
   const char* unit;
@@ -130,8 +131,9 @@ class SonarFit {
   SonarFit(const Log& log, const CompareOptions& options) : log_(log), options_(options) {}
 
   base::Result<std::vector<FittedDevice>> Run() {
-    // The simulated shares are taken at the poses of the odd blocks, where the world has seen nothing;
-    // the real ones are those of the even blocks. Readings of the odd blocks are not used.
+    // The simulated shares are computed at the poses of the odd blocks, because the world was not
+    // fitted to the readings there. The real shares are those of the even blocks. The readings of
+    // the odd blocks are not used.
     auto placed = PlaceScans(log_, options_, false);
     if (!placed) return base::Fail(placed.error());
     placed_ = *std::move(placed);
@@ -174,8 +176,8 @@ class SonarFit {
   }
 
  private:
-  // The sonars of a ring are not equally keen: echoes that one of them hears less often than the
-  // shared parameters have it are lost.
+  // The sonars of a ring are not equally sensitive. If one of them hears fewer echoes than with the
+  // shared parameters, the difference becomes its share of lost echoes.
   base::Result<std::vector<FittedDevice>> WithLosses(const std::vector<Searched>& searched,
                                                      const FittedDevice& shared) {
     const auto pairs = PairsWith(searched);
@@ -202,7 +204,8 @@ class SonarFit {
     return PairScans(placed_, log_, options);
   }
 
-  // Chi squared of the echo shares, in units of their own deviations.
+  // Chi squared of the shares of echoes: the sum of their squared differences, each divided by its
+  // variance.
   base::Result<double> Cost(const std::vector<Searched>& searched) {
     const auto pairs = PairsWith(searched);
     if (!pairs) return base::Fail(pairs.error());
@@ -217,7 +220,7 @@ class SonarFit {
     return cost;
   }
 
-  // How far the parameter goes until the cost has grown by 3.84, the 95 % of one degree of freedom,
+  // The change of the parameter that increases the cost by 3.84 (95 % for one degree of freedom),
   // in steps of a tenth.
   base::Result<double> IntervalOf(std::vector<Searched>& searched, Searched& each, double best) {
     const double value = each.value;

@@ -11,7 +11,7 @@ namespace {
 
 using geometry::kPi;
 
-constexpr float kFarthest = 1;  // m: beyond, all is as bad
+constexpr float kFarthest = 1;  // m: larger distances count as this
 
 TimedPose Composed(const TimedPose& a, const TimedPose& b) {
   const double cosine = std::cos(a.yaw), sine = std::sin(a.yaw);
@@ -29,7 +29,7 @@ TimedPose Inverted(const TimedPose& a) {
 LikelihoodField::LikelihoodField(const OccupancyMap& map)
     : map_(map), deviation_(std::max(0.02, map.resolution)) {
   distances_.assign(map.cells.size(), kFarthest);
-  // Dijkstra over the eight neighbours: at most 8 % too long.
+  // Dijkstra's algorithm over the eight neighbours. The distances are at most 8 % too long.
   using Entry = std::pair<float, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
@@ -113,9 +113,9 @@ struct Candidate {
   TimedPose pose;
 };
 
-// The pose of the first scan, by some scans along the way.
+// Finds the pose of the first scan from some of the scans along the path.
 std::optional<TimedPose> FindStart(const Log& log, const LikelihoodField& field) {
-  constexpr double kApart = 1;  // m or rad of odometry between the scans that are used
+  constexpr double kApart = 1;  // m or rad of odometry between two of these scans
   constexpr std::size_t kScans = 6, kKept = 300;
   const TimedPose home = Inverted(*log.scans.front().base);
   std::vector<std::pair<const RangeScan*, TimedPose>> views;  // first_from_base
@@ -149,7 +149,7 @@ std::optional<TimedPose> FindStart(const Log& log, const LikelihoodField& field)
   std::sort(best.begin(), best.end(),
             [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
   best.resize(std::min(best.size(), 10 * kKept));
-  // The view is followed along the odometry, each time from the place that was found.
+  // Follows the odometry from scan to scan. Each search starts at the pose that was found last.
   for (Candidate& candidate : best) {
     TimedPose pose = field.Refined(log, *views[0].first, candidate.pose, 0.16);
     candidate.pose = pose;

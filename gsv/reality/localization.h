@@ -20,10 +20,12 @@ class LikelihoodField {
  public:
   explicit LikelihoodField(const OccupancyMap& map);
 
-  // In [0, 1]: how well the finite ranges of a scan end on what is occupied. Every `stride`th beam.
+  // The score of a scan in [0, 1]: how well its finite ranges end on occupied cells. Uses every
+  // `stride`th beam.
   double Score(const Log& log, const RangeScan& scan, const TimedPose& base,
                std::size_t stride) const;
-  // The pose near `guess` of the best score: within `reach` m and a tenth of a radian for each 0.1 m.
+  // The pose with the best score near `guess`: within `reach` m, and a tenth of a radian for each
+  // 0.1 m.
   TimedPose Refined(const Log& log, const RangeScan& scan, TimedPose guess, double reach) const;
 
   const OccupancyMap& map() const { return map_; }
@@ -32,11 +34,12 @@ class LikelihoodField {
   double DistanceAt(double x, double y) const;
 
   OccupancyMap map_;
-  double deviation_ = 0.1;        // m: how far off the end of a beam may lie
+  double deviation_ = 0.1;        // m: standard deviation of the end of a beam
   std::vector<float> distances_;  // m, capped
 };
 
-// World poses of log.scans, each `stride`th of them. `start`: the pose of the first one, if known.
+// The poses, in the world, of every `stride`th scan of log.scans. `start`: the pose of the first
+// one, if known.
 base::Result<std::vector<TimedPose>> Localize(const Log& log, const LikelihoodField& field,
                                               const std::optional<TimedPose>& start,
                                               std::size_t stride);

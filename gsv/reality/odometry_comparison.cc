@@ -9,11 +9,11 @@
 namespace gsv::reality {
 namespace {
 
-constexpr double kLongestStep = 1;  // s; across a longer gap nothing is reckoned
+constexpr double kLongestStep = 1;  // s; no odometry is computed across a longer gap
 constexpr double kTruthStep =
-    0.5;  // s: so that the jitter of a reference system adds up to nothing
+    0.5;  // s: long enough to average out the jitter of a reference system
 
-// Along an arc.
+// Moves the pose along an arc.
 TimedPose Advanced(const TimedPose& pose, double time, double way, double turn) {
   const double heading = pose.yaw + turn / 2;
   const double chord = std::abs(turn) < 1e-9 ? way : way * std::sin(turn / 2) / (turn / 2);
@@ -30,7 +30,7 @@ Relative Between(const TimedPose& from, const TimedPose& to) {
   return {cosine * dx + sine * dy, cosine * dy - sine * dx, WrappedAngle(to.yaw - from.yaw)};
 }
 
-// The truth every half second.
+// The true poses every half second.
 std::vector<TimedPose> Thinned(const std::vector<TimedPose>& truth) {
   std::vector<TimedPose> thinned;
   for (const TimedPose& pose : truth) {
@@ -43,7 +43,7 @@ double Signed(const Relative& way) {
   return std::copysign(std::hypot(way.ahead, way.aside), way.ahead);
 }
 
-// a in y = a x.
+// Returns the slope a of y = a x by least squares.
 double Slope(const std::vector<double>& x, const std::vector<double>& y) {
   double xy = 0, xx = 0;
   for (std::size_t i = 0; i < x.size(); ++i) xy += x[i] * y[i], xx += x[i] * x[i];
@@ -165,7 +165,7 @@ sensing::OdometryDrift FitDrift(const std::vector<MotionWindow>& windows) {
   double mm = 0, mr = 0, rr = 0, ms = 0, rs = 0;
   for (std::size_t i = 0; i < windows.size(); ++i) {
     const MotionWindow& w = windows[i];
-    // By as much as the odometry makes of it.
+    // In proportion to the odometry's estimate.
     const double way = statistics.way_residuals[i] * drift.linear_scale;
     const double turn = std::pow(statistics.turn_residuals[i] * drift.angular_scale, 2);
     metres += w.metres, way_squares += way * way;

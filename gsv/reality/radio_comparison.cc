@@ -42,7 +42,7 @@ model::SensorDescription TagOf(int anchor, const CompareOptions& options) {
   return tag;
 }
 
-// A line by least squares.
+// Fits a line by least squares.
 struct Line {
   double at_zero = 0, slope = 0;
 };
@@ -69,7 +69,7 @@ RangingFit FittedTo(const std::vector<RadioRange>& ranges) {
     errors.push_back(range.measured - range.reference);
   }
   const Line bias = LineThrough(distances, errors);
-  // The variance is a constant and a part that grows with the square of the distance.
+  // The variance is the sum of a constant and a part that grows with the square of the distance.
   std::vector<double> squares, variances;
   double mean = 0;
   for (std::size_t i = 0; i < errors.size(); ++i) {

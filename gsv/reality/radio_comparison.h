@@ -1,4 +1,4 @@
-// Ranges to radio anchors, measured and simulated.
+// Compares measured and simulated ranges to radio anchors.
 #pragma once
 
 #include <string>
@@ -8,11 +8,12 @@
 
 namespace gsv::reality {
 
-// The readings of the options' ranging sensor for each of log.radio: from where the reference system saw
-// the robot, to the anchor. Infinite: not heard. Walls count only in a given world.
+// Returns the simulated reading for each entry of log.radio, from the robot's pose according to the
+// reference system to the anchor. Infinite: not received. Walls have an effect only if a world is
+// given.
 base::Result<std::vector<double>> SimulatedRanges(const Log& log, const CompareOptions& options);
 
-// The errors (m) of one range, by the reference system.
+// The errors (m) of one range, relative to the reference system.
 struct RadioErrors {
   int anchor = 0;
   double distance = 0;
@@ -26,7 +27,7 @@ struct RadioGroup {
 // Groups errors by anchor, then by metres of distance. Groups of less than 20 ranges are omitted.
 std::vector<RadioGroup> Grouped(const std::vector<RadioErrors>& errors);
 
-// A ranging sensor whose bias and scatter are linear in the distance, fitted to the even blocks.
+// Fits a ranging sensor, whose bias and scatter are linear in the distance, to the even blocks.
 FittedDevice FitRanging(const Log& log);
 
 }  // namespace gsv::reality

@@ -1,8 +1,8 @@
-// Simulated devices beside what real ones measured. docs/reality.md is made of what these tests
-// leave behind (tools/make_reality_table).
+// Compares simulated devices with measurements of real ones. tools/make_reality_table writes
+// docs/reality.md from the output of these tests.
 //
-// The logs are no part of the project: GSV_REAL_DIR names the folder in which devices/ lies. The
-// tests that need one are skipped where it is missing.
+// The logs are not part of the project: GSV_REAL_DIR names the folder that contains devices/. Tests
+// whose log is missing are skipped.
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -135,7 +135,7 @@ constexpr PanelTest kPanels[] = {{.17, -24, 26},  {.32, -23, 27},  {.46, -23, 30
                                  {2.57, -27, 21}};
 constexpr double kRule = 2.45, kSheet = 1.68;  // m: how far the two small targets are detected
 
-// Errors (degrees) on the plots of even or odd places.
+// The errors (degrees) at the even or the odd distances.
 std::vector<double> PanelErrors(const BeamTest& test, std::size_t first, double step) {
   std::vector<double> errors;
   for (std::size_t i = first; i < std::size(kPanels); i += 2) {
@@ -152,7 +152,7 @@ TEST_F(Reality, ASonarHearsAPanelOverTheAnglesOfAnHcSr04) {
     for (const double g : {0.9, 1.1, 1.3, 1.5, 1.7, 2.0, 2.4}) {
       const BeamTest tried(t, g);
       const double sheet = std::abs(tried.FurthestHeard(0.033, 0.038) / kSheet - 1);
-      // One degree counts as much as a tenth of the range.
+      // One degree has the same weight as a tenth of the range.
       const double cost = Summarize(PanelErrors(tried, 0, 1)).mean + 10 * sheet;
       if (cost < best) best = cost, threshold = t, gain_range = g;
     }
@@ -216,7 +216,7 @@ TEST_F(RealLog, OdometryDriftsAsThatOfARobotItWasNotFittedTo) {
     if (!is_target) continue;
     const bool is_met = std::abs(row.simulated / row.real - 1) <= 0.1;
     Tell(row.what + " (within 10 %)", row.unit, row.real, row.simulated, row.confidence, is_met);
-    // Robots of one kind differ by as much: a figure may miss its target by the interval.
+    // Robots of one type differ by this much, so a value may miss its target by its interval.
     EXPECT_NEAR(row.simulated, row.real, 0.1 * row.real + row.confidence) << row.what;
   }
   // The preset is this fit.
@@ -342,7 +342,7 @@ model::WorldDescription Arena(const fs::path& landmarks) {
   return world;
 }
 
-// A robot of two wheels, so small that it touches nothing.
+// A robot with two wheels. It is so small that it touches nothing.
 std::shared_ptr<model::Model> Tracker(double wheel_distance) {
   constexpr double kRadius = 0.01;
   auto model = std::make_shared<model::Model>(*simulation::Disc(kRadius));
@@ -366,7 +366,7 @@ std::shared_ptr<model::Model> Tracker(double wheel_distance) {
   return model;
 }
 
-// Keeps the path of the robot.
+// Records the path of the robot.
 class PathObserver final : public simulation::Observer {
  public:
   explicit PathObserver(double first) : first_(first) {}
@@ -386,7 +386,7 @@ class PathObserver final : public simulation::Observer {
   const double first_;
 };
 
-// Drives the motor log in a world; a pose for each step.
+// Simulates the motor log in a world. Returns a pose for each step.
 std::vector<TimedPose> Driven(model::WorldDescription world, const Log& log, double wheel_distance,
                               const TimedPose& start) {
   const double first = log.wheels.front().time;
@@ -417,7 +417,7 @@ std::vector<TimedPose> Driven(model::WorldDescription world, const Log& log, dou
   return observer->path;
 }
 
-// Before the first step and after the last the robot stands.
+// Before the first step and after the last one, the robot stands still.
 double ErrorAt(const std::vector<TimedPose>& path, const TimedPose& place) {
   const TimedPose there =
       PoseAt(path, place.time)
@@ -439,8 +439,8 @@ PathErrors ErrorsOf(const std::vector<TimedPose>& path, const std::vector<TimedP
   return errors;
 }
 
-// The motor log drives a simulated robot in the rebuilt arena. Its wheel distance and its first
-// heading are those whose path, reckoned by exact arcs, fits the camera best.
+// The motor log drives a simulated robot in the rebuilt arena. Wheel distance and first heading are
+// fitted: with them, the path by exact arcs is closest to the camera's path.
 TEST_F(RealLog, WheelOdometryMatchesTheArenaLog) {
   const Log log = Read(folder_ / "arena" / "robot4_scan.txt", "arena");
   double best = kInfinity, distance = 0;
@@ -457,7 +457,7 @@ TEST_F(RealLog, WheelOdometryMatchesTheArenaLog) {
   const auto path =
       Driven(Arena(folder_ / "arena" / "robot_arena_landmarks.txt"), log, distance, start);
   ASSERT_FALSE(path.empty());
-  // The engine drives the arcs of the closed form.
+  // The engine's path equals the arcs of the closed form.
   double apart = 0;
   for (const TimedPose& place : reckoned) apart = std::max(apart, ErrorAt(path, place));
   EXPECT_LT(apart, 0.01);

@@ -1,4 +1,4 @@
-// Real and simulated readings of beams, at the same poses.
+// Compares real and simulated readings of beams at the same poses.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace gsv::reality {
 
-// A real scan, the reading of the simulated device at the same place, and that of a device without
+// A real scan, and the readings at the same pose of the simulated device and of a device without
 // errors.
 struct ScanPair {
   TimedPose pose;
@@ -15,17 +15,17 @@ struct ScanPair {
 };
 
 // Shares of beams (Thrun, Burgard, Fox, "Probabilistic Robotics", section 6.3): within `tolerance`
-// of the exact range, shorter, without an echo where there should be one; and longer.
+// of the exact range, shorter, without an echo although there should be one, and longer.
 struct Mixture {
   double hit = 0, shorter = 0, none = 0, longer = 0;
 };
 Mixture MixtureOf(const std::vector<ScanPair>& pairs, bool of_real, double tolerance);
 
-// Share of readings with an echo, for each beam.
+// The share of readings with an echo, for each beam.
 std::vector<double> EchoShares(const std::vector<ScanPair>& pairs, bool of_real);
 
-// Differences of a beam's reading from one scan to the next where the robot did not move, by the
-// root of two: their deviation is that of one reading.
+// The differences between a beam's readings in consecutive scans of a robot at rest, divided by the
+// square root of two. Their standard deviation is that of a single reading.
 std::vector<double> RestDifferences(const std::vector<RangeScan>& scans);
 // Returns the differences of simulated readings. Pairs must be in the order of time.
 std::vector<double> RestDifferences(const std::vector<ScanPair>& pairs);

@@ -24,14 +24,14 @@ std::vector<RangeScan> Thinned(std::vector<RangeScan> scans, std::size_t most) {
   return thinned;
 }
 
-// A map to search for poses: finer in a small world.
+// The map in which poses are searched. It is finer in a small world.
 base::Result<OccupancyMap> SearchMap(const model::WorldDescription& world, double height) {
   auto map = MapOfWorld(world, {kCell, height, 1});
   if (!map || std::max(map->width, map->height) * kCell > kSmallWorld) return map;
   return MapOfWorld(world, {kFineCell, height, 1});
 }
 
-// Moves a pose until the exact ranges fit the scan. Differences above kWild count as much as it.
+// Refines a pose until the exact ranges fit the scan. Differences above kWild count as kWild.
 class PosePolish {
  public:
   PosePolish(SimulatedDevice& exact, double max_range) : exact_(exact), max_range_(max_range) {}
@@ -72,12 +72,12 @@ class PosePolish {
   const double max_range_;
 };
 
-// The scans with their poses in the options' world.
+// Returns the scans with their poses in the world of the options.
 base::Result<std::vector<RangeScan>> ScansIn(const Log& log, const CompareOptions& options) {
   if (log.is_sonar || (log.truth_has_yaw && !log.truth.empty())) return log.scans;
   const auto map = SearchMap(*options.world, options.height);
   if (!map) return base::Fail(map.error());
-  // A known bias of the ranges is taken off before places are searched.
+  // A known bias of the ranges is subtracted before poses are searched.
   Log unbiased = log;
   const double bias = model::NumberOr(options.parameters, "noise.mean", 0);
   for (RangeScan& scan : unbiased.scans) {
@@ -101,8 +101,8 @@ base::Result<std::vector<RangeScan>> ScansIn(const Log& log, const CompareOption
   return placed;
 }
 
-// The map of the options' world, updated by scans. The poses of all scans are refined in it: the
-// first ones were found in a world that is out of date.
+// The map of the options' world, updated by scans. The poses of all scans are then refined in it,
+// because they were found in a world that was out of date.
 base::Result<OccupancyMap> UpdatedWorld(const Log& log, const CompareOptions& options,
                                         std::vector<RangeScan>& for_world,
                                         std::vector<RangeScan>& to_read) {
@@ -123,7 +123,7 @@ base::Result<OccupancyMap> UpdatedWorld(const Log& log, const CompareOptions& op
   return map;
 }
 
-// Divides scans into those that a world may see and those that are read.
+// Divides scans into those from which a world is made and those that are compared.
 void Divide(std::vector<RangeScan>& for_world, std::vector<RangeScan>& to_read, bool for_fitting) {
   std::erase_if(for_world, [](const RangeScan& scan) { return !IsForFitting(scan.time); });
   std::erase_if(to_read,
@@ -170,7 +170,7 @@ Log WithBases(Log log, const CompareOptions& options) {
   const std::vector<TimedPose> path = ReckonedPath(log, options.wheel_distance, start);
   for (RangeScan& scan : log.scans) {
     scan.base = PoseAt(path, scan.time);
-    // Scans before the first and after the last of the wheels were taken there.
+    // Scans before the first or after the last wheel reading get the pose of that reading.
     if (!scan.base) scan.base = scan.time < path.front().time ? path.front() : path.back();
   }
   return log;

@@ -1,5 +1,5 @@
-// Finds the poses of a log's scans in a given or fitted world, and the readings of the simulated
-// device there.
+// Finds the poses of a log's scans in a given or fitted world, and the simulated readings at these
+// poses.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace gsv::reality {
 
-// The scans that are read, and the world that they are read in.
+// The scans to compare, and their world.
 struct PlacedScans {
   model::WorldDescription world;
   std::vector<RangeScan> scans;  // each with `base`
 };
 
-// The log with the poses of its scans, where they follow from its wheels alone.
+// Returns the log with the poses of its scans, if they can be computed from its wheels alone.
 Log WithBases(Log log, const CompareOptions& options);
 
 // Returns the scans of the log's even blocks (`for_fitting`) or of its odd ones. A world that is
@@ -29,10 +29,10 @@ base::Result<PlacedScans> PlaceScans(const Log& log, const CompareOptions& optio
 base::Result<std::vector<ScanPair>> PairScans(const PlacedScans& placed, const Log& log,
                                               const CompareOptions& options);
 
-// The device that the options ask for.
+// The device according to the options.
 std::vector<model::SensorDescription> AskedSensors(const Log& log, const CompareOptions& options);
 
-// Readings at the maximum, or beyond, become infinite: no echo.
+// Readings at or beyond the maximum range become infinite (no echo).
 void MarkMissing(std::vector<double>& ranges, double max_range);
 
 // "sonar" or "lidar".

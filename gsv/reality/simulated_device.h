@@ -1,4 +1,4 @@
-// A simulated sensor, read wherever a real one stood, in a world that does not move.
+// A simulated sensor that is read at the poses of a real one, in a static world.
 //
 // Determinism  Read() is a function of the seed, the description, the pose and the step.
 // Threads      one at a time.
@@ -16,13 +16,13 @@ namespace gsv::reality {
 
 class SimulatedDevice {
  public:
-  // `sensors` are mounted on one robot's base; each is read. kInvalidArgument for parameters that
-  // are refused.
+  // `sensors` are mounted on one robot's base, and all of them are read. Returns kInvalidArgument
+  // for invalid parameters.
   static base::Result<SimulatedDevice> Create(const model::WorldDescription& world,
                                               std::vector<model::SensorDescription> sensors,
                                               std::uint64_t seed);
 
-  // The values of all sensors, one after the other, with the base at `pose`.
+  // Returns the concatenated values of all sensors, with the base at `pose`.
   std::vector<double> Read(const TimedPose& pose, std::int64_t step);
 
  private:
@@ -33,8 +33,8 @@ class SimulatedDevice {
   std::unique_ptr<sensing::RaySceneCache> rays_;
 };
 
-// The sensors that a log's scans were measured with: one lidar, or a sonar for each beam.
-// `parameters` win over the preset (empty: none).
+// The sensors of a log's scans: one lidar, or a sonar for each beam. `parameters` override the
+// preset. An empty preset means none.
 std::vector<model::SensorDescription> SensorsOf(const Log& log, const std::string& preset,
                                                 const model::Parameters& parameters, double height);
 

@@ -1,4 +1,4 @@
-// Statistics by which real and simulated devices are compared.
+// Statistics for comparing real and simulated devices.
 #pragma once
 
 #include <cstddef>
@@ -13,15 +13,16 @@ struct Summary {
 };
 Summary Summarize(std::span<const double> values);
 
-// The value below which `part` of them lie, in [0, 1]; 0 of none.
+// The quantile: the value below which the fraction `part` (in [0, 1]) of the values lies. 0 if
+// there are no values.
 double Quantile(std::vector<double> values, double part);
 
-// 1.4826 times the median distance from the median: the deviation of normal values, and little
-// moved by a few wild ones.
+// 1.4826 times the median distance from the median. For normal values, this is the standard
+// deviation. A few outliers change it little.
 double RobustDeviation(std::vector<double> values);
 
-// Half the width of the 95 % interval of an estimate, by the jackknife (Efron 1982): `without` are
-// the estimates without each of several equal parts of the data. 0 of less than two.
+// Half the width of the 95 % interval of an estimate, by the jackknife (Efron 1982). `without` are
+// the estimates without each of several equal parts of the data. 0 for less than two.
 double JackknifeInterval(const std::vector<double>& without);
 
 // The largest distance between the two distribution functions, in [0, 1]; 1 if one is empty.

@@ -39,7 +39,7 @@ TEST(Statistics, ComputeCorrelations) {
 }
 
 TEST(OdometryComparison, FitsTheDriftThatMadeTheLog) {
-  // A robot that drives wide arcs, half of the time the other way.
+  // A robot that drives wide arcs, half of the time in the opposite direction.
   std::vector<TimedPose> truth = {{0, 0, 0, 0}};
   for (int i = 1; i < 40000; ++i) {
     TimedPose next = truth.back();

@@ -12,15 +12,15 @@ namespace {
 constexpr double kSonarHalfAngle = 0.13;  // rad: within it most of the sound returns
 constexpr double kMargin = 6;             // m around the path
 constexpr double kMaxFittedCells = 25e6;
-constexpr double kFurthest = 50;  // m: echoes from beyond say nothing here
+constexpr double kFurthest = 50;  // m: echoes from further away are ignored
 constexpr double kWidest = 1000;  // m
 constexpr double kFree = -0.4, kOccupied = 0.9, kKnown = 1.5;
-constexpr double kPerhaps = 0.5, kSeenTwice = 1.2;  // least odds of a wall
-constexpr double kWall = 10;  // more than all the long echoes that a smooth wall mirrors away say
+constexpr double kPerhaps = 0.5, kSeenTwice = 1.2;  // minimum log odds of a wall
+constexpr double kWall = 10;  // more than the evidence of all long readings past a smooth wall
 
-// A sonar that looks to the side passes along a wall: two of its echoes that lie on one are joined.
+// A sideways sonar moves along walls. Two consecutive echoes from one wall are joined by a line.
 constexpr double kSideways = 1.2;    // rad
-constexpr double kSameWall = 0.4;    // m: how much the range may change
+constexpr double kSameWall = 0.4;    // m: maximum change of the range
 constexpr double kLongestGap = 2.5;  // m
 
 class LogOdds {
@@ -43,7 +43,7 @@ class LogOdds {
     }
   }
 
-  // Takes the map's own cells for known.
+  // Marks the map's own cells as known.
   void AddKnown() {
     for (std::size_t i = 0; i < odds_.size(); ++i) {
       if (map_.cells[i] == Cell::kOccupied) odds_[i] += kKnown;
@@ -75,7 +75,7 @@ void JoinWalls(const Log& log, const std::vector<RangeScan>& scans, LogOdds& odd
     if (std::abs(log.beam_angles[i]) < kSideways) continue;
     double x = 0, y = 0, range = geometry::kInfinity;  // place and range of the last echo
     TimedPose from;                                    // the pose from which it was measured
-    bool is_lost = false;                              // nothing was heard since
+    bool is_lost = false;                              // there was no echo since then
     for (const RangeScan& scan : scans) {
       if (!scan.base || i >= scan.ranges.size()) continue;
       if (!std::isfinite(scan.ranges[i])) {
@@ -90,7 +90,8 @@ void JoinWalls(const Log& log, const std::vector<RangeScan>& scans, LogOdds& odd
           std::hypot(next_x - x, next_y - y) < kLongestGap) {
         odds.AddWall(x, y, next_x, next_y);
       } else if (std::isfinite(range) && !is_lost && std::hypot(moved_x, moved_y) < kLongestGap) {
-        // There are two walls. Each continues along the way to the middle.
+        // The echoes come from two walls. Each wall continues along the path to the middle between
+        // them.
         odds.AddWall(x, y, x + moved_x / 2, y + moved_y / 2);
         odds.AddWall(next_x - moved_x / 2, next_y - moved_y / 2, next_x, next_y);
       }
@@ -150,7 +151,8 @@ base::Result<OccupancyMap> FitMap(const Log& log, const std::vector<RangeScan>& 
     for (std::size_t i = 0; i < std::min(scan.ranges.size(), log.beam_angles.size()); ++i) {
       const double middle = scan.base->yaw + log.beam_angles[i];
       const double range = scan.ranges[i];
-      // Sound that is not heard may have been mirrored away: it says little beyond the nearest.
+      // Sound without an echo may have been reflected away, so it is evidence of free space only
+      // nearby.
       const double reach =
           log.is_sonar ? (std::isfinite(range) ? std::min(range, kFurthest) : 0.6) : margin;
       const double spread = log.is_sonar ? kSonarHalfAngle : 0;
@@ -174,7 +176,8 @@ OccupancyMap UpdatedMap(OccupancyMap map, const Log& log, const std::vector<Rang
     const double x = scan.base->x + log.sensor_forward * std::cos(scan.base->yaw);
     const double y = scan.base->y + log.sensor_forward * std::sin(scan.base->yaw);
     for (std::size_t i = 0; i < std::min(scan.ranges.size(), log.beam_angles.size()); ++i) {
-      // A beam without an echo says little: a dark surface has none either.
+      // A beam without an echo is weak evidence of free space, because dark surfaces do not reflect
+      // it either.
       if (!std::isfinite(scan.ranges[i])) continue;
       odds.Add(x, y, scan.base->yaw + log.beam_angles[i], scan.ranges[i], kFurthest);
     }

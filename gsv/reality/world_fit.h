@@ -7,27 +7,28 @@
 
 namespace gsv::reality {
 
-// Blocks of four seconds, in turn: a world and a device are fitted to the scans of the even blocks
-// and judged by those of the odd ones.
+// A log is divided into blocks of four seconds. A world and a device are fitted to the scans of the
+// even blocks, and validated with those of the odd blocks.
 inline constexpr double kBlockSeconds = 4;
 bool IsForFitting(double time);
-// In the second half of its block.
+// Whether the time is in the second half of its block.
 bool IsLateInBlock(double time);
 
-// The scans of the even blocks (`for_fitting`) or of the odd ones.
+// Returns the scans of the even blocks (`for_fitting`) or of the odd ones.
 std::vector<RangeScan> ScansFor(const Log& log, bool for_fitting);
 
-// An occupancy grid by log odds (Thrun, Burgard, Fox, "Probabilistic Robotics", chapter 9): of cones
-// of sound, cells at the range are perhaps occupied, cells before it free. Scans need `base`.
-// kInvalidArgument if no scan has a pose or the path is more than a kilometre wide.
+// Makes an occupancy grid by log odds (Thrun, Burgard, Fox, "Probabilistic Robotics", chapter 9).
+// In a cone of sound, cells at the measured range may be occupied, and nearer cells are free. Scans
+// need `base`. Returns kInvalidArgument if no scan has a pose, or if the path is more than a
+// kilometre wide.
 base::Result<OccupancyMap> FitMap(const Log& log, const std::vector<RangeScan>& scans,
                                   double resolution);
 
-// The map with the evidence of a laser's scans: a cell that is known to be occupied becomes free
-// when beams pass through it, and a free one becomes occupied where beams end.
+// Updates the map with the scans of a laser: an occupied cell becomes free if beams pass through
+// it, and a free cell becomes occupied if beams end in it.
 OccupancyMap UpdatedMap(OccupancyMap map, const Log& log, const std::vector<RangeScan>& scans);
 
-// Walls on nothing, to be sensed only.
+// Returns the walls as a world without ground, for sensors only.
 model::WorldDescription WallsOf(const OccupancyMap& map, double height);
 
 }  // namespace gsv::reality

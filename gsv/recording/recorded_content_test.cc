@@ -172,7 +172,7 @@ TEST_F(SimulationRecorderTest, SensorsOfAStationAreRecorded) {
   EXPECT_EQ(scene["bodies"][0]["sensors"].size(), 1u);
 }
 
-TEST_F(SimulationRecorderTest, TheSceneDescribesThePoses) {
+TEST_F(SimulationRecorderTest, TheSceneListsTheBodyOfEachPose) {
   Record(0.5);
   const auto scenes = Attachments("scene.json");
   ASSERT_EQ(scenes.size(), 2u);  // one with "back" and one from before

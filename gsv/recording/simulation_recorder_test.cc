@@ -90,7 +90,7 @@ TEST_F(SimulationRecorderTest, RecordsRadioMessages) {
   EXPECT_EQ(said[0].receiver, "");
   EXPECT_EQ(std::string(said[0].content.begin(), said[0].content.end()), "hello");
   EXPECT_EQ(said[0].heard_by, (std::vector<std::string>{"b", "d"}));
-  // the message was received with the step after 50 ms
+  // the message was sent at 50 ms and received with the next step, at 60 ms
   EXPECT_EQ(said[0].stamp.nanosec, 60'000'000u);
 }
 

@@ -94,9 +94,10 @@ class FormulaReader {
                              formula.kind == FormulaKind::kEventually ||
                              formula.kind == FormulaKind::kUntil;
     if ((from || by) && !is_temporal) {
-      mapping.AddProblem(from ? "from" : "by",
-                         "only what is about time has from and by: always, eventually, until, "
-                         "before, reaches, stays_within, never, never_collides, distance_at_least");
+      mapping.AddProblem(
+          from ? "from" : "by",
+          "'from' and 'by' belong to expectations about time only: always, eventually, until, "
+          "before, reaches, stays_within, never, never_collides, distance_at_least");
       return;
     }
     formula.from = from.value_or(0);

@@ -125,7 +125,7 @@ TEST(TestKeys, ErrorsInExpectationsAreReportedWithTheirPlace) {
                   HasSubstr("t.yaml:4:6: there is no key \"newer\" here"),
                   "t.yaml:5:36: there is one operator in a condition; here are never_collides "
                   "and ended",
-                  HasSubstr("t.yaml:6:45: only what is about time has from and by"),
+                  HasSubstr("t.yaml:6:45: 'from' and 'by' belong to expectations about time only"),
                   "t.yaml:7:26: at_least and at_most, or one of them, are needed",
                   "t.yaml:7:43: by lies after the end of the run, at duration",
                   "t.yaml:8:55: at_most lies below at_least",

@@ -28,7 +28,7 @@ class Sampling {
            RaySceneCache& rays)
       : snapshot_(std::move(snapshot)), body_(body), seed_(seed), rays_(rays) {}
 
-  // Moves to another robot at the same instant.
+  // Makes this sampling refer to another robot at the same instant.
   void MoveTo(int body);
   // Returns the sampling at another instant. `body` is an index in that snapshot's layout.
   Sampling At(std::shared_ptr<const world::Snapshot> snapshot, int body) const {

@@ -232,13 +232,15 @@ void SimulationServant::command(const char* name, const sba::NameValues& argumen
 
 void SimulationServant::start_recording(const char* path) {
   NoteContact();
-  if (!service_.hooks().start_recording) throw sba::Refused("this server does not record");
+  if (!service_.hooks().start_recording)
+    throw sba::Refused("this server does not support recording");
   orb::ValueOrThrow(service_.hooks().start_recording(simulation_, path));
 }
 
 void SimulationServant::stop_recording() {
   NoteContact();
-  if (!service_.hooks().stop_recording) throw sba::Refused("this server does not record");
+  if (!service_.hooks().stop_recording)
+    throw sba::Refused("this server does not support recording");
   orb::ValueOrThrow(service_.hooks().stop_recording(simulation_->specification().name));
 }
 

@@ -31,7 +31,7 @@ int PortOf(const std::string& reference) {
   return std::stoi(reference.substr(reference.rfind(':') + 1));
 }
 
-// Reads until the peer closes the connection. recv() has a timeout, which is that of a test.
+// Reads until the peer closes the connection. recv() times out after the time limit of a test.
 std::string ReadToTheEnd(int socket) {
   std::string all;
   char bytes[512];

@@ -50,7 +50,7 @@ base::Status TryToRead(const std::string& world,
       : ending.starts_with("signal") ? "reading it crashes, or takes too long (" + ending + ")"
                                      : "reading it fails (" + ending + ")";
   return base::Fail(base::ErrorCode::kBadModel,
-                    why + "; a separate process tried it, so it is not read here", world);
+                    why + " (a separate process tried to read it first)", world);
 }
 
 }  // namespace gsv::app

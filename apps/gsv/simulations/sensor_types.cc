@@ -58,7 +58,7 @@ CLI::Option* AddSensorPluginOption(CLI::App& command, std::vector<std::string>& 
   return command
       .add_option("--sensor-plugin", plugins,
                   "library with sensor types, gsv-sensor-NAME.so\n"
-                  "Libraries in the folders of GSV_SENSOR_PLUGIN_PATH are loaded without it.")
+                  "Libraries in the folders of GSV_SENSOR_PLUGIN_PATH are always loaded.")
       ->type_name("FILE");
 }
 

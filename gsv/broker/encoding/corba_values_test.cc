@@ -55,7 +55,7 @@ std::vector<ValueCase> ScalarValues() {
   };
 }
 
-// `Sequence` is one of omniORB's typedefs of sequences, so that aliases are tested, too.
+// `Sequence` is a sequence typedef of omniORB; this also tests aliases.
 template <typename Sequence, typename Element>
 CORBA::Any SequenceAny(const std::vector<Element>& elements) {
   Sequence sequence;

@@ -32,7 +32,7 @@ Matrix operator*(const Matrix& a, const Matrix& b) {
   return product;
 }
 
-// About the point that lies `offset` from the centre of mass (parallel axes).
+// The inertia about the point at `offset` from the centre of mass (parallel axis theorem).
 Matrix Shifted(const Matrix& inertia, double mass, const Vector3& offset) {
   const double square = Dot(offset, offset);
   Matrix shifted = inertia;
@@ -46,7 +46,8 @@ double& At(Matrix& m, int row, int column) {
   return column == 0 ? m[row].x : column == 1 ? m[row].y : m[row].z;
 }
 
-// Turns the axes until the inertia is diagonal: Jacobi's method, the largest product first.
+// Rotates the axes until the inertia is diagonal: Jacobi's method, with the largest product of
+// inertia first.
 Quaternion PrincipalAxes(Matrix inertia, Vector3& moments) {
   Quaternion axes;
   const Matrix given = inertia;
@@ -77,7 +78,7 @@ void Weigh(const model::Model& model, Part& part) {
     moment += link.inertial.mass * (link.model_from_link * link.inertial.link_from_com).position;
   }
   Vector3 centre = moment * (part.mass > 0 ? 1 / part.mass : 0);
-  // A cross of two axes weighs nothing.
+  // The cross of a universal joint, between its two axes, has no mass.
   if (part.mass == 0 && !part.links.empty()) {
     centre = model.links[part.links[0]].model_from_link.position;
   }
@@ -111,8 +112,8 @@ std::vector<int> ParentJoints(const model::Model& model) {
   return parent_joint;
 }
 
-// A ball joint's three follow each other, and so may those of several: each third one moves what
-// hangs from it.
+// The three joints of a ball joint are consecutive, and several ball joints may follow one another.
+// Every third joint moves the child link.
 bool IsWithinBall(const model::Model& model, const std::vector<int>& parent_joint, int joint) {
   int in_a_row = 0;
   for (; joint >= 0 && model.joints[joint].kind == model::JointKind::kBall; ++in_a_row) {
@@ -138,7 +139,7 @@ Articulation MakeArticulation(const model::Model& model) {
   for (const model::Joint& joint : model.joints) {
     if (joint.parent < 0) articulation.is_fixed = true;
   }
-  // From the roots outwards: a link's part is known once that of its parent is.
+  // From the roots outwards, because a link's part depends on its parent's part.
   for (std::size_t placed = 0, before = 1; placed != before;) {
     before = placed;
     for (std::size_t l = 0; l < model.links.size(); ++l) {

@@ -1,4 +1,4 @@
-// A model as a tree of rigid parts: links between which nothing can move are one part.
+// A model as a tree of rigid parts. Links that cannot move relative to each other form one part.
 //
 // Frames  the model's, at zero joint positions. A part's own frame lies in its centre of mass, with
 //         its axes along the principal axes of its inertia.
@@ -21,25 +21,25 @@ struct Part {
   double mass = 0;
   geometry::Pose model_from_part;
   geometry::Vector3 inertia;  // principal moments
-  double heaviness = 1;       // the share of its mass on which gravity acts
+  double heaviness = 1;       // the fraction of its mass on which gravity acts
   bool is_kinematic = false;  // no force moves it
 };
 
 struct Articulation {
   std::vector<Part> parts;  // parents before children; the first is the base
   std::vector<int> part_of_link;
-  // The base does not move: a joint holds a link to the world, or the base is kinematic and parts
-  // hang from it.
+  // The base does not move: a joint attaches a link to the world, or the base is kinematic and has
+  // child parts.
   bool is_fixed = false;
   double mass = 0;  // mass of all parts
 };
 
-// Links that hang from no joint belong to the base, which moves with the model's frame, and so does
-// what hangs from the world by a joint that is not fixed. Links within a ball joint belong to its
-// parent.
+// Links that are not the child of a joint belong to the base, which moves with the model's frame.
+// Links that are attached to the world by a movable joint also belong to the base. Links within a
+// ball joint belong to its parent.
 Articulation MakeArticulation(const model::Model& model);
 
-// The three joints of the model, from parent to child, that are the ball joint above a part.
+// The three joints of the model that form the ball joint above a part, from parent to child.
 std::array<int, 3> JointsOfBall(const model::Model& model, const Part& part);
 
 }  // namespace gsv::dynamics

@@ -14,14 +14,14 @@ namespace gsv::dynamics {
 
 class AttachedLayout {
  public:
-  // Forgets all attachments.
+  // Removes all attachments.
   void Reset(std::shared_ptr<const world::Layout> layout);
 
   // Like the operations of Engine.
   base::Status Attach(const Attachment& attachment, const world::State& state);
   void Detach(int held_body);
 
-  // The layout with all that is attached, if that has changed since the last call or Reset(); else
+  // The layout with all attachments, if they have changed since the last call or Reset(); else
   // null.
   std::shared_ptr<const world::Layout> TakeChanged();
 

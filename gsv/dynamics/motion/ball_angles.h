@@ -1,4 +1,5 @@
-// A ball joint's orientation and rate, as the three angles and rates of the joints it is made of.
+// Converts between a ball joint's orientation and angular velocity, and the angles and rates of the
+// three joints that form it.
 //
 // Frames  the child turns by Rot(a1, q1) Rot(a2, q2) Rot(a3, q3) in the joint's frame, the a being
 //         its axes. In the child's part frame that is one rotation, as solvers know it.
@@ -17,8 +18,8 @@ class BallAngles {
   // Indices of the model's joints, from parent to child.
   const std::array<int, 3>& joints() const { return joints_; }
 
-  // The child's turn since zero, in its part frame, and back. Every turn has angles; at a middle
-  // one of a quarter turn they are not the only ones.
+  // Converts the angles to the child's rotation from the zero position, in its part frame; and
+  // back. Every rotation has angles. If the middle angle is ±90 degrees, they are not unique.
   geometry::Quaternion Turn(const std::array<double, 3>& angles) const;
   std::array<double, 3> AnglesOf(const geometry::Quaternion& turn) const;
 

@@ -68,7 +68,7 @@ base::Status Check(const model::Model& model) {
   return status;
 }
 
-// Where the drive's reference point lies on the model's x axis.
+// The position of the drive's reference point on the model's x axis.
 double ReferenceX(const model::Model& model) {
   const model::Drive& drive = *model.drive;
   double sum = 0, rearmost = 0;

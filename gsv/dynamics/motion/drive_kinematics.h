@@ -1,4 +1,5 @@
-// How a wheeled base follows commands: limits, the twist that results, how its wheels turn.
+// The motion of a wheeled base according to its commands: limits, the resulting twist, and the
+// rotation of its wheels.
 //
 // Frames   the model's; the commanded velocity is that of the drive's reference point: halfway
 //          between the wheels along x, on the rear axle for Ackermann steering, the model's origin
@@ -18,7 +19,7 @@
 
 namespace gsv::dynamics {
 
-// No base is faster than this, whatever its limits say.
+// The maximum speeds of all bases, whatever their own limits are.
 inline constexpr double kMaxLinearSpeed = 100;   // m/s
 inline constexpr double kMaxAngularSpeed = 100;  // rad/s
 
@@ -30,10 +31,10 @@ struct Travel {
 
 class DriveKinematics {
  public:
-  // Refuses limits and dimensions that make no sense, and joints that are not there.
+  // Rejects invalid limits and dimensions, and joints that do not exist.
   static base::Result<DriveKinematics> Create(const model::Model& model);
 
-  // A person's or a bodiless base: takes whatever velocity it is given.
+  // The base of a person, or a base without a body: accepts any velocity.
   static DriveKinematics Free();
 
   // Returns the motion in the next step from the present motion and the command. A command that is
@@ -41,11 +42,11 @@ class DriveKinematics {
   world::DriveCommand Next(const world::DriveState& state, base::SimTime now,
                            double step_seconds) const;
 
-  // How the reference point moves when the drive turns the wheels for `motion`: the same, unless
-  // the wheels' true radii are others than the drive believes.
+  // The motion of the reference point when the drive rotates the wheels for `motion`. It equals
+  // `motion` unless the wheels' true radii differ from the radii that the drive assumes.
   world::DriveCommand TrueMotion(const world::DriveCommand& motion) const;
 
-  // The twist of the model's origin when the drive turns the wheels for `motion`.
+  // The twist of the model's origin when the drive rotates the wheels for `motion`.
   geometry::Twist OriginTwist(const world::DriveCommand& motion) const {
     const world::DriveCommand moves = wheels_are_as_believed_ ? motion : TrueMotion(motion);
     return {moves.linear, moves.lateral - moves.angular * reference_x_, moves.angular};
@@ -60,14 +61,14 @@ class DriveKinematics {
   }
   double reference_x() const { return reference_x_; }
 
-  // Turns the wheels, and steers, as the base has travelled and moves now. The spans are those of
-  // the model's joints.
+  // Sets the wheels and the steering according to the distance that the base has travelled and its
+  // present motion. The spans have an entry for each joint of the model.
   void TurnJoints(const Travel& travel, const world::DriveCommand& motion, double step_seconds,
                   std::span<double> positions, std::span<double> velocities) const;
 
  private:
-  // Turns by forward * travel.forward + left * travel.left + angle * travel.angle; one in front of
-  // an Ackermann base's rear axle rolls along its own steered path instead.
+  // A wheel rotates by forward * travel.forward + left * travel.left + angle * travel.angle. A
+  // wheel in front of an Ackermann base's rear axle rolls along its own steered path instead.
   struct Wheel {
     int joint = 0;
     double forward = 0, left = 0, angle = 0;  // rad/m, rad/m, rad/rad

@@ -10,7 +10,7 @@ namespace {
 using base::FromSeconds;
 using model::DriveKind;
 
-// Wheels at (±0.3, ±0.25), the rear ones first; in front of them steering joints.
+// Wheels at (±0.3, ±0.25), the rear ones first. The front wheels have steering joints.
 model::Model FourWheels(DriveKind kind) {
   model::Model model;
   model.name = "cart";
@@ -122,7 +122,7 @@ TEST(DriveKinematics, AckermannWheelsAreTangentToTheirCircles) {
   EXPECT_NEAR(velocities[2], std::hypot(1.75, 0.6) / 0.1, 1e-12);
   EXPECT_NEAR(velocities[3], std::hypot(2.25, 0.6) / 0.1, 1e-12);
   EXPECT_NEAR(positions[3], std::hypot(2.25, 0.6) / 0.1 * 0.01, 1e-12);
-  // At rest the steering stays.
+  // At rest, the steering angle does not change.
   const double steered = positions[4];
   drive.TurnJoints({}, {}, 0.01, positions, velocities);
   EXPECT_EQ(positions[4], steered);
@@ -133,7 +133,7 @@ TEST(DriveKinematics, MecanumWheelsMoveTheBaseSideways) {
   const DriveKinematics drive = Make(FourWheels(DriveKind::kMecanum));
   std::vector<double> positions(6), velocities(6);
   drive.TurnJoints({0, 1, 0}, {0, 1, 0}, 1, positions, velocities);
-  // To the left: front left and rear right turn backwards.
+  // When the base moves to the left, the front left and rear right wheels rotate backwards.
   EXPECT_NEAR(positions[2], -10, 1e-12);
   EXPECT_NEAR(positions[3], 10, 1e-12);
   EXPECT_NEAR(positions[0], 10, 1e-12);

@@ -27,20 +27,19 @@ class Engine {
  public:
   virtual ~Engine() = default;
 
-  // Prepares for another set of bodies, of which none is attached to another. Called before the
-  // first Step() and after each change. If it fails, another layout must be set before anything
-  // else is called.
+  // Prepares for another set of bodies, without attachments. Called before the first Step() and
+  // after each change. If it fails, another layout must be set before anything else is called.
   virtual base::Status SetLayout(std::shared_ptr<const world::Layout> layout) = 0;
 
   // From the next call on, the collision shapes of the held body are part of the holder's link, and
-  // the engine does not move it: whoever attached it writes its pose into the state. It adds no
-  // mass. Its joints stay where `state` has them. Costs as much as SetLayout(), once for all that
-  // was attached and detached since the last Step(), Overlaps() or OverlapsOf().
+  // the engine does not move the body: the caller writes its pose into the state. It adds no mass.
+  // Its joints keep their positions in `state`. Costs as much as SetLayout(), once for all that was
+  // attached and detached since the last Step(), Overlaps() or OverlapsOf().
   //
   // Refuses (kInvalidArgument) a body or link that does not exist, a held body that rigid-body
   // dynamics does not move or that already holds or is held, and a holder that is static or held.
   virtual base::Status Attach(const Attachment& attachment, const world::State& state) = 0;
-  // The body moves by itself again, from where the state has it. Ignored if it is not attached.
+  // The body moves by itself again, from its pose in the state. Ignored if it is not attached.
   virtual void Detach(int held_body) = 0;
 
   // Advances `state`, which fits the layout, from its time t to t + step: drives follow their

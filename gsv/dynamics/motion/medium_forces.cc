@@ -49,7 +49,7 @@ Displacer DisplacerOf(const geometry::Shape& shape, const Pose& part_from_shape,
   return displacer;
 }
 
-// The share of a displacer below a height.
+// The fraction of a displacer's volume below a height.
 geometry::VolumeBelow DisplacedBelow(const Displacer& displacer, const Pose& world_from_part,
                                      double height) {
   const Vector3 centre = world_from_part * displacer.centre;
@@ -66,7 +66,7 @@ geometry::VolumeBelow DisplacedBelow(const Displacer& displacer, const Pose& wor
   return below;
 }
 
-// From the lowest layer upwards: where the density changes, all that is above has the other one.
+// From the lowest layer upwards: everything above a boundary has the density of the upper layer.
 Displaced DisplacedBy(const Displacer& displacer, const Pose& world_from_part,
                       const model::Fluid& fluid) {
   const Vector3 centre = world_from_part * displacer.centre;

@@ -1,4 +1,4 @@
-// Forces on a rigid body by what surrounds it: wind, fluids, and the decay of its velocity.
+// Forces of the surrounding medium on a rigid body: wind, fluids, and the decay of its velocity.
 //
 // Frames  wrenches, velocities: world axes; torques about the part's centre of mass.
 // Units   N, N m, m/s, rad/s.
@@ -26,12 +26,13 @@ struct Displacer {
 
 // The properties of one part of a body that these forces depend on.
 struct PartMedium {
-  double linear_decay = 0, angular_decay = 0;  // share of the velocity, of a step of the world
-  double mass_in_wind = 0;                     // kg
+  // The fraction of the velocity that is lost in a step of the world.
+  double linear_decay = 0, angular_decay = 0;
+  double mass_in_wind = 0;  // kg
   std::vector<Displacer> displacers;
 };
 
-// One for each part of the body; empty if nothing pushes any of them.
+// One for each part of the body; empty if no such forces act on the body.
 std::vector<PartMedium> MakeMedium(const world::Layout& layout, const world::Body& body,
                                    const Articulation& articulation);
 
@@ -44,7 +45,7 @@ struct PartMotion {
   geometry::Vector3 velocity, angular_velocity;
 };
 
-// The mean over the next `seconds`, which are at most a step of the world.
+// The mean over the next `seconds`. This is at most one step of the world.
 Wrench WrenchOf(const PartMedium& medium, const Part& part, const PartMotion& motion,
                 const model::WorldDescription& world, double seconds);
 

@@ -21,8 +21,9 @@ class ActorMover {
  public:
   void SetLayout(const std::shared_ptr<const world::Layout>& layout);
 
-  // Writes where the actors are at state.time + step, and how they got there. `before`, unless it
-  // is null, is the state at the step's start: actors that jump are put where they arrive.
+  // Writes the poses and velocities of the actors at state.time + step. `before`, unless it is
+  // null, is the state at the step's start. In it, actors that jump get the pose at which they
+  // arrive.
   void Move(base::SimTime step, world::State& state, world::State* before) const;
 
  private:

@@ -31,8 +31,8 @@ TEST(ActorMover, MovesAnActorAlongItsTrajectory) {
   world.AddActor("walker", WalkerOf(true), PlanarPose(10, 5, 0, 0));
   ASSERT_TRUE(world.Start());
   world.Run(2, kActorStep);
-  // Both tangents of the first segment are zero: that of the closed end, (4 - 4) / 2, and that of
-  // the turn, (0 - 0) / 2. So it is 4 (3 u² - 2 u³) long.
+  // Both tangents of the first segment are zero: (4 - 4) / 2 at the closed end, and (0 - 0) / 2
+  // where the actor turns back. So the position is 4 (3 u² - 2 u³).
   EXPECT_NEAR(world.position("walker").x, 12, 1e-9);
   EXPECT_NEAR(world.position("walker").y, 5, 1e-12);
   EXPECT_NEAR(world.body("walker").linear_velocity.x, 4 * 1.5 / 4, 1e-4);
@@ -100,7 +100,7 @@ TEST(ActorMover, PushesRigidBodies) {
   EXPECT_LE(world.position("box").x, 5.5);
 }
 
-// One joint, which goes through the frames 0, 1, 2, 3 in 2 s, or in 1 m of the way.
+// One joint that passes through the frames 0, 1, 2, 3 in 2 s, or within 1 m of the path.
 std::shared_ptr<model::Model> AnimatedWalker(bool by_distance) {
   auto model = WalkerOf(false);
   model->links.emplace_back().name = "limb";

@@ -16,8 +16,8 @@ constexpr double kStandsStill = 0.05;  // a slower pedestrian keeps its heading,
 constexpr double kSameSide = 0.5;      // the cosine of 60 degrees
 constexpr double kRoundingOfCells = 1e-9;
 
-// The interval of heights of a body above its origin. For a body that is not upright it is
-// approximate.
+// The lowest and the highest point of a body, relative to its origin. Approximate for a body that
+// is not upright.
 double HeightOf(const model::Model& model) {
   double top = 0;
   for (const model::Link& link : model.links) {
@@ -94,7 +94,7 @@ void Crowd::SliceWalls(const world::State& state) {
   is_sliced_ = true;
 }
 
-// A counting sort into cells, so that within a cell others stay in the order of bodies.
+// A counting sort into cells. It keeps the order of bodies within a cell.
 void Crowd::SortOthers(const world::State& state) {
   Vector2 low, high;
   for (std::size_t i = 0; i < others_.size(); ++i) {
@@ -227,7 +227,8 @@ void Crowd::Command(const Walker& walker, Vector2 direction, Vector2 force, doub
     const double error = geometry::WrapAngle(std::atan2(velocity.y, velocity.x) - yaw);
     turn = std::clamp(error / std::max(kTurningTime, seconds), -kFastestTurn, kFastestTurn);
   }
-  // The command is in the body's frame, which turns: at the step's end it is the velocity wanted.
+  // The command is in the body's frame, which rotates during the step. At the end of the step, the
+  // command equals the desired velocity.
   const double cosine = std::cos(yaw + turn * seconds), sine = std::sin(yaw + turn * seconds);
   body.drive.command = {cosine * velocity.x + sine * velocity.y,
                         cosine * velocity.y - sine * velocity.x, turn};

@@ -47,7 +47,7 @@ class Crowd {
     int body = 0;
     const world::Pedestrian* pedestrian = nullptr;
     std::size_t level = 0;  // the level of the walls that it sees
-    // Its goal after `reached` others, kept so that it is drawn once.
+    // The goal after `reached` goals. It is stored because it is drawn at random only once.
     bool has_goal = false;
     std::uint32_t reached = 0;
     Vector2 goal;
@@ -59,7 +59,7 @@ class Crowd {
     Vector2 at, velocity;
     double z = 0;
   };
-  // The walkers that are decided for at a time, so that forces are computed for many pairs at once.
+  // The walkers of one batch. The forces of many pairs are computed together.
   static constexpr std::size_t kBlock = 64;
   struct Block {
     std::array<Vector2, kBlock> directions, forces;
@@ -71,7 +71,8 @@ class Crowd {
   // `walkers` are indices.
   void DecideFor(std::span<const std::uint32_t> walkers, double seconds, double left, Block& block,
                  world::State& state);
-  // Returns the direction to the walker's goal. Counts a goal that it has reached.
+  // Returns the direction to the walker's goal. If the walker has reached the goal, increments its
+  // count.
   Vector2 DirectionOf(Walker& walker, world::State& state) const;
   void AddForcesOfOthers(const Walker& walker, std::uint32_t index, const world::BodyState& body,
                          Block& block) const;
@@ -90,13 +91,14 @@ class Crowd {
   bool is_sliced_ = false;
 
   std::vector<Other> others_;  // by body
-  // A grid of cells, no narrower than others reach; of each the run in sorted_.
+  // A grid. A cell is at least as wide as the range of the forces. It has a run of entries in
+  // sorted_.
   double left_ = 0, bottom_ = 0, per_cell_ = 1;
   int columns_ = 0, rows_ = 0;
   std::vector<std::uint32_t> cell_of_, cell_start_;
   std::vector<Other> sorted_;
   std::vector<Vector2> sorted_at_;  // theirs
-  // The walkers by cell: who stand near each other look at the same others.
+  // The walkers by cell, because neighbours have the same other pedestrians in range.
   std::vector<std::uint32_t> walker_order_;
 };
 

@@ -1,5 +1,5 @@
-// Compiled without the error number and the traps of floating-point numbers, so that loops with
-// roots and quotients are vectorised; neither changes a result.
+// Compiled without errno and floating-point traps, so that the compiler vectorises loops with
+// square roots and divisions. The results are the same.
 #include "gsv/dynamics/people/repulsions.h"
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 using geometry::Vector2;
 
-// Apart(), and what RepulsionByOther() does up to its exponential.
+// Computes Apart(), and the part of RepulsionByOther() before its exponential.
 GSV_FOR_EACH_PROCESSOR
 void FindEllipses(std::size_t count, double* __restrict x, double* __restrict y,
                   const double* __restrict radii, const double* __restrict velocity_x,

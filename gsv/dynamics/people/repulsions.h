@@ -1,7 +1,7 @@
 // The forces of the social force model (social_force.h) for many pairs at once.
 //
-// Each value is what Apart(), RepulsionByOther() and AsSeen() give for the pair, to the bit: the
-// same operations in the same order, for several pairs in one instruction.
+// The values equal the results of Apart(), RepulsionByOther() and AsSeen() to the bit: the
+// operations and their order are the same, but an instruction processes several pairs.
 //
 // Units    metres, seconds. Vectors in the plane of the world.
 // Threads  an object for each thread.
@@ -37,7 +37,7 @@ class Repulsions {
     ++count_;
   }
 
-  // Adds the pairs that are not added yet.
+  // Adds the forces of the remaining pairs.
   void Finish(std::span<geometry::Vector2> forces);
 
  private:

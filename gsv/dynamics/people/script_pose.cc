@@ -41,7 +41,8 @@ Quaternion Slerp(const Quaternion& from, Quaternion to, double part) {
 
 SimTime LengthOf(const Trajectory& trajectory) { return trajectory.waypoints.back().time; }
 
-// The instant at `running` since the script's start, which is within its length.
+// The instant at the time `running` after the script's start. `running` is less than the script's
+// length.
 ScriptInstant WithinScript(const model::Script& script, SimTime running) {
   ScriptInstant instant;
   while (instant.trajectory + 1 < script.trajectories.size() &&
@@ -78,7 +79,7 @@ geometry::Pose PoseOn(const Trajectory& trajectory, SimTime time) {
 ScriptInstant InstantOf(const model::Script& script, SimTime time) {
   SimTime length{0};
   for (const Trajectory& trajectory : script.trajectories) length += LengthOf(trajectory);
-  // Without waypoints that take time, time runs on: an animation without a trajectory wants it.
+  // If no waypoints take time, time continues, because an animation without a trajectory needs it.
   if (length.count() == 0) {
     ScriptInstant instant = WithinScript(script, SimTime{0});
     if (script.starts_by_itself) instant.since = std::max(SimTime{0}, time - script.delay);

@@ -1,4 +1,4 @@
-// Where a script has its actor at a given time.
+// The pose of an actor at a given time, according to its script.
 //
 // Positions     a cubic Hermite spline through the waypoints (Catmull and Rom 1974, with tension):
 //               the tangent at waypoint i is (1 - tension) (p[i+1] - p[i-1]) / 2, at the ends of an
@@ -31,7 +31,8 @@ struct ScriptInstant {
 // `time` is not below zero.
 ScriptInstant InstantOf(const model::Script& script, base::SimTime time);
 
-// The pose on a trajectory; before its first waypoint and after its last it stands there.
+// The pose on a trajectory. Before the first waypoint it is the pose of the first one, and after
+// the last waypoint that of the last one.
 geometry::Pose PoseOn(const model::Trajectory& trajectory, base::SimTime time);
 
 }  // namespace gsv::dynamics

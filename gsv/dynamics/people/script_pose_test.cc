@@ -94,7 +94,7 @@ TEST(ScriptInstant, WaitsBeforeEachTime) {
   EXPECT_EQ(x(0), 1);
   EXPECT_EQ(x(1.9), 1);
   EXPECT_NEAR(x(4), 3, 1e-12);    // halfway
-  EXPECT_NEAR(x(6.5), 5, 1e-12);  // waits where it came to
+  EXPECT_NEAR(x(6.5), 5, 1e-12);  // waits at the end of the trajectory
   EXPECT_NEAR(x(10), 3, 1e-12);   // and again
   EXPECT_EQ(InstantOf(script, FromSeconds(10)).cycle, 1);
 }

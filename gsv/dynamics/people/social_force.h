@@ -27,28 +27,30 @@ namespace gsv::dynamics {
 
 inline constexpr double kRelaxationTime = 0.5;  // s
 inline constexpr double kMaxSpeedFactor = 1.3;  // as a factor of the desired speed
-inline constexpr double kOthersReach = 3;   // m between centres: beyond it others count for nothing
-inline constexpr double kWallsReach = 1.2;  // m: the same of walls
+// Pedestrians (m between centres) and walls (m) that are further away have no effect.
+inline constexpr double kOthersReach = 3, kWallsReach = 1.2;
 
-// From another to the pedestrian: `between` (from centre to centre), shortened by as much as both
-// are thicker than the paper's pedestrians, but never shorter than 5 cm. Those are points, whose
-// drive balances the force of one who stands at 0.29 m: as if each had a radius of 0.14 m. With
-// less, kPaperRadius, people of any size keep a hand's breadth between them.
+// The vector from another pedestrian to this one. `between` is the vector from centre to centre. It
+// is shortened because these pedestrians are wider than those of the paper, but never to less than
+// 5 cm. The paper's pedestrians are points. The driving force balances the repulsion at a
+// distance of 0.29 m. So each has a radius of about 0.14 m. kPaperRadius is smaller, so that people of
+// any size keep about 10 cm between them.
 geometry::Vector2 Apart(geometry::Vector2 between, double radius, double other_radius);
 
-// The acceleration by one other, without w. `apart` is not zero.
+// The acceleration due to one other pedestrian, without the weight w. `apart` is not zero.
 geometry::Vector2 RepulsionByOther(geometry::Vector2 apart, geometry::Vector2 other_velocity);
 
-// With w: that of a force, for who wants to go in the direction `wanted` (unit length, or zero).
+// The force with the weight w, for a pedestrian that wants to go in the direction `wanted` (unit
+// length, or zero).
 geometry::Vector2 AsSeen(geometry::Vector2 force, geometry::Vector2 wanted);
 
-// The acceleration by a wall at `distance`; `away` is the direction from it, of unit length.
+// The acceleration due to a wall at `distance`. `away` is the unit vector that points away from it.
 geometry::Vector2 RepulsionByWall(geometry::Vector2 away, double distance);
 
-// How much of the difference to v0 e is left after so many seconds.
+// The fraction of the difference to v0 e that remains after `seconds`.
 double Relaxation(double seconds);
 
-// The velocity after so many seconds under a constant force. `wanted` is v0 e, `left` is
+// The velocity after a time under a constant force. `wanted` is v0 e, `left` is
 // Relaxation(seconds).
 geometry::Vector2 NextVelocity(geometry::Vector2 velocity, geometry::Vector2 wanted,
                                geometry::Vector2 force, double speed, double seconds, double left);

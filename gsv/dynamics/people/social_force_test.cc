@@ -53,7 +53,7 @@ TEST(SocialForce, IsHalvedFromBehind) {
   const Vector2 from_ahead{-1, 0}, from_behind{1, 0};
   EXPECT_EQ(AsSeen(from_ahead, {1, 0}), from_ahead);
   EXPECT_EQ(AsSeen(from_behind, {1, 0}), (Vector2{0.5, 0}));
-  // 99 and 101 degrees off the way.
+  // At 99 and 101 degrees to the direction of motion.
   const auto from = [](double degrees) {
     const double a = degrees * 3.14159265358979323846 / 180;
     return Vector2{-std::cos(a), -std::sin(a)};

@@ -9,8 +9,8 @@ namespace gsv::dynamics {
 
 using geometry::Vector2;
 
-// Cells are as wide as the widest disc, or wider where that would make many more cells than discs;
-// so whoever overlaps lies in the same cell or in one next to it.
+// Cells are as wide as the widest disc, or wider if there would be many more cells than discs. So
+// discs that overlap are in the same cell or in adjacent ones.
 void BroadPhase::Sort(std::span<const Vector2> centres, std::span<const double> radii) {
   Vector2 low = centres[0], high = centres[0];
   double widest = 1e-3;
@@ -74,8 +74,8 @@ const std::vector<BroadPhase::Pair>& BroadPhase::Find(std::span<const Vector2> c
       const std::uint32_t begin = cell_start_[cell], end = cell_start_[cell + 1];
       if (begin == end) continue;
       PairWithin(begin, end);
-      // The cell to the right and the three above: the others look at this one. Cells of one row
-      // lie next to each other in entries_.
+      // The cell to the right and the three cells above; the other neighbours check this cell.
+      // Cells of one row are adjacent in entries_.
       if (column + 1 < columns_) PairAcross(begin, end, end, cell_start_[cell + 2]);
       if (row + 1 < rows_) {
         const std::size_t above = cell + columns_;

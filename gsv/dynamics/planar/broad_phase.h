@@ -19,9 +19,9 @@ class BroadPhase {
     friend auto operator<=>(const Pair&, const Pair&) = default;
   };
 
-  // All pairs of discs that overlap, once each, in ascending order. The spans are of one length;
-  // the result is valid until the next call. Allocates only while the number of discs or pairs
-  // grows.
+  // All pairs of discs that overlap, once each, in ascending order. The spans must have equal
+  // lengths. The result is valid until the next call. Allocates only while the number of discs or
+  // pairs grows.
   const std::vector<Pair>& Find(std::span<const geometry::Vector2> centres,
                                 std::span<const double> radii);
 

@@ -1,4 +1,4 @@
-// The grids find what comparing everything with everything finds.
+// Compares the results of the grids with a comparison of all pairs.
 
 #include <algorithm>
 
@@ -41,7 +41,7 @@ TEST(ObstacleField, FindsAllNearObstacles) {
   std::vector<Obstacle> obstacles;
   for (int i = 0; i < 300; ++i) {
     const Vector2 from{uniform(-20, 20), uniform(-20, 20)};
-    const double length = i == 0 ? 5000 : i % 50 == 0 ? 30 : 2;  // one that fits no grid
+    const double length = i == 0 ? 5000 : i % 50 == 0 ? 30 : 2;  // one is too large for the grid
     const ConvexPiece piece =
         Hull({from, from + Vector2{uniform(-length, length), uniform(-length, length)}});
     const ConvexPiece disc = BoundingDisc(piece);

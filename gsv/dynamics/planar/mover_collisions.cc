@@ -5,20 +5,20 @@
 namespace gsv::dynamics {
 namespace {
 
-// m: how far a slow mover may go until candidates are searched for again. More of it makes more
-// candidates to look at in each step.
+// m: the distance that a slow mover may move before candidates are searched for again. With a
+// larger value, each step has more candidates to check.
 constexpr double kRoom = 0.25;
 
-// So many pairs pay for another thread.
+// The number of pairs that make another thread worthwhile.
 constexpr std::size_t kPairsAtOnce = 32;
 
-// Pieces that share no more than this do not meet.
+// Pieces that overlap in height by no more than this do not meet.
 constexpr double kSameHeight = 1e-9;
 
-// Far above what rounding makes of a distance, far below what matters.
+// Far larger than the rounding errors of distances, and far smaller than distances that matter.
 constexpr double kPairRounding = 1e-6;
 
-// The heights that both reach; upside down if there are none.
+// The interval of heights that both have; empty (low above high) if there are none.
 Interval SharedHeights(const Footprint::Piece& a, double height_a, const Footprint::Piece& b,
                        double height_b) {
   return {std::max(a.heights.low + height_a, b.heights.low + height_b),

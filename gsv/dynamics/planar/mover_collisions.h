@@ -28,11 +28,11 @@ class MoverCollisions {
  public:
   MoverCollisions(const PlanarScene& scene, base::ThreadTeam& team) : scene_(scene), team_(team) {}
 
-  // Drops all pairs. Must be called when the scene has been sliced again.
+  // Removes all pairs. Must be called when the scene has been sliced again.
   void Reset();
 
-  // Whether the candidates hold for the mover: no part of it leaves its room if it moves no further
-  // than `travel` from `at`. Threads: may run concurrently.
+  // Whether the candidates are still valid for the mover: no part of it leaves the space that was
+  // searched if it moves no further than `travel` from `at`. Threads: may run concurrently.
   bool HasRoom(std::uint32_t mover, const geometry::PlanarPosition& at, double travel) const {
     const Room& room = rooms_[mover];
     const double left = room.radius - travel;

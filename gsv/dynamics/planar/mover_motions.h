@@ -57,10 +57,10 @@ class MoverMotions {
 
   // One entry for each of the scene's movers.
   std::vector<geometry::PlanarPosition> positions;
-  std::vector<world::DriveCommand> drives;  // while it moves, and then at the end
+  std::vector<world::DriveCommand> drives;  // during the motion, then at its end
   std::vector<geometry::Twist> twists;      // in this leg
   std::vector<double> times;                // in this leg; 0 for a mover at rest
-  std::vector<double> reaches;              // how far any part may get in this step
+  std::vector<double> reaches;   // the largest distance that any part may move in this step
   std::vector<Vector2> normals;  // for stopped movers, the direction towards the obstacle
 
  private:

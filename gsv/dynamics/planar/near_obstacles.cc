@@ -7,7 +7,7 @@
 namespace gsv::dynamics {
 namespace {
 
-// Far above what rounding makes of a distance, far below what matters.
+// Far larger than the rounding errors of distances, and far smaller than distances that matter.
 constexpr double kRounding = 1e-6;
 
 }  // namespace

@@ -22,22 +22,24 @@ class NearObstacles {
  public:
   explicit NearObstacles(const PlanarScene& scene) : scene_(scene) {}
 
-  // Forgets all; to be called when the scene has been sliced anew. Chunks are numbered from 0.
+  // Clears all data. Must be called when the scene has been sliced again. Chunks are numbered from
+  // 0.
   void Reset(std::size_t chunks);
 
-  // Starts a chunk's list; then its movers are to be added in ascending order.
+  // Starts a chunk's list. Then add its movers in ascending order.
   void Clear(std::size_t chunk);
   // Adds the obstacles that a mover at `at` may touch if no part of it moves further than `travel`.
   void Find(std::size_t chunk, std::uint32_t mover, const geometry::PlanarPosition& at,
             double travel);
 
-  // Stops the chunk's movers, which start at starts[m] and move for times[m], at the first obstacle
-  // in their way: times[m] becomes when, normals[m] the direction of it.
+  // Stops the chunk's movers at the first obstacle in their way. Mover m starts at starts[m] and
+  // moves for times[m]. If it is stopped, times[m] becomes the time of the contact and normals[m]
+  // the direction towards the obstacle.
   void Stop(std::size_t chunk, std::span<const geometry::PlanarPosition> starts,
             std::span<const geometry::Twist> twists, std::span<double> times,
             std::span<Vector2> normals) const;
 
-  // Appends to `touching` who touched what when it was found.
+  // Appends to `touching` the pairs that touched when they were found.
   void AddTouching(std::vector<BodyPair>& touching) const;
   // Passes on the contacts of all movers at `positions` with the obstacles that were found.
   void Collect(std::span<const geometry::PlanarPosition> positions,
@@ -50,8 +52,8 @@ class NearObstacles {
     geometry::PlanarPosition found_at;
     Separation separation;  // there
   };
-  // Every obstacle is further than `radius` from any part of the mover, however it is turned, with
-  // its origin at `centre`.
+  // A mover with its origin at `centre`, at any heading, is further than `radius` from every
+  // obstacle.
   struct Clearance {
     Vector2 centre;
     double radius = -1;
@@ -66,8 +68,8 @@ class NearObstacles {
   }
   const Obstacle& ObstacleOf(const Near& near) const { return (*near.field)[near.obstacle]; }
   Separation SeparationAt(const Near& near, const geometry::PlanarPosition& at) const;
-  // Lists the obstacles within reach; gives how far the nearest, of those within `look`, is from
-  // the mover's origin. `look` is at least its radius and `within`.
+  // Lists the obstacles within reach. Returns the distance from the mover's origin to the nearest
+  // obstacle within `look`. `look` must be at least the mover's radius and `within`.
   double Search(Chunk& chunk, std::uint32_t mover, const geometry::PlanarPosition& at,
                 double within, double look, bool loose) const;
 

@@ -96,8 +96,8 @@ TEST(PlanarFidelity, AnAccelerationLimitIsRespected) {
   ASSERT_TRUE(world.Start());
   world.Command("robot", {1, 0, 0});
   world.Run(3, 0.001);
-  // Two seconds to get going, 1 m, and one at 1 m/s; a step's length at most between the sum and
-  // the integral.
+  // Two seconds of acceleration (1 m), and one second at 1 m/s. The sum over the steps differs from
+  // the integral by the length of one step at most.
   EXPECT_WITHIN(world.position("robot").x, 2, 0.002, "m");
   world.Command("robot", {0, 0, 0});
   world.Run(1, 0.001);

@@ -12,13 +12,14 @@
 namespace gsv::dynamics {
 namespace {
 
-// Movers are taken in chunks, each with lists of its own, so that no outcome depends on threads.
+// Movers are processed in chunks with their own lists, so that results do not depend on the number
+// of threads.
 constexpr std::size_t kChunk = 128;
-// So many chunks pay for another thread.
+// The number of chunks that make another thread worthwhile.
 constexpr std::size_t kChunksAtOnce = 4;
 
-// A step has up to three legs: the commanded arc; for what ran into something, a slide along it;
-// then a turn on the spot.
+// A step has up to three legs: the commanded arc; after a contact, a slide along the obstacle; then
+// a rotation in place.
 class TeamMover final : public PlanarMover {
  public:
   explicit TeamMover(std::shared_ptr<base::ThreadTeam> team)
@@ -48,7 +49,7 @@ class TeamMover final : public PlanarMover {
   void ForEachChunk(const Work& work);
 
   void Slice(const world::State& state);
-  // Slices the dynamic bodies that a mover may meet in a step of so many seconds.
+  // Slices the dynamic bodies that a mover may meet in a step of `seconds`.
   void LookForLoose(const world::State& state, double seconds);
   void AddSight(std::uint32_t mover);
   void Begin(const world::State& state, double seconds);
@@ -111,7 +112,7 @@ void TeamMover::LookForLoose(const world::State& state, double seconds) {
   scene_.SliceLoose(state, sights_);
 }
 
-// For a step of 0 s everybody stays.
+// In a step of 0 s nothing moves.
 void TeamMover::Begin(const world::State& state, double seconds) {
   if (!scene_.StandsAsSliced(state)) Slice(state);
   LookForLoose(state, seconds);
@@ -217,7 +218,7 @@ void TeamMover::TurnOnTheSpot() {
   for (const Stopped& stopped : stopped_) {
     world::DriveCommand& motion = motions_.drives[stopped.mover];
     const double time = motions_.times[stopped.mover];
-    // A slide continues in its direction in the world, while the base has turned.
+    // A slide keeps its direction in the world, although the base has rotated.
     const double angle = motion.angular * time;
     motion = {motion.linear * std::cos(angle) + motion.lateral * std::sin(angle),
               motion.lateral * std::cos(angle) - motion.linear * std::sin(angle), motion.angular};
@@ -237,7 +238,7 @@ void TeamMover::CountContacts(std::vector<world::Contact>& contacts, world::Stat
     world::BodyState& first = state.bodies[contact.first];
     world::BodyState& second = state.bodies[contact.second];
     const bool both_driven = scene_.layout().bodies[contact.second].is_planar();
-    // Where the caller says that a base touched nothing, the contact begins.
+    // If the base did not touch this body at the start of the step, the contact begins now.
     contact.began = contact.began || !first.in_contact || (both_driven && !second.in_contact);
     if (!contact.began) continue;
     ++first.collisions;
@@ -284,7 +285,8 @@ std::vector<world::Contact> TeamMover::Overlaps(const world::State& state, doubl
   return contacts;
 }
 
-// Lists the movers whose discs overlap that of one; false if not all stand as they were sliced.
+// Lists the movers whose discs overlap the disc of one mover. Returns false if a body has moved
+// since it was sliced.
 bool TeamMover::FindNeighbours(std::uint32_t mover, const world::State& state) {
   neighbours_.clear();
   const auto& movers = scene_.movers();

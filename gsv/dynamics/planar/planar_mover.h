@@ -32,7 +32,7 @@
 
 namespace gsv::dynamics {
 
-// All of it as Engine has it.
+// These functions are the same as in Engine.
 class PlanarMover {
  public:
   virtual ~PlanarMover() = default;

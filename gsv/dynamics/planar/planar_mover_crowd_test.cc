@@ -72,7 +72,7 @@ TEST(PlanarMoverCrowd, CachesDoNotChangeTheResult) {
     world::State copy = crowd.world().state();
     const auto fresh = MakeWorldEngine();
     ASSERT_TRUE(fresh->SetLayout(std::make_shared<world::Layout>(crowd.world().layout())));
-    // Everybody is somewhere else, far or near, before each third step.
+    // Before every third step, all movers are put at other places, near or far.
     if (i % 3 == 0) {
       world::State elsewhere = copy;
       for (const std::size_t robot : crowd.robots()) {

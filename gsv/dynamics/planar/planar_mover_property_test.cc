@@ -32,7 +32,7 @@ class Random {
   base::Noise noise_;
 };
 
-// Below 0 inside.
+// Negative inside.
 double Depth(const Shape& shape, const Vector3& p) {
   if (const auto* box = std::get_if<geometry::Box>(&shape)) {
     return std::max({std::abs(p.x) - box->size.x / 2, std::abs(p.y) - box->size.y / 2,
@@ -118,11 +118,11 @@ std::vector<Solid> SolidsOf(const world::Layout& layout, const world::State& sta
   return solids;
 }
 
-// The deepest that a point of one lies in the other.
+// The largest depth of a point of one solid in the other.
 double DeepestPoint(const Solid& a, const Solid& b) {
   if (Norm(a.world_from_solid.position - b.world_from_solid.position) > a.radius + b.radius)
     return 0;
-  // Heights below which a robot takes the other for ground do not count.
+  // Parts that are low enough to be driven over do not count.
   double ground = -1e9;
   if (!a.robot && b.robot) ground = b.ground;
   if (a.robot && !b.robot) ground = a.ground;
@@ -309,7 +309,7 @@ TEST(PlanarMoverProperty, CachesDoNotChangeTheResult) {
   Random commands(3);
   for (int i = 0; i < 100; ++i) {
     if (i % 5 == 0) CommandAll(world, commands);
-    // An engine that knows nothing of what came before takes the same step.
+    // A new engine, without data of earlier steps, takes the same step.
     world::State copy = world.state();
     const auto fresh = MakeWorldEngine();
     ASSERT_TRUE(fresh->SetLayout(std::make_shared<world::Layout>(world.layout())));

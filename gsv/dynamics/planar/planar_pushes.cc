@@ -10,10 +10,10 @@ namespace {
 
 using geometry::Vector3;
 
-// Between wheels and ground: what SDFormat takes for all surfaces.
+// The friction between wheels and ground: SDFormat's default for all surfaces.
 constexpr double kTraction = 1;
 
-// Velocity in the world of a point of a planar body whose drive moves so.
+// The velocity, in the world frame, of a point of a planar body whose drive has this motion.
 Vector3 VelocityAt(const DriveKinematics& kinematics, const world::DriveCommand& motion,
                    const geometry::Pose& world_from_model, const Vector3& point) {
   const geometry::Twist twist = kinematics.OriginTwist(motion);

@@ -1,5 +1,5 @@
-// How planar robots push the rigid bodies in their way: at the speed that they want, with a force
-// of at most their own weight (traction 1).
+// Computes how planar robots push rigid bodies in their way: at the robot's target speed, with a
+// force of at most its own weight (traction 1).
 //
 // Threads  one thread at a time.
 #pragma once
@@ -14,16 +14,16 @@ namespace gsv::dynamics {
 
 class PlanarPushes {
  public:
-  // Refuses drives that make no sense (kBadModel).
+  // Rejects invalid drives with kBadModel.
   base::Status SetLayout(std::shared_ptr<const world::Layout> layout);
 
-  // The pushes of the planar robots that `contacts` stopped at rigid bodies, in the order of
-  // (robot, object), after planar kinematics took them from `before` to `state`.
+  // The pushes by planar robots that were stopped by rigid bodies (`contacts`) when planar
+  // kinematics moved them from `before` to `state`. They are in the order of (robot, object).
   std::span<Push> Find(base::SimTime step, const world::State& before, const world::State& state,
                        const std::vector<world::Contact>& contacts);
 
-  // Call this after the rigid bodies were moved. A robot that pushes continues as fast as the
-  // pushed body. The slowest of several pushed bodies limits its speed.
+  // Call this after the rigid bodies have moved. A robot that pushes has the speed of the pushed
+  // body; if it pushes several bodies, that of the slowest one.
   void LimitSpeeds(base::SimTime step, const world::State& before, world::State& state) const;
   // Sets the impulses of the contacts through which robots pushed.
   void SetImpulses(std::vector<world::Contact>& contacts) const;

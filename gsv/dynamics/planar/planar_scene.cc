@@ -12,7 +12,7 @@ namespace {
 
 using geometry::Quaternion;
 
-// Pieces thinner than this above the climbing height run into nothing.
+// Pieces that extend less than this above the climb height do not collide.
 constexpr double kThinnest = 1e-9;
 
 // The part of a pose's rotation that is not about the vertical.
@@ -25,7 +25,7 @@ double SpinRadius(const Footprint& footprint, double reference_x) {
   double radius = 0;
   for (const Footprint::Piece& piece : footprint.pieces) {
     const Vector2 centre = piece.shape.vertices[0];
-    // A disc about the origin turns on the spot without moving.
+    // A disc about the origin covers the same area at every heading.
     const double reach = piece.shape.vertex_count == 1
                              ? std::sqrt(Dot(centre, centre))
                              : std::sqrt(Dot(piece.centre, piece.centre)) + piece.radius;
@@ -68,7 +68,7 @@ base::Status PlanarScene::SetLayout(std::shared_ptr<const world::Layout> layout)
   std::vector<MoverKind> kinds;
   std::vector<Mover> movers;
   std::vector<int> standing, loose;
-  std::map<const model::Model*, std::uint32_t> known;  // upright ones; never walked through
+  std::map<const model::Model*, std::uint32_t> known;  // upright ones; only for lookups
   std::uint32_t pieces = 0;
   for (std::size_t i = 0; i < layout->bodies.size(); ++i) {
     const world::Body& body = layout->bodies[i];

@@ -26,7 +26,7 @@
 
 namespace gsv::dynamics {
 
-// Fields are laid out for looking so far beyond a footprint, in metres.
+// The margin of the obstacle fields beyond a footprint, in metres.
 inline constexpr double kLookAround = 0.25;
 inline constexpr double kRides = 0.005;
 
@@ -55,7 +55,7 @@ class PlanarScene {
  public:
   static constexpr int kMaxLevels = 64;
 
-  // Refuses drives that make no sense and poses that are not finite.
+  // Rejects invalid drives and poses that are not finite.
   base::Status SetLayout(std::shared_ptr<const world::Layout> layout);
 
   // Slices the obstacles of `state` for movers at their heights.
@@ -102,7 +102,7 @@ class PlanarScene {
   std::vector<ObstacleField> fields_;
   std::vector<int> loose_;           // bodies that are rigid, and actors
   std::vector<double> loose_radii_;  // theirs
-  std::vector<int> seen_;            // those of them that are sliced
+  std::vector<int> seen_;            // indices of the sliced ones
   std::vector<double> loose_state_;  // bodies, poses and joints when they were sliced
   std::vector<ObstacleField> loose_fields_;
   bool is_sliced_ = false, is_loose_sliced_ = false;

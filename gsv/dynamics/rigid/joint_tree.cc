@@ -417,7 +417,7 @@ void JointTree::TurnMotors(double seconds) {
     } else {
       Push(motor, force, seconds);
     }
-    // At the rate that a substep ends with, its force is -damping times that rate.
+    // The damper's force is -damping times the joint's velocity at the end of the substep.
     if (motor.damper) motor.damper->Soften(0, 1 / (joint.damping * seconds));
     if (motor.limiter) Limit(*motor.limiter, joint, tree_.getJointVel(motor.link), force, seconds);
   }

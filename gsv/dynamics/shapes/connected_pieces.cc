@@ -9,7 +9,7 @@ namespace {
 
 using geometry::Vector3;
 
-// Sets that grow together.
+// Disjoint sets that can be merged (union-find).
 class Sets {
  public:
   explicit Sets(std::size_t count) : parent_(count) {
@@ -36,7 +36,7 @@ struct Before {
 std::vector<std::vector<Vector3>> ConnectedPieces(const geometry::Mesh& mesh, int max_pieces) {
   const auto& positions = mesh.triangles->positions;
   Sets sets(positions.size());
-  std::map<Vector3, std::size_t, Before> at;  // corners of one place are one
+  std::map<Vector3, std::size_t, Before> at;  // corners at the same place count as one
   for (std::size_t i = 0; i < positions.size(); ++i) {
     sets.Join(at.emplace(positions[i], i).first->second, i);
   }

@@ -21,12 +21,13 @@ class ContactCollector {
   // 0, bodies that overlap by less than -gap have none.
   ContactCollector(std::vector<world::Contact>& contacts, double gap);
 
-  // Where a piece of the first lies to a piece of the second. Of the pieces of one pair of bodies
-  // the deepest counts, of equals the first. Those of one first body are to be offered one after
-  // the other.
+  // Offers the separation of a piece of the first body from a piece of the second one. The deepest
+  // pieces of a pair of bodies make the contact; among equal ones, the first. Offer all pieces of a
+  // first body one after the other.
   void Offer(const BodyPair& bodies, const Separation& separation, double height);
 
-  // Sorts, and says which contacts began: those of pairs not in `touching`, which is ascending.
+  // Sorts the contacts, and marks those that began: their pairs are not in `touching`. `touching`
+  // must be in ascending order.
   void Finish(const std::vector<BodyPair>& touching);
 
  private:

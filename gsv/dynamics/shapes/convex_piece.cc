@@ -11,10 +11,10 @@ namespace {
 
 using geometry::kInfinity;
 
-// Hulls drop corners that stand out from their neighbours by less than this.
+// Hulls omit corners whose distance from the line between their neighbours is less than this.
 constexpr double kFlat = 1e-9;
 
-// More than rounding may be wrong by, where squared distances are compared.
+// Larger than the rounding errors in comparisons of squared distances.
 constexpr double kClearly = 1 + 1e-6;
 
 // The closest pair of points of two sets of vertices and edges that do not overlap.
@@ -24,7 +24,7 @@ struct ClosestPoints {
   Vector2 edge;  // the edge on which one of them lies between its ends; else (0, 0)
 };
 
-// Compares each vertex with each edge; `swapped` says that the vertices are b's.
+// Compares each vertex with each edge. If `swapped` is true, the vertices are those of b.
 void CompareVerticesWithEdges(std::span<const Vector2> vertices, std::span<const Vector2> polygon,
                               bool swapped, ClosestPoints& best) {
   const std::size_t edges = polygon.size() == 2 ? 1 : polygon.size();
@@ -70,8 +70,8 @@ double Lowest(const ConvexPiece& piece, Vector2 direction) {
   return lowest;
 }
 
-// Tries the outward normal of every edge of `from` (of a segment also its two ends) as the axis
-// along which the pieces overlap least.
+// Tries the outward normal of every edge of `from`, and for a segment also the directions of its
+// ends, as the axis with the smallest overlap.
 void TryAxes(const ConvexPiece& from, const ConvexPiece& other, double sign, double& distance,
              Vector2& normal) {
   const auto try_axis = [&](Vector2 axis, double top) {
@@ -108,8 +108,8 @@ Separation SeparateOverlapping(const ConvexPiece& a, const ConvexPiece& b,
   return result;
 }
 
-// The unit vector from the closest point on a to that on b, taken from an edge where there is one:
-// its direction is known better than that of a short gap.
+// The unit vector from the closest point on a to the closest point on b. If one of them lies on an
+// edge, the vector is the edge's normal, because the direction of a short gap is less exact.
 Vector2 GapDirection(const ClosestPoints& closest, double gap) {
   const Vector2 difference = closest.on_b - closest.on_a;
   if (closest.edge == Vector2{}) return {difference.x / gap, difference.y / gap};
@@ -251,7 +251,7 @@ ConvexPiece PolygonAround(const std::function<double(Vector2)>& support, double 
   }
   std::vector<Vector2> corners;
   for (int k = 0; k < kSides; ++k) {
-    // Where the lines direction·p = reach of two neighbours meet.
+    // The intersection of the lines direction·p = reach of two neighbours.
     const Vector2 d = direction[k], e = direction[(k + 1) % kSides];
     const double determinant = Cross(d, e);
     const double p = reach[k], q = reach[(k + 1) % kSides];

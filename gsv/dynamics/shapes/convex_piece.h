@@ -1,5 +1,5 @@
-// Convex pieces of the plane, with round corners: what footprints and slices of obstacles are made
-// of, and how far apart two of them are.
+// Convex pieces of the plane with round corners, and the distance between two of them. Footprints
+// and slices of obstacles consist of such pieces.
 //
 // Units  metres. Both pieces of a pair are given in one frame.
 #pragma once
@@ -38,11 +38,11 @@ ConvexPiece Hull(std::vector<Vector2> points);
 // whose edges have such directions.
 ConvexPiece PolygonAround(const std::function<double(Vector2)>& support, double angle);
 
-// Turned by the angle whose cosine and sine are given, then shifted.
+// The piece, rotated by the angle with the given cosine and sine, then translated.
 void Place(const ConvexPiece& piece, double x, double y, double cosine, double sine,
            ConvexPiece& placed);
 
-// How two pieces lie to each other.
+// The distance or overlap of two pieces.
 struct Separation {
   double distance = 0;  // below 0: how deep they overlap, along the normal
   Vector2 normal;       // unit length, from the first to the second
@@ -54,11 +54,11 @@ Separation Separate(const ConvexPiece& a, const ConvexPiece& b);
 // Returns the distance from a point to the nearest point of the piece; 0 inside its polygon.
 double DistanceTo(const ConvexPiece& piece, Vector2 point);
 
-// Whether every point of `inner` lies in `outer` (within `tolerance`). May miss it when `outer` has
-// both corners and a radius; never claims it wrongly.
+// Whether every point of `inner` lies in `outer` (within `tolerance`). If `outer` has both corners
+// and a radius, the result may be false although it does. It is never wrongly true.
 bool Contains(const ConvexPiece& outer, const ConvexPiece& inner, double tolerance);
 
-// The smallest circle about the mean of the vertices that holds the piece.
+// The smallest circle that contains the piece and has its centre at the mean of the vertices.
 ConvexPiece BoundingDisc(const ConvexPiece& piece);
 
 inline double Dot(Vector2 a, Vector2 b) { return a.x * b.x + a.y * b.y; }

@@ -85,7 +85,7 @@ Interval Union(const std::vector<Footprint::Piece>& pieces) {
   return all;
 }
 
-// Pieces that all have one filter.
+// Pieces with the same collision filter.
 void Simplify(std::vector<Footprint::Piece>& pieces) {
   const Interval heights = Union(pieces);
   if (pieces.size() > 256) pieces = Layers(pieces, heights);  // too many to compare each with each
@@ -93,7 +93,7 @@ void Simplify(std::vector<Footprint::Piece>& pieces) {
   if (pieces.size() > Footprint::kMaxPieces) pieces = Layers(pieces, heights);
 }
 
-// Each filter's pieces in turn, the filters in the order in which they appear.
+// The pieces grouped by filter, in the order in which the filters appear.
 void SimplifyByFilter(std::vector<Footprint::Piece>& pieces) {
   std::vector<Footprint::Piece> simplified;
   while (!pieces.empty()) {

@@ -1,4 +1,4 @@
-// The room that a model takes up, as a few upright prisms.
+// The space that a model occupies, as a few upright prisms.
 //
 // Frame   the model's, with its z axis up.
 // Rule    each collision (at zero joint positions) is a prism over its silhouette, from its lowest

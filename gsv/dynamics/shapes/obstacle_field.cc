@@ -9,7 +9,7 @@ namespace gsv::dynamics {
 namespace {
 
 constexpr double kSmallestCell = 0.25;
-constexpr double kTooLarge = 500;  // m in radius; such obstacles are looked at by all
+constexpr double kTooLarge = 500;  // radius in m; every query checks larger obstacles
 constexpr double kMostCells = 1 << 20;
 constexpr double kMostEntries = 1 << 23;
 
@@ -24,7 +24,7 @@ struct Range {
   }
 };
 
-// How far the hull of the piece's vertices reaches along x where y lies in the band.
+// The extent along x of the hull of the piece's vertices, within a band of y.
 Range ReachIn(const ConvexPiece& piece, const Range& band) {
   Range reach;
   for (int k = 0; k < piece.vertex_count; ++k) {
@@ -80,8 +80,8 @@ void ObstacleField::LayOutGrid() {
   rows_ = static_cast<int>((top - bottom_) / size) + 2;
 }
 
-// Calls `visit` with each cell that lies within the margin of the obstacle: one with a point in the
-// disc around its middle that does.
+// Calls `visit` with each cell within the margin of the obstacle: the disc around such a cell has a
+// point within the margin.
 template <typename Visit>
 void ObstacleField::ForEachCellNear(const Obstacle& obstacle, Visit visit) const {
   const ConvexPiece& shape = obstacle.shape;

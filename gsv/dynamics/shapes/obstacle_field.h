@@ -1,7 +1,7 @@
-// All that stands still in one slice of the world, by place.
+// The static obstacles in one slice of the world, by place.
 //
-// A uniform grid of which each cell lists the obstacles within `margin` of it, so that who is no
-// larger than the margin looks into a single cell.
+// A uniform grid. Each cell lists the obstacles within `margin` of it, so that a query with a reach
+// up to `margin` needs only one cell.
 //
 // Units    metres, world frame.
 // Threads  const members may run concurrently.
@@ -31,9 +31,9 @@ class ObstacleField {
   const Obstacle& operator[](std::uint32_t index) const { return obstacles_[index]; }
   std::size_t size() const { return obstacles_.size(); }
 
-  // Calls `visit` with the index of every obstacle whose disc comes within `reach` of the point, in
-  // an order that depends on the place alone; with some perhaps twice when reach exceeds the
-  // margin.
+  // Calls `visit` with the index of every obstacle whose disc is within `reach` of the point. The
+  // order depends on the place only. If `reach` exceeds the margin, an obstacle may be visited
+  // twice.
   template <typename Visit>
   void ForEachNear(Vector2 point, double reach, Visit visit) const {
     for (const std::uint32_t index : everywhere_) VisitIfNear(index, point, reach, visit);
@@ -59,7 +59,8 @@ class ObstacleField {
   template <typename Visit>
   void ForEachCellNear(const Obstacle& obstacle, Visit visit) const;
 
-  // The cell of a coordinate in cells; those outside belong to the edge.
+  // The cell of a coordinate, which is given in cells. Coordinates outside the grid belong to the
+  // cells at its edge.
   static int Clamped(double coordinate, int count) {
     return coordinate < 1 ? 0 : coordinate >= count ? count - 1 : static_cast<int>(coordinate);
   }

@@ -1,4 +1,5 @@
-// The obstacles of a world between two heights: slices of all that wheeled bases cannot push.
+// The obstacles of a world between two heights: slices of everything that wheeled bases cannot
+// push.
 #pragma once
 
 #include <span>
@@ -16,12 +17,13 @@ namespace gsv::dynamics {
 std::vector<Obstacle> CollectObstacles(const world::Layout& layout, const world::State& state,
                                        Interval heights);
 
-// The same of `bodies`, which are rigid or actors, with joints as they are. Of a plane nothing is taken.
+// The same for `bodies`, which are rigid bodies or actors, at their present joint positions. Planes
+// are omitted.
 std::vector<Obstacle> CollectLooseObstacles(const world::Layout& layout, const world::State& state,
                                             std::span<const int> bodies, Interval heights);
 
-// No part of the rigid body or actor that anything collides with is ever farther from its origin;
-// infinite where a rigid body has joints.
+// The radius around the origin of a rigid body or actor that contains all its collision shapes at
+// all times. It is infinite for a rigid body with joints.
 double LooseRadius(const world::Body& body);
 
 }  // namespace gsv::dynamics

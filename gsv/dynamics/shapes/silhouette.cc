@@ -16,13 +16,13 @@ using geometry::Shape;
 using geometry::TriangleMesh;
 using geometry::Vector3;
 
-// A shape counts as upright when its axis leaves the vertical by less than this sine.
+// A shape is upright if the sine of the angle between its axis and the vertical is less than this.
 constexpr double kUpright = 1e-9;
 // Shapes that only touch a slice are not in it.
 constexpr double kTouching = 1e-9;
 constexpr int kSegments = 32;
 
-// How far a shape reaches from its centre in a direction given in its own frame.
+// The extent of a shape from its centre, in a direction in its own frame.
 struct Reach {
   Vector3 d;
 
@@ -81,8 +81,8 @@ std::vector<Vector2> Corners(const Shape& shape, const Pose& pose) {
   return corners;
 }
 
-// The radius of the shape's widest circle between two heights above its centre, if it is a solid of
-// revolution about the vertical; below 0 if it is not.
+// The radius of the shape's widest circle between two heights above its centre, for a solid of
+// revolution about the vertical. Negative for other shapes.
 double UprightRadius(const Shape& shape, const Pose& pose, Interval h) {
   const Vector3 axis = pose.orientation * Vector3{0, 0, 1};
   const double nearest = std::clamp(0.0, h.low, h.high);
@@ -108,7 +108,7 @@ double UprightRadius(const Shape& shape, const Pose& pose, Interval h) {
   return -1;
 }
 
-// The shape made so much wider that its tessellation lies around it.
+// The shape, enlarged so that its tessellation encloses the original shape.
 Shape Widened(Shape shape) {
   const double wider = 1 / std::cos(std::numbers::pi / kSegments);
   if (auto* cylinder = std::get_if<geometry::Cylinder>(&shape)) cylinder->radius *= wider;
@@ -148,7 +148,7 @@ Clipped ClipTriangle(const std::array<Vector3, 3>& triangle, Interval heights) {
   return ClipAt(ClipAt(polygon, heights.low, 1), heights.high, -1);
 }
 
-// Calls `visit` with what each triangle leaves between the heights.
+// Calls `visit` with the part of each triangle between the heights.
 template <typename Visit>
 void ForEachClipped(const TriangleMesh& mesh, const Vector3& scale, const Pose& pose,
                     Interval heights, Visit visit) {

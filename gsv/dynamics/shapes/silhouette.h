@@ -3,7 +3,7 @@
 //
 // Frames  `pose` takes the shape's frame to a frame whose z axis is up; silhouettes are in the xy
 //         plane of that frame.
-// Errors  none: shapes are those that a reader let through.
+// Errors  none: the readers have checked the shapes.
 #pragma once
 
 #include <vector>

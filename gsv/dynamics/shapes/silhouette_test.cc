@@ -14,7 +14,7 @@ using geometry::Pose;
 
 using geometry::kPi;
 
-// How far a piece reaches along x and y.
+// The extent of a piece along x and y.
 double ReachX(const ConvexPiece& piece) {
   double reach = -1e9;
   for (const Vector2 v : piece.points()) reach = std::max(reach, v.x);

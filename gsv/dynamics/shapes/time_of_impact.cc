@@ -13,8 +13,8 @@ constexpr int kMaxAdvances = 64;       // after this number the pieces are stopp
 constexpr double kApproach = 1e-9;     // m/s; less is sliding
 constexpr double kNoise = 1e-12;       // m/s; less is rounding
 
-// A piece's corners along an axis: where they are, how fast they go, and how much faster they may
-// get.
+// The corners of a piece along an axis: their positions, their speeds, and bounds of their
+// accelerations.
 struct MovingCorners {
   std::array<double, ConvexPiece::kMaxVertices> along, speed, acceleration;
   int count = 0;
@@ -48,7 +48,7 @@ double Gap(const MovingCorners& a, const MovingCorners& b) {
          *std::max_element(a.along.begin(), a.along.begin() + a.count);
 }
 
-// How long until `gap` can be used up at this speed and acceleration.
+// The time after which `gap` may be closed at this speed and acceleration.
 double TimeToClose(double gap, double speed, double acceleration) {
   const double root = std::sqrt(speed * speed + 2 * acceleration * gap);
   if (speed > 0) return 2 * gap / (speed + root);
@@ -59,7 +59,7 @@ double TimeToClose(double gap, double speed, double acceleration) {
 struct FirstMeeting {
   double time;
   double gap = 0;    // the present gap of that pair
-  double speed = 0;  // at which it closes, now
+  double speed = 0;  // the present speed at which the gap closes
 };
 
 FirstMeeting MeetAtTheEarliest(const MovingCorners& a, const MovingCorners& b, double keep,
@@ -113,8 +113,8 @@ bool IsStill(const MovingPiece& moving) {
   return twist.angular == 0 || (piece.vertex_count == 1 && piece.vertices[0] == Vector2{});
 }
 
-// `place_second(t)` places the second piece at time t, `project_second(axis, corners)` projects it
-// as placed last. `normal` is that at the start.
+// `place_second(t)` places the second piece at time t. `project_second(axis, corners)` projects it
+// at the last place. `normal` is the normal at the start.
 template <typename PlaceSecond, typename ProjectSecond>
 std::optional<Impact> Find(const MovingPiece& first, double end, Vector2 normal,
                            PlaceSecond place_second, ProjectSecond project_second) {

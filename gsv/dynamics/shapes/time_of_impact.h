@@ -1,4 +1,4 @@
-// When two pieces that move along arcs first touch.
+// The time at which two pieces that move along arcs first touch.
 //
 // Method   conservative advancement along separating axes: the pieces' closest points give an axis;
 //          along it each corner's approach is bounded by its speed plus half its centripetal
@@ -40,12 +40,12 @@ struct Impact {
   bool second_approaches = false;  // at least one of the two approaches
 };
 
-// The first contact in [0, end) that the motions would turn into an overlap. `normal` is that of
-// Separate() for the pieces where they start.
+// The first contact in [0, end) after which the motions would cause an overlap. `normal` is the
+// result of Separate() for the pieces at their starts.
 std::optional<Impact> FindImpact(const MovingPiece& first, const MovingPiece& second, double end,
                                  Vector2 normal);
 
-// Finds the impact on a static piece, which is given in the world.
+// Finds the impact on a static piece. The piece is given in the world frame.
 std::optional<Impact> FindImpact(const MovingPiece& first, const ConvexPiece& standing, double end,
                                  Vector2 normal);
 

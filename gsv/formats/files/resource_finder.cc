@@ -259,7 +259,7 @@ base::Result<fs::path> ResourceFinder::FindInModels(const std::string& path,
                                                     const fs::path& naming_file) const {
   const std::string decoded = PercentDecoded(path);
   if (ClimbsOut(path) || ClimbsOut(decoded) || decoded.find('\0') != std::string::npos) {
-    return Fail(ErrorCode::kNotFound, "model://" + path + " climbs out of the model folders");
+    return Fail(ErrorCode::kNotFound, "model://" + path + " is outside the model folders");
   }
   const std::vector<fs::path> folders = FoldersFor(naming_file);
   for (const std::string& each : {path, decoded}) {
@@ -286,7 +286,7 @@ base::Result<fs::path> ResourceFinder::FindByPath(const std::string& path,
   const fs::path here = naming_file.parent_path();
   const fs::path from_parent = here.lexically_normal().filename() / relative;
   if (!here.empty() && ClimbsOut(relative) && ClimbsOut(from_parent)) {
-    return Fail(ErrorCode::kNotFound, path + " climbs out of the model folders");
+    return Fail(ErrorCode::kNotFound, path + " is outside the model folders");
   }
   if (auto found = FindBelow(here.empty() ? fs::path(".") : here, relative)) return *found;
   if (!ClimbsOut(relative)) {

@@ -55,7 +55,7 @@ TEST(ResourceFinder, RefusesNamesThatLeaveTheFolder) {
        {"../../secret.txt", "model://../secret.txt", "model://b/../../../secret.txt"}) {
     const auto found = finder.Find(name, model);
     ASSERT_FALSE(found.has_value()) << name;
-    EXPECT_THAT(found.error().message, HasSubstr("climbs out"));
+    EXPECT_THAT(found.error().message, HasSubstr("is outside the model folders"));
   }
 }
 

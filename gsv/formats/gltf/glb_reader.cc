@@ -38,7 +38,8 @@ std::uint32_t NumberAt(GlbBytes bytes, std::size_t at) {
 }
 
 GlbBytes PartOf(GlbBytes bytes, std::size_t at, std::size_t size) {
-  if (at > bytes.size() || size > bytes.size() - at) throw Flaw{"a part reaches beyond its end"};
+  if (at > bytes.size() || size > bytes.size() - at)
+    throw Flaw{"a chunk extends beyond the end of the file"};
   return bytes.subspan(at, size);
 }
 

@@ -18,8 +18,8 @@ geometry::TriangleMesh HeightmapMesh(const model::Image& image, const geometry::
 geometry::TriangleMesh HeightmapMesh(const HeightGrid& grid, const geometry::Vector3& size,
                                      int max_vertices);
 
-// The size of a grid by its file, m: width, depth, and the range of heights. The distance between
-// heights is 1 m if the file does not give it.
+// The size of a grid in metres, as its file gives it: width, depth, and the range of heights. If
+// the file gives no distance between samples, it is 1 m.
 geometry::Vector3 TrueSize(const HeightGrid& grid);
 
 }  // namespace gsv::formats

@@ -138,7 +138,8 @@ base::Result<std::vector<std::array<std::uint32_t, 3>>> Triangulate(
     hole_rings.push_back(ToRing(hole, first));
     first += static_cast<std::uint32_t>(hole.size());
   }
-  // From right to left, so that each hole sees either the outline or a hole that is already joined.
+  // Sorts the holes from right to left, so that each hole sees either the outline or a hole that is
+  // already joined.
   std::sort(hole_rings.begin(), hole_rings.end(), [](const Ring& a, const Ring& b) {
     return a[Rightmost(a)].point.x > b[Rightmost(b)].point.x;
   });

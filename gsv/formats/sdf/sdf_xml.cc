@@ -64,7 +64,7 @@ base::Status CheckVersion(XmlFile& file, base::Problems& problems) {
   const int number = major * 100 + minor;
   if (number < kOldestVersion) {
     return Fail(ErrorCode::kBadModel,
-                "SDFormat " + file.version + " is too old to read; convert it to 1.4 or newer",
+                "SDFormat " + file.version + " is not supported; convert the file to 1.4 or newer",
                 PlaceOf(file.path, *file.root));
   }
   file.minor_version = major == 1 ? minor : kNewestKnownMinor;
@@ -174,7 +174,7 @@ base::Result<XmlFile> ReadXml(const std::filesystem::path& named, const Resource
   const std::string root = file.root == nullptr ? "" : file.root->Name();
   if (root == "gazebo") {
     return Fail(ErrorCode::kBadModel,
-                "SDFormat before 1.3 is too old to read; convert it to 1.4 or newer",
+                "SDFormat versions before 1.3 are not supported; convert the file to 1.4 or newer",
                 path.string() + ":1");
   }
   if (root != "sdf" && root != "robot") {

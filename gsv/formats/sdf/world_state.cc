@@ -194,7 +194,7 @@ void WorldState::ReportMissing(const model::WorldDescription& world,
   const auto warn = [&](const std::string& owner, const char* kind, const std::string& name,
                         const std::string& place) {
     context.Warn("the <state> names the " + std::string(kind) + " \"" + name + "\", but " + owner +
-                     " has none of that name; this part of the state is ignored",
+                     " has no such part; this part of the state is ignored",
                  place);
   };
   for (const auto& [name, state] : models_) {

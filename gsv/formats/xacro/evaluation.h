@@ -13,7 +13,7 @@
 
 namespace gsv::formats::xacro {
 
-// The part of the file around an expression that the expression may see.
+// The scope of an expression: the properties, arguments and YAML files that it can use.
 struct EvaluationContext {
   // A property's value, or none if there is no such property.
   std::function<base::Result<std::optional<Value>>(const std::string& name)> property;

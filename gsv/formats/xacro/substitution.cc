@@ -55,7 +55,7 @@ class Substitution {
         continue;
       }
       const std::size_t end = ClosingOf(text, bracket);
-      if (end == std::string::npos) return Refuse("a bracket does not close in \"" + text + "\"");
+      if (end == std::string::npos) return Refuse("a bracket is not closed in \"" + text + "\"");
       auto value = Bracket(text[bracket], text.substr(bracket + 1, end - bracket - 1), depth);
       if (!value) return value;
       if (dollar == 0 && end + 1 == text.size()) return value;

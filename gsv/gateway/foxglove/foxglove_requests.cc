@@ -47,7 +47,7 @@ base::Result<ClientMessage> ParseUnsubscribe(const Json& list) {
   Unsubscribe message;
   for (const Json& entry : list) {
     const std::optional<std::uint32_t> id = AsId(entry);
-    if (!id) return Malformed("'subscriptionIds' holds something that is not a number");
+    if (!id) return Malformed("'subscriptionIds' must contain only numbers");
     message.subscriptions.push_back(*id);
   }
   return message;

@@ -79,7 +79,7 @@ base::Result<Target> ParseTarget(std::string_view target) {
       ForEachPart(query, '&', [&](std::string_view part) { return AddQuery(part, parsed); });
   if (!well_formed) {
     return base::Fail(ErrorCode::kInvalidArgument,
-                      "the request's target has a '%' that two hexadecimal digits do not follow");
+                      "the request's target has a '%' without two hexadecimal digits after it");
   }
   return parsed;
 }

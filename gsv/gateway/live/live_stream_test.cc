@@ -33,7 +33,7 @@ TEST_F(LiveStreamTest, AdvertisesTheTopicsThatTheTableCallsLive) {
   }
 }
 
-TEST_F(LiveStreamTest, PosesAreThoseOfTheSnapshotInTheListsOrder) {
+TEST_F(LiveStreamTest, SendsPosesInTheOrderOfTheSnapshotsBodies) {
   Subscribe(1, "/gsv/poses");
   simulation_->Advance(seconds(3));
   Round();

@@ -16,7 +16,8 @@ struct ProcessUsage {
   double uptime = 0;                  // s
 };
 
-// Values that cannot be read are zero. Takes about 0.1 ms, and more with many descriptors.
+// Values that cannot be read are zero. Takes about 0.1 ms, and longer with many open file
+// descriptors.
 ProcessUsage ReadProcessUsage();
 
 }  // namespace gsv::gateway::metrics

@@ -23,7 +23,7 @@ constexpr std::size_t kReadSize = 16u << 10;
 // Time limit for a client to receive pending messages before the connection is closed.
 constexpr std::chrono::seconds kFarewell{2};
 
-// A close frame's payload is at most 125 bytes, two of them the code.
+// A close frame's payload is at most 125 bytes, including two for the code.
 websocket::close_reason Reason(CloseCode code, const std::string& text) {
   const std::size_t length = std::min(text.size(), websocket::reason_string::max_size_n);
   return {static_cast<websocket::close_code>(code), beast::string_view(text.data(), length)};

@@ -25,7 +25,8 @@
 
 namespace gsv::gateway::transport {
 
-// The first buffers of a longer sequence are written. An HTTP response has about a dozen.
+// The buffers of one write. If a sequence has more than 16, only the first 16 are written. An HTTP
+// response has about 12.
 using Parts = boost::container::static_vector<boost::asio::const_buffer, 16>;
 
 class ByteStream {

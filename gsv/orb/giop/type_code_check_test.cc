@@ -112,7 +112,7 @@ TEST(TypeCodeCheckTest, AcceptsAReferenceToAnEarlierType) {
 }
 
 TEST(TypeCodeCheckTest, RejectsATypeThatContainsItself) {
-  // The element type is 12 bytes before the offset, which is the sequence itself.
+  // The offset of the element type points to the sequence itself.
   EXPECT_FALSE(
       IsTypeCode(With({}, kSequence, Parameters().ULong(0xFFFFFFFF).ULong(0u - 16).ULong(0))));
 }

@@ -1,4 +1,4 @@
-// The log of a real robot, in one shape for all formats.
+// The log of a real robot, in one structure for all formats.
 //
 // Units   metres, radians, seconds. Times count from the first one in the log.
 // Frames  `truth`, `odometry`: world_from_base and odom_from_base. Angles of beams are those of the
@@ -25,7 +25,7 @@ struct TimedTwist {
   double linear = 0, angular = 0;
 };
 
-// How far each wheel has rolled since the log began.
+// The distance that each wheel has rolled since the start of the log.
 struct TimedWheels {
   double time = 0;
   double left = 0, right = 0;
@@ -61,12 +61,12 @@ struct Log {
   double duration() const;
 };
 
-// The pose at `time` between two of `poses`, which are in order of time; nothing outside of them, or
-// where they lie more than `max_gap` seconds apart.
+// The pose at `time`, interpolated between two of `poses`. The poses must be in the order of time.
+// Returns nothing outside of them, and between two that are more than `max_gap` seconds apart.
 std::optional<TimedPose> PoseAt(const std::vector<TimedPose>& poses, double time,
                                 double max_gap = 1);
 
-// An angle in [-pi, pi].
+// Returns the equal angle in [-pi, pi].
 double WrappedAngle(double angle);
 
 }  // namespace gsv::reality

@@ -47,7 +47,8 @@ void StartAtZero(Log& log) {
   }
 }
 
-// By the first word of the first 64 lines that has one of the two formats' names; empty: by none.
+// Detects the format: searches the first words of the first 64 lines for the name of a message of
+// one of the two formats. Empty if there is none.
 std::string FormatOfTextLog(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::array<char, 1 << 16> start{};

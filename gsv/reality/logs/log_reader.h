@@ -1,7 +1,7 @@
 // Reads the logs of real robots. docs/formats/logs.md describes the formats.
 //
-// Input   untrusted, see text_rows.h. What is left out is a warning in `problems`, with file and
-//         line.
+// Input   untrusted, see text_rows.h. `problems` gets a warning, with file and line, for each row
+//         that is skipped.
 // Errors  kNotFound for a file that is not there, kCorrupt for one that cannot be used,
 //         kInvalidArgument for a format that is unknown.
 #pragma once
@@ -17,15 +17,15 @@ namespace gsv::reality {
 // In the order in which help lists them.
 std::vector<std::string> LogFormats();
 
-// The format of a log, by the name of its file and, for *.log, its first lines. kInvalidArgument if
-// they do not show it.
+// Detects the format of a log from its file name and, for *.log, from its first lines. Returns
+// kInvalidArgument if the format cannot be detected.
 base::Result<std::string> GuessLogFormat(const std::filesystem::path& path);
 
-// `path` is the file that the format names first; its companions are found beside it.
+// Reads a log. `path` is the first file of the format; the other files must be in the same folder.
 base::Result<Log> ReadLog(const std::filesystem::path& path, const std::string& format,
                           base::Problems& problems);
 
-// Each format. The companions of `path` are found beside it.
+// The readers of the formats. The other files of a log must be in the folder of `path`.
 base::Result<Log> ReadSonarRing(const std::filesystem::path& path, base::Problems& problems);
 base::Result<Log> ReadArena(const std::filesystem::path& path, base::Problems& problems);
 base::Result<Log> ReadMrclam(const std::filesystem::path& path, base::Problems& problems);

@@ -19,7 +19,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMaxScanBeams = 100'000, kMaxSentences = 20;
 
-// A number of a message; not a number where there is none. Infinite ones are written as texts.
+// Returns a number of a message, or NaN if it does not exist. Infinite numbers are texts in the
+// JSON.
 double NumberIn(const Json& object, const char* key) {
   const auto it = object.find(key);
   if (it == object.end()) return std::nan("");

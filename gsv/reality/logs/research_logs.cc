@@ -1,4 +1,4 @@
-// Formats in which research groups published the logs of their robots.
+// Reads formats in which research groups published the logs of their robots.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 
 constexpr double kMillimetre = 1e-3, kCentimetre = 1e-2, kDegree = kPi / 180;
 
-// "DIR/Robot1_Odometry.dat" with "_Groundtruth.dat" for all after the last underscore.
+// Replaces the part of the file name after the last underscore: "DIR/Robot1_Odometry.dat" becomes
+// "DIR/Robot1_Groundtruth.dat".
 fs::path Companion(const fs::path& path, const std::string& ending) {
   const std::string name = path.filename().string();
   return path.parent_path() / (name.substr(0, name.rfind('_')) + ending);

@@ -17,7 +17,7 @@ namespace gsv::reality {
 
 class TextRows {
  public:
-  // kNotFound or kCorrupt. `problems` outlives this.
+  // Fails with kNotFound or kCorrupt. `problems` must outlive this object.
   static base::Result<TextRows> Open(const std::filesystem::path& path, base::Problems& problems);
 
   // Moves to the next row; blank lines and those that begin with # are skipped.
@@ -26,8 +26,8 @@ class TextRows {
   std::string_view word(std::size_t i) const { return words_[i]; }
   int line() const { return line_; }
 
-  // The words from `first` on as numbers; false, with a problem, if there are fewer than `count` or
-  // one of them is no finite number.
+  // Reads the words from `first` on as numbers. If there are fewer than `count`, or one is not a
+  // finite number, returns false and adds a problem.
   bool Numbers(std::size_t first, std::size_t count, std::vector<double>& numbers);
 
   // Whether the time of this row may follow that of the row before it. A row that goes back in time

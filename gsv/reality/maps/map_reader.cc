@@ -199,7 +199,7 @@ base::Result<MapSettings> ReadSettings(const fs::path& path) {
   return settings;
 }
 
-// A raw value is the occupancy in percent, and above 100 unknown.
+// A raw value is the occupancy in percent. Values above 100 mean unknown.
 Cell CellOf(const MapSettings& settings, float white) {
   if (white < 0) return Cell::kUnknown;
   double occupancy = settings.is_negated ? white : 1 - white;

@@ -76,7 +76,7 @@ class Slicer {
   Slicer(const sensing::RayScene& rays, OccupancyMap& map, double height)
       : rays_(rays), map_(map), height_(height) {}
 
-  // Along both axes, so that no wall is too thin to be met.
+  // Rays along both axes, so that they hit even thin walls.
   void Run() {
     for (int y = 0; y < map_.height; ++y) Follow(Centre(0, y), {1, 0, 0}, map_.width);
     for (int x = 0; x < map_.width; ++x) Follow(Centre(x, 0), {0, 1, 0}, map_.height);
@@ -97,7 +97,8 @@ class Slicer {
                cell(place.x, map_.origin_x, map_.width)] = Cell::kOccupied;
   }
 
-  // Whether a solid encloses the middle of the cell at `place`: a ray straight up leaves it.
+  // Whether a solid encloses the middle of the cell at `place`: a vertical ray upwards leaves the
+  // solid.
   bool IsSolid(const geometry::Vector3& place) const {
     const auto middle = [&](double along, double origin) {
       return origin + (std::floor((along - origin) / map_.resolution) + 0.5) * map_.resolution;
@@ -113,7 +114,8 @@ class Slicer {
     return crossings % 2 == 1;
   }
 
-  // Surface after surface. One on the border of two cells belongs to the solid one.
+  // Marks the cells of all surfaces along the ray. A surface on the border of two cells belongs to
+  // the cell inside the solid.
   void Follow(geometry::Vector3 place, const geometry::Vector3& direction, int cells) {
     double left = cells * map_.resolution;
     const geometry::Vector3 nudge = 1e-3 * map_.resolution * direction;

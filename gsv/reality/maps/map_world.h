@@ -19,10 +19,10 @@ struct SliceOptions {
   double margin = 0.5;       // margin around the bodies, m
 };
 
-// The world cut at a height, as a robot that maps it finds it: the surfaces of what stands there when
-// the simulation starts are occupied, and the rest is free, inside of solids too. Robots are left
-// out. kInvalidArgument for a world in which nothing stands at that height, and
-// for a map of more than 64 million cells.
+// Cuts the world at a height, as a robot would map it: the surfaces of the bodies at the start of
+// the simulation are occupied. Everything else is free, including the inside of solids. Robots are
+// omitted. Returns kInvalidArgument if there is nothing at that height, or if the map would exceed
+// 64 million cells.
 base::Result<OccupancyMap> MapOfWorld(const model::WorldDescription& world,
                                       const SliceOptions& options);
 

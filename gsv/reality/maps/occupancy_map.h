@@ -32,14 +32,15 @@ struct OccupancyMap {
 // `yaml` names the image, resolution, origin, negate, the thresholds and perhaps the mode.
 base::Result<OccupancyMap> ReadMap(const std::filesystem::path& yaml, base::Problems& problems);
 
-// CMU's text format: "robot_specifications->resolution 10" (cm), "global_map[0]: 800 800", and for
-// each cell how probably it is free, or -1.
+// Reads CMU's text format: "robot_specifications->resolution 10" (cm), "global_map[0]: 800 800",
+// and for each cell the probability that it is free, or -1.
 base::Result<OccupancyMap> ReadBeesoftMap(const std::filesystem::path& path);
 
 // Writes NAME.yaml and NAME.pgm beside it.
 base::Status WriteMap(const OccupancyMap& map, const std::filesystem::path& yaml);
 
-// The occupied cells as few rectangles as joining rows gives, in cells: [x, x + width).
+// Returns the occupied cells as rectangles, in cells: [x, x + width). Equal runs of adjacent rows
+// are joined.
 struct CellBox {
   int x = 0, y = 0, width = 1, height = 1;
 };

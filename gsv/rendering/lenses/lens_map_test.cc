@@ -1,4 +1,4 @@
-// Compares the places of objects in images through a lens with its equations.
+// Tests that objects appear in an image where the equations of the lens predict them.
 #include "gsv/rendering/lenses/lens_map.h"
 
 #include <algorithm>

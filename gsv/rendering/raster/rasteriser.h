@@ -17,7 +17,7 @@
 
 namespace gsv::rendering::raster {
 
-// An item in the view of one camera.
+// A mesh to draw in the view of one camera.
 struct Drawn {
   const RasterMesh* mesh = nullptr;
   const Level* level = nullptr;

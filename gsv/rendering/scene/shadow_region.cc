@@ -13,8 +13,8 @@ using geometry::Vector3;
 // Larger casters do not enlarge the region, because one floor slab would blur every shadow.
 constexpr double kMaxRadius = 60;
 
-// The minimum side. In a smaller region, the shadow of a single robot would be finer than needed
-// and slower to render.
+// The minimum side length of a shadow region, m. In a smaller region, the shadow of a single robot
+// would be finer than needed and slower to render.
 constexpr double kMinSide = 10;
 
 // Rounds outwards to a multiple of a power of two that is about a sixteenth of the length.

@@ -80,8 +80,9 @@ interfaces::ResetSimulationResponse Reset(ServedSimulation& served, Simulation& 
       request.scope == ResetRequest::kScopeDefault ? ResetRequest::kScopeAll : request.scope;
   const bool resets = (scope & kTimeAndState) != 0;
   if (resets && (scope & kTimeAndState) != kTimeAndState) {
-    return {Failed(interfaces::Result::kResultFeatureUnsupported,
-                   "time and state are reset together: add SCOPE_TIME and SCOPE_STATE")};
+    return {
+        Failed(interfaces::Result::kResultFeatureUnsupported,
+               "time and state can only be reset together: set both SCOPE_TIME and SCOPE_STATE")};
   }
   if ((scope & ResetRequest::kScopeSpawned) != 0) {
     for (const std::string& name : std::exchange(served.spawned, {})) {

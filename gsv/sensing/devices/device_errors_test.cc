@@ -1,5 +1,6 @@
-// Compares the errors of real devices with closed forms: presets, lidar_errors.h, odometry_drift.h,
-// the full model of sound_cone.h and the Allan parameters of imu.h.
+// Tests the simulated errors of devices against closed forms: those of the presets, of
+// lidar_errors.h and odometry_drift.h, of the full model of sound_cone.h, and of the Allan
+// parameters of imu.h.
 #include <cmath>
 #include <string>
 #include <vector>

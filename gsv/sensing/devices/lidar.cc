@@ -89,7 +89,7 @@ class Lidar final : public SensorOf<readings::Lidar, MessageType> {
             all.subspan(static_cast<std::size_t>(row) * beams, beams)};
   }
 
-  // A dropout is a beam without an echo.
+  // Returns the distance with noise, or infinity for a dropout (a beam without an echo).
   double Disturbed(const NoisyReading& noisy, std::size_t beam, double distance) const {
     if (distance == kInfinity) return distance;
     const double read = noisy.Read(*settings_.full_noise, beam, distance);

@@ -183,8 +183,9 @@ void SoundCone::AddSecondReflections(const Sampling& sampling, std::span<const R
     const Vector3& out = rays[place].direction;
     const Vector3& onward = mirrored[i].direction;
     const double cosine = std::clamp(-Dot(onward, seconds[i]->normal), -1.0, 1.0);
-    // The sound returns the same way from a surface at right angles, and so is reflected twice
-    // more. Or it returns by a corner.
+    // There are two ways back. If the second surface is perpendicular to the sound, the sound
+    // returns along its path, and is reflected twice more. If the two surfaces form a corner, it
+    // returns beside its path.
     const double same_way = once * once * Mirrored(std::acos(cosine));
     const Vector3 home = onward + 2 * cosine * seconds[i]->normal;
     const double corner = once * Mirrored(std::acos(std::clamp(-Dot(home, out), -1.0, 1.0)) / 2);

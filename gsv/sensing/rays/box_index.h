@@ -17,7 +17,8 @@ namespace gsv::sensing {
 
 class BoxIndex {
  public:
-  // Replaces all boxes. `often` favours a quick build over quick rays.
+  // Replaces all boxes. `often`: the boxes are replaced often, so a quick build matters more than
+  // quick rays.
   void Build(std::span<const geometry::Bounds> boxes, bool often);
 
   // Calls visit(box) for every box that the ray may pass through within `length`, which `visit` may

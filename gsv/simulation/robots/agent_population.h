@@ -53,7 +53,7 @@ class AgentPopulation {
   // Resets all agents after the calls that End() posted have returned. Behaviours then wait for
   // Init().
   void Reset() GSV_REQUIRES(simulation_mutex);
-  // Starts checks whether behaviours have died. Deaths are reported when the checks end.
+  // Starts to check whether behaviours have died. Deaths are reported when the checks end.
   void CheckForDeaths() GSV_REQUIRES(simulation_mutex);
   // Marks an agent as dead if the call of its behaviour failed.
   void ReportIfFailed(RobotAgent& agent, const char* what, const base::Status& status)

@@ -33,7 +33,7 @@ export function panelOf(store: Store<Diagnostics>, state: PanelPorts["state"], s
   const robots = createFacts("Robots", NOTHING_YET);
   const warnings = createFacts("Warnings of the server", "None.");
   const page = createFacts("This page", NOTHING_YET);
-  const server = createFacts("Server", "This server reports no figures.");
+  const server = createFacts("Server", "This server reports no metrics.");
   const body = element("div", { class: "facts-body", tabindex: "0", role: "region", "aria-label": "State" });
   body.append(...[simulation, robots, warnings, page, server].map((each) => each.element));
   const show = () => {
