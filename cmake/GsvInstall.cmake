@@ -126,8 +126,10 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/lib/gsv)
 set(CPACK_DEBIAN_GSV_PACKAGE_NAME gsv)
 set(CPACK_DEBIAN_GSV_DESCRIPTION "Simulator of robots: server, broker, recorder, viewer and behaviours")
-# Loaded at the first call, so that dpkg-shlibdeps does not see it.
-set(CPACK_DEBIAN_GSV_PACKAGE_DEPENDS "libsdformat12-12")
+# Loaded at the first call, so that dpkg-shlibdeps does not see them.
+set(LATE_IN_PROGRAMS "libssl3, libsqlite3-0")
+set(CPACK_DEBIAN_GSV_PACKAGE_DEPENDS "libsdformat12-12, libassimp5, libembree3-3, libtiff6, ${LATE_IN_PROGRAMS}")
+set(CPACK_DEBIAN_LIBGSV_PACKAGE_DEPENDS "${LATE_IN_PROGRAMS}")
 set(CPACK_DEBIAN_GSV_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri, libopengl0")
 set(CPACK_DEBIAN_LIBGSV_PACKAGE_NAME libgsv${GSV_LIBRARY_VERSION})
 set(CPACK_DEBIAN_LIBGSV_DESCRIPTION "What behaviours and applications for GSV run with")
@@ -141,7 +143,7 @@ set(CPACK_DEBIAN_LIBGSV-DEV_PACKAGE_DEPENDS
 set(CPACK_DEBIAN_PYTHON3-GSV_PACKAGE_NAME python3-gsv)
 set(CPACK_DEBIAN_PYTHON3-GSV_DESCRIPTION "Behaviours and applications for GSV in Python")
 set(CPACK_DEBIAN_PYTHON3-GSV_PACKAGE_SECTION python)
-set(CPACK_DEBIAN_PYTHON3-GSV_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON3-GSV_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy, ${LATE_IN_PROGRAMS}")
 set(CPACK_DEBIAN_PYTHON3-GSV_PACKAGE_CONTROL_EXTRA
   ${CMAKE_CURRENT_SOURCE_DIR}/cmake/package/postinst ${CMAKE_CURRENT_SOURCE_DIR}/cmake/package/prerm)
 set(CPACK_DEBIAN_PYTHON3-GSV_PACKAGE_RECOMMENDS "gsv, python3-pytest")

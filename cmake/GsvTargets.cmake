@@ -107,24 +107,33 @@ function(gsv_library NAME)
   set_target_properties(gsv_${NAME} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 endfunction()
 
-# gsv_late_library(TARGET PREFIX) makes the library TARGET, to link to in place of the shared libraries that
-# pkg_check_modules(PREFIX …) found. They are then loaded at the first call of one of their functions; see
-# tools/make_late_library. On processors that it cannot write for, TARGET links to the libraries themselves.
-function(gsv_late_library TARGET PREFIX)
+# gsv_late_library(TARGET INSTEAD_OF IMPORTED LIBRARIES FILE …) makes the library TARGET, to link to in place of the
+# target IMPORTED, whose functions are in the shared libraries FILE. These are then loaded at the first call of one
+# of their functions; see tools/make_late_library. On processors that it cannot write for, TARGET links to IMPORTED.
+function(gsv_late_library TARGET)
+  cmake_parse_arguments(ARG "" "INSTEAD_OF" "LIBRARIES" ${ARGN})
   if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
     add_library(${TARGET} INTERFACE)
-    target_link_libraries(${TARGET} INTERFACE PkgConfig::${PREFIX})
+    target_link_libraries(${TARGET} INTERFACE ${ARG_INSTEAD_OF})
     return()
   endif()
   find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter)
   set(SCRIPT ${CMAKE_SOURCE_DIR}/tools/make_late_library)
   set(SOURCE ${CMAKE_CURRENT_BINARY_DIR}/${TARGET}.s)
   add_custom_command(OUTPUT ${SOURCE}
-    COMMAND Python3::Interpreter ${SCRIPT} ${SOURCE} ${${PREFIX}_LINK_LIBRARIES}
-    DEPENDS ${SCRIPT} ${${PREFIX}_LINK_LIBRARIES} VERBATIM)
+    COMMAND Python3::Interpreter ${SCRIPT} ${SOURCE} ${ARG_LIBRARIES}
+    DEPENDS ${SCRIPT} ${ARG_LIBRARIES} VERBATIM)
   add_library(${TARGET} STATIC ${SOURCE})
-  target_include_directories(${TARGET} SYSTEM INTERFACE ${${PREFIX}_INCLUDE_DIRS})
-  target_compile_options(${TARGET} INTERFACE ${${PREFIX}_CFLAGS_OTHER})
+  foreach(PART INCLUDE_DIRECTORIES COMPILE_DEFINITIONS COMPILE_OPTIONS)
+    get_target_property(VALUE ${ARG_INSTEAD_OF} INTERFACE_${PART})
+    if(VALUE)
+      set_property(TARGET ${TARGET} PROPERTY INTERFACE_${PART} ${VALUE})
+    endif()
+  endforeach()
+  get_target_property(VALUE ${ARG_INSTEAD_OF} INTERFACE_INCLUDE_DIRECTORIES)
+  if(VALUE)
+    set_property(TARGET ${TARGET} PROPERTY INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${VALUE})
+  endif()
   target_link_libraries(${TARGET} PUBLIC gsv::base)
 endfunction()
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <cstring>
 #include <exception>
 #include <fstream>
@@ -12,10 +13,10 @@
 #include <vector>
 
 #include <assimp/BaseImporter.h>
-#include <assimp/DefaultIOSystem.h>
 #include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
+#include <assimp/IOSystem.hpp>
 
 #include "gsv/formats/meshes/collada_check.h"
 #include "gsv/formats/meshes/collada_repair.h"
@@ -50,15 +51,53 @@ void MoveBlanksOutOfColours(std::string& text) {
   }
 }
 
+// A file beside a mesh. As assimp's own streams, whose classes a library that is loaded late cannot
+// provide.
+class FileStream final : public Assimp::IOStream {
+ public:
+  static FileStream* Open(const char* name) {
+    std::FILE* file = std::fopen(name, "rb");
+    return file == nullptr ? nullptr : new FileStream(file);
+  }
+  ~FileStream() override { std::fclose(file_); }
+
+  std::size_t Read(void* to, std::size_t size, std::size_t count) override {
+    return std::fread(to, size, count, file_);
+  }
+  std::size_t Write(const void*, std::size_t, std::size_t) override { return 0; }
+  aiReturn Seek(std::size_t offset, aiOrigin origin) override {
+    const int from = origin == aiOrigin_SET   ? SEEK_SET
+                     : origin == aiOrigin_CUR ? SEEK_CUR
+                                              : SEEK_END;
+    const int status = std::fseek(file_, static_cast<long>(offset), from);
+    return status == 0 ? aiReturn_SUCCESS : aiReturn_FAILURE;
+  }
+  std::size_t Tell() const override { return static_cast<std::size_t>(std::ftell(file_)); }
+  std::size_t FileSize() const override {
+    const long here = std::ftell(file_);
+    std::fseek(file_, 0, SEEK_END);
+    const long size = std::ftell(file_);
+    std::fseek(file_, here, SEEK_SET);
+    return size < 0 ? 0 : static_cast<std::size_t>(size);
+  }
+  void Flush() override {}
+
+ private:
+  explicit FileStream(std::FILE* file) : file_(file) {}
+
+  std::FILE* const file_;
+};
+
 // Reads the mesh itself from memory, and other files only from its folder and the parent of that.
-class MeshFolder : public Assimp::DefaultIOSystem {
+class MeshFolder final : public Assimp::IOSystem {
  public:
   MeshFolder(fs::path file, std::string text)
       : file_(std::move(file)), text_(std::move(text)), root_(file_.parent_path().parent_path()) {}
 
   bool Exists(const char* name) const override {
-    return IsMesh(name) || (IsInside(name) && DefaultIOSystem::Exists(name));
+    return IsMesh(name) || (IsInside(name) && IsFile(name));
   }
+  char getOsSeparator() const override { return '/'; }
 
   Assimp::IOStream* Open(const char* name, const char* mode) override {
     if (IsMesh(name)) {
@@ -66,11 +105,16 @@ class MeshFolder : public Assimp::DefaultIOSystem {
                                         text_.size(), false);
     }
     const bool reads = std::strchr(mode, 'w') == nullptr && std::strchr(mode, 'a') == nullptr;
-    return reads && IsInside(name) ? DefaultIOSystem::Open(name, mode) : nullptr;
+    return reads && IsInside(name) && IsFile(name) ? FileStream::Open(name) : nullptr;
   }
+  void Close(Assimp::IOStream* stream) override { delete stream; }
 
  private:
   bool IsMesh(const char* name) const { return fs::path(name).lexically_normal() == file_; }
+  static bool IsFile(const char* name) {
+    std::error_code ignored;
+    return fs::is_regular_file(name, ignored);
+  }
   bool IsInside(const char* name) const {
     std::error_code ignored;
     const fs::path path = fs::absolute(name, ignored).lexically_normal();
