@@ -141,8 +141,8 @@ TEST_F(SdfMedium, InertiaIsMadeOfShapes) {
   EXPECT_DOUBLE_EQ(inertial.izz, 3000 * 5.0 / 12);
 }
 
-// Two cubes of 1 m³ at x = ±2, one three times as dense. Their centre is at 1, and about it they
-// add m d² with d = 1 and 3.
+// Two cubes of 1 m³ at x = ±2. One of them is three times as dense. Their common centre is at x =
+// 1, and their distances d from it, 1 and 3, add m d² to the inertia.
 TEST_F(SdfMedium, InertiaAddsUpShapesOfDifferentDensity) {
   const auto cube = [](const std::string& name, const std::string& x, const std::string& density) {
     return "<collision name='" + name + "'><pose>" + x + " 0 0 0 0 0.7853981633974483</pose>" +

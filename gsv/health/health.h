@@ -1,6 +1,6 @@
-// The health of robots: whether each one moves, stands, is stuck, touches something, is late or dead; its
-// last command beside its motion; and what limits it. Computed from a simulation's status and the
-// readings of range sensors.
+// The health of robots: whether each one moves, stands, is stuck, touches something, is late or
+// dead; its last command and its actual motion; and what limits it. Computed from a simulation's
+// status and the readings of range sensors.
 //
 // Units        metres, radians, seconds; instants of simulated time.
 // Determinism  all but `late` is a function of the states of the run.
@@ -55,7 +55,7 @@ struct Report {
   std::uint32_t CountOf(State state) const { return counts[static_cast<std::size_t>(state)]; }
 };
 
-// The health of a robot of `status`, without its limit.
+// Returns the health of a robot in `status`, without its limit.
 RobotHealth HealthOf(const simulation::RobotStatus& robot,
                      const simulation::SimulationStatus& status);
 // Sets the limit, which is a part of the reason.

@@ -23,11 +23,11 @@ struct SensorAccess {
   const sensing::SensorRegistry* types = nullptr;  // never null
 };
 
-// By Simulation::Watch(); `simulation` must outlive it.
+// Reads sensors through Simulation::Watch(). `simulation` must outlive the result.
 SensorAccess SensorsOf(simulation::Simulation& simulation);
 
-// The shortest distance that the robot's range sensors (sonar, lidar and their like) read, if it is
-// less than 1 m.
+// The shortest distance that the robot's range sensors (such as sonars and lidars) measure, if it
+// is less than 1 m.
 std::optional<Limit> FindLimit(const std::string& robot, const SensorAccess& access);
 
 class HealthBook {
@@ -48,7 +48,7 @@ class HealthBook {
   std::map<std::string, Known> known_;  // robots that do not move
 };
 
-// The health now, with the sensors of at most 500 robots.
+// Returns the current health. Reads the sensors of at most 500 robots.
 Report HealthNow(simulation::Simulation& simulation);
 
 }  // namespace gsv::health

@@ -1,4 +1,4 @@
-// How a robot's base moves: its kind, its wheels and its limits.
+// The drive of a robot's base: its kind, its wheels and its limits.
 #pragma once
 
 #include <limits>

@@ -24,7 +24,7 @@ struct TopicOf {
   const char* name;
 };
 
-// How a recording's messages are played.
+// The way in which a recording's messages are played.
 enum class Replay {
   kNewest,   // the newest one at each instant
   kEach,     // each message during play, none during a seek

@@ -37,7 +37,7 @@ struct Quantity {
     // all robots.
     kStuck,
   };
-  // How one number is taken from the values of a reading.
+  // The way to compute one number from the values of a reading.
   enum class Take { kMin, kMax, kMean, kOne };
 
   Kind kind = Kind::kTime;

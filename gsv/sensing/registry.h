@@ -17,7 +17,7 @@
 
 namespace gsv::sensing {
 
-// How viewers draw a reading.
+// The way in which viewers draw a reading.
 enum class Overlay { kNone, kLines, kPoints, kImage };
 
 // A second message beside a reading, at its instant, on the topic /ROBOT/SENSOR/`topic`.

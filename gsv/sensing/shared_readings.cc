@@ -13,7 +13,7 @@ std::size_t BytesOf(const Reading& reading) {
          (reading.image != nullptr ? reading.image->pixels.size() : 0);
 }
 
-// All that a reading depends on.
+// Everything that a reading depends on.
 bool SameSensor(const model::SensorDescription& a, const model::SensorDescription& b) {
   return a.name == b.name && a.type == b.type && a.link == b.link &&
          a.link_from_sensor == b.link_from_sensor && a.parameters == b.parameters;

@@ -37,7 +37,7 @@ enum class Phase { kCreated, kStarting, kRunning, kPaused, kStopped, kFinished, 
 const char* ToString(Mode mode);
 const char* ToString(Phase phase);
 
-// How a dead or unresponsive behaviour affects the run.
+// The effect of a dead or unresponsive behaviour on the run.
 enum class FailurePolicy { kContinue, kFail };
 
 struct Specification {
@@ -65,7 +65,7 @@ enum class AgentPhase { kNone, kInitialised, kRunning, kWaiting, kFinished, kUnr
 
 const char* ToString(AgentPhase phase);
 
-// How the base of a robot has moved, sampled every 0.1 s of simulated time
+// The recent motion of a robot's base, sampled every 0.1 s of simulated time
 // (history/motion_history.h).
 struct Motion {
   bool is_moving = false;

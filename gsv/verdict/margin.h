@@ -1,5 +1,5 @@
-// How close an expectation came to its limit: the robustness of signal temporal logic (A. Donzé and
-// O. Maler, 2010), for expectations that are one condition over time.
+// The distance of an expectation from its limit: the robustness of signal temporal logic (A. Donzé
+// and O. Maler, 2010), for expectations that are one condition over time.
 //
 // Units  those of the measured numbers.
 #pragma once

@@ -40,7 +40,7 @@ std::string SentenceOf(const Camera& camera) {
   return placed ? "" : placed.error().Sentence();
 }
 
-// Where the camera looks, unit length.
+// The direction in which the camera looks, unit length.
 Vector3 AheadOf(const rendering::CameraView& view) {
   return view.world_from_camera.orientation * Vector3{1, 0, 0};
 }

@@ -12,7 +12,7 @@ namespace gsv::testing {
 
 inline constexpr double kFleetSeconds = 0.6;  // twelve control cycles
 
-// How the programs are disturbed.
+// The disturbances of the programs.
 struct Handicap {
   std::vector<std::string> wrapper;  // see the constructor of Running
   bool in_reverse_order = false;

@@ -170,8 +170,8 @@ class Meter final : public Behaviour {
   std::vector<double>& intervals_;  // in s
 };
 
-// A simulation in real time beside disturbances. Its delays depend on the machine and are only
-// printed. It must reach its end.
+// A simulation in real time that runs while others cause disturbances. Its delays depend on the
+// machine and are only printed. It must reach its end.
 class StepTimeBesideAnotherSimulation : public Isolation {
  protected:
   void RunAndRecord(const char* beside) {

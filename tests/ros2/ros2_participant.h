@@ -115,7 +115,7 @@ class Participant {
   dds_entity_t WriterOf(const dds_topic_descriptor_t& type, const std::string& name) {
     return Endpoint(&dds_create_writer, type, name, 10);
   }
-  // From here on WaitForData() ends when this reader has something.
+  // After this call, WaitForData() also returns when this reader has data.
   void Watch(dds_entity_t reader) {
     dds_set_status_mask(reader, DDS_DATA_AVAILABLE_STATUS);
     dds_waitset_attach(waits_, reader, reader);

@@ -147,7 +147,7 @@ int Listen(const Arguments& arguments) {
   return 0;
 }
 
-// How much comes in, without looking at it.
+// Measures the rate of incoming data without decoding it.
 int Count(const Arguments& arguments) {
   Participant participant(arguments);
   const Clock::time_point begin = Clock::now();

@@ -23,7 +23,7 @@ constexpr int kPauseMilliseconds = 200;
 constexpr std::chrono::milliseconds kSettleTimeout{500};
 constexpr int kMaxReadsAtEnd = 1000;  // of 4 KiB, more than a pipe holds
 
-// How the child ended, without reaping it, which its owner does.
+// Returns how the child ended. Does not reap it, because its owner does.
 std::string EndingOf(pid_t pid) {
   siginfo_t info{};
   if (waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||

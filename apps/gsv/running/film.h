@@ -23,7 +23,7 @@ struct FilmOptions {
   std::string ffmpeg = "ffmpeg";  // found in PATH
 };
 
-// A sentence if the name is that of no film; else empty.
+// Returns a sentence if the name is not valid for a film, else an empty text.
 std::string CheckFilmName(const std::string& path);
 
 class Film {

@@ -11,7 +11,7 @@
 namespace gsv::app {
 namespace {
 
-// A program that stores its input and its arguments replaces ffmpeg.
+// Replaces ffmpeg by a program that stores its input and its arguments.
 class FilmTest : public testing::Test {
  protected:
   FilmTest() {

@@ -1,5 +1,5 @@
-// Where two recordings differ, for people: first their scenarios, then the first message, with the
-// robot that it is about.
+// Describes the difference of two recordings for people: first their scenarios, then the first
+// different message, with its robot.
 #pragma once
 
 #include <optional>

@@ -49,7 +49,7 @@ model::Joint MotorJoint(std::string name, int parent, int child, const Vector3& 
   return joint;
 }
 
-// Its left wheels are faster than its right ones, so that they slip as it turns.
+// The rover's left wheels are faster than its right ones, so that they slip while it turns.
 std::shared_ptr<const model::Model> Rover() {
   using Target = model::JointTarget;
   auto rover = std::make_shared<model::Model>();
@@ -75,7 +75,7 @@ std::shared_ptr<const model::Model> HeapBox() {
   return box;
 }
 
-// Stands on the ground, to which a joint holds it.
+// It stands on the ground, and a joint attaches it to the ground.
 std::shared_ptr<const model::Model> Arm() {
   using Target = model::JointTarget;
   constexpr double kLength = 0.25;  // m, of each part
@@ -97,7 +97,7 @@ std::shared_ptr<const model::Model> Arm() {
   return arm;
 }
 
-// A square of waves in both directions, with a vertex every 0.25 m.
+// A square terrain with waves in both directions, and a vertex every 0.25 m.
 geometry::Mesh Waves(double low, double high) {
   constexpr double kEdge = 0.25, kWave = 0.075, kPerMetre = 1.5;
   const int count = static_cast<int>(std::ceil((high - low) / kEdge));

@@ -19,7 +19,7 @@ namespace gsv::app {
 using gateway::FieldError;
 using gateway::FieldResult;
 
-// Where robots without a place are put.
+// The placement of robots for which no place is given.
 struct Placing {
   enum class Kind { kSpiral, kGrid, kRandom };
   Kind kind = Kind::kSpiral;

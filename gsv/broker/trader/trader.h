@@ -144,8 +144,8 @@ class Trader {
 
  private:
   // Calls `apply` with the lock held. Returns when the changes that it recorded are durable. If
-  // they cannot be stored, it fails with kNotStored. Nothing has changed then, except by the first
-  // such change.
+  // they cannot be stored, it fails with kNotStored. Only the first failed change remains in
+  // memory; later ones change nothing.
   template <typename Apply>
   std::invoke_result_t<Apply> Change(const Apply& apply);
   void Record(StateChange change) GSV_REQUIRES(mutex_) {

@@ -22,7 +22,8 @@ using geometry::Vector3;
 
 constexpr std::uint32_t kGlbMagic = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinChunk = 0x004e4942;
 constexpr std::int64_t kGlbFloat = 5126, kGlbShort = 5123, kGlbInt = 5125;
-// Of one model, over all meshes: accessors may be used any number of times.
+// Limits of one model, as the sum over all meshes, because accessors may be used any number of
+// times.
 constexpr std::size_t kMaxGlbNumbers = 200'000'000;
 
 // Thrown and caught in this file only: the file is not what WriteGlb() writes.

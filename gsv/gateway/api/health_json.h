@@ -8,7 +8,8 @@
 
 namespace gsv::gateway {
 
-// Of one robot, or of all if `robot` is empty. Reads range sensors of robots that do not move.
+// The health of one robot, or of all robots if `robot` is empty. Reads range sensors of robots that
+// do not move.
 std::string HealthJson(simulation::Simulation& simulation, const std::string& robot);
 // The lines that behaviours' programs printed, of one robot or of all.
 std::string OutputJson(const simulation::Simulation& simulation, const std::string& robot);

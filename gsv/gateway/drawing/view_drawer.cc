@@ -14,9 +14,9 @@ namespace {
 using base::ErrorCode;
 using base::Fail;
 
-// Between two looks at a world that somebody waits for.
+// The interval between checks of a world for which a request is pending.
 constexpr std::chrono::milliseconds kLook{5};
-// Worlds that nobody looks at are forgotten.
+// Sources of worlds without requests are released after this time.
 constexpr std::chrono::seconds kForget{10};
 constexpr std::size_t kKeptImages = 16;
 
@@ -152,7 +152,7 @@ bool ViewDrawer::Serve(const std::string& name) {
   if (instant) {
     const base::MutexLock lock(mutex_);
     World& world = worlds_[name];
-    // A source that was replaced meanwhile is looked at in the next round.
+    // A source that was replaced meanwhile is checked in the next round.
     if (world.source != source) return true;
     if (world.snapshot != instant->snapshot) {
       world.snapshot = instant->snapshot;
@@ -171,7 +171,7 @@ bool ViewDrawer::Serve(const std::string& name) {
   return true;
 }
 
-// Number 0: all of the world.
+// Number 0 means all images of the world.
 std::vector<ViewDrawer::Pending> ViewDrawer::TakeDue(const std::string& name,
                                                      std::uint64_t number) {
   std::vector<Pending> due;
@@ -189,7 +189,7 @@ std::vector<ViewDrawer::Pending> ViewDrawer::TakeDue(const std::string& name,
 
 void ViewDrawer::Draw(const ViewInstant& instant, std::uint64_t number, std::vector<Pending> due) {
   while (!due.empty()) {
-    // All that ask for the same image.
+    // All requests for the same image.
     const ViewRequest request = due.front().seat->request();
     const auto others = std::stable_partition(due.begin(), due.end(), [&](const Pending& each) {
       return each.seat->request() == request;

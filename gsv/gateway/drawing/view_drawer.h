@@ -56,13 +56,13 @@ class ViewDrawer {
   explicit ViewDrawer(const DrawingLimits& limits = {});
   ~ViewDrawer();
 
-  // A place among the viewers, for as long as it exists. kUnavailable, with a sentence, if there are
-  // too many; kInvalidArgument for an image that is too large.
+  // Reserves a place among the viewers for the lifetime of the result. kUnavailable, with a
+  // sentence, if there are too many; kInvalidArgument for an image that is too large.
   class Seat;
   base::Result<std::shared_ptr<Seat>> Take(const ViewRequest& request);
 
-  // Says what the world of that name is. `identity` is the object behind it: another one replaces
-  // the source.
+  // Sets the source of the world with that name. `identity` is the simulation or replay itself. If
+  // it differs from the previous one, the source is replaced.
   void SetSource(const std::string& world, const std::weak_ptr<const void>& identity,
                  const MakeSource& make);
 
@@ -78,7 +78,7 @@ class ViewDrawer {
   struct World {
     std::weak_ptr<const void> identity;
     std::shared_ptr<ViewSource> source;
-    std::shared_ptr<const world::Snapshot> snapshot;  // the newest that was looked at
+    std::shared_ptr<const world::Snapshot> snapshot;  // the newest one that was checked
     std::uint64_t number = 0;                         // of that
     Clock::time_point used{};
   };
@@ -95,7 +95,7 @@ class ViewDrawer {
 
   void Run();
   void DropUnused();
-  // Answers what is due in one world. Whether anything was.
+  // Answers the requests of one world that are due. Returns whether there were any.
   bool Serve(const std::string& name);
   std::vector<Pending> TakeDue(const std::string& name, std::uint64_t number);
   void Draw(const ViewInstant& instant, std::uint64_t number, std::vector<Pending> due);

@@ -61,7 +61,7 @@ class FakeSource final : public ViewSource {
   std::shared_ptr<const world::Snapshot> snapshot_ GSV_GUARDED_BY(mutex_);
 };
 
-// The source of a ViewDrawer, which a test keeps.
+// The source of a ViewDrawer; the test owns it.
 class Borrowed final : public ViewSource {
  public:
   explicit Borrowed(std::shared_ptr<FakeSource> source) : source_(std::move(source)) {}
@@ -118,7 +118,7 @@ TEST_F(ViewDrawerTest, DrawsAtOnceAndThenOnlyOnChange) {
   ASSERT_TRUE(first) << first.error().Sentence();
   EXPECT_EQ(first->bytes.view().substr(0, 2), "\xff\xd8");
   EXPECT_EQ(first->time, 1s);
-  // Nothing has changed: the same image after the timeout.
+  // Without a change, the same image arrives after the timeout.
   const auto same = Get(Ask(Request(), first->number, 1ms));
   ASSERT_TRUE(same);
   EXPECT_EQ(same->number, first->number);

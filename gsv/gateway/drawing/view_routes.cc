@@ -16,7 +16,7 @@ using base::ErrorCode;
 using base::Fail;
 using Clock = ViewDrawer::Clock;
 
-// Without a change, a client gets an answer after this time.
+// The time after which a client gets an answer even if nothing has changed.
 constexpr std::chrono::milliseconds kTimeout{1000}, kStreamTimeout{5000};
 constexpr const char* kStreamType = "multipart/x-mixed-replace; boundary=gsv-image";
 constexpr const char* kBoundary = "--gsv-image\r\n";

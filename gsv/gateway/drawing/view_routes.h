@@ -15,7 +15,7 @@
 
 namespace gsv::gateway::drawing {
 
-// The world that a request wants to see.
+// The world that a request refers to.
 struct ViewedWorld {
   std::string name;                    // unique in this server
   std::weak_ptr<const void> identity;  // see ViewDrawer::SetSource()

@@ -39,7 +39,7 @@ class RawClient {
   void Send(const std::string& bytes) {
     EXPECT_EQ(write(socket_, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
   }
-  // Empty at the end.
+  // Returns an empty text at the end of the stream.
   std::string ReceiveSome() {
     std::string bytes(4096, '\0');
     const ssize_t size = read(socket_, bytes.data(), bytes.size());
@@ -94,7 +94,7 @@ TEST_F(ViewRoutesTest, DrawsTheSimulation) {
   EXPECT_EQ(image.headers.at("gsv-time"), "0.000000");
   EXPECT_EQ(SizeOf(image.body), std::pair(128, 96));
   EXPECT_EQ(Get("/view.png?size=64x48&simulation=arena").body.substr(1, 3), "PNG");
-  // The simulation stands still: there is nothing after this image.
+  // The simulation is paused, so no other image follows.
   const std::string number =
       image.headers.at("etag").substr(1, image.headers.at("etag").size() - 2);
   const HttpReply same = Get("/view.jpg?size=64x48&after=" + number);
@@ -146,7 +146,7 @@ TEST_F(ViewRoutesTest, NeedsATokenWhichMayBeInTheQuery) {
   EXPECT_EQ(Get("/view.mjpeg?size=64x48").status, 401);
   EXPECT_EQ(Get("/view.jpg?size=64x48&token=another-token-of-letters").status, 403);
   EXPECT_EQ(Get("/view.jpg?size=64x48&token=a-token-of-sixteen-letters").status, 200);
-  // Other addresses do not take it from there.
+  // Other addresses do not accept the token in the query.
   EXPECT_EQ(Get("/api/simulations?token=a-token-of-sixteen-letters").status, 401);
 }
 

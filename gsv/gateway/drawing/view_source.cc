@@ -57,7 +57,8 @@ class LiveSource final : public ViewSource {
   }
 
  private:
-  // Of the first snapshot of a layout, so that the view does not move with the bodies.
+  // The default view of the first snapshot of a layout, so that the view does not move with the
+  // bodies.
   std::vector<geometry::Vector3> Corners(const world::Snapshot& snapshot) {
     if (layout_ != snapshot.layout) {
       corners_ = view::CornersToShow(snapshot);

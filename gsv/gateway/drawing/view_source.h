@@ -14,7 +14,7 @@
 namespace gsv::gateway::drawing {
 
 struct ViewInstant {
-  // Another object if anything has changed.
+  // The current snapshot. It is another object if anything has changed.
   std::shared_ptr<const world::Snapshot> snapshot;
   view::SceneLookup lookup;  // valid until the next Now()
   base::SimTime time{};

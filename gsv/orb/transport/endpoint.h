@@ -1,4 +1,5 @@
-// Where an ORB listens: at a TCP port, with or without TLS, or at a socket in the file system.
+// An endpoint at which an ORB listens: a TCP port, with or without TLS, or a socket in the file
+// system.
 #pragma once
 
 #include <algorithm>

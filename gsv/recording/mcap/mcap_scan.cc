@@ -10,7 +10,7 @@ namespace {
 
 // Messages outside of chunks are grouped in blocks of about this size.
 constexpr std::uint64_t kLooseBlockSize = std::uint64_t{4} << 20;
-// So many bytes of an attachment include its name and media type.
+// The first bytes of an attachment that are read: enough for its name and media type.
 constexpr std::uint64_t kAttachmentHeadSize = std::uint64_t{64} << 10;
 constexpr std::size_t kMaxProblems = 100;
 

@@ -333,8 +333,8 @@ class SurfaceNormals {
            truth_.visual[other] == truth_.visual[pixel];
   }
 
-  // How much three points deviate from a plane: those of pixel (x, y) and of the next two, each
-  // (dx, dy) further. Infinite if one of them has no depth.
+  // The deviation of three points from a straight line: those of the pixel (x, y) and of the next
+  // two in the direction (dx, dy). Infinite if one of them has no depth.
   double Bend(int x, int y, int dx, int dy) const {
     const std::size_t pixel = Index(x, y);
     if (!IsOfVisualAt(pixel, x + 2 * dx, y + 2 * dy)) {

@@ -17,8 +17,8 @@ struct Drawn {
   int Red(int x, int y) const { return smooth.pixels[3 * (y * kSide + x)]; }
 };
 
-// An image that is white where `inside` holds at a pixel's centre, and black elsewhere. Their
-// surfaces are 1 and 2.
+// An image whose pixels are white if `inside` is true at their centre, else black. The surface
+// numbers are 1 for white and 2 for black.
 template <typename Inside>
 Drawn Draw(Inside inside) {
   Drawn drawn;

@@ -191,8 +191,8 @@ void SoundCone::AddSecondReflections(const Sampling& sampling, std::span<const R
     const double corner = once * Mirrored(std::acos(std::clamp(-Dot(home, out), -1.0, 1.0)) / 2);
     const double first = hits[place]->distance, second = seconds[i]->distance;
     const double whole = first + second;
-    // From a corner the sound returns beside its own path. Its last leg is the way from the second
-    // surface. Half of all legs is the distance of the corner's edge.
+    // From a corner, the sound returns beside its own path. The last leg goes from the second
+    // surface to the sensor. Half of the total path is the distance of the corner's edge.
     const double by_corner = first + second * (1 + Dot(out, onward)) / 2;
     const double strength = beams_[place].strength * std::max(same_way, corner);
     const double distance = same_way >= corner ? whole : by_corner;

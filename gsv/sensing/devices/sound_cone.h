@@ -38,9 +38,10 @@ struct SoundSettings {
   double frequency = 49.4e3;  // Hz
   double threshold = 0.02;    // smallest detected echo; the strongest is 1 from straight ahead,
                               // 0.0175 from the side lobes
-  // Rad: largest deviation from the right angle at which a smooth surface reflects.
+  // Rad: the largest angle between the sound and a smooth surface's normal at which an echo
+  // returns.
   double specular_width = 0.035;
-  double roughness = 0;   // fraction of the sound that returns from everywhere
+  double roughness = 0;   // fraction of the sound that is scattered in all directions
   double gain_range = 0;  // m; 0: the amplifier compensates any distance
   bool target_size = false;
   bool second_reflections = false;

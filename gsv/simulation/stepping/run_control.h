@@ -78,7 +78,7 @@ class RunControl {
   const std::string& final_hash() const { return final_hash_; }
   void SetFinalHash(std::string hash) { final_hash_ = std::move(hash); }
 
-  // How often the run has started or left a pause.
+  // The number of times that the run has started or resumed.
   std::uint64_t run() const { return run_; }
   // The moment of an edit that is made now. `all_wait` is true if no agent is in its turn.
   Edit::Moment MomentOfEdit(bool all_wait) const;
