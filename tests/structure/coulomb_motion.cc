@@ -201,22 +201,19 @@ std::vector<int> WideLinks(const std::vector<Support>& supports) {
   return wide;
 }
 
-// Moves a link's load to its points to the left of its middle, or to the right.
-void MoveLoad(std::vector<Support>& supports, int link, bool to_left) {
-  double load = 0, mean = 0, points = 0, chosen = 0;
+// Returns the supports without those of one side of a link: the left ones or the right ones.
+std::vector<Support> WithoutEdge(const std::vector<Support>& supports, int link, bool left) {
+  double sum = 0, points = 0;
   for (const Support& s : supports) {
     if (s.link != link) continue;
-    load += s.load;
-    mean += s.point.y;
+    sum += s.point.y;
     ++points;
   }
-  const auto is_chosen = [&](const Support& s) {
-    return s.link == link && (s.point.y > mean / points) == to_left;
-  };
-  for (const Support& s : supports) chosen += is_chosen(s) ? 1 : 0;
-  for (Support& s : supports) {
-    if (s.link == link) s.load = is_chosen(s) ? load / chosen : 0;
+  std::vector<Support> kept;
+  for (const Support& s : supports) {
+    if (s.link != link || (s.point.y > sum / points) != left) kept.push_back(s);
   }
+  return kept;
 }
 
 // Minimizes the power by iterated least squares, with one over the slip as the weight (Weiszfeld's
@@ -282,7 +279,10 @@ std::optional<CoulombRange> CoulombMotion(const dynamics::testing::TestWorld& wo
   const std::vector<int> wide = WideLinks(supports);
   for (unsigned lefts = 0; lefts < 1u << wide.size(); ++lefts) {
     std::vector<Support> edges = supports;
-    for (std::size_t i = 0; i < wide.size(); ++i) MoveLoad(edges, wide[i], (lefts >> i & 1) != 0);
+    for (std::size_t i = 0; i < wide.size(); ++i) {
+      edges = WithoutEdge(edges, wide[i], (lefts >> i & 1) == 0);
+    }
+    ShareWeight(edges, robot.CentreOfMass());
     Extend(range, LeastPower(edges));
   }
   if (!std::isfinite(both.x + both.y + both.turn)) return std::nullopt;

@@ -13,6 +13,9 @@
 //         way. The edge with more load rolls, the other slips. Two wheels at a distance B thus turn a
 //         robot at B / (B + w) to B / (B - w) of the rate of thin wheels: outer or inner edges roll.
 //         If the left edges roll, or the right ones, its middle moves by w / 2 times the rate.
+//         The loads follow the edges: if the left wheels stand on their outer edges and the right
+//         wheels on their inner ones, moments about the centre of mass are in balance only if the
+//         right wheels carry more. Four wheels then turn the robot about a point on their side.
 // Balls   a ball in a ball joint rolls in each direction: it carries load without friction.
 // Frame   the heading frame H: at the model's origin, x along its heading, z up.
 #pragma once
@@ -29,8 +32,8 @@ struct GroundMotion {
   double x = 0, y = 0, turn = 0;
 };
 
-// The motion by Coulomb's law if both edges of each wheel carry its load, and the minimum and the
-// maximum of each part of it over all choices of one edge of each wheel.
+// The motion by Coulomb's law if both edges of each wheel carry load, and the minimum and the maximum
+// of each part of it over all choices of one edge of each wheel. Each choice has its own loads.
 struct CoulombRange {
   GroundMotion both, min, max;
 };

@@ -163,10 +163,7 @@ void ExpectCoulombsLaw(const Run& run, const world::DriveCommand& command,
                        const model::Model& model, const std::string& where) {
   const double track = model.drive->wheel_separation;
   const double turn = std::abs(command.angular), speed = std::abs(command.linear);
-  // Four stiff wheels are statically indeterminate: one diagonal may carry more than the law's springs
-  // give it.
-  const double looseness = model.drive->left_wheels.size() > 1 ? 2 : 1;
-  const double way = looseness * kCoulomb * (speed + turn * track / 2);
+  const double way = kCoulomb * (speed + turn * track / 2);
   const double angle = kCoulomb * (turn + 0.1 * speed);
   ASSERT_TRUE(run.by_law) << where << ": it is off the ground";
   ExpectInRange(run.is.motion.x, *run.by_law, &GroundMotion::x, way, where + ", x in m/s");
