@@ -188,6 +188,53 @@ std::string Carrier(const std::string& pose, const std::string& sensor) {
          "name='gz::sim::systems::VelocityControl'/></model>";
 }
 
+TEST_F(GazeboValues, VelocityControlMovesARigidBaseAsCommanded) {
+  // A box without wheels stands on the ground with a friction of 1. It must neither stand still nor
+  // tip.
+  Start(kGround + Carrier("0 0 0 0 0 1", "type='imu'>"));
+  ASSERT_TRUE(simulation_->SetBehaviour(
+      "robot", std::make_shared<ThreadBehaviour>([](Agent& agent, ClockId clock) {
+        (void)agent.Command({0.3, 0, 0});
+        if (!SleepFor(agent, clock, 4s)) return;
+        (void)agent.Command({0, 0, 0.5});
+        (void)SleepFor(agent, clock, 4s);
+      })));
+  RunUntil(500ms);
+  const Pose start = At("robot");
+  RunUntil(3500ms);
+  const Pose ahead = Inverse(start) * At("robot");
+  EXPECT_WITHIN(ahead.position.x, 0.3 * 3, 1e-3, "m");
+  EXPECT_WITHIN(ahead.position.y, 0, 1e-3, "m");
+  EXPECT_WITHIN(ahead.position.z, 0, 1e-3, "m");
+  RunUntil(4500ms);
+  const double yaw = geometry::Yaw(At("robot").orientation);
+  RunUntil(7500ms);
+  EXPECT_WITHIN(geometry::Yaw(At("robot").orientation) - yaw, 0.5 * 3, 1e-3, "rad");
+  const Vector3 up = At("robot").orientation * Vector3{0, 0, 1};
+  EXPECT_WITHIN(std::acos(std::min(up.z, 1.0)), 0, 1e-3, "rad");
+}
+
+TEST_F(GazeboValues, IncludedActorWalksItsTrajectory) {
+  std::filesystem::create_directories(folder_.path() / "walker");
+  folder_.Write("walker/model.config",
+                "<model><name>walker</name><sdf version='1.6'>model.sdf</sdf></model>");
+  folder_.Write(
+      "walker/model.sdf",
+      "<sdf version='1.6'><actor name='walker'><script><loop>true</loop><trajectory id='0' "
+      "type='walk'><waypoint><time>0</time><pose>0 0 1 0 0 0</pose></waypoint><waypoint>"
+      "<time>2</time><pose>2 0 1 0 0 0</pose></waypoint></trajectory></script></actor>"
+      "</sdf>");
+  Start(std::string(kGround) +
+        "<include><uri>model://walker</uri><name>guide</name><pose>0 5 0 0 0 0</pose></include>");
+  for (const SimTime time : {SimTime(500ms), SimTime(1s), SimTime(1500ms), SimTime(2500ms)}) {
+    RunUntil(time);
+    // Gazebo's spline: at each end, the tangent is half of the way to the other waypoint.
+    const double u = std::fmod(base::ToSeconds(time), 2) / 2;  // it loops
+    EXPECT_WITHIN(At("guide").position.x, u + 3 * u * u - 2 * u * u * u, 1e-6, "m") << u;
+    EXPECT_WITHIN(At("guide").position.y, 5, 1e-6, "m");
+  }
+}
+
 TEST_F(GazeboValues, AltimeterReadsTheHeightOfAFallingBody) {
   Start(kGround + Carrier("4 0 3 0 0 3.14", "type='altimeter'>"));
   RunUntil(100ms);
