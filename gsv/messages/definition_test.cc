@@ -75,6 +75,7 @@ TEST(Definition, ReadsEveryTypeOfGsv) {
       Encode(message, bytes);
       const auto decoded = definition.Decode(bytes);
       ASSERT_TRUE(decoded) << schema.name << ": " << decoded.error().Sentence();
+      if (seed > 1) continue;  // the following takes a time that is quadratic in the size
       for (std::size_t size = 0; size < bytes.size(); ++size) {
         EXPECT_FALSE(definition.Decode(std::span(bytes).first(size))) << schema.name << " " << size;
       }

@@ -7,6 +7,7 @@
 
 #include "apps/gsv/bench/bench.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "apps/gsv/scenes/rigid_scenario.h"
 #include "gsv/base/thread_team.h"
 #include "gsv/dynamics/motion/solver_count.h"
@@ -89,7 +90,7 @@ void AddRigidBench(const CommandLine& bench) {
   command->add_option("--scene", arguments->scene, "scene")
       ->type_name("rovers|boxes|terrain|arms")
       ->capture_default_str()
-      ->check(CLI::IsMember(kScenes));
+      ->check(OneOf({"rovers", "boxes", "terrain", "arms"}));
   command->add_option("--bodies", arguments->bodies, "number of rovers, boxes or arms")
       ->type_name("N")
       ->capture_default_str()

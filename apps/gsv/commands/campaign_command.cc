@@ -10,6 +10,7 @@
 #include "apps/gsv/campaigns/campaign_engines.h"
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "gsv/campaign/queue_cost.h"
 #include "gsv/campaign/report.h"
 
@@ -203,7 +204,7 @@ CLI::Option* AddEngineOptions(CLI::App* run, const Arguments& arguments) {
       ->group("Job queues");
   return run
       ->add_option("--engine", engine.name, help + " (default: the campaign's engine, else local)")
-      ->check(CLI::IsMember(names));
+      ->check(OneOf(names));
 }
 
 void AddRunOptions(CLI::App* run, const Arguments& arguments, const CommandLine& line) {

@@ -9,6 +9,7 @@
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "gsv/base/atomic_file.h"
 #include "gsv/formats/sdf_reader.h"
 #include "gsv/reality/comparison.h"
@@ -164,7 +165,7 @@ std::shared_ptr<CompareArguments> AddOptions(CLI::App& command) {
                   fmt::format("format of the log: {} (default: guessed)",
                               fmt::join(reality::LogFormats(), ", ")))
       ->type_name("FORMAT")
-      ->check(CLI::IsMember(reality::LogFormats()));
+      ->check(OneOf(reality::LogFormats()));
   command
       .add_option("--world", arguments->world,
                   "world in which the robot drove (default: fitted to half of the log)")

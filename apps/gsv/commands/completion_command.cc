@@ -13,6 +13,7 @@
 
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 
 namespace gsv::app {
 namespace {
@@ -223,7 +224,7 @@ void AddCompletionCommand(const CommandLine& line) {
                    "shell\nThe packages install these scripts. Otherwise: source <(gsv completion "
                    "bash)")
       ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}))
+      ->check(OneOf({"bash", "zsh", "fish"}))
       ->type_name("bash|zsh|fish");
   command->callback([shell, line] {
     std::vector<CompletedCommand> commands;

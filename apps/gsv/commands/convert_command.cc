@@ -5,6 +5,7 @@
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "apps/gsv/serving/limit_option.h"
 #include "gsv/base/atomic_file.h"
 #include "gsv/formats/sdf_reader.h"
@@ -76,7 +77,7 @@ void AddConvertCommand(const CommandLine& line) {
       ->type_name("MODEL")
       ->required();
   command->add_option("--to", arguments->format, "format to write")
-      ->check(CLI::IsMember({"urdf"}))
+      ->check(OneOf({"urdf"}))
       ->type_name("urdf")
       ->required();
   command->add_option("-o,--output", arguments->output, "file to write (default: standard output)")

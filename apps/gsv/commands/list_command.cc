@@ -7,6 +7,7 @@
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "apps/gsv/serving/behaviour_launcher.h"
 #include "apps/gsv/simulations/sensor_types.h"
 #include "gsv/formats/files/resource_finder.h"
@@ -65,7 +66,7 @@ void AddListCommand(const CommandLine& line) {
           "kind of names to list\nModels are those of gsv and of the model path. Behaviours are "
           "the programs that gsv can start; `gsv offers` lists running ones.")
       ->required()
-      ->check(CLI::IsMember({"worlds", "models", "behaviours", "sensors"}))
+      ->check(OneOf({"worlds", "models", "behaviours", "sensors"}))
       ->type_name("worlds|models|behaviours|sensors");
   command->add_option("--model-path", arguments->model_path, "folder to search for models")
       ->type_name("FOLDER");

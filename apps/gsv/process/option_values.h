@@ -1,7 +1,9 @@
-// Sets how many arguments the options of the command line take.
+// Checks on the values of options.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
 
 namespace gsv::app {
 
@@ -9,5 +11,8 @@ namespace gsv::app {
 // argument may follow it, as in `--drive NAME=diff FILE`. Otherwise CLI11 takes all following words
 // as values of an option that may be repeated.
 void TakeOneValuePerOption(CLI::App& command);
+
+// Accepts only these words. The error lists them, and suggests one for a misspelt word.
+CLI::Validator OneOf(std::vector<std::string> words);
 
 }  // namespace gsv::app

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/gsv/machine/installation.h"
+#include "apps/gsv/process/option_values.h"
 #include "apps/gsv/serving/limit_option.h"
 #include "apps/gsv/simulations/robot_drives.h"
 #include "apps/gsv/simulations/sensor_types.h"
@@ -93,7 +94,7 @@ void AddBehaviourOptions(CLI::App& command, RunArguments& a) {
   command
       .add_option("--on-failure", a.mode_on_failure,
                   "after a crash or hang: continue, or fail the run")
-      ->check(CLI::IsMember({"go_on", "fail"}))
+      ->check(OneOf({"go_on", "fail"}))
       ->default_str("go_on")
       ->type_name("go_on|fail")
       ->group(kGroup);
@@ -168,7 +169,7 @@ void AddRecordOptions(CLI::App& command, RunArguments& a) {
       ->type_name("KIND=HZ,...")
       ->group(kGroup);
   command.add_option("--record-pictures", a.record_images, "encoding of recorded images")
-      ->check(CLI::IsMember({"jpeg", "png"}))
+      ->check(OneOf({"jpeg", "png"}))
       ->default_str("jpeg")
       ->type_name("jpeg|png")
       ->group(kGroup);
