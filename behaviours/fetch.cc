@@ -117,5 +117,6 @@ BehaviourFactory Configure(CLI::App& app) {
 
 }  // namespace
 
-GSV_BEHAVIOUR_MODULE((gsv::BehaviourModule{
-    gsv::kBehaviourInterface, "fetch", "Takes what is before its gripper to a point.", Configure}))
+GSV_BEHAVIOUR_MODULE((gsv::BehaviourModule{gsv::kBehaviourInterface, "fetch",
+                                           "Carries the object in front of its gripper to a point.",
+                                           Configure}))

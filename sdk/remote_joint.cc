@@ -12,7 +12,8 @@ JointTraits FromIdl(const sba::JointTraits& traits) {
 
 sba::JointedHardware_var Jointed(sba::Hardware_ptr hardware) {
   const sba::JointedHardware_var jointed = sba::JointedHardware::_narrow(hardware);
-  if (CORBA::is_nil(jointed)) throw sba::Refused("this hardware has no joints that take commands");
+  if (CORBA::is_nil(jointed))
+    throw sba::Refused("this hardware has no joints that accept commands");
   return jointed;
 }
 

@@ -113,7 +113,7 @@ class RemotePort final : public SensorPort {
   base::Status CommandDevice(const std::vector<double>& values, const std::string& word) override {
     return robot_.Ask([&] {
       const sba::Actuator_var actuator = sba::Actuator::_narrow(sensor_);
-      if (CORBA::is_nil(actuator)) throw sba::Refused("a sensor takes no commands");
+      if (CORBA::is_nil(actuator)) throw sba::Refused("a sensor accepts no commands");
       sba::Doubles numbers(static_cast<CORBA::ULong>(values.size()));
       numbers.length(numbers.maximum());
       std::copy(values.begin(), values.end(), numbers.get_buffer());

@@ -54,10 +54,9 @@ std::optional<QueueCost> CostOf(const std::vector<Attempt>& attempts) {
 std::string Sentence(const QueueCost& cost) {
   const auto tasks = static_cast<double>(cost.tasks);
   return fmt::format(
-      "queue: {} tasks ({} requeued) on {} nodes, {} runs at once at most; they waited for {:.1f} "
-      "s "
-      "({:.1f} s the longest); runs took {:.1f} s in all, their tasks {:.2f} s each beside them; "
-      "between tasks, slots were empty for {:.2f} s a task; {:.1f} s from first submission to last "
+      "queue: {} tasks ({} requeued) on {} nodes, at most {} runs at once; waiting time {:.1f} s "
+      "(longest {:.1f} s); runs took {:.1f} s in total, and each task {:.2f} s more; slots were "
+      "idle for {:.2f} s per task; {:.1f} s from first submission to last "
       "end",
       cost.tasks, cost.requeued, cost.nodes, cost.slots, cost.mean_wait, cost.max_wait,
       cost.run_seconds, (cost.task_seconds - cost.run_seconds) / tasks, cost.idle_seconds / tasks,

@@ -88,8 +88,8 @@ tl::unexpected<base::Error> Results::Refused(const base::Error& error) const {
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
       message +=
-          ": it is torn, or no results; move it away, and the same command makes it again, of the "
-          "runs in the folder beside it that ends in .runs where there is one";
+          ": the file is damaged, or not a results file. Move it away and repeat the command, "
+          "which makes it again from the runs in the folder NAME.runs, if there is one";
       break;
     default:
       break;

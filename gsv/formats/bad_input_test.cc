@@ -51,7 +51,7 @@ TEST_F(BadInputTest, RefusesFilesThatAreNotWorlds) {
   EXPECT_THAT(ErrorOf("<sdf version='1.9'>\n<world name='w'>\n<model>").Sentence(),
               HasSubstr("w.sdf:3:1: the XML is malformed: <model> is not closed. Add </model>"));
   EXPECT_THAT(ErrorOf("<html/>").Sentence(), HasSubstr("found <html>"));
-  EXPECT_THAT(ErrorOf("<sdf version='1.9'/>").Sentence(), HasSubstr("no model inside"));
+  EXPECT_THAT(ErrorOf("<sdf version='1.9'/>").Sentence(), HasSubstr("contains no model"));
   EXPECT_THAT(ErrorOf("<sdf><world name='w'/></sdf>").Sentence(), HasSubstr("needs a version"));
   EXPECT_THAT(ErrorOf("<sdf version='1.2'><world name='w'/></sdf>").Sentence(),
               HasSubstr("too old"));
@@ -134,7 +134,7 @@ TEST_F(BadInputTest, ReportsShapesWithoutSize) {
 TEST_F(BadInputTest, ReportsAWorldThatIsGivenAsARobot) {
   const auto file = folder_.Write("w.sdf", "<sdf version='1.9'><world name='w'/></sdf>");
   EXPECT_THAT(ModelLibrary().ReadModel(file.string(), problems_).error().Sentence(),
-              HasSubstr("holds a world"));
+              HasSubstr("contains a world"));
 }
 
 }  // namespace

@@ -142,7 +142,7 @@ TEST_F(HostileInputTest, GlbWithChunksBeyondItsEndIsRejected) {
   for (const auto& [more_json, more_data] : {std::pair{2'990'000'000u, 0u}, {0u, 2'990'000'000u}}) {
     const auto mesh = Mesh("long.glb", Glb(TriangleJson(), TriangleData(), more_json, more_data));
     ASSERT_FALSE(mesh.has_value());
-    EXPECT_THAT(mesh.error().message, HasSubstr("claims more bytes than the file holds"));
+    EXPECT_THAT(mesh.error().message, HasSubstr("declares more bytes than the file contains"));
   }
   for (const std::size_t length : {std::size_t{0}, std::size_t{12}, std::size_t{19}}) {
     EXPECT_FALSE(

@@ -118,7 +118,7 @@ class ModelLibrary::Reader {
     problems.insert(problems.end(), read.problems.begin(), read.problems.end());
     problems.insert(problems.end(), read.broken_rules.begin(), read.broken_rules.end());
     if (read.framed.model == nullptr) {
-      return Fail(ErrorCode::kBadModel, "the file holds a light, where a model is wanted",
+      return Fail(ErrorCode::kBadModel, "the file contains a light, but a model is required",
                   file.string());
     }
     return read.framed.model;

@@ -220,7 +220,7 @@ TEST_F(SdfRobotTest, GuessesADriveInsteadOfOneWithoutAWheelBase) {
   ASSERT_TRUE(model->drive.has_value());
   EXPECT_NE(model->drive->kind, DriveKind::kAckermann);
   ASSERT_FALSE(problems_.empty());
-  EXPECT_THAT(problems_[0].message, HasSubstr("it has no wheel base"));
+  EXPECT_THAT(problems_[0].message, HasSubstr("determine its wheel base"));
 }
 
 TEST_F(SdfRobotTest, ReadsRos2ControlWithItsInterfaces) {

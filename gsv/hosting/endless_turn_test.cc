@@ -99,8 +99,8 @@ TEST_P(EndlessTurn, FailsTheSimulationAndNamesTheBehaviour) {
   GetStuck();
   EXPECT_EQ(simulation_->status().failure,
             "robot_20 (endless on this process) has not returned from its turn within 300 ms; a "
-            "behaviour in process cannot be interrupted, so run it as a program of its own, "
-            "without --in-process");
+            "behaviour in process cannot be interrupted, so run it as a separate program, without "
+            "--in-process");
   EXPECT_EQ(StatusOf(*simulation_, "robot_20").phase, simulation::AgentPhase::kUnresponsive);
   EXPECT_NE(StatusOf(*simulation_, "robot_19").phase, simulation::AgentPhase::kUnresponsive);
   int events = 0;

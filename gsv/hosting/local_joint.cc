@@ -55,7 +55,7 @@ base::Result<std::unique_ptr<Joint>> MakeLocalJoint(LocalRobot& robot,
   const int joint = model::FindJoint(joints, name);
   if (joint < 0) {
     return base::Fail(base::ErrorCode::kNotFound,
-                      "there is no joint \"" + name + "\" that takes commands", robot.name());
+                      "there is no joint \"" + name + "\" that accepts commands", robot.name());
   }
   return std::make_unique<LocalJoint>(robot, joint,
                                       TraitsOf(joints[static_cast<std::size_t>(joint)]));

@@ -26,7 +26,8 @@ base::Result<const BehaviourModule*> LoadPlugin(const std::string& file) {
       reinterpret_cast<const BehaviourModule* (*)()>(dlsym(library, kBehaviourModuleSymbol));
   if (module == nullptr) {
     return base::Fail(base::ErrorCode::kBehaviour,
-                      "is no behaviour: it lacks GSV_BEHAVIOUR, see sdk/behaviour/module.h", file);
+                      "is not a behaviour: it lacks GSV_BEHAVIOUR, see sdk/behaviour/module.h",
+                      file);
   }
   const BehaviourModule* const found = module();
   if (found == nullptr || found->interface_version != kBehaviourInterface) {

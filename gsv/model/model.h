@@ -111,7 +111,7 @@ struct Joint {
 // "revolute", "prismatic", …
 const char* NameOf(JointKind kind);
 
-// The index of the joint of that name that takes commands, or -1.
+// The index of the joint of that name that accepts commands, or -1.
 int FindJoint(const std::vector<Joint>& joints, const std::string& name);
 
 // An initial command of a joint, from the model's own controllers.

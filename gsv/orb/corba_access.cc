@@ -42,9 +42,9 @@ CorbaAccess AccessFromEnvironment() {
 base::Status CheckListening(const CorbaAccess& access, const std::string& host) {
   if (IsLoopback(host) || access.certificate || access.is_insecure) return {};
   return base::Fail(base::ErrorCode::kInvalidArgument,
-                    "other machines can reach this address, and whoever does may call by CORBA: "
-                    "give a certificate (`gsv certificates make`; GSV_CORBA_CERTIFICATE), listen "
-                    "on 127.0.0.1, or say --insecure-corba (GSV_INSECURE_CORBA=1)",
+                    "other machines can reach this address and call this program by CORBA: use a "
+                    "certificate (`gsv certificates make`; GSV_CORBA_CERTIFICATE), listen on "
+                    "127.0.0.1, or allow it with --insecure-corba (GSV_INSECURE_CORBA=1)",
                     host.empty() ? "0.0.0.0" : host);
 }
 

@@ -34,8 +34,8 @@ std::string WhyNotConnected(const CORBA::SystemException& exception) {
   std::string tls_failure = TakeTlsFailure();
   const bool is_transient = CORBA::TRANSIENT::_downcast(&exception) != nullptr;
   if (is_transient && exception.minor() == omni::TRANSIENT_NoUsableProfile && SpeaksTls()) {
-    return "it takes no TLS, and is not on this machine: give it a certificate, or say "
-           "--insecure-corba (GSV_INSECURE_CORBA=1)";
+    return "it does not support TLS, and is not on this machine: start it with a certificate, or "
+           "allow this with --insecure-corba (GSV_INSECURE_CORBA=1)";
   }
   const bool is_about_connection =
       is_transient || CORBA::COMM_FAILURE::_downcast(&exception) != nullptr;
@@ -61,7 +61,7 @@ base::Error ToError(const CORBA::SystemException& exception, const std::string& 
     return {ErrorCode::kUnavailable, "the connection broke during the call", where};
   }
   if (CORBA::OBJECT_NOT_EXIST::_downcast(&exception) != nullptr) {
-    return {ErrorCode::kEnded, "the service is no longer there", where};
+    return {ErrorCode::kEnded, "the service no longer exists", where};
   }
   if (CORBA::MARSHAL::_downcast(&exception) != nullptr) {
     return {ErrorCode::kCorrupt, "the message was too large or did not decode", where};

@@ -133,7 +133,7 @@ base::Result<std::string> LocalAddressTowards(const std::string& host) {
   hints.ai_socktype = SOCK_DGRAM;
   addrinfo* found = nullptr;
   if (getaddrinfo(host.c_str(), "9", &hints, &found) != 0 || found == nullptr) {
-    return base::Fail(base::ErrorCode::kUnavailable, "there is no host of that name", host);
+    return base::Fail(base::ErrorCode::kUnavailable, "there is no host of this name", host);
   }
   const std::unique_ptr<addrinfo, void (*)(addrinfo*)> addresses(found, freeaddrinfo);
   // Connecting a datagram socket sends nothing; it only selects the route.

@@ -281,12 +281,11 @@ base::Result<Comparison> Compare(const Log& given, const CompareOptions& options
     if (auto ok = CompareRadio(log, options, result); !ok) return base::Fail(ok.error());
   }
   if (result.rows.empty()) {
-    return base::Fail(
-        base::ErrorCode::kInvalidArgument,
-        HasScans(log) ? "the log is too short: devices are judged by every other 4 s, and it has "
-                        "no scans there"
-                      : "the log has nothing to compare: it needs scans with poses, odometry or "
-                        "commands beside a reference, or radio ranges");
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      HasScans(log) ? "the log is too short: every second block of 4 s is used for "
+                                      "the comparison, and there are no scans in these blocks"
+                                    : "the log has nothing to compare: it needs scans with poses, "
+                                      "odometry or commands with a reference, or radio ranges");
   }
   return result;
 }

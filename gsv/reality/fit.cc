@@ -263,10 +263,9 @@ base::Result<std::vector<FittedDevice>> Fit(const Log& given, const CompareOptio
   }
   if (!log.radio.empty()) devices.push_back(FitRanging(log));
   if (devices.empty()) {
-    return base::Fail(
-        base::ErrorCode::kInvalidArgument,
-        "the log has nothing to fit a device to: it needs scans with poses, or odometry "
-        "or commands beside a reference, or radio ranges");
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "the log has nothing to fit a device to: it needs scans with poses, or "
+                      "odometry or commands with a reference, or radio ranges");
   }
   return devices;
 }

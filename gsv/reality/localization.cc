@@ -174,8 +174,7 @@ base::Result<std::vector<TimedPose>> Localize(const Log& log, const LikelihoodFi
                                               std::size_t stride) {
   constexpr double kLeastScore = 0.3;
   if (log.scans.empty() || !log.scans.front().base) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "the log has no scans with the odometry beside them");
+    return base::Fail(base::ErrorCode::kInvalidArgument, "the log has no scans with odometry");
   }
   std::optional<TimedPose> pose = start ? start : FindStart(log, field);
   std::vector<TimedPose> poses;

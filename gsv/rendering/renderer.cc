@@ -102,9 +102,10 @@ class Renderer::RenderThread {
     {
       const base::MutexLock lock(mutex_);
       if (queue_.size() >= options_.queue_capacity) {
-        return Fail(ErrorCode::kUnavailable,
-                    std::to_string(queue_.size()) +
-                        " requests for pictures wait already; ask less often or for smaller ones");
+        return Fail(
+            ErrorCode::kUnavailable,
+            std::to_string(queue_.size()) +
+                " requests for images are already waiting; ask less often or for smaller ones");
       }
       queue_.push_back(request);
     }
@@ -113,8 +114,8 @@ class Renderer::RenderThread {
     const base::MutexLock lock(mutex_);
     request->abandoned = true;
     return Fail(ErrorCode::kTimeout,
-                "no picture within " + std::to_string(timeout.count()) +
-                    " ms; the renderer is overloaded: ask less often or for smaller pictures");
+                "no image within " + std::to_string(timeout.count()) +
+                    " ms; the renderer is overloaded: ask less often or for smaller images");
   }
 
   void Run(std::promise<Result<std::string>>& started) {
@@ -134,9 +135,9 @@ class Renderer::RenderThread {
         renderer = std::make_unique<GlBatchRenderer>();
       }
     } else if (!raster::CanRasterise()) {
-      started.set_value(Fail(ErrorCode::kUnavailable,
-                             "this processor has no AVX2, which the rasteriser is made for; "
-                             "pictures need OpenGL here"));
+      started.set_value(Fail(
+          ErrorCode::kUnavailable,
+          "this processor lacks AVX2, which the rasteriser requires; images need OpenGL here"));
       return;
     }
     if (renderer == nullptr) {

@@ -143,7 +143,7 @@ TEST(Renderer, RefusesRequestsWhenItsQueueIsFull) {
   const auto image = renderer->Draw(TestScene().Snapshot(), CameraView{});
   ASSERT_FALSE(image);
   EXPECT_EQ(image.error().code, base::ErrorCode::kUnavailable);
-  EXPECT_NE(image.error().message.find("wait already"), std::string::npos);
+  EXPECT_NE(image.error().message.find("already waiting"), std::string::npos);
 }
 
 TEST(Renderer, NamesTheMissingLibraryAndThePackageToInstall) {

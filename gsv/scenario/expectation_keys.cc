@@ -103,7 +103,7 @@ class FormulaReader {
     formula.from = from.value_or(0);
     formula.by = by;
     if (by && *by < formula.from) {
-      mapping.AddProblem("by", "by lies before from, so that it holds whatever happens, or never");
+      mapping.AddProblem("by", "'by' is before 'from', so the expectation is always or never true");
     }
   }
 
@@ -401,7 +401,7 @@ std::vector<Expectation> ReadExpectations(YamlMapping& scenario, double duration
     expectations.push_back(std::move(expectation));
   });
   if (!expectations.empty() && duration == 0) {
-    scenario.AddProblem("expect", "what is expected needs an end by which it is judged: duration");
+    scenario.AddProblem("expect", "expectations need an end of the run: set duration");
   }
   return expectations;
 }

@@ -94,7 +94,7 @@ TEST(TestKeys, ErrorsInFaultsAreReportedWithTheirPlace) {
                      "  - {at: 1, joint: gate/hinge}\n"
                      "  - {at: -1, motor: a, fails: error}\n"),
       ElementsAre(
-          "t.yaml:2:5: it says when: at is needed, in seconds",
+          "t.yaml:2:5: the fault needs a time: set at, in seconds",
           "t.yaml:3:21: sensor must be as in ROBOT/sensor",
           "t.yaml:4:24: behaviour must be one name, found \"scout/front\"",
           "t.yaml:5:5: a fault is about one of sensor, behaviour, motor, move and joint",
@@ -137,8 +137,7 @@ TEST(TestKeys, ErrorsInExpectationsAreReportedWithTheirPlace) {
                   "t.yaml:13:19: of must be a sensor, as in scout/front",
                   "t.yaml:13:32: take must be min, max or mean, found \"median\""));
   EXPECT_THAT(ProblemsInKeys("expect: [{ended: a}]"),
-              ElementsAre("t.yaml:1:9: what is expected needs an end by which it is judged: "
-                          "duration"));
+              ElementsAre("t.yaml:1:9: expectations need an end of the run: set duration"));
 }
 
 TEST(TestKeys, AtMostAThousandFaultsAndExpectationsAreAccepted) {

@@ -23,7 +23,7 @@ void ReadPlace(YamlMapping& mapping, Fault& fault) {
   const auto place = ReadPlaceKeys(mapping);
   if (place) fault.place = *place;
   if (!place && !mapping.Has("x") && !mapping.Has("y")) {
-    mapping.AddProblem("x", "it says where to: x and y are needed");
+    mapping.AddProblem("x", "the fault needs a position: set x and y");
   }
 }
 
@@ -49,7 +49,7 @@ Fault ReadFault(YamlMapping& mapping) {
   fault.source.text = mapping.Source();
   fault.at = mapping.Number("at", 0, kMaxDuration).value_or(0);
   if (mapping.is_mapping() && !mapping.Has("at")) {
-    mapping.AddProblem("at", "it says when: at is needed, in seconds");
+    mapping.AddProblem("at", "the fault needs a time: set at, in seconds");
   }
   std::optional<Subject> subject;
   int subjects = 0;

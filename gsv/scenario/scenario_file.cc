@@ -102,15 +102,15 @@ base::Result<Scenario> ParseScenario(const std::string& text, const std::string&
     return refuse("the text is not UTF-8", file + ":" + std::to_string(*line));
   }
   if (const auto line = LineWithControlCharacter(text)) {
-    return refuse("the text holds a control character", file + ":" + std::to_string(*line));
+    return refuse("the text contains a control character", file + ":" + std::to_string(*line));
   }
   const YamlPlace place(YamlPlace::Naming::kLines, file, problems);
   try {
     const YAML::Node document = YAML::Load(text);
     if (const auto second = SecondDocument(text)) {
-      place.AddProblem(*second, "", "a file holds one scenario; this is a second one");
+      place.AddProblem(*second, "", "a file may contain one scenario; this is a second one");
     } else if (document.IsNull()) {
-      return refuse("it is empty; a scenario is a mapping with keys such as world and robots",
+      return refuse("the file is empty; a scenario is a mapping with keys such as world and robots",
                     file);
     }
     Scenario scenario = ReadScenarioKeys(document, place);
@@ -122,7 +122,7 @@ base::Result<Scenario> ParseScenario(const std::string& text, const std::string&
     }
     return scenario;
   } catch (const YAML::Exception& error) {
-    return refuse("it is no YAML: " + error.msg, place.Of(error.mark, ""));
+    return refuse("this is not valid YAML: " + error.msg, place.Of(error.mark, ""));
   }
 }
 

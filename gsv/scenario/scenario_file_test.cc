@@ -175,9 +175,8 @@ TEST(ScenarioFile, EachErrorHasLineAndColumn) {
                   "room.yaml:5:9: factor must be a number from 1e-06 to 1e+06, found \"0\"",
                   "room.yaml:7:5: a place needs both x and y",
                   "room.yaml:8:30: y must be a number from -1e+06 to 1e+06, found \"far\"",
-                  "room.yaml:9:5: a robot needs a model, or the name of one that stands in the "
-                  "world's file",
-                  "room.yaml:10:5: a robot without a model stands in the world's file, which says "
+                  "room.yaml:9:5: a robot needs a model, or the name of a robot in the world file",
+                  "room.yaml:10:5: a robot without a model is in the world file, which defines "
                   "where it starts and how it moves",
                   "room.yaml:11:5: expected a mapping (key: value), found \"pebble\"",
                   "room.yaml:13:5: an avatar needs a model",
@@ -200,9 +199,9 @@ TEST(ScenarioFile, ReportsErrorsOfPedestrians) {
 
 TEST(ScenarioFile, StepOfZeroSelectsTheWorldsStep) {
   EXPECT_EQ(Parsed("step: 0").step, std::nullopt);
-  EXPECT_THAT(ProblemsIn("step: 1e-9"),
-              ElementsAre("room.yaml:1:7: a step takes 1 microsecond at least, or 0 for the "
-                          "world's"));
+  EXPECT_THAT(
+      ProblemsIn("step: 1e-9"),
+      ElementsAre("room.yaml:1:7: a step is at least 1 microsecond, or 0 for the world's step"));
 }
 
 TEST(ScenarioFile, NumberInQuotesIsAText) {
@@ -232,14 +231,15 @@ TEST(ScenarioFile, ABehaviourIsChosenByNameOrByConstraint) {
 TEST(ScenarioFile, AFileThatIsNotAScenarioIsRefused) {
   EXPECT_THAT(ProblemsIn(""), ElementsAre(HasSubstr("room.yaml: it is empty")));
   EXPECT_THAT(ProblemsIn("world: a\nrobots: ]\n"),
-              ElementsAre("room.yaml:2:9: it is no YAML: illegal flow end"));
+              ElementsAre("room.yaml:2:9: this is not valid YAML: illegal flow end"));
   EXPECT_THAT(ProblemsIn("a text"),
               ElementsAre("room.yaml:1:1: expected a mapping (key: value), found \"a text\""));
   EXPECT_THAT(ProblemsIn("world: a\n---\nworld: b\n"),
-              ElementsAre("room.yaml:2:1: a file holds one scenario; this is a second one"));
+              ElementsAre("room.yaml:2:1: a file may contain one scenario; this is a second one"));
   EXPECT_THAT(ProblemsIn(std::string(kMaxScenarioBytes + 1, ' ')),
               ElementsAre(HasSubstr("at most 4194304 bytes")));
-  EXPECT_THAT(ProblemsIn(std::string(100'000, '[')), ElementsAre(HasSubstr("it is no YAML")));
+  EXPECT_THAT(ProblemsIn(std::string(100'000, '[')),
+              ElementsAre(HasSubstr("this is not valid YAML")));
 }
 
 TEST(ScenarioFile, ContentAfterTheScenarioIsRefused) {
@@ -273,7 +273,7 @@ TEST(ScenarioFile, EscapesThatYamlCppReadsWronglyAreRefused) {
 TEST(ScenarioFile, AControlCharacterIsRefused) {
   for (const char c : {'\0', '\x01', '\v', '\f', '\x1b', '\x7f'}) {
     EXPECT_THAT(ProblemsIn("seed: 1\nworld: a" + std::string(1, c) + "b"),
-                ElementsAre("room.yaml:2: the text holds a control character"));
+                ElementsAre("room.yaml:2: the text contains a control character"));
   }
   EXPECT_EQ(Parsed("world: a # with a\ttabulator\r\n").world, "a");
 }

@@ -36,11 +36,10 @@ void CheckRobot(const RobotEntry& robot, bool is_avatar, const YamlMapping& mapp
   if (is_avatar) {
     mapping.AddProblem("model", "an avatar needs a model");
   } else if (robot.name.empty()) {
-    mapping.AddProblem("model",
-                       "a robot needs a model, or the name of one that stands in the world's file");
+    mapping.AddProblem("model", "a robot needs a model, or the name of a robot in the world file");
   } else if (robot.start || robot.movement) {
     mapping.AddProblem("model",
-                       "a robot without a model stands in the world's file, which says where it "
+                       "a robot without a model is in the world file, which defines where it "
                        "starts and how it moves");
   }
 }
@@ -160,7 +159,7 @@ std::optional<double> ReadStep(YamlMapping& mapping) {
   const auto step = mapping.Number("step", 0, 10);
   if (step == 0.0) return std::nullopt;
   if (step && *step < kMinStep) {
-    mapping.AddProblem("step", "a step takes 1 microsecond at least, or 0 for the world's");
+    mapping.AddProblem("step", "a step is at least 1 microsecond, or 0 for the world's step");
     return std::nullopt;
   }
   return step;

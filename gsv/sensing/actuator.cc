@@ -9,12 +9,12 @@ namespace gsv::sensing {
 
 base::Status Actuator::CheckShape(const world::DeviceCommand& command, std::size_t count) const {
   if (command.values.size() != count) {
-    return Refuse(fmt::format("a {} is told {} numbers, not {}", description().type, count,
+    return Refuse(fmt::format("a {} command has {} numbers, not {}", description().type, count,
                               command.values.size()));
   }
   if (std::any_of(command.values.begin(), command.values.end(),
                   [](double value) { return !std::isfinite(value); })) {
-    return Refuse("what an actuator is told must be finite");
+    return Refuse("the numbers of a command must be finite");
   }
   return {};
 }

@@ -49,7 +49,7 @@ base::Result<std::shared_ptr<simulation::BehaviourPort>> BrokerBehaviours::Get(
     auto behaviour = orb::Call(identity.name + " on " + identity.place, [&] {
       const sba::AgentBehaviourFactory_var factory =
           sba::AgentBehaviourFactory::_narrow(offer.object);
-      if (CORBA::is_nil(factory)) throw sba::Failed("the offer is no AgentBehaviourFactory");
+      if (CORBA::is_nil(factory)) throw sba::Failed("the offer is not an AgentBehaviourFactory");
       return sba::AgentBehaviour_var(factory->create());
     });
     if (behaviour) {

@@ -61,7 +61,7 @@ sba::JointActuator_ptr ActivateJoint(AgentPtr agent, const std::string& name,
                                      const std::shared_ptr<ServantGroup>& group) {
   const int joint = model::FindJoint(agent->Joints(), name);
   if (joint < 0) {
-    throw sba::Refused(("there is no joint \"" + name + "\" that takes commands").c_str());
+    throw sba::Refused(("there is no joint \"" + name + "\" that accepts commands").c_str());
   }
   return group->Activate<sba::JointActuator>(new JointServant(std::move(agent), joint));
 }

@@ -36,9 +36,9 @@ base::Status LoadSensorPlugin(const std::filesystem::path& file,
   const auto module = reinterpret_cast<const sensing::SensorModule* (*)()>(
       dlsym(library, sensing::kSensorModuleSymbol));
   if (module == nullptr) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "is no sensor plug-in: it lacks GSV_SENSOR_MODULE, see gsv/sensing/module.h",
-                      file);
+    return base::Fail(
+        base::ErrorCode::kInvalidArgument,
+        "is not a sensor plug-in: it lacks GSV_SENSOR_MODULE, see gsv/sensing/module.h", file);
   }
   const sensing::SensorModule* const found = module();
   if (found == nullptr || found->add == nullptr ||

@@ -24,7 +24,7 @@ base::Result<std::string> SimulationHost::FreeName(std::string wanted) const {
     }
     if (is_taken(wanted)) {
       return base::Fail(base::ErrorCode::kInvalidArgument,
-                        "a simulation of that name is there already", wanted);
+                        "there is already a simulation of this name", wanted);
     }
     return wanted;
   }
@@ -56,7 +56,7 @@ base::Status SimulationHost::Remove(const std::string& name) {
   const auto it = std::find_if(simulations_.begin(), simulations_.end(),
                                [&](const auto& s) { return s->specification().name == name; });
   if (it == simulations_.end()) {
-    return base::Fail(base::ErrorCode::kNotFound, "there is no simulation of that name", name);
+    return base::Fail(base::ErrorCode::kNotFound, "there is no simulation of this name", name);
   }
   removed = std::move(*it);
   simulations_.erase(it);

@@ -330,7 +330,7 @@ base::Status SimulationServiceServant::Destroy(const std::string& simulation) {
     const base::MutexLock lock(mutex_);
     const auto found = servants_.extract(simulation);
     if (found.empty()) {
-      return base::Fail(base::ErrorCode::kNotFound, "there is no simulation of that name",
+      return base::Fail(base::ErrorCode::kNotFound, "there is no simulation of this name",
                         simulation);
     }
     servant = found.mapped();

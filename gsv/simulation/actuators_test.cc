@@ -63,7 +63,7 @@ TEST(Actuators, RefuseAnInvalidCommandWithASentence) {
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
   EXPECT_EQ(why, (std::vector<std::string>{
                      "robot/lamp: the brightness is 2; it must lie between 0 and 1",
-                     "robot/front: a sensor takes no commands",
+                     "robot/front: a sensor accepts no commands",
                      "robot: the robot has no sensor \"siren\"",
                      "robot/speaker: there is no sound \"song\"; there are tone, buzz, chirp, "
                      "noise"}));

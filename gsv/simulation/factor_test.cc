@@ -44,7 +44,7 @@ TEST(RealTimeFactor, RejectsInvalidFactors) {
   EXPECT_EQ(simulation->real_time_factor(), 0.001);
   const base::Status lockstep = Make(Lockstep(100ms))->SetRealTimeFactor(2);
   ASSERT_FALSE(lockstep);
-  EXPECT_NE(lockstep.error().message.find("no factor"), std::string::npos);
+  EXPECT_NE(lockstep.error().message.find("no real-time factor"), std::string::npos);
 }
 
 }  // namespace

@@ -40,9 +40,9 @@ using Certificate = std::unique_ptr<X509, Freed<&X509_free>>;
 using File = std::unique_ptr<std::FILE, Freed<&std::fclose>>;
 
 base::Status CannotWrite(const fs::path& file) {
-  const std::string why = errno == EEXIST ? "it is there already; take it away first, or name "
-                                            "another folder"
-                                          : std::string("cannot write: ") + std::strerror(errno);
+  const std::string why = errno == EEXIST
+                              ? "it already exists; remove it first, or choose another folder"
+                              : std::string("cannot write: ") + std::strerror(errno);
   return base::Fail(ErrorCode::kUnavailable, why, file);
 }
 
@@ -171,8 +171,7 @@ base::Status CheckRequest(const CertificateRequest& request) {
   }
   for (const std::string& host : request.hosts) {
     if (!IsHost(host)) {
-      return base::Fail(ErrorCode::kInvalidArgument, "this is neither a host's name nor an address",
-                        host);
+      return base::Fail(ErrorCode::kInvalidArgument, "this is not a host name or an address", host);
     }
   }
   return {};
@@ -261,7 +260,7 @@ base::Status CheckAuthority(const fs::path& certificate) {
   const auto read = ReadCertificate(certificate);
   if (!read) return base::Fail(read.error());
   if (X509_check_ca(read->get()) == 0) {
-    return base::Fail(ErrorCode::kInvalidArgument, "this is no authority's certificate",
+    return base::Fail(ErrorCode::kInvalidArgument, "this is not the certificate of an authority",
                       certificate);
   }
   return CheckDates(read->get(), certificate);

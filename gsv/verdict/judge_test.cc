@@ -152,7 +152,7 @@ TEST(Judge, MissingRobotOrSensorIsAnErrorWithItsPlace) {
   const std::pair<const char*, const char*> refused[]{
       {"{never_collides: marvin}", "t.yaml:3:5: nothing that stands in the world is called"},
       {"{always: {sensor: {of: scout/nose, at_least: 1}}}", "has no sensor \"nose\""},
-      {"{eventually: {ended: wall}}", "\"wall\" is no robot"},
+      {"{eventually: {ended: wall}}", "\"wall\" is not a robot"},
       {"{distance_at_least: {between: [scout, b], metres: 1}}", "is called \"b\""}};
   for (const auto& [expect, sentence] : refused) {
     const auto judge =

@@ -91,22 +91,22 @@ base::Status Measure::Check(const scenario::Quantity& quantity) const {
     if (name == nullptr || layout->Find(*name) >= 0) continue;
     std::vector<std::string> known;
     for (const world::Body& body : layout->bodies) known.push_back(body.name);
-    return refuse("nothing that stands in the world is called \"" + *name + "\"" +
+    return refuse("there is no body in the world with the name \"" + *name + "\"" +
                   base::DidYouMean(*name, known));
   }
   if (quantity.kind == QuantityKind::kStuck) {
     if (layout->bodies[static_cast<std::size_t>(layout->Find(quantity.first))].is_robot())
       return {};
-    return refuse("\"" + quantity.first + "\" is no robot");
+    return refuse("\"" + quantity.first + "\" is not a robot");
   }
   if (quantity.kind != QuantityKind::kSensor && quantity.kind != QuantityKind::kEnded) return {};
   const auto agent = simulation_.agent(quantity.first);
-  if (agent == nullptr) return refuse("\"" + quantity.first + "\" is no robot");
+  if (agent == nullptr) return refuse("\"" + quantity.first + "\" is not a robot");
   if (quantity.kind == QuantityKind::kEnded) return {};
   const auto sensor = agent->Mounted(quantity.second);
   if (!sensor) return refuse(sensor.error().Sentence());
   if ((*sensor)->takes_long()) {
-    return refuse("a picture is no number; \"" + quantity.second + "\" is a camera");
+    return refuse("an image is not a number; \"" + quantity.second + "\" is a camera");
   }
   return {};
 }

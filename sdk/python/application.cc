@@ -85,7 +85,8 @@ void BindState(py::module_& module) {
           "time", [](const SimulationState& s) { return SecondsOf(s.time); }, "simulated seconds")
       .def_readonly("real_time_factor", &SimulationState::real_time_factor)
       .def_readonly("late_steps", &SimulationState::late_steps)
-      .def_readonly("waiting_for", &SimulationState::waiting_for, "who holds it up")
+      .def_readonly("waiting_for", &SimulationState::waiting_for,
+                    "the behaviours that delay the step")
       .def_readonly("failure", &SimulationState::failure)
       .def_property_readonly(
           "robots",
@@ -142,8 +143,8 @@ void BindApplications(py::module_& module) {
            py::arg("seed"), py::arg("name"), py::arg("options"))
       .def("add", &Add, py::arg("model"), py::arg("x") = 0.0, py::arg("y") = 0.0,
            py::arg("yaw") = 0.0, py::arg("behaviour") = py::none(), py::arg("name") = "",
-           "Adds a robot and gives its name. `behaviour` is the name of an offer, a class of "
-           "behaviours that run in this process (or what makes one when it is called), or None.")
+           "Adds a robot and returns its name. `behaviour` is the name of an offer, a class of "
+           "behaviours (or a callable that returns one) to run in this process, or None.")
       .def("remove", Calling(&RemoteSimulation::RemoveRobot), py::arg("name"), LetOthersRun())
       .def("start", Calling(&RemoteSimulation::Start), LetOthersRun())
       .def("pause", Calling(&RemoteSimulation::Pause), LetOthersRun())

@@ -58,7 +58,7 @@ class Offer {
 
 BehaviourFactory FactoryFrom(const py::object& make) {
   if (PyCallable_Check(make.ptr()) == 0) {
-    throw py::type_error("expected a class of behaviours, or what makes one when it is called");
+    throw py::type_error("expected a class of behaviours, or a callable that returns a behaviour");
   }
   return [kept = Kept(make)]() -> std::unique_ptr<Behaviour> {
     std::unique_ptr<Behaviour> behaviour;
@@ -68,9 +68,9 @@ BehaviourFactory FactoryFrom(const py::object& make) {
 }
 
 void BindBehaviours(py::module_& module) {
-  py::class_<Offer, Owned<Offer>>(module, "Offer",
-                                  "A behaviour that this program offers at a broker until it is "
-                                  "withdrawn.")
+  py::class_<Offer, Owned<Offer>>(
+      module, "Offer",
+      "A behaviour that this program offers through a broker until it is withdrawn.")
       .def(py::init([](const std::string& broker, const std::string& name, const py::object& make,
                        const std::string& description, bool time_managed) {
              return Owned<Offer>(new Offer(broker, {name, description, time_managed}, make));

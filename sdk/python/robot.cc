@@ -78,9 +78,9 @@ std::vector<SonarRing::Echo> EchoesFrom(const SonarRing& ring, const py::dict& r
 }
 
 void BindRing(py::module_& module) {
-  py::class_<SonarRing> ring(module, "SonarRing",
-                             "Sonars around a robot, evenly spread: those of its model, or, where "
-                             "it has none, mounted ones.");
+  py::class_<SonarRing> ring(
+      module, "SonarRing",
+      "Evenly spaced sonars around a robot: those of its model, or created ones if it has none.");
   py::class_<SonarRing::Echo>(ring, "Echo")
       .def_readonly("bearing", &SonarRing::Echo::bearing,
                     "rad, counter-clockwise from straight ahead")
@@ -108,7 +108,8 @@ void BindJoints(py::module_& module) {
       .def_property_readonly("time", [](const JointState& s) { return SecondsOf(s.time); })
       .def_readonly("position", &JointState::position)
       .def_readonly("velocity", &JointState::velocity);
-  py::class_<Joint>(module, "Joint", "A joint that takes commands; each acts until the next.")
+  py::class_<Joint>(module, "Joint",
+                    "A joint that accepts commands. A command applies until the next one.")
       .def_property_readonly("traits", &Joint::traits)
       .def("move_to", &Joint::MoveTo, py::arg("position"), LetOthersRun())
       .def("move_at", &Joint::MoveAt, py::arg("velocity"), LetOthersRun())
@@ -126,13 +127,14 @@ void BindRobot(py::module_& module) {
       "A robot as its behaviour sees it. After the end of the run every call returns at once and "
       "does nothing. Times are simulated seconds. One thread.")
       .def_property_readonly("name", &RemoteRobot::name)
-      .def_property_readonly("footprint_radius", &RemoteRobot::footprint_radius,
-                             "m: a circle of this radius about its origin holds all of it")
+      .def_property_readonly(
+          "footprint_radius", &RemoteRobot::footprint_radius,
+          "m: radius of a circle around the origin that contains the whole robot")
       .def("sensors", &RemoteRobot::Sensors, LetOthersRun(), "of the robot's model")
       .def("open", &OpenSensor, py::arg("name"), py::arg("kind") = py::none(),
            py::keep_alive<0, 1>(),
-           "A sensor of the robot's model, of the class that stands for its type. `kind` is the "
-           "class that is expected.")
+           "Returns a sensor of the robot's model, as an object of the class of its type. `kind` "
+           "is the expected class.")
       .def("create", &CreateSensor, py::arg("type"), py::arg("name"),
            py::arg("robot_from_sensor") = Placement{}, py::arg("parameters") = Parameters{},
            py::arg("update_rate") = 0.0, py::keep_alive<0, 1>(),
@@ -170,8 +172,9 @@ void BindRobot(py::module_& module) {
            "every open sensor. A dict of Reading by the sensors' names, or None when the run has "
            "ended.")
       .def_property_readonly("is_running", &RemoteRobot::IsRunning)
-      .def_property_readonly("error", &RemoteRobot::error,
-                             "why it is not running; empty while it is, and after an ordinary end");
+      .def_property_readonly(
+          "error", &RemoteRobot::error,
+          "the reason why it does not run; empty while it runs and after a normal end");
   BindRing(module);
 }
 

@@ -89,20 +89,21 @@ void BindPlainData(py::module_& module) {
       .def("__repr__", [](const Vector& v) {
         return py::str("Vector(x={:.6g}, y={:.6g}, z={:.6g})").format(v.x, v.y, v.z);
       });
-  py::class_<SensorTraits>(module, "SensorTraits", "What a sensor is; see docs/sensors.md.")
+  py::class_<SensorTraits>(module, "SensorTraits",
+                           "The description of a sensor; see docs/sensors.md.")
       .def_readonly("name", &SensorTraits::name)
       .def_readonly("type", &SensorTraits::type, "\"sonar\", \"camera\", …")
       .def_readonly("robot_from_sensor", &SensorTraits::robot_from_sensor)
-      .def_readonly("update_rate", &SensorTraits::update_rate, "Hz; 0: whenever it is asked")
+      .def_readonly("update_rate", &SensorTraits::update_rate, "Hz; 0: at every reading")
       .def_readonly("parameters", &SensorTraits::parameters)
       .def("__repr__",
            [](const SensorTraits& t) { return py::str("<{} \"{}\">").format(t.type, t.name); });
-  py::class_<Reading>(module, "Reading", "What a sensor measured at one instant.")
+  py::class_<Reading>(module, "Reading", "A sensor's measurement at one instant.")
       .def_readonly("sensor", &Reading::sensor)
       .def_property_readonly(
           "time", [](const Reading& r) { return SecondsOf(r.time); }, "simulated seconds")
       .def_property_readonly("values", &AllValues,
-                             "numpy.float64, of the shape that docs/sensors.md says; a view")
+                             "numpy.float64 (a view), with the shape in docs/sensors.md")
       .def_readonly("labels", &Reading::labels, "names that go with the values")
       .def("__repr__", [](const Reading& r) {
         return py::str("<{} values of \"{}\" at {:.3f} s>")
@@ -161,7 +162,7 @@ void BindRangeAndVision(py::module_& module, py::class_<Sensor>& sensor) {
 }
 
 void BindMotion(py::module_& module, py::class_<Sensor>& sensor) {
-  BindKind<PositioningSystem>(module, "PositioningSystem", sensor, "Knows where it is.")
+  BindKind<PositioningSystem>(module, "PositioningSystem", sensor, "Measures its position.")
       .def("locate", &PositioningSystem::Locate, LetOthersRun(), "its pose in the world");
   auto imu = BindKind<Imu>(module, "Imu", sensor, "Measures angular velocity and specific force.");
   imu.def("read", &Imu::Read, LetOthersRun());
@@ -185,12 +186,12 @@ void BindMotion(py::module_& module, py::class_<Sensor>& sensor) {
 }
 
 void BindBody(py::module_& module, py::class_<Sensor>& sensor) {
-  auto bumper = BindKind<Bumper>(module, "Bumper", sensor, "Reports what the robot touches.");
+  auto bumper = BindKind<Bumper>(module, "Bumper", sensor, "Reports the robot's contacts.");
   bumper.def("is_pressed", &Bumper::IsPressed, LetOthersRun())
       .def("touches", &Bumper::Touches, LetOthersRun());
   BindReading<Bumper::Touch>(bumper, "Touch", "In the sensor's frame; the normal points outwards.");
   auto encoders = BindKind<JointEncoders>(module, "JointEncoders", sensor,
-                                          "Read how the robot's joints stand.");
+                                          "Reads the positions of the robot's joints.");
   encoders.def("joints", &JointEncoders::Joints, LetOthersRun());
   BindReading<JointEncoders::Joint>(encoders, "Joint", "rad and rad/s, or m and m/s.");
   auto battery = BindKind<Battery>(module, "Battery", sensor, "Says how much is left.");
@@ -207,12 +208,12 @@ void BindBody(py::module_& module, py::class_<Sensor>& sensor) {
   };
   radio
       .def("send", send, py::arg("receiver"), py::arg("content"),
-           "To the robot of that name; nobody says whether it hears.")
+           "Sends to the robot of this name. There is no confirmation that it was received.")
       .def(
           "broadcast", [send](Radio& from, const std::string& content) { send(from, "", content); },
           py::arg("content"), "To all.")
       .def("receive", &Radio::Receive, LetOthersRun(),
-           "what was heard since the last time, the oldest first")
+           "the messages received since the last call, oldest first")
       .def_property_readonly("missed", &Radio::missed);
   py::class_<Radio::Message>(radio, "Message")
       .def_readonly("sender", &Radio::Message::sender)

@@ -144,7 +144,7 @@ test("what cannot be is refused with a sentence", async () => {
   const refusal = async (what) => (await ask(page, "/objects", what)).error;
   assert.match(await refusal({ model: "can", x: 5.1, y: 0 }), /no room at \(5\.1, 0\): .* "east_wall"/);
   assert.match(await refusal({ model: "unicorn", x: 1, y: 1 }), /unicorn/);
-  assert.match(await refusal({ model: "can", name: "crate", x: 1, y: 1 }), /of that name is there already/);
+  assert.match(await refusal({ model: "can", name: "crate", x: 1, y: 1 }), /there is already a body of this name/);
   assert.match(await refusal({ model: "can", x: "left", y: 1 }), /./);
   assert.match(await refusal({ model: "pebble", x: 1, y: 1 }), /as a robot/);
   assert.match((await ask(page, "/bodies/east_wall/place", { x: 1, y: 1 })).error, /fixed to the world/);

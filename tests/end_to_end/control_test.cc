@@ -87,7 +87,7 @@ TEST_F(Control, RecordsARunningSimulation) {
   const auto info = Json({"rec", "info", path});
   EXPECT_TRUE(info["indexed"]);
   EXPECT_GE(info["duration_s"], 0.1);
-  EXPECT_THAT(Gsv({"rec", "stop"}).err, HasSubstr("it is not recorded"));
+  EXPECT_THAT(Gsv({"rec", "stop"}).err, HasSubstr("it is not being recorded"));
 }
 
 TEST_F(Control, PausesStepsResumesAndStops) {
@@ -145,7 +145,7 @@ TEST_F(Control, SetsTheRealTimeFactor) {
 
 TEST_F(Control, RejectsARealTimeFactorInLockstep) {
   const auto run = StartRun();
-  ExpectError({"factor", "2"}, 2, "in lockstep a simulation goes as fast as it can");
+  ExpectError({"factor", "2"}, 2, "a simulation in lockstep runs as fast as possible");
 }
 
 TEST_F(Control, SelectsTheNewestRunWithoutABroker) {

@@ -135,7 +135,7 @@ int ReportCampaign(const CampaignArguments& arguments) {
   for (const std::string& parameter : arguments.by) {
     if (std::find(parameters->begin(), parameters->end(), parameter) != parameters->end()) continue;
     return Complain({base::ErrorCode::kInvalidArgument,
-                     "cannot group by it: the campaign does not vary this parameter",
+                     "cannot group by this parameter: the campaign does not vary it",
                      "--by " + parameter});
   }
   campaign::Report report =

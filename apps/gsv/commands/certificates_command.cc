@@ -87,7 +87,8 @@ void AddCertificatesCommand(const CommandLine& line) {
       std::printf("certificate: %s\nkey:         %s (keep it secret)\n",
                   (folder / (name + ".pem")).c_str(), (folder / (name + "-key.pem")).c_str());
     }
-    std::printf("authority:   %s (give it to all who connect)\n", (folder / "ca.pem").c_str());
+    std::printf("authority:   %s (give it to everyone who connects)\n",
+                (folder / "ca.pem").c_str());
   });
 }
 

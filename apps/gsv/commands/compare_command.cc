@@ -157,7 +157,9 @@ int Fit(const CompareArguments& arguments) {
 
 std::shared_ptr<CompareArguments> AddOptions(CLI::App& command) {
   auto arguments = std::make_shared<CompareArguments>();
-  command.add_option("log", arguments->log, "file of the log; its companions lie beside it")
+  command
+      .add_option("log", arguments->log,
+                  "file of the log; its other files must be in the same folder")
       ->required()
       ->type_name("FILE");
   command

@@ -309,7 +309,7 @@ int Replay(const ReplayArguments& arguments, Signals& signals) {
   if (!ros2) return Complain(ros2.error());
   if (*ros2 && (arguments.headless || arguments.resimulate)) {
     return Complain({base::ErrorCode::kInvalidArgument,
-                     "has no effect with --headless or --resimulate, which play nothing",
+                     "has no effect with --headless or --resimulate, because nothing is played",
                      "--ros2"});
   }
   if (arguments.resimulate) {

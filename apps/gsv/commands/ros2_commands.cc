@@ -251,7 +251,7 @@ CLI::App* AddOne(CLI::App& parent, const CommandLine& line,
   CLI::App* const command = parent.add_subcommand(name, help);
   command
       ->add_option("--ros2-range", arguments->range,
-                   "reach of discovery (default: localhost)\n"
+                   "range of discovery (default: localhost)\n"
                    "Without this option, ROS_AUTOMATIC_DISCOVERY_RANGE applies if it is set.")
       ->type_name("localhost|subnet");
   command->add_option("--seconds", arguments->seconds, "wall-clock time of the observation")

@@ -65,7 +65,7 @@ bool LookAtCameras(bool has_worlds) {
   if (!has_worlds) return true;
   const auto rate = ImageRate(**renderer);
   if (!rate) {
-    std::printf("pictures: failed: %s\n", rate.error().Sentence().c_str());
+    std::printf("images: failed: %s\n", rate.error().Sentence().c_str());
     return false;
   }
   std::printf("images: %.0f per second (320x240 pixels, world office, %d cameras)\n", *rate,

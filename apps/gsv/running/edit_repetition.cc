@@ -201,8 +201,8 @@ base::Result<RecordedDoings> ReadDoings(const recording::McapReader& reader,
     if (by_commands || edit.moment != Edit::Moment::kAmidTurns) continue;
     return NotAgain(file, "\"" + (edit.body.empty() ? edit.command : edit.body) + "\" was edited " +
                               AtInstant(edit.time) +
-                              " while behaviours ran, and nobody knows which of them saw it; try "
-                              "--commands, by which they do what they did,");
+                              " while behaviours ran, so it is unknown which of them ran before "
+                              "the edit; try --commands, which repeats their recorded commands,");
   }
   return doings;
 }

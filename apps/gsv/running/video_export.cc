@@ -62,7 +62,7 @@ class Exporter {
     }
     if (image.format != format_) {
       return Fail(ErrorCode::kInvalidArgument,
-                  "the pictures change from " + format_ + " to " + image.format +
+                  "the images change from " + format_ + " to " + image.format +
                       "; export the times before and after with --from and --to");
     }
     const double due = base::ToSeconds(time - start_) * options_.frames_a_second;

@@ -24,7 +24,7 @@ tl::unexpected<base::Error> RefuseRos2(const base::Error& error, const char* opt
 void AddRange(CLI::App& command, Ros2Arguments& arguments) {
   command
       .add_option("--ros2-range", arguments.range,
-                  "reach of discovery (default: localhost)\n"
+                  "range of discovery (default: localhost)\n"
                   "Without this option, ROS_AUTOMATIC_DISCOVERY_RANGE applies if it is set.")
       ->type_name("localhost|subnet")
       ->group(kRos2Group);
@@ -60,7 +60,7 @@ void AddRos2Options(CLI::App& command, Ros2Arguments& arguments) {
   command
       .add_option("--ros2-namespace", arguments.namespaces,
                   "namespace of a robot's topics (default: /ROBOT)\n"
-                  "pebble=/ stands for no namespace.")
+                  "pebble=/ means no namespace.")
       ->type_name("ROBOT=NAMESPACE")
       ->group(kRos2Group);
   command

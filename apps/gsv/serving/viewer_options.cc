@@ -31,8 +31,8 @@ void AddViewerOptions(CLI::App& command, ViewerOptions& options) {
   command
       .add_option("--listen", options.listen,
                   "address of the viewer\n"
-                  "0.0.0.0 stands for all addresses of this machine. Every address but loopback "
-                  "requires a token.")
+                  "0.0.0.0 means all addresses of this machine. All addresses except loopback "
+                  "require a token.")
       ->capture_default_str()
       ->type_name("ADDRESS")
       ->group(kNetworkGroup);

@@ -155,7 +155,8 @@ base::Status Recordings::FinishThatWhichIsOver(
   if (found->second.simulation.lock() == simulation && found->second.recorder->is_recording()) {
     return base::Fail(
         base::ErrorCode::kInvalidArgument,
-        "it is already recorded to " + found->second.path + "; stop this recording first", name);
+        "it is already being recorded to " + found->second.path + "; stop this recording first",
+        name);
   }
   auto node = recordings_.extract(found);
   lock.unlock();
@@ -253,7 +254,7 @@ base::Status Recordings::Stop(const std::string& simulation) {
   auto node = recordings_.extract(simulation);
   lock.unlock();
   if (node.empty()) {
-    return base::Fail(base::ErrorCode::kNotFound, "it is not recorded", simulation);
+    return base::Fail(base::ErrorCode::kNotFound, "it is not being recorded", simulation);
   }
   const base::Status finished = Finish(node.mapped());
   CountEnded(node.mapped());

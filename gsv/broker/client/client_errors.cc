@@ -126,10 +126,11 @@ Error OfType(const std::string& where) {
             fmt::format("the service type {} exists already with another definition", e.name.in()),
             where};
   } catch (const Repository::InterfaceTypeMismatch& e) {
-    return {kWrong,
-            fmt::format("the interface of {} is not one of its super type {}",
-                        e.derived_service.in(), e.base_service.in()),
-            where};
+    return {
+        kWrong,
+        fmt::format("the interface of {} does not derive from the interface of its super type {}",
+                    e.derived_service.in(), e.base_service.in()),
+        where};
   } catch (const Repository::ValueTypeRedefinition& e) {
     return {kWrong,
             fmt::format("{} and {} define the property {} differently", e.type_1.in(),

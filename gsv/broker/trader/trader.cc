@@ -269,9 +269,8 @@ TradingResult<void> Trader::CheckSize(const PropertyList& properties,
                                          limits_.dynamic.per_offer)});
   }
   if (properties.EncodedSize() + reference.size() / 2 > limits_.offer_bytes) {
-    return Refuse(
-        {.refusal = Refusal::kLimit,
-         .detail = fmt::format("an offer takes more than {} bytes", limits_.offer_bytes)});
+    return Refuse({.refusal = Refusal::kLimit,
+                   .detail = fmt::format("an offer is larger than {} bytes", limits_.offer_bytes)});
   }
   return {};
 }

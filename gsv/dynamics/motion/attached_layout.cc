@@ -49,13 +49,13 @@ base::Status AttachedLayout::Check(const Attachment& attachment) const {
   };
   const auto exists = [&](int body) { return body >= 0 && body < static_cast<int>(bodies.size()); };
   if (!exists(attachment.holder_body) || !exists(attachment.held_body)) {
-    return refuse("cannot attach: there is no body of that index");
+    return refuse("cannot attach: there is no body with this index");
   }
   const world::Body& holder = bodies[attachment.holder_body];
   const world::Body& held = bodies[attachment.held_body];
   if (attachment.holder_link < 0 ||
       attachment.holder_link >= static_cast<int>(holder.model->links.size())) {
-    return refuse("cannot attach: the holder has no link of that index", holder.name);
+    return refuse("cannot attach: the holder has no link with this index", holder.name);
   }
   if (holder.is_static() || IsHeld(attachment.holder_body) ||
       attachment.holder_body == attachment.held_body) {

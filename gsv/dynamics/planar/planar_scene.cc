@@ -74,7 +74,7 @@ base::Status PlanarScene::SetLayout(std::shared_ptr<const world::Layout> layout)
     const world::Body& body = layout->bodies[i];
     if (!IsFinite(body.initial_pose)) {
       return base::Fail(base::ErrorCode::kInvalidArgument,
-                        "the pose holds a number that is not finite", body.name);
+                        "the pose contains a number that is not finite", body.name);
     }
     if (!body.is_planar()) {
       (body.is_rigid() || body.is_actor() ? loose : standing).push_back(static_cast<int>(i));

@@ -43,7 +43,7 @@ struct Reach {
                     c.radius * std::sqrt(d.x * d.x + d.y * d.y) - d.z * c.length / 2);
   }
   double operator()(const geometry::Plane&) const {
-    GSV_CHECK(!"a plane has no end");
+    GSV_CHECK(!"a plane is infinite");
     return 0;
   }
   double operator()(const geometry::Mesh& mesh) const {

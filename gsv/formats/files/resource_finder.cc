@@ -243,7 +243,7 @@ base::Result<fs::path> ResourceFinder::Find(std::string_view name,
       if (auto found = FindInModels(model, naming_file)) return found;
     }
     return Fail(ErrorCode::kNotFound,
-                path + " is on the web, which is not looked at; put a copy on the model path");
+                path + " is on the web, where gsv does not search; put a copy on the model path");
   }
   std::replace(path.begin(), path.end(), '\\', '/');
   for (const std::string scheme : {"model://", "package://"}) {
@@ -278,7 +278,8 @@ base::Result<fs::path> ResourceFinder::FindByPath(const std::string& path,
   const fs::path relative(path);
   if (relative.is_absolute()) {
     if (!allow_absolute_paths_) {
-      return Fail(ErrorCode::kNotFound, path + " is an absolute path, which is not allowed here");
+      return Fail(ErrorCode::kNotFound,
+                  path + " is an absolute path; only relative paths are allowed here");
     }
     if (auto found = FindBelow("/", relative.relative_path())) return *found;
     return Fail(ErrorCode::kNotFound, "cannot find " + path);
@@ -336,7 +337,7 @@ base::Result<fs::path> ModelFileIn(const fs::path& folder) {
   }
   if (!Exists(best)) {
     return Fail(ErrorCode::kBadModel,
-                "the folder holds neither a model.config that names an SDFormat file nor model.sdf",
+                "the folder contains no model.sdf, and no model.config that names an SDFormat file",
                 folder.string());
   }
   return best;

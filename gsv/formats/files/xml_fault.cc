@@ -24,7 +24,7 @@ class FaultFinder {
       const Open& last = open_.back();
       FaultAt(last.at, Tag(last.name) + " is not closed. Add </" + Shortened(last.name) + ">");
     }
-    if (!fault_ && !has_root_) FaultAt(0, "it holds no element. Is this the right file?");
+    if (!fault_ && !has_root_) FaultAt(0, "the file contains no element. Is this the right file?");
     return fault_;
   }
 

@@ -67,7 +67,7 @@ base::Status CheckSize(int width, int height, const std::string& source, const R
   const std::int64_t pixels = static_cast<std::int64_t>(width) * height;
   if (width > 0 && height > 0 && (is_small || pixels <= kMostOversizedPixels)) return {};
   return Fail(ErrorCode::kBadModel,
-              "the picture claims " + std::to_string(width) + " x " + std::to_string(height) +
+              "the image declares " + std::to_string(width) + " x " + std::to_string(height) +
                   " pixels; the limit is " + std::to_string(limits.texture_side) +
                   " a side, and larger ones are scaled down up to " +
                   std::to_string(kMostOversizedPixels >> 20) + " million",
@@ -114,7 +114,7 @@ base::Result<std::shared_ptr<const Image>> DecodeJpeg(const unsigned char* bytes
   if (tjDecompressHeader3(decoder.get(), bytes, size, &width, &height, &subsampling, &colours) !=
       0) {
     return Fail(ErrorCode::kBadModel,
-                std::string("the picture is damaged: ") + tjGetErrorStr2(decoder.get()), source);
+                std::string("the image is damaged: ") + tjGetErrorStr2(decoder.get()), source);
   }
   if (auto status = CheckSize(width, height, source, limits); !status) return Fail(status.error());
   auto image = std::make_shared<Image>(Image{width, height, 3, {}, source});
@@ -124,7 +124,7 @@ base::Result<std::shared_ptr<const Image>> DecodeJpeg(const unsigned char* bytes
   // After a warning, for example about a truncated file, the image is still valid.
   if (failed != 0 && tjGetErrorCode(decoder.get()) != TJERR_WARNING) {
     return Fail(ErrorCode::kBadModel,
-                std::string("the picture is damaged: ") + tjGetErrorStr2(decoder.get()), source);
+                std::string("the image is damaged: ") + tjGetErrorStr2(decoder.get()), source);
   }
   return ScaledDown(std::move(image), limits);
 }
@@ -135,15 +135,15 @@ base::Result<std::shared_ptr<const Image>> DecodeOther(const unsigned char* byte
   int width = 0, height = 0, channels = 0;
   const int length = static_cast<int>(size);
   if (stbi_info_from_memory(bytes, length, &width, &height, &channels) == 0) {
-    return Fail(ErrorCode::kBadModel, "this is no PNG, JPEG, TGA, BMP or TIFF picture", source);
+    return Fail(ErrorCode::kBadModel, "this is not a PNG, JPEG, TGA, BMP or TIFF image", source);
   }
   if (auto status = CheckSize(width, height, source, limits); !status) return Fail(status.error());
   const int wanted = channels == 4 || channels == 2 ? 4 : 3;
   const std::unique_ptr<unsigned char, void (*)(void*)> decoded(
       stbi_load_from_memory(bytes, length, &width, &height, &channels, wanted), stbi_image_free);
   if (decoded == nullptr) {
-    return Fail(ErrorCode::kBadModel,
-                std::string("the picture is damaged: ") + stbi_failure_reason(), source);
+    return Fail(ErrorCode::kBadModel, std::string("the image is damaged: ") + stbi_failure_reason(),
+                source);
   }
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   auto image = std::make_shared<Image>(Image{width, height, wanted, {}, source});
@@ -162,10 +162,10 @@ base::Result<std::shared_ptr<const Image>> DecodeImage(const unsigned char* byte
                                                        const std::string& source,
                                                        const ReadLimits& limits) {
   if (size > limits.texture_bytes || size > 0x7fffffff) {
-    return Fail(ErrorCode::kBadModel,
-                "the picture is larger than the limit of " + std::to_string(limits.texture_bytes) +
-                    " bytes",
-                source);
+    return Fail(
+        ErrorCode::kBadModel,
+        "the image is larger than the limit of " + std::to_string(limits.texture_bytes) + " bytes",
+        source);
   }
   if (IsTiff(bytes, size)) {
     auto image = DecodeTiff(bytes, size, source, limits);
@@ -180,12 +180,12 @@ base::Result<std::shared_ptr<const Image>> TextureReader::Read(const std::filesy
   if (const auto it = images_.find(path); it != images_.end()) return it->second;
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
-  if (error) return Fail(ErrorCode::kNotFound, "the picture cannot be read", path.string());
+  if (error) return Fail(ErrorCode::kNotFound, "the image cannot be read", path.string());
   if (size > limits_.texture_bytes) {
-    return Fail(ErrorCode::kBadModel,
-                "the picture is larger than the limit of " + std::to_string(limits_.texture_bytes) +
-                    " bytes",
-                path.string());
+    return Fail(
+        ErrorCode::kBadModel,
+        "the image is larger than the limit of " + std::to_string(limits_.texture_bytes) + " bytes",
+        path.string());
   }
   std::ifstream file(path, std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(file),

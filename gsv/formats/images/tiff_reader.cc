@@ -92,7 +92,7 @@ base::Result<Size> SizeOf(TIFF* tiff, const std::string& source, const ReadLimit
   const auto limit = static_cast<std::uint32_t>(limits.texture_side);
   if (size.width > limit || size.height > limit) {
     return Fail(ErrorCode::kBadModel,
-                "the picture claims " + std::to_string(size.width) + " x " +
+                "the image declares " + std::to_string(size.width) + " x " +
                     std::to_string(size.height) + " pixels; the limit is " + std::to_string(limit),
                 source);
   }

@@ -163,7 +163,7 @@ void CountTriangles(std::string& stl, std::vector<std::string>& changes) {
   std::memcpy(&claimed, stl.data() + kCount, sizeof claimed);
   const std::size_t held = (stl.size() - kHeader) / kTriangle;
   if (held >= claimed) return;
-  changes.push_back("its header claims more triangles than the file holds; " +
+  changes.push_back("its header declares more triangles than the file contains; " +
                     std::to_string(held) + " of " + std::to_string(claimed) + " are read");
   const auto count = static_cast<std::uint32_t>(held);
   std::memcpy(stl.data() + kCount, &count, sizeof count);

@@ -85,11 +85,11 @@ class Checker : public tinyxml2::XMLVisitor {
       const std::string_view key = attribute->Name();
       const bool counts = key == "count" || key == "stride" || key == "offset";
       if (counts && !(attribute->DoubleValue() >= 0 && attribute->DoubleValue() <= bytes_)) {
-        wrong = "the mesh claims more values than the file holds";
+        wrong = "the mesh declares more values than the file contains";
       }
     }
     if (IsListOfIndices(element) && !HoldsWholeNumbers(element.GetText())) {
-      wrong = "a list of indices holds something that is no whole number";
+      wrong = "a list of indices contains something other than whole numbers";
     }
     return wrong == nullptr;
   }
@@ -99,7 +99,7 @@ class Checker : public tinyxml2::XMLVisitor {
     for (const Accessor& accessor : accessors_) {
       const auto array = arrays_.find(accessor.array);
       if (wrong != nullptr || array == arrays_.end() || accessor.values <= array->second) continue;
-      wrong = "an accessor reads more values than its array holds";
+      wrong = "an accessor reads more values than its array contains";
       line = accessor.line;
     }
   }

@@ -109,8 +109,8 @@ base::Status CheckGltf(const std::string& bytes, bool is_binary, const ReadLimit
     }
     const std::optional<std::string_view> chunk = JsonOf(bytes);
     if (!chunk) {
-      return Fail(ErrorCode::kBadModel, "the mesh's header claims more bytes than the file holds",
-                  file);
+      return Fail(ErrorCode::kBadModel,
+                  "the mesh's header declares more bytes than the file contains", file);
     }
     json = *chunk;
   }

@@ -285,19 +285,19 @@ TEST_F(MeshReaderTest, RefusesDamagedFilesAndThoseBeyondTheLimits) {
       {"empty.dae", "cannot be read", ""},
       {"noise.glb", "cannot be read", std::string(100, '\x7f')},
       {"far.obj", "", "v 0 0 0\nf 1 2 99\n"},
-      {"more.dae", "claims more values",
+      {"more.dae", "declares more values",
        std::string(Collada("<unit meter='1'/>", "1 0 0 1"))
            .replace(Collada("<unit meter='1'/>", "1 0 0 1").find("count=\"9\""), 9,
                     "count=\"4000000000\"")},
       // Found by the fuzzer: assimp read memory behind the array.
-      {"beyond.dae", "more values than its array holds",
+      {"beyond.dae", "more values than its array contains",
        std::string(Collada("<unit meter='1'/>", "1 0 0 1"))
            .replace(Collada("<unit meter='1'/>", "1 0 0 1").find("count=\"9\""), 9, "xount=\"9\"")},
-      {"odd.dae", "more values than its array holds",
+      {"odd.dae", "more values than its array contains",
        std::string(Collada("<unit meter='1'/>", "1 0 0 1"))
            .replace(Collada("<unit meter='1'/>", "1 0 0 1").find("count=\"9\""), 9,
                     "count=\"9e0\"")},
-      {"junk.dae", "no whole number",
+      {"junk.dae", "other than whole numbers",
        std::string(Collada("<unit meter='1'/>", "1 0 0 1"))
            .replace(Collada("<unit meter='1'/>", "1 0 0 1").find("<p>0 1 2"), 8, "<p>0 &lt;1 2")},
       {"scene.blend", "only", "BLENDER"},

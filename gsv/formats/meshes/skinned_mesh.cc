@@ -319,7 +319,7 @@ base::Result<SkinnedMesh> ReadSkinnedMesh(const std::filesystem::path& skin,
   if (!moving) return Fail(moving.error());
   Skeleton skeleton(*scene->scene);
   if (!skeleton.Animate(motion == skin ? *scene->scene : *moving->scene)) {
-    return Fail(ErrorCode::kNotFound, "there is no animation of the skin's bones in it",
+    return Fail(ErrorCode::kNotFound, "the file has no animation of the skin's bones",
                 motion.string());
   }
   BoneCutter cutter(*scene->scene, skeleton, limits);

@@ -169,7 +169,7 @@ class DocumentRepair {
       if (attached == nullptr || missing != attached) return false;
       Warn(tree, element,
            NameIn(element) + " is attached to " + missing +
-               ", which does not exist; it is attached to what it stands in");
+               ", which does not exist; it is attached to the element that contains it");
       element.DeleteAttribute("attached_to");
       return true;
     });
@@ -184,7 +184,7 @@ class DocumentRepair {
       if (other == nullptr || missing != other) return false;
       Warn(tree, *pose,
            "the pose of " + NameIn(element) + " is relative to " + missing +
-               ", which does not exist; it is treated as relative to what holds it");
+               ", which does not exist; it is treated as relative to the element that contains it");
       pose->DeleteAttribute("relative_to");
       pose->DeleteAttribute("frame");
       return true;
@@ -264,7 +264,8 @@ class DocumentRepair {
         if (pose == nullptr || pose->Attribute("relative_to") == nullptr) return false;
         Warn(tree, *pose,
              "the pose of " + NameIn(element) +
-                 " is relative to itself in a circle; it is treated as relative to what holds it");
+                 " is relative to itself through other frames; it is treated as relative to the "
+                 "element that contains it");
         pose->DeleteAttribute("relative_to");
         return true;
       });

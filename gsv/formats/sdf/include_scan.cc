@@ -102,7 +102,7 @@ base::Result<std::string> IncludeScan::TextOf(XmlFile& file) {
   if (model == nullptr) {
     const XMLElement* content = file.root->FirstChildElement();
     return Fail(ErrorCode::kBadModel,
-                content == nullptr ? std::string("there is no model inside")
+                content == nullptr ? std::string("the file contains no model")
                                    : "it holds <" + std::string(content->Name()) +
                                          ">, and only a model can be part of a model",
                 file.path.string());

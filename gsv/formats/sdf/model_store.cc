@@ -90,7 +90,7 @@ base::Result<StoredFile> ModelStore::ReadFresh(XmlFile& xml, const std::string& 
     const bool world = xml.root->FirstChildElement("world") != nullptr;
     return Fail(
         ErrorCode::kBadModel,
-        world ? "the file holds a world, where a model is wanted" : "there is no model inside",
+        world ? "the file contains a world, but a model is required" : "the file contains no model",
         PlaceOf(file, *xml.root));
   }
   RepairValues(*content, file, stored.problems);
@@ -136,7 +136,7 @@ base::Result<StoredFile> ModelStore::FromText(const SdfText& text, const Include
     stored.light = ReadLight(*light, context);
     stored.world_from_light = FromIgnition(light->RawPose());
   } else {
-    return Fail(ErrorCode::kBadModel, "there is no model inside", text.path.string());
+    return Fail(ErrorCode::kBadModel, "the file contains no model", text.path.string());
   }
   return stored;
 }

@@ -91,8 +91,9 @@ class ActorReader {
     script.delay = base::FromSeconds(NumberOf(*element, "delay_start", 0));
     script.starts_by_itself = FlagOf(*element, "auto_start", true);
     if (!script.starts_by_itself) {
-      context_.Warn("<auto_start> is false, and nothing else starts the script: the actor stands",
-                    Place(*element));
+      context_.Warn(
+          "<auto_start> is false, and nothing else starts the script: the actor stands still",
+          Place(*element));
     }
     std::vector<std::pair<int, model::Trajectory>> trajectories;
     for (auto* child = element->FirstChildElement("trajectory"); child != nullptr;

@@ -232,7 +232,7 @@ tl::unexpected<base::Error> Refusal(const Reading& reading, const std::filesyste
     if (IsChecked(error)) continue;
     return base::Fail(kBadModel, Shortened(error.Message()), ErrorPlace(error, source));
   }
-  return base::Fail(kBadModel, "there is no world or model inside", source.string());
+  return base::Fail(kBadModel, "the file contains no world or model", source.string());
 }
 
 // Repairs and reads again, until there is no error that can be repaired.

@@ -69,8 +69,7 @@ class DriveReader {
     if (!is_complete_ || (paired && !has_sides && !has_tracks)) return GuessInstead();
     ReadSizes();
     if (kind == DriveKind::kAckermann && !(drive_.wheel_base > 0)) {
-      context_.Warn("the drive names no wheels one behind the other, so that it has no wheel base",
-                    Place());
+      context_.Warn("the drive needs front and rear wheels to determine its wheel base", Place());
       return GuessInstead();
     }
     ReadLimits();
@@ -131,7 +130,7 @@ class DriveReader {
       const double value = std::strtod(text.c_str(), &end);
       if (end != text.c_str() && std::isfinite(value)) return value;
       context_.Warn(std::string("<") + name + "> must be a number, not \"" + text +
-                        "\"; it is measured, or its default taken",
+                        "\"; it is measured, or its default is used",
                     Place());
     }
     return std::nullopt;
@@ -142,7 +141,7 @@ class DriveReader {
     if (!value) return otherwise;
     if (*value > 0) return *value;
     context_.Warn(std::string("<") + *names.begin() +
-                      "> must be above zero; it is measured, or its default taken",
+                      "> must be above zero; it is measured, or its default is used",
                   Place());
     return otherwise;
   }

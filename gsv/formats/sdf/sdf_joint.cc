@@ -28,7 +28,7 @@ void ReadAxis(const sdf::JointAxis& axis, const std::string& place, const Readin
   ignition::math::Vector3d xyz;
   if (!axis.ResolveXyz(xyz).empty() || !geometry::IsFinite(FromIgnition(xyz)) ||
       !(xyz.Length() > 0) || !std::isfinite(xyz.Length())) {
-    context.Warn("the joint's axis has no direction; z is used", place);
+    context.Warn("the joint's axis is zero; the z axis is used", place);
     xyz = {0, 0, 1};
   }
   joint.axis = geometry::Normalized(FromIgnition(xyz));

@@ -87,7 +87,7 @@ void ReadJointTargets(const sdf::ElementPtr& plugin, const std::string& scope,
     const auto joint = std::find_if(model.joints.begin(), model.joints.end(),
                                     [&](const Joint& j) { return j.name == name; });
     if (joint == model.joints.end() || !model::TakesCommands(joint->kind)) {
-      context.Warn("the controller names \"" + name + "\", which is no joint that moves",
+      context.Warn("the controller names \"" + name + "\", which is not a movable joint",
                    reader.Place());
       continue;
     }

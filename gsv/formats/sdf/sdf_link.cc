@@ -301,7 +301,7 @@ geometry::Pose Resolve(const sdf::SemanticPose& semantic, const std::string& res
   ignition::math::Pose3d resolved;
   const sdf::Errors errors = semantic.Resolve(resolved, resolve_to);
   if (!errors.empty()) {
-    context.Warn("the pose cannot be resolved, and is used as it is written: " +
+    context.Warn("the pose cannot be resolved, so it is used as written: " +
                      errors.front().Message().substr(0, kLongestReason),
                  place);
     resolved = semantic.RawPose();

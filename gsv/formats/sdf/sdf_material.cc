@@ -136,8 +136,9 @@ class MaterialOfVisual {
       material_ = *known;
       return true;
     }
-    context_.Warn("material " + name + " is neither in the scripts it names nor one of Gazebo's",
-                  place_);
+    context_.Warn(
+        "material " + name + " is not in its scripts, and is not one of Gazebo's materials",
+        place_);
     return false;
   }
 
@@ -192,10 +193,10 @@ class MaterialOfVisual {
     // An image without a colour beside it is not tinted.
     if (!ogre.diffuse) material_.base_colour = {};
     const auto file = FindBesideScripts(ogre.texture);
-    const auto image =
-        file ? context_.textures.Read(*file)
-             : base::Result<std::shared_ptr<const Image>>(base::Fail(
-                   base::ErrorCode::kNotFound, "there is no such picture beside its script"));
+    const auto image = file ? context_.textures.Read(*file)
+                            : base::Result<std::shared_ptr<const Image>>(
+                                  base::Fail(base::ErrorCode::kNotFound,
+                                             "there is no such image in the folder of its script"));
     if (image) {
       material_.base_colour_map = *image;
     } else {

@@ -287,7 +287,7 @@ class ModelReader {
     const sdf::ElementPtr pose = element->GetElement("pose");
     const Pose raw = FromIgnition(pose->Get<ignition::math::Pose3d>());
     if (!geometry::IsFinite(raw)) {
-      context_.Warn("the sensor's pose is not finite; it sits where its link is", place);
+      context_.Warn("the sensor's pose is not finite; the link's pose is used", place);
       return {};
     }
     const auto relative_to = pose->Get<std::string>("relative_to", "").first;

@@ -69,10 +69,11 @@ base::Status CheckVersion(XmlFile& file, base::Problems& problems) {
   }
   file.minor_version = major == 1 ? minor : kNewestKnownMinor;
   if (number > kNewestKnown) {
-    problems.push_back({Problem::Severity::kWarning,
-                        "SDFormat " + file.version +
-                            " is newer than 1.12, the newest that is known; what it brings is lost",
-                        PlaceOf(file.path, *file.root)});
+    problems.push_back(
+        {Problem::Severity::kWarning,
+         "SDFormat " + file.version +
+             " is newer than 1.12, the newest known version; its new elements are ignored",
+         PlaceOf(file.path, *file.root)});
   }
   if (number > kNewestVersion) {
     file.version = "1.9";
@@ -157,7 +158,7 @@ base::Result<XmlFile> ReadXml(const std::filesystem::path& named, const Resource
   auto parsed = file.document->Parse(text->data(), text->size());
   if (parsed == tinyxml2::XML_ERROR_PARSING_DECLARATION && BlankLateDeclaration(*text)) {
     problems.push_back({Problem::Severity::kWarning,
-                        "<?xml …?> stands behind other text; it belongs at the beginning",
+                        "<?xml …?> is preceded by other text; move it to the beginning",
                         path.string() + ":" + std::to_string(file.document->ErrorLineNum())});
     parsed = file.document->Parse(text->data(), text->size());
   }

@@ -193,7 +193,7 @@ class UrdfPartRepair {
                  ? ""
                  : "its <cylinder> has no @radius or no @length";
     }
-    return "<" + std::string(shape->Name()) + "> is no shape of URDF";
+    return "<" + std::string(shape->Name()) + "> is not a shape of URDF";
   }
 
   void RepairInertial(XMLElement& inertial) {
@@ -317,7 +317,7 @@ class UrdfPartRepair {
         if (text == nullptr || is_flag) continue;
         const std::vector<std::string> words = WordsOf(text);
         if (!words.empty() && LeadingNumberOf(words.front()).is_number) continue;
-        LeaveOut(*child, "it holds " + Quoted(text) + ", which is no number");
+        LeaveOut(*child, "it holds " + Quoted(text) + ", which is not a number");
         child = nullptr;
         break;
       }

@@ -113,7 +113,7 @@ class ElementAudit {
       } else if (name != "world" && taken != nullptr) {  // the reader reports worlds
         Report(Tag(name) + " beside a " + Tag(taken->Name()) + " is ignored" +
                    (std::string_view(taken->Name()) == "world" ? ". It belongs in <world>."
-                                                               : "; a file holds one model"),
+                                                               : "; a file may contain one model"),
                *child);
       }
     }
@@ -131,7 +131,7 @@ class ElementAudit {
         shape = child;
       } else if (std::string_view(shape->Name()) != child->Name() && !IsNamespaced(child->Name())) {
         Report("a second shape in <geometry>, " + Tag(child->Name()) +
-                   ", is ignored; a geometry holds one",
+                   ", is ignored; a geometry may contain one",
                *child);
       }
     }
@@ -176,7 +176,8 @@ class ElementAudit {
                  std::to_string(file_.minor_version),
              child);
     } else if (!known->is_repeatable && child.PreviousSiblingElement(child.Name()) != nullptr) {
-      Report("a second " + Tag(name) + " in " + Tag(parent.Name()) + " is ignored; the first holds",
+      Report("a second " + Tag(name) + " in " + Tag(parent.Name()) +
+                 " is ignored; the first one is used",
              child);
     } else {
       VisitKnown(child, *known);
@@ -200,9 +201,9 @@ class ElementAudit {
     const std::string_view name = element.Name();
     std::string advice = AdviceForElement(name, support, parent.Name());
     if (advice.empty()) advice = AdviceFromAbove(name);
-    Report(
-        Tag(name) + " is no element of " + Tag(parent.Name()) + "; it is ignored." + Spaced(advice),
-        element);
+    Report(Tag(name) + " is not an element of " + Tag(parent.Name()) + "; it is ignored." +
+               Spaced(advice),
+           element);
   }
 
   std::string AdviceFromAbove(std::string_view name) const {

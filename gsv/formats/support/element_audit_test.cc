@@ -42,10 +42,10 @@ TEST(ElementAudit, NamesFileLineAndPathOfUnknownElements) {
   EXPECT_THAT(
       AuditOf("<sdf version='1.9'>\n<world name='w'>\n<model name='box'>\n<statik>1</statik>"
               "<link name='l'>\n<colision name='c'/></link></model></world></sdf>"),
-      ElementsAre("f.sdf:4: world/model[box]/statik: <statik> is no element of <model>; it "
+      ElementsAre("f.sdf:4: world/model[box]/statik: <statik> is not an element of <model>; it "
                   "is ignored. Did you mean <static>?",
-                  "f.sdf:5: world/model[box]/link[l]/colision[c]: <colision> is no element "
-                  "of <link>; it is ignored. Did you mean <collision>?"));
+                  "f.sdf:5: world/model[box]/link[l]/colision[c]: <colision> is not an element of "
+                  "<link>; it is ignored. Did you mean <collision>?"));
 }
 
 TEST(ElementAudit, ReportsWhereMisplacedElementsBelong) {
@@ -69,8 +69,9 @@ TEST(ElementAudit, NamesUnknownAttributes) {
 }
 
 TEST(ElementAudit, NamesSecondsAndElementsOfOlderVersions) {
-  EXPECT_THAT(AuditOfLink("<pose>1 0 0 0 0 0</pose><pose>2 0 0 0 0 0</pose>"),
-              ElementsAre(HasSubstr("a second <pose> in <link> is ignored; the first holds")));
+  EXPECT_THAT(
+      AuditOfLink("<pose>1 0 0 0 0 0</pose><pose>2 0 0 0 0 0</pose>"),
+      ElementsAre(HasSubstr("a second <pose> in <link> is ignored; the first one is used")));
   EXPECT_THAT(AuditOfLink("<visual name='v'><geometry><box><size>1 1 1</size></box><sphere/>"
                           "</geometry></visual>"),
               ElementsAre(HasSubstr("a second shape in <geometry>, <sphere>")));
@@ -143,9 +144,9 @@ TEST(ElementAudit, ComparesUrdfWithItsOwnElements) {
               "</joint><gazebo reference='l'><kp>5</kp><colour>red</colour></gazebo></robot>",
               0),
       ElementsAre(HasSubstr("<box> has no attribute \"sise\""),
-                  HasSubstr("<axs> is no element of <joint>"),
+                  HasSubstr("<axs> is not an element of <joint>"),
                   HasSubstr("robot[r]/gazebo[l]/kp: <kp> is not supported"),
-                  HasSubstr("<colour> is no element of <gazebo>")));
+                  HasSubstr("<colour> is not an element of <gazebo>")));
 }
 
 TEST(ElementAudit, CountsProblemsBeyondTheLimit) {

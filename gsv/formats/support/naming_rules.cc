@@ -144,7 +144,7 @@ class NamingRules {
     const auto [it, is_new] = scope.names.emplace(name, &element);
     if (is_new) return;
     Report("the name \"" + name + "\" is that of a <" + it->second->Name() +
-               "> beside it as well; names beside each other must differ",
+               "> with the same parent; siblings must have different names",
            element);
   }
 

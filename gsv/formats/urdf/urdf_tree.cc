@@ -85,7 +85,7 @@ class TreeMaker {
         root = HasLink("base_link") ? "base_footprint" : "base_link";
         tree_.empty_links.push_back(root);
       } else if (!has_world_) {
-        Warn("URDF holds one tree: link " + link.name +
+        Warn("a URDF file has one tree: link " + link.name +
              ", which nothing connects, is attached by a floating joint");
       }
       tree_.joints.push_back({link.name + "_base",

@@ -168,7 +168,7 @@ base::Status Expander::UnknownMacro(const std::string& name, const Node& call) {
   if (missing_file_.empty()) return Unfit("there is no macro \"" + name + "\"");
   problems_.push_back({base::Problem::Severity::kWarning,
                        "the call of the macro \"" + name + "\" is ignored: " + missing_file_ +
-                           ", which is missing, may define it",
+                           ", which was not found, may define it",
                        call.place()});
   return {};
 }
@@ -527,7 +527,7 @@ base::Result<Value> Expander::Command(const std::string& command, const Node& at
 base::Result<Value> Expander::ArgumentNamed(const std::string& name) const {
   const auto it = arguments_.find(name);
   if (it != arguments_.end()) return Value{it->second};
-  return Unfit("the argument \"" + name + "\" has no default; give it behind the file's name, as " +
+  return Unfit("the argument \"" + name + "\" has no default; append it to the file's name, as " +
                "robot.urdf.xacro?" + name + "=VALUE");
 }
 

@@ -240,7 +240,7 @@ TEST_F(ExpanderTest, ReadsYamlWithUnits) {
                      "s='${c[\"list\"][1]}'/>"),
             "<a l=\"-3.141592653589793\" n=\"e\" s=\"2.5\"/>");
   folder_.Write("bad.yaml", "a: [1\n");
-  EXPECT_THAT(Expanded("<a b=\"${load_yaml('bad.yaml')}\"/>"), HasSubstr("it is no YAML"));
+  EXPECT_THAT(Expanded("<a b=\"${load_yaml('bad.yaml')}\"/>"), HasSubstr("this is not valid YAML"));
 }
 
 TEST_F(ExpanderTest, MakesElementsAttributesAndCallsByName) {

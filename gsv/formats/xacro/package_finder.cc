@@ -53,10 +53,10 @@ base::Result<fs::path> FindPackage(const std::string& name, const fs::path& nami
     if (auto neighbour = NeighbourNamed(folder, name)) return *neighbour;
     folder = folder.parent_path();
   }
-  return base::Fail(base::ErrorCode::kNotFound,
-                    "cannot find the package \"" + name +
-                        "\" beside the file or on the model path; give its folder with "
-                        "--model-path");
+  return base::Fail(
+      base::ErrorCode::kNotFound,
+      "cannot find the package \"" + name +
+          "\" beside the file or on the model path; add its folder with --model-path");
 }
 
 }  // namespace gsv::formats::xacro

@@ -107,7 +107,7 @@ base::Result<Value> LoadYaml(const std::filesystem::path& file, std::size_t max_
   try {
     return reader.Read(YAML::Load(text), 0);
   } catch (const YAML::Exception& exception) {
-    return reader.Refuse("it is no YAML: " + exception.msg, exception.mark);
+    return reader.Refuse("this is not valid YAML: " + exception.msg, exception.mark);
   }
 }
 

@@ -45,7 +45,7 @@ std::vector<Route> ViewersApi::Routes() {
   return {
       {"GET", "/api/viewers", kWatch, false, kReaders,
        [this](const Request& request) { return ViewerList(request.viewer); },
-       "List the viewers, with who has control and who asks for it"},
+       "List the viewers, and show which one has control and which one asks for it"},
       {"POST", "/api/viewers", kWatch, false, kReaders,
        [this](const Request& request) { return Enter(request); },
        "Register as a viewer, with a name"},
@@ -57,7 +57,7 @@ std::vector<Route> ViewersApi::Routes() {
        changing(&ViewersApi::WantControl),
        "Ask for control of the open simulation, release it, or cancel the request"},
       {"POST", "/api/viewers/me/answer", kControl, false, kReaders,
-       changing(&ViewersApi::AnswerFirst), "Answer the first viewer who asks for control"},
+       changing(&ViewersApi::AnswerFirst), "Answer the first viewer that asks for control"},
   };
 }
 

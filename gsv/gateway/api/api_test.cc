@@ -58,7 +58,8 @@ class FakeRecordings final : public RecordingSwitch {
     return {};
   }
   base::Status StopRecording(const std::string&) override {
-    if (!state.is_recording) return base::Fail(base::ErrorCode::kNotFound, "it is not recorded");
+    if (!state.is_recording)
+      return base::Fail(base::ErrorCode::kNotFound, "it is not being recorded");
     state.is_recording = false;
     return {};
   }

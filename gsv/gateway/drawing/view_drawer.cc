@@ -40,9 +40,9 @@ base::Result<std::shared_ptr<ViewDrawer::Seat>> ViewDrawer::Take(const ViewReque
   if (seats_.size() >= limits_.viewers) {
     return Fail(
         ErrorCode::kUnavailable,
-        fmt::format("{} viewers get images of the server already, which is the limit; close "
-                    "one of them",
-                    limits_.viewers));
+        fmt::format(
+            "{} viewers already get images from the server, which is the limit; close one of them",
+            limits_.viewers));
   }
   std::vector<ViewRequest> views;
   for (const auto& weak : seats_) {
@@ -54,8 +54,8 @@ base::Result<std::shared_ptr<ViewDrawer::Seat>> ViewDrawer::Take(const ViewReque
   const bool is_shared = std::find(views.begin(), views.end(), request) != views.end();
   if (!is_shared && views.size() >= limits_.views) {
     return Fail(ErrorCode::kUnavailable,
-                fmt::format("the server draws {} views already, which is the limit; close one of "
-                            "them, or use the camera of another",
+                fmt::format("the server already draws {} views, which is the limit; close one of "
+                            "them, or use the same camera as another one",
                             limits_.views));
   }
   auto seat = std::make_shared<Seat>(request);

@@ -150,7 +150,7 @@ TEST_F(ViewDrawerTest, BoundsViewsAndViewers) {
   ASSERT_FALSE(third_view);
   EXPECT_EQ(third_view.error().message,
             "the server draws 2 views already, which is the limit; close one of them, or use the "
-            "camera of another");
+            "same camera as another");
   {
     const auto shared = drawer_.Take(Request(33));
     ASSERT_TRUE(shared);

@@ -28,7 +28,7 @@ base::Result<view::SensorView> SensorViewOf(const simulation::Simulation& simula
   const auto made = sensing::SensorSet(simulation.sensor_types()).Of(*found);
   const auto frustum = made ? (*made)->frustum() : std::nullopt;
   if (!frustum) {
-    return base::Fail(base::ErrorCode::kNotFound, "'" + robot + "/" + name + "' is no camera");
+    return base::Fail(base::ErrorCode::kNotFound, "'" + robot + "/" + name + "' is not a camera");
   }
   return view::SensorView{world::LinkPose(snapshot, body, found->link) * found->link_from_sensor,
                           frustum->horizontal_fov};

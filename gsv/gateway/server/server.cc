@@ -34,15 +34,15 @@ base::Result<tcp::endpoint> EndpointOf(const ServerOptions& options) {
   if (error) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "'" + options.host +
-                          "' is not an address to listen on; give 127.0.0.1 for "
-                          "this machine alone, or one of its addresses");
+                          "' is not an address of this machine; use 127.0.0.1 for this machine "
+                          "only, or one of its addresses");
   }
   return tcp::endpoint(address, options.port);
 }
 
 base::Error NeedsToken(const ServerOptions& options) {
   return {base::ErrorCode::kInvalidArgument,
-          "other machines can reach this address, so a token is required: give --control-token or "
+          "other machines can reach this address, so a token is required: use --control-token or "
           "--watch-token, or listen on 127.0.0.1",
           "listening on " + options.host};
 }
@@ -55,7 +55,7 @@ base::Error CannotListen(const ServerOptions& options, error_code error) {
             where};
   }
   return {base::ErrorCode::kUnavailable,
-          "cannot listen here: " + error.message() + "; give another address or port", where};
+          "cannot listen here: " + error.message() + "; choose another address or port", where};
 }
 
 base::Status Listen(tcp::acceptor& acceptor, const tcp::endpoint& endpoint,

@@ -75,7 +75,7 @@ Number Read(std::string_view bytes, std::size_t at) {
 
 base::Result<ServerText> ParseServerText(std::string_view text) {
   const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) return Malformed("a text that is no JSON object");
+  if (!json.is_object()) return Malformed("a text that is not a JSON object");
   const std::string op = TextOf(json, "op");
   if (op == "advertise") return ParseAdvertise(json);
   if (op == "unadvertise") return ParseUnadvertise(json);

@@ -39,7 +39,7 @@ std::string WhyNotConnected(const boost::system::error_code& error) {
   }
   if (ERR_GET_REASON(static_cast<unsigned long>(error.value())) ==
       SSL_R_CERTIFICATE_VERIFY_FAILED) {
-    return "its certificate is not trusted, or is for another name; give the authority's "
+    return "its certificate is not trusted, or is for another name; set the authority's "
            "certificate with --authority (ca.pem of `gsv certificates make`)";
   }
   return "the TLS connection failed: " + error.message();

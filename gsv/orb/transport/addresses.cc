@@ -60,7 +60,7 @@ omni::giopActiveConnection* TlsAddress::Connect(const omni_time_t& deadline, COR
                                                 CORBA::Boolean& timed_out) const {
   if (address_.port == 0) return nullptr;
   if (context_ == nullptr) {
-    NoteTlsFailure("it takes TLS, and a certificate: name yours with GSV_CORBA_CERTIFICATE");
+    NoteTlsFailure("it requires TLS and a certificate: set yours with GSV_CORBA_CERTIFICATE");
     return nullptr;
   }
   const int socket = ConnectSocket(address_, deadline, flags, timed_out);

@@ -177,7 +177,7 @@ base::Result<Log> ReadRobotData(const fs::path& path, base::Problems& problems) 
   while (rows->Next()) {
     const bool is_scan = rows->word(0) == "L";
     if (!is_scan && rows->word(0) != "O") {
-      rows->LeaveOut("the row begins with neither L nor O");
+      rows->LeaveOut("the row must begin with L or O");
       continue;
     }
     if (!rows->Numbers(1, is_scan ? kBeams + 7 : 4, v) || !rows->InOrder(v.back())) continue;

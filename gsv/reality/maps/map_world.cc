@@ -176,8 +176,8 @@ base::Result<OccupancyMap> MapOfWorld(const model::WorldDescription& world,
   const geometry::Bounds extent = Extent(snapshot);
   if (!(extent.min.x <= extent.max.x) || extent.max.z < options.height) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      fmt::format("nothing stands in the world at a height of {} m; choose another "
-                                  "with --height",
+                      fmt::format("there is nothing in the world at a height of {} m; choose "
+                                  "another height with --height",
                                   options.height),
                       world.source);
   }

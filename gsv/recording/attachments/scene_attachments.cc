@@ -79,7 +79,8 @@ void SceneAttachments::AttachModel(const model::Model& model, const std::string&
                                    base::SimTime time) {
   const auto glb = write_glb_(model);
   if (!glb) {
-    spdlog::warn("the recording goes without the model {}: {}", model.name, glb.error().Sentence());
+    spdlog::warn("the recording will not contain the model {}: {}", model.name,
+                 glb.error().Sentence());
     return;
   }
   writer_.Attach(

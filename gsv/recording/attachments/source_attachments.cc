@@ -48,11 +48,11 @@ void SourceAttachments::Attach(const std::string& source, const std::string& fol
                                const std::string& name, base::SimTime time) {
   if (source.empty() || !sources_.insert(source).second) return;
   if (names_.size() == kMaxSources) {
-    return spdlog::warn("the recording goes without further robots' files: it holds {}",
+    return spdlog::warn("the recording will not contain the files of further robots: it has {}",
                         kMaxSources);
   }
   const auto text = ReadSource(source);
-  if (!text) return spdlog::warn("the recording goes without {}", text.error().Sentence());
+  if (!text) return spdlog::warn("the recording will not contain {}", text.error().Sentence());
   std::string unique = folder + name;
   for (int number = 2; !names_.insert(unique).second; ++number) {
     unique = folder + std::to_string(number) + "/" + name;

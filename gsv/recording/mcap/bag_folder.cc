@@ -43,10 +43,11 @@ base::Result<std::string> MakeBagFolder(const std::string& folder) {
   std::error_code error;
   if (fs::exists(path, error)) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "is there already; give the recording another name", folder);
+                      "already exists; choose another name for the recording", folder);
   }
   if (!fs::create_directory(path, error)) {
-    return base::Fail(CannotWrite(path, error ? error.message() : "it is no name of a folder"));
+    return base::Fail(
+        CannotWrite(path, error ? error.message() : "this is not a valid name for a folder"));
   }
   return (path / (name.string() + "_0.mcap")).string();
 }

@@ -58,7 +58,7 @@ TEST_F(BagFolder, FailsIfTheNameExists) {
   ASSERT_TRUE(MakeBagFolder(folder_));
   const auto again = MakeBagFolder(folder_);
   ASSERT_FALSE(again);
-  EXPECT_NE(again.error().message.find("there already"), std::string::npos);
+  EXPECT_NE(again.error().message.find("already exists"), std::string::npos);
   EXPECT_FALSE(MakeBagFolder(folder_ / "no" / "such"));
 }
 

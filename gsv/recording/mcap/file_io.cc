@@ -16,7 +16,7 @@ using base::Fail;
 std::string SystemMessage(int error) { return std::generic_category().message(error); }
 
 tl::unexpected<base::Error> ReadsTooFar(std::string where) {
-  return Fail(ErrorCode::kCorrupt, "the file ends before what it refers to", std::move(where));
+  return Fail(ErrorCode::kCorrupt, "the file refers to data beyond its end", std::move(where));
 }
 
 }  // namespace

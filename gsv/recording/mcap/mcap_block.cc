@@ -43,7 +43,7 @@ base::Result<Bytes> ReadRecords(const ByteSource& source, const MessageBlock& bl
   std::span<const std::byte> rest = *bytes;
   const std::optional<RawRecord> record = TakeRecord(rest);
   if (!record || record->opcode != Opcode::kChunk || !rest.empty()) {
-    return Damaged(block, "there is no record where the index says");
+    return Damaged(block, "there is no record at the place in the index");
   }
   const auto chunk = Parse<ChunkRecord>(record->content);
   if (!chunk || chunk->uncompressed_size != block.uncompressed_size ||
@@ -68,12 +68,12 @@ base::Result<std::vector<MessageRecord>> ListMessages(std::span<const std::byte>
     if (!record) return Damaged(block, "it ends in the middle of a record");
     if (record->opcode != Opcode::kMessage) continue;
     const auto message = Parse<MessageRecord>(record->content);
-    if (!message) return Damaged(block, "it holds a message that makes no sense");
+    if (!message) return Damaged(block, "it contains an invalid message");
     if (!channels.contains(message->channel_id)) {
-      return Damaged(block, "it holds a message of an unknown channel");
+      return Damaged(block, "it contains a message of an unknown channel");
     }
     if (message->log_time < block.start || message->log_time > block.end) {
-      return Damaged(block, "it holds a message from outside of its time");
+      return Damaged(block, "it contains a message outside its time range");
     }
     messages.push_back(*message);
   }

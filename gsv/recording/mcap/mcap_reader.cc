@@ -41,7 +41,7 @@ auto McapReader::ReadRecord(Opcode opcode, std::uint64_t offset, std::uint64_t l
   if (raw && raw->opcode == opcode) record = Parse<Record>(raw->content);
   if (!record) {
     return base::Fail(base::ErrorCode::kCorrupt,
-                      "what the summary says is here is damaged or something else",
+                      "the data here is damaged, or does not match the summary",
                       "byte " + std::to_string(offset));
   }
   return use(*record);

@@ -208,7 +208,7 @@ TEST(McapReader, StopsAtZerosAtTheEndOfAFile) {
   const auto reader = Open(bytes);
   ASSERT_TRUE(reader);
   EXPECT_EQ((*reader)->summary().message_count, 10U);
-  EXPECT_THAT(AllProblems((*reader)->summary()), HasSubstr("holds no records from here on"));
+  EXPECT_THAT(AllProblems((*reader)->summary()), HasSubstr("contains no records from here on"));
 }
 
 TEST(McapReader, ContinuesAfterADamagedChunk) {

@@ -65,7 +65,7 @@ class Scanner {
       return false;
     }
     if (opcode_ == Opcode{0}) {
-      Problem("the file holds no records from here on");
+      Problem("the file contains no records from here on");
       return false;
     }
     if (opcode_ == Opcode::kDataEnd || opcode_ == Opcode::kFooter) return false;

@@ -80,7 +80,7 @@ base::Result<ChannelId> McapWriter::AddChannel(const std::string& topic,
   }
   if (channels_.size() == std::numeric_limits<ChannelId>::max()) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "a recording holds 65,535 topics at most; record fewer", topic);
+                      "a recording may have at most 65,535 topics; record fewer", topic);
   }
   const std::size_t before = queued();
   if (type == schemas_.end()) {

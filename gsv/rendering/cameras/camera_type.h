@@ -53,7 +53,7 @@ sensing::SensorType MakeCameraType(std::string name, std::vector<std::string> al
                                    RendererResult renderer, Context... context) {
   if (renderer && *renderer == nullptr) {
     renderer = base::Fail(base::ErrorCode::kUnavailable,
-                          "no renderer was started, so there are no pictures");
+                          "no renderer was started, so there are no images");
   }
   auto type = sensing::MakeSensorType<Kind>(std::move(name), std::move(aliases), overlay,
                                             std::move(renderer), std::move(context)...);

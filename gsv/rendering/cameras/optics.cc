@@ -96,7 +96,7 @@ Optics Optics::Read(sensing::ParameterReader& reader, const std::string& lens_ty
   }
   const auto fitting = [&](Lens lens) -> Optics {
     if (!lens.is_plain() && camera.width > LensMap::kMaxPixels / camera.height) {
-      reader.Refuse("a picture through a lens has at most 4194304 pixels (2048 by 2048), and " +
+      reader.Refuse("an image through a lens has at most 4194304 pixels (2048 by 2048), and " +
                     std::to_string(camera.width) + " by " + std::to_string(camera.height) +
                     " are more");
       lens = Lens(CameraParameters());

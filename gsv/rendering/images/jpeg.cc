@@ -21,7 +21,7 @@ base::Result<std::vector<std::uint8_t>> EncodeJpeg(const model::Image& image, in
       tjCompress2(compressor.get(), image.pixels.data(), image.width, 0, image.height, format, &out,
                   &size, TJSAMP_420, quality, TJFLAG_NOREALLOC) != 0) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "a picture of " + std::to_string(image.width) + " by " +
+                      "an image of " + std::to_string(image.width) + " by " +
                           std::to_string(image.height) + " pixels cannot become a JPEG");
   }
   jpeg.resize(size);

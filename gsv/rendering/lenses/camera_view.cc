@@ -25,7 +25,7 @@ base::Status Check(const CameraParameters& camera) {
   };
   for (const int side : {camera.width, camera.height}) {
     if (side < 1 || side > kMaxImageSide) {
-      return refuse("a picture of " + std::to_string(camera.width) + " by " +
+      return refuse("an image of " + std::to_string(camera.width) + " by " +
                     std::to_string(camera.height) + " pixels: each side must be from 1 to " +
                     std::to_string(kMaxImageSide));
     }

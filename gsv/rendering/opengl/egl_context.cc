@@ -20,7 +20,7 @@ using base::Result;
 using base::Status;
 
 constexpr const char* kRemedy =
-    "pictures need OpenGL 4.5 through EGL: install libegl1, libopengl0 and libgl1-mesa-dri, or "
+    "images need OpenGL 4.5 through EGL: install libegl1, libopengl0 and libgl1-mesa-dri, or "
     "your graphics card's driver";
 
 // libepoxy ends the program if it cannot open a library, so this function checks that first.

@@ -22,12 +22,12 @@ base::Status CheckCard() {
   }
   if (error == GL_OUT_OF_MEMORY) {
     return base::Fail(base::ErrorCode::kUnavailable,
-                      "the graphics card has too little memory for this world and picture size");
+                      "the graphics card has too little memory for this world and image size");
   }
   char code[16];
   std::snprintf(code, sizeof code, "0x%04x", error);
   return base::Fail(base::ErrorCode::kUnavailable,
-                    std::string("OpenGL failed with ") + code + " while a picture was drawn");
+                    std::string("OpenGL failed with ") + code + " while an image was drawn");
 }
 
 }  // namespace

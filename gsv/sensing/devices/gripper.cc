@@ -27,7 +27,7 @@ class Gripper final : public SensorOf<readings::Gripper, messages::gsv_msgs::Gri
   base::Status Check(const world::DeviceCommand& command) const override {
     if (auto ok = CheckShape(command, 1); !ok) return ok;
     if (command.values[0] == 0 || command.values[0] == 1) return {};
-    return Refuse("a gripper is told 1, to open, or 0, to close");
+    return Refuse("a gripper's command is 1 (open) or 0 (close)");
   }
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {

@@ -28,10 +28,10 @@ class Navsat final : public SensorOf<readings::Navsat, messages::sensor_msgs::Na
   base::Result<Reading> Sample(const Sampling& sampling) const override {
     const auto& origin = sampling.snapshot()->layout->description->origin;
     if (!origin) {
-      return base::Fail(base::ErrorCode::kUnavailable,
-                        "the world has no <spherical_coordinates>, so that satellites cannot tell "
-                        "where it is",
-                        sampling.robot().name + "/" + description().name);
+      return base::Fail(
+          base::ErrorCode::kUnavailable,
+          "the world has no <spherical_coordinates>, so its position on the earth is unknown",
+          sampling.robot().name + "/" + description().name);
     }
     const SensorMotion motion = MotionOf(sampling, description());
     const NoisyReading noisy(sampling, description());

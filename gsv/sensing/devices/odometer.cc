@@ -88,7 +88,7 @@ class DriftingOdometer final : public SensorOf<readings::Odometry, OdometryMessa
 
   std::optional<world::DeviceCommand> first() const override { return world::DeviceCommand{}; }
   base::Status Check(const world::DeviceCommand&) const override {
-    return Refuse("an odometer takes no commands");
+    return Refuse("an odometer accepts no commands");
   }
   world::DeviceStatePtr Apply(const std::string& robot, const world::DeviceStatePtr& before,
                               const world::DeviceCommand&, world::DeviceStep&) const override {

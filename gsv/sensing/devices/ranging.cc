@@ -23,7 +23,8 @@ class RangingSensor final : public SensorOf<Ranging, messages::sensor_msgs::Rang
         wall_delay_(reader.Number("wall_delay", 0, 0, 100)),
         wall_noise_(reader.Number("wall_noise", 0, 0, 100)),
         max_walls_(reader.Count("max_walls", 8, 0, 1000)) {
-    if (anchor_.empty()) reader.Refuse("anchor is missing; it is the name of the anchor's model");
+    if (anchor_.empty())
+      reader.Refuse("anchor is missing; set it to the name of the anchor's model");
     if (min_ > max_) reader.Refuse("min is above max");
   }
 

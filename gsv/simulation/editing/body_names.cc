@@ -26,7 +26,7 @@ base::Status NameRobots(const world::Layout& layout, std::vector<RobotSpecificat
     if (robot.name.empty()) continue;
     if (auto ok = CheckBodyName(robot.name); !ok) return ok;
     if (!taken.insert(robot.name).second) {
-      return base::Fail(base::ErrorCode::kInvalidArgument, "a body of that name is there already",
+      return base::Fail(base::ErrorCode::kInvalidArgument, "there is already a body of this name",
                         robot.name);
     }
   }

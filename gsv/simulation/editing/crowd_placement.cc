@@ -127,8 +127,8 @@ class CrowdPlacement {
 
   tl::unexpected<base::Error> NoRoom(std::size_t member) const {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "there is no free place for this pedestrian on its route: ask for fewer, or "
-                      "make the goals' discs wider",
+                      "there is no free place for this pedestrian on its route: use fewer "
+                      "pedestrians, or wider goals",
                       members_[member].name);
   }
 

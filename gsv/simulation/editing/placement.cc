@@ -89,11 +89,11 @@ base::Result<std::vector<PushedOut>> ResolvePlacement(dynamics::Engine& engine,
     if (body.is_robot() && !other.is_robot() && PushOut(engine, layout, index, state)) {
       const geometry::Pose& now = state.bodies[static_cast<std::size_t>(index)].world_from_model;
       pushed_out.push_back({*name, "starts at " + PlaceText(now) + ", since at " + wanted +
-                                       " it would stand in \"" + other.name + "\""});
+                                       " it would overlap \"" + other.name + "\""});
       continue;
     }
     return base::Fail(base::ErrorCode::kBadModel,
-                      "there is no room at " + wanted + ": it would stand in \"" + other.name +
+                      "there is no room at " + wanted + ": it would overlap \"" + other.name +
                           "\"; choose another place",
                       *name);
   }

@@ -30,7 +30,7 @@ base::Status CheckRoomFor(std::size_t more, const std::vector<world::Body>& bodi
       bodies.begin(), bodies.end(), [](const world::Body& body) { return body.is_robot(); }));
   if (there <= max && more <= max - there) return {};
   return base::Fail(base::ErrorCode::kInvalidArgument,
-                    "a simulation holds at most " + std::to_string(max) +
+                    "a simulation may have at most " + std::to_string(max) +
                         " robots here; remove some first, or raise --limit robots");
 }
 
@@ -121,7 +121,7 @@ base::Status WorldEditor::ChangeWorld(std::vector<world::Body> bodies,
 base::Result<int> WorldEditor::FindMovable(const std::string& name) const {
   const int body = world_.layout()->Find(name);
   if (body < 0) {
-    return base::Fail(base::ErrorCode::kNotFound, "there is nothing of that name", name);
+    return base::Fail(base::ErrorCode::kNotFound, "there is no body of this name", name);
   }
   const model::PlacedModel* const placed = FindInWorld(*world_.layout(), name);
   if (world_.layout()->bodies[static_cast<std::size_t>(body)].is_static() && placed != nullptr &&
@@ -152,12 +152,12 @@ base::Result<world::Body> WorldEditor::BodyOf(const ObjectSpecification& object)
     body.model = placed->model;
     body.kind = world::KindOf(*placed);
   } else {
-    return base::Fail(base::ErrorCode::kNotFound, "there is nothing of that name to make a copy of",
+    return base::Fail(base::ErrorCode::kNotFound, "there is no object of this name to copy",
                       object.copy_of);
   }
   if (body.model->drive) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "it has a drive, so it is to be added as a robot", body.model->name);
+    return base::Fail(base::ErrorCode::kInvalidArgument, "it has a drive, so add it as a robot",
+                      body.model->name);
   }
   return body;
 }
@@ -167,7 +167,7 @@ base::Result<std::string> WorldEditor::NameOf(const ObjectSpecification& object,
   if (object.name.empty()) return FreeName(*world_.layout(), model.name);
   if (auto ok = CheckBodyName(object.name); !ok) return base::Fail(ok.error());
   if (world_.layout()->Find(object.name) < 0) return object.name;
-  return base::Fail(base::ErrorCode::kInvalidArgument, "a body of that name is there already",
+  return base::Fail(base::ErrorCode::kInvalidArgument, "there is already a body of this name",
                     object.name);
 }
 
@@ -190,8 +190,8 @@ base::Status WorldEditor::RemoveObject(const std::string& name) {
   if (!body) return base::Fail(body.error());
   const world::Body& object = world_.layout()->bodies[static_cast<std::size_t>(*body)];
   if (object.is_robot()) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "it is a robot, so it is to be removed as one", name);
+    return base::Fail(base::ErrorCode::kInvalidArgument, "it is a robot, so remove it as a robot",
+                      name);
   }
   removed_.push_back(object);
   if (removed_.size() > kMaxRemoved) removed_.pop_front();

@@ -24,7 +24,7 @@ const char* WhatHappens(FaultKind kind) {
     case FaultKind::kMotorFails:
       return "the motor fails";
     case FaultKind::kBodyMoves:
-      return "it is put elsewhere";
+      return "it is moved elsewhere";
     case FaultKind::kJointMoves:
       return "the joint is moved";
   }
@@ -52,7 +52,7 @@ base::Status FaultInjector::CheckOne(const Fault& fault, const world::Layout& la
   }
   if (fault.kind == FaultKind::kJointMoves) return {};
   const AgentPopulation::AgentPtr agent = agents_.Find(fault.body);
-  if (agent == nullptr) return refuse("\"" + fault.body + "\" is no robot");
+  if (agent == nullptr) return refuse("\"" + fault.body + "\" is not a robot");
   if (fault.kind == FaultKind::kBehaviourDies && agent->behaviour() == nullptr) {
     return refuse("\"" + fault.body + "\" has no behaviour");
   }

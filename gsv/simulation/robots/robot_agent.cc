@@ -205,8 +205,7 @@ base::Status RobotAgent::CommandJoint(int joint, const world::JointCommand& comm
   const auto snapshot = shared_->history.latest();
   const int body = snapshot->layout->Find(robot_);
   if (body < 0) {
-    return base::Fail(base::ErrorCode::kNotRunning, "the robot does not stand in the world yet",
-                      robot_);
+    return base::Fail(base::ErrorCode::kNotRunning, "the robot is not in the world yet", robot_);
   }
   const world::Body& robot = snapshot->layout->bodies[static_cast<std::size_t>(body)];
   if (auto ok = world::CheckJointCommand(robot, joint, command); !ok) return ok;

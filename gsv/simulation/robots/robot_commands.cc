@@ -29,7 +29,7 @@ bool TakesCommands(const MountedSensor& sensor) {
 base::Result<DeviceAction> CommandOf(const MountedSensor& sensor, world::DeviceCommand command,
                                      const std::string& robot) {
   if (!TakesCommands(sensor)) {
-    return RefuseCommand(sensor, robot, "a sensor takes no commands");
+    return RefuseCommand(sensor, robot, "a sensor accepts no commands");
   }
   auto device = sensor.device();
   if (auto ok = device->Check(command); !ok) {

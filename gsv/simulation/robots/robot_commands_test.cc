@@ -97,9 +97,9 @@ TEST(RobotCommands, MessagesAreAllKept) {
 
 TEST(RobotCommands, AreRefusedForTheWrongSensor) {
   EXPECT_EQ(CommandOf(Mounted("sonar"), {}, "robot").error().Sentence(),
-            "robot/front: a sensor takes no commands");
+            "robot/front: a sensor accepts no commands");
   EXPECT_EQ(CommandOf(Mounted("radio"), {}, "robot").error().Sentence(),
-            "robot/front: a sensor takes no commands");
+            "robot/front: a sensor accepts no commands");
   RobotCommands commands;
   EXPECT_EQ(commands.Send(Mounted("lamp"), "", "x", "robot").error().Sentence(),
             "robot/front: cannot send a message: only a radio can");

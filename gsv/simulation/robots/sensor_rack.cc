@@ -63,7 +63,7 @@ base::Status SensorRack::Create(model::SensorDescription description, int link_c
                       where);
   }
   if (FindSlot(name) != nullptr) {
-    return base::Fail(base::ErrorCode::kInvalidArgument, "a sensor of that name is there already",
+    return base::Fail(base::ErrorCode::kInvalidArgument, "there is already a sensor of this name",
                       where);
   }
   slots_.insert(slots_.begin() + static_cast<std::ptrdiff_t>(PlaceOf(name)),

@@ -110,10 +110,10 @@ base::Status SteppingSimulation::SetRealTimeFactor(double factor) {
   if (auto ok = CheckRealTimeFactor(factor, specification_.name); !ok) return ok;
   const SimulationLock lock(*shared_);
   if (shared_->mode == Mode::kLockstep) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "in lockstep a simulation goes as fast as it can, so that there is no factor "
-                      "to set",
-                      specification_.name);
+    return base::Fail(
+        base::ErrorCode::kInvalidArgument,
+        "a simulation in lockstep runs as fast as possible, so it has no real-time factor to set",
+        specification_.name);
   }
   if (factor == life_cycle_.pace().target_real_time_factor()) return {};
   life_cycle_.pace().SetRealTimeFactor(factor);

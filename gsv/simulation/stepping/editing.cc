@@ -16,11 +16,11 @@ constexpr std::chrono::seconds kTurnTimeout{2};
 
 base::Status CheckBehaviour(const BehaviourPort& behaviour, Mode mode, const std::string& robot) {
   if (mode != Mode::kLockstep || behaviour.time_managed()) return {};
-  return base::Fail(base::ErrorCode::kBehaviour,
-                    "the behaviour \"" + behaviour.name() +
-                        "\" tells the time by the wall clock, so lockstep would not wait for it; "
-                        "run in real time",
-                    robot);
+  return base::Fail(
+      base::ErrorCode::kBehaviour,
+      "the behaviour \"" + behaviour.name() +
+          "\" uses the wall clock, so lockstep would not wait for it; run in real time",
+      robot);
 }
 
 base::Status CheckFinite(const geometry::Pose& pose, const std::string& body) {
@@ -177,7 +177,7 @@ base::Status SteppingSimulation::RemoveRobot(const std::string& name) {
   const int body = snapshot->layout->Find(name);
   if (body >= 0 && world::IsStation(snapshot->layout->bodies[static_cast<std::size_t>(body)])) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "it is no robot, so it is to be removed as an object", name);
+                      "it is not a robot, so remove it as an object", name);
   }
   AwaitTurns();
   return RemoveRobots({name});

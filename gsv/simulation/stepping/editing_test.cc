@@ -132,7 +132,7 @@ TEST(Editing, OverlappingObjectIsRejected) {
     const auto added = simulation->AddObject(Thing(Crate(), x, y, "new"));
     return added ? "" : added.error().Sentence();
   };
-  EXPECT_NE(refusal(3, 0).find("there is no room at (3, 0): it would stand in \"wall\""),
+  EXPECT_NE(refusal(3, 0).find("there is no room at (3, 0): it would overlap \"wall\""),
             std::string::npos);
   EXPECT_NE(refusal(0.1, -2).find("\"crate\""), std::string::npos);
   EXPECT_NE(refusal(1.1, 1).find("\"robot\""), std::string::npos);
@@ -149,7 +149,7 @@ TEST(Editing, ImpossibleEditIsRejectedWithASentence) {
     const auto added = simulation->AddObject(std::move(object));
     return added ? "" : added.error().Sentence();
   };
-  EXPECT_NE(refusal(Thing(Crate(), 1, 1, "crate")).find("is there already"), std::string::npos);
+  EXPECT_NE(refusal(Thing(Crate(), 1, 1, "crate")).find("there is already"), std::string::npos);
   EXPECT_NE(refusal(Thing(Crate(), 1, 1, "a/b")).find("no \"/\""), std::string::npos);
   EXPECT_NE(refusal(Thing(Disc(0.2), 1, 1)).find("as a robot"), std::string::npos);
   EXPECT_NE(refusal(Thing(Crate(), 1 / 0.0, 1)).find("not finite"), std::string::npos);

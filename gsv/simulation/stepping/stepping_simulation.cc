@@ -159,8 +159,8 @@ void SteppingSimulation::Dispose(SteppingSimulation* simulation) {
 
 base::Status SteppingSimulation::RefuseStuck() const {
   return base::Fail(base::ErrorCode::kEnded,
-                    "a behaviour in process has not returned from its turn and holds the "
-                    "simulation up for good; it can only be destroyed",
+                    "a behaviour in process does not return, so the simulation is stuck; it can "
+                    "only be destroyed",
                     specification_.name);
 }
 

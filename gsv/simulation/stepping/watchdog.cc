@@ -56,7 +56,7 @@ void Watchdog::CheckTurnDeadlines() {
     const std::string detail = "has not returned from its turn within " +
                                std::to_string(deadline_.count()) +
                                " ms; a behaviour in process cannot be interrupted, so run it as a "
-                               "program of its own, without --in-process";
+                               "separate program, without --in-process";
     agent->MarkUnresponsive(detail);
     events_.Emit("agent_unresponsive", name, agent->Describe() + " " + detail);
     if (failure.empty()) failure = agent->Describe() + " " + detail;
