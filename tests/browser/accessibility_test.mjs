@@ -1,4 +1,5 @@
-// axe-core on every page, light and dark: names, roles, contrast, and what else it knows.
+// Runs axe-core on every page, in light and dark colours. It checks names, roles, contrast and
+// more.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import os from "node:os";
@@ -40,7 +41,7 @@ async function pauseAt(url) {
   assert.equal(answer.status, 200);
 }
 
-// What axe-core finds wrong, a line each.
+// Returns the problems that axe-core finds, one per line.
 async function faultsOf(page) {
   await page.evaluate(AXE); // past the page's Content-Security-Policy
   const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
@@ -60,8 +61,8 @@ async function judge(page) {
   assert.deepEqual(found, { light: [], dark: [] });
 }
 
-// A robot is selected, its sensors read, something is plotted. All stands still: pictures of a
-// running world keep a browser without a graphics card busy.
+// A robot is selected, its sensors are read, and a value is plotted. The simulation is paused,
+// because a changing picture keeps a browser without a graphics card busy.
 async function openFilled(url) {
   const { page } = await openPage(browser, url);
   await waitUntilDrawn(page);

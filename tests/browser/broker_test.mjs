@@ -1,4 +1,4 @@
-// The broker page in a real browser, on the broker of a real simulation.
+// Tests the broker page in a real browser, with the broker of a real simulation.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";

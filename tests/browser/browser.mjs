@@ -1,5 +1,6 @@
-// Debian's Chromium, headless, drawing in software as it does for people who have no graphics card: only
-// WebGL is SwiftShader's, the page is put together by the processor. Alone on a profile of its own.
+// Starts Debian's headless Chromium with software rendering, as for people without a graphics card:
+// SwiftShader only renders WebGL, and the processor composes the page. Each browser has its own
+// profile.
 import fs from "node:fs";
 import { createRequire } from "node:module";
 import os from "node:os";
@@ -7,7 +8,7 @@ import path from "node:path";
 import { fileURLToPath } from "node:url";
 
 const here = path.dirname(fileURLToPath(import.meta.url));
-// The packages of the viewer serve its tests too.
+// The tests use the packages of the viewer.
 export const requireFromWeb = createRequire(path.resolve(here, "../../web/package.json"));
 const { chromium } = requireFromWeb("playwright-core");
 
@@ -24,9 +25,9 @@ const ARGUMENTS = [
 ];
 const ACTION_TIMEOUT_MS = 60_000; // two browsers may share two busy cores
 
-// Opens a browser on `profile`, a folder; close() ends it and removes that. `drawer`: who draws the view,
-// "browser", "server", or null for the page's own choice. Without `webgl` it is as Chrome is on a machine
-// without a graphics card.
+// Opens a browser on `profile`, a folder; close() ends the browser and removes the folder. `drawer`
+// selects what draws the view: "browser", "server", or null for the page's own choice. Without
+// `webgl`, the browser behaves like Chrome on a machine without a graphics card.
 export async function openBrowser({
   width = 1280,
   height = 800,
@@ -59,8 +60,7 @@ export async function openBrowser({
   };
 }
 
-// A page on the viewer. Whatever it asks of another host, and whatever goes wrong in its scripts, is
-// in `faults`.
+// Opens a page of the viewer. `faults` collects requests to other hosts and script errors.
 export async function openPage(browser, url) {
   const page = await browser.context.newPage();
   const faults = [];
@@ -78,7 +78,7 @@ export async function openPage(browser, url) {
   return { page, faults };
 }
 
-// The first scene is there with all its shapes, and drawn.
+// Waits until the first scene is drawn with all its shapes.
 export async function waitUntilDrawn(page, timeoutMs = 60_000) {
   await page.waitForFunction(() => window.gsv !== undefined);
   await withTimeout(

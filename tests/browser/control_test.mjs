@@ -1,5 +1,5 @@
-// Several people at one simulation: names, one who holds control, the others who ask for it; and a
-// server that takes tokens.
+// Tests several people at one simulation: their names, control and requests for it, and a server
+// that requires tokens.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
@@ -94,7 +94,7 @@ test("two simulations of a server are held by two people", async () => {
         (await fetch(`api/simulations/${simulation}/${action}`, { method: "POST", body: "{}" })).status,
       [simulation, action],
     );
-  // Past the page there is no key: whoever holds control keeps it from strangers.
+  // Requests without the page have no key, so the server refuses them while a viewer has control.
   for (const simulation of ["simulation", "second"]) assert.equal(await act(ada.page, simulation, "reset"), 409);
   await bob.page.getByRole("button", { name: "Start" }).click();
   await phaseIs(bob.page, "running");

@@ -1,5 +1,5 @@
-// A simulation is put together in the page, from the first click to robots that drive: on `gsv serve`,
-// with a behaviour in a program of its own that is found through the broker.
+// Sets up a simulation in the page, from the first click to robots that drive, on `gsv serve`. The
+// behaviour is a separate program that is found through the broker.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { once } from "node:events";
@@ -42,7 +42,7 @@ const row = (n) => page.locator(`[data-row="robots[${n}]"]`);
 const press = (name, within = page) => within.getByRole("button", { name, exact: true }).click();
 const field = (label, within = page) => within.getByLabel(label, { exact: true });
 
-// What the server was asked has been answered.
+// Waits until the server has answered all requests.
 async function answered() {
   await page.locator('.set-up[aria-busy="false"]').waitFor();
   await settled(page);

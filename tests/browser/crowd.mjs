@@ -1,4 +1,4 @@
-// Many robots on a floor of their own, and how long a click takes until its answer is on the screen.
+// Starts a crowd of robots, and measures how long the page takes to show the result of a click.
 import fs from "node:fs";
 import path from "node:path";
 
@@ -21,7 +21,8 @@ const FLOOR = `<?xml version="1.0"?>
 </sdf>
 `;
 
-// What `gsv run` takes for so many robots that wander, in a square; the world's file is in `folder`.
+// Returns the arguments of `gsv run` for this many wandering robots on a square. The world's file
+// is in `folder`.
 export function crowd(folder, robots) {
   const world = path.join(folder, "floor.sdf");
   fs.writeFileSync(world, FLOOR);
@@ -31,11 +32,13 @@ export function crowd(folder, robots) {
   return [world, ...all.flatMap((robot) => ["--robot", robot]), "--behaviour", "wander", "--in-process"];
 }
 
-// From now on the page notes for each press how long it took until a robot was shown as selected, in
-// the list and the inspector, and that picture was drawn; and how many rows of the list were written
-// anew for it. `robot` is null where a press missed them all, and so none is selected any more.
+// Makes the page record, for each press, the time until a robot was shown as selected in the list
+// and the inspector, and until that picture was drawn. It also records how many rows of the list
+// were rewritten for it. `robot` is null if a press missed all robots, so that none is selected any
+// more.
 export async function noteClicks(page) {
-  // Rows stay where they are: the worst come first otherwise, and a row moves when a state changes.
+  // Keeps the order of rows fixed. Otherwise the worst robots come first, and a row moves when a
+  // state changes.
   await page.getByRole("combobox", { name: "Order" }).selectOption("name");
   await page.evaluate(() => {
     const noted = (window.testClicks = []);
@@ -47,7 +50,7 @@ export async function noteClicks(page) {
       const from = pressed;
       pressed = null;
       const rows = new Set(changes.map(({ target }) => target)).size;
-      // After the next frame: what was changed now is painted.
+      // Resolves after the next frame, when the present changes are painted.
       requestAnimationFrame(() =>
         setTimeout(() => {
           const inspected = document.querySelector("section.inspector h2")?.textContent ?? "";
@@ -58,7 +61,7 @@ export async function noteClicks(page) {
   });
 }
 
-// Does `click`, and gives what the page noted of it.
+// Performs `click`, and returns the page's record of it.
 export async function clickNoted(page, click) {
   const count = await page.evaluate(() => window.testClicks.length);
   await click();
@@ -66,8 +69,8 @@ export async function clickNoted(page, click) {
   return page.evaluate(() => window.testClicks.at(-1));
 }
 
-// How many rows of the list are written while the robots move, until the distances of some have changed
-// `times` times.
+// Returns the number of rows that are rewritten while the robots move, until the distances of some
+// robots have changed `times` times.
 export async function rowsWritten(page, times = 3) {
   return page.evaluate(
     (wanted) =>
@@ -88,9 +91,8 @@ export async function rowsWritten(page, times = 3) {
   );
 }
 
-// How long each of `count` clicks took, in ms: by turns on robots in the list and in the picture. Left
-// out are those that something else hides in the picture, and those that had moved away when the click
-// came.
+// Returns the times of `count` clicks in ms, alternately on robots in the list and in the picture.
+// It omits robots that something hides in the picture, and robots that moved away before the click.
 export async function timeClicks(page, count) {
   const [list, picture] = [[], []];
   for (let i = 0; i < count; i++) {
@@ -105,7 +107,8 @@ export async function timeClicks(page, count) {
   return { list, picture };
 }
 
-// The robot's row: the list is scrolled until it exists, as only those in sight do.
+// Returns the robot's row. The list is scrolled until the row exists, because only rows in sight
+// exist.
 export async function rowOf(page, robot) {
   const isThere = await page.evaluate((name) => {
     const list = document.querySelector(".robot-scroll");
@@ -126,7 +129,8 @@ async function clickInList(page, share) {
   return (await clickNoted(page, () => row.click())).took;
 }
 
-// The robot at this share of the list, or the one behind it: a click on who is selected changes nothing.
+// Returns the robot at this fraction of the list, or the next one if it is selected already: a
+// click on the selected robot changes nothing.
 export async function unselectedAt(page, share) {
   const names = await page.evaluate(() => window.gsv.robots);
   const selected = await page.evaluate(() => document.querySelector('[data-robot][aria-pressed="true"]')?.dataset.robot);

@@ -1,6 +1,6 @@
-// A thousand robots on one page, drawn without a graphics card: it answers clicks all the same, in the
-// list and in the picture, and writes no more of the page than it must. bench/viewing.mjs measures how
-// soon it answers.
+// Tests a page with a thousand robots, drawn without a graphics card: it must answer clicks in the
+// list and in the picture, and must not rewrite more of the page than necessary. bench/viewing.mjs
+// measures the times.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import os from "node:os";
@@ -54,7 +54,8 @@ test("a click in the list shows the robot in the inspector", async () => {
   assert.equal(inspected, robot);
 });
 
-// A robot has nine sensors, and two thousand are listed: those of the last come when it is chosen.
+// A robot has nine sensors, and the server lists two thousand. The sensors of the last robot are
+// listed when it is selected.
 test("the last robot's camera and sensors are shown too, once it is chosen", async () => {
   const last = await page.evaluate(() => window.gsv.robots.at(-1));
   await page.locator(`[data-robot="${last}"][aria-pressed="true"]`).waitFor();
@@ -79,7 +80,7 @@ test("a click on a robot in the picture chooses it, or one beside it", async () 
   };
   let answer = await click();
   for (let i = 0; i < CLICKS && answer.robot === null; i++) {
-    // It had moved away meanwhile.
+    // The robot had moved away.
     const row = await rowOf(page, before);
     await clickNoted(page, () => row.click());
     answer = await click();
@@ -98,7 +99,8 @@ test("a click in the list writes the two rows that it concerns", async () => {
   }
 });
 
-// Those out of sight are not laid out, and so not written either; some beyond the edge count as in sight.
+// Rows out of sight have no layout, so they are not rewritten. Some rows beyond the edge count as
+// in sight.
 test("a search leaves the robots that fit, in the list and in the view", async () => {
   await page.keyboard.press("Escape"); // the selected robot's name is always shown
   const last = await page.evaluate(() => window.gsv.robots.at(-1));
@@ -124,7 +126,7 @@ test("no two names in the view overlap", async () => {
   assert.equal(await overlapping(), 0);
 });
 
-// Their beams would hide everything.
+// The beams of all robots would hide everything.
 test("without a selected robot no beams are asked for, with one its own only", async () => {
   assert.ok(ROBOTS > 20);
   const graph = () => page.evaluate(() => window.gsv.topics);

@@ -1,5 +1,5 @@
-// The documentation site as the real server serves it: the help sheet opens it, its search works, and no
-// page asks another host. Skipped where the site was not built, for want of mkdocs.
+// Tests the documentation site on the real server: the help sheet opens it, its search works, and
+// no page contacts another host. Skipped if the site was not built because mkdocs is missing.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";

@@ -1,5 +1,4 @@
-// Pictures for docs/viewer.md, taken by the tests as they go: only where GSV_DOC_IMAGES names a
-// folder for them.
+// Takes images for docs/viewer.md during the tests, if GSV_DOC_IMAGES names a folder for them.
 import fs from "node:fs";
 import path from "node:path";
 import process from "node:process";
@@ -7,7 +6,7 @@ import process from "node:process";
 const folder = process.env.GSV_DOC_IMAGES;
 const QUALITY = 82;
 
-// At the end of a page's address: pictures for people have all their pixels, however slow that is.
+// Append this to a page's address to draw all pixels, however long that takes.
 export const SHARP = folder ? "?quality=high" : "";
 
 export async function keepPicture(page, name) {

@@ -1,4 +1,4 @@
-// Changing who stands in a paused simulation, and recording it.
+// Tests changes of the robots in a paused simulation, and recordings of it.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import fs from "node:fs";
@@ -54,7 +54,7 @@ test("dragging a robot moves it on the server, and undo takes it back", async ()
   await settled(page);
   const before = await placeNow("pebble");
   const at = await page.evaluate(() => window.gsv.robotScreenPosition("pebble"));
-  // Towards the middle, where there is room: x is to the right, y upwards.
+  // Returns a place towards the middle of the room: x is to the right, y upwards.
   const pixels = 45 / Math.hypot(before.x_m, before.y_m);
   const by = { x: -before.x_m * pixels, y: before.y_m * pixels };
   await page.mouse.move(at.x, at.y);
@@ -132,14 +132,15 @@ test("a recording is switched on, which another viewer sees, and off", async () 
     await other.getByText("Recording saved. Replay it on the page Recordings").waitFor();
     await page.locator('.record[aria-pressed="false"]').waitFor();
     assert.ok(fs.statSync(path).size > 1000);
-    // What was done before it was switched on is not in it, and is said to be so.
+    // Edits before the start of the recording are not in it, and the page reports this.
     const again = spawnSync(program(), ["replay", path, "--resimulate"], { encoding: "utf8" });
     assert.match(again.stderr, /it starts at \d+\.\d+ s, in the middle of the run/);
     assert.equal(again.status, 2);
   } finally {
     fs.rmSync(path, { force: true });
   }
-  // On a busy machine a robot may be gone when the page asks for its model or its sensors' topics.
+  // On a busy machine, a robot may be removed before the page requests its model or its sensors'
+  // topics.
   const expected = /status of 422|status of 404 .*(\/api\/models\/|\/robots\/rover4\/topics)/;
   assert.deepEqual(faults.filter((fault) => !expected.test(fault)), []);
 });

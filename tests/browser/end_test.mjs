@@ -1,4 +1,4 @@
-// A run that ends by itself, and a recording that the command line asked for.
+// Tests a run that ends by itself, and a recording that the command line requested.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import os from "node:os";

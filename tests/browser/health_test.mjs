@@ -1,5 +1,5 @@
-// What is wrong, at a glance: which robots are in trouble and why, what a behaviour printed before it died, and
-// which expectations are violated.
+// Tests that the page shows what is wrong: the robots in trouble with the reasons, what a behaviour
+// printed before it died, and the violated expectations.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import os from "node:os";
@@ -11,7 +11,7 @@ import { SHARP, keepPicture } from "./documentation.mjs";
 import { startServer } from "./server.mjs";
 import { until } from "./viewing.mjs";
 
-// Drives into whatever is there.
+// A behaviour that drives into obstacles.
 const BLIND = `#!/usr/bin/python3
 import gsv
 
@@ -23,7 +23,7 @@ class Blind(gsv.Behaviour):
 
 gsv.serve("blind", Blind)
 `;
-// Prints, and dies of an exception.
+// A behaviour that prints a line and then fails with an exception.
 const BRITTLE = `#!/usr/bin/python3
 import gsv
 

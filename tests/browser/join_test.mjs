@@ -1,5 +1,4 @@
-// The page on which one joins a simulation that runs elsewhere: two instances at one broker, and a
-// relay of one of them.
+// Tests the page for joining simulations: two instances at one broker, and a relay of one of them.
 import assert from "node:assert/strict";
 import { mkdtemp, readdir, readFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";

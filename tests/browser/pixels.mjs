@@ -1,25 +1,26 @@
-// Judges pictures by their pixels. A picture is what pngjs decodes: {width, height, data: RGBA}.
+// Checks pictures by their pixels. A picture is the result of pngjs: {width, height, data: RGBA}.
 import { requireFromWeb } from "./browser.mjs";
 
 const { PNG } = requireFromWeb("pngjs");
 
-// Darker or lighter than this many of 255 counts as another colour.
+// A difference above this value (of 255) counts as another colour.
 const SAME_COLOUR = 24;
 const BLANK_SHARE = 0.985;
 
-// The part of the page inside `clip` (CSS pixels; the tests' pages have one pixel for each).
+// Returns the part of the page inside `clip` (in CSS pixels, which equal device pixels in the
+// tests).
 export async function picture(page, clip) {
   return PNG.sync.read(await page.screenshot({ clip, animations: "disabled", caret: "hide" }));
 }
 
-// The part of a picture inside `rectangle`, whose coordinates are the picture's.
+// Returns the part of a picture inside `rectangle`, in the picture's coordinates.
 export function cut(image, { x, y, width, height }) {
   const part = new PNG({ width, height });
   PNG.bitblt(image, part, x, y, width, height, 0, 0);
   return part;
 }
 
-// Whether nearly all pixels have one colour: nothing was drawn, or only a background.
+// Returns whether nearly all pixels have one colour: nothing was drawn, or only a background.
 export function isBlank(image) {
   const counts = new Map();
   let most = 0;
@@ -32,7 +33,8 @@ export function isBlank(image) {
   return most / (image.data.length / 4) > BLANK_SHARE;
 }
 
-// How many pixels of `after` differ from `before` and satisfy the test on their colour.
+// Returns the number of pixels of `after` that differ from `before` and whose colour satisfies the
+// test.
 export function changedPixels(before, after, isWanted = () => true) {
   let changed = 0;
   for (let i = 0; i < after.data.length; i += 4) {
@@ -53,7 +55,7 @@ export const isBlue = (r, g, b) => b > 150 && b > 1.3 * r && b > 1.1 * g;
 export const isGreen = (r, g, b) => g > 110 && g > 1.5 * r && g > 1.5 * b;
 export const isYellow = (r, g, b) => r > 120 && g > 100 && r > 1.5 * b && g > 1.4 * b;
 
-// A square of `size` pixels around a place on the page.
+// Returns a square of `size` pixels around a place on the page.
 export function around({ x, y }, size) {
   return { x: Math.round(x - size / 2), y: Math.round(y - size / 2), width: size, height: size };
 }

@@ -1,4 +1,4 @@
-// The judges themselves, on pictures that are made here.
+// Tests the functions of pixels.mjs with generated pictures.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { changedPixels, isBlank, isRed, isYellow } from "./pixels.mjs";

@@ -1,4 +1,5 @@
-// Robots that talk by radio, as the tutorial's swarm does: the page draws who hears whom.
+// Tests robots that communicate by radio, as in the tutorial on swarms: the page draws who receives
+// messages from whom.
 import assert from "node:assert/strict";
 import path from "node:path";
 import process from "node:process";
@@ -34,7 +35,7 @@ after(async () => {
   await server?.stop();
 });
 
-// A link's colour, mixed with what is about it where the line is thin.
+// The colour of a link, blended with the background where the line is thin.
 function violetPixels({ data }) {
   let count = 0;
   for (let i = 0; i < data.length; i += 4) {

@@ -1,4 +1,4 @@
-// The messages of a recording, read by other people's code: what a replay has to show.
+// Reads the messages of a recording with third-party code, as the expected content of a replay.
 import fs from "node:fs";
 import { requireFromWeb } from "./browser.mjs";
 
@@ -32,7 +32,7 @@ export async function readTopic(file, topic) {
   return messages;
 }
 
-// The newest that is not after `time`.
+// Returns the newest entry that is not after `time`.
 export function posesAt(messages, time) {
   return messages.findLast((message) => message.time <= time + 1e-9);
 }

@@ -1,5 +1,5 @@
-// The page of recordings: made by a run's red dot, listed, replayed by a click, linked to; each page
-// with a replay of its own.
+// Tests the page of recordings: made with the red button of a run, listed, replayed by a click, and
+// linked to. Each page has its own replay.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import os from "node:os";
@@ -75,7 +75,7 @@ test("one click replays it, and a link leads to this instant and viewpoint for w
     await until(async () => (await timeOn(elsewhere)) === 4.5, "the linked instant");
     const there = await elsewhere.evaluate(() => window.gsv.view);
     place.forEach((value, i) => assert.ok(Math.abs(there[i] - value) < 2e-3, `${there} is not ${place}`));
-    // Each has a replay of its own.
+    // Each page has its own replay.
     await goTo(elsewhere, 1.25);
     assert.equal(await timeOn(page), 4.5);
     await elsewhere.keyboard.press("Escape");
@@ -93,8 +93,8 @@ test("after a restart of the server the replay goes on where it stood", async ()
 });
 
 test("a link to a recording that is gone says so", async () => {
-  // A page of its own: the one above may still be loading the world anew, and leaving it then would
-  // end that with faults of the browser's own.
+  // Uses a separate page: the one above may still be loading the world again, and leaving it then
+  // would cause errors of the browser.
   await page.close();
   ({ page, faults } = await openPage(browser, `${server.url}?recording=gone.mcap#t=3`));
   await page.getByText("there is no recording 'gone.mcap' here").waitFor();

@@ -1,4 +1,5 @@
-// A recording in a real browser: recorded by a real run, moved by mouse and keys, played to its end.
+// Tests a recording in a real browser: made by a real run, seeked by mouse and keys, and played to
+// its end.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import os from "node:os";
@@ -50,7 +51,7 @@ const slider = () => page.getByRole("slider", { name: "Time in the recording" })
 const replay = () => ask(page, "/replay");
 const pageTime = () => page.evaluate(() => window.gsv.time);
 
-// Waits until page and server stand at one instant; gives it.
+// Waits until page and server are at the same instant, and returns it.
 async function agreedTime() {
   let time;
   await until(async () => {
@@ -71,7 +72,7 @@ async function placeOnSlider(time) {
   return { x: box.x + THUMB_PX / 2 + share * (box.width - THUMB_PX), y: box.y + box.height / 2 };
 }
 
-// A pixel of the slider, and what its thumb may be off.
+// The tolerance: one pixel of the slider, and the possible error of its thumb.
 async function sliderTolerance() {
   return (4 * DURATION_S) / (await slider().boundingBox()).width;
 }
@@ -82,7 +83,7 @@ async function clickAt(time) {
   return standsAt(time, await sliderTolerance());
 }
 
-// Page, server and recording say the same of where the robots are at this instant.
+// Checks that page, server and recording agree on the robots' poses at this instant.
 async function robotsAreRight(time) {
   const expected = posesAt(recorded, time);
   await page.waitForFunction(
@@ -113,8 +114,7 @@ test("a recording is shown with a timeline, and without the buttons of what runs
   assert.equal(await page.getByTestId("connection").textContent(), "Replay");
 });
 
-// A canvas that is given another size is empty until somebody draws on it, and the next frame may be
-// half a second away.
+// A canvas that gets another size is empty until the next frame, which may be half a second later.
 test("the view keeps its picture until it is drawn in another size", async () => {
   const drawn = page.evaluate(
     () =>
@@ -194,7 +194,7 @@ test("status and camera picture are of that instant too", async () => {
     const { distance_m } = (await ask(page, "")).robots.find(({ name }) => name === MOVER);
     const row = page.locator(`[data-robot="${MOVER}"]`);
     await row.getByText(`${distance_m.toFixed(2)} m`, { exact: true }).waitFor();
-    // A picture each second.
+    // There is an image every second.
     await page
       .locator(".picture-time")
       .getByText(`0:0${Math.floor(time)}.00`, { exact: true })

@@ -15,12 +15,12 @@ const RECORD_TIMEOUT_MS = 120_000;
 const STOP_TIMEOUT_MS = 30_000;
 const ADDRESS = /http:\/\/127\.0\.0\.1:(\d+)\//;
 
-// Starts it with these arguments after `run`; `url` is the viewer's address.
+// Starts it with these arguments after `run`. `url` is the viewer's address.
 export async function startServer(args = []) {
   return start(["run", ...args]);
 }
 
-// Starts `gsv serve` with these arguments: no simulation is there yet.
+// Starts `gsv serve` with these arguments, without a simulation.
 export async function startServe(args) {
   return start(["serve", ...args]);
 }
@@ -30,19 +30,19 @@ export async function startReplay(args) {
   return start(["replay", ...args]);
 }
 
-// Starts `gsv view` with these arguments: a relay.
+// Starts `gsv view` with these arguments (a relay).
 export async function startView(args) {
   return start(["view", ...args]);
 }
 
-// Runs gsv with these arguments to its end.
+// Runs gsv with these arguments until it ends.
 export async function gsv(args) {
   const child = spawn(program(), args, { stdio: "inherit" });
   const [code] = await withTimeout(once(child, "exit"), STOP_TIMEOUT_MS, `the end of gsv ${args[0]}`);
   if (code !== 0) throw new Error(`gsv ${args.join(" ")} ended with ${code}`);
 }
 
-// Runs a simulation without a viewer to its end, and records it.
+// Runs and records a simulation without a viewer until it ends.
 export async function record(file, args) {
   const child = spawn(program(), ["run", ...args, "--headless", "--record", file], {
     stdio: ["ignore", "ignore", "pipe"],
@@ -76,7 +76,7 @@ class Server {
     this.command = command;
   }
 
-  // The port stays the same over a restart, as it would for an open page.
+  // The port stays the same after a restart, for pages that are still open.
   async restart() {
     const port = Number(new URL(this.url).port);
     await this.stop();
@@ -101,7 +101,8 @@ class Server {
     this.url = await withTimeout(address, START_TIMEOUT_MS, "the server's address");
   }
 
-  // Ends it as Ctrl-C does; gives its exit code. What does not end in time is killed and an error.
+  // Ends it like Ctrl-C, and returns its exit code. If it does not end in time, it is killed and
+  // this is an error.
   async stop() {
     const { child } = this;
     if (child.exitCode !== null || child.signalCode !== null) return child.exitCode;
@@ -116,7 +117,7 @@ class Server {
     }
   }
 
-  // Ends it, and its behaviours, as a crash would.
+  // Kills it and its behaviours, like a crash.
   async kill() {
     const exit = once(this.child, "exit");
     process.kill(-this.child.pid, "SIGKILL");

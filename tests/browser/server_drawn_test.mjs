@@ -1,4 +1,4 @@
-// The view as the server draws it: in a browser without WebGL, and by choice.
+// Tests the view that the server draws: in a browser without WebGL, and if it is chosen.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
@@ -23,7 +23,7 @@ after(async () => {
   await server?.stop();
 });
 
-// The number of different colours in the image, and a sum that changes with it.
+// Returns the number of different colours in the image, and a checksum.
 async function lookAtImage() {
   return page.evaluate(() => {
     const canvas = document.querySelector(".drawn-view");
@@ -50,7 +50,7 @@ async function untilOtherImage(sum) {
 test("without WebGL the server draws the view at the size of the window", async () => {
   assert.equal(await page.evaluate(() => document.createElement("canvas").getContext("webgl2")), null);
   await page.locator(".drawn-view").waitFor();
-  // The first image may be of the window before its panels came.
+  // The first image may show the window before the panels were added.
   await page.waitForFunction(() => {
     const canvas = document.querySelector(".drawn-view");
     const { width, height } = document.querySelector(".view").getBoundingClientRect();

@@ -38,7 +38,7 @@ after(async () => {
   await server?.stop();
 });
 
-// A viewer without a page, subscribed to the poses; `times` are those of its updates.
+// A viewer without a page that is subscribed to the poses. `times` are the times of its updates.
 async function watch() {
   const socket = new WebSocket(`${server.url.replace("http", "ws")}ws`, ["foxglove.sdk.v1"]);
   const watcher = { socket, times: [], dropped: null };
@@ -56,10 +56,10 @@ async function watch() {
   return watcher;
 }
 
-// Lets what arrives be heard between two looks.
+// Lets messages arrive between two checks.
 const later = () => new Promise((resolve) => setImmediate(() => resolve(false)));
 
-// The processes that draw a browser's pages.
+// The processes that render a browser's pages.
 function renderersOf({ profile }) {
   const processes = fs.readdirSync("/proc").filter((name) => /^\d+$/.test(name)).flatMap((pid) => {
     try {
@@ -78,7 +78,7 @@ function renderersOf({ profile }) {
   return renderers.map(({ pid }) => pid);
 }
 
-// The instant of an update that a watcher hears.
+// The instant of an update that a watcher receives.
 function reached({ socket, times }, time_s) {
   return new Promise((resolve, reject) => {
     socket.on("message", () => Number(times.at(-1)) >= time_s * 1e9 && resolve());

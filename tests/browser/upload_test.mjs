@@ -1,4 +1,5 @@
-// Worlds from the user's machine: a file that is chosen, a folder that is dropped, and what is no world.
+// Tests worlds from the user's machine: a chosen file, a dropped folder, and files that are not
+// worlds.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { after, before, test } from "node:test";
@@ -46,7 +47,8 @@ after(async () => {
 
 const objection = () => page.locator(".field", { has: page.getByLabel("Environment", { exact: true }) }).locator(".field-error");
 
-// Drops files, by their paths; a browser lets no test drop a folder, so they come without entries.
+// Drops files by their paths. A browser does not allow tests to drop a folder, so the files come
+// without entries.
 async function drop(files) {
   await page.evaluate((files) => {
     const entry = (name, content) =>
@@ -83,7 +85,7 @@ test("a folder with its models is dropped, shown, and becomes a simulation", asy
   assert.deepEqual(faults, []);
 });
 
-// Made by Python's zipfile.
+// The archive was made by Python's zipfile.
 function zipped(files) {
   const make = `
 import io, json, sys, zipfile

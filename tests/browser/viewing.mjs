@@ -1,11 +1,11 @@
-// What several tests ask of a page on the viewer.
+// Functions that several tests use on a page of the viewer.
 import assert from "node:assert/strict";
 import { setTimeout } from "node:timers/promises";
 
 const LONGEST_WAIT_MS = 60_000; // two pictures of a busy machine may take ten seconds
 const ASK_AGAIN_MS = 20; // asking without a pause takes a processor from those who are to answer
 
-// Where the 3D view is on the page.
+// Returns the place of the 3D view on the page.
 export async function viewClip(page) {
   return page.locator(".view").boundingBox();
 }
@@ -14,8 +14,8 @@ export async function phaseIs(page, phase) {
   await page.waitForFunction((wanted) => window.gsv.phase === wanted, phase);
 }
 
-// Waits until the picture has stopped changing: poses settled and everything drawn. Brings the page to the front,
-// for a page in the background has one frame a second.
+// Waits until the picture no longer changes: all poses have arrived and everything is drawn. It
+// brings the page to the front, because a page in the background draws one frame per second.
 export async function settled(page) {
   await page.bringToFront();
   await page.evaluate(async () => {
@@ -38,7 +38,8 @@ export async function until(isTrue, what) {
   }
 }
 
-// What the page's server says of its first simulation, past the page's own code.
+// Requests the status of the first simulation directly from the page's server, without the page's
+// code.
 export async function ask(page, path, body) {
   return page.evaluate(
     async ([path, body]) => {

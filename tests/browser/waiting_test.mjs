@@ -1,4 +1,4 @@
-// Who holds up a simulation in lockstep is told where people look.
+// Tests that the page shows which behaviour delays a simulation in lockstep.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import process from "node:process";
@@ -26,7 +26,7 @@ after(async () => {
   await server?.stop();
 });
 
-// A process that the server has started.
+// Returns a process that the server has started.
 function childCalled(name) {
   const { pid } = server.child;
   const children = fs.readFileSync(`/proc/${pid}/task/${pid}/children`, "utf8").trim().split(" ").map(Number);
@@ -43,7 +43,7 @@ test("a behaviour that is stopped is named, and no longer when it goes on", asyn
     await page.waitForFunction(() => document.querySelector("[data-testid=waiting]").textContent !== "");
     const sentence = await waiting.textContent();
     assert.match(sentence, new RegExp(`^waiting for pebble \\(wander on .+:${behaviour}\\) since \\d+\\.\\d s$`));
-    // It goes on counting although nothing moves.
+    // The counter continues, although nothing moves.
     await page.waitForFunction(
       (then) => document.querySelector("[data-testid=waiting]").textContent !== then,
       sentence,

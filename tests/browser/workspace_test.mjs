@@ -1,5 +1,5 @@
-// The workspace: panels are docked, tabbed, moved, maximised and closed; layouts are kept, linked and shared as
-// files. On a phone everything can be reached.
+// Tests the workspace: panels are docked, tabbed, moved, maximised and closed; layouts are saved,
+// linked and shared as files. On a phone, everything can be reached.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import path from "node:path";

@@ -1,4 +1,4 @@
-// One of the files that were dropped onto the page, or chosen, or lie in an archive that was.
+// A file that was dropped onto the page or chosen, or that is in such an archive.
 export interface DroppedFile {
   path: string; // "world.sdf", "folder/meshes/cube.stl"
   size: number; // bytes

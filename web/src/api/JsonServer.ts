@@ -1,9 +1,9 @@
-// Asks the server for JSON, relative to the page's own address. Every call ends: with an answer, the
-// server's sentence, or a timeout.
+// Requests JSON from the server, relative to the page's address. Every call ends with an answer, an
+// error sentence of the server, or a timeout.
 import { textOr } from "./json";
 
-// What the server answered when it refused; `message` is its sentence, `field` the field of the
-// request that it concerns (empty: none in particular).
+// A refusal by the server. `message` is its sentence, and `field` the field of the request that it
+// is about (empty: none in particular).
 export class ApiError extends Error {
   constructor(
     readonly httpStatus: number,
@@ -14,7 +14,7 @@ export class ApiError extends Error {
   }
 }
 
-// Whether the server takes a token that was not shown, or was the wrong one.
+// Whether the server requires a token and got none, or the wrong one.
 export function needsToken(error: unknown): boolean {
   return error instanceof ApiError && (error.httpStatus === 401 || error.httpStatus === 403);
 }
@@ -35,7 +35,7 @@ export class JsonServer {
     return new URL(path, this.base).href;
   }
 
-  // From now on all paths are below this one, itself below the root; empty: below the root again.
+  // Sets the path, below the root, that all further requests are relative to. Empty: the root.
   moveTo(path: string): void {
     this.base = new URL(path, this.root).href;
   }
@@ -53,12 +53,12 @@ export class JsonServer {
     });
   }
 
-  // Any response, as it is.
+  // Returns any response unchanged.
   fetch(path: string, signal: AbortSignal): Promise<Response> {
     return this.fetchPage(this.url(path), { signal });
   }
 
-  // Sends a file as it is.
+  // Sends a file unchanged.
   put(path: string, content: Blob, timeoutMs: number): Promise<unknown> {
     return this.request(path, { method: "PUT", body: content, signal: AbortSignal.timeout(timeoutMs) });
   }

@@ -1,11 +1,11 @@
-// The server's figures: its /metrics, in Prometheus' text format 0.0.4 (docs/monitoring.md).
+// Reads the server's metrics from /metrics, in Prometheus' text format 0.0.4 (docs/monitoring.md).
 const TIMEOUT_MS = 5000;
 
-// By name; what carries labels comes as "name{label=\"value\"}".
+// Metrics by name. Those with labels are named "name{label=\"value\"}".
 export type ServerFigures = ReadonlyMap<string, number>;
 
 export class MetricsApi {
-  // `base`: the page's own address.
+  // `base`: the address of the page.
   constructor(
     private readonly base: string,
     private readonly fetchPage: typeof fetch,

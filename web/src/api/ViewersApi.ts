@@ -1,4 +1,4 @@
-// Who else is watching, and who of them holds control.
+// Requests the list of viewers, and which of them has control.
 import type { Credentials } from "./credentials";
 import type { JsonServer } from "./JsonServer";
 import { listAt, numberAt, numberOr, objectAt, textAt, textOr } from "./json";
@@ -23,7 +23,7 @@ export class ViewersApi {
     private readonly credentials: Credentials,
   ) {}
 
-  // `simulation`: that this page shows; empty: none.
+  // `simulation`: the simulation that this page shows; empty: none.
   async enter(name: string, simulation: string): Promise<void> {
     const answer = objectAt(await this.server.post("api/viewers", { name, simulation }), "viewer");
     this.credentials.viewer = textAt(answer.key, "viewer.key");
@@ -49,7 +49,7 @@ export class ViewersApi {
     return parsePeople(await this.server.post("api/viewers/me/answer", { grants }));
   }
 
-  // While the page closes: nobody waits for the answer.
+  // Used while the page closes, so nobody waits for the answer.
   leave(): void {
     if (this.credentials.viewer === "") return;
     const url = this.server.url("api/viewers/me");

@@ -1,4 +1,5 @@
-// By what the server knows this page: a token, if it asks for one, and the key of the viewer.
+// The credentials of this page at the server: a token, if the server requires one, and the key of
+// the viewer.
 const TOKEN = "gsv-token";
 
 export class Credentials {
@@ -6,7 +7,7 @@ export class Credentials {
 
   constructor(private readonly storage: Pick<Storage, "getItem" | "setItem"> | null = null) {}
 
-  // For as long as this tab is open.
+  // Stores the token until this tab is closed.
   get token(): string {
     return this.storage?.getItem(TOKEN) ?? this.given;
   }
@@ -25,13 +26,13 @@ export class Credentials {
     };
   }
 
-  // Sends these with each request.
+  // Adds the credentials to the headers of a request.
   fetch: typeof fetch = (input, init) =>
     fetch(input, { ...init, headers: { ...(init?.headers as Record<string, string>), ...this.headers } });
 }
 
-// Those of this tab. A token at the end of the address (#token=…, which no server and no log sees) is
-// taken from there.
+// Returns the credentials of this tab. A token at the end of the address (#token=…, which no server
+// or log sees) is removed from the address.
 export function pageCredentials(window: Window): Credentials {
   const credentials = new Credentials(sessionStorageOf(window));
   const parts = new URLSearchParams(window.location.hash.replace(/^#/, ""));

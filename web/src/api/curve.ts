@@ -1,7 +1,7 @@
-// A value over the whole of a recording, as far as the server has read it.
+// A value over a whole recording, as far as the server has read it.
 import { listAt, numberAt, objectAt, textOr } from "./json";
 
-// What is asked for: a number of a topic's messages, of a robot, or (neither) of the simulation.
+// The requested value: a number in a topic's messages, of a robot, or (neither) of the simulation.
 export interface CurveOf {
   topic?: string;
   robot?: string;

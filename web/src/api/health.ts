@@ -1,4 +1,4 @@
-// What a robot's behaviour printed, as the server keeps it.
+// The output of a robot's behaviour that the server stores.
 import { listAt, numberOr, objectAt, textOr } from "./json";
 
 export interface OutputLine {
@@ -9,7 +9,7 @@ export interface OutputLine {
 
 const LEVELS: Record<string, number> = { stdout: 20, stderr: 30 };
 
-// The last lines of the first robot that is reported.
+// Returns the last lines of the first robot in the answer.
 export function parseOutput(json: unknown): OutputLine[] {
   const [robot] = listAt(objectAt(json, "health").robots ?? [], "health.robots");
   if (robot === undefined) return [];

@@ -1,5 +1,5 @@
-// Reads parts of JSON documents that came from outside. Each function says in its exception where
-// something else stood than expected.
+// Reads parts of JSON documents from untrusted sources. Each function throws an error with the
+// place and the expected type.
 
 export type JsonObject = Record<string, unknown>;
 

@@ -1,8 +1,8 @@
-// Groups of pedestrians of a simulation to be put together (docs/formats/scenario.md).
+// Groups of pedestrians in a simulation that is being set up (docs/formats/scenario.md).
 import type { JsonObject } from "./json";
 import { listAt, numberOr, objectAt, textOr } from "./json";
 
-// A disc that pedestrians walk to. Metres.
+// A disc to which pedestrians walk. Metres.
 export interface Goal {
   x: number;
   y: number;
@@ -28,12 +28,12 @@ export function newPedestrians(taken: readonly PedestrianSetUp[]): PedestrianSet
   return { name, count: 5, route: FIRST_ROUTE, others: {} };
 }
 
-// "x,y[,radius]:…", as --pedestrians has it.
+// The format of --pedestrians: "x,y[,radius]:…".
 export function routeText(route: readonly Goal[]): string {
   return route.map(({ x, y, radius }) => [x, y, ...(radius === 0 ? [] : [radius])].join(",")).join(":");
 }
 
-// Null for what is no route.
+// Returns null if the text is not a route.
 export function parseRoute(text: string): Goal[] | null {
   const goals: Goal[] = [];
   for (const part of text.split(":")) {

@@ -1,4 +1,4 @@
-// Whether a simulation is recorded, and where to.
+// Whether a simulation is being recorded, and to which file.
 import { numberOr, objectAt, textOr } from "./json";
 
 export interface Recording {

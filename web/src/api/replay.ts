@@ -1,4 +1,4 @@
-// A recording that is replayed: its span, how it plays, and what happened in it.
+// The replay of a recording: its span, its playback state, and its events.
 import { listAt, numberAt, objectAt, textAt, textOr } from "./json";
 
 export interface Replay {

@@ -1,6 +1,6 @@
-// A simulation to be put together: the world, who stands in it, and how it runs. Metres, radians,
-// seconds. As JSON it is what the server takes and what a scenario file holds
-// (docs/formats/scenario.md); JSON is YAML too.
+// A simulation that is being set up: its world, its robots, and how it runs. Metres, radians,
+// seconds. Its JSON is what the server accepts and what a scenario file contains
+// (docs/formats/scenario.md), because JSON is also YAML.
 import type { JsonObject } from "./json";
 import { listAt, numberOr, objectAt, textOr } from "./json";
 import type { PedestrianSetUp } from "./pedestrians";
@@ -59,7 +59,7 @@ export function newRobot(scenario: Scenario, model: string): RobotSetUp {
   return { name, model, place: null, behaviour: "", constraint: "", movement: "", drive: "" };
 }
 
-// The model's name (of a path: its last part), numbered where it is taken.
+// The model's name (the last part of a path), with a number if the name is taken.
 export function freeName(scenario: Scenario, model: string): string {
   const name = model.split("/").filter(Boolean).at(-1)?.replace(/\.\w+$/, "") || "robot";
   const taken = new Set([...scenario.robots, ...scenario.avatars].map((robot) => robot.name));
@@ -89,7 +89,7 @@ export function withChangedRobot(
   };
 }
 
-// Where a robot of that name stands in the lists.
+// Returns the index of the robot with this name.
 export function findRobot(scenario: Scenario, name: string): { list: RobotList; index: number } | null {
   for (const list of ["robots", "avatars"] as const) {
     const index = scenario[list].findIndex((robot) => robot.name === name);
@@ -98,7 +98,7 @@ export function findRobot(scenario: Scenario, name: string): { list: RobotList; 
   return null;
 }
 
-// What is as it would be anyway is left out.
+// Omits values that equal the defaults.
 export function scenarioJson(scenario: Scenario): JsonObject {
   const { robots, avatars, pedestrians, ...rest } = scenario;
   const json: JsonObject = {};
@@ -124,8 +124,8 @@ export function robotJson(robot: RobotSetUp): JsonObject {
   };
 }
 
-// Throws, with where and what, on what is no scenario. `left` names the keys that the page knows
-// nothing of: they are left out.
+// Throws an error with the place if the text is not a scenario. `left` gets the keys that the page
+// does not know; they are ignored.
 export function parseScenario(value: unknown): { scenario: Scenario; left: string[] } {
   const json = objectAt(value, "the file");
   const scenario: Scenario = {

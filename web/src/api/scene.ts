@@ -1,5 +1,5 @@
-// The scene of a simulation: what stands where, the light, and what each entry of /gsv/poses is.
-// Metres, radians, z up; a pose is seven numbers: x y z qx qy qz qw.
+// The scene of a simulation: its bodies, its lights, and the meaning of each entry of /gsv/poses.
+// Metres, radians, z up. A pose has seven numbers: x y z qx qy qz qw.
 import type { JsonObject } from "./json";
 import { listAt, numberAt, numberOr, numbersAt, objectAt, textAt, textOr } from "./json";
 
@@ -21,13 +21,13 @@ export interface SceneLight {
 
 export type Overlay = "none" | "lines" | "points" | "picture";
 
-// What a camera sees: radians, and the picture's width by its height.
+// The field of view of a camera in radians, and the aspect ratio (width by height).
 export interface CameraView {
   horizontalFov: number;
   aspect: number;
 }
 
-// By the path of a field in the sensor's messages; a path stands for all below it.
+// Units by the path of a field in the sensor's messages. A path applies to all fields below it.
 export type Units = Readonly<Record<string, string>>;
 
 export interface SceneSensor {
@@ -102,14 +102,14 @@ export function parseScene(json: unknown): SceneDescription {
   };
 }
 
-// Who has sensors: robots, avatars and stations.
+// The bodies with sensors: robots, avatars and stations.
 export function robotsOf(scene: SceneDescription | null): readonly SceneBody[] {
   return scene ? robotsOfScene(scene) : [];
 }
 
 const robotsOfScene = oncePerScene((scene) => scene.bodies.filter(hasAgent));
 
-// A scene never changes, and of a thousand robots the answer takes long.
+// A scene never changes, and the answer for a thousand robots takes long.
 function oncePerScene<Result>(compute: (scene: SceneDescription) => Result): (scene: SceneDescription) => Result {
   const known = new WeakMap<SceneDescription, { result: Result }>();
   return (scene) => {

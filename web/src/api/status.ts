@@ -1,4 +1,4 @@
-// The status of a simulation, the same whether it came as JSON or over the live stream.
+// The status of a simulation. The structure is the same for JSON and for the live stream.
 import type { SimulationStatusMessage } from "../protocol/messages";
 import { seconds } from "../protocol/messages";
 import type { JsonObject } from "./json";

@@ -1,4 +1,5 @@
-// A video of the view, as WebM: from one press to the next, or until it is large enough.
+// Records a video of the view as WebM, from one press to the next, or until it reaches its maximum
+// size.
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 import { download, fileName } from "../ui/files";

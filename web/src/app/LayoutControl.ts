@@ -1,5 +1,5 @@
-// Shows, saves and shares layouts of the workspace. What cannot be shown is said in a sentence, and the
-// standard layout is shown instead.
+// Shows, saves and shares layouts of the workspace. If a layout cannot be shown, an error is shown
+// together with the standard layout.
 import type { SavedLayout } from "../state/layouts";
 import { MAX_NAME, MAX_SAVED, fileOf, fromFile, keepCurrent, keepLayouts, loadCurrent, loadLayouts } from "../state/layouts";
 import type { State } from "../state/State";
@@ -13,7 +13,7 @@ import { notify } from "./notices";
 
 const MAX_FILE_BYTES = 64_000;
 
-// Where layouts are shown.
+// The workspace in which layouts are shown.
 export interface LayoutHost {
   readonly layout: string;
   readonly space: Space;
@@ -31,7 +31,7 @@ export class LayoutControl {
     store.set({ layouts: loadLayouts(storage) });
   }
 
-  // `linked`: what the page's address asks for; null: nothing.
+  // `linked`: the layout in the page's address; null: none.
   start(host: LayoutHost, linked: string | null): void {
     this.host = host;
     const kept = loadCurrent(this.storage);
@@ -53,7 +53,8 @@ export class LayoutControl {
     this.showText(text, `The layout ${name}`);
   }
 
-  // A preset's name, or a layout's text; `what` names it where it cannot be shown. Whether it could be.
+  // Shows a preset by its name, or a layout by its text. `what` names the layout in an error.
+  // Returns whether it could be shown.
   showText(text: string, what: string): boolean {
     const preset = PRESETS.find(({ name }) => name === text);
     if (preset) {
@@ -73,7 +74,7 @@ export class LayoutControl {
     return true;
   }
 
-  // The preset's name where a preset is shown; null: the standard layout.
+  // The name of the preset that is shown; null: the standard layout.
   get linkText(): string | null {
     const { host } = this;
     if (!host) return null;
@@ -82,7 +83,7 @@ export class LayoutControl {
     return preset ? (preset === STANDARD ? null : preset.name) : text;
   }
 
-  // Under a name that is in use the layout is replaced.
+  // Replaces a layout of the same name.
   save(name: string): void {
     const { host } = this;
     const trimmed = name.trim().slice(0, MAX_NAME);

@@ -1,4 +1,4 @@
-// Links to what is seen: makes them, and shows what the page's address asks for.
+// Makes links to the present view, and shows what the page's address refers to.
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 import type { LinkedView, Viewpoint } from "../state/link";
@@ -8,7 +8,7 @@ export interface Place {
   viewpoint: Viewpoint;
 }
 
-// What a link asks of the page.
+// The functions of the page that a link needs.
 export interface LinkedPage {
   select(robot: string): void;
   pause(): Promise<void>;
@@ -31,7 +31,8 @@ export class LinkControl {
     private readonly layouts: LinkedLayouts | null = null,
   ) {}
 
-  // Shows what the address asks for, now or as soon as it is there, and whenever it changes.
+  // Shows what the address refers to, as soon as it is available, and again after each change of
+  // the address.
   start(window: Window): void {
     const read = () => {
       this.wanted = linkedView(window.location.hash);
@@ -53,12 +54,12 @@ export class LinkControl {
     read();
   }
 
-  // The address that shows this; `page` is the page's own.
+  // Returns the address of the present view. `page` is the address of the page itself.
   linkTo(page: string): string {
     const { simulations, simulation, replay, time, selection, viewMode, shown, abilities } = this.store.get();
     const url = new URL(page);
     if (simulation !== null && (simulations?.length ?? 0) > 1) url.searchParams.set("simulation", simulation);
-    // Who opens a recording's link has a replay of their own.
+    // Everyone who opens the link of a recording has their own replay.
     if (replay && abilities.recording !== "") url.searchParams.set("recording", abilities.recording);
     const viewpoint = this.place()?.viewpoint ?? null;
     url.hash = hashOf({ time: replay ? time : null, viewpoint, selection, viewMode, shown, layout: this.layouts?.linkText ?? null });
@@ -80,8 +81,7 @@ export class LinkControl {
     void this.goToInstant();
   }
 
-  // That it is a recording may be known later than what stands in it. An instant is looked at standing
-  // still.
+  // The page may learn only later that it shows a recording. Going to an instant pauses the replay.
   private async goToInstant(): Promise<void> {
     const { replay, status } = this.store.get();
     const time = this.instant;

@@ -1,5 +1,5 @@
-// Subscribes what the overlays draw, and no more than is shown: where sensors are mounted, and the
-// readings of lidars, depth cameras, bumpers and actuators.
+// Subscribes to the data of the visible overlays only: sensor poses, and the readings of lidars,
+// depth cameras, bumpers and actuators.
 import { robotsOf } from "../api/scene";
 import type { MarkerArrayMessage } from "../protocol/messages";
 import type { SceneBody, SceneDescription, SceneSensor } from "../api/scene";
@@ -12,7 +12,8 @@ import { shallowEqual } from "../state/Store";
 const MOST_READINGS = 16; // sensors at once
 const FRAMES_TOPIC = "/tf_static";
 const BEAMS_TOPIC = "/gsv/beams";
-// Of more robots only the selected one's beams are drawn: those of all would hide everything.
+// With more robots, only the beams of the selected one are drawn, because those of all robots would
+// hide everything.
 export const MOST_ROBOTS_WITH_BEAMS = 20;
 const BUMPERS = ["contact", "bumper"];
 const RADIO_TOPIC = "/gsv/radio";
@@ -20,7 +21,7 @@ const MOST_ACTUATORS = 32;
 const SPEAKERS = ["speaker", "buzzer"];
 const ACTUATORS = ["gripper", "lamp", "led", ...SPEAKERS];
 
-// The part of the 3D view that it feeds.
+// The part of the 3D view that receives the data.
 export interface OverlayView {
   setSensorFrames(message: TransformsMessage): void;
   setBeams(message: MarkerArrayMessage): void;
@@ -29,7 +30,7 @@ export interface OverlayView {
   keepReadings(topics: ReadonlySet<string>): void;
 }
 
-// The topics that the overlays need at present.
+// Returns the topics that the overlays need at present.
 export function topicsToDraw({ scene, shown, selection, viewMode, replay }: State): string[] {
   const wants = (sensor: SceneSensor) =>
     (shown.points && sensor.overlay === "points") || (shown.contacts && BUMPERS.includes(sensor.type));
@@ -41,7 +42,7 @@ export function topicsToDraw({ scene, shown, selection, viewMode, replay }: Stat
     ...sensors.filter(acts).slice(0, MOST_ACTUATORS),
   ];
   const needsFrames = readings.length > 0 || shown.cameras || shown.frames || viewMode === "eye";
-  // Whether it has a radio or not: a behaviour may mount one at any time.
+  // Does not depend on the robot's radios, because a behaviour may mount one at any time.
   const mayHaveRadio = shown.actuators && robotsOf(scene).length > 0;
   const beams = shown.beams && scene ? beamsToDraw(robotsOf(scene), selection, replay !== null) : null;
   return [
@@ -52,14 +53,14 @@ export function topicsToDraw({ scene, shown, selection, viewMode, replay }: Stat
   ];
 }
 
-// A recording holds the beams of all robots only.
+// A recording contains only the beams of all robots together.
 function beamsToDraw(robots: readonly SceneBody[], selection: string | null, isReplay: boolean): string | null {
   if (robots.length <= MOST_ROBOTS_WITH_BEAMS) return BEAMS_TOPIC;
   if (!robots.some(({ name }) => name === selection)) return null;
   return isReplay ? BEAMS_TOPIC : `${BEAMS_TOPIC}/${selection}`;
 }
 
-// Those of the selected robot first.
+// The sensors of the selected robot come first.
 function sensorsOf(scene: SceneDescription | null, selection: string | null): SceneSensor[] {
   const robots = robotsOf(scene);
   const first = robots.filter(({ name }) => name === selection);
@@ -77,7 +78,8 @@ export class OverlayFeed {
   ) {}
 
   start(): void {
-    // What it depends on, as the state changes many times a second and may hold thousands of sensors.
+    // The inputs that matter, because the state changes many times per second and may contain
+    // thousands of sensors.
     this.store.watch(
       ({ simulation, scene, shown, selection, viewMode, replay }) => ({
         simulation,
@@ -93,7 +95,7 @@ export class OverlayFeed {
   }
 
   private listen(simulation: string | null, topics: string[]): void {
-    // Another simulation has other streams, even under the same topic's name.
+    // Another simulation has other streams, even for the same topic name.
     const kept = new Set(simulation === this.simulation ? topics : []);
     this.simulation = simulation;
     for (const [topic, end] of [...this.ends]) {

@@ -1,8 +1,8 @@
-// Opens and closes panels, by their ids in panels/registry.ts.
+// Opens and closes panels by their ids in panels/registry.ts.
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 
-// Where panels stand.
+// The place in which panels are shown.
 export interface PanelHost {
   isInSight(id: string): boolean; // false: it is closed, or behind another tab
   reveal(id: string): void;
@@ -13,7 +13,7 @@ export class PanelControl {
 
   constructor(private readonly store: Store<State>) {}
 
-  // A panel that is behind another tab comes to the front.
+  // Brings a panel behind another tab to the front.
   open(id: string): void {
     this.store.set(({ openPanels }) => (openPanels.includes(id) ? {} : { openPanels: [...openPanels, id] }));
     this.host?.reveal(id);

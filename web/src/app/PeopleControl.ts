@@ -1,5 +1,5 @@
-// Says this viewer's name and what it looks at, hears who else is there and who holds control, and asks
-// for it.
+// Reports this viewer's name and simulation to the server, receives the list of viewers and
+// control, and requests control.
 import { ApiError } from "../api/JsonServer";
 import type { People, ViewersApi } from "../api/ViewersApi";
 import { parsePeople } from "../api/ViewersApi";
@@ -10,7 +10,7 @@ import { shallowEqual } from "../state/Store";
 import { notify } from "./notices";
 import type { Session } from "./Session";
 
-// The stream tells of changes at once. That this viewer is there has to be said again and again.
+// The stream reports changes at once. The page must report its presence repeatedly.
 const TOPIC = "/gsv/viewers";
 const PRESENCE_MS = 3000;
 const NAME = "gsv-name";
@@ -54,7 +54,7 @@ export class PeopleControl {
     return this.ask(() => this.api.rename(name));
   }
 
-  // Asks for control, or lets go of it.
+  // Requests or releases control.
   want(wants: boolean): Promise<void> {
     return this.ask(() => this.api.want(wants));
   }
@@ -77,7 +77,7 @@ export class PeopleControl {
     this.timer = setTimeout(() => void this.follow(), PRESENCE_MS);
   }
 
-  // After a server's restart, or an absence, the name is said again.
+  // Sends the name again after a restart of the server, or after a time offline.
   async load(): Promise<void> {
     const simulation = this.store.get().simulation ?? "";
     try {
@@ -89,14 +89,15 @@ export class PeopleControl {
       this.isThere = people.you !== 0;
       this.take(people);
     } catch (error) {
-      // The connection tells of itself. A server that knows no viewers lets all act.
+      // The connection reports its own state. A server without the list of viewers allows all
+      // actions.
       if (!(error instanceof ApiError)) return;
       this.isThere = false;
       this.store.set({ people: NO_PEOPLE });
     }
   }
 
-  // What is told to all does not say who you are.
+  // The message to all viewers does not say which viewer this page is.
   private hear(text: string): void {
     const { you } = this.store.get().people;
     if (you !== 0) this.take({ ...parsePeople(JSON.parse(text)), you });

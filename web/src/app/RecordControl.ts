@@ -1,5 +1,5 @@
-// Switches the recording of the watched simulation on and off, and keeps asking how it stands: others
-// may have switched it, the disk may have failed.
+// Starts and stops the recording of the simulation, and polls its state, because other viewers may
+// change it and the disk may fail.
 import type { SimulationApi } from "../api/SimulationApi";
 import type { Recording } from "../api/recording";
 import type { State } from "../state/State";
@@ -26,7 +26,7 @@ export class RecordControl {
       }),
       ({ simulation, isOpen }, before) => {
         clearTimeout(this.timer);
-        // A server that has ended has left its last recording behind.
+        // After a server has ended, its last recording remains.
         if (simulation !== before?.simulation) this.store.set({ recording: null });
         if (simulation !== null && isOpen) void this.ask(simulation);
       },
@@ -34,8 +34,8 @@ export class RecordControl {
     );
   }
 
-  // One press ends only what was started on this page: a command line, or another viewer, may count on a
-  // recording. Another one is asked about first.
+  // One press ends a recording only if this page has started it, because a command line or another
+  // viewer may rely on other recordings. For those, the page asks first.
   press(): void {
     const { recording } = this.store.get();
     if (recording?.isOn && recording.path !== this.startedHere) this.store.set({ stopRecordingAsked: true });

@@ -9,7 +9,7 @@ import { ReplayControl } from "./ReplayControl";
 
 const REPLAY = { start: 0, end: 10, speed: 1, loop: false };
 
-// A server that answers when the test says so.
+// A server that answers when the test requests it.
 class Fixture {
   readonly store: Store<State>;
   readonly calls: string[] = [];
@@ -33,7 +33,7 @@ class Fixture {
     this.control = new ReplayControl(this.store, api, async (action) => void this.actions.push(action));
   }
 
-  // Answers the call that is under way, and lets what follows from it happen.
+  // Answers the pending call, and waits for its effects.
   async answer(time: number): Promise<void> {
     this.answers.shift()!(time);
     await vi.waitFor(() => expect(this.store.get().time).toBe(time));

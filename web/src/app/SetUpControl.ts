@@ -1,7 +1,7 @@
-// Puts a simulation together: a person's changes go to the server, which shows what would stand
-// there and says what is wrong; in the end it creates it.
+// Sets up a simulation: sends a person's changes to the server, which returns the scene at the
+// start and the problems; finally creates the simulation.
 //
-// The server is asked for one preview at a time; of the changes meanwhile the last counts.
+// One preview is requested at a time. Of several changes meanwhile, only the last state counts.
 import { ApiError } from "../api/JsonServer";
 import type { SetUpApi } from "../api/SetUpApi";
 import type { PedestrianSetUp } from "../api/pedestrians";
@@ -53,14 +53,14 @@ export class SetUpControl {
     await this.preview();
   }
 
-  // Back to what was watched.
+  // Returns to the simulation that was watched before.
   close(): void {
     this.end();
     if (this.left) this.session.join(this.left);
     else this.session.start();
   }
 
-  // What was changed last may be on its way to the server still.
+  // The last change may still be on its way to the server.
   async create(): Promise<void> {
     await this.previewing;
     const { setUp } = this.store.get();
@@ -106,7 +106,7 @@ export class SetUpControl {
     this.takePedestrians((groups) => groups.map((group, i) => (i === index ? { ...group, ...patch } : group)));
   }
 
-  // Puts a robot where somebody has clicked, or dragged it to.
+  // Places a robot where the user has clicked or dragged it.
   async place(name: string, place: Placed): Promise<boolean> {
     const { setUp } = this.store.get();
     const found = setUp && findRobot(setUp.scenario, name);
@@ -141,7 +141,7 @@ export class SetUpControl {
     }
   }
 
-  // A world from this machine, or several to choose from, with what belongs to them.
+  // Uploads a world from this machine, or several to choose from, with their files.
   async drop(files: Promise<DroppedFile[]> | DroppedFile[]): Promise<void> {
     if (!this.store.get().setUp) await this.open();
     this.patch(() => ({ isBusy: true, isHeld: true }));
@@ -203,7 +203,7 @@ export class SetUpControl {
     }
   }
 
-  // Does something that the server may refuse, with a field.
+  // Performs a request that the server may refuse with a field name.
   private async ask(work: () => Promise<void>): Promise<void> {
     this.patch(() => ({ isBusy: true }));
     try {
@@ -218,14 +218,14 @@ export class SetUpControl {
     }
   }
 
-  // Likewise, and nothing can be created meanwhile.
+  // The same, but nothing can be created meanwhile.
   private async hold(work: () => Promise<void>): Promise<void> {
     this.patch(() => ({ isHeld: true }));
     await this.ask(work);
     this.patch(() => ({ isHeld: false }));
   }
 
-  // Behaviours come and go while one sets up.
+  // The behaviours may change while the form is open.
   private async lookForOffers(): Promise<void> {
     clearTimeout(this.offersTimer);
     const behaviours = await this.api.behaviours().catch(() => null);

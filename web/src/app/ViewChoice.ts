@@ -30,14 +30,14 @@ export class ViewChoice {
     this.set(!canDraw || chosen === "server" ? "server" : "browser");
   }
 
-  // Told about once a second while frames are drawn.
+  // Called about once per second while frames are drawn.
   frameRate(framesPerSecond: number): void {
     if (this.store.get().drawnBy === "server" || this.isByHand || this.serverFails || !this.options.inSoftware) return;
     this.slowSeconds = framesPerSecond > 0 && framesPerSecond < SLOW_FPS ? this.slowSeconds + 1 : 0;
     if (this.slowSeconds >= SLOW_SECONDS) this.set("server");
   }
 
-  // By hand. Null where there is no choice.
+  // The user's choice. Null if there is no choice.
   get other(): Drawer | null {
     if (this.store.get().drawnBy === "browser") return "server";
     return this.options.canDraw ? "browser" : null;
@@ -49,7 +49,7 @@ export class ViewChoice {
     this.set(drawer);
   }
 
-  // The server draws no images. False where the browser cannot draw either.
+  // The server draws no images. Returns false if the browser cannot draw either.
   serverFailed(): boolean {
     this.serverFails = true;
     if (!this.options.canDraw) return false;

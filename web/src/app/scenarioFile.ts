@@ -1,5 +1,5 @@
-// Scenario files: what is saved is JSON, which every reader of YAML takes; what is loaded may be any
-// YAML. The reader of YAML is fetched when it is needed first.
+// Scenario files: the page saves JSON, which is also YAML, and loads any YAML. The YAML reader is
+// fetched when it is first needed.
 import type { Scenario } from "../api/scenario";
 import { parseScenario, scenarioJson } from "../api/scenario";
 
@@ -11,7 +11,7 @@ export function scenarioFileName(scenario: Scenario): string {
   return `${titleOf(scenario)}.yaml`;
 }
 
-// A server names recordings itself; in a file `gsv run` has to be told their name.
+// A server chooses the names of recordings, but a file for `gsv run` must contain one.
 export function scenarioFile(scenario: Scenario): Blob {
   const json = scenarioJson(scenario);
   if (scenario.record) json.record = `${titleOf(scenario)}.mcap`;
@@ -23,7 +23,7 @@ function titleOf({ name, world }: Scenario): string {
   return title.replace(/[^\p{L}\p{N} _.-]+/gu, "_").slice(0, 80);
 }
 
-// Throws a sentence on what is no scenario.
+// Throws an error with a sentence if the file is not a scenario.
 export async function readScenario(file: TextFile): Promise<ReturnType<typeof parseScenario>> {
   try {
     if (file.size > LARGEST_BYTES) throw new Error("a scenario file must not be larger than 1 MB");

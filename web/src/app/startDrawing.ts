@@ -1,4 +1,4 @@
-// Starts the view: by the browser or by the server, as ViewChoice says.
+// Starts drawing the view, in the browser or on the server, according to ViewChoice.
 import type { SimulationApi } from "../api/SimulationApi";
 import type { World3D } from "../scene/World3D";
 import type { Drawer, State } from "../state/State";
@@ -13,7 +13,7 @@ export function keepDrawer(storage: Storage | null, drawer: Drawer): void {
   storage?.setItem(KEY, drawer);
 }
 
-// The choice by hand: view=server or view=browser in the address, else the one that was kept.
+// The user's choice: view=server or view=browser in the address, else the stored choice.
 export function chosenDrawer(storage: Storage | null, parameters: URLSearchParams): string | null {
   return parameters.get("view") ?? storage?.getItem(KEY) ?? null;
 }
@@ -35,7 +35,7 @@ export function startDrawing(
     if (!choice.serverFailed()) store.set({ view: "none" });
   };
   const use = (drawer: Drawer) => {
-    // The server does not have a simulation that is still being set up.
+    // A simulation that is still being set up does not exist on the server.
     const isOnServer = drawer === "server" && store.get().setUp === null;
     if (!isOnServer) {
       world.drawBy(null);
@@ -73,7 +73,7 @@ function until(store: Store<State>, holds: (state: State) => boolean): Promise<v
     const unwatch = store.watch(holds, (isTrue) => {
       if (!isTrue) return;
       resolve();
-      // It may be told at once, before there is anything to end.
+      // The callback may be called at once, before there is anything to end.
       queueMicrotask(() => unwatch());
     });
   });

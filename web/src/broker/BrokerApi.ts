@@ -1,5 +1,5 @@
-// What the server tells of its broker. Every call ends: with an answer, the server's sentence, or a
-// timeout.
+// Requests about the server's broker. Every call ends with an answer, an error sentence of the
+// server, or a timeout.
 import type { JsonServer } from "../api/JsonServer";
 import type { JsonObject } from "../api/json";
 import { listAt, objectAt, textAt, textOr } from "../api/json";
@@ -65,7 +65,7 @@ export class BrokerApi {
   }
 
   async offers(question: Question): Promise<Answer> {
-    // Not URLSearchParams: a "+" is a "+" to the server.
+    // URLSearchParams is not used because the server takes a "+" literally.
     const query = Object.entries(question).map(([name, value]) => `${name}=${encodeURIComponent(value)}`);
     const answer = objectAt(await this.get(`offers?${query.join("&")}`), "offers");
     return {

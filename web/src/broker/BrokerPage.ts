@@ -1,4 +1,5 @@
-// The broker page: service types, the offers of the chosen one with a constraint to try, and links.
+// The broker page: service types, the offers of the selected type with a constraint to try, and
+// links.
 import { showFrame } from "../frame/frame";
 import { NO_BROKER, isMissing } from "../frame/noBroker";
 import { needsToken } from "../api/JsonServer";
@@ -19,7 +20,7 @@ export class BrokerPage {
   private type = "";
   private asked = 0;
 
-  // `admit`: that token is shown to the server from now on.
+  // `admit`: stores the token for further requests.
   constructor(
     private readonly api: BrokerApi,
     private readonly admit: (token: string) => void,
@@ -95,7 +96,7 @@ export class BrokerPage {
     await this.find();
   }
 
-  // Answers that come after a later question are passed over.
+  // Ignores answers to earlier requests.
   private async find(): Promise<void> {
     const turn = ++this.asked;
     const constraint = this.constraint.value.trim();

@@ -1,4 +1,4 @@
-// The offers of a type: those that match, and why the others do not.
+// The offers of a type: first those that match, then the others with the reason.
 import { element } from "../ui/element";
 import type { Answer, Offer, Term } from "./BrokerApi";
 

@@ -1,4 +1,4 @@
-// A page that is one list, asked for again and again: what it shows comes and goes.
+// A page with one list that is requested repeatedly, so that it stays up to date.
 import { needsToken } from "../api/JsonServer";
 import { element, setText } from "../ui/element";
 import { isMissing } from "./noBroker";
@@ -53,7 +53,7 @@ export class ListPage<Item> {
     setTimeout(() => void this.follow(), POLL_MS);
   }
 
-  // Once this is done, the list is another.
+  // Resolves when the list has changed.
   async after(action: Promise<void>): Promise<void> {
     try {
       await action;
@@ -69,7 +69,7 @@ export class ListPage<Item> {
       const listing = await this.source.fetch();
       this.wrong.hidden = this.token.hidden = true;
       const text = JSON.stringify(listing);
-      // What has not changed keeps the focus that may be in it.
+      // Unchanged items are kept, because one of them may have the focus.
       if (text === this.shown) return;
       this.shown = text;
       this.take(listing);

@@ -1,5 +1,5 @@
-// What the pages beside the viewer have in common: the bar with the way back to the simulation, and
-// from each to the others.
+// The common parts of the pages besides the viewer: the bar with the link to the simulation and the
+// links to the other pages.
 import "../style/page.css";
 import "../style/panels.css";
 import "../style/frame.css";
@@ -12,7 +12,7 @@ export interface Frame {
 
 const PAGES = [JOIN, RECORDINGS, BROKER];
 
-// `parts` are the page's own, each with its place in the grid (style/page.css).
+// `parts` are the page's own parts, each with its place in the grid (style/page.css).
 export function showFrame(page: HTMLElement, title: string, ...parts: HTMLElement[]): Frame {
   const note = element("code", { class: "frame-note dim" });
   const bar = element(

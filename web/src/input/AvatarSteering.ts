@@ -1,5 +1,5 @@
-// Drives an avatar while keys are held: tells the server whenever the wish changes, repeats it while
-// it lasts, and says "stand still" when the keys are let go.
+// Drives an avatar while keys are held: sends a command at each change, repeats it while keys are
+// held, and sends a stop when they are released.
 import type { Drive } from "../api/SimulationApi";
 import { isSingleKey, isTyping } from "./Keyboard";
 
@@ -18,7 +18,7 @@ const LEFT = ["q"];
 const RIGHT = ["e"];
 const DRIVING_KEYS = [FORWARD, BACK, TURN_LEFT, TURN_RIGHT, LEFT, RIGHT].flat();
 
-// What the held keys (in lower case) ask for. Opposite keys cancel each other.
+// The motion for the held keys (lower case). Opposite keys cancel each other.
 export function driveOf(held: ReadonlySet<string>): Drive {
   const any = (keys: string[]) => (keys.some((key) => held.has(key)) ? 1 : 0);
   const haste = held.has("shift") ? HASTE : 1;
@@ -36,8 +36,8 @@ export class AvatarSteering {
   private unsent: Drive | null = null;
   private told: Drive = STANDING;
 
-  // `avatar` names the one to drive, null when there is none. `send` may fail; it reports that itself.
-  // `hearsSingleKeys`: whether letters drive, too, and not the arrow keys alone.
+  // `avatar` returns the name of the avatar to drive, or null. `send` may fail and reports that
+  // itself. `hearsSingleKeys`: whether letters drive too, or only the arrow keys.
   constructor(
     private readonly avatar: () => string | null,
     private readonly send: (avatar: string, drive: Drive) => Promise<void>,
@@ -86,7 +86,7 @@ export class AvatarSteering {
     if (!this.sending) void this.sendAll();
   }
 
-  // One call at a time; of the wishes that came meanwhile only the last counts.
+  // Sends one call at a time. Of the commands requested meanwhile, only the last one counts.
   private async sendAll(): Promise<void> {
     this.sending = true;
     while (this.unsent) {

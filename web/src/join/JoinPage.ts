@@ -1,4 +1,4 @@
-// The page on which one joins a simulation: every instance that the broker knows, and what it runs.
+// The page for joining a simulation: all instances that the broker knows, with their simulations.
 import type { JsonServer } from "../api/JsonServer";
 import { NO_BROKER } from "../frame/noBroker";
 import { ListPage } from "../frame/ListPage";

@@ -1,5 +1,5 @@
-// The instances of GSV that the broker knows. What they say of themselves is not to be believed: an
-// address is a link only if it is one of the web.
+// The instances of GSV that the broker knows. Their data is untrusted: an address becomes a link
+// only if it is a web address.
 import type { JsonServer } from "../api/JsonServer";
 import { listAt, numberOr, objectAt, textAt, textOr } from "../api/json";
 
@@ -21,7 +21,7 @@ export interface Instance {
   simulations: JoinableSimulation[];
 }
 
-// Others are asked, each for some seconds.
+// The other instances are queried, each for some seconds.
 const TIMEOUT_MS = 30_000;
 
 export async function fetchInstances(server: JsonServer): Promise<{ broker: string; instances: Instance[] }> {

@@ -1,4 +1,4 @@
-// What servers before this one were running when they ended without a word, until somebody has seen it.
+// The simulations of earlier servers that ended unexpectedly, until somebody dismisses them.
 import { ApiError } from "../api/JsonServer";
 import type { JsonServer } from "../api/JsonServer";
 import { listAt, numberAt, objectAt, textAt, textOr } from "../api/json";
@@ -10,7 +10,7 @@ export interface LostSimulation {
   replay: string; // the recording's name in the server's folder; empty: there is none
 }
 
-// Servers that keep no note, as those of `gsv run`, have no such list.
+// Servers that keep no note, such as `gsv run`, have no such list.
 export async function fetchLost(server: JsonServer): Promise<LostSimulation[]> {
   try {
     const answer = objectAt(await server.get("api/lost"), "lost");

@@ -1,5 +1,5 @@
-// The values of one curve by simulated time. It holds the newest so many: an hour of pictures a
-// second, eleven minutes of poses.
+// The values of one curve by simulated time. It stores the newest values only: enough for an hour
+// at one value per second, or eleven minutes of poses.
 
 export const MOST_SAMPLES = 20_000;
 const FIRST_CAPACITY = 512;
@@ -22,7 +22,8 @@ export class Series {
     return this.values[this.from + index]!;
   }
 
-  // Another value of an instant that is there replaces it; an earlier instant finds its place.
+  // A value for an existing instant replaces the old one. A value for an earlier instant is
+  // inserted at its place.
   push(time: number, value: number): void {
     if (this.to === this.times.length) this.makeRoom();
     let at = this.to;
@@ -44,7 +45,7 @@ export class Series {
     this.from = this.to = 0;
   }
 
-  // The index of the first sample that is not before `time`; `length` when all are.
+  // The index of the first sample that is not before `time`; `length` if all are.
   firstFrom(time: number): number {
     let [low, high] = [0, this.length];
     while (low < high) {
@@ -55,7 +56,7 @@ export class Series {
     return low;
   }
 
-  // The newest value that is not after `time`; null when there is none.
+  // The newest value that is not after `time`; null if there is none.
   newestAt(time: number): number | null {
     const after = this.firstFrom(time);
     if (after < this.length && this.timeAt(after) === time) return this.valueAt(after);

@@ -1,4 +1,4 @@
-// The same turn, at most half a one.
+// Returns the equal angle in [-pi, pi].
 export function shortWay(angle: number): number {
   return angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 }

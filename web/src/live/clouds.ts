@@ -1,5 +1,5 @@
-// Points in space from the messages of lidars and depth cameras, in the sensor's frame: x forward,
-// y left, z up; metres.
+// Points from the messages of lidars and depth cameras, in the sensor's frame: x forward, y left, z
+// up; metres.
 
 export interface LaserScan {
   angle_min: number;
@@ -9,7 +9,7 @@ export interface LaserScan {
   ranges: Float32Array;
 }
 
-// Of a lidar with several rows: beam i of row r is ranges[r * beams + i].
+// For a lidar with several rows, beam i of row r is ranges[r * beams + i].
 export interface LidarScan extends LaserScan {
   beams: number;
   rows: number;
@@ -32,7 +32,7 @@ export const MOST_POINTS = 20_000; // of one sensor; of more every nth is taken
 const FLOAT32 = 7;
 const FLOAT64 = 8;
 
-// x y z of each point; empty when the message is neither, or broken.
+// x y z of each point. Empty if the message is of neither kind or invalid.
 export function pointsOf(message: unknown): Float32Array {
   if (typeof message !== "object" || message === null) return new Float32Array(0);
   if ("ranges" in message && "beams" in message) return pointsOfRows(message as LidarScan);
@@ -120,7 +120,7 @@ export interface TouchPoint {
 
 const MOST_CONTACTS = 200;
 
-// What a bumper's message tells; empty when it is none.
+// Returns the contacts in a bumper's message, or none if it is not such a message.
 export function contactsOf(message: unknown): TouchPoint[] {
   const contacts = (message as { contacts?: unknown } | null)?.contacts;
   if (!Array.isArray(contacts)) return [];

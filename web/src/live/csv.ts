@@ -1,4 +1,4 @@
-// Curves as a table: a row for each instant at which one of them has a value, a column for each.
+// Writes curves as a table: one row for each instant with a value, and one column per curve.
 import type { Series } from "./Series";
 
 export interface Column {
@@ -26,7 +26,7 @@ export function csvOf(columns: Column[]): string {
   return `${lines.join("\r\n")}\r\n`;
 }
 
-// Names come from outside: what a spreadsheet would take for a formula is text.
+// Names are untrusted: text that a spreadsheet would read as a formula is quoted.
 function cell(text: string): string {
   const safe = /^[=+\-@\t]/.test(text) ? `'${text}` : text;
   return /[",\r\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;

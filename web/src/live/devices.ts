@@ -1,4 +1,4 @@
-// What robots' lamps, speakers and grippers do, from their messages.
+// The states of robots' lamps, speakers and grippers, from their messages.
 
 export interface Glow {
   brightness: number; // above 0, to 1
@@ -25,7 +25,7 @@ export interface Jaws {
 
 type Fields = Record<string, unknown>;
 
-// What a lamp's message tells; null when it is off, or the message is none.
+// Returns the state of a lamp; null if it is off or the message is not a lamp's.
 export function glowOf(message: unknown): Glow | null {
   const { brightness, color, radius_m, range_m, angle_rad, intensity } = fieldsOf(message);
   const { r, g, b } = fieldsOf(color);
@@ -41,7 +41,7 @@ export function glowOf(message: unknown): Glow | null {
   };
 }
 
-// What a speaker's message tells; null when it is silent, or the message is none.
+// Returns the state of a speaker; null if it is silent or the message is not a speaker's.
 export function soundOf(message: unknown): Sound | null {
   const { sound, frequency_hz, volume, elapsed_s } = fieldsOf(message);
   const numbers = [frequency_hz, volume, elapsed_s];
@@ -49,7 +49,7 @@ export function soundOf(message: unknown): Sound | null {
   return { name: sound, frequency: numbers[0]!, volume: numbers[1]!, elapsed: numbers[2]! };
 }
 
-// What a gripper's message tells; null when the message is none.
+// Returns the state of a gripper; null if the message is not a gripper's.
 export function jawsOf(message: unknown): Jaws | null {
   const { opening_m, reach_m, height_m, held } = fieldsOf(message);
   const numbers = [opening_m, reach_m, height_m];

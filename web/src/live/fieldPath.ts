@@ -3,7 +3,7 @@ const MAX_LENGTH = 300;
 
 export type Step = string | number; // a field's name, or the index of an element
 
-// null: it is no path.
+// Returns null if the text is not a path.
 export function parsePath(path: string): Step[] | null {
   if (path.length > MAX_LENGTH) return null;
   if (path.startsWith(".")) return null;
@@ -24,7 +24,7 @@ export function pathOf(parent: string, step: Step): string {
   return parent === "" ? step : `${parent}.${step}`;
 }
 
-// What stands at the path; undefined: nothing does.
+// Returns the value at the path; undefined if there is none.
 export function fieldAt(message: unknown, steps: readonly Step[]): unknown {
   let value = message;
   for (const step of steps) {
@@ -34,7 +34,7 @@ export function fieldAt(message: unknown, steps: readonly Step[]): unknown {
   return value;
 }
 
-// The number at the path (true counts as 1, a time as its seconds); null: there is none.
+// Returns the number at the path (true is 1, a time is in seconds); null if there is none.
 export function numberAt(message: unknown, steps: readonly Step[]): number | null {
   return numberOf(fieldAt(message, steps));
 }

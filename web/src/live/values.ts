@@ -1,5 +1,5 @@
-// The numbers in a message, each under a key of its own, with the unit that the server tells.
-// It knows no type of sensor by name: what it cannot name it shows as the field is called.
+// The numbers in a message, each with its own key and the unit from the server. The code knows no
+// sensor types: it shows unknown fields by their names.
 
 import type { Units } from "../api/scene";
 
@@ -12,7 +12,8 @@ export interface LiveValue {
 const MOST_VALUES = 64; // of one message
 const LONGEST_LISTED = 8; // longer lists are summed up
 const DEEPEST = 6;
-// What says when, how sure, or how the sensor is made: not what it reads.
+// Fields about the time, the uncertainty or the construction of the sensor, and not about its
+// reading.
 const LEFT_OUT = new RegExp(
   `^(${[
     "header|stamp|.*covariance|.*_covariance_type|status",
@@ -28,7 +29,7 @@ export function valuesOf(message: unknown, units: Units = {}): LiveValue[] {
   return values.map((value) => ({ ...value, unit: value.unit || unitOf(value.key, units) }));
 }
 
-// Of the longest path that the key lies below.
+// Returns the unit of the longest path that contains the key.
 export function unitOf(key: string, units: Units): string {
   const parts = key.replace(/\[[^\]]*\]/g, "").split(".");
   for (let count = parts.length; count > 0; count--) {
@@ -70,14 +71,14 @@ function collectFields(
   }
 }
 
-// Of a list of things their number, and what the first one holds.
+// For a list of objects: their number, and the values of the first one.
 function collectObjects(list: unknown[], key: string, depth: number, values: LiveValue[]): void {
   if (typeof list[0] === "string") return;
   add(values, `${key}.count`, list.length);
   if (typeof list[0] === "object") collect(list[0], `${key}[0]`, depth + 1, values);
 }
 
-// A short list in full, of a long one the extremes of what is finite.
+// A short list completely; for a long one, the extremes of the finite values.
 function collectList(list: NumberList, key: string, values: LiveValue[]): void {
   if (list.length === 0) return;
   if (list.length <= LONGEST_LISTED) {
@@ -101,13 +102,13 @@ function collectList(list: NumberList, key: string, values: LiveValue[]): void {
 type NumberList = Float64Array | Float32Array | Int32Array | number[];
 
 function isNumberList(value: unknown): value is NumberList {
-  // Bytes are pictures and clouds.
+  // Byte arrays are images and point clouds.
   if (value instanceof Uint8Array || value instanceof Int8Array || value instanceof DataView) return false;
   if (ArrayBuffer.isView(value)) return true;
   return Array.isArray(value) && typeof value[0] === "number";
 }
 
-// JointState and its like: one name for each number of the other fields.
+// Messages such as JointState: a name for each number in the other fields.
 function namesBeside(fields: Record<string, unknown>): string[] | null {
   const { name } = fields;
   if (!Array.isArray(name) || name.length === 0) return null;
@@ -141,7 +142,7 @@ export function anglesOf({ x, y, z, w }: Quaternion): { roll: number; pitch: num
   };
 }
 
-// The instant of a message, in simulated seconds; null where it carries none.
+// The time of a message in simulated seconds; null if it has none.
 export function stampOf(message: unknown): number | null {
   const fields = message as { header?: { stamp?: unknown }; stamp?: unknown } | null;
   const stamp = (fields?.header?.stamp ?? fields?.stamp) as { sec?: unknown; nsec?: unknown } | undefined;

@@ -1,4 +1,5 @@
-// The part of the status bar that says who draws the view, and changes that.
+// The part of the status bar that shows whether the browser or the server draws the view, and
+// changes it.
 import type { ViewChoice } from "../app/ViewChoice";
 import type { Drawer, State } from "../state/State";
 import type { Store } from "../state/Store";
@@ -10,7 +11,7 @@ const TITLE: Record<Drawer, string> = {
   server: "Let this browser draw the view",
 };
 
-// `choice` is null until the view has started; `canDraw`: whether the browser has WebGL.
+// `choice` is null until the view has started. `canDraw`: whether the browser has WebGL.
 export function createDrawerSwitch(
   store: Store<State>,
   choice: () => ViewChoice | null,

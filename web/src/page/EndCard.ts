@@ -1,4 +1,4 @@
-// A run has ended: what came of it, and how to see it again.
+// The summary of a run that has ended, with a link to its replay.
 import type { App } from "../app/App";
 import { replayUrl } from "../recordings/recordings";
 import { summaryOf } from "../state/expectations";
@@ -54,7 +54,7 @@ function someOf(names: string[]): string {
   return names.slice(0, MOST_NAMES).join(", ") + (more > 0 ? ` and ${count(more, "other")}` : "");
 }
 
-// A link while the server is there, else the command that does the same.
+// A link while the server runs, else a command with the same effect.
 function replayOf({ recording, abilities, connection }: State): HTMLElement | null {
   if (!recording?.path) return null;
   const name = recording.path.slice(recording.path.lastIndexOf("/") + 1);

@@ -1,5 +1,5 @@
-// How all robots are doing, in one line: how many are in each state, and how the expectations stand. A press
-// on a state shows only those robots, in the list and in the view.
+// The states of all robots in one line: the number in each state, and the expectations. A click on
+// a state shows only those robots, in the list and in the view.
 import type { App } from "../app/App";
 import type { ListedRobot } from "../state/robotList";
 import { listedRobots } from "../state/listedRobots";
@@ -10,7 +10,7 @@ import { shallowEqual } from "../state/Store";
 import { element, setAttribute, setText } from "../ui/element";
 
 const EXPECTATIONS_PANEL = "expectations";
-// All is well first, then the worst.
+// Healthy states first, then the worst ones.
 const ORDER: readonly ShownState[] = ["moving", ...SHOWN_STATES.filter((state) => state !== "moving")];
 
 export function createHealthStrip(app: App): HTMLElement {
@@ -52,7 +52,7 @@ export function createHealthStrip(app: App): HTMLElement {
   return strip;
 }
 
-// Stations are not meant to move.
+// Stations are not expected to move.
 function countsOf(robots: readonly ListedRobot[]): Map<ShownState, number> {
   const counts = new Map<ShownState, number>();
   for (const { state, kind } of robots) {

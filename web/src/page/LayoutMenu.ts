@@ -1,4 +1,4 @@
-// The menu of layouts: those that come with the page, those that were saved, and files.
+// The menu of layouts: presets, saved layouts, and files.
 import type { App } from "../app/App";
 import { element } from "../ui/element";
 import { icon } from "../ui/icons";

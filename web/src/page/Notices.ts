@@ -1,4 +1,4 @@
-// Sentences that come and go: refusals of the server, deaths of behaviours.
+// Notices that disappear after a while, such as refusals of the server and deaths of behaviours.
 import type { App } from "../app/App";
 import { element } from "../ui/element";
 import { icon } from "../ui/icons";

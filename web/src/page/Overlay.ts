@@ -1,4 +1,4 @@
-// What covers the picture while there is nothing to show: what is going on, and what to do.
+// Covers the view while there is nothing to show, with the reason and what to do.
 import type { App } from "../app/App";
 import type { State } from "../state/State";
 import { shallowEqual } from "../state/Store";
@@ -8,12 +8,12 @@ import { createTokenForm } from "../ui/tokenForm";
 
 type Situation = "refused" | "missing" | "none" | "connecting" | "unreachable" | "lost" | "ended" | "no-simulation" | "loading" | "no-webgl" | "webgl-lost";
 
-// A run is over: its server has ended with it, or is still there. What is replayed starts again.
+// A run is over if its server has ended with it, or still exists. A replay can start again.
 export function hasEnded({ status, replay }: State): boolean {
   return replay === null && (status?.phase === "finished" || status?.phase === "failed");
 }
 
-// What the summary of a run that has ended depends on.
+// The data for the summary of an ended run.
 function whatEnded(state: State): string {
   const { connection, recording, abilities, expectations } = state;
   if (!hasEnded(state)) return "";
@@ -117,7 +117,7 @@ function content(app: App, situation: Situation): Node[] {
   }
 }
 
-// Where the server cannot create any there is none.
+// If the server cannot create simulations, there is no button.
 function createButton(app: App): HTMLElement {
   const button = element(
     "button",

@@ -1,4 +1,4 @@
-// The menu of what is drawn over the world.
+// The menu of overlays in the view.
 import type { App } from "../app/App";
 import { OVERLAYS } from "../state/overlays";
 import { createMenu, menuItem } from "../ui/menu";

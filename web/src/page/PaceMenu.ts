@@ -1,4 +1,4 @@
-// How fast a simulation goes, and how many steps it takes at once.
+// The menu for the real-time factor, and for the number of steps to take.
 import type { App } from "../app/App";
 import { canAct, isAllowed } from "../state/actions";
 import { mayAct } from "../state/people";

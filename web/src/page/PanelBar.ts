@@ -1,4 +1,4 @@
-// The bar at the edge with a button for each panel.
+// The bar with a button for each panel.
 import type { App } from "../app/App";
 import type { Panel } from "../panels/contract/Panel";
 import { element } from "../ui/element";

@@ -1,4 +1,4 @@
-// Who is watching: one's own name, the others', and who holds control.
+// The menu of viewers: one's own name, the others' names, and who has control.
 import type { App } from "../app/App";
 import type { People, Person } from "../api/ViewersApi";
 import { asker, holderOf, together, youOf } from "../state/people";
@@ -31,7 +31,7 @@ function titleOf(people: People): string {
   return holder.number === people.you ? "Viewers (you have control)" : `Viewers (${holder.name} has control)`;
 }
 
-// Those who look at something else come last, with what it is.
+// Viewers of other simulations come last, with the simulation's name.
 function lines(people: People): string[] {
   const here = together(people);
   const others = people.viewers.filter((person) => !here.includes(person));
@@ -59,7 +59,7 @@ function nameField(app: App): HTMLElement {
   return element("label", { class: "people-name" }, element("span", {}, "Your name"), field);
 }
 
-// What it does depends on how things stand for you.
+// The button's action depends on whether you have control or have requested it.
 function controlButton(app: App): HTMLElement {
   const button = element("button", { class: "button", type: "button" });
   let wants = true;
@@ -87,7 +87,7 @@ function labelOf(holds: boolean, isFree: boolean, asks: boolean): string {
   return asks ? "Cancel request" : "Ask for control";
 }
 
-// The holder's side: somebody asks. It passes by itself when nothing is answered.
+// Shown to the holder when somebody requests control. Control passes on if there is no answer.
 export function createControlQuestion(app: App): HTMLElement {
   const sentence = element("p", {});
   const button = (label: string, grants: boolean, primary: boolean) =>

@@ -1,4 +1,4 @@
-// Records the simulation; shows whether it is recorded, whoever switched it on.
+// Starts and stops recording, and shows whether the simulation is being recorded by anybody.
 import type { App } from "../app/App";
 import type { Recording } from "../api/recording";
 import { mayAct } from "../state/people";

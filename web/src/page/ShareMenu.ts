@@ -1,4 +1,4 @@
-// The menu of what a person takes away: a picture, a video, a link.
+// The menu for saving an image, a video or a link.
 import type { App } from "../app/App";
 import { createMenu, menuItem } from "../ui/menu";
 
@@ -17,7 +17,7 @@ export function createShareMenu(app: App): HTMLElement {
     menuItem("Save image", "X", "Save the current view as PNG", () => void app.savePicture(), "camera"),
     film,
   );
-  // Without a picture there is still a link.
+  // A link is available even without a view.
   const ofTheView = [...menu.sheet.querySelectorAll("button")].slice(1);
   app.store.watch(
     ({ view }) => view === "open",

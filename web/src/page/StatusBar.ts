@@ -1,4 +1,5 @@
-// The line at the bottom: phase, time, pace, who is waited for, and the connection.
+// The status bar: phase, time, real-time factor, the behaviour that delays the run, and the
+// connection.
 import type { App } from "../app/App";
 import type { Replay } from "../api/replay";
 import type { SimulationStatus } from "../api/status";
@@ -10,7 +11,7 @@ import { element, setText } from "../ui/element";
 import { count, formatFactor, formatTime } from "../ui/format";
 
 const PACE = "Real-time factor: actual / target";
-// Below this part of its target a simulation lags.
+// A simulation below this fraction of its target factor lags.
 const LAGGING_SHARE = 0.9;
 
 export function createStatusBar(app: App): HTMLElement {
@@ -75,14 +76,14 @@ export function createStatusBar(app: App): HTMLElement {
   return element("footer", { class: "status-bar" }, phase, time, factor, late, waiting, frames, connection);
 }
 
-// In lockstep there is no pace to keep, only the one that is reached; a replay keeps its speed.
+// A simulation in lockstep has no target factor, only an actual one. A replay keeps its speed.
 function pace({ mode, realTimeFactor, targetFactor }: SimulationStatus, replay: Replay | null): string {
   if (replay) return formatFactor(replay.speed);
   const actual = formatFactor(realTimeFactor);
   return mode === "lockstep" ? `${actual} · lockstep` : `${actual} / ${formatFactor(targetFactor)}`;
 }
 
-// A sentence when it runs slower than it was asked to; empty otherwise.
+// A sentence if the simulation is slower than requested, else empty.
 function lag({ phase, mode, realTimeFactor, targetFactor }: SimulationStatus): string {
   const isPaced = phase === "running" && mode === "real_time" && targetFactor > 0 && realTimeFactor > 0;
   if (!isPaced || realTimeFactor >= LAGGING_SHARE * targetFactor) return "";

@@ -1,4 +1,5 @@
-// The bar at the top: which simulation, the buttons that run it, layouts, sharing, and the other pages.
+// The bar at the top: the simulation's name, the buttons that control it, layouts, sharing, and the
+// other pages.
 import type { App } from "../app/App";
 import type { Action } from "../api/SimulationApi";
 import { canAct, canEdit, isAllowed, mainAction } from "../state/actions";
@@ -41,7 +42,7 @@ export function createToolbar(app: App, toggleSidebar: () => void): HTMLElement 
   );
 }
 
-// A recording has its own, in the timeline.
+// A recording has its own buttons in the timeline.
 function transport(app: App): HTMLElement {
   const group = element(
     "div",
@@ -75,7 +76,7 @@ function newButton(app: App): HTMLElement {
   return button;
 }
 
-// What runs is paused first.
+// Editing pauses a running simulation first.
 function editButton(app: App): HTMLElement {
   const title = "Move, add and remove robots (paused)";
   const button = iconButton({ picture: "edit", label: "Edit", title, onclick: () => void app.edits.toggle() });
@@ -97,8 +98,8 @@ function sidebarButton(toggle: () => void): HTMLElement {
   return button;
 }
 
-// A name where there is one simulation, a choice where there are several.
-// Also the page's heading, whatever is there to choose from.
+// A name if there is one simulation, a list if there are several. It is also the heading of the
+// page.
 function simulationChoice(app: App): HTMLElement {
   const place = element("div", { class: "simulation-choice" });
   app.store.watch(

@@ -1,4 +1,4 @@
-// The other pages, as far as there is something to see on them.
+// Links to the other pages, if these have content.
 import type { App } from "../app/App";
 import type { State } from "../state/State";
 import { element } from "../ui/element";
@@ -24,7 +24,7 @@ function isLive({ replay }: State): boolean {
   return replay === null;
 }
 
-// As pictures in the toolbar.
+// The links as icons in the toolbar.
 export function pageLinks(app: App): HTMLElement[] {
   return LINKS.map(({ picture, href, name, label, isOffered }) => {
     const word = element("span", { class: "word", "aria-hidden": "true" }, name);
@@ -33,7 +33,7 @@ export function pageLinks(app: App): HTMLElement[] {
   });
 }
 
-// By name, where the toolbar has no room for them, and the help sheet.
+// The links by name, for the help sheet and for narrow toolbars.
 export function pageNames(app: App): HTMLElement {
   const links = LINKS.map(({ href, name, isOffered }) =>
     whileOffered(app, element("a", { class: "button plain", href }, name), isOffered),

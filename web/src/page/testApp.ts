@@ -1,4 +1,4 @@
-// An App on a store of the test's own, with no server and no 3D view behind it.
+// An App with a test's own store, without a server or a 3D view.
 import type { SimulationApi } from "../api/SimulationApi";
 import type { Phase, RobotStatus, SimulationStatus } from "../api/status";
 import { App } from "../app/App";

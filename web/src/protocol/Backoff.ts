@@ -1,5 +1,5 @@
-// How long to wait before the next attempt: twice as long each time, up to a bound, and a little
-// different for everyone, so that a restarted server is not asked by all its viewers at once.
+// The waiting time before the next attempt: it doubles each time up to a limit, with a random part,
+// so that not all viewers reconnect to a restarted server at once.
 const FIRST_MS = 500;
 const LONGEST_MS = 8000;
 const SPREAD = 0.2;

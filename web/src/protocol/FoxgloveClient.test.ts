@@ -5,7 +5,7 @@ import WebSocketClient, { WebSocketServer } from "ws";
 import type { ConnectionState } from "./FoxgloveClient";
 import { FoxgloveClient, SUBPROTOCOLS } from "./FoxgloveClient";
 
-// The time limit is for a loaded machine.
+// The time limit suits a loaded machine.
 const eventually = (check: () => void) => vi.waitFor(check, 20_000);
 
 const SCHEMA = "uint32 number\nstring text";
@@ -24,7 +24,7 @@ interface Op {
   subscriptionIds?: number[];
 }
 
-// A server that advertises its channels to whoever connects and keeps what it is told.
+// A server that advertises its channels to each client and stores what it receives.
 class Server {
   readonly heard: Op[] = [];
   readonly protocols: string[] = [];
@@ -130,7 +130,7 @@ test("who wants the newest only is spared what came before it", async () => {
   client.subscribe("/greeting", newest, { newestOnly: true });
   client.subscribe("/greeting", all);
   await eventually(() => expect(server.heard).toHaveLength(1));
-  // While this thread is busy, all of these wait at the socket.
+  // While this thread is busy, these messages wait at the socket.
   for (let i = 0; i < 50; i++) {
     server.send(greeting(1, i, ""));
     server.send(greeting(2, i, ""));

@@ -1,6 +1,6 @@
-// A client of the Foxglove WebSocket protocol: subscribes by topic, decodes, and connects again by
-// itself, with growing waits, whenever the connection is lost. Subscriptions outlive a connection:
-// they are made anew as soon as a server advertises their topic.
+// A client of the Foxglove WebSocket protocol. It subscribes by topic, decodes messages, and
+// reconnects with increasing waiting times when the connection is lost. Subscriptions survive a
+// reconnection: they are made again when a server advertises their topic.
 import { backoffMs } from "./Backoff";
 import type { Channel } from "./MessageDecoder";
 import { MessageDecoders } from "./MessageDecoder";
@@ -21,9 +21,9 @@ export type ConnectionState =
 
 export interface ClientEvents {
   onConnection(state: ConnectionState): void;
-  // Something that the server sent could not be understood, or it reports a problem itself.
+  // A message of the server could not be understood, or the server reports a problem.
   onProblem(sentence: string): void;
-  // The topics that the server offers are others.
+  // The server's topics have changed.
   onTopics?(topics: TopicInfo[]): void;
 }
 
@@ -32,7 +32,7 @@ export interface TopicInfo {
   type: string; // "sensor_msgs/msg/LaserScan"
 }
 
-// What has come on a topic since the page was loaded.
+// The counts of a topic since the page was loaded.
 export interface TopicCount {
   messages: number;
   bytes: number;
@@ -79,7 +79,7 @@ export class FoxgloveClient implements TopicSource {
     this.open();
   }
 
-  // Attempts at once instead of after the present wait.
+  // Tries at once instead of after the current waiting time.
   retryNow(): void {
     if (this.socket || this.closed) return;
     clearTimeout(this.timer);
@@ -96,18 +96,18 @@ export class FoxgloveClient implements TopicSource {
     return [...this.channels.values()].map((channel) => channel.topic);
   }
 
-  // Of the topics that are or were subscribed.
+  // The counts of the topics that are or were subscribed.
   get counts(): ReadonlyMap<string, TopicCount> {
     return this.counted;
   }
 
-  // Those that are subscribed here and that the server does not offer.
+  // The subscribed topics that the server does not offer.
   get missingTopics(): string[] {
     return [...this.subscriptions].filter(({ id }) => id === null).map(({ topic }) => topic);
   }
 
-  // Hears the messages of a topic from now on; gives the function that ends it. With `newestOnly` none is
-  // decoded while the last one has cost more than a fifth of the time since.
+  // Subscribes to a topic; returns the function that ends the subscription. With `newestOnly`, no
+  // message is decoded while the last one has taken more than a fifth of the time since.
   subscribe<Message>(
     topic: string,
     handler: (message: Message) => void,
@@ -127,7 +127,7 @@ export class FoxgloveClient implements TopicSource {
     return () => this.unsubscribe(subscription);
   }
 
-  // What the server says of a parameter; null when it says nothing.
+  // The value of a parameter according to the server; null if it does not answer.
   parameter(name: string): Promise<ParameterValue | null> {
     this.questions.get(name)?.(null); // an older question was not answered
     if (!this.hasParameters) return Promise.resolve(null);
@@ -278,7 +278,7 @@ export class FoxgloveClient implements TopicSource {
     known.bytes += bytes;
   }
 
-  // After the messages that have arrived already.
+  // Runs after the messages that have already arrived.
   private handOverLater(subscription: Subscription, channel: Channel, payload: DataView): void {
     const isScheduled = subscription.waiting !== null;
     subscription.waiting = payload;
@@ -308,7 +308,7 @@ export class FoxgloveClient implements TopicSource {
     if (this.socket?.readyState === this.SocketClass.OPEN) this.socket.send(JSON.stringify(message));
   }
 
-  // Each sentence once: a stream repeats its faults many times a second.
+  // Reports each sentence once, because a stream may repeat its faults many times per second.
   private problem(sentence: string): void {
     if (this.reported.has(sentence) || this.reported.size > 100) return;
     this.reported.add(sentence);

@@ -1,4 +1,4 @@
-// Reads ROS 2 messages in CDR by the definition that their channel advertises.
+// Decodes ROS 2 messages in CDR according to the definition in their channel.
 import { parse } from "@foxglove/rosmsg";
 import { MessageReader } from "@foxglove/rosmsg2-serialization";
 
@@ -13,8 +13,8 @@ export interface Channel {
 
 export type Decoder = (payload: DataView) => unknown;
 
-// Channels of one type share a decoder. Throws when the channel's encoding or definition is not one
-// that can be read.
+// Channels of one type share a decoder. Throws if the channel's encoding or definition is not
+// supported.
 export class MessageDecoders {
   private readonly bySchema = new Map<string, Decoder>();
 

@@ -1,20 +1,22 @@
-// The topics that the page reads. However many read one, it is subscribed once, so that the server sends
-// and the page decodes each message once: a server refuses a second subscription of a channel. It ends
-// with its last reader, and outlives the source: whoever reads goes on reading from the next one.
+// The topics that the page reads. A topic with several readers is subscribed once, so that each
+// message is sent and decoded once; a server refuses a second subscription of a channel. The
+// subscription ends with its last reader. Readers survive a change of the source and continue with
+// the next one.
 
 type Handler = (message: unknown) => void;
 
 export interface TopicOptions {
-  // Of messages that arrive faster than the page can take them only the newest is decoded. A topic is read
-  // so only while all its readers ask for it.
+  // If messages arrive faster than the page can decode them, only the newest is decoded. This
+  // applies to a topic only while all its readers request it.
   newestOnly?: boolean;
-  // The topic that is read where the server does not offer the first one.
+  // The topic to read if the server does not offer the first one.
   orElse?: string;
 }
 
 export interface TopicSource {
-  // Calls the handler with each message of the topic from now on, and at once with the newest one where
-  // others read it already. Gives the function that ends it. A topic that nobody offers has no messages.
+  // Calls the handler with each message of the topic, and at once with the newest message if others
+  // already read it. Returns the function that ends this. A topic that nobody offers has no
+  // messages.
   subscribe<Message>(topic: string, handler: (message: Message) => void, options?: TopicOptions): () => void;
 }
 
@@ -30,7 +32,7 @@ export class SharedTopics implements TopicSource {
   private source: TopicSource | null = null;
   private readonly topics = new Map<string, SharedTopic>();
 
-  // Reads from this source from now on; null: from none. What the one before sent is forgotten.
+  // Sets the source of all topics; null: none. Messages of the previous source are dropped.
   attach(source: TopicSource | null): void {
     for (const shared of this.topics.values()) shared.end();
     this.source = source;
@@ -40,7 +42,7 @@ export class SharedTopics implements TopicSource {
     }
   }
 
-  // Those that somebody reads.
+  // The topics with readers.
   get read(): string[] {
     return [...this.topics.keys()];
   }
@@ -52,7 +54,7 @@ export class SharedTopics implements TopicSource {
   ): () => void {
     const known = this.topics.get(topic);
     const shared = known ?? { handlers: new Map(), orElse, newest: null, newestOnly, end: () => {} };
-    // Of its own, as one function may listen twice.
+    // Each reader is a separate object, because one function may be added twice.
     const own: Handler = (message) => handler(message as Message);
     shared.handlers.set(own, { newestOnly });
     if (!known) {
@@ -70,7 +72,7 @@ export class SharedTopics implements TopicSource {
     };
   }
 
-  // Subscribes it in the other way where its readers now ask for that.
+  // Subscribes again in the other mode if the readers now require it.
   private adapt(topic: string, shared: SharedTopic): void {
     if (shared.newestOnly === asksForNewestOnly(shared)) return;
     shared.end();

@@ -1,5 +1,5 @@
-// The ROS 2 messages that the viewer reads, as @foxglove/rosmsg2-serialization hands them over.
-// Their definitions come with each channel; these types say what the viewer relies on.
+// The ROS 2 messages that the viewer reads, in the form of @foxglove/rosmsg2-serialization. Their
+// definitions come with each channel; these types contain the fields that the viewer relies on.
 
 export interface Time {
   sec: number;
@@ -23,7 +23,8 @@ export interface ClockMessage {
   clock: Time;
 }
 
-// gsv_msgs/msg/Poses: seven numbers a pose (x y z qx qy qz qw), as the scene's `poses` lists them.
+// gsv_msgs/msg/Poses: seven numbers per pose (x y z qx qy qz qw), in the order of the scene's
+// `poses`.
 export interface PosesMessage {
   stamp: Time;
   step: bigint;
@@ -66,7 +67,7 @@ export interface DiagnosticArrayMessage {
   status: { level: number; name: string; message: string; values: { key: string; value: string }[] }[];
 }
 
-// gsv_msgs/msg/Health. `robots` lists only those that do not simply move.
+// gsv_msgs/msg/Health. `robots` lists only robots that do not simply move.
 export interface HealthMessage {
   stamp: Time;
   step: bigint;

@@ -1,4 +1,4 @@
-// The poses as the page reads them: rounded where the server offers that, a third of the bytes.
+// The poses, rounded if the server offers that: this needs a third of the bytes.
 import type { PackedPosesMessage, PosesMessage } from "./messages";
 
 export const PACKED_POSES = "/gsv/packed_poses";
@@ -22,7 +22,7 @@ export function posesOf(message: PosesMessage | PackedPosesMessage): PosesMessag
   return { stamp, step, layout_version, poses };
 }
 
-// Of a unit quaternion x y z w the largest component is missing; two bits say which one it is.
+// The largest component of a unit quaternion x y z w is omitted. Two bits tell which one it is.
 function unpackRotation(packed: Uint16Array, from: number, out: Float64Array, at: number): void {
   const missing = 2 * (packed[from]! >> 15) + (packed[from + 1]! >> 15);
   let squared = 0;

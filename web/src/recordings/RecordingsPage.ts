@@ -1,4 +1,4 @@
-// The page of recordings: what there is, and one click that replays it.
+// The page of recordings: a list with a link that replays each of them.
 import type { JsonServer } from "../api/JsonServer";
 import { ListPage } from "../frame/ListPage";
 import { element } from "../ui/element";

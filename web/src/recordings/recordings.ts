@@ -23,7 +23,7 @@ export interface Recordings {
   lines: RecordingLine[]; // the newest first
 }
 
-// Many are read the first time.
+// Reading many recordings for the first time takes long.
 const TIMEOUT_MS = 30_000;
 
 export async function fetchRecordings(server: JsonServer): Promise<Recordings> {
@@ -54,7 +54,7 @@ function parseRecordingLine(json: unknown): RecordingLine {
   };
 }
 
-// The page that replays it, for oneself; from that simulated second on.
+// The page that replays it in its own session, from that simulated second on.
 export function replayUrl(name: string, from: number | null = null): string {
   return `./?recording=${encodeURIComponent(name)}${from === null ? "" : `#t=${from}`}`;
 }

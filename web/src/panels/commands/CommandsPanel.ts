@@ -1,4 +1,4 @@
-// The commands that the simulation takes: a form for each, made from the server's description.
+// The panel of the simulation's commands: a form for each, made from the server's description.
 import type { CommandArguments, CommandDescription, CommandParameter, CommandValue } from "../../api/commands";
 import { canAct } from "../../state/actions";
 import { element, setText } from "../../ui/element";
@@ -86,7 +86,7 @@ function createForm(command: CommandDescription, run: (name: string, given: Comm
   );
 }
 
-// A labelled control; `read` gives null for an argument that is left out.
+// A labelled control. `read` returns null for an argument that is omitted.
 function createField(parameter: CommandParameter): {
   name: string;
   element: HTMLElement;

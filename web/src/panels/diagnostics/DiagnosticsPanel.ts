@@ -80,7 +80,7 @@ function pageFacts({ dropped }: Diagnostics, frames: number): Fact[] {
   ];
 }
 
-// By the names of docs/monitoring.md.
+// The names are those in docs/monitoring.md.
 function serverFacts(figures: ServerFigures | null): Fact[] {
   if (!figures) return [];
   const line = (label: string, name: string, told: (value: number) => string = String): Fact[] => {

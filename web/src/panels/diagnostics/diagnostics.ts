@@ -1,4 +1,4 @@
-// How the simulation, its robots, the server and this page are doing.
+// The state of the simulation, its robots, the server and this page.
 import type { ServerFigures } from "../../api/MetricsApi";
 
 export type Health = "ok" | "warning" | "error";
@@ -24,7 +24,7 @@ export const NO_DIAGNOSTICS: Diagnostics = {
   dropped: null,
 };
 
-// Those of whom something is to be said, the worst first.
+// The robots with problems, the worst first.
 export function unwell(robots: readonly Diagnosis[]): Diagnosis[] {
   const rank = ({ health }: Diagnosis) => (health === "error" ? 0 : 1);
   return robots.filter(({ health }) => health !== "ok").sort((a, b) => rank(a) - rank(b));

@@ -1,5 +1,5 @@
-// What the scenario expects: each expectation's verdict, its margin and its instant. Of a recording, a press goes
-// to that instant.
+// The expectations of the scenario with verdict, margin and time. In a recording, a click goes to
+// that time.
 import type { Expectation } from "../../state/expectations";
 import { marginText, summaryOf, verdictWord } from "../../state/expectations";
 import { shallowEqual } from "../../state/Store";
@@ -47,7 +47,7 @@ function row(ports: Ports, expectation: Expectation): HTMLElement {
   );
 }
 
-// When the verdict was reached; a recording goes there.
+// The time of the verdict. In a recording, a click goes there.
 function instant({ state, replay }: Ports, { verdict, time }: Expectation): Node | string {
   if (verdict === "pending") return "";
   const text = formatTime(time);

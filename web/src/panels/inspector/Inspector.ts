@@ -1,4 +1,4 @@
-// The selected robot: where it is, what it does, what it senses.
+// Shows the selected robot: its pose, its behaviour and its sensors.
 import type { RobotStatus } from "../../api/status";
 import type { RobotPose } from "../../state/State";
 import { agentLabel } from "../../state/actions";
@@ -26,7 +26,7 @@ const ROWS = [
 ] as const;
 type Row = (typeof ROWS)[number];
 
-// What is plotted of a row.
+// The value of a row that can be plotted.
 const PLOTTED: Partial<Record<Row, string[]>> = {
   Position: ["x", "y"],
   Heading: ["yaw"],
@@ -105,12 +105,12 @@ function showStatus(robot: RobotStatus, set: (row: Row, text: string) => void): 
   set("Model", robot.model || "…");
 }
 
-// As a <pose> of SDFormat: metres and radians.
+// The format of SDFormat's <pose>: metres and radians.
 export function poseText({ x, y, z, roll, pitch, yaw }: RobotPose): string {
   return [x, y, z, roll, pitch, yaw].map((value) => formatNumber(value, 4)).join(" ");
 }
 
-// As gsv's --robot option takes it.
+// The format of gsv's --robot option.
 export function startText({ x, y, yaw }: RobotPose): string {
   return [x, y, yaw].map((value) => formatNumber(value, 4)).join(",");
 }

@@ -1,5 +1,5 @@
-// What the selected robot's behaviour printed: its standard output and errors. They are read only while the list
-// is open.
+// The output of the selected robot's behaviour: its standard output and errors. It is read only
+// while the list is open.
 import type { OutputLine } from "../../api/health";
 import type { LogMessage } from "../../protocol/messages";
 import { seconds } from "../../protocol/messages";
@@ -51,7 +51,7 @@ class OutputReader {
     void this.begin(simulation, selection);
   }
 
-  // The last lines, and from then on those that come.
+  // Reads the last lines, and then each new line.
   private async begin(simulation: string, robot: string): Promise<void> {
     let isCurrent = true;
     this.end = () => (isCurrent = false);

@@ -1,4 +1,4 @@
-// The sensors of the selected robot and what they read. Their topics are subscribed only while the
+// The sensors of the selected robot with their readings. Their topics are subscribed only while the
 // list is open.
 import type { SceneBody, SceneSensor } from "../../api/scene";
 import type { LiveValue } from "../../live/values";
@@ -39,7 +39,7 @@ export function createSensorList(ports: Ports): HTMLElement {
   return details;
 }
 
-// Whether the list may listen to it without being asked: pictures and clouds are large.
+// Whether the list may subscribe without a request by the user: images and point clouds are large.
 export function isLight({ overlay, type }: SceneSensor): boolean {
   return overlay !== "picture" && !LARGE_TYPES.includes(type);
 }
@@ -51,7 +51,7 @@ class Readings {
 
   constructor(private readonly ports: Ports) {}
 
-  // Listens to the body's sensors instead of those before, if `isOpen`; gives their rows.
+  // Subscribes to the body's sensors instead of the previous ones, if `isOpen`. Returns their rows.
   show(body: SceneBody | null, isOpen: boolean): HTMLElement[] {
     for (const end of this.ends) end();
     clearTimeout(this.timer);

@@ -1,4 +1,5 @@
-// How the selected robot is doing, and why: the sentence, its last command beside its motion, what limits it.
+// The state of the selected robot and the reason: a sentence, its last command and its motion, and
+// what limits it.
 import type { RobotHealth, ShownState } from "../../state/health";
 import { STATE_WORDS, motionText, sentenceOf, stateOf } from "../../state/health";
 import type { State } from "../../state/State";

@@ -1,4 +1,4 @@
-// The small curve beside a value: a press draws it against simulated time.
+// The curve symbol beside a value. A click plots the value against simulated time.
 import { element } from "../../ui/element";
 import { icon } from "../../ui/icons";
 

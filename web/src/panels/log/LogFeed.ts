@@ -1,4 +1,4 @@
-// Collects the lines of /rosout: of what runs as they come, from when it is started; of a recording all at
+// Collects the lines of /rosout: for a running simulation as they arrive, for a recording all at
 // once.
 import type { LogMessage } from "../../protocol/messages";
 import { seconds } from "../../protocol/messages";

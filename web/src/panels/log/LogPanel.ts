@@ -1,4 +1,5 @@
-// The log: what happened when, by level and text. Of a recording a line goes to its instant.
+// The log of events, with filters for level and text. In a recording, a click on a line goes to its
+// time.
 import { Store, shallowEqual } from "../../state/Store";
 import { element } from "../../ui/element";
 import { formatTime } from "../../ui/format";
@@ -25,7 +26,7 @@ export function mount(ports: Ports & LogPorts): MountedPanel {
   return panelOf(store, ports);
 }
 
-// The panel of the lines that are in the store.
+// The panel of the lines in the store.
 export function panelOf(store: Store<Log>, ports: Ports): MountedPanel {
   const list = element("ol", { class: "log-lines", "aria-label": "Lines", tabindex: "0" });
   const empty = element("p", { class: "log-empty" });
@@ -85,7 +86,7 @@ class Rows {
     this.draw();
   }
 
-  // A recording's lines after the present instant are still to come.
+  // A recording's lines after the present instant are in the future.
   mark(): void {
     const { replay, time } = this.ports.state.get();
     const until = replay ? countUntil(this.lines, time) : this.lines.length;
@@ -109,7 +110,7 @@ class Rows {
     else this.list.scrollTop = scrollTop;
   }
 
-  // Tells past from future, and keeps the newest line in sight.
+  // Marks past and future lines, and keeps the newest line in sight.
   private place(): void {
     const present = this.until - this.from - 1;
     const rows = [...this.list.children] as HTMLElement[];

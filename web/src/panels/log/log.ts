@@ -1,4 +1,4 @@
-// The lines of /rosout: what happens to a simulation, and what its behaviours say.
+// The lines of /rosout: the events of a simulation, and messages of its behaviours.
 
 export interface LogLine {
   time: number; // s, simulated
@@ -45,7 +45,7 @@ export function shownLines({ lines, lowest, filter }: Log): LogLine[] {
   );
 }
 
-// How many of the lines are not after an instant; they stand by time.
+// The number of lines that are not after an instant. The lines are in the order of time.
 export function countUntil(lines: readonly LogLine[], time: number): number {
   const after = lines.findIndex((line) => line.time > time + 1e-9);
   return after < 0 ? lines.length : after;

@@ -1,4 +1,5 @@
-// /gsv/status as it comes: the simulation's state, each robot's, and what the page knows of the server.
+// Shows /gsv/status: the state of the simulation and of each robot, and what the page knows about
+// the server.
 import type { RobotStatus, SimulationStatus } from "../../api/status";
 import { statusFromMessage } from "../../api/status";
 import type { SimulationStatusMessage } from "../../protocol/messages";
@@ -27,7 +28,7 @@ export function mount({ state, topics, robots }: Ports): MountedPanel {
     simulation.show(status ? simulationFacts(status) : []);
     table.show(status?.robots ?? []);
   };
-  // What came of one simulation is not so of another.
+  // The data of one simulation does not apply to another.
   state.watch(
     (known) => known.simulation,
     () => show(null),

@@ -1,4 +1,5 @@
-// A message as a tree: every field with its value, and for a number a curve. What is folded costs nothing.
+// A message as a tree: every field with its value, and a curve for numbers. Collapsed parts cost
+// nothing.
 import { isTime, numberOf, pathOf } from "../../live/fieldPath";
 import type { Step } from "../../live/fieldPath";
 import { element, setText } from "../../ui/element";
@@ -154,7 +155,7 @@ function textOf(value: unknown): string {
   return String(value);
 }
 
-// As JSON, with numbers of all kinds as JSON has them.
+// JSON, with all kinds of numbers written as JSON numbers.
 export function jsonOf(value: unknown): string {
   const plain = (_: string, each: unknown): unknown => {
     if (typeof each === "bigint") return Number.isSafeInteger(Number(each)) ? Number(each) : String(each);

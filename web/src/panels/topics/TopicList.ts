@@ -1,4 +1,5 @@
-// The topics that the server offers: type, and how many messages and bytes a second come to this page.
+// The topics that the server offers: their types, and the messages and bytes per second that arrive
+// at this page.
 import type { TopicInfo } from "../../protocol/FoxgloveClient";
 import { element, setText } from "../../ui/element";
 import type { Traffic } from "./rates";

@@ -1,4 +1,4 @@
-// Every topic of the simulation, and the newest message of the chosen one.
+// All topics of the simulation, and the newest message of the selected one.
 import { element, setText } from "../../ui/element";
 import { icon } from "../../ui/icons";
 import { shallowEqual } from "../../state/Store";

@@ -1,4 +1,4 @@
-// Messages and bytes a second, from counters that only grow.
+// Computes messages and bytes per second from counters that only increase.
 export interface Count {
   messages: number;
   bytes: number;
@@ -14,7 +14,7 @@ const WINDOW_MS = 3000;
 export class Rates {
   private readonly samples: { atMs: number; counts: ReadonlyMap<string, Count> }[] = [];
 
-  // Takes the counters of now; gives what came since the oldest sample that is kept.
+  // Adds the current counters. Returns the rates since the oldest stored sample.
   update(counts: ReadonlyMap<string, Count>, nowMs: number): Map<string, Traffic> {
     const copy = new Map([...counts].map(([topic, { messages, bytes }]) => [topic, { messages, bytes }]));
     this.samples.push({ atMs: nowMs, counts: copy });

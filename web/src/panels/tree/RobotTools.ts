@@ -1,4 +1,4 @@
-// Above the list of robots: what is looked for, in which order and groups.
+// The controls above the list of robots: search, order and groups.
 import type { State } from "../../state/State";
 import type { Grouping, Sorting } from "../../state/robotList";
 import { isFiltering, queryOf } from "../../state/robotList";
@@ -8,7 +8,7 @@ import type { PanelPorts } from "../contract/ports";
 
 type Ports = Pick<PanelPorts, "state" | "robots">;
 
-// Fewer robots are seen at a glance.
+// With fewer robots, no search is needed.
 const FEWEST_ROBOTS = 6;
 
 const SORTING_LABELS: Record<Sorting, string> = {

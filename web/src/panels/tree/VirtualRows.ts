@@ -1,5 +1,5 @@
-// A list of which only the rows in sight exist, however long it is. Rows are made once and written again
-// for other entries.
+// A list in which only the rows in sight exist, however long it is. Rows are created once and
+// reused for other entries.
 import { element, setAttribute } from "../../ui/element";
 
 const BEYOND_PX = 200; // above and below what is in sight
@@ -64,7 +64,8 @@ export class VirtualRows<Entry> {
     this.look();
   }
 
-  // Where one has scrolled to. Asked only then: the browser lays the page out to answer.
+  // The scroll position. It is read only after scrolling, because the browser must lay out the page
+  // for it.
   private look(): void {
     this.scrollTop = this.scroller.scrollTop;
     this.height = this.scroller.clientHeight || HEIGHT_WITHOUT_LAYOUT_PX;
@@ -86,7 +87,7 @@ export class VirtualRows<Entry> {
     inSight.forEach((entry, i) => this.place(entry, first + i, i));
   }
 
-  // `nth` of the rows that exist.
+  // `nth`: index among the existing rows.
   private place(entry: Entry, index: number, nth: number): void {
     const key = this.kinds.keyOf(entry);
     const row = this.rows.get(key) ?? this.take(this.kinds.kindOf(entry));
@@ -96,7 +97,7 @@ export class VirtualRows<Entry> {
       row.top = top;
       row.element.style.transform = `translateY(${top}px)`;
     }
-    // Keys go from row to row as the eye does.
+    // Keys move through the rows in their visible order.
     const there = this.list.children[nth];
     if (there !== row.element) this.list.insertBefore(row.element, there ?? null);
     setAttribute(row.element, "aria-setsize", String(this.entries.length));
