@@ -120,6 +120,17 @@ export function entriesOf(robots: readonly ListedRobot[], filter: RobotFilter, o
   return filter.grouping === "none" ? sorted : grouped(sorted, filter.grouping);
 }
 
+// `entries` in the order in which `shown` has them; what is new comes last.
+export function inOrderOf(shown: readonly Entry[], entries: readonly Entry[]): Entry[] {
+  const places = new Map(shown.map((entry, place) => [nameOf(entry), place]));
+  const placeOf = (entry: Entry) => places.get(nameOf(entry)) ?? shown.length;
+  return [...entries].sort((a, b) => placeOf(a) - placeOf(b));
+}
+
+function nameOf(entry: Entry): string {
+  return isTitle(entry) ? `group ${entry.title}` : `robot ${entry.status.name}`;
+}
+
 function keyOf(sorting: Sorting): (robot: ListedRobot) => number {
   switch (sorting) {
     case "worst":

@@ -1,7 +1,7 @@
 // The robots, filtered, sorted and grouped as the viewer asks for; only the rows in sight exist.
 import { listedRobots } from "../../state/listedRobots";
-import type { Entry } from "../../state/robotList";
-import { NameOrder, entriesOf, isFiltering, isTitle } from "../../state/robotList";
+import type { Entry, RobotFilter } from "../../state/robotList";
+import { NameOrder, entriesOf, inOrderOf, isFiltering, isTitle } from "../../state/robotList";
 import { element, setText } from "../../ui/element";
 import { count } from "../../ui/format";
 import type { PanelPorts } from "../contract/ports";
@@ -21,6 +21,9 @@ export class RobotList {
   private readonly nothing = element("p", { class: "robot-nothing dim" }, "No robot matches. Change the search, or show all states.");
   private readonly order = new NameOrder();
   private entries: readonly Entry[] = [];
+  private isPointed = false;
+  private hasFocus = false;
+  private held: { filter: RobotFilter } | null = null; // what the order of the rows was made for
 
   constructor(private readonly ports: Ports) {
     this.rows = new VirtualRows<Entry>(
@@ -34,11 +37,36 @@ export class RobotList {
     );
     this.rows.list.addEventListener("keydown", (event) => this.onKey(event));
     this.element = element("div", { class: "robot-list" }, this.nothing, this.rows.scroller);
+    this.followAttention();
+  }
+
+  // While one points at the list or is in it by keys, its rows stay where they are: a row that moves away
+  // cannot be pressed.
+  private followAttention(): void {
+    const { scroller } = this.rows;
+    const release = () => {
+      if (this.isPointed || this.hasFocus || !this.held) return;
+      this.held = null;
+      this.update();
+    };
+    scroller.addEventListener("pointerenter", () => (this.isPointed = true));
+    scroller.addEventListener("pointerleave", () => {
+      this.isPointed = false;
+      release();
+    });
+    scroller.addEventListener("focusin", () => (this.hasFocus = true));
+    scroller.addEventListener("focusout", ({ relatedTarget }) => {
+      this.hasFocus = relatedTarget instanceof Node && scroller.contains(relatedTarget);
+      release();
+    });
   }
 
   update(): void {
     const state = this.ports.state.get();
-    this.entries = entriesOf(listedRobots(state), state.robotFilter, this.order);
+    const entries = entriesOf(listedRobots(state), state.robotFilter, this.order);
+    const isHeld = (this.isPointed || this.hasFocus) && this.held?.filter === state.robotFilter;
+    this.entries = isHeld ? inOrderOf(this.entries, entries) : entries;
+    this.held = { filter: state.robotFilter };
     this.nothing.hidden = this.entries.length > 0 || !isFiltering(state.robotFilter);
     this.rows.show(this.entries);
   }

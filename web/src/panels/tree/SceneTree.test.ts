@@ -91,3 +91,24 @@ test("without stations only robots are counted", () => {
   });
   expect(createSceneTree(ports, document.createElement("div")).querySelector("h2")!.textContent).toBe("1 robot");
 });
+
+test("while one points at the list or is in it by keys, its rows stay where they are", () => {
+  const { ports, store } = testPorts({ ...crowd(8), health: health({ robot: "r5", state: "stuck" }) });
+  const tree = createSceneTree(ports, document.createElement("div"));
+  const list = tree.querySelector(".robot-scroll")!;
+  list.dispatchEvent(new Event("pointerenter"));
+  store.set({ health: health({ robot: "r7", state: "stuck" }) });
+  expect(names(tree).slice(0, 2)).toEqual(["r5", "r0"]);
+  list.dispatchEvent(new Event("pointerleave"));
+  expect(names(tree).slice(0, 2)).toEqual(["r7", "r0"]);
+  document.body.append(tree);
+  tree.querySelector<HTMLElement>("[data-robot]")!.focus();
+  store.set({ health: health({ robot: "r3", state: "dead" }) });
+  expect(names(tree)[0]).toBe("r7");
+  store.set(({ robotFilter }) => ({ robotFilter: { ...robotFilter, sorting: "name" } })); // what one asks for is done
+  expect(names(tree)[0]).toBe("r0");
+  store.set(({ robotFilter }) => ({ robotFilter: { ...robotFilter, sorting: "worst" } }));
+  (document.activeElement as HTMLElement).blur();
+  expect(names(tree)[0]).toBe("r3");
+  tree.remove();
+});
