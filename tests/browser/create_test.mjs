@@ -106,11 +106,15 @@ test("without offers it is said which command starts one, and the offer appears 
   assert.equal(await page.locator(".offers-hint").isVisible(), false);
 });
 
-test("a click on the floor puts the chosen robot there", async () => {
+test("a click on the floor puts the chosen robot there, after Place only", async () => {
   await page.keyboard.press("t");
   await settled(page);
   const before = await placeOf("pebble");
   const at = await onScreen("pebble");
+  await page.mouse.click(at.x + 60, at.y + 40);
+  await settled(page);
+  assert.deepEqual(await placeOf("pebble"), before);
+  await row(0).getByRole("button", { name: "Place" }).click();
   await page.mouse.click(at.x + 60, at.y + 40);
   await until(async () => {
     const { x, y } = await placeOf("pebble");

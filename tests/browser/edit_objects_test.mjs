@@ -74,19 +74,15 @@ test("a thing that is added stands there and is chosen", async () => {
   await press("Add");
   await shown("crate");
   assert.equal((await body("crate")).is_fixed, false);
-  await page.getByText("Click the floor to place crate there").waitFor();
+  await page.getByText("crate is chosen").waitFor();
 });
 
-test("it is turned by its arrow's tip, and by a key", async () => {
-  await page.waitForFunction(() => window.gsv.turnHandle() !== null);
-  const tip = await page.evaluate(() => window.gsv.turnHandle());
-  const middle = await onScreen("crate");
-  await page.mouse.move(tip.x, tip.y);
-  await page.mouse.down();
-  await page.mouse.move(middle.x + 40, middle.y - 40, { steps: 3 });
-  await page.mouse.move(middle.x, middle.y - 60, { steps: 3 }); // y is upwards in the picture
-  await page.mouse.up();
-  await until(async () => Math.abs(yawOf(await place("crate")) - Math.PI / 2) < 0.15, "the turned crate");
+test("it is turned by a number, and by a key", async () => {
+  const yaw = page.getByRole("region", { name: "Pose" }).getByLabel("Yaw (°)");
+  await yaw.fill("90");
+  await yaw.press("Enter");
+  await until(async () => Math.abs(yawOf(await place("crate")) - Math.PI / 2) < 1e-6, "the turned crate");
+  await yaw.blur();
   const turned = yawOf(await place("crate"));
   await page.waitForFunction(() => !document.querySelector('.edit [aria-label="Undo"]').disabled);
   await settled(page);
@@ -94,11 +90,16 @@ test("it is turned by its arrow's tip, and by a key", async () => {
   await until(async () => Math.abs(yawOf(await place("crate")) - turned + Math.PI / 12) < 1e-6, "15° less");
 });
 
-test("a click on the floor puts it there, which another viewer sees", async () => {
+test("a click on the floor puts it there after Place only, which another viewer sees", async () => {
   const { page: other } = await openPage(browser, server.url);
   await waitUntilDrawn(other);
   const at = await onScreen("crate");
   const before = await place("crate");
+  await page.mouse.click(at.x + 70, at.y - 50);
+  await settled(page);
+  assert.ok(distance(await place("crate"), before) < 1e-6);
+  await press("Place");
+  await page.getByText("Click the floor to place crate there").waitFor();
   await page.mouse.click(at.x + 70, at.y - 50);
   await until(async () => distance(await place("crate"), before) > 0.5, "the moved crate");
   await settled(page);
@@ -118,7 +119,7 @@ test("what is removed comes back; all is taken back and done again", async () =>
   const stood = await place("can");
   await page.locator(".world-tree summary").click();
   await page.locator('[data-object="crate"]').click();
-  await page.getByText("Click the floor to place crate there").waitFor();
+  await page.getByText("crate is chosen").waitFor();
   await page.keyboard.press("r");
   await settled(page);
   await keepPicture(page, "edit-objects");

@@ -50,7 +50,9 @@ import { element } from "./ui/element";
 import { Workspace } from "./workspace/Workspace";
 import { STANDARD } from "./workspace/presets";
 import { linkedView } from "./state/link";
+import { createMeasureCard, createScaleBar } from "./page/MeasureCard";
 import { createDrawerSwitch } from "./page/DrawerSwitch";
+import { connectTools, showChosenPose } from "./app/connectTools";
 import { chosenDrawer, keepDrawer, startDrawing } from "./app/startDrawing";
 import type { ViewChoice } from "./app/ViewChoice";
 
@@ -84,12 +86,18 @@ function createWorld(host: HTMLElement, inSoftware: boolean): World3D | null {
       {
         onPick: (body) => app.pick(body),
         onPlace: (body, place) => app.place(body, place),
+        onAddToChoice: (body) => app.pick(body, true),
+        onChoose: (bodies) => app.pickAll(bodies),
+        onPoint: (point) => app.takePoint(point),
+        onDrag: (chosenPose) => store.set({ chosenPose }),
+        onPose: (poses) => app.pose(poses),
         onModelsMissing: (modelsMissing) => store.set({ modelsMissing }),
         onProblem: (sentence) => notify(store, "error", sentence),
         onFrameRate: (framesPerSecond) => {
           store.set({ framesPerSecond });
           drawing?.frameRate(framesPerSecond);
         },
+        onScale: (metresPerPixel) => scaleBar.show(metresPerPixel),
         onGraphics: (isThere) => store.set({ view: isThere ? "open" : "interrupted" }),
       },
     );
@@ -139,6 +147,7 @@ function connectWorld(world: World3D): void {
   const takePoses = (message: PosesMessage | PackedPosesMessage) => {
     world.setPoses(posesOf(message));
     showSelectedPose();
+    showChosenPose(store, world);
   };
   let endPoses = () => {};
   store.watch(
@@ -156,6 +165,7 @@ function connectWorld(world: World3D): void {
     (scene) => {
       world.setScene(scene);
       showSelectedPose(); // its poses may have come before it
+      showChosenPose(store, world);
     },
   );
   store.watch(
@@ -173,6 +183,7 @@ function connectWorld(world: World3D): void {
     ({ editing }) => editing?.chosen ?? null,
     (object) => world.choose(object),
   );
+  connectTools(store, world);
   store.watch(
     ({ viewMode }) => viewMode,
     (mode) => world.setViewMode(mode),
@@ -182,8 +193,11 @@ function connectWorld(world: World3D): void {
     (poses) => poses && world.setPoses(posesOfPreview(poses, store.get().scene?.layoutVersion ?? 0)),
   );
   store.watch(
-    ({ setUp, editing }) => setUp !== null || editing !== null,
-    (isOn) => world.setArranging(isOn),
+    ({ setUp, editing }) => `${setUp !== null || editing !== null} ${editing === null}`,
+    () => {
+      const { setUp, editing } = store.get();
+      world.setArranging(setUp !== null || editing !== null, editing === null);
+    },
   );
   store.watch(
     ({ health, robotFilter, status, scene }) => ({
@@ -235,7 +249,8 @@ const page = document.getElementById("app")!;
 const statusBar = createStatusBar(app);
 statusBar.append(createDrawerSwitch(store, () => drawing, () => world?.canDraw ?? false, (drawer) => keepDrawer(storage, drawer)));
 const toggleSidebar = () => page.classList.toggle("sidebar-open");
-view.append(createOverlay(app), createControlQuestion(app), createNotices(app));
+const scaleBar = createScaleBar(app);
+view.append(createMeasureCard(app), scaleBar.element, createOverlay(app), createControlQuestion(app), createNotices(app));
 const workspace = new Workspace(
   { body: view, tools: createViewTools(app) },
   { panels: [...PANELS, editPanel(app)], ports, setOpen: (openPanels) => store.set({ openPanels }) },

@@ -1,6 +1,7 @@
 // window.gsv: what browser tests and scripts can ask the page. web/README.md documents it; nothing
 // else in the page uses it.
 import type { World3D } from "./scene/World3D";
+import { allChosen } from "./state/editing";
 import type { State } from "./state/State";
 import type { Store } from "./state/Store";
 
@@ -26,6 +27,10 @@ export interface PageHandle {
   robotScreenPosition(name: string): { x: number; y: number } | null;
   // Where the tip of the arrow is drawn by which the selected robot is turned; null while hidden.
   turnHandle(): { x: number; y: number } | null;
+  // Where the handle along an axis of the world is drawn, by which the chosen body is moved; null while hidden.
+  gizmoHandle(axis: "x" | "y" | "z"): { x: number; y: number } | null;
+  // The bodies that are chosen, the first one first.
+  readonly chosen: readonly string[];
 }
 
 declare global {
@@ -66,6 +71,10 @@ export function exposeForTests(store: Store<State>, world: () => World3D | null,
     },
     robotScreenPosition: (name) => world()?.screenPosition(name) ?? null,
     turnHandle: () => world()?.turnHandle() ?? null,
+    gizmoHandle: (axis) => world()?.tools.gizmo.handleAt(axis) ?? null,
+    get chosen() {
+      return allChosen(store.get());
+    },
   };
 }
 

@@ -54,6 +54,13 @@ export interface Preview {
   warnings: string[]; // what the files lack
 }
 
+// The texts of both files, and what they do not hold.
+export interface SavedWorld {
+  sdf: string;
+  scenario: string;
+  warnings: string[];
+}
+
 const UPLOAD_TIMEOUT_MS = 300_000;
 
 // Reading a world takes its time, and so do behaviours that are made.
@@ -159,6 +166,14 @@ export class SetUpApi {
 
   async removeObject(simulation: string, object: string): Promise<void> {
     await this.server.delete(`${simulationPath(simulation)}/objects/${encodeURIComponent(object)}`);
+  }
+
+  // The world as it stands now; `file`: how the scenario names it.
+  async saveWorld(simulation: string, file: string): Promise<SavedWorld> {
+    const path = `${simulationPath(simulation)}/world?file=${encodeURIComponent(file)}`;
+    const answer = objectAt(await this.server.get(path, LONG_TIMEOUT_MS), "world");
+    const warnings = listAt(answer.warnings ?? [], "warnings").map((each) => textOr(each, ""));
+    return { sdf: textAt(answer.sdf, "sdf"), scenario: textAt(answer.scenario, "scenario"), warnings };
   }
 
   async placeBody(simulation: string, body: string, place: BodyPlace): Promise<void> {

@@ -1,6 +1,7 @@
 // What the panels, the keyboard and the pointer can ask for.
 import type { Action, SimulationApi } from "../api/SimulationApi";
 import { camerasOf } from "../api/scene";
+import { poseOf } from "../scene/poses";
 import type { World3D } from "../scene/World3D";
 import { isAllowed, mainAction } from "../state/actions";
 import type { CameraChoice } from "../api/scene";
@@ -12,8 +13,11 @@ import { ROBOT_VALUES, SIMULATION_VALUES, withCurve, withoutCurve } from "../sta
 import type { OverlayName } from "../state/overlays";
 import { browserStorage } from "../state/overlays";
 import type { RobotFilter } from "../state/robotList";
-import { chosenOf } from "../state/editing";
-import type { State, ViewMode } from "../state/State";
+import type { WallDrawing } from "../state/editing";
+import { allChosen, chosenOf } from "../state/editing";
+import type { Shape } from "../state/shapes";
+import { faultOf, footprintOf, modelOf, wallBetween } from "../state/shapes";
+import type { BodyPose, Point, State, ViewMode } from "../state/State";
 import type { Store } from "../state/Store";
 import { EDIT_PANEL } from "../state/editing";
 import { PANELS } from "../panels/registry";
@@ -28,10 +32,10 @@ import { PanelControl } from "./PanelControl";
 import { PeopleControl } from "./PeopleControl";
 import { RecordControl } from "./RecordControl";
 import { ReplayControl } from "./ReplayControl";
-import { rotationOf } from "./SelectedPose";
 import type { Session } from "./Session";
 import { SetUpControl } from "./SetUpControl";
 
+const BEFORE_ROBOT_M = 0.6; // from a robot's middle to a shape that is put before it
 const PLOTS_PANEL = "plots";
 const IMAGES_PANEL = "images";
 const TOPICS_PANEL = "topics";
@@ -119,9 +123,11 @@ export class App {
     }));
   }
 
-  // What was clicked at: a robot is selected, and while one edits an object is chosen.
-  pick(body: string | null): void {
+  // What was clicked at: a robot is selected, and while one edits an object is chosen. `isAdding`: besides
+  // what is chosen already, or no more.
+  pick(body: string | null, isAdding = false): void {
     const { scene, editing } = this.store.get();
+    if (isAdding && editing && body !== null && chosenOf(this.store.get()) !== null) return this.addToChoice(body);
     const known = scene?.bodies.find(({ name }) => name === body);
     const isObject = known !== undefined && !known.isRobot && !known.isAvatar;
     if (!isObject) return this.select(body);
@@ -130,21 +136,133 @@ export class App {
     this.edits.choose(known.name);
   }
 
+  // Chooses all of these; the first is what they are moved by.
+  pickAll([first, ...more]: readonly string[]): void {
+    if (first === undefined || !this.store.get().editing) return;
+    this.pick(first);
+    this.edits.chooseMore(more);
+  }
+
+  private addToChoice(body: string): void {
+    const all = allChosen(this.store.get());
+    const rest = all.filter((each) => each !== body);
+    if (rest.length === all.length) this.edits.chooseMore([...all.slice(1), body]);
+    else if (rest.length === 0) this.select(null);
+    else this.pickAll(rest);
+  }
+
   // Looks that way at the selected robot, or the first one when none is; a second time ends it.
   toggleViewMode(mode: ViewMode): void {
     const { selection, viewMode, status } = this.store.get();
     const robot = selection ?? status?.robots[0]?.name ?? null;
     if (robot && !selection) this.select(robot);
-    this.store.set({ viewMode: robot === null || viewMode === mode ? "orbit" : mode });
+    this.store.set({ mapMode: false, viewMode: robot === null || viewMode === mode ? "orbit" : mode });
   }
 
   // What was moved by hand in the picture. Resolves to whether it stands there now.
   place(body: string, place: Placed): Promise<boolean> {
+    this.store.set({ placing: false });
     return this.store.get().setUp ? this.setUp.place(body, place) : this.edits.place(body, place);
+  }
+
+  // What was put somewhere by the gizmo or by numbers.
+  pose(poses: readonly BodyPose[]): Promise<boolean> {
+    const posed = poses.map(({ body, ...place }) => ({ body, place }));
+    const [first] = posed;
+    if (!this.store.get().setUp) return this.edits.pose(posed);
+    return first ? this.setUp.place(first.body, first.place) : Promise.resolve(false);
+  }
+
+  // Whether the next click on the floor puts the selection there.
+  setPlacing(placing: boolean): void {
+    const { editing, setUp } = this.store.get();
+    if (placing) this.endPointing();
+    this.store.set({ placing: placing && (editing !== null || setUp !== null) && chosenOf(this.store.get()) !== null });
+  }
+
+  // Draws a wall from the next click on the floor to the one after it.
+  drawWall(wall: Omit<WallDrawing, "from"> | null): void {
+    this.endPointing();
+    if (wall) this.edits.drawWall({ ...wall, from: null });
+  }
+
+  setMeasuring(isOn: boolean): void {
+    this.endPointing();
+    this.store.set({ ruler: isOn ? [] : null });
+  }
+
+  // A point of the world that was clicked for the ruler or a wall.
+  takePoint(point: Point): void {
+    const { ruler, editing } = this.store.get();
+    if (ruler) this.store.set({ ruler: ruler.length < 2 ? [...ruler, point] : [point] });
+    const wall = editing?.wall;
+    if (!wall) return;
+    if (!wall.from) return this.edits.drawWall({ ...wall, from: { x: point.x, y: point.y } });
+    const { shape, place } = wallBetween(wall.from, point, wall);
+    this.edits.drawWall(null);
+    if (faultOf(shape) !== "") return notify(this.store, "error", "The ends of a wall must be at least 1 mm apart.");
+    void this.edits.addObject({ name: "", model: modelOf(shape), place }, "wall");
+  }
+
+  // Ends what the next click would do; false: nothing was under way.
+  endPointing(): boolean {
+    const { placing, ruler, editing } = this.store.get();
+    const wasOn = placing || ruler !== null || editing?.wall != null;
+    if (!wasOn) return false;
+    this.store.set({ placing: false, ruler: null });
+    if (editing?.wall) this.edits.drawWall(null);
+    return true;
+  }
+
+  // Escape: ends what is under way, or else the choice.
+  escape(): void {
+    if (!this.endPointing()) this.select(null);
+  }
+
+  // A shape: before the selected robot if there is room, else at the first free place.
+  async addShape(shape: Shape): Promise<boolean> {
+    const { selection, editing } = this.store.get();
+    const robot = editing?.chosen == null && selection !== null ? placeIn(this.world(), selection) : null;
+    const ahead = BEFORE_ROBOT_M + footprintOf(shape);
+    const place = robot && {
+      x: robot.x + ahead * Math.cos(robot.yaw),
+      y: robot.y + ahead * Math.sin(robot.yaw),
+      yaw: robot.yaw,
+    };
+    return this.edits.addObject({ name: "", model: modelOf(shape), place }, shape.kind);
+  }
+
+  copyChosen(): void {
+    const count = this.edits.copy(allChosen(this.store.get()));
+    if (count > 0) notify(this.store, "note", count === 1 ? "1 body copied." : `${count} bodies copied.`);
+  }
+
+  paste(): void {
+    void this.edits.paste();
+  }
+
+  duplicate(): void {
+    if (this.edits.copy(allChosen(this.store.get())) > 0) void this.edits.paste();
+  }
+
+  // Downloads the world as it stands now, and with `scenario` a scenario of it.
+  async saveWorld(scenario: boolean): Promise<void> {
+    const { simulation } = this.store.get();
+    if (!simulation) return;
+    const file = worldFileName(simulation);
+    try {
+      const saved = await this.api.setUp.saveWorld(simulation, file);
+      download(file, new Blob([saved.sdf], { type: "application/xml" }));
+      if (scenario) download(file.replace(/\.sdf$/, ".yaml"), new Blob([saved.scenario], { type: "application/yaml" }));
+      for (const warning of saved.warnings) notify(this.store, "note", warning);
+    } catch (error) {
+      notify(this.store, "error", (error as Error).message);
+    }
   }
 
   removeSelected(): void {
     const { setUp, selection, editing } = this.store.get();
+    if (editing && editing.more.length > 0) return void this.edits.removeAll(allChosen(this.store.get()));
     if (editing?.chosen) return void this.edits.removeObject(editing.chosen);
     if (selection === null) return;
     const found = setUp && findRobot(setUp.scenario, selection);
@@ -174,6 +292,11 @@ export class App {
 
   toggle(overlay: OverlayName): void {
     this.store.set(({ shown }) => ({ shown: { ...shown, [overlay]: !shown[overlay] } }));
+  }
+
+  // The view as a map: from above, north up.
+  setMap(mapMode: boolean): void {
+    this.store.set({ mapMode, ...(mapMode && { viewMode: "orbit" }) });
   }
 
   topView(): void {
@@ -271,9 +394,13 @@ export class App {
   }
 }
 
+// The name of a simulation as that of a file.
+function worldFileName(simulation: string): string {
+  return `${simulation.replace(/[^\p{L}\p{N}_.-]+/gu, "_").slice(0, 80)}.sdf`;
+}
+
 function placeIn(world: World3D | null, body: string): Required<BodyPlace> | null {
   const pose = world?.bodyPose(body);
   if (!pose) return null;
-  const [x, y, z] = pose.elements.slice(12) as [number, number, number];
-  return { x, y, z, ...rotationOf(pose) };
+  return poseOf(pose);
 }

@@ -9,10 +9,11 @@ import { Store } from "../state/Store";
 import { body, scene } from "../scene/testScene";
 import { EditControl } from "./EditControl";
 
-const BEFORE = { x: 0, y: 0, z: 0.1, yaw: 0 };
+const BEFORE = { x: 0, y: 0, z: 0.1, roll: 0, pitch: 0, yaw: 0 };
+const UPRIGHT = { x: 0, y: 0, z: 0.1, yaw: 0 };
 const AFTER = { x: 1, y: 2, yaw: 0.5 };
 
-async function editing(here: BodyPlace & { z: number } = BEFORE, phase: "paused" | "running" = "paused") {
+async function editing(here: Required<BodyPlace> = BEFORE, phase: "paused" | "running" = "paused") {
   const store = new Store<State>({
     ...initialState,
     abilities: { ...initialState.abilities, creates: true },
@@ -53,7 +54,7 @@ test("what was added is removed by undo, under the name it got", async () => {
   await control.undo();
   expect(api.removeRobot).toHaveBeenCalledWith("house", "b_2");
   await control.redo();
-  expect(api.addRobot).toHaveBeenLastCalledWith("house", expect.objectContaining({ name: "b_2", place: BEFORE }), false);
+  expect(api.addRobot).toHaveBeenLastCalledWith("house", expect.objectContaining({ name: "b_2", place: UPRIGHT }), false);
 });
 
 test("what was removed comes back where it stood, with its behaviour by name", async () => {
@@ -61,7 +62,7 @@ test("what was removed comes back where it stood, with its behaviour by name", a
   await control.remove("a");
   expect(api.removeRobot).toHaveBeenCalledWith("house", "a");
   await control.undo();
-  const again = expect.objectContaining({ name: "a", model: "b21r", behaviour: "wander", place: BEFORE });
+  const again = expect.objectContaining({ name: "a", model: "b21r", behaviour: "wander", place: UPRIGHT });
   expect(api.addRobot).toHaveBeenCalledWith("house", again, false);
 });
 
@@ -77,7 +78,7 @@ test("a robot comes back on its wheels: its request takes no roll and pitch", as
   const { api, control } = await editing({ ...BEFORE, roll: 0, pitch: 0 });
   await control.remove("a");
   await control.undo();
-  expect(api.addRobot).toHaveBeenCalledWith("house", expect.objectContaining({ place: BEFORE }), false);
+  expect(api.addRobot).toHaveBeenCalledWith("house", expect.objectContaining({ place: UPRIGHT }), false);
 });
 
 test("what the server refuses is told and is no edit", async () => {
@@ -140,4 +141,48 @@ test("what is chosen is let go of when it is gone", async () => {
   expect(store.get().editing!.chosen).toBe("box");
   store.set({ scene: scene({ bodies: [body("a")] }) });
   expect(store.get().editing!.chosen).toBeNull();
+});
+
+test("several bodies move as one edit; robots stay upright", async () => {
+  const { api, control } = await editing();
+  const tilted = { x: 1, y: 1, z: 2, roll: 0.5, pitch: 0, yaw: 1 };
+  expect(await control.pose([{ body: "a", place: tilted }, { body: "box", place: tilted }])).toBe(true);
+  expect(api.placeBody.mock.calls).toEqual([
+    ["house", "a", { x: 1, y: 1, yaw: 1 }],
+    ["house", "box", tilted],
+  ]);
+  api.placeBody.mockClear();
+  await control.undo();
+  expect(api.placeBody.mock.calls).toEqual([
+    ["house", "box", BEFORE],
+    ["house", "a", BEFORE],
+  ]);
+});
+
+test("what is copied is pasted beside the original each time, and chosen then", async () => {
+  const { api, control, store } = await editing();
+  expect(control.copy(["box", "a"])).toBe(2);
+  await control.paste();
+  expect(api.addObject).toHaveBeenCalledWith("house", expect.objectContaining({ copy_of: "box", place: { ...BEFORE, x: 0.5, y: 0.5 } }));
+  expect(api.addRobot).toHaveBeenCalledWith("house", expect.objectContaining({ name: "", place: { ...UPRIGHT, x: 0.5, y: 0.5 } }), false);
+  expect(store.get().editing).toMatchObject({ chosen: "crate_2", more: ["b_2"], undo: ["paste 2 bodies"] });
+  await control.paste();
+  expect(api.addObject).toHaveBeenLastCalledWith("house", expect.objectContaining({ place: { ...BEFORE, x: 1, y: 1 } }));
+  await control.undo();
+  expect(api.removeRobot).toHaveBeenCalledTimes(1);
+  expect(api.removeObject).toHaveBeenCalledTimes(1);
+});
+
+test("several are removed as one edit, and come back together", async () => {
+  const { api, control, store } = await editing();
+  control.choose("box");
+  control.chooseMore(["a"]);
+  await control.removeAll(["box", "a"]);
+  expect(api.removeObject).toHaveBeenCalledWith("house", "box");
+  expect(api.removeRobot).toHaveBeenCalledWith("house", "a");
+  await control.undo();
+  expect(api.addObject).toHaveBeenCalledTimes(1);
+  expect(api.addRobot).toHaveBeenCalledTimes(1);
+  store.set({ scene: scene({ bodies: [body("box", { isRobot: false })] }) });
+  expect(store.get().editing?.more).toEqual([]); // who is gone is not chosen
 });

@@ -2,32 +2,44 @@
 // history: an edit is taken back by doing its opposite.
 import type { BodyPlace, NewObject, SetUpApi } from "../api/SetUpApi";
 import type { Placed, RobotSetUp } from "../api/scenario";
-import type { Editing } from "../state/editing";
+import type { Editing, GizmoTool } from "../state/editing";
 import { canEdit } from "../state/actions";
 import { FIRST_EDITING } from "../state/editing";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
+import type { Edit } from "./edits";
+import { inOrder, together } from "./edits";
 import { notify } from "./notices";
 
 const MOST_EDITS = 100;
 const STANDS_M = 1e-6; // who moved by less was turned
-
-interface Edit {
-  name: string; // "move pebble"
-  apply(): Promise<void>;
-  revert(): Promise<void>;
-}
+const PASTED_AT_M = 0.5; // from the original, along x and y
 
 export interface Bodies {
   // Where a body was last reported; null while unknown.
-  placeOf(body: string): (BodyPlace & { z: number }) | null;
+  placeOf(body: string): Required<BodyPlace> | null;
+}
+
+// A body and where it is to stand.
+export interface Posed {
+  body: string;
+  place: BodyPlace;
+}
+
+interface Copied {
+  body: string;
+  robot: RobotSetUp | null; // null: it is an object
+  isAvatar: boolean;
+  place: BodyPlace;
 }
 
 export class EditControl {
   private done: Edit[] = []; // the newest last
   private takenBack: Edit[] = [];
   // What was put somewhere, until a scene shows it there.
-  private unseen: { body: string; place: BodyPlace } | null = null;
+  private readonly unseen = new Map<string, BodyPlace>();
+  private copied: Copied[] = [];
+  private pastes = 0; // of what was copied
 
   constructor(
     private readonly store: Store<State>,
@@ -43,9 +55,12 @@ export class EditControl {
     store.watch(
       ({ scene }) => scene,
       (scene) => {
-        this.unseen = null;
-        const chosen = this.store.get().editing?.chosen ?? null;
-        if (chosen !== null && !scene?.bodies.some(({ name }) => name === chosen)) this.choose(null);
+        this.unseen.clear();
+        const { editing } = this.store.get();
+        if (!editing) return;
+        const isThere = (body: string) => scene?.bodies.some(({ name }) => name === body) ?? false;
+        if (editing.chosen !== null && !isThere(editing.chosen)) this.choose(null);
+        else if (!editing.more.every(isThere)) this.patch({ more: editing.more.filter(isThere) });
       },
     );
   }
@@ -57,6 +72,7 @@ export class EditControl {
     await this.standsStill();
     this.done = [];
     this.takenBack = [];
+    this.copied = [];
     this.store.set({ editing: FIRST_EDITING });
     await this.ask(async () => {
       const { api } = this;
@@ -69,23 +85,45 @@ export class EditControl {
     });
   }
 
-  // The object that edits are about from now on; null: the selected robot.
+  // The object that edits are about from now on; null: the selected robot. Nothing else is chosen.
   choose(object: string | null): void {
-    if (this.store.get().editing?.chosen !== object) this.patch({ chosen: object });
+    const { editing } = this.store.get();
+    if (editing && (editing.chosen !== object || editing.more.length > 0)) this.patch({ chosen: object, more: [] });
+  }
+
+  // What is chosen besides the first.
+  chooseMore(more: readonly string[]): void {
+    this.patch({ more });
+  }
+
+  setTool(change: Partial<GizmoTool>): void {
+    const { editing } = this.store.get();
+    if (editing) this.patch({ tool: { ...editing.tool, ...change } });
+  }
+
+  drawWall(wall: Editing["wall"]): void {
+    this.patch({ wall });
   }
 
   // Resolves to whether it stands there now.
   place(body: string, place: Placed): Promise<boolean> {
-    const { simulation } = this.store.get();
     const before = this.placeOf(body);
-    if (!simulation || !before) return Promise.resolve(false);
+    if (!before) return Promise.resolve(false);
     const isTurn = Math.hypot(place.x - before.x, place.y - before.y) < STANDS_M;
     const wanted = this.isObject(body) ? asObject(place, before, isTurn) : place;
-    return this.do({
-      name: `${isTurn ? "turn" : "move"} ${body}`,
-      apply: () => this.put(simulation, body, wanted),
-      revert: () => this.put(simulation, body, before),
+    const move = this.movement({ body, place: wanted }, before);
+    return move ? this.do({ ...move, name: `${isTurn ? "turn" : "move"} ${body}` }) : Promise.resolve(false);
+  }
+
+  // Puts bodies exactly there; robots stand on the floor, upright. Resolves to whether all stand there now.
+  pose(posed: readonly Posed[]): Promise<boolean> {
+    const moves = posed.flatMap((each) => {
+      const before = this.placeOf(each.body);
+      const move = before && this.movement({ body: each.body, place: this.allowed(each) }, before);
+      return move ? [move] : [];
     });
+    if (moves.length === 0) return Promise.resolve(false);
+    return this.do(moves.length === 1 ? moves[0]! : together(`move ${moves.length} bodies`, moves));
   }
 
   // Counter-clockwise, in radians.
@@ -96,66 +134,70 @@ export class EditControl {
   }
 
   // What comes is chosen, so that it can be put where it belongs.
-  async addObject(object: NewObject): Promise<boolean> {
+  async addObject(object: NewObject, name = ""): Promise<boolean> {
     const { simulation } = this.store.get();
     if (!simulation) return false;
-    let { name, place } = object;
-    const isThere = await this.do({
-      name: `add ${object.model ?? object.copy_of}`,
-      apply: async () => {
-        name = await this.api.addObject(simulation, { ...object, name, place });
-      },
-      revert: async () => {
-        place = this.placeOf(name) ?? place; // it comes back where it stood
-        await this.api.removeObject(simulation, name);
-      },
-    });
-    if (isThere) this.choose(name);
-    return isThere;
+    const added: string[] = [];
+    const edit = this.addition(simulation, object, added);
+    if (!(await this.do(name ? { ...edit, name: `add ${name}` } : edit))) return false;
+    this.choose(added[0]!);
+    return true;
   }
 
   removeObject(object: string): Promise<boolean> {
-    const { simulation } = this.store.get();
-    const place = this.placeOf(object);
-    if (!simulation || !place) return Promise.resolve(false);
-    return this.do({
-      name: `remove ${object}`,
-      apply: () => this.api.removeObject(simulation, object),
-      revert: async () => void (await this.api.addObject(simulation, { name: object, copy_of: object, place })),
-    });
+    const removal = this.removalOfObject(object);
+    return removal ? this.do(removal) : Promise.resolve(false);
   }
 
   add(robot: RobotSetUp, isAvatar: boolean): Promise<boolean> {
     const { simulation } = this.store.get();
-    if (!simulation) return Promise.resolve(false);
-    let { name, place } = robot;
-    return this.do({
-      name: `add ${robot.model}`,
-      apply: async () => {
-        name = await this.api.addRobot(simulation, { ...robot, name, place }, isAvatar);
-      },
-      revert: async () => {
-        place = upright(this.placeOf(name)) ?? place; // it comes back where it stood
-        await this.api.removeRobot(simulation, name);
-      },
-    });
+    return simulation ? this.do(this.arrival(simulation, robot, isAvatar, [])) : Promise.resolve(false);
   }
 
-  // A robot that comes back has a new instance of its behaviour. One that came with the world needs no
-  // model but its name.
   remove(robot: string): Promise<boolean> {
-    const { simulation, status, scene } = this.store.get();
-    const known = status?.robots.find(({ name }) => name === robot);
-    const place = upright(this.placeOf(robot));
-    if (!simulation || !known || !place) return Promise.resolve(false);
-    const body = scene?.bodies.find(({ name }) => name === robot);
-    const model = body?.isOfWorld ? "" : known.model;
-    const again: RobotSetUp = { name: robot, model, place, behaviour: known.behaviour, constraint: "", movement: "", drive: "" };
-    return this.do({
-      name: `remove ${robot}`,
-      apply: () => this.api.removeRobot(simulation, robot),
-      revert: async () => void (await this.api.addRobot(simulation, again, body?.isAvatar === true)),
+    const removal = this.removalOfRobot(robot);
+    return removal ? this.do(removal) : Promise.resolve(false);
+  }
+
+  // Robots and objects, as one edit.
+  removeAll(bodies: readonly string[]): Promise<boolean> {
+    const removals = bodies.flatMap(
+      (body) => (this.isObject(body) ? this.removalOfObject(body) : this.removalOfRobot(body)) ?? [],
+    );
+    if (removals.length === 0) return Promise.resolve(false);
+    return this.do(removals.length === 1 ? removals[0]! : inOrder(`remove ${removals.length} bodies`, removals));
+  }
+
+  // Keeps the bodies for paste(). Gives how many.
+  copy(bodies: readonly string[]): number {
+    this.copied = bodies.flatMap((body) => {
+      const place = this.placeOf(body);
+      const robot = this.isObject(body) ? null : this.robotAgain(body);
+      if (!place || (robot === null && !this.isObject(body))) return [];
+      return [{ body, robot: robot && { ...robot, name: "" }, isAvatar: this.isAvatar(body), place }];
     });
+    this.pastes = 0;
+    return this.copied.length;
+  }
+
+  // Adds what was copied once more, beside the originals; it is chosen then.
+  async paste(): Promise<boolean> {
+    const { simulation } = this.store.get();
+    if (!simulation || this.copied.length === 0) return false;
+    const shift = ++this.pastes * PASTED_AT_M;
+    const names: string[] = [];
+    const additions = this.copied.map(({ body, robot, isAvatar, place }) => {
+      const there = { ...place, x: place.x + shift, y: place.y + shift };
+      if (!robot) return this.addition(simulation, { name: "", copy_of: body, place: there }, names);
+      return this.arrival(simulation, { ...robot, place: upright(there) }, isAvatar, names);
+    });
+    const what = this.copied.length === 1 ? this.copied[0]!.body : `${this.copied.length} bodies`;
+    if (!(await this.do(inOrder(`paste ${what}`, additions)))) return false;
+    const [first, ...more] = names;
+    const isFirstObject = this.copied[0]!.robot === null;
+    this.patch({ chosen: isFirstObject ? first! : null, more });
+    if (!isFirstObject) this.store.set({ selection: first! });
+    return true;
   }
 
   async undo(): Promise<void> {
@@ -174,19 +216,107 @@ export class EditControl {
     this.tell();
   }
 
-  private async put(simulation: string, body: string, place: BodyPlace): Promise<void> {
-    await this.api.placeBody(simulation, body, place);
-    this.unseen = { body, place };
+  private movement({ body, place }: Posed, before: BodyPlace): Edit | null {
+    const { simulation } = this.store.get();
+    if (!simulation) return null;
+    return {
+      name: `move ${body}`,
+      apply: () => this.put(simulation, body, place),
+      revert: () => this.put(simulation, body, before),
+    };
   }
 
-  private placeOf(body: string): (BodyPlace & { z: number }) | null {
+  // `names` gets the name under which it stands.
+  private addition(simulation: string, object: NewObject, names: string[]): Edit {
+    let { name, place } = object;
+    return {
+      name: `add ${object.model ?? object.copy_of}`,
+      apply: async () => {
+        name = await this.api.addObject(simulation, { ...object, name, place });
+        names.push(name);
+      },
+      revert: async () => {
+        place = this.placeOf(name) ?? place; // it comes back where it stood
+        await this.api.removeObject(simulation, name);
+      },
+    };
+  }
+
+  private arrival(simulation: string, robot: RobotSetUp, isAvatar: boolean, names: string[]): Edit {
+    let { name, place } = robot;
+    return {
+      name: `add ${robot.model}`,
+      apply: async () => {
+        name = await this.api.addRobot(simulation, { ...robot, name, place }, isAvatar);
+        names.push(name);
+      },
+      revert: async () => {
+        const stood = this.placeOf(name);
+        place = stood ? upright(stood) : place; // it comes back where it stood
+        await this.api.removeRobot(simulation, name);
+      },
+    };
+  }
+
+  private removalOfObject(object: string): Edit | null {
+    const { simulation } = this.store.get();
+    const place = this.placeOf(object);
+    if (!simulation || !place) return null;
+    return {
+      name: `remove ${object}`,
+      apply: () => this.api.removeObject(simulation, object),
+      revert: async () => void (await this.api.addObject(simulation, { name: object, copy_of: object, place })),
+    };
+  }
+
+  private removalOfRobot(robot: string): Edit | null {
+    const { simulation } = this.store.get();
+    const again = this.robotAgain(robot);
+    if (!simulation || !again) return null;
+    const isAvatar = this.isAvatar(robot);
+    return {
+      name: `remove ${robot}`,
+      apply: () => this.api.removeRobot(simulation, robot),
+      revert: async () => void (await this.api.addRobot(simulation, again, isAvatar)),
+    };
+  }
+
+  // A robot that comes back has a new instance of its behaviour. One that came with the world needs no
+  // model but its name.
+  private robotAgain(robot: string): RobotSetUp | null {
+    const known = this.store.get().status?.robots.find(({ name }) => name === robot);
+    const place = this.placeOf(robot);
+    if (!known || !place) return null;
+    const model = this.bodyOf(robot)?.isOfWorld ? "" : known.model;
+    const { behaviour } = known;
+    return { name: robot, model, place: upright(place), behaviour, constraint: "", movement: "", drive: "" };
+  }
+
+  private async put(simulation: string, body: string, place: BodyPlace): Promise<void> {
+    await this.api.placeBody(simulation, body, place);
+    this.unseen.set(body, place);
+  }
+
+  private placeOf(body: string): Required<BodyPlace> | null {
     const seen = this.bodies.placeOf(body);
-    return seen && this.unseen?.body === body ? { ...seen, ...this.unseen.place } : seen;
+    return seen && { ...seen, ...this.unseen.get(body) };
+  }
+
+  private bodyOf(body: string) {
+    return this.store.get().scene?.bodies.find(({ name }) => name === body);
   }
 
   private isObject(body: string): boolean {
-    const known = this.store.get().scene?.bodies.find(({ name }) => name === body);
+    const known = this.bodyOf(body);
     return known !== undefined && !known.isRobot && !known.isAvatar;
+  }
+
+  private isAvatar(body: string): boolean {
+    return this.bodyOf(body)?.isAvatar === true;
+  }
+
+  private allowed({ body, place }: Posed): BodyPlace {
+    return this.isObject(body) ? place : { x: place.x, y: place.y, yaw: place.yaw };
   }
 
   private async do(edit: Edit): Promise<boolean> {
@@ -208,7 +338,7 @@ export class EditControl {
   }
 
   private end(): void {
-    this.store.set({ editing: null });
+    this.store.set({ editing: null, placing: false, chosenPose: null });
   }
 
   private tell(): void {
@@ -236,8 +366,8 @@ export class EditControl {
 }
 
 // A robot is put on its wheels, and its request knows of no other way.
-function upright(place: (BodyPlace & { z: number }) | null) {
-  return place && { x: place.x, y: place.y, z: place.z, yaw: place.yaw };
+function upright(place: BodyPlace) {
+  return { x: place.x, y: place.y, yaw: place.yaw, ...(place.z !== undefined && { z: place.z }) };
 }
 
 // An object lies as it lay; turned on the spot, it stays at its height, too.

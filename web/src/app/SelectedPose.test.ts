@@ -1,7 +1,8 @@
 import { Matrix4 } from "three";
 import { expect, test } from "vitest";
 import { shortWay } from "../live/angle";
-import { SelectedPose, rotationOf } from "./SelectedPose";
+import { rotationOf } from "../scene/poses";
+import { SelectedPose } from "./SelectedPose";
 
 function at(x: number, stamp: number) {
   return { pose: new Matrix4().makeRotationZ(0.5).setPosition(x, 2, 0), stamp };

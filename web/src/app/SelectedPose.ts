@@ -1,8 +1,8 @@
 // Follows the pose of the selected robot for the inspector, at a pace that can be read.
-import { Quaternion, Vector3 } from "three";
+import { Vector3 } from "three";
 import type { Matrix4 } from "three";
 import { shortWay } from "../live/angle";
-import { anglesOf } from "../live/values";
+import { rotationOf } from "../scene/poses";
 import type { RobotPose } from "../state/State";
 
 export const SHORTEST_UPDATE_MS = 100;
@@ -50,9 +50,4 @@ export class SelectedPose {
     this.turnRate = shortWay(yaw - this.from.yaw) / elapsed;
     this.from = { position, yaw, stamp };
   }
-}
-
-export function rotationOf(pose: Matrix4): { roll: number; pitch: number; yaw: number } {
-  const { x, y, z, w } = new Quaternion().setFromRotationMatrix(pose);
-  return anglesOf({ x, y, z, w });
 }

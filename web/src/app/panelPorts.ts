@@ -24,10 +24,11 @@ export function panelPorts(app: App, api: SimulationApi): PanelPorts {
     replay: { seek: (time) => app.replay.seek(time) },
     robots: {
       select: (robot) => app.select(robot),
-      pick: (body) => app.pick(body),
+      pick: (body, isAdding) => app.pick(body, isAdding),
       filter: (change) => app.filterRobots(change),
       follow: () => app.toggleViewMode("follow"),
     },
+    edits: { pose: (pose) => app.pose([pose]) },
     cameras: { show: (camera) => app.showCamera(camera) },
     plots: {
       add: (source, key, unit) => app.plot(source, key, unit),

@@ -11,7 +11,7 @@ function pressed(key: string) {
   const app = {
     startPauseOrResume: vi.fn(),
     topView: vi.fn(),
-    select: vi.fn(),
+    escape: vi.fn(),
     toggleViewMode: vi.fn(),
     toggle: vi.fn(),
   };
@@ -23,7 +23,7 @@ test("keys have their commands in either case", () => {
   expect(pressed("t")).toEqual([["topView"]]);
   expect(pressed("T")).toEqual([["topView"]]);
   expect(pressed(" ")).toEqual([["startPauseOrResume"]]);
-  expect(pressed("Escape")).toEqual([["select", null]]);
+  expect(pressed("Escape")).toEqual([["escape"]]);
   expect(pressed("c")).toEqual([["toggleViewMode", "chase"]]);
   expect(pressed("5")).toEqual([["toggle", "trails"]]);
 });
@@ -105,12 +105,12 @@ test("characters are single keys, and named keys and those with Ctrl are none", 
 test("with single keys turned off letters do nothing, and Esc does", () => {
   const app = {
     topView: vi.fn(),
-    select: vi.fn(),
+    escape: vi.fn(),
     store: { get: () => ({ ...initialState, singleKeys: false }) },
   };
   const page = document.createElement("div");
   listenForKeys(app as unknown as App, page as unknown as Window);
   for (const key of ["t", "Escape"]) page.dispatchEvent(new KeyboardEvent("keydown", { key }));
   expect(app.topView).not.toHaveBeenCalled();
-  expect(app.select).toHaveBeenCalledWith(null);
+  expect(app.escape).toHaveBeenCalled();
 });

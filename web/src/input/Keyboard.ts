@@ -28,7 +28,7 @@ const COMMANDS: Record<string, (app: App) => unknown> = {
   l: (app) => app.copyLink(),
   x: (app) => void app.savePicture(),
   m: (app) => app.film(),
-  escape: (app) => app.select(null),
+  escape: (app) => app.escape(),
   "?": (app) => app.openHelp(true),
 };
 for (const { key, name } of OVERLAYS) COMMANDS[key] = (app) => app.toggle(name);
@@ -43,7 +43,7 @@ export function commandOf({ key, ctrlKey, altKey, metaKey }: Key): ((app: App) =
 
 const TURN = Math.PI / 12;
 
-// Taking back what was changed, turning it, and taking it away.
+// Taking back what was changed; turning, copying and removing what is chosen.
 export function editCommandOf({ key, ctrlKey, metaKey, altKey, shiftKey }: Key): ((app: App) => unknown) | null {
   if (altKey) return null;
   if (!ctrlKey && !metaKey) {
@@ -52,6 +52,9 @@ export function editCommandOf({ key, ctrlKey, metaKey, altKey, shiftKey }: Key):
     return key === "Delete" ? (app) => app.removeSelected() : null;
   }
   const lower = key.toLowerCase();
+  if (lower === "c") return (app) => app.copyChosen();
+  if (lower === "v") return (app) => app.paste();
+  if (lower === "d") return (app) => app.duplicate();
   if (lower === "y" || (lower === "z" && shiftKey)) return (app) => app.redo();
   return lower === "z" ? (app) => app.undo() : null;
 }

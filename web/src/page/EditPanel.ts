@@ -4,13 +4,14 @@ import type { Behaviours } from "../api/SetUpApi";
 import type { State } from "../state/State";
 import { shallowEqual } from "../state/Store";
 import type { Panel } from "../panels/contract/Panel";
-import { EDIT_PANEL, chosenOf, copiesOf } from "../state/editing";
+import { EDIT_PANEL, allChosen, chosenOf, copiesOf } from "../state/editing";
 import { EMPTY_SCENARIO, newRobot } from "../api/scenario";
 import type { Option } from "../ui/fields";
 import { choiceField, textField } from "../ui/fields";
 import { element, setText } from "../ui/element";
 import type { IconName } from "../ui/icons";
 import { icon } from "../ui/icons";
+import { createGizmoTools } from "./GizmoTools";
 
 const TURN = Math.PI / 12;
 
@@ -47,6 +48,10 @@ function createEditPanel(app: App): HTMLElement {
   let driveText = "";
   const [modelSelect, behaviourSelect] = [model, behaviour].map((each) => each.element.querySelector("select")!);
   const add = button("Add", () => void addChosen(app, modelSelect!.value, behaviourSelect!.value, driveText));
+  const place = button("Place", () => app.setPlacing(!app.store.get().placing));
+  place.title = "Place the selection by a click on the floor";
+  const duplicate = button("Duplicate", () => app.duplicate());
+  duplicate.title = "Duplicate the selection (Ctrl D)";
   const remove = button("Remove", () => app.removeSelected());
   const turns = [
     pictureButton("Turn left", "turnLeft", () => app.turnSelected(TURN)),
@@ -60,8 +65,9 @@ function createEditPanel(app: App): HTMLElement {
     { class: "edit-body" },
     element("div", { class: "field-pair" }, model.element, behaviour.element, add),
     element("div", { class: "field-pair" }, drive.element),
-    element("div", { class: "edit-buttons" }, undo, redo, ...turns, remove),
+    element("div", { class: "edit-buttons" }, undo, redo, ...turns, place, duplicate, remove),
     hint,
+    createGizmoTools(app),
   );
   const offerBehaviour = () => {
     behaviourSelect!.disabled = !isRobot(modelSelect!.value);
@@ -95,16 +101,26 @@ function createEditPanel(app: App): HTMLElement {
       add.disabled = editing.isBusy || editing.models.length + editing.objects.length === 0;
     },
   );
+  app.store.watch(
+    ({ placing }) => placing,
+    (placing) => place.setAttribute("aria-pressed", String(placing)),
+  );
+  app.store.watch(hintOf, (text) => setText(hint, text));
   app.store.watch(chosenOf, (chosen) => {
-    for (const each of [remove, ...turns]) each.disabled = chosen === null;
-    setText(
-      hint,
-      chosen === null
-        ? "Drag robots and objects. Or click one to select it, then click the floor to place it there."
-        : `Click the floor to place ${chosen} there. Drag the tip of its arrow to turn it.`,
-    );
+    for (const each of [remove, place, duplicate, ...turns]) each.disabled = chosen === null;
   });
   return panel;
+}
+
+// What one can do next.
+function hintOf(state: State): string {
+  const { placing, editing } = state;
+  const all = allChosen(state);
+  if (placing) return `Click the floor to place ${all[0]} there.`;
+  if (editing?.wall) return `Click the floor where the wall ${editing.wall.from ? "ends" : "begins"}.`;
+  if (all.length > 1) return `${all.length} bodies are chosen. Drag the arrows of ${all[0]} to move them all.`;
+  if (all.length === 1) return `${all[0]} is chosen. Drag its arrows, or press Place and click the floor.`;
+  return "Click a robot or an object to choose it, or drag it over the floor. Choose several with Shift.";
 }
 
 function button(label: string, onclick: () => void): HTMLButtonElement {

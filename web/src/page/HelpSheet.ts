@@ -69,8 +69,9 @@ const GESTURES: [gesture: string, meaning: string][] = [
   ["Right-drag, or drag with two fingers", "Move the view"],
   ["Mouse wheel, or pinch", "Zoom at the pointer"],
   ["Click a robot", "Select the robot"],
-  ["Drag a robot or object, while editing", "Move it; drag the tip of its arrow to turn it"],
-  ["Click the floor in edit mode", "Place the selected robot or object there"],
+  ["Drag a robot or object, while editing", "Move it over the floor; drag its handles to move or turn it along an axis"],
+  ["Press Place, then click the floor, while editing", "Place the selected robot or object there"],
+  ["Shift and click, or Shift and drag, while editing", "Choose one more, or all in a rectangle"],
 ];
 
 export function createHelpSheet(app: App): HTMLElement {

@@ -56,6 +56,8 @@ function viewCommands(app: App): Command[] {
   const { shown } = app.store.get();
   const view = (label: string, key: string, run: () => void): Command => ({ group: "View", label, key, run });
   return [
+    { group: "View", label: app.store.get().mapMode ? "Leave the map" : "Map", run: () => app.setMap(!app.store.get().mapMode) },
+    { group: "View", label: "Measure", run: () => app.setMeasuring(true) },
     view("Reset view", "R", () => app.resetView()),
     view("Top view", "T", () => app.topView()),
     view("Follow", "F", () => app.toggleViewMode("follow")),

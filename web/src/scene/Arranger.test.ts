@@ -57,7 +57,7 @@ beforeEach(() => {
   camera.lookAt(0, 0, 0);
   camera.updateMatrixWorld(true);
   const robots = new RobotPlaces(bodies, new SensorFrames());
-  const view = { host, camera, bodies: () => bodies, robots: () => robots, selection: () => selection, redraw: () => {} };
+  const view = { host, camera, bodies: () => bodies, robots: () => robots, selection: () => selection, isTaken: () => false, redraw: () => {} };
   arranger = new Arranger(view, { onPick, onPlace });
   arranger.isOn = true;
 });
@@ -122,7 +122,7 @@ test("a press without a drag chooses the robot; the floor is left to the view", 
 
 test("a click on the floor puts the selected robot there, heading as before", () => {
   selection = "a";
-  arranger.placeAt({ x: SIZE / 2 + 3 * PX, y: SIZE / 2 });
+  arranger.placeAt(arranger.floorAt({ x: SIZE / 2 + 3 * PX, y: SIZE / 2 })!);
   expect(onPlace).toHaveBeenCalledWith("a", { x: expect.closeTo(3, 6), y: expect.closeTo(0, 6), yaw: 0 });
 });
 

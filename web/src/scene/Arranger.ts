@@ -1,6 +1,5 @@
 // Moves what stands in the world by hand, while that is allowed: drag a body over the floor, drag the
-// tip of the chosen one's arrow to turn it, click on the floor to put it there. Every other gesture
-// is the view's.
+// tip of the chosen one's arrow to turn it. Every other gesture is the view's.
 import type { Camera } from "three";
 import { Matrix4, Plane, Vector3 } from "three";
 import type { SceneBody } from "../api/scene";
@@ -20,6 +19,7 @@ export interface ArrangerView {
   bodies(): BodyLayer | null;
   robots(): RobotPlaces | null;
   selection(): string | null;
+  isTaken(event: PointerEvent): boolean; // a press that something else in the view takes
   redraw(): void;
 }
 
@@ -43,6 +43,7 @@ interface Drag {
 export class Arranger {
   readonly handle = new TurnHandle();
   isOn = false;
+  hasArrow = true; // whether the arrow is shown
   private drag: Drag | null = null;
   private held: BodyLayer | null = null;
 
@@ -60,7 +61,7 @@ export class Arranger {
 
   // With every picture.
   showHandle(): void {
-    const robot = this.isOn ? this.view.selection() : null;
+    const robot = this.isOn && this.hasArrow ? this.view.selection() : null;
     const ring = robot === null ? null : this.view.robots()?.ringOf(robot);
     const subject = robot === null ? null : this.view.robots()?.subjectOf(robot);
     if (ring && subject) this.handle.show(ring.position, subject.yaw, ring.radius);
@@ -73,13 +74,11 @@ export class Arranger {
     return tip && screenPlaceOf(tip, this.view.camera, this.view.host.getBoundingClientRect());
   }
 
-  // A click on the floor puts the selected robot there.
-  placeAt(at: ScreenPlace): void {
-    const robot = this.view.selection();
-    const subject = robot === null ? null : this.view.robots()?.subjectOf(robot);
-    const point = this.floorAt(at);
-    if (robot === null || !subject || !point) return;
-    void this.events.onPlace(robot, { x: point.x, y: point.y, yaw: subject.yaw });
+  // Puts the selected body there.
+  placeAt({ x, y }: { x: number; y: number }): void {
+    const body = this.view.selection();
+    const subject = body === null ? null : this.view.robots()?.subjectOf(body);
+    if (body !== null && subject) void this.events.onPlace(body, { x, y, yaw: subject.yaw });
   }
 
   // Whether what is shown is not where it was last reported: it is in somebody's hand, or was just
@@ -90,7 +89,7 @@ export class Arranger {
 
   private grab(event: PointerEvent): void {
     if (!this.isOn || this.holds || !event.isPrimary || event.button !== 0) return;
-    if (!(event.target instanceof HTMLCanvasElement)) return;
+    if (!(event.target instanceof HTMLCanvasElement) || this.view.isTaken(event)) return;
     const start = { x: event.clientX, y: event.clientY };
     const turns = this.isAtTip(start);
     const bodies = this.view.bodies();
@@ -154,7 +153,7 @@ export class Arranger {
   }
 
   // What is fixed there, or the floor.
-  private floorAt(at: ScreenPlace): Vector3 | null {
+  floorAt(at: ScreenPlace): Vector3 | null {
     return this.view.bodies()?.pointOf(this.ray(at)) ?? this.onPlane(at, 0);
   }
 

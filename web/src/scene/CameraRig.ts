@@ -1,7 +1,7 @@
 // The eye: orbits, flies to views, goes along with a robot, or looks out of it. The world's z is up.
 // A chase draws nearer than one stands where a wall is in between.
 import type { Box3 } from "three";
-import { MathUtils, Matrix4, PerspectiveCamera, Vector3 } from "three";
+import { MOUSE, MathUtils, Matrix4, PerspectiveCamera, TOUCH, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { CameraView } from "../api/scene";
 import type { Viewpoint as ViewNumbers } from "../state/link";
@@ -9,9 +9,13 @@ import type { Eye } from "./eye";
 import { cameraRotation, fieldOfViewDeg } from "./eye";
 import { fittingDistance } from "./framing";
 
-const { clamp } = MathUtils;
+const { clamp, degToRad: radians } = MathUtils;
 
 const FIELD_OF_VIEW_DEG = 50;
+// Of a map: so narrow, from so far away, that it is orthographic within a hundredth. The server draws no
+// narrower.
+const MAP_FIELD_OF_VIEW_DEG = 1;
+const MAP_DEPTH = 200; // m, that is drawn below and above where one looks
 const FLIGHT_MS = 450;
 const MARGIN = 1.04;
 // From the south-west, well above: over the walls of a room into it.
@@ -60,6 +64,9 @@ export class CameraRig {
   private turning = false; // with the subject
   private beforeEye: Viewpoint | null = null; // not null: it looks out of a robot
   private eyeView: CameraView | null = null; // of that robot's camera
+  private beforeMap: Viewpoint | null = null; // not null: it is a map
+  private height = 1; // px
+  private orbitDepth = { near: 0.05, far: 500 }; // m, that is drawn while it is no map
   private readonly still: boolean;
 
   // `freeAlong`: how far one sees from a place in a direction (of length 1), of at most `far`; more
@@ -83,7 +90,8 @@ export class CameraRig {
   }
 
   resize(width: number, height: number): void {
-    this.stand.aspect = this.camera.aspect = width / Math.max(1, height);
+    this.height = Math.max(1, height);
+    this.stand.aspect = this.camera.aspect = width / this.height;
     this.widen();
   }
 
@@ -124,6 +132,38 @@ export class CameraRig {
 
   top(box: Box3): void {
     this.lookAt(box, DOWN, true);
+  }
+
+  // From above, north up and without perspective; pressing and dragging moves it. It shows what was in the
+  // middle, as large as before.
+  setMap(isOn: boolean): void {
+    if (isOn === (this.beforeMap !== null)) return;
+    const { position, target } = this.viewpoint;
+    const { controls } = this;
+    this.flight = null;
+    if (isOn) {
+      const scale = Math.tan(radians(FIELD_OF_VIEW_DEG) / 2) / Math.tan(radians(MAP_FIELD_OF_VIEW_DEG) / 2);
+      const distance = position.distanceTo(target) * scale;
+      controls.maxDistance *= scale;
+      this.beforeMap = { position, target };
+      this.setGestures();
+      this.widen();
+      this.viewpoint = { position: target.clone().addScaledVector(DOWN, -distance), target };
+    } else {
+      const before = this.beforeMap!;
+      this.beforeMap = null;
+      controls.maxDistance /= Math.tan(radians(FIELD_OF_VIEW_DEG) / 2) / Math.tan(radians(MAP_FIELD_OF_VIEW_DEG) / 2);
+      this.setGestures();
+      this.setDepth(this.orbitDepth.near, this.orbitDepth.far);
+      this.widen();
+      this.viewpoint = before;
+    }
+  }
+
+  // What a pixel shows, in metres, at the distance of what one looks at.
+  get metresPerPixel(): number {
+    const distance = this.stand.position.distanceTo(this.controls.target);
+    return (2 * distance * Math.tan(radians(this.camera.fov) / 2)) / this.height;
   }
 
   // Flies to the subject and goes along with it from now on; `turning`: behind it, turning as it
@@ -190,6 +230,10 @@ export class CameraRig {
   private draw(nowMs: number): boolean {
     this.camera.position.copy(this.stand.position);
     this.camera.quaternion.copy(this.stand.quaternion);
+    if (this.beforeMap) {
+      const distance = this.stand.position.distanceTo(this.controls.target);
+      this.setDepth(Math.max(0.1, distance - MAP_DEPTH), distance + MAP_DEPTH);
+    }
     const back = this.stand.position.clone().sub(this.controls.target);
     const far = back.length();
     const isChase = this.subject !== null && this.turning && far > NEAREST;
@@ -227,8 +271,26 @@ export class CameraRig {
   // As wide as the eye sees that it looks out of.
   private widen(): void {
     const { camera, eyeView } = this;
-    camera.fov = eyeView ? fieldOfViewDeg(eyeView, camera.aspect) : FIELD_OF_VIEW_DEG;
+    const ownFov = this.beforeMap ? MAP_FIELD_OF_VIEW_DEG : FIELD_OF_VIEW_DEG;
+    this.stand.fov = ownFov;
+    camera.fov = eyeView ? fieldOfViewDeg(eyeView, camera.aspect) : ownFov;
     for (const each of [this.stand, camera]) each.updateProjectionMatrix();
+  }
+
+  private setGestures(): void {
+    const isMap = this.beforeMap !== null;
+    this.controls.enableRotate = !isMap;
+    this.controls.mouseButtons.LEFT = isMap ? MOUSE.PAN : MOUSE.ROTATE;
+    this.controls.touches.ONE = isMap ? TOUCH.PAN : TOUCH.ROTATE;
+  }
+
+  private setDepth(near: number, far: number): void {
+    for (const each of [this.stand, this.camera]) {
+      if (each.near === near && each.far === far) continue;
+      each.near = near;
+      each.far = far;
+      each.updateProjectionMatrix();
+    }
   }
 
   private overhead(): Vector3 {
@@ -247,15 +309,15 @@ export class CameraRig {
     }
   }
 
-  private lookAt(box: Box3, direction: Vector3, fly: boolean): void {
+  private lookAt(box: Box3, wanted: Vector3, fly: boolean): void {
+    const direction = this.beforeMap ? DOWN : wanted;
     const target = box.getCenter(new Vector3());
     const distance = MARGIN * fittingDistance(this.camera, box, direction);
     const position = target.clone().addScaledVector(direction, -distance);
     this.controls.maxDistance = Math.max(50, 6 * distance);
-    for (const each of [this.stand, this.camera]) {
-      each.far = 3 * this.controls.maxDistance;
-      each.near = Math.min(0.1, distance / 100);
-      each.updateProjectionMatrix();
+    if (!this.beforeMap) {
+      this.orbitDepth = { near: Math.min(0.1, distance / 100), far: 3 * this.controls.maxDistance };
+      this.setDepth(this.orbitDepth.near, this.orbitDepth.far);
     }
     if (fly) this.fly({ position, target });
     else this.viewpoint = { position, target };

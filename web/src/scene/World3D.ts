@@ -9,8 +9,11 @@ import type { MarkerArrayMessage, PosesMessage, TransformsMessage } from "../pro
 import type { Shown } from "../state/overlays";
 import { FIRST_SHOWN } from "../state/overlays";
 import type { Viewpoint } from "../state/link";
-import type { ViewMode } from "../state/State";
+import type { Point, ViewMode } from "../state/State";
 import type { ArrangerEvents } from "./Arranger";
+import type { EditToolsEvents } from "./EditTools";
+import { EditTools } from "./EditTools";
+import { isAdding } from "./RectangleChoice";
 import { Arranger } from "./Arranger";
 import type { BodyLayer } from "./BodyLayer";
 import { CollisionLayer } from "./CollisionLayer";
@@ -41,11 +44,12 @@ import type { DrawnView } from "../view/DrawnView";
 const MOST_BEAMS = 20_000;
 const MOST_BEAMS_IN_SOFTWARE = 2000;
 
-export interface WorldEvents extends Pick<ArrangerEvents, "onPlace"> {
+export interface WorldEvents extends Pick<ArrangerEvents, "onPlace">, Omit<EditToolsEvents, "onPlacePoint"> {
   onPick(robot: string | null): void;
   onModelsMissing(count: number): void;
   onProblem(sentence: string): void;
   onFrameRate(framesPerSecond: number): void;
+  onScale(metresPerPixel: number): void; // at what one looks at; with each picture
   onGraphics(isThere: boolean): void; // the browser has taken WebGL away, or given it back
 }
 
@@ -70,6 +74,7 @@ export class World3D {
   private readonly signs: RobotSigns;
   private readonly watch: RobotWatch;
   private readonly arranger: Arranger;
+  readonly tools: EditTools;
   private parts: SceneParts | null = null;
   private lastBeams: MarkerArrayMessage | null = null;
   private shown: Shown = FIRST_SHOWN;
@@ -82,7 +87,7 @@ export class World3D {
   private readonly shadows = new ShadowPace();
 
   constructor(
-    private readonly host: HTMLElement,
+    readonly host: HTMLElement,
     options: WorldOptions,
     private readonly events: WorldEvents,
   ) {
@@ -112,7 +117,8 @@ export class World3D {
     );
     this.watch = new RobotWatch(this.rig);
     this.arranger = new Arranger(this.arrangerView(), events);
-    this.scene.add(this.overlays.group, this.signs.marks.points, this.watch.ring.mesh, this.arranger.handle.group);
+    this.tools = new EditTools(this.toolsView(), { ...events, onPlacePoint: (point) => this.arranger.placeAt(point) });
+    this.scene.add(this.overlays.group, this.signs.marks.points, this.watch.ring.mesh, this.arranger.handle.group, this.tools.group);
     host.prepend(canvas, this.signs.labels.element); // below what lies over the picture
     for (const press of ["pointerdown", "pointerup", "keydown"] as const) {
       addEventListener(press, (event) => "repeat" in event && event.repeat ? undefined : this.loop.holdBack(), { capture: true });
@@ -190,9 +196,10 @@ export class World3D {
     this.loop.request();
   }
 
-  // Whether what stands there may be moved by hand.
-  setArranging(isOn: boolean): void {
+  // Whether what stands there may be moved by hand; with an arrow to turn it, where there is no gizmo.
+  setArranging(isOn: boolean, hasArrow = true): void {
     this.arranger.isOn = isOn;
+    this.arranger.hasArrow = hasArrow;
     this.signs.labels.element.classList.toggle("in-the-way", isOn);
     this.loop.request();
   }
@@ -202,6 +209,12 @@ export class World3D {
     this.overlays.show(shown);
     this.collisions.show(shown.collisions);
     this.signs.labels.element.hidden = !shown.labels;
+    this.loop.request();
+  }
+
+  // The points of a ruler or a wall.
+  showPoints(points: readonly Point[]): void {
+    this.tools.marks.show(points);
     this.loop.request();
   }
 
@@ -226,6 +239,12 @@ export class World3D {
 
   topView(): void {
     if (this.parts) this.rig.top(this.parts.focus);
+  }
+
+  // Whether the view is a map: from above, north up.
+  setMap(isOn: boolean): void {
+    this.rig.setMap(isOn);
+    this.refresh();
   }
 
   resetView(): void {
@@ -301,6 +320,21 @@ export class World3D {
       bodies: () => this.bodies,
       robots: () => this.watch.robots,
       selection: () => this.watch.selection,
+      isTaken: (event) => isAdding(event) || this.tools.clickUse !== "choose" || this.tools.isHandleAt({ x: event.clientX, y: event.clientY }),
+      redraw: () => this.refresh(),
+    };
+  }
+
+  private toolsView(): ConstructorParameters<typeof EditTools>[0] {
+    return {
+      host: this.host,
+      canvas: this.renderer.domElement,
+      camera: this.rig.camera,
+      orbit: this.rig.controls,
+      bodies: () => this.bodies,
+      robots: () => this.watch.robots,
+      bodyAt: (at) => this.robotAt(at) ?? this.movableAt(at),
+      pointAt: (at) => this.arranger.floorAt(at),
       redraw: () => this.refresh(),
     };
   }
@@ -375,7 +409,7 @@ export class World3D {
 
   private draw(now: number): boolean {
     if (!this.hasGraphics && !this.drawn) return false;
-    if (!this.arranger.holds && this.poses.show(now)) {
+    if (!this.arranger.holds && !this.tools.holds && this.poses.show(now)) {
       this.shadows.moved();
       this.watch.move();
     }
@@ -386,30 +420,38 @@ export class World3D {
     if (this.parts) this.parts.grid.visible = this.shown.grid;
     this.watch.showRing();
     this.arranger.showHandle();
+    this.tools.show();
     const isMoving = !this.poses.isSettled(now);
     if (this.shadows.areDue(isMoving)) this.renderer.shadowMap.needsUpdate = true;
     this.resizeCanvas();
     this.signs.placeMarks(this.rig.camera, this.height, this.renderer.getPixelRatio(), this.shown);
     this.render();
     this.signs.placeLabels(this.rig.camera, this.width, this.height, this.watch.selection, this.shown);
+    this.events.onScale(this.rig.metresPerPixel);
     this.frameRate.count(this.drawn?.images ?? this.frames, now);
     return isFlying || isMoving;
   }
 
   private render(): void {
     if (!this.drawn) return this.renderer.render(this.scene, this.rig.camera);
-    const { overlays, signs, watch, arranger } = this;
-    const painted: Object3D[] = [overlays.group, signs.marks.points, watch.ring.mesh, arranger.handle.group];
+    const { overlays, signs, watch, arranger, tools } = this;
+    const painted: Object3D[] = [overlays.group, signs.marks.points, watch.ring.mesh, arranger.handle.group, tools.group];
     if (this.parts && this.shown.grid) painted.unshift(this.parts.grid);
     this.drawn.show(this.rig.camera, this.width, this.height, painted);
   }
 
   private click(place: ScreenPlace): void {
+    if (this.tools.isHandleAt(place) || this.tools.click(place)) return;
     const robot = this.robotAt(place);
     const firm = robot === null ? this.firmAt(place) : null;
-    if (firm !== null) this.events.onPick(firm);
-    else if (robot === null && this.arranger.isOn && this.watch.selection !== null) this.arranger.placeAt(place);
-    else this.events.onPick(robot);
+    // While one edits, what is chosen stays chosen: it is to be moved.
+    if (firm === null && robot === null && this.arranger.isOn && this.watch.selection !== null) return;
+    this.events.onPick(firm ?? robot);
+  }
+
+  private movableAt(place: ScreenPlace): string | null {
+    const hit = this.bodies?.pick(rayThrough(place, this.host.getBoundingClientRect(), this.rig.camera));
+    return hit && !hit.isFixed ? hit.name : null;
   }
 
   // What stands firm and was put there by hand, so that it can be taken away again.

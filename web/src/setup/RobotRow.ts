@@ -97,6 +97,19 @@ export class RobotRow {
       { class: "button plain robot-title", type: "button", onclick: () => this.select() },
       this.title,
     );
+    const place = element(
+      "button",
+      {
+        class: "button plain small",
+        type: "button",
+        title: "Place it by a click on the floor",
+        onclick: () => {
+          this.select();
+          this.app.setPlacing(true);
+        },
+      },
+      "Place",
+    );
     const remove = element(
       "button",
       {
@@ -111,7 +124,7 @@ export class RobotRow {
     return element(
       "li",
       { class: "set-up-robot", "data-row": `${this.list}[${this.index}]` },
-      element("div", { class: "card-head" }, select, remove),
+      element("div", { class: "card-head" }, select, place, remove),
       this.wrong,
       element("div", { class: "field-pair" }, this.name.element, this.model.element),
       element("div", { class: "field-pair" }, this.behaviour.element, this.movement.element),

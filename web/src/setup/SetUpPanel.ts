@@ -269,7 +269,7 @@ function createPedestrianList(app: App) {
 
 function hintFor({ robots, avatars }: Scenario): string {
   if (robots.length + avatars.length === 0) return "No robots yet. Choose a model and press Add robot.";
-  return "Drag a robot to move it. Drag the tip of its arrow to turn it. Or click a robot to select it, then click the floor to place it there.";
+  return "Drag a robot to move it. Drag the tip of its arrow to turn it. Or press Place, then click the floor.";
 }
 
 function showOffers(place: HTMLElement, { behaviours, scenario }: SetUp): void {

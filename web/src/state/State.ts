@@ -39,6 +39,20 @@ export interface RobotPose {
   turnRate: number; // rad/s about the world's z
 }
 
+export interface Point {
+  x: number;
+  y: number;
+  z: number;
+}
+
+// The pose of a body: metres and radians in the world.
+export interface BodyPose extends Point {
+  body: string;
+  roll: number;
+  pitch: number;
+  yaw: number;
+}
+
 // Whether the browser draws in 3D.
 export type View = "starting" | "open" | "interrupted" | "none"; // interrupted: the browser took WebGL away
 
@@ -76,6 +90,10 @@ export interface State {
   robotFilter: RobotFilter;
   selection: string | null; // a robot's name
   selectedPose: RobotPose | null;
+  chosenPose: BodyPose | null; // of what is edited, as it is drawn
+  placing: boolean; // whether the next click on the floor puts the selection there
+  ruler: readonly Point[] | null; // the points that are measured, at most two; null: nothing is measured
+  mapMode: boolean; // whether the view is a map: from above, north up
   viewMode: ViewMode;
   shown: Shown;
   camera: CameraChoice | null;
@@ -121,6 +139,10 @@ export const initialState: State = {
   robotFilter: NO_FILTER,
   selection: null,
   selectedPose: null,
+  chosenPose: null,
+  placing: false,
+  ruler: null,
+  mapMode: false,
   viewMode: "orbit",
   shown: FIRST_SHOWN,
   camera: null,

@@ -4,10 +4,29 @@ import type { SceneDescription } from "../api/scene";
 
 export const EDIT_PANEL = "edit"; // open while one edits
 
+// The handles by which the chosen body is moved or turned, and the steps in which they do.
+export interface GizmoTool {
+  mode: "move" | "turn";
+  snaps: boolean;
+  distance: number; // m
+  angleDeg: number;
+}
+
+// A wall that is drawn by two clicks; lengths in metres.
+export interface WallDrawing {
+  thickness: number;
+  height: number;
+  colour: string; // RRGGBB
+  from: { x: number; y: number } | null; // the first click
+}
+
 export interface Editing {
   models: ModelChoice[];
   objects: string[]; // models of things that are no robots
   chosen: string | null; // the object that is to be moved, turned or removed; null: the selected robot
+  more: readonly string[]; // bodies that are chosen as well
+  tool: GizmoTool;
+  wall: WallDrawing | null; // not null: clicks on the floor are its ends
   behaviours: Behaviours | null; // null: not known yet
   undo: string[]; // what each edit did, the newest last
   redo: string[];
@@ -18,6 +37,9 @@ export const FIRST_EDITING: Editing = {
   models: [],
   objects: [],
   chosen: null,
+  more: [],
+  tool: { mode: "move", snaps: false, distance: 0.1, angleDeg: 15 },
+  wall: null,
   behaviours: null,
   undo: [],
   redo: [],
@@ -36,4 +58,10 @@ export function copiesOf(scene: SceneDescription | null): string[] {
 // What edits are about: the chosen object, or else the selected robot.
 export function chosenOf({ editing, selection }: { editing: Editing | null; selection: string | null }): string | null {
   return editing?.chosen ?? selection;
+}
+
+// All that edits are about; what they are measured from comes first.
+export function allChosen(state: { editing: Editing | null; selection: string | null }): readonly string[] {
+  const first = chosenOf(state);
+  return first === null ? [] : [first, ...(state.editing?.more ?? [])];
 }

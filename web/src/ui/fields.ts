@@ -85,6 +85,13 @@ export function checkField(label: string, take: (value: boolean) => void): Field
   return field;
 }
 
+// A colour as RRGGBB.
+export function colourField(label: string, take: (colour: string) => void): Field<string> {
+  const input = element("input", { type: "color" });
+  input.addEventListener("change", () => take(input.value.slice(1)));
+  return labelled<string>(label, input, (value) => (input.value = `#${value}`));
+}
+
 export interface Option {
   value: string;
   label: string;

@@ -34,6 +34,7 @@ export class OverlayPainter {
   }
 
   private paintObject(object: Object3D): void {
+    if ((object as Partial<Mesh>).material && isInvisible((object as Mesh).material)) return;
     this.clipFromObject.multiplyMatrices(this.clipFromWorld, object.matrixWorld);
     // Wide lines are a mesh for three.js, too.
     if (object instanceof LineSegments2) this.paintWideLines(object);
@@ -134,6 +135,11 @@ function colourAt(colours: Attribute | undefined, index: number): string {
 function plainColour(material: unknown): string {
   const its = (material as { color?: Color }).color;
   return its instanceof Color ? its.getStyle() : "white";
+}
+
+// What only takes the pointer.
+function isInvisible(material: unknown): boolean {
+  return (material as { visible?: boolean }).visible === false;
 }
 
 function opacityOf(material: unknown): number {

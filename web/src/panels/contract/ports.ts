@@ -12,7 +12,7 @@ import type { ParameterValue, TopicCount } from "../../protocol/FoxgloveClient";
 import type { TopicSource } from "../../protocol/SharedTopics";
 import type { Source } from "../../state/plots";
 import type { RobotFilter } from "../../state/robotList";
-import type { State } from "../../state/State";
+import type { BodyPose, State } from "../../state/State";
 import type { StateReader } from "../../state/Store";
 
 export interface PanelPorts {
@@ -23,6 +23,7 @@ export interface PanelPorts {
   commands: CommandsPort;
   replay: ReplayPort;
   robots: RobotsPort;
+  edits: EditsPort;
   cameras: CamerasPort;
   plots: PlotsPort;
   notices: NoticesPort;
@@ -62,7 +63,7 @@ export interface ReplayPort {
 export interface RobotsPort {
   select(robot: string | null): void;
   // What a click on the body does: selects a robot, and while one edits chooses an object.
-  pick(body: string): void;
+  pick(body: string, isAdding?: boolean): void; // `isAdding`: besides what is chosen
   filter(change: Partial<RobotFilter>): void; // in the list and in the view
   follow(): void; // the selected robot, with the view; a second time ends it
 }
@@ -76,6 +77,11 @@ export interface PlotsPort {
   add(source: Source, key: string, unit?: string): void;
   remove(curve: string): void;
   setSpan(seconds: number | null): void; // the newest so many; null: all
+}
+
+export interface EditsPort {
+  // Puts a body exactly there, while one edits. Resolves to whether it stands there now.
+  pose(pose: BodyPose): Promise<boolean>;
 }
 
 export interface NoticesPort {

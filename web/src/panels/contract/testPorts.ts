@@ -58,6 +58,7 @@ export function testPorts(state: Partial<State> = {}, server: Partial<PanelPorts
       filter: vi.fn((change: object) => store.set(({ robotFilter }) => ({ robotFilter: { ...robotFilter, ...change } }))),
       follow: vi.fn(),
     },
+    edits: { pose: vi.fn(async () => true) },
     cameras: { show: vi.fn() },
     plots: {
       add: vi.fn(),

@@ -2,14 +2,15 @@
 import { element } from "../../ui/element";
 import type { MountedPanel } from "../contract/Panel";
 import { createInspector } from "./Inspector";
+import { createPoseFields } from "./PoseFields";
 
-type Ports = Parameters<typeof createInspector>[0];
+type Ports = Parameters<typeof createInspector>[0] & Parameters<typeof createPoseFields>[0];
 
 export function mount(ports: Ports): MountedPanel {
   const hint = element("p", { class: "hint" }, "Select a robot in the view or in the list to see what it does and what its sensors read.");
   ports.state.watch(
-    ({ selection, setUp }) => selection !== null && setUp === null,
+    ({ selection, setUp, chosenPose }) => (selection !== null || chosenPose !== null) && setUp === null,
     (isSelected) => (hint.hidden = isSelected),
   );
-  return { body: element("div", { class: "inspector-body" }, hint, createInspector(ports)) };
+  return { body: element("div", { class: "inspector-body" }, hint, createPoseFields(ports), createInspector(ports)) };
 }

@@ -18,7 +18,7 @@ export class RobotRow {
   constructor(private readonly ports: Pick<PanelPorts, "state" | "robots">) {
     this.button = element(
       "button",
-      { class: "robot", type: "button", onclick: () => ports.robots.select(this.robot) },
+      { class: "robot", type: "button", onclick: (event: MouseEvent) => this.choose(event) },
       this.dot,
       this.name,
       this.distance,
@@ -33,11 +33,19 @@ export class RobotRow {
     return this.button.dataset.robot ?? "";
   }
 
+  // With Shift or Ctrl, while one edits: besides what is chosen.
+  private choose({ shiftKey, ctrlKey, metaKey }: MouseEvent): void {
+    const isAdding = this.ports.state.get().editing !== null && (shiftKey || ctrlKey || metaKey);
+    if (isAdding) this.ports.robots.pick(this.robot, true);
+    else this.ports.robots.select(this.robot);
+  }
+
   write(listed: ListedRobot): void {
     const { status, state } = listed;
-    const { selection } = this.ports.state.get();
+    const { selection, editing } = this.ports.state.get();
+    const isChosen = status.name === selection || editing?.more.includes(status.name);
     setAttribute(this.button, "data-robot", status.name);
-    setAttribute(this.button, "aria-pressed", String(status.name === selection));
+    setAttribute(this.button, "aria-pressed", String(isChosen === true));
     const agent = agentLabel(status);
     setAttribute(this.dot, "data-phase", status.agentPhase);
     setAttribute(this.dot, "data-state", state);

@@ -50,11 +50,15 @@ export function createSceneTree(ports: Ports, pages: HTMLElement): HTMLElement {
     (selection) => robots.showSelection(selection),
   );
   ports.state.watch(
+    ({ editing }) => editing?.more ?? null,
+    () => robots.update(),
+  );
+  ports.state.watch(
     ({ scene }) => scene,
     (scene) => showWorld(ports, world, scene),
   );
   ports.state.watch(
-    ({ editing }) => `${editing !== null} ${editing?.chosen}`,
+    ({ editing }) => `${editing !== null} ${editing?.chosen} ${editing?.more}`,
     () => showWorld(ports, world, ports.state.get().scene),
   );
   return tree;
@@ -87,9 +91,14 @@ function objectEntry(ports: Ports, { name, isFixed }: SceneBody): string | HTMLE
   if (!editing || isFixed) return name;
   const entry = element(
     "button",
-    { class: "button plain small", type: "button", "data-object": name, onclick: () => ports.robots.pick(name) },
+    {
+      class: "button plain small",
+      type: "button",
+      "data-object": name,
+      onclick: (event: MouseEvent) => ports.robots.pick(name, event.shiftKey || event.ctrlKey || event.metaKey),
+    },
     name,
   );
-  entry.setAttribute("aria-pressed", String(editing.chosen === name));
+  entry.setAttribute("aria-pressed", String(editing.chosen === name || editing.more.includes(name)));
   return entry;
 }

@@ -1,0 +1,43 @@
+import { expect, test } from "vitest";
+import type { Edit } from "./edits";
+import { inOrder, together } from "./edits";
+
+// Writes down what is done; `refuses` is asked before each.
+function recorder(refuses: (what: string, log: readonly string[]) => boolean = () => false) {
+  const log: string[] = [];
+  const edit = (name: string): Edit => {
+    const act = async (what: string) => {
+      if (refuses(what, log)) throw new Error(`no ${what}`);
+      log.push(what);
+    };
+    return { name, apply: () => act(`+${name}`), revert: () => act(`-${name}`) };
+  };
+  return { log, edit };
+}
+
+test("several edits are done in order, and taken back from the last", async () => {
+  const { log, edit } = recorder();
+  const all = inOrder("all", [edit("a"), edit("b")]);
+  await all.apply();
+  await all.revert();
+  expect(log).toEqual(["+a", "+b", "-b", "-a"]);
+});
+
+test("what was done before a refusal is taken back", async () => {
+  const { log, edit } = recorder((what) => what === "+c");
+  await expect(inOrder("all", [edit("a"), edit("b"), edit("c")]).apply()).rejects.toThrow("no +c");
+  expect(log).toEqual(["+a", "+b", "-b", "-a"]);
+});
+
+test("bodies that stand in each other's way move one after the other", async () => {
+  // a can go only once b has left.
+  const { log, edit } = recorder((what, log) => what === "+a" && !log.includes("+b"));
+  await together("all", [edit("a"), edit("b")]).apply();
+  expect(log).toEqual(["+b", "+a"]);
+});
+
+test("where one cannot move at all, none has moved", async () => {
+  const { log, edit } = recorder((what) => what === "+b");
+  await expect(together("all", [edit("a"), edit("b")]).apply()).rejects.toThrow("no +b");
+  expect(log).toEqual(["+a", "-a"]);
+});

@@ -1,0 +1,92 @@
+// What the ruler measures, and the scale of the map; both lie over the view.
+import type { App } from "../app/App";
+import type { Point } from "../state/State";
+import { element, setText } from "../ui/element";
+import { formatNumber } from "../ui/format";
+import { icon } from "../ui/icons";
+
+const DEGREES = 180 / Math.PI;
+const BAR_PX = 120; // at most
+
+export interface Measured {
+  distance: number; // m
+  dx: number;
+  dy: number;
+  dz: number;
+  angleDeg: number; // of the line in the floor's plane, counter-clockwise from x
+}
+
+export function measure(from: Point, to: Point): Measured {
+  const [dx, dy, dz] = [to.x - from.x, to.y - from.y, to.z - from.z];
+  return { distance: Math.hypot(dx, dy, dz), dx, dy, dz, angleDeg: Math.atan2(dy, dx) * DEGREES };
+}
+
+export function createMeasureCard(app: App): HTMLElement {
+  const text = element("p", { class: "hint" });
+  const values = element("dl", { class: "inspector-rows" });
+  const close = element(
+    "button",
+    { class: "button plain small", type: "button", "aria-label": "End measuring", title: "End measuring (Esc)", onclick: () => app.setMeasuring(false) },
+    icon("close"),
+  );
+  const card = element(
+    "section",
+    { class: "card measure-card", "aria-label": "Ruler", "aria-live": "polite" },
+    element("div", { class: "card-head" }, element("h2", {}, "Ruler"), close),
+    text,
+    values,
+  );
+  app.store.watch(
+    ({ ruler }) => ruler,
+    (ruler) => {
+      card.hidden = ruler === null;
+      const [from, to] = ruler ?? [];
+      setText(text, !from ? "Click the first point." : !to ? "Click the second point." : "");
+      text.hidden = to !== undefined;
+      values.replaceChildren(...(from && to ? rowsOf(measure(from, to)) : []));
+    },
+  );
+  return card;
+}
+
+function rowsOf({ distance, dx, dy, dz, angleDeg }: Measured): HTMLElement[] {
+  const metres = (value: number) => `${formatNumber(value, 3)} m`;
+  const rows = { Distance: metres(distance), dx: metres(dx), dy: metres(dy), dz: metres(dz), Angle: `${formatNumber(angleDeg, 1)}°` };
+  return Object.entries(rows).flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]);
+}
+
+// The longest of 1, 2 and 5 times a power of ten that fits, in metres.
+export function barLength(metresPerPixel: number): number {
+  const longest = BAR_PX * metresPerPixel;
+  const power = 10 ** Math.floor(Math.log10(longest));
+  return ([5, 2].find((each) => each * power <= longest) ?? 1) * power;
+}
+
+export interface ScaleBar {
+  element: HTMLElement;
+  show(metresPerPixel: number): void;
+}
+
+// Only a map has one scale everywhere.
+export function createScaleBar(app: App): ScaleBar {
+  const bar = element("div", { class: "scale-line" });
+  const label = element("span", {});
+  const place = element("div", { class: "scale-bar", role: "img" }, element("span", { class: "north", "aria-hidden": "true" }, "N ↑"), bar, label);
+  let shown = 0;
+  app.store.watch(
+    ({ mapMode }) => mapMode,
+    (mapMode) => (place.hidden = !mapMode),
+  );
+  return {
+    element: place,
+    show: (metresPerPixel) => {
+      if (!app.store.get().mapMode || !(metresPerPixel > 0) || metresPerPixel === shown) return;
+      shown = metresPerPixel;
+      const length = barLength(metresPerPixel);
+      const text = length >= 1 ? `${length} m` : `${Number((100 * length).toPrecision(1))} cm`;
+      bar.style.width = `${length / metresPerPixel}px`;
+      setText(label, text);
+      place.setAttribute("aria-label", `Map, north up. The bar is ${text} long.`);
+    },
+  };
+}
