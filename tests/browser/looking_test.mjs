@@ -200,7 +200,7 @@ test("values are plotted against simulated time, and saved as a table", async ()
   await phaseIs(page, "paused");
   await legend.getByText(/m\/s$/).waitFor();
   await keepPicture(page, "plots");
-  const canvas = page.getByRole("img", { name: "Plot", exact: true });
+  const canvas = page.getByRole("img", { name: "Plot", exact: true }).locator("canvas").first();
   const drawn = await canvas.evaluate((each) => {
     const { data } = each.getContext("2d").getImageData(0, 0, each.width, each.height);
     let blue = 0;

@@ -13,7 +13,7 @@ import { ask, settled, until } from "./viewing.mjs";
 
 const DURATION_S = 20;
 const ROBOT = "pebble";
-const LEFT_PX = 54; // of the plot's axis, see web/src/plot/strips.ts
+const LEFT_PX = 54; // of the plot's axis, see web/src/plot/TimeCharts.ts
 const RIGHT_PX = 10;
 
 let folder;

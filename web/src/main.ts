@@ -1,7 +1,9 @@
 // Puts the page together: one store, the session that fills it, the 3D view, and the panels.
+import "uplot/dist/uPlot.min.css";
 import "./style/page.css";
 import "./style/drawn.css";
 import "./style/panels.css";
+import "./style/plots.css";
 import "./style/robots.css";
 import "./style/setUp.css";
 import "./style/workspace.css";

@@ -34,6 +34,8 @@ export function panelPorts(app: App, api: SimulationApi): PanelPorts {
       add: (source, key, unit) => app.plot(source, key, unit),
       remove: (curve) => app.unplot(curve),
       setSpan: (span) => store.set(({ plots }) => ({ plots: { ...plots, span } })),
+      setAgainst: (against) => store.set(({ plots }) => ({ plots: { ...plots, against } })),
+      showEvents: (events) => store.set(({ plots }) => ({ plots: { ...plots, events } })),
     },
     notices: {
       notify: (kind, sentence) => notify(store, kind, sentence),

@@ -1,10 +1,13 @@
-// Which values are drawn against simulated time.
+// Which values are drawn, against simulated time or against each other.
+import type { Reference } from "../live/expression";
+import { parseExpression } from "../live/expression";
 
 export type Source =
   | { kind: "simulation" }
   | { kind: "robot"; robot: string }
   | { kind: "sensor"; topic: string } // the key is a value's name (live/values.ts)
-  | { kind: "topic"; topic: string }; // the key is a field's path (live/fieldPath.ts)
+  | { kind: "topic"; topic: string } // the key is a field's path (live/fieldPath.ts)
+  | { kind: "expression" }; // the key is its text (live/expression.ts)
 
 export interface Curve {
   id: string;
@@ -17,9 +20,11 @@ export interface Curve {
 export interface Plots {
   curves: Curve[];
   span: number | null; // s, the newest so many; null: all
+  against: string | null; // the id of the curve at the horizontal axis; null: simulated time
+  events: boolean; // whether events are marked
 }
 
-export const NO_PLOTS: Plots = { curves: [], span: 30 };
+export const NO_PLOTS: Plots = { curves: [], span: 30, against: null, events: true };
 export const SPANS: readonly (number | null)[] = [10, 30, 120, 600, null];
 export const MOST_CURVES = 8;
 
@@ -43,12 +48,13 @@ export const SIMULATION_VALUES: readonly { key: string; label: string; unit: str
 ];
 
 export function curveId(source: Source, key: string): string {
-  const of = source.kind === "simulation" ? "" : source.kind === "robot" ? source.robot : source.topic;
+  const of = source.kind === "robot" ? source.robot : "topic" in source ? source.topic : "";
   return `${source.kind} ${of} ${key}`;
 }
 
 // "b21r speed", "b21r sonar_03 range", "real-time factor".
 export function curveName({ source, key }: Pick<Curve, "source" | "key">): string {
+  if (source.kind === "expression") return key;
   if (source.kind === "sensor" || source.kind === "topic") return `${source.topic.replace(/^\//, "").replaceAll("/", " ")} ${key}`;
   const values = source.kind === "robot" ? ROBOT_VALUES : SIMULATION_VALUES;
   const label = values.find((value) => value.key === key)?.label ?? key;
@@ -66,5 +72,25 @@ export function withCurve(plots: Plots, source: Source, key: string, unit: strin
 }
 
 export function withoutCurve(plots: Plots, id: string): Plots {
-  return { ...plots, curves: plots.curves.filter((curve) => curve.id !== id) };
+  const against = plots.against === id ? null : plots.against;
+  return { ...plots, against, curves: plots.curves.filter((curve) => curve.id !== id) };
+}
+
+// What a reference of an expression stands for.
+export function referredTo({ of, key }: Reference): Pick<Curve, "source" | "key"> {
+  if (of.startsWith("/")) return { source: { kind: "topic", topic: of }, key };
+  return { source: of === "simulation" ? { kind: "simulation" } : { kind: "robot", robot: of }, key };
+}
+
+// The inverse: how an expression refers to a curve.
+export function referenceTo({ source, key }: Pick<Curve, "source" | "key">): string {
+  if (source.kind === "expression") return `(${key})`;
+  const of = source.kind === "robot" ? source.robot : source.kind === "simulation" ? "simulation" : source.topic;
+  return `{${of} ${key}}`;
+}
+
+// The values of which a curve is made: itself, or those that its expression refers to.
+export function inputsOf(curve: Pick<Curve, "source" | "key">): Pick<Curve, "source" | "key">[] {
+  if (curve.source.kind !== "expression") return [curve];
+  return parseExpression(curve.key).references.map(referredTo);
 }

@@ -77,6 +77,8 @@ export interface PlotsPort {
   add(source: Source, key: string, unit?: string): void;
   remove(curve: string): void;
   setSpan(seconds: number | null): void; // the newest so many; null: all
+  setAgainst(curve: string | null): void; // what the horizontal axis has; null: simulated time
+  showEvents(show: boolean): void;
 }
 
 export interface EditsPort {

@@ -64,6 +64,8 @@ export function testPorts(state: Partial<State> = {}, server: Partial<PanelPorts
       add: vi.fn(),
       remove: vi.fn(),
       setSpan: vi.fn((span: number | null) => store.set(({ plots }) => ({ plots: { ...plots, span } }))),
+      setAgainst: vi.fn((against: string | null) => store.set(({ plots }) => ({ plots: { ...plots, against } }))),
+      showEvents: vi.fn((events: boolean) => store.set(({ plots }) => ({ plots: { ...plots, events } }))),
     },
     notices: { notify: vi.fn(), copy: vi.fn(async () => {}) },
   } satisfies PanelPorts;

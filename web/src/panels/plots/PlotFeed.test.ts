@@ -157,3 +157,21 @@ test("of a recording the whole curve stands for what is played", () => {
   expect(samples(feed, A, "x")).toEqual([[1, 2]]);
   expect(feed.isThinned(id)).toBe(true);
 });
+
+test("an expression is computed at each value of its fields, from the newest of the others", () => {
+  const text = "hypot({a x}, 3) + {/a/sonar range} * {simulation late_steps}";
+  const { feed, topics, store, takePoses } = feeding([curve({ kind: "expression" }, text)]);
+  expect(topics.read.sort()).toEqual(["/a/sonar", "/gsv/poses"]);
+  const sonar = (sec: number, range: number) => topics.send("/a/sonar", { header: { stamp: { sec, nsec: 0 } }, range });
+  takePoses(poses(1, 4));
+  sonar(2, 10);
+  expect(samples(feed, { kind: "expression" }, text)).toEqual([]); // one of its fields is not there yet
+  store.set({ status: simulationStatus("running", { time: 3, lateSteps: 2 }) });
+  sonar(4, 20);
+  expect(samples(feed, { kind: "expression" }, text)).toEqual([
+    [3, 25],
+    [4, 45],
+  ]);
+  store.set({ plots: NO_PLOTS });
+  expect(topics.read).toEqual([]);
+});

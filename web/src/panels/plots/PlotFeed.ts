@@ -11,13 +11,24 @@ import { Series } from "../../live/Series";
 import type { TopicSource } from "../../protocol/SharedTopics";
 import type { PosesMessage } from "../../protocol/messages";
 import { seconds } from "../../protocol/messages";
+import type { Expression } from "../../live/expression";
+import { parseExpression } from "../../live/expression";
 import type { Curve } from "../../state/plots";
+import { curveId, inputsOf, referredTo } from "../../state/plots";
 import type { State } from "../../state/State";
 import type { StateReader } from "../../state/Store";
 import { shallowEqual } from "../../state/Store";
 
 const POSES_TOPIC = "/gsv/poses";
 const LONGEST_GAP_S = 1; // between two poses of which a speed is made
+
+type Input = Pick<Curve, "id" | "source" | "key">;
+
+interface Formula {
+  id: string; // of the curve
+  inputs: readonly string[]; // ids, in the order of the references
+  evaluate: Expression["evaluate"];
+}
 
 interface PlacedAt {
   time: number;
@@ -32,6 +43,9 @@ export class PlotFeed {
   private readonly whole = new Map<string, WholeCurve>(); // that the server has told
   private readonly ends = new Map<string, () => void>(); // by topic
   private readonly last = new Map<string, PlacedAt>(); // by robot
+  private inputs: readonly Input[] = []; // what is collected: curves, and the fields of expressions
+  private formulas: readonly Formula[] = [];
+  private readonly newestValues = new Map<string, number>(); // by input, of those in formulas
   private simulation: string | null = null;
   private newest = -Infinity; // s, simulated
 
@@ -74,12 +88,12 @@ export class PlotFeed {
   }
 
   private takePoses({ stamp, layout_version, poses }: PosesMessage): void {
-    const { scene, plots } = this.state.get();
+    const { scene } = this.state.get();
     if (!scene || scene.layoutVersion !== layout_version) return;
     const time = seconds(stamp);
     this.goOn(time);
     for (const robot of new Set(
-      plots.curves.flatMap(({ source: s }) => (s.kind === "robot" ? [s.robot] : [])),
+      this.inputs.flatMap(({ source: s }) => (s.kind === "robot" ? [s.robot] : [])),
     )) {
       const entry = scene.poses.findIndex(
         ({ body, link }) => link === null && scene.bodies[body]!.name === robot,
@@ -122,24 +136,35 @@ export class PlotFeed {
     this.goOn(time);
     const values = Object.fromEntries(valuesOf(message).map(({ key, value }) => [key, value]));
     this.add(({ source }) => source.kind === "sensor" && source.topic === topic, time, values);
-    const isField = ({ source }: Curve) => source.kind === "topic" && source.topic === topic;
+    const isField = ({ source }: Input) => source.kind === "topic" && source.topic === topic;
     const fields: Record<string, number> = {};
-    for (const { key } of this.state.get().plots.curves.filter(isField)) {
-      const value = numberAt(message, parsePath(key) ?? []);
-      if (value !== null) fields[key] = value;
+    for (const { key } of this.inputs.filter(isField)) {
+      // An expression may also name a value as the inspector does: "ranges.min".
+      const value = numberAt(message, parsePath(key) ?? []) ?? values[key];
+      if (value !== undefined) fields[key] = value;
     }
     this.add(isField, time, fields);
   }
 
-  private add(isMeant: (curve: Curve) => boolean, time: number, values: Record<string, number>): void {
-    let isNews = false;
-    for (const curve of this.state.get().plots.curves) {
-      const value = isMeant(curve) ? values[curve.key] : undefined;
-      if (value === undefined || this.whole.has(curve.id)) continue;
-      this.series.get(curve.id)?.push(time, value);
-      isNews = true;
+  private add(isMeant: (input: Input) => boolean, time: number, values: Record<string, number>): void {
+    const changed = new Set<string>();
+    for (const input of this.inputs) {
+      const value = isMeant(input) ? values[input.key] : undefined;
+      if (value === undefined) continue;
+      changed.add(input.id);
+      this.newestValues.set(input.id, value);
+      this.push(input.id, time, value);
     }
-    if (isNews) this.onData();
+    for (const { id, inputs, evaluate } of this.formulas) {
+      if (!inputs.some((each) => changed.has(each))) continue;
+      const given = inputs.map((each) => this.newestValues.get(each));
+      if (given.every((each) => each !== undefined)) this.push(id, time, evaluate(given));
+    }
+    if (changed.size > 0) this.onData();
+  }
+
+  private push(id: string, time: number, value: number): void {
+    if (!this.whole.has(id)) this.series.get(id)?.push(time, value);
   }
 
   // What runs never goes back, unless it was reset; a recording does, and its values stay true.
@@ -148,6 +173,7 @@ export class PlotFeed {
     if (wasReset) {
       for (const series of this.series.values()) series.clear();
       this.last.clear();
+      this.newestValues.clear();
       this.newest = time;
     }
     this.newest = Math.max(this.newest, time);
@@ -165,7 +191,9 @@ export class PlotFeed {
       this.whole.delete(id);
     }
     for (const id of ids) if (!this.series.has(id)) this.series.set(id, new Series());
-    const wanted = topicsOf(plots.curves, scene);
+    this.formulas = plots.curves.flatMap(formulaOf);
+    this.inputs = distinctInputs(plots.curves);
+    const wanted = topicsOf(this.inputs, scene);
     for (const [topic, end] of [...this.ends]) {
       if (wanted.includes(topic)) continue;
       end();
@@ -195,12 +223,28 @@ export class PlotFeed {
     this.series.clear();
     this.whole.clear();
     this.last.clear();
+    this.newestValues.clear();
     this.newest = -Infinity;
   }
 }
 
+function idOf({ source, key }: Pick<Curve, "source" | "key">): string {
+  return curveId(source, key);
+}
+
+function distinctInputs(curves: readonly Curve[]): Input[] {
+  const inputs = new Map(curves.flatMap(inputsOf).map(({ source, key }) => [curveId(source, key), { source, key }]));
+  return [...inputs].map(([id, input]) => ({ id, ...input }));
+}
+
+function formulaOf({ id, source, key }: Curve): Formula[] {
+  if (source.kind !== "expression") return [];
+  const { references, evaluate } = parseExpression(key);
+  return [{ id, inputs: references.map((each) => idOf(referredTo(each))), evaluate }];
+}
+
 // Those of the sensors that are there, and the poses of robots.
-function topicsOf(curves: readonly Curve[], scene: SceneDescription | null): string[] {
+function topicsOf(curves: readonly Input[], scene: SceneDescription | null): string[] {
   const plotted = new Set(curves.flatMap(({ source }) => (source.kind === "sensor" ? [source.topic] : [])));
   const present = robotsOf(scene).flatMap(({ sensors }) => sensors.map(({ topic }) => topic));
   const needsPoses = scene !== null && curves.some(({ source }) => source.kind === "robot");

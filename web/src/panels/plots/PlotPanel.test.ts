@@ -75,3 +75,36 @@ test("what the selected span is, the choice says", () => {
   choose("Time shown", "120");
   expect(store.get().plots.span).toBe(120);
 });
+
+test("an expression is typed, refused with a sentence, and plotted", () => {
+  const { panel, names, choose } = panelIn();
+  choose("Add a curve", "robot x");
+  const press = (text: string) => [...panel.querySelectorAll("button")].find((each) => each.textContent === text)!.click();
+  const input = panel.querySelector<HTMLInputElement>('input[aria-label="Expression"]')!;
+  const form = panel.querySelector<HTMLFormElement>(".plot-expression")!;
+  expect(form.hidden).toBe(true);
+  press("Expression…");
+  expect(form.hidden).toBe(false);
+  input.value = "2 * ";
+  choose("Insert a field", "{a x}");
+  expect(input.value).toBe("2 * {a x}");
+  input.value += " +";
+  form.requestSubmit();
+  expect(form.querySelector('[role="alert"]')!.textContent).toBe("The expression is not complete.");
+  input.value = "2 * {a x}";
+  form.requestSubmit();
+  expect(names()).toEqual(["a x", "2 * {a x}"]);
+  input.value = "7";
+  form.requestSubmit();
+  expect(form.querySelector('[role="alert"]')!.textContent).toBe("The expression needs a field, for example {pebble speed}.");
+});
+
+test("a curve goes to the horizontal axis, and time returns when it is removed", () => {
+  const { store, panel, choose } = panelIn();
+  choose("Add a curve", "robot x");
+  choose("Add a curve", "robot y");
+  choose("Horizontal axis", "robot a x");
+  expect(store.get().plots.against).toBe("robot a x");
+  panel.querySelector<HTMLButtonElement>('[aria-label="Remove a x"]')!.click();
+  expect(store.get().plots.against).toBeNull();
+});

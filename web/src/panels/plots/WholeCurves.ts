@@ -2,9 +2,12 @@
 // read so far until it is done.
 import type { CurveOf, WholeCurve } from "../../api/curve";
 import { MOST_SAMPLES } from "../../live/Series";
+import { parseExpression } from "../../live/expression";
 import type { Curve } from "../../state/plots";
+import { inputsOf } from "../../state/plots";
 import { shallowEqual } from "../../state/Store";
 import type { PanelPorts } from "../contract/ports";
+import { combined } from "./combined";
 
 const POLL_MS = 300;
 
@@ -49,14 +52,18 @@ export class WholeCurves {
     }
   }
 
-  private async read(simulation: string, { id, source, key }: Curve): Promise<void> {
-    const { kind, ...of } = source;
-    const wish: CurveOf = { ...of, key };
+  private async read(simulation: string, plotted: Curve): Promise<void> {
+    const { id } = plotted;
+    const wishes = inputsOf(plotted).map(({ source, key }): CurveOf => {
+      const { kind, ...of } = source;
+      return { ...of, key };
+    });
     const isWanted = () => this.simulation === simulation && this.known.has(id);
     try {
       for (;;) {
-        const curve = await this.ports.server.curve(simulation, wish, MOST_SAMPLES);
+        const read = await Promise.all(wishes.map((wish) => this.ports.server.curve(simulation, wish, MOST_SAMPLES)));
         if (!isWanted()) return;
+        const curve = asOne(plotted, read);
         this.onCurve(id, curve);
         if (curve.done) return this.tell(curve.problem);
         await new Promise((resolve) => setTimeout(resolve, POLL_MS));
@@ -71,4 +78,9 @@ export class WholeCurves {
   private tell(problem: string): void {
     if (problem) this.ports.notices.notify("error", `The plot does not cover the whole recording: ${problem}`);
   }
+}
+
+function asOne({ source, key }: Curve, read: readonly WholeCurve[]): WholeCurve {
+  if (source.kind !== "expression") return read[0]!;
+  return combined(read, parseExpression(key).evaluate);
 }

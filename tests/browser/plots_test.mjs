@@ -1,0 +1,104 @@
+// Plots: a curve from any field, expressions, paths and marks of events, as they are drawn.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { startServer } from "./server.mjs";
+import { ask, phaseIs, until } from "./viewing.mjs";
+
+let server;
+let browser;
+let page;
+let faults;
+
+before(async () => {
+  server = await startServer(["playground", "--robot", "pebble@0,-1.5", "--behaviour", "wander"]);
+  browser = await openBrowser({ width: 1366, height: 768 });
+  ({ page, faults } = await openPage(browser, server.url));
+  await waitUntilDrawn(page);
+  await page.locator('[data-robot="pebble"]').click();
+  await press("Plots");
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+const panel = () => page.getByRole("region", { name: "Plots", exact: true });
+const press = (name) => page.getByRole("button", { name, exact: true }).click();
+const choose = (name, value) => panel().getByRole("combobox", { name }).selectOption(value);
+const legend = () => panel().getByRole("list", { name: "Curves" });
+const charts = () => panel().getByRole("img", { name: "Plot", exact: true }).locator("canvas");
+
+// How many pixels of a curve are blue, the colour of the first curve, or of the colour of the second.
+async function pixelsOf(colour) {
+  return charts().evaluateAll((canvases, name) => {
+    const isOf = { blue: (r, g, b) => b > 180 && r < 120, orange: (r, g, b) => r > 180 && b < 120 && g > 60 && g < 160 }[name];
+    let found = 0;
+    for (const canvas of canvases) {
+      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+      for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 200 && isOf(data[i], data[i + 1], data[i + 2])) found += 1;
+    }
+    return found;
+  }, colour);
+}
+
+test("a value and an expression of it are two curves in two charts", async () => {
+  await choose("Add a curve", "robot speed");
+  await press("Expression…");
+  await panel().getByLabel("Expression", { exact: true }).fill("{pebble speed} *");
+  await press("Add");
+  await panel().getByText("The expression is not complete.").waitFor();
+  await panel().getByLabel("Expression", { exact: true }).fill("3.6 * {pebble speed}");
+  await press("Add");
+  await legend().getByText("3.6 * {pebble speed}").waitFor();
+  await until(async () => (await pixelsOf("blue")) > 50 && (await pixelsOf("orange")) > 50, "both curves");
+  assert.equal(await charts().count(), 2, "a chart for each unit");
+  await press("Pause");
+  await phaseIs(page, "paused");
+  await until(async () => {
+    const [speed, product] = await legend().locator("li .number").allTextContents().then((texts) => texts.slice(1).map(parseFloat));
+    return speed > 0 && Math.abs(product - 3.6 * speed) < 0.005;
+  }, "3.6 times the speed");
+});
+
+test("an event is marked where it happened, and named under the pointer", async () => {
+  await choose("Time shown", "null");
+  const box = await panel().getByRole("img", { name: "Plot", exact: true }).boundingBox();
+  // The pause is the newest instant, at the right edge of the axis.
+  await until(async () => {
+    for (const left of [10, 11, 12, 13, 14, 16, 18]) {
+      await page.mouse.move(box.x + box.width - left, box.y + box.height / 2);
+      if (await legend().getByText(/paused/).count()) return true;
+    }
+    return false;
+  }, "the pause");
+});
+
+test("a curve against another one is a path", async () => {
+  await press("Remove 3.6 * {pebble speed}");
+  await press("Remove pebble speed");
+  await choose("Add a curve", "robot x");
+  await choose("Add a curve", "robot y");
+  await choose("Horizontal axis", "robot pebble x");
+  await press("Resume");
+  await phaseIs(page, "running");
+  await until(async () => (await charts().count()) === 1 && (await pixelsOf("orange")) > 40, "the path of y against x");
+  assert.equal(await pixelsOf("blue"), 0, "x itself is no curve");
+  await choose("Horizontal axis", "");
+  await until(async () => (await pixelsOf("blue")) > 20, "x against time");
+});
+
+test("a field of a topic that is not a robot's value is plotted", async () => {
+  await press("Topics");
+  await page.getByLabel("Text in topic or type").fill("/gsv/poses");
+  await page.locator(".topic-list").getByRole("button", { name: "/gsv/poses" }).click();
+  await press("Plot step");
+  await legend().getByText("gsv poses step").waitFor();
+  const { step } = await ask(page, "");
+  await until(async () => parseFloat((await legend().locator("li .number").allTextContents()).at(-1)) > step, "the newest step");
+});
+
+test("nothing went wrong, and nothing was asked of another host", () => {
+  assert.deepEqual(faults, []);
+});

@@ -1,0 +1,44 @@
+// The events that plots mark: of what runs as they come, the hundred before included; of a recording all.
+import type { RecordedEvent } from "../../api/replay";
+import type { LifecycleEventMessage } from "../../protocol/messages";
+import { seconds } from "../../protocol/messages";
+import type { Mark } from "../../plot/TimeCharts";
+import type { PanelPorts } from "../contract/ports";
+
+const TOPIC = "/gsv/events";
+const MAX_KEPT = 500;
+const BAD = new Set(["agent_dead", "agent_unresponsive", "failed", "expectation_violated"]);
+
+export class PlotEvents {
+  private live: RecordedEvent[] = [];
+  private simulation: string | null = null;
+
+  constructor(private readonly ports: Pick<PanelPorts, "state" | "topics">) {}
+
+  // Listens until the function that it gives is called.
+  open(onChange: () => void): () => void {
+    return this.ports.topics.subscribe<LifecycleEventMessage>(TOPIC, ({ stamp, event, robot, detail }) => {
+      this.take({ time: seconds(stamp), event, robot, detail });
+      onChange();
+    });
+  }
+
+  marks(): Mark[] {
+    const { replay, events, simulation } = this.ports.state.get();
+    const shown = replay ? events : simulation === this.simulation ? this.live : [];
+    return shown.map(({ time, event, robot, detail }) => ({
+      time,
+      label: [event.replaceAll("_", " "), robot, detail].filter((text) => text !== "").join(" "),
+      isBad: BAD.has(event),
+    }));
+  }
+
+  // A new subscription brings events that are there already; a reset begins anew.
+  private take(event: RecordedEvent): void {
+    const { simulation } = this.ports.state.get();
+    if (simulation !== this.simulation || event.event === "reset") this.live = [];
+    this.simulation = simulation;
+    const isThere = this.live.some((each) => each.time === event.time && each.event === event.event && each.robot === event.robot && each.detail === event.detail);
+    if (!isThere) this.live = [...this.live, event].slice(-MAX_KEPT);
+  }
+}

@@ -1,0 +1,99 @@
+// Curves as the columns of a chart, and the time that they span.
+import type { Series } from "../live/Series";
+
+export interface Range {
+  min: number;
+  max: number;
+}
+
+export interface DrawnCurve {
+  unit: string;
+  colour: string;
+  series: Series;
+}
+
+// A longer stretch without a value is a gap, where values usually come this many times faster.
+const GAP_INTERVALS = 8;
+const SHORTEST_GAP_S = 1.5;
+const MARGIN = 0.06; // of the span, above and below
+
+// The samples within the time and one on each side; null where the curve is broken.
+export function columnsOf(series: Series, time: Range): [number[], (number | null)[]] {
+  const [times, values]: [number[], (number | null)[]] = [[], []];
+  const gap = gapOf(series, time);
+  let previous = NaN;
+  for (let i = Math.max(0, series.firstFrom(time.min) - 1); i < series.length; i++) {
+    const at = series.timeAt(i);
+    const value = series.valueAt(i);
+    if (at - previous > gap) {
+      times.push((previous + at) / 2);
+      values.push(null);
+    }
+    times.push(at);
+    values.push(Number.isFinite(value) ? value : null);
+    previous = at;
+    if (at > time.max) break;
+  }
+  return [times, values];
+}
+
+// The stretch of time from which on two neighbours are not joined.
+export function gapOf(series: Series, time: Range): number {
+  const first = series.firstFrom(time.min);
+  const last = Math.min(series.length, series.firstFrom(time.max)) - 1;
+  if (last - first < 2) return Infinity;
+  const steps: number[] = [];
+  const stride = Math.max(1, Math.floor((last - first) / 64));
+  for (let i = first + 1; i <= last; i += stride) steps.push(series.timeAt(i) - series.timeAt(i - 1));
+  steps.sort((a, b) => a - b);
+  return Math.max(SHORTEST_GAP_S, GAP_INTERVALS * steps[steps.length >> 1]!);
+}
+
+// The path that a point with these coordinates takes, at the instants of `y`.
+export function pathOf(x: Series, y: Series, time: Range): [number[], number[]] {
+  const [xs, ys]: [number[], number[]] = [[], []];
+  for (let i = y.firstFrom(time.min); i < y.length && y.timeAt(i) <= time.max; i++) {
+    const across = x.newestAt(y.timeAt(i));
+    if (across === null || !Number.isFinite(across) || !Number.isFinite(y.valueAt(i))) continue;
+    xs.push(across);
+    ys.push(y.valueAt(i));
+  }
+  return [xs, ys];
+}
+
+// The range that shows all values, with a little room; never empty.
+export function rangeOf(lists: readonly (readonly (number | null)[])[]): Range {
+  let [min, max] = [Infinity, -Infinity];
+  for (const list of lists) {
+    for (const value of list) {
+      if (value === null || !Number.isFinite(value)) continue;
+      min = Math.min(min, value);
+      max = Math.max(max, value);
+    }
+  }
+  if (!(min <= max)) return { min: 0, max: 1 };
+  const span = max - min;
+  if (span <= 1e-9 * Math.max(1, Math.abs(max))) {
+    const half = Math.max(Math.abs(max) * 0.05, 0.05);
+    return { min: min - half, max: max + half };
+  }
+  return { min: min - MARGIN * span, max: max + MARGIN * span };
+}
+
+// The time that the axis spans: the newest `span` seconds before `now`, or all there is (null), which
+// of a recording is `whole`.
+export function timeRange(
+  curves: readonly DrawnCurve[],
+  span: number | null,
+  now: number,
+  whole: Range | null = null,
+): Range {
+  const there = curves.filter(({ series }) => series.length > 0);
+  if (span !== null) {
+    const max = Math.max(now, span);
+    return { min: max - span, max };
+  }
+  if (whole) return { min: whole.min, max: Math.max(whole.max, whole.min + 0.1) };
+  const min = Math.min(now, ...there.map(({ series }) => series.timeAt(0)));
+  return { min, max: Math.max(now, min + 1, ...there.map(({ series }) => series.timeAt(series.length - 1))) };
+}
