@@ -39,6 +39,7 @@ std::span<const Topic> Topics() {
       Row(topics::kRadio, {.replay = Replay::kEach}),
       Row(topics::kStateHash, {.is_live = false}),
       Row(topics::kEdits, {.is_live = false}),
+      Row(topics::kStepCosts, {.is_recorded = false}),
       Row(topics::kViewers, {.is_recorded = false}),
   };
   return table;

@@ -69,6 +69,8 @@ inline constexpr TopicOf<messages::gsv_msgs::Transmission> kRadio{"/gsv/radio"};
 inline constexpr TopicOf<messages::gsv_msgs::StateHash> kStateHash{"/gsv/state_hash"};
 // This topic is in every recording of an edited simulation, whatever topics are selected.
 inline constexpr TopicOf<messages::gsv_msgs::Edit> kEdits{"/gsv/edits"};
+// Where the wall-clock time of steps goes.
+inline constexpr TopicOf<messages::gsv_msgs::StepCosts> kStepCosts{"/gsv/step_costs"};
 inline constexpr TopicOf<messages::std_msgs::String> kViewers{"/gsv/viewers"};
 
 }  // namespace topics

@@ -5,6 +5,7 @@
 #include "gsv/gateway/api/answers.h"
 #include "gsv/gateway/api/command_json.h"
 #include "gsv/gateway/api/health_json.h"
+#include "gsv/gateway/api/joint_routes.h"
 #include "gsv/gateway/api/simulation_routes.h"
 #include "gsv/gateway/api/status_json.h"
 #include "gsv/gateway/live/sensor_topics.h"
@@ -86,6 +87,7 @@ std::vector<Route> Api::Routes() {
   };
   Append(routes, CommandRoutes(directory_));
   Append(routes, BodyRoutes(directory_));
+  Append(routes, JointRoutes(directory_));
   if (factory_) Append(routes, factory_->Routes(directory_));
   return routes;
 }

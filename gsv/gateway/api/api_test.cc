@@ -215,8 +215,46 @@ TEST_F(ApiTest, AnAvatarIsDriven) {
 
 TEST_F(ApiTest, ARobotWithABehaviourIsNotDriven) {
   EXPECT_EQ(AskJson("POST", path_ + "/robots/robot_0/drive", 409, "{}")["error"],
-            "'robot_0' is not an avatar: only its behaviour steers it");
+            "'robot_0' is controlled by its behaviour 'circle'. Add a robot without a behaviour to "
+            "control it yourself.");
   AskJson("POST", path_ + "/robots/nobody/drive", 404, "{}");
+}
+
+TEST_F(ApiTest, ListsTheJointsOfABodyWithTheirState) {
+  simulation_->Advance(std::chrono::seconds(2));
+  const json listed = AskJson("GET", path_ + "/bodies/robot_0/joints", 200);
+  EXPECT_EQ(listed["body"], "robot_0");
+  EXPECT_EQ(listed["time_s"], 2);
+  EXPECT_EQ(listed["refusal"],
+            "'robot_0' is controlled by its behaviour 'circle'. Add a robot without a behaviour to "
+            "control it yourself.");
+  ASSERT_EQ(listed["joints"].size(), 2u);
+  const json wheel = listed["joints"][0];
+  EXPECT_EQ(wheel["kind"], "continuous");
+  EXPECT_EQ(wheel["unit"], "rad");
+  EXPECT_DOUBLE_EQ(wheel["position"], 2);  // wheels turn at 1 rad/s
+  EXPECT_FALSE(wheel.contains("minimum"));
+  EXPECT_EQ(wheel["refusal"], "this joint is turned by the robot's drive");
+  EXPECT_EQ(AskJson("GET", path_ + "/bodies/crate_0/joints", 200)["joints"], json::array());
+  AskJson("GET", path_ + "/bodies/nobody/joints", 404);
+}
+
+TEST_F(ApiTest, AJointIsCommanded) {
+  const std::string name =
+      AskJson("GET", path_ + "/bodies/avatar/joints", 200)["joints"][1]["name"];
+  AskJson("POST", path_ + "/bodies/avatar/joints/" + name, 200, R"({"position":0.5})");
+  const world::JointCommand turned{world::JointCommand::Kind::kPosition, 0.5};
+  EXPECT_EQ(simulation_->joint_command(), std::pair(1, turned));
+  AskJson("POST", path_ + "/bodies/avatar/joints/elbow", 404, R"({"position":0.5})");
+  AskJson("POST", path_ + "/bodies/nobody/joints/" + name, 404, R"({"position":0.5})");
+  AskJson("POST", path_ + "/bodies/robot_0/joints/" + name, 409, R"({"position":0.5})");
+  for (const char* bad :
+       {"", "{}", R"({"position":"far"})", R"({"angle":1})", R"({"position":1,"velocity":2})"}) {
+    EXPECT_EQ(AskJson("POST", path_ + "/bodies/avatar/joints/" + name, 400, bad)["error"],
+              "the body of the request must be {\"position\": v}, {\"velocity\": v} or "
+              "{\"effort\": v}")
+        << bad;
+  }
 }
 
 TEST_F(ApiTest, UnknownAddressesAndMethods) {

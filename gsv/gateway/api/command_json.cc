@@ -105,6 +105,21 @@ base::Result<world::DriveCommand> ParseDriveCommand(std::string_view body) {
   return command;
 }
 
+base::Result<world::JointCommand> ParseJointCommand(std::string_view body) {
+  using Kind = world::JointCommand::Kind;
+  const base::Result<Json> json = ParseObject(body);
+  if (!json) return base::Fail(json.error());
+  const std::pair<const char*, Kind> kinds[]{
+      {"position", Kind::kPosition}, {"velocity", Kind::kVelocity}, {"effort", Kind::kEffort}};
+  for (const auto& [name, kind] : kinds) {
+    const auto value = json->find(name);
+    if (value == json->end() || json->size() != 1 || !value->is_number()) continue;
+    return world::JointCommand{kind, value->get<double>()};
+  }
+  return Invalid(
+      "the body of the request must be {\"position\": v}, {\"velocity\": v} or {\"effort\": v}");
+}
+
 base::Result<bool> ParseRecordingSwitch(std::string_view body) {
   const base::Result<Json> json = ParseObject(body);
   if (!json) return base::Fail(json.error());

@@ -26,6 +26,9 @@ std::string CommandsJson();
 // Parses {"linear_m_s": v, "lateral_m_s": v, "angular_rad_s": w}. A missing value is 0.
 base::Result<world::DriveCommand> ParseDriveCommand(std::string_view body);
 
+// Parses {"position": v}, {"velocity": v} or {"effort": v}: exactly one of them, in SI units.
+base::Result<world::JointCommand> ParseJointCommand(std::string_view body);
+
 // {"record": true or false}.
 base::Result<bool> ParseRecordingSwitch(std::string_view body);
 

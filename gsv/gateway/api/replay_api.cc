@@ -207,9 +207,13 @@ struct RefusedRequest {
   Response (*refuse)(const Replay&, const Request&);
 };
 constexpr RefusedRequest kRefused[]{
-    {"POST", "/real_time_factor", &RefuseFactor}, {"POST", "/factor", &RefuseFactor},
-    {"DELETE", "/robots/{robot}", &RefuseEdit},   {"POST", "/robots/{robot}/drive", &RefuseEdit},
-    {"DELETE", "/objects/{object}", &RefuseEdit}, {"POST", "/bodies/{body}/place", &RefuseEdit},
+    {"POST", "/real_time_factor", &RefuseFactor},
+    {"POST", "/factor", &RefuseFactor},
+    {"DELETE", "/robots/{robot}", &RefuseEdit},
+    {"POST", "/robots/{robot}/drive", &RefuseEdit},
+    {"DELETE", "/objects/{object}", &RefuseEdit},
+    {"POST", "/bodies/{body}/place", &RefuseEdit},
+    {"POST", "/bodies/{body}/joints/{joint}", &RefuseEdit},
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "gsv/gateway/api/command_json.h"
 #include "gsv/gateway/api/factory_api.h"
+#include "gsv/gateway/api/joint_routes.h"
 #include "gsv/gateway/api/scenario_json.h"
 #include "gsv/gateway/api/status_json.h"
 #include "gsv/simulation/commands/command_table.h"
@@ -29,15 +30,18 @@ SimulationHandler Applying(const simulation::Command& command) {
   };
 }
 
-// Only the behaviour drives a robot that has one.
+// A robot with a behaviour is driven by the behaviour alone.
 Response Drive(const SimulationPointer& simulation, const Request& request) {
   const std::string& robot = request.Parameter("robot");
   const std::shared_ptr<simulation::Agent> agent = simulation->agent(robot);
   if (!agent) return ErrorResponse(404, "there is no robot '" + robot + "'");
   const std::shared_ptr<const world::Snapshot> snapshot = simulation->snapshot();
   const int index = snapshot->layout->Find(robot);
-  if (index < 0 || !snapshot->layout->bodies[index].is_avatar()) {
-    return ErrorResponse(409, "'" + robot + "' is not an avatar: only its behaviour steers it");
+  if (index < 0 || !snapshot->layout->bodies[index].is_robot()) {
+    return ErrorResponse(409, "'" + robot + "' has no drive");
+  }
+  if (const auto reason = ControlledByBehaviour(*simulation, robot)) {
+    return ErrorResponse(409, *reason);
   }
   const base::Result<world::DriveCommand> command = ParseDriveCommand(request.body);
   return command ? Done(agent->Command(*command)) : ErrorResponse(command.error());
@@ -94,7 +98,8 @@ std::vector<Route> BodyRoutes(const std::shared_ptr<SimulationDirectory>& direct
       {"DELETE", simulation + "/robots/{robot}", kControl, true, kCommanders,
        OfSimulation(directory, &RemoveRobot), "Remove a robot or an avatar"},
       {"POST", simulation + "/robots/{robot}/drive", kControl, true, kCommanders,
-       OfSimulation(directory, &Drive), "Set the velocity of an avatar"},
+       OfSimulation(directory, &Drive),
+       "Set the velocity of an avatar, or of a robot without a behaviour"},
       {"DELETE", simulation + "/objects/{object}", kControl, true, kCommanders,
        OfSimulation(directory, &RemoveObject), "Remove an object"},
       {"POST", simulation + "/bodies/{body}/place", kControl, true, kCommanders,

@@ -40,6 +40,7 @@ LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation
       commands_(hub_),
       contacts_(hub_, topics::kContacts, CollectContacts),
       radio_(hub_, topics::kRadio, CollectTransmissions),
+      step_costs_(hub_),
       viewers_(hub_, registry) {
   const std::vector<foxglove::ChannelId> channels =
       hub_->Advertise({ChannelFor(topics::kClock), ChannelFor(topics::kPoses),
@@ -57,6 +58,7 @@ LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation
 void LiveStream::Round(const std::shared_ptr<simulation::Simulation>& simulation, WallTime now) {
   contacts_.Publish(*simulation);
   radio_.Publish(*simulation);
+  step_costs_.Publish(*simulation, now);
   if (!hub_->has_clients()) return;
   const SnapshotPointer snapshot = simulation->snapshot();
   FollowLayout(*simulation, *snapshot, now);

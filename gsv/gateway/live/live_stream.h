@@ -15,6 +15,7 @@
 #include "gsv/gateway/live/pacing.h"
 #include "gsv/gateway/live/sensor_topics.h"
 #include "gsv/gateway/live/status_topics.h"
+#include "gsv/gateway/live/step_cost_topic.h"
 #include "gsv/gateway/live/step_event_topic.h"
 #include "gsv/gateway/program/ports.h"
 #include "gsv/presentation/pose_list.h"
@@ -87,6 +88,7 @@ class LiveStream {
   CommandTopic commands_;
   ContactTopic contacts_;
   RadioTopic radio_;
+  StepCostTopic step_costs_;
   access::ViewersTopic viewers_;
   std::shared_ptr<SensorTopics> sensors_;
 };

@@ -61,7 +61,11 @@ class ScriptedSimulation::Avatar final : public simulation::Agent {
     return {};
   }
   const std::vector<model::Joint>& Joints() const override { return joints_; }
-  base::Status CommandJoint(int, const world::JointCommand&) override { return Refused(); }
+  base::Status CommandJoint(int joint, const world::JointCommand& command) override {
+    const std::lock_guard lock(mutex_);
+    joint_command_ = {joint, command};
+    return {};
+  }
   base::Result<simulation::JointReading> ReadJoint(int) override {
     return base::Fail(Refused().error());
   }
@@ -88,12 +92,17 @@ class ScriptedSimulation::Avatar final : public simulation::Agent {
     const std::lock_guard lock(mutex_);
     return command_;
   }
+  std::pair<int, world::JointCommand> joint_command() const {
+    const std::lock_guard lock(mutex_);
+    return joint_command_;
+  }
 
  private:
   const std::string name_ = kAvatar;
-  const std::vector<model::Joint> joints_{};
+  const std::vector<model::Joint> joints_ = RobotModel().joints;
   mutable std::mutex mutex_;
   world::DriveCommand command_;
+  std::pair<int, world::JointCommand> joint_command_{-1, {}};
 };
 
 ScriptedSimulation::ScriptedSimulation(std::string name, int robots)
@@ -190,6 +199,13 @@ void ScriptedSimulation::Meet(const std::string& first, const std::string& secon
   for (const auto& observer : observers_) observer->OnSnapshot(snapshot_);
 }
 
+void ScriptedSimulation::Time(const simulation::StepTimes& times) {
+  const std::lock_guard lock(mutex_);
+  for (const auto& observer : observers_) {
+    if (observer->wants_times()) observer->OnTimes(times);
+  }
+}
+
 void ScriptedSimulation::AddOneRobot() {
   const std::lock_guard lock(mutex_);
   ++robots_;
@@ -212,6 +228,10 @@ void ScriptedSimulation::set_on_watch(std::function<base::Status(const std::stri
 }
 
 world::DriveCommand ScriptedSimulation::avatar_command() const { return avatar_->command(); }
+
+std::pair<int, world::JointCommand> ScriptedSimulation::joint_command() const {
+  return avatar_->joint_command();
+}
 
 base::Status ScriptedSimulation::Become(Phase phase, std::vector<Phase> from, const char* event) {
   const std::lock_guard lock(mutex_);

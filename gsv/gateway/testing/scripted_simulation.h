@@ -28,6 +28,8 @@ class ScriptedSimulation final : public simulation::Simulation {
                      base::SimTime time);
   // Adds a contact of two bodies in the next step, at the first.
   void Meet(const std::string& first, const std::string& second);
+  // Passes the times of a step to the observers that want them.
+  void Time(const simulation::StepTimes& times);
   std::size_t observers() const;
   // Adds a robot at the end; the layout changes.
   void AddOneRobot();
@@ -37,6 +39,8 @@ class ScriptedSimulation final : public simulation::Simulation {
   // A hook at the start of Watch().
   void set_on_watch(std::function<base::Status(const std::string& sensor)> on_watch);
   world::DriveCommand avatar_command() const;
+  // The joint that was commanded last, and its command.
+  std::pair<int, world::JointCommand> joint_command() const;
 
   base::Result<std::vector<std::string>> AddRobots(
       std::vector<simulation::RobotSpecification> robots) override;

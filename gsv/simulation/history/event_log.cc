@@ -1,5 +1,6 @@
 #include "gsv/simulation/history/event_log.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace gsv::simulation {
@@ -50,21 +51,33 @@ std::uint64_t EventLog::output_count() const {
 void EventLog::AddObserver(std::shared_ptr<Observer> observer) {
   const base::MutexLock lock(mutex_);
   observers_.push_back(std::move(observer));
+  UpdateWantsTimes();
 }
 
 void EventLog::RemoveObserver(const std::shared_ptr<Observer>& observer) {
   const base::MutexLock lock(mutex_);
   std::erase(observers_, observer);
+  UpdateWantsTimes();
+}
+
+void EventLog::UpdateWantsTimes() {
+  wants_times_ = std::any_of(observers_.begin(), observers_.end(),
+                             [](const auto& observer) { return observer->wants_times(); });
+}
+
+std::vector<std::shared_ptr<Observer>> EventLog::Observers() const {
+  const base::MutexLock lock(mutex_);
+  return observers_;
 }
 
 void EventLog::Publish(const std::shared_ptr<const world::Snapshot>& snapshot) const {
-  std::vector<std::shared_ptr<Observer>> observers;
-  {
-    const base::MutexLock lock(mutex_);
-    if (observers_.empty()) return;
-    observers = observers_;
+  for (const auto& observer : Observers()) observer->OnSnapshot(snapshot);
+}
+
+void EventLog::Publish(const StepTimes& times) const {
+  for (const auto& observer : Observers()) {
+    if (observer->wants_times()) observer->OnTimes(times);
   }
-  for (const auto& observer : observers) observer->OnSnapshot(snapshot);
 }
 
 }  // namespace gsv::simulation

@@ -3,6 +3,7 @@
 // Threads  any; it has its own lock, and takes no other lock while it holds it.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -39,6 +40,10 @@ class EventLog {
   void RemoveObserver(const std::shared_ptr<Observer>& observer);
   // Passes a snapshot to every observer, without holding a lock.
   void Publish(const std::shared_ptr<const world::Snapshot>& snapshot) const;
+  // Whether an observer wants the times of steps.
+  bool wants_times() const { return wants_times_.load(std::memory_order_relaxed); }
+  // Passes them to the observers that want them, without holding a lock.
+  void Publish(const StepTimes& times) const;
 
  private:
   static constexpr std::size_t kMaxOutputs = 2000;
@@ -52,7 +57,11 @@ class EventLog {
     std::vector<Event> Since(std::uint64_t first) const;
   };
 
+  std::vector<std::shared_ptr<Observer>> Observers() const;
+  void UpdateWantsTimes() GSV_REQUIRES(mutex_);
+
   const SnapshotHistory& history_;
+  std::atomic<bool> wants_times_ = false;
 
   mutable base::Mutex mutex_;
   Kept events_ GSV_GUARDED_BY(mutex_);

@@ -32,6 +32,7 @@ class Turn {
     SnapshotHistory::Frame snapshots;
     sensing::RaySceneCache* rays = nullptr;
     std::uint64_t seed = 0;
+    bool is_timed = false;  // whether turns are timed, see RobotAgent::turn_took()
 
     // Prepares the ray scene on the team, if turns of the last instant have cast rays.
     void Prepare(base::ThreadTeam& team);

@@ -43,7 +43,9 @@ void RobotAgent::UpdateRunningCount() {
   is_counted_ = holds_up;
   shared_->running += holds_up ? 1 : -1;
   const bool is_waited_for = shared_->mode == Mode::kLockstep;
-  if (shared_->running == 0 && is_waited_for) shared_->changed.notify_all();
+  if (shared_->running > 0 || !is_waited_for) return;
+  if (shared_->is_timed) shared_->held_up_by = robot_;
+  shared_->changed.notify_all();
 }
 
 RobotCommands& RobotAgent::Commands() {
@@ -394,9 +396,11 @@ void RobotAgent::TakeTurn(const Turn::Instant& instant,
                           sensing::Sampling& sampling) GSV_NO_THREAD_SAFETY_ANALYSIS {
   sampling.MoveTo(body_);
   turn_ = Turn(instant, sampling);
-  turn_began_ = WallNow();
+  const WallTime began = WallNow();
+  turn_began_ = began;
   behaviour_->local()->TakeTurn(turn_);
   turn_began_ = WallTime();
+  if (instant.is_timed) turn_took_ = WallNow() - began;
 }
 
 std::optional<WallTime> RobotAgent::in_turn_since() const {

@@ -117,6 +117,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   void TakeTurn(const Turn::Instant& instant, sensing::Sampling& sampling);
   // The start of the current turn; empty between turns. Any thread may call this.
   std::optional<WallTime> in_turn_since() const;
+  // The duration of the last turn that was timed. For the stepping thread, after the turn.
+  WallDuration turn_took() const { return turn_took_; }
   std::function<void()> ApplyTurn() GSV_REQUIRES(simulation_mutex);
   // Marks its local behaviour as ready for a turn.
   void MakeReady() GSV_REQUIRES(simulation_mutex);
@@ -179,6 +181,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
 
   Turn turn_;  // used by the stepping thread, and during a turn by the thread that takes the turn
   std::atomic<WallTime> turn_began_{WallTime()};  // WallTime() between turns
+  WallDuration turn_took_{};                      // used like turn_
 };
 
 }  // namespace gsv::simulation

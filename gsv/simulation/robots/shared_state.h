@@ -60,6 +60,9 @@ struct SharedState {
   std::vector<RobotAgent*> ready GSV_GUARDED_BY(simulation_mutex);
   // Whether deaths of agents were reported. The agents may still be running.
   bool has_reported_deaths GSV_GUARDED_BY(simulation_mutex) = false;
+  // While steps are timed: the robot whose behaviour the step waited for last, empty for none.
+  bool is_timed GSV_GUARDED_BY(simulation_mutex) = false;
+  std::string held_up_by GSV_GUARDED_BY(simulation_mutex);
   // The robots whose behaviour has given up, each with the sentence that the stepping thread emits.
   std::vector<std::pair<std::string, std::string>> given_up GSV_GUARDED_BY(simulation_mutex);
 };

@@ -3,6 +3,8 @@
 #include <pthread.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+
 #include "gsv/base/check.h"
 #include "gsv/simulation/pace/totals.h"
 
@@ -44,6 +46,7 @@ void StepLoop::Run() {
   if (shared.mode == Mode::kRealTime) RaiseThreadPriority();
   while (!quit_) {
     if (!run_.is_running()) {
+      timer_.Interrupt();
       shared.changed.wait(lock.inner());
       continue;
     }
@@ -125,6 +128,7 @@ void StepLoop::TakeTurns() {
     if (!run_.is_running()) return;
     turns_.swap(shared.ready);
     instant_.now = shared.now;
+    instant_.is_timed = is_timed_;
     shared.history.MakeFrame(instant_.snapshots);
   }
   instant_.Prepare(*parts_.team);
@@ -140,7 +144,17 @@ void StepLoop::TakeTurns() {
     // The agent may repeatedly have waited for instants that were past.
     if (agent->BlocksStep() && agent->running_since() < deadline) GiveUpOn(*agent);
   }
+  if (is_timed_) NoteLongestTurn();
   turns_.clear();
+}
+
+void StepLoop::NoteLongestTurn() {
+  SharedState& shared = *parts_.shared;
+  if (shared.mode == Mode::kLockstep && shared.running > 0) return;
+  const auto longest = std::max_element(
+      turns_.begin(), turns_.end(),
+      [](const RobotAgent* a, const RobotAgent* b) { return a->turn_took() < b->turn_took(); });
+  if (longest != turns_.end()) shared.held_up_by = (*longest)->robot();
 }
 
 void StepLoop::PostBlocked(AgentPopulation::AgentPtr agent, std::function<void()> work) {
@@ -188,8 +202,10 @@ void StepLoop::GiveUpOn(RobotAgent& agent) {
 bool StepLoop::IsDue(SimulationLock& lock) {
   if (parts_.shared->mode != Mode::kRealTime) return true;
   const WallTime due = parts_.life_cycle.pace().due();
-  if (WallNow() >= due) return true;
+  const WallTime now = WallNow();
+  if (now >= due) return true;
   parts_.shared->changed.wait_until(lock.inner(), due);
+  if (is_timed_) timer_.AddIdle(WallNow() - now);
   return false;
 }
 
@@ -222,12 +238,17 @@ void StepLoop::TakeStep() {
                       shared.rays, parts_.team.get(), shared.seed, world.state());
       world.FollowAttachments();
     }
+    if (is_timed_) timer_.Mark(&StepTimes::devices);
     snapshot = snapshots_.Take();
     world.Step(length, *snapshot);
     snapshot->transmissions = std::move(transmissions);
     EndStep(snapshot, start);
+    if (is_timed_) timer_.Mark(&StepTimes::bodies);
   }
   parts_.events.Publish(snapshot);
+  if (!is_timed_) return;
+  timer_.Mark(&StepTimes::observers);
+  parts_.events.Publish(timer_.End(snapshot->state.step, snapshot->state.time));
 }
 
 bool StepLoop::BeginStep(WallTime start) {
@@ -238,6 +259,12 @@ bool StepLoop::BeginStep(WallTime start) {
   // the last running agent may have ended.
   if (shared.mode == Mode::kLockstep && (shared.running > 0 || shared.has_reported_deaths))
     return false;
+  is_timed_ = shared.is_timed = parts_.events.wants_times();
+  if (is_timed_) {
+    timer_.Begin(start, std::exchange(shared.held_up_by, {}));
+  } else {
+    timer_.Interrupt();
+  }
   ApplyCommands();
   run_.BeginStep();
   if (shared.mode == Mode::kRealTime) parts_.life_cycle.pace().StepStarts(start);

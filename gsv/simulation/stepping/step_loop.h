@@ -14,6 +14,7 @@
 #include "gsv/base/thread_team.h"
 #include "gsv/simulation/faults/fault_injector.h"
 #include "gsv/simulation/history/snapshot_pool.h"
+#include "gsv/simulation/pace/step_timer.h"
 #include "gsv/simulation/robots/event_signaler.h"
 #include "gsv/simulation/stepping/life_cycle.h"
 #include "gsv/simulation/world/device_loop.h"
@@ -55,6 +56,8 @@ class StepLoop {
   void WakeAgents() GSV_REQUIRES(simulation_mutex);
   // Runs the local behaviours that are due until they wait.
   void TakeTurns();
+  // While steps are timed, the longest of these turns holds the step up if no other agent runs.
+  void NoteLongestTurn() GSV_REQUIRES(simulation_mutex);
   void PostBlocked(AgentPopulation::AgentPtr agent, std::function<void()> work);
   void GiveUpOn(RobotAgent& agent) GSV_REQUIRES(simulation_mutex);
   // Returns true if every agent waits. Otherwise it waits for a change first and returns false.
@@ -78,6 +81,8 @@ class StepLoop {
   std::vector<RobotAgent*> turns_;  // the agents of the current turns
   EventSignaler event_signaler_;
   EventSignaler::Events woken_;  // events of the agents that were just woken
+  bool is_timed_ = false;        // whether an observer wants the times of steps
+  StepTimer timer_;
 
   std::jthread thread_;
 };

@@ -1,0 +1,23 @@
+// The joints of the bodies of a simulation: their state, and commands to them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gsv/gateway/api/simulation_routes.h"
+
+namespace gsv::gateway {
+
+// Returns the reason why a viewer may not command this robot: its behaviour controls it. Nothing for
+// avatars, for robots without a behaviour or with one that has finished, and for other bodies.
+std::optional<std::string> ControlledByBehaviour(const simulation::Simulation& simulation,
+                                                 const std::string& robot);
+
+// GET  …/bodies/{body}/joints          the joints that move, with their limits and their state
+// POST …/bodies/{body}/joints/{joint}  commands a joint: {"position": v}, {"velocity": v} or
+//                                      {"effort": v}
+std::vector<Route> JointRoutes(const std::shared_ptr<SimulationDirectory>& directory);
+
+}  // namespace gsv::gateway

@@ -1,0 +1,40 @@
+// The live topic /gsv/step_costs: where the wall-clock time of steps goes, and which behaviours hold
+// them up.
+//
+// Steps are timed only while there are subscribers.
+//
+// Bounded  the number of behaviours and of single steps in a message, and of behaviours between two
+//          messages.
+// Threads  Publish() from one thread.
+#pragma once
+
+#include <memory>
+
+#include "gsv/gateway/foxglove/hub.h"
+#include "gsv/gateway/live/pacing.h"
+#include "gsv/messages/gsv_msgs.h"
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::gateway {
+
+inline constexpr std::size_t kMaxHoldUps = 64;
+inline constexpr std::size_t kMaxLongestSteps = 32;
+
+class StepCostTopic {
+ public:
+  // Advertises the topic.
+  explicit StepCostTopic(std::shared_ptr<Hub> hub);
+
+  // Publishes the costs since the last message, twice a second, if there were steps.
+  void Publish(simulation::Simulation& simulation, WallTime now);
+
+ private:
+  class Watch;
+
+  const std::shared_ptr<Hub> hub_;
+  foxglove::ChannelId channel_ = 0;
+  Pacing pacing_;
+  std::shared_ptr<Watch> watch_;  // while there are subscribers
+};
+
+}  // namespace gsv::gateway

@@ -1,0 +1,52 @@
+// Measures where the wall-clock time of steps goes. Every moment belongs to one part.
+//
+// Threads  the stepping thread.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "gsv/simulation/observer.h"
+#include "gsv/simulation/pace/wall_clock.h"
+
+namespace gsv::simulation {
+
+class StepTimer {
+ public:
+  using Part = std::chrono::nanoseconds StepTimes::*;
+
+  // The time since the end of the last step does not count, as after a pause.
+  void Interrupt() { ended_ = WallTime(); }
+  // Of the time since the end of the last step, so much was a wait for the wall clock.
+  void AddIdle(WallDuration idle) { idle_ += idle; }
+  // The step starts. `held_up_by`: see StepTimes.
+  void Begin(WallTime start, std::string held_up_by) {
+    times_ = {};
+    if (ended_ != WallTime()) {
+      times_.idle = idle_;
+      times_.behaviours = start - ended_ - idle_;
+      times_.held_up_by = std::move(held_up_by);
+    }
+    idle_ = {};
+    mark_ = start;
+  }
+  // Adds the time since the last call, or since Begin(), to a part.
+  void Mark(Part part, WallTime now = WallNow()) {
+    times_.*part += now - mark_;
+    mark_ = now;
+  }
+  // The step ends.
+  const StepTimes& End(std::int64_t step, SimTime time) {
+    times_.step = step;
+    times_.time = time;
+    ended_ = mark_;
+    return times_;
+  }
+
+ private:
+  WallTime ended_{}, mark_{};
+  WallDuration idle_{};
+  StepTimes times_;
+};
+
+}  // namespace gsv::simulation
