@@ -3,6 +3,8 @@ import "uplot/dist/uPlot.min.css";
 import "./style/page.css";
 import "./style/drawn.css";
 import "./style/panels.css";
+import "./style/control.css";
+import "./style/images.css";
 import "./style/plots.css";
 import "./style/robots.css";
 import "./style/setUp.css";

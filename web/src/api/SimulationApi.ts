@@ -10,6 +10,8 @@ import type { CurveOf, WholeCurve } from "./curve";
 import { curveQuery, parseCurve } from "./curve";
 import type { OutputLine } from "./health";
 import { parseOutput } from "./health";
+import type { BodyJoints, JointCommandKind } from "./joints";
+import { parseJoints } from "./joints";
 import type { Recording } from "./recording";
 import { parseRecording } from "./recording";
 import type { RecordedEvent, RecordedLine, Replay } from "./replay";
@@ -149,6 +151,15 @@ export class SimulationApi {
   async drive(name: string, robot: string, drive: Drive): Promise<void> {
     const path = `${simulationPath(name)}/robots/${encodeURIComponent(robot)}/drive`;
     await this.server.post(path, drive);
+  }
+
+  async joints(name: string, body: string): Promise<BodyJoints> {
+    return parseJoints(await this.server.get(`${simulationPath(name)}/bodies/${encodeURIComponent(body)}/joints`));
+  }
+
+  async commandJoint(name: string, body: string, joint: string, kind: JointCommandKind, value: number): Promise<void> {
+    const path = `${simulationPath(name)}/bodies/${encodeURIComponent(body)}/joints/${encodeURIComponent(joint)}`;
+    await this.server.post(path, { [kind]: value });
   }
 
   modelUrl(id: string): string {

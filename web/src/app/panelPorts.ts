@@ -21,6 +21,12 @@ export function panelPorts(app: App, api: SimulationApi): PanelPorts {
       list: (simulation) => api.commands(simulation),
       run: (simulation, command, given) => api.command(simulation, command, given),
     },
+    control: {
+      take: () => app.people.want(true),
+      drive: (simulation, robot, drive) => api.drive(simulation, robot, drive),
+      joints: (simulation, body) => api.joints(simulation, body),
+      commandJoint: (simulation, body, joint, kind, value) => api.commandJoint(simulation, body, joint, kind, value),
+    },
     replay: { seek: (time) => app.replay.seek(time) },
     robots: {
       select: (robot) => app.select(robot),

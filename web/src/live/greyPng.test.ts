@@ -1,6 +1,7 @@
 import { deflateSync } from "node:zlib";
 import { expect, test } from "vitest";
-import { colouredGreyPng } from "./greyPng";
+import { valuesOfGreyPng } from "./greyPng";
+import { coloured } from "./valueImage";
 
 function chunk(type: string, content: Uint8Array): Uint8Array {
   const bytes = new Uint8Array(12 + content.length);
@@ -34,21 +35,23 @@ function png(values: number[], width: number, { depth = 16, filter = 0 } = {}): 
 }
 
 test("the least value is dark, the largest bright, whatever they are", async () => {
-  const image = (await colouredGreyPng(png([28815, 28815, 35000, 31908], 2)))!;
+  const values = (await valuesOfGreyPng(png([28815, 28815, 35000, 31908], 2)))!;
+  expect([...values.values]).toEqual([28815, 28815, 35000, 31908]);
+  const image = coloured(values);
   expect([image.width, image.height]).toEqual([2, 2]);
   expect([...image.rgba.slice(0, 4)]).toEqual([0, 0, 4, 255]);
   expect([...image.rgba.slice(8, 12)]).toEqual([252, 255, 164, 255]);
 });
 
 test("an image of one value has one colour", async () => {
-  const { rgba } = (await colouredGreyPng(png([7, 7], 2)))!;
+  const { rgba } = coloured((await valuesOfGreyPng(png([7, 7], 2)))!);
   expect([...rgba]).toEqual([0, 0, 4, 255, 0, 0, 4, 255]);
 });
 
 test("what is no such image, or not whole, is left to others", async () => {
   const whole = png([1, 2, 3, 4], 2);
-  expect(await colouredGreyPng(png([1, 2], 2, { depth: 8 }))).toBeNull();
-  expect(await colouredGreyPng(png([1, 2], 2, { filter: 1 }))).toBeNull();
-  expect(await colouredGreyPng(whole.subarray(0, 40))).toBeNull();
-  expect(await colouredGreyPng(new Uint8Array(50))).toBeNull();
+  expect(await valuesOfGreyPng(png([1, 2], 2, { depth: 8 }))).toBeNull();
+  expect(await valuesOfGreyPng(png([1, 2], 2, { filter: 1 }))).toBeNull();
+  expect(await valuesOfGreyPng(whole.subarray(0, 40))).toBeNull();
+  expect(await valuesOfGreyPng(new Uint8Array(50))).toBeNull();
 });

@@ -23,6 +23,14 @@ export function mayAct(people: People): boolean {
   return holder === null || holder.number === people.you;
 }
 
+// Why you have to take control before you drive something: another viewer has it, or might drive too. Empty:
+// you need not.
+export function needsControl(people: People): string {
+  const holder = holderOf(people);
+  if (holder !== null) return holder.number === people.you ? "" : `${holder.name} has control.`;
+  return together(people).length > 1 ? "Others are watching this simulation. Take control first." : "";
+}
+
 // Whose question you have to answer, if there is one.
 export function asker(people: People): Person | null {
   if (!youOf(people)?.holds) return null;

@@ -1,10 +1,11 @@
 // @vitest-environment jsdom
 import { beforeEach, expect, test, vi } from "vitest";
-import type { SceneSensor } from "../../api/scene";
+import type { CameraChoice, SceneSensor } from "../../api/scene";
 import { camerasOf } from "../../api/scene";
 import type { State } from "../../state/State";
 import { body, scene } from "../../scene/testScene";
 import { mount } from "./CameraPane";
+import { CameraTile } from "./CameraTile";
 import { testPorts } from "../contract/testPorts";
 
 const EYE: SceneSensor = { name: "eye", type: "camera", overlay: "picture", link: "base", topic: "/a/eye", view: null };
@@ -44,4 +45,39 @@ test("a recording that has no picture yet is not waited for", () => {
   expect(waiting()).toBe("The recording has no image of this camera up to this time.");
   store.set({ replay: null });
   expect(waiting()).toBe("Waiting for an image…");
+});
+
+test("the grid listens to every camera, a click on one shows it alone, and the page's choice follows", () => {
+  const other = { ...EYE, name: "rear", topic: "/a/rear" };
+  const depth = { ...EYE, name: "depth", type: "depth_camera", overlay: "points" as const, topic: "/a/depth" };
+  const { ports, store, topics } = testPorts({ scene: scene({ bodies: [body("a", { sensors: [EYE, other, depth] })] }) });
+  ports.cameras.show.mockImplementation((camera: CameraChoice) => store.set({ camera }));
+  const { body: element, tools, whileOpen } = mount(ports);
+  whileOpen!();
+  const choice = tools![0] as HTMLSelectElement;
+  expect([...choice.options].map(({ text }) => text)).toEqual(["All cameras (3)", "a · eye", "a · rear", "a · depth"]);
+  choice.selectedIndex = 0;
+  choice.dispatchEvent(new Event("change"));
+  expect(topics.read.sort()).toEqual(["/a/depth", "/a/eye", "/a/rear"]);
+  element.querySelectorAll<HTMLButtonElement>(".camera-open")[1]!.click();
+  expect(store.get().camera?.topic).toBe("/a/rear");
+  expect(topics.read).toEqual(["/a/rear"]);
+});
+
+test("an image that is behind shows its age, one that cannot be decoded says so", async () => {
+  const { ports, store, topics } = testPorts({ scene: SCENE, time: 10 });
+  vi.stubGlobal("createImageBitmap", async () => ({ width: 2, height: 2, close: () => {} }));
+  const tile = new CameraTile(camerasOf(SCENE)[0]!, ports, "eye");
+  tile.listen();
+  const send = (sec: number) => topics.send("/a/eye", { header: { stamp: { sec, nsec: 0 } }, format: "jpeg", data: new Uint8Array(2) });
+  const text = (part: string) => tile.element.querySelector(part)!.textContent;
+  send(10);
+  await vi.waitFor(() => expect(text(".picture-time")).toBe("0:10.00"));
+  store.set({ time: 14.5 });
+  tile.judgeAge();
+  expect(text(".picture-time")).toBe("0:10.00 · 4.5 s old");
+  vi.stubGlobal("createImageBitmap", async () => Promise.reject(new Error("no image")));
+  send(15);
+  await vi.waitFor(() => expect(text(".picture-waiting")).toBe("The image cannot be decoded (format jpeg)."));
+  vi.unstubAllGlobals();
 });

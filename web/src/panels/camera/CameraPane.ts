@@ -1,171 +1,149 @@
-// The images of one robot's camera, as they arrive. It listens only while it is in sight.
-import type { CameraChoice } from "../../api/scene";
-import { camerasOf } from "../../api/scene";
-import type { ColouredImage } from "../../live/greyPng";
-import { colouredGreyPng } from "../../live/greyPng";
-import type { CompressedImageMessage } from "../../protocol/messages";
-import { seconds } from "../../protocol/messages";
+// The images of a camera, or of all of them in a grid. It listens only to those in sight.
+import type { CameraChoice, SceneDescription } from "../../api/scene";
+import { camerasOf, robotsOf } from "../../api/scene";
 import { shallowEqual } from "../../state/Store";
 import { element, setText } from "../../ui/element";
-import { formatTime } from "../../ui/format";
+import { smallButton } from "../../ui/smallButton";
 import type { MountedPanel } from "../contract/Panel";
 import type { PanelPorts } from "../contract/ports";
+import { CameraTile } from "./CameraTile";
 
 type Ports = Pick<PanelPorts, "state" | "topics" | "cameras">;
 
 const SEPARATOR = " · ";
-const SAME_INSTANT_S = 1e-6;
+const ALL = "\0all"; // no topic is named so
+const MAX_TILES = 60;
 
-export function mount({ state, topics, cameras }: Ports): MountedPanel {
+export function mount(ports: Ports): MountedPanel {
+  const { state, cameras } = ports;
   const choice = element("select", { "aria-label": "Camera" });
-  const picture = element("canvas", { class: "picture", role: "img", "aria-label": "Camera image" });
-  picture.width = picture.height = 1;
-  const caption = element("span", { class: "picture-time number" });
-  const waiting = element("p", { class: "picture-waiting" });
-  const body = element("div", { class: "picture-frame" }, picture, waiting, caption);
+  const place = element("div", { class: "camera-one" });
+  const note = element("p", { class: "dim camera-note" });
   const hint = element("p", { class: "hint" }, "No robot has a camera.");
-
   let isOpen = false;
-  let unsubscribe = () => {};
-  let shownTime = -Infinity; // s, of the picture
-  // A recording may have been moved to before its first picture.
-  const judgeAge = () => {
-    const { replay, time } = state.get();
-    picture.classList.toggle("of-later", replay !== null && shownTime > time + SAME_INSTANT_S);
+  let showsAll = false;
+  let only: CameraChoice | null = null; // a depth camera, which is no choice of the page's
+  let tiles: CameraTile[] = [];
+
+  const chosen = () => only ?? state.get().camera;
+  const shown = (): readonly CameraChoice[] => {
+    if (showsAll) return imagesOf(state.get().scene).slice(0, MAX_TILES);
+    const camera = chosen();
+    return camera ? [camera] : [];
   };
-  const painter = new PicturePainter(picture, (time) => {
-    waiting.hidden = true;
-    setText(caption, formatTime(time));
-    shownTime = time;
-    judgeAge();
-  });
-  state.watch(({ time }) => time, judgeAge);
-  const listen = (camera: CameraChoice | null) => {
-    unsubscribe();
-    unsubscribe = () => {};
-    painter.clear();
-    setText(caption, "");
-    waiting.hidden = false;
-    const { view, replay } = state.get();
-    // A recording holds those that somebody asked for; what it has, it gives at once.
-    setText(waiting, replay ? "The recording has no image of this camera up to this time." : "Waiting for an image…");
-    body.hidden = choice.hidden = !camera;
-    hint.hidden = camera !== null;
-    if (camera) choice.value = camera.topic;
-    // A canvas takes its first picture only when the browser has started what draws.
-    if (camera && isOpen && view !== "starting") {
-      unsubscribe = topics.subscribe<CompressedImageMessage>(camera.topic, (image) => painter.take(image));
+  const sight = typeof IntersectionObserver === "undefined" ? null : new IntersectionObserver((entries) => follow(entries), { root: place });
+  const follow = (entries: IntersectionObserverEntry[]) => {
+    for (const { target, isIntersecting } of entries) {
+      const tile = tiles.find((each) => each.element.parentElement === target);
+      if (tile) isIntersecting && isOpen ? tile.listen() : tile.close();
     }
   };
+  const build = () => {
+    for (const tile of tiles) tile.close();
+    sight?.disconnect();
+    const wanted = shown();
+    tiles = wanted.map((camera) => new CameraTile(camera, ports, showsAll ? nameOf(camera) : "Camera image"));
+    place.className = showsAll ? "camera-grid" : "camera-one";
+    const cells = tiles.map((tile) => (showsAll ? cellOf(tile) : tile.element));
+    place.replaceChildren(...cells);
+    const all = imagesOf(state.get().scene).length;
+    setText(note, showsAll && all > MAX_TILES ? `The first ${MAX_TILES} of ${all} cameras. Choose another one above.` : "");
+    hint.hidden = all > 0;
+    choice.hidden = all === 0;
+    choice.value = showsAll ? ALL : (chosen()?.topic ?? "");
+    for (const button of zooms) button.hidden = showsAll || all === 0;
+    listen();
+  };
+  const listen = () => {
+    for (const tile of tiles) {
+      tile.close();
+      if (isOpen && (!showsAll || !sight)) tile.listen();
+    }
+    sight?.disconnect();
+    if (isOpen && showsAll) for (const { element: frame } of tiles) sight?.observe(frame.parentElement!);
+  };
+  const cellOf = (tile: CameraTile) => {
+    const name = nameOf(tile.camera);
+    const open = element("button", { class: "camera-open", type: "button", title: `Show only ${name}`, onclick: () => showOnly(tile.camera) }, name);
+    return element("div", { class: "camera-cell" }, open, tile.element);
+  };
+  const showOnly = (camera: CameraChoice) => {
+    showsAll = false;
+    const isOfPage = camerasOf(state.get().scene).some(({ topic }) => topic === camera.topic);
+    only = isOfPage ? null : camera;
+    if (isOfPage && state.get().camera?.topic !== camera.topic) cameras.show(camera);
+    else build();
+  };
+  const zoomBy = (factor: number) => () => tiles.forEach((tile) => tile.zoomBy(factor));
+  const zooms = [
+    smallButton("add", "Zoom in", zoomBy(1.25)),
+    smallButton("minus", "Zoom out", zoomBy(1 / 1.25)),
+    smallButton("enlarge", "Fit the image", zoomBy(0)),
+  ];
 
   choice.addEventListener("change", () => {
-    const camera = camerasOf(state.get().scene).find(({ topic }) => topic === choice.value);
-    if (camera) cameras.show(camera);
+    if (choice.value === ALL) {
+      showsAll = true;
+      return build();
+    }
+    const camera = imagesOf(state.get().scene).find(({ topic }) => topic === choice.value);
+    if (camera) showOnly(camera);
   });
   state.watch(
-    ({ scene }) => camerasOf(scene),
-    (all) => fillChoice(choice, all, state.get().camera),
+    ({ scene }) => imagesOf(scene),
+    (all) => {
+      if (only && !all.some(({ topic }) => topic === only!.topic)) only = null;
+      const every = new Option(`All cameras (${all.length})`, ALL);
+      choice.replaceChildren(...(all.length > 1 ? [every] : []), ...all.map((each) => new Option(nameOf(each), each.topic)));
+      build();
+    },
   );
   state.watch(
-    ({ camera }) => camera,
-    listen,
-    (a, b) => a?.topic === b?.topic,
+    ({ camera }) => camera?.topic,
+    () => {
+      only = null;
+      build();
+    },
   );
   // Another simulation has another stream, even under the same topic's name.
   state.watch(
-    ({ simulation, view, replay }) => ({
-      simulation,
-      isStarting: view === "starting",
-      isRecorded: replay !== null,
-    }),
-    () => listen(state.get().camera),
+    ({ simulation, view, replay }) => ({ simulation, isStarting: view === "starting", isRecorded: replay !== null }),
+    listen,
     shallowEqual,
   );
-  const follow = (open: boolean) => {
+  state.watch(
+    ({ time }) => time,
+    () => isOpen && tiles.forEach((tile) => tile.judgeAge()),
+  );
+  const setOpen = (open: boolean) => {
     isOpen = open;
-    listen(state.get().camera);
+    listen();
   };
   return {
-    body: element("div", { class: "camera-body" }, hint, body),
-    tools: [choice],
+    body: element("div", { class: "camera-body" }, hint, note, place),
+    tools: [choice, element("span", { class: "spacer" }), ...zooms],
     whileOpen: () => {
-      follow(true);
-      return () => follow(false);
+      setOpen(true);
+      return () => setOpen(false);
     },
   };
 }
 
-function fillChoice(choice: HTMLSelectElement, cameras: readonly CameraChoice[], chosen: CameraChoice | null): void {
-  choice.replaceChildren(
-    ...cameras.map(({ robot, sensor, topic }) => new Option(robot + SEPARATOR + sensor, topic)),
-  );
-  if (chosen) choice.value = chosen.topic;
+function nameOf({ robot, sensor }: CameraChoice): string {
+  return robot + SEPARATOR + sensor;
 }
 
-// Decodes one picture at a time; of those that arrive meanwhile only the newest is kept.
-class PicturePainter {
-  private next: CompressedImageMessage | null = null;
-  private busy = false;
-  private isPainted = false;
-  private generation = 0;
-  // Kept by the processor, not the graphics card: where none is, the page would wait for the 3D picture
-  // that is being drawn.
-  private readonly context: CanvasRenderingContext2D | null;
-
-  constructor(
-    private readonly canvas: HTMLCanvasElement,
-    private readonly onPainted: (time: number) => void,
-  ) {
-    this.context = canvas.getContext("2d", { willReadFrequently: true });
+// Cameras, then depth cameras, whose points are images of depths.
+function imagesOf(scene: SceneDescription | null): readonly CameraChoice[] {
+  let found = scene ? known.get(scene) : NO_CAMERAS;
+  if (!found) {
+    const depth = robotsOf(scene).flatMap(({ name, sensors }) =>
+      sensors.filter(({ type }) => type === "depth_camera").map(({ name: sensor, topic }) => ({ robot: name, sensor, topic })),
+    );
+    known.set(scene!, (found = [...camerasOf(scene), ...depth]));
   }
-
-  clear(): void {
-    this.generation += 1;
-    this.next = null;
-    // The first call on a canvas waits until the browser has started to draw.
-    if (this.isPainted) this.context?.clearRect(0, 0, this.canvas.width, this.canvas.height);
-    this.isPainted = false;
-  }
-
-  take(image: CompressedImageMessage): void {
-    this.next = image;
-    if (!this.busy) void this.paintAll();
-  }
-
-  private async paintAll(): Promise<void> {
-    this.busy = true;
-    while (this.next) {
-      const image = this.next;
-      this.next = null;
-      await this.paint(image, this.generation);
-    }
-    this.busy = false;
-  }
-
-  private async paint(image: CompressedImageMessage, generation: number): Promise<void> {
-    if (image.format.startsWith("mono16")) {
-      const shown = await colouredGreyPng(image.data.slice());
-      if (shown && generation === this.generation) this.paintColoured(shown, image);
-      return;
-    }
-    const type = image.format.includes("png") ? "image/png" : "image/jpeg";
-    // A copy: the message may be a view on memory that the connection uses again.
-    const blob = new Blob([image.data.slice()], { type });
-    const bitmap = await createImageBitmap(blob).catch(() => null);
-    if (!bitmap || generation !== this.generation) return;
-    this.canvas.width = bitmap.width;
-    this.canvas.height = bitmap.height;
-    this.context?.drawImage(bitmap, 0, 0);
-    this.isPainted = true;
-    bitmap.close();
-    this.onPainted(seconds(image.header.stamp));
-  }
-
-  private paintColoured({ width, height, rgba }: ColouredImage, { header }: CompressedImageMessage): void {
-    this.canvas.width = width;
-    this.canvas.height = height;
-    this.context?.putImageData(new ImageData(rgba, width, height), 0, 0);
-    this.isPainted = true;
-    this.onPainted(seconds(header.stamp));
-  }
+  return found;
 }
+
+const NO_CAMERAS: readonly CameraChoice[] = [];
+const known = new WeakMap<SceneDescription, readonly CameraChoice[]>(); // a scene never changes

@@ -5,6 +5,8 @@
 import type { ServerFigures } from "../../api/MetricsApi";
 import type { CommandArguments, CommandDescription } from "../../api/commands";
 import type { CurveOf, WholeCurve } from "../../api/curve";
+import type { BodyJoints, JointCommandKind } from "../../api/joints";
+import type { Drive } from "../../api/SimulationApi";
 import type { OutputLine } from "../../api/health";
 import type { RecordedLine } from "../../api/replay";
 import type { CameraChoice } from "../../api/scene";
@@ -21,6 +23,7 @@ export interface PanelPorts {
   traffic: TrafficPort;
   server: ServerPort;
   commands: CommandsPort;
+  control: ControlPort;
   replay: ReplayPort;
   robots: RobotsPort;
   edits: EditsPort;
@@ -53,6 +56,16 @@ export interface ServerPort {
 export interface CommandsPort {
   list(simulation: string): Promise<CommandDescription[]>;
   run(simulation: string, command: string, given: CommandArguments): Promise<void>;
+}
+
+// Commands to bodies. Promises reject with the server's sentence.
+export interface ControlPort {
+  // Takes control of the simulation, or asks the one who has it.
+  take(): Promise<void>;
+  // The velocity of an avatar, or of a robot without a behaviour, until the next command.
+  drive(simulation: string, robot: string, drive: Drive): Promise<void>;
+  joints(simulation: string, body: string): Promise<BodyJoints>;
+  commandJoint(simulation: string, body: string, joint: string, kind: JointCommandKind, value: number): Promise<void>;
 }
 
 export interface ReplayPort {

@@ -29,7 +29,7 @@ export class TestTopics implements TopicSource {
   }
 }
 
-export function testPorts(state: Partial<State> = {}, server: Partial<PanelPorts["server"]> = {}) {
+export function testPorts(state: Partial<State> = {}, server: Partial<PanelPorts["server"]> = {}, control: Partial<PanelPorts["control"]> = {}) {
   const store = new Store<State>({
     ...initialState,
     connection: { phase: "open" },
@@ -51,6 +51,13 @@ export function testPorts(state: Partial<State> = {}, server: Partial<PanelPorts
       ...server,
     },
     commands: { list: vi.fn(async () => []), run: vi.fn(async () => {}) },
+    control: {
+      take: vi.fn(async () => {}),
+      drive: vi.fn(async () => {}),
+      joints: vi.fn(async () => ({ time: 0, joints: [], refusal: "" })),
+      commandJoint: vi.fn(async () => {}),
+      ...control,
+    },
     replay: { seek: vi.fn(async () => {}) },
     robots: {
       select: vi.fn(),

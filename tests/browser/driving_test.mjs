@@ -1,0 +1,155 @@
+// Commands by hand: a robot is driven through a door by keys, by the pad and by a gamepad, and an arm's joint is
+// moved. Two viewers do not drive one robot.
+import assert from "node:assert/strict";
+import path from "node:path";
+import { after, before, test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { startServer } from "./server.mjs";
+import { ask, until } from "./viewing.mjs";
+
+const WORLD = path.join(path.dirname(fileURLToPath(import.meta.url)), "models", "workcell.sdf");
+const DOOR_X = 2; // m
+
+let server;
+let browser;
+let page;
+let faults;
+
+before(async () => {
+  const robots = ["--robot", "pebble@0,0", "--robot", "porter@-1.5,-1.5", "--behaviour", "porter=wander"];
+  server = await startServer([WORLD, ...robots]);
+  browser = await openBrowser({ width: 1366, height: 768 });
+  await browser.context.addInitScript(() => {
+    window.pads = [];
+    navigator.getGamepads = () => window.pads;
+  });
+  ({ page, faults } = await openPage(browser, server.url));
+  await waitUntilDrawn(page);
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+const press = (name, of = page) => of.getByRole("button", { name, exact: true }).click();
+const panel = (name, of = page) => of.getByRole("region", { name, exact: true });
+const pad = (of = page) => of.getByRole("application", { name: "Driving pad" });
+const placeOf = (robot, of = page) => of.evaluate((name) => window.gsv.robotPosition(name), robot);
+const movesOn = async (robot, least) => {
+  const then = await placeOf(robot);
+  await until(async () => Math.hypot((await placeOf(robot)).x - then.x, (await placeOf(robot)).y - then.y) > least, `${robot} to move`);
+};
+
+async function standsStill(robot) {
+  await until(async () => {
+    const then = await placeOf(robot);
+    await page.waitForFunction((time) => window.gsv.time > time + 0.5, then.time);
+    const now = await placeOf(robot);
+    return Math.hypot(now.x - then.x, now.y - then.y) < 0.005;
+  }, `${robot} to stand`);
+}
+
+test("a robot without a behaviour is driven through the door by keys, and stands when they are let go", async () => {
+  await press("Teleoperation");
+  const choice = panel("Teleoperation").getByRole("combobox", { name: "Robot to drive" });
+  assert.deepEqual(await choice.locator("option").allTextContents(), ["pebble"], "the other one has a behaviour");
+  await pad().focus();
+  await page.keyboard.down("w");
+  await until(async () => (await placeOf("pebble")).x > DOOR_X + 0.5, "the robot behind the door");
+  await panel("Teleoperation").getByText(/pebble: 0.50 m\/s/).waitFor();
+  await page.keyboard.up("w");
+  await panel("Teleoperation").getByText("Stopped").waitFor();
+  await standsStill("pebble");
+  const { robots } = await ask(page, "");
+  assert.equal(robots.find(({ name }) => name === "pebble").collisions, 0);
+});
+
+test("keys belong to the pad while it has the focus, and losing the focus stops the robot", async () => {
+  await pad().focus();
+  await page.keyboard.down("s");
+  await movesOn("pebble", 0.1);
+  await page.evaluate(() => document.activeElement.blur());
+  await standsStill("pebble");
+  await page.keyboard.up("s");
+  const then = await placeOf("pebble");
+  await page.keyboard.press("w");
+  await standsStill("pebble");
+  const now = await placeOf("pebble");
+  assert.ok(Math.hypot(now.x - then.x, now.y - then.y) < 0.02, "a key beside the pad drives nothing");
+});
+
+test("the pad is dragged by mouse or finger", async () => {
+  const box = await pad().boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height * 0.9, { steps: 3 });
+  await movesOn("pebble", 0.1);
+  await page.mouse.up();
+  await standsStill("pebble");
+});
+
+test("a gamepad drives, and the robot stands when it is pulled out", async () => {
+  await page.evaluate(() => (window.pads = [{ index: 0, id: "Test pad", connected: true, axes: [0, -1, 0, 0] }]));
+  await panel("Teleoperation").getByText(/Gamepad connected: Test pad/).waitFor();
+  await movesOn("pebble", 0.1);
+  await page.evaluate(() => (window.pads = [null]));
+  await panel("Teleoperation").getByText("The gamepad was pulled out. The robot stops.").waitFor();
+  await standsStill("pebble");
+});
+
+test("a second viewer gets a sentence, and no robot", async () => {
+  const { page: second } = await openPage(browser, server.url);
+  await second.waitForFunction(() => window.gsv !== undefined);
+  await panel("Teleoperation", second).getByText("Others are watching this simulation. Take control first.").waitFor();
+  await press("Take control", panel("Teleoperation", second));
+  await panel("Teleoperation", second).getByText("Others are watching").waitFor({ state: "hidden" });
+  await page.bringToFront();
+  await panel("Teleoperation").getByText(/ has control\.$/).waitFor();
+  const then = await placeOf("pebble");
+  await pad().focus();
+  await page.keyboard.press("w", { delay: 300 });
+  await standsStill("pebble");
+  const now = await placeOf("pebble");
+  assert.ok(Math.hypot(now.x - then.x, now.y - then.y) < 0.02, "the first viewer drives nothing");
+  await second.close();
+  await panel("Teleoperation").getByText(/ has control\.$/).waitFor({ state: "hidden" });
+});
+
+test("the server refuses to drive a robot that its behaviour controls", async () => {
+  const { error } = await ask(page, "/robots/porter/drive", { linear_m_s: 1 });
+  assert.equal(error, "'porter' is controlled by its behaviour 'wander'. Add a robot without a behaviour to control it yourself.");
+});
+
+test("an arm's joint is moved by its slider, and shows its limits", async () => {
+  await press("Joints");
+  const joints = panel("Joints");
+  await joints.getByRole("combobox", { name: "Body" }).selectOption("arm");
+  const shoulder = joints.locator('[data-joint="shoulder"]');
+  await shoulder.getByText("-1.500 rad to 1.500 rad, at most 2.000 rad/s, at most 60.0 N m").waitFor();
+  await shoulder.getByRole("slider").focus();
+  for (let i = 0; i < 5; i++) await page.keyboard.press("PageUp");
+  const wanted = Number(await shoulder.getByRole("slider").inputValue());
+  assert.ok(wanted > 0.5, `the slider stands at ${wanted}`);
+  const position = async () => (await ask(page, "/bodies/arm/joints")).joints.find(({ name }) => name === "shoulder").position;
+  await until(async () => Math.abs((await position()) - wanted) < 0.02, "the joint where the slider stands");
+  await until(async () => Math.abs(parseFloat(await shoulder.locator(".joint-state").textContent()) - wanted) < 0.03, "its position in the panel");
+  await joints.getByLabel("Degrees").check();
+  await shoulder.getByText(/-85.9 ° to 85.9 °/).waitFor();
+  const slide = joints.locator('[data-joint="slide"]');
+  await slide.getByLabel("slide: position as a number").fill("0.2");
+  await page.keyboard.press("Enter");
+  await until(async () => Math.abs((await ask(page, "/bodies/arm/joints")).joints[1].position - 0.2) < 0.01, "the slide at 0.2 m");
+});
+
+test("the joints of a robot that its behaviour controls say why they cannot be moved", async () => {
+  const joints = panel("Joints");
+  await joints.getByRole("combobox", { name: "Body" }).selectOption("porter");
+  await joints.getByText("'porter' is controlled by its behaviour 'wander'. Add a robot without a behaviour to control it yourself.").waitFor();
+  assert.equal(await joints.getByRole("slider").first().isDisabled(), true);
+});
+
+test("nothing went wrong, and nothing was asked of another host", () => {
+  assert.deepEqual(faults.filter((fault) => !fault.includes("status of 409")), []);
+});

@@ -1,0 +1,88 @@
+// The panel of images: all cameras at once, one in full size with zoom, and the values of a depth image.
+import assert from "node:assert/strict";
+import path from "node:path";
+import { after, before, test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { startServer } from "./server.mjs";
+import { until } from "./viewing.mjs";
+
+const SURVEYOR = path.join(path.dirname(fileURLToPath(import.meta.url)), "models", "surveyor.sdf");
+
+let server;
+let browser;
+let page;
+let faults;
+
+before(async () => {
+  const robots = ["--robot", `${SURVEYOR}@3.2,0`, "--robot", `${SURVEYOR}@0,2`, "--robot", `${SURVEYOR}@0,-2`];
+  server = await startServer(["playground", ...robots]);
+  browser = await openBrowser({ width: 1366, height: 768 });
+  ({ page, faults } = await openPage(browser, server.url));
+  await waitUntilDrawn(page);
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+const press = (name) => page.getByRole("button", { name, exact: true }).click();
+const panel = () => page.getByRole("region", { name: "Images", exact: true });
+const camera = () => panel().getByRole("combobox", { name: "Camera" });
+
+// How many different colours each canvas has: an image that has not come has one.
+const colours = () =>
+  panel()
+    .locator("canvas")
+    .evaluateAll((canvases) =>
+      canvases.map((canvas) => {
+        const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+        const found = new Set();
+        for (let i = 0; i < data.length; i += 4) found.add((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]);
+        return found.size;
+      }),
+    );
+
+test("three cameras are seen at once", async () => {
+  await panel().getByRole("combobox", { name: "Camera" }).selectOption({ label: "All cameras (6)" });
+  await press("Arrange images");
+  await press("Maximise");
+  await until(async () => {
+    const found = await colours();
+    return found.length === 6 && found.every((number) => number > 5);
+  }, "six images");
+  const boxes = await panel().locator("canvas").evaluateAll((all) => all.map((each) => each.getBoundingClientRect()).map(({ x, y, width, height }) => [x, y, width, height]));
+  assert.equal(new Set(boxes.map(([x, y]) => `${x} ${y}`)).size, 6, "each has its own place");
+  assert.ok(boxes.every(([, , width, height]) => width > 100 && height > 70), JSON.stringify(boxes));
+});
+
+test("a click on one shows it alone, and it is zoomed", async () => {
+  await panel().getByRole("button", { name: /^surveyor_2 · camera$/ }).first().click();
+  await until(async () => (await panel().locator("canvas").count()) === 1 && (await colours())[0] > 5, "one image");
+  const size = async () => (await panel().locator("canvas").boundingBox()).width;
+  const then = await size();
+  await press("Zoom in");
+  assert.ok(Math.abs((await size()) / then - 1.25) < 0.02);
+  await press("Fit the image");
+  assert.ok(Math.abs((await size()) - then) < 2);
+});
+
+test("a depth image has a scale, and the value under the pointer", async () => {
+  const depth = await camera().locator("option").evaluateAll((all) => all.find(({ text }) => text.endsWith("· depth")).value);
+  await camera().selectOption(depth);
+  await panel().locator(".picture-scale").waitFor();
+  const [least, largest] = (await panel().locator(".picture-scale .number").allTextContents()).map(parseFloat);
+  assert.ok(least > 0 && largest > least, `from ${least} to ${largest}`);
+  const box = await panel().locator("canvas").boundingBox();
+  // Low in the image is the floor, which every depth camera here sees.
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height * 0.8);
+  const value = panel().locator(".picture-value");
+  await until(async () => /\(\d+, \d+\): [\d.]+ m/.test(await value.textContent()), "a depth");
+  const metres = Number(/: ([\d.]+) m/.exec(await value.textContent())[1]);
+  assert.ok(metres >= least - 0.01 && metres <= largest + 0.01, `${metres} lies between ${least} and ${largest}`);
+});
+
+test("nothing went wrong, and nothing was asked of another host", () => {
+  assert.deepEqual(faults, []);
+});

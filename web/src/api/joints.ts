@@ -1,0 +1,53 @@
+// The joints of a body: their limits, their state, and what they are commanded (docs/api.yaml).
+import { listAt, numberAt, numberOr, objectAt, textAt, textOr } from "./json";
+
+export const COMMAND_KINDS = ["position", "velocity", "effort"] as const;
+export type JointCommandKind = (typeof COMMAND_KINDS)[number];
+
+export interface Joint {
+  name: string;
+  kind: string; // "revolute", "continuous", "prismatic" or "screw"
+  unit: "rad" | "m"; // of the position and its limits
+  position: number;
+  velocity: number; // in the unit of the position, per second
+  minimum: number; // infinite: no limit
+  maximum: number;
+  maxVelocity: number;
+  maxEffort: number; // N m or N
+  command: { kind: JointCommandKind; value: number } | null; // the last one
+  refusal: string; // why it takes no commands; empty: it takes them
+}
+
+export interface BodyJoints {
+  time: number; // s, simulated
+  joints: Joint[];
+  refusal: string; // why none of them takes commands from viewers; empty: they do
+}
+
+export function parseJoints(json: unknown): BodyJoints {
+  const body = objectAt(json, "joints");
+  return {
+    time: numberAt(body.time_s, "time_s"),
+    joints: listAt(body.joints, "joints").map((each, i) => parseJoint(each, `joints[${i}]`)),
+    refusal: textOr(body.refusal, ""),
+  };
+}
+
+function parseJoint(json: unknown, where: string): Joint {
+  const joint = objectAt(json, where);
+  const command = joint.command === undefined ? {} : objectAt(joint.command, `${where}.command`);
+  const kind = COMMAND_KINDS.find((each) => typeof command[each] === "number");
+  return {
+    name: textAt(joint.name, `${where}.name`),
+    kind: textAt(joint.kind, `${where}.kind`),
+    unit: joint.unit === "m" ? "m" : "rad",
+    position: numberAt(joint.position, `${where}.position`),
+    velocity: numberAt(joint.velocity, `${where}.velocity`),
+    minimum: numberOr(joint.minimum, -Infinity),
+    maximum: numberOr(joint.maximum, Infinity),
+    maxVelocity: numberOr(joint.max_velocity, Infinity),
+    maxEffort: numberOr(joint.max_effort, Infinity),
+    command: kind === undefined ? null : { kind, value: command[kind] as number },
+    refusal: textOr(joint.refusal, ""),
+  };
+}

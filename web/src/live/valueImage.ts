@@ -1,0 +1,77 @@
+// Images whose pixels are values, such as depths in metres: in colours, with the value under the pointer.
+import type { PointCloud } from "./clouds";
+
+export interface ValueImage {
+  width: number;
+  height: number;
+  values: Float32Array; // in rows from the top; NaN or infinite: nothing was measured
+  unit: string;
+}
+
+export interface ColouredImage {
+  width: number;
+  height: number;
+  rgba: Uint8ClampedArray<ArrayBuffer>;
+}
+
+const MAX_PIXELS = 1 << 24;
+const FLOAT32 = 7;
+
+// The colour map "inferno" (Smith and van der Walt), in between by straight lines.
+const STOPS = [
+  [0, 0, 4],
+  [66, 10, 104],
+  [147, 38, 103],
+  [221, 81, 58],
+  [252, 165, 10],
+  [252, 255, 164],
+] as const;
+const NOTHING = [32, 38, 46, 255] as const; // where nothing was measured
+
+// Of a depth camera: the distance along the view, which is x in its frame. Null: the cloud has no rows.
+export function depthImageOf({ width, height, fields, data, point_step, row_step, is_bigendian }: PointCloud): ValueImage | null {
+  const x = fields.find(({ name, datatype }) => name === "x" && datatype === FLOAT32);
+  const isWhole = height > 1 && width > 0 && width * height <= MAX_PIXELS && point_step >= 4 && row_step >= width * point_step;
+  if (!x || !isWhole || x.offset + 4 > point_step || data.byteLength < height * row_step) return null;
+  const bytes = new DataView(data.buffer, data.byteOffset, data.byteLength);
+  const values = new Float32Array(width * height);
+  for (let row = 0; row < height; row++) {
+    for (let column = 0; column < width; column++) {
+      values[row * width + column] = bytes.getFloat32(row * row_step + column * point_step + x.offset, !is_bigendian);
+    }
+  }
+  return { width, height, values, unit: "m" };
+}
+
+// The least and the largest value; equal to each other where there are none.
+export function spanOf(values: Float32Array): [number, number] {
+  let [least, largest] = [Infinity, -Infinity];
+  for (const value of values) {
+    if (!Number.isFinite(value)) continue;
+    if (value < least) least = value;
+    if (value > largest) largest = value;
+  }
+  return least <= largest ? [least, largest] : [0, 0];
+}
+
+// From the least value, dark, to the largest, bright.
+export function coloured({ width, height, values }: ValueImage): ColouredImage {
+  const [least, largest] = spanOf(values);
+  const scale = largest > least ? 1 / (largest - least) : 0;
+  const rgba = new Uint8ClampedArray(4 * width * height);
+  values.forEach((value, i) => rgba.set(Number.isFinite(value) ? colourAt((value - least) * scale) : NOTHING, 4 * i));
+  return { width, height, rgba };
+}
+
+export const SCALE_CSS = `linear-gradient(to right, ${STOPS.map((stop) => `rgb(${stop.join(" ")})`).join(", ")})`;
+
+// Of a part from 0 to 1.
+export function colourAt(part: number): [number, number, number, number] {
+  const place = part * (STOPS.length - 1);
+  const below = Math.min(Math.floor(place), STOPS.length - 2);
+  const channel = (i: 0 | 1 | 2) => {
+    const [from, to] = [STOPS[below]![i], STOPS[below + 1]![i]];
+    return from + (place - below) * (to - from);
+  };
+  return [channel(0), channel(1), channel(2), 255];
+}

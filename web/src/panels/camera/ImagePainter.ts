@@ -1,0 +1,97 @@
+// Paints the images of one camera: one is decoded at a time, and of those that arrive meanwhile only the newest is
+// kept.
+import type { PointCloud } from "../../live/clouds";
+import { valuesOfGreyPng } from "../../live/greyPng";
+import type { ValueImage } from "../../live/valueImage";
+import { coloured, depthImageOf } from "../../live/valueImage";
+import type { CompressedImageMessage } from "../../protocol/messages";
+import { seconds } from "../../protocol/messages";
+
+type Stamped = Pick<CompressedImageMessage, "header">;
+export type CameraMessage = CompressedImageMessage | (PointCloud & Stamped);
+
+export interface Painted {
+  time: number; // s, simulated
+  values: ValueImage | null; // null: its pixels are colours
+}
+
+export class ImagePainter {
+  private next: CameraMessage | null = null;
+  private busy = false;
+  private isPainted = false;
+  private generation = 0;
+  // Kept by the processor, not the graphics card: where none is, the page would wait for the 3D picture
+  // that is being drawn.
+  private readonly context: CanvasRenderingContext2D | null;
+
+  // `onProblem` gets the sentence of an image that cannot be shown.
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly onPainted: (painted: Painted) => void,
+    private readonly onProblem: (sentence: string) => void,
+  ) {
+    this.context = canvas.getContext("2d", { willReadFrequently: true });
+  }
+
+  clear(): void {
+    this.generation += 1;
+    this.next = null;
+    // The first call on a canvas waits until the browser has started to draw.
+    if (this.isPainted) this.context?.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    this.isPainted = false;
+  }
+
+  take(image: CameraMessage): void {
+    this.next = image;
+    if (!this.busy) void this.paintAll();
+  }
+
+  private async paintAll(): Promise<void> {
+    this.busy = true;
+    while (this.next) {
+      const image = this.next;
+      this.next = null;
+      const problem = await this.paint(image, this.generation);
+      if (problem !== "") this.onProblem(problem);
+    }
+    this.busy = false;
+  }
+
+  // Gives the sentence of a problem; empty: none.
+  private async paint(image: CameraMessage, generation: number): Promise<string> {
+    if ("point_step" in image) {
+      const depths = depthImageOf(image);
+      if (!depths) return "The depth image cannot be read: its points are in no rows.";
+      this.paintValues(depths, image);
+      return "";
+    }
+    if (image.format.startsWith("mono16")) {
+      const values = await valuesOfGreyPng(image.data.slice());
+      if (!values) return `The image cannot be decoded (format ${image.format}).`;
+      if (generation === this.generation) this.paintValues(values, image);
+      return "";
+    }
+    const type = image.format.includes("png") ? "image/png" : "image/jpeg";
+    // A copy: the message may be a view on memory that the connection uses again.
+    const blob = new Blob([image.data.slice()], { type });
+    const bitmap = await createImageBitmap(blob).catch(() => null);
+    if (!bitmap) return `The image cannot be decoded (format ${image.format}).`;
+    if (generation !== this.generation) return "";
+    this.canvas.width = bitmap.width;
+    this.canvas.height = bitmap.height;
+    this.context?.drawImage(bitmap, 0, 0);
+    this.isPainted = true;
+    bitmap.close();
+    this.onPainted({ time: seconds(image.header.stamp), values: null });
+    return "";
+  }
+
+  private paintValues(values: ValueImage, { header }: Stamped): void {
+    const { width, height, rgba } = coloured(values);
+    this.canvas.width = width;
+    this.canvas.height = height;
+    this.context?.putImageData(new ImageData(rgba, width, height), 0, 0);
+    this.isPainted = true;
+    this.onPainted({ time: seconds(header.stamp), values });
+  }
+}

@@ -1,0 +1,111 @@
+// One joint: its position between its limits, a slider and a number to command it.
+import { NewestOnly } from "../../api/NewestOnly";
+import type { Joint } from "../../api/joints";
+import { element, setAttribute, setText } from "../../ui/element";
+import { formatNumber } from "../../ui/format";
+
+const STEPS = 400; // of the slider
+const USUAL_VELOCITY = 2; // rad/s or m/s, where the joint has no limit
+const HELD_MS = 600; // after a change the field stays as it was set, until the server tells it back
+
+interface Actions {
+  command(joint: string, kind: "position" | "velocity", value: number): Promise<void>;
+  problem(sentence: string): void;
+}
+
+interface How {
+  isRefused: boolean; // nobody may command now
+  inDegrees: boolean;
+}
+
+export class JointRow {
+  readonly element: HTMLElement;
+  private readonly state = element("span", { class: "joint-state number" });
+  private readonly limits = element("span", { class: "dim number" });
+  private readonly refusal = element("p", { class: "dim" });
+  private readonly slider: HTMLInputElement;
+  private readonly field: HTMLInputElement;
+  private readonly wishes: NewestOnly<number>;
+  private readonly kind: "position" | "velocity";
+  private inDegrees = false;
+  private heldUntil = 0; // ms
+
+  constructor(joint: Joint, { command, problem }: Actions) {
+    const hasLimits = Number.isFinite(joint.minimum) && Number.isFinite(joint.maximum);
+    this.kind = hasLimits ? "position" : "velocity"; // without limits there is nothing to slide between
+    const [minimum, maximum] = this.rangeOf(joint);
+    this.slider = element("input", {
+      type: "range",
+      min: String(minimum),
+      max: String(maximum),
+      step: String((maximum - minimum) / STEPS || 1),
+      "aria-label": `${joint.name}: ${this.kind}`,
+    });
+    this.field = element("input", { type: "number", step: "any", "aria-label": `${joint.name}: ${this.kind} as a number` });
+    this.wishes = new NewestOnly((value) => command(joint.name, this.kind, value), problem);
+    this.slider.addEventListener("input", () => this.send(Number(this.slider.value)));
+    this.field.addEventListener("change", () => {
+      if (this.field.value !== "") this.send(Math.min(maximum, Math.max(minimum, Number(this.field.value) / this.scale(joint.unit))));
+    });
+    this.slider.addEventListener("dblclick", () => this.kind === "velocity" && this.send(0));
+    const name = element("span", { class: "joint-name", title: joint.name }, joint.name);
+    const head = element("div", { class: "joint-head" }, name, element("span", { class: "dim" }, joint.kind), this.state);
+    const stop = element("button", { class: "button small", type: "button", onclick: () => this.send(0) }, "Stop");
+    stop.hidden = this.kind === "position";
+    const controls = element("div", { class: "joint-controls" }, this.slider, this.field, stop);
+    this.element = element("li", { "data-joint": joint.name }, head, controls, this.limits, this.refusal);
+  }
+
+  show(joint: Joint, { isRefused, inDegrees }: How): void {
+    this.inDegrees = inDegrees;
+    const scale = this.scale(joint.unit);
+    const unit = inDegrees && joint.unit === "rad" ? "°" : joint.unit;
+    const digits = unit === "°" ? 1 : 3;
+    const text = (value: number) => `${formatNumber(value * scale, digits)} ${unit}`;
+    setText(this.state, `${text(joint.position)}, ${text(joint.velocity)}/s`);
+    setText(this.limits, limitsOf(joint, text));
+    setText(this.refusal, joint.refusal);
+    this.refusal.hidden = joint.refusal === "";
+    const isOff = isRefused || joint.refusal !== "";
+    this.slider.disabled = this.field.disabled = isOff;
+    for (const button of this.element.querySelectorAll("button")) button.disabled = isOff;
+    const commanded = joint.command?.kind === this.kind ? joint.command.value : this.kind === "position" ? joint.position : 0;
+    const isHeld = performance.now() < this.heldUntil || document.activeElement === this.field;
+    if (!isHeld) this.showTarget(commanded, scale, digits);
+    setAttribute(this.slider, "aria-valuetext", `${text(Number(this.slider.value))}${this.kind === "velocity" ? "/s" : ""}`);
+  }
+
+  private showTarget(value: number, scale: number, digits: number): void {
+    if (document.activeElement !== this.slider || Math.abs(Number(this.slider.value) - value) > 1e-9) this.slider.value = String(value);
+    this.field.value = formatNumber(value * scale, digits);
+  }
+
+  private send(value: number): void {
+    this.heldUntil = performance.now() + HELD_MS;
+    this.slider.value = String(value);
+    const scale = this.inDegrees && this.field.dataset.unit !== "m" ? 180 / Math.PI : 1;
+    this.field.value = formatNumber(value * scale, scale === 1 ? 3 : 1);
+    this.wishes.push(value);
+  }
+
+  private scale(unit: Joint["unit"]): number {
+    this.field.dataset.unit = unit;
+    return this.inDegrees && unit === "rad" ? 180 / Math.PI : 1;
+  }
+
+  private rangeOf({ minimum, maximum, maxVelocity }: Joint): [number, number] {
+    if (this.kind === "position") return [minimum, maximum];
+    const fastest = Math.min(maxVelocity, USUAL_VELOCITY);
+    return [-fastest, fastest];
+  }
+}
+
+function limitsOf({ minimum, maximum, maxVelocity, maxEffort, unit }: Joint, text: (value: number) => string): string {
+  const isFinite = Number.isFinite;
+  const parts = [
+    isFinite(minimum) && isFinite(maximum) ? `${text(minimum)} to ${text(maximum)}` : "no position limits: the slider sets the velocity",
+    isFinite(maxVelocity) && `at most ${text(maxVelocity)}/s`,
+    isFinite(maxEffort) && `at most ${formatNumber(maxEffort, 1)} ${unit === "m" ? "N" : "N m"}`,
+  ];
+  return parts.filter(Boolean).join(", ");
+}

@@ -1,0 +1,76 @@
+// @vitest-environment jsdom
+import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import type { BodyJoints, Joint } from "../../api/joints";
+import { body, scene } from "../../scene/testScene";
+import { simulationStatus } from "../../page/testApp";
+import { testPorts } from "../contract/testPorts";
+import { mount } from "./JointsPanel";
+
+beforeEach(() => void vi.useFakeTimers());
+afterEach(() => void vi.useRealTimers());
+
+const ELBOW: Joint = {
+  name: "elbow",
+  kind: "revolute",
+  unit: "rad",
+  position: Math.PI / 4,
+  velocity: 0,
+  minimum: -Math.PI / 2,
+  maximum: Math.PI / 2,
+  maxVelocity: 2,
+  maxEffort: Infinity,
+  command: null,
+  refusal: "",
+};
+const JOINT = { name: "elbow", kind: "revolute", link: null, pose: [0, 0, 0, 0, 0, 0, 1], axis: [0, 0, 1] } as never;
+
+async function opened(told: Partial<BodyJoints>) {
+  const joints = vi.fn(async () => ({ time: 0, joints: [ELBOW], refusal: "", ...told }));
+  const bodies = [body("wall", { isRobot: false }), body("arm", { isRobot: false, joints: [JOINT] })];
+  const commandJoint = vi.fn(async () => {});
+  const { ports } = testPorts({ scene: scene({ bodies }), status: simulationStatus("running") }, {}, { joints, commandJoint });
+  const { body: element, tools, whileOpen } = mount(ports);
+  document.body.replaceChildren(...tools!, element);
+  const end = whileOpen!();
+  await vi.advanceTimersByTimeAsync(10);
+  return { commandJoint, joints, end, slider: () => document.querySelector<HTMLInputElement>('input[type="range"]')! };
+}
+
+test("a joint is shown with its limits, and moved by its slider and by its number", async () => {
+  const { commandJoint, slider, end } = await opened({});
+  expect(document.querySelector(".joint-state")!.textContent).toBe("0.785 rad, 0.000 rad/s");
+  expect(document.body.textContent).toContain("-1.571 rad to 1.571 rad, at most 2.000 rad/s");
+  slider().value = "1.2";
+  slider().dispatchEvent(new Event("input"));
+  await vi.advanceTimersByTimeAsync(1);
+  const [, , , kind, value] = commandJoint.mock.calls.at(-1)! as unknown as [string, string, string, string, number];
+  expect([kind, Math.round(value * 100)]).toEqual(["position", 120]);
+  const degrees = document.querySelector<HTMLInputElement>('input[type="checkbox"]')!;
+  degrees.checked = true;
+  await vi.advanceTimersByTimeAsync(250);
+  expect(document.querySelector(".joint-state")!.textContent).toBe("45.0 °, 0.0 °/s");
+  const field = document.querySelector<HTMLInputElement>('input[type="number"]')!;
+  field.value = "900";
+  field.dispatchEvent(new Event("change"));
+  await vi.advanceTimersByTimeAsync(1);
+  expect((commandJoint.mock.calls.at(-1) as unknown as unknown[])[4]).toBeCloseTo(Math.PI / 2);
+  end();
+});
+
+test("a joint without limits has its velocity on the slider, and a button that stops it", async () => {
+  const { commandJoint, end } = await opened({ joints: [{ ...ELBOW, kind: "continuous", minimum: -Infinity, maximum: Infinity }] });
+  [...document.querySelectorAll("button")].find(({ textContent }) => textContent === "Stop")!.click();
+  await vi.advanceTimersByTimeAsync(1);
+  expect(commandJoint).toHaveBeenCalledWith("house", "arm", "elbow", "velocity", 0);
+  end();
+});
+
+test("why a body or a joint takes no commands is said, and its slider is off", async () => {
+  const { slider, end, joints } = await opened({ refusal: "'arm' is controlled by its behaviour" });
+  expect(document.querySelector(".joints-note")!.textContent).toBe("'arm' is controlled by its behaviour");
+  expect(slider().disabled).toBe(true);
+  end();
+  const asked = joints.mock.calls.length;
+  await vi.advanceTimersByTimeAsync(2000);
+  expect(joints).toHaveBeenCalledTimes(asked); // nothing is asked while nobody looks
+});

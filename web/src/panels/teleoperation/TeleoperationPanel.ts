@@ -1,0 +1,144 @@
+// Driving a robot by hand: keys while the pad has the focus, a finger or the mouse on the pad, or a gamepad.
+// Whatever is let go of stops the robot: keys, the pad, the focus, the panel, the page.
+import { needsControl } from "../../state/people";
+import type { State } from "../../state/State";
+import { shallowEqual } from "../../state/Store";
+import { element, setText } from "../../ui/element";
+import type { MountedPanel } from "../contract/Panel";
+import type { PanelPorts } from "../contract/ports";
+import { controlLine } from "../control/controlLine";
+import { Driver } from "./Driver";
+import type { Wish } from "./driving";
+import { STILL, isStill } from "./driving";
+import { DrivingPad } from "./DrivingPad";
+import { GamepadReader } from "./GamepadReader";
+
+type Ports = Pick<PanelPorts, "state" | "control">;
+
+const NONE = "No robot can be driven: each is controlled by its behaviour. Press Edit, then add a robot without a behaviour.";
+const HINT = "Press the pad, then hold W A S D or the arrow keys (Q and E: sideways). Or drag on the pad. Or use a gamepad.";
+const MAX_LISTED = 200;
+
+export function mount({ state, control }: Ports): MountedPanel {
+  const choice = element("select", { "aria-label": "Robot to drive" });
+  const note = element("p", { class: "dim teleoperation-note", role: "status" });
+  const moving = element("p", { class: "number teleoperation-speed" });
+  const { line, follow } = controlLine(state, control);
+  const linear = speedSlider("Speed", "m/s", 0.1, 3, 0.5);
+  const angular = speedSlider("Turn rate", "rad/s", 0.1, 3, 1);
+  const wishes = { pad: STILL, gamepad: STILL };
+  let robot: string | null = null;
+
+  const driver = new Driver(
+    (name, drive) => {
+      const { simulation } = state.get();
+      return simulation === null ? Promise.resolve() : control.drive(simulation, name, drive);
+    },
+    (sentence) => {
+      setText(note, sentence);
+      show(STILL);
+    },
+  );
+  const pad = new DrivingPad((wish) => {
+    wishes.pad = wish;
+    update();
+  });
+  const show = (wish: Wish) => {
+    pad.show(wish);
+    const isMoving = !isStill(wish) && robot !== null;
+    setText(moving, isMoving ? `${robot}: ${(wish.ahead * linear.value()).toFixed(2)} m/s, ${(wish.turn * angular.value()).toFixed(2)} rad/s` : "Stopped");
+  };
+  const mayDrive = () => robot !== null && needsControl(state.get().people) === "";
+  const update = () => {
+    const wish = isStill(wishes.pad) ? wishes.gamepad : wishes.pad;
+    if (!mayDrive() && !isStill(wish)) return;
+    show(wish);
+    driver.move(wish, { linear: linear.value(), angular: angular.value() });
+  };
+  const letGo = () => {
+    wishes.gamepad = STILL;
+    pad.letGo();
+    update();
+  };
+  for (const slider of [linear, angular]) slider.input.addEventListener("input", () => driver.isDriving && update());
+
+  const gamepad = new GamepadReader({
+    onWish: (wish) => {
+      if (isStill(wish) && isStill(wishes.gamepad)) return;
+      wishes.gamepad = wish;
+      update();
+    },
+    onConnected: (name) => setText(note, `Gamepad connected: ${name}. The left stick drives, the right stick goes sideways.`),
+    onPulledOut: () => setText(note, "The gamepad was pulled out. The robot stops."),
+  });
+
+  const choose = (name: string | null) => {
+    if (name === robot) return;
+    letGo();
+    robot = name;
+    driver.setRobot(name);
+    choice.value = name ?? "";
+    show(STILL);
+  };
+  choice.addEventListener("change", () => choose(choice.value));
+  const offer = (names: readonly string[]) => {
+    choice.replaceChildren(...names.map((name) => new Option(name, name)));
+    const { selection } = state.get();
+    const isThere = (name: string | null): name is string => name !== null && names.includes(name);
+    choose(isThere(robot) ? robot : isThere(selection) ? selection : (names[0] ?? null));
+    choice.value = robot ?? "";
+    choice.hidden = pad.element.hidden = names.length === 0;
+    setText(note, names.length === 0 ? NONE : HINT);
+  };
+  const whileOpen = () => {
+    const ends = [
+      follow(),
+      gamepad.open(),
+      whenPageIsLeft(letGo),
+      letGo,
+      state.watch(drivable, offer, shallowEqual),
+      state.watch(
+        ({ selection }) => selection,
+        (selection) => selection !== null && drivable(state.get()).includes(selection) && choose(selection),
+      ),
+      state.watch(
+        ({ people }) => needsControl(people) !== "",
+        (isMissing) => isMissing && letGo(),
+      ),
+    ];
+    show(STILL);
+    return () => ends.forEach((end) => end());
+  };
+  const speeds = element("div", { class: "teleoperation-speeds" }, linear.element, angular.element);
+  const body = element("div", { class: "teleoperation-body" }, line, element("div", { class: "pad-place" }, pad.element), speeds, moving, note);
+  return { body, tools: [choice], whileOpen };
+}
+
+// Calls it when the window loses the focus, is hidden or closed. Gives the function that ends this.
+function whenPageIsLeft(letGo: () => void): () => void {
+  const hide = () => document.visibilityState === "hidden" && letGo();
+  document.addEventListener("visibilitychange", hide);
+  for (const event of ["blur", "pagehide"]) window.addEventListener(event, letGo);
+  return () => {
+    document.removeEventListener("visibilitychange", hide);
+    for (const event of ["blur", "pagehide"]) window.removeEventListener(event, letGo);
+  };
+}
+
+// Robots without a behaviour or with one that has finished, then avatars.
+function drivable({ scene, status }: State): readonly string[] {
+  const free = new Set(
+    (status?.robots ?? []).filter(({ behaviour, agentPhase }) => behaviour === "" || agentPhase === "finished").map(({ name }) => name),
+  );
+  const bodies = (scene?.bodies ?? []).filter(({ name, isAvatar, isRobot }) => isAvatar || (isRobot && free.has(name)));
+  return [...bodies.filter(({ isAvatar }) => !isAvatar), ...bodies.filter(({ isAvatar }) => isAvatar)]
+    .slice(0, MAX_LISTED)
+    .map(({ name }) => name);
+}
+
+function speedSlider(label: string, unit: string, least: number, most: number, first: number) {
+  const input = element("input", { type: "range", min: String(least), max: String(most), step: "0.05", value: String(first) });
+  const text = element("span", { class: "number" }, `${first.toFixed(2)} ${unit}`);
+  input.addEventListener("input", () => setText(text, `${Number(input.value).toFixed(2)} ${unit}`));
+  return { input, value: () => Number(input.value), element: element("label", {}, label, input, text) };
+}
