@@ -1,5 +1,5 @@
-// The beams of range sensors as lines, all in one draw call. A beam is measured at one instant and
-// shown over several frames: it moves along with its robot as that is shown.
+// Draws the beams of range sensors as lines in one draw call. A beam is measured at one instant and
+// drawn in several frames: it moves with the displayed robot.
 import type { Matrix4 } from "three";
 import { Vector3 } from "three";
 import type { MarkerMessage } from "../protocol/messages";
@@ -8,7 +8,7 @@ import { Segments } from "./Segments";
 
 const WIDTH_PX = 1.5;
 const OPACITY = 0.85;
-// Where the marker does not colour each beam: a colour of the marker's own says nothing about them.
+// Used if the marker has no colour for each beam: the marker's own colour has no meaning.
 const BEAM_COLOUR = { r: 1, g: 0.012, b: 0.006 };
 const SMALLEST_CAPACITY = 64; // segments
 const NUMBERS_PER_POINT = 3;
@@ -28,7 +28,7 @@ export class BeamLayer {
   private readonly drawn: Segments;
   private capacity = 0;
 
-  // Draws at most so many beams.
+  // Draws at most this number of beams.
   constructor(
     private readonly most: number,
     thin = false,
@@ -45,7 +45,8 @@ export class BeamLayer {
     return this.drawn.count;
   }
 
-  // One robot's beams, as lines in the world at the instant when it stood at `worldFromRobot`.
+  // The beams of one robot, as lines in the world at the time when the robot was at
+  // `worldFromRobot`.
   setRobot(robot: string, marker: MarkerMessage, worldFromRobot: Matrix4): void {
     if (marker.type !== LINE_LIST || marker.action !== 0 || marker.points.length < 2) {
       this.beams.delete(robot);
@@ -72,8 +73,8 @@ export class BeamLayer {
     for (const robot of [...this.beams.keys()]) if (!robots.has(robot)) this.beams.delete(robot);
   }
 
-  // Places the beams with the robots as they are shown now. Where there are more than can be drawn,
-  // those of the robots with the lowest `rank` are.
+  // Moves the beams with the displayed robots. If there are too many, those of the robots with the
+  // lowest `rank` are drawn.
   place(worldFromRobot: (robot: string) => Matrix4 | null, rank: (robot: string, frame: Matrix4) => number): void {
     const placed = [...this.beams].flatMap(([robot, beams]) => {
       const frame = worldFromRobot(robot);

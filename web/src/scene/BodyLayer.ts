@@ -1,5 +1,5 @@
-// The bodies of a scene. Bodies of one model share its geometry and are drawn in one call for each
-// part; a link that moves against its model is placed by its own pose.
+// Draws the bodies of a scene. Bodies of one model share its geometry, and each part is drawn in
+// one call. A link that moves relative to its model has its own pose.
 import type { Box3, Intersection, Material, PerspectiveCamera } from "three";
 import { Group, InstancedMesh, Matrix4, Mesh, Quaternion, Raycaster, Vector3 } from "three";
 import type { PoseNumbers, SceneBody, SceneDescription } from "../api/scene";
@@ -7,7 +7,7 @@ import { CrowdDetail } from "./CrowdDetail";
 import type { ModelPart, ModelTemplate } from "./ModelTemplate";
 import { boundsOf } from "./ModelTemplate";
 
-// A part of a body that moves: where its matrix is written after each update.
+// A part of a moving body: where its matrix is written after each update.
 interface MovingPart {
   mesh: Mesh | InstancedMesh;
   instance: number;
@@ -56,12 +56,12 @@ export class BodyLayer {
     this.detail.add(meshes, radius, bodies.map((body) => this.worldFromBody[body]!));
   }
 
-  // As fine as it is seen from there, in a picture so many pixels high.
+  // Sets the level of detail for this distance, in a view with this height in pixels.
   chooseDetail(camera: PerspectiveCamera, height: number): void {
     this.detail.choose(camera, height);
   }
 
-  // The poses in the order of the scene's list, seven numbers each.
+  // The poses in the order of the scene's list, with seven numbers each.
   setPoses(poses: Float64Array): void {
     this.frames.forEach((frame, index) => readMatrix(poses, 7 * index, frame));
     this.placeMoving();
@@ -75,13 +75,13 @@ export class BodyLayer {
     this.detail.moved();
   }
 
-  // Takes the poses of another layer on the same scene.
+  // Copies the poses of another layer of the same scene.
   standLike(other: BodyLayer): void {
     this.frames.forEach((frame, index) => frame.copy(other.frames[index]!));
     this.placeMoving();
   }
 
-  // Shows one body elsewhere, with its links, until the next poses.
+  // Shows one body with its links at another pose until the next poses arrive.
   moveBody(body: number, worldFromBody: Matrix4): void {
     const frame = this.worldFromBody[body]!;
     const motion = worldFromBody.clone().multiply(frame.clone().invert());
@@ -95,27 +95,27 @@ export class BodyLayer {
     this.detail.moved();
   }
 
-  // -1 when there is no body of that name.
+  // -1 if there is no body with this name.
   indexOf(name: string): number {
     return this.indices.get(name) ?? -1;
   }
 
-  // A body's own entry in the scene's poses; null when it has none.
+  // The body's entry in the scene's poses; null if it has none.
   poseEntryOf(name: string): number | null {
     return this.poseEntries.get(name) ?? null;
   }
 
-  // world_from_body, as shown now; it changes with the next poses.
+  // world_from_body as displayed now; it changes with the next poses.
   poseOf(body: number): Matrix4 | null {
     return this.worldFromBody[body] ?? null;
   }
 
-  // world_from_link of a link that moves against its body, as shown now.
+  // world_from_link as displayed now, for a link that moves relative to its body.
   linkPoseOf(body: number, link: string): Matrix4 | null {
     return this.worldFromLink[body]?.get(link) ?? null;
   }
 
-  // The links that move against their bodies.
+  // The links that move relative to their bodies.
   movingLinksOf(body: number): Matrix4[] {
     return [...(this.worldFromLink[body]?.values() ?? [])];
   }
@@ -125,19 +125,19 @@ export class BodyLayer {
     return (model !== undefined && this.templates.get(model)) || null;
   }
 
-  // The body that the ray meets first.
+  // The first body on the ray.
   pick(raycaster: Raycaster): SceneBody | null {
     const hit = this.hitsOf(raycaster)[0];
     return hit ? this.bodyAt(hit) : null;
   }
 
-  // Where the ray meets what is fixed to the world.
+  // The point at which the ray hits something that is fixed to the world.
   pointOf(raycaster: Raycaster): Vector3 | null {
     return this.hitsOf(raycaster).find((hit) => this.bodyAt(hit)?.isStatic)?.point ?? null;
   }
 
-  // How far one sees from there in a direction of length 1 until what is fixed to the world is in the
-  // way; Infinity: nothing within `far`.
+  // The free distance from a place in a direction (unit length) to the next fixed body; Infinity if
+  // there is none within `far`.
   freeAlong(from: Vector3, direction: Vector3, far: number): number {
     const blocks = (hit: Intersection) =>
       this.bodyAt(hit)?.isStatic && !((hit.object as Mesh).material as Material).transparent;
@@ -190,7 +190,7 @@ export class BodyLayer {
   }
 }
 
-// From corner to corner.
+// The length of the diagonal.
 function sizeOf(bounds: Box3): number {
   return bounds.getSize(new Vector3()).length();
 }

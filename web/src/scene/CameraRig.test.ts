@@ -19,7 +19,7 @@ function expectNear(actual: Vector3, x: number, y: number, z: number): void {
 
 const HERE = { position: new Vector3(1, 2, 0.5), middle: new Vector3(1, 2, 0.5), yaw: 0 };
 
-// One whose walls are `free` metres from whatever is chased; it looks for them at each update.
+// A rig whose walls are `free` metres from the target. It checks for walls at each update.
 function rigBeforeWalls(free: { m: number }): CameraRig {
   const rig = new CameraRig(document.createElement("canvas"), () => {}, () => free.m);
   rig.viewpoint = { position: new Vector3(0, -4, 12), target: new Vector3(0, 0, 0) };
@@ -95,7 +95,7 @@ test("following keeps the direction of the view while the robot moves and turns"
   expectNear(rig.camera.position.clone().sub(rig.controls.target), offset.x, offset.y, offset.z);
 });
 
-// A link's view had risen by half the robot's height when its model arrived.
+// The view of a link had been raised by half the robot's height when its model arrived.
 test("the view stays where it is when the shape of the robot becomes known", () => {
   const rig = rigAt(new Vector3(0, -4, 12), new Vector3(0, 0, 0));
   rig.follow({ ...HERE, middle: HERE.position });
@@ -139,7 +139,7 @@ test("out of a robot's eye one sees what lies ahead of it, and afterwards all is
   expect(rig.controls.enabled).toBe(true);
 });
 
-// Of a picture of 4 by 3 and 60° across: 2 atan(tan(30°) 3 / 4) = 46.826° from top to bottom.
+// An image with the aspect 4:3 that is 60° wide: its height is 2 atan(tan(30°) 3 / 4) = 46.826°.
 test("a robot's eye sees as wide as its camera, whatever the shape of the window", () => {
   const rig = rigAt(new Vector3(0, -4, 12), new Vector3(0, 0, 0));
   const before = rig.camera.fov;

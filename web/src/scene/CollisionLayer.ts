@@ -1,5 +1,5 @@
-// What bodies collide with, drawn as a net over them: of the selected robot, else of everything. The
-// shapes are fetched when they are first asked for.
+// Draws collision shapes as wireframes: those of the selected robot, else of all bodies. The shapes
+// are fetched when they are first needed.
 import type { Scene } from "three";
 import { MeshBasicMaterial } from "three";
 import type { SceneDescription } from "../api/scene";
@@ -38,7 +38,7 @@ export class CollisionLayer {
     this.build();
   }
 
-  // As the bodies are shown now.
+  // Uses the displayed poses of the bodies.
   place(bodies: BodyLayer): void {
     this.layer?.standLike(bodies);
   }
@@ -65,7 +65,7 @@ export class CollisionLayer {
   }
 }
 
-// The same bodies with the same poses; those that are not shown have no model.
+// The same bodies with the same poses. Bodies that are not shown have no model.
 export function collisionScene(scene: SceneDescription, selection: string | null): SceneDescription {
   const bodies = scene.bodies.map((body) => ({
     ...body,

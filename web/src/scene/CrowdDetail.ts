@@ -1,14 +1,16 @@
-// Of a crowd that is far away each part is drawn as a box, and small parts are not drawn: a thousand
-// robots of a few pixels need no thousands of triangles each, which without a graphics card take seconds.
+// Draws the parts of a distant crowd as boxes and omits small parts: a thousand robots of a few
+// pixels need no thousands of triangles each, which take seconds without a graphics card.
 import type { InstancedMesh, Material, Matrix4, Mesh, PerspectiveCamera } from "three";
 import { Group, Vector3 } from "three";
 import { BoxCrowd } from "./BoxCrowd";
 
 const SMALLEST_CROWD = 50;
-// Pixels of the page that the nearest of a crowd measures across; between the two it stays as it is.
+// The size in pixels of the nearest robot of a crowd. Between the two limits, the level of detail
+// does not change.
 const COARSE_BELOW = 12;
 const FINE_ABOVE = 16;
-// Of the largest part; at the pixels above such a part is two or three pixels wide.
+// The smallest fraction of the largest part. At the pixels above, such a part is two or three
+// pixels wide.
 const SMALL_SHARE = 0.4;
 
 export interface CrowdMesh {
@@ -29,7 +31,8 @@ export class CrowdDetail {
   readonly group = new Group();
   private readonly crowds: Crowd[] = [];
 
-  // Meshes that together show bodies of one model, which stand at `places`; few are left as they are.
+  // The meshes that show all bodies of one model at `places`. A small number of bodies is left
+  // unchanged.
   add(meshes: readonly CrowdMesh[], radius: number, places: readonly Matrix4[]): void {
     if (places.length < SMALLEST_CROWD || !(radius > 0)) return;
     const largest = Math.max(...meshes.map(({ size }) => size));
@@ -38,12 +41,12 @@ export class CrowdDetail {
     this.crowds.push({ meshes: meshes.map(({ mesh }) => mesh), boxes, radius, places, isCoarse: false, isStale: true });
   }
 
-  // The bodies stand elsewhere.
+  // Call this when the bodies have moved.
   moved(): void {
     for (const crowd of this.crowds) crowd.isStale = true;
   }
 
-  // For a picture so many pixels high.
+  // For a view with this height in pixels.
   choose(camera: PerspectiveCamera, height: number): void {
     const focal = height / 2 / Math.tan((camera.fov * Math.PI) / 360);
     for (const crowd of this.crowds) {

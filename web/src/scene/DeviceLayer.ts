@@ -1,6 +1,5 @@
-// What robots' actuators do, drawn where they are mounted: lamps glow and light what is about them,
-// speakers send out rings, grippers
-// show their jaws.
+// Draws the state of actuators at their places: lamps glow and light their surroundings, speakers
+// emit rings, and grippers show their jaws.
 import type { Matrix4 } from "three";
 import {
   AdditiveBlending,
@@ -59,7 +58,7 @@ export class DeviceLayer {
     }
   }
 
-  // Places lamps with the sensors as they are shown now, and draws rings and jaws.
+  // Moves lamps with the displayed sensors, and draws rings and jaws.
   place(worldFromSensor: (topic: string) => Matrix4 | null, lines: LineLayer): void {
     const lit = [...this.glows].flatMap(([topic, glow]) => {
       const frame = worldFromSensor(topic);
@@ -107,7 +106,7 @@ export class DeviceLayer {
     return this.halo;
   }
 
-  // The number of lights never shrinks: another number compiles every shader anew.
+  // The number of lights never decreases, because a change compiles every shader again.
   private placePoints(lit: { glow: Glow; frame: Matrix4 }[]): void {
     while (this.points.length < Math.min(MOST_LIGHTS, lit.length)) {
       this.points.push(new PointLight());
@@ -158,7 +157,8 @@ function placeLamp({ ball, halo }: Lamp, lit: { glow: Glow; frame: Matrix4 } | u
   halo.material.opacity = glow.brightness;
 }
 
-// As gsv/rendering/scene/lit_lamps.cc has it; the factor undoes the one in three's reflectance.
+// The same formula as in gsv/rendering/scene/lit_lamps.cc. The factor cancels the one in three's
+// reflectance.
 function shine(light: PointLight | SpotLight, { glow, frame }: { glow: Glow; frame: Matrix4 }): void {
   light.position.setFromMatrixPosition(frame);
   light.color.copy(colourOf(glow));
@@ -167,7 +167,7 @@ function shine(light: PointLight | SpotLight, { glow, frame }: { glow: Glow; fra
   light.decay = 2;
 }
 
-// Rings about the sensor's x axis that run outwards and fade.
+// Rings about the sensor's x axis that expand and fade.
 function drawRings(lines: LineLayer, worldFromSensor: Matrix4, { elapsed, volume }: Sound): void {
   const reach = RING_REACH * Math.max(0.2, volume);
   for (let ring = 0; ring < RINGS; ring++) {
@@ -182,7 +182,7 @@ function drawRings(lines: LineLayer, worldFromSensor: Matrix4, { elapsed, volume
   }
 }
 
-// The inner face of each jaw, green with what it holds.
+// The inner face of each jaw; green if it holds something.
 function drawJaws(lines: LineLayer, worldFromSensor: Matrix4, { opening, reach, height, held }: Jaws): void {
   const colour = held === "" ? EMPTY_COLOUR : HOLDING_COLOUR;
   const z = height / 2;
@@ -197,5 +197,5 @@ function drawJaws(lines: LineLayer, worldFromSensor: Matrix4, { opening, reach, 
   }
 }
 
-// Lines that a sound is drawn with.
+// The lines of a sound's rings.
 export const RING_LINES = RINGS * RING_SEGMENTS;

@@ -1,4 +1,4 @@
-// Where the expectations apply: goals and limits as circles and boxes on the floor, in the colour of their
+// Draws the places of expectations: goals and limits as circles and boxes on the floor, coloured by
 // verdict.
 import { Matrix4 } from "three";
 import type { Expectation, Verdict } from "../state/expectations";

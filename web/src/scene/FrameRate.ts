@@ -1,4 +1,4 @@
-// How many frames were drawn in the last second, told about once a second.
+// Counts the frames drawn in the last second, and reports them about once per second.
 const WINDOW_MS = 1000;
 
 export class FrameRate {
@@ -6,7 +6,7 @@ export class FrameRate {
 
   constructor(private readonly tell: (framesPerSecond: number) => void) {}
 
-  // `frames` drawn so far.
+  // `frames`: number of frames drawn so far.
   count(frames: number, nowMs: number): void {
     const { ms, frames: then } = this.since;
     if (nowMs - ms < WINDOW_MS) return;

@@ -1,4 +1,4 @@
-// What is drawn besides the bodies: a grid of metres on the floor and a ring around the selection.
+// Draws a grid in metres on the floor, and a ring around the selected body.
 import { Box3, BufferGeometry, Color, Float32BufferAttribute, LineBasicMaterial, LineSegments } from "three";
 import { Mesh, MeshBasicMaterial, RingGeometry, Vector3 } from "three";
 
@@ -6,7 +6,7 @@ const HIGHEST_FLOOR = 0.004; // m above the world's floor, so that the grid is n
 const MOST_CELLS = 200;
 const RING_COLOUR = new Color(0x2f81f7);
 
-// Lines one metre apart (ten in a large world) over the box's floor.
+// Lines at a distance of one metre (ten in a large world) over the floor of the box.
 export function makeGrid(box: Box3): LineSegments {
   const size = box.getSize(new Vector3());
   const cell = Math.max(size.x, size.y) > MOST_CELLS ? 10 : 1;
@@ -37,7 +37,7 @@ export function disposeGrid(grid: LineSegments): void {
   grid.removeFromParent();
 }
 
-// Lies on the floor around a robot.
+// A ring on the floor around a robot.
 export class SelectionRing {
   readonly mesh = new Mesh(
     new RingGeometry(1, 1.1, 64),
@@ -56,7 +56,7 @@ export class SelectionRing {
     this.mesh.raycast = () => {};
   }
 
-  // `radius` in metres; at the robot's own origin, which stands on the floor.
+  // `radius` in metres, at the robot's origin, which is on the floor.
   place(position: Vector3, radius: number): void {
     this.mesh.visible = true;
     this.mesh.position.set(position.x, position.y, position.z + 2 * HIGHEST_FLOOR);

@@ -1,6 +1,6 @@
-// Names above the robots: text of the page, not of the picture, so that it stays sharp and can be
-// read by a screen reader. No two overlap: the selected robot's comes first, then those of robots in trouble, the
-// worst first, then the nearest.
+// Names above the robots, as text of the page and not of the image, so that they are sharp and
+// accessible to screen readers. They never overlap: the selected robot's name has priority, then
+// those of robots in trouble (worst first), then the nearest.
 import type { Camera } from "three";
 import { Matrix4, Vector3 } from "three";
 
@@ -60,7 +60,8 @@ export class LabelLayer {
     }
   }
 
-  // The labels as they are placed now, on a picture of the view whose width is `width` on the page.
+  // Draws the labels at their present places on an image of the view, whose width on the page is
+  // `width`.
   paint(context: CanvasRenderingContext2D, width: number): void {
     const scale = context.canvas.width / width;
     context.save();
@@ -81,7 +82,7 @@ export class LabelLayer {
     context.restore();
   }
 
-  // Those that have room, at most MOST_LABELS.
+  // The labels that have room, at most MOST_LABELS.
   private chosen(camera: Camera, width: number, height: number, robots: LabelledRobots): Candidate[] {
     const taken: Candidate[] = [];
     for (const each of this.candidates(camera, width, height, robots)) {
@@ -92,7 +93,7 @@ export class LabelLayer {
     return taken;
   }
 
-  // Those in front of the camera and inside the picture, the first to be named first.
+  // The labels in front of the camera and inside the image, in the order of priority.
   private candidates(camera: Camera, width: number, height: number, robots: LabelledRobots): Candidate[] {
     const { names, tops, selection } = robots;
     const m = this.clipFromWorld.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements;
@@ -144,7 +145,7 @@ function overlap(a: Box, b: Box): boolean {
   return a.left < b.right && b.left < a.right && Math.abs(a.bottom - b.bottom) < HEIGHT_PX;
 }
 
-// Measuring labels on the page would have it laid out for each.
+// Measuring the labels on the page would cause a layout for each.
 function measureText(): (text: string) => number {
   let context: CanvasRenderingContext2D | null = null;
   return (text) => {

@@ -1,6 +1,6 @@
-// The light of a scene, as the robots' cameras see it (gsv/rendering). An intensity of 1 lights a
-// white surface that faces the light to full white, as in the world's own file: hence the factor pi,
-// which undoes the one in three's reflectance. Colours of light are amounts, not sRGB.
+// The lights of a scene, as in the robots' cameras (gsv/rendering). An intensity of 1 lights a
+// white surface that faces the light to full white, as in the world file. Therefore the factor pi,
+// which cancels the one in three's reflectance. Light colours are linear, not sRGB.
 import type { Light } from "three";
 import {
   Box3,
@@ -36,7 +36,7 @@ const WITHOUT_LIGHTS: SceneLight = {
   castShadows: true,
 };
 
-// A surface's or the background's colour.
+// The colour of a surface or of the background.
 export function colourOf([r, g, b]: Triple): Color {
   return new Color().setRGB(r, g, b, SRGBColorSpace);
 }
@@ -45,7 +45,7 @@ function lightOf([r, g, b]: Triple): Color {
   return new Color(r, g, b);
 }
 
-// `focus`: the part of the scene that shadows must cover, in the world.
+// `focus`: the part of the world that shadows must cover.
 export function makeLights(scene: SceneDescription, focus: Box3): Group {
   const group = new Group();
   group.add(ambient(scene.look.ambient));
@@ -55,7 +55,7 @@ export function makeLights(scene: SceneDescription, focus: Box3): Group {
   let hasShadow = false;
   for (const light of suns) {
     const sun = directional(light, focus);
-    // One shadow map: the first sun that asks for it.
+    // There is one shadow map, for the first sun that requests it.
     sun.castShadow = scene.look.shadows && light.castShadows && !hasShadow;
     hasShadow ||= sun.castShadow;
     group.add(sun, sun.target);
@@ -73,8 +73,8 @@ export function disposeLights(group: Group): void {
   group.removeFromParent();
 }
 
-// Light from everywhere, less of it from below, so that shapes show. Many worlds ask for next to
-// none, because their authors' tool adds some of its own: there is a floor.
+// Ambient light, weaker from below, so that shapes are visible. It has a minimum, because many
+// worlds define almost none: their authors' tools add their own.
 function ambient(asked: Triple): HemisphereLight {
   const above = lightOf(asked);
   const brightness = 0.2126 * above.r + 0.7152 * above.g + 0.0722 * above.b;
@@ -100,7 +100,7 @@ function directional(light: SceneLight, focus: Box3): DirectionalLight {
   camera.right = camera.top = radius;
   camera.near = 0.1;
   camera.far = 4 * radius;
-  // A texel's width along the normal keeps surfaces from shading themselves.
+  // An offset of one texel along the normal prevents surfaces from shading themselves.
   sun.shadow.normalBias = (2 * radius * 1.5) / texels;
   sun.shadow.bias = -0.0004;
   return sun;

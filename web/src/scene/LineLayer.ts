@@ -1,4 +1,4 @@
-// Coloured lines that are written anew for each picture: axes, camera views, contacts, trails.
+// Draws coloured lines that are rewritten for each frame: axes, camera views, contacts, trails.
 import type { Matrix4 } from "three";
 import { Color, Vector3 } from "three";
 import { Segments } from "./Segments";
@@ -8,7 +8,7 @@ const NUMBERS_PER_SEGMENT = 6;
 
 export type Rgb = readonly [number, number, number];
 
-// A colour as it is written in style sheets, in the numbers that three.js draws with.
+// Converts a colour of a style sheet to the numbers that three.js draws with.
 export function rgb(hex: number): Rgb {
   return new Color(hex).toArray() as [number, number, number];
 }
@@ -18,7 +18,7 @@ export class LineLayer {
   private used = 0; // numbers
   private readonly point = new Vector3();
 
-  // Lines on top of everything can be seen through walls.
+  // Lines on top are visible through walls.
   constructor({ widthPx = 2, onTop = false, thin = false }) {
     this.drawn = new Segments({ widthPx, thin, depthTest: !onTop });
     if (onTop) this.lines.renderOrder = 2;
@@ -37,7 +37,7 @@ export class LineLayer {
     this.used = 0;
   }
 
-  // A line between two points of a frame; x y z each.
+  // A line between two points of a frame, x y z each.
   add(worldFromFrame: Matrix4, from: readonly number[], to: readonly number[], colour: Rgb): void {
     this.makeRoom();
     for (const end of [from, to]) {

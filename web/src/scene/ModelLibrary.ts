@@ -13,7 +13,7 @@ export class ModelLibrary {
     private readonly headers: () => Record<string, string> = () => ({}),
   ) {}
 
-  // Fails with a sentence; a later call tries again.
+  // Fails with a sentence. A later call tries again.
   get(id: string, links: readonly string[]): Promise<ModelTemplate> {
     let template = this.templates.get(id);
     if (!template) {
@@ -24,12 +24,12 @@ export class ModelLibrary {
     return template;
   }
 
-  // Begins to fetch what a scene is drawn with. What fails is told to who gets it.
+  // Starts to fetch the models of a scene. Errors are reported to the caller of get().
   prepare({ bodies }: SceneDescription): void {
     for (const { model, links } of bodies) this.get(model, links).catch(() => {});
   }
 
-  // Lets go of every model that is not among these.
+  // Releases all models that are not in the list.
   keepOnly(ids: ReadonlySet<string>): void {
     for (const [id, template] of [...this.templates]) {
       if (ids.has(id)) continue;

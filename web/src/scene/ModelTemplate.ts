@@ -1,4 +1,4 @@
-// One model's shape, fetched once and placed many times: the drawable parts of its links.
+// The shape of one model, fetched once and drawn many times: the drawable parts of its links.
 import type { BufferGeometry, Material, Mesh, Object3D } from "three";
 import { Box3, Matrix4 } from "three";
 
@@ -15,8 +15,8 @@ export interface ModelTemplate {
   bounds: Box3; // in the model's frame; empty when nothing is drawn
 }
 
-// `root` holds one node for each link, named by it. GLTFLoader alters names and keeps the original
-// in the node's userData.
+// `root` has one node per link with the link's name. GLTFLoader changes names and keeps the
+// originals in the nodes' userData.
 export function makeTemplate(root: Object3D, links: readonly string[]): ModelTemplate {
   root.updateMatrixWorld(true);
   const modelFromWorld = root.matrixWorld.clone().invert();

@@ -77,7 +77,7 @@ test("points stand where their sensor is mounted, on a link that has turned", ()
   overlays.place(new Vector3());
   expect(points.geometry.drawRange.count).toBe(1);
   const place = Array.from(points.geometry.getAttribute("position").array.slice(0, 3));
-  // One metre along the arm to the sensor, two more to the point: the arm looks along y.
+  // One metre along the arm to the sensor, and two more to the point. The arm points along y.
   [10, 3, 1].forEach((value, i) => expect(place[i]).toBeCloseTo(value, 5));
   overlays.keepReadings(new Set());
   overlays.place(new Vector3());
@@ -89,7 +89,8 @@ test("what a camera sees is a pyramid of its own angles", () => {
   overlays.place(new Vector3());
   expect(segments(lines)).toBe(8);
   const ends = lines.geometry.getAttribute("instanceEnd") as InterleavedBufferAttribute;
-  // The first edge ends at the upper left corner: a metre ahead, a metre left, half a metre up.
+  // The first edge ends at the upper left corner: a metre ahead, a metre to the left, half a metre
+  // up.
   [9, 2, 1.5].forEach((value, i) => expect(ends.getComponent(0, i)).toBeCloseTo(value, 5));
 });
 

@@ -1,4 +1,4 @@
-// What is drawn over the world: beams, points, contacts, camera views, trails, axes, actuators.
+// The overlays of the view: beams, points, contacts, camera views, trails, axes, actuators.
 import type { Matrix4 } from "three";
 import { Group, Vector3 } from "three";
 import type { SceneSensor } from "../api/scene";
@@ -55,7 +55,7 @@ export class OverlayLayers {
   private shown: Shown = FIRST_SHOWN;
   private selection: string | null = null;
 
-  // Thin lines are for where no graphics card draws.
+  // Thin lines are used without a graphics card.
   constructor(mostBeams: number, thin = false) {
     this.beams = new BeamLayer(mostBeams, thin);
     this.lines = new LineLayer({ widthPx: 2, onTop: true, thin });
@@ -104,7 +104,7 @@ export class OverlayLayers {
     this.frames.take(message);
   }
 
-  // A reading of a lidar, a depth camera, a bumper or an actuator.
+  // Shows a reading of a lidar, depth camera, bumper or actuator.
   takeReading(topic: string, message: unknown): void {
     this.devices.take(topic, message);
     this.radio.take(message, performance.now());
@@ -112,14 +112,15 @@ export class OverlayLayers {
     this.contacts.set(topic, contactsOf(message));
   }
 
-  // Forgets the readings of all other topics.
+  // Removes the readings of all other topics.
   keepReadings(topics: ReadonlySet<string>): void {
     this.points.keepOnly(topics);
     this.devices.keepOnly(topics);
     for (const topic of [...this.contacts.keys()]) if (!topics.has(topic)) this.contacts.delete(topic);
   }
 
-  // Trails grow unseen as well: who asks for them wants to know where robots have been.
+  // Trails are also recorded while they are hidden, so that they show the past when they are
+  // switched on.
   takePoses({ stamp, poses }: PoseSample): void {
     this.trails.push(
       stamp,
@@ -130,7 +131,7 @@ export class OverlayLayers {
     );
   }
 
-  // Beams hang on their robots as these stood when the beams were measured.
+  // Beams are relative to the robots' poses at the time of measuring.
   takeBeams({ markers }: MarkerArrayMessage, posesAt: (stamp: number) => Float64Array | null): void {
     for (const marker of markers) {
       const poses = posesAt(seconds(marker.header.stamp));
@@ -143,7 +144,7 @@ export class OverlayLayers {
     this.beams.keepOnly(new Set());
   }
 
-  // Places everything with the bodies as they are shown now, seen from `eye`.
+  // Updates all overlays with the displayed poses of the bodies, for a camera at `eye`.
   place(eye: Vector3): void {
     const { bodies, shown } = this;
     this.beams.lines.visible = shown.beams;
@@ -162,7 +163,7 @@ export class OverlayLayers {
     }
   }
 
-  // The selected robot's first, then the nearest robots'.
+  // The selected robot's overlays first, then those of the nearest robots.
   private placeBeams(bodies: BodyLayer, eye: Vector3): void {
     const place = new Vector3();
     this.beams.place(
@@ -198,7 +199,8 @@ export class OverlayLayers {
 
   private drawViews(bodies: BodyLayer): void {
     const cameras = [...this.sensors.values()].filter(
-      // By what a sensor reads, whatever its type is called: images, or what lies in its view.
+      // Selects cameras by what a sensor reads, whatever its type is called: images, or the objects
+      // in its view.
       ({ robot, overlay, view }) =>
         (overlay === "picture" || view !== null) && (this.selection ?? robot) === robot,
     );
@@ -208,7 +210,7 @@ export class OverlayLayers {
     }
   }
 
-  // Of the selected robot all, else the robots' own.
+  // All axes of the selected robot, else only the robots' own axes.
   private drawFrames(bodies: BodyLayer): void {
     const robots = this.robots.filter(({ name }) => (this.selection ?? name) === name);
     for (const { name } of robots.slice(0, MOST_AXES)) {
@@ -223,7 +225,7 @@ export class OverlayLayers {
     }
   }
 
-  // Of the selected robot, else of all that stands there.
+  // The selected robot, else all bodies.
   private drawJoints(bodies: BodyLayer): void {
     let left = MOST_AXES;
     bodies.scene.bodies.forEach(({ name, joints }, body) => {

@@ -1,5 +1,5 @@
-// Points that sensors have measured, all in one draw call. Like beams they move along with their
-// sensor as it is shown.
+// Draws the points measured by sensors in one draw call. Like beams, they move with the displayed
+// sensor.
 import type { Matrix4 } from "three";
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Points, PointsMaterial, Vector3 } from "three";
 
@@ -37,7 +37,7 @@ export class PointLayer {
     for (const topic of [...this.clouds.keys()]) if (!topics.has(topic)) this.clouds.delete(topic);
   }
 
-  // Places them with the sensors as they are shown now.
+  // Moves the points with the displayed sensors.
   place(worldFromSensor: (topic: string) => Matrix4 | null): void {
     let numbers = 0;
     for (const cloud of this.clouds.values()) numbers += cloud.length;

@@ -1,14 +1,15 @@
-// Turns updates that arrive now and then into poses for every frame: shows the recent past, a little
-// more than one update ago, between the two updates around that instant.
+// Computes poses for every frame from updates that arrive irregularly: shows the recent past,
+// slightly more than one update ago, interpolated between two updates.
 //
-// Poses are lists of seven numbers (x y z qx qy qz qw). Times are wall-clock milliseconds; simulated
-// time may run at any factor.
+// Poses are lists of seven numbers (x y z qx qy qz qw). Times are wall-clock milliseconds;
+// simulated time may run at any factor.
 
 const LONGEST_HISTORY = 32;
 const FIRST_INTERVAL_MS = 40;
 const SHORTEST_DELAY_MS = 40;
 const LONGEST_DELAY_MS = 300;
-// The delay in intervals: above one, so that the next update is there before it is needed.
+// The delay as a multiple of the interval. It is larger than one, so that the next update arrives
+// before it is needed.
 const DELAY_INTERVALS = 1.6;
 // How much of an arrival's jitter is believed.
 const JITTER_TRUST = 0.15;
@@ -33,7 +34,8 @@ export class PoseInterpolator {
     this.lastArrivalMs = -Infinity;
   }
 
-  // An older step than the last (a reset) or another number of poses starts a new history.
+  // A step earlier than the last one (after a reset), or another number of poses, starts a new
+  // history.
   push(sample: PoseSample, nowMs: number): void {
     const last = this.samples.at(-1);
     if (last && (sample.step < last.step || sample.poses.length !== last.poses.length)) this.clear();
@@ -47,17 +49,17 @@ export class PoseInterpolator {
     return this.samples.at(-1) ?? null;
   }
 
-  // The poses at that simulated instant, if it is among the recent ones.
+  // The poses at this simulated instant, if it is recent.
   at(stamp: number): Float64Array | null {
     return this.samples.findLast((sample) => sample.stamp === stamp)?.poses ?? null;
   }
 
-  // How long ago what is shown happened.
+  // The age of the displayed poses.
   get delayMs(): number {
     return Math.min(LONGEST_DELAY_MS, Math.max(SHORTEST_DELAY_MS, DELAY_INTERVALS * this.intervalMs));
   }
 
-  // Writes the poses to show at `nowMs`; false when there are none yet.
+  // Writes the poses to show at `nowMs`. Returns false if there are none yet.
   read(nowMs: number, out: Float64Array): boolean {
     const last = this.samples.at(-1);
     if (!last || last.poses.length !== out.length) return false;
@@ -75,7 +77,7 @@ export class PoseInterpolator {
     return true;
   }
 
-  // Whether what `read` gives stays the same until the next update arrives.
+  // Whether `read` gives the same result until the next update arrives.
   isSettled(nowMs: number): boolean {
     const last = this.samples.at(-1);
     return !last || nowMs - this.delayMs >= last.shownAtMs;
@@ -85,7 +87,7 @@ export class PoseInterpolator {
     if (!previous) return nowMs;
     const gap = nowMs - this.lastArrivalMs;
     if (gap > LONGEST_DELAY_MS) {
-      // After a pause: move from where it stood, over one interval.
+      // After a pause, moves from the old pose to the new one within one interval.
       previous.shownAtMs = nowMs - this.intervalMs;
       return nowMs;
     }
@@ -103,8 +105,8 @@ function interpolatePoses(from: Float64Array, to: Float64Array, share: number, o
   }
 }
 
-// The normalised straight line between two unit quaternions, the short way round: between two
-// updates the angle is small, where it agrees with the great arc.
+// Normalised linear interpolation between two unit quaternions, on the shorter arc. Between two
+// updates the angle is small, so that it agrees with the great arc.
 function interpolateRotation(
   from: Float64Array,
   to: Float64Array,

@@ -1,5 +1,5 @@
-// Keeps the picture fluent where drawing is slow, as without a graphics card: fewer pixels, then
-// more again when there is time.
+// Keeps the frame rate up if drawing is slow, for example without a graphics card: reduces the
+// number of pixels, and increases it again when there is time.
 
 const SLOW_MS = 55;
 const VERY_SLOW_MS = 200; // counts as often as it could have been slow
@@ -18,12 +18,12 @@ export class Quality {
     private readonly fixed: boolean,
   ) {}
 
-  // Device pixels for each pixel of the page.
+  // Device pixels per CSS pixel.
   get pixelRatio(): number {
     return Math.min(HIGHEST_DEVICE_RATIO, this.deviceRatio) * this.scale;
   }
 
-  // Told the time between two successive frames; true when the pixel ratio changed.
+  // Takes the time between two consecutive frames. Returns true if the pixel ratio has changed.
   frameTook(milliseconds: number): boolean {
     if (this.fixed) return false;
     this.slow = milliseconds > SLOW_MS ? this.slow + (milliseconds > VERY_SLOW_MS ? 4 : 1) : 0;

@@ -1,5 +1,5 @@
-// Messages between robots by radio: for a moment, a line from who spoke to each who heard, and a
-// short one upwards from a robot that nobody heard.
+// Draws radio messages for a moment: a line from the sender to each receiver, or a short vertical
+// line at a sender without receivers.
 import type { Matrix4 } from "three";
 import { Matrix4 as Place, Vector3 } from "three";
 import type { LineLayer } from "./LineLayer";
@@ -20,7 +20,7 @@ interface Link {
 export class RadioLinks {
   private links: Link[] = [];
 
-  // Anything but a message of /gsv/radio is left alone. `now`: ms of the page.
+  // Ignores everything except messages of /gsv/radio. `now`: ms of the page's clock.
   take(message: unknown, now: number): void {
     const { sender, heard_by } = (message ?? {}) as Record<string, unknown>;
     if (typeof sender !== "string" || !Array.isArray(heard_by)) return;
@@ -34,7 +34,7 @@ export class RadioLinks {
     this.links = [];
   }
 
-  // With the robots as they are shown now.
+  // Uses the displayed poses of the robots.
   draw(lines: LineLayer, worldFromRobot: (robot: string) => Matrix4 | null, now: number): void {
     this.links = this.links.filter(({ until }) => until > now);
     for (const { from, to } of this.links) {
@@ -49,7 +49,7 @@ export class RadioLinks {
 
 const point = new Vector3();
 
-// x y z, a little above the floor.
+// x y z, slightly above the floor.
 function placeOf(worldFromRobot: Matrix4 | null): [number, number, number] | null {
   if (!worldFromRobot) return null;
   const { x, y, z } = point.setFromMatrixPosition(worldFromRobot);

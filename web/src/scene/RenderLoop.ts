@@ -1,18 +1,19 @@
-// Draws a frame when somebody asked for one: a page on which nothing changes costs nothing. The next
-// one begins when the last is drawn, not only ordered: else a click waits for all that are under way.
+// Draws a frame on request, so that a page without changes costs nothing. The next frame begins
+// when the last one is drawn, and not when it is submitted; otherwise a click would wait for all
+// pending frames.
 
-// Who was away longer (another tab was looked at) has not drawn slowly.
+// A longer absence (another tab was shown) does not count as slow drawing.
 const LONGEST_FRAME_MS = 10_000;
-// Without a graphics card a frame may keep the whole machine busy: then the loop rests between two
-// frames, for the buttons' sake and the simulation's.
+// Without a graphics card, a frame may use the whole machine. Then the loop rests between frames,
+// so that buttons and the simulation respond.
 const EXHAUSTING_MS = 120;
 const SHORTEST_REST_MS = 80;
 const LONGEST_REST_MS = 400;
-// What a person has pressed is answered by the page before the next slow frame begins.
+// The page reacts to the user's clicks before the next slow frame begins.
 const SLOW_MS = 50;
 const ANSWER_MS = 120;
 
-// Whether what was ordered is drawn.
+// Whether the submitted frame is drawn.
 export interface Fence {
   mark(): void;
   isReached(): boolean;
@@ -29,15 +30,15 @@ export class RenderLoop {
   private isSlow = false; // the last one was
   private heldUntilMs = -Infinity;
 
-  // `draw` tells whether the next frame will differ, so that it is drawn as well. `onFrameTook` is told
-  // how long a frame took until it was drawn.
+  // `draw` returns whether the next frame will differ, so that it is drawn as well. `onFrameTook`
+  // gets the time until a frame was drawn.
   constructor(
     private readonly draw: (nowMs: number) => boolean,
     private readonly onFrameTook: (milliseconds: number) => void,
     private readonly fence = AT_ONCE,
   ) {}
 
-  // Whether a frame is being drawn, or will be.
+  // Whether a frame is being drawn or requested.
   get isBusy(): boolean {
     return this.isWanted || this.beganMs !== null;
   }
@@ -47,7 +48,7 @@ export class RenderLoop {
     if (this.resting === undefined) this.schedule();
   }
 
-  // Somebody has pressed something.
+  // Call this when the user has pressed something.
   holdBack(): void {
     if (this.isSlow || this.beganMs !== null) this.heldUntilMs = performance.now() + ANSWER_MS;
   }

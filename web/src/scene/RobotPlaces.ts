@@ -1,4 +1,4 @@
-// Where the robots of a scene are, as they are shown now: for labels, views and clicks.
+// The places of a scene's robots, as they are displayed: for labels, views and clicks.
 import { Vector3 } from "three";
 import type { SceneBody, SceneSensor } from "../api/scene";
 import { hasAgent } from "../api/scene";
@@ -27,7 +27,7 @@ export class RobotPlaces {
     this.places = new Float64Array(3 * this.robots.length);
   }
 
-  // The middle of its shape, in the world.
+  // The centre of its shape, in the world.
   middleOf(robot: string): Vector3 | null {
     const body = this.bodies.indexOf(robot);
     const pose = this.bodies.poseOf(body);
@@ -45,7 +45,7 @@ export class RobotPlaces {
     return { position: new Vector3().setFromMatrixPosition(pose), middle, yaw: Math.atan2(y!, x!) };
   }
 
-  // That of its first camera, else at the front of its top.
+  // The pose of its first camera, else at the front of its top.
   eyeOf(robot: string): Eye | null {
     const body = this.bodies.indexOf(robot);
     const pose = this.bodies.poseOf(body);
@@ -56,7 +56,7 @@ export class RobotPlaces {
     return { worldFromEye: eyeAt(pose, this.bodies.templateOf(body)?.bounds ?? null), view: null };
   }
 
-  // x y z above each robot, in the order of the names; written anew with each call.
+  // x y z above each robot, in the order of the names. Each call rewrites it.
   tops(): Float64Array {
     this.robots.forEach(({ body }, i) => {
       const { elements } = this.bodies.poseOf(body)!;
@@ -68,8 +68,7 @@ export class RobotPlaces {
     return this.places;
   }
 
-  // Half of what each robot measures from corner to corner, in metres; of a shape that is not there yet that of
-  // a small one.
+  // Half of each robot's diagonal in metres. If the shape is not loaded yet, that of a small robot.
   radii(): Float64Array {
     return Float64Array.from(this.robots, ({ body }) => {
       const bounds = this.bodies.templateOf(body)?.bounds;

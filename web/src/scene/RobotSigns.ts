@@ -1,4 +1,4 @@
-// What tells the robots apart in the view: their names, and marks of their states.
+// Shows the robots' names and marks of their states in the view.
 import type { PerspectiveCamera } from "three";
 import type { ShownState } from "../state/health";
 import { SHOWN_STATES, badness, isTrouble } from "../state/health";
@@ -6,7 +6,7 @@ import { LabelLayer } from "./LabelLayer";
 import type { RobotPlaces } from "./RobotPlaces";
 import { StateMarks } from "./StateMarks";
 
-// How each robot is doing, by name, and which ones a filter has chosen (null: there is no filter).
+// The state of each robot by name, and the robots that a filter selects (null: there is no filter).
 export interface RobotStates {
   states: ReadonlyMap<string, ShownState> | null; // null: nobody reports them
   chosen: ReadonlySet<string> | null;
@@ -44,12 +44,12 @@ export class RobotSigns {
     });
   }
 
-  // Shapes have come.
+  // Call this when shapes have arrived.
   measure(): void {
     this.radii = this.robots?.radii() ?? new Float64Array(0);
   }
 
-  // Before the frame is drawn; the picture is so many pixels of the page high.
+  // Call this before a frame is drawn. `height` is that of the view in CSS pixels.
   placeMarks(camera: PerspectiveCamera, height: number, ratio: number, { states }: SignsShown): void {
     const { chosen } = this.known;
     if (!this.robots || !states || (!this.known.states && !chosen)) return this.marks.hide();
@@ -58,7 +58,7 @@ export class RobotSigns {
     this.marks.place(this.robots.tops(), { states: this.states, radii: this.radii, isChosen }, camera, height, ratio);
   }
 
-  // When it is drawn.
+  // Call this when a frame is drawn.
   placeLabels(camera: PerspectiveCamera, width: number, height: number, selection: string | null, { labels }: SignsShown): void {
     if (!labels || !this.robots) return;
     const { names } = this.robots;

@@ -1,5 +1,4 @@
-// The robot that is watched, and how: lets the eye do what the mode asks for, with the robot as it is
-// shown now.
+// The robot that is watched, and the camera mode: moves the camera with the displayed robot.
 import type { ViewMode } from "../state/State";
 import type { CameraRig } from "./CameraRig";
 import { SelectionRing } from "./Ground";
@@ -14,7 +13,7 @@ export class RobotWatch {
 
   constructor(private readonly rig: CameraRig) {}
 
-  // What is to be moved by hand.
+  // Sets the object that can be moved by the user.
   get selection(): string | null {
     return this.object ?? this.robot;
   }
@@ -23,7 +22,7 @@ export class RobotWatch {
     return this.mode === "eye";
   }
 
-  // With every picture.
+  // Called with every frame.
   showRing(): void {
     const { selection } = this;
     const place = selection === null || this.isEye ? null : this.robots?.ringOf(selection);

@@ -1,4 +1,4 @@
-// What one scene consists of in the picture: bodies, light, grid, sky.
+// The parts of a displayed scene: bodies, lights, grid, sky.
 import type { Box3, Group, LineSegments, Scene } from "three";
 import type { SceneDescription } from "../api/scene";
 import { BodyLayer } from "./BodyLayer";
@@ -30,7 +30,7 @@ export class SceneParts {
     root.add(this.sky.mesh, this.bodies.group, this.lights, this.grid);
   }
 
-  // Fetches the models, and shows each as it comes.
+  // Fetches the models, and shows each when it has arrived.
   load(library: ModelLibrary, events: ModelEvents): void {
     const links = new Map(this.bodies.scene.bodies.map((body) => [body.model, body.links]));
     let missing = links.size;

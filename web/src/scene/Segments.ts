@@ -1,4 +1,4 @@
-// Coloured line segments, all in one draw call, over arrays that are written anew for each picture.
+// Coloured line segments in one draw call, from arrays that are rewritten for each frame.
 import {
   BufferAttribute,
   BufferGeometry,
@@ -14,8 +14,8 @@ import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js
 
 export interface SegmentsLook {
   widthPx: number;
-  // One device pixel wide instead. Wide lines are instances, each of which costs a draw call of its own
-  // where no graphics card draws: some 40 µs.
+  // Lines of one device pixel instead. Wide lines are instances, each of which costs a draw call of
+  // about 40 µs without a graphics card.
   thin: boolean;
   opacity?: number;
   depthTest?: boolean;
@@ -25,7 +25,7 @@ const NUMBERS_PER_SEGMENT = 6;
 
 export class Segments {
   readonly lines: LineSegments | LineSegments2;
-  // x y z, r g b of both ends of each segment.
+  // x y z and r g b of both ends of each segment.
   positions = new Float32Array(0);
   colours = new Float32Array(0);
   count = 0; // segments that are drawn
@@ -39,7 +39,7 @@ export class Segments {
     this.lines.raycast = () => {};
   }
 
-  // Makes room for so many segments; what stood in the arrays is gone.
+  // Makes room for this number of segments. The content of the arrays is lost.
   allot(segments: number): void {
     this.positions = new Float32Array(NUMBERS_PER_SEGMENT * segments);
     this.colours = new Float32Array(NUMBERS_PER_SEGMENT * segments);
@@ -50,7 +50,7 @@ export class Segments {
         : thinGeometry(this.positions, this.colours);
   }
 
-  // Draws the first so many segments as they stand in the arrays now.
+  // Draws the first `count` segments of the arrays.
   upload(segments: number): void {
     this.count = segments;
     const { geometry } = this.lines;

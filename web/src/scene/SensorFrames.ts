@@ -1,5 +1,4 @@
-// Where the sensors are mounted, as /tf_static tells it: under their robot, or under a link of it
-// that moves.
+// The poses of sensors from /tf_static: relative to their robot, or to one of its moving links.
 import { Matrix4, Quaternion, Vector3 } from "three";
 import type { TransformsMessage } from "../protocol/messages";
 import type { BodyLayer } from "./BodyLayer";
@@ -31,7 +30,7 @@ export class SensorFrames {
     );
   }
 
-  // world_from_sensor with the bodies as they are shown now; null while it is not known.
+  // world_from_sensor for the displayed bodies; null while it is unknown.
   worldFrom(robot: string, sensor: string, bodies: BodyLayer): Matrix4 | null {
     const mount = this.mounts.get(`${robot}/${sensor}`);
     const body = bodies.indexOf(robot);

@@ -1,5 +1,6 @@
-// Which frames draw shadows anew: all where something moved, as long as frames are fast. Shadows of a
-// thousand robots cost as much as the robots: where frames are slow, only every fourth does.
+// Selects the frames in which shadows are redrawn: all frames with motion while frames are fast.
+// Shadows of a thousand robots cost as much as the robots, so if frames are slow, every fourth
+// frame.
 
 const SLOW_MS = 90;
 const FRAMES_APART = 4;
@@ -9,17 +10,17 @@ export class ShadowPace {
   private isSlow = false;
   private since = 0; // frames
 
-  // Told how long a frame took.
+  // Takes the time that a frame has taken.
   frameTook(milliseconds: number): void {
     this.isSlow = milliseconds > SLOW_MS;
   }
 
-  // Something stands elsewhere than in the last frame.
+  // Call this when something has moved since the last frame.
   moved(): void {
     this.isStale = true;
   }
 
-  // Asked once a frame. What has come to rest has its shadow at once.
+  // Called once per frame. When motion has stopped, shadows are redrawn at once.
   areDue(isMoving: boolean): boolean {
     this.since += 1;
     if (!this.isStale || (this.isSlow && isMoving && this.since < FRAMES_APART)) return false;

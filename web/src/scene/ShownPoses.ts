@@ -1,4 +1,5 @@
-// The poses that a scene is shown with: takes the stream's messages, gives those of every frame.
+// The poses with which a scene is displayed: receives the stream's messages and provides poses for
+// every frame.
 import type { Matrix4 } from "three";
 import type { PosesMessage } from "../protocol/messages";
 import { seconds } from "../protocol/messages";
@@ -13,10 +14,10 @@ export class ShownPoses {
   private shown = new Float64Array(0);
   private last: PosesMessage | null = null;
 
-  // `onSample` hears what belongs to the scene.
+  // `onSample` receives the poses of the scene.
   constructor(private readonly onSample: (sample: PoseSample) => void) {}
 
-  // Another scene, or none: then what was last told is forgotten. Poses may come before their scene.
+  // Sets another scene or none, and forgets the last poses. Poses may arrive before their scene.
   setScene(bodies: BodyLayer | null): void {
     this.interpolator.clear();
     this.bodies = bodies;
@@ -34,7 +35,7 @@ export class ShownPoses {
     this.onSample(sample);
   }
 
-  // Puts the bodies where they are to be shown; false when nothing is known.
+  // Sets the displayed poses of the bodies. Returns false if none are known.
   show(nowMs: number): boolean {
     if (!this.bodies || !this.interpolator.read(nowMs, this.shown)) return false;
     this.bodies.setPoses(this.shown);
@@ -45,12 +46,12 @@ export class ShownPoses {
     return this.interpolator.isSettled(nowMs);
   }
 
-  // Those of that simulated instant, or else the newest.
+  // The poses at this simulated instant, or else the newest ones.
   at(stamp: number): Float64Array | null {
     return this.interpolator.at(stamp) ?? this.interpolator.latest?.poses ?? null;
   }
 
-  // world_from_body as last reported and its simulated time; null while unknown.
+  // world_from_body as last reported, with its simulated time; null while unknown.
   latestOf(body: string): { pose: Matrix4; stamp: number } | null {
     const { latest } = this.interpolator;
     const entry = this.bodies?.poseEntryOf(body) ?? null;

@@ -1,6 +1,6 @@
-// What is seen where nothing stands: darker above and below than at the horizon, as in the robots'
-// cameras (gsv/rendering), but hazy below: a viewer looks down over the ground's edge. It moves along
-// with the camera, so that it is always far away.
+// The background: darker above and below than at the horizon, as in the robots' cameras
+// (gsv/rendering), but hazy below, because a viewer looks down over the edge of the ground. It
+// moves with the camera, so that it is always far away.
 import type { Camera } from "three";
 import { BackSide, Color, Float32BufferAttribute, Mesh, MeshBasicMaterial, SphereGeometry } from "three";
 import type { SceneDescription } from "../api/scene";

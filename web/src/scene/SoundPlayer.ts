@@ -1,4 +1,4 @@
-// Lets people hear what robots' speakers play, as loud for all: where they stand does not count.
+// Plays the sounds of the robots' speakers, at the same volume for all distances.
 import type { Sound } from "../live/devices";
 
 const LOUDNESS = 0.08; // of full scale, at full volume
@@ -23,7 +23,7 @@ export class SoundPlayer {
     return this.voices.size;
   }
 
-  // What is to be heard now, by topic: nothing while it is muted.
+  // Sets the sounds to play, by topic. None while it is muted.
   play(sounds: ReadonlyMap<string, Sound>): void {
     if (sounds.size === 0 && this.voices.size === 0) return;
     for (const [topic, { sound }] of [...this.voices]) {
@@ -39,7 +39,7 @@ export class SoundPlayer {
 
   private begin(topic: string, sound: Sound): void {
     this.context ??= this.makeContext();
-    // A page may sound only after somebody has touched it.
+    // Browsers allow sound only after the user has touched the page.
     if (this.context.state === "suspended") void this.context.resume();
     const source = sourceOf(this.context, sound);
     const gain = this.context.createGain();
@@ -60,7 +60,7 @@ export class SoundPlayer {
   }
 }
 
-// The same, going on: one that was begun anew has played for less time.
+// Whether it is the same sound, continued: a sound that was started again has played for less time.
 function isSame(now: Sound, before: Sound): boolean {
   const { name, frequency, volume, elapsed } = before;
   return (

@@ -1,5 +1,6 @@
-// A mark at each robot that is far away, in trouble, or chosen by the filter: the colour of
-// its state, and a shape for people who do not see colours. All marks are one draw call, above everything else.
+// Draws a mark at each robot that is far away, in trouble, or selected by the filter. The mark
+// shows the state by colour and by shape (for people who do not see colours). All marks are one
+// draw call, on top of everything.
 import type { PerspectiveCamera } from "three";
 import {
   BufferAttribute,
@@ -12,7 +13,7 @@ import {
 import type { ShownState } from "../state/health";
 import { SHOWN_STATES, isTrouble } from "../state/health";
 
-// Pixels of the page that a robot measures across; below, it is seen better as a mark.
+// The size of a robot in CSS pixels below which it is shown as a mark.
 const FAR_PX = 14;
 const SIZE_PX = 9;
 const TROUBLE_SIZE_PX = 14;
@@ -75,7 +76,7 @@ export class StateMarks {
     this.points.visible = false;
   }
 
-  // `tops`: x y z above each robot, in the world; the picture is so many pixels of the page high.
+  // `tops`: x y z above each robot, in the world. `height` is that of the view in CSS pixels.
   place(tops: Float64Array, robots: MarkedRobots, camera: PerspectiveCamera, height: number, ratio: number): void {
     const total = tops.length / 3;
     if (total === 0) return this.hide();
@@ -112,7 +113,7 @@ export class StateMarks {
     this.points.visible = false;
   }
 
-  // How many are drawn.
+  // The number of drawn marks.
   get count(): number {
     return this.points.visible ? this.points.geometry.drawRange.count : 0;
   }
@@ -130,7 +131,7 @@ export class StateMarks {
   }
 }
 
-// All shapes beside each other.
+// All shapes side by side.
 function glyphTexture(): CanvasTexture {
   const canvas = document.createElement("canvas");
   canvas.width = GLYPH_PX * SHOWN_STATES.length;
@@ -159,7 +160,7 @@ const SHAPES: Record<ShownState, "circle" | "square" | "frame" | "ring" | "diamo
   dead: "cross",
 };
 
-// In a square from 0 to 1, with a white edge that parts it from what is behind it.
+// Draws a shape in a unit square, with a white edge that separates it from the background.
 function drawGlyph(context: CanvasRenderingContext2D, state: ShownState): void {
   const shape = SHAPES[state];
   const path = new Path2D();

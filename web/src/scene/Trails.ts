@@ -1,4 +1,4 @@
-// Where robots have been: for each the last so many places, a little apart from one another.
+// The paths of the robots: for each, its last places at small distances.
 import type { LineLayer } from "./LineLayer";
 import { rgb } from "./LineLayer";
 
@@ -24,8 +24,8 @@ export class Trails {
     this.stamp = -Infinity;
   }
 
-  // Where the robots are at the instant `stamp` (s, simulated). An earlier one than the last begins
-  // all trails anew.
+  // Adds the robots' places at the instant `stamp` (s, simulated). An earlier instant than the last
+  // one restarts all trails.
   push(stamp: number, robots: Iterable<{ name: string; x: number; y: number; z: number }>): void {
     if (stamp < this.stamp) this.trails.clear();
     this.stamp = stamp;

@@ -1,4 +1,4 @@
-// An arrow on the floor that shows where a robot heads; its tip is the handle by which it is turned.
+// An arrow on the floor that shows a robot's heading. Dragging its tip rotates the robot.
 import { BufferGeometry, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments } from "three";
 import { Mesh, MeshBasicMaterial, SphereGeometry, Vector3 } from "three";
 
@@ -24,7 +24,7 @@ export class TurnHandle {
     this.group.visible = false;
   }
 
-  // At a robot's place on the floor; `radius` is that of the ring around it.
+  // Moves to a robot's place on the floor. `radius` is that of the ring around it.
   show(position: Vector3, yaw: number, radius: number): void {
     this.group.visible = true;
     this.group.position.set(position.x, position.y, position.z + ABOVE_FLOOR);
@@ -38,7 +38,7 @@ export class TurnHandle {
     this.group.visible = false;
   }
 
-  // Where one takes hold of it, in the world; null while it is hidden.
+  // The place of the tip in the world; null while it is hidden.
   get tip(): Vector3 | null {
     return this.group.visible ? this.knob.getWorldPosition(new Vector3()) : null;
   }

@@ -1,8 +1,9 @@
-// Pictures and video of what the view shows.
+// Images and videos of the view.
 
 const PICTURES_PER_SECOND = 30;
 
-// Of a canvas that was drawn in this very task: the browser clears it afterwards. `paint` adds to it.
+// Captures a canvas that was drawn in this task; the browser clears it afterwards. `paint` draws on
+// the image.
 export async function pngOf(
   canvas: HTMLCanvasElement,
   paint: (context: CanvasRenderingContext2D) => void,

@@ -1,4 +1,4 @@
-// How one sees as a robot does. Frames are those of REP-103: x forward, y left, z up.
+// Views as a robot sees them. Frames follow REP-103: x forward, y left, z up.
 import type { Box3 } from "three";
 import { Matrix4, Quaternion, Vector3 } from "three";
 import type { CameraView } from "../api/scene";
@@ -6,7 +6,7 @@ import type { CameraView } from "../api/scene";
 const DEFAULT_HEIGHT = 0.3; // m
 const WIDEST = (120 * Math.PI) / 180; // a flat picture of more is all rim
 
-// Where a robot's eye is, and how wide it sees; null: as wide as the view does.
+// The pose of a robot's camera, and its field of view; null: that of the page's view.
 export interface Eye {
   worldFromEye: Matrix4;
   view: CameraView | null;
@@ -20,14 +20,15 @@ export function eyeAt(worldFromRobot: Matrix4, bounds: Box3 | null): Matrix4 {
   return worldFromRobot.clone().multiply(new Matrix4().makeTranslation(x, y, z));
 }
 
-// The vertical angle, in degrees, with which a picture of this aspect (width by height) just holds all that
-// the eye sees.
+// The vertical angle in degrees at which an image with this aspect ratio (width by height) just
+// contains the whole field of view.
 export function fieldOfViewDeg({ horizontalFov, aspect }: CameraView, pictureAspect: number): number {
   const across = Math.tan(Math.min(horizontalFov, WIDEST) / 2);
   return (2 * Math.atan(across / Math.min(aspect, pictureAspect)) * 180) / Math.PI;
 }
 
-// The turn of a three.js camera, which looks along its -z with y up, in the frame of an eye.
+// The rotation of a three.js camera, which looks along its -z with y up, in the frame of a robot's
+// camera.
 export function cameraRotation(worldFromEye: Matrix4): Quaternion {
   const [forward, left, up] = [new Vector3(), new Vector3(), new Vector3()];
   worldFromEye.extractBasis(forward, left, up);

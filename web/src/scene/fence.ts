@@ -1,4 +1,4 @@
-// Tells when the graphics card, or what stands for it, has drawn what it was told to.
+// Resolves when the graphics card, or its software replacement, has finished drawing.
 import type { Fence } from "./RenderLoop";
 
 export function fenceOf(gl: WebGL2RenderingContext): Fence {
@@ -13,7 +13,7 @@ export function fenceOf(gl: WebGL2RenderingContext): Fence {
       sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
       gl.flush();
     },
-    // Also where the context was lost: nothing is drawn there any more.
+    // Also resolves if the context is lost, because nothing is drawn then.
     isReached: () => {
       if (sync !== null && gl.getSyncParameter(sync, gl.SYNC_STATUS) === gl.UNSIGNALED) return false;
       drop();

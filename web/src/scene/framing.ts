@@ -1,4 +1,4 @@
-// Where a camera stands to see a part of the world.
+// Computes camera positions that show a part of the world.
 import { Box3, Matrix4, PerspectiveCamera, Vector3 } from "three";
 import type { SceneDescription } from "../api/scene";
 import { robotsOf } from "../api/scene";
@@ -8,13 +8,13 @@ const AROUND_ROBOTS = 4; // m of the world around the robots that belong into th
 const SMALL_WORLD = 13; // m: a world of at most this half-width is shown whole
 const TALLEST_SHOWN = 3; // m: what rises higher does not push the camera away
 
-// A body is too far away if its distance from the middle exceeds FAR_RADII times that of all nearer
-// bodies, and FAR metres: the rule of `gsv world draw`.
+// A body is far away if its distance from the centre exceeds FAR_RADII times that of all nearer
+// bodies, and FAR metres. `gsv world draw` uses the same rule.
 const FAR_RADII = 20;
 const FAR = 100;
 
-// The part of the scene that the first picture shows: all of a small world, else the robots and
-// what is around them.
+// The part of the scene in the first view: the whole of a small world, else the robots with their
+// surroundings.
 export function focusOf(scene: SceneDescription): Box3 {
   const world = boundsWithoutFarAway(scene);
   const robots = new Box3().setFromPoints(withoutFarAway(robotsOf(scene).map(placeOf)));
@@ -35,8 +35,8 @@ function placeOf({ pose }: { pose: readonly number[] }): Vector3 {
   return new Vector3(pose[0], pose[1], pose[2]);
 }
 
-// The scene's bounds, or those of the nearer bodies where some are so far away from the others that
-// with them nothing could be made out.
+// The bounds of the scene. If some bodies are so far away that the others would be too small to
+// see, only the nearer ones count.
 function boundsWithoutFarAway(scene: SceneDescription): Box3 {
   const bounds = new Box3(new Vector3(...scene.bounds.min), new Vector3(...scene.bounds.max));
   const places = scene.bodies.map(placeOf);
@@ -47,8 +47,8 @@ function boundsWithoutFarAway(scene: SceneDescription): Box3 {
   return box.intersect(bounds);
 }
 
-// Those before the first gap, in the order of their distance from the median (of fewer than three:
-// from the origin). At least half of them stay.
+// The bodies before the first gap, in the order of their distance from the median (of fewer than
+// three: from the origin). At least half of them are kept.
 export function withoutFarAway(places: Vector3[]): Vector3[] {
   const middle = new Vector3();
   if (places.length >= 3) {
@@ -64,8 +64,8 @@ export function withoutFarAway(places: Vector3[]): Vector3[] {
   return gap < 0 ? sorted : sorted.slice(0, gap);
 }
 
-// What a camera was set up for: it stays where it is while this stays the same. Different worlds may
-// have one name, as the previews of a set-up have.
+// Identifies what the camera was set up for: the camera stays while this is unchanged. Different
+// worlds may have one name, such as the previews of a set-up.
 export function environmentOf({ name, bodies }: SceneDescription): string {
   return JSON.stringify([name, bodies.filter(({ isFixed }) => isFixed).map(({ model, pose }) => [model, pose])]);
 }
@@ -77,9 +77,9 @@ function boxAround(centre: Vector3, halfWidth: number): Box3 {
   );
 }
 
-// How far from the box's centre, looking along `direction`, a camera must stand so that each of the
-// box's corners is in the picture. With a corner at (x, y) in the picture's plane and z nearer to the
-// camera than the centre, that is z + |x| / tan(half the horizontal field), and the same for y.
+// The distance from the box's centre, along `direction`, from which all corners of the box are in
+// the view. A corner at (x, y) in the image plane, which is nearer to the camera than the centre by
+// z, requires z + |x| / tan(half the horizontal field of view), and the same for y.
 export function fittingDistance(camera: PerspectiveCamera, box: Box3, direction: Vector3): number {
   const tanY = Math.tan((camera.fov * Math.PI) / 360);
   const tanX = tanY * camera.aspect;

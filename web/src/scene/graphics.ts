@@ -1,15 +1,15 @@
-// Has the browser start what draws, and waits without holding up the page: where no graphics card
-// does, that takes most of a second, in which the page can ask for what there is to be drawn.
+// Makes the browser start its graphics, and waits without blocking the page: without a graphics
+// card this takes most of a second, in which the page can request its data.
 import { drawsInSoftware } from "./software";
 
 const LONGEST_MS = 5000;
 
-// Gives whether it draws in software.
+// Resolves to whether drawing is in software.
 export async function startGraphics(): Promise<boolean> {
   return (await askWorker()) ?? drawsInSoftware(document.createElement("canvas")) ?? true;
 }
 
-// Null where no worker can tell: then the page waits with the view.
+// Null if no worker can find out. Then the page blocks while the view starts.
 function askWorker(): Promise<boolean | null> {
   if (typeof Worker === "undefined" || typeof OffscreenCanvas === "undefined") return Promise.resolve(null);
   let worker: Worker;

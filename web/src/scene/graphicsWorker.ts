@@ -1,5 +1,5 @@
-// Asks for a context to draw with, which starts what draws, and says what that is (graphics.ts). The
-// page makes its own context then.
+// Requests a drawing context, which starts the graphics, and reports what draws (graphics.ts). The
+// page then makes its own context.
 import { drawsInSoftware } from "./software";
 
 postMessage(drawsInSoftware(new OffscreenCanvas(1, 1)));

@@ -1,4 +1,4 @@
-// Figures made of lines: axes, what a camera sees, where something is touched.
+// Figures made of lines: axes, fields of view, contacts.
 import type { Matrix4 } from "three";
 import { Vector3 } from "three";
 import type { CameraView, SceneJoint } from "../api/scene";
@@ -26,7 +26,8 @@ export function drawAxes(lines: LineLayer, worldFromFrame: Matrix4, length: numb
   lines.add(worldFromFrame, ORIGIN, [0, 0, length], BLUE);
 }
 
-// What turns: its axis and a circle about it; what slides: its axis with a bar across each end.
+// For a revolute joint: its axis with a circle. For a prismatic joint: its axis with a bar at each
+// end.
 export function drawJoint(
   lines: LineLayer,
   worldFromJoint: Matrix4,
@@ -54,7 +55,8 @@ export function drawJoint(
   }
 }
 
-// The pyramid that a camera sees, one metre deep; where its angles are not known, where it looks.
+// The pyramid of a camera's field of view, one metre deep; if the angles are unknown, only its
+// direction.
 export function drawView(lines: LineLayer, worldFromCamera: Matrix4, view: CameraView | null): void {
   if (!view) {
     lines.add(worldFromCamera, ORIGIN, [VIEW_DEPTH, 0, 0], VIEW_COLOUR);
@@ -74,7 +76,7 @@ export function drawView(lines: LineLayer, worldFromCamera: Matrix4, view: Camer
   });
 }
 
-// A cross where it is touched, and the normal towards what touches it.
+// A cross at the contact, and the normal towards the other body.
 export function drawContact(lines: LineLayer, worldFromSensor: Matrix4, { point, normal }: TouchPoint): void {
   const [x, y, z] = point;
   const tip = point.map((value, i) => value + NORMAL_LENGTH * normal[i]!);

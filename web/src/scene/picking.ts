@@ -1,4 +1,4 @@
-// What a person means with a click: places are in CSS pixels of the page.
+// Finds what the user clicks on. Places are in CSS pixels of the page.
 import type { Camera, Vector3 } from "three";
 import { Raycaster, Vector2 } from "three";
 
@@ -10,7 +10,7 @@ export interface ScreenPlace {
 const NEAREST_PX = 18; // a click this near to a robot means it: small ones are hard to hit
 const DRAG_PX = 5;
 
-// Calls back for presses that are not the end of a drag.
+// Reports clicks, but not the end of a drag.
 export function onClick(canvas: HTMLCanvasElement, listener: (place: ScreenPlace) => void): void {
   let down: ScreenPlace | null = null;
   canvas.addEventListener("pointerdown", (event) => {
@@ -22,7 +22,7 @@ export function onClick(canvas: HTMLCanvasElement, listener: (place: ScreenPlace
   });
 }
 
-// The ray from the eye through a place in the picture that fills `frame`.
+// The ray from the camera through a place in the image that fills `frame`.
 export function rayThrough(place: ScreenPlace, frame: DOMRect, camera: Camera): Raycaster {
   const x = (2 * (place.x - frame.left)) / frame.width - 1;
   const y = 1 - (2 * (place.y - frame.top)) / frame.height;
@@ -31,14 +31,14 @@ export function rayThrough(place: ScreenPlace, frame: DOMRect, camera: Camera): 
   return raycaster;
 }
 
-// Where a point of the world is drawn; null when it is not in the picture.
+// The place at which a point of the world is drawn; null if it is outside the image.
 export function screenPlaceOf(point: Vector3, camera: Camera, frame: DOMRect): ScreenPlace | null {
   const { x, y, z } = point.clone().project(camera);
   if (z > 1 || Math.abs(x) > 1 || Math.abs(y) > 1) return null;
   return { x: frame.left + ((x + 1) / 2) * frame.width, y: frame.top + ((1 - y) / 2) * frame.height };
 }
 
-// The one drawn nearest to the place, if it is near at all.
+// The robot drawn nearest to the place, if it is near enough.
 export function nearest(
   place: ScreenPlace,
   robots: { name: string; at: ScreenPlace | null }[],

@@ -1,13 +1,13 @@
-// The canvas of the 3D view and what draws on it.
+// The canvas of the 3D view and its renderer.
 import { NeutralToneMapping, PCFShadowMap, WebGLRenderer } from "three";
 
-// What the view needs of a renderer.
+// The functions of a renderer that the view uses.
 export type ViewRenderer = Pick<
   WebGLRenderer,
   "domElement" | "render" | "setSize" | "setPixelRatio" | "getPixelRatio"
 > & { shadowMap: Pick<WebGLRenderer["shadowMap"], "needsUpdate"> };
 
-// A canvas that takes the pointer, on which nothing is drawn: the server draws the view.
+// A canvas for the pointer only: the server draws the view.
 export function makeBareRenderer(): ViewRenderer {
   return {
     domElement: makeCanvas(),
@@ -29,10 +29,10 @@ function makeCanvas(): HTMLCanvasElement {
   return canvas;
 }
 
-// `isFine`: edges are smoothed. Null where the browser has no WebGL 2.
+// `isFine`: edges are smoothed. Null if the browser has no WebGL 2.
 export function makeRenderer(isFine: boolean): WebGLRenderer | null {
   const canvas = makeCanvas();
-  // Opaque: nothing of the page shows through.
+  // Opaque, so that the page behind is hidden.
   const context = canvas.getContext("webgl2", {
     alpha: false,
     antialias: isFine,

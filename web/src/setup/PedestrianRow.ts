@@ -1,4 +1,4 @@
-// One group of pedestrians of a set-up: how many, and where they walk.
+// The form for one group of pedestrians: their number and their route.
 import type { App } from "../app/App";
 import type { PedestrianSetUp } from "../api/pedestrians";
 import { parseRoute, routeText } from "../api/pedestrians";
@@ -51,7 +51,7 @@ export class PedestrianRow {
     this.route.show(routeText(group.route));
   }
 
-  // `input`: of which field; empty: of the group.
+  // `input`: the name of the field; empty: the whole group.
   refuse(input: string, sentence: string): void {
     this.count.refuse(input === "count" ? sentence : "");
     this.route.refuse(input === "route" ? sentence : "");

@@ -1,5 +1,5 @@
-// The page's state, in one place. Panels watch the part that they show; nothing else is shared
-// between them.
+// The state of the page, in one place. Panels watch the parts that they show, and share nothing
+// else.
 
 export type Listener<T> = (value: T, previous: T | undefined) => void;
 
@@ -21,8 +21,8 @@ export class Store<State extends object> {
     for (const notify of [...this.watchers]) notify();
   }
 
-  // Calls `listener` now and whenever the selected part is another one (by `equal`) from then on.
-  // Gives the function that ends this.
+  // Calls `listener` now and whenever the selected part changes (according to `equal`). Returns the
+  // function that ends this.
   watch<T>(
     select: (state: State) => T,
     listener: Listener<T>,
@@ -43,10 +43,10 @@ export class Store<State extends object> {
   }
 }
 
-// For who may see the state and not change it.
+// Read-only access to the state.
 export type StateReader<State extends object> = Pick<Store<State>, "get" | "watch">;
 
-// Equal when both have the same members: for selectors that build an object or a list.
+// Compares members: for selectors that create an object or a list.
 export function shallowEqual(a: unknown, b: unknown): boolean {
   if (Object.is(a, b)) return true;
   if (typeof a !== "object" || typeof b !== "object" || a === null || b === null) return false;

@@ -1,4 +1,4 @@
-// What a person may do in each phase of a simulation. The server has the last word.
+// The actions that a viewer may request in each phase of a simulation. The server decides.
 import type { Action } from "../api/SimulationApi";
 import type { Phase, RobotStatus } from "../api/status";
 import type { State } from "./State";
@@ -18,12 +18,12 @@ export function isAllowed(phase: Phase | undefined, action: Action): boolean {
   return phase !== undefined && ALLOWED[phase].includes(action);
 }
 
-// Whether anything can be asked of the server now.
+// Whether requests to the server are possible now.
 export function canAct({ connection, pending, people }: State): boolean {
   return connection.phase === "open" && pending === null && mayAct(people);
 }
 
-// Whether the simulation can be edited; one that runs is paused first.
+// Whether the simulation can be edited. A running one is paused first.
 export function canEdit({ abilities, replay, status, setUp, people }: State): boolean {
   const phase = status?.phase;
   return (
@@ -35,7 +35,7 @@ export function canEdit({ abilities, replay, status, setUp, people }: State): bo
   );
 }
 
-// The one action that the main button stands for: what makes it run, or stand still.
+// The action of the main button: run or pause.
 export function mainAction(phase: Phase | undefined): "start" | "pause" | "resume" {
   if (phase === "running" || phase === "starting") return "pause";
   return phase === "paused" ? "resume" : "start";
@@ -55,7 +55,7 @@ export function phaseLabel(phase: Phase): string {
   return SENTENCES[phase];
 }
 
-// What a robot's agent does, in words.
+// The state of a robot's agent, in words.
 export function agentLabel({ agentPhase, behaviour }: Pick<RobotStatus, "agentPhase" | "behaviour">): string {
   if (agentPhase === "none") return behaviour ? "not started" : "idle";
   return agentPhase;

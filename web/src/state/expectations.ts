@@ -1,4 +1,4 @@
-// What a scenario expects of the run, and how it stands (docs/formats/scenario.md).
+// The expectations of a scenario and their verdicts (docs/formats/scenario.md).
 import type { ExpectationMessage } from "../protocol/messages";
 import { formatTime, formatValue } from "../ui/format";
 

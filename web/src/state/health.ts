@@ -1,11 +1,11 @@
-// What state each robot is in, as the server computes it from commands and motion (docs/viewer.md).
+// The state of each robot, as the server computes it from commands and motion (docs/viewer.md).
 import type { RobotStatus } from "../api/status";
 import type { HealthMessage, RobotHealthMessage } from "../protocol/messages";
 import { seconds } from "../protocol/messages";
 import { formatNumber } from "../ui/format";
 
-// The server's states, worst first, and two of the page's: `told` stands though it was told to move;
-// `unknown` is a robot whose state nobody reports.
+// The server's states, worst first, and two of the page: a `told` robot stands although it was
+// commanded to move, and the state of an `unknown` robot is not reported.
 export const SHOWN_STATES = ["dead", "stuck", "contact", "late", "told", "standing", "unknown", "moving"] as const;
 export type ShownState = (typeof SHOWN_STATES)[number];
 
@@ -74,13 +74,13 @@ function robotHealthOf(message: RobotHealthMessage): RobotHealth {
 
 const OF_AGENT: Record<string, ShownState> = { dead: "dead", unresponsive: "late" };
 
-// Without a report of the server only what its behaviour does is known.
+// Without a report from the server, only the state of the behaviour is known.
 export function stateOf(health: Health | null, robot: Pick<RobotStatus, "name" | "agentPhase">): ShownState {
   if (!health) return OF_AGENT[robot.agentPhase] ?? "unknown";
   return health.robots.get(robot.name)?.state ?? "moving";
 }
 
-// The higher, the worse. Asked for thousands of robots several times a second.
+// Higher is worse. This is called for thousands of robots several times per second.
 const BADNESS = Object.fromEntries(
   SHOWN_STATES.map((state, i) => [state, SHOWN_STATES.length - i]),
 ) as Record<ShownState, number>;
@@ -89,7 +89,7 @@ export function badness(state: ShownState): number {
   return BADNESS[state];
 }
 
-// Something that a person should look at.
+// Whether a person should look at it.
 export function isTrouble(state: ShownState): boolean {
   return BADNESS[state] >= BADNESS.told;
 }

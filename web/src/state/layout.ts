@@ -23,7 +23,8 @@ export const MAX_LAYOUT_CHARACTERS = 4000;
 const MAX_PANELS = 100;
 const MAX_DEPTH = 12;
 
-// What a text says, or why it is no layout. Panels that are not `known` are left out and listed.
+// Reads a text, or returns the reason why it is not a layout. Panels that are not `known` are
+// omitted and listed.
 export type ReadLayout = { layout: Split; unknown: string[] } | { problem: string };
 
 export function readLayout(text: string, known: ReadonlySet<string>): ReadLayout {
@@ -55,7 +56,7 @@ export function textOf(part: Part): string {
   return `${part.split === "row" ? "r" : "c"}(${parts.join(",")})`;
 }
 
-// On a narrow screen everything else is tabs below the view.
+// On a narrow screen, all panels are tabs below the view.
 export function narrowLayout(panels: readonly string[], front: string | null): Split {
   const others = panels.filter((id) => id !== VIEW);
   const view = { part: { tabs: [VIEW], front: VIEW }, share: 560 };
@@ -132,7 +133,7 @@ class Reader {
   }
 }
 
-// Without the panels that are not known, and without parts that are empty then; null: nothing is left.
+// Removes unknown panels and parts that are then empty. Null if nothing is left.
 function pruned(part: Part, known: ReadonlySet<string>): Part | null {
   if ("tabs" in part) {
     const tabs = part.tabs.filter((id) => known.has(id));
@@ -147,7 +148,7 @@ function pruned(part: Part, known: ReadonlySet<string>): Part | null {
   return parts.length === 1 ? parts[0]!.part : { split: part.split, parts };
 }
 
-// The view is always somewhere; the outermost part is a row or a column.
+// The view is always included. The outermost part is a row or a column.
 function withView(part: Part | null): Split {
   const view = { part: { tabs: [VIEW], front: VIEW }, share: 500 };
   if (!part) return { split: "row", parts: [view] };

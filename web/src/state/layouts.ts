@@ -1,4 +1,4 @@
-// The layouts that a person has saved, by name, and the one that is shown.
+// The saved layouts by name, and the present one.
 import { MAX_LAYOUT_CHARACTERS } from "./layout";
 
 export interface SavedLayout {
@@ -24,7 +24,7 @@ export function loadLayouts(storage: Reading): SavedLayout[] {
   }
 }
 
-// Whether the browser took them.
+// Returns whether the browser has stored them.
 export function keepLayouts(storage: Writing, saved: readonly SavedLayout[]): boolean {
   try {
     storage?.setItem(SAVED_KEY, JSON.stringify(saved));
@@ -42,7 +42,7 @@ export function keepCurrent(storage: Writing, text: string): void {
   try {
     storage?.setItem(CURRENT_KEY, text);
   } catch {
-    // A full or forbidden storage: it is forgotten, as in a private window.
+    // If the storage is full or not allowed, nothing is saved, as in a private window.
   }
 }
 
@@ -50,7 +50,7 @@ export function fileOf({ name, text }: SavedLayout): string {
   return `${JSON.stringify({ gsv_layout: FILE_VERSION, name, layout: text }, null, 2)}\n`;
 }
 
-// The layout in a file, or why there is none.
+// Reads the layout in a file, or returns the reason why it is none.
 export function fromFile(content: string): SavedLayout | { problem: string } {
   let told: unknown;
   try {

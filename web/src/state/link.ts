@@ -1,10 +1,11 @@
-// A view as the end of an address: #t=12.5&view=X,Y,Z,X,Y,Z&select=NAME&mode=chase&show=beams,grid&layout=drive.
-// Any part may be missing, and is then as it would be without a link.
+// A view in an address:
+// #t=12.5&view=X,Y,Z,X,Y,Z&select=NAME&mode=chase&show=beams,grid&layout=drive. All parts are
+// optional. A missing part has the same effect as no link.
 import type { OverlayName, Shown } from "./overlays";
 import { OVERLAY_NAMES } from "./overlays";
 import type { ViewMode } from "./State";
 
-// Where the eye is and what it looks at: x y z of each, in metres.
+// The position and the target of the camera: x y z each, in metres.
 export type Viewpoint = [number, number, number, number, number, number];
 
 export interface LinkedView {
@@ -30,7 +31,7 @@ export function hashOf({ time, viewpoint, selection, viewMode, shown, layout }: 
   return `#${parts.join("&")}`;
 }
 
-// What is not a view in it is left out: a link may come from anywhere.
+// Ignores invalid parts, because a link is untrusted.
 export function linkedView(hash: string): LinkedView {
   const parts = new URLSearchParams(hash.replace(/^#/, ""));
   const time = parts.get("t");

@@ -1,4 +1,4 @@
-// The robots of a simulation as they are listed: their status, what each is, and how it is doing.
+// The robots of a simulation as they are listed: status, kind and health.
 import { robotsOf } from "../api/scene";
 import type { SceneDescription } from "../api/scene";
 import type { RobotStatus } from "../api/status";
@@ -14,7 +14,7 @@ export function listedRobots({ status, health, scene }: State): readonly ListedR
   return latest.listed;
 }
 
-// Several parts of the page ask after each change.
+// Cached, because several parts of the page need it after each change.
 let latest: {
   robots: readonly RobotStatus[] | undefined;
   health: Health | null;
@@ -38,7 +38,7 @@ function listed(robots: readonly RobotStatus[], health: Health | null, scene: Sc
 
 const knownKinds = new WeakMap<SceneDescription, Map<string, RobotKind>>();
 
-// Those that are no robots.
+// The bodies that are not robots.
 function kindsOf(scene: SceneDescription | null): ReadonlyMap<string, RobotKind> {
   if (!scene) return new Map();
   let kinds = knownKinds.get(scene);

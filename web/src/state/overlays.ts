@@ -1,5 +1,4 @@
-// What can be drawn over the world: each can be switched by itself, by menu or key, and the browser
-// remembers the choice.
+// The overlays of the view. Each can be switched by menu or key, and the browser stores the choice.
 
 export interface OverlayKind {
   name: OverlayName;
@@ -60,13 +59,13 @@ export const FIRST_SHOWN: Shown = {
 
 const KEY = "gsv.overlays";
 
-// What was kept last; what is missing or no flag is as at first.
+// Reads the stored choice. Missing or invalid entries have their default.
 export function loadShown(storage: Pick<Storage, "getItem"> | null): Shown {
   let kept: unknown = null;
   try {
     kept = JSON.parse(storage?.getItem(KEY) ?? "null");
   } catch {
-    // Written by something else.
+    // The content was written by another program.
   }
   const flags = (typeof kept === "object" && kept !== null ? kept : {}) as Record<string, unknown>;
   const shown = { ...FIRST_SHOWN };
@@ -78,11 +77,11 @@ export function keepShown(storage: Pick<Storage, "setItem"> | null, shown: Shown
   try {
     storage?.setItem(KEY, JSON.stringify(shown));
   } catch {
-    // A full or forbidden storage: it is forgotten, as in a private window.
+    // If the storage is full or not allowed, nothing is saved, as in a private window.
   }
 }
 
-// null where the browser forbids it.
+// null if the browser does not allow it.
 export function browserStorage(): Storage | null {
   try {
     return localStorage;

@@ -1,4 +1,4 @@
-// The state of a set-up: the scenario being put together, what it was before, what is wrong with it.
+// The state of a set-up: the present scenario, its former versions, and its problems.
 import type { Behaviours, ModelChoice } from "../api/SetUpApi";
 import type { RobotList, Scenario } from "../api/scenario";
 
@@ -13,7 +13,7 @@ export interface Choices {
   behaviours: Behaviours | null; // null: not known yet
 }
 
-// A world from the person's own machine.
+// A world from the user's machine.
 export interface UploadedWorld {
   name: string; // its path among the files that came with it
   path: string; // where it lies on the server's machine
@@ -31,8 +31,8 @@ export interface SetUp extends Choices {
   isHeld: boolean; // nothing can be created now: the choices or a world are on their way, or it is being created
 }
 
-// The server's sentence, with the files of an upload as the person has them, without the folder in
-// which the server keeps them.
+// The server's sentence, with the file names of an upload as the user knows them, without the
+// server's folder.
 export function inTheirWords(sentence: string, uploaded: readonly UploadedWorld[]): string {
   const folders = uploaded.filter(({ name, path }) => path.endsWith(name)).map(({ name, path }) => path.slice(0, -name.length));
   return folders.reduce((said, folder) => (folder === "" ? said : said.replaceAll(folder, "")), sentence);
@@ -57,10 +57,10 @@ export function redone(setUp: SetUp): SetUp {
 }
 
 const ROBOT_FIELD = /^(robots|avatars)\[(\d+)\](?:\.(\w+))?$/;
-// Those of them that have an input of their own in a robot's row.
+// The fields that have their own input in a robot's row.
 const ROBOT_INPUTS = ["name", "model", "behaviour", "behaviour_constraint", "drive", "x", "y", "yaw"];
 
-// The robot that a field belongs to, and its input there; null: it is no robot's.
+// The robot and the input that a field belongs to; null if it belongs to no robot.
 export function robotOfField(field: string): { list: RobotList; index: number; input: string } | null {
   const [, list, index, input = ""] = ROBOT_FIELD.exec(field) ?? [];
   if (!list) return null;
@@ -73,7 +73,7 @@ export function robotOfField(field: string): { list: RobotList; index: number; i
 
 const PEDESTRIANS_FIELD = /^pedestrians\[(\d+)\](?:\.(\w+))?/;
 
-// Likewise of a group of pedestrians.
+// The same for a group of pedestrians.
 export function pedestriansOfField(field: string): { index: number; input: string } | null {
   const found = PEDESTRIANS_FIELD.exec(field);
   return found && { index: Number(found[1]), input: found[2] ?? "" };

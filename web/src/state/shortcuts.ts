@@ -1,5 +1,5 @@
-// Whether single keys (letters, digits, punctuation, Space) are commands. They can be turned off, as who
-// talks to the computer, or strikes a key by accident, sets off commands with them (WCAG 2.1.4).
+// Whether single keys (letters, digits, punctuation, Space) are commands. They can be turned off,
+// because speech input or an accidental key press would trigger commands (WCAG 2.1.4).
 const KEY = "gsv.single-keys";
 const OFF = "off";
 
@@ -11,6 +11,6 @@ export function keepSingleKeys(storage: Pick<Storage, "setItem"> | null, isOn: b
   try {
     storage?.setItem(KEY, isOn ? "on" : OFF);
   } catch {
-    // A full or forbidden storage: it is forgotten, as in a private window.
+    // If the storage is full or not allowed, nothing is saved, as in a private window.
   }
 }

@@ -1,10 +1,10 @@
-// Builds parts of the page. Text is always set as text: a name with markup in it shows as it is.
+// Builds elements of the page. Text is always set as text, so markup in a name is shown literally.
 
 type Child = Node | string | null | false;
 type Attributes = Record<string, string | boolean | ((event: never) => void)>;
 
 // element("button", { class: "plain", title: "Close", onclick: close }, "×"): names that begin with
-// "on" are listeners, everything else is an attribute; true means present, false absent.
+// "on" are listeners, all others are attributes. true means present, false absent.
 export function element<K extends keyof HTMLElementTagNameMap>(
   tag: K,
   attributes: Attributes = {},
@@ -20,12 +20,12 @@ export function element<K extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
-// Writes only what differs: a text that is set anew loses the reader's selection.
+// Writes only if the text differs, because a new text loses the reader's selection.
 export function setText(node: Node, text: string): void {
   if (node.textContent !== text) node.textContent = text;
 }
 
-// Likewise: what is set anew, be it the same, has its style looked at again.
+// Writes only if the value differs, because setting it makes the browser compute the style again.
 export function setAttribute(node: Element, name: string, value: string): void {
   if (node.getAttribute(name) !== value) node.setAttribute(name, value);
 }

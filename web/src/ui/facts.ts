@@ -1,7 +1,7 @@
 // A list of names and values under a heading.
 import { element, setText } from "./element";
 
-// What has no name takes the whole line.
+// A value without a name uses the whole line.
 export type Fact = [name: string, value: string, health?: string];
 
 export interface Facts {
@@ -9,7 +9,7 @@ export interface Facts {
   show(facts: readonly Fact[]): void;
 }
 
-// `otherwise` stands where there are none.
+// `otherwise` is shown if there are none.
 export function createFacts(title: string, otherwise: string): Facts {
   const list = element("dl", { class: "facts-list" });
   const empty = element("p", { class: "dim" }, otherwise);
@@ -26,7 +26,7 @@ export function createFacts(title: string, otherwise: string): Facts {
           cells[i] = { name: element("dt"), value: element("dd") };
           list.append(cells[i].name, cells[i].value);
         }
-        // What has not changed is left as it is: a reader may have selected it.
+        // Unchanged entries are kept, because the reader may have selected them.
         setText(cells[i].name, name);
         setText(cells[i].value, value);
         if (cells[i].name.className !== health) cells[i].name.className = health;

@@ -1,4 +1,4 @@
-// Files that the page makes for the person in front of it.
+// Files that the page creates for the user.
 
 export function download(name: string, content: Blob): void {
   const link = document.createElement("a");
@@ -9,7 +9,7 @@ export function download(name: string, content: Blob): void {
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }
 
-// "office at 12.3 s.png": letters that every file system takes.
+// "office at 12.3 s.png", with characters that every file system accepts.
 export function fileName(simulation: string | null, time: number, kind: string, ending: string): string {
   const name = (simulation ?? "gsv").replace(/[^\p{L}\p{N} _.-]+/gu, "_").slice(0, 80);
   return `${name} ${kind} ${time.toFixed(2)}s.${ending}`;

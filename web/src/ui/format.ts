@@ -1,4 +1,4 @@
-// Numbers as people read them.
+// Formats numbers for people.
 
 // 75.25 → "1:15.25"; from an hour on "1:01:15.25". Not rounded up: the time has been reached.
 export function formatTime(seconds: number): string {
@@ -11,7 +11,7 @@ export function formatTime(seconds: number): string {
   return `${Math.floor(minutes / 60)}:${two(minutes % 60)}:${tail}`;
 }
 
-// The inverse, by people: "75.25", "1:15.25", "1:01:15"; null: it is no time.
+// The inverse for typed texts: "75.25", "1:15.25", "1:01:15"; null if it is not a time.
 export function parseTime(text: string): number | null {
   const parts = text.trim().split(":");
   const isTime = parts.length <= 3 && parts.every((part) => /^\d+(\.\d*)?$/.test(part));
@@ -30,7 +30,7 @@ export function formatDistance(metres: number): string {
   return `${metres.toFixed(metres < 100 ? 2 : 1)} m`;
 }
 
-// Without a minus before a zero.
+// Without a minus sign before zero.
 export function formatNumber(value: number, digits: number): string {
   const text = value.toFixed(digits);
   return Number(text) === 0 ? text.replace("-", "") : text;

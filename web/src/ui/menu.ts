@@ -1,5 +1,4 @@
-// A button that opens a small sheet of choices, above everything else on the page. A press elsewhere or Esc
-// closes it.
+// A button that opens a small sheet of choices above the page. A click elsewhere or Esc closes it.
 import { element } from "./element";
 import type { IconName } from "./icons";
 import { icon } from "./icons";
@@ -14,7 +13,7 @@ export interface Menu {
   close(): void;
 }
 
-// `word` stands below the icon where the page is wide enough.
+// `word` is shown below the icon if the page is wide enough.
 export function createMenu(label: string, picture: IconName, ...items: HTMLElement[]): Menu {
   const button = element(
     "button",
@@ -61,7 +60,7 @@ function wordOf(label: string): string {
   return label.split(" ")[0]!;
 }
 
-// Within the window, wherever the button is.
+// Keeps the sheet inside the window.
 function standBelow(button: HTMLElement, sheet: HTMLElement): void {
   const at = button.getBoundingClientRect();
   const { innerWidth, innerHeight } = button.ownerDocument.defaultView ?? window;

@@ -1,4 +1,4 @@
-// The pages beside the viewer.
+// The pages besides the viewer.
 export interface Page {
   name: string;
   href: string;

@@ -1,4 +1,4 @@
-// Where a server takes a token that was not shown, or not the right one: a field for it.
+// A field for the token, shown if the server requires one or rejects the present one.
 import { element } from "./element";
 
 export function createTokenForm(enter: (token: string) => void): HTMLFormElement {

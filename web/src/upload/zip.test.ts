@@ -4,7 +4,7 @@ import { filesInZip, isZip } from "./zip";
 
 vi.setConfig({ testTimeout: 60_000 }); // each archive takes a process
 
-// Archives are made by Python's zipfile.
+// The archives are made by Python's zipfile.
 const MAKE = `
 import io, json, sys, zipfile
 out = io.BytesIO()
@@ -32,7 +32,7 @@ function zipped(...entries: Made[]): Uint8Array {
 const file = (bytes: Uint8Array) => new File([bytes as BlobPart], "my.zip");
 const read = (bytes: Uint8Array) => filesInZip("my.zip", file(bytes));
 
-// Writes into each line of the list at the end.
+// Modifies each entry of the directory at the end.
 function patched(bytes: Uint8Array, offset: number, value: number, size: 2 | 4 = 4): Uint8Array {
   const view = new DataView(bytes.buffer, bytes.byteOffset);
   for (let at = 0; at + 46 < bytes.length; ++at) {

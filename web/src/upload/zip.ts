@@ -27,8 +27,8 @@ export async function isZip(file: Blob): Promise<boolean> {
   return signature === FIRST_FILE || signature === NO_FILE;
 }
 
-// Its files, each unpacked when its content is asked for; folders and hidden files are left out. Throws
-// a sentence for people.
+// Its files, each unpacked when its content is requested. Folders and hidden files are omitted.
+// Throws a sentence for the user.
 export async function filesInZip(name: string, archive: Blob): Promise<DroppedFile[]> {
   const refuse = (reason: string): never => {
     throw new Error(`${name} cannot be used: ${reason}.`);
@@ -45,7 +45,8 @@ export async function filesInZip(name: string, archive: Blob): Promise<DroppedFi
   }));
 }
 
-// Neither a folder nor what an operating system keeps for itself. A name with ".." is no hidden one.
+// Whether it is a normal file: not a folder, and not a hidden file of an operating system. A name
+// with ".." is not a hidden file.
 function isWanted({ filename, directory }: Entry): boolean {
   return !directory && !filename.startsWith("__MACOSX/") && (leadsOut(filename) || !isHidden(filename));
 }

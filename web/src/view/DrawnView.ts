@@ -1,5 +1,5 @@
-// The view as the server draws it: its images on a canvas of their own, with the overlays of the page
-// over them. The canvas lies over the one that takes the pointer, and lets it through.
+// Shows the view drawn by the server: its images on a separate canvas, with the page's overlays on
+// top. The canvas lies over the one that receives the pointer, and does not block it.
 import type { Object3D, PerspectiveCamera } from "three";
 import { Vector3 } from "three";
 import type { FetchImage, ServerCamera } from "./ImageFeed";
@@ -39,8 +39,8 @@ export class DrawnView {
     return this.feed.images;
   }
 
-  // Shows what this camera sees from now on, in an area of so many CSS pixels. The camera is read again
-  // at the next call only.
+  // Shows this camera's images in an area of this size in CSS pixels. The camera is read again only
+  // at the next call.
   show(camera: PerspectiveCamera, width: number, height: number, overlays: readonly Object3D[]): void {
     this.overlays = overlays;
     const wanted = serverCameraOf(camera, width, height, devicePixelRatio);
@@ -62,7 +62,7 @@ export class DrawnView {
     const query = queryOf(of);
     const camera = this.cameras.get(query);
     if (!camera) return image.close();
-    // Earlier ones were for images that will not come any more.
+    // Earlier entries belong to images that will not arrive any more.
     for (const known of this.cameras.keys()) {
       if (known === query) break;
       this.cameras.delete(known);

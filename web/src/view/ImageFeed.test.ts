@@ -5,7 +5,7 @@ import { ImageFeed } from "./ImageFeed";
 const CAMERA: ServerCamera = { eye: [1, 2, 3], target: [4, 5, 6], fieldOfViewDeg: 50, width: 640, height: 480 };
 const QUERY = "size=640x480&eye=1.0000,2.0000,3.0000&target=4.0000,5.0000,6.0000&fov=50.000";
 
-// A server that answers when it is told to.
+// A server that answers when the test requests it.
 function fakeServer() {
   const asked: { query: string; signal: AbortSignal; answer: (response: Response) => void }[] = [];
   const fetchImage = (query: string, signal: AbortSignal) =>

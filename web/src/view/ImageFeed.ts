@@ -1,7 +1,7 @@
-// Fetches images that the server draws, one after another: the next one is asked for when the last
-// has come, so that a slow connection gets fewer images, and never old ones.
+// Fetches images that the server draws, one after another: the next one is requested when the last
+// one has arrived, so that a slow connection gets fewer images, but never old ones.
 
-// The camera as the server takes it; lengths in metres, the size in pixels.
+// The camera in the server's form; lengths in metres, the size in pixels.
 export interface ServerCamera {
   eye: readonly [number, number, number];
   target: readonly [number, number, number];
@@ -11,9 +11,9 @@ export interface ServerCamera {
 }
 
 export interface FeedEvents {
-  // An image, and the camera that it was drawn for.
+  // An image, with the camera for which it was drawn.
   onImage(image: Blob, camera: ServerCamera): void;
-  // The server draws none, with its sentence. The feed has ended.
+  // The server draws no images, for the reason in the sentence. The feed has ended.
   onProblem(sentence: string): void;
 }
 
@@ -42,7 +42,7 @@ export class ImageFeed {
     const isOther = this.wanted === null || queryOf(this.wanted) !== queryOf(camera);
     this.wanted = camera;
     if (this.isEnded || !isOther) return;
-    // A request that waits for a change is of no use any more; one that is being drawn is.
+    // Aborts a request that waits for a change, but not one that is being drawn.
     if (this.asking && this.number !== "" && this.shown === this.asked) this.asking.abort();
     else if (!this.asking) void this.ask();
   }
@@ -72,7 +72,7 @@ export class ImageFeed {
     this.asking = null;
   }
 
-  // The problem's sentence; null where there is none.
+  // The sentence of the problem; null if there is none.
   private async take(camera: ServerCamera, query: string, signal: AbortSignal): Promise<string | null> {
     try {
       const response = await this.fetchImage(query, signal);

@@ -2,7 +2,7 @@ import { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, Persp
 import { expect, test } from "vitest";
 import { OverlayPainter } from "./OverlayPainter";
 
-// What was painted: the ends of lines, and the corners of squares.
+// Records what was painted: the ends of lines, and the corners of squares.
 function fakeContext() {
   const lines: number[][] = [];
   const squares: number[][] = [];
@@ -18,7 +18,7 @@ function fakeContext() {
   return { lines, squares, context: context as unknown as CanvasRenderingContext2D };
 }
 
-// At the origin, looking along x with z up, 90° high: at 1 m ahead, 1 m up is the upper edge.
+// At the origin, looking along x with z up, 90° high: the upper edge is at 1 m ahead, 1 m up.
 function camera(): PerspectiveCamera {
   const eye = new PerspectiveCamera(90, 2, 0.1, 100);
   eye.up.set(0, 0, 1);

@@ -1,5 +1,5 @@
-// What stands in the workspace for one panel: its tools and its body, or the reason why there are none. It
-// fetches the panel when it is in sight for the first time, and keeps it from then on.
+// The place of one panel in the workspace: its tools and its body, or the reason why they are
+// missing. The panel is fetched when it is first in sight, and then kept.
 import type { MountedPanel, Panel } from "../panels/contract/Panel";
 import type { PanelPorts } from "../panels/contract/ports";
 import { element, setText } from "../ui/element";
@@ -48,7 +48,7 @@ export class Frame {
     }
   }
 
-  // Whether this call has brought the panel.
+  // Returns whether this call has loaded the panel.
   private async load(): Promise<boolean> {
     if (this.isLoading) return false; // who asked first shows it
     this.isLoading = true;

@@ -1,4 +1,4 @@
-// The buttons at the right end of a part's tabs: what can be done with the tab in front, without a mouse too.
+// The buttons at the right end of a part's tabs. They move the tab in front without a mouse.
 import type { DockviewApi, DockviewGroupPanel, IDockviewPanel, IHeaderActionsRenderer } from "dockview";
 import { element, setText } from "../ui/element";
 import { icon } from "../ui/icons";

@@ -1,5 +1,6 @@
-// The area beside the robot list: the view and the panels, docked by dockview. The store says which panels are
-// open (openPanels); a person may move, resize, maximise and close them, and give them a window of their own.
+// The area beside the robot list: the view and the panels, docked by dockview. The store lists the
+// open panels (openPanels). The user may move, resize, maximise and close them, or give them a
+// separate window.
 import "dockview/dist/styles/dockview.css";
 import type { DockviewApi, DockviewGroupPanel, IContentRenderer, IDockviewPanel, IHeaderActionsRenderer, ITabRenderer } from "dockview";
 import { createDockview } from "dockview";
@@ -80,13 +81,13 @@ export class Workspace {
     return { width: clientWidth || 1000, height: clientHeight || 700 };
   }
 
-  // The layout at present, as text; on a narrow screen that of the wide one.
+  // The present layout as text. On a narrow screen, that of the wide screen.
   get layout(): string {
     const layout = this.isNarrow ? this.wide : fromDockview(this.api.toJSON());
     return layout ? textOf(layout) : textOf(this.standard(this.space));
   }
 
-  // Shows the panels of the layout, each where it says.
+  // Shows the panels of the layout at their places.
   show(layout: Split): void {
     this.wide = layout;
     const { editing } = this.of.ports.state.get();
@@ -99,7 +100,7 @@ export class Workspace {
     return this.api.getPanel(id)?.api.isVisible ?? false;
   }
 
-  // Brings the panel to the front where it is behind another.
+  // Brings a panel to the front if it is behind another.
   reveal(id: string): void {
     this.api.getPanel(id)?.api.setActive();
   }
@@ -108,7 +109,7 @@ export class Workspace {
     this.isApplying = true;
     try {
       const panels = panelsOf(layout).map((id) => ({ id, title: this.titleOf(id) }));
-      // Sizes are of no use to a dock that has none yet.
+      // A dock without a size cannot use the sizes of parts.
       this.api.layout(this.space.width, this.space.height, true);
       this.api.fromJSON(toDockview(layout, this.space, panels), { reuseExistingPanels: true });
       for (const panel of this.api.panels) this.constrain(panel);
@@ -126,7 +127,7 @@ export class Workspace {
     for (const id of ids) if (!this.api.getPanel(id)) this.add(id);
   }
 
-  // Beside panels of its kind, or else in a new part at the side of the view or below it.
+  // Opens it beside panels of its kind, or else in a new part at the side of the view or below it.
   private add(id: string): void {
     const panel = this.of.panels.find((each) => each.id === id);
     if (!panel) return;
@@ -146,7 +147,7 @@ export class Workspace {
     this.constrain(this.api.addPanel({ id, component: id, tabComponent: "tab", title: panel.title, position, ...(kin ? {} : size) }));
   }
 
-  // An open panel whose part takes this one as a tab; `place` null: any but the view's.
+  // An open panel whose part accepts this one as a tab; `place` null: any part except the view's.
   private kinOf(id: string, place: Panel["place"] | null): IDockviewPanel | undefined {
     const viewGroup = this.api.getPanel(VIEW)?.group;
     const placeOf = (each: string) => this.of.panels.find((panel) => panel.id === each)?.place ?? "below";
@@ -170,7 +171,7 @@ export class Workspace {
     this.follow(id);
   }
 
-  // A person closed it.
+  // The user has closed it.
   private follow(id: string): void {
     if (this.isApplying) return;
     const { openPanels } = this.of.ports.state.get();
@@ -185,7 +186,7 @@ export class Workspace {
     this.onChange(textOf(layout));
   }
 
-  // Between a phone's width and more: nothing is closed.
+  // A change between narrow and wide closes nothing.
   private changeWidth(): void {
     this.api.updateOptions({ disableDnd: this.isNarrow });
     const { openPanels } = this.of.ports.state.get();

@@ -1,4 +1,4 @@
-// Layouts of this page as dockview reads and writes them, in CSS pixels.
+// Converts layouts of this page to and from dockview's form, in CSS pixels.
 import type { SerializedDockview } from "dockview";
 import { Orientation } from "dockview";
 import type { Part, Split } from "../state/layout";
@@ -28,7 +28,7 @@ export function toDockview(layout: Split, space: Space, panels: readonly NamedPa
   };
 }
 
-// `size` lies along the part's parent, `space` is the room that the part has.
+// `size` is the length along the parent part; `space` is the available size.
 function nodeOf(part: Part, size: number, space: Space, counter: { groups: number }): GridNode {
   if ("tabs" in part) {
     counter.groups += 1;
@@ -44,7 +44,8 @@ function nodeOf(part: Part, size: number, space: Space, counter: { groups: numbe
   return { type: "branch", size, data };
 }
 
-// The layout of a dock. What floats or has a window of its own is not in the grid, and left out.
+// The layout of a dock. Floating panels and panels in separate windows are not in the grid, and are
+// omitted.
 export function fromDockview({ grid }: SerializedDockview): Split | null {
   const root = partOf(grid.root, grid.orientation === Orientation.HORIZONTAL);
   if (!root) return null;
@@ -63,7 +64,7 @@ function partOf(node: GridNode, isRow: boolean): Part | null {
   const parts = children.flatMap((child): Split["parts"] => {
     const part = partOf(child, !isRow);
     const share = Math.max(1, Math.round((1000 * (child.size ?? 0)) / total));
-    // Dockview keeps divisions that hold one part only.
+    // Dockview keeps divisions that contain only one part.
     if (part && "split" in part && part.split === split) {
       return part.parts.map((inner) => ({ ...inner, share: Math.max(1, Math.round((inner.share * share) / 1000)) }));
     }

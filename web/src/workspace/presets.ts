@@ -1,5 +1,5 @@
-// The layouts that come with the page. Sizes are chosen for the space that there is: a column of facts does
-// not grow with the window.
+// The preset layouts. Sizes depend on the available space: a column of facts does not grow with the
+// window.
 import type { Part, Split } from "../state/layout";
 import { VIEW } from "../state/layout";
 
@@ -68,7 +68,7 @@ function column(...parts: [Part, number][]): Split {
   return { split: "column", parts: parts.map(([part, share]) => ({ part, share })) };
 }
 
-// The side is so wide, and at most half of all.
+// The side has this width, but at most half of the space.
 function beside(width: number, sidePx: number, main: Part, side: Part): Split {
   const share = Math.round(1000 * Math.min(0.5, sidePx / Math.max(1, width)));
   return row([main, 1000 - share], [side, share]);
