@@ -72,7 +72,7 @@ async function openFilled(url) {
   return page;
 }
 
-test("the viewer, with all its panels, and the sheet of keys", async () => {
+test("the viewer with all panels and the sheet of keys has no accessibility problems", async () => {
   const page = await openFilled(live.url);
   await page.getByRole("button", { name: "Diagnostics" }).click();
   await page.getByText("open files").waitFor();
@@ -97,7 +97,7 @@ test("the viewer, with all its panels, and the sheet of keys", async () => {
   await page.close();
 });
 
-test("editing, and putting another simulation together", async () => {
+test("editing and the set-up form have no accessibility problems", async () => {
   const page = await openFilled(live.url);
   await page.getByRole("button", { name: "Edit", exact: true }).click();
   await page.getByRole("region", { name: "Edit" }).waitFor();
@@ -113,14 +113,14 @@ test("editing, and putting another simulation together", async () => {
   await page.close();
 });
 
-test("the page on which one joins", async () => {
+test("the page for joining has no accessibility problems", async () => {
   const { page } = await openPage(browser, `${live.url}join.html`);
   await page.locator(".joinable").first().waitFor();
   await judge(page);
   await page.close();
 });
 
-test("the page of recordings, whole ones and others", async () => {
+test("the page of recordings has no accessibility problems", async () => {
   const { page } = await openPage(browser, `${live.url}recordings.html`);
   await page.locator(".recording").first().waitFor();
   await judge(page);
@@ -131,7 +131,7 @@ test("the page of recordings, whole ones and others", async () => {
   await page.close();
 });
 
-test("a recording, with its log", async () => {
+test("a replay with its log has no accessibility problems", async () => {
   const page = await openFilled(replay.url);
   await page.getByRole("button", { name: "Log", exact: true }).click();
   await page.locator(".log-line").first().waitFor();
@@ -139,7 +139,7 @@ test("a recording, with its log", async () => {
   await page.close();
 });
 
-test("the pages on which a token is asked for, and a page of recordings without any", async () => {
+test("the token forms and an empty page of recordings have no accessibility problems", async () => {
   const empty = fs.mkdtempSync(path.join(folder, "empty-"));
   const server = await startServer([...RUN, "--watch-token", WATCH, "--recordings", empty]);
   try {
@@ -165,7 +165,7 @@ test("the pages on which a token is asked for, and a page of recordings without 
   }
 });
 
-test("the broker's page", async () => {
+test("the broker page has no accessibility problems", async () => {
   const { page } = await openPage(browser, `${live.url}broker.html`);
   await page.locator('[data-type="gsv::SimulationService"]').click();
   await page.locator(".offer").first().waitFor();

@@ -31,20 +31,20 @@ async function choose(type) {
   await page.getByRole("heading", { name: type, exact: true }).waitFor();
 }
 
-test("the types and the offers of the running simulation are there", async () => {
+test("the types and offers of the running simulation are shown", async () => {
   await choose("gsv::SimulationService");
   await page.getByText("1 offer", { exact: true }).waitFor();
   assert.match(await page.locator(".offer .properties").innerText(), /viewer_url/);
 });
 
-test("a constraint says what matches", async () => {
+test("a constraint shows the matching offers", async () => {
   await choose("gsv::SimulationService");
   await find("cores >= 1 and exist viewer_url");
   await page.getByText("1 of 1 offer matches", { exact: true }).waitFor();
   assert.equal(await page.locator(".term[data-result='true']").count(), 2);
 });
 
-test("a constraint that does not match says which term failed", async () => {
+test("a constraint that does not match shows the failed term", async () => {
   await choose("gsv::SimulationService");
   await find("cores >= 1 and pid < 0 and wings == 2");
   await page.getByText("0 of 1 offer matches", { exact: true }).waitFor();
@@ -53,13 +53,13 @@ test("a constraint that does not match says which term failed", async () => {
   await keepPicture(page, "broker");
 });
 
-test("a constraint that is wrong is answered with the broker's sentence", async () => {
+test("an invalid constraint shows the broker's sentence", async () => {
   await find("cores >= ");
   assert.match(await page.getByRole("alert").innerText(), /cores/);
   faults.splice(0, faults.length, ...faults.filter((fault) => !/status of 400/.test(fault)));
 });
 
-test("links are there with whether they answer", async () => {
+test("links are shown with their state", async () => {
   const { broker } = await (await fetch(`${server.url}api/broker/types`)).json();
   const links = (...words) => gsv(["links", ...words, "--broker", broker]);
   await links("add", "itself", broker);
@@ -68,7 +68,7 @@ test("links are there with whether they answer", async () => {
   await links("remove", "itself");
 });
 
-test("the viewer leads to it and back, and nothing went wrong in its scripts", async () => {
+test("the viewer links to it and back, and there were no script errors", async () => {
   await page.getByTitle("The simulation").click();
   await waitUntilDrawn(page); // a page that is left while it loads complains of what did not come
   await page.getByRole("link", { name: "Broker", exact: true }).click();

@@ -38,13 +38,13 @@ after(async () => {
   await server?.stop();
 });
 
-test("each sees the other's name, as it is written", async () => {
+test("each viewer sees the other's name literally", async () => {
   await ada.page.getByRole("listitem").filter({ hasText: MARKUP }).waitFor();
   await bob.page.getByRole("listitem").filter({ hasText: "Ada" }).waitFor();
   assert.equal(await ada.page.locator(".people img").count(), 0);
 });
 
-test("who holds control acts alone; who asks is told of, and gets it", async () => {
+test("only the holder of control can act; a request is shown to the holder and granted", async () => {
   await ada.page.getByRole("button", { name: "Take control" }).click();
   const pause = bob.page.getByRole("button", { name: "Pause" });
   await until(() => pause.isDisabled(), "the button's rest");
@@ -62,7 +62,7 @@ test("who holds control acts alone; who asks is told of, and gets it", async () 
   await phaseIs(ada.page, "paused");
 });
 
-test("it passes by itself to who asks when the holder leaves", async () => {
+test("control passes to the requesting viewer when the holder leaves", async () => {
   await ada.page.getByRole("button", { name: "Viewers" }).click(); // the answer closed it
   await ada.page.getByRole("button", { name: "Ask for control" }).click();
   await bob.page.getByRole("alert").filter({ hasText: "Ada asks for control" }).waitFor();
@@ -71,7 +71,7 @@ test("it passes by itself to who asks when the holder leaves", async () => {
   await ada.page.getByRole("button", { name: "Release control" }).click();
 });
 
-test("two simulations of a server are held by two people", async () => {
+test("two viewers control two simulations of a server", async () => {
   bob = await openPage(browsers[1], server.url);
   await waitUntilDrawn(bob.page);
   const created = await bob.page.evaluate(async () => {
@@ -101,7 +101,7 @@ test("two simulations of a server are held by two people", async () => {
   await ada.page.getByRole("button", { name: "Release control" }).click();
 });
 
-test("two people press everything at once: both pages show the server's truth in the end", async () => {
+test("after simultaneous clicks of two viewers, both pages show the server's state", async () => {
   await bob.page.close();
   bob = await openPage(browsers[1], server.url);
   await waitUntilDrawn(bob.page);
@@ -133,7 +133,7 @@ test("two people press everything at once: both pages show the server's truth in
   for (const { faults } of [ada, bob]) assert.deepEqual(faults.filter((fault) => !/status of 409/.test(fault)), []);
 });
 
-test("a server that takes a token lets one watch, and act with the token at the end of the address", async () => {
+test("a server with a control token allows watching, and acting with the token in the address", async () => {
   await server.stop();
   server = await startServer([...RUN, "--control-token", CONTROL]);
   const { page } = await openPage(browsers[0], server.url);
@@ -148,7 +148,7 @@ test("a server that takes a token lets one watch, and act with the token at the 
   await phaseIs(page, "paused");
 });
 
-test("a server that asks for a token to watch as well asks the page's reader", async () => {
+test("a server with a watch token makes the page ask for it", async () => {
   await server.stop();
   server = await startServer([...RUN, "--control-token", CONTROL, "--watch-token", "watching-0123456789abcdef"]);
   const { page } = await openPage(browsers[1], server.url);
@@ -163,7 +163,7 @@ test("a server that asks for a token to watch as well asks the page's reader", a
   await phaseIs(page, "paused");
 });
 
-test("so do the pages of instances, recordings and the broker", async () => {
+test("the pages of instances, recordings and the broker ask for the token too", async () => {
   for (const [name, ready] of [
     ["join.html", ".instance .joinable"],
     ["recordings.html", ".recording, .frame-list .hint"],

@@ -56,7 +56,7 @@ test("a click in the list shows the robot in the inspector", async () => {
 
 // A robot has nine sensors, and the server lists two thousand. The sensors of the last robot are
 // listed when it is selected.
-test("the last robot's camera and sensors are shown too, once it is chosen", async () => {
+test("the last robot's camera and sensors are shown when it is selected", async () => {
   const last = await page.evaluate(() => window.gsv.robots.at(-1));
   await page.locator(`[data-robot="${last}"][aria-pressed="true"]`).waitFor();
   await page.locator("li[data-sensor] dd .number", { hasText: /\d/ }).first().waitFor();
@@ -68,7 +68,7 @@ test("the last robot's camera and sensors are shown too, once it is chosen", asy
   assert.equal(isBlank(await picture(page, seen)), false);
 });
 
-test("a click on a robot in the picture chooses it, or one beside it", async () => {
+test("a click on a robot in the view selects it, or one beside it", async () => {
   const before = await page.locator('[data-robot][aria-pressed="true"]').getAttribute("data-robot");
   const click = async () => {
     const place = await page.evaluate((last) => {
@@ -91,7 +91,7 @@ test("a click on a robot in the picture chooses it, or one beside it", async () 
   assert.notEqual(robot, before);
 });
 
-test("a click in the list writes the two rows that it concerns", async () => {
+test("a click in the list rewrites only two rows", async () => {
   for (let i = 0; i < CLICKS; i++) {
     const row = await rowOf(page, await unselectedAt(page, i / CLICKS));
     const { rows } = await clickNoted(page, () => row.click());
@@ -101,7 +101,7 @@ test("a click in the list writes the two rows that it concerns", async () => {
 
 // Rows out of sight have no layout, so they are not rewritten. Some rows beyond the edge count as
 // in sight.
-test("a search leaves the robots that fit, in the list and in the view", async () => {
+test("a search shows only matching robots in the list and in the view", async () => {
   await page.keyboard.press("Escape"); // the selected robot's name is always shown
   const last = await page.evaluate(() => window.gsv.robots.at(-1));
   const field = page.getByRole("searchbox", { name: "Search robots" });
@@ -127,7 +127,7 @@ test("no two names in the view overlap", async () => {
 });
 
 // The beams of all robots would hide everything.
-test("without a selected robot no beams are asked for, with one its own only", async () => {
+test("without a selected robot no beams are subscribed, and with one only its own", async () => {
   assert.ok(ROBOTS > 20);
   const graph = () => page.evaluate(() => window.gsv.topics);
   await page.keyboard.press("Escape");
@@ -139,11 +139,11 @@ test("without a selected robot no beams are asked for, with one its own only", a
   assert.equal((await graph()).includes("/gsv/beams"), false);
 });
 
-test("as the robots move, no rows are written but those in sight", async () => {
+test("only rows in sight are rewritten while the robots move", async () => {
   const written = await rowsWritten(page);
   assert.ok(written >= 1 && written <= ROBOTS / 4, `${written} rows were written`);
 });
 
-test("all this needed no other host and raised no error", () => {
+test("no other host was contacted and there were no errors", () => {
   assert.deepEqual(faults, []);
 });

@@ -41,7 +41,7 @@ async function notBusy() {
   await settled(page);
 }
 
-test("editing pauses what runs, and says what can be done", async () => {
+test("editing pauses the simulation and explains what can be done", async () => {
   await phaseIs(page, "running");
   await press("Edit");
   await phaseIs(page, "paused");
@@ -49,7 +49,7 @@ test("editing pauses what runs, and says what can be done", async () => {
   await page.getByRole("region", { name: "Edit" }).locator("option", { hasText: "rover4" }).waitFor({ state: "attached" });
 });
 
-test("dragging a robot moves it on the server, and undo takes it back", async () => {
+test("dragging a robot moves it on the server, and undo reverts it", async () => {
   await page.keyboard.press("t");
   await settled(page);
   const before = await placeNow("pebble");
@@ -74,7 +74,7 @@ test("dragging a robot moves it on the server, and undo takes it back", async ()
   await notBusy();
 });
 
-test("a robot is added with a behaviour, removed, and comes back where it stood", async () => {
+test("a robot with a behaviour is added, removed, and restored at its place", async () => {
   const panel = page.getByRole("region", { name: "Edit" });
   await panel.getByLabel("Model", { exact: true }).selectOption("rover4");
   await panel.getByLabel("Behaviour", { exact: true }).selectOption("wander");
@@ -93,7 +93,7 @@ test("a robot is added with a behaviour, removed, and comes back where it stood"
   assert.ok(distance(await placeNow("rover4"), stood) < 1e-6);
 });
 
-test("the inspector tells where the chosen robot stands after it was moved", async () => {
+test("the inspector shows the pose of a moved robot", async () => {
   await page.locator('[data-robot="pebble"]').click();
   const inspector = page.getByRole("region", { name: "Selected robot" });
   for (const place of [{ x: 1.25, y: -1.5 }, { x: -1.25, y: -1.5 }]) {
@@ -102,7 +102,7 @@ test("the inspector tells where the chosen robot stands after it was moved", asy
   }
 });
 
-test("a robot on another is refused with a sentence and stays", async () => {
+test("moving a robot onto another one is rejected with a sentence", async () => {
   const before = await placeNow("rover4");
   const { x_m: x, y_m: y } = await placeNow("pebble");
   const refused = await ask(page, "/bodies/rover4/place", { x, y });
@@ -110,7 +110,7 @@ test("a robot on another is refused with a sentence and stays", async () => {
   assert.deepEqual(await placeNow("rover4"), before);
 });
 
-test("when it goes on, the added robot drives and editing is over", async () => {
+test("after resuming, the added robot drives and editing has ended", async () => {
   const before = await placeNow("rover4");
   await press("Resume");
   await phaseIs(page, "running");
@@ -118,7 +118,7 @@ test("when it goes on, the added robot drives and editing is over", async () => 
   await until(async () => distance(await placeNow("rover4"), before) > 0.1, "the driving robot");
 });
 
-test("a recording is switched on, which another viewer sees, and off", async () => {
+test("a recording is started, which another viewer sees, and stopped", async () => {
   ({ page: other } = await openPage(browser, server.url));
   const record = (of) => of.getByRole("button", { name: "Record", exact: true });
   await record(page).click();

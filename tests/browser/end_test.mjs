@@ -29,7 +29,7 @@ after(async () => {
   if (folder) fs.rmSync(folder, { recursive: true, force: true });
 });
 
-test("one press does not end a recording that the command line asked for", async () => {
+test("one click does not end a recording that the command line requested", async () => {
   const record = page.getByRole("button", { name: "Record", exact: true });
   await page.locator('button.record[aria-pressed="true"]').waitFor();
   await record.click();
@@ -40,7 +40,7 @@ test("one press does not end a recording that the command line asked for", async
   assert.equal(await record.getAttribute("aria-pressed"), "true");
 });
 
-test("a run that has ended is finished, with a summary and the way to replay it, and not lost", async () => {
+test("an ended run shows a summary with its replay, not a lost connection", async () => {
   const card = page.locator('.overlay[data-situation="ended"]');
   await card.getByRole("heading", { name: "Finished" }).waitFor();
   await card.getByText("2 robots · 0:30.00 simulated").waitFor();

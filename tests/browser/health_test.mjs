@@ -83,13 +83,13 @@ const chip = (state) => page.locator(`.health-strip button[data-state="${state}"
 const row = (robot) => page.locator(`[data-robot="${robot}"]`);
 const listed = () => page.locator("[data-robot]").evaluateAll((rows) => rows.map(({ dataset }) => dataset.robot));
 
-test("the strip counts who is stuck and who is dead, and the list has the worst first", async () => {
+test("the strip counts stuck and dead robots, and the list begins with the worst", async () => {
   await chip("stuck").filter({ hasText: "1 stuck" }).waitFor();
   await chip("dead").filter({ hasText: "1 dead" }).waitFor();
   await until(async () => (await listed()).join() === "brittle,blind,walker", "the worst first");
 });
 
-test("a press on a state shows only those robots, in the list and in the view", async () => {
+test("a click on a state shows only its robots, in the list and in the view", async () => {
   await chip("stuck").click();
   await until(async () => (await listed()).join() === "blind", "one row");
   await until(async () => (await page.locator(".label").allTextContents()).join() === "blind", "one name");
@@ -97,7 +97,7 @@ test("a press on a state shows only those robots, in the list and in the view", 
   await until(async () => (await listed()).length === 3, "all rows");
 });
 
-test("the list and the inspector say why a robot stands", async () => {
+test("the list and the inspector show why a robot does not move", async () => {
   await row("blind").locator(".robot-behaviour", { hasText: /stuck.* for \d+ s/ }).waitFor();
   await row("blind").click();
   const why = page.getByRole("region", { name: "State of the robot" });
@@ -106,7 +106,7 @@ test("the list and the inspector say why a robot stands", async () => {
   assert.match(await why.locator(".why-sentence").innerText(), /stuck/);
 });
 
-test("what a behaviour printed before it died is in the inspector", async () => {
+test("the inspector shows what a behaviour printed before it died", async () => {
   await row("brittle").click();
   const output = page.getByRole("log", { name: "Output" });
   await output.getByText("one step at a time").waitFor();
@@ -115,7 +115,7 @@ test("what a behaviour printed before it died is in the inspector", async () => 
   await keepPicture(page, "trouble");
 });
 
-test("expectations are summed up, and a panel has each with its verdict", async () => {
+test("expectations are summarised, and a panel shows each with its verdict", async () => {
   await page.getByRole("button", { name: "Expectations: 1 of 3 violated" }).click();
   const rows = page.locator("li.expectation");
   await until(async () => (await rows.count()) === 3, "three expectations");
@@ -125,6 +125,6 @@ test("expectations are summed up, and a panel has each with its verdict", async 
   await keepPicture(page, "expectations");
 });
 
-test("all this needed no other host and raised no error", () => {
+test("no other host was contacted and there were no errors", () => {
   assert.deepEqual(faults, []);
 });

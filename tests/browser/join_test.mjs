@@ -37,7 +37,7 @@ after(async () => {
 
 const instance = (name) => page.locator(".instance", { has: page.getByRole("heading", { name }) });
 
-test("every instance is listed with its simulations, this one marked", async () => {
+test("every instance is listed with its simulations, and this one is marked", async () => {
   await instance("workbench · this one").getByText("No simulation is running.").waitFor();
   const link = instance("gsv run").getByRole("link", { name: "simulation" });
   await link.waitFor();
@@ -45,7 +45,7 @@ test("every instance is listed with its simulations, this one marked", async () 
   await keepPicture(page, "join");
 });
 
-test("one click views the other's simulation", async () => {
+test("one click shows the simulation of the other instance", async () => {
   await instance("gsv run").getByRole("link", { name: "simulation" }).click();
   await waitUntilDrawn(page);
   await phaseIs(page, "running");
@@ -54,7 +54,7 @@ test("one click views the other's simulation", async () => {
   await page.goBack();
 });
 
-test("an instance is relayed by its offer's name; when it has ended it is gone from the list", async () => {
+test("an instance is relayed by its offer's name, and disappears from the list when it has ended", async () => {
   relay = await startView(["gsv run", "--broker", broker]);
   const names = await (await fetch(`${relay.url}api/simulations`)).json();
   assert.deepEqual(names.map(({ name }) => name), ["simulation"]);
@@ -66,7 +66,7 @@ test("an instance is relayed by its offer's name; when it has ended it is gone f
   assert.deepEqual(faults.filter((fault) => !fault.startsWith("request to another host")), []);
 });
 
-test("what a killed server ran is told by the one that comes after it, until it is dismissed", async () => {
+test("the next server lists the simulations of a killed one until they are dismissed", async () => {
   const folder = await mkdtemp(path.join(tmpdir(), "gsv-join-"));
   process.env.XDG_STATE_HOME = folder;
   const serve = ["--name", "doomed", "--recordings", folder];

@@ -13,12 +13,12 @@ function image(colourAt, width = 40, height = 30) {
 
 const GREY = [120, 120, 120];
 
-test("a picture of one colour is blank, even with a few odd pixels", () => {
+test("an image of one colour is blank, even with a few other pixels", () => {
   assert.equal(isBlank(image(() => GREY)), true);
   assert.equal(isBlank(image((x, y) => (x === 3 && y < 5 ? [255, 0, 0] : GREY))), true);
 });
 
-test("a picture with something in it is not blank", () => {
+test("an image with content is not blank", () => {
   assert.equal(isBlank(image((x) => (x < 4 ? [200, 30, 30] : GREY))), false);
 });
 

@@ -47,7 +47,7 @@ function violetPixels({ data }) {
 
 const seen = async () => violetPixels(await picture(page, await viewClip(page)));
 
-test("a line goes from who speaks to each who hears, while they are shown", async () => {
+test("a line connects a sender with each receiver while the overlay is on", async () => {
   await until(async () => (await seen()) > 100, "the links between robots");
   await keepPicture(page, "radio");
   await page.keyboard.press("-");
@@ -56,6 +56,6 @@ test("a line goes from who speaks to each who hears, while they are shown", asyn
   await until(async () => (await seen()) > 100, "the links again");
 });
 
-test("all this needed no other host and raised no error", () => {
+test("no other host was contacted and there were no errors", () => {
   assert.deepEqual(faults, []);
 });

@@ -43,7 +43,7 @@ async function goTo(page, time) {
   await until(async () => (await timeOn(page)) === time, `the instant ${time}`);
 }
 
-test("what the red dot records is in the list, with its size and length", async () => {
+test("a recording made with the red button is listed with its size and length", async () => {
   const button = page.getByRole("button", { name: "Record" });
   await button.click();
   await page.locator('button.record[aria-pressed="true"]').waitFor();
@@ -56,7 +56,7 @@ test("what the red dot records is in the list, with its size and length", async 
   await keepPicture(page, "recordings");
 });
 
-test("one click replays it, and a link leads to this instant and viewpoint for whoever has it", async () => {
+test("one click replays it, and a link opens the same instant and view", async () => {
   await item("first run.mcap").getByRole("link", { name: "Replay" }).click();
   await waitUntilDrawn(page);
   await goTo(page, 4.5);
@@ -85,14 +85,14 @@ test("one click replays it, and a link leads to this instant and viewpoint for w
   }
 });
 
-test("after a restart of the server the replay goes on where it stood", async () => {
+test("after a restart of the server, the replay continues at the same instant", async () => {
   await server.restart();
   await page.waitForFunction(() => document.querySelector(".overlay")?.hidden === true);
   await until(async () => (await timeOn(page)) === 4.5, "the instant of before");
   faults.length = 0; // the browser reports the refused connections
 });
 
-test("a link to a recording that is gone says so", async () => {
+test("a link to a missing recording shows an error", async () => {
   // Uses a separate page: the one above may still be loading the world again, and leaving it then
   // would cause errors of the browser.
   await page.close();

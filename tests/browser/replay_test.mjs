@@ -106,7 +106,7 @@ async function press(name) {
   await page.getByRole("button", { name, exact: true }).click();
 }
 
-test("a recording is shown with a timeline, and without the buttons of what runs", async () => {
+test("a recording has a timeline, and no buttons of live simulations", async () => {
   assert.equal(isBlank(await picture(page, await viewClip(page))), false);
   assert.equal(await page.getByTestId("replay-end").textContent(), " / 0:06.00");
   assert.equal(await slider().getAttribute("aria-valuetext"), "0:00.00 of 0:06.00");
@@ -115,7 +115,7 @@ test("a recording is shown with a timeline, and without the buttons of what runs
 });
 
 // A canvas that gets another size is empty until the next frame, which may be half a second later.
-test("the view keeps its picture until it is drawn in another size", async () => {
+test("the view keeps its image until it is drawn in another size", async () => {
   const drawn = page.evaluate(
     () =>
       new Promise((resolve) => {
@@ -144,7 +144,7 @@ test("the view keeps its picture until it is drawn in another size", async () =>
   await page.setViewportSize({ width, height });
 });
 
-test("what happened is marked where it happened, and can be gone to", async () => {
+test("events are marked at their times, and a click goes there", async () => {
   const events = await ask(page, "/events");
   assert.deepEqual(
     events.map(({ event, time_s }) => [event, time_s]),
@@ -160,7 +160,7 @@ test("what happened is marked where it happened, and can be gone to", async () =
   await robotsAreRight(await standsAt(DURATION_S));
 });
 
-test("a click on the slider goes to that instant, forwards and back", async () => {
+test("a click on the slider seeks forwards and backwards", async () => {
   const seen = [];
   for (const time of [1.5, 4.5, 1.5]) {
     const stood = await clickAt(time);
@@ -171,7 +171,7 @@ test("a click on the slider goes to that instant, forwards and back", async () =
   assert.deepEqual(seen[2], seen[0]);
 });
 
-test("the picture of an instant is the same whichever way one came", async () => {
+test("the image of an instant does not depend on the direction of the seek", async () => {
   const clip = await viewClip(page);
   const pictures = [];
   for (const time of [1, 5, 1]) {
@@ -187,7 +187,7 @@ test("the picture of an instant is the same whichever way one came", async () =>
   assert.ok(same < 0.1 * other, `${same} pixels differ between two pictures of one instant`);
 });
 
-test("status and camera picture are of that instant too", async () => {
+test("the status and the camera image belong to the same instant", async () => {
   for (const time of [4.1, 2.1]) {
     await ask(page, "/seek", { time_s: time });
     await standsAt(time);
@@ -202,7 +202,7 @@ test("status and camera picture are of that instant too", async () => {
   }
 });
 
-test("dragging seeks one instant at a time and ends where it was let go", async () => {
+test("dragging seeks one instant at a time and ends at the release", async () => {
   await page.evaluate(() => {
     const { fetch } = window;
     const seeks = (window.testSeeks = { underWay: 0, most: 0 });
@@ -222,7 +222,7 @@ test("dragging seeks one instant at a time and ends where it was let go", async 
   assert.equal(await page.evaluate(() => window.testSeeks.most), 1);
 });
 
-test("keys step over recorded poses, ten with Shift, and go to the ends", async () => {
+test("keys step by recorded poses, by ten with Shift, and go to the ends", async () => {
   const times = recorded.map(({ time }) => time);
   await slider().focus();
   await page.keyboard.press("Home");
@@ -260,7 +260,7 @@ test("it plays at another speed to the end, and then from the start", async () =
   await robotsAreRight(await agreedTime());
 });
 
-test("with loop it begins anew at the end", async () => {
+test("with loop it starts again at the end", async () => {
   await press("Loop");
   await until(async () => (await replay()).loop, "the loop");
   await page.getByRole("combobox", { name: "Speed" }).selectOption("10");
@@ -275,7 +275,7 @@ test("with loop it begins anew at the end", async () => {
   await until(async () => !(await replay()).loop, "the loop's end");
 });
 
-test("it works on a phone's screen, in the dark, and both pages show one instant", async () => {
+test("it works on a phone's screen with dark colours, and both pages show the same instant", async () => {
   const phone = await openBrowser({ width: 390, height: 760, colorScheme: "dark" });
   try {
     const small = await openPage(phone, server.url);
@@ -301,6 +301,6 @@ test("it works on a phone's screen, in the dark, and both pages show one instant
   }
 });
 
-test("all this needed no other host and raised no error", () => {
+test("no other host was contacted and there were no errors", () => {
   assert.deepEqual(faults, []);
 });

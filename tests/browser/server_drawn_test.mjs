@@ -69,7 +69,7 @@ test("the image follows the simulation and the camera", async () => {
   await untilOtherImage(moved.sum);
 });
 
-test("robots have their names over the image, and a click selects one", async () => {
+test("the image shows the robots' names, and a click selects a robot", async () => {
   await page.locator(".view").getByText("pebble", { exact: true }).first().waitFor();
   const place = await page.evaluate(() => window.gsv.robotScreenPosition("pebble"));
   await page.mouse.click(place.x, place.y);
@@ -77,11 +77,11 @@ test("robots have their names over the image, and a click selects one", async ()
   await page.getByRole("heading", { name: "pebble" }).first().waitFor();
 });
 
-test("nothing goes wrong meanwhile", () => {
+test("there were no errors", () => {
   assert.deepEqual(faults, []);
 });
 
-test("with WebGL one chooses who draws", async () => {
+test("with WebGL the user chooses whether the browser or the server draws", async () => {
   const other = await openBrowser({ width: 1024, height: 680 });
   try {
     const { page: drawn } = await openPage(other, `${server.url}?view=server`);

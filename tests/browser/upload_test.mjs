@@ -70,7 +70,7 @@ async function drop(files) {
   }, files);
 }
 
-test("a folder with its models is dropped, shown, and becomes a simulation", async () => {
+test("a dropped folder with its models is shown and becomes a simulation", async () => {
   await drop({ mine: { "my <b>.world": WORLD, models: { cube: { "model.config": CONFIG, "model.sdf": CUBE } }, ".git": "x" } });
   await page.getByText("World: 1 object").waitFor({ state: "attached" });
   await waitUntilDrawn(page);
@@ -109,7 +109,7 @@ test("a zip archive with a world and its models is unpacked and shown", async ()
   assert.equal(await objection().textContent(), "");
 });
 
-test("of several worlds in a folder another is chosen, and the view turns to it", async () => {
+test("another of several worlds in a folder is chosen and shown", async () => {
   const models = { cube: { "model.config": CONFIG, "model.sdf": CUBE } };
   await drop({ two: { "here.world": WORLD, "there.world": WORLD.replace("0 0 0.5", "30 0 0.5"), models } });
   const choice = page.getByLabel("Environment", { exact: true });
@@ -123,7 +123,7 @@ test("of several worlds in a folder another is chosen, and the view turns to it"
   await looksAt(0);
 });
 
-test("an archive whose names lead out of it, or that is cut off, is refused with a sentence", async () => {
+test("a truncated archive, or one with names outside of it, is rejected with a sentence", async () => {
   await choose(zipped({ "room.world": WORLD, "../../evil.sh": "x" }));
   await objection().filter({ hasText: 'lab.zip cannot be used: the name "../../evil.sh" leads out of the archive.' }).waitFor();
   await choose(zipped({ "room.world": WORLD }).subarray(0, -5));
@@ -131,13 +131,13 @@ test("an archive whose names lead out of it, or that is cut off, is refused with
   assert.deepEqual(faults, []);
 });
 
-test("a file that is no world has its sentence beside the field", async () => {
+test("a file that is not a world shows an error beside the field", async () => {
   await page.getByLabel("World file").setInputFiles({ name: "holiday.sdf", mimeType: "image/jpeg", buffer: Buffer.from("not XML at all") });
   await until(async () => /holiday\.sdf/.test((await objection().textContent()) ?? ""), "the objection");
   assert.ok(faults.every((fault) => /status of (40\d|422)/.test(fault)), faults.join());
 });
 
-test("what is too large is refused by the page, and by the server before it is sent", async () => {
+test("too large files are rejected by the page, and by the server before the transfer", async () => {
   const status = await page.evaluate(async () => {
     const { upload } = await (await fetch("api/uploads", { method: "POST", body: "{}" })).json();
     const body = new Blob([new Uint8Array(66 * 2 ** 20)]);

@@ -16,7 +16,7 @@ describe("window.gsv.ready", () => {
     vi.stubGlobal("requestAnimationFrame", (draw: () => void) => frames.push(draw));
   });
 
-  it("waits for the shapes of a scene that comes after the view", async () => {
+  it("waits for the shapes of a scene that arrives after the view", async () => {
     const world = { frames: 1 };
     const store = new Store<State>({ ...initialState, view: "open" });
     let isReady = false;

@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { MetricsApi, parseFigures } from "./MetricsApi";
 
-test("figures are told by name, with their labels; comments and what is no number are passed over", () => {
+test("metrics are read by name with their labels, and comments and invalid numbers are ignored", () => {
   const text = '# HELP a what it is\n# TYPE a gauge\na 1.5e3\nb{phase="running"} 2\nc NaN\n\nrubbish\n';
   expect([...parseFigures(text)]).toEqual([
     ["a", 1500],
@@ -9,7 +9,7 @@ test("figures are told by name, with their labels; comments and what is no numbe
   ]);
 });
 
-test("they are the server's, whatever the page looks at", async () => {
+test("the warnings belong to the server, whatever simulation is shown", async () => {
   const asked: string[] = [];
   const api = new MetricsApi("http://gsv/x/", (async (url: string) => {
     asked.push(url);

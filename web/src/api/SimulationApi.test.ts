@@ -8,7 +8,7 @@ function answering(body: unknown, status = 200) {
   return { api: new SimulationApi("http://127.0.0.1:8080/", fetchPage), fetchPage };
 }
 
-test("an action is posted to its simulation, whose name may hold anything", async () => {
+test("an action is posted to its simulation, whose name may contain any character", async () => {
   const { api, fetchPage } = answering(STATUS);
   expect((await api.act("a b", "step", 5)).phase).toBe("running");
   const [url, init] = fetchPage.mock.calls[0]!;
@@ -16,7 +16,7 @@ test("an action is posted to its simulation, whose name may hold anything", asyn
   expect(init).toMatchObject({ method: "POST", body: '{"count":5}' });
 });
 
-test("how fast it goes is posted to its own address", async () => {
+test("the real-time factor is posted to its own address", async () => {
   const { api, fetchPage } = answering({ ...STATUS, target_factor: 2.5 });
   expect((await api.setFactor("a b", 2.5)).targetFactor).toBe(2.5);
   const [url, init] = fetchPage.mock.calls[0]!;
@@ -24,7 +24,7 @@ test("how fast it goes is posted to its own address", async () => {
   expect(init).toMatchObject({ method: "POST", body: '{"real_time_factor":2.5}' });
 });
 
-test("any command is posted to its own address with its arguments", async () => {
+test("a command is posted to its own address with its arguments", async () => {
   const { api, fetchPage } = answering(STATUS);
   await api.command("a b", "set_gravity", { z: -1.62 });
   const [url, init] = fetchPage.mock.calls[0]!;
@@ -32,7 +32,7 @@ test("any command is posted to its own address with its arguments", async () => 
   expect(init).toMatchObject({ method: "POST", body: '{"z":-1.62}' });
 });
 
-test("a replay is moved and changed at its own addresses", async () => {
+test("a replay is controlled at its own addresses", async () => {
   const { api, fetchPage } = answering({ ...STATUS, start_s: 0, end_s: 9, speed: 2, loop: false });
   await api.seek("a b", 1.5);
   await api.stepPoses("a b", -10);
@@ -44,7 +44,7 @@ test("a replay is moved and changed at its own addresses", async () => {
   ]);
 });
 
-test("a robot's topics are asked for under its name, which may hold anything", async () => {
+test("a robot's topics are requested by its name, which may contain any character", async () => {
   const { api, fetchPage } = answering({ topics: [] });
   await api.listTopics("a b", "r/1");
   const [url, init] = fetchPage.mock.calls[0]!;
@@ -52,7 +52,7 @@ test("a robot's topics are asked for under its name, which may hold anything", a
   expect(init?.method ?? "GET").toBe("GET");
 });
 
-test("a refusal carries the server's sentence", async () => {
+test("a refusal contains the server's sentence", async () => {
   const { api } = answering({ error: "to pause it must be running, and it is stopped" }, 409);
   const refusal = await api.act("a", "pause").catch((error: unknown) => error);
   expect(refusal).toBeInstanceOf(ApiError);
@@ -62,12 +62,12 @@ test("a refusal carries the server's sentence", async () => {
   });
 });
 
-test("an error without a sentence still reads as one", async () => {
+test("an error without a sentence gets one", async () => {
   const api = new SimulationApi("http://127.0.0.1/", async () => new Response("<html>", { status: 502 }));
   await expect(api.simulations()).rejects.toThrow("The server returned an error: 502.");
 });
 
-test("a server that is away and one that is silent are told apart", async () => {
+test("an unreachable server and a silent server are distinguished", async () => {
   const refusing = new SimulationApi("http://127.0.0.1/", () =>
     Promise.reject(new TypeError("fetch failed")),
   );
@@ -78,7 +78,7 @@ test("a server that is away and one that is silent are told apart", async () => 
   await expect(silent.simulations()).rejects.toThrow("The server did not respond in time. Check that gsv still runs.");
 });
 
-test("addresses stay below the page's own", () => {
+test("addresses are below the page's own", () => {
   const api = new SimulationApi("https://example.test/gsv/");
   expect(api.modelUrl("r/1")).toBe("https://example.test/gsv/api/models/r%2F1.glb");
   expect(api.socketUrl("a b")).toBe("wss://example.test/gsv/ws?simulation=a%20b");

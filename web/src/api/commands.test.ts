@@ -31,7 +31,7 @@ test("commands are read with their parameters' types, units, ranges and defaults
   });
 });
 
-test("what is no description is refused", () => {
+test("an invalid description is rejected", () => {
   expect(() => parseCommands({})).toThrow("commands: expected a list, found an object");
   expect(() => parseCommands([{ name: "a", parameters: [{ name: "b", type: "vector" }] }])).toThrow("does not know");
 });

@@ -8,7 +8,7 @@ afterEach(() => {
   vi.unstubAllGlobals();
 });
 
-test("a token in the address is taken out of it, and kept for this tab", () => {
+test("a token in the address is removed from it and kept for this tab", () => {
   history.replaceState(null, "", "/?quality=high#token=secret-secret-secret&t=3");
   expect(pageCredentials(window).token).toBe("secret-secret-secret");
   expect(location.href).not.toContain("secret");
@@ -17,7 +17,7 @@ test("a token in the address is taken out of it, and kept for this tab", () => {
   expect(pageCredentials(window).token).toBe("secret-secret-secret");
 });
 
-test("token and viewer go with each request, and with the socket", async () => {
+test("token and viewer's key are sent with each request and with the socket", async () => {
   const asked = vi.fn(async (_input: string, _init: { headers: object }) => new Response("[]"));
   vi.stubGlobal("fetch", asked);
   const credentials = new Credentials();

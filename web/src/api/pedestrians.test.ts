@@ -18,7 +18,7 @@ test("keys that the form does not show are kept", () => {
   expect(pedestriansJson(group!)).toEqual(json);
 });
 
-test("a second group has another name, and what is no group is refused with its place", () => {
+test("a second group gets another name, and an invalid group is rejected with its place", () => {
   const first = newPedestrians([]);
   expect(newPedestrians([first]).name).toBe("pedestrian_2");
   expect(() => parsePedestrians([3])).toThrow("pedestrians[0]: expected an object");

@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { parseEvents, parseReplay } from "./replay";
 
-test("a replay has a span, a speed and may loop", () => {
+test("a replay has a span and a speed, and may loop", () => {
   expect(parseReplay({ start_s: 1, end_s: 9.5, time_s: 2, speed: 0.5, loop: true })).toEqual({
     start: 1,
     end: 9.5,
@@ -13,7 +13,7 @@ test("a replay has a span, a speed and may loop", () => {
   );
 });
 
-test("events are read, and what is none says where it stands", () => {
+test("events are read, and an invalid event is an error with its place", () => {
   expect(parseEvents([{ time_s: 3, event: "agent_dead", robot: "a", detail: "a: killed" }])).toEqual([
     { time: 3, event: "agent_dead", robot: "a", detail: "a: killed" },
   ]);

@@ -19,7 +19,7 @@ const scenario = {
   pedestrians: [newPedestrians([])],
 };
 
-test("a scenario's JSON leaves out what is so anyway", () => {
+test("a scenario's JSON omits defaults", () => {
   expect(scenarioJson({ ...EMPTY_SCENARIO, world: "maze" })).toEqual({ world: "maze" });
   expect(scenarioJson(scenario)).toEqual({
     world: "office",
@@ -45,19 +45,19 @@ test("a scenario's JSON leaves out what is so anyway", () => {
   });
 });
 
-test("what was saved is loaded as it was", () => {
+test("a saved file is loaded unchanged", () => {
   const text = JSON.stringify(scenarioJson(scenario));
   expect(parseScenario(JSON.parse(text))).toEqual({ scenario, left: [] });
 });
 
-test("keys that the page does not know are named, and no scenario is refused with a place", () => {
+test("unknown keys are listed, and an invalid scenario is rejected with the place", () => {
   expect(parseScenario({ world: "maze", faults: [], expect: {} }).left).toEqual(["faults", "expect"]);
   expect(() => parseScenario([])).toThrow("the file: expected an object, found a list");
   expect(() => parseScenario({ robots: {} })).toThrow("robots: expected a list, found an object");
   expect(() => parseScenario({ robots: ["x"] })).toThrow("robots[0]: expected an object, found a string");
 });
 
-test("a robot is named after its model, by a number where that is taken", () => {
+test("a robot is named after its model, with a number if the name is taken", () => {
   expect(freeName(EMPTY_SCENARIO, "models/burger.sdf")).toBe("burger");
   const two = withRobot(withRobot(EMPTY_SCENARIO, "robots", pebble), "avatars", { ...pebble, name: "pebble_2" });
   expect(freeName(two, "pebble")).toBe("pebble_3");
@@ -65,7 +65,7 @@ test("a robot is named after its model, by a number where that is taken", () => 
   expect(findRobot(two, "nobody")).toBeNull();
 });
 
-test("lists change without touching what they were", () => {
+test("functions on lists do not modify their arguments", () => {
   const before = withRobot(EMPTY_SCENARIO, "robots", pebble);
   const after = withChangedRobot(before, "robots", 0, { name: "other" });
   expect(after.robots[0]!.name).toBe("other");
@@ -73,7 +73,7 @@ test("lists change without touching what they were", () => {
   expect(withoutRobot(after, "robots", 0).robots).toEqual([]);
 });
 
-test("changes are taken back and done again, until something else is changed", () => {
+test("changes can be undone and redone until there is another change", () => {
   const step = (seed: number) => ({ ...EMPTY_SCENARIO, seed });
   let setUp = { scenario: step(0), past: [], future: [] } as unknown as SetUp;
   setUp = changed(changed(setUp, step(1)), step(2));

@@ -52,11 +52,11 @@ test("the status reads the same from the API and from the live stream", () => {
   expect(fromMessage).toEqual(parseStatus(AS_JSON));
 });
 
-test("a phase that nobody knows is refused", () => {
+test("an unknown phase is rejected", () => {
   expect(() => parseStatus({ ...AS_JSON, phase: "asleep" })).toThrow(/found asleep/);
 });
 
-test("the list of simulations gives names and phases", () => {
+test("the list of simulations has names and phases", () => {
   expect(parseSummaries([{ name: "a", phase: "running", robots: 5 }])).toEqual([
     { name: "a", phase: "running", robots: 5 },
   ]);

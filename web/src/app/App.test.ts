@@ -46,7 +46,7 @@ function appIn(phase: Phase, act: SimulationApi["act"]) {
   return { store, app: new App(store, session, api, () => null) };
 }
 
-test("the main action is what the phase calls for, and a late answer does not undo the stream", async () => {
+test("the main action fits the phase, and a late answer does not override the stream", async () => {
   const act = vi.fn(async () => status("paused"));
   const { store, app } = appIn("running", act);
   app.startPauseOrResume();
@@ -68,7 +68,7 @@ test("a refusal shows the server's sentence and changes nothing", async () => {
   expect(store.get().pending).toBeNull();
 });
 
-test("a second press while the first is under way is not sent", async () => {
+test("a second click during a pending request is not sent", async () => {
   const act = vi.fn(() => new Promise<SimulationStatus>(() => {}));
   const { app } = appIn("running", act);
   void app.act("pause");
@@ -76,7 +76,7 @@ test("a second press while the first is under way is not sent", async () => {
   expect(act).toHaveBeenCalledOnce();
 });
 
-test("what the phase does not allow is not even asked for", () => {
+test("actions that the phase does not allow are not requested", () => {
   const act = vi.fn(async () => status("stopped"));
   const { app } = appIn("stopped", act);
   app.startPauseOrResume();
@@ -97,7 +97,7 @@ test("a robot's view takes the first robot when none is selected, and ends with 
   expect(store.get()).toMatchObject({ selection: null, viewMode: "orbit" });
 });
 
-test("a view from above is none out of a robot's eye", () => {
+test("a view from above ends a robot's view", () => {
   const { store, app } = appIn("running", vi.fn());
   app.toggleViewMode("eye");
   app.topView();
@@ -107,14 +107,14 @@ test("a view from above is none out of a robot's eye", () => {
   expect(store.get().viewMode).toBe("follow");
 });
 
-test("without robots there is nobody to look at", () => {
+test("without robots there is no robot's view", () => {
   const { store, app } = appIn("running", vi.fn());
   store.set({ status: { ...store.get().status!, robots: [] } });
   app.toggleViewMode("chase");
   expect(store.get()).toMatchObject({ selection: null, viewMode: "orbit" });
 });
 
-test("a value that is plotted opens the plots, as closed as they were", () => {
+test("plotting a value opens the closed panel", () => {
   const { store, app } = appIn("running", vi.fn());
   app.panels.open("log");
   app.plot({ kind: "robot", robot: "robbie" }, "speed");

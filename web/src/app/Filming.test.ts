@@ -40,7 +40,7 @@ function filming() {
 
 beforeEach(() => void vi.stubGlobal("MediaRecorder", FakeRecorder));
 
-test("what was seen between two presses is saved as one file", async () => {
+test("the view between two clicks is saved as one file", async () => {
   const { store, save, filming: each } = filming();
   each.toggle();
   expect(store.get().filming).toBe(true);
@@ -54,7 +54,7 @@ test("what was seen between two presses is saved as one file", async () => {
   expect(await video.text()).toBe("begin end");
 });
 
-test("a video that fills the memory ends by itself, and is saved", () => {
+test("a video that reaches the size limit ends and is saved", () => {
   const { store, save, filming: each } = filming();
   each.toggle();
   const large = { size: LARGEST_BYTES } as Blob;
@@ -71,7 +71,7 @@ test("a video that fills the memory ends by itself, and is saved", () => {
   expect(save).toHaveBeenCalledOnce();
 });
 
-test("a browser that cannot record says so", () => {
+test("a browser that cannot record reports it", () => {
   vi.stubGlobal("MediaRecorder", undefined);
   const { store, filming: each } = filming();
   each.toggle();

@@ -30,14 +30,14 @@ function fixture(kept: Record<string, string> = {}, linked: string | null = null
   return { control, host, store, items, notices };
 }
 
-test("the page begins with the layout of the link, of the last visit, or the standard one", () => {
+test("the page starts with the link's layout, the last layout, or the standard layout", () => {
   expect(fixture().host.layout).toBe(STANDARD_TEXT);
   expect(fixture({ "gsv.layout": "r(view~600,log~400)" }).host.layout).toBe("r(view~600,log~400)");
   expect(fixture({ "gsv.layout": "r(view~600,log~400)" }, "r(view~900,log~100)").host.layout).toBe("r(view~900,log~100)");
   expect(fixture({}, "standard").host.layout).toBe(STANDARD_TEXT);
 });
 
-test("a broken layout is said in a sentence, and the standard one is shown", () => {
+test("a broken layout shows an error and the standard layout", () => {
   const { host, notices } = fixture({}, "r(view");
   expect(host.layout).toBe(STANDARD_TEXT);
   expect(notices()).toEqual([
@@ -51,14 +51,14 @@ test("a layout with panels of another version is shown without them", () => {
   expect(notices()[0]).toContain("it has panels that this page lacks (hologram)");
 });
 
-test("a link names a preset, holds another layout's text, and nothing of the standard one", () => {
+test("a link contains a preset's name or a layout's text, and nothing for the standard layout", () => {
   const { control } = fixture();
   expect(control.linkText).toBeNull();
   control.showText("r(view~600,log~400)", "It");
   expect(control.linkText).toBe("r(view~600,log~400)");
 });
 
-test("layouts are saved by name, shown again, replaced and deleted", () => {
+test("layouts are saved, shown, replaced and deleted by name", () => {
   const { control, host, store, items } = fixture({}, "r(view~600,log~400)");
   control.save("  Mine ");
   control.showText("standard", "It");
@@ -79,7 +79,7 @@ test("a layout needs a name", () => {
   expect(notices()).toEqual(["Type a name for the layout first."]);
 });
 
-test("a layout is read from a file, and kept under its name", async () => {
+test("a layout from a file is saved under its name", async () => {
   const { control, host, store } = fixture();
   const content = JSON.stringify({ gsv_layout: 1, name: "Lab", layout: "r(view~800,log~200)" });
   await control.importFile(new File([content], "lab.json"));
@@ -87,7 +87,7 @@ test("a layout is read from a file, and kept under its name", async () => {
   expect(store.get().layouts).toEqual([{ name: "Lab", text: "r(view~800,log~200)" }]);
 });
 
-test("a file that is no layout is refused with its name, and nothing changes", async () => {
+test("a file that is not a layout is rejected with its name, and nothing changes", async () => {
   const { control, host, notices } = fixture();
   await control.importFile(new File(["{}"], "x.json"));
   await control.importFile(new File(["x".repeat(64_001)], "big.json"));

@@ -39,7 +39,7 @@ function fakeView() {
   };
 }
 
-test("only what is shown is asked for", () => {
+test("only visible overlays are subscribed", () => {
   expect(topicsToDraw(showing(["labels", "states"]))).toEqual([]);
   expect(topicsToDraw(showing(["beams", "labels"]))).toEqual(["/gsv/beams"]);
   expect(topicsToDraw(showing(["points"]))).toEqual(["/tf_static", "/a/scan", "/b/scan"]);
@@ -49,12 +49,12 @@ test("only what is shown is asked for", () => {
   expect(topicsToDraw({ ...showing(["points", "frames"]), scene: null })).toEqual([]);
 });
 
-test("radio is heard of whatever is mounted when the scene is told: behaviours bring radios along", () => {
+test("radio is subscribed whatever the scene contains, because behaviours may mount radios", () => {
   expect(topicsToDraw(showing(["actuators"]))).toEqual(["/gsv/radio"]);
   expect(topicsToDraw(showing(["actuators"], { scene: scene({ bodies: [] }) }))).toEqual([]);
 });
 
-test("of a crowd's sensors only so many are heard, the selected robot's first", () => {
+test("a limited number of sensors is subscribed, those of the selected robot first", () => {
   const crowd = scene({ bodies: Array.from({ length: 100 }, (_, i) => robot(`r${i}`)) });
   const topics = topicsToDraw(showing(["points"], { scene: crowd, selection: "r70" }));
   expect(topics).toHaveLength(17);
@@ -64,7 +64,7 @@ test("of a crowd's sensors only so many are heard, the selected robot's first", 
 const crowdOf = (robots: number) => scene({ bodies: Array.from({ length: robots }, (_, i) => robot(`r${i}`)) });
 const REPLAY = { start: 0, end: 9, speed: 1, loop: false };
 
-test("of more than twenty robots only the selected one's beams are heard", () => {
+test("with more than twenty robots, only the selected robot's beams are subscribed", () => {
   expect(topicsToDraw(showing(["beams"], { scene: crowdOf(20) }))).toEqual(["/gsv/beams"]);
   expect(topicsToDraw(showing(["beams"], { scene: crowdOf(21) }))).toEqual([]);
   expect(topicsToDraw(showing(["beams"], { scene: crowdOf(21), selection: "r7" }))).toEqual(["/gsv/beams/r7"]);
@@ -73,7 +73,7 @@ test("of more than twenty robots only the selected one's beams are heard", () =>
   expect(topicsToDraw(showing(["beams"], recorded))).toEqual(["/gsv/beams"]);
 });
 
-test("a recording's beams of other robots than the selected one are left out", () => {
+test("in a recording, only the beams of the selected robot are drawn", () => {
   const store = new Store<State>(showing(["beams"], { scene: crowdOf(21), selection: "r7", replay: REPLAY }));
   let send = (_message: unknown) => {};
   const end = vi.fn();
@@ -92,7 +92,7 @@ test("a recording's beams of other robots than the selected one are left out", (
   expect(view.forgetBeams).toHaveBeenCalled();
 });
 
-test("what is no longer shown is no longer heard, and forgotten", () => {
+test("hidden overlays are unsubscribed and cleared", () => {
   const store = new Store<State>(showing([]));
   const heard = new Map<string, (message: unknown) => void>();
   const session = {
@@ -113,7 +113,7 @@ test("what is no longer shown is no longer heard, and forgotten", () => {
   expect(view.keepReadings).toHaveBeenLastCalledWith(new Set(["/tf_static", "/a/bumper", "/b/bumper"]));
 });
 
-test("another simulation's topics are heard anew, even where they are called the same", () => {
+test("another simulation's topics are subscribed again, even with equal names", () => {
   const store = new Store<State>(showing(["points"]));
   const subscribe = vi.fn((_topic: string, _handler: unknown) => () => {});
   const view = fakeView();

@@ -29,7 +29,7 @@ function control(people: () => Promise<People>) {
   return { store, enter, turn, topics, sentences, control: new PeopleControl(store, session, api, kept) };
 }
 
-test("the name is said once, and again when the server knows it no more", async () => {
+test("the name is sent once, and again if the server has lost it", async () => {
   const people = vi.fn(async () => ALONE);
   const { store, enter, control: it } = control(people);
   await it.load();
@@ -42,7 +42,7 @@ test("the name is said once, and again when the server knows it no more", async 
   expect(enter).toHaveBeenCalledTimes(2);
 });
 
-test("who looks at another simulation says so, once", async () => {
+test("a change to another simulation is reported once", async () => {
   const { store, turn, control: it } = control(async () => ALONE);
   await it.load();
   store.set({ simulation: "cafe" });
@@ -53,7 +53,7 @@ test("who looks at another simulation says so, once", async () => {
   expect(turn.mock.calls).toEqual([["cafe"], [""]]);
 });
 
-test("who gets or loses control is told, of the simulation that is looked at", async () => {
+test("gaining or losing control of the shown simulation is reported", async () => {
   const people = vi.fn(async () => ALONE);
   const { sentences, control: it } = control(people);
   await it.load();
@@ -65,7 +65,7 @@ test("who gets or loses control is told, of the simulation that is looked at", a
   expect(sentences()).toEqual(["You have control.", "Bob has control now."]);
 });
 
-test("the stream tells it at once", async () => {
+test("the stream reports it at once", async () => {
   const { store, topics, sentences, control: it } = control(async () => ALONE);
   vi.useFakeTimers();
   it.start(new EventTarget() as Window);
@@ -79,7 +79,7 @@ test("the stream tells it at once", async () => {
   vi.useRealTimers();
 });
 
-test("a server that knows no viewers lets all act", async () => {
+test("a server without a list of viewers lets all act", async () => {
   const { store, control: it } = control(async () => Promise.reject(new ApiError(404, "nothing here")));
   await it.load();
   expect(store.get().people).toEqual(NO_PEOPLE);

@@ -20,7 +20,7 @@ async function recording(first = OFF) {
   return { api, app, store, place, button };
 }
 
-test("the button shows what another viewer switched on, and its size", async () => {
+test("the button shows a recording of another viewer and its size", async () => {
   const { api, button } = await recording();
   expect(button.hidden).toBe(false);
   expect(button.getAttribute("aria-pressed")).toBe("false");
@@ -30,7 +30,7 @@ test("the button shows what another viewer switched on, and its size", async () 
   expect(button.querySelector(".number")!.textContent).toBe("2.4 MB");
 });
 
-test("a press records, another ends it and says how to replay", async () => {
+test("one click starts recording, and another one ends it and explains the replay", async () => {
   const { api, app, store } = await recording();
   app.records.press();
   await vi.advanceTimersByTimeAsync(0);
@@ -43,7 +43,7 @@ test("a press records, another ends it and says how to replay", async () => {
   expect(store.get().notices.at(-1)!.sentence).toBe("Recording saved. Replay it on the page Recordings, or with: gsv replay '/tmp/a run.mcap'");
 });
 
-test("where the server does not record, or something is replayed, there is no button", async () => {
+test("there is no record button in a replay, or if the server does not support recording", async () => {
   const { store, button } = await recording();
   store.set({ replay: { start: 0, end: 1, speed: 1, loop: false } });
   expect(button.hidden).toBe(true);
@@ -52,7 +52,7 @@ test("where the server does not record, or something is replayed, there is no bu
   expect(button.hidden).toBe(true);
 });
 
-test("a refusal is told", async () => {
+test("a refusal is shown", async () => {
   const { api, app, store } = await recording();
   api.record.mockRejectedValueOnce(new Error("the disk is full"));
   app.records.press();
@@ -61,7 +61,7 @@ test("a refusal is told", async () => {
   expect(store.get().recording).toEqual(OFF);
 });
 
-test("what was not started on this page ends only after a question", async () => {
+test("a recording that this page did not start ends only after confirmation", async () => {
   const { api, app, store, place } = await recording(ON);
   const card = place.querySelector<HTMLElement>(".record-question")!;
   expect(card.hidden).toBe(true);

@@ -49,7 +49,7 @@ class Fixture {
 
 afterEach(() => void vi.useRealTimers());
 
-test("while a seek is under way only the last wish is kept, and shown", async () => {
+test("during a seek only the last request is kept and shown", async () => {
   const { control, store, calls, answer } = bound(new Fixture());
   const done = control.seek(1);
   for (const time of [2, 3, 4]) void control.seek(time);
@@ -71,7 +71,7 @@ test("a seek stays within the recording", async () => {
   expect(calls).toEqual(["seek 10", "seek 0"]);
 });
 
-test("steps that come meanwhile add up, and those that cancel each other are not taken", async () => {
+test("steps during a request add up, and opposite steps cancel out", async () => {
   const { control, calls, answer } = bound(new Fixture());
   control.step(1);
   control.step(1);
@@ -84,7 +84,7 @@ test("steps that come meanwhile add up, and those that cancel each other are not
   expect(calls).toEqual(["step 1", "step 11"]);
 });
 
-test("a step after a wish starts from there", async () => {
+test("a step after a seek starts from the requested instant", async () => {
   const { control, calls, answer } = bound(new Fixture());
   void control.seek(1);
   void control.seek(5);
@@ -106,7 +106,7 @@ test.each([
   expect(calls).toEqual([]);
 });
 
-test("at the end it plays from the start", async () => {
+test("play at the end starts again from the beginning", async () => {
   const { control, actions, calls, answer } = bound(
     new Fixture({ status: simulationStatus("finished"), time: 10 }),
   );
@@ -117,7 +117,7 @@ test("at the end it plays from the start", async () => {
   expect(actions).toEqual(["resume"]);
 });
 
-test("a refusal is told, and the wish forgotten", async () => {
+test("a refusal is shown, and the request is dropped", async () => {
   const { store } = new Fixture();
   const api = {
     seek: async () => {
@@ -129,7 +129,7 @@ test("a refusal is told, and the wish forgotten", async () => {
   expect(store.get().notices[0]?.sentence).toBe("the server is busy; try again in a moment");
 });
 
-test("speed and loop are what the server answers", async () => {
+test("speed and loop show the server's answer", async () => {
   const { control, store } = new Fixture();
   await control.setSpeed(0.25);
   expect(store.get().replay?.speed).toBe(0.25);
@@ -137,7 +137,7 @@ test("speed and loop are what the server answers", async () => {
   expect(store.get().replay?.loop).toBe(true);
 });
 
-test("it finds the events around where it stands", () => {
+test("it finds the events before and after the present instant", () => {
   const events = [2, 6].map((time) => ({ time, event: "paused", robot: "", detail: "" }));
   const { control, calls, store } = new Fixture({ events, time: 4 });
   control.toEvent(1);
@@ -146,7 +146,7 @@ test("it finds the events around where it stands", () => {
   expect(store.get().wishedTime).toBe(2);
 });
 
-test("a live simulation is not moved", () => {
+test("a live simulation cannot be seeked", () => {
   const { control, calls } = new Fixture({ replay: null });
   void control.seek(1);
   control.step(1);

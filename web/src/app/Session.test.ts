@@ -136,7 +136,7 @@ async function joined(fixture: Fixture): Promise<Fixture> {
 beforeEach(() => void vi.useFakeTimers());
 afterEach(() => void vi.useRealTimers());
 
-test("it joins the simulation that the address names, or else the first", async () => {
+test("it joins the simulation in the address, or else the first one", async () => {
   const named = new Fixture("yard");
   named.names = ["house", "yard"];
   expect((await joined(named)).state.simulation).toBe("yard");
@@ -145,14 +145,14 @@ test("it joins the simulation that the address names, or else the first", async 
   expect(other.state.notices[0]?.sentence).toBe("There is no simulation gone here; this is house.");
 });
 
-test("it takes up the scene and turns to a robot's camera rather than a visitor's", async () => {
+test("it loads the scene, and shows a robot's camera rather than an avatar's", async () => {
   const { state, clients } = await joined(new Fixture());
   expect(state.scene?.name).toBe("house");
   expect(state.camera?.robot).toBe("a");
   expect(clients[0]?.url).toBe("ws://test/ws?simulation=house");
 });
 
-test("what changes all the time is heard once there is a view for it, the scene and its state before", async () => {
+test("frequently changing topics are subscribed when there is a view, after the scene and its state", async () => {
   const fixture = new Fixture(null, null, "starting");
   await joined(fixture);
   expect(fixture.state.scene?.name).toBe("house");
@@ -163,7 +163,7 @@ test("what changes all the time is heard once there is a view for it, the scene 
   expect(fixture.onPoses).toHaveBeenCalledTimes(1);
 });
 
-test("while there is no simulation it looks again until there is one", async () => {
+test("without a simulation it looks repeatedly until there is one", async () => {
   const fixture = new Fixture();
   fixture.names = [];
   fixture.session.start();
@@ -173,7 +173,7 @@ test("while there is no simulation it looks again until there is one", async () 
   expect(fixture.state.simulation).toBe("late");
 });
 
-test("poses of another layout make it fetch the scene again, once", async () => {
+test("poses of another layout cause one new request for the scene", async () => {
   const fixture = await joined(new Fixture());
   fixture.layoutVersion = 2;
   fixture.sendPoses(1);
@@ -186,7 +186,7 @@ test("poses of another layout make it fetch the scene again, once", async () => 
   expect(fixture.onPoses).toHaveBeenCalledTimes(4);
 });
 
-test("a selected robot stays selected over a change of layout while it is there", async () => {
+test("a selected robot stays selected after a change of the scene's layout", async () => {
   const fixture = await joined(new Fixture());
   fixture.store.set({ selection: "a" });
   fixture.layoutVersion = 2;
@@ -195,7 +195,7 @@ test("a selected robot stays selected over a change of layout while it is there"
   expect(fixture.state.selection).toBe("a");
 });
 
-test("when its simulation is gone after a restart, it joins the one that is there", async () => {
+test("if its simulation no longer exists after a restart, it joins another one", async () => {
   const fixture = await joined(new Fixture());
   fixture.names = ["other"];
   fixture.clients[0]!.events.onConnection({ phase: "waiting", attempt: 1, retryAtMs: 0 });
@@ -203,14 +203,14 @@ test("when its simulation is gone after a restart, it joins the one that is ther
   expect(fixture.clients[0]?.closed).toBe(true);
 });
 
-test("that it connected again is said; that it connected is not", async () => {
+test("a reconnection is reported, but not the first connection", async () => {
   const fixture = await joined(new Fixture());
   expect(fixture.state.notices).toEqual([]);
   fixture.clients[0]!.events.onConnection({ phase: "open" });
   expect(fixture.state.notices.map(({ sentence }) => sentence)).toEqual(["Connected again."]);
 });
 
-test("deaths of behaviours are told, those of before the page was opened are not", async () => {
+test("deaths of behaviours are shown, except those before the page was opened", async () => {
   const fixture = await joined(new Fixture());
   const death = (sec: number, robot: string) => ({
     stamp: { sec, nsec: 0 },
@@ -223,7 +223,7 @@ test("deaths of behaviours are told, those of before the page was opened are not
   expect(fixture.state.notices.map(({ sentence }) => sentence)).toEqual(["b (wander): killed"]);
 });
 
-test("a recording is known by its status, and brings its events", async () => {
+test("a recording is recognised by its status, and its events are fetched", async () => {
   const fixture = new Fixture();
   fixture.replay = { start: 0, end: 9, speed: 1, loop: true };
   await joined(fixture);
@@ -233,13 +233,13 @@ test("a recording is known by its status, and brings its events", async () => {
   expect(fixture.state.replay).toEqual({ start: 0, end: 9, speed: 5, loop: true });
 });
 
-test("a live simulation is no recording", async () => {
+test("a live simulation is not a recording", async () => {
   const fixture = await joined(new Fixture());
   fixture.send("/gsv/status", statusMessage("running"));
   expect(fixture.state).toMatchObject({ replay: null, events: [] });
 });
 
-test("why a simulation failed is fetched when the stream says that it has", async () => {
+test("the reason of a failure is fetched when the stream reports the failure", async () => {
   const fixture = await joined(new Fixture());
   fixture.failure = "a's behaviour was killed";
   fixture.send("/gsv/status", statusMessage("failed"));
@@ -248,7 +248,7 @@ test("why a simulation failed is fetched when the stream says that it has", asyn
 
 const TWENTY_SECONDS: Replay = { start: 0, end: 20, speed: 1, loop: false };
 
-test("a recording is opened for this page alone before anything is asked; one that is gone is said to be", async () => {
+test("a recording is opened for this page only before other requests, and a missing one is reported", async () => {
   const fixture = new Fixture(null, "run.mcap");
   await joined(fixture);
   expect(fixture.openRecording).toHaveBeenCalledWith("run.mcap");
@@ -259,7 +259,7 @@ test("a recording is opened for this page alone before anything is asked; one th
   expect(gone.state.simulation).toBeNull();
 });
 
-test("after a restart of its server a replay of one's own is opened anew, and goes on where it stood", async () => {
+test("after a restart of the server, the page's own replay is opened again at the same instant", async () => {
   const fixture = new Fixture(null, "run.mcap");
   fixture.replay = TWENTY_SECONDS;
   await joined(fixture);
@@ -272,7 +272,7 @@ test("after a restart of its server a replay of one's own is opened anew, and go
   expect(fixture.openRecording).toHaveBeenCalledTimes(2);
 });
 
-test("a panel reads what the session reads itself, and goes on when another simulation is joined", async () => {
+test("a panel reads the session's topics, and continues in another simulation", async () => {
   const fixture = await joined(new Fixture());
   const panel = vi.fn();
   const end = fixture.session.subscribe("/gsv/status", panel);

@@ -51,7 +51,7 @@ function control(panel: HTMLElement, label: string): HTMLInputElement {
   return panel.querySelector(`#${found.htmlFor}`)!;
 }
 
-test("it opens with our first world, shown, and what there is to choose from", async () => {
+test("it opens with a preview of the first built-in world and the choices", async () => {
   const { store, panel } = await opened();
   expect(api.preview).toHaveBeenCalledOnce();
   expect(api.preview.mock.calls[0]![0]).toMatchObject({ world: "office" });
@@ -60,7 +60,7 @@ test("it opens with our first world, shown, and what there is to choose from", a
   expect(store.get().simulation).toBeNull();
 });
 
-test("a world that is dropped while the form still opens is kept", async () => {
+test("a world dropped while the form opens is kept", async () => {
   const { app, store } = testApp({}, { setUp: api } as never);
   let answer = (_worlds: string[]) => {};
   api.worlds.mockReturnValueOnce(new Promise((resolve) => (answer = resolve)));
@@ -71,7 +71,7 @@ test("a world that is dropped while the form still opens is kept", async () => {
   expect(store.get().setUp!.scenario.world).toBe("/tmp/up/1/mine.world");
 });
 
-test("without robots it says what to do, without offers which command starts one", async () => {
+test("without robots it explains what to do, and without offers which command starts one", async () => {
   const { app, panel } = await opened();
   expect(panel.textContent).toContain("No robots yet.");
   app.setUp.addRobot("robots", "pebble");
@@ -79,7 +79,7 @@ test("without robots it says what to do, without offers which command starts one
   expect(panel.querySelector(".offers-hint code")!.textContent).toBe("gsv-wander --broker here");
 });
 
-test("changes while the server is asked lead to one more preview, of the last", async () => {
+test("changes during a preview cause one more preview, of the last state", async () => {
   const { app } = await opened();
   api.preview.mockClear();
   for (const duration of [1, 2, 3, 4]) app.setUp.change({ duration });
@@ -87,7 +87,7 @@ test("changes while the server is asked lead to one more preview, of the last", 
   expect(api.preview.mock.calls.map(([scenario]) => (scenario as { duration: number }).duration)).toEqual([1, 4]);
 });
 
-test("what the server objects to stands beside its field, until it is right", async () => {
+test("the server's errors are shown beside their fields until they are fixed", async () => {
   const { app, panel } = await opened();
   api.preview.mockRejectedValueOnce(new ApiError(422, "there is no such model", "robots[0].model"));
   app.setUp.addRobot("robots", "pebble");
@@ -101,7 +101,7 @@ test("what the server objects to stands beside its field, until it is right", as
   expect(control(panel, "Model").getAttribute("aria-invalid")).toBe("false");
 });
 
-test("what belongs to no field stands at the end, what belongs to a robot at its head", async () => {
+test("problems without a field are at the end, and those of a robot at its row", async () => {
   const { app, panel } = await opened();
   app.setUp.addRobot("robots", "pebble");
   await settled(app);
@@ -114,7 +114,7 @@ test("what belongs to no field stands at the end, what belongs to a robot at its
   expect(app.store.get().setUp).not.toBeNull();
 });
 
-test("a robot is put where one clicked, and back by undo", async () => {
+test("a robot is moved to the clicked place, and back by undo", async () => {
   const { app, store } = await opened();
   app.setUp.addRobot("robots", "pebble");
   expect(store.get().selection).toBe("pebble");
@@ -127,7 +127,7 @@ test("a robot is put where one clicked, and back by undo", async () => {
   await settled(app);
 });
 
-test("what is created is joined, and the form goes", async () => {
+test("a created simulation is joined, and the form closes", async () => {
   const { app, store, panel, joined } = await opened();
   await app.setUp.create();
   expect(api.create).toHaveBeenCalledWith(expect.objectContaining({ world: "office" }));
@@ -136,7 +136,7 @@ test("what is created is joined, and the form goes", async () => {
   expect(panel.hidden).toBe(true);
 });
 
-test("a press on Create right after a change is not lost, and two presses create one", async () => {
+test("a click on Create right after a change is not lost, and two clicks create one simulation", async () => {
   const { app, panel } = await opened();
   let answer = () => {};
   const shown = await api.preview({});
@@ -152,7 +152,7 @@ test("a press on Create right after a change is not lost, and two presses create
   expect(api.create).toHaveBeenCalledWith(expect.objectContaining({ duration: 5 }));
 });
 
-test("nothing can be created while a world is on its way", async () => {
+test("nothing can be created during an upload", async () => {
   const { app, panel } = await opened();
   let sent = (_worlds: string[]) => {};
   api.upload.mockReturnValueOnce(new Promise((resolve) => (sent = resolve)));
@@ -169,7 +169,7 @@ test("nothing can be created while a world is on its way", async () => {
   expect(create.disabled).toBe(false);
 });
 
-test("a scenario file is loaded, YAML as well, and what is none is refused with a sentence", async () => {
+test("scenario files are loaded, including YAML, and other files are rejected with a sentence", async () => {
   const { app, store } = await opened();
   const yaml = "world: maze\nseed: 3\nrobots:\n  - {model: pebble, x: 1, y: 2, yaw: 0}\nfaults: []\n";
   await app.setUp.load(file("run.yaml", yaml));
@@ -182,7 +182,7 @@ test("a scenario file is loaded, YAML as well, and what is none is refused with 
   expect(store.get().notices.at(-1)!.sentence).toContain("not be larger than 1 MB");
 });
 
-test("of several worlds that are dropped each can be chosen", async () => {
+test("each of several dropped worlds can be chosen", async () => {
   const { app, store, panel } = await opened();
   await app.setUp.drop([dropped("w/model.sdf"), dropped("w/b.world"), dropped("w/a.world")]);
   await settled(app);
@@ -195,7 +195,7 @@ test("of several worlds that are dropped each can be chosen", async () => {
   expect(api.preview.mock.lastCall![0]).toMatchObject({ world: "/tmp/up/1/w/b.world" });
 });
 
-test("a world that is dropped onto another page of the viewer opens the form with it", async () => {
+test("a world dropped on another page of the viewer opens the form", async () => {
   const { app, store } = testApp({}, { setUp: api } as never);
   await app.setUp.drop([dropped("mine.world")]);
   await settled(app);
@@ -203,7 +203,7 @@ test("a world that is dropped onto another page of the viewer opens the form wit
   expect(api.models).toHaveBeenCalledOnce();
 });
 
-test("a world that is dropped is uploaded and shown; what is none has its sentence beside the field", async () => {
+test("a dropped world is uploaded and shown, and other files get an error beside the field", async () => {
   const { app, store, panel } = await opened();
   await app.setUp.drop([dropped("w/mesh.stl"), dropped("w/my.world")]);
   await settled(app);

@@ -27,14 +27,14 @@ test("each robot whose sensors are listened to in vain is asked for once", () =>
   expect(listTopics.mock.calls).toEqual([["s", "a"]]);
 });
 
-test("a robot whose beams are listened to in vain is asked for", () => {
+test("a robot is requested if its subscribed beams are not offered", () => {
   const { wishes, listTopics } = fixture(["/gsv/beams/b"]);
   wishes.lookSoon();
   vi.runAllTimers();
   expect(listTopics.mock.calls).toEqual([["s", "b"]]);
 });
 
-test("nobody is asked for while all is listed, nor before there is a scene", () => {
+test("no robot is requested while all topics are listed, or before there is a scene", () => {
   const listed = fixture([]);
   listed.wishes.lookSoon();
   const early = fixture(["/a/sonar"], { scene: null });
@@ -44,7 +44,7 @@ test("nobody is asked for while all is listed, nor before there is a scene", () 
   expect(early.listTopics).not.toHaveBeenCalled();
 });
 
-test("a server that does not answer is asked again when something else is listened to", async () => {
+test("a server that did not answer is asked again after another subscription", async () => {
   const { wishes, listTopics } = fixture(["/b/camera"]);
   listTopics.mockRejectedValueOnce(new Error("away"));
   wishes.lookSoon();

@@ -41,7 +41,7 @@ test("a graphics card keeps drawing, however slow", () => {
   expect(drawer()).toBe("browser");
 });
 
-test("a choice by hand stays", () => {
+test("a choice by the user is kept", () => {
   const { choice, drawer } = started();
   choice.choose("server");
   expect(drawer()).toBe("server");

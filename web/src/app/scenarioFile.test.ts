@@ -7,7 +7,7 @@ const HOUSE = { ...EMPTY_SCENARIO, name: "two rooms", world: "office", record: t
 // jsdom's Blob has no text().
 const textOf = (blob: Blob) => new Response(blob).text();
 
-test("what is to be recorded is saved under a name that gsv run can use, and loaded as a wish", async () => {
+test("a recording is saved with a name for gsv run, and loaded as a choice", async () => {
   const text = await textOf(scenarioFile(HOUSE));
   expect(JSON.parse(text).record).toBe("two rooms.mcap");
   const file = { name: scenarioFileName(HOUSE), size: text.length, text: async () => text };
@@ -15,7 +15,7 @@ test("what is to be recorded is saved under a name that gsv run can use, and loa
   expect((await readScenario(file)).scenario).toEqual(HOUSE);
 });
 
-test("what is not to be recorded says nothing of it", async () => {
+test("a scenario without recording does not mention it", async () => {
   const text = await textOf(scenarioFile({ ...HOUSE, record: false }));
   expect(JSON.parse(text)).toEqual({ name: "two rooms", world: "office" });
 });

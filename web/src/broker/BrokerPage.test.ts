@@ -46,7 +46,7 @@ async function find(host: HTMLElement, constraint: string) {
   await new Promise((resolve) => setTimeout(resolve));
 }
 
-test("shows the types in order, and asks for the offers of the first", async () => {
+test("shows the types in order, and requests the offers of the first", async () => {
   const { host, asked } = await open({ types: [200, TYPES], offers: [200, OFFERS], links: [200, LINKS] });
   const names = [...host.querySelectorAll("[data-type]")].map((button) => (button as HTMLElement).dataset.type);
   expect(names).toEqual(["Robot", "Rover"]);
@@ -54,7 +54,7 @@ test("shows the types in order, and asks for the offers of the first", async () 
   expect(host.querySelector(".summary")!.textContent).toBe("2 offers");
 });
 
-test("says which offers match a constraint, and which term failed", async () => {
+test("shows which offers match a constraint, and which term failed", async () => {
   const { host, asked } = await open({ types: [200, TYPES], offers: [200, OFFERS], links: [200, LINKS] });
   await find(host, "speed > 3");
   expect(asked).toContain("/api/broker/offers?type=Robot&constraint=speed%20%3E%203&preference=");
@@ -73,7 +73,7 @@ test("shows a refused constraint as the broker's sentence, and a link that does 
   expect(host.querySelector(".link")!.textContent).toContain("does not respond");
 });
 
-test("a server that takes a token is shown the one that is typed", async () => {
+test("a typed token is sent to the server", async () => {
   const answers: Parameters<typeof open>[0] = { types: [401, { error: "this request requires a token" }], links: [401, {}] };
   const { host, admit } = await open(answers);
   expect(host.querySelector("[role=alert]")!.textContent).toBe("this request requires a token");
@@ -86,7 +86,7 @@ test("a server that takes a token is shown the one that is typed", async () => {
   expect(host.querySelector(".token-field")).toBeNull();
 });
 
-test("a replay's page says that there is no broker", async () => {
+test("the page of a replay explains that there is no broker", async () => {
   const missing: [number, unknown] = [404, { error: "there is nothing at this address" }];
   const { host } = await open({ types: missing, links: missing });
   expect(host.querySelector(".answer")!.textContent).toContain("A replay has no broker.");

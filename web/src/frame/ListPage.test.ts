@@ -20,7 +20,7 @@ async function open(fetch: () => Promise<{ note: string; items: string[] }>) {
   return { host, page, admit, form, enter, sentence };
 }
 
-test("a server that takes a token is asked again with the one that is typed", async () => {
+test("after a token was typed, the request is repeated with it", async () => {
   const fetch = vi.fn(async () => ({ note: "here", items: ["a thing"] }));
   fetch.mockRejectedValueOnce(new ApiError(401, "this request requires a token"));
   fetch.mockRejectedValueOnce(new ApiError(403, "this token is wrong"));

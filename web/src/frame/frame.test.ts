@@ -2,7 +2,7 @@
 import { expect, test } from "vitest";
 import { showFrame } from "./frame";
 
-test("each page has the way to all others, and marks its own", () => {
+test("each page has links to all others, and marks itself", () => {
   const host = document.createElement("div");
   showFrame(host, "Recordings");
   const links = [...host.querySelectorAll("nav a")];

@@ -15,7 +15,7 @@ test("W drives forward, A turns left, Shift is faster, opposites cancel", () => 
   expect(driveOf(new Set(["q"]))).toEqual({ ...STANDING, lateral_m_s: 0.8 });
 });
 
-test("letting go says stand still, once", async () => {
+test("releasing the keys sends one stop", async () => {
   const sent: Drive[] = [];
   const steering = new AvatarSteering(
     () => "me",
@@ -29,7 +29,7 @@ test("letting go says stand still, once", async () => {
   expect(sent).toEqual([{ ...STANDING, linear_m_s: 0.8 }, STANDING]);
 });
 
-test("while a call is under way only the newest wish is kept", async () => {
+test("during a call only the newest command is kept", async () => {
   const sent: Drive[] = [];
   let answer = () => {};
   const steering = new AvatarSteering(
@@ -49,14 +49,14 @@ test("while a call is under way only the newest wish is kept", async () => {
   expect(sent[1]).toEqual(STANDING);
 });
 
-test("without an avatar the keys do nothing", () => {
+test("without an avatar the keys have no effect", () => {
   const send = vi.fn();
   const steering = new AvatarSteering(() => null, send);
   press(steering, "w");
   expect(send).not.toHaveBeenCalled();
 });
 
-test("with single keys turned off only the arrow keys drive", async () => {
+test("with single keys turned off, only the arrow keys drive", async () => {
   const sent: Drive[] = [];
   const steering = new AvatarSteering(
     () => "me",

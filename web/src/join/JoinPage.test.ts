@@ -34,7 +34,7 @@ test("each simulation is one click away, here and elsewhere", async () => {
   expect(host.querySelector(".joinable")!.textContent).toBe("a brunning · lockstep · 1:15.00 · 2 robots");
 });
 
-test("an address that is none of the web is no link, a name with markup is a name", async () => {
+test("only web addresses become links, and markup in names is text", async () => {
   const host = await open([
     { name: "<b>x</b>", place: "h:1", viewer_url: "javascript:alert(1)", simulations: [SIMULATION] },
     { name: "y", place: "h:2", viewer_url: "", simulations: [] },
@@ -45,14 +45,14 @@ test("an address that is none of the web is no link, a name with markup is a nam
   expect(host.textContent).toContain("It runs without a viewer. Start it without --headless.");
 });
 
-test("who does not respond is there with the reason; so is a silent broker", async () => {
+test("an instance that does not respond, or a silent broker, is shown with the reason", async () => {
   const host = await open([{ name: "gone", place: "h:3", problem: "h:3 does not respond", simulations: [] }]);
   expect(host.querySelector(".instance .field-error")!.textContent).toBe("h:3 does not respond");
   const silent = await open([], 504);
   expect(silent.querySelector("[role=alert]")!.textContent).toBe("the broker is silent");
 });
 
-test("what a server before has lost is told with its recording, until it is dismissed", async () => {
+test("simulations of a crashed server are listed with their recording until they are dismissed", async () => {
   const lost = [
     { number: 3, name: "<i>arena</i>", sentence: "arena was lost at about 12.3 s", replay: "a b.mcap" },
     { number: 4, name: "maze", sentence: "maze was lost" },

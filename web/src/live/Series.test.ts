@@ -5,13 +5,13 @@ function samples(series: Series): [number, number][] {
   return Array.from({ length: series.length }, (_, i) => [series.timeAt(i), series.valueAt(i)]);
 }
 
-test("values stand by time, whenever they came", () => {
+test("values are in the order of time, whenever they arrived", () => {
   const series = new Series();
   for (const time of [1, 3, 5, 2, 0, 4]) series.push(time, 10 * time);
   expect(samples(series)).toEqual([0, 1, 2, 3, 4, 5].map((time) => [time, 10 * time]));
 });
 
-test("while it is paused, values of one instant replace each other", () => {
+test("while it is paused, a value of the same instant replaces the former one", () => {
   const series = new Series();
   series.push(1, 1);
   series.push(2, 2);
@@ -23,7 +23,7 @@ test("while it is paused, values of one instant replace each other", () => {
   ]);
 });
 
-test("it holds the newest so many and no more", () => {
+test("it stores a limited number of the newest values", () => {
   const series = new Series();
   for (let i = 0; i < 5 * MOST_SAMPLES; i++) series.push(i, -i);
   expect(series.length).toBe(MOST_SAMPLES);

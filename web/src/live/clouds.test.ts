@@ -3,14 +3,14 @@ import { MOST_POINTS, contactsOf, pointsOf } from "./clouds";
 
 const SCAN = { angle_min: -Math.PI / 2, angle_increment: Math.PI / 2, range_min: 0.1, range_max: 5 };
 
-test("a scan's points lie where its beams ended; beams that met nothing have none", () => {
+test("a scan has a point at the end of each beam, and none for beams without an echo", () => {
   const points = pointsOf({ ...SCAN, ranges: new Float32Array([1, 2, Infinity, 0.05, NaN]) });
   const expected = [0, -1, 0, 2, 0, 0];
   expect(points).toHaveLength(expected.length);
   points.forEach((value, i) => expect(value).toBeCloseTo(expected[i]!, 6));
 });
 
-test("a scan of several rows has points above each other", () => {
+test("a scan with several rows has points above each other", () => {
   const rows = {
     ...SCAN,
     beams: 2,
@@ -43,7 +43,7 @@ function cloud(points: number[][], more: object = {}) {
   };
 }
 
-test("a cloud's points are its own, without those that are nowhere", () => {
+test("a cloud's points are copied without the invalid ones", () => {
   const message = cloud([
     [1, 2, 3],
     [NaN, 0, 0],
@@ -52,14 +52,14 @@ test("a cloud's points are its own, without those that are nowhere", () => {
   expect([...pointsOf(message)]).toEqual([1, 2, 3, 4, 5, 6]);
 });
 
-test("of a large cloud every nth point is taken", () => {
+test("every nth point of a large cloud is used", () => {
   const many = cloud(Array.from({ length: 3 * MOST_POINTS }, (_, i) => [i, 0, 0]));
   const points = pointsOf(many);
   expect(points).toHaveLength(3 * MOST_POINTS);
   expect(points[3]).toBe(3);
 });
 
-test("a cloud that lies about its size or has no places gives what can be read", () => {
+test("a cloud with a wrong size or without positions gives the readable points", () => {
   expect([...pointsOf(cloud([[1, 2, 3]], { width: 1000, height: 1000 }))]).toEqual([1, 2, 3]);
   expect(pointsOf(cloud([[1, 2, 3]], { fields: [] }))).toHaveLength(0);
   expect(pointsOf(cloud([[1, 2, 3]], { point_step: 0 }))).toHaveLength(0);
@@ -67,7 +67,7 @@ test("a cloud that lies about its size or has no places gives what can be read",
   expect(pointsOf(null)).toHaveLength(0);
 });
 
-test("a bumper's contacts are read, others' messages hold none", () => {
+test("only a bumper's messages contain contacts", () => {
   const contact = { other: "wall", point: { x: 1, y: 2, z: 3 }, normal: { x: 1, y: 0, z: 0 }, depth: 0 };
   expect(
     contactsOf({ contacts: [contact, { point: { x: NaN, y: 0, z: 0 }, normal: contact.normal }] }),

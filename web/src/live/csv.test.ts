@@ -8,7 +8,7 @@ function series(...samples: [number, number][]): Series {
   return made;
 }
 
-test("curves of different instants share a table", () => {
+test("curves with different times share a table", () => {
   const csv = csvOf([
     { name: "a x", unit: "m", series: series([0, 1.5], [0.1, 2]) },
     { name: "factor", unit: "", series: series([0.1, 0.99], [0.2, NaN]) },
@@ -16,7 +16,7 @@ test("curves of different instants share a table", () => {
   expect(csv).toBe("time_s,a x [m],factor\r\n0,1.5,\r\n0.1,2,0.99\r\n0.2,,NaN\r\n");
 });
 
-test("names stay text, whatever is in them", () => {
+test("names are shown as text, whatever they contain", () => {
   const csv = csvOf([
     { name: 'say "a,b"', unit: "", series: series() },
     { name: "=1+1", unit: "m", series: series() },
@@ -24,6 +24,6 @@ test("names stay text, whatever is in them", () => {
   expect(csv).toBe(`time_s,"say ""a,b""",'=1+1 [m]\r\n`);
 });
 
-test("no curves make a head alone", () => {
+test("without curves there is only a header", () => {
   expect(csvOf([])).toBe("time_s\r\n");
 });

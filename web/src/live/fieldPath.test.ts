@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { fieldAt, numberAt, parsePath, pathOf } from "./fieldPath";
 
-test("a path leads to its field", () => {
+test("a path selects its field", () => {
   const message = { status: { robots: [{ x: 1 }, { x: 2.5, on: true }] }, stamp: { sec: 3, nsec: 500_000_000 }, big: 7n };
   const number = (path: string) => numberAt(message, parsePath(path)!);
   expect(parsePath("status.robots[1].x")).toEqual(["status", "robots", 1, "x"]);
@@ -14,7 +14,7 @@ test("a path leads to its field", () => {
   expect(fieldAt({ list: new Float32Array([1, 2]) }, ["list", 1])).toBe(2);
 });
 
-test("what every object has is no field", () => {
+test("properties of every object are not fields", () => {
   expect(fieldAt({ a: 1 }, ["constructor"])).toBeUndefined();
   expect(fieldAt({ a: [] }, ["a", "map"])).toBeUndefined();
 });
@@ -23,6 +23,6 @@ test.each(["", "[0]", "a..b", "a[", "a[x]", "a b", "a[0", ".a", "1a", "a".repeat
   expect(parsePath(path)).toBeNull();
 });
 
-test("paths are written as they are read", () => {
+test("paths are written in the form in which they are read", () => {
   expect(pathOf(pathOf(pathOf("", "a"), 3), "b")).toBe("a[3].b");
 });

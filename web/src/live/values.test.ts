@@ -7,12 +7,12 @@ function asText(message: unknown, units = {}): string[] {
   return valuesOf(message, units).map(({ key, unit, value }) => `${key} = ${value} ${unit}`.trim());
 }
 
-test("a sonar's message gives its range in metres, and not how it is made", () => {
+test("a sonar's message gives its range in metres, but not its construction", () => {
   const range = { header, radiation_type: 0, field_of_view: 0.25, min_range: 0, max_range: 5, range: 1.5 };
   expect(asText(range, { range: "m" })).toEqual(["range = 1.5 m"]);
 });
 
-test("a long list is summed up by what is finite in it", () => {
+test("a long list is summarised by its finite values", () => {
   const ranges = new Float32Array([2, Infinity, 1, 4, 1, 2, 2, 2, NaN]);
   expect(asText({ header, ranges }, { ranges: "m" })).toEqual([
     "ranges.min = 1 m",
@@ -36,7 +36,7 @@ test("joints are called by their names", () => {
   expect(asText(joints)).toEqual(["position[left] = 0.5", "position[right] = -0.5"]);
 });
 
-test("a turn is told as angles, covariances are left out", () => {
+test("an orientation is shown as angles, and covariances are omitted", () => {
   const half = Math.SQRT1_2;
   const imu = {
     header,
@@ -57,7 +57,7 @@ test("a turn is told as angles, covariances are left out", () => {
   expect(values.map(({ unit }) => unit)).toEqual(["rad", "rad", "rad", "rad/s", "rad/s", "rad/s"]);
 });
 
-test("of a list of things their number and the first one", () => {
+test("a list of objects gives their number and the first one", () => {
   const contact = { other: "wall", point: { x: 0.25, y: 0, z: 0 }, depth: 0.001 };
   const units = { "contacts.point": "m", "contacts.depth": "m" };
   expect(asText({ header, contacts: [contact, contact] }, units)).toEqual([
@@ -70,7 +70,7 @@ test("of a list of things their number and the first one", () => {
   expect(asText({ contacts: [] })).toEqual(["contacts.count = 0"]);
 });
 
-test("pictures and clouds have no values, whatever a stranger sends is bounded", () => {
+test("images and clouds have no values, and the number of values is limited", () => {
   expect(valuesOf({ header, format: "jpeg", data: new Uint8Array(20) })).toEqual([]);
   expect(valuesOf("text")).toEqual([]);
   expect(valuesOf(null)).toEqual([]);
@@ -85,7 +85,7 @@ test("large integers and flags are numbers too", () => {
   expect(asText({ step: 12n, present: true })).toEqual(["step = 12", "present = 1"]);
 });
 
-test("a unit is that of the nearest path above the field", () => {
+test("a field has the unit of the nearest path above it", () => {
   const units = { "pose.pose.position": "m", "twist.twist.linear": "m/s", ranges: "m", twist: "none" };
   expect(unitOf("pose.pose.position.x", units)).toBe("m");
   expect(unitOf("twist.twist.linear.x", units)).toBe("m/s");
@@ -97,7 +97,7 @@ test("a unit is that of the nearest path above the field", () => {
   expect(unitOf("constructor", {})).toBe("");
 });
 
-test("angles are those of the order roll, pitch, yaw", () => {
+test("angles are in the order roll, pitch, yaw", () => {
   // Rz(0.3) Ry(0.2) Rx(0.1), multiplied out as half angles.
   const [cr, sr] = [Math.cos(0.05), Math.sin(0.05)];
   const [cp, sp] = [Math.cos(0.1), Math.sin(0.1)];
@@ -113,7 +113,7 @@ test("angles are those of the order roll, pitch, yaw", () => {
   expect(angles.yaw).toBeCloseTo(0.3, 12);
 });
 
-test("the instant of a message is its own or its header's", () => {
+test("the time of a message is its own or that of its header", () => {
   expect(stampOf({ header })).toBe(2.5);
   expect(stampOf({ stamp: { sec: 1, nsec: 0 } })).toBe(1);
   expect(stampOf({ clock: 1 })).toBeNull();

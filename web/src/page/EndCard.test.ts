@@ -40,7 +40,7 @@ const HEALTH = healthOf({
   ],
 });
 
-test("the summary says how much was simulated, who was stuck, and how the expectations stand", () => {
+test("the summary shows the simulated time, the stuck robots, and the expectations", () => {
   const { app } = testApp({ status: STATUS, time: 60, health: HEALTH });
   const card = createEndCard(app);
   expect(card.querySelector("h2")!.textContent).toBe("Finished");
@@ -50,14 +50,14 @@ test("the summary says how much was simulated, who was stuck, and how the expect
   ]);
 });
 
-test("a failure says why", () => {
+test("a failure contains the reason", () => {
   const { app } = testApp({ status: { ...STATUS, phase: "failed", failure: "pebble died" } });
   const card = createEndCard(app);
   expect(card.querySelector("h2")!.textContent).toBe("Failed");
   expect(card.querySelector(".ended-facts p")!.textContent).toBe("pebble died");
 });
 
-test("a recording is replayed by a link while the server is there, and by a command later", () => {
+test("the end card has a link to the replay while the server runs, and a command afterwards", () => {
   const abilities = { ...initialState.abilities, recordings: true };
   const { app, store } = testApp({ status: STATUS, recording: RECORDING, abilities });
   expect(createEndCard(app).querySelector("a")!.getAttribute("href")).toBe("./?recording=house.mcap");

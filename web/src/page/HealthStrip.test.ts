@@ -37,14 +37,14 @@ function strip(state: Parameters<typeof testApp>[0]) {
   return { app, store, made, chips };
 }
 
-test("it counts the robots in each state, and leaves out what is not", () => {
+test("it counts the robots in each state, and omits empty states", () => {
   expect(strip({ health: health({ b: "stuck", c: "dead" }) }).chips()).toEqual(["2 moving", "1 dead", "1 stuck"]);
   expect(strip({ health: health({}) }).chips()).toEqual(["4 moving"]);
   const told = strip({ health: health({ a: "standing" }, 0.3) });
   expect(told.chips()).toEqual(["3 moving", "1 told to move, but standing"]);
 });
 
-test("a press on a state shows only those robots, and another one shows all", () => {
+test("a click on a state shows only its robots, and a second click shows all", () => {
   const { store, made } = strip({ health: health({ b: "stuck" }) });
   const chip = made.querySelector<HTMLElement>('[data-state="stuck"]')!;
   chip.click();
@@ -54,7 +54,7 @@ test("a press on a state shows only those robots, and another one shows all", ()
   expect(store.get().robotFilter.state).toBeNull();
 });
 
-test("expectations are summed up, and a press opens their panel", () => {
+test("expectations are summarised, and a click opens their panel", () => {
   const expectation = (verdict: string) => ({ verdict, name: "", bodies: [], places: [], boxes: [] }) as unknown as Expectation;
   const { store, made } = strip({ health: health({}), expectations: ["holds", "pending", "holds"].map(expectation) });
   const verdict = made.querySelector<HTMLElement>(".verdict")!;
@@ -65,6 +65,6 @@ test("expectations are summed up, and a press opens their panel", () => {
   expect(store.get().openPanels).toContain("expectations");
 });
 
-test("it is not there where nobody reports states", () => {
+test("it is hidden if states are not reported", () => {
   expect(strip({ health: null }).made.hidden).toBe(true);
 });

@@ -9,7 +9,7 @@ const open: State = { ...initialState, view: "open", connection: { phase: "open"
 const waiting: State = { ...open, connection: { phase: "waiting", attempt: 1, retryAtMs: 0 } };
 const summary = { name: "house", phase: "running", robots: 1 } as const;
 
-test("the page says what it waits for, from the first connection to the scene", () => {
+test("the page shows what it waits for, from the connection to the scene", () => {
   expect(situationOf(initialState)).toBe("connecting");
   expect(situationOf({ ...open, simulations: [] })).toBe("no-simulation");
   expect(situationOf({ ...open, simulations: [summary], simulation: "house" })).toBe("loading");
@@ -22,7 +22,7 @@ test("a server that never answered differs from one that was lost", () => {
   expect(situationOf({ ...waiting, simulation: "house", scene: scene() })).toBe("lost");
 });
 
-test("a run that has ended is finished, not lost, until its summary is closed", () => {
+test("an ended run shows its summary, not a lost connection, until the summary is closed", () => {
   const shown = { ...open, simulation: "house", scene: scene(), status: simulationStatus("finished") };
   expect(situationOf(shown)).toBe("ended");
   expect(situationOf({ ...shown, connection: waiting.connection })).toBe("ended");
@@ -32,15 +32,15 @@ test("a run that has ended is finished, not lost, until its summary is closed", 
   expect(situationOf({ ...shown, replay: { start: 0, end: 1, speed: 1, loop: false } })).toBe("none");
 });
 
-test("the notice of a lost connection stays while the next attempt is under way", () => {
+test("the notice of a lost connection stays during the next attempt", () => {
   expect(situationOf({ ...initialState, simulation: "house", scene: scene() })).toBe("lost");
 });
 
-test("without WebGL the page says so once a simulation is there", () => {
+test("missing WebGL is reported when there is a simulation", () => {
   expect(situationOf({ ...open, simulation: "house", view: "none", scene: scene() })).toBe("no-webgl");
 });
 
-test("while the browser has taken WebGL away the page says so, and no longer once it is back", () => {
+test("a lost WebGL context is reported until it is restored", () => {
   const shown = { ...open, simulation: "house", scene: scene() };
   expect(situationOf({ ...shown, view: "interrupted" })).toBe("webgl-lost");
   expect(situationOf({ ...shown, view: "open" })).toBe("none");

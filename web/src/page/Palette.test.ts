@@ -46,7 +46,7 @@ test("commands, robots, topics, panels and layouts are found by words", () => {
   expect(lines()).toEqual([]);
 });
 
-test("Enter runs the marked command and closes the palette", () => {
+test("Enter runs the selected command and closes the palette", () => {
   const { type, press, palette, store } = opened();
   type("robot");
   press("ArrowDown");
@@ -56,7 +56,7 @@ test("Enter runs the marked command and closes the palette", () => {
   expect(store.get().paletteOpen).toBe(false);
 });
 
-test("a topic opens in the panel of topics", () => {
+test("a topic opens in the panel Topics", () => {
   const { type, press, store } = opened();
   type("/pebble/sonar");
   press("Enter");
@@ -64,7 +64,7 @@ test("a topic opens in the panel of topics", () => {
   expect(store.get().openPanels).toContain("topics");
 });
 
-test("what cannot be done now is not offered", () => {
+test("commands that are not possible now are not offered", () => {
   const { app, store } = testApp({ status: RUNNING });
   const labels = () => commandsOf(app).map(({ label }) => label);
   expect(labels()).toContain("Pause");
@@ -73,7 +73,7 @@ test("what cannot be done now is not offered", () => {
   expect(labels()).not.toContain("Pause");
 });
 
-test("what begins with the text comes first, and there are at most fifty", () => {
+test("entries that begin with the text come first, and there are at most fifty", () => {
   const commands = Array.from({ length: 80 }, (_, i) => ({ group: "Robot", label: i === 79 ? "x" : `a x${i}`, run: vi.fn() }));
   const found = findCommands(commands, "x");
   expect(found).toHaveLength(50);

@@ -21,14 +21,14 @@ function page(ada: Partial<Person> = {}, bob: Partial<Person> = {}) {
   return { app, store, menu, lines, button };
 }
 
-test("all who watch are listed by name, whatever it looks like", () => {
+test("all viewers are listed by name, whatever characters it has", () => {
   const { lines, menu } = page({}, { holds: true });
   expect(lines()).toEqual(["Ada · you", "<b>Bob</b> · has control"]);
   expect(menu.querySelector("b")).toBeNull();
   expect(menu.querySelector("button")!.title).toBe("Viewers (<b>Bob</b> has control)");
 });
 
-test("control is taken, asked for, and let go of", () => {
+test("control is taken, requested and released", () => {
   const { app, store, button } = page();
   const want = vi.spyOn(app.people, "want").mockResolvedValue();
   const steps: [Partial<Person>, Partial<Person>, string, boolean][] = [
@@ -46,14 +46,14 @@ test("control is taken, asked for, and let go of", () => {
   }
 });
 
-test("those who look at another simulation come last, and who looks at none can take none", () => {
+test("viewers of other simulations come last, and a viewer of none cannot take control", () => {
   const { store, lines, button } = page({}, { simulation: "cafe", holds: true });
   expect(lines()).toEqual(["Ada · you", "<b>Bob</b> · at cafe · has control"]);
   store.set(people({ simulation: "" }));
   expect(button().hidden).toBe(true);
 });
 
-test("the holder is told who asks, and answers", () => {
+test("the holder sees who requests control, and answers", () => {
   const { app, store } = page({ holds: true });
   const answer = vi.spyOn(app.people, "answer").mockResolvedValue();
   const card = createControlQuestion(app);
@@ -69,7 +69,7 @@ test("the holder is told who asks, and answers", () => {
   expect(card.hidden).toBe(true);
 });
 
-test("while somebody else has control the buttons rest", () => {
+test("the buttons are disabled while another viewer has control", () => {
   const { app, store } = testApp({ status: simulationStatus("running"), ...people() });
   const bar = createToolbar(app, () => {});
   const pause = bar.querySelector<HTMLButtonElement>(".main-action")!;

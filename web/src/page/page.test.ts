@@ -43,14 +43,14 @@ test.each([
   expect(enabledButtons(createToolbar(app, () => {}))).toEqual(names);
 });
 
-test("buttons follow what another viewer pressed", () => {
+test("buttons follow the clicks of another viewer", () => {
   const { app, store } = testApp({ status: simulationStatus("running") });
   const toolbar = createToolbar(app, () => {});
   store.set({ status: simulationStatus("paused") });
   expect(toolbar.querySelector(".main-action")?.textContent).toBe("Resume");
 });
 
-test("nothing can be pressed while the connection is lost or an answer is awaited", () => {
+test("all buttons are disabled while the connection is lost or an answer is pending", () => {
   const { app, store } = testApp({ status: simulationStatus("running"), pending: "pause" });
   const toolbar = createToolbar(app, () => {});
   expect(enabledButtons(toolbar)).toEqual([]);
@@ -58,7 +58,7 @@ test("nothing can be pressed while the connection is lost or an answer is awaite
   expect(enabledButtons(toolbar)).toEqual([]);
 });
 
-test("how fast it goes and how many steps it takes can be set", () => {
+test("the real-time factor and the number of steps can be set", () => {
   const act = vi.fn(async () => simulationStatus("paused"));
   const setFactor = vi.fn(async () => simulationStatus("paused"));
   const { app, store } = testApp({ status: simulationStatus("paused", { targetFactor: 2 }) }, { act, setFactor });
@@ -80,14 +80,14 @@ test("how fast it goes and how many steps it takes can be set", () => {
   expect(button("Take steps").disabled).toBe(true);
 });
 
-test("what goes as fast as it can says so where its speed would be set", () => {
+test("a simulation in lockstep says that its speed cannot be set", () => {
   const { app } = testApp({ status: simulationStatus("running", { mode: "lockstep" }) });
   const menu = createToolbar(app, () => {}).querySelector(".toolbar-transport .menu-sheet")!;
   expect(menu.querySelector<HTMLElement>(".pace-choices")!.hidden).toBe(true);
   expect(menu.querySelector<HTMLElement>(".hint")!.hidden).toBe(false);
 });
 
-test("several simulations can be chosen from", () => {
+test("one of several simulations can be chosen", () => {
   const simulations = ["house", "yard"].map((name) => ({ name, phase: "running", robots: 0 }) as const);
   const { app } = testApp({ simulations });
   const join = vi.spyOn(app.session, "join").mockImplementation(() => {});
@@ -108,21 +108,21 @@ test("each robot has a row with its behaviour, distance and collisions", () => {
   expect(rows()).toEqual(["b0.00 mwander · waiting"]);
 });
 
-test("an avatar's row says how to drive it", () => {
+test("an avatar's row explains how to drive it", () => {
   const { ports, store } = testApp({ status: simulationStatus("running", { robots: [robotStatus("me")] }) });
   const tree = createSceneTree(ports, document.createElement("div"));
   store.set({ scene: scene({ bodies: [body("me", { isAvatar: true })] }) });
   expect(tree.querySelector(".robot-behaviour")?.textContent).toBe("avatar · W A S D");
 });
 
-test("a list without robots teaches how to get some", () => {
+test("a list without robots explains how to add some", () => {
   const { ports } = testApp({ status: simulationStatus("running") });
   const hint = createSceneTree(ports, document.createElement("div")).querySelector<HTMLElement>(".hint")!;
   expect(hint.hidden).toBe(false);
   expect(hint.textContent).toContain("gsv run");
 });
 
-test("names with markup are shown as they are", () => {
+test("names with markup are shown literally", () => {
   const name = "<img src=x onerror=alert(1)>";
   const robots = [robotStatus(name, { detail: "<b>bold</b>" })];
   const { ports } = testApp({ status: simulationStatus("running", { robots }), selection: name });
@@ -133,7 +133,7 @@ test("names with markup are shown as they are", () => {
   expect(inspector.querySelector("h2")?.textContent).toBe(name);
 });
 
-test("a press on a row selects its robot, and the inspector shows where it is", () => {
+test("a click on a row selects its robot, and the inspector shows its pose", () => {
   const { ports, store } = testApp({ status: simulationStatus("running", { robots: [robotStatus("a")] }) });
   const tree = createSceneTree(ports, document.createElement("div"));
   const inspector = createInspector(ports);
@@ -146,12 +146,12 @@ test("a press on a row selects its robot, and the inspector shows where it is", 
   expect(values).toEqual(["1.23, 0.00, 0.00 m", "90.0°", "0.30 m/s", "-30.0°/s"]);
 });
 
-test("a pose is copied as files and the command line take it", () => {
+test("a pose is copied in the formats of files and of the command line", () => {
   expect(poseText(POSE)).toBe("1.2340 -0.0010 0.0000 0.1000 -0.2000 1.5708");
   expect(startText(POSE)).toBe("1.2340,-0.0010,1.5708");
 });
 
-test("the status bar shows phase, time, pace, late steps and who is waited for", () => {
+test("the status bar shows phase, time, factor, late steps and the behaviour that delays the run", () => {
   const status = simulationStatus("running", {
     realTimeFactor: 0.5,
     lateSteps: 3,
@@ -168,7 +168,7 @@ test("the status bar shows phase, time, pace, late steps and who is waited for",
   expect(text("connection")).toBe("Live");
 });
 
-test("a simulation that cannot keep its pace is said to lag", () => {
+test("a simulation that is too slow is shown as lagging", () => {
   const { app, store } = testApp({ status: simulationStatus("running", { realTimeFactor: 0.955 }) });
   const factor = createStatusBar(app).querySelector<HTMLElement>('[data-testid="factor"]')!;
   expect(factor.classList.contains("lagging")).toBe(false);
@@ -179,7 +179,7 @@ test("a simulation that cannot keep its pace is said to lag", () => {
   expect(factor.classList.contains("lagging")).toBe(false);
 });
 
-test("in lockstep there is no pace to keep", () => {
+test("in lockstep there is no target factor", () => {
   const { app } = testApp({
     status: simulationStatus("running", { mode: "lockstep", realTimeFactor: 12.3 }),
   });
@@ -196,7 +196,7 @@ test("a notice can be dismissed", () => {
   expect(notices.children).toHaveLength(0);
 });
 
-test("panels are opened and closed by their buttons, whoever opened them", () => {
+test("panels are opened and closed by their buttons, however they were opened", () => {
   const { app, store } = testApp();
   const button = createPanelBar(app, PANELS).querySelector('[aria-label="Status"]')!;
   expect(button.getAttribute("aria-pressed")).toBe("false");

@@ -6,7 +6,7 @@ import { OVERLAYS } from "../state/overlays";
 import { PANELS } from "./registry";
 import { testPorts } from "./contract/testPorts";
 
-test("ids, titles and keys are each one's own", () => {
+test("ids, titles and keys are unique", () => {
   const keys = PANELS.flatMap(({ key }) => (key ? [key] : []));
   for (const list of [PANELS.map(({ id }) => id), PANELS.map(({ title }) => title), keys]) {
     expect(new Set(list).size).toBe(list.length);
@@ -24,7 +24,7 @@ test.each(PANELS)("the panel $id is mounted, opened, closed and opened again", a
   vi.restoreAllMocks();
 });
 
-test("panels know nothing of the page but their ports", () => {
+test("panels access the page only by their ports", () => {
   const folder = path.join(process.cwd(), "src/panels");
   const sources = (fs.readdirSync(folder, { recursive: true }) as string[]).filter(
     (file) => file.endsWith(".ts") && !file.endsWith(".test.ts"),

@@ -9,7 +9,7 @@ test("each wait is twice the one before, up to eight seconds", () => {
   ]);
 });
 
-test("viewers spread by a fifth either way", () => {
+test("the waiting times of viewers differ by up to a fifth", () => {
   expect(backoffMs(2, () => 0)).toBeCloseTo(800);
   expect(backoffMs(2, () => 1)).toBeCloseTo(1200);
 });

@@ -112,7 +112,7 @@ test("it offers both sub-protocols and subscribes to what is advertised", async 
   expect(client.missingTopics).toEqual(["/nowhere"]);
 });
 
-test("messages arrive decoded", async () => {
+test("messages are decoded", async () => {
   const server = await serve();
   const { client } = connectTo(server);
   const handler = vi.fn();
@@ -122,7 +122,7 @@ test("messages arrive decoded", async () => {
   await eventually(() => expect(handler).toHaveBeenCalledWith({ number: 42, text: "hello" }));
 });
 
-test("who wants the newest only is spared what came before it", async () => {
+test("a reader of the newest messages skips older ones", async () => {
   const server = await serve();
   const { client } = connectTo(server);
   const newest = vi.fn();
@@ -140,7 +140,7 @@ test("who wants the newest only is spared what came before it", async () => {
   expect(newest.mock.calls.length).toBeLessThan(50);
 });
 
-test("a message that took long is followed by a rest, and then by the newest", async () => {
+test("after a slow message there is a pause, and then the newest message", async () => {
   const server = await serve();
   const { client } = connectTo(server);
   let now = 0;
@@ -167,7 +167,7 @@ test("a message that took long is followed by a rest, and then by the newest", a
   timeout.mockRestore();
 });
 
-test("parameters are asked for of servers that have some", async () => {
+test("parameters are requested from servers that have them", async () => {
   const server = await serve();
   const { client } = connectTo(server);
   await eventually(() => expect(client.topics).toHaveLength(1));
@@ -201,7 +201,7 @@ test("ending a subscription tells the server, and late messages are dropped", as
   expect(problems).toEqual([]);
 });
 
-test("after the server went away it connects again and subscribes anew", async () => {
+test("after the server was away, it reconnects and subscribes again", async () => {
   const first = await serve();
   const { client, states } = connectTo(first);
   const handler = vi.fn();
@@ -219,7 +219,7 @@ test("after the server went away it connects again and subscribes anew", async (
   await eventually(() => expect(handler).toHaveBeenCalledWith({ number: 1, text: "back" }));
 });
 
-test("a channel that comes later is subscribed to, one that goes is forgotten", async () => {
+test("a channel that is advertised later is subscribed, and a removed one is forgotten", async () => {
   const server = await serve([]);
   const { client } = connectTo(server);
   const handler = vi.fn();
@@ -233,7 +233,7 @@ test("a channel that comes later is subscribed to, one that goes is forgotten", 
   expect(server.heard[1]?.subscriptions?.[0]?.channelId).toBe(8);
 });
 
-test("what cannot be read is reported once and does no further harm", async () => {
+test("an unreadable message is reported once and has no other effect", async () => {
   const server = await serve();
   const { client, problems } = connectTo(server);
   const handler = vi.fn();
@@ -251,7 +251,7 @@ test("what cannot be read is reported once and does no further harm", async () =
   expect(problems[1]).toMatch(/^Cannot read a message of the server: /);
 });
 
-test("a channel in another encoding is refused with a sentence", async () => {
+test("a channel with another encoding is rejected with a sentence", async () => {
   const server = await serve([{ ...CHANNEL, encoding: "json" }]);
   const { client, problems } = connectTo(server);
   client.subscribe("/greeting", () => {});
@@ -261,7 +261,7 @@ test("a channel in another encoding is refused with a sentence", async () => {
   expect(problems[0]).toContain("expected messages in cdr, found json");
 });
 
-test("the server's own warnings are passed on", async () => {
+test("warnings of the server are passed on", async () => {
   const server = await serve();
   const { problems } = connectTo(server);
   await eventually(() => expect(server.protocols).toHaveLength(1));

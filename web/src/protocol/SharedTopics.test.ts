@@ -31,7 +31,7 @@ test("listeners of a topic share one subscription, which ends with the last of t
   expect(ended).toHaveBeenCalledOnce();
 });
 
-test("who comes later has the newest message at once, as while it is paused no other comes", () => {
+test("a later reader gets the newest message at once, because a paused simulation sends no others", () => {
   const { topics, send } = source();
   topics.subscribe("/a", () => {});
   send(1);
@@ -41,7 +41,7 @@ test("who comes later has the newest message at once, as while it is paused no o
   expect(late.mock.calls).toEqual([[2]]);
 });
 
-test("a topic that is asked for again is subscribed anew", () => {
+test("a topic that is requested again is subscribed again", () => {
   const { topics, subscribe, send } = source();
   topics.subscribe("/a", () => {})();
   const again = vi.fn();
@@ -52,7 +52,7 @@ test("a topic that is asked for again is subscribed anew", () => {
   expect(again).toHaveBeenCalledWith(3);
 });
 
-test("a listener that leaves while a message is handed round hears no more of it", () => {
+test("a listener that is removed during a message does not receive it", () => {
   const { topics, send } = source();
   const second = vi.fn();
   let leaveSecond = () => {};
@@ -62,7 +62,7 @@ test("a listener that leaves while a message is handed round hears no more of it
   expect(second).not.toHaveBeenCalled();
 });
 
-test("readers outlive a source, and hear nothing of it once there is another", () => {
+test("readers continue with a new source, and get nothing more from the old one", () => {
   const first = source();
   const { topics } = first;
   const reader = vi.fn();
@@ -81,7 +81,7 @@ test("readers outlive a source, and hear nothing of it once there is another", (
   expect(later.mock.calls).toEqual([[2]]);
 });
 
-test("what is read before there is a source is subscribed when there is one", () => {
+test("topics read before there is a source are subscribed later", () => {
   const topics = new SharedTopics();
   const reader = vi.fn();
   const end = topics.subscribe("/a", reader);
@@ -95,7 +95,7 @@ test("what is read before there is a source is subscribed when there is one", ()
   expect(ended).toHaveBeenCalledOnce();
 });
 
-test("messages are left out only while every reader of the topic asks for the newest one only", () => {
+test("messages are skipped only while every reader requests only the newest one", () => {
   const { topics, subscribe, ended } = source();
   const asked = () => subscribe.mock.calls.map((call) => (call as unknown[])[2]);
   topics.subscribe("/a", () => {}, { newestOnly: true });

@@ -9,17 +9,17 @@ function rotation(positions: number[], rotations: number[]): number[] {
   return [...posesOf(message).poses];
 }
 
-test("poses that are not packed stay as they are", () => {
+test("unpacked poses are not changed", () => {
   const message = { ...HEAD, poses: Float64Array.from([1, 2, 3, 0, 0, 0, 1]) };
   expect(posesOf(message)).toBe(message);
 });
 
-test("positions come in tenths of a millimetre", () => {
+test("positions are in tenths of a millimetre", () => {
   const pose = rotation([12_345, -20_000, 1, 0, 0, 70_000], [...Array(6)].map(() => packed(0) | 0));
   [1.2345, -2, 1e-4, 0, 0, 7].forEach((metres, k) => expect(pose[k < 3 ? k : k + 4]).toBeCloseTo(metres, 12));
 });
 
-test("the missing component of a rotation follows from the others, whichever it is", () => {
+test("the omitted component of a rotation follows from the others", () => {
   const others = [0.1, -0.3, 0.2];
   const largest = Math.sqrt(1 - 0.01 - 0.09 - 0.04);
   for (let missing = 0; missing < 4; missing++) {

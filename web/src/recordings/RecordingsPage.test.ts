@@ -23,7 +23,7 @@ async function open(recordings: object[], more: object = {}) {
   return host;
 }
 
-test("each recording is told with its size, length and date, and replayed by one click", async () => {
+test("each recording is listed with its size, length and date, and replayed by one click", async () => {
   const host = await open([RUN]);
   const item = host.querySelector(".recording")!;
   expect(item.querySelector("h2")!.textContent).toBe("run 1.mcap");
@@ -34,7 +34,7 @@ test("each recording is told with its size, length and date, and replayed by one
   expect(host.querySelector(".frame-note")!.textContent).toBe("/data");
 });
 
-test("what is not finished can be replayed as far as it goes, what cannot be read says why", async () => {
+test("an incomplete recording can be replayed, and an unreadable one shows the reason", async () => {
   const host = await open([
     { ...RUN, state: "unfinished" },
     { ...RUN, name: "<b>x</b>.mcap", state: "unreadable", problem: "it is no recording" },
@@ -47,7 +47,7 @@ test("what is not finished can be replayed as far as it goes, what cannot be rea
   expect(unreadable!.textContent).toContain("it is no recording");
 });
 
-test("without recordings the page says how one is made; with very many, how many are left out", async () => {
+test("without recordings the page explains how to make one; with very many, it shows the number of omitted ones", async () => {
   expect((await open([])).querySelector(".frame-list")!.textContent).toContain("No recordings yet");
   expect((await open([RUN], { left_out: 3 })).textContent).toContain("3 older ones not shown.");
 });

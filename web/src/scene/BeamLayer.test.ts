@@ -32,7 +32,7 @@ const beam = [
   { x: 5, y: 0, z: 0.2 },
 ];
 
-test("a beam moves and turns along with its robot", () => {
+test("a beam moves and rotates with its robot", () => {
   const layer = new BeamLayer(10_000);
   layer.setRobot("a", marker(beam), new Matrix4().makeTranslation(2, 0, 0));
   const shown = new Matrix4().makeRotationZ(Math.PI / 2).setPosition(0, 10, 0);
@@ -41,14 +41,14 @@ test("a beam moves and turns along with its robot", () => {
   drawn(layer).forEach((value, i) => expect(value).toBeCloseTo(expected[i]!, 6));
 });
 
-test("beams without a robot to hang on are not drawn", () => {
+test("beams without a robot are not drawn", () => {
   const layer = new BeamLayer(10_000);
   layer.setRobot("a", marker(beam), new Matrix4());
   layer.place(() => null, () => 0);
   expect(layer.segments).toBe(0);
 });
 
-test("each end has its own colour; beams that are given none are red", () => {
+test("each end has its own colour, and beams without colours are red", () => {
   const layer = new BeamLayer(10_000);
   layer.setRobot("a", marker(beam, { colors: [YELLOW, YELLOW] }), new Matrix4());
   layer.setRobot("b", marker(beam), new Matrix4());
@@ -68,7 +68,7 @@ test("many robots' beams fit", () => {
   expect(drawn(layer).at(-3)).toBe(47);
 });
 
-test("of more beams than can be drawn those of the robots in front are, each robot's whole", () => {
+test("if there are too many beams, those of the first robots are drawn completely", () => {
   const layer = new BeamLayer(5);
   const two = [...beam, ...beam];
   for (const robot of ["c", "a", "b"]) layer.setRobot(robot, marker(two), new Matrix4());
@@ -78,7 +78,7 @@ test("of more beams than can be drawn those of the robots in front are, each rob
   expect(drawn(layer).filter((_, i) => i % 3 === 1)).toEqual([0, 0, 0, 0, 1, 1, 1, 1]);
 });
 
-test("a robot without beams any more loses its lines", () => {
+test("the lines of a robot that has no more beams are removed", () => {
   const layer = new BeamLayer(10_000);
   layer.setRobot("a", marker(beam), new Matrix4());
   layer.setRobot("b", marker(beam), new Matrix4());
@@ -88,7 +88,7 @@ test("a robot without beams any more loses its lines", () => {
   expect(layer.segments).toBe(0);
 });
 
-test("thin lines have the same ends and colours, and so many of them are drawn", () => {
+test("thin lines have the same ends and colours, and their number is set", () => {
   const layer = new BeamLayer(10_000, true);
   layer.setRobot("a", marker(beam, { colors: [YELLOW, YELLOW] }), new Matrix4().makeTranslation(1, 0, 0));
   layer.place(() => new Matrix4(), () => 0);

@@ -61,12 +61,12 @@ function matrixX(mesh: Mesh, instance: number): number {
   return new Vector3().setFromMatrixPosition(matrix).x;
 }
 
-test("bodies of one model are drawn together, a single one alone", () => {
+test("bodies of one model are drawn together, and a single body alone", () => {
   const kinds = meshesOf(layer()).map((mesh) => (mesh instanceof InstancedMesh ? mesh.count : 1));
   expect(kinds).toEqual([2, 2, 1, 1]);
 });
 
-test("a moving link follows its own pose, every other part its body's", () => {
+test("a moving link has its own pose, and all other parts their body's", () => {
   const bodies = layer();
   bodies.setPoses(poses(10, 11.5, 20));
   const [chassis, wheel] = meshesOf(bodies) as [Mesh, Mesh];
@@ -74,13 +74,13 @@ test("a moving link follows its own pose, every other part its body's", () => {
   expect([matrixX(wheel, 0), matrixX(wheel, 1)]).toEqual([11.5, 21]);
 });
 
-test("what is static stays where the scene puts it", () => {
+test("static bodies stay at the scene's poses", () => {
   const bodies = layer();
   bodies.setPoses(poses(10, 11.5, 20));
   expect(matrixX(meshesOf(bodies)[2]!, 0)).toBe(3);
 });
 
-test("what is fixed to the world is in the way, robots are not", () => {
+test("bodies fixed to the world obstruct the view, but robots do not", () => {
   const bodies = layer();
   bodies.setPoses(poses(10, 11.5, 20));
   bodies.group.updateMatrixWorld(true);
@@ -92,7 +92,7 @@ test("what is fixed to the world is in the way, robots are not", () => {
   expect(bodies.freeAlong(new Vector3(5, 0, 0), x, 50)).toBe(Infinity); // robots at 10 and 20
 });
 
-test("a ray from above picks the robot below it after it moved", () => {
+test("a vertical ray finds a robot that has moved", () => {
   const bodies = layer();
   bodies.group.updateMatrixWorld(true);
   const down = (x: number) => new Raycaster(new Vector3(x, 0, 5), new Vector3(0, 0, -1));

@@ -6,7 +6,7 @@ import { LineLayer } from "./LineLayer";
 import { drawJoint } from "./markings";
 import { body, scene } from "./testScene";
 
-test("of a selected robot only its own collision shapes are shown, else all that there are", () => {
+test("only the selected robot's collision shapes are shown, or all without a selection", () => {
   const bodies = [body("a", { collisions: "c-1" }), body("b", { collisions: "c-2" }), body("sign")];
   const models = (selection: string | null) =>
     collisionScene(scene({ bodies }), selection).bodies.map(({ model }) => model);
@@ -14,7 +14,7 @@ test("of a selected robot only its own collision shapes are shown, else all that
   expect(models("b")).toEqual(["", "c-2", ""]);
 });
 
-test("what turns has a circle about its axis, what slides a bar at each end", () => {
+test("a revolute joint has a circle about its axis, and a prismatic joint a bar at each end", () => {
   const lines = new LineLayer({ widthPx: 2 });
   const segments = (kind: string) => {
     lines.begin();
@@ -25,7 +25,7 @@ test("what turns has a circle about its axis, what slides a bar at each end", ()
   expect([segments("revolute"), segments("prismatic")]).toEqual([13, 3]);
 });
 
-test("a scene says what bodies collide with, and their joints; older ones say neither", () => {
+test("a scene has collision shapes and joints; older scenes have neither", () => {
   const pose = [0, 0, 0, 0, 0, 0, 1];
   const common = { name: "a", model: "m", pose, links: [], sensors: [] };
   const joint = { name: "hinge", kind: "revolute", link: "door", pose, axis: [0, 0, 1] };

@@ -37,7 +37,7 @@ describe("CrowdDetail", () => {
     expect(isCoarse(4.5)).toBe(false); // 18
   });
 
-  it("draws all boxes of a part at once, each of the shape's size and where it stands", () => {
+  it("draws all boxes of a part at once, each with its size and at its place", () => {
     const { look } = crowd(50);
     const [boxes] = look(100).boxes;
     boxes!.geometry.computeBoundingBox();
@@ -47,7 +47,7 @@ describe("CrowdDetail", () => {
     expect(boxes!.geometry.index!.count).toBe(50 * 36);
   });
 
-  it("has boxes move and turn along with the bodies", () => {
+  it("boxes move and rotate with the bodies", () => {
     const { mesh, detail, look } = crowd(50);
     look(100);
     mesh.setMatrixAt(49, new Matrix4().makeRotationZ(Math.PI / 2).setPosition(7, 8, 9));
@@ -62,7 +62,7 @@ describe("CrowdDetail", () => {
     [0, 1, 0].forEach((value, k) => expect(normal.getComponent(k)).toBeCloseTo(value, 6));
   });
 
-  it("draws faces that look outwards", () => {
+  it("draws faces that point outwards", () => {
     const { geometry } = crowd(50).look(100).boxes[0]!;
     const at = (name: string, i: number) => new Vector3().fromBufferAttribute(geometry.getAttribute(name), i);
     for (let i = 0; i < geometry.index!.count; i += 3) {
@@ -72,14 +72,14 @@ describe("CrowdDetail", () => {
     }
   });
 
-  it("leaves small parts out while it draws boxes", () => {
+  it("small parts are omitted while boxes are drawn", () => {
     const { look } = crowd(50);
     const { shapes, boxes } = look(100);
     expect([...shapes, boxes.length]).toEqual([false, false, 1]);
     expect(look(1)).toEqual({ shapes: [true, true], boxes: [] });
   });
 
-  it("leaves a few as they are", () => {
+  it("a few bodies are left unchanged", () => {
     const { shapes, boxes } = crowd(49).look(1000);
     expect([...shapes, boxes.length]).toEqual([true, true, 0]);
   });

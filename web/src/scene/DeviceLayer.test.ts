@@ -24,7 +24,7 @@ function lightsOf(layer: DeviceLayer, kind: typeof PointLight | typeof SpotLight
   return layer.group.children.filter((each) => each instanceof kind) as (PointLight | SpotLight)[];
 }
 
-test("a lamp glows in its colour where it is mounted, and goes out", () => {
+test("a lamp glows in its colour at its place, and goes out", () => {
   const layer = new DeviceLayer();
   layer.take("/a/lamp", LAMP);
   placed(layer);
@@ -37,7 +37,7 @@ test("a lamp glows in its colour where it is mounted, and goes out", () => {
   expect(ball.visible).toBe(false);
 });
 
-test("a lamp with a range lights all around, one with an angle a cone, an LED nothing", () => {
+test("a lamp with a range lights in all directions, with an angle only a cone, and an LED nothing", () => {
   const layer = new DeviceLayer();
   layer.take("/a/led", { ...LAMP, range_m: 0 });
   placed(layer);
@@ -53,7 +53,7 @@ test("a lamp with a range lights all around, one with an angle a cone, an LED no
   expect(head!.target.position.toArray()).toEqual([2, 2, 3]);
 });
 
-test("of many lamps a few light, and their number does not shrink when they go out", () => {
+test("a few of many lamps light their surroundings, and their number does not decrease", () => {
   const layer = new DeviceLayer();
   for (let i = 0; i < 9; i++) layer.take(`/a/lamp_${i}`, LAMP);
   placed(layer);
@@ -63,7 +63,7 @@ test("of many lamps a few light, and their number does not shrink when they go o
   expect(lightsOf(layer, PointLight).map(({ intensity }) => intensity)).toEqual([0, 0, 0, 0]);
 });
 
-test("a speaker sends out rings while it plays", () => {
+test("a speaker emits rings while it plays", () => {
   const layer = new DeviceLayer();
   layer.take("/a/speaker", SOUND);
   expect(placed(layer).segments).toBe(RING_LINES);
@@ -71,7 +71,7 @@ test("a speaker sends out rings while it plays", () => {
   expect(placed(layer).segments).toBe(0);
 });
 
-test("a gripper shows the faces of its jaws where they are, in another colour when it holds something", () => {
+test("a gripper shows its jaws at their positions, in another colour if it holds something", () => {
   const layer = new DeviceLayer();
   const gripper = { opening_m: 0.06, told_to_open: false, held: "", reach_m: 0.09, height_m: 0.04 };
   const colours = [gripper, { ...gripper, held: "can" }].map((message) => {

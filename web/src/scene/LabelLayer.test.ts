@@ -23,13 +23,13 @@ function texts(layer: LabelLayer): (string | null)[] {
   return [...layer.element.children].map((label) => label.textContent);
 }
 
-test("a label stands where its robot is drawn", () => {
+test("a label is at its robot's place in the image", () => {
   const layer = new LabelLayer(() => {});
   place(layer, [["a", 2, 1, -2]]);
   expect((layer.element.firstChild as HTMLElement).style.transform).toContain("translate(600.0px, 100.0px)");
 });
 
-test("what is behind the camera or outside the picture has no label", () => {
+test("robots behind the camera or outside the image have no label", () => {
   const layer = new LabelLayer(() => {});
   place(layer, [
     ["behind", 0, 0, 5],
@@ -39,13 +39,13 @@ test("what is behind the camera or outside the picture has no label", () => {
   expect(texts(layer)).toEqual(["seen"]);
 });
 
-test("what a filter leaves out has no label", () => {
+test("robots that a filter excludes have no label", () => {
   const layer = new LabelLayer(() => {});
   place(layer, [["a", -1, 0, -3], ["b", 1, 0, -3]], null, ["a"]);
   expect(texts(layer)).toEqual(["b"]);
 });
 
-test("of labels that would overlap the selected one is shown, then the worst, then the nearest", () => {
+test("of overlapping labels, the selected one has priority, then the worst, then the nearest", () => {
   const layer = new LabelLayer(() => {});
   const near: Robot = ["near", 0, 0, -2];
   const far: Robot = ["far", 0, 0, -4];
@@ -76,7 +76,7 @@ test("no two labels of a crowd overlap", () => {
   );
 });
 
-test("a click on a label means its robot, and markup in a name stays text", () => {
+test("a click on a label selects its robot, and markup in a name is shown as text", () => {
   const onPick = vi.fn();
   const layer = new LabelLayer(onPick);
   place(layer, [["<b>a</b>", 0, 0, -3]], "<b>a</b>");

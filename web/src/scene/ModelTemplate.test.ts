@@ -32,13 +32,13 @@ test("parts are placed both in their link and in the model", () => {
   expect(new Vector3().setFromMatrixPosition(tyre.modelFromPart).toArray()).toEqual([0.1, 0.3, 0]);
 });
 
-test("a mesh that belongs to no link hangs under the model", () => {
+test("a mesh without a link belongs to the model", () => {
   const { parts } = makeTemplate(cart(), ["wheel:left"]);
   expect(parts[0]!.link).toBeNull();
   expect(new Vector3().setFromMatrixPosition(parts[0]!.linkFromPart).toArray()).toEqual([0, 0, 0.5]);
 });
 
-test("the bounds hold all parts", () => {
+test("the bounds contain all parts", () => {
   const { bounds } = makeTemplate(cart(), ["chassis", "wheel:left"]);
   expect(bounds.min.toArray()).toEqual([-0.5, -0.5, expect.closeTo(-0.1)]);
   expect(bounds.max.toArray()).toEqual([0.5, 0.5, 1]);

@@ -64,7 +64,7 @@ function layers(shown: Shown) {
   return { overlays, points, lines, trails, segments };
 }
 
-test("points stand where their sensor is mounted, on a link that has turned", () => {
+test("points are at their sensor's place, on a rotated link", () => {
   const { overlays, points } = layers(only("points"));
   const scan = {
     angle_min: 0,
@@ -84,7 +84,7 @@ test("points stand where their sensor is mounted, on a link that has turned", ()
   expect(points.geometry.drawRange.count).toBe(0);
 });
 
-test("what a camera sees is a pyramid of its own angles", () => {
+test("a camera's field of view is a pyramid with its angles", () => {
   const { overlays, lines, segments } = layers(only("cameras"));
   overlays.place(new Vector3());
   expect(segments(lines)).toBe(8);
@@ -94,7 +94,7 @@ test("what a camera sees is a pyramid of its own angles", () => {
   [9, 2, 1.5].forEach((value, i) => expect(ends.getComponent(0, i)).toBeCloseTo(value, 5));
 });
 
-test("a camera is known by what it reads, not by the name of its type", () => {
+test("a camera is recognised by its readings, not by its type's name", () => {
   const { overlays, lines, segments } = layers(only("cameras"));
   const view = { horizontalFov: 1, aspect: 1 };
   const sensors = [
@@ -107,7 +107,7 @@ test("a camera is known by what it reads, not by the name of its type", () => {
   expect(segments(lines)).toBe(2 * 8);
 });
 
-test("what hangs on a station is placed by the station's own frame", () => {
+test("a station's sensors are placed by the station's own frame", () => {
   const { overlays, lines, segments } = layers(only("cameras"));
   const camera = sensor("eye", "camera", { view: { horizontalFov: 1, aspect: 1 }, topic: "/post/eye" });
   const post = body("post", { isRobot: false, isStatic: true, isStation: true, sensors: [camera] });
@@ -117,7 +117,7 @@ test("what hangs on a station is placed by the station's own frame", () => {
   expect(segments(lines)).toBe(8);
 });
 
-test("contacts are drawn while they last", () => {
+test("contacts are drawn while they exist", () => {
   const { overlays, lines, segments } = layers(only("contacts"));
   const contact = { other: "wall", point: { x: 0, y: 0, z: 0 }, normal: { x: 1, y: 0, z: 0 }, depth: 0 };
   overlays.takeReading("/a/bumper", { contacts: [contact] });
@@ -128,7 +128,7 @@ test("contacts are drawn while they last", () => {
   expect(lines.visible).toBe(false);
 });
 
-test("frames are those of the robots, and of the selected one all", () => {
+test("only the robots' frames are drawn, but all frames of the selected robot", () => {
   const { overlays, lines, segments } = layers(only("frames"));
   overlays.place(new Vector3());
   expect(segments(lines)).toBe(3);
@@ -137,7 +137,7 @@ test("frames are those of the robots, and of the selected one all", () => {
   expect(segments(lines)).toBe(3 * (1 + 1 + SENSORS.length));
 });
 
-test("trails grow unseen, stay over a change of the layout, and go with the scene", () => {
+test("trails grow while hidden, survive a change of layout, and end with the scene", () => {
   const { overlays, trails, segments } = layers(only());
   const moved = POSES.slice();
   moved[0] = 11;

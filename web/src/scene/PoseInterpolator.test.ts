@@ -32,18 +32,18 @@ test("there is nothing to show before the first update", () => {
   expect(interpolator.isSettled(0)).toBe(true);
 });
 
-test("steady motion is shown as steady motion, the delay ago", () => {
+test("uniform motion is shown as uniform motion with a delay", () => {
   const interpolator = moving(11);
   for (let now = 390; now <= 430; now += 8) {
     expect(xAt(interpolator, now)).toBeCloseTo((now - interpolator.delayMs) / 1000, 9);
   }
 });
 
-test("the delay is longer than one update's interval", () => {
+test("the delay is longer than an update interval", () => {
   expect(moving(11).delayMs).toBeCloseTo(64, 9);
 });
 
-test("late and early arrivals are smoothed", () => {
+test("early and late arrivals are smoothed", () => {
   const interpolator = moving(30, (i) => (i % 2 === 0 ? 8 : -8));
   const start = 29 * INTERVAL_MS - 20;
   let previous = xAt(interpolator, start);
@@ -56,28 +56,28 @@ test("late and early arrivals are smoothed", () => {
   }
 });
 
-test("it settles on the last update and stays there", () => {
+test("it ends at the last update and stays there", () => {
   const interpolator = moving(5);
   expect(interpolator.isSettled(4 * INTERVAL_MS)).toBe(false);
   expect(interpolator.isSettled(1000)).toBe(true);
   expect(xAt(interpolator, 1000)).toBeCloseTo(0.16, 12);
 });
 
-test("a single step after a long pause is moved through, not jumped to", () => {
+test("a single step after a long pause is animated", () => {
   const interpolator = moving(5);
   interpolator.push(update(5, poseAt(1.16)), 60_000);
   const middle = xAt(interpolator, 60_000 + interpolator.delayMs - INTERVAL_MS / 2);
   expect(middle).toBeCloseTo(0.66, 6);
 });
 
-test("after a reset the old poses are gone", () => {
+test("old poses are removed after a reset", () => {
   const interpolator = moving(10);
   interpolator.push(update(0, poseAt(-3)), 500);
   expect(xAt(interpolator, 500)).toBe(-3);
   expect(interpolator.at(0.09)).toBeNull();
 });
 
-test("rotations go the short way and stay of unit length", () => {
+test("rotations use the shorter arc and keep unit length", () => {
   const interpolator = new PoseInterpolator();
   interpolator.push(update(0, poseAt(0, 3.1)), 0);
   const negated = poseAt(0, 3.1 + 0.1).map((value, i) => (i >= 3 ? -value : value));
@@ -89,7 +89,7 @@ test("rotations go the short way and stay of unit length", () => {
   expect(yaw).toBeCloseTo(3.15, 6);
 });
 
-test("the poses of a recent instant can be found", () => {
+test("the poses of a recent instant are available", () => {
   expect(moving(10).at(0.07)?.[0]).toBeCloseTo(0.28, 12);
   expect(moving(100).at(0.01)).toBeNull();
 });

@@ -5,11 +5,11 @@ function frames(quality: Quality, count: number, milliseconds: number): void {
   for (let i = 0; i < count; i++) quality.frameTook(milliseconds);
 }
 
-test("a dense screen is drawn at no more than two pixels for each of the page's", () => {
+test("a dense screen is drawn with at most two pixels per CSS pixel", () => {
   expect(new Quality(3, false).pixelRatio).toBe(2);
 });
 
-test("slow frames cost pixels, down to a bound", () => {
+test("slow frames reduce the pixels, down to a limit", () => {
   const quality = new Quality(1, false);
   frames(quality, 11, 80);
   expect(quality.pixelRatio).toBe(1);
@@ -19,20 +19,20 @@ test("slow frames cost pixels, down to a bound", () => {
   expect(quality.pixelRatio).toBeCloseTo(0.6);
 });
 
-test("very slow frames are believed sooner", () => {
+test("very slow frames have an effect sooner", () => {
   const quality = new Quality(1, false);
   frames(quality, 3, 300);
   expect(quality.pixelRatio).toBeCloseTo(0.8);
 });
 
-test("the pixels come back when there is time for them", () => {
+test("the pixels increase again when there is time", () => {
   const quality = new Quality(1, false);
   frames(quality, 12, 80);
   frames(quality, 1000, 10);
   expect(quality.pixelRatio).toBe(1);
 });
 
-test("a fixed quality stays", () => {
+test("a fixed quality does not change", () => {
   const quality = new Quality(1, true);
   frames(quality, 1000, 80);
   expect(quality.pixelRatio).toBe(1);

@@ -16,7 +16,7 @@ function drawn(links: RadioLinks, now: number): LineLayer {
   return lines;
 }
 
-test("a message is a line to each who heard it, for half a second", () => {
+test("a message is a line to each receiver for half a second", () => {
   const links = new RadioLinks();
   links.take({ sender: "ann", heard_by: ["bob", "cyd"] }, 1000);
   const lines = drawn(links, 1400);
@@ -26,7 +26,7 @@ test("a message is a line to each who heard it, for half a second", () => {
   expect(drawn(links, 1501).segments).toBe(0);
 });
 
-test("one that nobody heard goes up; of robots that are gone, and what is no message, nothing is drawn", () => {
+test("a message without receivers is a vertical line, and removed robots and other messages are ignored", () => {
   const links = new RadioLinks();
   links.take({ sender: "ann", heard_by: [] }, 0);
   expect(drawn(links, 1).segments).toBe(1);
@@ -38,7 +38,7 @@ test("one that nobody heard goes up; of robots that are gone, and what is no mes
   expect(drawn(links, 1).segments).toBe(0);
 });
 
-test("a flood is bounded", () => {
+test("a flood of lines is limited", () => {
   const links = new RadioLinks();
   for (let i = 0; i < 10_000; i++) links.take({ sender: "ann", heard_by: ["bob"] }, 0);
   expect(drawn(links, 1).segments).toBe(500);

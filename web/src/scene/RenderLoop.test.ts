@@ -19,7 +19,7 @@ function frameAt(milliseconds: number): void {
   for (const callback of asked.splice(0)) callback(milliseconds);
 }
 
-test("any number of requests before a frame draw one", () => {
+test("any number of requests before a frame cause one frame", () => {
   const draw = vi.fn(() => false);
   const loop = new RenderLoop(draw, () => {});
   loop.request();
@@ -29,7 +29,7 @@ test("any number of requests before a frame draw one", () => {
   expect(loop.frames).toBe(1);
 });
 
-test("it goes on while frames differ, and asks for none afterwards", () => {
+test("it continues while frames differ, and requests none afterwards", () => {
   let left = 3;
   const loop = new RenderLoop(
     () => --left > 0,
@@ -43,7 +43,7 @@ test("it goes on while frames differ, and asks for none afterwards", () => {
   expect(loop.isBusy).toBe(false);
 });
 
-test("a frame takes until it is drawn; another tab that was looked at meanwhile does not count", () => {
+test("the time of a frame ends when it is drawn; time in another tab does not count", () => {
   const took = vi.fn();
   const loop = new RenderLoop(() => true, took);
   loop.request();
@@ -72,7 +72,7 @@ test("the next frame begins when the last one is drawn", () => {
   expect(took.mock.calls).toEqual([[48]]);
 });
 
-test("after a frame that kept the machine busy it rests, whoever asks", () => {
+test("after a slow frame there is a pause for all requests", () => {
   for (const [took, rest] of [
     [130, 80],
     [300, 150],
@@ -96,7 +96,7 @@ test("after a frame that kept the machine busy it rests, whoever asks", () => {
   }
 });
 
-test("where frames are slow, one that is pressed into begins when the page has answered", () => {
+test("if frames are slow, the next one begins after the page has reacted to a click", () => {
   const drawnAfterPress = (took: number) => {
     const now = vi.spyOn(performance, "now").mockReturnValue(0);
     const loop = new RenderLoop(

@@ -8,14 +8,14 @@ function due(pace: ShadowPace, frames: number): boolean[] {
   });
 }
 
-test("while frames are fast each that shows something elsewhere has its shadows", () => {
+test("while frames are fast, shadows are redrawn after every motion", () => {
   const pace = new ShadowPace();
   expect(pace.areDue(true)).toBe(false);
   expect(due(pace, 3)).toEqual([true, true, true]);
   expect(pace.areDue(false)).toBe(false);
 });
 
-test("while they are slow every fourth has", () => {
+test("while frames are slow, every fourth has new shadows", () => {
   const pace = new ShadowPace();
   pace.frameTook(200);
   expect(due(pace, 9)).toEqual([false, false, false, true, false, false, false, true, false]);
@@ -23,7 +23,7 @@ test("while they are slow every fourth has", () => {
   expect(due(pace, 2)).toEqual([true, true]);
 });
 
-test("what has come to rest has its shadow at once", () => {
+test("shadows are redrawn at once when motion has stopped", () => {
   const pace = new ShadowPace();
   pace.frameTook(200);
   expect(due(pace, 2)).toEqual([false, false]);

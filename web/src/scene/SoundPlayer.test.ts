@@ -35,7 +35,7 @@ function audio() {
   return { player: new SoundPlayer(() => context as unknown as AudioContext), started };
 }
 
-test("a tone is begun once, goes on with later messages, and ends with the sound", () => {
+test("a tone starts once, continues with later messages, and ends with the sound", () => {
   const { player, started } = audio();
   player.play(new Map([["/a/speaker", TONE]]));
   player.play(new Map([["/a/speaker", { ...TONE, elapsed: 0.1 }]]));
@@ -47,7 +47,7 @@ test("a tone is begun once, goes on with later messages, and ends with the sound
   expect(player.playing).toBe(0);
 });
 
-test("another sound, and the same one begun anew, is begun anew", () => {
+test("another sound, or the same one started again, is started", () => {
   const { player, started } = audio();
   player.play(new Map([["/a/speaker", { ...TONE, elapsed: 0.5 }]]));
   player.play(new Map([["/a/speaker", TONE]]));
@@ -56,13 +56,13 @@ test("another sound, and the same one begun anew, is begun anew", () => {
   expect(player.playing).toBe(1);
 });
 
-test("of a crowd that plays at once a few are heard", () => {
+test("of many simultaneous sounds, a few are played", () => {
   const { player, started } = audio();
   player.play(new Map(Array.from({ length: 50 }, (_, i) => [`/${i}/speaker`, TONE])));
   expect(started).toHaveLength(8);
 });
 
-test("no audio is opened as long as nobody plays anything", () => {
+test("no audio is opened before a sound is played", () => {
   const open = vi.fn();
   new SoundPlayer(open).play(new Map());
   expect(open).not.toHaveBeenCalled();

@@ -18,20 +18,20 @@ function marks(robots: [distance: number, state: ShownState][], isChosen: ((robo
   return { layer, shown: [...shown].map((state) => SHOWN_STATES[state]) };
 }
 
-test("a robot that is well has a mark only from afar", () => {
+test("a healthy robot has a mark only at a distance", () => {
   expect(marks([[5, "moving"]]).shown).toEqual([]);
   expect(marks([[100, "moving"], [5, "standing"]]).shown).toEqual(["moving"]);
 });
 
-test("a robot in trouble has one wherever it is", () => {
+test("a robot in trouble has a mark at any distance", () => {
   expect(marks([[5, "stuck"], [5, "moving"], [5, "dead"]]).shown).toEqual(["stuck", "dead"]);
 });
 
-test("a filter marks whom it chose, and nobody else", () => {
+test("a filter marks only the robots that it selects", () => {
   expect(marks([[5, "moving"], [100, "stuck"], [5, "standing"]], (robot) => robot !== 1).shown).toEqual(["moving", "standing"]);
 });
 
-test("more robots than before have room", () => {
+test("the labels of additional robots get room", () => {
   const { layer } = marks([[100, "moving"]]);
   const many = Array.from({ length: 300 }, (): [number, ShownState] => [100, "late"]);
   const tops = Float64Array.from(many.flatMap(([x]) => [x, 0, 0]));

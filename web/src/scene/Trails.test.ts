@@ -12,13 +12,13 @@ function drawn(trails: Trails): number {
 
 const at = (x: number, name = "a") => [{ name, x, y: 0, z: 0 }];
 
-test("a trail goes through the places where the robot has been, but not where it stood", () => {
+test("a trail connects the places of a moving robot", () => {
   const trails = new Trails();
   [0, 0.1, 0.1, 0.11, 0.2].forEach((x, i) => trails.push(i, at(x)));
   expect(drawn(trails)).toBe(2);
 });
 
-test("it is bounded, and grows no longer than so many places", () => {
+test("a trail has a limited number of places", () => {
   const trails = new Trails();
   for (let i = 0; i < 5000; i++) trails.push(i, at(0.1 * i));
   expect(drawn(trails)).toBe(399);
@@ -31,7 +31,7 @@ test("it is bounded, and grows no longer than so many places", () => {
   expect(drawn(trails)).toBe(399 + 199);
 });
 
-test("a reset begins anew, a jump leaves no line across the world", () => {
+test("a reset starts again, and a jump leaves no line across the world", () => {
   const trails = new Trails();
   trails.push(1, at(0));
   trails.push(2, at(0.1));
@@ -43,7 +43,7 @@ test("a reset begins anew, a jump leaves no line across the world", () => {
   expect(drawn(trails)).toBe(1);
 });
 
-test("robots that are gone leave no trail", () => {
+test("removed robots have no trail", () => {
   const trails = new Trails();
   for (const name of ["a", "b"]) {
     trails.push(1, at(0, name));

@@ -2,7 +2,7 @@ import { Box3, Matrix4, Vector3 } from "three";
 import { expect, test } from "vitest";
 import { cameraRotation, eyeAt } from "./eye";
 
-test("an eye looks along its x axis, with its z axis up", () => {
+test("a robot's view is along its x axis, with its z axis up", () => {
   const eye = new Matrix4().makeRotationZ(Math.PI / 2).setPosition(1, 2, 3);
   const rotation = cameraRotation(eye);
   const ahead = new Vector3(0, 0, -1).applyQuaternion(rotation);
@@ -11,7 +11,7 @@ test("an eye looks along its x axis, with its z axis up", () => {
   expect(up.distanceTo(new Vector3(0, 0, 1))).toBeCloseTo(0, 12);
 });
 
-test("without a camera the eye is at the front of the robot's top", () => {
+test("without a camera, the robot's view is from the front of its top", () => {
   const bounds = new Box3(new Vector3(-0.2, -0.3, 0), new Vector3(0.25, 0.3, 1.1));
   const robot = new Matrix4().makeRotationZ(Math.PI).setPosition(5, 0, 0);
   const eye = new Vector3().setFromMatrixPosition(eyeAt(robot, bounds));

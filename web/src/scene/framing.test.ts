@@ -9,7 +9,7 @@ function camera(aspect: number): PerspectiveCamera {
   return made;
 }
 
-test("another world of the same name is another environment; what is added or moves is not", () => {
+test("another world of the same name is another environment, but added or moving bodies are not", () => {
   const wall = (model: string, x = 0) =>
     body("wall", { model, isStatic: true, isFixed: true, pose: [x, 0, 0, 0, 0, 0, 1] });
   const robot = body("a", { isRobot: true });
@@ -20,19 +20,19 @@ test("another world of the same name is another environment; what is added or mo
   expect(environmentOf(scene({ name: "other", bodies: [wall("1")] }))).not.toBe(first);
 });
 
-test("looking along x at a flat square, the distance is half its height over the tangent", () => {
+test("along x, the distance to a flat square is half its height divided by the tangent", () => {
   const box = new Box3(new Vector3(0, -2, -2), new Vector3(0, 2, 2));
   const distance = fittingDistance(camera(1), box, new Vector3(1, 0, 0));
   expect(distance).toBeCloseTo(2 / Math.tan(Math.PI / 6), 9);
 });
 
-test("a tall picture needs more distance for the width", () => {
+test("a tall image needs more distance for the width", () => {
   const box = new Box3(new Vector3(0, -2, -2), new Vector3(0, 2, 2));
   const distance = fittingDistance(camera(0.5), box, new Vector3(1, 0, 0));
   expect(distance).toBeCloseTo(4 / Math.tan(Math.PI / 6), 9);
 });
 
-test("from that distance every corner is in the picture, and one is at its edge", () => {
+test("at that distance every corner is in the image, and one is at its edge", () => {
   const box = new Box3(new Vector3(-3, 1, 0), new Vector3(6, 9, 2.5));
   const direction = new Vector3(0.3, 0.8, -0.9).normalize();
   const eye = camera(1.6);
@@ -52,25 +52,25 @@ test("from that distance every corner is in the picture, and one is at its edge"
   expect(outermost).toBeCloseTo(1, 9);
 });
 
-test("a small world is shown whole, but not its whole height", () => {
+test("a small world is shown completely, except for its height", () => {
   const focus = focusOf(scene({ bounds: { min: [-5, -4, 0], max: [5, 4, 12] } }));
   expect(focus.min.toArray()).toEqual([-5, -4, 0]);
   expect(focus.max.toArray()).toEqual([5, 4, 3]);
 });
 
-test("in a large world the robots are what counts", () => {
+test("a large world is shown around its robots", () => {
   const robots = [body("a", { pose: [10, 0, 0, 0, 0, 0, 1] }), body("b", { pose: [12, 2, 0, 0, 0, 0, 1] })];
   const focus = focusOf(scene({ bounds: { min: [-500, -500, 0], max: [500, 500, 1] }, bodies: robots }));
   expect(focus.min.toArray()).toEqual([6, -4, 0]);
   expect(focus.max.toArray()).toEqual([16, 6, 1]);
 });
 
-test("a large world without robots is shown from its middle", () => {
+test("a large world without robots is shown from its centre", () => {
   const focus = focusOf(scene({ bounds: { min: [-500, -500, 0], max: [500, 500, 1] } }));
   expect(focus.getSize(new Vector3()).toArray()).toEqual([26, 26, 1]);
 });
 
-test("a body far away from all others does not push the camera away", () => {
+test("a distant body does not move the camera away", () => {
   const at = (x: number) => body(`b${x}`, { pose: [x, 0, 0, 0, 0, 0, 1] });
   const bounds = { min: [-2, -2, 0], max: [5002, 2, 3] } as const;
   const near = [at(-1), at(0), at(1), at(2)];

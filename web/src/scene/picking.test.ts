@@ -8,16 +8,16 @@ const robots = [
   { name: "hidden", at: null },
 ];
 
-test("a click beside small robots means the nearest", () => {
+test("a click beside small robots selects the nearest", () => {
   expect(nearest({ x: 112, y: 101 }, robots)).toBe("near");
   expect(nearest({ x: 101, y: 90 }, robots)).toBe("far");
 });
 
-test("a click far from all means none", () => {
+test("a click far from all robots selects none", () => {
   expect(nearest({ x: 140, y: 100 }, robots)).toBeNull();
 });
 
-test("the ray through the picture's right edge leaves the eye at half the field of view", () => {
+test("the ray through the image's right edge is at half the field of view", () => {
   const camera = new PerspectiveCamera(90, 2, 0.1, 10);
   camera.updateMatrixWorld(true);
   const frame = { left: 50, top: 20, width: 200, height: 100 } as DOMRect;

@@ -1,7 +1,7 @@
 import { expect, test, vi } from "vitest";
 import { Store, shallowEqual } from "./Store";
 
-test("a watcher gets the present value at once and then only real changes", () => {
+test("a watcher gets the present value at once, and then only changes", () => {
   const store = new Store({ count: 1, other: "a" });
   const listener = vi.fn();
   store.watch((state) => state.count, listener);
@@ -14,7 +14,7 @@ test("a watcher gets the present value at once and then only real changes", () =
   ]);
 });
 
-test("a watcher that ended hears nothing more, not even of the change being told", () => {
+test("a removed watcher gets no more calls, even for the present change", () => {
   const store = new Store({ count: 0 });
   const second = vi.fn();
   let unwatchSecond = () => {};
@@ -29,7 +29,7 @@ test("a watcher that ended hears nothing more, not even of the change being told
   expect(second).toHaveBeenCalledTimes(1);
 });
 
-test("a list that a selector builds anew is not a change while its members stay", () => {
+test("a new list with equal members is not a change", () => {
   const store = new Store({ robots: [{ name: "a" }, { name: "b" }], time: 0 });
   const listener = vi.fn();
   store.watch((state) => state.robots.map((robot) => robot.name), listener, shallowEqual);

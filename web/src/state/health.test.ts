@@ -30,24 +30,24 @@ function health(...robots: RobotHealthMessage[]) {
   return healthOf({ stamp: AT(30), step: 3000n, stuck_after_s: 5, ...counts, robots });
 }
 
-test("a robot that is not listed moves", () => {
+test("a robot that is not in the report moves", () => {
   const known = health(told("a"));
   expect(stateOf(known, { name: "a", agentPhase: "running" })).toBe("stuck");
   expect(stateOf(known, { name: "b", agentPhase: "running" })).toBe("moving");
 });
 
-test("standing with a command is a state of its own", () => {
+test("standing with a command is a separate state", () => {
   const known = health(told("a", { state: "standing" }), told("b", { state: "standing", command_linear_m_s: 0 }));
   expect(known.robots.get("a")!.state).toBe("told");
   expect(known.robots.get("b")!.state).toBe("standing");
 });
 
-test("without a report only what the behaviour does is known", () => {
+test("without a report, only the behaviour's state is known", () => {
   expect(stateOf(null, { name: "a", agentPhase: "running" })).toBe("unknown");
   expect(stateOf(null, { name: "a", agentPhase: "dead" })).toBe("dead");
 });
 
-test("the sentence says what, since when, and why", () => {
+test("the sentence has the state, the duration and the reason", () => {
   const robot = health(told("a")).robots.get("a")!;
   expect(sentenceOf(robot, 30)).toBe("has not moved for 20 s: commanded 0.3 m/s, sonar_00 reads 0.26 m");
   expect(sentenceOf(robot, 135)).toContain("for 2 min 5 s");
@@ -55,7 +55,7 @@ test("the sentence says what, since when, and why", () => {
   expect(sentenceOf({ ...robot, summary: "" }, 30)).toBe("");
 });
 
-test("motion is written with its units", () => {
+test("motion has units", () => {
   expect(motionText(0, 0)).toBe("0");
   expect(motionText(0.3, -0.5)).toBe("0.30 m/s, -0.50 rad/s");
   expect(motionText(0, 0, 0.1)).toBe("0.10 m/s sideways");

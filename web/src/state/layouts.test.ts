@@ -9,7 +9,7 @@ function storage(kept: string | null = null) {
   };
 }
 
-test("saved layouts are there again", () => {
+test("saved layouts are loaded again", () => {
   const own = storage();
   const saved = [{ name: "Mine", text: "r(view~500)" }];
   expect(keepLayouts(own, saved)).toBe(true);
@@ -20,13 +20,13 @@ test.each(["{", "null", "7", '[{"name":1}]', '[{"name":"","text":"view"}]', '[nu
   expect(loadLayouts(storage(kept))).toEqual([]);
 });
 
-test("a browser that keeps nothing says so", () => {
+test("a browser without storage reports it", () => {
   expect(keepLayouts(null, [])).toBe(false);
   const full = { setItem: () => { throw new Error("full"); } };
   expect(keepLayouts(full, [])).toBe(false);
 });
 
-test("a layout comes out of its file as it went in", () => {
+test("a layout is unchanged after saving and loading a file", () => {
   const saved = { name: "Night shift", text: "r(view~700,log~300)" };
   expect(fromFile(fileOf(saved))).toEqual(saved);
 });

@@ -5,7 +5,7 @@ import { FIRST_SHOWN } from "./overlays";
 
 const NOTHING = { time: null, viewpoint: null, selection: null, viewMode: null, shown: null, layout: null };
 
-test("a view comes out of its link as it went in", () => {
+test("a view is unchanged after writing and reading its link", () => {
   const view: LinkedView = {
     time: 12.345678,
     viewpoint: [1.5, -2.25, 3, 0, 0.125, -0.5],

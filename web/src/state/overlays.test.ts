@@ -3,7 +3,7 @@ import { FIRST_SHOWN, OVERLAYS, OVERLAY_NAMES, keepShown, loadShown } from "./ov
 
 const holding = (text: string | null) => ({ getItem: () => text });
 
-test("what was kept is there again", () => {
+test("the stored choice is restored", () => {
   const kept = new Map<string, string>();
   keepShown({ setItem: (key, value) => void kept.set(key, value) }, { ...FIRST_SHOWN, trails: true });
   const shown = loadShown({ getItem: (key) => kept.get(key) ?? null });
@@ -17,7 +17,7 @@ test.each([null, "", "[1]", "{", '"text"', '{"beams":"no","wings":true}'])(
   },
 );
 
-test("without a storage, or a full one, nothing breaks", () => {
+test("a missing or full storage causes no error", () => {
   expect(loadShown(null)).toEqual(FIRST_SHOWN);
   const setItem = vi.fn(() => {
     throw new DOMException("full", "QuotaExceededError");
@@ -26,7 +26,7 @@ test("without a storage, or a full one, nothing breaks", () => {
   expect(setItem).toHaveBeenCalledOnce();
 });
 
-test("each overlay has a key of its own", () => {
+test("each overlay has its own key", () => {
   expect(OVERLAYS.map(({ name }) => name)).toEqual([...OVERLAY_NAMES]);
   expect(new Set(OVERLAYS.map(({ key }) => key)).size).toBe(OVERLAYS.length);
 });

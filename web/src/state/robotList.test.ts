@@ -14,24 +14,24 @@ function texts(entries: Entry[]): string[] {
 
 const listed = (robots: ListedRobot[], change: Partial<RobotFilter> = {}) => texts(entriesOf(robots, { ...NO_FILTER, ...change }));
 
-test("the worst come first, and equals by name as people count", () => {
+test("the worst come first, and equal ones in natural order of names", () => {
   const robots = [robot("a10"), robot("a2"), robot("c", "stuck"), robot("d", "dead"), robot("e", "contact"), robot("b", "stuck")];
   expect(listed(robots)).toEqual(["d", "b", "c", "e", "a2", "a10"]);
   expect(listed(robots, { sorting: "name" })).toEqual(["a2", "a10", "b", "c", "d", "e"]);
 });
 
-test("a station that stands is not worse than a robot that moves", () => {
+test("a station is not worse than a moving robot", () => {
   const post: ListedRobot = { ...robot("a", "unknown"), kind: "station" };
   expect(listed([post, robot("b")])).toEqual(["b", "a"]);
 });
 
-test("the most driven, or with the most collisions, come first", () => {
+test("robots with the largest distance, or the most collisions, come first", () => {
   const robots = [robot("a", "moving", { distance: 1, collisions: 9 }), robot("b", "moving", { distance: 2 })];
   expect(listed(robots, { sorting: "distance" })).toEqual(["b", "a"]);
   expect(listed(robots, { sorting: "collisions" })).toEqual(["a", "b"]);
 });
 
-test("a search takes words, fields and regular expressions", () => {
+test("a search supports words, fields and regular expressions", () => {
   const robots = [robot("yard/a1"), robot("yard/b2", "stuck"), robot("hall/a3", "moving", { model: "scout", behaviour: "dock" })];
   const found = (text: string) => listed(robots, { text, sorting: "name" });
   expect(found("")).toHaveLength(3);
@@ -45,14 +45,14 @@ test("a search takes words, fields and regular expressions", () => {
   expect(found("nobody")).toEqual([]);
 });
 
-test("what a search cannot mean is said, and the rest of it counts", () => {
+test("invalid parts of a search are reported, and the rest applies", () => {
   expect(queryOf("a model:b").problem).toBe("");
   expect(queryOf("colour:red").problem).toContain("Unknown field colour");
   expect(queryOf("/[/").problem).toBe("/[/ is not a regular expression.");
   expect(queryOf("colour:red a").test(robot("b"))).toBe(false);
 });
 
-test("one state can be shown alone", () => {
+test("one state can be shown only", () => {
   expect(listed([robot("a"), robot("b", "stuck")], { state: "stuck" })).toEqual(["b"]);
 });
 
@@ -63,6 +63,6 @@ test("groups have titles, and the one with the first robot comes first", () => {
   expect(listed(robots, { grouping: "model" })).toEqual(["pebble (3)", "yard_2", "hall_1", "yard_1"]);
 });
 
-test("a namespace stands before the last slash, or before a number", () => {
+test("a namespace ends before the last slash, or before a number", () => {
   expect(["a/b/c1", "pebble_12", "pebble", "r2d2", "7"].map(namespaceOf)).toEqual(["a/b", "pebble", "pebble", "r2d", ""]);
 });

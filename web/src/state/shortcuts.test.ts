@@ -9,7 +9,7 @@ function storage() {
   };
 }
 
-test("single keys are on until they are turned off, and stay so", () => {
+test("single keys are on until they are turned off, and the choice is kept", () => {
   const kept = storage();
   expect(loadSingleKeys(kept)).toBe(true);
   keepSingleKeys(kept, false);
@@ -18,7 +18,7 @@ test("single keys are on until they are turned off, and stay so", () => {
   expect(loadSingleKeys(kept)).toBe(true);
 });
 
-test("a browser that keeps nothing has them on", () => {
+test("single keys are on in a browser without storage", () => {
   const setItem = vi.fn(() => {
     throw new Error("full");
   });

@@ -21,7 +21,7 @@ function leave(input: HTMLInputElement, isChanged: boolean): void {
   input.blur();
 }
 
-test("what is being typed stays when something else is shown, and counts when it is done", () => {
+test("typed text is kept when another value is shown, and applies when typing is finished", () => {
   const taken: string[] = [];
   const field = textField("Name", "", (text) => taken.push(text));
   const input = controlOf<HTMLInputElement>(field, "input");
@@ -37,7 +37,7 @@ test("what is being typed stays when something else is shown, and counts when it
   expect(input.value).toBe("other");
 });
 
-test("what was typed back to what it had been gives way to what was shown meanwhile", () => {
+test("text that was typed back to its former value is replaced by a newer value", () => {
   const field = numberField("x (m)", null, () => {});
   const input = controlOf<HTMLInputElement>(field, "input");
   field.show(1);
@@ -48,7 +48,7 @@ test("what was typed back to what it had been gives way to what was shown meanwh
   expect(input.value).toBe("2.5");
 });
 
-test("a list that is open keeps its options while they are the same", () => {
+test("an open list keeps its options while they are equal", () => {
   const field = choiceField("Moves", () => {});
   const select = controlOf<HTMLSelectElement>(field, "select");
   const options = () => [{ value: "a", label: "A" }, { value: "b", label: "B" }];
@@ -62,7 +62,7 @@ test("a list that is open keeps its options while they are the same", () => {
   expect(select.value).toBe("b");
 });
 
-test("a constraint can be typed while offers come and go", () => {
+test("a constraint can be typed while offers change", () => {
   const taken: string[] = [];
   const field = choiceOrText("Behaviour", { choice: "By constraint…", placeholder: "" }, (value) => taken.push(value));
   const select = controlOf<HTMLSelectElement>(field, "select");
@@ -91,7 +91,7 @@ test("a constraint can be typed while offers come and go", () => {
   expect(taken).toEqual(["name == 'wander'"]);
 });
 
-test("who asks for a constraint and types none has what was chosen before", () => {
+test("without a typed constraint the former choice is kept", () => {
   const field = choiceOrText("Behaviour", { choice: "By constraint…", placeholder: "" }, () => {});
   const select = controlOf<HTMLSelectElement>(field, "select");
   const input = field.element.querySelector("input")!;

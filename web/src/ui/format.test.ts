@@ -12,7 +12,7 @@ test.each([
   expect(formatTime(seconds)).toBe(text);
 });
 
-test("a time that binary fractions only approach is not shown a hundredth early", () => {
+test("a time that is not exact in binary is not shown a hundredth too early", () => {
   expect(formatTime(1.15)).toBe("0:01.15");
   expect(formatTime(0.29)).toBe("0:00.29");
 });
@@ -53,7 +53,7 @@ test.each([
   expect(formatValue(value, unit)).toBe(text);
 });
 
-test("one of a thing is singular, thousands are set apart", () => {
+test("a single item is singular, and thousands are separated", () => {
   expect([count(1, "robot"), count(0, "robot"), count(12_345, "robot")]).toEqual([
     "1 robot",
     "0 robots",
@@ -61,7 +61,7 @@ test("one of a thing is singular, thousands are set apart", () => {
   ]);
 });
 
-test("sizes and dates are told as people read them", () => {
+test("sizes and dates are formatted for people", () => {
   expect([900, 999_499, 1_500_000, 2e9].map(formatSize)).toEqual(["1 kB", "999 kB", "1.5 MB", "2.00 GB"]);
   expect(formatDate("2026-01-31T12:00:00Z")).toContain("2026");
   expect(formatDate("yesterday")).toBe("");

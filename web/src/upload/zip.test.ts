@@ -65,7 +65,7 @@ test("its files are unpacked as they were, deflated or stored, without folders a
   ]);
 });
 
-test("an archive is known by its first bytes", async () => {
+test("an archive is recognised by its first bytes", async () => {
   expect(await isZip(file(zipped({ path: "a" })))).toBe(true);
   expect(await isZip(file(zipped()))).toBe(true);
   expect(await isZip(new File(["<sdf/>"], "a.zip"))).toBe(false);
@@ -82,13 +82,13 @@ test.each([
   await expect(read(zipped({ path: "w.world" }, { path }))).rejects.toThrow(`my.zip cannot be used: the name ${JSON.stringify(path)} ${reason}.`);
 });
 
-test("links, encryption and unknown methods are refused", async () => {
+test("links, encryption and unknown methods are rejected", async () => {
   await expect(read(zipped({ path: "l", text: "/etc/passwd", mode: 0o120777 }))).rejects.toThrow("l in it is a symbolic link");
   await expect(read(patched(zipped({ path: "a" }), 8, 1, 2))).rejects.toThrow("a in it is encrypted");
   await expect(read(patched(zipped({ path: "a" }), 10, 14, 2))).rejects.toThrow("uses an unsupported compression method");
 });
 
-test("what would be too large is refused before anything is unpacked", async () => {
+test("a too large archive is rejected before anything is unpacked", async () => {
   await expect(read(patched(zipped({ path: "a" }), 24, 2 ** 31))).rejects.toThrow("a in it has 2048 MiB unpacked; at most 64 MiB are allowed");
   const nine = Array.from({ length: 9 }, (_, i) => ({ path: `${i}` }));
   await expect(read(patched(zipped(...nine), 24, 60 * 2 ** 20))).rejects.toThrow("unpacked it has 540 MiB; at most 512 MiB are allowed");
@@ -96,7 +96,7 @@ test("what would be too large is refused before anything is unpacked", async () 
   await expect(read(zipped(...many))).rejects.toThrow("it contains 2001 files; at most 2000 are allowed");
 });
 
-test("a file that is longer or shorter than it says, or damaged, is refused when it is unpacked", async () => {
+test("a damaged file, or one of a wrong size, is rejected while it is unpacked", async () => {
   const unpack = async (bytes: Uint8Array) => (await read(bytes))[0]!.content();
   const bomb = () => zipped({ path: "a", text: "0", times: 2 ** 22 });
   await expect(unpack(patched(bomb(), 24, 100))).rejects.toThrow("a in it is longer than declared");
@@ -106,7 +106,7 @@ test("a file that is longer or shorter than it says, or damaged, is refused when
   await expect(unpack(patched(bomb(), 42, 2 ** 31))).rejects.toThrow("a in it is damaged");
 });
 
-test("an archive that is cut off, or whose list lies, is refused", async () => {
+test("a truncated archive, or one with a wrong directory, is rejected", async () => {
   const bytes = zipped({ path: "a", text: "x" });
   await expect(read(bytes.slice(0, -10))).rejects.toThrow("its list of files is missing or damaged");
   await expect(read(bytes.slice(0, 4))).rejects.toThrow("its list of files is missing or damaged");

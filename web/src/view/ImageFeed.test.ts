@@ -19,7 +19,7 @@ function fakeServer() {
 const image = (number: number) => new Response(new Blob(["jpeg"]), { headers: { etag: `"${number}"` } });
 const refusal = (status: number, error: string) => new Response(JSON.stringify({ error }), { status });
 
-test("asks for the next image when the last has come, with its number", async () => {
+test("requests the next image when the last one has arrived, with its number", async () => {
   const { asked, fetchImage } = fakeServer();
   const onImage = vi.fn();
   const feed = new ImageFeed(fetchImage, { onImage, onProblem: vi.fn() });
@@ -37,7 +37,7 @@ test("asks for the next image when the last has come, with its number", async ()
   feed.end();
 });
 
-test("another camera ends the wait for a change, but not an image that is being drawn", async () => {
+test("a new camera ends the wait for a change, but not an image that is being drawn", async () => {
   const { asked, fetchImage } = fakeServer();
   const onImage = vi.fn();
   const feed = new ImageFeed(fetchImage, { onImage, onProblem: vi.fn() });

@@ -33,7 +33,7 @@ function geometry(numbers: number[]): BufferGeometry {
   return made;
 }
 
-test("lines and points are painted where the camera sees them", () => {
+test("lines and points are painted at their places in the camera's image", () => {
   const { lines, squares, context } = fakeContext();
   const painter = new OverlayPainter(context, 200, 100, camera());
   const line = new LineSegments(geometry([2, 0, 0, 2, 2, 2]), new LineBasicMaterial());
@@ -46,7 +46,7 @@ test("lines and points are painted where the camera sees them", () => {
   expect(squares[0]!.map((value) => Math.round(value * 1e3) / 1e3)).toEqual([150, 25]);
 });
 
-test("nothing is painted behind the camera, or of hidden objects", () => {
+test("objects behind the camera and hidden objects are not painted", () => {
   const { lines, squares, context } = fakeContext();
   const painter = new OverlayPainter(context, 200, 100, camera());
   const behind = new LineSegments(geometry([-2, 0, 0, -2, 2, 2]), new LineBasicMaterial());
@@ -57,7 +57,7 @@ test("nothing is painted behind the camera, or of hidden objects", () => {
   expect(squares).toEqual([]);
 });
 
-test("a line that passes the camera is cut in front of it", () => {
+test("a line that passes the camera is clipped in front of it", () => {
   const { lines, context } = fakeContext();
   const through = new LineSegments(geometry([-2, 0, 0, 2, 0, 1]), new LineBasicMaterial());
   new OverlayPainter(context, 200, 100, camera()).paint([through]);

@@ -57,7 +57,7 @@ function layoutOf(text: string) {
   return read.layout;
 }
 
-test("a panel is fetched when it is opened for the first time, and kept", async () => {
+test("a panel is fetched when it is first opened, and kept", async () => {
   const { panel, mount, load, seen } = panelOf("news");
   const { workspace, store, open, button } = workspaceOf([panel]);
   expect(load).not.toHaveBeenCalled();
@@ -73,7 +73,7 @@ test("a panel is fetched when it is opened for the first time, and kept", async 
   expect(mount).toHaveBeenCalledOnce();
 });
 
-test("a panel behind another tab is not read, and comes to the front when it is asked for", async () => {
+test("a panel behind another tab reads nothing, and comes to the front on request", async () => {
   const [news, log] = [panelOf("news"), panelOf("log")];
   const { workspace, open } = workspaceOf([news.panel, log.panel]);
   open("news");
@@ -86,14 +86,14 @@ test("a panel behind another tab is not read, and comes to the front when it is 
   expect([news.seen.value, log.seen.value]).toEqual([true, false]);
 });
 
-test("panels open below the view, or beside it where they say so", () => {
+test("panels open below the view, or beside it if they require it", () => {
   const panels = [panelOf("news").panel, panelOf("side", { place: "side" }).panel];
   const { workspace, open } = workspaceOf(panels);
   open("news", "side");
   expect(shapeOf(workspace.layout)).toBe("c(r(view,side),news)");
 });
 
-test("a layout says which panels are open, and what is shown gives it back", () => {
+test("a layout opens its panels, and the workspace returns it", () => {
   const { workspace, store, view } = workspaceOf([panelOf("news").panel, panelOf("log").panel], "r(view~700,c(news~500,log~500)~300)");
   expect(store.get().openPanels).toEqual(["news", "log"]);
   expect(shapeOf(workspace.layout)).toBe("r(view,c(news,log))");
@@ -102,7 +102,7 @@ test("a layout says which panels are open, and what is shown gives it back", () 
   expect(workspace.element.contains(view)).toBe(true);
 });
 
-test("whoever watches the layout is told of changes by hand", async () => {
+test("layout watchers are notified of changes by the user", async () => {
   const { workspace, open } = workspaceOf([panelOf("news").panel]);
   const changed = vi.fn();
   workspace.onChange = changed;
@@ -111,7 +111,7 @@ test("whoever watches the layout is told of changes by hand", async () => {
   expect(shapeOf(changed.mock.lastCall![0])).toBe("c(view,news)");
 });
 
-test("a panel that cannot be fetched is told of, closed, and tried again", async () => {
+test("a panel that cannot be fetched is reported, closed, and can be opened again", async () => {
   const load = vi.fn(() => Promise.reject(new Error("no such file")));
   const { store, ports, open } = workspaceOf([panelOf("news", { load, title: "News" }).panel]);
   open("news");
@@ -121,7 +121,7 @@ test("a panel that cannot be fetched is told of, closed, and tried again", async
   await vi.waitFor(() => expect(load).toHaveBeenCalledTimes(2));
 });
 
-test("a panel for which there is nothing says why, until there is", async () => {
+test("a panel without data shows the reason until there is data", async () => {
   const { panel, seen, load } = panelOf("news", { isAvailable: ({ replay }) => replay !== null, absence: "Open a recording." });
   const { workspace, store } = workspaceOf([panel], "r(view~700,news~300)");
   expect(workspace.element.querySelector(".panel-absent")!.textContent).toBe("Open a recording.");

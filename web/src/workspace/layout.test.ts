@@ -13,7 +13,7 @@ function layoutOf(text: string): Split {
   return read.layout;
 }
 
-test("a layout comes out of its text as it went in", () => {
+test("a layout is unchanged after writing and reading its text", () => {
   const text = "r(view~740,c(inspector.log*~600,images~400)~260)";
   const layout = layoutOf(text);
   expect(layout).toEqual({
@@ -52,7 +52,7 @@ test.each([
   expect("problem" in read && read.problem).toContain(problem);
 });
 
-test("panels of another version are left out and listed, with the parts that held them alone", () => {
+test("unknown panels are omitted and listed, with their empty parts", () => {
   const read = readLayout("r(c(view~700,later~300)~600,c(older~500,log.newer*~500)~400)", KNOWN);
   expect(read).toEqual({ layout: layoutOf("r(view~600,log~400)"), unknown: ["later", "older", "newer"] });
 });
@@ -78,7 +78,7 @@ test.each(PRESETS)("the layout $title fits every window and comes back from dock
   }
 });
 
-test("divisions of dockview that hold one part only are left out", () => {
+test("divisions of dockview with a single part are omitted", () => {
   const leaf = (id: string, size: number) => ({ type: "leaf" as const, size, data: { views: [id], activeView: id, id } });
   const branch = (size: number, ...data: object[]) => ({ type: "branch" as const, size, data });
   const dock = (root: object) => ({ ...toDockview(layoutOf("view"), SPACE, []), grid: { root, width: 1000, height: 600, orientation: "HORIZONTAL" } });
@@ -87,7 +87,7 @@ test("divisions of dockview that hold one part only are left out", () => {
   expect(text(branch(600, leaf("view", 500), branch(500, branch(600, leaf("log", 250), leaf("plots", 250)))))).toBe("r(view~500,log~250,plots~250)");
 });
 
-test("sizes in pixels are shares of the room that a part has", () => {
+test("sizes in pixels become fractions of the available space", () => {
   const { grid } = toDockview(layoutOf("r(view~750,c(log~100,plots~300)~250)"), SPACE, []);
   const column = (grid.root.data as { size: number; data: { size: number }[] }[])[1]!;
   expect(column.size).toBe(250);

@@ -45,7 +45,7 @@ test("each command is a form with its parameters' units and ranges", async () =>
   });
 });
 
-test("a command is sent with what was typed, and its answer stands beside it", async () => {
+test("a command is sent with the typed values, and its answer is shown beside it", async () => {
   const { form, run } = await opened();
   const gravity = form("Set gravity");
   gravity.requestSubmit();

@@ -16,7 +16,7 @@ function feeding(answer: () => Promise<ServerFigures> = async () => new Map([["g
   return { store, topics, figures, feed: new DiagnosticsFeed(store, topics, ports.server) };
 }
 
-test("nothing is asked or listened to but from start to end", async () => {
+test("requests and subscriptions exist only between start and end", async () => {
   const { topics, figures, feed } = feeding();
   expect(topics.read).toEqual([]);
   const end = feed.start();
@@ -42,7 +42,7 @@ test("the first status is the simulation's, the others are robots'", async () =>
   expect(dropped).toBe(4);
 });
 
-test("a server without figures is no error", async () => {
+test("a server without metrics is not an error", async () => {
   const { store, feed } = feeding(() => Promise.reject(new Error("404")), null);
   feed.start();
   await vi.advanceTimersByTimeAsync(0);

@@ -20,7 +20,7 @@ function open(diagnostics: Partial<Diagnostics>, state: Partial<State> = {}) {
   return { store, panel, texts };
 }
 
-test("who holds up the simulation is told, with late steps and pace", () => {
+test("the behaviour that delays the simulation is shown with late steps and factor", () => {
   const simulation: Diagnosis = {
     name: "simulation",
     health: "warning",
@@ -36,7 +36,7 @@ test("who holds up the simulation is told, with late steps and pace", () => {
   expect(panel.querySelector("b")).toBeNull();
 });
 
-test("robots that are unwell are named, the worst first; good news is short", () => {
+test("robots with problems are listed, worst first, and the others are counted", () => {
   const { store, texts } = open({
     robots: [
       WELL,
@@ -53,7 +53,7 @@ test("robots that are unwell are named, the worst first; good news is short", ()
   expect(texts("Robots")).toEqual([["", "2 robots OK."]]);
 });
 
-test("what the server tells of itself and of this page's updates is shown, what it does not tell is left out", () => {
+test("reported metrics of the server and of this page are shown, and missing ones omitted", () => {
   const serverWarnings = ["camera: there is nothing to draw with"];
   const diagnostics = {
     dropped: 12,
@@ -76,7 +76,7 @@ test("what the server tells of itself and of this page's updates is shown, what 
   ]);
 });
 
-test("what is known of one simulation is not shown of another", () => {
+test("the data of one simulation is not shown for another", () => {
   const { ports, store, topics } = testPorts();
   const { body, whileOpen } = mount(ports);
   whileOpen!();

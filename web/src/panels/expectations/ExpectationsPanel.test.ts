@@ -31,12 +31,12 @@ function panel(expectations: Expectation[], more: object = {}) {
   return { ports, store, list };
 }
 
-test("a message's places and boxes are taken apart", () => {
+test("the places and boxes of a message are decoded", () => {
   expect(VIOLATED.places).toEqual([[1, 2, 0.5]]);
   expect(VIOLATED.boxes).toEqual([[0, 1, 2, 3], [4, 5, 6, 7]]);
 });
 
-test("each expectation is there with verdict, instant, margin and reason", () => {
+test("each expectation is shown with verdict, time, margin and reason", () => {
   const { list } = panel([VIOLATED]);
   const row = list.querySelector<HTMLElement>(".expectation")!;
   expect(row.dataset.verdict).toBe("violated");
@@ -46,7 +46,7 @@ test("each expectation is there with verdict, instant, margin and reason", () =>
   expect(row.textContent).toContain("violated at 3.2 s (step 320): 0.26 m");
 });
 
-test("a robot that it is about can be selected, a wall cannot", () => {
+test("the robot of an event can be selected, but not a wall", () => {
   const { ports, list } = panel([VIOLATED]);
   const buttons = [...list.querySelectorAll("button")];
   expect(buttons.map(({ textContent }) => textContent)).toEqual(["a"]);
@@ -54,13 +54,13 @@ test("a robot that it is about can be selected, a wall cannot", () => {
   expect(ports.robots.select).toHaveBeenCalledWith("a");
 });
 
-test("of a recording a press goes to the instant of the verdict", () => {
+test("in a recording, a click goes to the time of the verdict", () => {
   const { ports, list } = panel([VIOLATED], { replay: { start: 0, end: 9, speed: 1, loop: false } });
   list.querySelector<HTMLElement>(".expectation-state button")!.click();
   expect(ports.replay.seek).toHaveBeenCalledWith(3.2);
 });
 
-test("a pending expectation has no instant, and none is said to be so", () => {
+test("a pending expectation shows no time", () => {
   const { store, list } = panel([{ ...VIOLATED, verdict: "pending", time: 0, detail: "" }]);
   expect(list.querySelector(".expectation-state")!.textContent).toBe("pending");
   store.set({ expectations: [] });

@@ -30,7 +30,7 @@ function toggle(list: HTMLElement, open: boolean): void {
   list.dispatchEvent(new Event("toggle"));
 }
 
-test("what the selected robot's sensors read is shown, at a pace that can be read", () => {
+test("the readings of the selected robot's sensors are shown at a readable rate", () => {
   const { ports, topics } = testPorts({ scene: SCENE, selection: "a" });
   const list = createSensorList(ports);
   expect(topics.read).toEqual(["/a/sonar"]);
@@ -42,7 +42,7 @@ test("what the selected robot's sensors read is shown, at a pace that can be rea
   expect(values.textContent).toBe("range1.250 m");
 });
 
-test("they are heard only while the list is open, and only those of one robot", () => {
+test("sensors are subscribed only while the list is open, and only those of one robot", () => {
   const { ports, store, topics } = testPorts({ scene: SCENE, selection: "a" });
   const list = createSensorList(ports);
   store.set({ selection: "b" });
@@ -56,13 +56,13 @@ test("they are heard only while the list is open, and only those of one robot", 
   expect(list.hidden).toBe(true);
 });
 
-test("a camera's row brings its picture", () => {
+test("a click on a camera's row shows its image", () => {
   const { ports } = testPorts({ scene: SCENE, selection: "a" });
   createSensorList(ports).querySelector<HTMLButtonElement>('[data-sensor="eye"] button')!.click();
   expect(ports.cameras.show).toHaveBeenCalledWith({ robot: "a", sensor: "eye", topic: "/a/eye" });
 });
 
-test("a value is called by the end of its path", () => {
+test("a value is named by the end of its path", () => {
   expect(labelOf("pose.pose.position.x")).toBe("position x");
   expect(labelOf("vertical_position")).toBe("vertical position");
   expect(labelOf("position[arm.left]")).toBe("position[arm.left]");

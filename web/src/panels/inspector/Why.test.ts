@@ -38,7 +38,7 @@ test("the selected robot's sentence, command, motion and limit are shown", () =>
 
 const said = (name: string, sec: number, msg: string, level = 20) => ({ stamp: { sec, nsec: 0 }, level, name, msg });
 
-test("what its behaviour printed is there, the past lines first, and no one else's", async () => {
+test("only its behaviour's output is shown, with the past lines first", async () => {
   const output = async () => [{ time: 5, level: 20, text: "hello" }];
   const { ports, topics } = testPorts(STATE, { output });
   const made = createOutput(ports);
@@ -54,7 +54,7 @@ test("what its behaviour printed is there, the past lines first, and no one else
   expect(made.hidden).toBe(false);
 });
 
-test("another robot's output takes its place, and without a line nothing is there", async () => {
+test("the output of another robot replaces it, and is hidden without lines", async () => {
   const { ports, store, topics } = testPorts(STATE);
   const made = createOutput(ports);
   await new Promise((resolve) => setTimeout(resolve));

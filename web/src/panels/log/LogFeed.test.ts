@@ -22,7 +22,7 @@ function message(sec: number, msg: string) {
   return { stamp: { sec, nsec: 0 }, level: 30, name: "a", msg };
 }
 
-test("what runs is heard", () => {
+test("a live simulation is subscribed", () => {
   const { topics, lines } = feeding();
   topics.send("/rosout", message(1, "low battery"));
   topics.send("/rosout", message(2, "empty"));
@@ -32,7 +32,7 @@ test("what runs is heard", () => {
   ]);
 });
 
-test("another simulation has a log of its own", () => {
+test("another simulation has its own log", () => {
   const { store, topics, lines } = feeding();
   topics.send("/rosout", message(1, "x"));
   store.set({ simulation: "office", scene: null });
@@ -42,7 +42,7 @@ test("another simulation has a log of its own", () => {
   expect(topics.read).toEqual(["/rosout"]);
 });
 
-test("of a recording all lines are fetched, once", async () => {
+test("all lines of a recording are fetched once", async () => {
   const { store, topics, ports, lines } = feeding({ replay: REPLAY });
   await vi.waitFor(() => expect(lines()).toEqual([LINE]));
   store.set({ time: 4 });
@@ -50,7 +50,7 @@ test("of a recording all lines are fetched, once", async () => {
   expect(topics.read).toEqual([]);
 });
 
-test("a log that cannot be read is told of", async () => {
+test("a log that cannot be read is reported", async () => {
   const { ports } = feeding({ replay: REPLAY }, () => Promise.reject(new Error("no such file")));
   await vi.waitFor(() =>
     expect(ports.notices.notify).toHaveBeenCalledWith("error", "Cannot read the log: no such file"),

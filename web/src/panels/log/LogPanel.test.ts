@@ -24,7 +24,7 @@ function panelIn(state: Partial<State> = {}, lines: LogLine[] = LINES) {
   return { ports, store, panel, texts };
 }
 
-test("lines stand with instant, level, name and text, and markup in them is text", () => {
+test("lines show time, level, name and text, and markup in them is text", () => {
   const { panel } = panelIn();
   const row = panel.querySelectorAll(".log-line")[1]!;
   expect([...row.children].map(({ textContent }) => textContent)).toEqual([
@@ -37,7 +37,7 @@ test("lines stand with instant, level, name and text, and markup in them is text
   expect(panel.querySelector("b")).toBeNull();
 });
 
-test("level and text choose among them", () => {
+test("level and text filter the lines", () => {
   const { panel, texts } = panelIn();
   const level = panel.querySelector("select")!;
   level.value = "40";
@@ -55,12 +55,12 @@ test("level and text choose among them", () => {
   expect(panel.querySelector(".log-empty")!.textContent).toContain("No message matches");
 });
 
-test("an empty log says what comes there", () => {
+test("an empty log explains its content", () => {
   const { panel } = panelIn({}, []);
   expect(panel.querySelector(".log-empty")!.textContent).toContain("No messages yet");
 });
 
-test("of a recording, lines after the present instant are still to come, and a press goes to one", () => {
+test("in a recording, later lines are marked as future, and a click goes to a line", () => {
   const replay = { start: 0, end: 4, speed: 1, loop: false };
   const { ports, store, panel } = panelIn({ replay, time: 2 });
   const toCome = () => [...panel.querySelectorAll(".log-line")].map((row) => row.classList.contains("to-come"));
@@ -71,7 +71,7 @@ test("of a recording, lines after the present instant are still to come, and a p
   expect(ports.replay.seek).toHaveBeenCalledWith(4);
 });
 
-test("of very many lines only those about the present instant are drawn", () => {
+test("of very many lines, only those near the present instant have rows", () => {
   const lines = Array.from({ length: 3000 }, (_, i) => ({ ...LINES[0]!, time: i, text: `line ${i}` }));
   const replay = { start: 0, end: 3000, speed: 1, loop: false };
   const { store, texts } = panelIn({ replay, time: 0 }, lines);
@@ -82,7 +82,7 @@ test("of very many lines only those about the present instant are drawn", () => 
   expect(texts()).toContain("line 2000");
 });
 
-test("lines that come while it is closed are there when it is opened again", () => {
+test("lines that arrive while it is closed are shown when it is opened again", () => {
   const { ports, topics } = testPorts({ scene: scene({ bodies: [], poses: [] }) });
   const { body, whileOpen } = mount(ports);
   const say = (msg: string) => topics.send("/rosout", { stamp: { sec: 1, nsec: 0 }, level: 30, name: "a", msg });

@@ -38,7 +38,7 @@ function opened(state: Partial<State> = {}) {
   return { body, close, facts, rows, ports, store, topics };
 }
 
-test("the simulation's state is shown as it comes", () => {
+test("the state of the simulation is shown", () => {
   const { facts, topics, body } = opened();
   expect(body.textContent).toContain("Waiting for /gsv/status.");
   topics.send("/gsv/status", message({ late_steps: 3n, waiting_for: "a (wander)" }));
@@ -56,7 +56,7 @@ test("the simulation's state is shown as it comes", () => {
   expect(facts("Simulation")).toMatchObject({ state: "Paused", mode: "lockstep", "waiting for": "nobody" });
 });
 
-test("each robot has a row, markup in it is text, and a press on its name selects it", () => {
+test("each robot has a row, markup in it is text, and a click on its name selects it", () => {
   const { body, rows, topics, ports } = opened();
   const detail = "<b>killed</b>";
   topics.send("/gsv/status", message({ robots: [robot("a", { behaviour: "" }), robot("b", { agent_state: "dead", detail })] }));
@@ -71,14 +71,14 @@ test("each robot has a row, markup in it is text, and a press on its name select
   expect(rows().map(([name]) => name)).toEqual(["b"]);
 });
 
-test("of very many robots the first are shown, and how many more there are", () => {
+test("of very many robots, the first are shown with the number of the others", () => {
   const { body, rows, topics } = opened();
   topics.send("/gsv/status", message({ robots: Array.from({ length: 500 }, (_, i) => robot(`r${i}`)) }));
   expect(rows()).toHaveLength(200);
   expect(body.textContent).toContain("300 more robots.");
 });
 
-test("what the page knows of the server stands beside it", () => {
+test("the page's data about the server is shown too", () => {
   const simulations = ["house", "yard"].map((name) => ({ name, phase: "running", robots: 0 }) as const);
   const { facts, store, body } = opened({ simulations });
   expect(facts("Server")).toMatchObject({ simulations: "house, yard", viewers: "0", "in control": "nobody" });
@@ -86,7 +86,7 @@ test("what the page knows of the server stands beside it", () => {
   expect(body.textContent).toContain("Not connected. The page reconnects automatically.");
 });
 
-test("it listens only while it is open, and forgets one simulation for another", () => {
+test("it subscribes only while it is open, and is cleared for another simulation", () => {
   const { close, topics, store, rows } = opened();
   topics.send("/gsv/status", message());
   expect(rows()).toHaveLength(1);

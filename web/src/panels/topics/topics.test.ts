@@ -37,7 +37,7 @@ test("topics are listed with their types, and filtered by text", () => {
   expect(rows().map(([name]) => name)).toEqual(["/a/scan"]);
 });
 
-test("the newest message of the chosen topic is a tree, read only while the panel is in sight", () => {
+test("the newest message of the selected topic is shown as a tree, and read only while the panel is in sight", () => {
   const { topics, choose, lines, end } = opened();
   expect(topics.read).toEqual([]);
   choose("/gsv/status");
@@ -66,7 +66,7 @@ test("a field is plotted and copied by its path", () => {
   expect(body.querySelector<HTMLElement>('[aria-label="Plot robots[0].name"]')!.hidden).toBe(true);
 });
 
-test("a held message stays while others come", () => {
+test("a frozen message stays while others arrive", () => {
   const { topics, choose, press, lines } = opened();
   choose("/gsv/status");
   topics.send("/gsv/status", { step: 1 });
@@ -79,7 +79,7 @@ test("a held message stays while others come", () => {
   expect(lines()).toEqual(["step2"]);
 });
 
-test("a topic that falls silent, or ends, says so", () => {
+test("a topic that becomes silent or ends is marked", () => {
   const { topics, store, choose, body } = opened();
   const note = () => body.querySelector('[role="status"]')!.textContent;
   choose("/a/scan");
@@ -105,7 +105,7 @@ test("all listed topics are read while their rates are measured", () => {
   expect(topics.read).toEqual([]);
 });
 
-test("rates are those of the last seconds", () => {
+test("rates are computed over the last seconds", () => {
   const rates = new Rates();
   const at = (ms: number, messages: number) => rates.update(new Map([["/a", { messages, bytes: 10 * messages }]]), ms).get("/a");
   expect(at(0, 100)).toBeUndefined();
@@ -114,7 +114,7 @@ test("rates are those of the last seconds", () => {
   expect(at(11_000, 110)).toEqual({ rate: 0, bytesPerSecond: 0 });
 });
 
-test("of a long list the first hundred elements are shown", () => {
+test("the first hundred elements of a long list are shown", () => {
   const tree = new MessageTree({ plot: () => {}, copy: () => {} });
   tree.show({ data: new Float32Array(5000) });
   const fold = tree.element.querySelector("details")!;

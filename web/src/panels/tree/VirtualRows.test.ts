@@ -25,14 +25,14 @@ const shown = (rows: VirtualRows<number>) =>
   [...rows.list.children].map((row) => Number(row.textContent));
 const FIVE_THOUSAND = Array.from({ length: 5000 }, (_, i) => i);
 
-test("of five thousand entries only those in sight have rows", () => {
+test("only the entries in sight have rows, out of five thousand", () => {
   const rows = rowsOf(FIVE_THOUSAND);
   expect(rows.list.style.height).toBe("250000px");
   expect(rows.list.children.length).toBeLessThan(25);
   expect(shown(rows)[0]).toBe(0);
 });
 
-test("where one scrolls to, rows are written again", () => {
+test("rows are rewritten after scrolling", () => {
   const rows = rowsOf(FIVE_THOUSAND);
   rows.scrollTo(3000);
   expect(shown(rows)).toContain(3000);
