@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "gsv/ros2/names.h"
+#include "gsv/ros2/security.h"
 
 namespace gsv::ros2 {
 namespace {
@@ -97,7 +98,7 @@ std::string ProcessEnvironment(const char* name) {
 base::Result<dds::ParticipantOptions> ParticipantFor(const Options& options,
                                                      const Environment& environment) {
   dds::ParticipantOptions participant;
-  participant.user_data = "enclave=/;";
+  if (auto ok = UseSecurity(environment, participant); !ok) return base::Fail(ok.error());
   if (const std::string domain = environment("ROS_DOMAIN_ID"); !domain.empty()) {
     const auto parsed = ParseDomain(domain);
     if (!parsed) return base::Fail(parsed.error());

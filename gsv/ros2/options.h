@@ -36,7 +36,8 @@ base::Status ParseNamespace(const std::string& text,
 using Environment = std::function<std::string(const char* name)>;
 std::string ProcessEnvironment(const char* name);
 
-// Reads ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE and ROS_STATIC_PEERS.
+// Reads ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_STATIC_PEERS and the variables of
+// security.h.
 base::Result<dds::ParticipantOptions> ParticipantFor(const Options& options,
                                                      const Environment& environment);
 

@@ -202,6 +202,56 @@ class ForeignPeer(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("ROS_DOMAIN_ID: must be a number from 0 to 232, found '233'", done.stderr)
 
+    def topics_alone(self, script="", domain=DOMAIN):
+        """`gsv ros2 topics` in a network of its own, after a script."""
+        done = subprocess.run(["unshare", "--map-root-user", "--net", "sh", "-c",
+                               f'{script}\nexec "$1" ros2 topics --seconds 0.5', "sh", GSV],
+                              env={**os.environ, "ROS_DOMAIN_ID": str(domain)},
+                              capture_output=True, text=True, check=False)
+        if done.returncode == 77 or "unshare failed" in done.stderr:
+            self.skipTest("a network of its own is not permitted here")
+        return done
+
+    def test_refuses_a_domain_whose_ports_are_taken(self):
+        domain = 40 + os.getpid() % 20
+        with contextlib.ExitStack() as stack:
+            for port in range(7400 + 250 * domain + 10, 7400 + 250 * (domain + 1)):
+                taken = stack.enter_context(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
+                with contextlib.suppress(OSError):  # somebody else has it
+                    taken.bind(("127.0.0.1", port))
+            done = subprocess.run([GSV, "run", "office", "--robot", "pebble", "--ros2", "--headless"],
+                                  env={**os.environ, "ROS_DOMAIN_ID": str(domain)},
+                                  capture_output=True, text=True, check=False)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn(f"all UDP ports of ROS 2 domain {domain} are taken. Choose another domain with ROS_DOMAIN_ID",
+                      done.stderr)
+
+    def test_refuses_to_start_while_loopback_is_down(self):
+        done = self.topics_alone()
+        self.assertNotEqual(done.returncode, 0, done.stdout)
+        self.assertIn("the loopback interface lo is down, and ROS 2 uses it. Run `ip link set lo up`", done.stderr)
+
+    def test_warns_of_missing_multicast_on_loopback_and_runs(self):
+        done = self.topics_alone("ip link set lo up && sysctl -q -w net.ipv4.igmp_max_memberships=0 || exit 77")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("this machine has no multicast on loopback", done.stderr)
+
+    def test_leaves_alone_what_others_left_in_shared_memory(self):
+        port = 7410 + 250 * DOMAIN
+        left = [f"/dev/shm/fastrtps_port{port}", f"/dev/shm/sem.fastrtps_port{port}_mutex"]
+        for path in left:
+            with open(path, "wb") as file:
+                file.write(b"\xff" * 4096)
+        before = set(os.listdir("/dev/shm"))
+        try:
+            with running_gsv("--behaviour", "ros2"):
+                self.assertGreaterEqual(peer("drive", "--distance", "0.1", "/pebble")[0]["distance"], 0.1)
+                made = {name for name in set(os.listdir("/dev/shm")) - before if "fastrtps" in name}
+            self.assertEqual(made, set())
+        finally:
+            for path in left:
+                os.remove(path)
+
     def test_doctor_finds_why_a_subscription_gets_nothing(self):
         with running_gsv(), listening("sensor_msgs/msg/Image:/pebble/odom"):
             peer("endpoints", "rt/pebble/odom")

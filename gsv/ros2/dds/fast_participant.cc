@@ -4,7 +4,9 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <initializer_list>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -27,6 +29,7 @@
 #include "gsv/base/mutex.h"
 #include "gsv/ros2/dds/fast_loopback.h"
 #include "gsv/ros2/dds/fast_types.h"
+#include "gsv/ros2/dds/free_ports.h"
 #include "gsv/ros2/dds/module.h"
 
 namespace gsv::ros2::dds {
@@ -161,28 +164,64 @@ base::Status UseTransport(const ParticipantOptions& options, fast::DomainPartici
   return {};
 }
 
-// The index of a participant, from which its ports follow, is the lowest that is free in this process. Fast DDS
-// counts on instead, and participants past kMaxLocalPeers would not be found.
+// The index of a participant, from which its ports follow, is the lowest whose ports are free. Fast DDS takes other
+// ports where they are not, on which nobody looks for it, or none at all.
 class ParticipantIndex {
  public:
-  ParticipantIndex() {
+  ParticipantIndex(std::uint32_t domain, bool on_loopback) : domain_(domain) {
     const base::MutexLock lock(mutex_);
-    while (!taken_.insert(value_).second) ++value_;
+    std::set<int>& taken = taken_[domain_];
+    value_ = FreeIndex(domain_, on_loopback, taken);
+    if (value_ >= 0) taken.insert(value_);
   }
   ~ParticipantIndex() {
     const base::MutexLock lock(mutex_);
-    taken_.erase(value_);
+    taken_[domain_].erase(value_);
   }
   ParticipantIndex(const ParticipantIndex&) = delete;
   ParticipantIndex& operator=(const ParticipantIndex&) = delete;
 
-  int value() const { return value_; }
+  int value() const { return value_; }  // -1 if no ports are free
 
  private:
   static inline base::Mutex mutex_;
-  static inline std::set<int> taken_ GSV_GUARDED_BY(mutex_);
-  int value_ = 0;
+  // Of this process, by domain: Fast DDS may bind them a little later.
+  static inline std::map<std::uint32_t, std::set<int>> taken_ GSV_GUARDED_BY(mutex_);
+  const std::uint32_t domain_;
+  int value_ = -1;
 };
+
+// DDS Security with the files of an SROS2 enclave. The names of the properties are those of DDS Security 1.1, 9.3 to 9.5.
+void UseEnclave(const std::string& folder, fast::PropertyPolicyQos& policy) {
+  const std::string authentication = "dds.sec.auth.builtin.PKI-DH.";
+  const std::string access = "dds.sec.access.builtin.Access-Permissions.";
+  const auto file = [&folder](const char* name) { return "file://" + folder + "/" + name; };
+  for (const auto& [name, value] : std::initializer_list<std::pair<std::string, std::string>>{
+           {"dds.sec.auth.plugin", "builtin.PKI-DH"},
+           {authentication + "identity_ca", file("identity_ca.cert.pem")},
+           {authentication + "identity_certificate", file("cert.pem")},
+           {authentication + "private_key", file("key.pem")},
+           {"dds.sec.crypto.plugin", "builtin.AES-GCM-GMAC"},
+           {"dds.sec.access.plugin", "builtin.Access-Permissions"},
+           {access + "permissions_ca", file("permissions_ca.cert.pem")},
+           {access + "governance", file("governance.p7s")},
+           {access + "permissions", file("permissions.p7s")}}) {
+    policy.properties().emplace_back(name, value);
+  }
+}
+
+tl::unexpected<base::Error> NoParticipant(const ParticipantOptions& options) {
+  const std::string domain = std::to_string(options.domain);
+  if (!options.enclave_folder.empty()) {
+    return base::Fail(base::ErrorCode::kUnavailable,
+                      "Fast DDS refuses the keys or the permissions for domain " + domain +
+                          ". Make the enclave again with `ros2 security create_enclave`",
+                      options.enclave_folder);
+  }
+  return base::Fail(base::ErrorCode::kUnavailable,
+                    "no DDS participant can be made in domain " + domain +
+                        ": the network is not usable. Look at `ip address`");
+}
 
 class FastWriter final : public Writer, fast::DataWriterListener {
  public:
@@ -191,6 +230,9 @@ class FastWriter final : public Writer, fast::DataWriterListener {
   ~FastWriter() override {
     if (writer_ == nullptr) return;
     writer_->set_listener(nullptr);
+    // A heartbeat during the deletion never ends if the history holds samples (Fast DDS, pull request 4076).
+    std::size_t removed = 0;
+    (void)writer_->clear_history(&removed);
     publisher_.delete_datawriter(writer_);
   }
   bool Open(fast::Topic* topic, const Topic& description) {
@@ -348,8 +390,21 @@ class FastParticipant final : public Participant {
   base::Status Open(const ParticipantOptions& options) {
     fast::DomainParticipantQos qos = fast::PARTICIPANT_QOS_DEFAULT;
     if (auto ok = UseTransport(options, qos); !ok) return ok;
+    const bool on_loopback = options.range == Range::kLocalhost;
+    if (on_loopback && !IsLoopbackUp()) {
+      return base::Fail(
+          base::ErrorCode::kUnavailable,
+          "the loopback interface lo is down, and ROS 2 uses it. Run `ip link set lo up`");
+    }
+    index_.emplace(options.domain, on_loopback);
+    if (index_->value() < 0) {
+      return base::Fail(base::ErrorCode::kUnavailable,
+                        "all UDP ports of ROS 2 domain " + std::to_string(options.domain) +
+                            " are taken. Choose another domain with ROS_DOMAIN_ID");
+    }
     qos.name(options.name.c_str());
-    qos.wire_protocol().participant_id = index_.value();
+    qos.wire_protocol().participant_id = index_->value();
+    if (!options.enclave_folder.empty()) UseEnclave(options.enclave_folder, qos.properties());
     qos.user_data().setValue({options.user_data.begin(), options.user_data.end()});
     fast::DomainParticipantListener* const listener = options.watches_endpoints ? &list_ : nullptr;
     participant_ = fast::DomainParticipantFactory::get_instance()->create_participant(
@@ -357,10 +412,7 @@ class FastParticipant final : public Participant {
     if (participant_ != nullptr) publisher_ = participant_->create_publisher({});
     if (participant_ != nullptr) subscriber_ = participant_->create_subscriber({});
     if (publisher_ != nullptr && subscriber_ != nullptr) return {};
-    return base::Fail(base::ErrorCode::kUnavailable,
-                      "no DDS participant can be made in domain " + std::to_string(options.domain) +
-                          ": all its ports are taken, or the network is not usable. Choose another "
-                          "domain with ROS_DOMAIN_ID");
+    return NoParticipant(options);
   }
 
   base::Result<std::unique_ptr<Writer>> MakeWriter(const Topic& topic,
@@ -413,7 +465,7 @@ class FastParticipant final : public Participant {
     return made;
   }
 
-  const ParticipantIndex index_;
+  std::optional<ParticipantIndex> index_;
   EndpointList list_;
   fast::DomainParticipant* participant_ = nullptr;
   fast::Publisher* publisher_ = nullptr;
@@ -433,6 +485,9 @@ base::Result<std::unique_ptr<Participant>> MakeFastParticipant(const Participant
   if (std::getenv("ROS_DISCOVERY_SERVER") != nullptr) {
     spdlog::warn("ROS_DISCOVERY_SERVER is ignored: gsv finds its peers without a discovery server");
     unsetenv("ROS_DISCOVERY_SERVER");
+  }
+  if (!options.insecure_reason.empty()) {
+    spdlog::warn("ROS 2 runs without security: {}", options.insecure_reason);
   }
   fast::Log::SetVerbosity(fast::Log::Kind::Error);
   auto participant = std::make_unique<FastParticipant>();

@@ -5,6 +5,11 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
+
+#include "gsv/base/log.h"
+
 namespace gsv::ros2::dds {
 namespace {
 
@@ -33,7 +38,12 @@ bool StayOnLoopback(int socket, std::uint32_t group) {
 LocalMulticast::LocalMulticast(const char* group)
     : socket_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)), group_(inet_addr(group)) {
   if (socket_ < 0 || StayOnLoopback(socket_, group_)) return;
-  close(socket_);
+  spdlog::warn(
+      "this machine has no multicast on loopback ({}): ROS 2 nodes that wait for it do not find "
+      "gsv. Set "
+      "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST for them",
+      std::strerror(errno));
+  if (socket_ >= 0) close(socket_);
   socket_ = -1;
 }
 

@@ -26,17 +26,22 @@ base::Result<const Module*> LoadFrom(const std::string& file) {
 
 }  // namespace
 
-base::Result<const Module*> LoadModule(const std::vector<std::string>& folders) {
+base::Result<std::string> FindModule(const std::vector<std::string>& folders) {
   std::string looked_in;
   for (const std::string& folder : folders) {
     const std::filesystem::path file = std::filesystem::path(folder) / kModuleFile;
     std::error_code ignored;
-    if (std::filesystem::is_regular_file(file, ignored)) return LoadFrom(file);
+    if (std::filesystem::is_regular_file(file, ignored)) return file.string();
     looked_in += (looked_in.empty() ? "" : ", ") + folder;
   }
   return base::Fail(base::ErrorCode::kUnavailable,
                     std::string("this gsv was built without ROS 2: there is no ") + kModuleFile +
                         " in " + looked_in + ". Build with -DGSV_ROS2=ON");
+}
+
+base::Result<const Module*> LoadModule(const std::vector<std::string>& folders) {
+  const auto file = FindModule(folders);
+  return file ? LoadFrom(*file) : base::Fail(file.error());
 }
 
 }  // namespace gsv::ros2::dds

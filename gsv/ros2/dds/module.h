@@ -9,7 +9,7 @@
 namespace gsv::ros2::dds {
 
 // Grows with each change of participant.h.
-inline constexpr int kModuleInterface = 2;
+inline constexpr int kModuleInterface = 3;
 inline constexpr const char* kModuleSymbol = "gsv_ros2_module";
 inline constexpr const char* kModuleFile = "gsv-ros2.so";
 
@@ -18,6 +18,9 @@ struct Module {
   const char* library = "";  // "Fast DDS 2.9.1"
   base::Result<std::unique_ptr<Participant>> (*make)(const ParticipantOptions& options) = nullptr;
 };
+
+// Finds the plug-in in one of `folders`, without loading it. Fails with kUnavailable where there is none.
+base::Result<std::string> FindModule(const std::vector<std::string>& folders);
 
 // Loads the plug-in from one of `folders`; it stays loaded. Fails with kUnavailable where there is none.
 base::Result<const Module*> LoadModule(const std::vector<std::string>& folders);

@@ -54,6 +54,10 @@ struct ParticipantOptions {
   std::string name = "gsv";          // in discovery
   std::string user_data{};           // "enclave=/;"
   bool watches_endpoints = false;    // endpoints() works
+  // DDS Security: the folder of an SROS2 enclave with its keys and permissions; empty: none.
+  std::string enclave_folder{};
+  std::string
+      insecure_reason{};  // why there is no security, though the user wants it where possible
 };
 
 // Identifies the request to which a reply belongs: the client's endpoint and the number of the

@@ -17,10 +17,12 @@ namespace {
 
 using WallClock = std::chrono::steady_clock;
 
-constexpr std::size_t kMaxWaiting = 10'000;            // requests
-constexpr std::size_t kMaxRequest = 1 << 20;           // bytes
-constexpr std::size_t kMaxUnsent = 1000;               // replies whose client is not yet discovered
-constexpr std::chrono::milliseconds kDiscovery{1000};  // so long a reply waits for its client
+constexpr std::size_t kMaxWaiting = 10'000;   // requests
+constexpr std::size_t kMaxRequest = 1 << 20;  // bytes
+constexpr std::size_t kMaxUnsent = 1000;      // replies whose client is not yet discovered
+// So long a reply waits for its client. Discovery takes that long on a busy machine that loses a datagram: it is sent
+// again after a heartbeat, whose usual period is 3 s.
+constexpr std::chrono::milliseconds kDiscovery{10'000};
 constexpr std::chrono::milliseconds kRetry{10};
 
 constexpr std::size_t kEncapsulation = 4;
@@ -43,7 +45,12 @@ std::vector<std::byte> Joined(std::span<const std::byte> head, std::span<const s
 
 }  // namespace
 
-bool HasCycloneHeader(const dds::Guid& writer) { return writer[0] == 0x01 && writer[1] == 0x10; }
+bool HasCycloneHeader(const dds::Request& request) {
+  const dds::Guid& writer = request.writer;
+  const bool is_hashed = (writer[0] & 0x80) != 0;  // DDS Security 1.1, 9.3.3
+  if (is_hashed) return request.related.writer == dds::Guid{};
+  return writer[0] == 0x01 && writer[1] == 0x10;
+}
 
 class ServiceHost::Service {
  public:
@@ -217,7 +224,7 @@ void ServiceHost::Enqueue(const std::shared_ptr<Service>& service, Lane lane,
   reply.service_ = service;
   reply.request_ = request;
   std::vector<std::byte> body(sample.begin(), sample.end());
-  if (HasCycloneHeader(request.writer)) {
+  if (HasCycloneHeader(request)) {
     if (sample.size() < kEncapsulation + kCycloneHeader) {
       return Refuse(service->name, {base::ErrorCode::kCorrupt, "it has no header", {}});
     }

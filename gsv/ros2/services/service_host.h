@@ -2,7 +2,8 @@
 //
 // A client of rmw_fastrtps finds its reply by the related sample identity (RTPS 2.3, 8.7.5; inline QoS). A client
 // of rmw_cyclonedds finds it by 16 bytes after the encapsulation header, which the reply repeats. A
-// request follows the second if the GUID of the client's writer has the vendor of Cyclone DDS.
+// request follows the second if the GUID of the client's writer has the vendor of Cyclone DDS. With DDS Security a GUID
+// has no vendor; then a request without a related sample identity follows the second.
 //
 // Requests are untrusted input. One that does not decode gets no reply, and the first of a service is logged.
 //
@@ -25,8 +26,8 @@
 
 namespace gsv::ros2 {
 
-// Whether requests of this writer begin with the 16 bytes of rmw_cyclonedds.
-bool HasCycloneHeader(const dds::Guid& writer);
+// Whether this request begins with the 16 bytes of rmw_cyclonedds.
+bool HasCycloneHeader(const dds::Request& request);
 
 class ServiceHost {
  public:
@@ -41,7 +42,7 @@ class ServiceHost {
   class Replier {
    public:
     // `response` is a whole message. Returns at once; the reply is sent once the client can receive it, which
-    // discovery may delay, or after a second.
+    // discovery may delay, or after ten seconds.
     void Send(messages::Bytes response) const;
     template <typename Response>
     void SendMessage(const Response& response) const {

@@ -75,9 +75,10 @@ class Peer {
   }
 
   // A writer that somebody listens to.
-  std::unique_ptr<dds::Writer> Talk(const std::string& topic, const std::string& type) {
+  std::unique_ptr<dds::Writer> Talk(const std::string& topic, const std::string& type,
+                                    const dds::Qos& qos = {}) {
     auto writer =
-        participant_->MakeWriter({DdsTopicName(topic), DdsTypeName(type), {}, {}}, [this] {
+        participant_->MakeWriter({DdsTopicName(topic), DdsTypeName(type), qos, {}}, [this] {
           const base::MutexLock lock(mutex_);  // so that no waiter misses it
           changed_.notify_all();
         });

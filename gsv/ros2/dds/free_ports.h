@@ -1,0 +1,19 @@
+// The ports of a participant, and the loopback interface.
+//
+// A domain has two unicast ports for each index of a participant (RTPS 2.3, 9.6.1.1).
+#pragma once
+
+#include <cstdint>
+#include <set>
+
+namespace gsv::ros2::dds {
+
+inline constexpr int kMaxParticipants = 120;  // per machine and domain; RTPS 2.3, 9.6.1.3
+
+// The lowest index that is not in `taken` and whose ports nobody has bound, on loopback or on all interfaces. -1 if
+// there is none.
+int FreeIndex(std::uint32_t domain, bool on_loopback, const std::set<int>& taken);
+
+bool IsLoopbackUp();
+
+}  // namespace gsv::ros2::dds

@@ -1,0 +1,24 @@
+// SROS2: the keys and permissions of an enclave, which DDS Security uses.
+//
+// ROS_SECURITY_ENABLE            true: with security
+// ROS_SECURITY_KEYSTORE          the folder that `ros2 security create_keystore` made
+// ROS_SECURITY_STRATEGY          Enforce: without keys gsv does not start; Permissive (default): it starts without security
+// ROS_SECURITY_ENCLAVE_OVERRIDE  the enclave (default: /)
+//
+// Source   design.ros2.org/articles/ros2_dds_security.html.
+#pragma once
+
+#include "gsv/ros2/options.h"
+
+namespace gsv::ros2 {
+
+// Files of an enclave's folder.
+inline constexpr const char* kEnclaveFiles[]{
+    "identity_ca.cert.pem",    "cert.pem",       "key.pem",
+    "permissions_ca.cert.pem", "governance.p7s", "permissions.p7s"};
+
+// Sets the enclave of a participant. Fails with kInvalidArgument where a variable has a bad value, or keys that are
+// required are missing.
+base::Status UseSecurity(const Environment& environment, dds::ParticipantOptions& participant);
+
+}  // namespace gsv::ros2
