@@ -33,10 +33,10 @@ template <typename Request, typename Response>
 class Client {
  public:
   Client(Participant& participant, const dds_topic_descriptor_t& request,
-         const dds_topic_descriptor_t& response, const std::string& name, int depth = 10)
+         const dds_topic_descriptor_t& response, const std::string& name)
       : participant_(participant),
-        writer_(participant.Requester(request, name, depth)),
-        reader_(participant.ReplyReader(response, name, depth)) {
+        writer_(participant.Requester(request, name)),
+        reader_(participant.ReplyReader(response, name)) {
     participant.Watch(reader_);
   }
 
@@ -227,6 +227,22 @@ void Calls::AddQueries() {
             {"name", reply.world.name},
             {"uri", reply.world.world_resource.uri}};
   });
+  GSV_SIMULATION_CALL("get_available_worlds", GetAvailableWorlds)
+  kNothing, [](const auto& reply) -> Json {
+    Json names = Json::array();
+    for (std::uint32_t i = 0; i < reply.worlds._length; ++i) {
+      names.push_back(reply.worlds._buffer[i].name);
+    }
+    return {{"result", Of(reply.result)}, {"names", names}};
+  });
+  GSV_SIMULATION_CALL("load_world", LoadWorld)
+  [](auto& request, const Words& words) {
+    static std::string uri;
+    uri = Word(words, 0);
+    request.uri = Text(uri);
+    request.resource_string = Text("");
+  },
+      kResult);
   GSV_SIMULATION_CALL("get_named_pose_bounds", GetNamedPoseBounds)
   [](auto& request, const Words&) {
     request.name = Text("any"); }, kResult);
@@ -370,7 +386,7 @@ int CallMany(Participant& participant, const std::string& entity, int count, int
   using Response = simulation_interfaces_srv_dds__GetEntityState_Response_;
   Client<Request, Response> client(
       participant, simulation_interfaces_srv_dds__GetEntityState_Request__desc,
-      simulation_interfaces_srv_dds__GetEntityState_Response__desc, "/gsv/get_entity_state", 1000);
+      simulation_interfaces_srv_dds__GetEntityState_Response__desc, "/gsv/get_entity_state");
   if (!client.Connect()) return 1;
   std::vector<bool> has_come(static_cast<std::size_t>(count) + 1);
   int replies = 0;

@@ -46,7 +46,7 @@ struct Arguments {
   dds_domainid_t domain = 0;
   int count = 1, window = 100;
   double timeout = 20, distance = 1, seconds = 10, speed = 0.2;
-  bool is_stamped = false, uses_multicast = false;
+  bool is_stamped = false, is_reliable = false, uses_multicast = false;
   std::vector<std::string> words;
 };
 
@@ -95,14 +95,13 @@ class Participant {
     dds_delete_qos(qos);
     return reader;
   }
-  // The two ends of a service's client.
-  dds_entity_t Requester(const dds_topic_descriptor_t& type, const std::string& service,
-                         int depth) {
-    return Endpoint(&dds_create_writer, type, "rq" + service + "Request", depth);
+  // The two ends of a service's client. They keep all samples, as those of rmw_cyclonedds do: the reader gets the
+  // replies to all clients, and with "keep last" these replace a reply that was not taken yet.
+  dds_entity_t Requester(const dds_topic_descriptor_t& type, const std::string& service) {
+    return Endpoint(&dds_create_writer, type, "rq" + service + "Request", kKeepAll);
   }
-  dds_entity_t ReplyReader(const dds_topic_descriptor_t& type, const std::string& service,
-                           int depth) {
-    return Endpoint(&dds_create_reader, type, "rr" + service + "Reply", depth);
+  dds_entity_t ReplyReader(const dds_topic_descriptor_t& type, const std::string& service) {
+    return Endpoint(&dds_create_reader, type, "rr" + service + "Reply", kKeepAll);
   }
   dds_entity_t Writer(const Type& type, const std::string& topic) {
     dds_qos_t* const qos = dds_create_qos();
@@ -133,12 +132,15 @@ class Participant {
   }
 
  private:
+  static constexpr int kKeepAll = DDS_LENGTH_UNLIMITED;
+
   template <typename Create>
   dds_entity_t Endpoint(Create create, const dds_topic_descriptor_t& type, const std::string& name,
                         int depth) {
     dds_qos_t* const qos = dds_create_qos();
     dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(10));
-    dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, depth);
+    const bool keeps_all = depth == kKeepAll;
+    dds_qset_history(qos, keeps_all ? DDS_HISTORY_KEEP_ALL : DDS_HISTORY_KEEP_LAST, depth);
     const dds_entity_t made = Made(create(entity_, TopicOf(type, name), qos, nullptr), name);
     dds_delete_qos(qos);
     return made;

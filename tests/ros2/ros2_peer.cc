@@ -3,6 +3,9 @@
 //   ros2_peer listen [--count N] TYPE:TOPIC…     prints N samples of each as JSON, one a line
 //   ros2_peer count --seconds S TYPE:TOPIC…      prints how soon each topic had a sample, and how many samples
 //                                                came in S seconds after that
+//                                                (--reliable: by reliable readers)
+//   ros2_peer latency ROBOT                      sends --count commands to turn left and right, and prints in how many
+//                                                milliseconds ROBOT/imu showed each
 //   ros2_peer drive --distance M [--stamped] ROBOT   sends cmd_vel until ROBOT/odom shows M metres
 //   ros2_peer step --seconds S [--speed V] ROBOT answers each /clock with a TwistStamped of its time, until S seconds of
 //                                                simulated time are over
@@ -26,6 +29,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -91,6 +95,8 @@ Arguments Parse(int count, char** words) {
       arguments.speed = value();
     } else if (word == "--distance") {
       arguments.distance = value();
+    } else if (word == "--reliable") {
+      arguments.is_reliable = true;
     } else if (word == "--stamped") {
       arguments.is_stamped = true;
     } else if (word == "--multicast") {
@@ -155,7 +161,8 @@ int Count(const Arguments& arguments) {
   for (const std::string& word : arguments.words) {
     const std::size_t colon = word.find(':');
     if (colon == std::string::npos) Die("expected TYPE:TOPIC, found " + word);
-    readers.push_back(participant.Reader(TypeNamed(word.substr(0, colon)), word.substr(colon + 1)));
+    readers.push_back(participant.Reader(TypeNamed(word.substr(0, colon)), word.substr(colon + 1),
+                                         arguments.is_reliable));
     participant.Watch(readers.back());
   }
   std::set<dds_entity_t> silent(readers.begin(), readers.end());
@@ -263,6 +270,42 @@ bool WaitForReader(Participant& participant, dds_entity_t writer) {
     if (!participant.WaitForData()) return false;
   }
   return true;
+}
+
+// Commands go out at pseudo-random instants, so that they meet each part of a step.
+int Latency(const Arguments& arguments) {
+  if (arguments.words.size() != 1) Die("latency needs one robot, such as /pebble");
+  const std::string& robot = arguments.words.front();
+  Participant participant(arguments);
+  const dds_entity_t imu = participant.Reader(TypeNamed("sensor_msgs/msg/Imu"), robot + "/imu");
+  const dds_entity_t command =
+      participant.Writer(TypeNamed("geometry_msgs/msg/Twist"), robot + "/cmd_vel");
+  participant.Watch(imu);
+  if (!WaitForReader(participant, command)) return 1;
+  std::minstd_rand random(1);
+  std::vector<double> milliseconds;
+  double rate = 0;
+  const auto take = [&] {
+    while (TakeOne(imu, [&](const void* sample) {
+      rate = static_cast<const sensor_msgs_msg_dds__Imu_*>(sample)->angular_velocity.z;
+    })) {
+    }
+  };
+  for (int i = 0; i < arguments.count; ++i) {
+    dds_sleepfor(DDS_USECS(static_cast<std::int64_t>(20'000 + random() % 20'000)));
+    take();
+    geometry_msgs_msg_dds__Twist_ twist{};
+    twist.angular.z = i % 2 == 0 ? 0.5 : -0.5;
+    const Clock::time_point sent = Clock::now();
+    dds_write(command, &twist);
+    while (rate * twist.angular.z <= 0) {
+      if (!participant.WaitForData()) return 1;
+      take();
+    }
+    milliseconds.push_back(std::chrono::duration<double, std::milli>(Clock::now() - sent).count());
+  }
+  Print({{"milliseconds", milliseconds}});
+  return 0;
 }
 
 // Bad commands go out with each odometry, for about two seconds. The robot's odometry must stay finite.
@@ -410,12 +453,14 @@ int Endpoints(const Arguments& arguments) {
 
 int Main(int count, char** words) {
   if (count < 2)
-    Die("expected listen, count, drive, step, disturb, malformed, call, call-many or endpoints");
+    Die("expected listen, count, latency, drive, step, disturb, malformed, call, call-many or "
+        "endpoints");
   const std::string command = words[1];
   const Arguments arguments = Parse(count, words);
   if (command == "listen") return Listen(arguments);
   if (command == "count") return Count(arguments);
   if (command == "drive") return Drive(arguments);
+  if (command == "latency") return Latency(arguments);
   if (command == "malformed") return Malformed(arguments);
   if (command == "step") return Step(arguments);
   if (command == "disturb") return Disturb(arguments);
@@ -429,7 +474,8 @@ int Main(int count, char** words) {
     return CallMany(participant, arguments.words[0], arguments.count, arguments.window);
   }
   if (command == "endpoints") return Endpoints(arguments);
-  Die("expected listen, count, drive, step, disturb, call, call-many or endpoints, found " +
+  Die("expected listen, count, latency, drive, step, disturb, call, call-many or endpoints, "
+      "found " +
       command);
 }
 

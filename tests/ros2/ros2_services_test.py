@@ -16,6 +16,7 @@ import unittest
 GSV, PEER, FAST_CLIENT, PLUGINS = sys.argv[1:5]
 os.environ.setdefault("ASAN_OPTIONS", "new_delete_type_mismatch=0")
 DOMAIN = str(100 + os.getpid() % 40)  # apart from others on this machine
+CALLS = "10000"  # of each client
 UNSUPPORTED, OK, NOT_FOUND, INCORRECT_STATE, FAILED = range(5)
 STOPPED, PLAYING, PAUSED, QUITTING = range(4)
 SUCCEEDED, CANCELED, ABORTED = 4, 5, 6  # of action_msgs/msg/GoalStatus
@@ -89,6 +90,12 @@ class Services(unittest.TestCase):
             self.assertEqual(states["states"], [state])
             self.assertEqual(call("get_current_world")["name"], "office")
             self.assertEqual(call("get_named_pose_bounds")["result"], UNSUPPORTED)
+            worlds = call("get_available_worlds")
+            self.assertEqual(worlds["result"]["result"], OK)
+            self.assertLessEqual({"office", "maze"}, set(worlds["names"]))
+            self.assertEqual(call("load_world office"),
+                             {"result": UNSUPPORTED, "error_message": "a simulation keeps its world. Start "
+                              "another one with gsv run WORLD --ros2"})
 
     def test_move_spawn_and_delete_while_it_runs(self):
         with running_gsv() as client:
@@ -149,7 +156,7 @@ class Services(unittest.TestCase):
     def test_tell_the_truth_about_features_and_time(self):
         with running_gsv() as client:
             features = client.call("get_simulator_features")["features"]
-            self.assertEqual(features, [0, 1, 5, 6, 8, 10, 11, 12, 14, 20, 23, 24, 25, 26, 31, 32, 33, 44])
+            self.assertEqual(features, [0, 1, 5, 6, 8, 10, 11, 12, 14, 20, 23, 24, 25, 26, 31, 32, 33, 44, 45])
             self.assertEqual(client.call("list_parameters"), ["use_sim_time"])
             self.assertEqual(client.call("get_parameters use_sim_time"), {"type": 1, "bool_value": True})
             self.assertEqual(client.call("get_parameters other"), {"type": 0, "bool_value": False})
@@ -157,14 +164,14 @@ class Services(unittest.TestCase):
     def test_lose_no_reply_to_clients_of_both_conventions_at_once(self):
         with running_gsv():
             environment = {**os.environ, "ROS_DOMAIN_ID": DOMAIN}
-            commands = [[FAST_CLIENT, PLUGINS, "pebble", "1000", "20"],
-                        *[[PEER, "call-many", "pebble", "--count", "1000", "--window", "20", "--domain", DOMAIN,
+            commands = [[FAST_CLIENT, PLUGINS, "pebble", CALLS, "20"],
+                        *[[PEER, "call-many", "pebble", "--count", CALLS, "--window", "20", "--domain", DOMAIN,
                            "--timeout", "60"]] * 2]
             clients = [subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)
                        for command in commands]
             outputs = [client.communicate(timeout=100)[0] for client in clients]
         for output, client in zip(outputs, clients):
-            self.assertEqual(json.loads(output), {"calls": 1000, "replies": 1000}, client.args[0])
+            self.assertEqual(json.loads(output), {"calls": int(CALLS), "replies": int(CALLS)}, client.args[0])
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "apps/gsv/machine/installation.h"
 #include "gsv/base/spelling.h"
 #include "gsv/model/drive_guess.h"
 #include "gsv/ros2/services/results.h"
@@ -21,6 +22,15 @@ bool IsForRobots(const model::Model& model) {
 }
 
 }  // namespace
+
+std::vector<ros2::Spawner::World> Ros2Spawner::Worlds() {
+  std::vector<World> worlds;
+  for (std::string& name : factory_.Worlds()) {
+    const auto file = FindWorld(name);
+    if (file) worlds.push_back({std::move(name), *file});
+  }
+  return worlds;
+}
 
 std::vector<ros2::Spawner::Spawnable> Ros2Spawner::Spawnables() {
   std::vector<Spawnable> all;

@@ -17,6 +17,7 @@ class Ros2Spawner final : public ros2::Spawner {
   Ros2Spawner(gateway::SimulationFactory& factory, formats::ModelLibrary& library, bool reads_files)
       : factory_(factory), library_(library), reads_files_(reads_files) {}
 
+  std::vector<World> Worlds() override;
   std::vector<Spawnable> Spawnables() override;
   base::Result<std::string> Spawn(simulation::Simulation& simulation,
                                   const ros2::SpawnRequest& request) override;

@@ -100,20 +100,6 @@ interfaces::SetEntityStateResponse SetEntityState(
   }))};
 }
 
-interfaces::GetCurrentWorldResponse GetCurrentWorld(const Simulation& simulation,
-                                                    const interfaces::GetCurrentWorldRequest&) {
-  interfaces::GetCurrentWorldResponse response;
-  const model::WorldDescription& world = *simulation.specification().world;
-  response.result = Succeeded();
-  response.world.name = world.name;
-  response.world.world_resource.uri = world.source;
-  return response;
-}
-
-interfaces::Result NoNamedPoses() {
-  return Failed(interfaces::Result::kResultFeatureUnsupported, "worlds of gsv have no named poses");
-}
-
 }  // namespace
 
 base::Result<int> FindEntity(const world::Snapshot& snapshot, const std::string& name) {
@@ -139,17 +125,12 @@ void OfferEntityServices(ServedSimulation& served) {
       "get_entity_bounds", "GetEntityBounds", Lane::kQuick, &GetEntityBounds);
   served.Offer<interfaces::SetEntityStateRequest, interfaces::SetEntityStateResponse>(
       "set_entity_state", "SetEntityState", Lane::kSlow, &SetEntityState);
-  served.Offer<interfaces::GetCurrentWorldRequest, interfaces::GetCurrentWorldResponse>(
-      "get_current_world", "GetCurrentWorld", Lane::kQuick, &GetCurrentWorld);
-  served.Offer<interfaces::GetNamedPosesRequest, interfaces::GetNamedPosesResponse>(
-      "get_named_poses", "GetNamedPoses", Lane::kQuick,
-      [](const Simulation&, const interfaces::GetNamedPosesRequest&) {
-        return interfaces::GetNamedPosesResponse{NoNamedPoses(), {}};
-      });
-  served.Offer<interfaces::GetNamedPoseBoundsRequest, interfaces::GetNamedPoseBoundsResponse>(
-      "get_named_pose_bounds", "GetNamedPoseBounds", Lane::kQuick,
-      [](const Simulation&, const interfaces::GetNamedPoseBoundsRequest&) {
-        return interfaces::GetNamedPoseBoundsResponse{NoNamedPoses(), {}};
+  served.Offer<interfaces::SetEntityInfoRequest, interfaces::SetEntityInfoResponse>(
+      "set_entity_info", "SetEntityInfo", Lane::kQuick,
+      [](const Simulation&, const interfaces::SetEntityInfoRequest&) {
+        return interfaces::SetEntityInfoResponse{
+            Failed(interfaces::Result::kResultFeatureUnsupported,
+                   "the category and the description of an entity follow from its model")};
       });
 }
 

@@ -41,7 +41,8 @@ interfaces::GetSimulatorFeaturesResponse GetFeatures(bool can_spawn) {
                                 Features::kWorldInfoGetting};
   if (can_spawn) {
     for (const std::uint8_t each :
-         {Features::kSpawning, Features::kSpawnables, Features::kSimulationResetSpawned}) {
+         {Features::kSpawning, Features::kSpawnables, Features::kSimulationResetSpawned,
+          Features::kAvailableWorlds}) {
       response.features.features.push_back(each);
     }
     response.features.spawn_formats = {"sdf", "urdf"};

@@ -5,6 +5,7 @@
 #include "gsv/ros2/services/run_services.h"
 #include "gsv/ros2/services/spawn_services.h"
 #include "gsv/ros2/services/step_action.h"
+#include "gsv/ros2/services/world_services.h"
 
 namespace gsv::ros2 {
 namespace {
@@ -23,6 +24,7 @@ SimulationServices::SimulationServices(dds::Participant& participant, bool has_h
   OfferParameterServices(*host_, kServiceNode);
   OfferEntityServices(*served_);
   OfferSpawnServices(*served_);
+  OfferWorldServices(*served_);
   OfferRunServices(*served_);
   steps_ = std::make_unique<StepAction>(*served_);
 }

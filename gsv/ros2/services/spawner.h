@@ -1,4 +1,4 @@
-// SpawnEntity asks the program for its models through this, and adds one.
+// The services ask the program for its models and worlds through this, and SpawnEntity adds a model.
 //
 // Threads  one at a time. Calls may take seconds: models are read.
 #pragma once
@@ -27,7 +27,13 @@ class Spawner {
     bool is_robot = false;
   };
 
+  struct World {
+    std::string name;  // as `gsv run` takes it
+    std::string uri;   // its file
+  };
+
   virtual ~Spawner() = default;
+  virtual std::vector<World> Worlds() = 0;
   virtual std::vector<Spawnable> Spawnables() = 0;
   // Adds a robot, or an object, for which a running simulation is paused and resumed. Returns its name. Fails with kNotFound if there is no such model, with kCorrupt if its file
   // is refused, with kInvalidArgument if this kind of URI is not accepted, and else as Simulation::AddRobot()
