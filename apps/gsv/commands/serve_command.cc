@@ -51,7 +51,7 @@ int Serve(const ServeArguments& arguments, Signals& signals) {
     std::printf("viewer: %s\n", (*runtime)->viewer_url().c_str());
   std::printf("broker: %s\n", (*runtime)->broker().reference().c_str());
   if (Ros2Access* const access = (*runtime)->ros2()) {
-    access->Follow([&host = (*runtime)->host()] { return host.List(); });
+    access->Follow();
     std::printf("ros2: %s\n", access->Description().c_str());
     if (const std::string why = access->Exposure(); !why.empty()) {
       std::fprintf(stderr, "gsv: warning: %s\n", why.c_str());

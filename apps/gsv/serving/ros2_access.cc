@@ -21,6 +21,8 @@ tl::unexpected<base::Error> RefuseRos2(const base::Error& error, const char* opt
   return base::Fail(error.code, error.message, option);
 }
 
+std::vector<std::string> ModuleFolders() { return {ProgramFolder() / "../lib/gsv"}; }
+
 void AddRange(CLI::App& command, Ros2Arguments& arguments) {
   command
       .add_option("--ros2-range", arguments.range,
@@ -126,7 +128,7 @@ base::Result<std::optional<ros2::Options>> Understand(const Ros2Arguments& argum
 
 base::Result<std::unique_ptr<ros2::dds::Participant>> MakeParticipant(
     const ros2::dds::ParticipantOptions& options) {
-  const auto module = ros2::dds::LoadModule({ProgramFolder() / "../lib/gsv"});
+  const auto module = ros2::dds::LoadModule(ModuleFolders());
   if (!module) return base::Fail(module.error());
   return (*module)->make(options);
 }
@@ -152,19 +154,22 @@ base::Result<std::unique_ptr<Ros2Replay>> Ros2Replay::Start(
   return replay;
 }
 
-base::Result<std::unique_ptr<Ros2Access>> Ros2Access::Start(ros2::Options options,
+base::Result<std::unique_ptr<Ros2Access>> Ros2Access::Start(std::optional<ros2::Options> options,
                                                             gateway::SimulationFactory& factory,
-                                                            formats::ModelLibrary& library) {
-  std::unique_ptr<Ros2Access> access(new Ros2Access);
-  auto reach = ros2::ParticipantFor(options, ros2::ProcessEnvironment);
+                                                            formats::ModelLibrary& library,
+                                                            List list) {
+  std::unique_ptr<Ros2Access> access(
+      new Ros2Access(std::move(options), factory, library, std::move(list)));
+  auto reach =
+      ros2::ParticipantFor(access->options_.value_or(ros2::Options()), ros2::ProcessEnvironment);
+  if (reach) {
+    access->reach_ = *std::move(reach);
+    access->reach_.watches_endpoints = true;
+  }
+  if (!access->is_on()) return access;
   if (!reach) return base::Fail(reach.error());
-  reach->watches_endpoints = true;
-  auto participant = MakeParticipant(*reach);
-  if (!participant) return base::Fail(participant.error());
-  access->spawner_ = std::make_unique<Ros2Spawner>(factory, library, !ros2::IsExposed(*reach));
-  access->options_ = std::move(options);
-  access->reach_ = *std::move(reach);
-  access->participant_ = *std::move(participant);
+  const base::MutexLock lock(access->publishing_);
+  if (auto ok = access->Join(); !ok) return base::Fail(ok.error());
   return access;
 }
 
@@ -174,31 +179,113 @@ Ros2Access::~Ros2Access() {
     is_stopping_ = true;
   }
   changed_.notify_all();
-  if (watcher_.joinable()) watcher_.join();
+  std::thread watcher;
+  {
+    const base::MutexLock lock(publishing_);
+    watcher = std::move(watcher_);
+  }
+  if (watcher.joinable()) watcher.join();
 }
 
 std::string DescribeReach(const ros2::dds::ParticipantOptions& options) {
   const char* reach = "this machine only";
   if (options.range == ros2::dds::Range::kPeers) reach = "the machines in ROS_STATIC_PEERS";
   if (options.range == ros2::dds::Range::kSubnet) reach = "the whole subnet";
-  return fmt::format("domain {}, {}", options.domain, reach);
+  return fmt::format("domain {}, {}{}", options.domain, reach,
+                     options.enclave_folder.empty() ? "" : ", with the keys of an SROS2 enclave");
 }
 
 std::string Ros2Access::Exposure() const {
-  if (!ros2::IsExposed(reach_)) return {};
+  if (!ros2::IsExposed(reach_) || !reach_.enclave_folder.empty()) return {};
   return "ROS 2 is reachable from other machines: everyone there can read all topics, command "
          "robots without a behaviour, and control the simulation. Use --ros2-range localhost to "
          "prevent that";
 }
 
-void Ros2Access::Publish(const SimulationPointer& simulation) {
-  published_ = simulation;
-  bridge_ = ros2::Bridge::Start(*participant_, options_, simulation, spawner_.get());
+base::Status Ros2Access::Join() {
+  if (participant_ != nullptr) return {};
+  auto participant = MakeParticipant(reach_);
+  if (!participant) return base::Fail(participant.error());
+  spawner_ = std::make_unique<Ros2Spawner>(factory_, library_, !ros2::IsExposed(reach_));
+  participant_ = *std::move(participant);
+  return {};
 }
 
-void Ros2Access::Follow(std::function<std::vector<SimulationPointer>()> list) {
-  list_ = std::move(list);
+void Ros2Access::Show(const SimulationPointer& simulation, ros2::Options options) {
+  bridge_.reset();  // the topics of the one before are free again
+  published_ = simulation;
+  bridge_ = ros2::Bridge::Start(*participant_, std::move(options), simulation, spawner_.get());
+}
+
+Ros2Access::SimulationPointer Ros2Access::Published() {
+  SimulationPointer published = published_.lock();
+  if (published == nullptr) return nullptr;
+  const std::vector<SimulationPointer> all = list_();
+  return std::find(all.begin(), all.end(), published) != all.end() ? published : nullptr;
+}
+
+void Ros2Access::Publish(const SimulationPointer& simulation) {
+  const base::MutexLock lock(publishing_);
+  Show(simulation, *options_);
+}
+
+void Ros2Access::Follow() {
+  const base::MutexLock lock(publishing_);
+  follows_ = true;
   watcher_ = std::thread([this] { Watch(); });
+}
+
+gateway::SimulationFactory::Ros2Support Ros2Access::Support() {
+  gateway::SimulationFactory::Ros2Support support;
+  const auto module = ros2::dds::FindModule(ModuleFolders());
+  const auto reach =
+      ros2::ParticipantFor(options_.value_or(ros2::Options()), ros2::ProcessEnvironment);
+  if (!module || !reach) {
+    support.reason = (module ? reach.error() : module.error()).Sentence();
+    return support;
+  }
+  support.is_available = true;
+  support.reach = DescribeReach(reach_);
+  const base::MutexLock lock(publishing_);
+  if (const auto published = Published()) support.published = published->specification().name;
+  return support;
+}
+
+base::Result<ros2::Options> Ros2Access::OptionsOf(const scenario::Scenario& scenario) {
+  if (const auto support = Support(); !support.is_available) {
+    return base::Fail(base::ErrorCode::kUnavailable, support.reason);
+  }
+  // The reach is that of the server: a viewer must not open it to other machines.
+  const bool is_wide = ros2::IsExposed(reach_);
+  const std::string& range = scenario.ros2->range;
+  if (!range.empty() && (range == "subnet") != is_wide) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "this server publishes in " + DescribeReach(reach_) +
+                          ". Start it with --ros2 --ros2-range " + range,
+                      "range");
+  }
+  Ros2Arguments arguments = WithSettings({}, scenario.ros2);
+  arguments.range.clear();
+  auto options = Understand(arguments);
+  if (!options) return base::Fail(options.error().code, options.error().message);
+  const bool is_stepped = (*options)->is_cmd_vel_stamped && scenario.lockstep.value_or(false);
+  if (is_stepped) (*options)->steps = std::make_shared<ros2::NodeSteps>();
+  return **std::move(options);
+}
+
+base::Status Ros2Access::Publish(const SimulationPointer& simulation, ros2::Options options) {
+  const base::MutexLock lock(publishing_);
+  const SimulationPointer published = Published();
+  if (published != nullptr && published != simulation) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "the simulation " + published->specification().name +
+                          " is published, and ROS 2 has one clock in a domain. Remove it first");
+  }
+  if (auto ok = Join(); !ok) return ok;
+  if (!is_on() && ros2::IsExposed(reach_)) spdlog::warn("{}", Exposure());
+  Show(simulation, std::move(options));
+  if (!watcher_.joinable()) watcher_ = std::thread([this] { Watch(); });
+  return {};
 }
 
 void Ros2Access::Watch() {
@@ -206,12 +293,13 @@ void Ros2Access::Watch() {
   while (!is_stopping_) {
     lock.unlock();
     {
+      const base::MutexLock publishing(publishing_);
+      if (bridge_ != nullptr && Published() == nullptr) {
+        bridge_.reset();
+        if (!is_on()) participant_.reset();
+      }
       const std::vector<SimulationPointer> all = list_();
-      const SimulationPointer published = published_.lock();
-      const bool is_there =
-          published != nullptr && std::find(all.begin(), all.end(), published) != all.end();
-      if (!is_there) bridge_.reset();
-      if (!is_there && !all.empty()) Publish(all.front());
+      if (bridge_ == nullptr && follows_ && !all.empty()) Show(all.front(), *options_);
     }
     lock.lock();
     changed_.wait_for(lock, kWatchPeriod, [this]() GSV_REQUIRES(mutex_) { return is_stopping_; });

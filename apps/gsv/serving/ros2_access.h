@@ -8,9 +8,11 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "apps/gsv/serving/ros2_spawner.h"
+#include "apps/gsv/simulations/ros2_publisher.h"
 #include "gsv/base/mutex.h"
 #include "gsv/ros2/bridge.h"
 #include "gsv/ros2/dds/participant.h"
@@ -69,41 +71,64 @@ class Ros2Replay {
   std::unique_ptr<ros2::RecordingBridge> bridge_;
 };
 
-class Ros2Access {
+// Publishes one simulation at a time: ROS 2 has one clock in a domain.
+class Ros2Access final : public Ros2Publisher {
  public:
   using SimulationPointer = std::shared_ptr<simulation::Simulation>;
+  using List = std::function<std::vector<SimulationPointer>()>;
 
-  // `factory` and `library` outlive this: SpawnEntity adds models by them.
-  static base::Result<std::unique_ptr<Ros2Access>> Start(ros2::Options options,
+  // `options` are those of the command line; empty: it has none, and a simulation is published only if its scenario
+  // asks for it. Until then no thread or socket of DDS exists. `factory` and `library` outlive this: SpawnEntity adds
+  // models by them. `list` returns the simulations of this process.
+  static base::Result<std::unique_ptr<Ros2Access>> Start(std::optional<ros2::Options> options,
                                                          gateway::SimulationFactory& factory,
-                                                         formats::ModelLibrary& library);
-  ~Ros2Access();
+                                                         formats::ModelLibrary& library, List list);
+  ~Ros2Access() override;
 
+  // Whether the command line has --ros2. Only then may the members until Follow() be called.
+  bool is_on() const { return options_.has_value(); }
   std::string Description() const { return DescribeReach(reach_); }
   // Why others can reach it; empty: they cannot.
   std::string Exposure() const;
-
+  // Publishes the simulation of `gsv run`.
   void Publish(const SimulationPointer& simulation);
-  // Publishes the first of the simulations that `list` returns, and the next when that is gone: ROS 2 has
-  // one clock.
-  void Follow(std::function<std::vector<SimulationPointer>()> list);
+  // Publishes the first of the simulations in the list, and the next when that is gone.
+  void Follow();
+
+  gateway::SimulationFactory::Ros2Support Support() override;
+  base::Result<ros2::Options> OptionsOf(const scenario::Scenario& scenario) override;
+  base::Status Publish(const SimulationPointer& simulation, ros2::Options options) override;
 
  private:
-  Ros2Access() = default;
+  Ros2Access(std::optional<ros2::Options> options, gateway::SimulationFactory& factory,
+             formats::ModelLibrary& library, List list)
+      : options_(std::move(options)),
+        factory_(factory),
+        library_(library),
+        list_(std::move(list)) {}
+  base::Status Join() GSV_REQUIRES(publishing_);
+  void Show(const SimulationPointer& simulation, ros2::Options options) GSV_REQUIRES(publishing_);
+  // The simulation that is published now; null: none.
+  SimulationPointer Published() GSV_REQUIRES(publishing_);
   void Watch();
 
-  ros2::Options options_;
+  const std::optional<ros2::Options> options_;
+  gateway::SimulationFactory& factory_;
+  formats::ModelLibrary& library_;
+  const List list_;
   ros2::dds::ParticipantOptions reach_;
-  std::unique_ptr<ros2::dds::Participant> participant_;
-  std::unique_ptr<Ros2Spawner> spawner_;
-  std::weak_ptr<simulation::Simulation> published_;
-  std::unique_ptr<ros2::Bridge> bridge_;
 
-  std::function<std::vector<SimulationPointer>()> list_;
+  base::Mutex publishing_;  // held while a simulation is published, or no longer
+  std::unique_ptr<ros2::dds::Participant> participant_ GSV_GUARDED_BY(publishing_);
+  std::unique_ptr<Ros2Spawner> spawner_ GSV_GUARDED_BY(publishing_);
+  std::weak_ptr<simulation::Simulation> published_ GSV_GUARDED_BY(publishing_);
+  std::unique_ptr<ros2::Bridge> bridge_ GSV_GUARDED_BY(publishing_);
+  bool follows_ GSV_GUARDED_BY(publishing_) = false;
+  std::thread watcher_ GSV_GUARDED_BY(publishing_);
+
   base::Mutex mutex_;
   base::ConditionVariable changed_;
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
-  std::thread watcher_;
 };
 
 }  // namespace gsv::app

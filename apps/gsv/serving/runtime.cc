@@ -90,11 +90,11 @@ base::Result<std::unique_ptr<Runtime>> Runtime::Start(const RuntimeOptions& opti
   runtime->builder_ = std::make_unique<SimulationBuilder>(
       *runtime->host_, *runtime->behaviours_, *runtime->broker_, *runtime->recordings_,
       options.model_path, options.server_limits.reading);
-  if (options.ros2) {
-    auto access = Ros2Access::Start(*options.ros2, *runtime->builder_, runtime->host_->library());
-    if (!access) return base::Fail(access.error());
-    runtime->ros2_ = *std::move(access);
-  }
+  auto access = Ros2Access::Start(options.ros2, *runtime->builder_, runtime->host_->library(),
+                                  [host = runtime->host_] { return host->List(); });
+  if (!access) return base::Fail(access.error());
+  runtime->ros2_ = *std::move(access);
+  runtime->builder_->PublishThrough(runtime->ros2_.get());
   if (options.viewer) {
     if (auto ok = runtime->StartGateway(options); !ok) return base::Fail(ok.error());
   }
@@ -247,6 +247,7 @@ Runtime::~Runtime() {
   for (const std::string& offer : offers_) (void)broker_->Withdraw(offer);
   if (scenarios_.in() != nullptr) scenarios_->Close();
   gateway_.reset();
+  if (builder_ != nullptr) builder_->PublishThrough(nullptr);
   ros2_.reset();
   builder_.reset();
   if (host_ != nullptr) {

@@ -59,7 +59,8 @@ class Runtime {
   BehaviourLauncher& launcher() { return *launcher_; }
   broker::BrokerClient& broker() { return *broker_; }
   Recordings& recordings() { return *recordings_; }
-  Ros2Access* ros2() { return ros2_.get(); }  // Null if there is no ROS 2 bridge.
+  // Null without --ros2.
+  Ros2Access* ros2() { return ros2_ != nullptr && ros2_->is_on() ? ros2_.get() : nullptr; }
   const std::string& viewer_url() const { return viewer_url_; }  // Empty if there is no viewer.
 
   // Registers sba::SimulationService, with the existing simulations, at the broker for the lifetime

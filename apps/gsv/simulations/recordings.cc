@@ -170,6 +170,13 @@ void Recordings::SetSimulationOfCommand(const std::shared_ptr<simulation::Simula
   of_command_ = simulation;
 }
 
+void Recordings::SetRos2(const std::shared_ptr<simulation::Simulation>& simulation,
+                         const scenario::Ros2Settings& settings) {
+  const base::MutexLock lock(mutex_);
+  published_ = simulation;
+  ros2_ = settings;
+}
+
 base::Status Recordings::Start(std::shared_ptr<simulation::Simulation> simulation,
                                const std::string& path, const RecordingChoice& choice) {
   const base::MutexLock starting(starting_);
@@ -182,9 +189,15 @@ base::Status Recordings::Start(std::shared_ptr<simulation::Simulation> simulatio
   }
   base::MutexLock lock(mutex_);
   const bool is_of_command = of_command_.lock() == simulation;
+  const auto ros2 = published_.lock() == simulation ? std::optional(ros2_) : std::nullopt;
   lock.unlock();
+  recording::RecorderOptions options = Options(choice, is_of_command);
+  if (ros2 && !options.scenario) {
+    options.scenario = recording::ScenarioOf(*simulation);
+    options.scenario->ros2 = ros2;
+  }
   auto recorder = recording::SimulationRecorder::Start(simulation, bag.empty() ? path : bag,
-                                                       Options(choice, is_of_command));
+                                                       std::move(options));
   if (!recorder) return base::Fail(recorder.error());
   lock.lock();
   recordings_.emplace(simulation->specification().name,

@@ -63,6 +63,10 @@ class Recordings final : public gateway::RecordingSwitch {
   // process, with which the recording can be simulated again.
   void SetSimulationOfCommand(const std::shared_ptr<simulation::Simulation>& simulation);
 
+  // Sets what the scenario of this simulation's recordings says about ROS 2, if the caller of Start() gives no scenario.
+  void SetRos2(const std::shared_ptr<simulation::Simulation>& simulation,
+               const scenario::Ros2Settings& settings);
+
   // Starts a recording. If `path` ends in ".mcap", it is a single file; otherwise it is a folder
   // for rosbag2. Returns kInvalidArgument if the simulation is being recorded, or if the path
   // exists already.
@@ -106,6 +110,9 @@ class Recordings final : public gateway::RecordingSwitch {
   Totals ended_ GSV_GUARDED_BY(mutex_);     // totals of those
   Totals reported_ GSV_GUARDED_BY(mutex_);  // the totals that were last returned
   std::weak_ptr<simulation::Simulation> of_command_ GSV_GUARDED_BY(mutex_);
+  // The simulation that is published to ROS 2 nodes, and how.
+  std::weak_ptr<simulation::Simulation> published_ GSV_GUARDED_BY(mutex_);
+  scenario::Ros2Settings ros2_ GSV_GUARDED_BY(mutex_);
 };
 
 }  // namespace gsv::app

@@ -8,6 +8,7 @@
 #include "apps/gsv/simulations/model_list.h"
 #include "apps/gsv/simulations/robot_drives.h"
 #include "gsv/broker/client/gsv_service_types.h"
+#include "gsv/ros2/node_steps.h"
 
 namespace gsv::app {
 namespace {
@@ -56,6 +57,16 @@ bool IsWorldOfOurs(const fs::path& file) {
 void SimulationBuilder::OfferThrough(services::SimulationServiceServant* service) {
   const base::MutexLock lock(mutex_);
   service_ = service;
+}
+
+void SimulationBuilder::PublishThrough(Ros2Publisher* publisher) {
+  const base::MutexLock lock(mutex_);
+  publisher_ = publisher;
+}
+
+Ros2Publisher* SimulationBuilder::publisher() {
+  const base::MutexLock lock(mutex_);
+  return publisher_;
 }
 
 std::vector<std::string> SimulationBuilder::Worlds() { return BuiltInWorlds(); }
@@ -137,7 +148,44 @@ FieldResult<std::shared_ptr<simulation::BehaviourPort>> SimulationBuilder::Behav
   return *std::move(behaviour);
 }
 
+BehaviourMaker SimulationBuilder::BehaviourChoice(const ros2::Options* published) {
+  return [this, published](const scenario::RobotEntry& robot)
+             -> FieldResult<std::shared_ptr<simulation::BehaviourPort>> {
+    if (robot.behaviour != ros2::kRos2Behaviour) return BehaviourFor(robot);
+    if (published == nullptr) {
+      return WrongField("behaviour",
+                        {base::ErrorCode::kInvalidArgument,
+                         "only robots of a simulation that is published to ROS 2 have this "
+                         "behaviour",
+                         "ros2"});
+    }
+    if (published->steps == nullptr) return nullptr;
+    return std::make_shared<ros2::NodeBehaviour>(published->steps, ros2::kClockPeriod);
+  };
+}
+
+SimulationBuilder::Ros2Support SimulationBuilder::Ros2() {
+  Ros2Publisher* const there = publisher();
+  return there == nullptr ? Ros2Support() : there->Support();
+}
+
+FieldResult<std::optional<ros2::Options>> SimulationBuilder::Ros2OptionsOf(
+    const scenario::Scenario& scenario) {
+  if (!scenario.ros2) return std::nullopt;
+  Ros2Publisher* const there = publisher();
+  if (there == nullptr) {
+    return WrongField("ros2",
+                      {base::ErrorCode::kUnavailable, "this server does not publish to ROS 2", {}});
+  }
+  auto options = there->OptionsOf(scenario);
+  if (!options) return WrongField("ros2", options.error());
+  return *std::move(options);
+}
+
 FieldResult<SimulationBuilder::Preview> SimulationBuilder::Show(const SimulationRequest& request) {
+  if (const auto ros2 = Ros2OptionsOf(request.scenario); !ros2) {
+    return tl::make_unexpected(ros2.error());
+  }
   auto world = ReadWorld(request.scenario.world);
   if (!world) return tl::make_unexpected(world.error());
   simulation::Specification specification = SpecificationOf(request.scenario);
@@ -159,12 +207,8 @@ FieldResult<SimulationBuilder::Preview> SimulationBuilder::Show(const Simulation
 
 FieldResult<std::shared_ptr<Simulation>> SimulationBuilder::Create(
     const SimulationRequest& request) {
-  if (request.scenario.ros2) {
-    return WrongField("ros2", {base::ErrorCode::kInvalidArgument,
-                               "a server publishes its simulations by its own options: start it "
-                               "with gsv serve --ros2",
-                               {}});
-  }
+  const auto ros2 = Ros2OptionsOf(request.scenario);
+  if (!ros2) return tl::make_unexpected(ros2.error());
   auto world = ReadWorld(request.scenario.world);
   if (!world) return tl::make_unexpected(world.error());
   simulation::Specification specification = SpecificationOf(request.scenario);
@@ -181,8 +225,15 @@ FieldResult<std::shared_ptr<Simulation>> SimulationBuilder::Create(
   };
   const auto population = Populate(**created, host_.library(), request.scenario, problems);
   if (!population) return give_up(population.error());
-  const auto given = GiveBehaviours(**created, population->robots, BehaviourChoice());
+  const ros2::Options* const published = *ros2 ? &**ros2 : nullptr;
+  const auto given = GiveBehaviours(**created, population->robots, BehaviourChoice(published));
   if (!given) return give_up(given.error());
+  if (published != nullptr) {
+    if (auto ok = publisher()->Publish(*created, *published); !ok) {
+      return give_up({ok.error(), "ros2"});
+    }
+    recordings_.SetRos2(*created, *request.scenario.ros2);
+  }
   if (request.record) {
     if (auto ok = recordings_.Record(*created); !ok) return give_up({ok.error(), "record"});
   }
@@ -204,7 +255,10 @@ FieldResult<std::string> SimulationBuilder::AddRobot(const std::shared_ptr<Simul
                                                      const scenario::RobotEntry& robot,
                                                      bool is_avatar) {
   base::Problems problems;
-  return AddOne(*simulation, host_.library(), robot, is_avatar, BehaviourChoice(), problems);
+  const bool is_published = Ros2().published == simulation->specification().name;
+  const ros2::Options options;  // nodes step only the robots of the scenario
+  return AddOne(*simulation, host_.library(), robot, is_avatar,
+                BehaviourChoice(is_published ? &options : nullptr), problems);
 }
 
 FieldResult<std::string> SimulationBuilder::AddObject(const std::shared_ptr<Simulation>& simulation,

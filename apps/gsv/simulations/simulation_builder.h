@@ -6,12 +6,14 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/gsv/machine/trial_reading.h"
 #include "apps/gsv/simulations/population.h"
 #include "apps/gsv/simulations/recordings.h"
+#include "apps/gsv/simulations/ros2_publisher.h"
 #include "gsv/base/mutex.h"
 #include "gsv/formats/files/resource_finder.h"
 #include "gsv/gateway/program/simulation_factory.h"
@@ -36,6 +38,8 @@ class SimulationBuilder final : public gateway::SimulationFactory {
         finder_(model_path_),
         reading_(reading) {}
 
+  // Publishes simulations whose scenario asks for it through that. Null ends this.
+  void PublishThrough(Ros2Publisher* publisher);
   // Lists simulations that are created later in that service as well. Null ends this.
   void OfferThrough(services::SimulationServiceServant* service);
 
@@ -43,6 +47,7 @@ class SimulationBuilder final : public gateway::SimulationFactory {
   std::vector<ModelLine> Models() override;
   std::vector<std::string> Objects() override;
   base::Result<Behaviours> FindBehaviours(const std::string& constraint) override;
+  Ros2Support Ros2() override;
   gateway::FieldResult<Preview> Show(const gateway::SimulationRequest& request) override;
   gateway::FieldResult<std::shared_ptr<simulation::Simulation>> Create(
       const gateway::SimulationRequest& request) override;
@@ -67,9 +72,12 @@ class SimulationBuilder final : public gateway::SimulationFactory {
   gateway::FieldResult<KnownWorld> ReadWorld(const std::string& world);
   gateway::FieldResult<std::shared_ptr<simulation::BehaviourPort>> BehaviourFor(
       const scenario::RobotEntry& robot);
-  BehaviourMaker BehaviourChoice() {
-    return [this](const scenario::RobotEntry& robot) { return BehaviourFor(robot); };
-  }
+  // Behaviours of robots in a simulation that is published to ROS 2 with these options; null: it is not published.
+  BehaviourMaker BehaviourChoice(const ros2::Options* published);
+  // The options of a scenario; empty: it is not published to ROS 2 nodes.
+  gateway::FieldResult<std::optional<ros2::Options>> Ros2OptionsOf(
+      const scenario::Scenario& scenario);
+  Ros2Publisher* publisher();
 
   services::SimulationHost& host_;
   services::BrokerBehaviours& behaviours_;
@@ -80,6 +88,7 @@ class SimulationBuilder final : public gateway::SimulationFactory {
   const TrialLimits reading_;
   base::Mutex mutex_;
   std::vector<KnownWorld> known_ GSV_GUARDED_BY(mutex_);  // the newest is last
+  Ros2Publisher* publisher_ GSV_GUARDED_BY(mutex_) = nullptr;
   services::SimulationServiceServant* service_ GSV_GUARDED_BY(mutex_) = nullptr;
 };
 

@@ -49,6 +49,8 @@ std::vector<Route> FactoryApi::Routes(const std::shared_ptr<SimulationDirectory>
       {"GET", "/api/behaviours", kWatch, false, kReaders,
        [this](const Request& request) { return Behaviours(request.target); },
        "List the behaviours that the broker offers"},
+      {"GET", "/api/ros2", kWatch, false, kReaders, [this](const Request&) { return Ros2(); },
+       "Get whether new simulations can be published to ROS 2 nodes"},
       {"POST", "/api/preview", kControl, false, kReaders,
        [this](const Request& request) { return Preview(request.body); },
        "Get the scene of a scenario at its start, without creating a simulation"},
@@ -99,6 +101,14 @@ Response FactoryApi::Behaviours(const Target& target) const {
   return JsonResponse(200, Text({{"behaviours", std::move(offers)},
                                  {"broker", found->broker},
                                  {"start_command", found->start_command}}));
+}
+
+Response FactoryApi::Ros2() const {
+  const SimulationFactory::Ros2Support support = factory_.Ros2();
+  return JsonResponse(200, Text({{"available", support.is_available},
+                                 {"reason", support.reason},
+                                 {"reach", support.reach},
+                                 {"published", support.published}}));
 }
 
 Response FactoryApi::Preview(const std::string& body) const {

@@ -28,6 +28,7 @@ class FactoryApi {
   Response Worlds() const;
   Response Models() const;
   Response Behaviours(const Target& target) const;
+  Response Ros2() const;
 
   Response Preview(const std::string& body) const;
   Response Create(const std::string& body) const;

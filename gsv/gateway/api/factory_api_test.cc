@@ -62,6 +62,14 @@ TEST_F(FactoryApiTest, ListsTheAvailableChoices) {
   Ask("POST", "/api/worlds", 405);
 }
 
+TEST_F(FactoryApiTest, ReturnsWhetherRos2IsAvailable) {
+  factory_.ros2 = {false, "built without it", "", ""};
+  EXPECT_EQ(
+      Ask("GET", "/api/ros2", 200),
+      (FactoryTestJson{
+          {"available", false}, {"reason", "built without it"}, {"reach", ""}, {"published", ""}}));
+}
+
 TEST_F(FactoryApiTest, APreviewIsASceneWithItsPosesAndInNoList) {
   const auto preview = Ask("POST", "/api/preview", 200, R"({"world": "w"})");
   EXPECT_EQ(preview["warnings"][0], "no mesh");

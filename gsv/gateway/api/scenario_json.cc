@@ -62,9 +62,9 @@ FieldResult<T> Judged(T value, const base::Problems& problems) {
 }
 
 FieldResult<void> RefuseWhatIsNotForViewers(const ScenarioJson& json) {
-  constexpr std::string_view kKnown[]{"name",    "world",      "mode", "real_time_factor",
-                                      "step",    "duration",   "seed", "robots",
-                                      "avatars", "pedestrians"};
+  constexpr std::string_view kKnown[]{"name",    "world",       "mode", "real_time_factor",
+                                      "step",    "duration",    "seed", "robots",
+                                      "avatars", "pedestrians", "ros2"};
   constexpr std::string_view kFormer = "factor";  // the deprecated name of real_time_factor
   for (const auto& [name, value] : json.items()) {
     if (name != kFormer &&

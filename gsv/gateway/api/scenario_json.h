@@ -11,7 +11,8 @@
 
 namespace gsv::gateway {
 
-// {name, world, mode: real_time|lockstep, real_time_factor, step, duration, seed, record, robots, avatars};
+// {name, world, mode: real_time|lockstep, real_time_factor, step, duration, seed, record, robots, avatars, pedestrians,
+// ros2};
 // `record` is a boolean here. Only the world is required.
 FieldResult<SimulationRequest> ParseSimulationRequest(std::string_view body);
 

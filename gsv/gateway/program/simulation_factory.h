@@ -60,6 +60,13 @@ class SimulationFactory {
     std::string broker;         // its address
     std::string start_command;  // command of a program that offers one
   };
+  // Whether simulations can be published to ROS 2 nodes, by the key `ros2` of their scenario.
+  struct Ros2Support {
+    bool is_available = false;
+    std::string reason;     // why not
+    std::string reach;      // the domain, and who can be reached there
+    std::string published;  // the simulation that is published now; empty: none
+  };
   struct Preview {
     std::shared_ptr<simulation::Simulation> simulation;  // it is not listed and never runs
     std::vector<std::string> warnings;                   // problems of the files
@@ -72,6 +79,8 @@ class SimulationFactory {
   virtual std::vector<ModelLine> Models() = 0;
   virtual std::vector<std::string> Objects() = 0;  // including models that are not robots
   virtual base::Result<Behaviours> FindBehaviours(const std::string& constraint) = 0;
+
+  virtual Ros2Support Ros2() { return {}; }
 
   // Creates a preview of the start, without behaviours.
   virtual FieldResult<Preview> Show(const SimulationRequest& request) = 0;

@@ -26,6 +26,7 @@ class FakeFactory final : public SimulationFactory {
     }
     return Behaviours{{{"wander", constraint, "here", 7, true}}, "corbaloc:", "gsv-wander"};
   }
+  Ros2Support Ros2() override { return ros2; }
   FieldResult<Preview> Show(const SimulationRequest& request) override {
     if (refusal) return tl::make_unexpected(*refusal);
     return Preview{std::make_shared<ScriptedSimulation>(request.scenario.world, 2), {"no mesh"}};
@@ -54,6 +55,7 @@ class FakeFactory final : public SimulationFactory {
     return object.model + object.copy_of;
   }
 
+  Ros2Support ros2;
   std::optional<FieldError> refusal;
   ObjectRequest asked;  // the last requested object
 

@@ -1,4 +1,6 @@
 // What there is to put a simulation together from, and doing it.
+import type { Ros2Support } from "./ros2";
+import { parseRos2Support } from "./ros2";
 import type { RobotSetUp, Scenario } from "./scenario";
 import { robotJson, scenarioJson } from "./scenario";
 import type { JsonServer } from "./JsonServer";
@@ -110,6 +112,10 @@ export class SetUpApi {
       };
     });
     return { offers, startCommand: textOr(answer.start_command, "") };
+  }
+
+  async ros2(): Promise<Ros2Support> {
+    return parseRos2Support(await this.server.get("api/ros2"));
   }
 
   // The scene as it would stand at its start.

@@ -5,6 +5,8 @@ import type { JsonObject } from "./json";
 import { listAt, numberOr, objectAt, textOr } from "./json";
 import type { PedestrianSetUp } from "./pedestrians";
 import { parsePedestrians, pedestriansJson } from "./pedestrians";
+import type { Ros2SetUp } from "./ros2";
+import { parseRos2, ros2Json } from "./ros2";
 
 export interface Placed {
   x: number;
@@ -20,6 +22,7 @@ export interface RobotSetUp {
   constraint: string; // or what an offer must fulfil; empty: a name is meant
   movement: "" | "planar" | "rigid"; // empty: as its model says
   drive: string; // KIND[,KEY=VALUE]…; empty: as its model says, else guessed from its wheels
+  namespace?: string; // of its ROS 2 topics; empty: its name
 }
 
 export type RobotList = "robots" | "avatars";
@@ -36,6 +39,7 @@ export interface Scenario {
   robots: RobotSetUp[];
   avatars: RobotSetUp[];
   pedestrians: PedestrianSetUp[];
+  ros2: Ros2SetUp | null; // null: it is not published to ROS 2 nodes
 }
 
 const FORMER_FACTOR = "factor"; // the former name of real_time_factor in scenario files
@@ -52,11 +56,12 @@ export const EMPTY_SCENARIO: Scenario = {
   robots: [],
   avatars: [],
   pedestrians: [],
+  ros2: null,
 };
 
 export function newRobot(scenario: Scenario, model: string): RobotSetUp {
   const name = freeName(scenario, model);
-  return { name, model, place: null, behaviour: "", constraint: "", movement: "", drive: "" };
+  return { name, model, place: null, behaviour: "", constraint: "", movement: "", drive: "", namespace: "" };
 }
 
 // The model's name (the last part of a path), with a number if the name is taken.
@@ -100,7 +105,7 @@ export function findRobot(scenario: Scenario, name: string): { list: RobotList; 
 
 // Omits values that equal the defaults.
 export function scenarioJson(scenario: Scenario): JsonObject {
-  const { robots, avatars, pedestrians, ...rest } = scenario;
+  const { robots, avatars, pedestrians, ros2, ...rest } = scenario;
   const json: JsonObject = {};
   for (const [key, value] of Object.entries(rest)) {
     if (key === "world" || value !== EMPTY_SCENARIO[key as keyof Scenario]) json[key] = value;
@@ -108,6 +113,7 @@ export function scenarioJson(scenario: Scenario): JsonObject {
   if (robots.length > 0) json.robots = robots.map(robotJson);
   if (avatars.length > 0) json.avatars = avatars.map(robotJson);
   if (pedestrians.length > 0) json.pedestrians = pedestrians.map(pedestriansJson);
+  if (ros2) json.ros2 = ros2Json(ros2, robots);
   return json;
 }
 
@@ -128,6 +134,7 @@ export function robotJson(robot: RobotSetUp): JsonObject {
 // does not know; they are ignored.
 export function parseScenario(value: unknown): { scenario: Scenario; left: string[] } {
   const json = objectAt(value, "the file");
+  const { ros2, robots } = parseRos2(json.ros2, parseRobots(json.robots, "robots"));
   const scenario: Scenario = {
     name: textOr(json.name, ""),
     world: textOr(json.world, ""),
@@ -137,9 +144,10 @@ export function parseScenario(value: unknown): { scenario: Scenario; left: strin
     duration: numberOr(json.duration, 0),
     seed: numberOr(json.seed, 0),
     record: json.record !== undefined && json.record !== null && json.record !== false,
-    robots: parseRobots(json.robots, "robots"),
+    robots,
     avatars: parseRobots(json.avatars, "avatars"),
     pedestrians: parsePedestrians(json.pedestrians),
+    ros2,
   };
   return { scenario, left: Object.keys(json).filter((key) => !(key in scenario) && key !== FORMER_FACTOR) };
 }
@@ -159,6 +167,7 @@ function parseRobots(value: unknown, where: RobotList): RobotSetUp[] {
       constraint: textOr(robot.behaviour_constraint, ""),
       movement: movement === "planar" || movement === "rigid" ? movement : "",
       drive: textOr(robot.drive, ""),
+      namespace: "",
     };
   });
 }

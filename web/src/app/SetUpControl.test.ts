@@ -18,6 +18,7 @@ function fakeApi() {
       { name: "avatar", isAvatar: true },
       { name: "pebble", isAvatar: false },
     ]),
+    ros2: vi.fn(async () => ({ isAvailable: true, reason: "", reach: "domain 0, this machine only", published: "" })),
     behaviours: vi.fn(async () => ({ offers: [], startCommand: "gsv-wander --broker here" })),
     preview: vi.fn(async (_scenario: unknown) => ({
       scene: scene({ bodies: [body("pebble")] }),
@@ -218,4 +219,38 @@ test("a dropped world is uploaded and shown, and other files get an error beside
   await app.setUp.drop([dropped("big.sdf", 2 ** 31)]);
   expect(field.querySelector(".field-error")!.textContent).toContain("at most 64 MiB");
   expect(api.upload).toHaveBeenCalledTimes(2);
+});
+
+function switchOn(panel: HTMLElement, label: string): void {
+  const input = control(panel, label);
+  input.checked = true;
+  input.dispatchEvent(new Event("change"));
+}
+
+test("switched on, ROS 2 has settings, and each robot a namespace", async () => {
+  const { app, panel } = await opened();
+  app.setUp.addRobot("robots", "pebble");
+  await settled(app);
+  expect(control(panel, "ROS 2 namespace").parentElement!.hidden).toBe(true);
+  switchOn(panel, "Publish to ROS 2");
+  await settled(app);
+  expect(control(panel, "ROS 2 namespace").parentElement!.hidden).toBe(false);
+  app.setUp.changeRobot("robots", 0, { namespace: "/" });
+  await app.setUp.create();
+  expect(api.create.mock.calls).toMatchObject([[{ ros2: { cmd_vel: "" }, robots: [{ namespace: "/" }] }]]);
+});
+
+test("a server without ROS 2 says why", async () => {
+  api.ros2.mockResolvedValue({ isAvailable: false, reason: "this gsv was built without ROS 2", reach: "", published: "" });
+  const { panel } = await opened();
+  await vi.waitFor(() => expect(panel.textContent).toContain("Not available: this gsv was built without ROS 2."));
+  expect(control(panel, "Publish to ROS 2").parentElement!.hidden).toBe(true);
+});
+
+test("the server's objection to ROS 2 stands beside its switch", async () => {
+  const { app, panel } = await opened();
+  api.preview.mockRejectedValue(new ApiError(400, "a namespace must begin with a slash", "ros2.namespaces.pebble"));
+  switchOn(panel, "Publish to ROS 2");
+  await settled(app);
+  expect(control(panel, "Publish to ROS 2").getAttribute("aria-invalid")).toBe("true");
 });

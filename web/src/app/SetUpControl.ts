@@ -40,7 +40,7 @@ export class SetUpControl {
     if (this.store.get().setUp) return;
     this.left = this.store.get().simulation;
     this.session.rest();
-    const none = { worlds: [], uploaded: [], models: [], behaviours: null };
+    const none = { worlds: [], uploaded: [], models: [], behaviours: null, ros2: null };
     const setUp = { ...none, scenario: EMPTY_SCENARIO, past: [], future: [], warnings: [], poses: null };
     this.store.set({ setUp: { ...setUp, wrong: null, isBusy: true, isHeld: true } });
     void this.lookForOffers();
@@ -228,10 +228,12 @@ export class SetUpControl {
   // The behaviours may change while the form is open.
   private async lookForOffers(): Promise<void> {
     clearTimeout(this.offersTimer);
-    const behaviours = await this.api.behaviours().catch(() => null);
+    const asked = [this.api.behaviours(), this.api.ros2()] as const;
+    const [behaviours, ros2] = await Promise.all([asked[0].catch(() => null), asked[1].catch(() => null)]);
     if (!this.store.get().setUp) return;
-    const known = this.store.get().setUp?.behaviours;
-    if (behaviours && JSON.stringify(behaviours) !== JSON.stringify(known)) this.patch(() => ({ behaviours }));
+    const known = this.store.get().setUp!;
+    if (behaviours && JSON.stringify(behaviours) !== JSON.stringify(known.behaviours)) this.patch(() => ({ behaviours }));
+    if (ros2 && JSON.stringify(ros2) !== JSON.stringify(known.ros2)) this.patch(() => ({ ros2 }));
     this.offersTimer = setTimeout(() => void this.lookForOffers(), OFFERS_POLL_MS);
   }
 }

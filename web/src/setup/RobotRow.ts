@@ -21,6 +21,7 @@ export class RobotRow {
   private readonly name;
   private readonly movement;
   private readonly drive;
+  private readonly namespace;
   private readonly x = this.place("x (m)", 1, 3, (value) => ({ x: value }));
   private readonly y = this.place("y (m)", 1, 3, (value) => ({ y: value }));
   private readonly yaw = this.place("Heading (°)", DEGREES, 1, (value) => ({ yaw: value }));
@@ -45,6 +46,7 @@ export class RobotRow {
     this.drive = textField("Drive", "as its model says, else guessed: diff, skid,radius=0.16, …", (drive) =>
       this.change({ drive }),
     );
+    this.namespace = textField("ROS 2 namespace", "/NAME of the robot; / for none", (namespace) => this.change({ namespace }));
     this.fields = new Map<string, Field<never>>([
       ["name", this.name],
       ["model", this.model],
@@ -72,6 +74,8 @@ export class RobotRow {
     this.behaviour.show(robot.constraint || robot.behaviour);
     this.movement.show(robot.movement);
     this.drive.show(robot.drive);
+    this.namespace.show(robot.namespace ?? "");
+    this.namespace.element.hidden = this.list === "avatars" || setUp.scenario.ros2 === null;
     this.x.show(robot.place?.x ?? null);
     this.y.show(robot.place?.y ?? null);
     this.yaw.show(robot.place ? robot.place.yaw * DEGREES : null);
@@ -128,7 +132,7 @@ export class RobotRow {
       this.wrong,
       element("div", { class: "field-pair" }, this.name.element, this.model.element),
       element("div", { class: "field-pair" }, this.behaviour.element, this.movement.element),
-      element("div", { class: "field-pair" }, this.drive.element),
+      element("div", { class: "field-pair" }, this.drive.element, this.namespace.element),
       element("div", { class: "field-pair" }, this.x.element, this.y.element, this.yaw.element),
     );
   }

@@ -10,6 +10,7 @@ import { checkField, choiceField, choiceOrText, numberField, textField } from ".
 import { chosenFiles, droppedFiles } from "../upload/dropped";
 import { PedestrianRow } from "./PedestrianRow";
 import { RobotRow } from "./RobotRow";
+import { createRos2Part } from "./Ros2Part";
 
 const BY_PATH = { choice: "A file or folder…", placeholder: "path/to/world.sdf" };
 
@@ -18,6 +19,7 @@ export function createSetUpPanel(app: App): HTMLElement {
   const parameters = parameterFields(app);
   const lists = { robots: createList(app, "robots"), avatars: createList(app, "avatars") };
   const pedestrians = createPedestrianList(app);
+  const ros2 = createRos2Part(app);
   const hint = element("p", { class: "hint" });
   const offers = element("div", { class: "hint offers-hint" });
   const warnings = element("ul", { class: "warnings", "aria-label": "Problems in the files" });
@@ -35,6 +37,7 @@ export function createSetUpPanel(app: App): HTMLElement {
     element("div", { class: "set-up-part" }, element("h2", {}, "Robots"), lists.robots.element, adder(app), hint, offers),
     element("div", { class: "set-up-part avatars-part" }, element("h2", {}, "Avatars"), lists.avatars.element),
     element("div", { class: "set-up-part avatars-part" }, element("h2", {}, "Pedestrians"), pedestrians.element),
+    ros2.element,
     element(
       "details",
       { class: "set-up-part" },
@@ -61,6 +64,7 @@ export function createSetUpPanel(app: App): HTMLElement {
       lists.robots.show(setUp);
       lists.avatars.show(setUp);
       pedestrians.show(setUp);
+      ros2.show(setUp);
       showWrong(setUp);
       setText(hint, hintFor(scenario));
       showOffers(offers, setUp);
@@ -85,8 +89,10 @@ export function createSetUpPanel(app: App): HTMLElement {
       lists[list].refuse(robot?.list === list ? robot : null, sentence);
     }
     pedestrians.refuse(group, sentence);
+    const isOfRos2 = field.startsWith("ros2");
+    ros2.refuse(isOfRos2 ? sentence : "");
     if (parameters.has(field as keyof Scenario)) panel.querySelector("details")!.open = true;
-    const hasPlace = field === "world" || robot !== null || group !== null || parameters.has(field as keyof Scenario);
+    const hasPlace = isOfRos2 || field === "world" || robot !== null || group !== null || parameters.has(field as keyof Scenario);
     setText(wrong, hasPlace ? "" : sentence);
     wrong.hidden = hasPlace || sentence === "";
   }

@@ -1,5 +1,6 @@
 // The state of a set-up: the present scenario, its former versions, and its problems.
 import type { Behaviours, ModelChoice } from "../api/SetUpApi";
+import type { Ros2Support } from "../api/ros2";
 import type { RobotList, Scenario } from "../api/scenario";
 
 export interface Wrong {
@@ -11,6 +12,7 @@ export interface Choices {
   worlds: string[];
   models: ModelChoice[];
   behaviours: Behaviours | null; // null: not known yet
+  ros2: Ros2Support | null; // null: not known yet
 }
 
 // A world from the user's machine.

@@ -1,0 +1,97 @@
+// The switch "Publish to ROS 2" of the form: what the page creates is seen by `gsv ros2 topics`, a process of its own.
+import assert from "node:assert/strict";
+import { execFile } from "node:child_process";
+import fs from "node:fs";
+import path from "node:path";
+import process from "node:process";
+import { after, before, test } from "node:test";
+import { promisify } from "node:util";
+import { openBrowser, openPage } from "./browser.mjs";
+import { program, startServe } from "./server.mjs";
+import { phaseIs, settled } from "./viewing.mjs";
+
+const run = promisify(execFile);
+const hasRos2 = fs.existsSync(path.join(path.dirname(program()), "..", "lib", "gsv", "gsv-ros2.so"));
+process.env.ROS_DOMAIN_ID = String(140 + (process.pid % 40)); // apart from others on this machine
+
+let server;
+let browser;
+let page;
+let faults;
+
+before(async () => {
+  server = await startServe([]);
+  browser = await openBrowser({ width: 1200, height: 780 });
+  ({ page, faults } = await openPage(browser, server.url));
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+const press = (name) => page.getByRole("button", { name, exact: true }).click();
+const field = (label) => page.getByLabel(label, { exact: true });
+
+async function answered() {
+  await page.locator('.set-up[aria-busy="false"]').waitFor();
+  await settled(page);
+}
+
+async function topics() {
+  const { stdout } = await run(program(), ["ros2", "topics", "--seconds", "3"]);
+  return stdout;
+}
+
+test("a gsv without the plug-in says why there is no switch", { skip: hasRos2 && "ROS 2 is built" }, async () => {
+  await press("Create a simulation");
+  await page.getByText("Not available: this gsv was built without ROS 2").waitFor();
+});
+
+test("until it is switched on there is nothing of DDS", { skip: !hasRos2 && "built without ROS 2" }, async () => {
+  assert.doesNotMatch(await topics(), /\/clock/);
+});
+
+test("a simulation is published in the chosen namespace", { skip: !hasRos2 && "built without ROS 2" }, async () => {
+  await press("Create a simulation");
+  await answered();
+  await field("Publish to ROS 2").check();
+  await field("Model to add").selectOption("pebble");
+  await press("Add robot");
+  await answered();
+  await field("ROS 2 namespace").fill("fleet");
+  await page.keyboard.press("Tab");
+  await page.locator(".field-error").filter({ hasText: "must begin with a slash" }).waitFor();
+  await field("ROS 2 namespace").fill("/fleet/one");
+  await page.keyboard.press("Tab");
+  await answered();
+  await press("Create");
+  await phaseIs(page, "created");
+  await press("Start");
+  await phaseIs(page, "running");
+  const seen = await topics();
+  for (const topic of ["/clock", "/tf", "/fleet/one/odom", "/fleet/one/cmd_vel"]) {
+    assert.ok(seen.split(/\s+/).includes(topic), `${topic} is not among:\n${seen}`);
+  }
+});
+
+test("while one is published, another one is refused", { skip: !hasRos2 && "built without ROS 2" }, async () => {
+  const answer = await fetch(new URL("api/simulations", server.url), {
+    method: "POST",
+    headers: { "content-type": "application/json" },
+    body: JSON.stringify({ world: "office", ros2: true }),
+  });
+  const refused = await answer.json();
+  assert.equal(refused.field, "ros2");
+  assert.match(refused.error, /is published, and ROS 2 has one clock in a domain\. Remove it first/);
+  const { published, reach } = await (await fetch(new URL("api/ros2", server.url))).json();
+  assert.notEqual(published, "");
+  assert.match(reach, /^domain 1\d\d, this machine only$/);
+});
+
+test("nothing else was wrong in the page", () => {
+  assert.deepEqual(
+    faults.filter((fault) => !/status of 4(00|22)/.test(fault)), // refusals, which the browser logs
+    [],
+  );
+});
