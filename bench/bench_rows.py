@@ -35,6 +35,7 @@ class Row:
     is_more_better: bool
     run: Callable[[], Measured]
     beside: str = ""  # the operation that the other value is of
+    is_default: bool = True  # otherwise it runs only if --rows names it
 
 
 def timed(command, cwd=None):
@@ -74,18 +75,25 @@ class Benches:
                          self.seconds(20))[-1]["rows"][0]
         return Measured(row["real_time_factor"], hash=row["state_hash"])
 
-    @functools.cached_property
-    def handover(self):
-        """A program that prints the nanoseconds of a futex from one process to another and back."""
-        compiler = os.environ.get("CXX") or shutil.which("c++")
-        program = self.folder / "handover"
-        subprocess.run([compiler, "-O2", "-std=c++20", HERE / "handover.cc", "-o", program], check=True)
+    def compiled(self, name, *libraries):
+        """The program of bench/NAME.cc."""
+        program = self.folder / name
+        if not program.exists():
+            compiler = os.environ.get("CXX") or shutil.which("c++")
+            subprocess.run([compiler, "-O2", "-std=c++20", "-w", HERE / f"{name}.cc", "-o", program, *libraries],
+                           check=True)
         return program
+
+    def bare(self, operation):
+        """What the machine does of an operation without GSV, see bench/bare.cc."""
+        program = self.compiled("bare", "-lembree3", "-pthread")
+        return float(subprocess.run([program, operation], check=True, stdout=subprocess.PIPE, text=True).stdout)
 
     def lockstep(self, index, calls):
         """Beside the real-time factor: that of a futex for each call, 20 cycles a second of 5 robots."""
         row = self.bench("lockstep", "--robots", "5", "--duration", self.seconds(60))[-1]["rows"][index]
-        bare = float(subprocess.run([self.handover], check=True, stdout=subprocess.PIPE, text=True).stdout)
+        handover = self.compiled("handover")
+        bare = float(subprocess.run([handover], check=True, stdout=subprocess.PIPE, text=True).stdout)
         return Measured(row["real_time_factor"], 1e9 / (bare * 20 * 5 * calls), row["state_hash"])
 
     def typical(self, robots):
@@ -93,25 +101,28 @@ class Benches:
                          self.seconds(30))[-1]["rows"][0]
         return Measured(row["real_time_factor"])
 
-    def images(self, size):
-        return Measured(self.bench("camera", "--cameras", "64", "--size", size, "--duration",
-                                   self.seconds(10))[-1]["pictures_per_s"])
+    def images(self, size, pixels):
+        """Beside: images of that size that two threads fill with one colour and one depth."""
+        images = self.bench("camera", "--cameras", "64", "--size", size, "--duration", self.seconds(10))
+        return Measured(images[-1]["pictures_per_s"], self.bare("fill") * 320 * 240 / pixels)
 
     def lidar(self):
-        return Measured(self.bench("lidar", "--duration", self.seconds(10))[-1]["rays_per_s"] / 1e6)
+        rays = self.bench("lidar", "--duration", self.seconds(10))[-1]["rays_per_s"] / 1e6
+        return Measured(rays, self.bare("rays"))
 
     def short_run(self):
         command = [self.gsv, "run", self.folder / "s.yaml", "--lockstep", "--headless"]
         return Measured(median_of(5, command, 1))
 
-    def campaign(self):
+    def campaign(self, which, runs_of_row):
+        """Processor (0) or wall (1) seconds of so many runs, from those of some of them."""
         runs = 20 if self.is_quick else 300
         (self.folder / "c.yaml").write_text(
             json.dumps({"scenario": "s.yaml", "parameters": {"seed": {"from": 1, "to": runs}}}))
         for file in self.folder.glob("c.sqlite*"):
             file.unlink()
-        cpu, _ = timed([self.gsv, "campaign", "run", "c.yaml", "--json", "--jobs", "2"], self.folder)
-        return Measured(cpu / runs)
+        times = timed([self.gsv, "campaign", "run", "c.yaml", "--json", "--jobs", "2"], self.folder)
+        return Measured(times[which] * runs_of_row / runs)
 
     def start(self, *arguments):
         return Measured(median_of(9, [self.gsv, *arguments], 0), median_of(9, ["/bin/true"], 0))
@@ -121,7 +132,8 @@ class Benches:
         if figure not in self.broker_figures:
             offers = "5000" if self.is_quick else "100000"
             self.broker_figures = self.bench("broker", "--offers", offers)[-1]
-        return Measured(self.broker_figures.pop(figure))
+        bare = self.bare("columns") if figure == "query_scan_p50_ms" else None
+        return Measured(self.broker_figures.pop(figure), bare)
 
     def recording(self):
         """The share of its speed that a run keeps while it records all topics but images."""
@@ -140,6 +152,25 @@ class Benches:
         command = [self.gsv, "run", "--headless", "--lockstep", "--duration", "0.01"]
         return Measured(median_of(3, [*command, world], 0), median_of(3, [*command, self.folder / "empty.sdf"], 0))
 
+    def house(self):
+        """The world of ROBOTIS's turtlebot3_gazebo, which is no part of GSV."""
+        folder = os.environ.get("GSV_REAL_DIR", "/usr/share/gsv-real")
+        world = Path(folder, "turtlebot3/worlds/turtlebot3_house.world")
+        assert world.exists(), f"no {world}; GSV_REAL_DIR names the folder"
+        return self.load(world)
+
+    def build(self):
+        """Wall seconds from an empty build folder to what `make run` starts, without a compiler cache."""
+        source, build = HERE.parent, self.folder / "build"
+        environment = {**os.environ, "CCACHE_DISABLE": "1"}
+        start = time.monotonic()
+        for command in (["cmake", "-S", source, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release"],
+                        ["cmake", "--build", build, "--target", "programs", "--target", "docs"]):
+            subprocess.run(command, check=True, env=environment, stdout=subprocess.DEVNULL)
+        seconds = time.monotonic() - start
+        shutil.rmtree(build)
+        return Measured(seconds / 60)
+
 
 def rows(gsv, folder, is_quick):
     b = Benches(gsv, folder, is_quick)
@@ -151,19 +182,24 @@ def rows(gsv, folder, is_quick):
         Row("start: gsv --version", "s of processor time", 0.01, False, lambda: b.start("--version"), "/bin/true"),
         Row("start: gsv run, empty world", "s of processor time", 0.08, False, lambda: b.start(*empty), "/bin/true"),
         Row("short scenario: gsv run", "s", 0.2, False, b.short_run),
-        Row("short scenario: in a campaign", "s of processor time", 0.03, False, b.campaign),
+        Row("short scenario: in a campaign", "s of processor time", 0.03, False, lambda: b.campaign(0, 1)),
+        Row("campaign of 10,000 runs", "s", 250, False, lambda: b.campaign(1, 10_000)),
         *crowds,
         Row("lockstep 5, separate calls", "× real time", 250, True, lambda: b.lockstep(0, 10), "ten futexes a cycle"),
         Row("lockstep 5, exchange", "× real time", 900, True, lambda: b.lockstep(1, 1), "a futex a cycle"),
         Row("typical 800, exchange", "× real time", 0.99, True, lambda: b.typical(800)),
         Row("typical 1000, exchange", "× real time", 0.99, True, lambda: b.typical(1000)),
-        Row("images 64 × 320×240", "a second", 900, True, lambda: b.images("320x240")),
-        Row("images 64 × 640×480", "a second", 300, True, lambda: b.images("640x480")),
-        Row("lidar, 360 rays of 10 m", "million rays a second", 35, True, b.lidar),
-        Row("broker: scan, p50", "ms", 2, False, lambda: b.broker("query_scan_p50_ms")),
+        Row("typical 2000, exchange", "× real time", 0.99, True, lambda: b.typical(2000)),
+        Row("images 64 × 320×240", "a second", 900, True, lambda: b.images("320x240", 320 * 240), "filled"),
+        Row("images 64 × 640×480", "a second", 300, True, lambda: b.images("640x480", 640 * 480), "filled"),
+        Row("lidar, 360 rays of 10 m", "million rays a second", 35, True, b.lidar, "Embree"),
+        Row("broker: scan, p50", "ms", 2, False, lambda: b.broker("query_scan_p50_ms"), "a pass over columns"),
         Row("broker: bytes an offer", "bytes", 400, False, lambda: b.broker("bytes_per_offer")),
         Row("broker: durable exports", "a second", 15000, True, lambda: b.broker("exports_durable_per_s")),
         Row("recording 100, all but images", "of the speed without", 0.5, True, b.recording),
         Row("read a world of 1,000 models", "s of processor time", 1, False,
             lambda: b.load(folder / "models.sdf"), "an empty world"),
+        Row("read the TurtleBot3 house", "s of processor time", 0.25, False, b.house, "an empty world",
+            is_default="GSV_REAL_DIR" in os.environ),
+        Row("build for make run", "min", 4, False, b.build, is_default=False),
     ]
