@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import fs from "node:fs";
+import os from "node:os";
 import path from "node:path";
 import process from "node:process";
 import { after, before, test } from "node:test";
@@ -14,13 +15,15 @@ const run = promisify(execFile);
 const hasRos2 = fs.existsSync(path.join(path.dirname(program()), "..", "lib", "gsv", "gsv-ros2.so"));
 process.env.ROS_DOMAIN_ID = String(140 + (process.pid % 40)); // apart from others on this machine
 
+let folder;
 let server;
 let browser;
 let page;
 let faults;
 
 before(async () => {
-  server = await startServe([]);
+  folder = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-ros2-"));
+  server = await startServe(["--recordings", folder]);
   browser = await openBrowser({ width: 1200, height: 780 });
   ({ page, faults } = await openPage(browser, server.url));
 });
@@ -28,6 +31,7 @@ before(async () => {
 after(async () => {
   await browser?.close();
   await server?.stop();
+  if (folder) fs.rmSync(folder, { recursive: true, force: true });
 });
 
 const press = (name) => page.getByRole("button", { name, exact: true }).click();
@@ -65,6 +69,9 @@ test("a simulation is published in the chosen namespace", { skip: !hasRos2 && "b
   await field("ROS 2 namespace").fill("/fleet/one");
   await page.keyboard.press("Tab");
   await answered();
+  await page.getByText("Parameters", { exact: true }).click();
+  await field("Record from the start").check();
+  await answered();
   await press("Create");
   await phaseIs(page, "created");
   await press("Start");
@@ -87,6 +94,14 @@ test("while one is published, another one is refused", { skip: !hasRos2 && "buil
   const { published, reach } = await (await fetch(new URL("api/ros2", server.url))).json();
   assert.notEqual(published, "");
   assert.match(reach, /^domain 1\d\d, this machine only$/);
+});
+
+test("its recording has the key in its scenario", { skip: !hasRos2 && "built without ROS 2" }, async () => {
+  const { published } = await (await fetch(new URL("api/ros2", server.url))).json();
+  const recording = new URL(`api/simulations/${encodeURIComponent(published)}`, server.url);
+  await fetch(recording, { method: "DELETE" });
+  const [file] = fs.readdirSync(folder).filter((name) => name.endsWith(".mcap"));
+  assert.match(fs.readFileSync(path.join(folder, file), "latin1"), /\nros2: \{namespaces: \{pebble: \/fleet\/one\}\}/);
 });
 
 test("nothing else was wrong in the page", () => {

@@ -10,7 +10,7 @@
 //   ros2_peer step --seconds S [--speed V] ROBOT answers each /clock with a TwistStamped of its time, until S seconds of
 //                                                simulated time are over
 //   ros2_peer disturb ROBOT                      publishes bad commands: another type on cmd_vel, NaN and
-//                                                infinities, and 10,000 commands from a second publisher
+//                                                infinities, and 20,000 commands from a second publisher, 10,000 a second
 //   ros2_peer call                               calls the services in the lines of its standard input (ros2_calls.h)
 //   ros2_peer call-many ENTITY                   calls get_entity_state --count times, --window at a time
 //   ros2_peer malformed ROBOT                    sends samples that are cut, and ones with huge counts, to its commands
@@ -312,7 +312,7 @@ int Latency(const Arguments& arguments) {
 int Disturb(const Arguments& arguments) {
   if (arguments.words.size() != 1) Die("disturb needs one robot, such as /pebble");
   const std::string topic = arguments.words.front() + "/cmd_vel";
-  constexpr int kRounds = 100, kCommandsEach = 100;
+  constexpr int kRounds = 100, kCommandsEach = 200;  // 10,000 a second
   Participant participant(arguments);
   const dds_entity_t odometry =
       participant.Reader(TypeNamed("nav_msgs/msg/Odometry"), arguments.words.front() + "/odom");
