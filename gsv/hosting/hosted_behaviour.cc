@@ -90,7 +90,7 @@ void HostedBehaviour::Control(simulation::Turn& turn) {
   if (!next_) {
     next_ = turn.now() + controller_->period();
   } else {
-    robot_->ReadOpenSensors(readings_);
+    robot_->ReadOpenSensors(readings_, /*are_named=*/true);
     const auto status = Guarded("Control", [&]() GSV_REQUIRES(mutex_) -> base::Status {
       if (robot_->IsRunning()) command = controller_->Control(readings_);
       return {};

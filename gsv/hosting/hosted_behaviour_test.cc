@@ -250,6 +250,84 @@ class Slow final : public sensing::Sensor {
   bool TakesLong() const override { return true; }
 };
 
+// Turns on the spot and opens five sonars, which are read together. Calls `look` in each cycle.
+class Sweeper final : public Controller {
+ public:
+  static constexpr int kSonars = 5;
+  using Ranges = std::vector<double>;
+  using Look = std::function<void(const Ranges& swept, const Ranges& alone)>;
+
+  explicit Sweeper(Look look) : Controller(50ms), look_(std::move(look)) {}
+  base::Status Init(gsv::Robot& robot) override {
+    robot_ = &robot;
+    for (int i = 0; i < kSonars; ++i) {
+      auto sonar =
+          robot.CreateSonar("s" + std::to_string(i), {0.1 * i, 0, 0.2, 0, 0, 1.2 * i}, 0.05, 4);
+      if (!sonar) return base::Fail(sonar.error());
+      sonars_.push_back(*std::move(sonar));
+    }
+    return {};
+  }
+  DriveCommand Control(const std::vector<Reading>& readings) override {
+    Ranges swept, alone;
+    for (int i = 0; i < kSonars; ++i) {
+      EXPECT_EQ(readings.at(i).sensor, "s" + std::to_string(i));
+      if (i > 0) EXPECT_EQ(readings.at(i).time, robot_->Now());  // one test silences the first
+      swept.push_back(readings.at(i).values.at(0));
+      alone.push_back(sonars_[i]->Range());
+    }
+    look_(swept, alone);
+    return {0, 0.5};
+  }
+
+ private:
+  const Look look_;
+  gsv::Robot* robot_ = nullptr;
+  std::vector<std::unique_ptr<Sonar>> sonars_;
+};
+
+TEST(HostedBehaviour, ReadsManySonarsAsOneAfterTheOther) {
+  auto simulation = simulation::Make(Lockstep(1s));
+  int cycles = 0, echoes = 0;
+  const auto look = [&](const Sweeper::Ranges& swept, const Sweeper::Ranges& alone) {
+    EXPECT_EQ(swept, alone);
+    for (const double range : swept) echoes += range < 4;
+    // A viewer reads the same; from then on the behaviour shares its samples.
+    if (++cycles == 5) EXPECT_EQ(simulation->Watch("robot", "s2")->values.at(0), swept[2]);
+  };
+  ASSERT_TRUE(simulation->AddRobot(
+      simulation::Robot("robot", 0, 0, std::make_shared<HostedBehaviour>("sweeper", [look] {
+                          return std::make_unique<Sweeper>(look);
+                        }))));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  EXPECT_GT(cycles, 15);
+  EXPECT_GT(echoes, 10);
+  const auto expected = static_cast<std::uint64_t>(2 * Sweeper::kSonars * cycles);
+  EXPECT_EQ(StatusOf(*simulation, "robot").readings["sonar"], expected);
+}
+
+TEST(HostedBehaviour, ASilentSonarAmongManyKeepsItsRange) {
+  auto specification = Lockstep(1s);
+  scenario::Fault fault;
+  fault.kind = scenario::Fault::Kind::kSensorSilent;
+  fault.at = 0.49, fault.body = "robot", fault.part = "s0";
+  specification.faults.push_back(fault);
+  auto simulation = simulation::Make(specification);
+  std::vector<double> silent, working;
+  const auto look = [&](const Sweeper::Ranges& swept, const Sweeper::Ranges&) {
+    silent.push_back(swept[0]);
+    working.push_back(swept[1]);
+  };
+  ASSERT_TRUE(simulation->AddRobot(
+      simulation::Robot("robot", 0, 0, std::make_shared<HostedBehaviour>("sweeper", [look] {
+                          return std::make_unique<Sweeper>(look);
+                        }))));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  ASSERT_GT(silent.size(), 15u);
+  EXPECT_NE(silent[2], silent[6]);  // before the fault
+  for (std::size_t i = 11; i < silent.size(); ++i) EXPECT_EQ(silent[i], silent[10]);
+}
+
 TEST(HostedBehaviour, ASlowSensorIsReadAtTheInstantOfTheRequest) {
   auto sensors = std::make_shared<sensing::SensorRegistry>();
   sensing::AddBuiltInSensors(*sensors);

@@ -27,6 +27,16 @@ SensorTraits TraitsOf(const model::SensorDescription& description,
           description.parameters};
 }
 
+// Fewer beams are cast one by one.
+constexpr std::size_t kMinSweep = 3;
+
+void CopyValue(double value, SimTime time, Reading& to) {
+  to.time = time;
+  if (to.values.size() != 1) to.values.resize(1);
+  to.values.front() = value;
+  if (!to.labels.empty()) to.labels.clear();
+}
+
 void Copy(const MountedSensor& sensor, const sensing::Reading& from, Reading& to) {
   if (to.sensor != sensor.name()) to.sensor = sensor.name();
   to.time = from.time;
@@ -86,7 +96,34 @@ void LocalRobot::Note(const base::Error& error) {
 
 void LocalRobot::SetTurn(simulation::Turn* turn) {
   turn_ = turn;
+  has_swept_ = false;
   if (turn_ != nullptr) turn_->ExpectRays(ray_sensors_);
+}
+
+void LocalRobot::PlanSweeps() {
+  beams_ = {};
+  beam_of_.assign(open_.size(), kNoBeam);
+  sweeps_ = std::make_shared<simulation::Sweeps>();
+  named_ = 0;
+  for (std::size_t i = 0; i < open_.size(); ++i) {
+    const simulation::SensorDesign& design = open_[i]->design();
+    if (design.sensor == nullptr || design.sensor->beam() == nullptr) continue;
+    if (design.cadence != simulation::Cadence{}) continue;
+    beam_of_[i] = beams_.size();
+    beams_.Add(*design.sensor);
+  }
+  values_.resize(beams_.size());
+  for (std::size_t i = 0; i < open_.size(); ++i) {
+    if (beam_of_[i] != kNoBeam) open_[i]->Join(sweeps_);
+  }
+}
+
+bool LocalRobot::HasSwept() {
+  if (has_swept_) return true;
+  if (turn_ == nullptr || beams_.size() < kMinSweep) return false;
+  if (!sweeps_->is_allowed.load(std::memory_order_relaxed)) return false;
+  turn_->ReadBeams(beams_, values_);
+  return has_swept_ = true;
 }
 
 std::optional<sensing::Reading> LocalRobot::Read(MountedSensor& sensor) {
@@ -132,9 +169,27 @@ bool LocalRobot::HasOnlyFastSensors() const {
                       [](const SensorPtr& sensor) { return sensor->takes_long(); });
 }
 
-void LocalRobot::ReadOpenSensors(std::vector<Reading>& readings) {
-  readings.resize(open_.size());
+void LocalRobot::SweepInto(std::vector<Reading>& readings, bool are_named) {
+  // Only this thread writes the count.
+  auto& count = sweeps_->count;
+  count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  const SimTime time = turn_->snapshot_time();
   for (std::size_t i = 0; i < open_.size(); ++i) {
+    if (beam_of_[i] == kNoBeam) continue;
+    if (!are_named && readings[i].sensor != open_[i]->name()) readings[i].sensor = open_[i]->name();
+    CopyValue(values_[beam_of_[i]], time, readings[i]);
+  }
+}
+
+void LocalRobot::ReadOpenSensors(std::vector<Reading>& readings, bool are_named) {
+  readings.resize(open_.size());
+  if (!is_running_) return;
+  const bool has_swept = HasSwept();
+  if (has_swept) SweepInto(readings, are_named && named_ == open_.size());
+  named_ = open_.size();
+  if (has_swept && beams_.size() == open_.size()) return;
+  for (std::size_t i = 0; i < open_.size(); ++i) {
+    if (has_swept && beam_of_[i] != kNoBeam) continue;
     const auto reading = Read(*open_[i]);
     if (!reading) return;
     Copy(*open_[i], *reading, readings[i]);
@@ -158,6 +213,7 @@ base::Result<std::unique_ptr<SensorPort>> LocalRobot::Enter(const std::string& s
   if (place == open_.end() || (*place)->name() != sensor) {
     open_.insert(place, *mounted);
     if ((*mounted)->casts_rays()) ++ray_sensors_;
+    PlanSweeps();
   }
   const model::SensorDescription& description = (*mounted)->design().description;
   SensorTraits traits = TraitsOf(description, agent_->RobotFromLink(description.link));

@@ -33,7 +33,8 @@ class LocalRobot final : public Robot {
 
   // Whether all open sensors answer at once, and the readings of an exchange, by name.
   bool HasOnlyFastSensors() const;
-  void ReadOpenSensors(std::vector<Reading>& readings);
+  // `are_named`: the readings are those of the last call, and nobody has changed them.
+  void ReadOpenSensors(std::vector<Reading>& readings, bool are_named = false);
 
   // Implementation of Robot.
   const std::string& name() const override { return agent_->robot(); }
@@ -76,8 +77,22 @@ class LocalRobot final : public Robot {
   const std::shared_ptr<simulation::Agent> agent_;
   simulation::Turn* turn_ = nullptr;
   Suspend suspend_;
+  // Casts the beams of this turn, at the first call, if they may be cast together.
+  bool HasSwept();
+  void PlanSweeps();
+  void SweepInto(std::vector<Reading>& readings, bool are_named);
+
   std::vector<SensorPtr> open_;  // ordered by name
   std::size_t ray_sensors_ = 0;  // how many of them cast rays
+
+  // The beams of open sensors, to be cast together.
+  static constexpr std::size_t kNoBeam = static_cast<std::size_t>(-1);
+  sensing::BeamSet beams_;
+  std::vector<std::size_t> beam_of_;  // the number in beams_ of each open sensor, or kNoBeam
+  std::vector<double> values_;        // those of the beams in this turn
+  std::shared_ptr<simulation::Sweeps> sweeps_;
+  bool has_swept_ = false;  // in this turn
+  std::size_t named_ = 0;   // sensors whose names the readings have, if nobody has changed them
   std::atomic<bool> is_running_{true};
   std::string error_;
 };

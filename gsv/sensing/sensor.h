@@ -4,6 +4,7 @@
 // Determinism  Sample() is a function of the sampling's snapshot, robot and seed alone.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -100,6 +101,15 @@ struct Frustum {
   double aspect_ratio = 1;
 };
 
+// The ray of a sensor that reads one distance: along the x axis of its frame.
+struct Beam {
+  double min = 0, max = 0;  // m
+
+  // The value of the reading for the distance to the nearest surface within `max`, which is infinite
+  // if there is none.
+  double ValueOf(double echo) const { return echo >= min ? std::min(echo, max) : max; }
+};
+
 class Sensor {
  public:
   explicit Sensor(model::SensorDescription description) : description_(std::move(description)) {}
@@ -117,6 +127,10 @@ class Sensor {
 
   // Whether Sample() casts rays. Callers that sample many sensors then prepare the ray scene first.
   virtual bool CastsRays() const { return false; }
+
+  // The beam, if Sample() returns nothing but the value of one beam. Null for other sensors, also for
+  // those with noise.
+  virtual const Beam* beam() const { return nullptr; }
 
   using Bytes = std::vector<std::uint8_t>;
   // Encodes a reading as the type's message, in CDR; `frame_id` is the sensor's frame. Empty for a

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "gsv/base/thread_team.h"
+#include "gsv/sensing/beam_set.h"
 #include "gsv/sensing/devices/built_in.h"
 #include "gsv/sensing/registry.h"
 #include "gsv/sensing/testing/test_rays.h"
@@ -102,6 +103,48 @@ class SamplingTest : public ::testing::Test {
     sensors_.push_back(*registry.Find(type)->create(SensorOf(type, angle)));
   }
 };
+
+TEST_F(SamplingTest, BeamsHaveTheValuesThatTheirSensorsRead) {
+  BeamSet beams;
+  std::vector<const Sensor*> with_beam;
+  for (int times = 0; times < 2; ++times) {  // more beams than a packet
+    for (const auto& sensor : sensors_) {
+      if (sensor->beam() == nullptr) continue;
+      beams.Add(*sensor);
+      with_beam.push_back(sensor.get());
+    }
+  }
+  ASSERT_EQ(with_beam.size(), 16u);
+  for (const double room : {10.0, 0.5}) {
+    const auto snapshot = MakeCrowd(120, room);
+    RaySceneCache rays;
+    int echoes = 0;
+    for (const int robot : Robots(*snapshot)) {
+      const Sampling sampling(snapshot, robot, 7, rays);
+      std::vector<double> values(beams.size());
+      beams.Sample(sampling, values);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        ASSERT_EQ(values[i], with_beam[i]->Sample(sampling)->values.at(0)) << robot << " " << i;
+        echoes += values[i] < kReach;
+      }
+    }
+    EXPECT_GT(echoes, 300);
+  }
+}
+
+TEST_F(SamplingTest, OnlySonarsWithoutNoiseAndConeHaveABeam) {
+  SensorRegistry registry;
+  AddBuiltInSensors(registry);
+  const auto has_beam = [&](const model::SensorDescription& description) {
+    return (*registry.Find("sonar")->create(description))->beam() != nullptr;
+  };
+  model::SensorDescription sonar = SensorOf("sonar", 0);
+  EXPECT_TRUE(has_beam(sonar));
+  sonar.parameters = {{"noise.stddev", 0.01}};
+  EXPECT_FALSE(has_beam(sonar));
+  sonar.parameters = {{"beam", "cone"}};
+  EXPECT_FALSE(has_beam(sonar));
+}
 
 TEST_F(SamplingTest, EqualsSequentialSamplingForAnyNumberOfThreads) {
   // once with much space, and once with too many bodies for a candidate set

@@ -51,6 +51,7 @@ class Sonar final : public SensorOf<readings::Sonar, messages::sensor_msgs::Rang
   Sonar(const model::SensorDescription& description, ParameterReader& reader)
       : SensorOf(description), settings_(ReadSonarSettings(reader)) {
     if (settings_.sound && reader.status()) cone_.emplace(*settings_.sound);
+    if (!settings_.sound && settings_.noise.is_none()) beam_ = {settings_.min, settings_.max};
   }
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {
@@ -60,11 +61,12 @@ class Sonar final : public SensorOf<readings::Sonar, messages::sensor_msgs::Rang
       echo = NoisyReading(sampling, description()).Read(settings_.noise, 0, echo);
     }
     base::Result<Reading> reading = sampling.Stamped();
-    Fill(Values{echo >= settings_.min ? std::min(echo, settings_.max) : settings_.max}, *reading);
+    Fill(Values{Beam{settings_.min, settings_.max}.ValueOf(echo)}, *reading);
     return reading;
   }
 
   bool CastsRays() const override { return true; }
+  const Beam* beam() const override { return beam_ ? &*beam_ : nullptr; }
 
  private:
   double Echo(const Sampling& sampling, const geometry::Pose& world_from_sonar) const {
@@ -118,6 +120,7 @@ class Sonar final : public SensorOf<readings::Sonar, messages::sensor_msgs::Rang
 
   const SonarSettings settings_;
   std::optional<SoundCone> cone_;
+  std::optional<Beam> beam_;  // the sonar reads nothing but this
   // Caches, for the last robot's model, the indices of the sonars that fire at the same time.
   mutable base::Mutex mutex_;
   mutable std::shared_ptr<const model::Model> others_of_ GSV_GUARDED_BY(mutex_);

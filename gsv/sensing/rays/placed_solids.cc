@@ -1,6 +1,8 @@
 #include "gsv/sensing/rays/placed_solids.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <utility>
 
 #include "gsv/base/check.h"
@@ -275,6 +277,43 @@ bool PlacedSolids::Gather(const Vector3& place, double reach, int ignored_body,
                    (body != ignored_body) & (Dot(gap, gap) <= furthest * furthest));
   }
   return solids_->standing.Gather(candidates, kStanding) && candidates.Finish();
+}
+
+void PlacedSolids::Ranges(const RayPacket& packet, const Vector3& place, int ignored_body,
+                          std::span<double> ranges) const {
+  GSV_CHECK(ranges.size() == packet.count);
+  std::array<Ray, RayPacket::kMax> rays;
+  double reach = 0;
+  bool is_sound = true;
+  for (std::size_t i = 0; i < packet.count; ++i) {
+    rays[i] = packet.At(i);
+    is_sound = is_sound && IsSound(rays[i]);
+    reach = std::max(reach, Norm(rays[i].origin - place) + rays[i].max_distance);
+  }
+  CandidateSet candidates;
+  if (!is_sound || !Gather(place, reach, ignored_body, candidates)) {
+    for (std::size_t i = 0; i < packet.count; ++i) ranges[i] = Range(rays[i], ignored_body);
+    return;
+  }
+  std::array<CandidateSet::Touched, CandidateSet::kMax> touched;
+  const std::size_t count = candidates.FindTouched(packet, touched);
+  std::array<Nearest, RayPacket::kMax> nearest;
+  for (std::size_t i = 0; i < packet.count; ++i) nearest[i].distance = rays[i].max_distance;
+  for (const CandidateSet::Touched& each : std::span(touched).first(count)) {
+    const std::uint32_t shape = each.number & ~kStanding;
+    for (unsigned left = each.rays; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      if (shape == each.number) {
+        CastAtPart(shape, rays[i], nearest[i]);
+      } else if (solids_->standing.ShapeReaches(shape, Around(rays[i]))) {
+        solids_->standing.CastAtShape(shape, rays[i], ignored_body, nearest[i]);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < packet.count; ++i) {
+    CastAtUnindexed(rays[i], ignored_body, nearest[i]);
+    ranges[i] = DistanceOf(nearest[i]);
+  }
 }
 
 double PlacedSolids::Range(const Ray& ray, int ignored_body, const CandidateSet& candidates) const {

@@ -28,6 +28,8 @@ class PlacedSolids final : public RayScene {
   bool Gather(const geometry::Vector3& place, double reach, int ignored_body,
               CandidateSet& candidates) const override;
   double Range(const Ray& ray, int ignored_body, const CandidateSet& candidates) const override;
+  void Ranges(const RayPacket& rays, const geometry::Vector3& place, int ignored_body,
+              std::span<double> ranges) const override;
 
  private:
   struct PlacedPart {

@@ -13,6 +13,7 @@
 
 #include "gsv/base/thread_team.h"
 #include "gsv/sensing/rays/fan.h"
+#include "gsv/sensing/rays/ray_packet.h"
 #include "gsv/world/ray_caster.h"
 #include "gsv/world/snapshot.h"
 
@@ -47,6 +48,11 @@ class RayScene : public world::RayCaster {
   // several rays from there. False if there are too many candidates.
   virtual bool Gather(const geometry::Vector3& place, double reach, int ignored_body,
                       CandidateSet& candidates) const = 0;
+
+  // The same as Range() for each ray of the packet, which is faster for rays from near `place`.
+  // ranges[i] is that of ray i.
+  virtual void Ranges(const RayPacket& rays, const geometry::Vector3& place, int ignored_body,
+                      std::span<double> ranges) const = 0;
 
   // The same as Range() above, for rays within the candidate set (CandidateSet::Hold()) and its
   // ignored body.

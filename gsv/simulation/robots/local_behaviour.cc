@@ -11,10 +11,19 @@ sensing::Sampling Turn::Instant::MakeSampling() const {
   return {snapshots.latest(), -1, seed, *rays};
 }
 
+void Turn::Instant::NoteRays() const {
+  // A look first, so that threads do not take the cache line from each other.
+  if (casts_rays.load(std::memory_order_relaxed)) return;
+  casts_rays.store(true, std::memory_order_relaxed);
+}
+
+void Turn::ReadBeams(const sensing::BeamSet& beams, std::span<double> values) const {
+  instant_->NoteRays();
+  beams.Sample(*sampling_, values);
+}
+
 base::Result<sensing::Reading> Turn::Read(MountedSensor& sensor) const {
-  if (sensor.casts_rays() && !instant_->casts_rays.load(std::memory_order_relaxed)) {
-    instant_->casts_rays.store(true, std::memory_order_relaxed);
-  }
+  if (sensor.casts_rays()) instant_->NoteRays();
   const SnapshotHistory::SnapshotPtr& snapshot = instant_->snapshots.At(sensor.design().cadence);
   auto reading = snapshot == sampling_->snapshot()
                      ? sensor.Read(*sampling_)

@@ -10,10 +10,11 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <variant>
 
 #include "gsv/base/thread_team.h"
-#include "gsv/sensing/sensor.h"
+#include "gsv/sensing/beam_set.h"
 #include "gsv/simulation/agent.h"
 #include "gsv/simulation/behaviour_port.h"
 #include "gsv/simulation/history/snapshot_history.h"
@@ -38,6 +39,8 @@ class Turn {
     void Prepare(base::ThreadTeam& team);
     sensing::Sampling MakeSampling() const;
 
+    void NoteRays() const;
+
     mutable std::atomic<bool> casts_rays{false};
     std::shared_ptr<const sensing::RayScene> scene;  // keeps the scene alive during the turns
   };
@@ -51,6 +54,10 @@ class Turn {
 
   // Reads a sensor at this instant. Slow sensors must be read in Block().
   base::Result<sensing::Reading> Read(MountedSensor& sensor) const;
+  // Sets the values of the readings that the sensors of `beams` take at this instant, for sensors
+  // without an update rate.
+  void ReadBeams(const sensing::BeamSet& beams, std::span<double> values) const;
+  base::SimTime snapshot_time() const { return sampling_->snapshot()->state.time; }
   // Declares that the turn will read this many sensors that cast rays.
   void ExpectRays(std::size_t sensors) const { sampling_->ExpectRays(sensors); }
 

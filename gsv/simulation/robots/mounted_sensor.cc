@@ -86,6 +86,32 @@ base::Result<sensing::Reading> MountedSensor::Read(const sensing::Sampling& samp
   return SampleOnce(sampling.At(silent_since_, body));
 }
 
+base::Result<sensing::Reading> MountedSensor::Watch(const sensing::Sampling& sampling) {
+  {
+    const base::MutexLock lock(mutex_);
+    ForbidSweeps();
+  }
+  return Read(sampling);
+}
+
+void MountedSensor::Join(std::shared_ptr<Sweeps> sweeps) {
+  const base::MutexLock lock(mutex_);
+  if (sweeps_ != nullptr) readings_ += sweeps_->count - sweeps_before_;
+  if (has_failed_) sweeps->is_allowed = false;
+  sweeps_before_ = sweeps->count;
+  sweeps_ = std::move(sweeps);
+}
+
+void MountedSensor::ForbidSweeps() {
+  if (sweeps_ != nullptr) sweeps_->is_allowed.store(false, std::memory_order_relaxed);
+}
+
+std::uint64_t MountedSensor::readings() const {
+  const base::MutexLock lock(mutex_);
+  const std::uint64_t sweeps = sweeps_ != nullptr ? sweeps_->count - sweeps_before_ : 0;
+  return readings_.load(std::memory_order_relaxed) + sweeps;
+}
+
 base::Result<sensing::Reading> MountedSensor::SampleOnce(const sensing::Sampling& sampling) {
   const world::Snapshot& snapshot = *sampling.snapshot();
   if (sampled_step_ == snapshot.state.step && sampled_layout_ == snapshot.layout->version) {
@@ -102,11 +128,14 @@ base::Result<sensing::Reading> MountedSensor::SampleOnce(const sensing::Sampling
 void MountedSensor::Fail(std::shared_ptr<const world::Snapshot> snapshot) {
   const base::MutexLock lock(mutex_);
   has_failed_ = true;
+  ForbidSweeps();
   silent_since_ = std::move(snapshot);
 }
 
 void MountedSensor::Forget() {
   const base::MutexLock lock(mutex_);
+  ForbidSweeps();  // the behaviour is initialised again, and opens its sensors again
+  sweeps_ = nullptr;
   has_failed_ = false;
   silent_since_ = nullptr;
   sampled_step_ = -1;

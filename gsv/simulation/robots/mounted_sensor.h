@@ -52,6 +52,15 @@ class SensorDesigns {
       GSV_GUARDED_BY(mutex_);
 };
 
+// The sensors of a robot that its behaviour reads together, without a look at each of them.
+struct Sweeps {
+  // How often the behaviour read all of them. Written by the thread of the behaviour's turn.
+  std::atomic<std::uint64_t> count{0};
+  // False once one of the sensors has failed, or somebody else reads it, who wants the same samples
+  // without computing them again. They are then read one by one.
+  std::atomic<bool> is_allowed{true};
+};
+
 class MountedSensor {
  public:
   explicit MountedSensor(SensorDesignPtr design) : design_(std::move(design)) {}
@@ -69,6 +78,11 @@ class MountedSensor {
 
   // Returns the sample at the instant of `sampling`. It is taken now, unless it was taken before.
   base::Result<sensing::Reading> Read(const sensing::Sampling& sampling);
+  // The same, for others than the behaviour in its turn.
+  base::Result<sensing::Reading> Watch(const sensing::Sampling& sampling);
+
+  // From now on, each of the sweeps counts as a reading.
+  void Join(std::shared_ptr<Sweeps> sweeps);
 
   // Applies a fault. From now on the newest sample is that of `snapshot`. If that is null, reading
   // fails.
@@ -76,19 +90,22 @@ class MountedSensor {
 
   // Counts the readings that the behaviour receives.
   void CountReading() { readings_.fetch_add(1, std::memory_order_relaxed); }
-  std::uint64_t readings() const { return readings_.load(std::memory_order_relaxed); }
+  std::uint64_t readings() const;
 
   // Returns to the initial state.
   void Forget();
 
  private:
   base::Result<sensing::Reading> SampleOnce(const sensing::Sampling& sampling) GSV_REQUIRES(mutex_);
+  void ForbidSweeps() GSV_REQUIRES(mutex_);
 
   const SensorDesignPtr design_;
   std::atomic<std::uint64_t> readings_{0};
 
-  base::Mutex mutex_;
-  std::int64_t sampled_step_ GSV_GUARDED_BY(mutex_) = -1;  // -1 if it was never sampled
+  mutable base::Mutex mutex_;
+  std::shared_ptr<Sweeps> sweeps_ GSV_GUARDED_BY(mutex_);   // null: none
+  std::uint64_t sweeps_before_ GSV_GUARDED_BY(mutex_) = 0;  // their number when the sensor joined
+  std::int64_t sampled_step_ GSV_GUARDED_BY(mutex_) = -1;   // -1 if it was never sampled
   std::uint32_t sampled_layout_ GSV_GUARDED_BY(mutex_) = 0;
   sensing::Reading newest_ GSV_GUARDED_BY(mutex_);
   bool has_failed_ GSV_GUARDED_BY(mutex_) = false;

@@ -309,7 +309,7 @@ base::Result<sensing::Reading> RobotAgent::Sample(MountedSensor& sensor) {
   const auto snapshot = shared_->history.At(sensor.design().cadence);
   const int body = snapshot->layout->Find(robot_);
   if (body < 0) return base::Fail(base::ErrorCode::kEnded, "the robot is gone", robot_);
-  return sensor.Read({snapshot, body, shared_->seed, shared_->rays});
+  return sensor.Watch({snapshot, body, shared_->seed, shared_->rays});
 }
 
 base::Result<sensing::Reading> RobotAgent::Read(const std::string& sensor) {

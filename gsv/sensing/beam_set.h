@@ -1,0 +1,41 @@
+// The beams of one robot's sensors, cast together: for eight sonars it takes a third of the time of
+// reading one after the other.
+//
+// Determinism  a value is equal to that of the sensor's Sample(), bit by bit.
+// Threads      const members may run concurrently, with a Sampling for each.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "gsv/sensing/rays/ray_packet.h"
+#include "gsv/sensing/sensor.h"
+
+namespace gsv::sensing {
+
+class BeamSet {
+ public:
+  // Adds the sensor's beam, which it must have.
+  void Add(const Sensor& sensor);
+  std::size_t size() const { return size_; }
+
+  // values[i] is the value of the reading that the sensor added as number i would take.
+  void Sample(const Sampling& sampling, std::span<double> values) const;
+
+  // Beams on one link, by coordinate. `link_from_sensor` has its position in x, y, z, and its
+  // orientation in qw, qx, qy, qz.
+  struct Beams {
+    int link = 0;
+    std::size_t count = 0;
+    alignas(32) RayPacket::Coordinates x{}, y{}, z{}, qw{}, qx{}, qy{}, qz{};
+    RayPacket::Coordinates min{}, max{};  // m
+  };
+
+ private:
+  std::size_t size_ = 0;
+  std::vector<Beams> beams_;  // in the order of Add()
+};
+
+}  // namespace gsv::sensing
