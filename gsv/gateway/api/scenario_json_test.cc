@@ -99,7 +99,17 @@ TEST(ScenarioJson, AnUnknownFieldIsRefusedWithThoseThatAreKnown) {
   ASSERT_FALSE(request);
   EXPECT_EQ(request.error().error.message,
             "unknown field; known are: name, world, mode, real_time_factor, step, duration, seed, "
-            "robots, avatars, pedestrians, record");
+            "robots, avatars, pedestrians, ros2, record");
+}
+
+TEST(ScenarioJson, Ros2IsAFlagOrSettings) {
+  const auto on = ParseSimulationRequest(R"({"world": "w", "ros2": true})");
+  ASSERT_TRUE(on);
+  EXPECT_EQ(on->scenario.ros2, scenario::Ros2Settings());
+  const auto request =
+      ParseSimulationRequest(R"({"world": "w", "ros2": {"namespaces": {"pebble": "fleet"}}})");
+  ASSERT_FALSE(request);
+  EXPECT_EQ(request.error().field, "ros2.namespaces.pebble");
 }
 
 TEST(ScenarioJson, TooManyRobotsAreRefused) {
