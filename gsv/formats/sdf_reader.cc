@@ -10,6 +10,7 @@
 #include "gsv/base/spelling.h"
 #include "gsv/formats/sdf/builtin_models.h"
 #include "gsv/formats/sdf/model_store.h"
+#include "gsv/formats/sdf/shape_model.h"
 #include "gsv/formats/sdf/world_reader.h"
 #include "gsv/formats/support/naming_rules.h"
 #include "gsv/formats/xacro/arguments.h"
@@ -72,6 +73,7 @@ class ModelLibrary::Reader {
                                                             const fs::path& named_in,
                                                             base::Problems& problems) {
     const base::MutexLock lock(mutex_);
+    if (IsShapeName(name)) return ReadShape(name, problems);
     auto file = FileOf(name, named_in);
     if (!file) return Fail(file.error());
     auto model = ReadStored(*file, problems);
@@ -102,6 +104,21 @@ class ModelLibrary::Reader {
                                             base::DidYouMean(name, store_.finder().ModelNames()));
     }
     return FileAt(*found);
+  }
+
+  base::Result<std::shared_ptr<const Model>> ReadShape(const std::string& name,
+                                                       base::Problems& problems)
+      GSV_REQUIRES(mutex_) {
+    const auto text = SdfOfShape(name);
+    if (!text) return Fail(text.error());
+    XmlFile xml;
+    xml.path = xml.named = name;
+    xml.version = "1.9";
+    xml.minor_version = 9;
+    xml.document = std::make_unique<tinyxml2::XMLDocument>();
+    xml.document->Parse(text->data(), text->size());
+    xml.root = xml.document->RootElement();
+    return ModelOf(store_.Take(std::move(xml), {}), name, problems);
   }
 
   base::Result<std::shared_ptr<const Model>> ReadStored(const fs::path& file,

@@ -1,0 +1,31 @@
+// Writes a changed world as SDFormat.
+//
+// The text is that of the world's own file with the models as they stand now. So it keeps what GSV
+// does not simulate, such as plugins of Gazebo. An unchanged model keeps its element. A moved model
+// gets an absolute <pose>. A removed model loses its element. An added model becomes an <include> of
+// its file, or an inline <model> if it is a shape (sdf/shape_model.h) or was copied from an inline
+// model. Names of files that are found only beside the world's file become absolute paths, so that
+// the text may be saved in any folder.
+//
+// Frames  ModelLibrary::ReadWorld() reads the poses back bit by bit if roll, pitch and yaw can express
+//         them, as they do for all poses that users set; else within rounding.
+// Errors  kBadModel if the file of the world cannot be read any more. What cannot be written is
+//         left out, each with a problem.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/formats/sdf/read_options.h"
+#include "gsv/model/world_description.h"
+
+namespace gsv::formats {
+
+// `original` is the world as ReadWorld() returned it. `models` are all models that stand in it now.
+base::Result<std::string> WriteWorld(const model::WorldDescription& original,
+                                     const std::vector<model::PlacedModel>& models,
+                                     const geometry::Vector3& gravity, const ReadOptions& options,
+                                     base::Problems& problems);
+
+}  // namespace gsv::formats
