@@ -189,6 +189,7 @@ int main(int argc, char** argv) {
   AddListCommand(line);
   AddCompletionCommand(line);
   AddMapCommands(line);
+  AddSaveCommand(line);
   AddCompareCommands(line);
   AddBrokerCommands(line);
   AddRos2Commands(line);

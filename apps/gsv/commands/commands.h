@@ -24,6 +24,7 @@ void AddCheckCommands(const CommandLine& line);   // world check, model check, d
 void AddDrawCommand(const CommandLine& line);     // world draw; after AddCheckCommands()
 void AddConvertCommand(const CommandLine& line);  // model convert; after AddCheckCommands()
 void AddMapCommands(const CommandLine& line);  // world from-map, to-map; after AddCheckCommands()
+void AddSaveCommand(const CommandLine& line);  // world save; after AddCheckCommands()
 void AddRecordingCommands(const CommandLine& line);  // rec, replay
 void AddRecordCommands(const CommandLine& line);  // rec start, stop; after AddRecordingCommands()
 void AddSnapshotCommand(const CommandLine& line);

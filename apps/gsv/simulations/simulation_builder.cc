@@ -7,6 +7,7 @@
 #include "apps/gsv/process/problem_report.h"
 #include "apps/gsv/simulations/model_list.h"
 #include "apps/gsv/simulations/robot_drives.h"
+#include "apps/gsv/simulations/world_saving.h"
 #include "gsv/broker/client/gsv_service_types.h"
 #include "gsv/ros2/node_steps.h"
 
@@ -265,6 +266,13 @@ FieldResult<std::string> SimulationBuilder::AddObject(const std::shared_ptr<Simu
                                                       const gateway::ObjectRequest& object) {
   base::Problems problems;
   return AddOneObject(*simulation, host_.library(), object, problems);
+}
+
+base::Result<gateway::SimulationFactory::SavedWorld> SimulationBuilder::SaveWorld(
+    const simulation::Simulation& simulation, const std::string& file) {
+  formats::ReadOptions options;
+  options.model_path = model_path_;
+  return app::SaveWorld(simulation, file, options);
 }
 
 }  // namespace gsv::app

@@ -58,6 +58,8 @@ class SimulationBuilder final : public gateway::SimulationFactory {
   gateway::FieldResult<std::string> AddObject(
       const std::shared_ptr<simulation::Simulation>& simulation,
       const gateway::ObjectRequest& object) override;
+  base::Result<SavedWorld> SaveWorld(const simulation::Simulation& simulation,
+                                     const std::string& file) override;
 
  private:
   using SimulationPointer = std::shared_ptr<simulation::Simulation>;

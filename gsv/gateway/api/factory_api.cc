@@ -66,6 +66,12 @@ std::vector<Route> FactoryApi::Routes(const std::shared_ptr<SimulationDirectory>
        of(&FactoryApi::AddRobot), "Add a robot or an avatar"},
       {"POST", "/api/simulations/{name}/objects", kControl, true, kCommanders,
        of(&FactoryApi::AddObject), "Add an object to the world"},
+      {"GET", "/api/simulations/{name}/world", kWatch, false, kReaders,
+       OfSimulation(directory,
+                    [this](const auto& simulation, const Request& request) {
+                      return SaveWorld(simulation, request.target);
+                    }),
+       "Get the world as it stands now as SDFormat, and its scenario"},
   };
 }
 
@@ -152,6 +158,17 @@ Response FactoryApi::AddObject(const std::shared_ptr<simulation::Simulation>& si
   const auto name = factory_.AddObject(simulation, *object);
   if (!name) return Refusal(name.error());
   return JsonResponse(201, Text({{"name", *name}}));
+}
+
+Response FactoryApi::SaveWorld(const std::shared_ptr<simulation::Simulation>& simulation,
+                               const Target& target) const {
+  const auto file = target.query.find("file");
+  const auto saved = factory_.SaveWorld(
+      *simulation, file == target.query.end() ? simulation->status().name + ".sdf" : file->second);
+  if (!saved) return ErrorResponse(saved.error());
+  return JsonResponse(
+      200,
+      Text({{"sdf", saved->sdf}, {"scenario", saved->scenario}, {"warnings", saved->warnings}}));
 }
 
 Response Refusal(const FieldError& wrong) {

@@ -35,6 +35,8 @@ class FactoryApi {
   Response Destroy(const std::string& simulation) const;
   Response AddRobot(const std::shared_ptr<simulation::Simulation>& simulation,
                     const std::string& body) const;
+  Response SaveWorld(const std::shared_ptr<simulation::Simulation>& simulation,
+                     const Target& target) const;
   Response AddObject(const std::shared_ptr<simulation::Simulation>& simulation,
                      const std::string& body) const;
 

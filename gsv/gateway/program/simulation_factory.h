@@ -72,6 +72,12 @@ class SimulationFactory {
     std::vector<std::string> warnings;                   // problems of the files
   };
 
+  // A world as it stands now, and a scenario that has the rest: behaviours, avatars, seed, faults.
+  struct SavedWorld {
+    std::string sdf, scenario;          // the texts of both files
+    std::vector<std::string> warnings;  // the parts that are not saved
+  };
+
   virtual ~SimulationFactory() = default;
 
   virtual std::vector<std::string> Worlds() = 0;  // ours
@@ -94,6 +100,9 @@ class SimulationFactory {
       bool is_avatar) = 0;
   virtual FieldResult<std::string> AddObject(
       const std::shared_ptr<simulation::Simulation>& simulation, const ObjectRequest& object) = 0;
+  // `file` is the name of the world's file in the scenario. Poses are saved, velocities are not.
+  virtual base::Result<SavedWorld> SaveWorld(const simulation::Simulation& simulation,
+                                             const std::string& file) = 0;
 };
 
 }  // namespace gsv::gateway

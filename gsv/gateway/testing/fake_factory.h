@@ -55,6 +55,12 @@ class FakeFactory final : public SimulationFactory {
     return object.model + object.copy_of;
   }
 
+  base::Result<SavedWorld> SaveWorld(const simulation::Simulation&,
+                                     const std::string& file) override {
+    if (refusal) return base::Fail(refusal->error);
+    return SavedWorld{"<sdf/>", "world: " + file + "\n", {"no mesh"}};
+  }
+
   Ros2Support ros2;
   std::optional<FieldError> refusal;
   ObjectRequest asked;  // the last requested object

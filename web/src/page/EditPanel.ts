@@ -12,6 +12,7 @@ import { element, setText } from "../ui/element";
 import type { IconName } from "../ui/icons";
 import { icon } from "../ui/icons";
 import { createGizmoTools } from "./GizmoTools";
+import { createShapeForm } from "./ShapeForm";
 
 const TURN = Math.PI / 12;
 
@@ -68,6 +69,13 @@ function createEditPanel(app: App): HTMLElement {
     element("div", { class: "edit-buttons" }, undo, redo, ...turns, place, duplicate, remove),
     hint,
     createGizmoTools(app),
+    createShapeForm(app),
+    element(
+      "div",
+      { class: "edit-buttons" },
+      saveButton("Save world", "Save the world as it stands now as SDFormat", () => app.saveWorld(false)),
+      saveButton("Save scenario", "Save the world, and a scenario of it with the behaviours", () => app.saveWorld(true)),
+    ),
   );
   const offerBehaviour = () => {
     behaviourSelect!.disabled = !isRobot(modelSelect!.value);
@@ -121,6 +129,12 @@ function hintOf(state: State): string {
   if (all.length > 1) return `${all.length} bodies are chosen. Drag the arrows of ${all[0]} to move them all.`;
   if (all.length === 1) return `${all[0]} is chosen. Drag its arrows, or press Place and click the floor.`;
   return "Click a robot or an object to choose it, or drag it over the floor. Choose several with Shift.";
+}
+
+function saveButton(label: string, title: string, save: () => Promise<void>): HTMLButtonElement {
+  const saves = button(label, () => void save());
+  saves.title = title;
+  return saves;
 }
 
 function button(label: string, onclick: () => void): HTMLButtonElement {

@@ -46,6 +46,7 @@ function runCommands(app: App): Command[] {
     add(may && isAllowed(phase, "step"), "Take one step", () => app.stepOnce(), "N");
     add(may && isAllowed(phase, "stop"), "Stop", () => void app.act("stop"));
     add(may && isAllowed(phase, "reset"), "Reset", () => void app.act("reset"));
+    add(state.replay === null && state.abilities.creates && state.simulation !== null, "Save world", () => void app.saveWorld(false));
     add(canEdit(state), state.editing ? "End editing" : "Edit", () => void app.edits.toggle());
   }
   add(state.abilities.creates && state.setUp === null, "New simulation", () => void app.setUp.open());

@@ -1,0 +1,22 @@
+// Saves the world of a simulation as it stands now: SDFormat for Gazebo and for GSV, and a scenario
+// with what SDFormat cannot hold.
+//
+// The SDFormat text has the models with their present poses (formats/world_writer.h). The scenario
+// names that text as its world. It has the behaviours, the avatars, and each robot whose movement or
+// drive was chosen when it was added.
+#pragma once
+
+#include <string>
+
+#include "gsv/formats/sdf/read_options.h"
+#include "gsv/gateway/program/simulation_factory.h"
+
+namespace gsv::app {
+
+// `file` is the name of the world's file in the scenario. Velocities and the positions of joints are
+// not saved.
+base::Result<gateway::SimulationFactory::SavedWorld> SaveWorld(
+    const simulation::Simulation& simulation, const std::string& file,
+    const formats::ReadOptions& options);
+
+}  // namespace gsv::app

@@ -1,0 +1,229 @@
+// The world is edited by the page alone: shapes of a given size, handles, numbers, several bodies at once,
+// the ruler and the map; then it is saved, and what was saved is read again.
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import fs from "node:fs";
+import os from "node:os";
+import path from "node:path";
+import { after, before, test } from "node:test";
+import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { picture } from "./pixels.mjs";
+import { program, startServer } from "./server.mjs";
+import { ask, settled, until, viewClip } from "./viewing.mjs";
+
+const NAME = `tools_${process.pid}`;
+const folder = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-tools-"));
+let server;
+let browser;
+let page;
+let faults;
+
+before(async () => {
+  server = await startServer(["playground", "--robot", "pebble@-2,-1.5", "--name", NAME]);
+  browser = await openBrowser({ width: 1300, height: 900 });
+  ({ page, faults } = await openPage(browser, server.url));
+  await waitUntilDrawn(page);
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+  fs.rmSync(folder, { recursive: true, force: true });
+});
+
+const edit = () => page.getByRole("region", { name: "Edit" });
+const pose = () => page.getByRole("region", { name: "Pose" });
+const press = (name) => page.getByRole("button", { name, exact: true }).click();
+const body = async (name) => (await ask(page, "/scene")).bodies.find((each) => each.name === name);
+const place = async (name) => (await body(name))?.pose;
+const chosen = () => page.evaluate(() => window.gsv.chosen);
+const onScreen = (name) => page.evaluate((name) => window.gsv.robotScreenPosition(name), name);
+const handle = (axis) => page.evaluate((axis) => window.gsv.gizmoHandle(axis), axis);
+const ready = () => page.locator('.edit [aria-label="Undo"]:enabled').waitFor();
+const shape = () => edit().getByRole("group", { name: "Shape" });
+
+async function type(label, value) {
+  const field = pose().getByLabel(label);
+  await field.fill(String(value));
+  await field.press("Enter");
+  await field.blur();
+}
+
+test("a box of 0.4 m is put before the selected robot", async () => {
+  await press("Edit");
+  await edit().waitFor();
+  await page.locator('[data-robot="pebble"]').click();
+  for (const label of ["Length x (m)", "Width y (m)", "Height z (m)"]) await shape().getByLabel(label).fill("0.4");
+  await shape().getByLabel("Mass (kg)").fill("8");
+  await shape().getByLabel("Colour").fill("#ff0000");
+  await press("Add shape");
+  await page.waitForFunction(() => window.gsv.chosen[0] === "box");
+  await settled(page);
+  const [x, y, z] = await place("box");
+  const [rx, ry] = await place("pebble");
+  assert.ok(x - rx > 0.5 && x - rx < 1.2 && Math.abs(y - ry) < 1e-6, "it is ahead of the robot");
+  assert.ok(Math.abs(z - 0.2) < 1e-6, "it stands on the floor");
+  assert.equal((await body("box")).is_static, false);
+  const { data } = await picture(page, await viewClip(page));
+  let red = 0;
+  for (let i = 0; i < data.length; i += 4) red += Number(data[i] > 120 && data[i + 1] < 70 && data[i + 2] < 70);
+  assert.ok(red > 100, `${red} pixels are as red as the box`);
+});
+
+test("the list, the inspector and the view show the same choice", async () => {
+  await page.locator(".world-tree summary").click();
+  assert.equal(await page.locator('[data-object="box"]').getAttribute("aria-pressed"), "true");
+  await pose().getByRole("heading", { name: "box" }).waitFor();
+  await page.locator('[data-robot="pebble"]').click();
+  assert.deepEqual(await chosen(), ["pebble"]);
+  await pose().getByRole("heading", { name: "pebble" }).waitFor();
+  assert.equal(await pose().getByLabel("Roll (°)").isVisible(), false); // robots stand upright
+  await page.locator('[data-object="box"]').click();
+  await pose().getByRole("heading", { name: "box" }).waitFor();
+});
+
+test("a handle moves it along one axis, in steps if it snaps", async () => {
+  await edit().getByLabel("Snap").check();
+  await edit().getByLabel("Distance").selectOption("0.25");
+  await page.keyboard.press("t");
+  await settled(page);
+  await page.waitForFunction(() => window.gsv.gizmoHandle("x") !== null);
+  const before = await place("box");
+  const [from, middle] = [await handle("x"), await onScreen("box")];
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(from.x + 0.5 * (from.x - middle.x), from.y, { steps: 4 });
+  await page.mouse.move(from.x + 2 * (from.x - middle.x), from.y + 10, { steps: 4 });
+  await page.mouse.up();
+  await until(async () => (await place("box"))[0] - before[0] > 0.2, "the moved box");
+  const now = await place("box");
+  assert.ok(Math.abs(now[1] - before[1]) < 1e-6 && Math.abs(now[2] - before[2]) < 1e-6, "along x only");
+  assert.ok(Math.abs(4 * now[0] - Math.round(4 * now[0])) < 1e-6, "on a multiple of 0.25 m");
+  await settled(page);
+  assert.equal(Number(await pose().getByLabel("x (m)").inputValue()), Number(now[0].toFixed(4)));
+});
+
+test("numbers put it exactly there, and undo takes each back", async () => {
+  await ready();
+  const before = await place("box");
+  await type("z (m)", 1.5);
+  await until(async () => Math.abs((await place("box"))[2] - 1.5) < 1e-9, "the raised box");
+  await settled(page);
+  await type("Roll (°)", 30);
+  await until(async () => Math.abs((await place("box"))[3] - Math.sin(Math.PI / 12)) < 1e-6, "the tilted box");
+  await ready();
+  await press("Undo");
+  await until(async () => Math.abs((await place("box"))[3]) < 1e-9, "the level box");
+  await settled(page);
+  await ready();
+  await press("Undo");
+  await until(async () => Math.abs((await place("box"))[2] - before[2]) < 1e-9, "the box on the floor");
+  await settled(page);
+});
+
+test("a wall is drawn by two clicks", async () => {
+  await page.keyboard.press("r");
+  await press("Map");
+  await settled(page);
+  await shape().getByLabel("Shape").selectOption("wall");
+  await press("Draw wall");
+  const at = await onScreen("pebble");
+  await page.mouse.click(at.x - 60, at.y - 90);
+  await page.getByText("where the wall ends").waitFor();
+  await page.mouse.click(at.x + 60, at.y - 90);
+  await page.waitForFunction(() => window.gsv.chosen[0] === "wall");
+  await settled(page);
+  const wall = await body("wall");
+  assert.equal(wall.is_static, true);
+  assert.equal(wall.is_fixed, false);
+  const onMap = await onScreen("wall");
+  assert.ok(Math.hypot(onMap.x - at.x, onMap.y - at.y + 90) < 15, "it stands between the clicks");
+});
+
+test("the map has a scale, and its ruler agrees with it", async () => {
+  const label = await page.locator(".scale-bar").getAttribute("aria-label");
+  const [, length, unit] = label.match(/bar is ([\d.]+) (m|cm) long/);
+  const metres = Number(length) * (unit === "cm" ? 0.01 : 1);
+  const pixels = await page.locator(".scale-line").evaluate((bar) => bar.clientWidth + 2);
+  await press("Measure");
+  const at = await onScreen("pebble");
+  await page.mouse.click(at.x + 40, at.y + 30);
+  await page.getByText("Click the second point").waitFor();
+  await page.mouse.click(at.x + 140, at.y + 30);
+  const ruler = page.getByRole("region", { name: "Ruler" });
+  await ruler.getByText("Distance").waitFor();
+  const values = await ruler.locator("dd").allTextContents();
+  const [distance, dx, dy, , angle] = values.map((text) => parseFloat(text.replace("−", "-")));
+  assert.ok(Math.abs(distance - (100 * metres) / pixels) < 0.05 * distance, `${values} of ${metres} m in ${pixels} px`);
+  assert.ok(Math.abs(dx - distance) < 0.05 * distance && Math.abs(dy) < 0.05 * distance);
+  assert.ok(Math.abs(angle) < 3, "east is to the right");
+  await page.keyboard.press("Escape");
+  await ruler.waitFor({ state: "hidden" });
+  assert.deepEqual(await chosen(), ["wall"]); // Escape ended the ruler only
+  await press("Map");
+  await settled(page);
+});
+
+test("several are chosen, moved, copied and removed together", async () => {
+  await page.locator('[data-object="box"]').click();
+  await page.locator('[data-object="wall"]').click({ modifiers: ["Shift"] });
+  assert.deepEqual(await chosen(), ["box", "wall"]);
+  assert.equal(await page.locator('[data-object="wall"]').getAttribute("aria-pressed"), "true");
+  await page.getByText("2 bodies are chosen").waitFor();
+  await press("Duplicate");
+  await page.waitForFunction(() => window.gsv.chosen.length === 2 && !window.gsv.chosen.includes("box"));
+  await settled(page);
+  const copies = await chosen();
+  const [box, copy] = [await place("box"), await place(copies[0])];
+  assert.ok(Math.abs(copy[0] - box[0] - 0.5) < 1e-6 && Math.abs(copy[1] - box[1] - 0.5) < 1e-6);
+  await ready();
+  await page.keyboard.press("Delete");
+  await until(async () => (await body(copies[0])) === undefined && (await body(copies[1])) === undefined, "the end of both");
+  await ready();
+  await press("Undo");
+  await until(async () => (await body(copies[0])) !== undefined && (await body(copies[1])) !== undefined, "both again");
+  await ready();
+  await press("Undo");
+  await until(async () => (await body(copies[0])) === undefined, "the end of the copies");
+  await settled(page);
+});
+
+test("a rectangle chooses what is in it", async () => {
+  await press("Map");
+  await settled(page);
+  await page.keyboard.press("Escape");
+  const at = await onScreen("box");
+  await page.keyboard.down("Shift");
+  await page.mouse.move(at.x - 25, at.y - 25);
+  await page.mouse.down();
+  await page.mouse.move(at.x + 25, at.y + 25, { steps: 3 });
+  await page.mouse.up();
+  await page.keyboard.up("Shift");
+  assert.deepEqual(await chosen(), ["box"]);
+  await press("Map");
+});
+
+test("the saved world is read again with the same bodies", async () => {
+  const [download] = await Promise.all([page.waitForEvent("download"), press("Save world")]);
+  const file = path.join(folder, "saved.sdf");
+  await download.saveAs(file);
+  assert.match(download.suggestedFilename(), /\.sdf$/);
+  const check = spawnSync(program(), ["world", "check", file], { encoding: "utf8" });
+  assert.equal(check.status, 0, check.stdout + check.stderr);
+  const saved = path.join(folder, "by_command.sdf");
+  const scenario = path.join(folder, "by_command.yaml");
+  const command = spawnSync(program(), ["world", "save", NAME, "-o", saved, "--scenario", scenario], { encoding: "utf8" });
+  assert.equal(command.status, 0, command.stdout + command.stderr);
+  assert.match(fs.readFileSync(scenario, "utf8"), /world: by_command\.sdf/);
+  const poses = (await ask(page, "/scene")).bodies.map(({ name, pose }) => [name, pose]);
+  const again = await startServer([saved]);
+  const { page: other } = await openPage(browser, again.url);
+  await waitUntilDrawn(other);
+  const read = (await ask(other, "/scene")).bodies.map(({ name, pose }) => [name, pose]);
+  assert.deepEqual(read.map(([name]) => name), poses.map(([name]) => name));
+  // It runs meanwhile: what lies on the floor settles within a millimetre.
+  read.forEach(([name, pose], i) => pose.forEach((value, j) => assert.ok(Math.abs(value - poses[i][1][j]) < 1e-3, name)));
+  await other.close();
+  await again.stop();
+  assert.deepEqual(faults, []);
+});
