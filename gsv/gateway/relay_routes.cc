@@ -7,6 +7,7 @@
 #include <boost/asio/executor_work_guard.hpp>
 
 #include "gsv/base/mutex.h"
+#include "gsv/gateway/relayed_images.h"
 #include "gsv/gateway/route_set.h"
 #include "gsv/gateway/upstream/fetch.h"
 #include "gsv/gateway/upstream/relayed_operations.h"
@@ -81,12 +82,8 @@ class RelayRoutes final : public RouteSet {
       routes.back().accepts_token_in_query = true;
     }
     for (const char* const stream : {"/view.mjpeg", "/replays/{session}/view.mjpeg"}) {
-      routes.push_back({"GET", stream, kWatch, false, kReaders, [this](const Request&) {
-                          return ErrorResponse(
-                              501,
-                              "a relay does not forward a stream of images; ask "
-                              "for view.jpg again and again, or open view.mjpeg at " +
-                                  address_.Url());
+      routes.push_back({"GET", stream, kWatch, false, kReaders, [this](const Request& request) {
+                          return images_.Open(request, ImageRequest(request, true));
                         }});
       routes.back().accepts_token_in_query = true;
     }
@@ -107,20 +104,27 @@ class RelayRoutes final : public RouteSet {
   }
 
  private:
-  // Without the client's token, which is the relay's.
-  Response ForwardImage(const Request& request) {
+  // The request for an image at the other instance, without the client's token, which is the relay's.
+  // `is_stream`: made of a request for view.mjpeg.
+  static Request ImageRequest(const Request& request, bool is_stream) {
     Request forwarded = request;
     forwarded.raw_target.clear();
     for (const std::string& segment : request.target.segments) {
-      forwarded.raw_target += "/" + Escape(segment);
+      const bool is_name = &segment == &request.target.segments.back();
+      forwarded.raw_target += "/" + (is_name && is_stream ? "view.jpg" : Escape(segment));
     }
     char separator = '?';
     for (const auto& [name, value] : request.target.query) {
-      if (name == "token") continue;
+      if (name == "token" || (name == "fps" && is_stream)) continue;
       forwarded.raw_target += separator + Escape(name) + "=" + Escape(value);
       separator = '&';
     }
-    base::Result<Response> answer = upstream::Fetch(address_, forwarded, kRequestTime);
+    return forwarded;
+  }
+
+  Response ForwardImage(const Request& request) {
+    base::Result<Response> answer =
+        upstream::Fetch(address_, ImageRequest(request, false), kRequestTime);
     if (!answer) return ErrorResponse(answer.error());
     answer->allows_other_sites = true;
     return *std::move(answer);
@@ -157,6 +161,7 @@ class RelayRoutes final : public RouteSet {
   std::map<std::pair<std::string, std::string>, std::shared_ptr<upstream::Stream>> streams_
       GSV_GUARDED_BY(mutex_);
   std::thread thread_;
+  RelayedImages images_{io_, address_};
 };
 
 }  // namespace

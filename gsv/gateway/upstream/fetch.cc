@@ -101,6 +101,9 @@ class Exchange {
     response.status = static_cast<int>(message.result_int());
     response.content_type = text(http::field::content_type);
     response.etag = text(http::field::etag);
+    if (const auto time = message.find("Gsv-Time"); time != message.end()) {
+      response.headers.emplace_back("Gsv-Time", std::string(time->value()));
+    }
     response.cache_control = text(http::field::cache_control);
     response.allow = text(http::field::allow);
     response.body = SharedBytes(std::move(message.body()));

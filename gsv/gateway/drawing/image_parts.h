@@ -1,0 +1,28 @@
+// The parts of a stream of JPEG images (multipart/x-mixed-replace).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "gsv/gateway/foxglove/shared_bytes.h"
+
+namespace gsv::gateway::drawing {
+
+inline constexpr const char* kImageStreamType = "multipart/x-mixed-replace; boundary=gsv-image";
+
+// `time`: simulated seconds of the image, as in the header Gsv-Time. The boundary after an image lets
+// browsers show it at once.
+inline SharedBytes ImagePart(std::string_view jpeg, std::string_view time, bool is_first) {
+  constexpr std::string_view kBoundary = "--gsv-image\r\n";
+  std::string part(is_first ? kBoundary : "");
+  part += "Content-Type: image/jpeg\r\nContent-Length: " + std::to_string(jpeg.size());
+  part += "\r\nGsv-Time: ";
+  part += time;
+  part += "\r\n\r\n";
+  part += jpeg;
+  part += "\r\n";
+  part += kBoundary;
+  return SharedBytes(std::move(part));
+}
+
+}  // namespace gsv::gateway::drawing

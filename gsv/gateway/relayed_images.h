@@ -1,0 +1,38 @@
+// Streams of images (view.mjpeg) through a relay: it asks the other instance for one image after
+// another, and sends them as a stream of its own.
+//
+// Threads  any; requests to the other instance are made by a pool of its own.
+// Bounded  kMaxImageStreams streams.
+#pragma once
+
+#include <chrono>
+#include <memory>
+
+#include <boost/asio/io_context.hpp>
+
+#include "gsv/gateway/http/http.h"
+#include "gsv/gateway/server/worker_pool.h"
+#include "gsv/gateway/upstream/address.h"
+
+namespace gsv::gateway {
+
+inline constexpr long kMaxImageStreams = 8;
+
+class RelayedImages {
+ public:
+  // `io` must outlive this object and run until it ends.
+  RelayedImages(boost::asio::io_context& io, upstream::Address address);
+  ~RelayedImages();
+
+  // The response to GET …/view.mjpeg; `image` is the same request for view.jpg, without `fps` and
+  // `token`. Waits for the first image.
+  Response Open(const Request& request, const Request& image);
+
+ private:
+  boost::asio::io_context& io_;
+  const upstream::Address address_;
+  const std::shared_ptr<WorkerPool> pool_;
+  const std::shared_ptr<int> seats_ = std::make_shared<int>(0);  // used by each stream
+};
+
+}  // namespace gsv::gateway
