@@ -127,9 +127,31 @@ base::Result<double> ParseFieldOfView(std::string_view text) {
                   std::string(text.substr(0, 64)) + "'");
 }
 
+base::Status SetSide(const std::string& name, std::string_view text, ViewOfAllSide& side) {
+  const auto value = NumberOf(text);
+  const auto set = [&](double& target, double low, double high, double unit) -> base::Status {
+    if (value && *value >= low && *value <= high) {
+      target = *value * unit;
+      return {};
+    }
+    return Fail(ErrorCode::kInvalidArgument,
+                "the parameter " + name + " must be " + std::to_string(std::lround(low)) + " to " +
+                    std::to_string(std::lround(high)) + ", but it is '" +
+                    std::string(text.substr(0, 64)) + "'");
+  };
+  if (name == "azimuth") return set(side.azimuth, -360, 360, kDegree);
+  if (name == "elevation") return set(side.elevation, -90, 90, kDegree);
+  return set(side.zoom, 0.1, 100, 1);
+}
+
 base::Status Check(const Camera& camera) {
   if (auto fits = CheckSize(camera.width, camera.height); !fits) return fits;
   const bool has_place = camera.eye || camera.target || !camera.follow.empty();
+  if ((has_place || !camera.sensor.empty()) && camera.side != ViewOfAllSide{}) {
+    return Fail(ErrorCode::kInvalidArgument,
+                "azimuth, elevation and zoom are for a view of the whole world; leave out eye, "
+                "target, follow and camera");
+  }
   if (!camera.sensor.empty()) {
     if (has_place || camera.field_of_view) {
       return Fail(ErrorCode::kInvalidArgument,
@@ -161,7 +183,7 @@ base::Result<rendering::CameraView> Place(const Camera& camera, const SceneLooku
   if (camera.eye) {
     return rendering::CameraView{Looking(*camera.eye, *camera.target), ParametersOf(camera)};
   }
-  rendering::CameraView all = ViewOfAll(lookup.corners(), camera.width, camera.height);
+  rendering::CameraView all = ViewOfAll(lookup.corners(), camera.width, camera.height, camera.side);
   if (camera.field_of_view) all.parameters.horizontal_fov = ParametersOf(camera).horizontal_fov;
   return all;
 }

@@ -14,6 +14,7 @@
 
 #include "gsv/base/error.h"
 #include "gsv/rendering/lenses/camera_view.h"
+#include "gsv/view/framing.h"
 
 namespace gsv::view {
 
@@ -26,6 +27,7 @@ struct Camera {
   std::optional<double> field_of_view;  // vertical, degrees; default: 45
   std::string follow;                   // a robot; empty: none
   std::string sensor;                   // "ROBOT/CAMERA": the view of this camera; empty: none
+  ViewOfAllSide side;                   // if none of these places the camera
 
   friend bool operator==(const Camera&, const Camera&) = default;
 };
@@ -38,6 +40,8 @@ base::Status CheckSize(int width, int height);
 base::Result<geometry::Vector3> ParsePoint(std::string_view text, const std::string& name);
 // A finite number from kMinFieldOfView to kMaxFieldOfView.
 base::Result<double> ParseFieldOfView(std::string_view text);
+// Sets a part of Camera::side: "azimuth" and "elevation" (degrees), "zoom".
+base::Status SetSide(const std::string& name, std::string_view text, ViewOfAllSide& side);
 // Refuses an eye without a target unless a robot is followed, and a sensor with any of them.
 base::Status Check(const Camera& camera);
 

@@ -147,11 +147,12 @@ std::vector<Vector3> CornersToShow(const world::Snapshot& snapshot) {
   return corners;
 }
 
-rendering::CameraView ViewOfAll(const std::vector<Vector3>& corners, int width, int height) {
-  constexpr double kYaw = 0.75 * std::numbers::pi, kPitch = 0.6, kMargin = 1.05;
+rendering::CameraView ViewOfAll(const std::vector<Vector3>& corners, int width, int height,
+                                const ViewOfAllSide& side) {
+  constexpr double kMargin = 1.05;
   constexpr double kFieldOfView = 0.8;
   constexpr double kMaxCoordinate = 1e6;  // m: limit of a renderer
-  const geometry::Quaternion turn = geometry::FromRollPitchYaw({0, kPitch, kYaw});
+  const geometry::Quaternion turn = geometry::FromRollPitchYaw({0, side.elevation, side.azimuth});
   const double across = std::tan(kFieldOfView / 2) / kMargin, up = across * height / width;
   constexpr double kEndless = std::numeric_limits<double>::infinity();
   Vector3 low{kEndless, kEndless, kEndless}, high{-kEndless, -kEndless, -kEndless};
@@ -168,11 +169,13 @@ rendering::CameraView ViewOfAll(const std::vector<Vector3>& corners, int width, 
     const Vector3 q = p - middle;
     back = std::max({back, std::abs(q.y) / across - q.x, std::abs(q.z) / up - q.x});
   }
+  const double whole = back;
+  back /= side.zoom;
   rendering::CameraParameters camera;
   camera.width = width;
   camera.height = height;
   camera.horizontal_fov = kFieldOfView;
-  camera.far = std::min(10 * back + 10, kMaxCoordinate);
+  camera.far = std::min(10 * std::max(back, whole) + 10, kMaxCoordinate);
   camera.near = std::clamp(1e-2 * back, 1e-3, camera.far / 10);
   return {{turn * (middle - Vector3{back, 0, 0}), turn}, camera};
 }

@@ -1,6 +1,7 @@
 // The view of a world that shows everything.
 #pragma once
 
+#include <numbers>
 #include <vector>
 
 #include "gsv/rendering/lenses/camera_view.h"
@@ -13,8 +14,17 @@ namespace gsv::view {
 // too small to see. If nothing is left, a box of 2 m about the origin. Never empty.
 std::vector<geometry::Vector3> CornersToShow(const world::Snapshot& snapshot);
 
-// A view from the front, right and above, at the smallest distance that shows all corners.
+// The direction of a view of everything, and how near it is.
+struct ViewOfAllSide {
+  double azimuth = 0.75 * std::numbers::pi;  // rad: heading of the view, counter-clockwise from x
+  double elevation = 0.6;                    // rad: how far it looks down
+  double zoom = 1;                           // 2: from half the distance
+  friend bool operator==(const ViewOfAllSide&, const ViewOfAllSide&) = default;
+};
+
+// A view from that side, by default from the front, right and above, at the smallest distance that
+// shows all corners, divided by the zoom.
 rendering::CameraView ViewOfAll(const std::vector<geometry::Vector3>& corners, int width,
-                                int height);
+                                int height, const ViewOfAllSide& side = {});
 
 }  // namespace gsv::view

@@ -81,5 +81,18 @@ TEST(Framing, TheOverviewProjectsAllCornersIntoTheImage) {
   }
 }
 
+TEST(Framing, TheOverviewLooksFromTheSideThatIsAskedFor) {
+  const std::vector<Vector3> corners{{-1, -1, -1}, {1, 1, 1}};
+  const rendering::CameraView east = ViewOfAll(corners, 400, 400, {0, 0, 1});  // looks along x
+  EXPECT_LT(east.world_from_camera.position.x, -1);
+  EXPECT_NEAR(east.world_from_camera.position.y, 0, 1e-9);
+  EXPECT_NEAR(east.world_from_camera.position.z, 0, 1e-9);
+  const rendering::CameraView near = ViewOfAll(corners, 400, 400, {0, 0, 2});
+  EXPECT_NEAR(near.world_from_camera.position.x, east.world_from_camera.position.x / 2, 1e-9);
+  const rendering::CameraView down = ViewOfAll(corners, 400, 400, {0, std::numbers::pi / 2, 1});
+  EXPECT_NEAR(down.world_from_camera.position.x, 0, 1e-9);
+  EXPECT_GT(down.world_from_camera.position.z, 1);
+}
+
 }  // namespace
 }  // namespace gsv::view

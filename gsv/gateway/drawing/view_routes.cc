@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "gsv/gateway/drawing/image_parts.h"
 #include "gsv/gateway/http/body_stream.h"
 
 namespace gsv::gateway::drawing {
@@ -18,8 +19,6 @@ using Clock = ViewDrawer::Clock;
 
 // The time after which a client gets an answer even if nothing has changed.
 constexpr std::chrono::milliseconds kTimeout{1000}, kStreamTimeout{5000};
-constexpr const char* kStreamType = "multipart/x-mixed-replace; boundary=gsv-image";
-constexpr const char* kBoundary = "--gsv-image\r\n";
 
 template <typename Number>
 std::optional<Number> WholeText(const std::string& text) {
@@ -47,6 +46,9 @@ base::Status SetCamera(const std::string& name, const std::string& value, view::
     return {};
   };
   if (name == "size") return view::SetSize(value, camera);
+  if (name == "azimuth" || name == "elevation" || name == "zoom") {
+    return view::SetSide(name, value, camera.side);
+  }
   if (name == "eye") return set_point(camera.eye);
   if (name == "target") return set_point(camera.target);
   if (name == "follow") camera.follow = value;
@@ -96,26 +98,20 @@ class ImageStream final : public BodyStream, public std::enable_shared_from_this
   void Next(std::function<void(std::optional<SharedBytes>)> take) override {
     if (first_) {
       const DrawnImage first = *std::exchange(first_, std::nullopt);
-      return take(PartOf(first, kBoundary));
+      return take(PartOf(first, true));
     }
     drawer_.Ask(seat_, last_, due_, kStreamTimeout,
                 [self = shared_from_this(), take](base::Result<DrawnImage> image) {
-                  take(image ? std::optional(self->PartOf(*image, "")) : std::nullopt);
+                  take(image ? std::optional(self->PartOf(*image, false)) : std::nullopt);
                 });
   }
 
  private:
-  // The boundary after an image lets browsers show it at once.
-  SharedBytes PartOf(const DrawnImage& image, const char* before) {
+  SharedBytes PartOf(const DrawnImage& image, bool is_first) {
     last_ = image.number;
     due_ = Clock::now() + period_;
-    std::string part =
-        fmt::format("{}Content-Type: image/jpeg\r\nContent-Length: {}\r\nGsv-Time: {:.6f}\r\n\r\n",
-                    before, image.bytes.size(), base::ToSeconds(image.time));
-    part += image.bytes.view();
-    part += "\r\n";
-    part += kBoundary;
-    return SharedBytes(std::move(part));
+    return ImagePart(image.bytes.view(), fmt::format("{:.6f}", base::ToSeconds(image.time)),
+                     is_first);
   }
 
   ViewDrawer& drawer_;
@@ -175,7 +171,7 @@ class ViewHandler {
                  respond](const base::Result<DrawnImage>& image) {
                   if (!image) return respond(ErrorResponse(image.error()));
                   Response response;
-                  response.content_type = kStreamType;
+                  response.content_type = kImageStreamType;
                   response.allows_other_sites = true;
                   response.stream = std::make_shared<ImageStream>(drawer, seat, rate, *image);
                   respond(std::move(response));
@@ -192,8 +188,8 @@ class ViewHandler {
 
 base::Result<ViewQuery> ParseViewQuery(const Target& target, bool is_stream) {
   static const std::set<std::string> kOfAll{
-      "simulation", "size", "pixel_ratio", "eye",   "target", "follow",
-      "camera",     "fov",  "quality",     "token", "_"};
+      "simulation", "size", "pixel_ratio", "eye",   "target",  "follow",    "camera",
+      "fov",        "zoom", "quality",     "token", "azimuth", "elevation", "_"};
   ViewQuery query;
   double pixel_ratio = 1;
   for (const auto& [name, value] : target.query) {
@@ -201,7 +197,7 @@ base::Result<ViewQuery> ParseViewQuery(const Target& target, bool is_stream) {
       return Fail(ErrorCode::kInvalidArgument,
                   "there is no parameter '" + name.substr(0, 64) +
                       "'; use simulation, size, pixel_ratio, eye, target, follow, camera, fov, "
-                      "quality or " +
+                      "azimuth, elevation, zoom, quality or " +
                       (is_stream ? "fps" : "after"));
     }
     if (auto set = SetParameter(name, value, pixel_ratio, query); !set) return Fail(set.error());

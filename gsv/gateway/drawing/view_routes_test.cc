@@ -116,6 +116,9 @@ TEST_F(ViewRoutesTest, BadRequestsHaveAStatusAndASentence) {
   check("simulation=nobody", 404, "there is no simulation 'nobody'");
   check("size=64x48&follow=nobody", 404, "there is no robot 'nobody'");
   check("size=64x48&camera=nobody/eye", 404, "there is no camera 'nobody/eye'");
+  check("elevation=91", 400, "the parameter elevation must be -90 to 90");
+  check("azimuth=x", 400, "the parameter azimuth");
+  check("zoom=2&eye=1,1,1&target=0,0,0", 400, "are for a view of the whole world");
   check("colour=red", 400, "there is no parameter 'colour'");
 }
 
@@ -157,7 +160,30 @@ TEST_F(ViewRoutesTest, ARelayForwardsImages) {
   ASSERT_EQ(image.status, 200) << image.body;
   EXPECT_EQ(SizeOf(image.body), std::pair(64, 48));
   EXPECT_TRUE(image.headers.contains("etag"));
-  EXPECT_EQ(Fetch((*relay)->port(), "GET", "/view.mjpeg").status, 501);
+}
+
+TEST_F(ViewRoutesTest, ARelayForwardsAStreamOfImages) {
+  auto relay = Gateway::StartRelay({}, {gateway_->url(), "", ""});
+  ASSERT_TRUE(relay) << relay.error().Sentence();
+  RawClient connection((*relay)->port());
+  connection.Send("GET /view.mjpeg?size=64x48&fps=60 HTTP/1.1\r\nHost: localhost:" +
+                  std::to_string((*relay)->port()) + "\r\n\r\n");
+  std::string received;
+  while (received.find("\xff\xd9\r\n--gsv-image") == std::string::npos) {
+    const std::string more = connection.ReceiveSome();
+    ASSERT_FALSE(more.empty()) << received;
+    received += more;
+  }
+  EXPECT_EQ(received.substr(0, 15), "HTTP/1.1 200 OK");
+  EXPECT_NE(received.find("multipart/x-mixed-replace; boundary=gsv-image"), std::string::npos);
+  EXPECT_NE(received.find("Gsv-Time: 0.000000"), std::string::npos);
+  const HttpReply refused = Fetch((*relay)->port(), "GET", "/view.mjpeg?size=64x48&follow=nobody");
+  EXPECT_EQ(refused.status, 404);
+  EXPECT_NE(refused.body.find("there is no robot 'nobody'"), std::string::npos);
+  EXPECT_EQ(Fetch((*relay)->port(), "GET", "/view.mjpeg?fps=1000").status, 400);
+  (*relay)->Stop();  // ends the stream
+  while (!connection.ReceiveSome().empty()) {
+  }
 }
 
 }  // namespace

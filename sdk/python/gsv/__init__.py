@@ -21,6 +21,7 @@ from gsv.behaviours import Behaviour, Controller, Offer, serve
 from gsv.errors import (
     BadModel, BehaviourFailed, Corrupt, Ended, Error, NotFound, NotRunning, Refused, TimedOut,
     Unavailable)
+from gsv.notebook import View, view
 
 del end_with_parent  # internal: gsv.behaviours and the fixtures take it from gsv._native
 

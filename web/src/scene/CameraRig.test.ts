@@ -153,3 +153,24 @@ test("a robot's eye sees as wide as its camera, whatever the shape of the window
   rig.lookFrom(null);
   expect(rig.camera.fov).toBe(before);
 });
+
+test("a map looks straight down, north up and without perspective, and shows as much as before", () => {
+  const rig = rigAt(new Vector3(0, -8, 6), new Vector3(0, 0, 0));
+  rig.resize(800, 400);
+  const before = rig.metresPerPixel;
+  rig.setMap(true);
+  rig.update(1000);
+  expect(rig.metresPerPixel).toBeCloseTo(before, 6);
+  const at = (x: number, y: number, z: number) => new Vector3(x, y, z).project(rig.camera);
+  expect(at(1, 0, 0).x).toBeGreaterThan(0); // east is to the right
+  expect(at(0, 1, 0).y).toBeGreaterThan(0); // north is up
+  expect(Math.abs(at(3, 2, 1).x - at(3, 2, 0).x)).toBeLessThan(0.005); // what is higher is hardly elsewhere
+  expect(Math.abs(at(3, 2, 1).y - at(3, 2, 0).y)).toBeLessThan(0.005);
+  expect(at(3, 2, 0).z).toBeLessThan(1);
+  expect(rig.controls.enableRotate).toBe(false);
+  expect(rig.viewNumbers.map((value) => Math.round(value))).toEqual([0, -8, 6, 0, 0, 0]); // what a link shows
+  rig.setMap(false);
+  expectNear(rig.viewpoint.position, 0, -8, 6);
+  expect(rig.controls.enableRotate).toBe(true);
+  expect(rig.camera.fov).toBe(50);
+});

@@ -116,8 +116,9 @@ export class CameraRig {
     this.controls.dispatchEvent({ type: "change" });
   }
 
+  // Of a map: that of the view before it, which a link can show.
   get viewNumbers(): ViewNumbers {
-    const { position, target } = this.viewpoint;
+    const { position, target } = this.beforeMap ?? this.viewpoint;
     return [...position.toArray(), ...target.toArray()];
   }
 
