@@ -39,7 +39,12 @@ class CarmenReader {
     if (used_ == 0 && others_ > 0) {
       rows_.Warn("the log has no ODOM, FLASER, ROBOTLASER1 or TRUEPOS");
     }
-    return rows_.Finish(used_);
+    const base::Status done = rows_.Finish(used_);
+    rows_.RemoveMisdated(log_.odometry);
+    rows_.RemoveMisdated(log_.commands);
+    rows_.RemoveMisdated(log_.truth);
+    rows_.RemoveMisdated(log_.scans);
+    return done;
   }
 
  private:

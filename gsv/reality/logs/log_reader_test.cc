@@ -1,12 +1,20 @@
 #include "gsv/reality/logs/log_reader.h"
 
 #include <cmath>
+#include <memory>
+#include <span>
+#include <vector>
 
 #include <gmock/gmock.h>
 
 #include "gsv/base/test_folder.h"
 #include "gsv/base/test_within.h"
 #include "gsv/geometry/constants.h"
+#include "gsv/messages/cdr.h"
+#include "gsv/messages/gsv_msgs.h"
+#include "gsv/messages/sensor_msgs.h"
+#include "gsv/messages/tf2_msgs.h"
+#include "gsv/recording/mcap/mcap_writer.h"
 
 namespace gsv::reality {
 namespace {
@@ -99,6 +107,73 @@ TEST_F(LogReaderTest, ReportsTimeThatGoesBackAndAClockThatJumps) {
   EXPECT_THAT(Problem(1), HasSubstr("a.log:23: the clock jumps from 19 to 500 s"));
 }
 
+// The odometry of a log with rows at these times, and a problem for each that is left out.
+struct Dated {
+  std::vector<double> times;
+  std::vector<double> read;
+  std::size_t left_out;
+};
+
+TEST_F(LogReaderTest, LeavesOutTheRowsWhoseTimeIsWrongAndNotThoseAfterThem) {
+  std::vector<double> whole;
+  for (int i = 0; i < 40; ++i) whole.push_back(i);
+  const auto with = [&](std::size_t at, std::vector<double> rows) {
+    std::vector<double> times = whole;
+    times.insert(times.begin() + static_cast<std::ptrdiff_t>(at), rows.begin(), rows.end());
+    return times;
+  };
+  const auto without = [&](std::size_t at) {
+    std::vector<double> times = whole;
+    times.erase(times.begin() + static_cast<std::ptrdiff_t>(at));
+    return times;
+  };
+  const std::vector<Dated> cases{
+      {with(20, {4e9}), whole, 1},   // far in the future
+      {with(20, {21.5}), whole, 1},  // a little
+      {with(0, {1e6}), whole, 1},    // the first row
+      {with(20, {900, 901, 902}), whole, 3},
+      {with(20, {3.5}), whole, 1},   // the past
+      {with(20, {18.5}), whole, 1},  // the past, a little
+      {with(40, {38.5}), whole, 1},  // the last row
+  };
+  for (const Dated& of : cases) {
+    std::string text;
+    for (const double time : of.times)
+      text += "ODOM 0 0 0 0 0 0 0 host " + std::to_string(time) + "\n";
+    problems_.clear();
+    const Log log = Read(folder_.Write("a.log", text), "carmen");
+    std::vector<double> read;
+    for (const TimedPose& pose : log.odometry) read.push_back(pose.time);
+    EXPECT_EQ(read, of.read);
+    EXPECT_EQ(log.commands.size(), of.read.size());
+    EXPECT_THAT(problems_, SizeIs(of.left_out));
+  }
+  // Two rows that are swapped: the one that comes late is left out.
+  std::vector<double> swapped = whole;
+  std::swap(swapped[20], swapped[21]);
+  std::string text;
+  for (const double time : swapped)
+    text += "ODOM 0 0 0 0 0 0 0 host " + std::to_string(time) + "\n";
+  problems_.clear();
+  const auto path = folder_.Write("a.log", text);
+  EXPECT_THAT(Read(path, "carmen").odometry, SizeIs(without(20).size()));
+  ASSERT_THAT(problems_, SizeIs(1));
+  EXPECT_EQ(Problem(0), path.string() + ":22: time goes back from 21 to 20 s; the row is ignored");
+}
+
+TEST_F(LogReaderTest, NamesTheRowWhoseTimeIsAhead) {
+  std::string text = kOdometry;
+  for (int i = 2; i < 20; ++i) text += "ODOM 0 0 0 0 0 0 0 host " + std::to_string(i) + "\n";
+  text += "ODOM 0 0 0 0 0 0 0 host 7000\nODOM 0 0 0 0 0 0 0 host 20\nODOM 0 0 0 0 0 0 0 host 21\n";
+  const auto path = folder_.Write("a.log", text);
+  EXPECT_THAT(Read(path, "carmen").odometry, SizeIs(22));
+  ASSERT_THAT(problems_, SizeIs(1));
+  EXPECT_EQ(Problem(0),
+            path.string() +
+                ":22: its time, 7000 s, is ahead of that of the rows after it, 20 s; the "
+                "row is ignored");
+}
+
 TEST_F(LogReaderTest, RefusesALogOfAnotherFormat) {
   EXPECT_THAT(Refusal(folder_.Write("a.log", "hello world\n"), "carmen"),
               HasSubstr("no row can be used; is the format (--as) the right one?"));
@@ -106,6 +181,79 @@ TEST_F(LogReaderTest, RefusesALogOfAnotherFormat) {
   EXPECT_THAT(Refusal(folder_.path() / "b.log", "log"),
               HasSubstr("there is no log format \"log\"; the formats are sonar-ring, "));
   EXPECT_THAT(Refusal(folder_.Write("a.mcap", "no recording"), "mcap"), HasSubstr("a.mcap"));
+}
+
+// Writes messages to a recording.
+class Recording {
+ public:
+  explicit Recording(const std::filesystem::path& path)
+      : writer_(recording::McapWriter::Create(path.string(), {.replace = true}).value()) {}
+  template <typename Message>
+  void Write(const std::string& topic, double time, const Message& message) {
+    messages::Bytes bytes;
+    messages::Encode(message, bytes);
+    const auto channel = writer_->AddChannel(topic, messages::SchemaOf<Message>());
+    ASSERT_TRUE(channel);
+    writer_->Write(*channel, base::FromSeconds(time), std::as_bytes(std::span(bytes)));
+  }
+  void Close() { EXPECT_TRUE(writer_->Close()); }
+
+ private:
+  std::unique_ptr<recording::McapWriter> writer_;
+};
+
+messages::tf2_msgs::TFMessage Transform(const std::string& parent, const std::string& child,
+                                        double x) {
+  messages::tf2_msgs::TFMessage message;
+  auto& transform = message.transforms.emplace_back();
+  transform.header.frame_id = parent;
+  transform.child_frame_id = child;
+  transform.transform.translation.x = x;
+  transform.transform.rotation.z = std::sqrt(0.5);
+  transform.transform.rotation.w = std::sqrt(0.5);
+  return message;
+}
+
+TEST_F(LogReaderTest, ReadsARecordingsScansTransformsAndCommands) {
+  const auto path = folder_.path() / "a.mcap";
+  Recording recording(path);
+  messages::sensor_msgs::LaserScan scan;
+  scan.angle_min = -1;
+  scan.angle_increment = 1;
+  scan.range_min = 0.1f;
+  scan.range_max = 8;
+  scan.ranges = {2, 9, 4};
+  for (const double time : {0.0, 1.0, 2.0}) {
+    recording.Write("/tf", time, Transform("map", "robot/base_link", time));
+    recording.Write("/tf", time, Transform("robot/odom", "robot/base_link", 2 * time));
+    recording.Write("/tf", time, Transform("map", "other/base_link", 9));
+    recording.Write("/tf", time, Transform("robot/base_link", "robot/wheel", 9));
+  }
+  recording.Write("/robot/scan", 1.5, scan);
+  messages::gsv_msgs::Command command;
+  command.robot = "robot";
+  command.linear_m_s = 0.5;
+  recording.Write("/gsv/commands", 1.5, command);
+  recording.Write("/robot/scan", 50, scan);
+  recording.Close();
+  const Log log = Read(path, "mcap");
+  ASSERT_THAT(log.truth, SizeIs(3));
+  EXPECT_EQ(log.truth[2].x, 2);
+  EXPECT_WITHIN(log.truth[2].yaw, geometry::kPi / 2, 1e-9, "rad");
+  ASSERT_THAT(log.odometry, SizeIs(3));
+  EXPECT_EQ(log.odometry[2].x, 4);
+  ASSERT_THAT(log.commands, SizeIs(1));
+  EXPECT_EQ(log.commands[0].linear, 0.5);
+  ASSERT_THAT(log.scans, SizeIs(2));
+  EXPECT_THAT(log.scans[0].ranges, ElementsAre(2, geometry::kInfinity, 4));
+  EXPECT_THAT(log.beam_angles, ElementsAre(-1, 0, 1));
+  ASSERT_TRUE(log.scans[0].base);
+  EXPECT_EQ(log.scans[0].base->x, 1.5);
+  EXPECT_FALSE(log.scans[1].base);
+  ASSERT_THAT(problems_, SizeIs(2));
+  EXPECT_THAT(Problem(0), HasSubstr("the transform from map to other/base_link is not read; the "
+                                    "transform from map to robot/base_link has the truth"));
+  EXPECT_THAT(Problem(1), HasSubstr("the clock jumps from 2 to 50 s"));
 }
 
 TEST_F(LogReaderTest, RefusesALogThatIsCutOffEverywhere) {

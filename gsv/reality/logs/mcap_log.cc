@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -66,9 +67,10 @@ class McapLog {
       Keep(fmt::format("{} more messages have problems", warnings_ - kMaxSentences));
     }
     if (log_.duration() == 0 && log_.scans.empty()) {
-      return base::Fail(base::ErrorCode::kCorrupt,
-                        "the recording has no LaserScan, Range, Odometry, PoseStamped or Twist",
-                        path_.string());
+      return base::Fail(
+          base::ErrorCode::kCorrupt,
+          "the recording has no LaserScan, Range, Odometry, PoseStamped, Twist or /tf",
+          path_.string());
     }
     return std::move(log_);
   }
@@ -83,8 +85,19 @@ class McapLog {
     return known->second == topic;
   }
 
+  // The messages come in the order of their times.
+  void ReportGap(double time) {
+    constexpr double kReportedGap = 10;  // s
+    if (last_time_ && time - *last_time_ > kReportedGap) {
+      Keep(fmt::format("the clock jumps from {} to {} s; nothing is compared across the gap",
+                       *last_time_, time));
+    }
+    last_time_ = time;
+  }
+
   void Add(const recording::DecodedMessage& message) {
     const double time = base::ToSeconds(message.time);
+    ReportGap(time);
     const Json& content = message.content;
     if (message.type == "sensor_msgs/msg/LaserScan") {
       if (IsOfFirstTopic("scans", message.topic)) AddScan(time, content);
@@ -96,6 +109,10 @@ class McapLog {
       }
     } else if (message.type == "geometry_msgs/msg/PoseStamped") {
       if (IsOfFirstTopic("truth", message.topic)) AddPose(time, In(content, "pose"), log_.truth);
+    } else if (message.type == "tf2_msgs/msg/TFMessage") {
+      if (message.topic == "/tf") AddTransforms(time, content);
+    } else if (message.type == "gsv_msgs/msg/Command") {
+      AddCommand(time, content);
     } else if (message.type == "geometry_msgs/msg/TwistStamped" ||
                message.type == "geometry_msgs/msg/Twist") {
       if (!IsOfFirstTopic("commands", message.topic)) return;
@@ -107,9 +124,52 @@ class McapLog {
     }
   }
 
+  // The poses of a base in the world (truth) and in its odometry's frame, by the frames' names of
+  // REP-105.
+  void AddTransforms(double time, const Json& content) {
+    const Json& transforms = In(content, "transforms");
+    if (!transforms.is_array()) return;
+    for (const Json& each : transforms) {
+      const std::string parent = FrameIn(In(each, "header"), "frame_id");
+      const std::string child = FrameIn(each, "child_frame_id");
+      const std::string of = LastPart(child);
+      if (of != "base_link" && of != "base_footprint") continue;
+      const bool is_odometry = LastPart(parent) == "odom";
+      if (!is_odometry && parent != "map" && parent != "world") continue;
+      const std::string from = "the transform from " + parent + " to " + child;
+      if (!IsOfFirstTopic(is_odometry ? "odometry" : "truth", from)) continue;
+      const Json& transform = In(each, "transform");
+      AddPose(time, In(transform, "translation"), In(transform, "rotation"),
+              is_odometry ? log_.odometry : log_.truth);
+    }
+  }
+
+  static std::string FrameIn(const Json& object, const char* key) {
+    const Json& name = In(object, key);
+    return name.is_string() ? name.get<std::string>() : "";
+  }
+  static std::string LastPart(const std::string& frame) {
+    return frame.substr(frame.rfind('/') + 1);
+  }
+
+  // A command in a recording by GSV.
+  void AddCommand(double time, const Json& command) {
+    const std::string robot = FrameIn(command, "robot");
+    if (!IsOfFirstTopic("commands", "/gsv/commands of " + robot)) return;
+    const double linear = NumberIn(command, "linear_m_s");
+    const double angular = NumberIn(command, "angular_rad_s");
+    if (!std::isfinite(linear + angular)) return Warn(Where(time) + "the command is not finite");
+    log_.commands.push_back({time, linear, angular});
+  }
+
   void AddPose(double time, const Json& pose, std::vector<TimedPose>& poses) {
-    const TimedPose read{time, NumberIn(In(pose, "position"), "x"),
-                         NumberIn(In(pose, "position"), "y"), YawOf(In(pose, "orientation"))};
+    AddPose(time, In(pose, "position"), In(pose, "orientation"), poses);
+  }
+
+  void AddPose(double time, const Json& position, const Json& orientation,
+               std::vector<TimedPose>& poses) {
+    const TimedPose read{time, NumberIn(position, "x"), NumberIn(position, "y"),
+                         YawOf(orientation)};
     if (!std::isfinite(read.x + read.y + read.yaw)) {
       return Warn(Where(time) + "the pose is not finite");
     }
@@ -164,6 +224,7 @@ class McapLog {
   Log log_;
   std::map<std::string, std::string> topics_, noted_;
   std::size_t warnings_ = 0;
+  std::optional<double> last_time_;
 };
 
 }  // namespace

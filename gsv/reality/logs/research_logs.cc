@@ -47,6 +47,7 @@ base::Result<std::vector<TimedPose>> ReadPlaces(const fs::path& path, const std:
     places.push_back({v[0] * time_unit, v[1] * length_unit, v[2] * length_unit, 0});
   }
   if (auto done = rows->Finish(places.size()); !done) return base::Fail(done.error());
+  rows->RemoveMisdated(places);
   return places;
 }
 
@@ -76,6 +77,7 @@ base::Result<Log> ReadSonarRing(const fs::path& path, base::Problems& problems) 
     log.scans.push_back(std::move(scan));
   }
   if (auto done = rows->Finish(log.scans.size()); !done) return base::Fail(done.error());
+  rows->RemoveMisdated(log.scans);
   if (auto ok = CheckUnit(largest, 50, "millimetres", path); !ok) return base::Fail(ok.error());
 
   rows = TextRows::Open(path.parent_path() / "poses.txt", problems);
@@ -86,6 +88,7 @@ base::Result<Log> ReadSonarRing(const fs::path& path, base::Problems& problems) 
         {v[0] * 1e-3, v[1] * kMillimetre, v[2] * kMillimetre, WrappedAngle(v[3] * 0.1 * kDegree)});
   }
   if (auto done = rows->Finish(log.odometry.size()); !done) return base::Fail(done.error());
+  rows->RemoveMisdated(log.odometry);
   for (RangeScan& scan : log.scans) scan.base = PoseAt(log.odometry, scan.time);
   return log;
 }
@@ -122,6 +125,7 @@ base::Result<Log> ReadArena(const fs::path& path, base::Problems& problems) {
     log.scans.push_back(std::move(scan));
   }
   if (auto done = rows->Finish(log.scans.size()); !done) return base::Fail(done.error());
+  rows->RemoveMisdated(log.scans);
   if (auto ok = CheckUnit(largest, 50, "millimetres", path); !ok) return base::Fail(ok.error());
 
   rows = TextRows::Open(Companion(path, "_motors.txt"), problems);
@@ -134,6 +138,7 @@ base::Result<Log> ReadArena(const fs::path& path, base::Problems& problems) {
         {v[0] * 1e-3, (v[1] - first->first) * kTick, (v[5] - first->second) * kTick});
   }
   if (auto done = rows->Finish(log.wheels.size()); !done) return base::Fail(done.error());
+  rows->RemoveMisdated(log.wheels);
 
   auto places = ReadPlaces(Companion(path, "_reference.txt"), "P", 1e-3, kMillimetre, problems);
   if (!places) return base::Fail(places.error());
@@ -151,6 +156,7 @@ base::Result<Log> ReadMrclam(const fs::path& path, base::Problems& problems) {
     log.commands.push_back({v[0], v[1], v[2]});
   }
   if (auto done = rows->Finish(log.commands.size()); !done) return base::Fail(done.error());
+  rows->RemoveMisdated(log.commands);
   rows = TextRows::Open(Companion(path, "_Groundtruth.dat"), problems);
   if (!rows) return base::Fail(rows.error());
   while (rows->Next()) {
@@ -158,6 +164,7 @@ base::Result<Log> ReadMrclam(const fs::path& path, base::Problems& problems) {
     log.truth.push_back({v[0], v[1], v[2], WrappedAngle(v[3])});
   }
   if (auto done = rows->Finish(log.truth.size()); !done) return base::Fail(done.error());
+  rows->RemoveMisdated(log.truth);
   return log;
 }
 
@@ -194,6 +201,8 @@ base::Result<Log> ReadRobotData(const fs::path& path, base::Problems& problems) 
     log.scans.push_back(std::move(scan));
   }
   if (auto done = rows->Finish(used); !done) return base::Fail(done.error());
+  rows->RemoveMisdated(log.odometry);
+  rows->RemoveMisdated(log.scans);
   if (auto ok = CheckUnit(largest, 30, "centimetres", path); !ok) return base::Fail(ok.error());
   return log;
 }
@@ -216,6 +225,7 @@ base::Result<Log> ReadUwb(const fs::path& path, base::Problems& problems) {
         {v[0], static_cast<int>(v[5]), v[1], std::hypot(tag->x - v[3], tag->y - v[4]), v[3], v[4]});
   }
   if (auto done = rows->Finish(log.radio.size()); !done) return base::Fail(done.error());
+  rows->RemoveMisdated(log.radio);
   return log;
 }
 

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -12,7 +13,8 @@ namespace {
 constexpr std::uintmax_t kMaxBytes = 512u << 20;
 constexpr std::size_t kMaxLine = 1u << 20;
 constexpr std::size_t kMaxSentences = 20;
-constexpr double kLongGap = 10;  // s
+constexpr double kLongGap = 10;          // s
+constexpr std::size_t kMaxMisdated = 5;  // consecutive rows
 
 bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
@@ -87,32 +89,75 @@ bool TextRows::Numbers(std::size_t first, std::size_t count, std::vector<double>
 }
 
 bool TextRows::InOrder(double time) {
-  if (has_time_ && time < last_time_) {
-    LeaveOut(fmt::format("time goes back from {} to {} s", last_time_, time));
+  if (doubtful_) DecideOn(time);
+  if (!recent_.empty() && time < recent_.back().time) {
+    const auto ahead = static_cast<std::size_t>(std::count_if(
+        recent_.begin(), recent_.end(), [&](const TimedLine& row) { return row.time > time; }));
+    if (ahead <= kMaxMisdated) {
+      doubtful_ = TimedLine{time, line_};
+      return true;
+    }
+    LeaveOut(fmt::format("time goes back from {} to {} s", recent_.back().time, time));
     return false;
   }
-  if (has_time_ && time - last_time_ > kLongGap) {
-    Warn(fmt::format("the clock jumps from {} to {} s; nothing is compared across the gap",
-                     last_time_, time));
+  // Rows after a gap may still turn out to be misdated.
+  if (gap_ && recent_.front().time >= gap_->second.time) ReportGap();
+  if (!recent_.empty() && time - recent_.back().time > kLongGap) {
+    ReportGap();
+    gap_ = {recent_.back().time, {time, line_}};
   }
-  has_time_ = true;
-  last_time_ = time;
+  recent_.push_back({time, line_});
+  if (recent_.size() > kMaxMisdated + 1) recent_.erase(recent_.begin());
   return true;
 }
 
-std::string TextRows::Here() const { return fmt::format("{}:{}", path_.string(), line_); }
-
-void TextRows::LeaveOut(const std::string& why) {
-  ++left_out_;
-  Warn(why + "; the row is ignored");
+// `time` is that of the row after the doubtful one. At the end of the file it is infinite.
+void TextRows::DecideOn(double time) {
+  const TimedLine row = *std::exchange(doubtful_, std::nullopt);
+  const double last = recent_.back().time;
+  if (time >= last || time < row.time) {
+    return LeaveOutAsMisdated(row, fmt::format("time goes back from {} to {} s", last, row.time));
+  }
+  while (!recent_.empty() && recent_.back().time > row.time) {
+    const TimedLine wrong = recent_.back();
+    recent_.pop_back();
+    LeaveOutAsMisdated(wrong,
+                       fmt::format("its time, {} s, is ahead of that of the rows after it, {} s",
+                                   wrong.time, row.time));
+  }
+  if (gap_ && gap_->second.time > row.time) gap_.reset();
+  recent_.push_back(row);
 }
 
-void TextRows::Warn(const std::string& what) {
+void TextRows::ReportGap() {
+  if (!gap_) return;
+  WarnOf(fmt::format("the clock jumps from {} to {} s; nothing is compared across the gap",
+                     gap_->first, gap_->second.time),
+         gap_->second.line);
+  gap_.reset();
+}
+
+void TextRows::LeaveOutAsMisdated(const TimedLine& row, const std::string& why) {
+  misdated_.push_back(row.time);
+  LeaveOutLine(why, row.line);
+}
+
+void TextRows::LeaveOutLine(const std::string& why, int line) {
+  ++left_out_;
+  WarnOf(why + "; the row is ignored", line);
+}
+
+void TextRows::Warn(const std::string& what) { WarnOf(what, line_); }
+
+void TextRows::WarnOf(const std::string& what, int line) {
   if (++warnings_ > kMaxSentences) return;
-  problems_->push_back({base::Problem::Severity::kWarning, what, Here()});
+  problems_->push_back(
+      {base::Problem::Severity::kWarning, what, fmt::format("{}:{}", path_.string(), line)});
 }
 
 base::Status TextRows::Finish(std::size_t used) {
+  if (doubtful_) DecideOn(std::numeric_limits<double>::infinity());
+  ReportGap();
   if (warnings_ > kMaxSentences) {
     problems_->push_back({base::Problem::Severity::kWarning,
                           fmt::format("{} more rows have problems", warnings_ - kMaxSentences),

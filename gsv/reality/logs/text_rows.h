@@ -6,9 +6,12 @@
 //         is refused.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "gsv/base/error.h"
@@ -31,10 +34,22 @@ class TextRows {
   bool Numbers(std::size_t first, std::size_t count, std::vector<double>& numbers);
 
   // Whether the time of this row may follow that of the row before it. A row that goes back in time
-  // is left out; a gap of more than 10 s is reported.
+  // is left out. Up to five rows whose time is ahead of that of the two rows after them are left out
+  // instead: they were used already, so that RemoveMisdated() must remove what came of them. A gap of
+  // more than 10 s is reported.
   bool InOrder(double time);
 
-  void LeaveOut(const std::string& why);
+  // Removes from a series, which has the members `time` of rows, what came of misdated rows. Call it
+  // after Finish().
+  template <typename Series>
+  void RemoveMisdated(Series& series) const {
+    if (misdated_.empty()) return;
+    std::erase_if(series, [&](const auto& of) {
+      return std::find(misdated_.begin(), misdated_.end(), of.time) != misdated_.end();
+    });
+  }
+
+  void LeaveOut(const std::string& why) { LeaveOutLine(why, line_); }
   void Warn(const std::string& what);
 
   // After the last row: kCorrupt if too many rows were left out, or none was used.
@@ -43,7 +58,15 @@ class TextRows {
  private:
   TextRows(std::filesystem::path path, std::string text, base::Problems& problems)
       : path_(std::move(path)), text_(std::move(text)), problems_(&problems) {}
-  std::string Here() const;
+  struct TimedLine {
+    double time = 0;
+    int line = 0;
+  };
+  void LeaveOutLine(const std::string& why, int line);
+  void WarnOf(const std::string& what, int line);
+  void ReportGap();
+  void LeaveOutAsMisdated(const TimedLine& row, const std::string& why);
+  void DecideOn(double time);
 
   std::filesystem::path path_;
   std::string text_;
@@ -52,8 +75,14 @@ class TextRows {
   int line_ = 0;
   std::vector<std::string_view> words_;
   std::size_t rows_ = 0, left_out_ = 0, warnings_ = 0;
-  bool has_time_ = false;
-  double last_time_ = 0;
+  // The last rows in order of time, the newest last: at most kMaxMisdated + 1.
+  std::vector<TimedLine> recent_;
+  // A row that goes back in time, when only a few rows are ahead of it: the next row shows which of
+  // them are wrong.
+  std::optional<TimedLine> doubtful_;
+  // The time before a gap and the row after it, until enough rows confirm the gap.
+  std::optional<std::pair<double, TimedLine>> gap_;
+  std::vector<double> misdated_;
 };
 
 }  // namespace gsv::reality
