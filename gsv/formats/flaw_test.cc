@@ -110,6 +110,43 @@ TEST_F(FlawTest, AFlawOfTheWorldItselfLeavesItsModels) {
   }
 }
 
+TEST_F(FlawTest, InvalidLightIsRepaired) {
+  const auto world = World(
+      "<light name='a' type='spot'><attenuation><range>-1</range></attenuation><spot><inner_angle>5"
+      "</inner_angle><outer_angle>nan</outer_angle></spot></light><light name='b' "
+      "type='spot'><spot>"
+      "<inner_angle>0.8</inner_angle><outer_angle>0.6</outer_angle></spot></light>");
+  EXPECT_THAT(Said(),
+              UnorderedElementsAre(HasSubstr("<range> must be above 0; 10 m is used"),
+                                   HasSubstr("<outer_angle> <= 2 pi; 1 and 1 rad are used"),
+                                   HasSubstr("<outer_angle> <= 2 pi; 0.6 and 0.6 rad are used")));
+  ASSERT_EQ(world.lights.size(), 2u);
+  EXPECT_EQ(world.lights[0].range, 10);
+  EXPECT_EQ(world.lights[1].inner_angle, 0.6);
+}
+
+TEST_F(FlawTest, AxisWithoutDirectionAndSwappedLimitsAreRepaired) {
+  const std::string link =
+      "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/>"
+      "</inertial></link>";
+  const auto robot =
+      Robot("<link name='a'>" + link + "<link name='b'>" + link +
+            "<joint name='j' type='revolute'><parent link='a'/><child link='b'/><axis "
+            "xyz='0 0 0'/><limit lower='2' upper='-1' effort='1' velocity='1'/></joint>");
+  EXPECT_THAT(Said(),
+              UnorderedElementsAre(HasSubstr("has @lower 2 above @upper -1; they are swapped"),
+                                   HasSubstr("has no direction; 1 0 0 is used")));
+  ASSERT_EQ(robot->joints.size(), 1u);
+  EXPECT_EQ(robot->joints[0].position_limits.min, -1);
+  EXPECT_EQ(robot->joints[0].position_limits.max, 2);
+  EXPECT_EQ(robot->joints[0].axis, (geometry::Vector3{1, 0, 0}));
+  World(
+      "<model name='m'><link name='a'/><link name='b'/><joint name='j' type='revolute'><parent>a"
+      "</parent><child>b</child><axis><xyz>0 0 0</xyz></axis></joint></model>");
+  EXPECT_THAT(Said(), ElementsAre(HasSubstr(
+                          "<xyz> holds \"0 0 0\": an axis needs a length above 0; 0 0 1 is used")));
+}
+
 TEST_F(FlawTest, DanglingReferenceIsIgnored) {
   const std::pair<const char*, const char*> contents[] = {
       {"<link name='b'><pose relative_to='nope'>0 0 1 0 0 0</pose></link>", "relative to nope"},

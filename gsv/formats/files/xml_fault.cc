@@ -162,7 +162,15 @@ class FaultFinder {
 
 }  // namespace
 
-std::optional<XmlFault> FindXmlFault(std::string_view text) { return FaultFinder(text).Find(); }
+std::optional<XmlFault> FindXmlFault(std::string_view text) {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+    return XmlFault{
+        1, 1,
+        "the text is in UTF-16, and only UTF-8 is read. Convert it with iconv -f UTF-16 "
+        "-t UTF-8, and delete its encoding=\"UTF-16\""};
+  }
+  return FaultFinder(text).Find();
+}
 
 XmlErrorText DescribeXmlError(std::string_view text, const std::string& file, int line) {
   if (const auto fault = FindXmlFault(text)) {

@@ -21,6 +21,10 @@ TEST(XmlFault, IsAbsentInWellFormedText) {
                    "<![CDATA[ <x> ]]><d/>text</a >\n"));
 }
 
+TEST(XmlFault, NamesAnEncodingThatIsNotRead) {
+  ExpectFault(std::string_view("\xff\xfe<\0a\0", 6), 1, 1, "the text is in UTF-16");
+}
+
 TEST(XmlFault, NamesTheElementThatIsNotClosed) {
   ExpectFault("<sdf>\n  <world>\n  </world>\n", 1, 1, "<sdf> is not closed. Add </sdf>");
   ExpectFault("<sdf>\n  <world>\n</sdf>", 3, 1,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <sdf/Atmosphere.hh>
 #include <sdf/Element.hh>
 #include <sdf/Physics.hh>
@@ -61,19 +62,33 @@ void ReadOrigin(const ignition::math::SphericalCoordinates& coordinates,
   }
 }
 
+void CheckCone(const ReadingContext& context, const std::string& place, Light& light) {
+  constexpr double kWidest = 2 * std::numbers::pi;
+  double& inner = light.inner_angle;
+  double& outer = light.outer_angle;
+  if (0 <= inner && inner <= outer && outer <= kWidest) return;
+  if (!(0 < outer && outer <= kWidest)) outer = 1;
+  inner = 0 <= inner ? std::min(inner, outer) : outer / 2;
+  context.Warn(fmt::format("a spot light needs 0 <= <inner_angle> <= <outer_angle> <= 2 pi; {:g} "
+                           "and {:g} rad are used",
+                           inner, outer),
+               place);
+}
+
 }  // namespace
 
 model::Light ReadLight(const sdf::Light& source, const ReadingContext& context) {
   Light light;
   light.name = source.Name();
   light.kind = KindOf(source.Type());
+  const std::string place = source.Element() == nullptr
+                                ? context.source.string()
+                                : PlaceOf(*source.Element(), context.source);
   const Vector3 direction = FromIgnition(source.Direction());
   if (geometry::IsFinite(direction) && geometry::Norm(direction) > 0) {
     light.direction = geometry::Normalized(direction);
   } else if (light.kind != Light::Kind::kPoint) {
-    context.Warn("the light's <direction> has no length; straight down is used",
-                 source.Element() == nullptr ? context.source.string()
-                                             : PlaceOf(*source.Element(), context.source));
+    context.Warn("the light's <direction> has no length; straight down is used", place);
   }
   light.diffuse = FromIgnition(source.Diffuse());
   light.intensity = std::max(source.Intensity(), 0.0);
@@ -83,11 +98,16 @@ model::Light ReadLight(const sdf::Light& source, const ReadingContext& context) 
     light.intensity = 0;
   }
   light.range = source.AttenuationRange();
+  if (!(light.range > 0)) {
+    context.Warn("the light's <range> must be above 0; 10 m is used", place);
+    light.range = 10;
+  }
   light.constant_attenuation = source.ConstantAttenuationFactor();
   light.linear_attenuation = source.LinearAttenuationFactor();
   light.quadratic_attenuation = source.QuadraticAttenuationFactor();
   light.inner_angle = source.SpotInnerAngle().Radian();
   light.outer_angle = source.SpotOuterAngle().Radian();
+  if (light.kind == Light::Kind::kSpot) CheckCone(context, place, light);
   light.cast_shadows = source.CastShadows();
   return light;
 }

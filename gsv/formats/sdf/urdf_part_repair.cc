@@ -295,6 +295,20 @@ class UrdfPartRepair {
            "<limit> of " + NameOfPart(joint) + " has no @" + key + "; there is no such limit");
       limit->SetAttribute(key, kNoUrdfLimit);
     }
+    if (limit != nullptr && HasNumber(*limit, "lower") && HasNumber(*limit, "upper") &&
+        limit->DoubleAttribute("lower") > limit->DoubleAttribute("upper")) {
+      const std::string lower = limit->Attribute("lower"), upper = limit->Attribute("upper");
+      Warn(*limit, "<limit> of " + NameOfPart(joint) + " has @lower " + lower + " above @upper " +
+                       upper + "; they are swapped");
+      limit->SetAttribute("lower", upper.c_str());
+      limit->SetAttribute("upper", lower.c_str());
+    }
+    XMLElement* axis = joint.FirstChildElement("axis");
+    if (axis != nullptr && axis->Attribute("xyz") != nullptr &&
+        IsZeroVector(axis->Attribute("xyz"))) {
+      Warn(*axis, "<axis> of " + NameOfPart(joint) + " has no direction; 1 0 0 is used");
+      axis->SetAttribute("xyz", "1 0 0");
+    }
     const auto drop = [&](const char* name, auto is_complete) {
       XMLElement* part = joint.FirstChildElement(name);
       if (part != nullptr && !is_complete(*part)) LeaveOut(*part, "it is incomplete");

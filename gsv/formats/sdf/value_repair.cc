@@ -154,14 +154,24 @@ class ValueRepair {
     element.SetAttribute("type", taken);
   }
 
+  // Whether it is the direction of a joint's axis.
+  static bool IsAxis(const XMLElement& element) {
+    const auto* parent = element.Parent()->ToElement();
+    return std::strcmp(element.Name(), "xyz") == 0 && parent != nullptr &&
+           std::strncmp(parent->Name(), "axis", 4) == 0;
+  }
+
   void RepairOwnText(XMLElement& element, const sdf::ElementPtr& description) {
     const sdf::ParamPtr value = description->GetValue();
     if (value == nullptr || IsBlank(&element)) return;
     const char* format = element.Attribute("rotation_format");
     const bool has_quaternion = format != nullptr && std::strcmp(format, "quat_xyzw") == 0;
     const std::string written = element.GetText();
-    const RepairedText repaired =
+    RepairedText repaired =
         RepairText(value->GetTypeName(), written, value->GetDefaultAsString(), has_quaternion);
+    if (IsAxis(element) && IsZeroVector(written)) {
+      repaired = {value->GetDefaultAsString(), "an axis needs a length above 0"};
+    }
     if (repaired.wrong.empty()) return;
     Warn(element, Tag(element) + " holds " + Quoted(written) + ": " + repaired.wrong + "; " +
                       repaired.text + " is used");

@@ -159,6 +159,14 @@ LeadingNumber LeadingNumberOf(const std::string& word) {
   return number;
 }
 
+bool IsZeroVector(std::string_view text) {
+  const std::vector<std::string> words = WordsOf(text);
+  return words.size() == 3 && std::all_of(words.begin(), words.end(), [](const std::string& word) {
+           const LeadingNumber number = LeadingNumberOf(word);
+           return number.is_all && number.value == 0;
+         });
+}
+
 RepairedText RepairText(const std::string& type, const std::string& text,
                         const std::string& otherwise, bool has_quaternion) {
   static const std::map<std::string, std::size_t> vectors = {

@@ -24,6 +24,9 @@ struct LeadingNumber {
 };
 LeadingNumber LeadingNumberOf(const std::string& word);
 
+// Whether the text is three numbers, all of them 0.
+bool IsZeroVector(std::string_view text);
+
 // `type` is libsdformat's name of it: "bool", "double", "int", "unsigned int", "pose", "color",
 // "vector3" and so on; texts of other types are always valid. `has_quaternion`: the pose has the
 // form x y z qx qy qz qw.

@@ -450,7 +450,9 @@ base::Result<Value> Expander::Evaluate(const std::string& text, const Node& at, 
   if (text.find('$') == std::string::npos) return Value{text};
   if (++steps_ > kMaxSteps) return Unfit("the file takes too many steps to expand");
   const Level level(levels_);
-  if (levels_ > kMaxLevels) return Unfit("properties need each other too deep");
+  if (levels_ > kMaxLevels)
+    return Unfit(
+        "macros or properties are nested too deep. A macro may call itself without an end");
   EvaluationContext evaluation;
   evaluation.property = [&](const std::string& name) { return scope.Find(name); };
   evaluation.load_yaml = [&](const std::string& name) { return files_.ReadYaml(name, *at.file); };
