@@ -43,8 +43,8 @@ class ReadsAll final : public Behaviour {
     for (const base::Status& status :
          {open(sonar_), open(lidar_), open(position_), open(imu_), open(odometer_),
           open(satellites_), open(magnetometer_), open(altimeter_), open(bumper_), open(joints_),
-          open(battery_), open(logical_camera_), open(radio_), open(lamp_), open(speaker_),
-          open(gripper_), open(microphone_)}) {
+          open(battery_), open(logical_camera_), open(radio_), open(ranging_), open(lamp_),
+          open(speaker_), open(gripper_), open(microphone_)}) {
       if (!status) return status;
     }
     const auto wrong = robot.Open<Imu>("sonar");
@@ -76,6 +76,8 @@ class ReadsAll final : public Behaviour {
     values["sonar"] = {sonar_->Range(), sonar_->max_range()};
     values["more"] = {created_->Range(), created_->max_range()};
     values["lidar"] = lidar_->Ranges();
+    values["lidar intensities"] = lidar_->Read().intensities;
+    values["ranging"] = {ranging_->Distance()};
     values["positioning"] = Numbers(position_->Locate());
     const Imu::Motion motion = imu_->Read();
     values["imu"] = Numbers(motion.specific_force);
@@ -138,6 +140,7 @@ class ReadsAll final : public Behaviour {
   std::unique_ptr<Battery> battery_;
   std::unique_ptr<LogicalCamera> logical_camera_;
   std::unique_ptr<Radio> radio_;
+  std::unique_ptr<Ranging> ranging_;
   std::unique_ptr<Gripper> gripper_;
   std::unique_ptr<Lamp> lamp_;
   std::unique_ptr<Speaker> speaker_;
@@ -156,15 +159,19 @@ simulation::RobotSpecification RobotWithAll(std::shared_ptr<simulation::Behaviou
   lever.child = 1;
   model->joints.push_back(lever);
   model->sensors.clear();
-  for (const char* type : {"sonar", "lidar", "positioning", "imu", "odometry", "navsat",
-                           "magnetometer", "altimeter", "contact", "joint_encoders", "battery",
-                           "logical_camera", "radio", "gripper", "lamp", "speaker", "microphone"}) {
+  for (const char* type :
+       {"sonar", "lidar", "positioning", "imu", "odometry", "navsat", "magnetometer", "altimeter",
+        "contact", "joint_encoders", "battery", "logical_camera", "radio", "ranging", "gripper",
+        "lamp", "speaker", "microphone"}) {
     model::SensorDescription sensor;
     sensor.name = sensor.type = type;
     sensor.link_from_sensor.position = {0, 0, 0.25};
     // The sensor is at the height of the wall's centre.
     if (sensor.type == "logical_camera") sensor.link_from_sensor.position.z = 1;
-    if (sensor.type == "lidar") sensor.parameters = {{"scan.horizontal.samples", 8.0}};
+    if (sensor.type == "lidar") {
+      sensor.parameters = {{"scan.horizontal.samples", 8.0}, {"intensity_scale", 100.0}};
+    }
+    if (sensor.type == "ranging") sensor.parameters = {{"anchor", std::string("speaker")}};
     if (sensor.type == "imu") {
       sensor.parameters = {{"linear_acceleration.x.noise.stddev", 0.1}};
     }
@@ -270,6 +277,14 @@ void CheckInterfaces(sba::SensorFactory_ptr factory, const Read& read) {
   EXPECT_EQ(Opened<sba::Sonar>(factory, "sonar")->range(), values.at("sonar")[0]);
   const sba::Doubles_var ranges = Opened<sba::Lidar>(factory, "lidar")->ranges();
   EXPECT_EQ(ranges->length(), values.at("lidar").size());
+  const sba::LidarScan_var scan = Opened<sba::IntensityLidar>(factory, "lidar")->read();
+  EXPECT_EQ(scan->time_ns, 50'000'000);
+  ASSERT_EQ(scan->ranges_m.length(), values.at("lidar").size());
+  ASSERT_EQ(scan->intensities.length(), values.at("lidar intensities").size());
+  EXPECT_EQ(scan->intensities[0], values.at("lidar intensities")[0]);
+  const sba::RangingReading ranged = Opened<sba::Ranging>(factory, "ranging")->read();
+  EXPECT_EQ(ranged.time_ns, 50'000'000);
+  EXPECT_EQ(ranged.distance_m, values.at("ranging")[0]);
   EXPECT_EQ(Opened<sba::PositioningSystem>(factory, "positioning")->locate().x_m,
             values.at("positioning")[0]);
   const sba::ImuReading felt = Opened<sba::Imu>(factory, "imu")->feel();
@@ -346,12 +361,16 @@ TEST(Sensors, ReadTheSameInProcessThroughCorbaAndThroughTheirInterfaces) {
   (*orb)->destroy();
   EXPECT_EQ(local.values, remote.values);
   EXPECT_EQ(local.names, remote.names);
-  EXPECT_EQ(local.values.size(), 20u);
+  EXPECT_EQ(local.values.size(), 22u);
 
   const auto& values = local.values;
   EXPECT_EQ(values.at("more")[1], 2);
   EXPECT_NEAR(values.at("sonar")[0], 0.2, 1e-3);  // the robot is at the wall
   EXPECT_EQ(values.at("sonar")[1], 5);
+  EXPECT_EQ(values.at("lidar").size(), 8u);
+  EXPECT_EQ(values.at("lidar intensities").size(), 8u);
+  // The other robot is 5.02 m behind, and the tag 0.25 m above its own robot.
+  EXPECT_NEAR(values.at("ranging")[0], std::hypot(5.02, 0.25), 1e-3);
   EXPECT_NEAR(values.at("altimeter")[2], 0.25, 1e-9);
   EXPECT_GT(values.at("navsat")[0], 45);
   EXPECT_EQ(local.names.at("contact"), std::vector<std::string>{"wall"});

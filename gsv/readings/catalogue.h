@@ -59,7 +59,18 @@ struct Sonar {
 struct Lidar {
   static constexpr const char* kType = "lidar";
   std::span<const double> ranges;  // one per beam; infinite if nothing was hit
+  // One per beam, or none if the lidar does not measure them. In a reading they follow the ranges.
+  // The layout cannot tell them apart, so that Decode() leaves all values in `ranges`.
+  std::span<const double> intensities;
   static constexpr auto kFields = std::make_tuple(Value("ranges", "m", &Lidar::ranges));
+
+  // The parameter of a lidar that measures intensities: a number above 0.
+  static constexpr const char* kIntensityParameter = "intensity_scale";
+  // Returns the decoded values of such a lidar with the intensities in their own member.
+  Lidar WithIntensities() const {
+    const std::size_t beams = ranges.size() / 2;
+    return {ranges.first(beams), ranges.last(beams)};
+  }
 };
 
 struct Positioning {
@@ -198,6 +209,14 @@ struct Radio {
   static constexpr const char* kType = "radio";
   std::vector<HeardMessage> messages;  // the oldest first
   static constexpr auto kFields = std::make_tuple(Value("messages", "", &Radio::messages));
+};
+
+// To one radio anchor, as tags of ultra-wideband (UWB) radio measure it.
+struct Ranging {
+  static constexpr const char* kType = "ranging";
+  double distance = std::numeric_limits<double>::infinity();  // infinite if it is not received
+  static constexpr auto kFields =
+      std::make_tuple(Value("distance", "m", &Ranging::distance, "range"));
 };
 
 struct Microphone {

@@ -38,13 +38,32 @@ class SonarServant final : public SensorServant<POA_sba::Sonar> {
   }
 };
 
-class LidarServant final : public SensorServant<POA_sba::Lidar> {
+class LidarServant final : public SensorServant<POA_sba::IntensityLidar> {
  public:
   using SensorServant::SensorServant;
   sba::Doubles* ranges() override {
     const Reading reading = Read();
-    return ToSequence<sba::Doubles>(In<readings::Lidar>(reading).ranges,
-                                    [](double range, CORBA::Double& to) { to = range; });
+    return ToDoubles(ScanIn(reading).ranges);
+  }
+  sba::LidarScan* read() override {
+    const Reading reading = Read();
+    const readings::Lidar scan = ScanIn(reading);
+    sba::LidarScan_var reply = new sba::LidarScan;
+    reply->time_ns = reading.time.count();
+    reply->ranges_m = *sba::Doubles_var(ToDoubles(scan.ranges)).operator->();
+    reply->intensities = *sba::Doubles_var(ToDoubles(scan.intensities)).operator->();
+    return reply._retn();
+  }
+
+ private:
+  static sba::Doubles* ToDoubles(std::span<const double> from) {
+    return ToSequence<sba::Doubles>(from, [](double value, CORBA::Double& to) { to = value; });
+  }
+  readings::Lidar ScanIn(const Reading& reading) const {
+    const auto scan = In<readings::Lidar>(reading);
+    const bool has_intensities =
+        model::NumberOr(description().parameters, readings::Lidar::kIntensityParameter, 0.0) > 0;
+    return has_intensities ? scan.WithIntensities() : scan;
   }
 };
 
@@ -210,6 +229,15 @@ class RadioServant final : public SensorServant<POA_sba::Radio> {
   }
 };
 
+class RangingServant final : public SensorServant<POA_sba::Ranging> {
+ public:
+  using SensorServant::SensorServant;
+  sba::RangingReading read() override {
+    const Reading reading = Read();
+    return {reading.time.count(), In<readings::Ranging>(reading).distance};
+  }
+};
+
 class MicrophoneServant final : public SensorServant<POA_sba::Microphone> {
  public:
   using SensorServant::SensorServant;
@@ -328,6 +356,7 @@ std::map<std::string, SensorServantMaker>& Makers() {
       {readings::Battery::kType, MakeSensorServant<BatteryServant>},
       {readings::LogicalCamera::kType, MakeSensorServant<LogicalCameraServant>},
       {readings::Radio::kType, MakeSensorServant<RadioServant>},
+      {readings::Ranging::kType, MakeSensorServant<RangingServant>},
       {readings::DepthImage::kType, MakeSensorServant<DepthCameraServant>},
       {readings::SegmentedImage::kType, MakeSensorServant<SegmentationCameraServant>},
       {readings::BoundingBoxes::kType, MakeSensorServant<BoundingBoxCameraServant>},

@@ -24,6 +24,19 @@ double Sonar::Range() {
   return sonar ? sonar->range : max_range_;
 }
 
+Lidar::Scan Lidar::Read() {
+  auto scan = MeasureAs<readings::Lidar>();
+  if (Number(readings::Lidar::kIntensityParameter, 0) > 0) scan = scan.WithIntensities();
+  return {{scan.ranges.begin(), scan.ranges.end()},
+          {scan.intensities.begin(), scan.intensities.end()}};
+}
+
+const std::vector<double>& Lidar::Ranges() {
+  if (!(Number(readings::Lidar::kIntensityParameter, 0) > 0)) return Measure().values;
+  ranges_ = Read().ranges;
+  return ranges_;
+}
+
 std::vector<Radio::Message> Radio::Receive() {
   std::vector<Message> messages;
   for (const readings::HeardMessage& heard : MeasureAs<readings::Radio>().messages) {

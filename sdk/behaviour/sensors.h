@@ -145,8 +145,17 @@ class Lidar : public Sensor {
   static constexpr const char* kType = readings::Lidar::kType;
   using Sensor::Sensor;
 
-  // Returns the distance in m for each beam; infinite if the beam hit nothing.
-  const std::vector<double>& Ranges() { return Measure().values; }
+  struct Scan {
+    std::vector<double> ranges;       // in m for each beam; infinite if the beam hit nothing
+    std::vector<double> intensities;  // for each beam; empty without the parameter intensity_scale
+  };
+  Scan Read();
+  // Returns the distance in m for each beam; infinite if the beam hit nothing. Valid until the next
+  // call.
+  const std::vector<double>& Ranges();
+
+ private:
+  std::vector<double> ranges_;  // those of a reading that has intensities
 };
 
 class Camera : public Sensor {
@@ -285,6 +294,16 @@ class Radio : public Sensor {
  private:
   std::uint64_t received_ = 0;  // number of the last message
   std::uint64_t missed_ = 0;
+};
+
+// A tag that measures the distance to one radio anchor.
+class Ranging : public Sensor {
+ public:
+  static constexpr const char* kType = readings::Ranging::kType;
+  using Sensor::Sensor;
+
+  // Returns the distance in m; infinite if the anchor is not received.
+  double Distance() { return MeasureAs<readings::Ranging>().distance; }
 };
 
 class DepthCamera : public Sensor {

@@ -39,6 +39,22 @@ Values ValuesIn(Sensor& sensor, const Reading& reading) {
   return sensor.In<Values>(reading).value_or(Values());
 }
 
+// A view of a part of the values of a reading.
+Doubles PartOf(const py::object& reading, std::span<const double> part) {
+  return Doubles(static_cast<py::ssize_t>(part.size()), part.data(), reading);
+}
+
+py::tuple ReadLidar(Lidar& lidar) {
+  const py::object reading = Measured(lidar);
+  auto scan = ValuesIn<readings::Lidar>(lidar, reading.cast<const Reading&>());
+  const auto& parameters = lidar.traits().parameters;
+  const auto found = parameters.find(readings::Lidar::kIntensityParameter);
+  const double* const scale =
+      found == parameters.end() ? nullptr : std::get_if<double>(&found->second);
+  if (scale != nullptr && *scale > 0) scan = scan.WithIntensities();
+  return py::make_tuple(PartOf(reading, scan.ranges), PartOf(reading, scan.intensities));
+}
+
 Doubles TakeDepth(DepthCamera& camera) {
   const py::object reading = Measured(camera);
   const auto image = ValuesIn<readings::DepthImage>(camera, reading.cast<const Reading&>());
@@ -118,8 +134,10 @@ void BindRangeAndVision(py::module_& module, py::class_<Sensor>& sensor) {
       .def_property_readonly("max_range", &Sonar::max_range);
   BindKind<Lidar>(module, "Lidar", sensor, "A scanning range finder.")
       .def(
-          "ranges", [](Lidar& lidar) { return AllValues(Measured(lidar)); },
-          "numpy.float64, m, beam by beam; infinite where nothing was hit");
+          "ranges", [](Lidar& lidar) -> py::object { return ReadLidar(lidar)[0]; },
+          "numpy.float64, m, beam by beam; infinite where nothing was hit")
+      .def("read", &ReadLidar,
+           "(ranges, intensities) of one scan; without intensity_scale there are no intensities");
   SensorMakers()[Camera::kWideAngleType] = MakeSensorOf<Camera>;
   auto camera = BindKind<Camera>(module, "Camera", sensor, "Takes images.");
   camera.def(
@@ -197,6 +215,8 @@ void BindBody(py::module_& module, py::class_<Sensor>& sensor) {
   auto battery = BindKind<Battery>(module, "Battery", sensor, "Says how much is left.");
   battery.def("level", &Battery::Level, LetOthersRun());
   BindReading<Battery::Charge>(battery, "Charge", "V, A drawn, Ah.");
+  BindKind<Ranging>(module, "Ranging", sensor, "Measures the distance to one radio anchor.")
+      .def("distance", &Ranging::Distance, LetOthersRun(), "m; infinite if it is not received");
   auto radio = BindKind<Radio>(module, "Radio", sensor, "Sends to other robots and hears them.");
   const auto send = [](Radio& from, const std::string& receiver, const std::string& content) {
     base::Status sent;

@@ -134,7 +134,7 @@ auto_inertia_params . 1.11- ; the inertia of every shape is computed exactly
 density + 1.11- =1000
 frame:frame* - 1.5-1.6 ; the frame is not used
 geometry:geometry + 1.4-
-laser_retro - 1.4- =0 ; lidars report no intensity
+laser_retro - 1.4- =0 ; lidars compute intensities from the colour
 max_contacts - 1.4- =10 ; the number of contacts has no such limit
 pose:pose + 1.4- =0 0 0 0 0 0
 surface:surface + 1.4-

@@ -134,7 +134,7 @@ kp - ; contacts are hard: their stiffness and damping are not used
 kd - ; contacts are hard: their stiffness and damping are not used
 selfCollide - =false ; the links of a model do not collide with each other
 maxContacts - =10 ; the number of contacts has no such limit
-laserRetro - =0 ; lidars report no intensity
+laserRetro - =0 ; lidars compute intensities from the colour
 initial_joint_position - =0 ; the joint starts at zero
 springReference - =0 ; joints have no springs
 springStiffness - =0 ; joints have no springs

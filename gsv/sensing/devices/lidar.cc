@@ -8,6 +8,7 @@
 #include "gsv/sensing/devices/lidar_messages.h"
 #include "gsv/sensing/devices/lidar_settings.h"
 #include "gsv/sensing/noise.h"
+#include "gsv/sensing/rays/echo.h"
 #include "gsv/sensing/sensor_type.h"
 
 namespace gsv::sensing {
@@ -46,7 +47,7 @@ class Lidar final : public SensorOf<readings::Lidar, MessageType> {
   base::Result<Reading> Sample(const Sampling& sampling) const override {
     const geometry::Pose world_from_lidar = sampling.WorldFromSensor(this->description());
     Reading reading = sampling.Stamped();
-    reading.values.reserve(directions_.size());
+    reading.values.reserve(directions_.size() * (measures_intensity() ? 2 : 1));
     base::Noise noise = sampling.NoiseOf(this->description());
     std::optional<NoisyReading> noisy;
     if (settings_.full_noise) noisy.emplace(sampling, this->description());
@@ -63,6 +64,7 @@ class Lidar final : public SensorOf<readings::Lidar, MessageType> {
         reading.values.push_back(Measured(distance, noise));
       }
     }
+    if (measures_intensity()) AddIntensities(sampling, world_from_lidar, reading);
     return reading;
   }
 
@@ -72,12 +74,42 @@ class Lidar final : public SensorOf<readings::Lidar, MessageType> {
                                   const std::string& frame_id) const override {
     const auto scan = ValuesOf<readings::Lidar>(reading, this->description().name);
     if (!scan) return {};
-    auto cloud = PointsOf(directions_, settings_.vertical.count, scan->ranges);
+    const readings::Lidar divided = Divided(*scan);
+    auto cloud =
+        PointsOf(directions_, settings_.vertical.count, divided.ranges, divided.intensities);
     cloud.header = HeaderOf(reading, frame_id);
     return Encoded(cloud);
   }
 
  private:
+  bool measures_intensity() const { return settings_.intensity_scale > 0; }
+
+  readings::Lidar Divided(const readings::Lidar& scan) const {
+    return measures_intensity() ? scan.WithIntensities() : scan;
+  }
+
+  void AddIntensities(const Sampling& sampling, const geometry::Pose& world_from_lidar,
+                      Reading& reading) const {
+    std::vector<Ray> rays;
+    rays.reserve(directions_.size());
+    for (const Vector3& direction : directions_) {
+      rays.push_back(
+          {world_from_lidar.position, world_from_lidar.orientation * direction, settings_.max});
+    }
+    std::vector<std::optional<Echo>> echoes(rays.size());
+    FindEchoes(sampling.Rays(), rays, sampling.body(), echoes);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const bool is_lost = !echoes[i] || !std::isfinite(reading.values[i]);
+      reading.values.push_back(is_lost ? 0 : IntensityOf(*echoes[i]));
+    }
+  }
+
+  double IntensityOf(const Echo& echo) const {
+    const double fall =
+        settings_.intensity_range > 0 ? settings_.intensity_range / echo.distance : 1;
+    return settings_.intensity_scale * echo.reflectance * echo.cosine * fall * fall;
+  }
+
   Fan FanOf(int row, const geometry::Pose& world_from_lidar) const {
     const auto beams = static_cast<std::size_t>(settings_.horizontal.count);
     const std::span all(directions_);
@@ -110,13 +142,14 @@ class Lidar final : public SensorOf<readings::Lidar, MessageType> {
   typename SensorOf<readings::Lidar, MessageType>::Message ToMessage(
       const readings::Lidar& scan, const Reading&, const std::string&) const override {
     MessageType message;
-    Write(settings_, scan.ranges, message);
+    Write(settings_, Divided(scan), message);
     const double rate = this->description().update_rate;
     message.scan_time = rate > 0 ? static_cast<float>(1 / rate) : 0;
     return message;
   }
 
-  std::vector<Segment> BeamsOf(const readings::Lidar& scan) const override {
+  std::vector<Segment> BeamsOf(const readings::Lidar& all) const override {
+    const readings::Lidar scan = Divided(all);
     std::vector<Segment> beams;
     for (std::size_t i = 0; i < std::min(directions_.size(), scan.ranges.size()); ++i) {
       if (std::isfinite(scan.ranges[i])) beams.push_back({{}, scan.ranges[i] * directions_[i]});

@@ -14,6 +14,7 @@ using messages::sensor_msgs::PointField;
 
 constexpr std::uint32_t kPointSize = 16;  // bytes: x, y, z, ring, two of padding
 constexpr std::uint32_t kRingOffset = 12;
+constexpr std::uint32_t kIntensityOffset = 16;  // a point with an intensity has 20 bytes
 
 template <typename Scan>
 void WriteFan(const LidarSettings& settings, std::span<const double> ranges, Scan& scan) {
@@ -29,14 +30,18 @@ void WriteFan(const LidarSettings& settings, std::span<const double> ranges, Sca
 
 }  // namespace
 
-void Write(const LidarSettings& settings, std::span<const double> ranges,
+void Write(const LidarSettings& settings, const readings::Lidar& measured,
            messages::sensor_msgs::LaserScan& scan) {
-  WriteFan(settings, ranges, scan);
+  WriteFan(settings, measured.ranges, scan);
+  scan.intensities.reserve(measured.intensities.size());
+  for (const double intensity : measured.intensities) {
+    scan.intensities.push_back(static_cast<float>(intensity));
+  }
 }
 
-void Write(const LidarSettings& settings, std::span<const double> ranges,
+void Write(const LidarSettings& settings, const readings::Lidar& measured,
            messages::gsv_msgs::LidarScan& scan) {
-  WriteFan(settings, ranges, scan);
+  WriteFan(settings, measured.ranges, scan);
   const Angles& vertical = settings.vertical;
   scan.beams = static_cast<std::uint32_t>(settings.horizontal.count);
   scan.vertical_angle_min = static_cast<float>(vertical.first);
@@ -45,20 +50,24 @@ void Write(const LidarSettings& settings, std::span<const double> ranges,
   scan.rows = static_cast<std::uint32_t>(vertical.count);
 }
 
-PointCloud2 PointsOf(std::span<const Vector3> directions, int rows,
-                     std::span<const double> ranges) {
+PointCloud2 PointsOf(std::span<const Vector3> directions, int rows, std::span<const double> ranges,
+                     std::span<const double> intensities) {
   PointCloud2 cloud;
   const char* const names[] = {"x", "y", "z"};
   for (std::uint32_t i = 0; i < 3; ++i) {
     cloud.fields.push_back({names[i], 4 * i, PointField::kFloat32, 1});
   }
   cloud.fields.push_back({"ring", kRingOffset, PointField::kUint16, 1});
+  const bool has_intensities = !intensities.empty() && intensities.size() == ranges.size();
+  if (has_intensities) {
+    cloud.fields.push_back({"intensity", kIntensityOffset, PointField::kFloat32, 1});
+  }
   const std::size_t beams = directions.size() / static_cast<std::size_t>(rows);
-  cloud.point_step = kPointSize;
+  cloud.point_step = has_intensities ? kIntensityOffset + 4 : kPointSize;
   cloud.width = static_cast<std::uint32_t>(beams);
   cloud.height = static_cast<std::uint32_t>(rows);
-  cloud.row_step = kPointSize * cloud.width;
-  cloud.data.resize(kPointSize * directions.size());
+  cloud.row_step = cloud.point_step * cloud.width;
+  cloud.data.resize(cloud.point_step * directions.size());
   for (std::size_t i = 0; i < std::min(directions.size(), ranges.size()); ++i) {
     const double range =
         std::isfinite(ranges[i]) ? ranges[i] : std::numeric_limits<double>::quiet_NaN();
@@ -66,8 +75,13 @@ PointCloud2 PointsOf(std::span<const Vector3> directions, int rows,
     const float xyz[] = {static_cast<float>(point.x), static_cast<float>(point.y),
                          static_cast<float>(point.z)};
     const auto ring = static_cast<std::uint16_t>(i / beams);
-    std::memcpy(&cloud.data[kPointSize * i], xyz, sizeof xyz);
-    std::memcpy(&cloud.data[kPointSize * i + kRingOffset], &ring, sizeof ring);
+    std::uint8_t* const data = &cloud.data[cloud.point_step * i];
+    std::memcpy(data, xyz, sizeof xyz);
+    std::memcpy(data + kRingOffset, &ring, sizeof ring);
+    if (has_intensities) {
+      const auto intensity = static_cast<float>(intensities[i]);
+      std::memcpy(data + kIntensityOffset, &intensity, sizeof intensity);
+    }
   }
   return cloud;
 }

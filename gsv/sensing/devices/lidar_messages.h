@@ -6,20 +6,24 @@
 #include "gsv/geometry/vector3.h"
 #include "gsv/messages/gsv_msgs.h"
 #include "gsv/messages/sensor_msgs.h"
+#include "gsv/readings/catalogue.h"
 #include "gsv/sensing/devices/lidar_settings.h"
 
 namespace gsv::sensing {
 
-// Writes a scan. `ranges` are in m, row by row from the lowest.
-void Write(const LidarSettings& settings, std::span<const double> ranges,
+// Writes a scan. Its values are row by row from the lowest. LidarScan has no intensities: they are in
+// the point cloud.
+void Write(const LidarSettings& settings, const readings::Lidar& measured,
            messages::sensor_msgs::LaserScan& scan);
-void Write(const LidarSettings& settings, std::span<const double> ranges,
+void Write(const LidarSettings& settings, const readings::Lidar& measured,
            messages::gsv_msgs::LidarScan& scan);
 
 // Returns a point for each beam in the sensor's frame, ordered by rows; NaN where nothing was
 // measured. The fields are x, y, z in m as float32, and ring, the row counted from the lowest, as
-// uint16. `directions` has as many unit vectors as `ranges` has values.
+// uint16. With `intensities` there is a further field, intensity, as float32. `directions` has as
+// many unit vectors as `ranges` has values.
 messages::sensor_msgs::PointCloud2 PointsOf(std::span<const geometry::Vector3> directions, int rows,
-                                            std::span<const double> ranges);
+                                            std::span<const double> ranges,
+                                            std::span<const double> intensities = {});
 
 }  // namespace gsv::sensing

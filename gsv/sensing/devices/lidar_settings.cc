@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "gsv/geometry/constants.h"
+#include "gsv/readings/catalogue.h"
 
 namespace gsv::sensing {
 namespace {
@@ -60,6 +61,8 @@ LidarSettings ReadLidarSettings(ParameterReader& reader) {
     settings.full_noise = noise;
   }
   settings.errors = ReadLidarErrors(reader);
+  settings.intensity_scale = reader.Number(readings::Lidar::kIntensityParameter, 0, 0, 1e9);
+  settings.intensity_range = reader.Number("intensity_range", 0, 0, 1e4);
   return settings;
 }
 

@@ -25,6 +25,9 @@ struct LidarSettings {
   double noise_mean = 0, noise_stddev = 0;  // white noise without other terms, drawn beam by beam
   std::optional<NoiseModel> full_noise;     // for any other noise
   LidarErrors errors;                       // applied before the noise
+  // The intensity of a white surface at right angles, at the range `intensity_range`, or at any range
+  // if that is 0. 0: the lidar does not measure intensities.
+  double intensity_scale = 0, intensity_range = 0;
 };
 
 // Reads the settings. Reports invalid parameters to the reader.

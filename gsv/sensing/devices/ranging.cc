@@ -1,6 +1,7 @@
 #include "gsv/sensing/devices/ranging.h"
 
 #include <cmath>
+#include <limits>
 
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/sensing/noise.h"
@@ -10,7 +11,7 @@
 namespace gsv::sensing {
 namespace {
 
-class RangingSensor final : public SensorOf<Ranging, messages::sensor_msgs::Range> {
+class RangingSensor final : public SensorOf<readings::Ranging, messages::sensor_msgs::Range> {
  public:
   RangingSensor(const model::SensorDescription& description, ParameterReader& reader)
       : SensorOf(description),
@@ -30,7 +31,7 @@ class RangingSensor final : public SensorOf<Ranging, messages::sensor_msgs::Rang
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {
     Reading reading = sampling.Stamped();
-    Fill(Ranging{Measured(sampling)}, reading);
+    Fill(readings::Ranging{Measured(sampling)}, reading);
     return reading;
   }
   bool CastsRays() const override { return true; }
@@ -74,6 +75,6 @@ class RangingSensor final : public SensorOf<Ranging, messages::sensor_msgs::Rang
 
 }  // namespace
 
-SensorType RangingType() { return MakeSensorType<RangingSensor>(Ranging::kType); }
+SensorType RangingType() { return MakeSensorType<RangingSensor>(readings::Ranging::kType); }
 
 }  // namespace gsv::sensing

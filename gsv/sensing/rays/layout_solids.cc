@@ -4,14 +4,18 @@
 #include <map>
 #include <utility>
 
+#include "gsv/sensing/rays/echo.h"
+
 namespace gsv::sensing {
 namespace {
 
 using geometry::Pose;
 
 void AddLink(const model::Link& link, const Pose& set_from_link, int body, SolidSet& solids) {
-  for (const model::Collision& collision : link.collisions) {
-    solids.Add(collision.shape, set_from_link * collision.link_from_collision, body);
+  for (std::size_t i = 0; i < link.collisions.size(); ++i) {
+    const model::Collision& collision = link.collisions[i];
+    solids.Add(collision.shape, set_from_link * collision.link_from_collision, body,
+               static_cast<float>(ReflectanceOf(link, i)));
   }
 }
 

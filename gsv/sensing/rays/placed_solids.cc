@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <utility>
 
 #include "gsv/base/check.h"
@@ -142,6 +143,22 @@ std::optional<Hit> PlacedSolids::Cast(const Ray& ray, int ignored_body) const {
   const Nearest nearest = Find(ray, ignored_body);
   if (nearest.body < 0) return {};
   return Hit{nearest.distance, NormalAt(nearest, ray), nearest.body};
+}
+
+std::optional<Echo> PlacedSolids::EchoOf(const Ray& ray, int ignored_body) const {
+  const Nearest nearest = Find(ray, ignored_body);
+  if (nearest.body < 0) return {};
+  const SolidSet& set = nearest.part < 0 ? solids_->standing : parts_[nearest.part].part->solids;
+  return Echo{nearest.distance, std::abs(Dot(NormalAt(nearest, ray), ray.direction)),
+              set.ReflectanceOf(nearest.solid)};
+}
+
+void FindEchoes(const RayScene& scene, std::span<const Ray> rays, int ignored_body,
+                std::span<std::optional<Echo>> echoes) {
+  GSV_CHECK(rays.size() == echoes.size());
+  const auto* const solids = dynamic_cast<const PlacedSolids*>(&scene);
+  GSV_CHECK(solids != nullptr);
+  for (std::size_t i = 0; i < rays.size(); ++i) echoes[i] = solids->EchoOf(rays[i], ignored_body);
 }
 
 void PlacedSolids::Cast(std::span<const Ray> rays, int ignored_body,

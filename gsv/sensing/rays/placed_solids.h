@@ -9,6 +9,7 @@
 
 #include "gsv/base/thread_team.h"
 #include "gsv/sensing/rays/box_index.h"
+#include "gsv/sensing/rays/echo.h"
 #include "gsv/sensing/rays/layout_solids.h"
 
 namespace gsv::sensing {
@@ -30,6 +31,9 @@ class PlacedSolids final : public RayScene {
   double Range(const Ray& ray, int ignored_body, const CandidateSet& candidates) const override;
   void Ranges(const RayPacket& rays, const geometry::Vector3& place, int ignored_body,
               std::span<double> ranges) const override;
+
+  // See FindEchoes().
+  std::optional<Echo> EchoOf(const Ray& ray, int ignored_body) const;
 
  private:
   struct PlacedPart {

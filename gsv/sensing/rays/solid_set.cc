@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "gsv/geometry/box_corners.h"
 #include "gsv/geometry/constants.h"
@@ -105,14 +106,16 @@ class BoxTest {
 
 }  // namespace
 
-void SolidSet::Add(const Shape& shape, const Pose& set_from_shape, int body) {
+void SolidSet::Add(const Shape& shape, const Pose& set_from_shape, int body, float reflectance) {
   if (const auto* mesh = std::get_if<geometry::Mesh>(&shape)) {
+    mesh_reflectances_.emplace_back(static_cast<std::uint32_t>(triangles_.size()), reflectance);
     AddMesh(*mesh, set_from_shape, body);
     return;
   }
   SolidShape solid{shape, Inverse(set_from_shape), primitives_++, body};
   if (const auto* plane = std::get_if<geometry::Plane>(&shape)) {
     const Vector3 normal = set_from_shape.orientation * plane->normal;
+    plane_reflectances_.push_back(reflectance);
     planes_.push_back({std::move(solid), normal, Dot(normal, set_from_shape.position)});
     return;
   }
@@ -122,6 +125,7 @@ void SolidSet::Add(const Shape& shape, const Pose& set_from_shape, int body) {
   shape_spheres_.push_back(
       Padded(BoundingSphere{set_from_shape.position, std::visit(Reach{}, shape)}));
   shape_own_bounds_.push_back(geometry::BoundsOf(shape));
+  shape_reflectances_.push_back(reflectance);
   shapes_.push_back(std::move(solid));
 }
 
@@ -281,6 +285,17 @@ bool SolidSet::Gather(CandidateSet& candidates, std::uint32_t mark) const {
     candidates.Add(shape_spheres_[shape], mark | shape, Reaches(candidates, shape_bounds_[shape]));
   }
   return true;
+}
+
+float SolidSet::ReflectanceOf(std::uint32_t solid) const {
+  if (solid < shapes_.size()) return shape_reflectances_[solid];
+  solid -= static_cast<std::uint32_t>(shapes_.size());
+  if (solid < planes_.size()) return plane_reflectances_[solid];
+  solid -= static_cast<std::uint32_t>(planes_.size());
+  const auto next = std::upper_bound(
+      mesh_reflectances_.begin(), mesh_reflectances_.end(), solid,
+      [](std::uint32_t triangle, const auto& mesh) { return triangle < mesh.first; });
+  return std::prev(next)->second;
 }
 
 Vector3 SolidSet::NormalAt(std::uint32_t solid, const Ray& ray) const {

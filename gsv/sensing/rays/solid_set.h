@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "gsv/geometry/shape.h"
@@ -57,8 +58,10 @@ struct RayBatch {
 
 class SolidSet {
  public:
-  // Adds a shape of a body, before Commit().
-  void Add(const geometry::Shape& shape, const geometry::Pose& set_from_shape, int body);
+  // Adds a shape of a body, before Commit(). `reflectance` is the fraction of light that its surface
+  // reflects.
+  void Add(const geometry::Shape& shape, const geometry::Pose& set_from_shape, int body,
+           float reflectance = 0.5f);
 
   // Builds the index. Call it before casting rays.
   void Commit();
@@ -120,6 +123,8 @@ class SolidSet {
 
   // The normal, against the ray, where the ray meets the solid that Nearest names.
   geometry::Vector3 NormalAt(std::uint32_t solid, const Ray& ray) const;
+  // The reflectance of the solid that Nearest names.
+  float ReflectanceOf(std::uint32_t solid) const;
 
  private:
   struct SolidTriangle {
@@ -155,6 +160,9 @@ class SolidSet {
   std::vector<geometry::Bounds> shape_own_bounds_;  // in the shape's frame
   BoxIndex shape_index_;
   std::vector<SolidPlane> planes_;
+  std::vector<float> shape_reflectances_, plane_reflectances_;
+  // The first triangle of each mesh with the reflectance of the mesh.
+  std::vector<std::pair<std::uint32_t, float>> mesh_reflectances_;
   std::uint32_t primitives_ = 0;
   geometry::Bounds bounds_;
   bool bounded_ = false;  // bounds_ is valid

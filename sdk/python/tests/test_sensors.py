@@ -195,8 +195,23 @@ def test_an_exchange_reads_what_is_open(simulate, world):
     assert readings["where"].time == 0.15 and readings["where"].values.shape == (6,)
 
 
-def test_a_radio_tag_is_read_as_a_general_sensor(simulate, world):
+def test_a_radio_tag_measures_the_distance_to_its_anchor(simulate, world):
     measured = in_run(simulate, world,
-                      lambda robot: robot.create("ranging", "tag", gsv.Placement(z=0.3), {"anchor": "wall"}),
-                      lambda robot, tag: (tag.measure().values[0], tag.traits.type))
+                      lambda robot: robot.create(gsv.Ranging, "tag", gsv.Placement(z=0.3), {"anchor": "wall"}),
+                      lambda robot, tag: (tag.distance(), tag.traits.type))
     assert measured == (pytest.approx(math.hypot(2.5, 0.2), abs=1e-6), "ranging")
+
+
+def test_a_lidar_reads_intensities_if_its_parameter_asks_for_them(simulate, world):
+    def prepare(robot):
+        scan = {"scan.horizontal.samples": 3.0, "scan.horizontal.min_angle": -0.1,
+                "scan.horizontal.max_angle": 0.1}
+        return (robot.create(gsv.Lidar, "plain", gsv.Placement(z=0.3), scan),
+                robot.create(gsv.Lidar, "with", gsv.Placement(z=0.3), {**scan, "intensity_scale": 100.0}))
+
+    plain, ranges, intensities, without = in_run(
+        simulate, world, prepare,
+        lambda robot, lidars: (lidars[0].ranges(), *lidars[1].read(), lidars[0].read()[1]))
+    assert numpy.array_equal(ranges, plain) and without.shape == (0,)
+    assert intensities.shape == (3,) and intensities[0] == pytest.approx(
+        intensities[1] * math.cos(0.1), rel=1e-6)
