@@ -42,6 +42,7 @@ class RelayRoutes final : public RouteSet {
       : address_(std::move(address)), commanders_(commanders), thread_([this] { io_.run(); }) {}
 
   ~RelayRoutes() override {
+    images_.Stop();
     {
       const base::MutexLock lock(mutex_);
       for (const auto& [name, stream] : streams_) stream->Stop();

@@ -1,5 +1,6 @@
 #include "gsv/gateway/relayed_images.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,6 +18,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kThreads = 4;
 constexpr std::chrono::seconds kImageTime{30};
+// Streams look for the end of the relay so often.
+constexpr std::chrono::milliseconds kMaxWait{500};
 
 std::string TimeOf(const Response& image) {
   for (const auto& [name, value] : image.headers) {
@@ -77,7 +80,8 @@ class RelayedStream final : public BodyStream, public std::enable_shared_from_th
   }
 
   void WaitAndAsk(const Take& take) {
-    auto timer = std::make_shared<boost::asio::steady_timer>(io_, due_);
+    auto timer = std::make_shared<boost::asio::steady_timer>(
+        io_, std::min<Clock::time_point>(due_, Clock::now() + kMaxWait));
     timer->async_wait(
         [self = shared_from_this(), timer, take](boost::system::error_code) { self->Ask(take); });
   }
@@ -106,7 +110,9 @@ RelayedImages::RelayedImages(boost::asio::io_context& io, upstream::Address addr
       address_(std::move(address)),
       pool_(std::make_shared<WorkerPool>(kThreads, kWaitingRequests)) {}
 
-RelayedImages::~RelayedImages() { pool_->Stop(); }
+RelayedImages::~RelayedImages() { Stop(); }
+
+void RelayedImages::Stop() { pool_->Stop(); }
 
 Response RelayedImages::Open(const Request& request, const Request& image) {
   const auto query = drawing::ParseViewQuery(request.target, true);

@@ -27,6 +27,8 @@ class RelayedImages {
   // The response to GET …/view.mjpeg; `image` is the same request for view.jpg, without `fps` and
   // `token`. Waits for the first image.
   Response Open(const Request& request, const Request& image);
+  // Ends the streams.
+  void Stop();
 
  private:
   boost::asio::io_context& io_;

@@ -129,19 +129,19 @@ base::Result<double> ParseFieldOfView(std::string_view text) {
 
 base::Status SetSide(const std::string& name, std::string_view text, ViewOfAllSide& side) {
   const auto value = NumberOf(text);
-  const auto set = [&](double& target, double low, double high, double unit) -> base::Status {
+  const auto set = [&](double& target, double low, double high, double unit,
+                       const char* limits) -> base::Status {
     if (value && *value >= low && *value <= high) {
       target = *value * unit;
       return {};
     }
-    return Fail(ErrorCode::kInvalidArgument,
-                "the parameter " + name + " must be " + std::to_string(std::lround(low)) + " to " +
-                    std::to_string(std::lround(high)) + ", but it is '" +
-                    std::string(text.substr(0, 64)) + "'");
+    return Fail(ErrorCode::kInvalidArgument, "the parameter " + name + " must be " + limits +
+                                                 ", but it is '" + std::string(text.substr(0, 64)) +
+                                                 "'");
   };
-  if (name == "azimuth") return set(side.azimuth, -360, 360, kDegree);
-  if (name == "elevation") return set(side.elevation, -90, 90, kDegree);
-  return set(side.zoom, 0.1, 100, 1);
+  if (name == "azimuth") return set(side.azimuth, -360, 360, kDegree, "-360 to 360 degrees");
+  if (name == "elevation") return set(side.elevation, -90, 90, kDegree, "-90 to 90 degrees");
+  return set(side.zoom, 0.1, 100, 1, "0.1 to 100");
 }
 
 base::Status Check(const Camera& camera) {
