@@ -97,6 +97,52 @@ test("the viewer with all panels and the sheet of keys has no accessibility prob
   await page.close();
 });
 
+// Opens a panel, unless it is open and in sight.
+async function openPanel(page, name) {
+  const button = page.getByRole("button", { name, exact: true });
+  if ((await button.getAttribute("aria-pressed")) !== "true") await button.click();
+  await page.getByRole("tab", { name, exact: true }).click();
+}
+
+for (const [size, width, height] of [
+  ["a wide window", 1366, 768],
+  ["a phone", 390, 780],
+]) {
+  test(`plots, teleoperation, joints, images, world and physics in ${size}`, async () => {
+    const { page } = await openPage(browser, live.url);
+    await page.setViewportSize({ width, height });
+    await waitUntilDrawn(page);
+    await openPanel(page, "Teleoperation");
+    await page.getByText("No robot can be driven").waitFor();
+    await openPanel(page, "Plots");
+    await page.getByRole("button", { name: "Expression…" }).click();
+    await page.getByLabel("Expression", { exact: true }).fill("2 *");
+    await page.getByRole("button", { name: "Add", exact: true }).click();
+    await judge(page);
+    await openPanel(page, "Joints");
+    await page.locator("[data-joint]").first().waitFor();
+    await openPanel(page, "Physics");
+    await page.getByRole("heading", { name: "Mean cost of a step" }).waitFor();
+    await judge(page);
+    await openPanel(page, "Images");
+    await page.getByRole("combobox", { name: "Camera" }).waitFor();
+    await openPanel(page, "World");
+    await page.locator('[data-node="pebble"]').click();
+    await page.getByRole("region", { name: "Selected part" }).getByText("robot", { exact: true }).waitFor();
+    await judge(page);
+    await page.close();
+  });
+}
+
+test("the number of viewers is a part of the name of their button", async () => {
+  const first = (await openPage(browser, live.url)).page;
+  const second = (await openPage(browser, live.url)).page;
+  await second.getByRole("button", { name: "Viewers 2", exact: true }).waitFor();
+  await judge(second);
+  await second.close();
+  await first.close();
+});
+
 test("editing and the set-up form have no accessibility problems", async () => {
   const page = await openFilled(live.url);
   await page.getByRole("button", { name: "Edit", exact: true }).click();

@@ -5,10 +5,12 @@ import "./style/drawn.css";
 import "./style/panels.css";
 import "./style/control.css";
 import "./style/images.css";
+import "./style/physics.css";
 import "./style/plots.css";
 import "./style/robots.css";
 import "./style/setUp.css";
 import "./style/workspace.css";
+import "./style/world.css";
 import { SimulationApi } from "./api/SimulationApi";
 import { pageCredentials } from "./api/credentials";
 import { robotsOf } from "./api/scene";
@@ -45,7 +47,8 @@ import { createSetUpPanel } from "./setup/SetUpPanel";
 import { listedRobots } from "./state/listedRobots";
 import { filtered, isFiltering } from "./state/robotList";
 import { browserStorage, keepShown, loadShown } from "./state/overlays";
-import { keepSingleKeys, loadSingleKeys } from "./state/shortcuts";
+import { keepChangedKeys, keepSingleKeys, loadChangedKeys, loadSingleKeys } from "./state/shortcuts";
+import { showKeys } from "./page/keyLabels";
 import type { State } from "./state/State";
 import { initialState } from "./state/State";
 import { Store, shallowEqual } from "./state/Store";
@@ -70,6 +73,7 @@ const store = new Store<State>({
   ...initialState,
   shown: loadShown(storage),
   singleKeys: loadSingleKeys(storage),
+  changedKeys: loadChangedKeys(storage),
 });
 const credentials = pageCredentials(window);
 const api = new SimulationApi(document.baseURI, credentials.fetch, credentials);
@@ -297,6 +301,13 @@ store.watch(
   (isOn) => {
     page.classList.toggle("no-single-keys", !isOn);
     keepSingleKeys(storage, isOn);
+  },
+);
+store.watch(
+  ({ changedKeys }) => changedKeys,
+  (changed) => {
+    showKeys(page, changed);
+    keepChangedKeys(storage, changed);
   },
 );
 listenForKeys(app);

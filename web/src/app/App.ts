@@ -18,6 +18,7 @@ import { allChosen, chosenOf } from "../state/editing";
 import type { Shape } from "../state/shapes";
 import { faultOf, footprintOf, modelOf, wallBetween } from "../state/shapes";
 import type { BodyPose, Point, State, ViewMode } from "../state/State";
+import { withChangedKey } from "../state/shortcuts";
 import type { Store } from "../state/Store";
 import { EDIT_PANEL } from "../state/editing";
 import { PANELS } from "../panels/registry";
@@ -372,6 +373,11 @@ export class App {
 
   useSingleKeys(singleKeys: boolean): void {
     this.store.set({ singleKeys });
+  }
+
+  // Gives a command another single key, by the one with which the page comes.
+  changeKey(original: string, key: string): void {
+    this.store.set(({ changedKeys }) => ({ changedKeys: withChangedKey(changedKeys, original, key) }));
   }
 
   // To the clipboard; says that it is there, or what to copy where the browser does not allow it.

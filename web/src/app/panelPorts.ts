@@ -9,7 +9,7 @@ export function panelPorts(app: App, api: SimulationApi): PanelPorts {
   return {
     state: store,
     topics: session,
-    traffic: { counts: () => session.counts(), choose: (topic) => store.set({ topic }) },
+    traffic: { counts: () => session.counts(), choose: (topic) => store.set({ topic }), open: (topic) => app.showTopic(topic) },
     server: {
       figures: () => api.metrics.figures(),
       parameter: (name) => session.parameter(name),

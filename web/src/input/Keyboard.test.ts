@@ -57,7 +57,7 @@ test("a recording's keys step, jump and find events", () => {
 
 test("Space runs and pauses after a button was pressed with the pointer, and is its own where it was reached by keys", () => {
   const startPauseOrResume = vi.fn();
-  const state = { replay: null, setUp: null, editing: null, singleKeys: true };
+  const state = { replay: null, setUp: null, editing: null, singleKeys: true, changedKeys: {} };
   listenForKeys({ startPauseOrResume, store: { get: () => state } } as unknown as App);
   document.body.innerHTML = "<button>Top view</button>";
   const button = document.querySelector("button")!;

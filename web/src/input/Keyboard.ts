@@ -4,6 +4,8 @@ import type { App } from "../app/App";
 import type { ReplayControl } from "../app/ReplayControl";
 import { PANELS } from "../panels/registry";
 import { OVERLAYS } from "../state/overlays";
+import type { ChangedKeys } from "../state/shortcuts";
+import { originalKey } from "../state/shortcuts";
 
 const MANY_POSES = 10; // of a step with Shift
 
@@ -81,6 +83,12 @@ export function replayCommandOf(event: Key): ((replay: ReplayControl) => void) |
   }
 }
 
+// The key with which the page comes for what this key asks for.
+function asOriginal(event: Key, changed: ChangedKeys): Key {
+  const { key, ctrlKey, altKey, metaKey } = event;
+  return { key: isSingleKey(event) ? originalKey(key, changed) : key, ctrlKey, altKey, metaKey };
+}
+
 // A letter, a digit, punctuation or Space, pressed by itself or with Shift.
 export function isSingleKey({ key, ctrlKey, altKey, metaKey }: Key): boolean {
   return [...key].length === 1 && !ctrlKey && !altKey && !metaKey;
@@ -116,7 +124,7 @@ export function listenForKeys(app: App, page: Pick<Window, "addEventListener"> =
     }
     if (event.repeat) return;
     const { setUp, editing } = app.store.get();
-    const command = ((setUp || editing) && editCommandOf(event)) || commandOf(event);
+    const command = ((setUp || editing) && editCommandOf(event)) || commandOf(asOriginal(event, app.store.get().changedKeys));
     if (!command) return;
     const isOnButton = event.target instanceof Element && event.target.closest("button, summary") !== null;
     if (isOnButton && event.key === " ") return;

@@ -2,9 +2,12 @@
 import type { App } from "../app/App";
 import { PANELS } from "../panels/registry";
 import { OVERLAYS } from "../state/overlays";
-import { element } from "../ui/element";
+import { keyOf } from "../state/shortcuts";
+import { element, setText } from "../ui/element";
 import { checkField } from "../ui/fields";
 import { icon } from "../ui/icons";
+
+const FIXED_KEYS = new Set(["[", "]", ",", "."]); // of editing and of recordings
 
 type Line = [keys: string[], meaning: string];
 
@@ -75,7 +78,7 @@ const GESTURES: [gesture: string, meaning: string][] = [
 ];
 
 export function createHelpSheet(app: App): HTMLElement {
-  const keys = KEYS.map(([heading, lines]) => section(heading, lines.map(keyLine)));
+  const keys = KEYS.map(([heading, lines]) => section(heading, lines.map((each) => keyLine(app, each))));
   const gestures = GESTURES.map(([gesture, meaning]) => line([gesture], meaning));
   const close = element(
     "button",
@@ -121,7 +124,7 @@ function singleKeysSetting(app: App): HTMLElement {
     element(
       "p",
       { class: "dim" },
-      "Turn these off if keys are pressed by accident, for example with speech input. Arrow keys, Esc, Delete, Home, End " +
+      "Press a key below to change it. Turn these off if keys are pressed by accident, for example with speech input. Arrow keys, Esc, Delete, Home, End " +
         "and keys with Ctrl still work. This browser remembers the choice.",
     ),
   );
@@ -140,11 +143,39 @@ function section(heading: string, lines: Node[][]): HTMLElement {
   );
 }
 
-function keyLine([names, meaning]: Line): Node[] {
-  return line(
-    names.map((name) => element("kbd", {}, name)),
-    meaning,
-  );
+function keyLine(app: App, [names, meaning]: Line): Node[] {
+  const isChangeable = names.length === 1 && [...names[0]!].length === 1 && !FIXED_KEYS.has(names[0]!);
+  return line(isChangeable ? [keyButton(app, names[0]!, meaning)] : names.map((name) => element("kbd", {}, name)), meaning);
+}
+
+// Shows the key, and takes another one: a press, then the key. Esc leaves it as it is.
+function keyButton(app: App, original: string, meaning: string): HTMLElement {
+  const key = element("kbd");
+  const button = element("button", { class: "key-button", type: "button" }, key);
+  let isAsking = false;
+  const show = () => {
+    const name = isAsking ? "Press a key…" : keyOf(original, app.store.get().changedKeys).toUpperCase();
+    setText(key, name);
+    const label = isAsking ? "Press the new key, or Esc" : `${name}: change the key`;
+    button.setAttribute("aria-label", label);
+    button.title = `${label} (${meaning})`;
+  };
+  const ask = (value: boolean) => {
+    isAsking = value;
+    show();
+  };
+  button.addEventListener("click", () => ask(true));
+  button.addEventListener("blur", () => ask(false));
+  button.addEventListener("keydown", (event) => {
+    if (!isAsking || event.key === "Tab") return;
+    event.preventDefault();
+    event.stopPropagation();
+    const isPlain = [...event.key].length === 1 && event.key !== " " && !FIXED_KEYS.has(event.key) && !event.ctrlKey && !event.altKey && !event.metaKey;
+    if (isPlain) app.changeKey(original, event.key);
+    if (isPlain || event.key === "Escape") ask(false);
+  });
+  app.store.watch(({ changedKeys }) => changedKeys, show);
+  return button;
 }
 
 function line(terms: (string | Node)[], meaning: string): Node[] {

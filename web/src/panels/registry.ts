@@ -21,6 +21,16 @@ export const PANELS: readonly Panel[] = [
     load: () => import("./camera/CameraPane"),
   },
   {
+    id: "world",
+    title: "World",
+    hint: "Tree of the world: bodies, links, joints, sensors and transforms",
+    picture: "tree",
+    key: "Y",
+    place: "side",
+    isAvailable: () => true,
+    load: () => import("./world/WorldPanel"),
+  },
+  {
     id: "teleoperation",
     title: "Teleoperation",
     hint: "Drive a robot by keys, touch or gamepad",
@@ -94,6 +104,16 @@ export const PANELS: readonly Panel[] = [
     key: "I",
     isAvailable: () => true,
     load: () => import("./status/StatusPanel"),
+  },
+  {
+    id: "physics",
+    title: "Physics",
+    hint: "Step and speed, the cost of steps, and the behaviours that hold them up",
+    picture: "clock",
+    key: "U",
+    isAvailable: ({ replay }) => replay === null,
+    absence: "A recording has no costs of steps. Open a running simulation.",
+    load: () => import("./physics/PhysicsPanel"),
   },
   {
     id: "commands",

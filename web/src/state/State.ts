@@ -18,6 +18,7 @@ import type { RobotFilter } from "./robotList";
 import { NO_FILTER } from "./robotList";
 import type { SavedLayout } from "./layouts";
 import type { SetUp } from "./setUp";
+import type { ChangedKeys } from "./shortcuts";
 import type { Plots } from "./plots";
 import { NO_PLOTS } from "./plots";
 
@@ -108,6 +109,7 @@ export interface State {
   helpOpen: boolean;
   paletteOpen: boolean;
   singleKeys: boolean; // whether single keys are commands
+  changedKeys: ChangedKeys; // those that are not as the page comes with them
   filming: boolean;
   framesPerSecond: number;
 }
@@ -157,6 +159,7 @@ export const initialState: State = {
   helpOpen: false,
   paletteOpen: false,
   singleKeys: true,
+  changedKeys: {},
   filming: false,
   framesPerSecond: 0,
 };

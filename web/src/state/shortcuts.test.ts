@@ -1,5 +1,5 @@
 import { expect, test, vi } from "vitest";
-import { keepSingleKeys, loadSingleKeys } from "./shortcuts";
+import { keepChangedKeys, keepSingleKeys, keyOf, loadChangedKeys, loadSingleKeys, originalKey, withChangedKey } from "./shortcuts";
 
 function storage() {
   const kept = new Map<string, string>();
@@ -25,4 +25,23 @@ test("single keys are on in a browser without storage", () => {
   keepSingleKeys({ setItem }, false);
   keepSingleKeys(null, false);
   expect(loadSingleKeys(null)).toBe(true);
+});
+
+test("a changed key asks for its command, its former key for no other, and two commands never share a key", () => {
+  const changed = withChangedKey({}, "P", "z");
+  expect(keyOf("p", changed)).toBe("z");
+  expect([originalKey("Z", changed), originalKey("p", changed), originalKey("g", changed)]).toEqual(["p", "z", "g"]); // Z is no command's
+  const swapped = withChangedKey(changed, "g", "z");
+  expect([keyOf("g", swapped), keyOf("p", swapped)]).toEqual(["z", "g"]);
+  expect(withChangedKey(withChangedKey({}, "p", "z"), "p", "p")).toEqual({});
+});
+
+test("changed keys are kept, and what is no key is left out", () => {
+  const kept = storage();
+  keepChangedKeys(kept, { p: "z" });
+  expect(loadChangedKeys(kept)).toEqual({ p: "z" });
+  kept.setItem("gsv.keys", '{"p":"zz","g":1,"k":"b"}');
+  expect(loadChangedKeys(kept)).toEqual({ k: "b" });
+  kept.setItem("gsv.keys", "{");
+  expect(loadChangedKeys(kept)).toEqual({});
 });

@@ -14,3 +14,52 @@ export function keepSingleKeys(storage: Pick<Storage, "setItem"> | null, isOn: b
     // If the storage is full or not allowed, nothing is saved, as in a private window.
   }
 }
+
+// Keys that people have changed: by the key that the page comes with, in lower case.
+export type ChangedKeys = Readonly<Record<string, string>>;
+
+const CHANGED = "gsv.keys";
+const MAX_CHANGED = 100;
+
+export function loadChangedKeys(storage: Pick<Storage, "getItem"> | null): ChangedKeys {
+  let kept: unknown = null;
+  try {
+    kept = JSON.parse(storage?.getItem(CHANGED) ?? "null");
+  } catch {
+    // Written by something else.
+  }
+  if (typeof kept !== "object" || kept === null) return {};
+  const isKey = (key: unknown): key is string => typeof key === "string" && [...key].length === 1;
+  return Object.fromEntries(Object.entries(kept).filter((entry): entry is [string, string] => isKey(entry[0]) && isKey(entry[1])).slice(0, MAX_CHANGED));
+}
+
+export function keepChangedKeys(storage: Pick<Storage, "setItem"> | null, changed: ChangedKeys): void {
+  try {
+    storage?.setItem(CHANGED, JSON.stringify(changed));
+  } catch {
+    // As above.
+  }
+}
+
+// The key that the command of `original` has now.
+export function keyOf(original: string, changed: ChangedKeys): string {
+  const key = original.toLowerCase();
+  return Object.hasOwn(changed, key) ? changed[key]! : key;
+}
+
+// The key with which the page comes for the command that is asked for; empty: no command has this key now.
+export function originalKey(pressed: string, changed: ChangedKeys): string {
+  const key = pressed.toLowerCase();
+  const found = Object.keys(changed).find((original) => changed[original] === key);
+  if (found !== undefined) return found;
+  return Object.hasOwn(changed, key) ? "" : key;
+}
+
+// Gives the command of `original` another key; the command that has that key gets the former one.
+export function withChangedKey(changed: ChangedKeys, original: string, pressed: string): ChangedKeys {
+  const [own, key] = [original.toLowerCase(), pressed.toLowerCase()];
+  const former = keyOf(own, changed);
+  const other = originalKey(key, changed);
+  const all = { ...changed, [own]: key, ...(other !== "" && other !== own && { [other]: former }) };
+  return Object.fromEntries(Object.entries(all).filter(([from, to]) => from !== to));
+}

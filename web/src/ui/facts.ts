@@ -16,7 +16,7 @@ export function createFacts(title: string, otherwise: string): Facts {
   list.hidden = true;
   const cells: { name: HTMLElement; value: HTMLElement }[] = [];
   return {
-    element: element("div", { class: "facts" }, element("h3", {}, title), list, empty),
+    element: element("div", { class: "facts" }, element("h2", {}, title), list, empty),
     show(facts) {
       empty.hidden = facts.length > 0;
       list.hidden = facts.length === 0;

@@ -13,7 +13,7 @@ export interface IconButton {
 }
 
 export function iconButton({ picture, label, word = label, title = label, key = "", onclick }: IconButton): HTMLButtonElement {
-  const shortcut = key !== "" && { "aria-keyshortcuts": key };
+  const shortcut = key !== "" && { "aria-keyshortcuts": key, "data-key": key, "data-title": title };
   return element(
     "button",
     {

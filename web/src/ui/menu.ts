@@ -85,6 +85,8 @@ export function menuItem(
       class: "menu-item",
       type: "button",
       "aria-keyshortcuts": key,
+      "data-key": key,
+      "data-title": hint,
       title: hint,
       onclick,
     },

@@ -36,6 +36,7 @@ export interface TrafficPort {
   // Messages and bytes that have come on each topic that the page reads or has read.
   counts(): ReadonlyMap<string, TopicCount>;
   choose(topic: string | null): void; // whose messages are shown
+  open(topic: string): void; // shows its messages, and opens their panel
 }
 
 // Questions that the live stream does not answer. Promises reject with the server's sentence.

@@ -41,7 +41,7 @@ export function testPorts(state: Partial<State> = {}, server: Partial<PanelPorts
   const ports = {
     state: store,
     topics,
-    traffic: { counts: vi.fn(() => new Map()), choose: vi.fn((topic: string | null) => store.set({ topic })) },
+    traffic: { counts: vi.fn(() => new Map()), choose: vi.fn((topic: string | null) => store.set({ topic })), open: vi.fn() },
     server: {
       figures: vi.fn(async () => new Map()),
       parameter: vi.fn(async () => null),

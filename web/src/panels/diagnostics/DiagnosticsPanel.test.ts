@@ -14,7 +14,7 @@ function open(diagnostics: Partial<Diagnostics>, state: Partial<State> = {}) {
   const { body: panel, whileOpen } = panelOf(store, testPorts(state).ports.state, () => () => {});
   whileOpen!();
   const texts = (title: string) => {
-    const part = [...panel.querySelectorAll(".facts")].find((each) => each.querySelector("h3")!.textContent === title)!;
+    const part = [...panel.querySelectorAll(".facts")].find((each) => each.querySelector("h2")!.textContent === title)!;
     return [...part.querySelectorAll("dt")].map((dt) => [dt.textContent, dt.nextElementSibling!.textContent]);
   };
   return { store, panel, texts };

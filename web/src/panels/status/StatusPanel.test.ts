@@ -28,7 +28,7 @@ function opened(state: Partial<State> = {}) {
   const { body, whileOpen } = mount(ports);
   const close = whileOpen!();
   const facts = (title: string) => {
-    const part = [...body.querySelectorAll(".facts")].find((each) => each.querySelector("h3")!.textContent === title)!;
+    const part = [...body.querySelectorAll(".facts")].find((each) => each.querySelector("h2")!.textContent === title)!;
     return Object.fromEntries(
       [...part.querySelectorAll("dt")].map((dt) => [dt.textContent, dt.nextElementSibling!.textContent]),
     );

@@ -34,7 +34,7 @@ export function mount({ state, topics, traffic, plots, notices }: Ports): Mounte
     if (text.length > MAX_COPIED) notices.notify("error", `The value is too large to copy: ${text.length.toLocaleString("en")} characters.`);
     else void notices.copy(text, done);
   };
-  const title = element("h3", { class: "tree-title" });
+  const title = element("h2", { class: "tree-title" });
   const note = element("p", { class: "dim", role: "status" });
   const pause = button("pause", "Hold this message", () => {
     isPaused = !isPaused;

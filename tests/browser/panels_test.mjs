@@ -1,0 +1,65 @@
+// The panels Physics and World, as they show a run in lockstep.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { startServer } from "./server.mjs";
+import { until } from "./viewing.mjs";
+
+let server;
+let browser;
+let page;
+let faults;
+
+before(async () => {
+  server = await startServer(["playground", "--robot", "pebble@0,-1.5", "--behaviour", "wander", "--lockstep"]);
+  browser = await openBrowser({ width: 1366, height: 768 });
+  ({ page, faults } = await openPage(browser, server.url));
+  await waitUntilDrawn(page);
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+const press = (name) => page.getByRole("button", { name, exact: true }).click();
+const panel = (name) => page.getByRole("region", { name, exact: true });
+
+test("physics shows the step, what steps cost, and which behaviour holds them up", async () => {
+  await press("Physics");
+  const physics = panel("Physics");
+  await physics.getByText(/^[\d.]+ ms$/).first().waitFor();
+  await physics.getByText(/^Lockstep: the simulation runs as fast as its steps allow/).waitFor();
+  await physics.locator(".panel-table").getByRole("button", { name: "pebble" }).waitFor();
+  const rows = physics.locator(".waterfall tbody tr");
+  await until(async () => (await rows.count()) > 5, "the longest steps");
+  const steps = (await rows.locator("td:first-child").allTextContents()).map((text) => Number(text.replaceAll(",", "")));
+  assert.deepEqual(steps, [...steps].sort((a, b) => a - b));
+  const widths = await rows.first().locator(".cost-bar").evaluateAll((bars) => bars.map((bar) => bar.getBoundingClientRect().width));
+  assert.ok(Math.max(...widths) > 2, `a bar is seen: ${widths}`);
+  assert.ok((await page.evaluate(() => window.gsv.topics)).includes("/gsv/step_costs"));
+  await press("Close physics");
+  await until(async () => !(await page.evaluate(() => window.gsv.topics)).includes("/gsv/step_costs"), "the end of the measurement");
+});
+
+test("the tree of the world leads to links, joints, sensors and transforms", async () => {
+  await press("World");
+  const world = panel("World");
+  await world.getByLabel("Name in the world").fill("pebble");
+  await world.locator('[data-node="pebble"]').click();
+  const part = world.getByRole("region", { name: "Selected part" });
+  await part.getByText(/^-?[\d.]+, -?[\d.]+, -?[\d.]+ m$/).waitFor();
+  const position = () => part.locator("dd").nth(4).textContent();
+  const then = await position();
+  await until(async () => (await position()) !== then, "the robot to move");
+  await world.locator('[data-node="pebble::joint::left_wheel_joint"]').click();
+  await part.getByText(/^-?[\d.]+ rad$/).waitFor();
+  await world.locator("summary", { hasText: "Transforms" }).click();
+  await world.locator('[data-node="tf::pebble/base_link"]').click();
+  await part.getByText("map", { exact: true }).waitFor();
+  await part.getByText(/^\d+\.\d\d s$/).first().waitFor();
+});
+
+test("nothing went wrong, and nothing was asked of another host", () => {
+  assert.deepEqual(faults, []);
+});

@@ -1,0 +1,82 @@
+// The tree of the world: every body with its links, joints and sensors, the transforms, and an inspector of the
+// chosen part.
+import { shallowEqual } from "../../state/Store";
+import { element } from "../../ui/element";
+import type { MountedPanel } from "../contract/Panel";
+import { NodeInspector } from "./NodeInspector";
+import type { WorldNode } from "./nodes";
+import { bodiesOf, nodeId } from "./nodes";
+import { Transforms } from "./Transforms";
+import { WorldTree } from "./WorldTree";
+
+type Ports = ConstructorParameters<typeof NodeInspector>[0];
+
+const UPDATE_MS = 500;
+
+export function mount(ports: Ports): MountedPanel {
+  const { state, topics } = ports;
+  const filter = element("input", { type: "search", placeholder: "Name…", "aria-label": "Name in the world", autocomplete: "off", spellcheck: "false" });
+  const transforms = new Transforms();
+  const inspector = new NodeInspector(ports, transforms);
+  let chosen: WorldNode | null = null;
+  let isOpen = false;
+  let showsFrames = false;
+  let endFrames = () => {};
+  const tree = new WorldTree(
+    (node) => {
+      chosen = node;
+      tree.select(nodeId(node));
+      inspector.open(node);
+    },
+    (open) => {
+      if (open === showsFrames) return;
+      showsFrames = open;
+      follow();
+    },
+  );
+  const showFrames = () => tree.showFrames(transforms.list(), state.get().time);
+  // Transforms are read while they are shown.
+  const follow = () => {
+    endFrames();
+    endFrames = () => {};
+    if (!isOpen || !showsFrames) return;
+    let isDirty = true;
+    const end = transforms.open(topics, () => (isDirty = true));
+    const timer = setInterval(() => {
+      if (isDirty) showFrames();
+      isDirty = false;
+    }, UPDATE_MS);
+    endFrames = () => {
+      clearInterval(timer);
+      end();
+    };
+  };
+  const showBodies = () => tree.showBodies(bodiesOf(state.get().scene, filter.value), filter.value.trim() !== "");
+  filter.addEventListener("input", showBodies);
+  const whileOpen = () => {
+    isOpen = true;
+    follow();
+    const ends = [
+      state.watch(({ scene, simulation }) => ({ scene, simulation }), () => {
+        showBodies();
+        // The part may be gone, or be described anew.
+        const name = chosen && chosen.kind !== "transform" ? chosen.body.name : null;
+        if (name === null) return;
+        const body = state.get().scene?.bodies.find((each) => each.name === name);
+        if (!body || !chosen || chosen.kind === "transform") {
+          chosen = null;
+          return inspector.close();
+        }
+        chosen = { ...chosen, body };
+      }, shallowEqual),
+    ];
+    if (chosen) inspector.open(chosen);
+    return () => {
+      isOpen = false;
+      follow();
+      inspector.close();
+      ends.forEach((end) => end());
+    };
+  };
+  return { body: element("div", { class: "world-panel" }, tree.element, inspector.element), tools: [filter], whileOpen };
+}

@@ -1,0 +1,44 @@
+// What the tree of the world holds: bodies with their links, joints and sensors, and transforms.
+import type { SceneBody, SceneDescription, SceneJoint, SceneSensor } from "../../api/scene";
+
+export type WorldNode =
+  | { kind: "body"; body: SceneBody }
+  | { kind: "link"; body: SceneBody; name: string }
+  | { kind: "joint"; body: SceneBody; joint: SceneJoint }
+  | { kind: "sensor"; body: SceneBody; sensor: SceneSensor }
+  | { kind: "transform"; child: string };
+
+// The same for the same thing in another description of the scene.
+export function nodeId(node: WorldNode): string {
+  switch (node.kind) {
+    case "body":
+      return node.body.name;
+    case "link":
+      return `${node.body.name}::link::${node.name}`;
+    case "joint":
+      return `${node.body.name}::joint::${node.joint.name}`;
+    case "sensor":
+      return `${node.body.name}::sensor::${node.sensor.name}`;
+    case "transform":
+      return `tf::${node.child}`;
+  }
+}
+
+export function kindOf(body: SceneBody): string {
+  if (body.isAvatar) return "avatar";
+  if (body.isRobot) return "robot";
+  if (body.isStation) return "station";
+  return body.isStatic ? "static" : "dynamic";
+}
+
+// Robots first, then what moves, then what stands; each by name. Those that have the text in the name of themselves,
+// or of a link, joint or sensor.
+export function bodiesOf(scene: SceneDescription | null, text: string): SceneBody[] {
+  const order = ["robot", "avatar", "station", "dynamic", "static"];
+  const wanted = text.trim().toLowerCase();
+  const names = ({ name, links, joints, sensors }: SceneBody) => [name, ...links, ...joints.map((each) => each.name), ...sensors.map((each) => each.name)];
+  const fits = (body: SceneBody) => wanted === "" || names(body).some((name) => name.toLowerCase().includes(wanted));
+  return (scene?.bodies ?? [])
+    .filter(fits)
+    .sort((a, b) => order.indexOf(kindOf(a)) - order.indexOf(kindOf(b)) || a.name.localeCompare(b.name));
+}
