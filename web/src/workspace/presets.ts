@@ -29,8 +29,8 @@ export const PRESETS: readonly Preset[] = [
   {
     name: "drive",
     title: "Drive",
-    hint: "Large camera image and the inspector beside the view",
-    layout: ({ width }) => beside(width, WIDE_SIDE_PX, tabs(VIEW), column([tabs("images"), 550], [tabs("inspector"), 450])),
+    hint: "Large camera image and the driving pad beside the view",
+    layout: ({ width }) => beside(width, WIDE_SIDE_PX, tabs(VIEW), column([tabs("images"), 500], [tabs("teleoperation", "inspector"), 500])),
   },
   {
     name: "debug",
