@@ -4,7 +4,7 @@ import { MAX_LAYOUT_CHARACTERS, narrowLayout, panelsOf, readLayout, textOf } fro
 import { fromDockview, toDockview } from "./dockviewLayout";
 import { PRESETS } from "./presets";
 
-const KNOWN = new Set(["view", "inspector", "images", "log", "plots", "diagnostics", "status"]);
+const KNOWN = new Set(["view", "teleoperation", "inspector", "images", "log", "plots", "diagnostics", "status"]);
 const SPACE = { width: 1000, height: 600 };
 
 function layoutOf(text: string): Split {
