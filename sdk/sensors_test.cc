@@ -42,9 +42,9 @@ class ReadsAll final : public Behaviour {
     };
     for (const base::Status& status :
          {open(sonar_), open(lidar_), open(position_), open(imu_), open(odometer_),
-          open(satellites_), open(magnetometer_), open(altimeter_), open(bumper_), open(joints_),
-          open(battery_), open(logical_camera_), open(radio_), open(ranging_), open(lamp_),
-          open(speaker_), open(gripper_), open(microphone_)}) {
+          open(satellites_), open(magnetometer_), open(altimeter_), open(force_torque_),
+          open(bumper_), open(joints_), open(battery_), open(logical_camera_), open(radio_),
+          open(ranging_), open(lamp_), open(speaker_), open(gripper_), open(microphone_)}) {
       if (!status) return status;
     }
     const auto wrong = robot.Open<Imu>("sonar");
@@ -93,8 +93,12 @@ class ReadsAll final : public Behaviour {
     for (const Bumper::Touch& touch : bumper_->Touches()) {
       values["contact"] = Numbers(touch.normal);
       values["contact"].push_back(touch.closing_speed);
+      for (const double force : Numbers(touch.force)) values["contact"].push_back(force);
       read_.names["contact"].push_back(touch.other);
     }
+    const ForceTorque::Wrench wrench = force_torque_->Read();
+    values["force_torque"] = Numbers(wrench.force);
+    for (const double torque : Numbers(wrench.torque)) values["force_torque"].push_back(torque);
     for (const JointEncoders::Joint& joint : joints_->Joints()) {
       read_.names["joint_encoders"].push_back(joint.name);
       values["joint_encoders"].push_back(joint.position);
@@ -135,6 +139,7 @@ class ReadsAll final : public Behaviour {
   std::unique_ptr<GnssReceiver> satellites_;
   std::unique_ptr<Magnetometer> magnetometer_;
   std::unique_ptr<Altimeter> altimeter_;
+  std::unique_ptr<ForceTorque> force_torque_;
   std::unique_ptr<Bumper> bumper_;
   std::unique_ptr<JointEncoders> joints_;
   std::unique_ptr<Battery> battery_;
@@ -161,13 +166,14 @@ simulation::RobotSpecification RobotWithAll(std::shared_ptr<simulation::Behaviou
   model->sensors.clear();
   for (const char* type :
        {"sonar", "lidar", "positioning", "imu", "odometry", "navsat", "magnetometer", "altimeter",
-        "contact", "joint_encoders", "battery", "logical_camera", "radio", "ranging", "gripper",
-        "lamp", "speaker", "microphone"}) {
+        "contact", "force_torque", "joint_encoders", "battery", "logical_camera", "radio",
+        "ranging", "gripper", "lamp", "speaker", "microphone"}) {
     model::SensorDescription sensor;
     sensor.name = sensor.type = type;
     sensor.link_from_sensor.position = {0, 0, 0.25};
     // The sensor is at the height of the wall's centre.
     if (sensor.type == "logical_camera") sensor.link_from_sensor.position.z = 1;
+    if (sensor.type == "force_torque") sensor.link = 1;
     if (sensor.type == "lidar") {
       sensor.parameters = {{"scan.horizontal.samples", 8.0}, {"intensity_scale", 100.0}};
     }
@@ -307,6 +313,14 @@ void CheckInterfaces(sba::SensorFactory_ptr factory, const Read& read) {
   ASSERT_EQ(touches->length(), 1u);
   EXPECT_STREQ(touches.in()[0].other, "wall");
   EXPECT_EQ(touches.in()[0].closing_speed_m_s, values.at("contact")[3]);
+  const sba::PressedPoints_var presses = Opened<sba::Bumper>(factory, "contact")->presses();
+  ASSERT_EQ(presses->length(), 1u);
+  EXPECT_EQ(presses.in()[0].closing_speed_m_s, values.at("contact")[3]);
+  EXPECT_EQ(presses.in()[0].force_n.x, values.at("contact")[4]);
+  const sba::ForceTorqueReading wrench =
+      Opened<sba::ForceTorque>(factory, "force_torque")->wrench();
+  EXPECT_EQ(wrench.force_n.z, values.at("force_torque")[2]);
+  EXPECT_EQ(wrench.torque_n_m.y, values.at("force_torque")[4]);
   const sba::EncoderReadings_var joints =
       Opened<sba::JointEncoders>(factory, "joint_encoders")->joints();
   ASSERT_EQ(joints->length(), 1u);
@@ -361,7 +375,7 @@ TEST(Sensors, ReadTheSameInProcessThroughCorbaAndThroughTheirInterfaces) {
   (*orb)->destroy();
   EXPECT_EQ(local.values, remote.values);
   EXPECT_EQ(local.names, remote.names);
-  EXPECT_EQ(local.values.size(), 22u);
+  EXPECT_EQ(local.values.size(), 23u);
 
   const auto& values = local.values;
   EXPECT_EQ(values.at("more")[1], 2);
@@ -373,6 +387,7 @@ TEST(Sensors, ReadTheSameInProcessThroughCorbaAndThroughTheirInterfaces) {
   EXPECT_NEAR(values.at("ranging")[0], std::hypot(5.02, 0.25), 1e-3);
   EXPECT_NEAR(values.at("altimeter")[2], 0.25, 1e-9);
   EXPECT_GT(values.at("navsat")[0], 45);
+  EXPECT_NEAR(values.at("force_torque")[2], -9.8, 1e-9);  // the lever of 1 kg
   EXPECT_EQ(local.names.at("contact"), std::vector<std::string>{"wall"});
   EXPECT_EQ(values.at("radio")[0], 0.02);
   EXPECT_EQ(values.at("radio missed"), (std::vector<double>{4, 0}));

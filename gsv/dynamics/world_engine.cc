@@ -5,6 +5,7 @@
 
 #include "gsv/base/check.h"
 #include "gsv/dynamics/motion/attached_layout.h"
+#include "gsv/dynamics/motion/joint_control.h"
 #include "gsv/dynamics/people/actor_mover.h"
 #include "gsv/dynamics/people/crowd.h"
 #include "gsv/dynamics/planar/planar_joints.h"
@@ -36,6 +37,7 @@ class WorldEngine final : public Engine {
     UseAttachments();
     crowd_.Decide(step, state);
     if (rigid_->has_bodies()) {
+      IntegrateErrors(*layout_, base::ToSeconds(step), state);
       MoveAll(step, state, contacts);
     } else {
       actors_.Move(step, state, nullptr);

@@ -148,6 +148,111 @@ TEST_F(SdfJointTest, ReadsTheTargetsOfGazebosControllers) {
   EXPECT_FALSE(model->drive.has_value());
 }
 
+TEST_F(SdfJointTest, ReadsTheGainsOfGazebosControllers) {
+  const auto model = Read(
+      "<link name='a'/><link name='b'/><link name='c'/>"
+      "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz>"
+      "</axis></joint><joint name='k' type='prismatic'><parent>a</parent><child>c</child><axis>"
+      "<xyz>0 0 1</xyz><limit><effort>50</effort></limit></axis></joint>"
+      "<plugin filename='gz-sim-joint-controller-system' name='gz::sim::systems::JointController'>"
+      "<joint_name>j</joint_name><use_force_commands>true</use_force_commands><p_gain>0.2</p_gain>"
+      "<i_gain>0.01</i_gain></plugin>"
+      "<plugin filename='gz-sim-joint-position-controller-system' "
+      "name='gz::sim::systems::JointPositionController'><joint_name>k</joint_name>"
+      "<p_gain>300</p_gain><i_max>4</i_max><i_min>-3</i_min><cmd_max>30</cmd_max>"
+      "<cmd_min>-20</cmd_min><cmd_offset>2</cmd_offset></plugin>");
+  EXPECT_THAT(problems_, IsEmpty());
+  const auto& turns = model->joints[0].velocity_gains;
+  ASSERT_TRUE(turns);
+  EXPECT_FALSE(model->joints[0].position_gains);
+  EXPECT_EQ(turns->p, 0.2);
+  EXPECT_EQ(turns->i, 0.01);
+  EXPECT_EQ(turns->d, 0);
+  EXPECT_EQ(turns->effort.max, 1000);
+  const auto& slides = model->joints[1].position_gains;
+  ASSERT_TRUE(slides);
+  EXPECT_EQ(slides->p, 300);
+  EXPECT_EQ(slides->i, 0.1);   // Gazebo's default
+  EXPECT_EQ(slides->d, 0.01);  // Gazebo's default
+  EXPECT_EQ(slides->integral.min, -3);
+  EXPECT_EQ(slides->integral.max, 4);
+  EXPECT_EQ(slides->effort.min, -20);
+  EXPECT_EQ(slides->effort.max, 30);
+  EXPECT_EQ(slides->offset, 2);
+  EXPECT_EQ(model->joints[1].effort_limit, 50);
+}
+
+TEST_F(SdfJointTest, IgnoresGainsThatGazeboDoesNotUse) {
+  const auto model = Read(
+      "<link name='a'/><link name='b'/><joint name='j' type='revolute'><parent>a</parent>"
+      "<child>b</child><axis><xyz>0 0 1</xyz></axis></joint>"
+      "<plugin filename='gz-sim-joint-position-controller-system' name='x'><joint_name>j"
+      "</joint_name><use_velocity_commands>true</use_velocity_commands><p_gain>300</p_gain>"
+      "<cmd_max>3</cmd_max></plugin>");
+  EXPECT_FALSE(model->joints[0].position_gains);
+  EXPECT_EQ(model->joints[0].velocity_limit, 3);
+}
+
+TEST_F(SdfJointTest, ReadsTheControllersOfGazeboClassic) {
+  const auto model = Read(
+      "<link name='a'/><link name='b'/><link name='c'/><joint name='j' type='revolute'><parent>a"
+      "</parent><child>b</child><axis><xyz>0 0 1</xyz></axis></joint><joint name='k' "
+      "type='revolute'><parent>a</parent><child>c</child><axis><xyz>0 0 1</xyz></axis></joint>"
+      "<plugin filename='libJointControlPlugin.so' name='x'><controller type='position'>"
+      "<joint>j</joint><target>0.7</target><pid_gains>10 0.5 2</pid_gains></controller>"
+      "<controller type='force'><joint>k</joint><target>3</target></controller></plugin>");
+  EXPECT_THAT(problems_, IsEmpty());
+  ASSERT_TRUE(model->joints[0].position_gains);
+  EXPECT_EQ(model->joints[0].position_gains->p, 10);
+  EXPECT_EQ(model->joints[0].position_gains->i, 0.5);
+  EXPECT_EQ(model->joints[0].position_gains->d, 2);
+  ASSERT_THAT(model->joint_targets, SizeIs(2));
+  EXPECT_EQ(model->joint_targets[0].value, 0.7);
+  EXPECT_EQ(model->joint_targets[1].kind, JointTarget::Kind::kEffort);
+  EXPECT_EQ(model->joint_targets[1].value, 3);
+}
+
+TEST_F(SdfJointTest, ReportsNegativeGains) {
+  const auto model = Read(
+      "<link name='a'/><link name='b'/><joint name='j' type='revolute'><parent>a</parent>"
+      "<child>b</child><axis><xyz>0 0 1</xyz></axis></joint>"
+      "<plugin filename='gz-sim-joint-position-controller-system' name='x'><joint_name>j"
+      "</joint_name><p_gain>-5</p_gain></plugin>");
+  ASSERT_THAT(problems_, SizeIs(1));
+  EXPECT_THAT(problems_[0].Sentence(), HasSubstr("must not be negative"));
+  EXPECT_EQ(model->joints[0].position_gains->p, 0);
+}
+
+TEST_F(SdfJointTest, ReadsTheSlipOfWheelsAndSurfaces) {
+  const auto model = Read(
+      "<gsv:slip><gsv:longitudinal>0.1</gsv:longitudinal><gsv:lateral>0.2</gsv:lateral></gsv:slip>"
+      "<link name='a'><collision name='c'><geometry><sphere><radius>0.1</radius></sphere>"
+      "</geometry><surface><friction><ode><slip1>0.3</slip1><slip2>0.4</slip2></ode></friction>"
+      "<gsv:slip><gsv:lateral>0.5</gsv:lateral></gsv:slip></surface></collision></link>"
+      "<link name='b'><collision name='c'><geometry><sphere><radius>0.2</radius></sphere>"
+      "</geometry></collision></link><joint name='j' type='revolute'><parent>a</parent><child>b"
+      "</child><axis><xyz>0 1 0</xyz></axis></joint>"
+      "<plugin filename='gz-sim-velocity-control-system' name='gz::sim::systems::VelocityControl'/>"
+      "<plugin filename='gz-sim-wheel-slip-system' name='gz::sim::systems::WheelSlip'>"
+      "<wheel link_name='b'><slip_compliance_lateral>1.5</slip_compliance_lateral>"
+      "<slip_compliance_longitudinal>0.25</slip_compliance_longitudinal><wheel_normal_force>70"
+      "</wheel_normal_force></wheel><wheel link_name='gone'/></plugin>");
+  ASSERT_THAT(problems_, SizeIs(1));
+  EXPECT_THAT(problems_[0].Sentence(), HasSubstr("\"gone\""));
+  EXPECT_EQ(model->drive->slip.longitudinal, 0.1);
+  EXPECT_EQ(model->drive->slip.lateral, 0.2);
+  const model::Surface& surface = model->links[0].collisions[0].surface;
+  EXPECT_EQ(surface.slip, 0.3);
+  EXPECT_EQ(surface.slip2, 0.4);
+  EXPECT_EQ(surface.wheel_slip.longitudinal, 0);
+  EXPECT_EQ(surface.wheel_slip.lateral, 0.5);
+  ASSERT_TRUE(model->links[1].wheel);
+  EXPECT_EQ(model->links[1].wheel->slip.lateral, 1.5);
+  EXPECT_EQ(model->links[1].wheel->slip.longitudinal, 0.25);
+  EXPECT_EQ(model->links[1].wheel->normal_force, 70);
+  EXPECT_EQ(model->links[1].wheel->radius, 0.2);
+}
+
 TEST_F(SdfJointTest, ReportsControllersOfMissingJoints) {
   (void)Read(
       "<link name='a'/>\n<plugin filename='gz-sim-joint-controller-system' name='x'>"

@@ -30,6 +30,15 @@ struct Range {
   double max = std::numeric_limits<double>::infinity();
 };
 
+// The slip of a wheel, without unit: its contact slides at compliance * |rolling speed| * friction
+// force / normal force, as with Gazebo's WheelSlip. With 0 the wheel rolls without slip up to the
+// friction limit. At a pull of a tenth of the load, a compliance of 1 gives a slip ratio of a tenth.
+struct Slip {
+  double longitudinal = 0;  // along the wheel's rolling direction
+  double lateral = 0;       // along its axle
+  bool is_none() const { return longitudinal == 0 && lateral == 0; }
+};
+
 // Units  m, rad, s. Joints are indices into Model::joints.
 struct Drive {
   DriveKind kind = DriveKind::kDifferential;
@@ -44,6 +53,7 @@ struct Drive {
   double steering_limit = 0.5;  // kAckermann
   Range linear_velocity, angular_velocity;
   Range linear_acceleration, angular_acceleration;
+  Slip slip;  // of the wheels that have none of their own
   // The base brakes after this time without a command; zero: never.
   base::SimTime command_timeout{0};
   DriveOrigin origin = DriveOrigin::kPlugin;

@@ -29,13 +29,26 @@ struct Visual {
   std::optional<double> temperature = std::nullopt;  // in K; nullopt for the temperature of the air
 };
 
-// Coulomb friction and restitution, as in SDFormat's <surface>.
+// A wheel that slips, as Gazebo's WheelSlip describes it: the normal force is a constant, so that
+// slip is proportional to the friction force.
+struct SlippingWheel {
+  Slip slip;
+  double normal_force = 0;  // N, above 0
+  double radius = 0;        // m, above 0
+};
+
+// Coulomb friction, slip and restitution, as in SDFormat's <surface>.
 struct Surface {
   double friction = 1.0;   // along friction_direction
   double friction2 = 1.0;  // friction across that direction
   double restitution = 0.0;
   // in the collision's frame, of unit length; zero for the world's x axis
   geometry::Vector3 friction_direction;
+  // Velocity at which the surfaces slide on each other, per friction force, m/(s N): <slip1> and
+  // <slip2>, along and across friction_direction.
+  double slip = 0, slip2 = 0;
+  // Soft ground: the slip of wheels that roll on this surface, in addition to their own.
+  Slip wheel_slip;
   CollisionFilter filter;
 };
 
@@ -66,6 +79,9 @@ struct Link {
   // The fraction of its velocity that it loses in each step of the world's length, in [0, 1]:
   // SDFormat's <velocity_decay>, as Gazebo applies it with ODE.
   double linear_decay = 0, angular_decay = 0;
+  // For a wheel: it slips if it has a slip of its own, or rolls on soft ground. Its axle is the axis
+  // of the joint above it.
+  std::optional<SlippingWheel> wheel = std::nullopt;
 };
 
 enum class JointKind {
@@ -90,6 +106,15 @@ struct Mimic {
   double multiplier = 1, offset = 0, reference = 0;
 };
 
+// The gains of a PID controller, as gz::math::PID has them: effort = p e + i ∫e dt + d de/dt, where e
+// is the command less the measured value.
+struct JointGains {
+  double p = 1, i = 0, d = 0;
+  Range integral{-1, 1};      // of the term i ∫e dt, N m or N
+  Range effort{-1000, 1000};  // of the sum, N m or N; the joint's effort_limit holds as well
+  double offset = 0;          // added to the sum, N m or N
+};
+
 struct Joint {
   std::string name;
   JointKind kind = JointKind::kFixed;
@@ -106,6 +131,9 @@ struct Joint {
   double friction = 0;
   double thread_pitch = 0;  // m/rad, of kScrew
   std::optional<Mimic> mimic = std::nullopt;
+  // How commands of a position and of a velocity are followed with rigid-body dynamics (default: as
+  // fast as the joint's limits allow).
+  std::optional<JointGains> position_gains = std::nullopt, velocity_gains = std::nullopt;
 };
 
 // "revolute", "prismatic", …
@@ -116,7 +144,7 @@ int FindJoint(const std::vector<Joint>& joints, const std::string& name);
 
 // An initial command of a joint, from the model's own controllers.
 struct JointTarget {
-  enum class Kind { kPosition, kVelocity };  // rad or m; rad/s or m/s
+  enum class Kind { kPosition, kVelocity, kEffort };  // rad or m; rad/s or m/s; N m or N
   int joint = 0;                             // index in Model::joints
   Kind kind = Kind::kPosition;
   double value = 0;

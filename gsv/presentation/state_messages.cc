@@ -94,9 +94,14 @@ messages::gsv_msgs::Contact ContactMessage(const world::Snapshot& snapshot,
   message.normal = {contact.normal.x, contact.normal.y, contact.normal.z};
   message.depth = contact.depth;
   message.closing_speed = contact.closing_speed;
-  for (const auto& [point, normal, depth] : world::PointsOf(contact)) {
-    message.points.push_back({point.x, point.y, point.z});
+  geometry::Vector3 total;
+  for (const world::ContactPoint& at : world::PointsOf(contact)) {
+    const geometry::Vector3 force = world::MeanForce(snapshot, at.impulse);
+    message.points.push_back({at.point.x, at.point.y, at.point.z});
+    message.forces.push_back({force.x, force.y, force.z});
+    total += force;
   }
+  message.force = {total.x, total.y, total.z};
   return message;
 }
 

@@ -136,22 +136,33 @@ struct Altimeter {
                       Value("reference", "m", &Altimeter::reference, "vertical_reference"));
 };
 
-// In the sensor's frame. The normal points from the robot to the other body.
+// In the sensor's frame. The normal points from the robot to the other body. The force acts on the
+// robot: the mean over the last step. It is zero for a robot that planar kinematics moves.
 struct Touch {
   std::string other;
   Vector point, normal;
   double depth = 0;
   double closing_speed = 0;  // at which the bodies met; 0: they touched before this step
-  static constexpr auto kFields =
-      std::make_tuple(Value("other", "", &Touch::other), Value("point", "m", &Touch::point),
-                      Value("normal", "", &Touch::normal), Value("depth", "m", &Touch::depth),
-                      Value("closing_speed", "m/s", &Touch::closing_speed));
+  Vector force;
+  static constexpr auto kFields = std::make_tuple(
+      Value("other", "", &Touch::other), Value("point", "m", &Touch::point),
+      Value("normal", "", &Touch::normal), Value("depth", "m", &Touch::depth),
+      Value("closing_speed", "m/s", &Touch::closing_speed), Value("force", "N", &Touch::force));
 };
 struct Contact {
   static constexpr const char* kType = "contact";
   std::vector<Touch> touches;
   static constexpr auto kFields =
       std::make_tuple(Value("touches", "", &Contact::touches, "contacts"));
+};
+
+// The force and torque that a joint transmits, the torque about the joint's origin.
+struct ForceTorque {
+  static constexpr const char* kType = "force_torque";
+  Vector force, torque;
+  static constexpr auto kFields =
+      std::make_tuple(Value("force", "N", &ForceTorque::force, "wrench.force"),
+                      Value("torque", "N m", &ForceTorque::torque, "wrench.torque"));
 };
 
 // rad and rad/s; of prismatic joints m and m/s.

@@ -20,11 +20,12 @@ TEST(Readings, AreReadInTheOrderOfTheirFields) {
 
 TEST(Readings, ListsReadValuesAndLabelsByGroup) {
   const Contact touched{
-      {{"wall", {1, 2, 3}, {0, 0, 1}, 0.25, 0.5}, {"floor", {4, 5, 6}, {}, 0, 0}}};
+      {{"wall", {1, 2, 3}, {0, 0, 1}, 0.25, 0.5, {7, 8, 9}}, {"floor", {4, 5, 6}, {}, 0, 0, {}}}};
   Doubles values;
   Names labels;
   Append(touched, values, labels);
-  EXPECT_EQ(values, (Doubles{1, 2, 3, 0, 0, 1, 0.25, 0.5, 4, 5, 6, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(values,
+            (Doubles{1, 2, 3, 0, 0, 1, 0.25, 0.5, 7, 8, 9, 4, 5, 6, 0, 0, 0, 0, 0, 0, 0, 0}));
   EXPECT_EQ(labels, (Names{"wall", "floor"}));
   const auto back = Decode<Contact>(values, labels, "bumper");
   ASSERT_TRUE(back);

@@ -39,6 +39,7 @@ const Habit* FindHabit(const std::string& type) {
       {readings::Magnetometer::kType, {"magnetic_field", true, 50}},
       {readings::Battery::kType, {"battery_state", false, 1}},
       {readings::Contact::kType, {"contacts", false, 20}},
+      {readings::ForceTorque::kType, {"wrench", true, 100}},
       {readings::Positioning::kType, {"pose", false, 20}},
       {readings::Camera::kType, {"camera", true, kUsualImageRate}},
       {readings::Camera::kWideAngleType, {"camera", true, kUsualImageRate}},

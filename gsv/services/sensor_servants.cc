@@ -166,6 +166,27 @@ class BumperServant final : public SensorServant<POA_sba::Bumper> {
                                           to.closing_speed_m_s = touch.closing_speed;
                                         });
   }
+  sba::PressedPoints* presses() override {
+    return ToSequence<sba::PressedPoints>(In<readings::Contact>(Read()).touches,
+                                          [](const readings::Touch& touch, sba::PressedPoint& to) {
+                                            to.other = touch.other.c_str();
+                                            to.point_m = VectorToIdl(touch.point);
+                                            to.normal = VectorToIdl(touch.normal);
+                                            to.depth_m = touch.depth;
+                                            to.closing_speed_m_s = touch.closing_speed;
+                                            to.force_n = VectorToIdl(touch.force);
+                                          });
+  }
+};
+
+class ForceTorqueServant final : public SensorServant<POA_sba::ForceTorque> {
+ public:
+  using SensorServant::SensorServant;
+  sba::ForceTorqueReading wrench() override {
+    const Reading reading = Read();
+    const auto of_joint = In<readings::ForceTorque>(reading);
+    return {reading.time.count(), VectorToIdl(of_joint.force), VectorToIdl(of_joint.torque)};
+  }
 };
 
 class JointEncodersServant final : public SensorServant<POA_sba::JointEncoders> {
@@ -352,6 +373,7 @@ std::map<std::string, SensorServantMaker>& Makers() {
       {readings::Magnetometer::kType, MakeSensorServant<MagnetometerServant>},
       {readings::Altimeter::kType, MakeSensorServant<AltimeterServant>},
       {readings::Contact::kType, MakeSensorServant<BumperServant>},
+      {readings::ForceTorque::kType, MakeSensorServant<ForceTorqueServant>},
       {readings::JointEncoders::kType, MakeSensorServant<JointEncodersServant>},
       {readings::Battery::kType, MakeSensorServant<BatteryServant>},
       {readings::LogicalCamera::kType, MakeSensorServant<LogicalCameraServant>},

@@ -86,9 +86,9 @@ class GazeboValues : public ::testing::Test {
   // Expects four contact points, at which two spheres lie on the edges of two boxes.
   void ExpectFourCorners(const std::string& robot, const std::string& sensor) {
     const std::vector<double> touches = Read(robot, sensor);
-    ASSERT_EQ(touches.size(), 4 * 8u);
+    ASSERT_EQ(touches.size(), 4 * 11u);
     std::set<std::pair<double, double>> corners;
-    for (std::size_t i = 0; i < touches.size(); i += 8) {
+    for (std::size_t i = 0; i < touches.size(); i += 11) {
       const Vector3 point = At(robot) * Vector3{touches[i], touches[i + 1], touches[i + 2]};
       EXPECT_WITHIN(std::abs(point.x), 0.25, 0.05, "m");
       EXPECT_WITHIN(std::abs(point.y), 1, 0.05, "m");
@@ -459,6 +459,65 @@ TEST_F(GazeboOriginals, DifferentialDriveEqualsGazebo) {
   EXPECT_WITHIN(moved.position.y, odometry.place.y, 0.01, "m");
   EXPECT_WITHIN(geometry::Yaw(moved.orientation),
                 std::atan2(odometry.place.sine, odometry.place.cosine), 0.01, "rad");
+}
+
+// A scale with a plate of 0.2 kg on a sensor, as in gz-sim's test, and a weight of 10 kg on the plate.
+TEST_F(GazeboValues, ForceTorqueSensorReadsTheWeightOnAScale) {
+  const auto scale = [](const std::string& type) {
+    return "<model name='scale'><link name='base'><pose>0 0 0.05 0 0 0</pose>" +
+           Inertial("5", Moments("0.1", "0.1", "0.2")) + "<collision name='c'>" +
+           Box("0.6 0.6 0.1") +
+           "</collision></link><link name='plate'><pose>0 0 0.125 0 0 0</pose>" +
+           Inertial("0.2", Moments("0.003", "0.003", "0.006")) + "<collision name='c'>" +
+           Box("0.4 0.4 0.05") + "</collision></link><joint name='load_cell' type='" + type +
+           "'><parent>base</parent><child>plate</child><axis><xyz>0 0 1</xyz><limit><lower>0"
+           "</lower><upper>0</upper></limit></axis><sensor name='s' type='force_torque'>"
+           "<force_torque><frame>child</frame><measure_direction>child_to_parent"
+           "</measure_direction></force_torque></sensor></joint></model>";
+  };
+  const std::string weight = "<model name='weight'><pose>0.05 0 0.25 0 0 0</pose><link name='l'>" +
+                             Inertial("10", Moments("0.07", "0.07", "0.07")) +
+                             "<collision name='c'>" + Box("0.2 0.2 0.2") +
+                             "</collision></link></model>";
+  for (const std::string type : {"fixed", "prismatic"}) {
+    Start(std::string(kGround) + scale(type) + weight);
+    RunUntil(2s);
+    const std::vector<double> wrench = Read("scale", "s");
+    EXPECT_WITHIN(wrench[0], 0, 0.01, "N") << type;
+    EXPECT_WITHIN(wrench[1], 0, 0.01, "N") << type;
+    EXPECT_WITHIN(wrench[2], -9.8 * 10.2, 0.1, "N") << type;
+    EXPECT_WITHIN(wrench[3], 0, 0.01, "N m") << type;
+    EXPECT_WITHIN(wrench[4], 9.8 * 10 * 0.05, 0.02, "N m") << type;
+  }
+}
+
+// An arm of 2 kg whose joint is held by a controller, and one that spins freely about the vertical.
+TEST_F(GazeboValues, ForceTorqueSensorReadsTheLoadOfAnArm) {
+  const auto arm = [](const std::string& name, const std::string& pose, const std::string& plugin) {
+    return "<model name='" + name + "'><pose>" + pose +
+           "</pose><link name='l'><inertial><pose>0.5 0 0 0 0 0</pose><mass>2</mass><inertia>" +
+           Moments("0.01", "0.01", "0.01") + "</inertia></inertial><collision name='c'>" +
+           Sphere("0.05") +
+           "</collision></link><joint name='j' type='revolute'><parent>world</parent>"
+           "<child>l</child><axis><xyz>0 1 0</xyz></axis><sensor name='s' type='force_torque'>"
+           "<force_torque><measure_direction>parent_to_child</measure_direction></force_torque>"
+           "</sensor></joint>" +
+           plugin + "</model>";
+  };
+  Start(arm("held", "0 0 2 0 0 0",
+            "<plugin filename='gz-sim-joint-position-controller-system' "
+            "name='gz::sim::systems::JointPositionController'><joint_name>j</joint_name>"
+            "</plugin>") +
+        arm("spun", "0 3 2 1.5707963 0 0",
+            "<plugin filename='gz-sim-joint-controller-system' "
+            "name='gz::sim::systems::JointController'><joint_name>j</joint_name>"
+            "<initial_velocity>3</initial_velocity></plugin>"));
+  RunUntil(2s);
+  const std::vector<double> held = Read("held", "s");
+  EXPECT_WITHIN(held[2], 2 * 9.8, 0.01, "N");
+  EXPECT_WITHIN(held[4], -2 * 9.8 * 0.5, 0.01, "N m");
+  const std::vector<double> spun = Read("spun", "s");
+  EXPECT_WITHIN(spun[0], -2 * 3 * 3 * 0.5, 0.01, "N");
 }
 
 }  // namespace

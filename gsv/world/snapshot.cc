@@ -1,6 +1,7 @@
 #include "gsv/world/snapshot.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "gsv/base/check.h"
 
@@ -67,10 +68,18 @@ std::span<const double> JointPositions(const Snapshot& snapshot, int body) {
 
 std::vector<ContactPoint> PointsOf(const Contact& contact) {
   if (!contact.points.empty()) return contact.points;
-  return {{contact.point, contact.normal, contact.depth}};
+  const double impulse = std::isfinite(contact.impulse) ? contact.impulse : 0;
+  return {{contact.point, contact.normal, contact.depth, impulse * contact.normal}};
 }
 
-void KeepVelocities(const State& state, std::vector<Acceleration>& accelerations) {
+geometry::Vector3 MeanForce(const Snapshot& snapshot, const geometry::Vector3& impulse) {
+  if (snapshot.step_length.count() <= 0) return {};
+  return impulse * (1 / base::ToSeconds(snapshot.step_length));
+}
+
+void KeepVelocities(const State& state, std::vector<Acceleration>& accelerations,
+                    std::vector<double>& joint_accelerations) {
+  joint_accelerations = state.joint_velocities;
   accelerations.resize(state.bodies.size());
   for (std::size_t i = 0; i < state.bodies.size(); ++i) {
     accelerations[i] = {state.bodies[i].linear_velocity, state.bodies[i].angular_velocity};
@@ -95,8 +104,12 @@ void FinishContacts(const State& state, const std::vector<Acceleration>& kept,
 }
 
 void FinishAccelerations(const State& state, double step_seconds,
-                         std::vector<Acceleration>& accelerations) {
+                         std::vector<Acceleration>& accelerations,
+                         std::vector<double>& joint_accelerations) {
   const double per_second = 1 / step_seconds;
+  for (std::size_t i = 0; i < joint_accelerations.size(); ++i) {
+    joint_accelerations[i] = per_second * (state.joint_velocities[i] - joint_accelerations[i]);
+  }
   for (std::size_t i = 0; i < accelerations.size(); ++i) {
     Acceleration& mean = accelerations[i];
     mean.linear = per_second * (state.bodies[i].linear_velocity - mean.linear);

@@ -16,6 +16,9 @@ struct ContactPoint {
   geometry::Vector3 point;   // world
   geometry::Vector3 normal;  // world, unit length, from the first body to the second
   double depth = 0;          // m
+  // N s over the step, world: friction and normal force on the second body. Zero if no engine
+  // computes it.
+  geometry::Vector3 impulse;
 };
 
 // A contact of two bodies. The normal points from the first to the second. If a robot touches a
@@ -36,11 +39,13 @@ struct Contact {
   // contact is not a collision: only contact sensors report it.
   bool supports = false;
   // All points of two rigid bodies, the deepest first, at the end of the last substep in which the
-  // bodies touched. Empty if the engine computes only the point above.
+  // bodies touched. Their impulses add up to that of the whole step. Empty if the engine computes
+  // only the point above.
   std::vector<ContactPoint> points;
 };
 
-// The contact's points, at least one.
+// The contact's points, at least one. Without points of its own, the contact's impulse is along its
+// normal.
 std::vector<ContactPoint> PointsOf(const Contact& contact);
 
 // The acceleration of a model's origin in world axes: the mean over the last step.
@@ -53,19 +58,28 @@ struct Snapshot {
   std::shared_ptr<const Layout> layout;  // never null
   State state;
   std::vector<Contact> contacts;  // contacts of the last step, ordered by (first, second, supports)
+  base::SimTime step_length{0};   // length of the last step; 0 before the first one
   // in the order of Layout::bodies; empty before the first step
   std::vector<Acceleration> accelerations;
+  // rad/s² or m/s²: the means over the last step, in the order of State::joint_velocities; empty
+  // before the first step
+  std::vector<double> joint_accelerations;
   // messages sent in the last step, in the order of senders
   std::vector<Transmission> transmissions;
 };
 
+// The mean force of a contact over the last step, from its impulse (N s); zero before the first step.
+geometry::Vector3 MeanForce(const Snapshot& snapshot, const geometry::Vector3& impulse);
+
 // Called around a step, in this order: keeps the velocities before it, and computes closing speeds
 // and accelerations after it.
-void KeepVelocities(const State& state, std::vector<Acceleration>& accelerations);
+void KeepVelocities(const State& state, std::vector<Acceleration>& accelerations,
+                    std::vector<double>& joint_accelerations);
 void FinishContacts(const State& state, const std::vector<Acceleration>& kept,
                     std::vector<Contact>& contacts);
 void FinishAccelerations(const State& state, double step_seconds,
-                         std::vector<Acceleration>& accelerations);
+                         std::vector<Acceleration>& accelerations,
+                         std::vector<double>& joint_accelerations);
 
 // Poses of a model's links at the given joint positions (one for each joint), model_from_link. A
 // revolute joint turns its child about its axis, a prismatic one slides it along, a screw does

@@ -78,7 +78,8 @@ TEST(Contacts, HardnessIsTheClosingSpeedOfTheirPoints) {
   state.bodies[1].world_from_model.position = {3, 0, 0};
   state.bodies[1].linear_velocity = {0.5, 0, 0};
   std::vector<Acceleration> kept;
-  KeepVelocities(state, kept);
+  std::vector<double> joints;
+  KeepVelocities(state, kept, joints);
   state.bodies[0].linear_velocity = {};  // the step has stopped it
   // At their contact, 0.4 to the right of the first one's centre, its rotation adds 1.2 m/s.
   std::vector<Contact> contacts(3, {0, 1, {2, -0.4, 0}, {1, 0, 0}, 0.01, true});
@@ -88,6 +89,22 @@ TEST(Contacts, HardnessIsTheClosingSpeedOfTheirPoints) {
   EXPECT_NEAR(contacts[0].closing_speed, 2 + 1.2 - 0.5, 1e-12);
   EXPECT_EQ(contacts[1].closing_speed, 0);  // they touched before
   EXPECT_EQ(contacts[2].closing_speed, 0);  // they move apart
+}
+
+TEST(Snapshot, AccelerationsAreTheMeansOfAStep) {
+  State state;
+  state.bodies.resize(1);
+  state.bodies[0].linear_velocity = {1, 0, 0};
+  state.joint_velocities = {2, -1};
+  std::vector<Acceleration> bodies;
+  std::vector<double> joints;
+  KeepVelocities(state, bodies, joints);
+  state.bodies[0].linear_velocity = {1.5, 0, 0};
+  state.joint_velocities = {2, -4};
+  FinishAccelerations(state, 0.1, bodies, joints);
+  EXPECT_NEAR(bodies[0].linear.x, 5, 1e-12);
+  EXPECT_EQ(joints[0], 0);
+  EXPECT_NEAR(joints[1], -30, 1e-12);
 }
 
 TEST(MovingLinks, AreLinksBelowAMovingJoint) {

@@ -35,6 +35,18 @@ void Add(const BodyState& body, base::Hash& hash) {
   hash.Add(std::uint64_t{body.in_contact});
 }
 
+JointCommand::Kind KindOf(const model::JointTarget& target) {
+  switch (target.kind) {
+    case model::JointTarget::Kind::kPosition:
+      return JointCommand::Kind::kPosition;
+    case model::JointTarget::Kind::kVelocity:
+      return JointCommand::Kind::kVelocity;
+    case model::JointTarget::Kind::kEffort:
+      return JointCommand::Kind::kEffort;
+  }
+  return JointCommand::Kind::kNone;
+}
+
 }  // namespace
 
 State InitialState(const Layout& layout) {
@@ -62,9 +74,8 @@ State InitialState(const Layout& layout) {
   for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
     if (!layout.bodies[i].is_rigid()) continue;
     for (const model::JointTarget& target : layout.bodies[i].model->joint_targets) {
-      const bool is_position = target.kind == model::JointTarget::Kind::kPosition;
-      const auto kind = is_position ? JointCommand::Kind::kPosition : JointCommand::Kind::kVelocity;
-      CommandJoint(layout, static_cast<int>(i), target.joint, {kind, target.value}, state);
+      CommandJoint(layout, static_cast<int>(i), target.joint, {KindOf(target), target.value},
+                   state);
     }
   }
   return state;
@@ -142,6 +153,7 @@ void AddToHash(const Layout& layout, const State& state, base::Hash& hash) {
     hash.Add(static_cast<std::uint64_t>(command.kind));
     hash.Add(command.value);
   }
+  for (const double integral : state.joint_integrals) hash.Add(integral);
   for (const std::uint32_t goals : state.goals) hash.Add(std::uint64_t{goals});
   if (state.devices != nullptr) AddToHash(*state.devices, hash);
   if (state.engine != nullptr) state.engine->AddToHash(hash);

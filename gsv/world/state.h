@@ -83,6 +83,9 @@ struct State {
   std::vector<double> joint_velocities;
   // in the order of joint_positions; empty if there were no commands so far
   std::vector<JointCommand> joint_commands;
+  // N m or N: the integral terms of the joints' controllers (model::JointGains), in the order of
+  // joint_positions; empty if no joint has one
+  std::vector<double> joint_integrals;
   // Number of goals that each pedestrian has reached, as `bodies`; empty: no pedestrians.
   std::vector<std::uint32_t> goals;
   std::shared_ptr<const DeviceStates> devices;  // null: no device has had a state

@@ -235,6 +235,15 @@ class Bumper : public Sensor {
   std::vector<Touch> Touches() { return MeasureAs<readings::Contact>().touches; }
 };
 
+class ForceTorque : public Sensor {
+ public:
+  static constexpr const char* kType = readings::ForceTorque::kType;
+  using Sensor::Sensor;
+
+  using Wrench = readings::ForceTorque;
+  Wrench Read() { return MeasureAs<readings::ForceTorque>(); }
+};
+
 class JointEncoders : public Sensor {
  public:
   static constexpr const char* kType = readings::JointEncoders::kType;

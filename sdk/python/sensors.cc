@@ -208,6 +208,11 @@ void BindBody(py::module_& module, py::class_<Sensor>& sensor) {
   bumper.def("is_pressed", &Bumper::IsPressed, LetOthersRun())
       .def("touches", &Bumper::Touches, LetOthersRun());
   BindReading<Bumper::Touch>(bumper, "Touch", "In the sensor's frame; the normal points outwards.");
+  auto force_torque = BindKind<ForceTorque>(
+      module, "ForceTorque", sensor, "Measures the force and torque that a joint transmits.");
+  force_torque.def("read", &ForceTorque::Read, LetOthersRun());
+  BindReading<ForceTorque::Wrench>(force_torque, "Wrench",
+                                   "N and N m, the torque about the joint's origin.");
   auto encoders = BindKind<JointEncoders>(module, "JointEncoders", sensor,
                                           "Reads the positions of the robot's joints.");
   encoders.def("joints", &JointEncoders::Joints, LetOthersRun());

@@ -14,7 +14,7 @@ REPOSITORY = "CosTradingRepos::ServiceTypeRepository"
 # The sensor that has each interface.
 SENSORS = {"Sonar": "sonar", "Lidar": "lidar", "Camera": "camera", "PositioningSystem": "positioning", "Imu": "imu",
            "Odometer": "odometry", "SatelliteReceiver": "navsat", "Magnetometer": "magnetometer",
-           "Altimeter": "altimeter", "Bumper": "contact", "JointEncoders": "joint_encoders", "Battery": "battery",
+           "Altimeter": "altimeter", "Bumper": "contact", "ForceTorque": "force_torque", "JointEncoders": "joint_encoders", "Battery": "battery",
            "LogicalCamera": "logical_camera", "Radio": "radio", "Microphone": "microphone",
            "DepthCamera": "depth_camera", "SegmentationCamera": "segmentation_camera",
            "BoundingBoxCamera": "boundingbox_camera",
@@ -51,7 +51,9 @@ KEPT_ATTRIBUTES = ["def_search_card", "max_search_card", "def_match_card", "max_
 REFUSED = {
     "CosTrading::Register::resolve": "UnknownTraderName", "CosTrading::Admin::set_type_repos": "system exception",
     "sba::SensorFactory::open": "Refused", "sba::JointActuator::apply": "Refused",
-    "sba::ScenarioRun::outcome": "NotRunning"}
+    "sba::ScenarioRun::outcome": "NotRunning",
+    # It is mounted on a link that hangs from no joint.
+    "sba::ForceTorque::wrench": "Failed"}
 
 
 class World:

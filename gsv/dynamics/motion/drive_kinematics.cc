@@ -105,6 +105,7 @@ base::Result<DriveKinematics> DriveKinematics::Create(const model::Model& model)
   kinematics.wheels_are_as_believed_ =
       model.drive->kind != DriveKind::kDifferential ||
       (model.drive->left_wheel_scale == 1 && model.drive->right_wheel_scale == 1);
+  kinematics.SetSlip(model);
   kinematics.AddWheels(model, model.drive->left_wheels, 1);
   kinematics.AddWheels(model, model.drive->right_wheels, -1);
   for (const int joint : model.drive->steered) {
@@ -169,7 +170,36 @@ world::DriveCommand DriveKinematics::Next(const world::DriveState& state, base::
   return next;
 }
 
+void DriveKinematics::SetSlip(const model::Model& model) {
+  const bool rolls =
+      drive_.kind == DriveKind::kDifferential || drive_.kind == DriveKind::kAckermann;
+  slips_ = rolls && !drive_.slip.is_none() && !drive_.left_wheels.empty();
+  // Steered wheels turn without sliding aside.
+  if (!slips_ || drive_.kind == DriveKind::kAckermann || !(drive_.slip.lateral > 0)) return;
+  double square = 0;
+  for (const auto* joints : {&drive_.left_wheels, &drive_.right_wheels}) {
+    for (const int joint : *joints) {
+      const double ahead = model.joints[joint].model_from_joint.position.x - reference_x_;
+      square += ahead * ahead;
+    }
+  }
+  square /= static_cast<double>(drive_.left_wheels.size() + drive_.right_wheels.size());
+  const double half = drive_.wheel_separation / 2;
+  turn_share_ =
+      half * half / (half * half + drive_.slip.longitudinal / drive_.slip.lateral * square);
+}
+
 world::DriveCommand DriveKinematics::TrueMotion(const world::DriveCommand& motion) const {
+  constexpr double kStandardGravity = 9.80665;  // m/s²
+  world::DriveCommand moves = wheels_are_as_believed_ ? motion : RolledMotion(motion);
+  if (!slips_) return moves;
+  moves.angular *= turn_share_;
+  const double side_force = moves.linear * moves.angular / kStandardGravity;  // over the load
+  moves.lateral -= drive_.slip.lateral * side_force * std::abs(moves.linear);
+  return moves;
+}
+
+world::DriveCommand DriveKinematics::RolledMotion(const world::DriveCommand& motion) const {
   const double aside = motion.angular * drive_.wheel_separation / 2;
   const double left = (motion.linear - aside) * drive_.left_wheel_scale;
   const double right = (motion.linear + aside) * drive_.right_wheel_scale;
@@ -193,10 +223,11 @@ double DriveKinematics::SteeringAngle(const Steered& steered, double curvature) 
 void DriveKinematics::TurnJoints(const Travel& travel, const world::DriveCommand& motion,
                                  double step_seconds, std::span<double> positions,
                                  std::span<double> velocities) const {
-  const world::DriveCommand moves = wheels_are_as_believed_ ? motion : TrueMotion(motion);
+  const world::DriveCommand moves = wheels_are_as_believed_ ? motion : RolledMotion(motion);
+  const Travel rolled{travel.forward, travel.left, travel.angle / turn_share_};
   const Travel per_second{moves.linear, moves.lateral, moves.angular};
   for (const Wheel& wheel : wheels_) {
-    positions[wheel.joint] += RollOf(wheel, travel);
+    positions[wheel.joint] += RollOf(wheel, rolled);
     velocities[wheel.joint] = RollOf(wheel, per_second);
   }
   if (drive_.kind != DriveKind::kAckermann) return;

@@ -4,6 +4,12 @@
 // Frames   the model's; the commanded velocity is that of the drive's reference point: halfway
 //          between the wheels along x, on the rear axle for Ackermann steering, the model's origin
 //          for a base without wheels.
+// Slip     with a drive's slip (model::Slip) the forces follow from the motion at a constant speed. On
+//          an arc, the side force m v w makes the base drift outwards at lateral * v w / g * |v|. The
+//          base turns by a share b² / (b² + longitudinal / lateral * x²) of what the wheels turn it
+//          by, where b is half of the wheel separation and x² the mean square of the wheels'
+//          distances along x from the reference point. Both compliances must be above 0 for that. The
+//          slip while a base accelerates is left out.
 // Source   for the wheels' equations: Siegwart, Nourbakhsh, Scaramuzza, "Introduction to Autonomous
 //          Mobile Robots", 2nd edition, chapter 3.
 #pragma once
@@ -48,7 +54,8 @@ class DriveKinematics {
 
   // The twist of the model's origin when the drive rotates the wheels for `motion`.
   geometry::Twist OriginTwist(const world::DriveCommand& motion) const {
-    const world::DriveCommand moves = wheels_are_as_believed_ ? motion : TrueMotion(motion);
+    const bool is_true = wheels_are_as_believed_ && !slips_;
+    const world::DriveCommand moves = is_true ? motion : TrueMotion(motion);
     return {moves.linear, moves.lateral - moves.angular * reference_x_, moves.angular};
   }
 
@@ -81,12 +88,17 @@ class DriveKinematics {
   };
 
   void AddWheels(const model::Model& model, const std::vector<int>& joints, double side);
+  void SetSlip(const model::Model& model);
+  // TrueMotion() without slip: what the wheels roll.
+  world::DriveCommand RolledMotion(const world::DriveCommand& motion) const;
   double RollOf(const Wheel& wheel, const Travel& travel) const;
   double SteeringAngle(const Steered& steered, double curvature) const;
 
   model::Drive drive_;
   double reference_x_ = 0;
   bool wheels_are_as_believed_ = true;
+  bool slips_ = false;
+  double turn_share_ = 1;  // of the turn that the wheels roll, in (0, 1]
   std::vector<Wheel> wheels_;
   std::vector<Steered> steered_;
 };

@@ -51,10 +51,10 @@ class RigidEngine {
   // step starts and in `state` where it ends. Fills in the results of `pushes`.
   //
   // Replaces `contacts` by the contacts of rigid bodies in this step, with their points and
-  // impulses, in any order. The first body of a contact is rigid. `began` says that the two did not
-  // touch when the step started. A pair has at most two contacts. One of them `supports`: it has the
-  // points at which the second body, static or planar, carries the first from below, as the ground
-  // does.
+  // impulses (of the contact, and of each point with friction), in any order. The first body of a
+  // contact is rigid. `began` says that the two did not touch when the step started. A pair has at
+  // most two contacts. One of them `supports`: it has the points at which the second body, static or
+  // planar, carries the first from below, as the ground does.
   virtual void Step(base::SimTime step, const world::State& before, std::span<Push> pushes,
                     world::State& state, std::vector<world::Contact>& contacts) = 0;
 

@@ -106,5 +106,53 @@ TEST(PlanarFidelity, AnAccelerationLimitIsRespected) {
   EXPECT_EQ(world.body("robot").drive.actual.linear, 0);
 }
 
+// Two axles: the torque of the wheels that slide along balances that of those that slide aside.
+TEST(PlanarFidelity, SlippingSkidSteerTurnsLessThanItsWheels) {
+  const double base = 0.5, along = 2, across = 5;
+  auto robot = TwoWheeled(1, 1);
+  for (int i = 0; i < 2; ++i) {
+    for (const double x : {base / 2, -base / 2}) {
+      model::Joint joint = robot->joints[static_cast<std::size_t>(i)];
+      joint.model_from_joint.position.x = x;
+      (i == 0 ? robot->drive->left_wheels : robot->drive->right_wheels)
+          .push_back(static_cast<int>(robot->joints.size()));
+      joint.child = static_cast<int>(robot->links.size());
+      robot->links.emplace_back();
+      robot->joints.push_back(joint);
+    }
+  }
+  robot->drive->left_wheels.erase(robot->drive->left_wheels.begin());
+  robot->drive->right_wheels.erase(robot->drive->right_wheels.begin());
+  robot->drive->slip = {along, across};
+  TestWorld world(MakeWorldEngine());
+  world.AddRobot("robot", robot, {});
+  ASSERT_TRUE(world.Start());
+  world.Command("robot", {0, 0, 1});
+  world.Run(2, 0.01);
+  const double b2 = kSeparation * kSeparation;
+  EXPECT_WITHIN(world.yaw("robot"), 2 * b2 / (b2 + base * base * along / across), 1e-9, "rad");
+  // The wheels have turned for two radians.
+  const double right_path = world.joint("robot", robot->drive->right_wheels[0]) * kRadius;
+  EXPECT_WITHIN(right_path, 2 * kSeparation / 2, 1e-9, "m");
+}
+
+TEST(PlanarFidelity, SlippingRobotDriftsOutOfItsArc) {
+  const double speed = 1.5, rate = 0.8, lateral = 2;
+  auto robot = TwoWheeled(1, 1);
+  robot->drive->slip = {0, lateral};
+  TestWorld world(MakeWorldEngine());
+  world.AddRobot("robot", robot, {});
+  ASSERT_TRUE(world.Start());
+  world.Command("robot", {speed, 0, rate});
+  world.Run(2 * kPi / rate, 2 * kPi / rate / 1000);
+  // A circle whose radius is that of the total velocity. It closes, as the rate is that of the
+  // wheels.
+  const double drift = lateral * speed * rate / 9.80665 * speed;
+  EXPECT_WITHIN(Norm(world.body("robot").linear_velocity), std::hypot(speed, drift), 1e-9, "m/s");
+  EXPECT_WITHIN(world.position("robot").x, 0, 1e-6, "m");
+  EXPECT_WITHIN(world.joint("robot", 1) * kRadius,
+                2 * kPi / rate * (speed + rate * kSeparation / 2), 1e-6, "m");
+}
+
 }  // namespace
 }  // namespace gsv::dynamics

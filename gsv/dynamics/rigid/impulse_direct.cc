@@ -90,7 +90,16 @@ void ImpulseRows::ChooseFree() {
 std::array<double, 2> ImpulseRows::MissingOf(const Cone& cone) const {
   const Row &a = rows_[static_cast<std::size_t>(cone.first_row)],
             &b = rows_[static_cast<std::size_t>(cone.first_row) + 1];
-  return {a.target - VelocityOf(a), b.target - VelocityOf(b)};
+  const auto [give_a, give_b] = GiveOf(cone);
+  return {a.target - VelocityOf(a) - give_a, b.target - VelocityOf(b) - give_b};
+}
+
+// The velocity by which a cone's rows give way to their impulses.
+std::array<double, 2> ImpulseRows::GiveOf(const Cone& cone) const {
+  const Row &a = rows_[static_cast<std::size_t>(cone.first_row)],
+            &b = rows_[static_cast<std::size_t>(cone.first_row) + 1];
+  return {a.softness * a.impulse + cone.coupling * b.impulse,
+          b.softness * b.impulse + cone.coupling * a.impulse};
 }
 
 // The friction x of a contact that slips is radius * e / |e|, where e is the missing velocity.
@@ -110,6 +119,8 @@ void ImpulseRows::WriteSlip(const Cone& cone) {
     along[j] = 0;
     across[j] = d0 * of_b[free_[j]] - d1 * of_a[free_[j]];
   }
+  across[first] += d0 * cone.coupling - d1 * a.softness;
+  across[first + 1] += d0 * b.softness - d1 * cone.coupling;
   along[first] = weight * d0;
   along[first + 1] = weight * d1;
   const int normal = place_[static_cast<std::size_t>(cone.normal_row)];
@@ -150,7 +161,17 @@ void ImpulseRows::WriteEquations(bool shares_loads) {
     }
   }
   for (std::size_t c = 0; c < cones_.size(); ++c) {
-    if (turns_[c]) WriteSlip(cones_[c]);
+    const Cone& cone = cones_[c];
+    const int place = place_[static_cast<std::size_t>(cone.first_row)];
+    if (turns_[c]) {
+      WriteSlip(cone);
+    } else if (place >= 0) {
+      const auto a = static_cast<std::size_t>(place), b = a + 1;
+      matrix_[a * n + b] += cone.coupling;
+      matrix_[b * n + a] += cone.coupling;
+      unknown_[a] -= cone.coupling * impulse(cone.first_row + 1);
+      unknown_[b] -= cone.coupling * impulse(cone.first_row);
+    }
   }
 }
 

@@ -147,17 +147,25 @@ void ImpulseRows::Combine(int first_row, const Axes& axes) {
   b.impulse = axes[1][0] * impulse_a + axes[1][1] * impulse_b;
 }
 
-int ImpulseRows::AddCone(int normal_row, int first_row, double friction, const Axes& axes) {
+int ImpulseRows::AddCone(int normal_row, int first_row, double friction, const Axes& axes,
+                         const std::array<double, 2>& softness) {
   Combine(first_row, axes);
   const Row &a = At(first_row), &b = At(first_row + 1);
-  const Axes principal = PrincipalAxesOf(Coupling(a, a), Coupling(b, b), Coupling(a, b));
+  // They are uncoupled by the bodies and the softness together.
+  const Axes principal =
+      PrincipalAxesOf(Coupling(a, a) + softness[0], Coupling(b, b) + softness[1], Coupling(a, b));
   Combine(first_row, principal);
-  for (int row = first_row; row < first_row + 2; ++row) {
-    At(row).is_in_cone = true;
-    At(row).softness = 0;
-    Weigh(At(row));
+  const auto soft = [&](std::size_t i, std::size_t j) {
+    return principal[i][0] * softness[0] * principal[j][0] +
+           principal[i][1] * softness[1] * principal[j][1];
+  };
+  for (std::size_t i = 0; i < 2; ++i) {
+    Row& row = At(first_row + static_cast<int>(i));
+    row.is_in_cone = true;
+    row.softness = soft(i, i);
+    Weigh(row);
   }
-  cones_.push_back({normal_row, first_row, friction, principal, 0});
+  cones_.push_back({normal_row, first_row, friction, principal, soft(0, 1), 0});
   return static_cast<int>(cones_.size()) - 1;
 }
 
@@ -187,8 +195,10 @@ std::array<double, 2> ImpulseRows::ConeImpulse(int cone) const {
     }
     return;
   }
-  const double pull_a = a.target - VelocityOf(a) + a.mass_inverse * a.impulse;
-  const double pull_b = b.target - VelocityOf(b) + b.mass_inverse * b.impulse;
+  const double give_a = a.softness * a.impulse + cone.coupling * b.impulse;
+  const double give_b = b.softness * b.impulse + cone.coupling * a.impulse;
+  const double pull_a = a.target - VelocityOf(a) - give_a + a.mass_inverse * a.impulse;
+  const double pull_b = b.target - VelocityOf(b) - give_b + b.mass_inverse * b.impulse;
   const auto [x, y] =
       WithinCircle(a.mass_inverse, b.mass_inverse, pull_a, pull_b, radius, cone.shift);
   a.change = x - a.impulse;

@@ -63,8 +63,9 @@ class ImpulseRows {
   // Makes a cone of two rows, which were added one after the other. Before that, they become along
   // `axes`: each axis gives the weights of the two rows.
   using Axes = std::array<std::array<double, 2>, 2>;
-  // Returns the cone.
-  int AddCone(int normal_row, int first_row, double friction, const Axes& axes);
+  // Along each axis, the velocity gives way by the softness times the impulse. Returns the cone.
+  int AddCone(int normal_row, int first_row, double friction, const Axes& axes,
+              const std::array<double, 2>& softness = {});
 
   static constexpr int kMaxDirect = 150;
 
@@ -94,6 +95,7 @@ class ImpulseRows {
     int normal_row, first_row;
     double friction;
     Axes axes;
+    double coupling;  // softness between its two rows; that of each row is the row's
     double shift;  // the shift of the last solution on the circle, from which the next one begins
   };
 
@@ -113,6 +115,7 @@ class ImpulseRows {
   double RadiusOf(const Cone& cone) const;
   void CoupleAll();
   void ChooseFree();
+  std::array<double, 2> GiveOf(const Cone& cone) const;
   std::array<double, 2> MissingOf(const Cone& cone) const;
   void WriteSlip(const Cone& cone);
   void WriteEquations(bool shares_loads);

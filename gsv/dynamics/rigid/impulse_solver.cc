@@ -41,6 +41,13 @@ double ShareOfSlip(const BulletRow& normal, const btContactSolverInfo& info) {
   return taken / (taken + kept);
 }
 
+template <typename BulletRow>
+std::array<double, 2> SoftnessOf(const BulletRow& row, double seconds) {
+  const auto& point = *static_cast<const btManifoldPoint*>(row.m_originalContactPoint);
+  const auto* axes = static_cast<const FrictionAxes*>(point.m_userPersistentData);
+  return axes == nullptr ? std::array<double, 2>{} : axes->Softness(seconds);
+}
+
 ImpulseRows::Axes AxesOf(const btSolverConstraint& /*first*/,
                          const btSolverConstraint& /*second*/) {
   return kAsTheyAre;
@@ -238,11 +245,13 @@ void ImpulseSolver::AddCones(const Rows& normals, const Rows& friction, int firs
     const Place& first = rows_[static_cast<std::size_t>(first_friction + i)];
     Place& cone = cones_.emplace_back();
     if (first.island == nullptr) continue;
-    const double share = ShareOfSlip(normals[row.m_frictionIndex], info);
+    const auto& contact = normals[row.m_frictionIndex];
+    const double share = ShareOfSlip(contact, info);
     ImpulseRows& rows = first.island->rows;
     for (const int of : {first.row, first.row + 1}) rows.ScaleTarget(of, share);
     cone.island = first.island;
-    cone.row = rows.AddCone(normal.row, first.row, row.m_friction, AxesOf(row, friction[i + 1]));
+    cone.row = rows.AddCone(normal.row, first.row, row.m_friction, AxesOf(row, friction[i + 1]),
+                            SoftnessOf(contact, info.m_timeStep));
   }
 }
 

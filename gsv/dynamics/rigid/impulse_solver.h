@@ -28,6 +28,20 @@ namespace gsv::dynamics {
 // A point's m_userPersistentData points to one, or is null.
 struct FrictionAxes {
   btVector3 first, second;
+  // m/(s N): the velocity of the slip along each axis per force; that of a wheel is for each rad/s.
+  std::array<double, 2> slip{}, slip_per_rate{};
+  const double* rate = nullptr;  // rad/s, of the wheel
+  int points = 1;                // points of the contact, which share the force
+
+  // In the units of a row along the axis, m/s per N s.
+  std::array<double, 2> Softness(double seconds) const {
+    std::array<double, 2> softness;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double of_wheel = rate == nullptr ? 0 : slip_per_rate[i] * *rate;
+      softness[i] = points * (slip[i] + of_wheel) / seconds * (i == 0 ? first : second).length2();
+    }
+    return softness;
+  }
 };
 
 class ImpulseSolver final : public btMultiBodyConstraintSolver {

@@ -23,6 +23,11 @@ void JointRow::Soften(double rate, double softness) {
   softness_ = softness;
 }
 
+void JointRow::Demand(double rate, double softness, double lower, double upper) {
+  Set(rate, lower, upper);
+  softness_ = softness;
+}
+
 void JointRow::Couple(int other_link, double ratio) {
   other_link_ = other_link;
   ratio_ = ratio;

@@ -16,6 +16,9 @@ class JointRow final : public btMultiBodyJointMotor {
   // Gives way: the rate misses `rate` by `softness` times the impulse, which has no bounds.
   void Soften(double rate, double softness);
 
+  // Gives way as with Soften(), by an impulse from `lower` to `upper`.
+  void Demand(double rate, double softness, double lower, double upper);
+
   // From now on, what it holds at a rate is the joint's position less `ratio` times that of another
   // joint of the tree, which gets the impulse's reaction: -ratio times the impulse.
   void Couple(int other_link, double ratio);

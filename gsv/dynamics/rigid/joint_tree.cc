@@ -8,6 +8,7 @@
 
 #include "gsv/dynamics/motion/ball_angles.h"
 #include "gsv/dynamics/motion/drive_servo.h"
+#include "gsv/dynamics/motion/joint_control.h"
 #include "gsv/dynamics/rigid/joint_row.h"
 #include "gsv/dynamics/rigid/loop_rows.h"
 #include "gsv/dynamics/rigid/moving_body.h"
@@ -60,6 +61,11 @@ class JointTree final : public MovingBody {
     std::unique_ptr<JointRow> row;      // moves it, or rubs
     std::unique_ptr<JointRow> damper;   // null without damping
     std::unique_ptr<JointRow> limiter;  // null without a limit of velocity
+    std::unique_ptr<JointRow> control;  // null without the gains of a controller
+  };
+  struct Wheel {
+    int link;
+    Owner* owner;
   };
   struct Ball {
     int link;
@@ -94,6 +100,7 @@ class JointTree final : public MovingBody {
   void Follow(const Motor& motor, const model::Mimic& mimic, double seconds);
   void MoveKinematic(const Motor& motor, const world::JointCommand& command, double seconds);
   void Push(const Motor& motor, double force, double seconds);
+  double Control(const Motor& motor, const world::JointCommand& command, double seconds);
   void CoupleFollowers();
   void CloseLoops(btMultiBodyDynamicsWorld& world);
   LoopRows::End EndOf(int link, const model::Joint& joint) const;
@@ -108,10 +115,12 @@ class JointTree final : public MovingBody {
   std::vector<std::unique_ptr<btMultiBodyConstraint>> limits_;
   std::vector<std::unique_ptr<LoopRows>> loops_;
   std::vector<Motor> motors_;
+  std::vector<Wheel> wheels_;
   std::vector<Ball> balls_;
   std::vector<Screw> screws_;
   std::optional<DriveServo> servo_;
   std::vector<world::JointCommand> commands_;  // commands of the model's joints; may be empty
+  std::vector<double> integrals_;              // of the model's joints; may be empty
   // positions and rates that the drive wants of its joints
   std::vector<double> wanted_positions_, wanted_rates_;
   const btVector3 gravity_;
@@ -141,7 +150,9 @@ JointTree::JointTree(const RigidBody& plan, const model::WorldDescription& world
   Place(state);
   world.addMultiBody(&tree_);
   for (int link = -1; link < tree_.getNumLinks(); ++link) {
-    AddCollider(link, *owners[static_cast<std::size_t>(link + 1)], world);
+    Owner& owner = *owners[static_cast<std::size_t>(link + 1)];
+    AddCollider(link, owner, world);
+    if (owner.solid->wheel && !IsBall(link)) wheels_.push_back({link, &owner});
   }
   if (plan.kinematics) {
     servo_.emplace(*plan.kinematics, state.bodies[plan.body], state.time);
@@ -149,6 +160,10 @@ JointTree::JointTree(const RigidBody& plan, const model::WorldDescription& world
   if (!state.joint_commands.empty()) {
     const auto first = state.joint_commands.begin() + plan.first_joint;
     commands_.assign(first, first + static_cast<std::ptrdiff_t>(plan.model->joints.size()));
+  }
+  if (!state.joint_integrals.empty()) {
+    const auto first = state.joint_integrals.begin() + plan.first_joint;
+    integrals_.assign(first, first + static_cast<std::ptrdiff_t>(plan.model->joints.size()));
   }
   AddLimitsAndMotors(world);
   CoupleFollowers();
@@ -274,9 +289,11 @@ void JointTree::AddLimitsAndMotors(btMultiBodyDynamicsWorld& world) {
           &tree_, link, std::max(limits.min, -kNoLimit), std::min(limits.max, kNoLimit)));
       world.addMultiBodyConstraint(limits_.back().get());
     }
-    Motor& motor = motors_.emplace_back(Motor{link, part.joint, AddJointRow(link, world), {}, {}});
+    Motor& motor =
+        motors_.emplace_back(Motor{link, part.joint, AddJointRow(link, world), {}, {}, {}});
     if (joint.damping > 0) motor.damper = AddJointRow(link, world);
     if (joint.velocity_limit < kNoLimit) motor.limiter = AddJointRow(link, world);
+    if (joint.position_gains || joint.velocity_gains) motor.control = AddJointRow(link, world);
   }
 }
 
@@ -397,6 +414,19 @@ void JointTree::Push(const Motor& motor, double force, double seconds) {
   tree_.addJointTorque(motor.link, std::clamp(force, -effort, effort));
 }
 
+// By the joint's controller. Returns the sign of its effort.
+double JointTree::Control(const Motor& motor, const world::JointCommand& command, double seconds) {
+  const model::Joint& joint = plan_.model->joints[static_cast<std::size_t>(motor.joint)];
+  const double integral =
+      integrals_.empty() ? 0 : integrals_[static_cast<std::size_t>(motor.joint)];
+  const double rate = tree_.getJointVel(motor.link);
+  const JointDemand demand =
+      DemandOf(joint, command, tree_.getJointPos(motor.link), rate, integral, seconds);
+  motor.control->Demand(demand.rate, demand.softness, std::max(demand.lower, -kNoLimit * seconds),
+                        std::min(demand.upper, kNoLimit * seconds));
+  return demand.rate - rate;
+}
+
 void JointTree::TurnMotors(double seconds) {
   for (const Motor& motor : motors_) {
     const model::Joint& joint = plan_.model->joints[motor.joint];
@@ -409,8 +439,12 @@ void JointTree::TurnMotors(double seconds) {
       MoveKinematic(motor, command, seconds);
       continue;
     }
-    const double force = command.kind == Kind::kEffort ? command.value : 0;
-    if (command.kind == Kind::kVelocity) {
+    double force = command.kind == Kind::kEffort ? command.value : 0;
+    if (motor.control) motor.control->Set(0, 0, 0);
+    if (GainsFor(joint, command.kind) != nullptr) {
+      force = Control(motor, command, seconds);
+      Push(motor, 0, seconds);
+    } else if (command.kind == Kind::kVelocity) {
       Move(motor, command.value, seconds);
     } else if (command.kind == Kind::kPosition) {
       Move(motor, kServoGain * (command.value - tree_.getJointPos(motor.link)), seconds);
@@ -427,6 +461,7 @@ void JointTree::BeforeSubstep(double seconds) {
   Slide();
   if (servo_) Drive(seconds);
   TurnMotors(seconds);
+  for (const Wheel& wheel : wheels_) wheel.owner->rate = Rate(wheel.link);
   LiftWhatIsWeightless();
   if (!plan_.media.empty()) Immerse(seconds);
 }

@@ -40,23 +40,78 @@ btVector3 DirectionOf(const model::Surface& surface, const btCollisionObjectWrap
 }
 
 // The contact has less friction across `direction` than along it, or more. Bullet knows one
-// coefficient: where a direction is shorter than one, so much less force acts along it.
-void TakeDirections(const btVector3& direction, double along, double across,
-                    std::deque<FrictionAxes>& axes, btManifoldPoint& point) {
+// coefficient: where a direction is shorter than one, so much less force acts along it. Returns null
+// without friction.
+FrictionAxes* TakeDirections(const btVector3& direction, double along, double across,
+                             std::deque<FrictionAxes>& axes, btManifoldPoint& point) {
   constexpr double kShortest = 1e-6;
   const btVector3& normal = point.m_normalWorldOnB;
   btVector3 first = direction - direction.dot(normal) * normal;
   if (first.length() < kShortest) btPlaneSpace1(normal, first, point.m_lateralFrictionDir2);
   first.normalize();
   const double most = std::max(along, across);
-  if (!(most > 0)) return;
+  if (!(most > 0)) return nullptr;
   point.m_combinedFriction = most;
   point.m_lateralFrictionDir1 = first * std::max(along / most, kShortest);
   point.m_lateralFrictionDir2 = normal.cross(first) * std::max(across / most, kShortest);
   point.m_contactPointFlags |= BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED;
   // Bullet overwrites the point's own axes where a tree of links is touched.
-  point.m_userPersistentData =
-      &axes.emplace_back(FrictionAxes{point.m_lateralFrictionDir1, point.m_lateralFrictionDir2});
+  FrictionAxes& kept = axes.emplace_back(
+      FrictionAxes{point.m_lateralFrictionDir1, point.m_lateralFrictionDir2, {}, {}, nullptr, 1});
+  point.m_userPersistentData = &kept;
+  return &kept;
+}
+
+bool HasSlip(const model::Surface& surface) { return surface.slip != 0 || surface.slip2 != 0; }
+
+// The wheel of a contact and the surface on which it rolls. Null if it has no wheel that slips.
+struct Rolling {
+  const Owner* wheel = nullptr;
+  model::Slip ground;
+
+  btVector3 AxleInWorld(const btCollisionObjectWrapper* wrapper) const {
+    return wrapper->getCollisionObject()->getWorldTransform().getBasis() *
+           ToBullet(wheel->solid->wheel->axle);
+  }
+};
+
+Rolling RollingOf(const Owner& owner, const model::Surface& ground) {
+  const auto& wheel = owner.solid->wheel;
+  if (!wheel || (wheel->wheel.slip.is_none() && ground.wheel_slip.is_none())) return {};
+  return {&owner, ground.wheel_slip};
+}
+
+// `axes` are along and across the rolling direction, or across and along it.
+void TakeSlip(const Rolling& rolling, bool is_along, FrictionAxes& axes) {
+  const RollingWheel& wheel = *rolling.wheel->solid->wheel;
+  axes.slip_per_rate = {wheel.PerRateAlong(rolling.ground), wheel.PerRateAcross(rolling.ground)};
+  if (!is_along) std::swap(axes.slip_per_rate[0], axes.slip_per_rate[1]);
+  axes.rate = &rolling.wheel->rate;
+}
+
+// The impulse (N s) of a substep on the first of Bullet's bodies.
+btVector3 ImpulseOf(const btManifoldPoint& point) {
+  const auto* axes = static_cast<const FrictionAxes*>(point.m_userPersistentData);
+  const btVector3& first = axes != nullptr ? axes->first : point.m_lateralFrictionDir1;
+  const btVector3& second = axes != nullptr ? axes->second : point.m_lateralFrictionDir2;
+  return point.m_appliedImpulse * point.m_normalWorldOnB + point.m_appliedImpulseLateral1 * first +
+         point.m_appliedImpulseLateral2 * second;
+}
+
+// Adds to the impulses of points what the two bodies exchanged besides, in earlier substeps: in
+// proportion to the points' normal impulses, or in equal shares.
+void ShareImpulse(const geometry::Vector3& total, std::vector<world::ContactPoint>& points) {
+  geometry::Vector3 rest = total;
+  double weight = 0;
+  for (const world::ContactPoint& point : points) {
+    rest -= point.impulse;
+    weight += std::max(0.0, Dot(point.impulse, point.normal));
+  }
+  for (world::ContactPoint& point : points) {
+    const double share = weight > 0 ? std::max(0.0, Dot(point.impulse, point.normal)) / weight
+                                    : 1 / static_cast<double>(points.size());
+    point.impulse += share * rest;
+  }
 }
 
 // The normal points from the second to the first.
@@ -76,14 +131,33 @@ bool TakeSurfaces(btManifoldPoint& point, const btCollisionObjectWrapper* first,
     return true;
   }
   point.m_combinedFriction = std::min(a.friction, b.friction);
-  if (IsSlantwise(a) || IsSlantwise(b)) {
+  const bool has_direction = IsSlantwise(a) || IsSlantwise(b) || HasSlip(a) || HasSlip(b);
+  const Rolling of_first = RollingOf(first_owner, b);
+  const Rolling rolling = of_first.wheel != nullptr ? of_first : RollingOf(second_owner, a);
+  if (!has_direction && rolling.wheel == nullptr) return true;
+  btVector3 forwards;
+  if (rolling.wheel != nullptr) {
+    forwards = rolling.AxleInWorld(of_first.wheel != nullptr ? first : second)
+                   .cross(point.m_normalWorldOnB);
+  }
+  btVector3 direction = forwards;
+  if (has_direction) {
     // If both surfaces have a direction, that of the more slippery one is used.
     const bool first_tells =
-        IsSlantwise(a) &&
-        (!IsSlantwise(b) || std::min(a.friction, a.friction2) <= std::min(b.friction, b.friction2));
-    const btVector3 direction = first_tells ? DirectionOf(a, first) : DirectionOf(b, second);
-    TakeDirections(direction, std::min(a.friction, b.friction), std::min(a.friction2, b.friction2),
-                   *first_owner.axes, point);
+        (IsSlantwise(a) || HasSlip(a)) &&
+        (!(IsSlantwise(b) || HasSlip(b)) ||
+         std::min(a.friction, a.friction2) <= std::min(b.friction, b.friction2));
+    direction = first_tells ? DirectionOf(a, first) : DirectionOf(b, second);
+  }
+  FrictionAxes* const axes =
+      TakeDirections(direction, std::min(a.friction, b.friction),
+                     std::min(a.friction2, b.friction2), *first_owner.axes, point);
+  if (axes == nullptr) return true;
+  axes->slip = {a.slip + b.slip, a.slip2 + b.slip2};
+  if (rolling.wheel != nullptr) {
+    const double along = std::abs(forwards.dot(axes->first)) / axes->first.length();
+    const double across = std::abs(forwards.dot(axes->second)) / axes->second.length();
+    TakeSlip(rolling, along >= across, *axes);
   }
   return true;
 }
@@ -114,7 +188,8 @@ void RigidContacts::Add(const Owner& first, const Owner& second,
     geometry::Vector3 normal = FromBullet(point.m_normalWorldOnB);
     if (!swapped) normal = -normal;
     const btVector3 middle = (point.getPositionWorldOnA() + point.getPositionWorldOnB()) / 2;
-    world::Contact& contact = found_.emplace_back(Found{{}, substep_}).contact;
+    Found& found = found_.emplace_back(Found{{}, {}, substep_});
+    world::Contact& contact = found.contact;
     contact.first = pair.first;
     contact.second = pair.second;
     contact.point = FromBullet(middle);
@@ -123,6 +198,7 @@ void RigidContacts::Add(const Owner& first, const Owner& second,
     // The solver leaves out points beyond the threshold: they keep the impulse of a substep before.
     const bool is_solved = point.getDistance() <= manifold.getContactProcessingThreshold();
     contact.impulse = is_solved ? point.getAppliedImpulse() : 0;
+    if (is_solved) found.impulse = (swapped ? 1.0 : -1.0) * FromBullet(ImpulseOf(point));
     contact.supports = !second.is_rigid && normal.z < -kCarries;
   }
 }
@@ -168,13 +244,17 @@ void RigidContacts::Store(std::vector<world::Contact>& contacts) {
                      })->substep;
     world::Contact& contact = next(begin->contact);
     contact.impulse = 0;
+    geometry::Vector3 total;
     contact.began = !std::binary_search(at_start_.begin(), at_start_.end(),
                                         BodyPair{contact.first, contact.second});
     for (auto found = begin; found != end; ++found) {
       contact.impulse += found->contact.impulse;
+      total += found->impulse;
       if (found->substep < last) continue;
-      contact.points.push_back({found->contact.point, found->contact.normal, found->contact.depth});
+      contact.points.push_back(
+          {found->contact.point, found->contact.normal, found->contact.depth, found->impulse});
     }
+    ShareImpulse(total, contact.points);
     begin = end;
   }
   contacts.resize(count);

@@ -3,7 +3,8 @@
 // Surfaces  A contact has the smaller friction of the two surfaces and the product of their
 //           restitutions, as in DART, which Gazebo uses. If one surface has two frictions, they act
 //           along its direction and across it; if both have, those of the more slippery one count.
-//           A base that its drive controls directly (HoldBase) has no friction with the bodies that
+//           A wheel slips, and so does what lies on a surface with a slip, see
+//           motion/wheel_slip.h. A base that its drive controls directly (HoldBase) has no friction with the bodies that
 //           carry it: its traction is the drive's.
 #pragma once
 
@@ -23,6 +24,7 @@ struct Owner {
   bool is_rigid = false;
   bool is_held = false;  // its drive controls the base directly
   bool touches = false;  // in contact in the last substep
+  double rate = 0;       // rad/s, without sign: of a wheel, at the start of the substep
 };
 
 // Makes Bullet ask for surfaces and filters. Must be called before the first collision detection.
@@ -41,7 +43,8 @@ class RigidContacts {
 
  private:
   struct Found {
-    world::Contact contact;  // the contact at one point, in one substep
+    world::Contact contact;     // the contact at one point, in one substep
+    geometry::Vector3 impulse;  // N s on the second body: normal force and friction
     int substep;
   };
 

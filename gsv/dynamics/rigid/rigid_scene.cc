@@ -98,6 +98,8 @@ base::Status RigidScene::AddRigid(int index) {
   rigid.first_joint = body.first_joint;
   for (const Part& part : rigid.articulation.parts) {
     rigid.solids.push_back(SolidOf(part, *body.model, index, shapes_));
+    rigid.solids.back().wheel =
+        WheelOf(*body.model, rigid.articulation, part, Norm(layout_->description->gravity));
   }
   if (body.model->drive && body.model->drive->kind != model::DriveKind::kNone) {
     auto kinematics = DriveKinematics::Create(*body.model);

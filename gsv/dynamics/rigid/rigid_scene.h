@@ -10,6 +10,7 @@
 #include "gsv/dynamics/motion/articulation.h"
 #include "gsv/dynamics/motion/drive_kinematics.h"
 #include "gsv/dynamics/motion/medium_forces.h"
+#include "gsv/dynamics/motion/wheel_slip.h"
 #include "gsv/dynamics/rigid/rigid_shapes.h"
 #include "gsv/world/state.h"
 
@@ -22,6 +23,7 @@ struct Solid {
   std::vector<model::Surface> surfaces;  // surfaces of the children of a compound, else one surface
   double thickness = 1;  // half of the thinnest child's least extent, if that is less than 1 m
   double radius = 0;     // about the origin of the shape's frame
+  std::optional<RollingWheel> wheel;  // set for a part that rolls
 
   bool bounces() const;
 };

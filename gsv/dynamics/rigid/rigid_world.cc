@@ -74,7 +74,7 @@ RigidWorld::~RigidWorld() {
 }
 
 Owner& RigidWorld::NewOwner(const Solid& solid, bool is_rigid, bool is_held) {
-  return owners_.emplace_back(Owner{&solid, &friction_axes_, is_rigid, is_held, false});
+  return owners_.emplace_back(Owner{&solid, &friction_axes_, is_rigid, is_held, false, 0});
 }
 
 void RigidWorld::AddRigid(const RigidBody& body) {

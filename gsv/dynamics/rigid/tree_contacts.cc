@@ -18,6 +18,19 @@ btVector3 VelocityOfPoint(const btRigidBody& body, const btVector3& arm, double 
          body.getTotalForce() * body.getInvMass() * seconds;
 }
 
+void CountPoints(btPersistentManifold& manifold) {
+  const auto is_solved = [&](const btManifoldPoint& point) {
+    return point.getDistance() <= manifold.getContactProcessingThreshold();
+  };
+  int count = 0;
+  for (int i = 0; i < manifold.getNumContacts(); ++i)
+    count += is_solved(manifold.getContactPoint(i));
+  for (int i = 0; i < manifold.getNumContacts(); ++i) {
+    auto* const axes = static_cast<FrictionAxes*>(manifold.getContactPoint(i).m_userPersistentData);
+    if (axes != nullptr) axes->points = std::max(count, 1);
+  }
+}
+
 }  // namespace
 
 void ImpulseSolver::convertContacts(btPersistentManifold** manifolds, int count,
@@ -28,6 +41,7 @@ void ImpulseSolver::convertContacts(btPersistentManifold** manifolds, int count,
   m_data.m_deltaVelocitiesUnitImpulse.reserve(jacobian_count_);
   for (int i = 0; i < count; ++i) {
     btPersistentManifold& manifold = *manifolds[i];
+    CountPoints(manifold);
     const auto* a = btMultiBodyLinkCollider::upcast(manifold.getBody0());
     const auto* b = btMultiBodyLinkCollider::upcast(manifold.getBody1());
     const auto is_small = [](const btMultiBodyLinkCollider* collider) {

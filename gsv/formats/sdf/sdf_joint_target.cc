@@ -52,23 +52,54 @@ class TargetReader {
     return otherwise;
   }
 
-  // The limit of a position controller's effort.
-  void Limit(Joint& joint) const {
-    const double most = Number("cmd_max", -1);  // Gazebo has no limit by default
-    if (!(most > 0)) return;
-    const bool by_velocity = plugin_->HasElement("use_velocity_commands") &&
-                             plugin_->Get<std::string>("use_velocity_commands") != "false" &&
-                             plugin_->Get<std::string>("use_velocity_commands") != "0";
-    double& limit = by_velocity ? joint.velocity_limit : joint.effort_limit;
-    limit = std::min(limit, most);
+  // The gains of a joint's controller, and its limits. The defaults are Gazebo's.
+  void SetUp(JointTarget::Kind kind, Joint& joint) const {
+    if (kind == JointTarget::Kind::kVelocity) {
+      if (Flag("use_force_commands")) joint.velocity_gains = GainsOf({1, 0, 0});
+      return;
+    }
+    const double most = Number("cmd_max", -1);
+    if (Flag("use_velocity_commands")) {
+      if (most > 0) joint.velocity_limit = std::min(joint.velocity_limit, most);
+    } else if (plugin_->HasElement("p_gain") || plugin_->HasElement("i_gain") ||
+               plugin_->HasElement("d_gain")) {
+      joint.position_gains = GainsOf({1, 0.1, 0.01});
+    } else if (most > 0) {
+      joint.effort_limit = std::min(joint.effort_limit, most);
+    }
   }
 
  private:
+  bool Flag(const char* name) const {
+    if (!plugin_->HasElement(name)) return false;
+    const auto text = plugin_->Get<std::string>(name);
+    return text != "false" && text != "0";
+  }
+
+  model::JointGains GainsOf(model::JointGains gains) const {
+    const auto take = [&](const char* name, double& value) { value = Number(name, value); };
+    take("p_gain", gains.p), take("i_gain", gains.i), take("d_gain", gains.d);
+    take("i_min", gains.integral.min), take("i_max", gains.integral.max);
+    take("cmd_min", gains.effort.min), take("cmd_max", gains.effort.max);
+    take("cmd_offset", gains.offset);
+    return WithoutNegatives(gains, Place(), context_);
+  }
+
   sdf::ElementPtr plugin_;
   const ReadingContext& context_;
 };
 
 }  // namespace
+
+model::JointGains WithoutNegatives(model::JointGains gains, const std::string& place,
+                                   const ReadingContext& context) {
+  for (double* gain : {&gains.p, &gains.i, &gains.d}) {
+    if (*gain >= 0 && std::isfinite(*gain)) continue;
+    context.Warn("the gains of a controller must not be negative; 0 is used", place);
+    *gain = 0;
+  }
+  return gains;
+}
 
 void ReadJointTargets(const sdf::ElementPtr& plugin, const std::string& scope,
                       const ReadingContext& context, model::Model& model) {
@@ -91,7 +122,7 @@ void ReadJointTargets(const sdf::ElementPtr& plugin, const std::string& scope,
                    reader.Place());
       continue;
     }
-    if (is_position) reader.Limit(*joint);
+    reader.SetUp(*kind, *joint);
     const int index = static_cast<int>(joint - model.joints.begin());
     std::erase_if(model.joint_targets,
                   [&](const JointTarget& target) { return target.joint == index; });

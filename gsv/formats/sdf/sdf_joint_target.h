@@ -1,10 +1,13 @@
-// Reads the initial targets of joints from a model's controllers: Gazebo's JointController and
-// JointPositionController plugins.
+// Reads the initial targets and the gains of joints from a model's controllers: gz-sim's
+// JointController and JointPositionController, and JointControlPlugin of Gazebo classic
+// (sdf_classic_control.h).
 //
-// Elements  <joint_name> (several, in newer files), <initial_velocity> and <initial_position>. For
-//           a position controller, <cmd_max> limits the joint's effort and, with
-//           <use_velocity_commands>, its velocity. Gains are not read: gsv's servo has its own, see
-//           docs/fidelity.md.
+// Elements  <joint_name> (several, in newer files), <initial_velocity> or <initial_position>, and the
+//           gains of a PID controller: <p_gain>, <i_gain>, <d_gain>, <i_max>, <i_min>, <cmd_max>,
+//           <cmd_min>, <cmd_offset>. As in Gazebo, a velocity controller uses them with
+//           <use_force_commands>, and a position controller without <use_velocity_commands>, where
+//           <cmd_max> limits the velocity instead. A position controller without any gain keeps
+//           GSV's own servo, see docs/fidelity.md; <cmd_max> limits its effort.
 #pragma once
 
 #include <string>
@@ -21,5 +24,9 @@ namespace gsv::formats {
 // it ("inner::").
 void ReadJointTargets(const sdf::ElementPtr& plugin, const std::string& scope,
                       const ReadingContext& context, model::Model& model);
+
+// With gains below 0 a joint would leave its target ever faster: they become 0, with a warning.
+model::JointGains WithoutNegatives(model::JointGains gains, const std::string& place,
+                                   const ReadingContext& context);
 
 }  // namespace gsv::formats

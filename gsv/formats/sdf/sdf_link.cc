@@ -13,6 +13,7 @@
 #include "gsv/formats/sdf/sdf_document.h"
 #include "gsv/formats/sdf/sdf_geometry.h"
 #include "gsv/formats/sdf/sdf_material.h"
+#include "gsv/formats/sdf/sdf_slip.h"
 
 namespace gsv::formats {
 namespace {
@@ -60,7 +61,7 @@ model::Surface ReadSurface(const sdf::ElementPtr& collision, const ReadingContex
     if (*value >= 0) {
       target = *value;
     } else {
-      context.Warn("friction and bounce must not be negative; the default is used",
+      context.Warn("friction, slip and bounce must not be negative; the default is used",
                    PlaceOf(*collision, context.source));
     }
   };
@@ -83,6 +84,11 @@ model::Surface ReadSurface(const sdf::ElementPtr& collision, const ReadingContex
   }
   if (direction && geometry::IsFinite(FromIgnition(*direction)) && direction->Length() > 0) {
     surface.friction_direction = geometry::Normalized(FromIgnition(*direction));
+  }
+  take(surface.slip, {"surface", "friction", "ode", "slip1"});
+  take(surface.slip2, {"surface", "friction", "ode", "slip2"});
+  if (collision->HasElement("surface")) {
+    surface.wheel_slip = ReadSlip(collision->GetElement("surface"), context);
   }
   take(surface.restitution, {"surface", "bounce", "restitution_coefficient"});
   surface.restitution = std::min(surface.restitution, 1.0);

@@ -14,6 +14,7 @@
 #include <sdf/SemanticPose.hh>
 
 #include "gsv/formats/sdf/joint_forest.h"
+#include "gsv/formats/sdf/sdf_classic_control.h"
 #include "gsv/formats/sdf/sdf_document.h"
 #include "gsv/formats/sdf/sdf_drive.h"
 #include "gsv/formats/sdf/sdf_gearbox.h"
@@ -21,6 +22,7 @@
 #include "gsv/formats/sdf/sdf_joint_target.h"
 #include "gsv/formats/sdf/sdf_link.h"
 #include "gsv/formats/sdf/sdf_sensor.h"
+#include "gsv/formats/sdf/sdf_slip.h"
 #include "gsv/model/collision_names.h"
 
 namespace gsv::formats {
@@ -57,8 +59,11 @@ class ModelReader {
     for (const auto& [plugin, scope] : pending_plugins_) {
       AddDrive(plugin, scope);
       ReadJointTargets(plugin, scope, context_, model_);
+      ReadClassicControl(plugin, scope, context_, model_);
+      ReadWheelSlip(plugin, scope, context_, model_);
     }
     ReadMovement(source.Element());
+    ReadSlipOfDrive(source.Element());
     SetDefaultPose(source);
     FramedModel result;
     result.model = std::make_shared<const Model>(std::move(model_));
@@ -231,6 +236,16 @@ class ModelReader {
     return joint.kind == model::JointKind::kBall || is_cross(joint.parent) || is_cross(joint.child);
   }
 
+  void CheckLoop(const model::SensorDescription& sensor, const std::string& frame,
+                 const std::string& place) const {
+    const auto is_it = [&](const Joint& joint) { return joint.name == frame; };
+    if (std::none_of(model_.loop_joints.begin(), model_.loop_joints.end(), is_it)) return;
+    context_.Warn("the sensor \"" + sensor.name +
+                      "\" belongs to a joint that closes a loop; it "
+                      "measures the other joint of that link",
+                  place);
+  }
+
   void Check(const model::SensorDescription& sensor, const std::string& place) const {
     if (!context_.check_sensor) return;
     const auto checked = context_.check_sensor(sensor);
@@ -276,6 +291,7 @@ class ModelReader {
       return;
     }
     sensor.name = UniqueSensorName(sensor.name, frame);
+    CheckLoop(sensor, frame, place);
     Check(sensor, place);
     CheckCollisionNames(sensor, place);
     model_.sensors.push_back(std::move(sensor));
@@ -337,6 +353,18 @@ class ModelReader {
       model_.movement = model::Movement::kRigid;
     } else if (text != "planar") {
       context_.Warn("<gsv:movement> must be planar or rigid, not \"" + text + "\"",
+                    PlaceOfElement(element));
+    }
+  }
+
+  // GSV's own element: <gsv:slip>, the slip of the drive's wheels.
+  void ReadSlipOfDrive(const sdf::ElementPtr& element) {
+    const model::Slip slip = ReadSlip(element, context_);
+    if (slip.is_none()) return;
+    if (model_.drive) {
+      model_.drive->slip = slip;
+    } else {
+      context_.Warn("<gsv:slip> is ignored: the model has no drive whose wheels could slip",
                     PlaceOfElement(element));
     }
   }

@@ -27,9 +27,9 @@ bool IsWrapper(const std::string& name) {
   return wrappers.count(name) != 0;
 }
 
-bool IsNoParameter(const std::string& name) {
+bool IsNoParameter(const std::string& name, const sdf::Element& parent) {
   return name == "pose" || name == "update_rate" || name == "visualize" || name == "plugin" ||
-         name == "frame";
+         (name == "frame" && parent.GetName() != "force_torque");
 }
 
 ParameterValue FromText(const std::string& text) {
@@ -82,7 +82,7 @@ void Flatten(const sdf::ElementPtr& element, const std::string& prefix, bool onl
   for (auto child = element->GetFirstElement(); child != nullptr; child = child->GetNextElement()) {
     std::string name = child->GetName();
     if (name.starts_with(kOurs)) name.erase(0, kOurs.size());
-    if (IsNoParameter(name)) continue;
+    if (IsNoParameter(name, *element)) continue;
     const std::string path = prefix.empty() ? name : prefix + "." + name;
     const bool wraps = prefix.empty() && IsWrapper(name);
     const std::string inner = wraps ? "" : path;

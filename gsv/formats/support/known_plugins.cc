@@ -15,8 +15,11 @@ const std::string_view kKnownPlugins = R"table(
 + synchrodrive; a synchro drive
 + trackedvehicle; a differential drive that holds the base
 . trackcontroller; the drive of a tracked vehicle moves its base
-+ jointpositioncontroller; the target of a joint
-+ jointcontroller; the target of a joint
++ jointpositioncontroller; the target and the gains of a joint
++ jointcontroller; the target and the gains of a joint
++ jointcontrolplugin; the targets and the gains of joints
+- lookupwheelslip; the slip of a wheel does not depend on its place
++ wheelslip; the slip of wheels
 - systems::buoyancyengine; nothing changes what a body displaces
 + systems::buoyancy; fluids that lift bodies
 + buoyancysystem; fluids that lift bodies

@@ -70,6 +70,14 @@ constexpr std::string_view kParameters[] = {
     "use_force_commands",
     "cmd_max",
     "cmd_min",
+    "cmd_offset",
+    "p_gain",
+    "i_gain",
+    "d_gain",
+    "i_max",
+    "i_min",
+    "controller",
+    "wheel",
     "linear_velocity",
     "angular_velocity",
 };
@@ -77,6 +85,9 @@ constexpr std::string_view kParameters[] = {
 // GSV's own elements of models and parameters of sensors.
 constexpr std::string_view kOurs[] = {
     "movement",
+    "slip",
+    "longitudinal",
+    "lateral",
     "beam",
     "field_of_view",
     "transducer_radius",

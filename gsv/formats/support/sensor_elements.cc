@@ -16,7 +16,7 @@ always_on . 1.4- =false ; sensors are always on
 camera:camera + 1.4-
 contact:contact + 1.4-
 enable_metrics . 1.7- =false
-force_torque:forcetorque - 1.4- ; GSV has no such sensor
+force_torque:forcetorque + 1.4-
 frame:frame* - 1.5-1.6 ; the frame is not used
 frame_id . 1.12- = ; topics and frames are named by robot and sensor
 gz_frame_id . 1.4- ; topics and frames are named by robot and sensor
@@ -135,22 +135,22 @@ visibility_mask - 1.7- =4294967295 ; every camera sees every visual
 collision* + 1.4-
 topic . 1.4- =__default_topic__ ; topics and frames are named by robot and sensor
 [forcetorque]
-force - 1.7-
-force/x - 1.7-
-force/x/noise:noise - 1.7-
-force/y - 1.7-
-force/y/noise:noise - 1.7-
-force/z - 1.7-
-force/z/noise:noise - 1.7-
-frame - 1.4- =child
-measure_direction - 1.5- =child_to_parent
-torque - 1.7-
-torque/x - 1.7-
-torque/x/noise:noise - 1.7-
-torque/y - 1.7-
-torque/y/noise:noise - 1.7-
-torque/z - 1.7-
-torque/z/noise:noise - 1.7-
+force + 1.7-
+force/x + 1.7-
+force/x/noise:noise + 1.7-
+force/y + 1.7-
+force/y/noise:noise + 1.7-
+force/z + 1.7-
+force/z/noise:noise + 1.7-
+frame + 1.4- =child
+measure_direction + 1.5- =child_to_parent
+torque + 1.7-
+torque/x + 1.7-
+torque/x/noise:noise + 1.7-
+torque/y + 1.7-
+torque/y/noise:noise + 1.7-
+torque/z + 1.7-
+torque/z/noise:noise + 1.7-
 [gps]
 position_sensing + 1.4-
 position_sensing/horizontal + 1.4-

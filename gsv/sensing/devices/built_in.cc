@@ -4,6 +4,7 @@
 #include "gsv/sensing/devices/altimeter.h"
 #include "gsv/sensing/devices/battery.h"
 #include "gsv/sensing/devices/bumper.h"
+#include "gsv/sensing/devices/force_torque.h"
 #include "gsv/sensing/devices/gripper.h"
 #include "gsv/sensing/devices/imu.h"
 #include "gsv/sensing/devices/joint_encoders.h"
@@ -26,7 +27,7 @@ void AddBuiltInSensors(SensorRegistry& registry) {
   for (SensorType (*make)() :
        {SonarType, LidarType, PositioningType, ImuType, OdometerType, NavsatType, MagnetometerType,
         AltimeterType, BumperType, JointEncodersType, BatteryType, LogicalCameraType, RadioType,
-        GripperType, LampType, SpeakerType, MicrophoneType, RangingType}) {
+        ForceTorqueType, GripperType, LampType, SpeakerType, MicrophoneType, RangingType}) {
     GSV_CHECK(registry.Add(make()));
   }
 }

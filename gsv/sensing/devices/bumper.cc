@@ -105,7 +105,9 @@ class Bumper final : public SensorOf<readings::Contact, messages::gsv_msgs::Bump
            .point = ToVector(point),
            .normal = ToVector(sensor_from_world.orientation * outwards),
            .depth = at.depth,
-           .closing_speed = contact.closing_speed});
+           .closing_speed = contact.closing_speed,
+           .force = ToVector(sensor_from_world.orientation *
+                             ((is_first ? -1.0 : 1.0) * world::MeanForce(snapshot, at.impulse)))});
     }
   }
 
@@ -118,12 +120,13 @@ class Bumper final : public SensorOf<readings::Contact, messages::gsv_msgs::Bump
   Message ToMessage(const Values& felt, const Reading&, const std::string&) const override {
     Message message;
     for (const readings::Touch& touch : felt.touches) {
-      const auto& [point, normal] = std::tie(touch.point, touch.normal);
+      const auto& [point, normal, force] = std::tie(touch.point, touch.normal, touch.force);
       message.contacts.push_back({touch.other,
                                   {point.x, point.y, point.z},
                                   {normal.x, normal.y, normal.z},
                                   touch.depth,
-                                  touch.closing_speed});
+                                  touch.closing_speed,
+                                  {force.x, force.y, force.z}});
     }
     return message;
   }

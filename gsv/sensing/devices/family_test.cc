@@ -244,16 +244,17 @@ TEST_F(SensorTypesTest, BumperReadsTheContactPoint) {
                          {body_, floor, {1, 0, 0}, {0, 0, -1}, 0.001},
                          {body_, floor, {1, -0.5, 0.3}, {0, -1, 0}, 0.02}};
   const Reading all = Sample(DescriptionOf("contact"));
-  ASSERT_EQ(all.values.size(), 16u);
+  ASSERT_EQ(all.values.size(), 22u);
   EXPECT_EQ(*all.labels, (std::vector<std::string>{"other", "floor"}));
-  ExpectValues(all, {0.3, 0, 0, 1, 0, 0, 0.01, 0.4, -0.7, 0, 0, -1, 0, 0, 0.02, 0});
+  ExpectValues(all,
+               {0.3, 0, 0, 1, 0, 0, 0.01, 0.4, 0, 0, 0, -0.7, 0, 0, -1, 0, 0, 0.02, 0, 0, 0, 0});
   const Reading ahead = Sample(DescriptionOf("contact", {{"field_of_view", kPi}}));
   EXPECT_EQ(*ahead.labels, std::vector<std::string>{"other"});
-  EXPECT_EQ(Sample(DescriptionOf("contact", {{"ground", true}})).values.size(), 24u);
+  EXPECT_EQ(Sample(DescriptionOf("contact", {{"ground", true}})).values.size(), 33u);
   // A body that carries the robot counts as ground, whatever its normal is.
   snapshot_->contacts[2].supports = true;
-  EXPECT_EQ(Sample(DescriptionOf("contact")).values.size(), 8u);
-  EXPECT_EQ(Sample(DescriptionOf("contact", {{"ground", true}})).values.size(), 24u);
+  EXPECT_EQ(Sample(DescriptionOf("contact")).values.size(), 11u);
+  EXPECT_EQ(Sample(DescriptionOf("contact", {{"ground", true}})).values.size(), 33u);
   snapshot_->contacts[2].supports = false;
   const auto message = Sent<messages::gsv_msgs::Bumper>(DescriptionOf("contact"));
   ASSERT_EQ(message.contacts.size(), 2u);
@@ -264,6 +265,25 @@ TEST_F(SensorTypesTest, BumperReadsTheContactPoint) {
   const auto lines = (*bumper)->Beams(all);
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_NEAR(lines[0].from.x, 0.3, 1e-12);
+}
+
+// The force is that on the robot, whichever of the two bodies it is.
+TEST_F(SensorTypesTest, BumperReadsTheForceOnTheRobot) {
+  const int other = snapshot_->layout->Find("other"), floor = snapshot_->layout->Find("floor");
+  snapshot_->step_length = std::chrono::milliseconds(10);
+  snapshot_->contacts = {{other, body_, {1, 0.5, 0.3}, {0, -1, 0}},
+                         {body_, floor, {1, -0.5, 0.3}, {0, -1, 0}}};
+  snapshot_->contacts[0].points = {{{1, 0.5, 0.3}, {0, -1, 0}, 0, {0.01, -0.2, 0}}};
+  snapshot_->contacts[1].impulse = 0.3;  // along the normal, without points
+  const Reading reading = Sample(DescriptionOf("contact"));
+  ASSERT_EQ(reading.values.size(), 22u);
+  // The robot looks along the world's y axis.
+  EXPECT_NEAR(reading.values[8], -20, 1e-12);
+  EXPECT_NEAR(reading.values[9], -1, 1e-12);
+  EXPECT_NEAR(reading.values[10], 0, 1e-12);
+  EXPECT_NEAR(reading.values[19], 30, 1e-12);
+  const auto message = Sent<messages::gsv_msgs::Bumper>(DescriptionOf("contact"));
+  EXPECT_NEAR(message.contacts[0].force.x, -20, 1e-12);
 }
 
 // A body has a plate in front and one behind. It touches a wall with the front.

@@ -324,8 +324,8 @@ TEST(SensorParameters, InvalidValuesAreRejectedWithASentence) {
 
 TEST(SensorRegistry, FindsTypesByNameAndAlias) {
   EXPECT_EQ(BuiltInSensors().names(),
-            (std::vector<std::string>{"altimeter", "battery", "contact", "gripper", "imu",
-                                      "joint_encoders", "lamp", "lidar", "logical_camera",
+            (std::vector<std::string>{"altimeter", "battery", "contact", "force_torque", "gripper",
+                                      "imu", "joint_encoders", "lamp", "lidar", "logical_camera",
                                       "magnetometer", "microphone", "navsat", "odometry",
                                       "positioning", "radio", "ranging", "sonar", "speaker"}));
   EXPECT_EQ(BuiltInSensors().Find("gpu_ray"), BuiltInSensors().Find("lidar"));

@@ -19,6 +19,10 @@ void CarryBody(const world::Layout& old_layout, const world::State& old_state, i
   if (!state.goals.empty() && !old_state.goals.empty()) {
     state.goals[static_cast<std::size_t>(now)] = old_state.goals[static_cast<std::size_t>(old)];
   }
+  if (!old_state.joint_integrals.empty()) {
+    state.joint_integrals.resize(static_cast<std::size_t>(layout.joint_count));
+    carry(old_state.joint_integrals, state.joint_integrals);
+  }
   if (old_state.joint_commands.empty()) return;
   state.joint_commands.resize(static_cast<std::size_t>(layout.joint_count));
   carry(old_state.joint_commands, state.joint_commands);

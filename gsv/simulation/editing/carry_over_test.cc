@@ -42,6 +42,7 @@ TEST(CarryOver, KeepsTheStateOfOldBodiesAndStartsNewOnesAtTheirInitialPose) {
   state.joint_positions = {0.1, 0.2, 0.3};
   state.joint_velocities = {1, 2, 3};
   world::CommandJoint(*before, 0, 1, {world::JointCommand::Kind::kVelocity, 5}, state);
+  state.joint_integrals = {6, 7, 8};
   // "a" comes before "b", so the indices of the joints of "b" increase by one.
   const auto after = LayoutOf({Named("a", 1, -1), Named("b", 2, 0)});
   const world::State carried = CarryOver(*before, state, *after);
@@ -54,6 +55,7 @@ TEST(CarryOver, KeepsTheStateOfOldBodiesAndStartsNewOnesAtTheirInitialPose) {
   ASSERT_EQ(carried.joint_commands.size(), 3u);
   EXPECT_EQ(carried.joint_commands[0].kind, world::JointCommand::Kind::kNone);
   EXPECT_EQ(carried.joint_commands[2].value, 5);
+  EXPECT_THAT(carried.joint_integrals, ElementsAre(0, 6, 7));
 }
 
 TEST(ResetToInitialPose, StopsABodyAtItsInitialPose) {

@@ -29,13 +29,15 @@ void SimulatedWorld::Reset() {
 
 void SimulatedWorld::Step(base::SimTime step, world::Snapshot& snapshot) {
   const double step_seconds = base::ToSeconds(step);
-  world::KeepVelocities(state_, snapshot.accelerations);
+  world::KeepVelocities(state_, snapshot.accelerations, snapshot.joint_accelerations);
   wheel_odometry_.KeepWheels(state_);
   engine_->Step(step, state_, snapshot.contacts);
   MoveDevices(*layout_, state_.time + step, state_);
   wheel_odometry_.Advance(step_seconds, state_);
   world::FinishContacts(state_, snapshot.accelerations, snapshot.contacts);
-  world::FinishAccelerations(state_, step_seconds, snapshot.accelerations);
+  world::FinishAccelerations(state_, step_seconds, snapshot.accelerations,
+                             snapshot.joint_accelerations);
+  snapshot.step_length = step;
   ++state_.step;
   state_.time = state_.step * step;
   snapshot.layout = layout_;

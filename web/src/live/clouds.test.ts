@@ -71,7 +71,9 @@ test("only a bumper's messages contain contacts", () => {
   const contact = { other: "wall", point: { x: 1, y: 2, z: 3 }, normal: { x: 1, y: 0, z: 0 }, depth: 0 };
   expect(
     contactsOf({ contacts: [contact, { point: { x: NaN, y: 0, z: 0 }, normal: contact.normal }] }),
-  ).toEqual([{ point: [1, 2, 3], normal: [1, 0, 0] }]);
+  ).toEqual([{ point: [1, 2, 3], normal: [1, 0, 0], force: null }]);
+  expect(contactsOf({ contacts: [{ ...contact, force: { x: -4, y: 0, z: 3 } }] })[0]!.force).toEqual([-4, 0, 3]);
+  expect(contactsOf({ contacts: [{ ...contact, force: { x: 0, y: 0, z: 0 } }] })[0]!.force).toBeNull();
   expect(contactsOf({ range: 1 })).toEqual([]);
   expect(contactsOf(null)).toEqual([]);
 });

@@ -116,6 +116,7 @@ class PointList {
 export interface TouchPoint {
   point: [number, number, number];
   normal: [number, number, number]; // from the robot to what it touches
+  force: [number, number, number] | null; // on the robot, N; null if no engine computes it
 }
 
 const MOST_CONTACTS = 200;
@@ -125,9 +126,10 @@ export function contactsOf(message: unknown): TouchPoint[] {
   const contacts = (message as { contacts?: unknown } | null)?.contacts;
   if (!Array.isArray(contacts)) return [];
   return contacts.slice(0, MOST_CONTACTS).flatMap((contact: unknown) => {
-    const { point, normal } = contact as { point?: unknown; normal?: unknown };
-    const [at, along] = [triple(point), triple(normal)];
-    return at && along ? [{ point: at, normal: along }] : [];
+    const { point, normal, force } = contact as { point?: unknown; normal?: unknown; force?: unknown };
+    const [at, along, pressed] = [triple(point), triple(normal), triple(force)];
+    const isComputed = pressed?.some((component) => component !== 0) ?? false;
+    return at && along ? [{ point: at, normal: along, force: isComputed ? pressed : null }] : [];
   });
 }
 

@@ -12,7 +12,11 @@ const BLUE = rgb(0x2f6df6);
 const VIEW_COLOUR = rgb(0xf2b90f);
 const CONTACT_COLOUR = rgb(0xff1fd0);
 const VIEW_DEPTH = 1; // m
-const NORMAL_LENGTH = 0.3; // m
+const NORMAL_LENGTH = 0.3; // m, of a contact whose force is not known
+const FORCE_LENGTH = 0.3; // m, of a force of FORCE_UNIT
+const FORCE_UNIT = 10; // N
+const LONGEST_FORCE = 1.2; // m
+const ARROW_HEAD = 0.25; // of the arrow's length
 const CROSS = 0.06; // m
 const JOINT_COLOUR = rgb(0x00b8d4);
 const JOINT_LENGTH = 0.12; // m, to each side
@@ -76,12 +80,39 @@ export function drawView(lines: LineLayer, worldFromCamera: Matrix4, view: Camer
   });
 }
 
-// A cross at the contact, and the normal towards the other body.
-export function drawContact(lines: LineLayer, worldFromSensor: Matrix4, { point, normal }: TouchPoint): void {
+// The length of an arrow for a force: the square root keeps a crate of 1 kg and a car in one view.
+export function forceLength(newtons: number): number {
+  return Math.min(LONGEST_FORCE, FORCE_LENGTH * Math.sqrt(newtons / FORCE_UNIT));
+}
+
+// A cross at the point, and an arrow along the force on the robot. If the force is not known, a line
+// along the normal towards the touched body.
+export function drawContact(lines: LineLayer, worldFromSensor: Matrix4, { point, normal, force }: TouchPoint): void {
   const [x, y, z] = point;
-  const tip = point.map((value, i) => value + NORMAL_LENGTH * normal[i]!);
-  lines.add(worldFromSensor, point, tip, CONTACT_COLOUR);
+  if (force) {
+    drawForce(lines, worldFromSensor, point, force);
+  } else {
+    const tip = point.map((value, i) => value + NORMAL_LENGTH * normal[i]!);
+    lines.add(worldFromSensor, point, tip, CONTACT_COLOUR);
+  }
   lines.add(worldFromSensor, [x - CROSS, y, z], [x + CROSS, y, z], CONTACT_COLOUR);
   lines.add(worldFromSensor, [x, y - CROSS, z], [x, y + CROSS, z], CONTACT_COLOUR);
   lines.add(worldFromSensor, [x, y, z - CROSS], [x, y, z + CROSS], CONTACT_COLOUR);
+}
+
+function drawForce(lines: LineLayer, worldFromSensor: Matrix4, point: readonly number[], force: readonly number[]): void {
+  const newtons = Math.hypot(...force);
+  const length = forceLength(newtons);
+  const along = force.map((component) => component / newtons);
+  const tip = point.map((value, i) => value + length * along[i]!);
+  lines.add(worldFromSensor, point, tip, CONTACT_COLOUR);
+  // Across the arrow: by the axis that it is least along.
+  const least = along.reduce((best, value, i) => (Math.abs(value) < Math.abs(along[best]!) ? i : best), 0);
+  const aside = along.map((value, i) => (i === least ? 1 : 0) - value * along[least]!);
+  for (const side of [-1, 1]) {
+    const barb = tip.map(
+      (value, i) => value - ARROW_HEAD * length * (along[i]! + (side * aside[i]!) / 2),
+    );
+    lines.add(worldFromSensor, tip, barb, CONTACT_COLOUR);
+  }
 }

@@ -1,0 +1,81 @@
+#include "gsv/formats/sdf/sdf_classic_control.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <vector>
+
+#include "gsv/formats/sdf/sdf_document.h"
+#include "gsv/formats/sdf/sdf_joint_target.h"
+
+namespace gsv::formats {
+namespace {
+
+using model::JointTarget;
+
+bool IsClassicControl(const sdf::Element& plugin) {
+  return plugin.Get<std::string>("filename", "").first.find("JointControlPlugin") !=
+         std::string::npos;
+}
+
+// The numbers of an element, if it exists and has as many.
+std::optional<std::vector<double>> NumbersOf(const sdf::ElementPtr& parent, const char* name,
+                                             std::size_t count, const ReadingContext& context) {
+  if (!parent->HasElement(name)) return std::nullopt;
+  std::istringstream text(parent->Get<std::string>(name));
+  std::vector<double> numbers(count);
+  for (double& number : numbers) text >> number;
+  const bool is_finite = std::all_of(numbers.begin(), numbers.end(),
+                                     [](double number) { return std::isfinite(number); });
+  if (text && is_finite) return numbers;
+  context.Warn(std::string("<") + name + "> must hold " + std::to_string(count) +
+                   (count == 1 ? " number" : " numbers") + "; it is ignored",
+               PlaceOf(*parent, context.source));
+  return std::nullopt;
+}
+
+void ReadController(const sdf::ElementPtr& controller, const std::string& scope,
+                    const ReadingContext& context, model::Model& model) {
+  const std::string place = PlaceOf(*controller, context.source);
+  if (!controller->HasElement("joint")) {
+    context.Warn("the controller names no joint", place);
+    return;
+  }
+  const std::string name = scope + controller->Get<std::string>("joint");
+  const auto joint = std::find_if(model.joints.begin(), model.joints.end(),
+                                  [&](const model::Joint& each) { return each.name == name; });
+  if (joint == model.joints.end() || !model::TakesCommands(joint->kind)) {
+    context.Warn("the controller names \"" + name + "\", which is not a movable joint", place);
+    return;
+  }
+  const auto type = controller->Get<std::string>("type", "").first;
+  JointTarget target;
+  target.joint = static_cast<int>(joint - model.joints.begin());
+  if (type == "force") target.kind = JointTarget::Kind::kEffort;
+  if (type == "velocity") target.kind = JointTarget::Kind::kVelocity;
+  if (const auto value = NumbersOf(controller, "target", 1, context)) target.value = (*value)[0];
+  const auto gains = NumbersOf(controller, "pid_gains", 3, context);
+  if (gains && target.kind != JointTarget::Kind::kEffort) {
+    model::JointGains unlimited{(*gains)[0], (*gains)[1], (*gains)[2], {}, {}, 0};
+    auto& of_kind =
+        target.kind == JointTarget::Kind::kVelocity ? joint->velocity_gains : joint->position_gains;
+    of_kind = WithoutNegatives(unlimited, place, context);
+  }
+  std::erase_if(model.joint_targets,
+                [&](const JointTarget& each) { return each.joint == target.joint; });
+  model.joint_targets.push_back(target);
+}
+
+}  // namespace
+
+void ReadClassicControl(const sdf::ElementPtr& plugin, const std::string& scope,
+                        const ReadingContext& context, model::Model& model) {
+  if (!IsClassicControl(*plugin) || !plugin->HasElement("controller")) return;
+  for (auto controller = plugin->GetElement("controller"); controller != nullptr;
+       controller = controller->GetNextElement("controller")) {
+    ReadController(controller, scope, context, model);
+  }
+}
+
+}  // namespace gsv::formats

@@ -1,0 +1,21 @@
+// Reads the controllers of joints in JointControlPlugin of Gazebo classic.
+//
+// Elements  <controller type="position", "velocity" or "force"> with <joint>, <target> and, for the
+//           first two, <pid_gains>: three numbers.
+#pragma once
+
+#include <string>
+
+#include <sdf/Element.hh>
+
+#include "gsv/formats/sdf/reading_context.h"
+#include "gsv/model/model.h"
+
+namespace gsv::formats {
+
+// Adds the targets and gains in `plugin` to `model`; ignores other plugins. `scope` is that of the
+// names in it ("inner::").
+void ReadClassicControl(const sdf::ElementPtr& plugin, const std::string& scope,
+                        const ReadingContext& context, model::Model& model);
+
+}  // namespace gsv::formats

@@ -1,0 +1,88 @@
+#include "gsv/formats/sdf/sdf_slip.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+
+#include "gsv/formats/sdf/sdf_document.h"
+
+namespace gsv::formats {
+namespace {
+
+bool IsWheelSlip(const sdf::Element& plugin) {
+  for (const char* attribute : {"filename", "name"}) {
+    std::string text;
+    for (const char c : plugin.Get<std::string>(attribute, "").first) {
+      if (c != '-' && c != '_') {
+        text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      }
+    }
+    if (text.find("lookupwheelslip") != std::string::npos) return false;
+    if (text.find("wheelslip") != std::string::npos) return true;
+  }
+  return false;
+}
+
+// A number that is at least 0, or `otherwise` after a warning.
+double NumberOf(const sdf::ElementPtr& parent, const char* name, double otherwise,
+                const ReadingContext& context) {
+  if (!parent->HasElement(name)) return otherwise;
+  const auto text = parent->Get<std::string>(name);
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end != text.c_str() && value >= 0 && std::isfinite(value)) return value;
+  context.Warn(std::string("<") + name + "> must be a number of at least 0, not \"" + text + "\"",
+               PlaceOf(*parent, context.source));
+  return otherwise;
+}
+
+double RadiusOfWheel(const model::Link& link) {
+  for (const model::Collision& collision : link.collisions) {
+    if (const auto* cylinder = std::get_if<geometry::Cylinder>(&collision.shape)) {
+      return cylinder->radius;
+    }
+    if (const auto* sphere = std::get_if<geometry::Sphere>(&collision.shape)) return sphere->radius;
+  }
+  return 0;
+}
+
+}  // namespace
+
+void ReadWheelSlip(const sdf::ElementPtr& plugin, const std::string& scope,
+                   const ReadingContext& context, model::Model& model) {
+  if (!IsWheelSlip(*plugin) || !plugin->HasElement("wheel")) return;
+  for (auto wheel = plugin->GetElement("wheel"); wheel != nullptr;
+       wheel = wheel->GetNextElement("wheel")) {
+    const std::string name = scope + wheel->Get<std::string>("link_name", "").first;
+    const auto link = std::find_if(model.links.begin(), model.links.end(),
+                                   [&](const model::Link& each) { return each.name == name; });
+    if (link == model.links.end()) {
+      context.Warn("the wheel slip names the link \"" + name + "\", which the model does not have",
+                   PlaceOf(*wheel, context.source));
+      continue;
+    }
+    model::SlippingWheel slipping;
+    slipping.slip.lateral = NumberOf(wheel, "slip_compliance_lateral", 0, context);
+    slipping.slip.longitudinal = NumberOf(wheel, "slip_compliance_longitudinal", 0, context);
+    slipping.normal_force = NumberOf(wheel, "wheel_normal_force", 0, context);
+    slipping.radius = NumberOf(wheel, "wheel_radius", RadiusOfWheel(*link), context);
+    if (!(slipping.normal_force > 0) || !(slipping.radius > 0)) {
+      context.Warn("the slip of \"" + name +
+                       "\" needs a <wheel_normal_force> and a <wheel_radius> above 0; it does not "
+                       "slip",
+                   PlaceOf(*wheel, context.source));
+      continue;
+    }
+    link->wheel = slipping;
+  }
+}
+
+model::Slip ReadSlip(const sdf::ElementPtr& parent, const ReadingContext& context) {
+  if (parent == nullptr || !parent->HasElement("gsv:slip")) return {};
+  const sdf::ElementPtr slip = parent->GetElement("gsv:slip");
+  return {NumberOf(slip, "gsv:longitudinal", 0, context),
+          NumberOf(slip, "gsv:lateral", 0, context)};
+}
+
+}  // namespace gsv::formats

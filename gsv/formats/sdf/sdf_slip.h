@@ -1,0 +1,27 @@
+// Reads how wheels slip: Gazebo's WheelSlip plugin, and GSV's own element <gsv:slip>.
+//
+// WheelSlip   <wheel link_name="…"> with <slip_compliance_lateral>, <slip_compliance_longitudinal>,
+//             <wheel_normal_force> (N) and <wheel_radius> (m; default: that of the wheel's
+//             collision).
+// <gsv:slip>  <gsv:longitudinal> and <gsv:lateral>, the compliances, both 0 by default. In a <model>
+//             those of the wheels of its drive; in a <surface> those of wheels that roll on it.
+#pragma once
+
+#include <string>
+
+#include <sdf/Element.hh>
+
+#include "gsv/formats/sdf/reading_context.h"
+#include "gsv/model/model.h"
+
+namespace gsv::formats {
+
+// Sets the slip of the links that a WheelSlip plugin names; ignores other plugins. `scope` is that
+// of the names in it ("inner::").
+void ReadWheelSlip(const sdf::ElementPtr& plugin, const std::string& scope,
+                   const ReadingContext& context, model::Model& model);
+
+// The <gsv:slip> of a model or a surface; none if it has no such element.
+model::Slip ReadSlip(const sdf::ElementPtr& parent, const ReadingContext& context);
+
+}  // namespace gsv::formats

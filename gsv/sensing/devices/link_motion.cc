@@ -1,0 +1,152 @@
+#include "gsv/sensing/devices/link_motion.h"
+
+#include <utility>
+
+namespace gsv::sensing {
+namespace {
+
+using geometry::Cross;
+using geometry::Pose;
+using geometry::Vector3;
+using model::JointKind;
+
+void MoveTo(const Vector3& to, LinkMotion& motion) {
+  motion.acceleration = motion.AccelerationOf(to);
+  motion.velocity += Cross(motion.angular_velocity, to - motion.place);
+  motion.place = to;
+}
+
+// Passes a joint at the motion's place to the link that it moves. `rate` and `acceleration` are
+// along or about `axis`. `around` is the angular velocity of the link above the joint.
+void PassJoint(const model::Joint& joint, const Vector3& axis, const Vector3& around, double rate,
+               double acceleration, LinkMotion& motion) {
+  const bool slides = joint.kind == JointKind::kPrismatic;
+  if (!slides) {
+    motion.angular_acceleration += acceleration * axis + rate * Cross(around, axis);
+    motion.angular_velocity += rate * axis;
+  }
+  double travel = slides ? 1 : 0;
+  if (joint.kind == JointKind::kScrew) travel = joint.thread_pitch;
+  motion.velocity += travel * rate * axis;
+  motion.acceleration += travel * (acceleration * axis + 2 * rate * Cross(around, axis));
+}
+
+class MotionReader {
+ public:
+  MotionReader(const world::Snapshot& snapshot, int body)
+      : snapshot_(snapshot),
+        body_(snapshot.layout->bodies[static_cast<std::size_t>(body)]),
+        poses_(world::LinkPoses(snapshot, body)),
+        above_(poses_.size(), -1),
+        is_known_(poses_.size()) {
+    for (std::size_t j = 0; j < model().joints.size(); ++j) {
+      above_[static_cast<std::size_t>(model().joints[j].child)] = static_cast<int>(j);
+    }
+    const world::BodyState& state = snapshot.state.bodies[static_cast<std::size_t>(body)];
+    LinkMotion base;
+    base.place = state.world_from_model.position;
+    base.velocity = state.linear_velocity;
+    base.angular_velocity = state.angular_velocity;
+    if (!snapshot.accelerations.empty()) {
+      const world::Acceleration& mean = snapshot.accelerations[static_cast<std::size_t>(body)];
+      base.acceleration = mean.linear;
+      base.angular_acceleration = mean.angular;
+    }
+    motions_.assign(poses_.size(), base);
+  }
+
+  std::vector<LinkMotion> Read() && {
+    std::vector<int> chain;  // a link and those above it that are not known yet
+    for (std::size_t link = 0; link < motions_.size(); ++link) {
+      chain.clear();
+      for (int at = static_cast<int>(link); at >= 0 && !is_known_[static_cast<std::size_t>(at)];) {
+        chain.push_back(at);
+        at = above_[static_cast<std::size_t>(at)] < 0 ? -1 : JointAbove(at).parent;
+      }
+      for (std::size_t level = chain.size(); level-- > 0;) ReadLink(chain[level]);
+    }
+    return std::move(motions_);
+  }
+
+ private:
+  const model::Model& model() const { return *body_.model; }
+  const model::Joint& JointAbove(int link) const {
+    const int joint = above_[static_cast<std::size_t>(link)];
+    return model().joints[static_cast<std::size_t>(joint)];
+  }
+
+  // The place of a joint among the values of all joints.
+  std::size_t PlaceOf(int joint) const {
+    return static_cast<std::size_t>(body_.first_joint + joint);
+  }
+  double RateOf(int joint) const { return snapshot_.state.joint_velocities[PlaceOf(joint)]; }
+  double AccelerationOf(int joint) const {
+    const std::size_t place = PlaceOf(joint);
+    return place < snapshot_.joint_accelerations.size() ? snapshot_.joint_accelerations[place] : 0;
+  }
+
+  // How many ball joints end at a link without another kind of joint between them. Each ball joint is
+  // three joints.
+  int BallsAbove(int link) const {
+    int count = 0;
+    for (; link >= 0 && above_[static_cast<std::size_t>(link)] >= 0; ++count) {
+      const model::Joint& joint = JointAbove(link);
+      if (joint.kind != JointKind::kBall) break;
+      link = joint.parent;
+    }
+    return count;
+  }
+
+  void ReadLink(int link) {
+    const auto of = static_cast<std::size_t>(link);
+    LinkMotion& motion = motions_[of];
+    is_known_[of] = true;
+    const int above = above_[of];
+    if (above >= 0) {
+      const model::Joint& joint = JointAbove(link);
+      if (joint.parent >= 0) motion = motions_[static_cast<std::size_t>(joint.parent)];
+      const Pose world_from_joint =
+          poses_[of] * Inverse(model().links[of].model_from_link) * joint.model_from_joint;
+      MoveTo(world_from_joint.position, motion);
+      if (joint.kind == JointKind::kBall) {
+        if (BallsAbove(link) % 3 == 0) PassBall(above, world_from_joint, motion);
+      } else if (joint.kind != JointKind::kFixed) {
+        PassJoint(joint, world_from_joint.orientation * joint.axis, motion.angular_velocity,
+                  RateOf(above), AccelerationOf(above), motion);
+      }
+    }
+    motion.world_from_link = poses_[of];
+  }
+
+  // The rates of all three are about axes of the link below the last one.
+  void PassBall(int last, const Pose& world_from_joint, LinkMotion& motion) {
+    const Vector3 around = motion.angular_velocity;
+    for (int joint = last, i = 0; i < 3; ++i) {
+      const model::Joint& of = model().joints[static_cast<std::size_t>(joint)];
+      PassJoint(of, world_from_joint.orientation * of.axis, around, RateOf(joint),
+                AccelerationOf(joint), motion);
+      joint = of.parent < 0 ? last : above_[static_cast<std::size_t>(of.parent)];
+    }
+  }
+
+  const world::Snapshot& snapshot_;
+  const world::Body& body_;
+  const std::vector<Pose> poses_;
+  std::vector<int> above_;  // the joint above each link, or -1
+  std::vector<bool> is_known_;
+  std::vector<LinkMotion> motions_;
+};
+
+}  // namespace
+
+Vector3 LinkMotion::AccelerationOf(const Vector3& point) const {
+  const Vector3 arm = point - place;
+  return acceleration + Cross(angular_acceleration, arm) +
+         Cross(angular_velocity, Cross(angular_velocity, arm));
+}
+
+std::vector<LinkMotion> MotionsOfLinks(const world::Snapshot& snapshot, int body) {
+  return MotionReader(snapshot, body).Read();
+}
+
+}  // namespace gsv::sensing

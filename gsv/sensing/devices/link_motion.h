@@ -1,0 +1,25 @@
+// The motion of each link of a body: velocities of the snapshot, and mean accelerations over its
+// last step. They include those of joints.
+//
+// Frames  world axes.
+#pragma once
+
+#include <vector>
+
+#include "gsv/world/snapshot.h"
+
+namespace gsv::sensing {
+
+struct LinkMotion {
+  geometry::Pose world_from_link;
+  // Of the point of the link that lies at `place`.
+  geometry::Vector3 place, velocity, acceleration;
+  geometry::Vector3 angular_velocity, angular_acceleration;
+
+  geometry::Vector3 AccelerationOf(const geometry::Vector3& point) const;
+};
+
+// In the order of the model's links.
+std::vector<LinkMotion> MotionsOfLinks(const world::Snapshot& snapshot, int body);
+
+}  // namespace gsv::sensing
