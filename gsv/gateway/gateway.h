@@ -41,6 +41,8 @@ struct GatewayOptions : ServerOptions {
   std::string only_recording{};  // a file in the folder; empty: all
   uploads::UploadLimits uploads{};
   recordings::SessionLimits replays{};
+  // Bytes that are kept of the past of each simulation (recording/run_history.h); 0: nothing.
+  std::size_t history_bytes = 0;
   std::vector<Route> routes{};  // additional routes, for simulations of this program
 };
 

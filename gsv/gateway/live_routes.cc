@@ -6,6 +6,7 @@
 #include "gsv/gateway/access/viewers_api.h"
 #include "gsv/gateway/api/api.h"
 #include "gsv/gateway/drawing/view_routes.h"
+#include "gsv/gateway/history/history_api.h"
 #include "gsv/gateway/http/openapi.h"
 #include "gsv/gateway/live/publisher.h"
 #include "gsv/gateway/recordings/recordings_api.h"
@@ -34,11 +35,19 @@ class LiveRoutes final : public RouteSet {
     if (!options.recordings_folder.empty()) {
       recordings_.emplace(options.recordings_folder, options.only_recording, options.replays);
     }
+    if (recordings_ && options.history_bytes > 0) {
+      histories_.emplace(directory_, options.history_bytes, [this](const auto& simulation) {
+        return publisher_.IsWatched(simulation);
+      });
+    }
+    history_.emplace(directory_, histories_ ? &*histories_ : nullptr,
+                     recordings_ ? &recordings_->sessions() : nullptr, api_.models());
   }
 
   std::vector<Route> Routes() override {
     std::vector<Route> routes = api_.Routes();
     Append(routes, viewers_.Routes());
+    Append(routes, history_->Routes());
     if (uploads_) Append(routes, uploads_->Routes());
     if (recordings_) Append(routes, recordings_->Routes(drawer_));
     Append(routes, more_routes_);
@@ -58,6 +67,7 @@ class LiveRoutes final : public RouteSet {
 
   void Stop() override {
     drawer_.Stop();
+    if (histories_) histories_->Stop();
     publisher_.Stop();
     watchers_.Stop();
     if (recordings_) recordings_->sessions().Stop();
@@ -102,6 +112,8 @@ class LiveRoutes final : public RouteSet {
   std::optional<uploads::UploadsApi> uploads_;
   WorkerPool watchers_{2, kWaitingReadings};
   Publisher publisher_;
+  std::optional<history::Histories> histories_;
+  std::optional<history::HistoryApi> history_;
   drawing::ViewDrawer drawer_;
 };
 

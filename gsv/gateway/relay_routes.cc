@@ -66,6 +66,7 @@ class RelayRoutes final : public RouteSet {
         {"DELETE", "/api/{path...}", kControl, false, kCommanders, forward},
         {"GET", "/api/recordings", kWatch, false, kReaders, forward},
         {"POST", "/api/recordings/{recording}/replay", kWatch, false, kCommanders, forward},
+        {"POST", "/api/simulations/{name}/history", kWatch, false, kCommanders, forward},
         {"GET", "/api/viewers", kWatch, false, kReaders, forward},
         {"POST", "/api/viewers", kWatch, false, kCommanders, forward},
         {"POST", "/api/viewers/me", kWatch, false, kCommanders, forward},

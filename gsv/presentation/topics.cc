@@ -31,6 +31,8 @@ std::span<const Topic> Topics() {
       Row(topics::kLog, {.replay = Replay::kEach, .history = kPastEvents}),
       Row(topics::kOutput,
           {.replay = Replay::kEach, .is_reproducible = false, .history = kPastEvents}),
+      Row(topics::kNotes,
+          {.replay = Replay::kEach, .is_reproducible = false, .history = kPastEvents}),
       Row(topics::kHealth, {.is_reproducible = false}),
       Row(topics::kExpectations, {.is_reproducible = false}),
       Row(topics::kCommands),

@@ -60,6 +60,8 @@ inline constexpr TopicOf<messages::gsv_msgs::LifecycleEvent> kEvents{"/gsv/event
 inline constexpr TopicOf<messages::rcl_interfaces::Log> kLog{"/rosout"};
 // The lines that behaviours' programs print.
 inline constexpr TopicOf<messages::rcl_interfaces::Log> kOutput{"/gsv/output"};
+// The notes of viewers.
+inline constexpr TopicOf<messages::gsv_msgs::LifecycleEvent> kNotes{"/gsv/notes"};
 inline constexpr TopicOf<messages::gsv_msgs::Health> kHealth{"/gsv/health"};
 inline constexpr TopicOf<messages::gsv_msgs::Expectations> kExpectations{"/gsv/expectations"};
 inline constexpr TopicOf<messages::gsv_msgs::Command> kCommands{"/gsv/commands"};

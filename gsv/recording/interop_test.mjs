@@ -172,10 +172,10 @@ async function checkRun(bytes) {
   const byTopic = (name) => finding.messages.filter(({ topic }) => topic === name);
   const topics = [...finding.channels.values()].map(({ topic }) => topic).sort();
   assert.deepEqual(topics, ["/clock", "/diagnostics", "/gsv/actuators", "/gsv/beams", "/gsv/commands", "/gsv/contacts",
-    "/gsv/events", "/gsv/expectations", "/gsv/health", "/gsv/output", "/gsv/poses", "/gsv/radio", "/gsv/state_hash",
+    "/gsv/events", "/gsv/expectations", "/gsv/health", "/gsv/notes", "/gsv/output", "/gsv/poses", "/gsv/radio", "/gsv/state_hash",
     "/gsv/status", "/robot/back", "/robot/front", "/rosout", "/tf", "/tf_static"]);
   // The robot meets nobody and is silent. Its behaviour prints nothing, and nothing is expected of it.
-  const silent = ["/gsv/actuators", "/gsv/contacts", "/gsv/expectations", "/gsv/output", "/gsv/radio"];
+  const silent = ["/gsv/actuators", "/gsv/contacts", "/gsv/expectations", "/gsv/notes", "/gsv/output", "/gsv/radio"];
   for (const topic of topics) assert.equal(byTopic(topic).length > 0, !silent.includes(topic), topic);
   for (const { logTime, content } of byTopic("/robot/front")) {
     assert.ok(Math.abs(content.range - (2.9 - 0.5e-9 * Number(logTime))) < 1e-6);

@@ -221,5 +221,41 @@ TEST_F(SimulationRecorderTest, DestroyedSimulationLeavesACompleteFile) {
   EXPECT_EQ(info.end, 200ms);
 }
 
+// An expectation that is violated at 0.33 s.
+class ViolatedOnce final : public simulation::ExpectationSource {
+ public:
+  explicit ViolatedOnce(std::weak_ptr<simulation::Simulation> simulation)
+      : simulation_(std::move(simulation)) {}
+  std::vector<simulation::ExpectationState> states() const override {
+    using Verdict = simulation::ExpectationState::Verdict;
+    simulation::ExpectationState state;
+    state.name = "stays";
+    const auto simulation = simulation_.lock();
+    if (simulation && simulation->snapshot()->state.time >= 330ms) {
+      state.verdict = Verdict::kViolated;
+      state.time = 330ms;
+    }
+    return {state};
+  }
+
+ private:
+  const std::weak_ptr<simulation::Simulation> simulation_;
+};
+
+TEST_F(SimulationRecorderTest, AVerdictIsRecordedAtItsInstant) {
+  auto simulation = MakeSimulation(1s, Drives(0.5));
+  const auto expectations = std::make_shared<ViolatedOnce>(simulation);
+  simulation->SetExpectations(expectations);
+  auto recorder = Start(simulation);
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  ASSERT_TRUE(recorder->Stop());
+  const auto messages = Read<messages::gsv_msgs::Expectations>("/gsv/expectations");
+  ASSERT_GE(messages.size(), 2u);
+  EXPECT_EQ(messages[0].expectations[0].state, "pending");
+  EXPECT_EQ(messages[1].expectations[0].state, "violated");
+  EXPECT_EQ(messages[1].stamp.sec, 0);
+  EXPECT_EQ(messages[1].stamp.nanosec, 330'000'000u);
+}
+
 }  // namespace
 }  // namespace gsv::recording

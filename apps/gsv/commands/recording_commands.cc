@@ -18,7 +18,6 @@
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/running/browser.h"
-#include "apps/gsv/running/recording_difference.h"
 #include "apps/gsv/running/resimulation.h"
 #include "apps/gsv/running/video_export.h"
 #include "apps/gsv/serving/ros2_access.h"
@@ -29,6 +28,7 @@
 #include "gsv/recording/reading/decoded_messages.h"
 #include "gsv/recording/reading/recording_info.h"
 #include "gsv/recording/reading/recover.h"
+#include "gsv/recording/recording_difference.h"
 
 namespace gsv::app {
 namespace {
@@ -217,7 +217,7 @@ int Diff(const RecordingArguments& arguments) {
   if (!first) return Refuse(first.error());
   const auto second = recording::McapReader::Open(arguments.other);
   if (!second) return Refuse(second.error());
-  const auto difference = Compare(**first, **second);
+  const auto difference = recording::CompareRecordings(**first, **second);
   if (!difference) return Refuse(difference.error());
   const std::string text =
       arguments.json

@@ -121,6 +121,7 @@ class OpenApiTest : public ::testing::Test {
     options.factory = &factory_;
     options.recordings = &recordings_;
     options.recordings_folder = folder_.path();
+    options.history_bytes = 1 << 20;
     options.routes = BrokerRoutes(CORBA::ORB::_nil(), "corbaloc:");
     Append(options.routes, InstancesRoutes(CORBA::ORB::_nil(), "corbaloc:", "here:1"));
     Append(options.routes, LostRoutes(lost_));

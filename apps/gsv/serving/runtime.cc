@@ -156,6 +156,7 @@ base::Status Runtime::StartGateway(const RuntimeOptions& options) {
   gateway.replays = options.server_limits.replays;
   gateway.recordings = recordings_.get();
   gateway.recordings_folder = recordings_->folder();
+  gateway.history_bytes = static_cast<std::size_t>(options.web.history_mib) << 20;
   gateway.factory = builder_.get();
   auto directory = std::make_shared<HostDirectory>(host_);
   auto started = StartViewer(options.web, gateway, [&](const auto& there) {

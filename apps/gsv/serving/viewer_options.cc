@@ -76,6 +76,13 @@ void AddRecordingsOption(CLI::App& command, ViewerOptions& options) {
                   "folder of recordings (default: current folder)")
       ->type_name("FOLDER")
       ->group(kViewerGroup);
+  command
+      .add_option("--history", options.history_mib,
+                  "memory for the past of each simulation, in MiB; 0 keeps none")
+      ->check(CLI::Range(0, 65536))
+      ->capture_default_str()
+      ->type_name("MIB")
+      ->group(kViewerGroup);
 }
 
 void AddBrokerOption(CLI::App& command, std::string& broker) {

@@ -22,6 +22,7 @@ struct ViewerOptions {
   // 0 if the system chooses it; -1 for the default, or for another one if that is in use
   int port = -1;
   std::string recordings;            // a folder; empty for the current one
+  int history_mib = 64;              // kept of the past of each simulation; 0: nothing
   std::string listen = "127.0.0.1";  // an address of this machine
   std::vector<std::string> names;    // the names of this machine that browsers may use for it
   gateway::access::Tokens tokens;
@@ -31,7 +32,7 @@ struct ViewerOptions {
 // Adds --port, --listen, --allow-host, --control-token, --watch-token, --tls-certificate and
 // --tls-key.
 void AddViewerOptions(CLI::App& command, ViewerOptions& options);
-// Adds --recordings, for commands that run simulations.
+// Adds --recordings and --history, for commands that run simulations.
 void AddRecordingsOption(CLI::App& command, ViewerOptions& options);
 // Adds --broker, for commands that start a broker if none is given.
 void AddBrokerOption(CLI::App& command, std::string& broker);

@@ -31,6 +31,9 @@ class Api {
   // The handlers are valid during the lifetime of this object.
   std::vector<Route> Routes();
 
+  // The models of the simulations.
+  ModelStore& models() { return models_; }
+
  private:
   Response Server() const;
   Response List() const;

@@ -98,18 +98,30 @@ Router::Match Router::Find(std::string_view method, const Target& target) const 
   Match match;
   match.permission = root_->least;
   const Node* node = root_.get();
+  // The deepest "{path...}" on the way, below the first segment, and the parameters up to it. It has
+  // what longer patterns do not have.
+  const Node* rest = nullptr;
+  auto parameters_of_rest = match.parameters;
   for (const std::string& segment : target.segments) {
     const Node* const parent = node;
+    if (parent != root_.get() && parent->rest != nullptr) {
+      rest = parent->rest.get();
+      parameters_of_rest = match.parameters;
+    }
     node = parent->Next(segment, match);
-    if (node == nullptr) return match;
+    if (node == nullptr) break;
     if (parent == root_.get()) match.permission = node->least;
     if (node == parent->rest.get()) break;
   }
-  for (const Route* route : node->routes) {
-    match.allow += (match.allow.empty() ? "" : ", ") + route->method;
-    if (route->method != method) continue;
-    match.route = route;
-    match.permission = route->permission;
+  for (const Node* const end : {node, node == rest ? nullptr : rest}) {
+    if (end == nullptr || match.route != nullptr) continue;
+    for (const Route* route : end->routes) {
+      match.allow += (match.allow.empty() ? "" : ", ") + route->method;
+      if (route->method != method) continue;
+      match.route = route;
+      match.permission = route->permission;
+      if (end == rest) match.parameters = parameters_of_rest;
+    }
   }
   return match;
 }

@@ -21,6 +21,7 @@ const Router& Routes() {
       Named("DELETE", "/api/things/{name}/parts/{part}", Permission::kControl),
       Named("GET", "/api/models/{id}.glb"),
       Named("PUT", "/files/{set}/{path...}", Permission::kControl),
+      Named("PUT", "/files/{set}/lists/{list}", Permission::kControl),
   });
   return kRouter;
 }
@@ -38,6 +39,10 @@ TEST(Router, PrefersLiteralsToParametersAndThoseToTheRest) {
   EXPECT_EQ(PatternOf("GET", "/api/things/you?x=1"), "/api/things/{name}");
   EXPECT_EQ(PatternOf("GET", "/%61pi/things"), "/api/things");
   EXPECT_EQ(PatternOf("PUT", "/files/1/a/b"), "/files/{set}/{path...}");
+  EXPECT_EQ(PatternOf("PUT", "/files/1/lists/a"), "/files/{set}/lists/{list}");
+  EXPECT_EQ(PatternOf("PUT", "/files/1/lists"), "/files/{set}/{path...}");
+  EXPECT_EQ(PatternOf("PUT", "/files/1/lists/a/b"), "/files/{set}/{path...}");
+  EXPECT_EQ(PatternOf("GET", "/api/things/you/parts"), "");  // not a file of the viewer
 }
 
 TEST(Router, ReturnsTheParameters) {
@@ -49,6 +54,7 @@ TEST(Router, ReturnsTheParameters) {
             (Parameters{{"name", "a/b"}, {"part", "c d"}}));
   EXPECT_EQ(parameters("GET", "/api/models/01.glb"), (Parameters{{"id", "01"}}));
   EXPECT_EQ(parameters("PUT", "/files/1/a/b"), (Parameters{{"set", "1"}}));
+  EXPECT_EQ(parameters("PUT", "/files/1/lists/a/b"), (Parameters{{"set", "1"}}));
 }
 
 TEST(Router, AnswersRequestsWithoutARoute) {

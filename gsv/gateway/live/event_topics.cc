@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "gsv/gateway/foxglove/channels.h"
+#include "gsv/presentation/notes.h"
 #include "gsv/presentation/run_messages.h"
 
 namespace gsv::gateway {
@@ -19,18 +20,23 @@ SharedBytes EncodedLog(const simulation::Event& event) {
   return Encoded(presentation::LogMessage(event));
 }
 
+SharedBytes EncodedNote(const simulation::Event& event) {
+  return Encoded(presentation::NoteMessage(event));
+}
+
 }  // namespace
 
 EventTopics::EventTopics(std::shared_ptr<Hub> hub) : hub_(std::move(hub)) {
-  const auto channels = hub_->Advertise(
-      {ChannelFor(topics::kEvents), ChannelFor(topics::kLog), ChannelFor(topics::kOutput)});
+  const auto channels = hub_->Advertise({ChannelFor(topics::kEvents), ChannelFor(topics::kLog),
+                                         ChannelFor(topics::kOutput), ChannelFor(topics::kNotes)});
   const auto history = [](const char* topic) { return presentation::FindTopic(topic)->history; };
   using simulation::Simulation;
   using simulation::SimulationStatus;
   events_ = {&Simulation::events,
              &SimulationStatus::events,
              {{channels[0], history(topics::kEvents.name), EncodedEvent},
-              {channels[1], history(topics::kLog.name), EncodedLog}}};
+              {channels[1], history(topics::kLog.name), EncodedLog},
+              {channels[3], history(topics::kNotes.name), EncodedNote, true}}};
   output_ = {&Simulation::outputs,
              &SimulationStatus::outputs,
              {{channels[2], history(topics::kOutput.name), EncodedLog}}};
@@ -44,6 +50,7 @@ void EventTopics::Publish(const simulation::Simulation& simulation) {
 void EventTopics::Publish(const simulation::Simulation& simulation, Source& source) {
   for (const simulation::Event& event : TakeNew(simulation, source)) {
     for (const Topic& topic : source.topics) {
+      if (topic.has_notes != presentation::IsNote(event)) continue;
       if (!hub_->IsSubscribed(topic.channel)) continue;
       hub_->Publish(topic.channel, {base::NanosecondsOf(event.time), topic.encode(event)},
                     Hub::Audience::kEstablished);
@@ -66,10 +73,13 @@ std::vector<simulation::Event> EventTopics::TakeNew(const simulation::Simulation
 }
 
 void EventTopics::Welcome(const Topic& topic, const std::vector<simulation::Event>& past) {
-  std::vector<Hub::Message> messages;
-  for (std::size_t i = past.size() - std::min(past.size(), topic.history); i < past.size(); ++i) {
-    messages.push_back({base::NanosecondsOf(past[i].time), topic.encode(past[i])});
+  std::vector<Hub::Message> messages;  // the newest first
+  for (auto event = past.rbegin(); event != past.rend(); ++event) {
+    if (messages.size() == topic.history) break;
+    if (topic.has_notes != presentation::IsNote(*event)) continue;
+    messages.push_back({base::NanosecondsOf(event->time), topic.encode(*event)});
   }
+  std::reverse(messages.begin(), messages.end());
   hub_->Welcome(topic.channel, messages);
 }
 

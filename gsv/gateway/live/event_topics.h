@@ -1,5 +1,6 @@
-// The live topics of events: /gsv/events, /rosout as a log for ROS tools, and /gsv/output with the
-// lines that behaviours' programs print. New subscribers get the newest earlier events.
+// The live topics of events: /gsv/events, /rosout as a log for ROS tools, /gsv/notes with the notes
+// of viewers, and /gsv/output with the lines that behaviours' programs print. New subscribers get
+// the newest earlier events.
 //
 // Threads  Publish() from one thread.
 #pragma once
@@ -25,6 +26,7 @@ class EventTopics {
     foxglove::ChannelId channel = 0;
     std::size_t history = 0;
     SharedBytes (*encode)(const simulation::Event& event) = nullptr;
+    bool has_notes = false;  // whether it has the notes, and nothing else
   };
   // Events or output, and the topics that publish them.
   struct Source {

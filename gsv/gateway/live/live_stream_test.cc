@@ -123,6 +123,50 @@ TEST_F(LiveStreamTest, StatusIsSentAtMostFiveTimesPerSecond) {
   EXPECT_LE(client_->data(1).size(), 6u);
 }
 
+TEST_F(LiveStreamTest, ALargeStatusIsSentLessOftenWhileOnlyCountersChange) {
+  const auto crowd = std::make_shared<testing::ScriptedSimulation>("crowd", 500);
+  LiveStream stream(crowd, workers_, workers_, nullptr, [] {});
+  const auto viewer = std::make_shared<RecordingClient>();
+  stream.hub()->Add(viewer);
+  ASSERT_TRUE(stream.hub()->Receive(viewer.get(),
+                                    testing::SubscribeText(1, viewer->ChannelOf("/gsv/status"))));
+  const auto round = [&] {
+    now_ += milliseconds(100);
+    crowd->Advance(milliseconds(100));
+    stream.Round(crowd, now_);
+  };
+  constexpr int kSeconds = 10;
+  for (int i = 0; i < 10 * kSeconds; ++i) round();
+  const std::size_t count = viewer->data(1).size();
+  const auto size = static_cast<double>(viewer->data(1)[0].payload.size());
+  EXPECT_GT(size * kStatusRate, kMaxStatusBytesPerSecond);  // otherwise this shows nothing
+  EXPECT_GE(static_cast<double>(count), kLowestStatusRate * kSeconds);
+  EXPECT_LE(static_cast<double>(count - 1) * size, kMaxStatusBytesPerSecond * kSeconds * 1.1);
+  // A change of a state does not wait.
+  ASSERT_TRUE(crowd->Start());
+  round();
+  EXPECT_EQ(viewer->data(1).size(), count + 1);
+}
+
+TEST_F(LiveStreamTest, ANoteIsPublishedOnItsOwnTopic) {
+  Subscribe(1, "/gsv/events");
+  Subscribe(2, "/gsv/notes");
+  Round();
+  simulation_->Emit("note", "", "at 0.5 s: look here");
+  simulation_->AddEvent("one");
+  Round();
+  ASSERT_EQ(client_->data(1).size(), 1u);
+  EXPECT_EQ(Decoded<LifecycleEvent>(client_->data(1)[0]).event, "one");
+  ASSERT_EQ(client_->data(2).size(), 1u);
+  EXPECT_EQ(Decoded<LifecycleEvent>(client_->data(2)[0]).detail, "look here");
+  EXPECT_EQ(Decoded<LifecycleEvent>(client_->data(2)[0]).stamp.nanosec, 500'000'000u);
+  const auto late = std::make_shared<RecordingClient>();
+  stream_.hub()->Add(late);
+  Subscribe(*late, 1, "/gsv/notes");
+  Round();
+  EXPECT_EQ(late->data(1).size(), 1u);
+}
+
 TEST_F(LiveStreamTest, EventsReachEachViewerOnceAndLateViewersFromTheBeginning) {
   simulation_->AddEvent("one");
   Subscribe(1, "/gsv/events");

@@ -34,6 +34,13 @@ void Publisher::WantSensorsOf(const std::shared_ptr<simulation::Simulation>& sim
   Wake();
 }
 
+bool Publisher::IsWatched(const std::shared_ptr<simulation::Simulation>& simulation) const {
+  for (const Entry& entry : Entries()) {
+    if (entry.simulation.lock() == simulation) return entry.stream->hub()->has_clients();
+  }
+  return false;
+}
+
 std::shared_ptr<LiveStream> Publisher::StreamOf(
     const std::shared_ptr<simulation::Simulation>& simulation) {
   const base::MutexLock lock(mutex_);

@@ -28,6 +28,9 @@ class Publisher {
   void WantSensorsOf(const std::shared_ptr<simulation::Simulation>& simulation,
                      const std::string& robot);
 
+  // Whether the simulation has viewers.
+  bool IsWatched(const std::shared_ptr<simulation::Simulation>& simulation) const;
+
   // Ends the thread and refuses further clients.
   void Stop();
 

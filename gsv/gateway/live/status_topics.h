@@ -1,17 +1,27 @@
-// The live topics of the status: /gsv/status at each change of the phase and a few times per
-// second, and /diagnostics for ROS tools once per second.
+// The live topics of the status: /gsv/status at each change of a state and a few times per second,
+// and /diagnostics for ROS tools once per second.
+//
+// A large status that differs only in times and counters is sent less often, so that these messages
+// need at most kMaxStatusBytesPerSecond, but not less often than at kLowestStatusRate.
 //
 // Threads  Publish() from one thread.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "gsv/gateway/foxglove/hub.h"
 #include "gsv/gateway/live/pacing.h"
 #include "gsv/simulation/simulation.h"
 
 namespace gsv::gateway {
+
+// In Hz of wall-clock time.
+inline constexpr double kStatusRate = 5;
+inline constexpr double kLowestStatusRate = 0.5;
+inline constexpr double kMaxStatusBytesPerSecond = 40'000;
 
 class StatusTopics {
  public:
@@ -26,9 +36,14 @@ class StatusTopics {
     foxglove::ChannelId channel = 0;
     SharedBytes (*encode)(const simulation::SimulationStatus& status) = nullptr;
     Pacing pacing;
+    // nothing: its size does not limit its rate
+    std::optional<double> max_bytes_per_second{};
     std::optional<simulation::Phase> phase{};  // the phase that was last published
+    std::uint64_t states = 0;                  // hash of the states that were last published
+    Pacing counters_pacing{pacing};
     Hub::Message latest{};
   };
+  static double RateFor(const Topic& topic, std::size_t size);  // Hz
   void Publish(Topic& topic, const simulation::Simulation& simulation, WallTime now);
 
   const std::shared_ptr<Hub> hub_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -25,6 +26,16 @@ const Json& MemberOf(const Json& object, const char* name) {
   return object.is_object() && found != object.end() ? *found : kNull;
 }
 
+void AddRobotsOf(const Json& scene, std::set<std::string>& robots) {
+  const Json& bodies = MemberOf(scene, "bodies");
+  if (!bodies.is_array()) return;
+  for (const Json& body : bodies) {
+    const Json& name = MemberOf(body, "name");
+    const bool is_robot = MemberOf(body, "is_robot") == true || MemberOf(body, "is_avatar") == true;
+    if (is_robot && name.is_string()) robots.insert(name.get<std::string>());
+  }
+}
+
 // The entries of "poses" that are bodies, not links.
 std::map<std::string, std::size_t> BodyPosesOf(const Json& scene) {
   std::map<std::string, std::size_t> places;
@@ -43,7 +54,8 @@ std::map<std::string, std::size_t> BodyPosesOf(const Json& scene) {
 
 }  // namespace
 
-RecordedScene::RecordedScene(const recording::McapReader& reader) : reader_(reader) {
+RecordedScene::RecordedScene(const recording::McapReader& reader, ModelSource models)
+    : reader_(reader), model_source_(std::move(models)) {
   for (const recording::AttachmentIndexRecord& index : reader.summary().attachments) {
     if (index.name != recording::kSceneAttachment) {
       models_[index.name] = index;
@@ -67,6 +79,7 @@ base::Status RecordedScene::Add(const recording::AttachmentIndexRecord& index) {
     return base::Fail(base::ErrorCode::kCorrupt, "it is not a scene: layout_version is missing",
                       index.name);
   }
+  AddRobotsOf(scene, robots_);
   scenes_[version.get<std::uint32_t>()] = {SharedBytes(std::string(text)), BodyPosesOf(scene)};
   return {};
 }
@@ -100,6 +113,7 @@ bool RecordedScene::HasBody(const std::string& name) const {
 base::Result<SharedBytes> RecordedScene::Model(const std::string& id) const {
   const auto found = models_.find(recording::ModelAttachment(id));
   if (found == models_.end()) {
+    if (model_source_) return model_source_(id);
     return base::Fail(base::ErrorCode::kNotFound,
                       "the recording has no model '" + id.substr(0, 64) + "'");
   }

@@ -5,7 +5,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,10 +17,14 @@
 
 namespace gsv::gateway {
 
+// Gives the GLB file of a model by its identifier, or kNotFound. From any thread.
+using ModelSource = std::function<base::Result<SharedBytes>(const std::string& id)>;
+
 class RecordedScene {
  public:
-  // Reads the scenes; invalid ones are listed in problems(). `reader` must outlive this.
-  explicit RecordedScene(const recording::McapReader& reader);
+  // Reads the scenes; invalid ones are listed in problems(). `reader` must outlive this. `models`
+  // has the models that are not attached; null: none.
+  explicit RecordedScene(const recording::McapReader& reader, ModelSource models = nullptr);
 
   const base::Problems& problems() const { return problems_; }
 
@@ -28,6 +34,9 @@ class RecordedScene {
 
   // The indices of bodies' poses in gsv_msgs/Poses of that layout, by name.
   const std::map<std::string, std::size_t>& BodyPoses(std::uint32_t layout_version) const;
+
+  // Whether a body of this name is a robot or an avatar in one of the scenes.
+  bool IsRobot(const std::string& name) const { return robots_.contains(name); }
 
   // Whether one of the scenes has a body of this name.
   bool HasBody(const std::string& name) const;
@@ -45,6 +54,8 @@ class RecordedScene {
   void Warn(const base::Error& error);
 
   const recording::McapReader& reader_;
+  const ModelSource model_source_;
+  std::set<std::string> robots_;
   std::map<std::uint32_t, Entry> scenes_;                           // by layout version
   std::map<std::string, recording::AttachmentIndexRecord> models_;  // by attachment's name
   base::Problems problems_;

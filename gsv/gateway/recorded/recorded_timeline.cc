@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 
 #include "gsv/messages/gsv_msgs.h"
 #include "gsv/messages/rcl_interfaces.h"
@@ -13,6 +14,7 @@ namespace {
 using recording::MessageBlock;
 
 constexpr std::size_t kMaxEvents = 1000;
+constexpr std::size_t kMaxCollisions = 500;
 constexpr std::size_t kMaxLines = 5000;
 constexpr std::size_t kMaxBytes = 1 << 20;
 
@@ -25,10 +27,18 @@ bool MayHold(const MessageBlock& block, const std::set<std::uint16_t>& channels)
 
 }  // namespace
 
-RecordedTimeline::RecordedTimeline(const recording::McapReader& reader)
+RecordedEvent CollisionEvent(base::SimTime time, const std::string& first,
+                             const std::string& second) {
+  return {time, "collision", first, first + " touches " + second};
+}
+
+RecordedTimeline::RecordedTimeline(const recording::McapReader& reader, const RecordedScene& scene)
     : reader_(reader),
+      scene_(scene),
       pose_channels_(ChannelsOf(presentation::topics::kPoses.name)),
       event_channels_(ChannelsOf(presentation::topics::kEvents.name)),
+      note_channels_(ChannelsOf(presentation::topics::kNotes.name)),
+      contact_channels_(ChannelsOf(presentation::topics::kContacts.name)),
       log_channels_(ChannelsOf(presentation::topics::kLog.name)) {}
 
 RecordedTimeline::ChannelIds RecordedTimeline::ChannelsOf(const std::string& topic) const {
@@ -97,8 +107,10 @@ std::vector<Entry> RecordedTimeline::ReadAll(const ChannelIds& channels, std::si
       if (!channels.contains(message.channel_id)) continue;
       auto decoded = messages::Decode<Message>(std::as_bytes(std::span(message.data)));
       if (!decoded) continue;
+      std::optional<Entry> entry = use(message.log_time, std::move(*decoded));
+      if (!entry) continue;
       bytes += message.data.size();
-      entries.push_back(use(message.log_time, std::move(*decoded)));
+      entries.push_back(*std::move(entry));
     }
   }
   std::stable_sort(entries.begin(), entries.end(),
@@ -107,18 +119,33 @@ std::vector<Entry> RecordedTimeline::ReadAll(const ChannelIds& channels, std::si
 }
 
 std::vector<RecordedEvent> RecordedTimeline::ReadEvents() const {
+  using messages::gsv_msgs::Contact;
   using messages::gsv_msgs::LifecycleEvent;
-  return ReadAll<LifecycleEvent, RecordedEvent>(
-      event_channels_, kMaxEvents, [](base::SimTime time, LifecycleEvent event) {
-        return RecordedEvent{time, std::move(event.event), std::move(event.robot),
-                             std::move(event.detail)};
-      });
+  const auto of_event = [](base::SimTime time, LifecycleEvent event) {
+    return std::optional(RecordedEvent{time, std::move(event.event), std::move(event.robot),
+                                       std::move(event.detail)});
+  };
+  const auto of_contact = [this](base::SimTime time,
+                                 const Contact& contact) -> std::optional<RecordedEvent> {
+    if (scene_.IsRobot(contact.first)) return CollisionEvent(time, contact.first, contact.second);
+    if (scene_.IsRobot(contact.second)) return CollisionEvent(time, contact.second, contact.first);
+    return std::nullopt;
+  };
+  auto events = ReadAll<LifecycleEvent, RecordedEvent>(event_channels_, kMaxEvents, of_event);
+  const auto notes = ReadAll<LifecycleEvent, RecordedEvent>(note_channels_, kMaxEvents, of_event);
+  const auto collisions =
+      ReadAll<Contact, RecordedEvent>(contact_channels_, kMaxCollisions, of_contact);
+  events.insert(events.end(), notes.begin(), notes.end());
+  events.insert(events.end(), collisions.begin(), collisions.end());
+  std::stable_sort(events.begin(), events.end(),
+                   [](const RecordedEvent& a, const RecordedEvent& b) { return a.time < b.time; });
+  return events;
 }
 
 std::vector<RecordedLine> RecordedTimeline::ReadLog() const {
   using messages::rcl_interfaces::Log;
   return ReadAll<Log, RecordedLine>(log_channels_, kMaxLines, [](base::SimTime time, Log line) {
-    return RecordedLine{time, line.level, std::move(line.name), std::move(line.msg)};
+    return std::optional(RecordedLine{time, line.level, std::move(line.name), std::move(line.msg)});
   });
 }
 

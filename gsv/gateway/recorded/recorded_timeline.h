@@ -10,11 +10,12 @@
 #include <vector>
 
 #include "gsv/base/sim_time.h"
+#include "gsv/gateway/recorded/recorded_scene.h"
 #include "gsv/recording/mcap/mcap_reader.h"
 
 namespace gsv::gateway {
 
-// A message of /gsv/events.
+// A message of /gsv/events or /gsv/notes ("note"), or a collision of a robot ("collision").
 struct RecordedEvent {
   base::SimTime time{};
   std::string event, robot, detail;
@@ -27,16 +28,21 @@ struct RecordedLine {
   std::string name, text;  // source and message
 };
 
+// A collision as an event. Live timelines have the same.
+RecordedEvent CollisionEvent(base::SimTime time, const std::string& first,
+                             const std::string& second);
+
 class RecordedTimeline {
  public:
-  // `reader` must outlive this.
-  explicit RecordedTimeline(const recording::McapReader& reader);
+  // Both must outlive this.
+  RecordedTimeline(const recording::McapReader& reader, const RecordedScene& scene);
 
   // The instant of the `count`th recorded pose after `time`, or before it if `count` is negative;
   // at most the end or start of the recording. Reads the blocks around `time`.
   base::SimTime PoseBeside(base::SimTime time, std::int64_t count) const;
 
-  // The first thousand events by time. The first call reads their blocks.
+  // The first thousand events, the first thousand notes and the first 500 collisions, by time. The
+  // first call reads their blocks.
   const std::vector<RecordedEvent>& Events() const;
 
   // The first five thousand lines by time, likewise.
@@ -48,12 +54,14 @@ class RecordedTimeline {
   ChannelIds ChannelsOf(const std::string& topic) const;
   std::vector<RecordedEvent> ReadEvents() const;
   std::vector<RecordedLine> ReadLog() const;
-  // Applies `use` to each message of these channels, within the limits.
+  // The entries that `use` makes of the messages of these channels, within the limits.
   template <typename Message, typename Entry, typename Use>
   std::vector<Entry> ReadAll(const ChannelIds& channels, std::size_t max_entries, Use use) const;
 
   const recording::McapReader& reader_;
-  const ChannelIds pose_channels_, event_channels_, log_channels_;
+  const RecordedScene& scene_;
+  const ChannelIds pose_channels_, event_channels_, note_channels_, contact_channels_,
+      log_channels_;
   mutable std::once_flag events_once_, log_once_;
   mutable std::vector<RecordedEvent> events_;
   mutable std::vector<RecordedLine> log_;

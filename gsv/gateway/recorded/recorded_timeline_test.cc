@@ -59,7 +59,8 @@ class RecordedTimelineTest : public ::testing::Test {
  protected:
   const recording::Bytes bytes_ = OneSecond();
   const std::unique_ptr<recording::McapReader> reader_ = recording::Open(bytes_).value();
-  const RecordedTimeline timeline_{*reader_};
+  const RecordedScene scene_{*reader_};
+  const RecordedTimeline timeline_{*reader_, scene_};
 };
 
 TEST_F(RecordedTimelineTest, FindsPosesAheadAndBehind) {
@@ -95,7 +96,8 @@ TEST_F(RecordedTimelineTest, ReturnsEventsWithTheirTimes) {
 TEST_F(RecordedTimelineTest, ARecordingWithoutPosesHasItsEnds) {
   const recording::Bytes bytes = recording::ThreeChunks();
   const auto reader = recording::Open(bytes).value();
-  const RecordedTimeline timeline(*reader);
+  const RecordedScene scene(*reader);
+  const RecordedTimeline timeline(*reader, scene);
   EXPECT_EQ(timeline.PoseBeside(100ms, 1), 290ms);
   EXPECT_EQ(timeline.PoseBeside(100ms, -1), 0ms);
   EXPECT_TRUE(timeline.Events().empty());

@@ -1,9 +1,15 @@
 #include "gsv/gateway/recordings/recordings_api.h"
 
+#include <charconv>
 #include <ctime>
+#include <memory>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include "gsv/gateway/recordings/note_file.h"
+#include "gsv/gateway/recordings/note_request.h"
+#include "gsv/recording/recording_difference.h"
 
 namespace gsv::gateway::recordings {
 namespace {
@@ -54,6 +60,15 @@ RecordingsJson LineJson(const RecordingLine& line) {
   return json;
 }
 
+std::string NotesJson(const std::vector<Note>& notes) {
+  RecordingsJson list = RecordingsJson::array();
+  for (const Note& note : notes) {
+    list.push_back(
+        {{"id", note.id}, {"time_s", note.time_s}, {"text", note.text}, {"created", note.created}});
+  }
+  return Text(list);
+}
+
 }  // namespace
 
 std::vector<Route> RecordingsApi::Routes(drawing::ViewDrawer& drawer) {
@@ -65,6 +80,29 @@ std::vector<Route> RecordingsApi::Routes(drawing::ViewDrawer& drawer) {
       {"POST", "/api/recordings/{recording}/replay", kWatch, false, kCommanders,
        [this](const Request& request) { return Open(request.Parameter("recording")); },
        "Open a recording as your own replay"},
+      {"GET", "/api/recordings/{recording}/difference", kWatch, false, kCommanders,
+       [this](const Request& request) {
+         return Difference(request.Parameter("recording"), request);
+       },
+       "Get where two recordings first differ"},
+      {"GET", "/api/recordings/{recording}/notes", kWatch, false, kReaders,
+       [this](const Request& request) {
+         return OfNotes(request.Parameter("recording"), [](const NoteFile& file) {
+           const auto notes = file.Read();
+           return notes ? JsonResponse(200, NotesJson(*notes)) : ErrorResponse(notes.error());
+         });
+       },
+       "List the notes of a recording"},
+      {"POST", "/api/recordings/{recording}/notes", kControl, false, kCommanders,
+       [this](const Request& request) {
+         return AddNote(request.Parameter("recording"), request.body);
+       },
+       "Add a note to an instant of a recording"},
+      {"DELETE", "/api/recordings/{recording}/notes/{note}", kControl, false, kCommanders,
+       [this](const Request& request) {
+         return RemoveNote(request.Parameter("recording"), request.Parameter("note"));
+       },
+       "Remove a note of a recording"},
   };
   Append(routes, sessions_.Routes());
   Append(routes, drawing::ViewRoutes("/replays/{session}", drawer, [this](const Request& request) {
@@ -80,6 +118,57 @@ Response RecordingsApi::List() {
   return JsonResponse(200, Text({{"folder", folder_.path().string()},
                                  {"left_out", listing.left_out},
                                  {"recordings", std::move(lines)}}));
+}
+
+Response RecordingsApi::Difference(const std::string& name, const Request& request) {
+  const auto with = request.target.query.find("with");
+  if (with == request.target.query.end()) {
+    return ErrorResponse(400, "the query must name the second recording: ?with=NAME");
+  }
+  std::vector<std::unique_ptr<recording::McapReader>> readers;
+  for (const std::string& each : {name, with->second}) {
+    const base::Result<std::string> path = folder_.Find(each);
+    if (!path) return ErrorResponse(path.error());
+    auto reader = recording::McapReader::Open(*path);
+    if (!reader) return ErrorResponse(reader.error());
+    readers.push_back(*std::move(reader));
+  }
+  const auto difference = recording::CompareRecordings(*readers[0], *readers[1]);
+  if (!difference) return ErrorResponse(difference.error());
+  RecordingsJson json = difference->Json();
+  json["text"] = difference->Text();
+  return JsonResponse(200, Text(json));
+}
+
+template <typename Use>
+Response RecordingsApi::OfNotes(const std::string& name, Use use) {
+  const base::Result<std::string> path = folder_.Find(name);
+  if (!path) return ErrorResponse(path.error());
+  const base::MutexLock lock(notes_mutex_);
+  return use(NoteFile(*path));
+}
+
+Response RecordingsApi::AddNote(const std::string& name, const std::string& body) {
+  const auto note = ParseNoteRequest(body);
+  if (!note) return ErrorResponse(note.error());
+  if (!note->time_s) {
+    return ErrorResponse(400, "a note of a recording needs the instant, \"time_s\"");
+  }
+  return OfNotes(name, [&](const NoteFile& file) {
+    const auto id = file.Add(*note->time_s, note->text, DateText(std::chrono::system_clock::now()));
+    if (!id) return ErrorResponse(id.error());
+    return JsonResponse(201, Text({{"id", *id}}));
+  });
+}
+
+Response RecordingsApi::RemoveNote(const std::string& name, const std::string& id) {
+  std::int64_t number = 0;
+  const auto parsed = std::from_chars(id.data(), id.data() + id.size(), number);
+  if (parsed.ec != std::errc() || parsed.ptr != id.data() + id.size()) number = 0;
+  return OfNotes(name, [&](const NoteFile& file) {
+    const base::Status removed = file.Remove(number);
+    return removed ? JsonResponse(200, "{}") : ErrorResponse(removed.error());
+  });
 }
 
 Response RecordingsApi::Open(const std::string& name) {

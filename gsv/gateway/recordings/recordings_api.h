@@ -1,4 +1,4 @@
-// The part of the HTTP API that lists recordings and opens replays.
+// The part of the HTTP API that lists and compares recordings, opens replays, and keeps notes.
 //
 // Threads  any.
 #pragma once
@@ -27,9 +27,16 @@ class RecordingsApi {
  private:
   Response List();
   Response Open(const std::string& name);
+  Response Difference(const std::string& name, const Request& request);
+  // Applies `use` to the notes of a recording.
+  template <typename Use>
+  Response OfNotes(const std::string& name, Use use);
+  Response AddNote(const std::string& name, const std::string& body);
+  Response RemoveNote(const std::string& name, const std::string& id);
 
   RecordingFolder folder_;
   ReplaySessions sessions_;
+  base::Mutex notes_mutex_;  // held while a file of notes is read or written
 };
 
 }  // namespace gsv::gateway::recordings

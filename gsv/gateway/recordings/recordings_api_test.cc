@@ -177,5 +177,40 @@ TEST_F(RecordingsApiTest, ReplaySessionsAreLimited) {
   EXPECT_EQ(refused.error().code, base::ErrorCode::kUnavailable);
 }
 
+TEST_F(RecordingsApiTest, NotesStayBesideTheRecording) {
+  const std::string notes = "/api/recordings/run.mcap/notes";
+  EXPECT_EQ(Get(notes).body, "[]");
+  EXPECT_EQ(Post(notes, R"({"text": "no instant"})").status, 400);
+  const HttpReply added = Post(notes, R"({"text": "turns here", "time_s": 1.5, "author": "Ada"})");
+  ASSERT_EQ(added.status, 201) << added.body;
+  const std::string id = std::to_string(json::parse(added.body)["id"].get<int>());
+  EXPECT_TRUE(fs::exists(folder_ / "run.mcap.notes.json"));
+  const json listed = json::parse(Get(notes).body);
+  ASSERT_EQ(listed.size(), 1u);
+  EXPECT_EQ(listed[0]["text"], "Ada: turns here");
+  EXPECT_EQ(listed[0]["time_s"], 1.5);
+  EXPECT_EQ(testing::Fetch(gateway_->port(), "DELETE", notes + "/" + id).status, 200);
+  EXPECT_EQ(testing::Fetch(gateway_->port(), "DELETE", notes + "/" + id).status, 404);
+  EXPECT_EQ(testing::Fetch(gateway_->port(), "DELETE", notes + "/x").status, 404);
+  EXPECT_EQ(Get("/api/recordings/gone.mcap/notes").status, 404);
+  // The file is no recording.
+  EXPECT_EQ(json::parse(Get("/api/recordings").body)["recordings"].size(), 1u);
+}
+
+TEST_F(RecordingsApiTest, ComparesTwoRecordings) {
+  fs::copy_file(folder_ / "run.mcap", folder_ / "same.mcap");
+  testing::RecordRun(folder_ / "slow.mcap", 0.25);
+  const std::string difference = "/api/recordings/run.mcap/difference";
+  EXPECT_EQ(json::parse(Get(difference + "?with=same.mcap").body)["equal"], true);
+  const json found = json::parse(Get(difference + "?with=slow.mcap").body);
+  EXPECT_EQ(found["equal"], false);
+  EXPECT_EQ(found["robot"], "robot");
+  // Both stand still at 0 s; the first commands differ in the first steps.
+  EXPECT_LT(found["time_s"], 0.1);
+  EXPECT_NE(found["text"], "");
+  EXPECT_EQ(Get(difference).status, 400);
+  EXPECT_EQ(Get(difference + "?with=gone.mcap").status, 404);
+}
+
 }  // namespace
 }  // namespace gsv::gateway::recordings

@@ -14,6 +14,11 @@ base::Result<std::string> ReplaySessions::Open(const std::string& path,
                                                const std::string& recording) {
   auto player = ReplayPlayer::Open(path, {});
   if (!player) return base::Fail(player.error());
+  return Add(*std::move(player), recording);
+}
+
+base::Result<std::string> ReplaySessions::Add(std::unique_ptr<ReplayPlayer> player,
+                                              const std::string& recording) {
   const std::map<std::string, Entry> unwatched = TakeUnwatched();
   const base::MutexLock lock(mutex_);
   if (is_stopped_) return base::Fail(base::ErrorCode::kUnavailable, "the server is shutting down");
@@ -22,7 +27,7 @@ base::Result<std::string> ReplaySessions::Open(const std::string& path,
                       "too many recordings are open; close a page, and try again in half a minute");
   }
   const std::string name = std::to_string(next_++);
-  sessions_[name] = {{*std::move(player), recording}, std::chrono::steady_clock::now()};
+  sessions_[name] = {{std::move(player), recording}, std::chrono::steady_clock::now()};
   return name;
 }
 

@@ -33,6 +33,9 @@ class ReplaySessions {
   // session. kUnavailable: too many sessions.
   base::Result<std::string> Open(const std::string& path, const std::string& recording);
 
+  // The same for a player; `recording` may be empty: then viewers cannot open it again.
+  base::Result<std::string> Add(std::unique_ptr<ReplayPlayer> player, const std::string& recording);
+
   // The routes below /replays/{session}/: the API of a replay, and its live stream at ws. All need
   // the permission to watch only. The handlers are valid during the lifetime of this object.
   std::vector<Route> Routes();

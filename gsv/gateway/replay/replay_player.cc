@@ -58,19 +58,26 @@ base::Result<std::unique_ptr<ReplayPlayer>> ReplayPlayer::Open(const std::string
                                                                const ReplayOptions& options) {
   auto reader = recording::McapReader::Open(path);
   if (!reader) return base::Fail(reader.error());
-  if ((*reader)->summary().message_count == 0) {
+  return Open(*std::move(reader), path, options);
+}
+
+base::Result<std::unique_ptr<ReplayPlayer>> ReplayPlayer::Open(
+    std::unique_ptr<recording::McapReader> reader, const std::string& name,
+    const ReplayOptions& options, ModelSource models) {
+  if (reader->summary().message_count == 0) {
     return base::Fail(base::ErrorCode::kCorrupt, "cannot replay the recording: it has no messages",
-                      path);
+                      name);
   }
-  return std::unique_ptr<ReplayPlayer>(new ReplayPlayer(*std::move(reader), path, options));
+  return std::unique_ptr<ReplayPlayer>(
+      new ReplayPlayer(std::move(reader), name, options, std::move(models)));
 }
 
 ReplayPlayer::ReplayPlayer(std::unique_ptr<recording::McapReader> reader, const std::string& path,
-                           const ReplayOptions& options)
+                           const ReplayOptions& options, ModelSource models)
     : reader_(std::move(reader)),
       name_(NameOf(*reader_, path)),
-      scene_(*reader_),
-      timeline_(*reader_),
+      scene_(*reader_, std::move(models)),
+      timeline_(*reader_, scene_),
       curves_(*reader_, scene_),
       problems_(reader_->summary().problems),
       clock_(reader_->summary().start, reader_->summary().end, options.speed, options.loop),

@@ -28,6 +28,11 @@ class ReplayPlayer {
   // Opens a recording at its start. Fails if the file is not a recording or has no messages.
   static base::Result<std::unique_ptr<ReplayPlayer>> Open(const std::string& path,
                                                           const ReplayOptions& options);
+  // The same for a reader. `name`: the name of the simulation, unless the recording has it.
+  // `models`: see RecordedScene.
+  static base::Result<std::unique_ptr<ReplayPlayer>> Open(
+      std::unique_ptr<recording::McapReader> reader, const std::string& name,
+      const ReplayOptions& options, ModelSource models = nullptr);
   ~ReplayPlayer();
 
   const std::string& name() const { return name_; }  // The name of the recorded simulation.
@@ -67,7 +72,7 @@ class ReplayPlayer {
 
  private:
   ReplayPlayer(std::unique_ptr<recording::McapReader> reader, const std::string& path,
-               const ReplayOptions& options);
+               const ReplayOptions& options, ModelSource models);
 
   void ReadMetadata();
   template <typename Change>

@@ -28,9 +28,9 @@ inline std::string PathFor(const std::string& name) {
   return ::testing::TempDir() + "gsv_replay_" + std::to_string(getpid()) + "_" + name + ".mcap";
 }
 
-// A robot that drives from the origin at 0.5 m/s towards a wall, for two seconds.
-inline void RecordRun(const std::string& path) {
-  auto simulation = recording::MakeSimulation(std::chrono::seconds(2), recording::Drives(0.5));
+// A robot that drives from the origin at `speed`, in m/s, towards a wall, for two seconds.
+inline void RecordRun(const std::string& path, double speed = 0.5) {
+  auto simulation = recording::MakeSimulation(std::chrono::seconds(2), recording::Drives(speed));
   recording::RecorderOptions options;
   options.write_glb = &NameAsGlb;
   auto recorder = recording::SimulationRecorder::Start(simulation, path, options);

@@ -77,6 +77,7 @@ std::string SceneAttachments::IdentifyCollisions(const std::shared_ptr<const mod
 
 void SceneAttachments::AttachModel(const model::Model& model, const std::string& id,
                                    base::SimTime time) {
+  if (!write_glb_) return;
   const auto glb = write_glb_(model);
   if (!glb) {
     spdlog::warn("the recording will not contain the model {}: {}", model.name,

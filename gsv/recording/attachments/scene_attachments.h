@@ -25,7 +25,7 @@ using WriteGlb = std::function<base::Result<std::vector<std::uint8_t>>(const mod
 
 class SceneAttachments {
  public:
-  // `writer` must outlive this object.
+  // `writer` must outlive this object. If `write_glb` is empty, no models are attached.
   SceneAttachments(McapWriter& writer, std::shared_ptr<const sensing::SensorRegistry> types,
                    WriteGlb write_glb);
 

@@ -22,6 +22,11 @@ base::Result<std::unique_ptr<McapReader>> McapReader::Open(std::unique_ptr<ByteS
       new McapReader(std::move(source), limits, std::move(*summary)));
 }
 
+std::unique_ptr<McapReader> McapReader::Make(std::unique_ptr<ByteSource> source, Summary summary,
+                                             const Limits& limits) {
+  return std::unique_ptr<McapReader>(new McapReader(std::move(source), limits, std::move(summary)));
+}
+
 MessageCursor McapReader::Messages(base::SimTime from) const {
   return MessageCursor(*source_, summary_, limits_, from);
 }

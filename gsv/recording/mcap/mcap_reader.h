@@ -30,6 +30,9 @@ class McapReader {
                                                                       const Limits& limits = {});
   [[nodiscard]] static base::Result<std::unique_ptr<McapReader>> Open(
       std::unique_ptr<ByteSource> source, const Limits& limits = {});
+  // A reader of a source whose summary is known, and valid.
+  static std::unique_ptr<McapReader> Make(std::unique_ptr<ByteSource> source, Summary summary,
+                                          const Limits& limits = {});
 
   const Summary& summary() const { return summary_; }
   const Limits& limits() const { return limits_; }

@@ -94,6 +94,7 @@ std::shared_ptr<SensorRecorder::Sensor> SensorRecorder::Make(
     WarnOnce(sensor.error());
     return nullptr;
   }
+  if ((*sensor)->TakesLong() && !options_.slow_sensors) return nullptr;
   const double rate = (*sensor)->TakesLong() ? options_.rates.images : options_.rates.readings;
   return std::make_shared<Sensor>(Sensor{.robot = robot,
                                          .type = type,

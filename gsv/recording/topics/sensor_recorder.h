@@ -38,6 +38,7 @@ struct SensorRecorderOptions {
   Selection selection{};  // the selected topics
   // Encodes images that sensors encode as JPEG. If it is empty, they are recorded as JPEG.
   WritePng write_png{};
+  bool slow_sensors = true;  // whether to record sensors whose readings take long, such as cameras
 };
 
 class SensorRecorder {

@@ -1,11 +1,13 @@
 #include "gsv/recording/topics/state_topics.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "gsv/base/hash.h"
 #include "gsv/messages/time.h"
 #include "gsv/presentation/edit_message.h"
 #include "gsv/presentation/health_messages.h"
+#include "gsv/presentation/notes.h"
 
 namespace gsv::recording {
 
@@ -40,6 +42,7 @@ StateTopics::StateTopics(McapWriter& writer, double poses_rate, const Selection&
       events_(writer, selection, topics::kEvents),
       log_(writer, selection, topics::kLog),
       output_(writer, selection, topics::kOutput),
+      notes_(writer, selection, topics::kNotes),
       expectations_(writer, selection, topics::kExpectations),
       hash_(writer, selection, topics::kStateHash),
       writer_(writer) {}
@@ -138,13 +141,24 @@ void StateTopics::RecordExpectations(base::SimTime time,
   for (const auto& state : states) verdicts.push_back(state.verdict);
   const bool is_due = expectations_instants_.Pass(time);
   if (!expectations_.is_wanted() || states.empty() || (!is_due && verdicts == verdicts_)) return;
+  // A replay that stands at the instant of a verdict shows the verdict.
+  base::SimTime instant = time;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    using Verdict = simulation::ExpectationState::Verdict;
+    const Verdict before = i < verdicts_.size() ? verdicts_[i] : Verdict::kPending;
+    if (verdicts[i] != before) instant = std::min(instant, states[i].time);
+  }
   verdicts_ = std::move(verdicts);
-  expectations_.Write(time, presentation::ExpectationsMessage(time, states));
+  expectations_.Write(instant, presentation::ExpectationsMessage(instant, states));
 }
 
 void StateTopics::RecordEvent(const simulation::Event& event) {
   if (simulation::IsOutput(event)) {
     output_.Write(event.time, presentation::LogMessage(event));
+    return;
+  }
+  if (presentation::IsNote(event)) {
+    notes_.Write(presentation::TimeOfNote(event), presentation::NoteMessage(event));
     return;
   }
   events_.Write(event.time, presentation::EventMessage(event));

@@ -1,6 +1,6 @@
 // Records the topics of the simulation as a whole (docs/formats/messages.md). These are /clock,
 // /tf, /diagnostics, /rosout, and in /gsv: poses, commands, actuators, contacts, radio, status,
-// events and state_hash. The first edit adds the topic /gsv/edits even if it is not selected,
+// events, notes and state_hash. The first edit adds the topic /gsv/edits even if it is not selected,
 // because resimulation needs it.
 #pragma once
 
@@ -29,7 +29,7 @@ class StateTopics {
   void RecordNow(const world::Snapshot& snapshot);
 
   void RecordStatus(const simulation::SimulationStatus& status);
-  // Writes them at each change of a verdict and every second.
+  // Writes them at each change of a verdict, with the instant of the verdict, and every second.
   void RecordExpectations(base::SimTime time,
                           const std::vector<simulation::ExpectationState>& states);
   void RecordEvent(const simulation::Event& event);
@@ -67,6 +67,7 @@ class StateTopics {
   TopicWriter<messages::gsv_msgs::LifecycleEvent> events_;
   TopicWriter<messages::rcl_interfaces::Log> log_;
   TopicWriter<messages::rcl_interfaces::Log> output_;
+  TopicWriter<messages::gsv_msgs::LifecycleEvent> notes_;
   TopicWriter<messages::gsv_msgs::Expectations> expectations_;
   TopicWriter<messages::gsv_msgs::StateHash> hash_;
   std::optional<TopicWriter<messages::gsv_msgs::Edit>> edits_;

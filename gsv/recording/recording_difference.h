@@ -11,12 +11,12 @@
 #include "gsv/recording/mcap/mcap_reader.h"
 #include "gsv/recording/reading/decoded_messages.h"
 
-namespace gsv::app {
+namespace gsv::recording {
 
 struct RecordingDifference {
   // Lines of the attached scenarios that only one of them has, at most 20 each.
   std::vector<std::string> only_in_first, only_in_second;
-  std::optional<recording::Difference> messages;
+  std::optional<Difference> messages;
   std::string robot;  // or body, which the first different message is about; empty: unknown
 
   // At most 60 lines.
@@ -24,7 +24,8 @@ struct RecordingDifference {
   nlohmann::ordered_json Json() const;
 };
 
-base::Result<RecordingDifference> Compare(const recording::McapReader& first,
-                                          const recording::McapReader& second);
+// Reads both recordings up to the first difference.
+base::Result<RecordingDifference> CompareRecordings(const McapReader& first,
+                                                    const McapReader& second);
 
-}  // namespace gsv::app
+}  // namespace gsv::recording

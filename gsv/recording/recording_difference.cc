@@ -1,4 +1,4 @@
-#include "apps/gsv/running/recording_difference.h"
+#include "gsv/recording/recording_difference.h"
 
 #include <algorithm>
 #include <charconv>
@@ -8,10 +8,8 @@
 #include "gsv/recording/attachments/scenario_attachment.h"
 #include "gsv/recording/attachments/scene_attachments.h"
 
-namespace gsv::app {
+namespace gsv::recording {
 namespace {
-
-using recording::McapReader;
 
 constexpr std::size_t kMaxLines = 20;
 constexpr std::size_t kMaxValueLength = 300;
@@ -19,7 +17,7 @@ constexpr std::size_t kNumbersAPose = 7;  // of gsv_msgs/Poses
 
 // The content of the last attachment of that name up to `time`, else of the first; empty: none.
 std::string AttachmentOf(const McapReader& reader, std::string_view name, base::SimTime time) {
-  const recording::AttachmentIndexRecord* chosen = nullptr;
+  const AttachmentIndexRecord* chosen = nullptr;
   for (const auto& each : reader.summary().attachments) {
     if (each.name != name) continue;
     if (chosen == nullptr || each.log_time <= time) chosen = &each;
@@ -51,8 +49,8 @@ std::vector<std::string> Without(const std::vector<std::string>& lines,
 
 // The body of the number at `index` of a message with all poses.
 std::string BodyOfPose(const McapReader& reader, base::SimTime time, std::size_t index) {
-  const auto scene = nlohmann::json::parse(AttachmentOf(reader, recording::kSceneAttachment, time),
-                                           nullptr, false);
+  const auto scene =
+      nlohmann::json::parse(AttachmentOf(reader, kSceneAttachment, time), nullptr, false);
   if (!scene.is_object() || !scene.contains("poses") || !scene.contains("bodies")) return {};
   const auto& poses = scene["poses"];
   const std::size_t entry = index / kNumbersAPose;
@@ -89,7 +87,7 @@ std::string NameInMessage(const nlohmann::ordered_json& message, const std::stri
   return name.substr(0, name.find('/'));
 }
 
-std::string RobotOf(const McapReader& reader, const recording::Difference& difference) {
+std::string RobotOf(const McapReader& reader, const Difference& difference) {
   const std::string& topic = difference.topic;
   constexpr std::string_view kPoses = "poses.";
   if (topic == presentation::topics::kPoses.name && difference.field.starts_with(kPoses)) {
@@ -99,7 +97,7 @@ std::string RobotOf(const McapReader& reader, const recording::Difference& diffe
   if (presentation::FindTopic(topic) == nullptr) {  // a sensor's: /ROBOT/SENSOR
     return topic.substr(1, topic.find('/', 1) - 1);
   }
-  auto messages = recording::DecodedMessages::Open(reader, {{topic}, difference.time});
+  auto messages = DecodedMessages::Open(reader, {{topic}, difference.time});
   if (!messages) return {};
   const auto message = messages->Next();
   if (!message || !*message || (*message)->time != difference.time) return {};
@@ -112,16 +110,16 @@ std::string Shortened(const std::string& text) {
 
 }  // namespace
 
-base::Result<RecordingDifference> Compare(const McapReader& first, const McapReader& second) {
+base::Result<RecordingDifference> CompareRecordings(const McapReader& first,
+                                                    const McapReader& second) {
   RecordingDifference difference;
   const auto scenario_of = [](const McapReader& reader) {
-    return LinesOfText(
-        AttachmentOf(reader, recording::kScenarioAttachment, reader.summary().start));
+    return LinesOfText(AttachmentOf(reader, kScenarioAttachment, reader.summary().start));
   };
   const auto scenario_a = scenario_of(first), scenario_b = scenario_of(second);
   difference.only_in_first = Without(scenario_a, scenario_b);
   difference.only_in_second = Without(scenario_b, scenario_a);
-  const auto messages = recording::FirstDifference(first, second);
+  const auto messages = FirstDifference(first, second);
   if (!messages) return base::Fail(messages.error());
   difference.messages = *messages;
   if (difference.messages) difference.robot = RobotOf(first, *difference.messages);
@@ -138,7 +136,7 @@ std::string RecordingDifference::Text() const {
   if (!messages) {
     return text + (text.empty() ? "the recordings are equal\n" : "the messages are equal\n");
   }
-  recording::Difference shown = *messages;
+  Difference shown = *messages;
   shown.in_first = Shortened(shown.in_first);
   shown.in_second = Shortened(shown.in_second);
   return text + (robot.empty() ? "" : robot + ": ") + shown.Sentence() + "\n";
@@ -156,4 +154,4 @@ nlohmann::ordered_json RecordingDifference::Json() const {
   return json;
 }
 
-}  // namespace gsv::app
+}  // namespace gsv::recording

@@ -1,0 +1,54 @@
+// Keeps the last minutes of every simulation of this program (see RunHistory).
+//
+// Threads  any; its own thread samples the simulations.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "gsv/base/mutex.h"
+#include "gsv/gateway/program/ports.h"
+#include "gsv/recording/run_history.h"
+
+namespace gsv::gateway::history {
+
+class Histories {
+ public:
+  using SimulationPointer = std::shared_ptr<simulation::Simulation>;
+  using IsWatched = std::function<bool(const SimulationPointer&)>;
+
+  // `capacity`: bytes for each simulation. `is_watched` is called on the thread of this object.
+  Histories(std::shared_ptr<SimulationDirectory> directory, std::size_t capacity,
+            IsWatched is_watched);
+  ~Histories() { Stop(); }
+
+  // The history of a simulation, begun at the latest now.
+  std::shared_ptr<recording::RunHistory> Of(const SimulationPointer& simulation);
+
+  // Ends the thread.
+  void Stop();
+
+ private:
+  struct Entry {
+    std::weak_ptr<simulation::Simulation> simulation;
+    std::shared_ptr<recording::RunHistory> history;
+  };
+
+  void Run();
+  // Samples each simulation. True if one of them has viewers.
+  bool Round();
+
+  const std::shared_ptr<SimulationDirectory> directory_;
+  const std::size_t capacity_;
+  const IsWatched is_watched_;
+  base::Mutex mutex_;
+  base::ConditionVariable changed_;
+  std::vector<Entry> entries_ GSV_GUARDED_BY(mutex_);
+  bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
+  std::thread thread_;
+};
+
+}  // namespace gsv::gateway::history

@@ -1,0 +1,46 @@
+// The part of the HTTP API about the past of running simulations: what is kept, a replay of it, the
+// events so far, and notes of viewers.
+//
+// Threads  any.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gsv/gateway/api/model_store.h"
+#include "gsv/gateway/history/histories.h"
+#include "gsv/gateway/http/route.h"
+#include "gsv/gateway/recordings/replay_sessions.h"
+
+namespace gsv::gateway::history {
+
+class HistoryApi {
+ public:
+  // The pointers may be null together: then no history is kept, and only the events and notes are
+  // served. All must outlive this.
+  HistoryApi(std::shared_ptr<SimulationDirectory> directory, Histories* histories,
+             recordings::ReplaySessions* sessions, ModelStore& models)
+      : directory_(std::move(directory)),
+        histories_(histories),
+        sessions_(sessions),
+        models_(models) {}
+
+  // The handlers are valid during the lifetime of this object.
+  std::vector<Route> Routes();
+
+ private:
+  using SimulationPointer = Histories::SimulationPointer;
+
+  Response Extent(const SimulationPointer& simulation);
+  Response Open(const SimulationPointer& simulation);
+  Response Events(const SimulationPointer& simulation, const Request& request);
+  Response AddNote(const SimulationPointer& simulation, const std::string& body);
+
+  const std::shared_ptr<SimulationDirectory> directory_;
+  Histories* const histories_;
+  recordings::ReplaySessions* const sessions_;
+  ModelStore& models_;
+};
+
+}  // namespace gsv::gateway::history

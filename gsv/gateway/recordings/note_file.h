@@ -1,0 +1,45 @@
+// The notes of a recording, in a file beside it: RECORDING.mcap.notes.json
+// (docs/formats/notes.md).
+//
+// Input   an untrusted file.
+// Errors  kCorrupt if the file is not valid, kUnavailable if it cannot be written.
+// Threads any; calls for one file must not overlap.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gsv/base/error.h"
+
+namespace gsv::gateway::recordings {
+
+inline constexpr std::size_t kMaxNotes = 1000;
+
+struct Note {
+  std::int64_t id = 0;  // > 0, unique in the file
+  double time_s = 0;    // simulated
+  std::string text;
+  std::string created;  // RFC 3339, UTC
+};
+
+class NoteFile {
+ public:
+  // `recording`: the path of the MCAP file.
+  explicit NoteFile(const std::string& recording) : path_(recording + ".notes.json") {}
+
+  // The notes by time; empty if there is no file.
+  base::Result<std::vector<Note>> Read() const;
+  // Adds a note and returns its identifier. kInvalidArgument: there are kMaxNotes already.
+  base::Result<std::int64_t> Add(double time_s, const std::string& text,
+                                 const std::string& created) const;
+  // Removes a note. kNotFound: there is none with this identifier.
+  base::Status Remove(std::int64_t id) const;
+
+ private:
+  base::Status Write(const std::vector<Note>& notes) const;
+
+  const std::string path_;
+};
+
+}  // namespace gsv::gateway::recordings

@@ -1,0 +1,29 @@
+// Notes of viewers on instants of a run.
+//
+// A note is an event of the simulation, of the kind kNoteEvent, whose detail has the instant and
+// the text. It is published and recorded on /gsv/notes, apart from the other events, because it is
+// not part of the run.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "gsv/messages/gsv_msgs.h"
+#include "gsv/simulation/types.h"
+
+namespace gsv::presentation {
+
+inline constexpr std::string_view kNoteEvent = "note";
+
+inline bool IsNote(const simulation::Event& event) { return event.kind == kNoteEvent; }
+
+// The detail of a note on the instant `time`: "at 12.5 s: TEXT".
+std::string NoteDetail(base::SimTime time, std::string_view text);
+
+// The instant that the note is on: the one of NoteDetail(), or else the time of the event.
+base::SimTime TimeOfNote(const simulation::Event& event);
+
+// The note as a message, stamped with its instant; `detail` is the text alone.
+messages::gsv_msgs::LifecycleEvent NoteMessage(const simulation::Event& event);
+
+}  // namespace gsv::presentation

@@ -1,0 +1,78 @@
+// The newest part of a recording, in memory: an output for McapWriter whose oldest chunks are
+// dropped when all records together exceed a size.
+//
+// Kept     schemas, channels and metadata always; chunks, the newest ones; of the attachments with
+//          one name those that a kept chunk may need, and the newest.
+// Threads  any.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "gsv/base/mutex.h"
+#include "gsv/recording/mcap/mcap_reader.h"
+
+namespace gsv::recording {
+
+class ChunkRing : public std::enable_shared_from_this<ChunkRing> {
+ public:
+  // `capacity`: bytes of all records, as they are stored (compressed). The newest chunk is kept
+  // whatever its size.
+  explicit ChunkRing(std::size_t capacity) : capacity_(capacity) {}
+
+  // The output for one McapWriter. It keeps the ring alive.
+  std::unique_ptr<ByteSink> MakeSink();
+
+  struct Extent {
+    base::SimTime start{}, end{};  // of the kept messages
+    std::size_t bytes = 0;
+    std::uint64_t messages = 0;  // that were written so far, dropped ones included
+  };
+  Extent extent() const;
+
+  // A reader of what is kept now, which later writes do not change. kNotFound: there are no
+  // messages yet.
+  [[nodiscard]] base::Result<std::unique_ptr<McapReader>> Open() const;
+
+ private:
+  class Sink;
+  class Source;
+  using Stored = std::shared_ptr<const Bytes>;
+  // The bytes of one write: whole records.
+  struct Piece {
+    std::uint64_t offset = 0;
+    Stored bytes;
+  };
+  struct Chunk {
+    Piece piece;
+    MessageBlock block;
+    std::map<std::uint16_t, std::uint64_t> counts;  // number of messages by channel
+  };
+  struct Attached {
+    Piece piece;
+    AttachmentIndexRecord index;
+  };
+
+  void Write(std::span<const std::byte> bytes);
+  void AddRecord(const RawRecord& record, const Piece& piece) GSV_REQUIRES(mutex_);
+  void AddChunk(const ChunkRecord& chunk, std::span<const std::byte> indexes, const Piece& piece)
+      GSV_REQUIRES(mutex_);
+  void Shrink() GSV_REQUIRES(mutex_);
+  // Drops the attachments that another one of the same name replaces before the first chunk.
+  void DropReplaced() GSV_REQUIRES(mutex_);
+
+  const std::size_t capacity_;
+  mutable base::Mutex mutex_;
+  std::uint64_t offset_ GSV_GUARDED_BY(mutex_) = 0;  // of the next write
+  std::size_t size_ GSV_GUARDED_BY(mutex_) = 0;      // bytes of all pieces that are kept
+  std::uint64_t messages_ GSV_GUARDED_BY(mutex_) = 0;
+  std::deque<Chunk> chunks_ GSV_GUARDED_BY(mutex_);
+  std::vector<Attached> attachments_ GSV_GUARDED_BY(mutex_);
+  std::vector<std::pair<Piece, MetadataIndexRecord>> metadata_ GSV_GUARDED_BY(mutex_);
+  std::map<std::uint16_t, SchemaRecord> schemas_ GSV_GUARDED_BY(mutex_);
+  Channels channels_ GSV_GUARDED_BY(mutex_);
+};
+
+}  // namespace gsv::recording

@@ -1,0 +1,73 @@
+// The last minutes of a running simulation, in memory, readable as a recording.
+//
+// A thread of the owner samples the simulation at rates of wall-clock time, so that a fast run costs
+// no more than a slow one. Sampling takes at most a twentieth of that thread's time while the
+// simulation is watched, and a fiftieth while it is not. The stepping thread only notes the events
+// and the collisions of each step.
+//
+// Records      events, log, output, notes, commands and collisions always; poses and status at a low
+//              rate while nobody watches. While it is watched: poses and status at a higher rate,
+//              health, readings of sensors (without images) and beams.
+// One run      a reset of the simulation starts a new history.
+// Threads      Round() from one thread; the others from any.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gsv/base/mutex.h"
+#include "gsv/recording/mcap/chunk_ring.h"
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::recording {
+
+// A robot has met another body.
+struct Collision {
+  base::SimTime time{};
+  std::string robot, other;
+};
+
+class RunHistory {
+ public:
+  using WallTime = std::chrono::steady_clock::time_point;
+
+  // Rates of poses, in Hz of wall-clock time.
+  static constexpr double kWatchedRate = 20;
+  static constexpr double kUnwatchedRate = 4;
+
+  // `capacity`: see ChunkRing.
+  RunHistory(const std::shared_ptr<simulation::Simulation>& simulation, std::size_t capacity);
+  ~RunHistory();
+
+  // Takes what is due.
+  void Round(WallTime now, bool is_watched);
+
+  std::size_t capacity() const { return capacity_; }
+  ChunkRing::Extent extent() const;
+  // The newest collisions of the run, by time; at most 500.
+  std::vector<Collision> collisions() const;
+
+  // A reader of what is kept now. Waits for messages that are on their way, at most half a second.
+  // kNotFound: there are none yet.
+  [[nodiscard]] base::Result<std::unique_ptr<McapReader>> Open() const;
+
+ private:
+  class Inbox;
+  class Run;
+
+  std::shared_ptr<Run> run() const;
+  void KeepCollisions(const std::vector<Collision>& collisions, bool is_new_run);
+
+  const std::weak_ptr<simulation::Simulation> simulation_;
+  const std::size_t capacity_;
+  const std::shared_ptr<Inbox> inbox_;
+
+  mutable base::Mutex mutex_;
+  std::shared_ptr<Run> run_ GSV_GUARDED_BY(mutex_);  // null before the first round
+  std::deque<Collision> collisions_ GSV_GUARDED_BY(mutex_);
+};
+
+}  // namespace gsv::recording
