@@ -100,9 +100,10 @@ test("the page says that the canvas is lost, and the picture comes back", async 
   await show("Names", true);
 });
 
-test("what runs has buttons, and no timeline", async () => {
+test("what runs has buttons, and a timeline of what the server keeps of it", async () => {
   await page.getByRole("button", { name: "Step", exact: true }).waitFor();
-  assert.equal(await page.getByRole("slider").count(), 0);
+  await page.getByRole("slider", { name: "Time in the run" }).waitFor();
+  assert.equal(await page.getByRole("group", { name: "Playback" }).count(), 0);
 });
 
 test("every control has a name", async () => {

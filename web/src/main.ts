@@ -222,6 +222,14 @@ function connectWorld(world: World3D): void {
     ({ expectations }) => expectations,
     (expectations) => world.setExpectations(expectations),
   );
+  store.watch(
+    ({ comparison }) => comparison?.scene ?? null,
+    (scene) => {
+      const models = new ModelLibrary((id) => app.compare.modelUrl(id), () => credentials.headers);
+      world.setGhosts(scene, models);
+    },
+  );
+  app.compare.onPoses = ({ layoutVersion, poses }) => world.setGhostPoses(layoutVersion, poses);
   new OverlayFeed(store, session, world).start();
 }
 
@@ -314,6 +322,9 @@ listenForKeys(app);
 new AvatarSteering(avatarToDrive, drive, () => store.get().singleKeys).listen(window);
 exposeForTests(store, () => world, () => session.readTopics);
 app.records.start();
+app.past.start();
+app.notes.start();
+app.compare.start();
 app.link.start(window);
 // A replay of one's own is nobody else's to watch or to move.
 if (!parameters.has("recording")) app.people.start(window);

@@ -23,6 +23,8 @@ export interface PageHandle {
   readonly robots: string[];
   // Where the robot was last reported, in metres, and at which simulated second; null while unknown.
   robotPosition(name: string): { x: number; y: number; z: number; time: number } | null;
+  // Where the robot of the recording that is compared with is drawn, in metres; null: it is not.
+  ghostPosition(name: string): { x: number; y: number } | null;
   // Where the robot's middle is drawn, in CSS pixels of the page; null outside of the picture.
   robotScreenPosition(name: string): { x: number; y: number } | null;
   // Where the tip of the arrow is drawn by which the selected robot is turned; null while hidden.
@@ -68,6 +70,10 @@ export function exposeForTests(store: Store<State>, world: () => World3D | null,
       if (!latest) return null;
       const [x, y, z] = latest.pose.elements.slice(12) as [number, number, number];
       return { x, y, z, time: latest.stamp };
+    },
+    ghostPosition: (name) => {
+      const place = world()?.ghostPlace(name);
+      return place ? { x: place[0], y: place[1] } : null;
     },
     robotScreenPosition: (name) => world()?.screenPosition(name) ?? null,
     turnHandle: () => world()?.turnHandle() ?? null,

@@ -1,5 +1,5 @@
 // What the page asks of a simulation, and tells it.
-import { JsonServer, simulationPath } from "./JsonServer";
+import { ApiError, JsonServer, simulationPath } from "./JsonServer";
 import { SetUpApi } from "./SetUpApi";
 import { Credentials } from "./credentials";
 import { MetricsApi } from "./MetricsApi";
@@ -12,6 +12,8 @@ import type { OutputLine } from "./health";
 import { parseOutput } from "./health";
 import type { BodyJoints, JointCommandKind } from "./joints";
 import { parseJoints } from "./joints";
+import type { Difference, Kept, RecordingNote } from "./history";
+import { parseDifference, parseKept, parseNotes } from "./history";
 import type { Recording } from "./recording";
 import { parseRecording } from "./recording";
 import type { RecordedEvent, RecordedLine, Replay } from "./replay";
@@ -22,7 +24,7 @@ import type { SimulationStatus, SimulationSummary } from "./status";
 import { parseStatus, parseSummaries } from "./status";
 import { objectAt, textAt } from "./json";
 
-export { ApiError } from "./JsonServer";
+export { ApiError };
 
 export type Action = "start" | "pause" | "resume" | "stop" | "reset" | "step";
 
@@ -34,20 +36,24 @@ export interface Drive {
 
 // Stopping and resetting wait for the behaviours.
 const ACTION_TIMEOUT_MS = 60_000;
+// Both recordings are read.
+const DIFFERENCE_TIMEOUT_MS = 120_000;
 
 export class SimulationApi {
   readonly setUp: SetUpApi;
   private readonly server: JsonServer;
+  private readonly root: JsonServer; // never moved to a replay
 
   readonly viewers: ViewersApi;
   readonly metrics: MetricsApi;
 
   constructor(
-    base: string,
-    fetchPage?: typeof fetch,
+    private readonly base: string,
+    private readonly fetchPage?: typeof fetch,
     private readonly credentials = new Credentials(),
   ) {
     this.server = new JsonServer(base, fetchPage);
+    this.root = new JsonServer(base, fetchPage);
     this.setUp = new SetUpApi(this.server);
     this.metrics = new MetricsApi(base, fetchPage ?? ((input, init) => fetch(input, init)));
     this.viewers = new ViewersApi(new JsonServer(base, fetchPage), credentials);
@@ -59,6 +65,68 @@ export class SimulationApi {
     const path = `api/recordings/${encodeURIComponent(recording)}/replay`;
     const answer = objectAt(await this.server.post(path, {}, ACTION_TIMEOUT_MS), "replay");
     this.server.moveTo(textAt(answer.base, "replay.base"));
+  }
+
+  // The same server, to ask of another replay than this page's.
+  another(): SimulationApi {
+    return new SimulationApi(this.base, this.fetchPage, this.credentials);
+  }
+
+  get rootServer(): JsonServer {
+    return this.root;
+  }
+
+  // What the server keeps of a running simulation's past; null: nothing.
+  async kept(name: string): Promise<Kept | null> {
+    try {
+      return parseKept(await this.root.get(`${simulationPath(name)}/history`));
+    } catch (error) {
+      if (error instanceof ApiError && error.httpStatus === 404) return null;
+      throw error;
+    }
+  }
+
+  // Opens the kept past for this page alone: all that is asked from now on concerns this replay, until
+  // leavePast().
+  async openPast(name: string): Promise<void> {
+    const answer = objectAt(await this.root.post(`${simulationPath(name)}/history`, {}), "history");
+    this.server.moveTo(textAt(answer.base, "history.base"));
+  }
+
+  leavePast(): void {
+    this.server.moveTo("");
+  }
+
+  // How a replay plays.
+  async replay(name: string): Promise<Replay> {
+    return parseReplay(await this.server.get(`${simulationPath(name)}/replay`));
+  }
+
+  // Of a running simulation: what happened, or was noted, from that instant on.
+  async eventsFrom(name: string, from: number): Promise<RecordedEvent[]> {
+    return parseEvents(await this.root.get(`${simulationPath(name)}/events?from_s=${from}`));
+  }
+
+  // A note on an instant of a running simulation, for all viewers.
+  async addNote(name: string, time: number, text: string, author: string): Promise<void> {
+    await this.root.post(`${simulationPath(name)}/notes`, { text, time_s: time, ...(author && { author }) });
+  }
+
+  async notesOf(recording: string): Promise<RecordingNote[]> {
+    return parseNotes(await this.root.get(notesPath(recording)));
+  }
+
+  async addNoteTo(recording: string, time: number, text: string, author: string): Promise<void> {
+    await this.root.post(notesPath(recording), { text, time_s: time, ...(author && { author }) });
+  }
+
+  async removeNote(recording: string, id: number): Promise<void> {
+    await this.root.delete(`${notesPath(recording)}/${id}`);
+  }
+
+  async difference(recording: string, other: string): Promise<Difference> {
+    const path = `api/recordings/${encodeURIComponent(recording)}/difference?with=${encodeURIComponent(other)}`;
+    return parseDifference(await this.root.get(path, DIFFERENCE_TIMEOUT_MS));
   }
 
   // What is asked from now on shows this token.
@@ -175,4 +243,8 @@ export class SimulationApi {
     url.search = query.map(([key, value]) => `${key}=${encodeURIComponent(value)}`).join("&");
     return url.href;
   }
+}
+
+function notesPath(recording: string): string {
+  return `api/recordings/${encodeURIComponent(recording)}/notes`;
 }

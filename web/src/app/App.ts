@@ -28,7 +28,10 @@ import { EditControl } from "./EditControl";
 import { Filming } from "./Filming";
 import { LayoutControl } from "./LayoutControl";
 import { LinkControl } from "./LinkControl";
+import { CompareControl } from "./CompareControl";
+import { NotesControl } from "./NotesControl";
 import { dismiss, notify } from "./notices";
+import { PastControl } from "./PastControl";
 import { PanelControl } from "./PanelControl";
 import { PeopleControl } from "./PeopleControl";
 import { RecordControl } from "./RecordControl";
@@ -43,6 +46,9 @@ const TOPICS_PANEL = "topics";
 
 export class App {
   readonly replay: ReplayControl;
+  readonly past: PastControl;
+  readonly notes: NotesControl;
+  readonly compare: CompareControl;
   readonly link: LinkControl;
   readonly setUp: SetUpControl;
   readonly edits: EditControl;
@@ -59,10 +65,13 @@ export class App {
     private readonly world: () => World3D | null, // null: the browser cannot draw in 3D, or not yet
   ) {
     this.replay = new ReplayControl(store, api, (action) => this.act(action));
+    this.past = new PastControl(store, api, session, this.replay);
+    this.notes = new NotesControl(store, api);
+    this.compare = new CompareControl(store, api);
     const linked = {
       select: (robot: string) => this.select(robot),
       pause: () => this.act("pause"),
-      seek: (time: number) => this.replay.seek(time),
+      seek: (time: number) => this.past.lookAt(time),
     };
     this.layouts = new LayoutControl(store, browserStorage(), new Set([VIEW, EDIT_PANEL, ...PANELS.map(({ id }) => id)]));
     this.link = new LinkControl(store, linked, world, this.layouts);

@@ -92,3 +92,18 @@ test("of several simulations the link names its own", () => {
     "?quality=high&simulation=house",
   );
 });
+
+test("a link to the past of a run goes there if it is still kept", () => {
+  location.hash = "#t=12.5";
+  const { store } = page({ time: 30 });
+  const sought = vi.fn(async () => {});
+  const linked = new LinkControl(store, { select: () => {}, pause: async () => {}, seek: sought }, () => null);
+  linked.start(window);
+  expect(sought).not.toHaveBeenCalled();
+  store.set({ kept: { start: 4, end: 29 } });
+  expect(sought).toHaveBeenCalledWith(12.5);
+  location.hash = "#t=2";
+  const later = vi.fn(async () => {});
+  new LinkControl(store, { select: () => {}, pause: async () => {}, seek: later }, () => null).start(window);
+  expect(later).not.toHaveBeenCalled(); // what was then is gone
+});

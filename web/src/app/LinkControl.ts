@@ -12,7 +12,7 @@ export interface Place {
 export interface LinkedPage {
   select(robot: string): void;
   pause(): Promise<void>;
-  seek(time: number): Promise<void>; // s, simulated: of a recording
+  seek(time: number): Promise<void>; // s, simulated: of a recording, or of the past of a run
 }
 
 export interface LinkedLayouts {
@@ -48,7 +48,7 @@ export class LinkControl {
       () => this.show(),
     );
     this.store.watch(
-      ({ replay }) => replay !== null,
+      ({ replay, kept }) => replay !== null || kept !== null,
       () => void this.goToInstant(),
     );
     read();
@@ -83,11 +83,13 @@ export class LinkControl {
 
   // The page may learn only later that it shows a recording. Going to an instant pauses the replay.
   private async goToInstant(): Promise<void> {
-    const { replay, status } = this.store.get();
+    const { replay, kept, status } = this.store.get();
     const time = this.instant;
-    if (!replay || time === null) return;
+    if (time === null || (!replay && !kept)) return;
     this.instant = null;
-    if (status?.phase === "running") await this.page.pause();
+    // What is no longer kept of a run, or has not come yet, is not looked at.
+    if (!replay && kept && (time < kept.start || time > kept.end)) return;
+    if (replay && status?.phase === "running") await this.page.pause();
     await this.page.seek(time);
   }
 }

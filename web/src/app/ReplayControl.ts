@@ -6,7 +6,7 @@ import type { Action, SimulationApi } from "../api/SimulationApi";
 import type { Replay } from "../api/replay";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
-import { markBeside, marksOf } from "../state/timeline";
+import { allMarks, markBeside } from "../state/timeline";
 import { notify } from "./notices";
 
 export const SPEEDS: readonly number[] = [0.1, 0.25, 0.5, 1, 2, 5, 10];
@@ -67,8 +67,8 @@ export class ReplayControl {
 
   // To the next event, or the last one.
   toEvent(direction: 1 | -1): void {
-    const { replay, events, time, wishedTime } = this.store.get();
-    const there = replay && markBeside(marksOf(events, replay), wishedTime ?? time, direction);
+    const { replay, time, wishedTime } = this.store.get();
+    const there = replay && markBeside(allMarks(this.store.get()), wishedTime ?? time, direction);
     if (there !== null) void this.seek(there);
   }
 

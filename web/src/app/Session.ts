@@ -38,7 +38,10 @@ const NOTHING_WATCHED: Partial<State> = {
   status: null,
   time: 0,
   replay: null,
+  kept: null,
+  inPast: false,
   events: [],
+  notes: [],
   health: null,
   endSeen: false,
   expectations: [],
@@ -80,6 +83,7 @@ export class Session implements TopicSource {
   private hasOpened = false; // the recording that is wanted
   private instant: number | null = null; // s, simulated: where a replay is to go on
   private newsSince = Infinity; // s, simulated
+  private isSwitching = false; // between a run and its past: nothing is lost meanwhile
   private readonly wishes: TopicWishes;
 
   constructor(
@@ -113,6 +117,38 @@ export class Session implements TopicSource {
     this.connect(name);
     // The list needs neither the stream nor the scene, which take long to come for a crowd.
     if (this.instant === null) void this.fetchStatus(name);
+  }
+
+  // Shows the past of the simulation that the server keeps, as a replay for this page alone. What the page
+  // shows stays until the replay shows something else.
+  async enterPast(): Promise<void> {
+    const { simulation, inPast } = this.store.get();
+    if (simulation === null || inPast) return;
+    await this.api.openPast(simulation);
+    try {
+      const replay = await this.api.replay(simulation);
+      if (this.store.get().simulation !== simulation) throw new Error("Another simulation was opened meanwhile.");
+      this.switchStream(simulation, { inPast: true, replay, events: [] });
+    } catch (error) {
+      this.api.leavePast();
+      throw error;
+    }
+  }
+
+  // Returns to the running simulation.
+  goLive(): void {
+    const { simulation, inPast } = this.store.get();
+    if (simulation === null || !inPast) return;
+    this.api.leavePast();
+    this.switchStream(simulation, { inPast: false, replay: null, wishedTime: null, events: [] });
+  }
+
+  private switchStream(simulation: string, change: Partial<State>): void {
+    this.leave();
+    this.wasOpen = false;
+    this.isSwitching = true;
+    this.store.set(change);
+    this.connect(simulation);
   }
 
   // One that was created just now.
@@ -234,6 +270,8 @@ export class Session implements TopicSource {
   private connect(name: string): void {
     const client = this.makeClient(this.api.socketUrl(name), {
       onConnection: (connection) => {
+        if (this.isSwitching && connection.phase === "connecting") return;
+        this.isSwitching = false;
         this.store.set({ connection });
         if (connection.phase === "open") void this.opened(name);
         else if (connection.phase === "waiting") void this.checkStillThere(name);
@@ -287,6 +325,10 @@ export class Session implements TopicSource {
     } catch (error) {
       if (!(error instanceof ApiError && error.httpStatus === 404)) return;
       if (this.store.get().simulation !== name) return;
+      if (this.store.get().inPast) {
+        notify(this.store, "note", "The past is no longer open. This is the running simulation.");
+        return this.goLive();
+      }
       this.leave();
       // A replay of one's own ended with its server; another one goes on where it stood.
       this.instant = this.store.get().replay && this.hasOpened ? this.store.get().time : null;

@@ -16,6 +16,8 @@ export function panelPorts(app: App, api: SimulationApi): PanelPorts {
       log: (simulation) => api.log(simulation),
       output: (simulation, robot) => api.output(simulation, robot),
       curve: (simulation, of, most) => api.curve(simulation, of, most),
+      pastCurve: (simulation, of, most) => app.past.curve(simulation, of, most),
+      comparedCurve: (of, most) => app.compare.curve(of, most),
     },
     commands: {
       list: (simulation) => api.commands(simulation),

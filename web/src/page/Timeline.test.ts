@@ -15,7 +15,7 @@ function timeline(state: Partial<State> = {}) {
   return { app, store, bar, named, slider: bar.querySelector<HTMLInputElement>("input")! };
 }
 
-test("it is there for recordings only, and takes the buttons' place", () => {
+test("for a recording it takes the buttons' place", () => {
   const { app, store } = testApp({ status: simulationStatus("running") });
   const bar = createTimeline(app);
   const run = createToolbar(app, () => {}).querySelector<HTMLElement>(".toolbar-transport")!;
@@ -149,4 +149,69 @@ test("a typed time is gone to by Enter; what is no time is marked", () => {
   enter("1:05.5");
   expect(field.getAttribute("aria-invalid")).toBe("false");
   expect(seek).toHaveBeenCalledWith(65.5);
+});
+
+test("below a run it spans what is kept, says live, and goes back where it is drawn to", async () => {
+  const { app, store } = testApp({ status: simulationStatus("running"), time: 42 });
+  const bar = createTimeline(app);
+  expect(bar.hidden).toBe(true);
+  store.set({ kept: { start: 12, end: 41 } });
+  expect(bar.hidden).toBe(false);
+  const slider = bar.querySelector<HTMLInputElement>(".timeline-slider")!;
+  expect([slider.min, slider.max, slider.value]).toEqual(["12", "42", "42"]);
+  expect(slider.getAttribute("aria-label")).toBe("Time in the run");
+  expect(bar.querySelector(".timeline-times")!.textContent).toBe("0:42.00 live");
+  expect(bar.querySelector<HTMLElement>(".timeline-transport")!.hidden).toBe(true);
+  expect(bar.querySelector<HTMLElement>(".live")!.hidden).toBe(true);
+  const lookAt = vi.spyOn(app.past, "lookAt").mockResolvedValue();
+  slider.value = "30";
+  slider.dispatchEvent(new Event("input"));
+  expect(lookAt).toHaveBeenCalledWith(30);
+});
+
+test("in the past of a run a press on Live returns", () => {
+  const { app, bar } = timeline({ inPast: true, kept: { start: 0, end: 80 } });
+  const goLive = vi.spyOn(app.past, "goLive").mockImplementation(() => {});
+  const live = bar.querySelector<HTMLButtonElement>(".live")!;
+  expect(live.hidden).toBe(false);
+  live.click();
+  expect(goLive).toHaveBeenCalledOnce();
+  expect(bar.querySelector(".timeline-times")!.textContent).toContain("of the run");
+});
+
+test("notes are listed, gone to and removed; a new one is of the shown time", async () => {
+  const note = { id: 7, time: 12, text: "<b>slow</b>" };
+  const { app, bar } = timeline({
+    notes: [note],
+    time: 20,
+    abilities: { creates: false, records: false, recordings: true, recording: "run.mcap" },
+  });
+  const list = bar.querySelector(".note-list")!;
+  expect(list.textContent).toContain("0:12.00<b>slow</b>");
+  const lookAt = vi.spyOn(app.past, "lookAt").mockResolvedValue();
+  list.querySelector<HTMLButtonElement>('[title="Go to this time"]')!.click();
+  expect(lookAt).toHaveBeenCalledWith(12);
+  const remove = vi.spyOn(app.notes, "remove").mockResolvedValue(true);
+  list.querySelector<HTMLButtonElement>('[aria-label="Remove the note at 0:12.00"]')!.click();
+  expect(remove).toHaveBeenCalledWith(7);
+  const add = vi.spyOn(app.notes, "add").mockResolvedValue(true);
+  const form = bar.querySelector<HTMLFormElement>(".note-form")!;
+  expect(form.querySelector("button")!.textContent).toBe("Add at 0:20.00");
+  form.querySelector("input")!.value = "  look  ";
+  form.dispatchEvent(new Event("submit", { cancelable: true }));
+  expect(add).toHaveBeenCalledWith("look");
+});
+
+test("the menu says where two recordings differ, and goes there", () => {
+  const difference = { isEqual: false, time: 3.2, text: "pebble: at 3.2 s /gsv/poses differs\n" };
+  const { app, bar } = timeline({
+    abilities: { creates: false, records: false, recordings: true, recording: "run.mcap" },
+    comparison: { recording: "old.mcap", simulation: "x", scene: null, difference, problem: "" },
+  });
+  expect(bar.querySelector(".compare-verdict")!.textContent).toBe(
+    "old.mcap first differs at 0:03.20:\npebble: at 3.2 s /gsv/poses differs",
+  );
+  const lookAt = vi.spyOn(app.past, "lookAt").mockResolvedValue();
+  [...bar.querySelectorAll("button")].find(({ textContent }) => textContent === "Go to the first difference")!.click();
+  expect(lookAt).toHaveBeenCalledWith(3.2);
 });

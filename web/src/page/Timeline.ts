@@ -1,108 +1,66 @@
-// The bar below a recording: where it stands, to be dragged; its events; how it plays. Live
-// simulations have none.
+// The bar of time below a recording, and below a run whose past is kept: where it stands, to be dragged; what
+// happened; how a recording plays; notes; what it is compared with.
 import type { App } from "../app/App";
 import { SPEEDS } from "../app/ReplayControl";
-import type { State } from "../state/State";
 import { shallowEqual } from "../state/Store";
-import type { Mark } from "../state/timeline";
-import { marksOf } from "../state/timeline";
+import { spanOf } from "../state/timeline";
 import { element, setText } from "../ui/element";
 import { formatTime, parseTime } from "../ui/format";
 import type { IconName } from "../ui/icons";
 import { icon, setIcon } from "../ui/icons";
+import { createCompareMenu } from "./CompareMenu";
+import { createNotesMenu } from "./NotesMenu";
+import { createTimelineTrack, shownTime } from "./TimelineTrack";
 
 export function createTimeline(app: App): HTMLElement {
+  const transport = element(
+    "div",
+    { class: "timeline-transport", role: "group", "aria-label": "Playback" },
+    button(app, "toStart", "Go to the start", "Home", () => app.replay.toStart()),
+    button(app, "stepBack", "Previous pose", "ArrowLeft", () => app.replay.step(-1)),
+    playButton(app),
+    button(app, "stepOn", "Next pose", "ArrowRight", () => app.replay.step(1)),
+    button(app, "toEnd", "Go to the end", "End", () => app.replay.toEnd()),
+  );
+  const pace = element("div", { class: "timeline-pace" }, speedChoice(app), loopButton(app));
   const bar = element(
     "section",
-    { class: "timeline", "aria-label": "Recording" },
-    element("div", { class: "timeline-track" }, slider(app), marks(app)),
+    { class: "timeline" },
+    createTimelineTrack(app),
     element(
       "div",
       { class: "timeline-controls" },
-      element(
-        "div",
-        { class: "timeline-transport", role: "group", "aria-label": "Playback" },
-        button(app, "toStart", "Go to the start", "Home", () => app.replay.toStart()),
-        button(app, "stepBack", "Previous pose", "ArrowLeft", () => app.replay.step(-1)),
-        playButton(app),
-        button(app, "stepOn", "Next pose", "ArrowRight", () => app.replay.step(1)),
-        button(app, "toEnd", "Go to the end", "End", () => app.replay.toEnd()),
-      ),
+      transport,
+      liveButton(app),
       times(app),
-      element("div", { class: "timeline-pace" }, speedChoice(app), loopButton(app)),
+      createNotesMenu(app),
+      createCompareMenu(app),
+      pace,
     ),
   );
   app.store.watch(
-    ({ replay }) => replay !== null,
-    (isReplay) => (bar.hidden = !isReplay),
+    ({ replay, kept, time, setUp }) => ({ isThere: setUp === null && spanOf(replay, kept, time) !== null, isReplay: replay !== null }),
+    ({ isThere, isReplay }) => {
+      bar.hidden = !isThere;
+      bar.setAttribute("aria-label", isReplay ? "Recording" : "Timeline");
+      transport.hidden = pace.hidden = !isReplay;
+    },
+    shallowEqual,
   );
   return bar;
 }
 
-// Where it will be as soon as the server has answered.
-function shownTime({ time, wishedTime }: State): number {
-  return wishedTime ?? time;
-}
-
-// A browser's own slider: it knows pointers, touch and keys, and tells assistive technology.
-function slider(app: App): HTMLElement {
-  const input = element("input", {
-    type: "range",
-    class: "timeline-slider",
-    step: "any",
-    "aria-label": "Time in the recording",
-  });
-  let isHeld = false;
-  const hold = (held: boolean) => () => (isHeld = held);
-  input.addEventListener("pointerdown", hold(true));
-  for (const end of ["pointerup", "pointercancel", "change"]) input.addEventListener(end, hold(false));
-  input.addEventListener("input", () => void app.replay.seek(Number(input.value)));
-  app.store.watch(
-    (state) => ({ replay: state.replay, time: shownTime(state) }),
-    ({ replay, time }) => {
-      if (!replay) return;
-      input.min = String(replay.start);
-      input.max = String(replay.end);
-      input.setAttribute("aria-valuetext", `${formatTime(time)} of ${formatTime(replay.end)}`);
-      // What plays does not draw the thumb away from under a finger.
-      if (!isHeld) input.value = String(time);
-    },
-    shallowEqual,
-  );
-  app.store.watch(
-    ({ connection }) => connection.phase === "open",
-    (isOpen) => (input.disabled = !isOpen),
-  );
-  return input;
-}
-
-// A press on a mark goes to its instant; keys reach them by "," and ".".
-function marks(app: App): HTMLElement {
-  const place = element("div", { class: "timeline-marks", role: "group", "aria-label": "Events" });
-  app.store.watch(
-    ({ replay, events }) => ({ start: replay?.start, end: replay?.end, events }),
-    () => {
-      const { replay, events } = app.store.get();
-      place.replaceChildren(...(replay ? marksOf(events, replay) : []).map((mark) => markButton(app, mark)));
-    },
-    shallowEqual,
-  );
-  return place;
-}
-
-function markButton(app: App, mark: Mark): HTMLElement {
+// Returns from the past of a run that continues.
+function liveButton(app: App): HTMLElement {
   const made = element(
     "button",
-    {
-      class: mark.isBad ? "mark bad" : "mark",
-      type: "button",
-      tabindex: "-1",
-      "aria-label": mark.text,
-      onclick: () => void app.replay.seek(mark.time),
-    },
-    element("span", { class: "mark-text card", "aria-hidden": "true" }, mark.text),
+    { class: "button live", type: "button", title: "Return to the running simulation", onclick: () => app.past.goLive() },
+    "Live",
   );
-  made.style.setProperty("--share", String(mark.share));
+  app.store.watch(
+    ({ inPast }) => inPast,
+    (inPast) => (made.hidden = !inPast),
+  );
   return made;
 }
 
@@ -165,7 +123,7 @@ function times(app: App): HTMLElement {
     (text) => setText(now, text),
   );
   app.store.watch(
-    ({ replay }) => (replay ? ` / ${formatTime(replay.end)}` : ""),
+    ({ replay, inPast }) => (replay ? ` / ${formatTime(replay.end)}${inPast ? " of the run" : ""}` : " live"),
     (text) => setText(end, text),
   );
   return element("span", { class: "timeline-times number", title: "Simulated time" }, now, end, typedTime(app));
@@ -189,7 +147,7 @@ function typedTime(app: App): HTMLElement {
     field.setAttribute("aria-invalid", String(time === null));
     if (time === null) return;
     field.blur(); // keys are the replay's again
-    void app.replay.seek(time);
+    void app.past.lookAt(time);
   });
   return field;
 }

@@ -10,6 +10,7 @@ export const LEFT_PX = 54;
 export const RIGHT_PX = 10;
 const TIME_AXIS_PX = 22;
 const GAP_PX = 6;
+const COMPARED_DASHES = [5, 4];
 const CURSORS = "gsv-plots"; // one cursor runs through all charts
 
 export interface Look {
@@ -57,7 +58,7 @@ export class TimeCharts {
     this.view = view;
     const { clientWidth: width, clientHeight: height } = this.host;
     const units = [...new Set(curves.map(({ unit }) => unit))];
-    const shape = JSON.stringify([width, height, curves.map(({ unit, colour }) => [unit, colour])]);
+    const shape = JSON.stringify([width, height, curves.map(({ unit, colour, isDashed }) => [unit, colour, isDashed])]);
     if (shape !== this.shape) {
       this.clear();
       this.shape = shape;
@@ -103,7 +104,13 @@ export class TimeCharts {
           : { ...axis, size: 0, space: 90, values: (_, times) => times.map(() => "") },
         { ...axis, size: LEFT_PX, space: 30, gap: 4 },
       ],
-      series: [{}, ...curves.map(({ colour }) => ({ stroke: colour, width: 1.6, points: { show: false }, spanGaps: false }))],
+      series: [{}, ...curves.map(({ colour, isDashed }) => ({
+          stroke: colour,
+          width: 1.6,
+          points: { show: false },
+          spanGaps: false,
+          ...(isDashed && { dash: COMPARED_DASHES }),
+        }))],
       hooks: {
         draw: [
           (chart) => {

@@ -10,6 +10,7 @@ export interface DrawnCurve {
   unit: string;
   colour: string;
   series: Series;
+  isDashed?: boolean; // of a recording that is compared with
 }
 
 // A longer stretch without a value is a gap, where values usually come this many times faster.

@@ -21,6 +21,7 @@ import { CameraRig } from "./CameraRig";
 import { fenceOf } from "./fence";
 import { environmentOf } from "./framing";
 import { FrameRate } from "./FrameRate";
+import { GhostLayer } from "./GhostLayer";
 import type { ModelLibrary } from "./ModelLibrary";
 import { OverlayLayers } from "./OverlayLayers";
 import type { ScreenPlace } from "./picking";
@@ -72,6 +73,7 @@ export class World3D {
   private readonly collisions: CollisionLayer;
   private readonly poses = new ShownPoses((sample) => this.overlays.takePoses(sample));
   private readonly signs: RobotSigns;
+  private readonly ghosts = new GhostLayer();
   private readonly watch: RobotWatch;
   private readonly arranger: Arranger;
   readonly tools: EditTools;
@@ -118,7 +120,7 @@ export class World3D {
     this.watch = new RobotWatch(this.rig);
     this.arranger = new Arranger(this.arrangerView(), events);
     this.tools = new EditTools(this.toolsView(), { ...events, onPlacePoint: (point) => this.arranger.placeAt(point) });
-    this.scene.add(this.overlays.group, this.signs.marks.points, this.watch.ring.mesh, this.arranger.handle.group, this.tools.group);
+    this.scene.add(this.ghosts.group, this.overlays.group, this.signs.marks.points, this.watch.ring.mesh, this.arranger.handle.group, this.tools.group);
     host.prepend(canvas, this.signs.labels.element); // below what lies over the picture
     for (const press of ["pointerdown", "pointerup", "keydown"] as const) {
       addEventListener(press, (event) => "repeat" in event && event.repeat ? undefined : this.loop.holdBack(), { capture: true });
@@ -235,6 +237,22 @@ export class World3D {
     this.lastBeams = null;
     this.overlays.forgetBeams();
     this.loop.request();
+  }
+
+  // The robots of a second recording, whose models `library` has; null: none.
+  setGhosts(scene: SceneDescription | null, library: ModelLibrary): void {
+    this.ghosts.setScene(scene, library, () => this.loop.request());
+    this.loop.request();
+  }
+
+  setGhostPoses(layoutVersion: number, poses: Float64Array): void {
+    this.ghosts.setPoses(layoutVersion, poses);
+    this.loop.request();
+  }
+
+  // Where the ghost of a robot is drawn, in metres in the world; null: it has none.
+  ghostPlace(robot: string): [number, number, number] | null {
+    return this.ghosts.placeOf(robot);
   }
 
   topView(): void {

@@ -2,12 +2,14 @@
 // change it.
 import type { Action } from "../api/SimulationApi";
 import type { Recording } from "../api/recording";
+import type { Kept, RecordingNote } from "../api/history";
 import type { RecordedEvent, Replay } from "../api/replay";
 import type { CameraChoice, SceneDescription } from "../api/scene";
 import type { Abilities } from "../api/SetUpApi";
 import type { SimulationStatus, SimulationSummary } from "../api/status";
 import type { ConnectionState, TopicInfo } from "../protocol/FoxgloveClient";
 import type { People } from "../api/ViewersApi";
+import type { Comparison } from "./comparison";
 import type { Editing } from "./editing";
 import type { Expectation } from "./expectations";
 import type { Health } from "./health";
@@ -80,7 +82,11 @@ export interface State {
   status: SimulationStatus | null;
   time: number; // s, simulated
   replay: Replay | null; // null: it is no recording, or not known yet
-  events: RecordedEvent[]; // of the recording, by time
+  kept: Kept | null; // of the running simulation's past; null: nothing, or not known yet
+  inPast: boolean; // what is replayed is the past of a simulation that runs
+  events: RecordedEvent[]; // of the recording or the run, by time
+  notes: readonly RecordingNote[]; // of the recording, by time
+  comparison: Comparison | null; // null: nothing is laid over the recording
   wishedTime: number | null; // s: the instant of the recording that was asked for and is not there yet
   view: View;
   drawnBy: Drawer | null; // null: the view has not started
@@ -130,7 +136,11 @@ export const initialState: State = {
   status: null,
   time: 0,
   replay: null,
+  kept: null,
+  inPast: false,
   events: [],
+  notes: [],
+  comparison: null,
   wishedTime: null,
   view: "starting",
   drawnBy: null,

@@ -1,6 +1,7 @@
 import { expect, test } from "vitest";
 import type { RecordedEvent } from "../api/replay";
-import { markBeside, marksOf, shareOf } from "./timeline";
+import { initialState } from "./State";
+import { allMarks, markBeside, marksOf, shareOf, spanOf, withNewEvents } from "./timeline";
 
 const REPLAY = { start: 10, end: 20, speed: 1, loop: false };
 
@@ -25,9 +26,9 @@ test("a mark says what happened, when and to whom", () => {
     REPLAY,
   );
   expect(marks).toEqual([
-    { time: 10, share: 0, isBad: false, text: "0:10.00 started" },
-    { time: 15, share: 0.5, isBad: true, text: "0:15.00 agent dead · a (wander): killed" },
-    { time: 20, share: 1, isBad: false, text: "0:20.00 robot removed · b" },
+    { time: 10, share: 0, isBad: false, kind: "event", text: "0:10.00 started" },
+    { time: 15, share: 0.5, isBad: true, kind: "event", text: "0:15.00 agent dead · a (wander): killed" },
+    { time: 20, share: 1, isBad: false, kind: "event", text: "0:20.00 robot removed · b" },
   ]);
 });
 
@@ -50,4 +51,39 @@ test("from any instant there is a next and a last mark, or none", () => {
   expect(markBeside(marks, 12, -1)).toBe(11);
   expect(markBeside(marks, 15, 1)).toBeNull();
   expect(markBeside(marks, 11, -1)).toBeNull();
+});
+
+test("a run spans what is kept of it, up to now", () => {
+  expect(spanOf(REPLAY, null, 15)).toEqual({ start: 10, end: 20 });
+  expect(spanOf(null, { start: 3, end: 9 }, 9.5)).toEqual({ start: 3, end: 9.5 });
+  expect(spanOf(null, { start: 0, end: 0 }, 0)).toBeNull();
+  expect(spanOf(null, null, 5)).toBeNull();
+});
+
+test("events of a run are added once, by time", () => {
+  const known = [event(1, "started"), event(5, "paused")];
+  expect(withNewEvents(known, [event(5, "paused")])).toBe(known);
+  const more = withNewEvents(known, [event(5, "paused"), event(3, "note", { detail: "late" })]);
+  expect(more.map(({ time }) => time)).toEqual([1, 3, 5]);
+});
+
+test("notes and the first difference are marks among the events; what is no longer kept is none", () => {
+  const state = {
+    ...initialState,
+    replay: REPLAY,
+    events: [event(2, "started"), event(11, "collision", { robot: "a", detail: "a touches b" })],
+    notes: [{ id: 1, time: 14, text: "turns late" }],
+    comparison: {
+      recording: "old.mcap",
+      simulation: "x",
+      scene: null,
+      difference: { isEqual: false, time: 17, text: "a: 17 s /gsv/poses" },
+      problem: "",
+    },
+  };
+  expect(allMarks(state).map(({ time, kind, text }) => ({ time, kind, text }))).toEqual([
+    { time: 11, kind: "event", text: "0:11.00 collision · a touches b" },
+    { time: 14, kind: "note", text: "0:14.00 note · turns late" },
+    { time: 17, kind: "difference", text: "0:17.00 first difference · a: 17 s /gsv/poses" },
+  ]);
 });

@@ -1,11 +1,14 @@
 // What a timeline shows of a recording's events: those of about one instant share a mark.
+import type { Difference, Kept, RecordingNote } from "../api/history";
 import type { RecordedEvent, Replay } from "../api/replay";
 import { count, formatTime } from "../ui/format";
+import type { State } from "./State";
 
 export interface Mark {
   time: number; // s, simulated: of the first
   share: number; // of the recording's span, 0 to 1
   isBad: boolean; // something died, or failed
+  kind: "event" | "note" | "difference"; // what it shows above all
   text: string; // a line for each event
 }
 
@@ -14,25 +17,65 @@ const NARROWEST_SHARE = 1 / 250;
 const MOST_LINES = 6;
 const BAD = ["agent_dead", "agent_unresponsive", "failed", "expectation_violated"];
 
-export function shareOf(time: number, { start, end }: Replay): number {
+const MOST_EVENTS = 3000;
+
+// The stretch of time that a timeline spans: the recording, or what is kept of a run up to now.
+export type Span = Pick<Replay, "start" | "end">;
+
+export function spanOf(replay: Replay | null, kept: Kept | null, time: number): Span | null {
+  if (replay) return { start: replay.start, end: replay.end };
+  if (!kept || kept.end <= kept.start) return null;
+  return { start: kept.start, end: Math.max(kept.end, time) };
+}
+
+// `known` with those of `found` that are not in it, by time; `known` itself if there are none.
+export function withNewEvents(known: RecordedEvent[], found: readonly RecordedEvent[]): RecordedEvent[] {
+  const keys = new Set(known.map(keyOf));
+  const added = found.filter((event) => !keys.has(keyOf(event)));
+  if (added.length === 0) return known;
+  return [...known, ...added].sort((a, b) => a.time - b.time).slice(-MOST_EVENTS);
+}
+
+function keyOf({ time, event, robot, detail }: RecordedEvent): string {
+  return JSON.stringify([time, event, robot, detail]);
+}
+
+// What is marked besides the events: the notes of the recording, and where another one first differs.
+export function furtherEvents(notes: readonly RecordingNote[], difference: Difference | null): RecordedEvent[] {
+  const events = notes.map(({ time, text }) => ({ time, event: NOTE, robot: "", detail: text }));
+  if (difference?.time == null) return events;
+  return [...events, { time: difference.time, event: DIFFERENCE, robot: "", detail: difference.text }];
+}
+
+const NOTE = "note";
+const DIFFERENCE = "first difference";
+
+export function shareOf(time: number, { start, end }: Span): number {
   return end > start ? Math.min(1, Math.max(0, (time - start) / (end - start))) : 0;
 }
 
-// `events` by time.
-export function marksOf(events: RecordedEvent[], replay: Replay): Mark[] {
+// `events` by time. Those before the span are left out.
+export function marksOf(events: readonly RecordedEvent[], span: Span): Mark[] {
   const groups: RecordedEvent[][] = [];
   for (const event of events) {
+    if (event.time < span.start) continue;
     const first = groups.at(-1)?.[0];
-    const isNear = first && shareOf(event.time, replay) - shareOf(first.time, replay) < NARROWEST_SHARE;
+    const isNear = first && shareOf(event.time, span) - shareOf(first.time, span) < NARROWEST_SHARE;
     if (isNear) groups.at(-1)!.push(event);
     else groups.push([event]);
   }
   return groups.map((group) => ({
     time: group[0]!.time,
-    share: shareOf(group[0]!.time, replay),
+    share: shareOf(group[0]!.time, span),
     isBad: group.some(({ event }) => BAD.includes(event)),
+    kind: kindOf(group),
     text: textOf(group),
   }));
+}
+
+function kindOf(group: RecordedEvent[]): Mark["kind"] {
+  if (group.some(({ event }) => event === DIFFERENCE)) return "difference";
+  return group.some(({ event }) => event === NOTE) ? "note" : "event";
 }
 
 function textOf(group: RecordedEvent[]): string {
@@ -45,6 +88,17 @@ function textOf(group: RecordedEvent[]): string {
 function lineOf({ time, event, robot, detail }: RecordedEvent): string {
   const what = [event.replaceAll("_", " "), detail || robot].filter((part) => part !== "").join(" · ");
   return `${formatTime(time)} ${what}`;
+}
+
+type Marked = Pick<State, "replay" | "kept" | "time" | "events" | "notes" | "comparison">;
+
+// What the timeline marks: events, notes, and the first difference from a second recording.
+export function allMarks({ replay, kept, time, events, notes, comparison }: Marked): Mark[] {
+  const span = spanOf(replay, kept, time);
+  if (!span) return [];
+  const further = furtherEvents(notes, comparison?.difference ?? null);
+  const all = further.length > 0 ? [...events, ...further].sort((a, b) => a.time - b.time) : events;
+  return marksOf(all, span);
 }
 
 // The instant of the next mark after `time`, or of the last one before it; null: there is none.

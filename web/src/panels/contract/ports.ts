@@ -51,6 +51,10 @@ export interface ServerPort {
   output(simulation: string, robot: string): Promise<OutputLine[]>;
   // What is read so far of one value over a whole recording, in at most `most` samples.
   curve(simulation: string, of: CurveOf, most: number): Promise<WholeCurve>;
+  // The same over the past that the server keeps of a running simulation.
+  pastCurve(simulation: string, of: CurveOf, most: number): Promise<WholeCurve>;
+  // The same over the recording that the page compares with; null: it compares with none.
+  comparedCurve(of: CurveOf, most: number): Promise<WholeCurve | null>;
 }
 
 // Commands on a simulation. Promises reject with the server's sentence.

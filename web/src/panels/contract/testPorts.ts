@@ -48,6 +48,8 @@ export function testPorts(state: Partial<State> = {}, server: Partial<PanelPorts
       log: vi.fn(async () => []),
       output: vi.fn(async () => []),
       curve: vi.fn(async () => Promise.reject(new Error("no curve"))),
+      pastCurve: vi.fn(async () => Promise.reject(new Error("no past"))),
+      comparedCurve: vi.fn(async () => null),
       ...server,
     },
     commands: { list: vi.fn(async () => []), run: vi.fn(async () => {}) },

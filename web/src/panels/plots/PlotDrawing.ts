@@ -117,6 +117,14 @@ export class PlotDrawing {
     });
   }
 
+  // The same values of the recording that is compared with, dashed.
+  private compared(curves: readonly Shown[]): DrawnCurve[] {
+    return curves.flatMap(({ id, unit, colour }) => {
+      const series = this.feed.comparedOf(id);
+      return series ? [{ unit, colour, series, isDashed: true }] : [];
+    });
+  }
+
   private span(): Range {
     if (this.heldSpan) return this.heldSpan;
     const { plots, time, replay } = this.ports.state.get();
@@ -137,7 +145,7 @@ export class PlotDrawing {
     this.charts ??= this.makeCharts((await import("uplot")).default);
     if (!across) {
       this.charts.path.clear();
-      return this.charts.time.show(curves, { time: span, present: replay && time, marks });
+      return this.charts.time.show([...this.compared(curves), ...curves], { time: span, present: replay && time, marks });
     }
     this.charts.time.clear();
     const others = curves.filter((curve) => curve !== across);

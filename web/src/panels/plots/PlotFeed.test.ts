@@ -175,3 +175,35 @@ test("an expression is computed at each value of its fields, from the newest of 
   store.set({ plots: NO_PLOTS });
   expect(topics.read).toEqual([]);
 });
+
+test("the past of a run comes before what was plotted as it came", () => {
+  const { feed, takePoses } = feeding([curve(A, "x")]);
+  takePoses(poses(10, 5));
+  takePoses(poses(11, 6));
+  const times = Float64Array.from([8, 9, 10, 10.5]);
+  feed.takePast(curveId(A, "x"), { times, values: Float64Array.from([1, 2, 3, 4]), isWhole: true, done: true, problem: "" });
+  expect(samples(feed, A, "x")).toEqual([[8, 1], [9, 2], [10, 5], [11, 6]]);
+  takePoses(poses(12, 7)); // and it goes on
+  expect(samples(feed, A, "x").at(-1)).toEqual([12, 7]);
+});
+
+test("back from the past the run is plotted again", () => {
+  const replay = { start: 0, end: 20, speed: 1, loop: false };
+  const { feed, store, takePoses } = feeding([curve(A, "x")]);
+  store.set({ replay, inPast: true });
+  feed.takeWhole(curveId(A, "x"), { times: Float64Array.from([1]), values: Float64Array.from([9]), isWhole: true, done: true, problem: "" });
+  expect(samples(feed, A, "x")).toEqual([[1, 9]]);
+  store.set({ replay: null, inPast: false });
+  takePoses(poses(21, 3));
+  expect(samples(feed, A, "x")).toEqual([[21, 3]]);
+});
+
+test("the curve of a second recording is kept apart, and goes with it", () => {
+  const comparison = { recording: "old.mcap", simulation: "x", scene: null, difference: null, problem: "" };
+  const { feed, store } = feeding([curve(A, "x")], { comparison });
+  feed.takeCompared(curveId(A, "x"), { times: Float64Array.from([1]), values: Float64Array.from([9]), isWhole: true, done: true, problem: "" });
+  expect(feed.comparedOf(curveId(A, "x"))!.valueAt(0)).toBe(9);
+  expect(samples(feed, A, "x")).toEqual([]);
+  store.set({ comparison: null });
+  expect(feed.comparedOf(curveId(A, "x"))).toBeNull();
+});

@@ -41,6 +41,7 @@ interface PlacedAt {
 export class PlotFeed {
   private readonly series = new Map<string, Series>(); // by curve
   private readonly whole = new Map<string, WholeCurve>(); // that the server has told
+  private readonly compared = new Map<string, Series>(); // of the recording that is compared with
   private readonly ends = new Map<string, () => void>(); // by topic
   private readonly last = new Map<string, PlacedAt>(); // by robot
   private inputs: readonly Input[] = []; // what is collected: curves, and the fields of expressions
@@ -62,14 +63,35 @@ export class PlotFeed {
       () => this.listen(),
       shallowEqual,
     );
+    // A run and its past have curves of their own.
+    this.state.watch(
+      ({ replay }) => replay !== null,
+      () => this.forgetRecorded(),
+    );
+    this.state.watch(
+      ({ comparison }) => comparison?.recording,
+      () => this.compared.clear(),
+    );
     this.state.watch(
       ({ status }) => status,
       () => this.takeStatus(),
     );
   }
 
+  private forgetRecorded(): void {
+    this.whole.clear();
+    for (const series of this.series.values()) series.clear();
+    this.last.clear();
+    this.onData();
+  }
+
   seriesOf(id: string): Series | null {
     return this.series.get(id) ?? null;
+  }
+
+  // Of the recording that is compared with.
+  comparedOf(id: string): Series | null {
+    return this.compared.get(id) ?? null;
   }
 
   // Whether a recording has more of its values than are plotted.
@@ -84,6 +106,25 @@ export class PlotFeed {
     this.whole.set(id, curve);
     series.clear();
     curve.times.forEach((time, i) => series.push(time, curve.values[i]!));
+    this.onData();
+  }
+
+  // The past of a run's curve, before what was plotted as it came.
+  takePast(id: string, curve: WholeCurve): void {
+    const series = this.series.get(id);
+    if (!series) return;
+    const first = series.length > 0 ? series.timeAt(0) : Infinity;
+    const later = Array.from({ length: series.length }, (_, i) => [series.timeAt(i), series.valueAt(i)] as const);
+    series.clear();
+    curve.times.forEach((time, i) => time < first && series.push(time, curve.values[i]!));
+    for (const [time, value] of later) series.push(time, value);
+    this.onData();
+  }
+
+  takeCompared(id: string, curve: WholeCurve): void {
+    const series = new Series();
+    curve.times.forEach((time, i) => series.push(time, curve.values[i]!));
+    this.compared.set(id, series);
     this.onData();
   }
 
@@ -189,6 +230,7 @@ export class PlotFeed {
       if (ids.has(id)) continue;
       this.series.delete(id);
       this.whole.delete(id);
+      this.compared.delete(id);
     }
     for (const id of ids) if (!this.series.has(id)) this.series.set(id, new Series());
     this.formulas = plots.curves.flatMap(formulaOf);

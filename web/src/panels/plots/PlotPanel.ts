@@ -35,7 +35,11 @@ export function mount(ports: Ports): MountedPanel {
     },
   );
   feed.start();
-  new WholeCurves(ports, (id, curve) => feed.takeWhole(id, curve)).start();
+  new WholeCurves(ports, {
+    onWhole: (id, curve) => feed.takeWhole(id, curve),
+    onPast: (id, curve) => feed.takePast(id, curve),
+    onCompared: (id, curve) => feed.takeCompared(id, curve),
+  }).start();
   const save = smallButton("save", "Save as CSV", () => saveTable(ports, feed));
   const { button, form } = expressionForm(ports);
   const plots = element("div", { class: "plot-body" }, drawing.legend, element("div", { class: "plot-place" }, drawing.place, empty));

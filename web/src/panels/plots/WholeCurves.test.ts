@@ -27,7 +27,8 @@ function reading(answer: (of: CurveOf) => WholeCurve) {
   };
   const { store, ports } = testPorts({}, { curve });
   const heard: [string, number][] = [];
-  new WholeCurves(ports, (id, { times }) => heard.push([id, times.length])).start();
+  const hear = (id: string, { times }: WholeCurve) => void heard.push([id, times.length]);
+  new WholeCurves(ports, { onWhole: hear, onPast: hear, onCompared: hear }).start();
   return { store, asked, heard, notify: ports.notices.notify };
 }
 

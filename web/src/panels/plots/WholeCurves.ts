@@ -1,5 +1,6 @@
 // Of a recording, has the server read each plotted value from end to end, and hands on what it has
-// read so far until it is done.
+// read so far until it is done. Of a run, the same for the past that the server keeps; of a second
+// recording that is compared with, for its curves.
 import type { CurveOf, WholeCurve } from "../../api/curve";
 import { MOST_SAMPLES } from "../../live/Series";
 import { parseExpression } from "../../live/expression";
@@ -12,17 +13,27 @@ import { combined } from "./combined";
 const POLL_MS = 300;
 
 export type WholeCurvePorts = Pick<PanelPorts, "state" | "notices"> & {
-  server: Pick<PanelPorts["server"], "curve">;
+  server: Pick<PanelPorts["server"], "curve" | "pastCurve" | "comparedCurve">;
   plots: Pick<PanelPorts["plots"], "setSpan">;
 };
 
+// What was read so far of a curve.
+export interface CurveEvents {
+  onWhole(id: string, curve: WholeCurve): void; // of a recording
+  onPast(id: string, curve: WholeCurve): void; // of a run, up to when it was asked for
+  onCompared(id: string, curve: WholeCurve): void; // of the second recording
+}
+
 export class WholeCurves {
   private readonly known = new Set<string>(); // curves that are read, or were
+  private readonly compared = new Set<string>(); // likewise, of the second recording
   private simulation: string | null = null;
+  private isReplay = false;
+  private other = ""; // the second recording
 
   constructor(
     private readonly ports: WholeCurvePorts,
-    private readonly onCurve: (id: string, curve: WholeCurve) => void,
+    private readonly events: CurveEvents,
   ) {}
 
   start(): void {
@@ -32,46 +43,87 @@ export class WholeCurves {
       (isReplay) => isReplay && this.ports.plots.setSpan(null),
     );
     this.ports.state.watch(
-      ({ simulation, replay, plots }) => ({ simulation, isReplay: replay !== null, curves: plots.curves }),
-      () => this.ask(),
+      ({ simulation, replay, kept, plots, comparison }) => ({
+        simulation,
+        isReplay: replay !== null,
+        isKept: kept !== null,
+        curves: plots.curves,
+        other: comparison?.simulation,
+      }),
+      () => {
+        this.ask();
+        this.askOther();
+      },
       shallowEqual,
     );
   }
 
   private ask(): void {
-    const { simulation, replay, plots } = this.ports.state.get();
-    if (simulation !== this.simulation) this.known.clear();
+    const { simulation, replay, kept, plots } = this.ports.state.get();
+    const isReplay = replay !== null;
+    if (simulation !== this.simulation || isReplay !== this.isReplay) this.known.clear();
     this.simulation = simulation;
+    this.isReplay = isReplay;
     const ids = new Set(plots.curves.map(({ id }) => id));
     for (const id of this.known) if (!ids.has(id)) this.known.delete(id);
-    if (!replay || simulation === null) return;
+    if ((!replay && !kept) || simulation === null) return;
     for (const curve of plots.curves) {
       if (this.known.has(curve.id)) continue;
       this.known.add(curve.id);
-      void this.read(simulation, curve);
+      const isWanted = () => this.simulation === simulation && this.isReplay === isReplay && this.known.has(curve.id);
+      if (replay) {
+        const get = (of: CurveOf) => this.ports.server.curve(simulation, of, MOST_SAMPLES);
+        void this.read(curve, get, (read) => this.events.onWhole(curve.id, read), isWanted, true);
+      } else {
+        const get = (of: CurveOf) => this.ports.server.pastCurve(simulation, of, MOST_SAMPLES);
+        void this.read(curve, get, (read) => this.events.onPast(curve.id, read), isWanted, false);
+      }
     }
   }
 
-  private async read(simulation: string, plotted: Curve): Promise<void> {
-    const { id } = plotted;
+  private askOther(): void {
+    const { comparison, plots } = this.ports.state.get();
+    const other = comparison?.simulation ? comparison.recording : "";
+    if (other !== this.other) this.compared.clear();
+    this.other = other;
+    const ids = new Set(plots.curves.map(({ id }) => id));
+    for (const id of this.compared) if (!ids.has(id)) this.compared.delete(id);
+    if (other === "") return;
+    for (const curve of plots.curves) {
+      if (this.compared.has(curve.id)) continue;
+      this.compared.add(curve.id);
+      const isWanted = () => this.other === other && this.compared.has(curve.id);
+      const get = (of: CurveOf) => this.ports.server.comparedCurve(of, MOST_SAMPLES);
+      void this.read(curve, get, (read) => this.events.onCompared(curve.id, read), isWanted, true);
+    }
+  }
+
+  // Asks until all is read. What cannot be read is said if `isMissed`.
+  private async read(
+    plotted: Curve,
+    get: (of: CurveOf) => Promise<WholeCurve | null>,
+    take: (curve: WholeCurve) => void,
+    isWanted: () => boolean,
+    isMissed: boolean,
+  ): Promise<void> {
     const wishes = inputsOf(plotted).map(({ source, key }): CurveOf => {
       const { kind, ...of } = source;
       return { ...of, key };
     });
-    const isWanted = () => this.simulation === simulation && this.known.has(id);
+    const tell = (problem: string) => isMissed && isWanted() && this.tell(problem);
     try {
       for (;;) {
-        const read = await Promise.all(wishes.map((wish) => this.ports.server.curve(simulation, wish, MOST_SAMPLES)));
-        if (!isWanted()) return;
-        const curve = asOne(plotted, read);
-        this.onCurve(id, curve);
-        if (curve.done) return this.tell(curve.problem);
+        const read = await Promise.all(wishes.map(get));
+        if (read.includes(null) || !isWanted()) return;
+        const curve = asOne(plotted, read as WholeCurve[]);
+        take(curve);
+        if (curve.done) return void tell(curve.problem);
         await new Promise((resolve) => setTimeout(resolve, POLL_MS));
         if (!isWanted()) return;
       }
     } catch (error) {
       // What is played is plotted all the same.
-      if (isWanted()) this.tell((error as Error).message);
+      tell((error as Error).message);
     }
   }
 

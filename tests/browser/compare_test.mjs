@@ -1,0 +1,169 @@
+// Two recordings laid over each other: ghosts, dashed curves, the first difference; and notes beside a recording.
+import assert from "node:assert/strict";
+import fs from "node:fs";
+import os from "node:os";
+import path from "node:path";
+import { after, before, test } from "node:test";
+import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { keepPicture } from "./documentation.mjs";
+import { changedPixels, picture } from "./pixels.mjs";
+import { posesAt, readPoses } from "./recorded_poses.mjs";
+import { record, startServe } from "./server.mjs";
+import { settled, until, viewClip } from "./viewing.mjs";
+
+const MOVER = "pebble";
+const DURATION_S = 6;
+
+function run(yaw) {
+  const robot = ["--robot", `pebble@-2,0,${yaw}`, "--behaviour", "wander"];
+  return ["office", ...robot, "--lockstep", "--seed", "3", "--duration", String(DURATION_S)];
+}
+
+let folder;
+let server;
+let browser;
+let page;
+let faults;
+let yesterday;
+
+before(async () => {
+  folder = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-compare-"));
+  await record(path.join(folder, "yesterday.mcap"), run(0));
+  await record(path.join(folder, "today.mcap"), run(0.5));
+  yesterday = await readPoses(path.join(folder, "yesterday.mcap"));
+  server = await startServe(["--recordings", folder]);
+  browser = await openBrowser({ width: 1180, height: 720 });
+  ({ page, faults } = await openPage(browser, `${server.url}?recording=today.mcap`));
+  await waitUntilDrawn(page);
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+  if (folder) fs.rmSync(folder, { recursive: true, force: true });
+});
+
+const timeOn = () => page.evaluate(() => window.gsv.time);
+const ghost = () => page.evaluate((robot) => window.gsv.ghostPosition(robot), MOVER);
+
+async function standAt(time) {
+  await page.getByLabel("Go to time").fill(String(time));
+  await page.keyboard.press("Enter");
+  await until(async () => (await timeOn()) === time, `the instant ${time}`);
+}
+
+// Of the replay that the page asked last.
+function shownScene() {
+  return page.evaluate(async () => {
+    const asked = performance.getEntriesByType("resource").map(({ name }) => name);
+    return (await fetch(asked.findLast((name) => name.endsWith("/scene")))).json();
+  });
+}
+
+// Where the other recording has the robot at this instant.
+async function ghostIsRight(time) {
+  const { poses } = posesAt(yesterday, time);
+  const { bodies, poses: list } = await shownScene();
+  const entry = list.findIndex(({ body, link }) => bodies[body].name === MOVER && link === null);
+  const [x, y] = poses.subarray(7 * entry, 7 * entry + 2);
+  await until(async () => {
+    const place = await ghost();
+    return place !== null && Math.hypot(place.x - x, place.y - y) < 1e-9;
+  }, `the ghost at ${time} s`);
+}
+
+test("a note is saved beside the recording, and is there after a reload", async () => {
+  await standAt(2);
+  await page.getByRole("button", { name: "Notes" }).click();
+  await page.getByLabel("Note", { exact: true }).fill("turns too late");
+  await page.getByRole("button", { name: "Add at 0:02.00" }).click();
+  await page.locator(".note-list").getByText("turns too late").waitFor();
+  const saved = JSON.parse(fs.readFileSync(path.join(folder, "today.mcap.notes.json"), "utf8"));
+  assert.equal(saved.version, 1);
+  assert.equal(saved.notes[0].time_s, 2);
+  assert.match(saved.notes[0].text, /turns too late$/);
+  await page.reload();
+  await waitUntilDrawn(page);
+  const mark = page.getByRole("button", { name: /^0:02.00 note · .*turns too late/ });
+  await mark.waitFor();
+  await standAt(4);
+  await page.getByRole("button", { name: "Notes" }).click();
+  await page.locator(".note-list").getByRole("button", { name: "0:02.00", exact: true }).click();
+  await until(async () => (await timeOn()) === 2, "the instant of the note");
+  await page.getByRole("button", { name: "Notes" }).click();
+  await page.getByRole("button", { name: "Remove the note at 0:02.00" }).click();
+  await mark.waitFor({ state: "detached" });
+  assert.deepEqual(JSON.parse(fs.readFileSync(path.join(folder, "today.mcap.notes.json"), "utf8")).notes, []);
+  await page.keyboard.press("Escape");
+});
+
+test("the robots of another recording are ghosts at the same simulated time", async () => {
+  await standAt(4);
+  await settled(page);
+  const clip = await viewClip(page);
+  const alone = await picture(page, clip);
+  await page.getByRole("button", { name: "Compare with…" }).click();
+  await page.locator(".compare-list").getByText("yesterday.mcap").click();
+  await ghostIsRight(4);
+  await settled(page);
+  assert.ok(changedPixels(alone, await picture(page, clip)) > 50, "no ghost is to be seen");
+  await standAt(5.5);
+  await ghostIsRight(5.5);
+});
+
+test("the first difference is a mark that says what differs", async () => {
+  const mark = page.getByRole("button", { name: /first difference/ });
+  await mark.waitFor();
+  await mark.click();
+  await page.getByRole("button", { name: "Compare with…" }).click();
+  await page.locator(".compare-verdict").getByText("yesterday.mcap first differs at").waitFor();
+  assert.match(await page.locator(".compare-verdict").textContent(), /yaw[^]*pebble/);
+  await page.keyboard.press("Escape");
+});
+
+test("its curves are dashed beside those of the first", async () => {
+  await standAt(4);
+  await page.locator(`[data-robot="${MOVER}"]`).click();
+  await page.getByRole("button", { name: "Plots" }).first().click();
+  const plot = page.getByRole("img", { name: "Plot" });
+  await page.getByLabel("Add a curve").selectOption({ label: "x" });
+  await page.getByText("at 0:04.00", { exact: true }).waitFor();
+  // Two curves of one colour: the one alone has fewer pixels of it.
+  const coloured = () =>
+    plot.evaluate((canvas) => {
+      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+      let count = 0;
+      for (let i = 0; i < data.length; i += 4) {
+        const [r, g, b, a] = data.subarray(i, i + 4);
+        if (a > 100 && Math.max(r, g, b) - Math.min(r, g, b) > 60) count += 1;
+      }
+      return count;
+    });
+  let both = 0;
+  let before = -1;
+  await until(async () => {
+    [before, both] = [both, await coloured()];
+    return both > 100 && both === before;
+  }, "the curves");
+  await keepPicture(page, "compare");
+  await page.getByRole("button", { name: "Compare with…" }).click();
+  await page.getByRole("button", { name: "Compare no longer" }).click();
+  await page.keyboard.press("Escape");
+  assert.equal(await ghost(), null);
+  await until(async () => (await coloured()) < 0.85 * both, "the second curve to go");
+});
+
+test("both play along", async () => {
+  await page.getByRole("button", { name: "Compare with…" }).click();
+  await page.locator(".compare-list").getByText("yesterday.mcap").click();
+  await standAt(1);
+  await ghostIsRight(1);
+  const from = await ghost();
+  await page.getByRole("button", { name: "Play", exact: true }).click();
+  await until(async () => (await timeOn()) > 3, "playing");
+  await page.getByRole("button", { name: "Pause", exact: true }).click();
+  const to = await ghost();
+  assert.ok(Math.hypot(to.x - from.x, to.y - from.y) > 0.1, "the ghost stood still");
+  await ghostIsRight(await timeOn());
+  assert.deepEqual(faults, []);
+});

@@ -1,0 +1,45 @@
+// What the server keeps of the past of a running simulation, and notes of viewers.
+import { listAt, numberAt, objectAt, textAt, textOr } from "./json";
+
+export interface Kept {
+  start: number; // s, simulated
+  end: number;
+}
+
+export interface RecordingNote {
+  id: number;
+  time: number; // s, simulated
+  text: string;
+}
+
+export function parseKept(json: unknown): Kept {
+  const kept = objectAt(json, "history");
+  return { start: numberAt(kept.start_s, "history.start_s"), end: numberAt(kept.end_s, "history.end_s") };
+}
+
+export function parseNotes(json: unknown): RecordingNote[] {
+  return listAt(json, "notes").map((each, i) => {
+    const note = objectAt(each, `notes[${i}]`);
+    return {
+      id: numberAt(note.id, `notes[${i}].id`),
+      time: numberAt(note.time_s, `notes[${i}].time_s`),
+      text: textOr(note.text, ""),
+    };
+  });
+}
+
+// Where two recordings first differ.
+export interface Difference {
+  isEqual: boolean;
+  time: number | null; // s, simulated; null: the messages are equal
+  text: string; // as `gsv rec diff` prints it
+}
+
+export function parseDifference(json: unknown): Difference {
+  const difference = objectAt(json, "difference");
+  return {
+    isEqual: difference.equal === true,
+    time: typeof difference.time_s === "number" ? difference.time_s : null,
+    text: textAt(difference.text, "difference.text"),
+  };
+}

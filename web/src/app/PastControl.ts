@@ -1,0 +1,114 @@
+// The past of a running simulation: how much of it the server keeps, what happened in it, and looking at it
+// while the run continues.
+import type { SimulationApi } from "../api/SimulationApi";
+import type { CurveOf, WholeCurve } from "../api/curve";
+import type { RecordedEvent } from "../api/replay";
+import type { State } from "../state/State";
+import type { Store } from "../state/Store";
+import { shallowEqual } from "../state/Store";
+import { withNewEvents } from "../state/timeline";
+import type { ReplayControl } from "./ReplayControl";
+import type { Session } from "./Session";
+import { notify } from "./notices";
+
+const POLL_MS = 2000;
+const OVERLAP_S = 1; // of what is asked again: it may have come late
+const READER_MS = 10_000; // as long as curves are read of the same opened past
+
+type PastApi = Pick<SimulationApi, "kept" | "eventsFrom" | "another">;
+type PastSession = Pick<Session, "enterPast" | "goLive">;
+
+export class PastControl {
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  private entering: Promise<void> | null = null;
+  private asked = 0; // s, simulated: up to where the events are known
+  private reader: { api: Promise<SimulationApi>; simulation: string; openedMs: number } | null = null;
+
+  constructor(
+    private readonly store: Store<State>,
+    private readonly api: PastApi,
+    private readonly session: PastSession,
+    private readonly replay: Pick<ReplayControl, "seek">,
+  ) {}
+
+  start(): void {
+    this.store.watch(
+      ({ simulation, connection, status, replay }) => ({
+        // The status says whether it is a replay.
+        simulation: status !== null && replay === null ? simulation : null,
+        isOpen: connection.phase === "open",
+      }),
+      ({ simulation, isOpen }) => {
+        clearTimeout(this.timer);
+        this.asked = 0;
+        if (simulation !== null && isOpen) void this.ask(simulation);
+      },
+      shallowEqual,
+    );
+  }
+
+  // Goes to an instant of the recording, or of the past that is kept.
+  lookAt(time: number): Promise<void> {
+    const { replay, kept } = this.store.get();
+    if (replay) return this.replay.seek(time);
+    if (!kept) return Promise.resolve();
+    this.store.set({ wishedTime: Math.min(kept.end, Math.max(kept.start, time)) });
+    this.entering ??= this.enter().finally(() => (this.entering = null));
+    return this.entering;
+  }
+
+  goLive(): void {
+    this.session.goLive();
+  }
+
+  // A value over the past that is kept.
+  async curve(simulation: string, of: CurveOf, most: number): Promise<WholeCurve> {
+    const now = Date.now();
+    if (this.reader?.simulation !== simulation || now - this.reader.openedMs > READER_MS) {
+      const api = this.api.another();
+      this.reader = { simulation, openedMs: now, api: api.openPast(simulation).then(() => api) };
+    }
+    return (await this.reader.api).curve(simulation, of, most);
+  }
+
+  private async enter(): Promise<void> {
+    try {
+      await this.session.enterPast();
+      const { wishedTime } = this.store.get();
+      if (wishedTime !== null) await this.replay.seek(wishedTime);
+    } catch (error) {
+      this.store.set({ wishedTime: null });
+      notify(this.store, "error", `Cannot show the past: ${(error as Error).message}`);
+    }
+  }
+
+  private async ask(simulation: string): Promise<void> {
+    const isWanted = () => this.store.get().simulation === simulation && this.store.get().replay === null;
+    try {
+      const kept = await this.api.kept(simulation);
+      if (!isWanted()) return;
+      if (kept === null) return this.store.set({ kept });
+      // A reset begins at 0 again.
+      if (kept.end < this.asked - OVERLAP_S) {
+        this.asked = 0;
+        this.store.set({ events: [] });
+      }
+      const from = Math.max(0, this.asked - OVERLAP_S);
+      const found = await this.api.eventsFrom(simulation, from);
+      if (!isWanted()) return;
+      this.asked = Math.max(kept.end, this.store.get().time);
+      this.take(found);
+      if (!shallowEqual(kept, this.store.get().kept)) this.store.set({ kept });
+    } catch {
+      // The connection tells of itself; the next answer may come.
+    }
+    clearTimeout(this.timer);
+    if (isWanted()) this.timer = setTimeout(() => void this.ask(simulation), POLL_MS);
+  }
+
+  private take(found: RecordedEvent[]): void {
+    const { events } = this.store.get();
+    const merged = withNewEvents(events, found);
+    if (merged !== events) this.store.set({ events: merged });
+  }
+}

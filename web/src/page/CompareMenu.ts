@@ -1,0 +1,70 @@
+// Chooses a recording that is laid over the one that is replayed, and says where the two first differ.
+import type { App } from "../app/App";
+import type { RecordingLine } from "../recordings/recordings";
+import type { Comparison } from "../state/comparison";
+import { shallowEqual } from "../state/Store";
+import { element, setText } from "../ui/element";
+import { formatDate, formatTime } from "../ui/format";
+import { createMenu } from "../ui/menu";
+
+export function createCompareMenu(app: App): HTMLElement {
+  const list = element("ul", { class: "compare-list", "aria-label": "Recordings to compare with" });
+  const verdict = element("p", { class: "compare-verdict", role: "status" });
+  const goTo = element("button", { class: "button small", type: "button" }, "Go to the first difference");
+  const end = element("button", { class: "button small", type: "button", onclick: () => app.compare.end() }, "Compare no longer");
+  const menu = createMenu("Compare with…", "layers", verdict, element("div", { class: "compare-actions" }, goTo, end), list);
+  goTo.addEventListener("click", () => {
+    const time = app.store.get().comparison?.difference?.time;
+    if (time == null) return;
+    menu.close();
+    void app.past.lookAt(time);
+  });
+  menu.button.addEventListener("click", () => void fill(app, list, menu.close));
+  app.store.watch(
+    ({ replay, abilities }) => replay !== null && (abilities.recordings || abilities.recording !== ""),
+    (isPossible) => (menu.element.hidden = !isPossible),
+  );
+  app.store.watch(
+    ({ comparison }) => ({ comparison }),
+    ({ comparison }) => {
+      menu.button.setAttribute("aria-pressed", String(comparison !== null));
+      setText(verdict, comparison ? verdictOf(comparison) : "Choose a recording. Its robots are shown as ghosts, its curves dashed.");
+      end.hidden = comparison === null;
+      goTo.hidden = comparison?.difference?.time == null;
+    },
+    shallowEqual,
+  );
+  return menu.element;
+}
+
+function verdictOf({ recording, difference, problem }: Comparison): string {
+  if (problem !== "") return `${recording}: ${problem}`;
+  if (difference === null) return `Compared with ${recording}.`;
+  if (difference.isEqual) return `${recording} has the same messages. ${difference.text.trim()}`;
+  const when = difference.time === null ? "" : ` at ${formatTime(difference.time)}`;
+  return `${recording} first differs${when}:\n${difference.text.trim()}`;
+}
+
+async function fill(app: App, list: HTMLElement, close: () => void): Promise<void> {
+  const say = (text: string) => list.replaceChildren(element("li", { class: "dim" }, text));
+  try {
+    const lines = await app.compare.choices();
+    if (lines.length === 0) return say("This server has no other recording. To serve all recordings of a folder: gsv serve --recordings FOLDER");
+    list.replaceChildren(...lines.map((line) => choice(app, line, close)));
+  } catch (error) {
+    say((error as Error).message);
+  }
+}
+
+function choice(app: App, { name, world, modified, verdict }: RecordingLine, close: () => void): HTMLElement {
+  const about = [world, verdict, formatDate(modified)].filter((part) => part !== "").join(" · ");
+  const choose = () => {
+    close();
+    void app.compare.with(name);
+  };
+  return element(
+    "li",
+    {},
+    element("button", { class: "menu-item", type: "button", onclick: choose }, element("span", {}, name), element("span", { class: "dim" }, about)),
+  );
+}
