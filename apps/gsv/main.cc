@@ -202,7 +202,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return EndOutput(stdout, app.exit(error) == 0 ? kOk : kUsage);
   } catch (const std::exception& exception) {
-    return Complain({gsv::base::ErrorCode::kUnavailable, exception.what(), "unexpected"});
+    return PrintError({gsv::base::ErrorCode::kUnavailable, exception.what(), "unexpected"});
   }
   return EndProgram(exit_code);
 }

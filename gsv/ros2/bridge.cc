@@ -35,9 +35,9 @@ using messages::tf2_msgs::TFMessage;
 using simulation::Simulation;
 
 constexpr base::SimTime kTransformPeriod = std::chrono::milliseconds(20);
-// Wall time: how often diagnostics are sent, and other publishers are looked at.
+// The period, in wall time, of diagnostics and of checks for other publishers.
 constexpr std::chrono::milliseconds kRefreshPeriod{1000};
-// How soon a change of robots and sensors is noticed that no event reports.
+// The period of checks for changes of robots and sensors that no event reports.
 constexpr std::chrono::milliseconds kFollowPeriod{3000};
 constexpr std::chrono::milliseconds kTimeout{250};
 
@@ -77,7 +77,7 @@ class SimulationBridge final : public Bridge {
   mutable base::Mutex namespaces_mutex_;
   std::map<std::string, std::string> namespaces_ GSV_GUARDED_BY(namespaces_mutex_);  // by robot
 
-  // The publisher thread's.
+  // Members of the publisher thread.
   std::shared_ptr<const sensing::SensorRegistry> types_;
   sensing::SensorSet sensors_;
   sensing::RaySceneCache rays_;
@@ -204,7 +204,7 @@ void SimulationBridge::Refresh(Simulation& simulation) {
   }
 }
 
-// Whether robots came, went, or changed.
+// Returns whether robots were added, removed or changed.
 bool SimulationBridge::FollowRobots(Simulation& simulation, const world::Snapshot& snapshot) {
   std::set<std::string> with_behaviour;
   for (const simulation::RobotStatus& robot : simulation.status().robots) {
@@ -296,7 +296,7 @@ void SimulationBridge::VisitSources(const Visit& visit) {
   }
 }
 
-// Snapshots are taken only where somebody wants something of them.
+// Snapshots are taken only if a topic with readers needs them.
 void SimulationBridge::FollowReaders() {
   for (const auto& [body, robot] : robots_) robot->SendDescription(descriptions_);
   std::set<base::SimTime> periods;
@@ -320,7 +320,8 @@ void SimulationBridge::Publish(const SnapshotPointer& snapshot) {
   if (!slow.empty()) slow_.Offer(std::move(slow), moment, is_lockstep_);
 }
 
-// A step waits for a node: /clock again, and before the first step everything, because no step has published it.
+// A step waits for a node. So /clock is sent again. Before the first step all topics are sent,
+// because no step has published them yet.
 void SimulationBridge::Repeat() {
   const std::shared_ptr<Simulation> simulation = simulation_.lock();
   if (simulation == nullptr) return;

@@ -1,4 +1,5 @@
-// One simulation in ROS 2: what its robots sense goes out as topics, commands come in, and services control it.
+// Connects one simulation to ROS 2: publishes the robots' sensors, receives commands, and offers
+// the services that control the simulation.
 //
 // Threads  its own publisher thread, one for sensors that take long, and those of services; members from any
 //          thread. The
@@ -17,8 +18,9 @@ namespace gsv::ros2 {
 
 class Bridge {
  public:
-  // `participant` outlives the bridge, and watches endpoints; `spawner` outlives it too, or is null, and then
-  // SpawnEntity is not supported. Does not keep the simulation alive.
+  // `participant` must outlive the bridge, and watch endpoints. `spawner` must outlive it too;
+  // without one (null), SpawnEntity is not supported. The bridge does not keep the simulation
+  // alive.
   static std::unique_ptr<Bridge> Start(dds::Participant& participant, Options options,
                                        const std::shared_ptr<simulation::Simulation>& simulation,
                                        Spawner* spawner = nullptr);

@@ -70,7 +70,7 @@ TEST_F(BridgeTest, PublishesClockOdometryAndRange) {
   EXPECT_EQ(range.header.frame_id, "robot/front");
 }
 
-// More participants than are looked for on one machine, one after the other.
+// One after the other, more participants than the number that is searched for on one machine.
 TEST(Participant, IsFoundThoughManyWereThereBefore) {
   for (int i = 0; i < 40; ++i) ASSERT_NE(testing::MakeParticipant(), nullptr);
   Peer one, other;
@@ -201,7 +201,7 @@ TEST_F(BridgeTest, TakesNoCommandsForARobotWithABehaviour) {
   ASSERT_TRUE(simulation_->Start());
   peer_->Listen("/driven/odom", "nav_msgs/msg/Odometry", kDefaultQos);
   (void)peer_->Await<messages::nav_msgs::Odometry>("/driven/odom");
-  (void)peer_->Talk("/robot/cmd_vel", "geometry_msgs/msg/Twist");  // that one is there
+  (void)peer_->Talk("/robot/cmd_vel", "geometry_msgs/msg/Twist");  // there is another publisher now
   for (const dds::Endpoint& endpoint : peer_->participant().endpoints()) {
     EXPECT_NE(endpoint.topic.name, "rt/driven/cmd_vel");
   }

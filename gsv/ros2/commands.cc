@@ -38,7 +38,7 @@ base::Result<world::DriveCommand> CommandOf(const Twist& twist) {
 
 base::Result<std::vector<double>> DecodeFloat64MultiArray(std::span<const std::byte> sample) {
   messages::CdrReader reader(sample);
-  // Of layout.dim each element takes at least a string of one byte and two numbers.
+  // Each element of layout.dim has at least a string of one byte and two numbers.
   const std::size_t dimensions = reader.ReadCount(12);
   for (std::size_t i = 0; i < dimensions; ++i) {
     std::string label;

@@ -1,7 +1,7 @@
 // Commands of ROS 2 nodes to a robot's drive and its joints.
 //
-// The bytes are untrusted input. A message that does not decode, or holds a number that is not finite, is
-// refused, and the first of its kind is logged.
+// The bytes are untrusted input. A message that cannot be decoded, or contains a number that is not
+// finite, is rejected. The first message of each such kind is logged.
 //
 // Threads  Take…() on any threads; a command acts from the next step on.
 #pragma once
@@ -19,12 +19,12 @@ namespace gsv::ros2 {
 
 class CommandInput {
  public:
-  // `steps` may be null; while the robot is open in it, stamped commands go there.
+  // `steps` may be null. While a node steps the robot, stamped commands go to `steps`.
   explicit CommandInput(const std::shared_ptr<simulation::Agent>& agent,
                         std::shared_ptr<NodeSteps> steps = nullptr);
 
-  // geometry_msgs/msg/Twist: linear x and y in m/s, angular z in rad/s; the rest is not looked at, but must be
-  // finite.
+  // geometry_msgs/msg/Twist: linear x and y in m/s, angular z in rad/s; the other numbers have no
+  // effect, but must be finite.
   void TakeTwist(std::span<const std::byte> sample);
   void TakeTwistStamped(std::span<const std::byte> sample);
   // std_msgs/msg/Float64MultiArray: a value for each joint of `joints`, in this order.
@@ -33,7 +33,7 @@ class CommandInput {
 
   // Commands these joints to these positions, in rad or m.
   void CommandPositions(const std::vector<int>& joints, const std::vector<double>& positions);
-  // Counts a message on a topic that is refused, and logs the first.
+  // Counts a rejected message of a topic, and logs the first one.
   void Refuse(const base::Error& error, const char* topic);
 
   std::uint64_t taken() const { return taken_; }

@@ -1,4 +1,4 @@
-// The publisher's queue: the snapshots at which something is due, and events.
+// The publisher's queue of events, and of the snapshots at which something must be published.
 //
 // Threads  OnSnapshot() and OnEvent() as simulation::Observer; Next() from one; the rest from any.
 // Bounded  a few snapshots. If the publisher does not keep up, the oldest are dropped, or in lockstep the
@@ -27,17 +27,17 @@ class Feed final : public simulation::Observer {
   void OnSnapshot(const SnapshotPointer& snapshot) override;
   void OnEvent(const simulation::Event& event) override;
 
-  // From now on it takes only snapshots at the multiples of these periods.
+  // Selects the snapshots to take: those at multiples of these periods.
   void SetPeriods(const std::set<base::SimTime>& periods);
 
   struct News {
     SnapshotPointer snapshot;  // null: none
     std::vector<simulation::Event> events;
   };
-  // Returns the news, at the latest after `timeout` of wall time; earlier when Wake() is called.
+  // Returns new entries, at the latest after `timeout` (wall time), or when Wake() is called.
   News Next(std::chrono::milliseconds timeout);
   void Wake();
-  // Takes nothing more, and releases a stepping thread that waits.
+  // Closes the queue, and releases a stepping thread that waits.
   void Close();
   std::uint64_t dropped() const;
 

@@ -1,8 +1,8 @@
 // The frames of one robot in ROS 2: PREFIXodom → PREFIXBASE → links → sensors, by REP-105.
 //
-// BASE is the model's own frame. It has the name of the canonical link where that link's frame is the
-// model's; else it is base_link, or base_footprint where another link is called base_link. base_link is
-// always there.
+// BASE is the model's own frame. If the frame of the canonical link equals the model's frame, BASE
+// has this link's name. Otherwise it is base_link, or base_footprint if another link is called
+// base_link. There is always a frame base_link.
 #pragma once
 
 #include <string>
@@ -26,7 +26,7 @@ class Frames {
   std::string odom() const { return prefix_ + "odom"; }
   const std::string& base() const { return base_; }
   std::string OfLink(const model::Model& model, int link) const;
-  // The frame of its link where that is the sensor's; else one of its own.
+  // The frame of a sensor: that of its link if both are equal, else its own frame.
   std::string OfSensor(const model::Model& model, const model::SensorDescription& sensor) const;
 
   // base → fixed links, links → sensors (and the optical frames of those that have one).

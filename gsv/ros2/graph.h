@@ -1,4 +1,4 @@
-// Tells other participants which nodes there are: ros_discovery_info.
+// Publishes the list of nodes for other participants: ros_discovery_info.
 //
 // Source  rmw_dds_common/msg/ParticipantEntitiesInfo.msg, of Humble and of Iron and later.
 #pragma once
@@ -14,27 +14,27 @@
 
 namespace gsv::ros2 {
 
-// The bytes of a Gid: 24 in Humble, of which 16 are used; 16 since Iron.
+// The number of bytes of a Gid: 24 in Humble (16 of them are used), and 16 since Iron.
 std::size_t GidSize(Distro distro);
 
 // Appends a ParticipantEntitiesInfo.
 void EncodeGraph(const dds::Guid& participant, const std::vector<NodeInfo>& nodes, Distro distro,
                  messages::Bytes& out);
 
-// The nodes in a ParticipantEntitiesInfo of any distribution, which is untrusted input.
+// Reads the nodes of a ParticipantEntitiesInfo of any distribution. It is untrusted input.
 base::Result<std::vector<NodeInfo>> DecodeGraph(std::span<const std::byte> sample);
 
 class Graph {
  public:
-  // `participant` outlives this.
+  // `participant` must outlive this object.
   Graph(dds::Participant& participant, Distro distro);
-  // Sends the nodes if they are others than before.
+  // Sends the nodes if they have changed.
   void Publish(const std::vector<NodeInfo>& nodes);
 
  private:
   dds::Participant& participant_;
   const Distro distro_;
-  std::unique_ptr<dds::Writer> writer_;  // null: refused, which is logged
+  std::unique_ptr<dds::Writer> writer_;  // null: the participant refused it (this is logged)
   std::optional<std::vector<NodeInfo>> sent_;
 };
 

@@ -5,7 +5,7 @@
 namespace gsv::ros2 {
 namespace {
 
-// The size of a graph with the node "gsv" in "/" and one writer, if a Gid has so many bytes.
+// The size of a graph with the node "gsv" in "/" and one writer, for a given size of a Gid.
 std::size_t SizeFor(std::size_t gid) {
   // Encapsulation, Gid, count; "/" and padding, "gsv", two counts, a Gid.
   return 4 + gid + 4 + (4 + 2 + 2) + (4 + 4) + 4 + 4 + gid;

@@ -12,7 +12,7 @@ struct Pixels {
   int bytes = 0;  // a pixel
 };
 
-// All but the pixels themselves.
+// Everything except the pixels.
 void WriteHead(const Pixels& pixels, base::SimTime time, const std::string& frame,
                messages::CdrWriter& writer) {
   messages::std_msgs::Header header;
@@ -43,7 +43,7 @@ void EncodeDepth(int width, int height, std::span<const double> depth, base::Sim
   std::vector<float> metres(depth.begin(), depth.end());
   messages::CdrWriter writer(out);
   WriteHead({width, height, "32FC1", sizeof(float)}, time, frame, writer);
-  // The elements are bytes, which are aligned to nothing.
+  // The elements are bytes, so they need no alignment.
   writer.WriteBlock(metres.data(), metres.size() * sizeof(float), 1);
 }
 

@@ -1,4 +1,4 @@
-// sensor_msgs/msg/Image, written without a copy of the pixels in between.
+// Encodes sensor_msgs/msg/Image without an intermediate copy of the pixels.
 #pragma once
 
 #include <span>

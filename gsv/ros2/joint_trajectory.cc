@@ -60,7 +60,7 @@ base::Result<JointTrajectory::Point> PointOf(MessagePoint& message, std::size_t 
   return JointTrajectory::Point{time, std::move(message.positions), std::move(message.velocities)};
 }
 
-// The cubic with these values and slopes at both ends (Hermite), `s` of 0 to 1 between them.
+// The cubic Hermite polynomial with these values and slopes at both ends, for `s` from 0 to 1.
 double Cubic(double s, double length, double p0, double v0, double p1, double v1) {
   const double s2 = s * s, s3 = s2 * s;
   return (2 * s3 - 3 * s2 + 1) * p0 + (s3 - 2 * s2 + s) * length * v0 + (3 * s2 - 2 * s3) * p1 +
@@ -74,7 +74,7 @@ std::vector<double> JointTrajectory::PositionsAt(base::SimTime time,
   const auto next = std::find_if(points.begin(), points.end(),
                                  [&](const Point& point) { return point.time > time; });
   if (next == points.end()) return points.empty() ? initial : points.back().positions;
-  // The joints start at rest, whatever they did before.
+  // The trajectory starts at rest, regardless of the joints' earlier motion.
   const Point at_start{base::SimTime(0), initial, std::vector<double>(initial.size(), 0.0)};
   const Point& last = next == points.begin() ? at_start : *(next - 1);
   const double length = base::ToSeconds(next->time - last.time);

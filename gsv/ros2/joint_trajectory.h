@@ -1,4 +1,5 @@
-// A trajectory of joints, as MoveIt and ros2_control send it: positions at instants, and between them.
+// A trajectory of joints, as MoveIt and ros2_control send it: positions at given times, with
+// interpolation.
 //
 // Source   trajectory_msgs/msg/JointTrajectory; ros2_controllers, "Trajectory Representation": linear where the
 //          points have no velocities, cubic (Hermite) where they have.
@@ -29,13 +30,13 @@ struct JointTrajectory {
   std::vector<int> joints;             // their indices in the model
   std::vector<Point> points;           // none: the joints stay where they are
 
-  // The positions at a time after the start. Before the first point they go there from `initial`, the
-  // positions at the start; after the last point they stay.
+  // The positions at a time after the start. Before the first point, they are interpolated from
+  // `initial`, the positions at the start. After the last point, they do not change.
   std::vector<double> PositionsAt(base::SimTime time, const std::vector<double>& initial) const;
 };
 
-// Reads a JointTrajectory, which is untrusted input, for some of `joints`. Fails with kCorrupt if it does not
-// decode, and with kInvalidArgument if names, counts, times or values are wrong.
+// Reads a JointTrajectory for some of `joints`. It is untrusted input. Fails with kCorrupt if it
+// cannot be decoded, and with kInvalidArgument if names, counts, times or values are wrong.
 base::Result<JointTrajectory> ReadJointTrajectory(std::span<const std::byte> sample,
                                                   const model::Model& model,
                                                   const std::vector<int>& joints);

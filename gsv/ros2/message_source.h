@@ -15,7 +15,7 @@ class MessageSource final : public Source {
  public:
   using Make = std::function<Message(const world::Snapshot& snapshot)>;
 
-  // `writer` may be null; else it outlives this.
+  // `writer` may be null; otherwise it must outlive this object.
   MessageSource(base::SimTime period, dds::Writer* writer, Make make)
       : Source(period), writer_(writer), make_(std::move(make)) {}
 

@@ -1,4 +1,4 @@
-// Names as ROS 2 has them, and what becomes of them on the wire.
+// Names in ROS 2, and the corresponding names in DDS.
 //
 // Source  design.ros2.org, "Topic and Service name mapping to DDS"; REP-105 for frames.
 #pragma once
@@ -8,11 +8,12 @@
 
 namespace gsv::ros2 {
 
-// The text with each character that a ROS name cannot have as '_': letters, digits and underscores are left,
-// and the first is no digit. Never empty.
+// Replaces each character that is not allowed in a ROS name by '_'. Letters, digits and underscores
+// are allowed, and the first character is not a digit. The result is never empty.
 std::string RosName(std::string_view text);
 
-// Whether it is "/" or "/a/b": absolute, of valid names, without a slash at its end.
+// Whether the text is an absolute namespace such as "/" or "/a/b": valid names without a slash at
+// the end.
 bool IsNamespace(std::string_view text);
 
 // "/pebble" and "scan" give "/pebble/scan"; "/" and "scan" give "/scan".
@@ -23,7 +24,7 @@ std::string DdsTopicName(std::string_view topic);
 // "sensor_msgs/msg/LaserScan" is "sensor_msgs::msg::dds_::LaserScan_".
 std::string DdsTypeName(std::string_view type);
 
-// The other way; empty where it is no topic, or no message type, of ROS 2.
+// The reverse. Empty if the name is not that of a topic, or of a message type, of ROS 2.
 std::string RosTopicName(std::string_view dds_topic);
 std::string RosTypeName(std::string_view dds_type);
 

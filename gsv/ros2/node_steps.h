@@ -21,19 +21,22 @@ namespace gsv::ros2 {
 // The name of the behaviour of robots that ROS 2 nodes drive.
 inline constexpr const char* kRos2Behaviour = "ros2";
 
-// The commands of nodes, and the robots that wait for them.
+// The commands that nodes have sent, and the robots that wait for them.
 class NodeSteps {
  public:
-  // `is_open`: a robot is stepped by a node from now on, or its node is not waited for any longer.
+  // Sets whether a node steps the robot. If `is_open` becomes false, the robot no longer waits for
+  // its node.
   void Open(const std::string& robot, bool is_open);
   bool IsOpen(const std::string& robot) const;
 
-  // A command that a node sent with that time.
+  // Stores a command that a node has sent with this time stamp.
   void Offer(const std::string& robot, base::SimTime stamp, const world::DriveCommand& command);
-  // Waits for the command of this time; nothing once the robot is closed. Repeats /clock meanwhile.
+  // Waits for the command with this time stamp, and repeats /clock meanwhile. Returns nothing once
+  // the node no longer steps the robot.
   std::optional<world::DriveCommand> Await(const std::string& robot, base::SimTime time);
 
-  // `repeat` sends /clock again, for nodes that came late or lost it; empty: nothing does. It returns at once.
+  // `repeat` sends /clock again, for nodes that have started late or lost it. It must return at
+  // once, and may be empty.
   void RepeatBy(std::function<void()> repeat);
 
  private:
@@ -52,11 +55,12 @@ class NodeSteps {
   std::function<void()> repeat_ GSV_GUARDED_BY(repeat_mutex_);
 };
 
-// The agent of such a robot: at each instant of /clock it waits for its node, applies the command, and waits for the
-// next instant. The simulation's deadline applies as for every behaviour.
+// The agent of a robot that a node steps. At each instant of /clock, it waits for the node, applies
+// the command, and waits for the next instant. The simulation's deadline applies as for every
+// behaviour.
 class NodeBehaviour final : public simulation::BehaviourPort {
  public:
-  // `period` is that of /clock.
+  // `period` is the period of /clock.
   NodeBehaviour(std::shared_ptr<NodeSteps> steps, base::SimTime period);
   ~NodeBehaviour() override;
 

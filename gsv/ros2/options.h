@@ -14,16 +14,16 @@ namespace gsv::ros2 {
 // The period of /clock, in simulated time.
 inline constexpr base::SimTime kClockPeriod = std::chrono::milliseconds(10);
 
-// Distributions differ in what discovery carries.
+// The distributions differ in the data that discovery exchanges.
 enum class Distro { kHumble, kJazzy, kKilted, kLyrical };
 
 struct Options {
-  std::optional<dds::Range> range{};  // empty: as the environment says, else localhost
+  std::optional<dds::Range> range{};  // empty: from the environment, else localhost
   Distro distro = Distro::kJazzy;
   // namespaces by robot; a robot that is not listed has "/ROBOT"
   std::map<std::string, std::string> namespaces{};
   bool is_cmd_vel_stamped = false;     // TwistStamped, else Twist
-  std::shared_ptr<NodeSteps> steps{};  // nodes step the robots that are open in it; null: none
+  std::shared_ptr<NodeSteps> steps{};  // the robots that nodes step; null: none
 };
 
 base::Result<Distro> ParseDistro(const std::string& text);
@@ -32,7 +32,7 @@ base::Result<dds::Range> ParseRange(const std::string& text);
 base::Status ParseNamespace(const std::string& text,
                             std::map<std::string, std::string>& namespaces);
 
-// The value of an environment variable; empty: it is not set.
+// Returns the value of an environment variable, or an empty text if it is not set.
 using Environment = std::function<std::string(const char* name)>;
 std::string ProcessEnvironment(const char* name);
 
@@ -41,7 +41,7 @@ std::string ProcessEnvironment(const char* name);
 base::Result<dds::ParticipantOptions> ParticipantFor(const Options& options,
                                                      const Environment& environment);
 
-// Others than this machine can send and receive.
+// Whether other machines can send and receive.
 bool IsExposed(const dds::ParticipantOptions& options);
 
 }  // namespace gsv::ros2

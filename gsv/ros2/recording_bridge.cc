@@ -19,12 +19,12 @@
 namespace gsv::ros2 {
 namespace {
 
-// Wall time between two looks at the position.
+// The interval between checks of the position, in wall time.
 constexpr std::chrono::milliseconds kTick{5};
 constexpr std::size_t kMaxTopics = 1000;
 constexpr std::string_view kClockTopic = "/clock";
 
-// Whether an advance in one tick is a seek, rather than a tick that came late.
+// Whether an advance within one tick is a seek, and not caused by a late tick.
 bool IsJump(base::SimTime advance, double speed) {
   return advance < base::SimTime(0) || base::ToSeconds(advance) > 1 + speed / 2;
 }

@@ -1,6 +1,7 @@
-// A recording in ROS 2: its messages go out on their topics as its time advances, and /clock with them.
+// Publishes a recording in ROS 2: its messages and /clock, as its time advances.
 //
-// The file is untrusted input. Topics get valid names; those whose messages are not CDR are left out.
+// The file is untrusted input. Topics get valid names. Topics whose messages are not in CDR are
+// omitted.
 //
 // Threads  its own.
 #pragma once
@@ -22,8 +23,9 @@ class RecordingBridge {
     double speed = 1;
   };
 
-  // Opens the recording a second time. `participant` outlives the bridge. `position` is called on the bridge's thread.
-  // After a jump, messages from there on are published. Fails as McapReader::Open() does.
+  // Opens the recording a second time. `participant` must outlive the bridge. `position` is called
+  // on the bridge's thread. After a jump, the messages from the new position on are published.
+  // Fails as McapReader::Open() does.
   static base::Result<std::unique_ptr<RecordingBridge>> Start(dds::Participant& participant,
                                                               Distro distro,
                                                               const std::string& path,
@@ -31,7 +33,8 @@ class RecordingBridge {
   virtual ~RecordingBridge() = default;
 };
 
-// The topic under which a recorded one is published: each part with the characters that ROS names can have.
+// The name under which a recorded topic is published: characters that are not allowed in ROS names
+// are replaced in each part.
 std::string PublishedTopic(const std::string& recorded);
 
 }  // namespace gsv::ros2

@@ -1,4 +1,4 @@
-// robot_description: models as URDF, whose meshes are files that RViz finds on this machine.
+// Makes robot_description: models as URDF, with mesh files that RViz finds on this machine.
 //
 // Errors   a mesh that cannot be written is an error of its model.
 // Threads  one.
@@ -17,14 +17,14 @@ namespace gsv::ros2 {
 
 class RobotDescriptions {
  public:
-  // The URDF of a model, which is written once. Its meshes are named file:///…, in a temporary folder that
-  // exists as long as this object.
+  // Returns the URDF of a model; it is written once. Its meshes have file:/// names in a temporary
+  // folder that exists as long as this object.
   base::Result<std::string> Of(const std::shared_ptr<const model::Model>& model);
 
  private:
   base::Result<std::string> Write(const model::Model& model, const std::string& name);
 
-  std::optional<base::TemporaryFolder> folder_;  // once there is a mesh
+  std::optional<base::TemporaryFolder> folder_;  // created with the first mesh
   std::map<std::shared_ptr<const model::Model>, std::string> texts_;
 };
 

@@ -40,7 +40,7 @@ bool HasType(const sensing::SensorRegistry& types,
   });
 }
 
-// The joints that take commands and are not the drive's.
+// The joints that accept commands and do not belong to the drive.
 std::vector<int> FreeJoints(const model::Model& model) {
   std::vector<int> joints;
   for (std::size_t j = 0; j < model.joints.size(); ++j) {

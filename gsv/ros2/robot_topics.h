@@ -1,4 +1,4 @@
-// One robot or station in ROS 2: a node with its sensors' topics and the commands it takes.
+// One robot or station in ROS 2: a node with the topics of its sensors and of its commands.
 //
 // Threads  one.
 #pragma once
@@ -34,7 +34,7 @@ class RobotTopics {
   RobotTopics(const Context& context, const world::Body& body, std::string name_space,
               bool takes_commands);
 
-  // Whether this is what would be made of the body now.
+  // Whether a new object for the body would equal this one.
   bool IsOf(const world::Body& body, const std::vector<model::SensorDescription>& sensors,
             bool takes_commands) const;
 
@@ -47,7 +47,7 @@ class RobotTopics {
   void AppendStaticFrames(const world::Snapshot& snapshot,
                           messages::tf2_msgs::TFMessage& message) const;
 
-  // Sends robot_description, once somebody reads it.
+  // Sends robot_description as soon as it has a reader.
   void SendDescription(RobotDescriptions& descriptions);
 
   // Logs once when several nodes command this robot at the same time, and once when a node sends commands of

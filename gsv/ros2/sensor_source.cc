@@ -18,11 +18,11 @@ namespace {
 
 using sensing::Reading;
 
-// How a sensor type is known in ROS 2.
+// The usual topic and rate of a sensor type in ROS 2.
 struct Habit {
   const char* topic;
   bool is_sensor_data;
-  double rate;  // Hz, of one that samples whenever asked
+  double rate;  // Hz, for a sensor without its own rate
 };
 
 constexpr double kUsualRate = 20;
@@ -55,7 +55,7 @@ bool Append(const std::vector<std::uint8_t>& bytes, messages::Bytes& out) {
   return !bytes.empty();
 }
 
-// The message that recordings and viewers get as well.
+// The same message as for recordings and viewers.
 SensorOutput OwnMessage(const RosSensor& sensor, std::string topic, std::string frame,
                         const dds::Qos& qos, const messages::Schema& schema) {
   return {std::move(topic), std::string(schema.name), qos,
@@ -120,7 +120,7 @@ SensorOutput DepthMessage(const RosSensor& sensor, const std::string& base,
           }};
 }
 
-// The outputs of one sensor, as they are made.
+// Collects the outputs of one sensor.
 class OutputList {
  public:
   OutputList(const RosSensor& sensor, std::string base, std::string frame)
@@ -139,7 +139,7 @@ class OutputList {
     AddOwn(base_ + "/points", frame_, kSensorDataQos);
     AddCompanion(base_ + "/camera_info");
   }
-  // One row is a scan, several are points.
+  // A lidar with one row gives a scan; one with several rows gives points.
   void AddLidar() {
     if (!sent_.companion) return AddOwn(base_, frame_, kSensorDataQos);
     AddCompanion(sensor_.is_only ? "points" : RosName(sensor_.description.name) + "/points");

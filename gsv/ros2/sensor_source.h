@@ -1,7 +1,7 @@
-// A sensor of a robot, published: one sample, as many messages as ROS 2 has of it.
+// Publishes a sensor of a robot: one sample gives all its messages in ROS 2.
 //
-// A reading is a function of the snapshot, so it is sampled here again: the value that the robot's
-// behaviour gets, without leaving a trace in the simulation.
+// A reading is a function of the snapshot, so the sensor is sampled here again. The value equals
+// the one that the robot's behaviour gets, and the simulation does not change.
 #pragma once
 
 #include <functional>
@@ -22,7 +22,7 @@ struct SensorOutput {
   std::string topic;  // relative to the robot's namespace
   std::string type;   // "sensor_msgs/msg/LaserScan"
   dds::Qos qos;
-  // Appends the message. False: of this reading there is none.
+  // Appends the message. Returns false if this reading has no such message.
   std::function<bool(const sensing::Reading& reading, messages::Bytes& out)> encode;
 };
 
@@ -35,13 +35,13 @@ struct RosSensor {
       true;  // the only one of its type on the robot, which has the usual name for its topic
 };
 
-// The messages of a sensor, by its type: "scan" of a lidar, "camera/image_raw" of a camera. Where there
-// are several of a type, their topics stand below their names. A type without a usual name has a topic with
-// the sensor's.
+// The messages of a sensor, by its type: "scan" of a lidar, "camera/image_raw" of a camera. If a
+// robot has several sensors of a type, the topics begin with the sensors' names. The topic of a
+// type without a usual name has the sensor's name.
 std::vector<SensorOutput> OutputsOf(const RosSensor& sensor, const Frames& frames,
                                     const model::Model& model);
 
-// Hz: its own, or a usual one of a sensor that samples whenever asked.
+// Hz: the sensor's own rate, or else the usual rate of its type.
 double RateOf(const RosSensor& sensor);
 
 class SensorSource final : public Source {

@@ -73,7 +73,7 @@ test("without a simulation the page offers to create one", async () => {
   assert.equal(isBlank(await picture(page, await viewClip(page))), false);
 });
 
-test("the environment is chosen, and shown", async () => {
+test("the environment is chosen and shown", async () => {
   const before = await picture(page, await viewClip(page));
   await field("Environment").selectOption("playground");
   await answered();
@@ -81,7 +81,7 @@ test("the environment is chosen, and shown", async () => {
   assert.ok(changedPixels(before, after) > 10_000, "another world looks different");
 });
 
-test("a world that does not exist is refused beside the field", async () => {
+test("a missing world shows an error beside the field", async () => {
   await field("Environment").selectOption({ label: "A file or folder…" });
   await page.getByLabel("Environment: A file or folder…").fill("no/such.world");
   await page.keyboard.press("Tab");
@@ -92,7 +92,7 @@ test("a world that does not exist is refused beside the field", async () => {
   assert.equal(await error.isVisible(), false);
 });
 
-test("without offers it is said which command starts one, and the offer appears by itself", async () => {
+test("without offers the page shows the command to start one, and the offer appears automatically", async () => {
   await page.getByLabel("Model to add").selectOption("pebble");
   await press("Add robot");
   await answered();
@@ -127,7 +127,7 @@ test("a click on the floor puts the chosen robot there, after Place only", async
   assert.ok(Math.abs(Number(await field("x (m)", row(0)).inputValue()) - x) < 1e-3);
 });
 
-test("dragging moves it, dragging the arrow's tip turns it, undo takes both back", async () => {
+test("dragging moves a robot, dragging the arrow's tip rotates it, and undo reverts both", async () => {
   const before = await placeOf("pebble");
   const from = await onScreen("pebble");
   await page.mouse.move(from.x, from.y);
@@ -158,7 +158,7 @@ test("dragging moves it, dragging the arrow's tip turns it, undo takes both back
   assert.ok(Math.hypot(back.x - before.x, back.y - before.y) < 1e-6);
 });
 
-test("a robot in another one is refused at its row, and the other stays", async () => {
+test("a robot inside another one shows an error at its row", async () => {
   await press("Add robot");
   await answered();
   const { x, y } = await placeOf("pebble");
@@ -172,7 +172,7 @@ test("a robot in another one is refused at its row, and the other stays", async 
   await fill("Name", "second", row(1));
 });
 
-test("the set-up is saved as a file, and loaded again", async () => {
+test("the set-up is saved as a file and loaded again", async () => {
   await page.getByText("Parameters", { exact: true }).click();
   await fill("Name", "made here", page.locator("details"));
   await fill("Seed of all noise", "7");
@@ -198,7 +198,7 @@ test("the set-up is saved as a file, and loaded again", async () => {
   await keepPicture(page, "create");
 });
 
-test("what is no scenario is refused with a sentence", async () => {
+test("a file that is not a scenario is rejected with a sentence", async () => {
   const file = path.join(folder, "torn.yaml");
   fs.writeFileSync(file, "robots: [");
   await field("Scenario file").setInputFiles(file);
@@ -206,7 +206,7 @@ test("what is no scenario is refused with a sentence", async () => {
   assert.equal(await row(1).count(), 1);
 });
 
-test("what is created is watched, and its robot driven by the behaviour", async () => {
+test("the created simulation is shown, and its robot is driven by the behaviour", async () => {
   await press("Create");
   await phaseIs(page, "created");
   assert.deepEqual(await page.evaluate(() => window.gsv.robots), ["pebble", "second"]);
@@ -222,7 +222,7 @@ test("what is created is watched, and its robot driven by the behaviour", async 
   assert.ok(Math.hypot(still.x - start.second.x, still.y - start.second.y) < 1e-6);
 });
 
-test("cancelling a second set-up comes back to the first simulation", async () => {
+test("cancelling a second set-up returns to the first simulation", async () => {
   await press("New simulation");
   await answered();
   await press("Cancel");

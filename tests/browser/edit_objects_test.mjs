@@ -1,5 +1,5 @@
-// Things are put into a paused simulation, turned and taken away, and the recording of it all is
-// simulated again.
+// Adds, rotates and removes objects in a paused simulation, and simulates the recording of this
+// again.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import fs from "node:fs";
@@ -42,13 +42,14 @@ const model = () => page.getByRole("region", { name: "Edit" }).getByLabel("Model
 const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 const yawOf = ([, , , x, y, z, w]) => Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
 
-// The page shows what the server has.
+// Waits until the page shows the server's state.
 async function shown(name, isThere = true) {
   await page.locator(".world-tree li", { hasText: name }).waitFor({ state: isThere ? "attached" : "detached" });
   await settled(page);
 }
 
-// What both buttons offer: it differs after each press, also after one of two equal edits.
+// Returns the titles of both buttons. They differ after each press, even after one of two equal
+// edits.
 const offered = () =>
   page.evaluate(() => ["Undo", "Redo"].map((each) => document.querySelector(`.edit [aria-label="${each}"]`).title).join());
 
@@ -63,7 +64,7 @@ async function pressAsOftenAsItGoes(name) {
   }
 }
 
-test("a thing that is added stands there and is chosen", async () => {
+test("an added object is placed and selected", async () => {
   await phaseIs(page, "running");
   await press("Edit");
   await phaseIs(page, "paused");
@@ -112,7 +113,7 @@ test("a click on the floor puts it there after Place only, which another viewer 
   await other.close();
 });
 
-test("what is removed comes back; all is taken back and done again", async () => {
+test("removal is undone, and all edits can be undone and redone", async () => {
   await model().selectOption({ label: "can" });
   await press("Add");
   await shown("can");
@@ -141,7 +142,7 @@ test("what is removed comes back; all is taken back and done again", async () =>
   await shown("can");
 });
 
-test("what cannot be is refused with a sentence", async () => {
+test("impossible edits are rejected with a sentence", async () => {
   const refusal = async (what) => (await ask(page, "/objects", what)).error;
   assert.match(await refusal({ model: "can", x: 5.1, y: 0 }), /no room at \(5\.1, 0\): .* "east_wall"/);
   assert.match(await refusal({ model: "unicorn", x: 1, y: 1 }), /unicorn/);
@@ -151,7 +152,7 @@ test("what cannot be is refused with a sentence", async () => {
   assert.match((await ask(page, "/bodies/east_wall/place", { x: 1, y: 1 })).error, /fixed to the world/);
 });
 
-test("when it goes on nothing can be changed", async () => {
+test("nothing can be edited after the simulation has resumed", async () => {
   await press("Resume");
   await phaseIs(page, "running");
   const then = await page.evaluate(() => window.gsv.time);
@@ -160,7 +161,7 @@ test("when it goes on nothing can be changed", async () => {
   assert.deepEqual(faults.filter((fault) => !/status of 4\d\d/.test(fault)), []);
 });
 
-test("the recording holds the edits, and simulated again it is the same", async () => {
+test("the recording contains the edits, and simulating it again gives the same result", async () => {
   await browser.close();
   browser = undefined;
   await server.stop();
@@ -177,8 +178,8 @@ test("the recording holds the edits, and simulated again it is the same", async 
   assert.equal(again.status, 0);
 });
 
-// Past the page: steps are counted, so that what behaviours decide can be repeated, too.
-test("in lockstep a run with live behaviours repeats its edits to the bit", async () => {
+// Without the page: counts steps, so that the behaviours' decisions can be repeated too.
+test("in lockstep, a run with live behaviours repeats its edits exactly", async () => {
   const file = path.join(folder, "lockstep.mcap");
   server = await startServer([...RUN, "--lockstep", "--record", file]);
   const api = `${server.url}api/simulations/simulation`;
@@ -217,7 +218,7 @@ test("in lockstep a run with live behaviours repeats its edits to the bit", asyn
   assert.equal(again.status, 0);
 });
 
-// A cart on two wheels, without a file of its own.
+// A cart on two wheels, without its own file.
 const wheel = (side, y) => `<link name="${side}"><pose>0 ${y} 0 -1.5707963 0 0</pose>
   <collision name="c"><geometry><cylinder><radius>0.15</radius><length>0.05</length></cylinder></geometry></collision></link>
   <joint name="${side}_joint" type="revolute"><parent>base</parent><child>${side}</child><axis><xyz>0 0 1</xyz></axis></joint>`;
@@ -233,7 +234,7 @@ const WORLD = `<?xml version="1.0"?><sdf version="1.9"><world name="yard">
       <left_joint>left_joint</left_joint><right_joint>right_joint</right_joint></plugin>
   </model></world></sdf>`;
 
-test("a robot that came with the world comes back by undo", async () => {
+test("undo restores a robot of the world file", async () => {
   const world = path.join(folder, "yard.sdf");
   fs.writeFileSync(world, WORLD);
   server = await startServer([world, "--robot", "pebble@-2,0", "--behaviour", "wander"]);

@@ -1,5 +1,5 @@
-// Looking at a simulation: overlays, views, the inspector's live values, plots, and what one takes
-// along. One robot has a sensor of each kind.
+// Tests overlays, views, the inspector's live values, plots, and downloads. One robot has a sensor
+// of each kind.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import path from "node:path";
@@ -43,13 +43,13 @@ async function press(name) {
   await page.getByRole("button", { name, exact: true }).click();
 }
 
-// Runs what makes the browser download a file; gives its name and bytes.
+// Performs an action that makes the browser download a file, and returns its name and content.
 async function downloaded(act) {
   const [file] = await Promise.all([page.waitForEvent("download"), act()]);
   return { name: file.suggestedFilename(), bytes: fs.readFileSync(await file.path()) };
 }
 
-test("the menu of overlays shows what is on, and keys do the same", async () => {
+test("the menu of overlays shows the active ones, and keys switch them too", async () => {
   await press("Overlays");
   const trails = page.getByRole("button", { name: "Trails", exact: true });
   assert.equal(await trails.getAttribute("aria-pressed"), "false");
@@ -57,7 +57,7 @@ test("the menu of overlays shows what is on, and keys do the same", async () => 
   assert.equal(await trails.getAttribute("aria-pressed"), "true");
   await page.keyboard.press("Escape");
   assert.equal(await trails.isVisible(), false);
-  // Who came by keys is back at the button.
+  // After the keyboard was used, the focus is on the button again.
   await page.getByRole("button", { name: "Overlays", exact: true }).focus();
   await page.keyboard.press("Enter");
   await page.keyboard.press("Tab");
@@ -66,10 +66,10 @@ test("the menu of overlays shows what is on, and keys do the same", async () => 
   assert.equal(await page.evaluate(() => document.activeElement.getAttribute("aria-label")), "Overlays");
 });
 
-test("a chase follows the robot that was chosen, and a pause holds all still", async () => {
+test("a chase follows the selected robot, and a pause stops all motion", async () => {
   await page.locator('[data-robot="surveyor"]').click();
   await page.keyboard.press("c");
-  // Trails grow: on a busy machine a robot may stand for seconds before it is told to drive.
+  // Trails grow. On a busy machine, a robot may take seconds before it gets a command to drive.
   const from = await page.evaluate(() => window.gsv.robotPosition("surveyor"));
   await page.waitForFunction(({ x, y }) => {
     const now = window.gsv.robotPosition("surveyor");
@@ -80,7 +80,8 @@ test("a chase follows the robot that was chosen, and a pause holds all still", a
   await settled(page);
 });
 
-// Each is switched on alone, in a picture that stands still: from behind, trails from above.
+// Switches on one overlay at a time in a paused picture: the view is from behind the robot, or from
+// above for trails.
 for (const [name, key, isWanted, least] of [
   ["points of lidar and depth camera", "2", isOrange, 60],
   ["what a camera sees", "4", (...colour) => isYellow(...colour) || isOrange(...colour), 15],
@@ -97,7 +98,7 @@ for (const [name, key, isWanted, least] of [
     const button = page.locator(`.menu-item[aria-keyshortcuts="${key}"]`);
     const isOn = async () => (await button.getAttribute("aria-pressed")) === "true";
     if (!(await isOn())) await page.keyboard.press(key);
-    // Its readings may be under way.
+    // A reading may still arrive.
     let drawn = 0;
     await until(async () => {
       await settled(page);
@@ -118,7 +119,7 @@ for (const [name, key, isWanted, least] of [
   });
 }
 
-test("the browser remembers what is shown", async () => {
+test("the browser stores the choice of overlays", async () => {
   await page.keyboard.press("2");
   await page.reload();
   await waitUntilDrawn(page);
@@ -139,7 +140,7 @@ test("the browser remembers what is shown", async () => {
   ]);
 });
 
-test("the inspector tells what each sensor reads", async () => {
+test("the inspector shows each sensor's readings", async () => {
   await page.locator('[data-robot="surveyor"]').click();
   const values = (sensor) => inspector().locator(`[data-sensor="${sensor}"] .values`);
   await values("sonar")
@@ -153,7 +154,7 @@ test("the inspector tells what each sensor reads", async () => {
   await keepPicture(page, "inspector");
 });
 
-test("the pose is copied as files have it", async () => {
+test("the pose is copied in the format of files", async () => {
   await press("Copy pose");
   const text = await page.evaluate(() => navigator.clipboard.readText());
   const numbers = text.split(" ").map(Number);
@@ -162,7 +163,7 @@ test("the pose is copied as files have it", async () => {
   assert.ok(Math.abs(numbers[0] - pose.x_m) < 1e-3 && Math.abs(numbers[1] - pose.y_m) < 1e-3, text);
 });
 
-test("a chase looks from behind, a robot's eye ahead, and afterwards the view is as it was", async () => {
+test("a chase looks from behind, a robot's view ahead, and afterwards the former view returns", async () => {
   const view = () => page.evaluate(() => window.gsv.view);
   const robot = await page.evaluate(() => window.gsv.robotPosition("surveyor"));
   await page.keyboard.press("c");
@@ -185,7 +186,7 @@ test("a chase looks from behind, a robot's eye ahead, and afterwards the view is
   await page.keyboard.press("r");
 });
 
-test("values are plotted against simulated time, and saved as a table", async () => {
+test("values are plotted against simulated time and saved as a table", async () => {
   await page.locator('[data-robot="pebble"]').click();
   await press("Plot speed");
   await inspector().locator('[data-sensor="sonar_00"] dd').waitFor();
@@ -224,7 +225,7 @@ test("values are plotted against simulated time, and saved as a table", async ()
   assert.ok(ranges.length > 5 && ranges.every((text) => Number(text) >= 0 && Number(text) <= 3), `${ranges}`);
 });
 
-test("while it is paused no plot goes on", async () => {
+test("plots stop while the simulation is paused", async () => {
   const rows = async () =>
     (await downloaded(() => press("Save as CSV"))).bytes.toString().split("\r\n").length;
   const then = await rows();
@@ -233,7 +234,7 @@ test("while it is paused no plot goes on", async () => {
   await press("Close plots");
 });
 
-test("a picture of the view is saved as it is seen", async () => {
+test("an image of the view is saved as it is displayed", async () => {
   const { name, bytes } = await downloaded(() => page.keyboard.press("x"));
   assert.match(name, /^simulation view .*\.png$/);
   assert.equal(isBlank(PNG.sync.read(bytes)), false);
@@ -251,11 +252,11 @@ test("a video of the view is saved", async () => {
   assert.ok(bytes.length > 5000, `${bytes.length} bytes`);
 });
 
-test("a link shows the same robot from the same place", async () => {
+test("a link restores the robot and the camera", async () => {
   await press("Pause");
   await phaseIs(page, "paused");
   await page.keyboard.press("f");
-  // The view comes to rest.
+  // Waits until the view has stopped moving.
   const view = () => page.evaluate(() => window.gsv.view);
   await until(async () => {
     const then = await view();
@@ -286,7 +287,7 @@ test("a link shows the same robot from the same place", async () => {
   }
 });
 
-test("the sheet of keys knows them all", async () => {
+test("the sheet of keys lists all keys", async () => {
   await page.keyboard.press("?");
   const sheet = page.getByRole("dialog");
   for (const text of ["Chase the selected robot", "Trails", "recording a video", "Plots"]) {
@@ -297,7 +298,7 @@ test("the sheet of keys knows them all", async () => {
   await sheet.waitFor({ state: "hidden" });
 });
 
-test("the status of the simulation, its robots and the server is in a panel", async () => {
+test("a panel shows the status of the simulation, its robots and the server", async () => {
   await page.keyboard.press("i");
   const panel = page.getByRole("region", { name: "Status", exact: true });
   await panel.getByRole("button", { name: "surveyor" }).click();
@@ -310,7 +311,7 @@ test("the status of the simulation, its robots and the server is in a panel", as
   assert.equal(await panel.isVisible(), false);
 });
 
-test("single keys are turned off by keys alone, and the page remembers it", async () => {
+test("single keys can be turned off with the keyboard, and the page stores it", async () => {
   const panel = page.getByRole("region", { name: "Status", exact: true });
   await page.keyboard.press("?");
   const setting = page.getByRole("checkbox", { name: "Single-key shortcuts" });
@@ -332,4 +333,4 @@ test("single keys are turned off by keys alone, and the page remembers it", asyn
   await panel.waitFor();
 });
 
-test("all this needed no other host and raised no error", () => assert.deepEqual(faults, []));
+test("no other host was contacted and there were no errors", () => assert.deepEqual(faults, []));

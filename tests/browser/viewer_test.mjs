@@ -1,4 +1,4 @@
-// The viewer in a real browser, on a real simulation: what a person sees and presses.
+// Tests the viewer in a real browser with a real simulation: what a person sees and clicks.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
@@ -51,7 +51,7 @@ async function show(part, shown) {
   await button.waitFor({ state: "hidden" });
 }
 
-// What the page's server says, past the page's own code.
+// Requests the page's server directly, without the page's code.
 const ask = (path, body) => viewing.ask(page, path, body);
 const settled = (of = page) => viewing.settled(of);
 const viewClip = (of = page) => viewing.viewClip(of);
@@ -80,12 +80,12 @@ async function robotsInView() {
   });
 }
 
-test("the page shows the world: the picture is not blank", async () => {
+test("the view of the world is not blank", async () => {
   await phaseIs("running");
   assert.equal(isBlank(await picture(page, await viewClip())), false);
 });
 
-test("the page says that the canvas is lost, and the picture comes back", async () => {
+test("a lost canvas is reported, and the image returns", async () => {
   await show("Names", false);
   const clip = await viewClip();
   await page.evaluate(() => {
@@ -127,7 +127,7 @@ test("pause freezes the simulated time, resume lets it go on", async () => {
   await page.waitForFunction((then) => window.gsv.time > then + 0.2, frozen);
 });
 
-test("the number of steps to take, and how fast it goes, are set in a menu", async () => {
+test("a menu sets the number of steps and the real-time factor", async () => {
   await pause();
   const before = await ask("");
   await press("Speed and steps");
@@ -149,8 +149,8 @@ test("the number of steps to take, and how fast it goes, are set in a menu", asy
   await resume();
 });
 
-// Seen from above, where no wall hides a robot; a desk may, hence "half" of several. What is at a
-// robot's middle must be something else once it has gone.
+// The view is from above, where no wall hides a robot. A desk may hide one, so only half of several
+// must be visible. After a robot has left, its former place must show something else.
 test("robots are drawn at their projected places, and leave them when they move", async () => {
   await pause();
   for (const part of ["Beams", "Names", "Grid"]) await show(part, false);
@@ -160,14 +160,14 @@ test("robots are drawn at their projected places, and leave them when they move"
   const robots = (await robotsInView()).filter(({ at }) => isWithin(clip, at, MIDDLE_PX));
   assert.ok(robots.length > 0, "no robot is in the picture");
   const here = await picture(page, clip);
-  // Which robots' places no robot covers any more.
+  // Returns the robots whose former places no robot covers any more.
   const deserted = async () => {
     const now = (await robotsInView()).map(({ at }) => at);
     return robots.map(({ at }) =>
       now.every((other) => Math.hypot(other.x - at.x, other.y - at.y) > ROBOT_PX),
     );
   };
-  // A wanderer may spend some seconds on turning.
+  // A wandering robot may rotate for some seconds.
   let left = await deserted();
   const enough = Math.min(robots.length, 3);
   for (let tries = 0; tries < 20 && left.filter(Boolean).length < enough; tries++) {
@@ -217,7 +217,7 @@ test("a click on a robot selects it and shows where it is", async () => {
   await page.mouse.click(robot.at.x, robot.at.y);
   const inspector = page.getByRole("region", { name: "Selected robot" });
   const title = await inspector.getByRole("heading").textContent();
-  // Another robot may stand in front of it.
+  // Another robot may be in front of it.
   assert.ok((await robotsInView()).some(({ name }) => name === title));
   const { pose } = (await ask("")).robots.find(({ name }) => name === title);
   const shown = await inspector.locator(".inspector-rows dd").first().textContent();
@@ -246,7 +246,7 @@ test("keys work: views, help, space", async () => {
   await page.getByRole("dialog", { name: "Help" }).waitFor();
   await page.keyboard.press("Escape");
   await page.getByRole("dialog", { name: "Help" }).waitFor({ state: "hidden" });
-  // A button that has the focus keeps Space for itself.
+  // A button that has the focus receives Space itself.
   await page.evaluate(() => document.activeElement?.blur());
   await page.keyboard.press("Space");
   await phaseIs("running");
@@ -268,7 +268,7 @@ test("the camera's pictures arrive and have something in them", async () => {
   await page.waitForFunction((text) => document.querySelector(".picture-time").textContent !== text, then);
 });
 
-test("the keys drive the avatar, and letting go stops it", async () => {
+test("keys drive the avatar, and releasing them stops it", async () => {
   const { bodies } = await ask("/scene");
   const { name } = bodies.find(({ is_avatar }) => is_avatar);
   const avatar = async () => (await ask("")).robots.find((robot) => robot.name === name);
@@ -295,7 +295,7 @@ test("the keys drive the avatar, and letting go stops it", async () => {
   await page.keyboard.press("r");
 });
 
-test("two browsers show the same phase, whoever presses", async () => {
+test("two browsers show the same phase after clicks in either", async () => {
   const other = await openBrowser({ width: 900, height: 600, colorScheme: "dark" });
   try {
     const second = await openPage(other, server.url);
@@ -359,7 +359,7 @@ test("stop ends it, and the buttons say so", async () => {
   assert.equal(await page.getByRole("button", { name: "Reset", exact: true }).isDisabled(), false);
 });
 
-test("all this needed no other host and raised no error", () => {
+test("no other host was contacted and there were no errors", () => {
   assert.deepEqual(faults, []);
 });
 

@@ -1,5 +1,5 @@
-// What a replay tells of a whole recording at once: the curve of a value from end to end, and the log;
-// both lead to their instants.
+// Tests that a replay shows a whole recording at once: the curve of a value from start to end, and
+// the log. Both lead to their instants.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import os from "node:os";
@@ -49,7 +49,7 @@ async function placeOnPlot(time) {
   return { x: x + LEFT_PX + (time / DURATION_S) * (width - LEFT_PX - RIGHT_PX), y: y + height / 2 };
 }
 
-// What stands in the table of the curves: [[time, value, …], …]
+// Returns the content of the table of curves: [[time, value, …], …]
 async function table() {
   const [file] = await Promise.all([
     page.waitForEvent("download"),
@@ -59,7 +59,7 @@ async function table() {
   return { head, rows: lines.map((line) => line.split(",").map((cell) => (cell === "" ? null : Number(cell)))) };
 }
 
-// Where the robot was at each recorded pose: [[time, x], …]
+// Returns the robot's position at each recorded pose: [[time, x], …]
 async function recordedPlaces() {
   const { bodies, poses } = await ask(page, "/scene");
   const entry = poses.findIndex(({ body, link }) => bodies[body].name === ROBOT && link === null);
@@ -107,7 +107,7 @@ test("a press on the curve goes to that instant, and dragging goes along", async
   await standsAt(5, tolerance);
   const { time_s: time } = await ask(page, "/replay");
   assert.ok(Math.abs(time - 5) < tolerance, `the server stands at ${time} s`);
-  // Let go of, it follows no longer.
+  // After the release, it no longer follows the pointer.
   await page.mouse.move(first.x, first.y, { steps: 3 });
   await settled(page);
   assert.equal((await ask(page, "/replay")).time_s, time);
@@ -125,7 +125,7 @@ test("a sensor's value is there as well, from end to end", async () => {
   assert.ok(first[0] < 1, `its first value is of ${first[0]} s`);
 });
 
-test("the log has every line, by text, and a press on one goes there", async () => {
+test("the log lists and filters all lines, and a click on one goes to its time", async () => {
   await page.evaluate(() => document.activeElement?.blur());
   await page.keyboard.press("g");
   const log = page.getByRole("region", { name: "Log" });
@@ -147,6 +147,6 @@ test("the log has every line, by text, and a press on one goes there", async () 
   await log.getByText("No message matches").waitFor();
 });
 
-test("all this needed no other host and raised no error", () => {
+test("no other host was contacted and there were no errors", () => {
   assert.deepEqual(faults, []);
 });

@@ -1,4 +1,5 @@
-// Puts the page together: one store, the session that fills it, the 3D view, and the panels.
+// Connects the parts of the page: the store, the session that fills it, the 3D view, and the
+// panels.
 import "uplot/dist/uPlot.min.css";
 import "./style/page.css";
 import "./style/drawn.css";
@@ -63,9 +64,8 @@ import { connectTools, showChosenPose } from "./app/connectTools";
 import { chosenDrawer, keepDrawer, startDrawing } from "./app/startDrawing";
 import type { ViewChoice } from "./app/ViewChoice";
 
-// The page's address may carry: simulation=NAME, which one to join; recording=NAME, which one to
-// replay; quality=high, which keeps the
-// picture sharp however slow it gets.
+// The page's address may contain: simulation=NAME (the simulation to join), recording=NAME (the
+// recording to replay), and quality=high (draws all pixels, however slow that is).
 const graphics = startGraphics();
 const parameters = new URLSearchParams(location.search);
 const storage = browserStorage();
@@ -78,7 +78,7 @@ const store = new Store<State>({
 const credentials = pageCredentials(window);
 const api = new SimulationApi(document.baseURI, credentials.fetch, credentials);
 
-// The 3D view comes once the browser has started what draws.
+// The 3D view is added when the browser has started to draw.
 let world: World3D | null = null;
 let drawing: ViewChoice | null = null;
 const library = new ModelLibrary(
@@ -134,7 +134,7 @@ function showSelectedPose(): void {
   if (selection === null || !latest) return;
   const pose = selected.update(selection, latest, performance.now());
   if (pose) store.set({ selectedPose: pose });
-  // Nothing may follow: it was paused, or a recording was moved to this instant.
+  // There may be no further poses, because it is paused or the recording was moved to this instant.
   else nextPose = setTimeout(showSelectedPose, SHORTEST_UPDATE_MS);
 }
 
@@ -162,7 +162,7 @@ function connectWorld(world: World3D): void {
     ({ editing }) => editing !== null,
     (isEditing) => {
       endPoses();
-      // Undo restores poses to the bit, so editing needs the exact ones.
+      // Undo restores poses exactly, so editing needs the unrounded ones.
       endPoses = isEditing
         ? session.subscribe<PosesMessage>(POSES, takePoses)
         : session.subscribe<PosesMessage | PackedPosesMessage>(PACKED_POSES, takePoses, { orElse: POSES });
@@ -212,7 +212,8 @@ function connectWorld(world: World3D): void {
       health,
       robotFilter,
       scene,
-      // Without a report the states follow the behaviours; with a filter the names that it fits do.
+      // Without a health report, the states follow from the behaviours. With a filter, the names
+      // that match are shown.
       robots: health === null || isFiltering(robotFilter) ? status?.robots : null,
     }),
     () => world.setStates(shownStates(store.get())),
@@ -247,7 +248,7 @@ function posesOfPreview(poses: Float64Array, layoutVersion: number): PosesMessag
   return { stamp: { sec: 0, nsec: 0 }, step: 0n, layout_version: layoutVersion, poses };
 }
 
-// The selected avatar, or else the first one. What was recorded cannot be steered.
+// The selected avatar, or else the first one. A recorded avatar cannot be driven.
 function avatarToDrive(): string | null {
   const { scene, selection, replay } = store.get();
   if (replay) return null;
@@ -273,7 +274,7 @@ const workspace = new Workspace(
   (space) => STANDARD.layout(space),
 );
 const sceneTree = createSceneTree(ports, pageNames(app));
-// On a narrow screen it covers the view: it goes when a robot is chosen.
+// On a narrow screen the list covers the view, so it closes when a robot is chosen.
 sceneTree.addEventListener("click", ({ target }) => {
   if (target instanceof Element && target.closest("[data-robot], [data-object]")) page.classList.remove("sidebar-open");
 });
@@ -326,7 +327,7 @@ app.past.start();
 app.notes.start();
 app.compare.start();
 app.link.start(window);
-// A replay of one's own is nobody else's to watch or to move.
+// A page's own replay is not visible to others.
 if (!parameters.has("recording")) app.people.start(window);
 session.start();
 void openWorld();

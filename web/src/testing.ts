@@ -1,33 +1,34 @@
-// window.gsv: what browser tests and scripts can ask the page. web/README.md documents it; nothing
-// else in the page uses it.
+// window.gsv: what browser tests and scripts can query. web/README.md documents it; nothing else in
+// the page uses it.
 import type { World3D } from "./scene/World3D";
 import { allChosen } from "./state/editing";
 import type { State } from "./state/State";
 import type { Store } from "./state/Store";
 
 export interface PageHandle {
-  // Resolves once the first scene is there with all its shapes, and has been drawn.
+  // Resolves when the first scene is drawn with all its shapes.
   ready: Promise<void>;
-  // Pictures drawn so far.
+  // The number of frames drawn so far.
   readonly frames: number;
-  // Whether a picture is being drawn, or will be.
+  // Whether a frame is being drawn or requested.
   readonly isDrawing: boolean;
-  // Simulated seconds, as shown.
+  // The displayed simulated time, in seconds.
   readonly time: number;
   readonly phase: string | null;
-  // Where the eye stands and what it looks at: x y z of each, in metres; null without a 3D view.
+  // The position and the target of the camera: x y z each, in metres; null without a 3D view.
   readonly view: number[] | null;
   // The topics that the page reads.
   readonly topics: string[];
   // The names of the robots.
   readonly robots: string[];
-  // Where the robot was last reported, in metres, and at which simulated second; null while unknown.
+  // The last reported position of the robot in metres, and its simulated time; null while unknown.
   robotPosition(name: string): { x: number; y: number; z: number; time: number } | null;
   // Where the robot of the recording that is compared with is drawn, in metres; null: it is not.
   ghostPosition(name: string): { x: number; y: number } | null;
-  // Where the robot's middle is drawn, in CSS pixels of the page; null outside of the picture.
+  // The place where the robot's centre is drawn, in CSS pixels of the page; null if it is outside
+  // the view.
   robotScreenPosition(name: string): { x: number; y: number } | null;
-  // Where the tip of the arrow is drawn by which the selected robot is turned; null while hidden.
+  // The place where the tip of the selected robot's arrow is drawn; null while it is hidden.
   turnHandle(): { x: number; y: number } | null;
   // Where the handle along an axis of the world is drawn, by which the chosen body is moved; null while hidden.
   gizmoHandle(axis: "x" | "y" | "z"): { x: number; y: number } | null;
@@ -96,7 +97,7 @@ function firstPicture(store: Store<State>, world: () => World3D | null): Promise
       unwatch();
       resolve();
     };
-    // A scene is there a moment before the view says how many of its shapes are missing.
+    // A scene exists a moment before the view reports how many of its shapes are missing.
     const unwatch = store.watch(
       ({ view, scene, modelsMissing }) => view !== "starting" && scene !== null && modelsMissing === 0,
       (isComplete) => {

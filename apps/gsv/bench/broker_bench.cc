@@ -303,7 +303,7 @@ void AddBrokerBench(const CommandLine& bench) {
   command->add_flag("--json", arguments->json, "print one JSON object per line");
   command->callback([arguments, bench] {
     if (const auto end = RunBench(arguments->offers, arguments->json); !end) {
-      bench.exit_code = Complain(end.error());
+      bench.exit_code = PrintError(end.error());
     }
   });
 }

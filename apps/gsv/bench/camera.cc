@@ -203,12 +203,12 @@ std::optional<rendering::CameraParameters> ParseSize(const std::string& size) {
 int Run(const CameraArguments& arguments) {
   const auto camera = ParseSize(arguments.size);
   if (!camera) {
-    return Complain({base::ErrorCode::kInvalidArgument,
-                     "give width and height in pixels, up to 4096 each, such as 320x240",
-                     "--size " + arguments.size});
+    return PrintError({base::ErrorCode::kInvalidArgument,
+                       "give width and height in pixels, up to 4096 each, such as 320x240",
+                       "--size " + arguments.size});
   }
   const auto figures = Measure(arguments, *camera);
-  if (!figures) return Complain(figures.error());
+  if (!figures) return PrintError(figures.error());
   const nlohmann::ordered_json json{
       {"cameras", arguments.cameras},
       {"size", arguments.size},

@@ -175,7 +175,7 @@ int Crowd(const CrowdArguments& arguments) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const int robots : arguments.robots) {
     auto row = RunCrowd(arguments, robots);
-    if (!row) return Complain(row.error());
+    if (!row) return PrintError(row.error());
     json.push_back(ToJson(*row));
     if (!arguments.json) {
       std::printf("%6d  %7d  %9.2f  %5.2f  %6.0f  %8lld  %10llu  %10llu  %s\n", row->robots,

@@ -161,7 +161,7 @@ base::Result<ScanFigures> MeasureScans(const LidarArguments& arguments) {
 int RunLidarBench(LidarArguments arguments) {
   if (arguments.threads == 0) arguments.threads = base::ThreadTeam::DefaultThreads();
   const auto figures = MeasureScans(arguments);
-  if (!figures) return Complain(figures.error());
+  if (!figures) return PrintError(figures.error());
   const nlohmann::ordered_json json{
       {"world", arguments.scene.world},
       {"robots", arguments.scene.robots},

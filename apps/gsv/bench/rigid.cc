@@ -56,7 +56,7 @@ int Rigid(RigidArguments arguments) {
   if (arguments.threads == 0) arguments.threads = base::ThreadTeam::DefaultThreads();
   const double processor_start = ProcessorTime();
   const auto simulation = RunRigid(arguments);
-  if (!simulation) return Complain(simulation.error());
+  if (!simulation) return PrintError(simulation.error());
   const double processor = ProcessorTime() - processor_start;
   const simulation::SimulationStatus status = (*simulation)->status();
   const auto steps = static_cast<double>(status.step);

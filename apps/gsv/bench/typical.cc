@@ -207,7 +207,7 @@ int Typical(const TypicalArguments& arguments) {
   }
   for (const int robots : arguments.robots) {
     const auto row = RunTypical(arguments, robots);
-    if (!row) return Complain(row.error());
+    if (!row) return PrintError(row.error());
     const auto json = ToJson(*row);
     rows.push_back(json);
     if (arguments.json) continue;
@@ -231,7 +231,7 @@ int Lockstep(const TypicalArguments& arguments) {
       TypicalArguments one = arguments;
       one.behaviour = behaviour;
       const auto row = RunTypical(one, robots);
-      if (!row) return Complain(row.error());
+      if (!row) return PrintError(row.error());
       rows.push_back({{"robots", robots},
                       {"behaviour", behaviour},
                       {"real_time_factor", row->status.real_time_factor},

@@ -67,7 +67,7 @@ campaign::LocalEngine EngineFor(int jobs, Signals& signals, bool& is_interrupted
 int TakeShare(Spool& spool, Attempt attempt, const std::vector<std::int64_t>& runs,
               const EngineOptions& options, Signals& signals, bool until_stdin_closes = false) {
   const auto earlier = spool.Collect(attempt.share);
-  if (!earlier) return Complain(earlier.error());
+  if (!earlier) return PrintError(earlier.error());
   std::set<std::int64_t> done;
   for (const RunResult& result : *earlier) done.insert(result.run);
   std::vector<std::int64_t> left;
@@ -76,10 +76,10 @@ int TakeShare(Spool& spool, Attempt attempt, const std::vector<std::int64_t>& ru
   }
   if (left.empty()) return kOk;
   const auto folder = base::TemporaryFolder::Make("gsv-campaign");
-  if (!folder) return Complain(folder.error());
+  if (!folder) return PrintError(folder.error());
   attempt.at_once = options.jobs;
   auto journal = campaign::JournalWriter::Create(spool.journals(), attempt);
-  if (!journal) return Complain(journal.error());
+  if (!journal) return PrintError(journal.error());
   if (!attempt.job.empty()) {
     std::fprintf(stderr, "%s%s\n", std::string(campaign::kTaskBegins).c_str(),
                  attempt.share.c_str());
@@ -105,10 +105,10 @@ int TakeShare(Spool& spool, Attempt attempt, const std::vector<std::int64_t>& ru
         return written;
       });
   const base::MutexLock lock(mutex);
-  if (!ended) return Complain(ended.error());
-  if (!written) return Complain(written.error());
+  if (!ended) return PrintError(ended.error());
+  if (!written) return PrintError(written.error());
   if (is_interrupted) return kInterrupted;
-  if (auto ok = (*journal)->End(); !ok) return Complain(ok.error());
+  if (auto ok = (*journal)->End(); !ok) return PrintError(ok.error());
   return kOk;
 }
 
@@ -121,23 +121,23 @@ fs::path SpoolOf(const std::string& results_file) {
 int GatherSpool(const std::string& results_file) {
   auto spool = Spool::Open(SpoolOf(results_file));
   if (!spool)
-    return spool.error().code == base::ErrorCode::kNotFound ? kOk : Complain(spool.error());
+    return spool.error().code == base::ErrorCode::kNotFound ? kOk : PrintError(spool.error());
   auto results = campaign::Results::OpenToAdd(results_file, spool->campaign());
   if (!results) {
-    return results.error().code == base::ErrorCode::kNotRunning ? kOk : Complain(results.error());
+    return results.error().code == base::ErrorCode::kNotRunning ? kOk : PrintError(results.error());
   }
   const auto gathered = campaign::Gather(*spool, **results);
-  return gathered ? kOk : Complain(gathered.error());
+  return gathered ? kOk : PrintError(gathered.error());
 }
 
 int RunHere(const campaign::Campaign& campaign, campaign::Results& results,
             const EngineOptions& options, Signals& signals) {
   const auto folder = base::TemporaryFolder::Make("gsv-campaign");
-  if (!folder) return Complain(folder.error());
+  if (!folder) return PrintError(folder.error());
   std::unique_ptr<ScenarioServers> servers;
   if (!options.broker.empty()) {
     auto found = ScenarioServers::Find(options.broker, options.servers);
-    if (!found) return Complain(found.error());
+    if (!found) return PrintError(found.error());
     servers = *std::move(found);
   }
   const RunTaker taker(campaign, folder->path(), options.failures, options.timeout, servers.get());
@@ -154,9 +154,9 @@ int RunHere(const campaign::Campaign& campaign, campaign::Results& results,
     return taker.Take(run, is_cancelled);
   };
   engine.report = &ReportProgress;
-  if (auto ok = engine.Run(results); !ok) return Complain(ok.error());
+  if (auto ok = engine.Run(results); !ok) return PrintError(ok.error());
   if (!is_interrupted && servers != nullptr && !servers->failure().empty()) {
-    return Complain({base::ErrorCode::kUnavailable, servers->failure()});
+    return PrintError({base::ErrorCode::kUnavailable, servers->failure()});
   }
   if (!is_interrupted) return kOk;
   Say("interrupted; run the same command again to continue");
@@ -167,13 +167,13 @@ int RunByQueue(const campaign::Campaign& campaign, campaign::Results& results,
                const std::string& results_file, const EngineOptions& options, Signals& signals) {
   const campaign::EngineType& type = *options.engine.type;
   if (!options.waits && !type.outlives_driver) {
-    return Complain(
+    return PrintError(
         {base::ErrorCode::kInvalidArgument,
          "the engine " + type.name + " ends its tasks with this command; remove --no-wait",
          "--no-wait"});
   }
   auto spool = Spool::Make(SpoolOf(results_file), campaign);
-  if (!spool) return Complain(spool.error());
+  if (!spool) return PrintError(spool.error());
   bool is_interrupted = false;
   ChildCommands commands;
   const auto queue = options.engine.make_queue({commands, ProgramPath().string(), &Say});
@@ -191,7 +191,7 @@ int RunByQueue(const campaign::Campaign& campaign, campaign::Results& results,
     is_interrupted = signals.WaitFor(static_cast<int>(timeout.count())) != 0;
     return is_interrupted;
   };
-  if (auto ok = driver.Run(*spool, results); !ok) return Complain(ok.error());
+  if (auto ok = driver.Run(*spool, results); !ok) return PrintError(ok.error());
   if (!is_interrupted) return kOk;
   Say("interrupted; " + type.after_interrupt +
       (type.outlives_driver ? ", and so does the same command"
@@ -202,7 +202,7 @@ int RunByQueue(const campaign::Campaign& campaign, campaign::Results& results,
 int RunShard(const campaign::Campaign& campaign, const std::string& results_file,
              const Shard& shard, const EngineOptions& options, Signals& signals) {
   auto spool = Spool::Make(SpoolOf(results_file), campaign);
-  if (!spool) return Complain(spool.error());
+  if (!spool) return PrintError(spool.error());
   std::vector<std::int64_t> runs;
   for (std::size_t run = shard.index - 1; run < campaign.runs(); run += shard.count)
     runs.push_back(static_cast<std::int64_t>(run));
@@ -219,11 +219,11 @@ int RunTask(const TaskArguments& arguments, Signals& signals) {
   Attempt attempt;
   attempt.started = campaign::UnixSeconds();
   const auto batch = campaign::ReadBatch(arguments.batch_file);
-  if (!batch) return Complain(batch.error());
+  if (!batch) return PrintError(batch.error());
   auto spool = Spool::Open(fs::path(arguments.batch_file).parent_path());
-  if (!spool) return Complain(spool.error());
+  if (!spool) return PrintError(spool.error());
   if (arguments.task >= batch->tasks()) {
-    return Complain(
+    return PrintError(
         {base::ErrorCode::kInvalidArgument,
          fmt::format("--task must be 0 to {}, found {}", batch->tasks() - 1, arguments.task),
          arguments.batch_file});

@@ -73,14 +73,14 @@ std::shared_ptr<Arguments> AddListing(const CommandLine& line, const char* name,
   command->require_subcommand(0, 1);
   command->callback([arguments, line, actions_of] {
     if (auto found = FindBroker(arguments->broker); !found) {
-      line.exit_code = Complain(found.error());
+      line.exit_code = PrintError(found.error());
       return;
     }
     const Actions actions = actions_of(*arguments);
     const auto& action = arguments->add->parsed()      ? actions.add
                          : arguments->remove->parsed() ? actions.remove
                                                        : actions.list;
-    if (const auto done = action(); !done) line.exit_code = Complain(done.error());
+    if (const auto done = action(); !done) line.exit_code = PrintError(done.error());
   });
   return arguments;
 }

@@ -9,7 +9,7 @@ namespace {
 
 // Throws the sentence of an error, so that CLI11 prints it with the option's name.
 template <typename T>
-T OrComplain(base::Result<T> result, const char* option) {
+T OrInvalidOption(base::Result<T> result, const char* option) {
   if (!result) throw CLI::ValidationError(option, result.error().Sentence());
   return *std::move(result);
 }
@@ -17,7 +17,7 @@ T OrComplain(base::Result<T> result, const char* option) {
 }  // namespace
 
 int RefuseImage(const base::Error& error) {
-  const int code = Complain(error);
+  const int code = PrintError(error);
   return error.code == base::ErrorCode::kNotFound ? kInfrastructure : code;
 }
 
@@ -36,7 +36,7 @@ void AddCameraOptions(CLI::App& command, view::Camera& camera) {
       .add_option_function<std::string>(
           "--eye",
           [&camera](const std::string& text) {
-            camera.eye = OrComplain(view::ParsePoint(text, "the eye"), "--eye");
+            camera.eye = OrInvalidOption(view::ParsePoint(text, "the eye"), "--eye");
           },
           "position of the camera in metres; with --follow, in the robot's frame")
       ->type_name("X,Y,Z");
@@ -44,7 +44,7 @@ void AddCameraOptions(CLI::App& command, view::Camera& camera) {
       .add_option_function<std::string>(
           "--target",
           [&camera](const std::string& text) {
-            camera.target = OrComplain(view::ParsePoint(text, "the target"), "--target");
+            camera.target = OrInvalidOption(view::ParsePoint(text, "the target"), "--target");
           },
           "point in the middle of the image, in metres (default: the whole world is shown)")
       ->type_name("X,Y,Z");
@@ -58,7 +58,7 @@ void AddCameraOptions(CLI::App& command, view::Camera& camera) {
       .add_option_function<std::string>(
           "--fov",
           [&camera](const std::string& text) {
-            camera.field_of_view = OrComplain(view::ParseFieldOfView(text), "--fov");
+            camera.field_of_view = OrInvalidOption(view::ParseFieldOfView(text), "--fov");
           },
           "vertical field of view (default: 45)")
       ->type_name("DEGREES");

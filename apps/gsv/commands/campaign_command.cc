@@ -48,7 +48,7 @@ int ReadCampaignFile(const std::string& file, Campaign& campaign,
   for (const base::Problem& problem : problems) {
     std::fprintf(stderr, "gsv: error: %s\n", problem.Sentence().c_str());
   }
-  if (!read) return Complain(read.error());
+  if (!read) return PrintError(read.error());
   campaign = *std::move(read);
   return problems.empty() ? kOk : kBadModel;
 }
@@ -59,7 +59,7 @@ int PrintStatus(campaign::Results& results, bool json) {
   const auto planned = results.PlannedRuns();
   const auto attempts = results.Attempts();
   if (!all || !planned || !attempts)
-    return Complain(!all ? all.error() : !planned ? planned.error() : attempts.error());
+    return PrintError(!all ? all.error() : !planned ? planned.error() : attempts.error());
   const auto cost = campaign::CostOf(*attempts);
   std::map<std::string, std::size_t> by_status{{"passed", 0}, {"failed", 0}, {"error", 0}};
   for (const RunResult& result : *all) ++by_status[result.status];
@@ -90,11 +90,11 @@ int RunCampaign(const CampaignArguments& arguments, Signals& signals) {
   const std::string file = ResultsFile(arguments);
   if (!arguments.shard.empty()) {
     const auto shard = ParseShard(arguments.shard);
-    return shard ? RunShard(campaign, file, *shard, options, signals) : Complain(shard.error());
+    return shard ? RunShard(campaign, file, *shard, options, signals) : PrintError(shard.error());
   }
   if (const int code = GatherSpool(file); code != kOk) return code;
   auto results = campaign::Results::OpenToAdd(file, campaign, kLockTimeout);
-  if (!results) return Complain(results.error());
+  if (!results) return PrintError(results.error());
   const bool is_queued = options.broker.empty() && options.engine.make_queue;
   const int code = is_queued ? RunByQueue(campaign, **results, file, options, signals)
                              : RunHere(campaign, **results, options, signals);
@@ -108,35 +108,35 @@ int WriteReportFile(const std::string& file, const std::string& text) {
   std::ofstream stream(file, std::ios::binary);
   stream << text;
   if (stream.flush()) return kOk;
-  return Complain({base::ErrorCode::kUnavailable,
-                   "cannot write the report; check the folder and its permissions", file});
+  return PrintError({base::ErrorCode::kUnavailable,
+                     "cannot write the report; check the folder and its permissions", file});
 }
 
 int PrintStatusOf(const CampaignArguments& arguments) {
   if (const int code = GatherSpool(ResultsFile(arguments)); code != kOk) return code;
   auto results = campaign::Results::Open(ResultsFile(arguments));
-  return results ? PrintStatus(**results, arguments.json) : Complain(results.error());
+  return results ? PrintStatus(**results, arguments.json) : PrintError(results.error());
 }
 
 int ReportCampaign(const CampaignArguments& arguments) {
   if (const int code = GatherSpool(ResultsFile(arguments)); code != kOk) return code;
   auto results = campaign::Results::Open(ResultsFile(arguments));
-  if (!results) return Complain(results.error());
+  if (!results) return PrintError(results.error());
   const auto all = (*results)->All();
   const auto parameters = (*results)->Parameters();
   const auto planned = (*results)->PlannedRuns();
   const auto attempts = (*results)->Attempts();
   if (!all || !parameters || !planned || !attempts) {
-    return Complain(!all          ? all.error()
-                    : !parameters ? parameters.error()
-                    : !planned    ? planned.error()
-                                  : attempts.error());
+    return PrintError(!all          ? all.error()
+                      : !parameters ? parameters.error()
+                      : !planned    ? planned.error()
+                                    : attempts.error());
   }
   for (const std::string& parameter : arguments.by) {
     if (std::find(parameters->begin(), parameters->end(), parameter) != parameters->end()) continue;
-    return Complain({base::ErrorCode::kInvalidArgument,
-                     "cannot group by this parameter: the campaign does not vary it",
-                     "--by " + parameter});
+    return PrintError({base::ErrorCode::kInvalidArgument,
+                       "cannot group by this parameter: the campaign does not vary it",
+                       "--by " + parameter});
   }
   campaign::Report report =
       campaign::MakeReport(*all, arguments.by, *parameters, arguments.metrics);
@@ -158,14 +158,14 @@ int ShowRun(const CampaignArguments& arguments) {
   if (const int code = ReadCampaignFile(arguments.file, campaign, {}, ignored); code != kOk)
     return code;
   if (arguments.run < 0 || arguments.run >= static_cast<std::int64_t>(campaign.runs())) {
-    return Complain({base::ErrorCode::kInvalidArgument,
-                     fmt::format("there is no run {}: the runs are 0 to {}", arguments.run,
-                                 campaign.runs() - 1),
-                     arguments.file});
+    return PrintError({base::ErrorCode::kInvalidArgument,
+                       fmt::format("there is no run {}: the runs are 0 to {}", arguments.run,
+                                   campaign.runs() - 1),
+                       arguments.file});
   }
   const auto scenario =
       campaign.ScenarioWith(campaign.ValuesOf(static_cast<std::size_t>(arguments.run)));
-  if (!scenario) return Complain(scenario.error());
+  if (!scenario) return PrintError(scenario.error());
   std::fputs(scenario->c_str(), stdout);
   return kOk;
 }

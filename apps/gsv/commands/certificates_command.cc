@@ -79,7 +79,7 @@ void AddCertificatesCommand(const CommandLine& line) {
       ->capture_default_str();
   command->callback([arguments, line] {
     if (const auto made = MakeCertificates(*arguments); !made) {
-      line.exit_code = Complain(made.error());
+      line.exit_code = PrintError(made.error());
       return;
     }
     const std::filesystem::path folder = arguments->folder;

@@ -122,7 +122,7 @@ void AddCheck(const CommandLine& line, const char* group, const char* what, Read
     if (arguments->sandbox_seconds > 0) {
       arguments->sandbox.processor_time = std::chrono::seconds(arguments->sandbox_seconds);
       if (const auto confined = EnterSandbox(arguments->sandbox); !confined) {
-        line.exit_code = Complain(confined.error());
+        line.exit_code = PrintError(confined.error());
         return;
       }
     }
@@ -131,7 +131,7 @@ void AddCheck(const CommandLine& line, const char* group, const char* what, Read
     auto types = MakeSensorTypes(
         sensors, base::Fail(base::ErrorCode::kUnavailable, "a check renders no images"));
     if (!types) {
-      line.exit_code = Complain(types.error());
+      line.exit_code = PrintError(types.error());
       return;
     }
     formats::ReadOptions options;

@@ -120,13 +120,13 @@ void Print(const reality::Comparison& comparison, bool json) {
 
 int Compare(const CompareArguments& arguments) {
   const auto read = ReadAll(arguments);
-  if (!read) return Complain(read.error());
+  if (!read) return PrintError(read.error());
   const auto comparison = reality::Compare(read->log, read->options);
-  if (!comparison) return Complain(comparison.error());
+  if (!comparison) return PrintError(comparison.error());
   if (!arguments.plot.empty()) {
     const auto ok = base::WriteAtomically(arguments.plot, reality::ToSvg(*comparison),
                                           base::Durability::kProcess);
-    if (!ok) return Complain(ok.error());
+    if (!ok) return PrintError(ok.error());
   }
   Print(*comparison, arguments.json);
   return kOk;
@@ -134,9 +134,9 @@ int Compare(const CompareArguments& arguments) {
 
 int Fit(const CompareArguments& arguments) {
   const auto read = ReadAll(arguments);
-  if (!read) return Complain(read.error());
+  if (!read) return PrintError(read.error());
   const auto devices = reality::Fit(read->log, read->options);
-  if (!devices) return Complain(devices.error());
+  if (!devices) return PrintError(devices.error());
   if (!arguments.json) {
     std::printf("%s", reality::ToSdf(*devices).c_str());
     return kOk;

@@ -109,7 +109,7 @@ int ListLost(const Arguments& arguments) {
 int List(const Arguments& arguments) {
   std::vector<std::string> silent;
   const auto simulations = FindSimulations(arguments.selection, silent);
-  if (!simulations) return Complain(simulations.error());
+  if (!simulations) return PrintError(simulations.error());
   for (const std::string& sentence : silent)
     std::fprintf(stderr, "gsv: warning: %s\n", sentence.c_str());
   for (const FoundSimulation& simulation : *simulations) {
@@ -128,7 +128,7 @@ int List(const Arguments& arguments) {
 // Prints the lines that behaviours' programs have printed.
 int PrintOutput(const Arguments& arguments) {
   const auto simulation = FindOneSimulation(arguments.selection);
-  if (!simulation) return Complain(simulation.error());
+  if (!simulation) return PrintError(simulation.error());
   const auto printed = orb::Call(simulation->server.Describe(), [&] {
     sba::OutputLines_var lines = simulation->reference->output(arguments.robot.c_str());
     for (CORBA::ULong i = 0; i < lines->length(); ++i) {
@@ -146,7 +146,7 @@ int PrintOutput(const Arguments& arguments) {
       }
     }
   });
-  return printed ? kOk : Complain(printed.error());
+  return printed ? kOk : PrintError(printed.error());
 }
 
 using Call = std::function<void(sba::Simulation_ptr, const Arguments&)>;
@@ -168,13 +168,13 @@ base::Result<bool> AwaitRest(const FoundSimulation& simulation, Signals& signals
 
 int Steer(const Arguments& arguments, const Call& call, bool awaits_rest, Signals& signals) {
   auto simulation = FindOneSimulation(arguments.selection);
-  if (!simulation) return Complain(simulation.error());
+  if (!simulation) return PrintError(simulation.error());
   const auto done =
       orb::Call(simulation->server.Describe(), [&] { call(simulation->reference, arguments); });
-  if (!done) return Complain(done.error());
+  if (!done) return PrintError(done.error());
   if (awaits_rest) {
     const auto rested = AwaitRest(*simulation, signals);
-    if (!rested) return Complain(rested.error());
+    if (!rested) return PrintError(rested.error());
     if (!*rested) return kInterrupted;
   }
   // A `gsv run` without a viewer ends when its simulation is stopped. Then the last known status is

@@ -87,7 +87,7 @@ void AddConvertCommand(const CommandLine& line) {
   AddLimitOption(*command, arguments->limits);
   command->callback([arguments, line] {
     if (const auto converted = Convert(*arguments); !converted) {
-      line.exit_code = Complain(converted.error());
+      line.exit_code = PrintError(converted.error());
     }
   });
 }

@@ -66,7 +66,7 @@ base::Result<std::shared_ptr<const world::Snapshot>> FirstInstant(
 
 int Run(const DrawArguments& arguments) {
   const auto file = FindWorld(arguments.file);
-  if (!file) return Complain(file.error());
+  if (!file) return PrintError(file.error());
   formats::ReadOptions options;
   options.limits = arguments.limits;
   options.model_path.assign(arguments.model_path.begin(), arguments.model_path.end());
@@ -80,19 +80,19 @@ int Run(const DrawArguments& arguments) {
   auto world = library.ReadWorld(*file, problems);
   const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - start;
   const double processor = static_cast<double>(std::clock() - processor_start) / CLOCKS_PER_SEC;
-  if (!world) return Complain(world.error());
+  if (!world) return PrintError(world.error());
   if (IsModelAlone(*world)) StandModelOnGround(*world);
   const auto first = FirstInstant(*std::move(world));
-  if (!first) return Complain(first.error());
+  if (!first) return PrintError(first.error());
   const auto& snapshot = *first;
   auto renderer = rendering::Renderer::Start();
-  if (!renderer) return Complain(renderer.error());
+  if (!renderer) return PrintError(renderer.error());
   const rendering::CameraView overview =
       view::ViewOfAll(view::CornersToShow(*snapshot), arguments.width, arguments.height);
   const auto image = (*renderer)->Draw(snapshot, overview, std::chrono::minutes(1));
-  if (!image) return Complain(image.error());
+  if (!image) return PrintError(image.error());
   if (auto written = WriteImage(**image, arguments.image); !written) {
-    return Complain(written.error());
+    return PrintError(written.error());
   }
   const nlohmann::ordered_json json{{"models", snapshot->layout->bodies.size()},
                                     {"lights", snapshot->layout->description->lights.size()},

@@ -43,7 +43,7 @@ int List(const ListArguments& arguments) {
     std::fprintf(stderr, "gsv: warning: %s\n", problem.Sentence().c_str());
   }
   const auto names = NamesOf(arguments);
-  if (!names) return Complain(names.error());
+  if (!names) return PrintError(names.error());
   if (arguments.json) {
     std::puts(nlohmann::json(*names)
                   .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)

@@ -32,13 +32,13 @@ int FromMap(const FromMapArguments& arguments) {
                        ? reality::ReadBeesoftMap(arguments.map)
                        : reality::ReadMap(arguments.map, problems);
   PrintWarnings(problems);
-  if (!map) return Complain(map.error());
+  if (!map) return PrintError(map.error());
   fs::path file = arguments.world;
   if (file.empty()) file = fs::path(arguments.map).replace_extension(".sdf");
   const auto sdf = reality::WorldOfMap(*map, file.stem().string(), arguments.height);
-  if (!sdf) return Complain(sdf.error());
+  if (!sdf) return PrintError(sdf.error());
   if (auto ok = base::WriteAtomically(file, *sdf, base::Durability::kProcess); !ok) {
-    return Complain(ok.error());
+    return PrintError(ok.error());
   }
   std::printf("%s: %g by %g m, walls of %zu boxes\n", file.c_str(), map->width * map->resolution,
               map->height * map->resolution, reality::BoxesOf(*map).size());
@@ -54,19 +54,19 @@ struct ToMapArguments {
 
 int ToMap(const ToMapArguments& arguments) {
   const auto found = FindWorld(arguments.world);
-  if (!found) return Complain(found.error());
+  if (!found) return PrintError(found.error());
   formats::ReadOptions options;
   options.limits = arguments.limits;
   options.model_path.assign(arguments.model_path.begin(), arguments.model_path.end());
   formats::ModelLibrary library(std::move(options));
   base::Problems problems = CheckModelPath(arguments.model_path);
   const auto world = library.ReadWorld(*found, problems);
-  if (!world) return Complain(world.error());
+  if (!world) return PrintError(world.error());
   const auto map = reality::MapOfWorld(*world, arguments.slice);
-  if (!map) return Complain(map.error());
+  if (!map) return PrintError(map.error());
   fs::path file = arguments.map;
   if (file.empty()) file = fs::path(*found).stem().string() + ".yaml";
-  if (auto ok = reality::WriteMap(*map, file); !ok) return Complain(ok.error());
+  if (auto ok = reality::WriteMap(*map, file); !ok) return PrintError(ok.error());
   std::printf("%s: %d by %d cells of %g m\n", file.c_str(), map->width, map->height,
               map->resolution);
   return kOk;

@@ -20,23 +20,23 @@ struct RecordArguments {
 
 int StartRecording(const RecordArguments& arguments) {
   const auto simulation = FindOneSimulation(arguments.selection);
-  if (!simulation) return Complain(simulation.error());
+  if (!simulation) return PrintError(simulation.error());
   // The path becomes absolute, because the other process may have another working directory.
   std::error_code error;
   const std::string path = std::filesystem::absolute(arguments.file, error).string();
   const auto done = orb::Call(simulation->server.Describe(),
                               [&] { simulation->reference->start_recording(path.c_str()); });
-  if (!done) return Complain(done.error());
+  if (!done) return PrintError(done.error());
   std::printf("recording %s to %s\n", simulation->status.name.c_str(), path.c_str());
   return kOk;
 }
 
 int StopRecording(const RecordArguments& arguments) {
   const auto simulation = FindOneSimulation(arguments.selection);
-  if (!simulation) return Complain(simulation.error());
+  if (!simulation) return PrintError(simulation.error());
   const auto done =
       orb::Call(simulation->server.Describe(), [&] { simulation->reference->stop_recording(); });
-  if (!done) return Complain(done.error());
+  if (!done) return PrintError(done.error());
   std::printf("stopped recording %s\n", simulation->status.name.c_str());
   return kOk;
 }

@@ -48,7 +48,7 @@ struct RecordingArguments {
 // Prints the error. A missing recording has the exit code of a missing file, and not that of a bad
 // model.
 int Refuse(const base::Error& error) {
-  const int code = Complain(error);
+  const int code = PrintError(error);
   return error.code == base::ErrorCode::kNotFound ? kInfrastructure : code;
 }
 
@@ -143,9 +143,9 @@ bool IsRecording(const std::string& file) {
 
 int Video(const RecordingArguments& arguments, const recording::McapReader& reader) {
   if (arguments.output.empty()) {
-    return Complain({base::ErrorCode::kInvalidArgument,
-                     "cannot write the video: no file is given. Use -o NAME.mp4",
-                     {}});
+    return PrintError({base::ErrorCode::kInvalidArgument,
+                       "cannot write the video: no file is given. Use -o NAME.mp4",
+                       {}});
   }
   VideoOptions options;
   options.output = arguments.output;
@@ -162,7 +162,7 @@ int Export(const RecordingArguments& arguments) {
   if (!reader) return Refuse(reader.error());
   if (auto ok = CheckSelection(arguments, **reader); !ok) return Refuse(ok.error());
   if (IsRecording(arguments.output)) {
-    return Complain(
+    return PrintError(
         {base::ErrorCode::kInvalidArgument,
          "is an existing recording and will not be overwritten; choose another output file",
          arguments.output});
@@ -179,8 +179,9 @@ int Export(const RecordingArguments& arguments) {
   std::ofstream file(arguments.output, std::ios::binary);
   file << *csv << std::flush;
   if (file) return kOk;
-  return Complain({base::ErrorCode::kUnavailable,
-                   "cannot write the file; check the folder and the free space", arguments.output});
+  return PrintError({base::ErrorCode::kUnavailable,
+                     "cannot write the file; check the folder and the free space",
+                     arguments.output});
 }
 
 // Extracts an attachment: the last one, if several have the name.
@@ -202,14 +203,14 @@ int Extract(const RecordingArguments& arguments) {
       arguments.output.empty() ? stdout : std::fopen(arguments.output.c_str(), "wbx");
   const std::string where = arguments.output.empty() ? "stdout" : arguments.output;
   if (file == nullptr) {
-    return Complain({base::ErrorCode::kUnavailable, std::strerror(errno), where});
+    return PrintError({base::ErrorCode::kUnavailable, std::strerror(errno), where});
   }
   const std::size_t written =
       std::fwrite(attachment->data.data(), 1, attachment->data.size(), file);
   const bool is_flushed = (arguments.output.empty() ? std::fflush(file) : std::fclose(file)) == 0;
   if (written == attachment->data.size() && is_flushed) return kOk;
-  return Complain({base::ErrorCode::kUnavailable,
-                   "cannot write the whole attachment; check the free space", where});
+  return PrintError({base::ErrorCode::kUnavailable,
+                     "cannot write the whole attachment; check the free space", where});
 }
 
 int Diff(const RecordingArguments& arguments) {
@@ -302,15 +303,15 @@ std::string AtInstant(const ReplayArguments& arguments) {
 
 int Replay(const ReplayArguments& arguments, Signals& signals) {
   if (arguments.json && !arguments.headless && !arguments.resimulate) {
-    return Complain({base::ErrorCode::kInvalidArgument,
-                     "has an effect only with --headless or --resimulate", "--json"});
+    return PrintError({base::ErrorCode::kInvalidArgument,
+                       "has an effect only with --headless or --resimulate", "--json"});
   }
   auto ros2 = Understand(arguments.ros2);
-  if (!ros2) return Complain(ros2.error());
+  if (!ros2) return PrintError(ros2.error());
   if (*ros2 && (arguments.headless || arguments.resimulate)) {
-    return Complain({base::ErrorCode::kInvalidArgument,
-                     "has no effect with --headless or --resimulate, because nothing is played",
-                     "--ros2"});
+    return PrintError({base::ErrorCode::kInvalidArgument,
+                       "has no effect with --headless or --resimulate, because nothing is played",
+                       "--ros2"});
   }
   if (arguments.resimulate) {
     const auto end =
@@ -324,7 +325,7 @@ int Replay(const ReplayArguments& arguments, Signals& signals) {
     std::fprintf(stderr, "gsv: warning: %s\n", problem.Sentence().c_str());
   }
   auto gateway = StartGateway(arguments, **player);
-  if (!gateway) return Complain(gateway.error());
+  if (!gateway) return PrintError(gateway.error());
   if (arguments.at >= 0) (*player)->Seek(base::FromSeconds(arguments.at));
   const std::string url = (*gateway)->url() + AtInstant(arguments);
   std::printf("viewer: %s\n", url.c_str());
@@ -334,7 +335,7 @@ int Replay(const ReplayArguments& arguments, Signals& signals) {
       const gateway::ReplayClock clock = player.clock();
       return ros2::RecordingBridge::Position{clock.position(), clock.speed()};
     });
-    if (!started) return Complain(started.error());
+    if (!started) return PrintError(started.error());
     published = *std::move(started);
     std::printf("ros2: %s\n", published->Description().c_str());
   }

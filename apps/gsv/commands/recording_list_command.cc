@@ -74,8 +74,8 @@ int ListRecordings(const RecordingListArguments& arguments) {
   std::error_code error;
   if (!std::filesystem::is_directory(arguments.folder, error)) {
     const int code =
-        Complain({base::ErrorCode::kNotFound, "cannot list recordings: there is no such folder",
-                  arguments.folder});
+        PrintError({base::ErrorCode::kNotFound, "cannot list recordings: there is no such folder",
+                    arguments.folder});
     return code == kBadModel ? kInfrastructure : code;
   }
   const RecordingFolder::Listing listing = RecordingFolder(arguments.folder).List();

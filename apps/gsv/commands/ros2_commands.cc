@@ -61,7 +61,7 @@ bool Look(const Ros2CommandArguments& arguments, Signals& signals) {
 
 int Topics(const Ros2CommandArguments& arguments, Signals& signals) {
   const auto participant = Join(arguments);
-  if (!participant) return Complain(participant.error());
+  if (!participant) return PrintError(participant.error());
   if (!Look(arguments, signals)) return kInterrupted;
   struct Ends {
     int writers = 0, readers = 0;
@@ -83,7 +83,7 @@ int Topics(const Ros2CommandArguments& arguments, Signals& signals) {
 
 int Nodes(const Ros2CommandArguments& arguments, Signals& signals) {
   const auto participant = Join(arguments);
-  if (!participant) return Complain(participant.error());
+  if (!participant) return PrintError(participant.error());
   base::Mutex mutex;
   std::map<std::string, std::pair<std::size_t, std::size_t>> nodes;  // writers, readers
   const auto reader = (*participant)
@@ -100,7 +100,7 @@ int Nodes(const Ros2CommandArguments& arguments, Signals& signals) {
                                                node.writers.size(), node.readers.size()};
                                          }
                                        });
-  if (!reader) return Complain(reader.error());
+  if (!reader) return PrintError(reader.error());
   if (!Look(arguments, signals)) return kInterrupted;
   const base::MutexLock lock(mutex);
   for (const auto& [name, ends] : nodes) {
@@ -171,19 +171,19 @@ class Inbox {
 
 int Echo(const Ros2CommandArguments& arguments, Signals& signals) {
   const auto participant = Join(arguments);
-  if (!participant) return Complain(participant.error());
+  if (!participant) return PrintError(participant.error());
   const auto topic = Find(**participant, arguments, signals);
-  if (!topic) return Complain(topic.error());
+  if (!topic) return PrintError(topic.error());
   const auto definition = DefinitionOf(ros2::RosTypeName(topic->type));
-  if (!definition) return Complain(definition.error());
+  if (!definition) return PrintError(definition.error());
   Inbox inbox;
   const auto reader = (*participant)->MakeReader(*topic, [&](auto sample) { inbox.Put(sample); });
-  if (!reader) return Complain(reader.error());
+  if (!reader) return PrintError(reader.error());
   long count = 0;
   while (arguments.count == 0 || count < arguments.count) {
     for (const messages::Bytes& bytes : inbox.Take()) {
       const auto message = definition->Decode(bytes);
-      if (!message) return Complain(message.error());
+      if (!message) return PrintError(message.error());
       std::puts(message->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
       if (++count == arguments.count) break;
     }
@@ -195,12 +195,12 @@ int Echo(const Ros2CommandArguments& arguments, Signals& signals) {
 
 int Hz(const Ros2CommandArguments& arguments, Signals& signals) {
   const auto participant = Join(arguments);
-  if (!participant) return Complain(participant.error());
+  if (!participant) return PrintError(participant.error());
   const auto topic = Find(**participant, arguments, signals);
-  if (!topic) return Complain(topic.error());
+  if (!topic) return PrintError(topic.error());
   Inbox inbox;
   const auto reader = (*participant)->MakeReader(*topic, [&](auto sample) { inbox.Put(sample); });
-  if (!reader) return Complain(reader.error());
+  if (!reader) return PrintError(reader.error());
   while (inbox.count() == 0) {
     if (signals.WaitFor(10) != 0) return kInterrupted;
   }
@@ -216,9 +216,9 @@ int Hz(const Ros2CommandArguments& arguments, Signals& signals) {
 // Prints the size of the domain, and why publishers and subscriptions do not match.
 int Examine(const Ros2CommandArguments& arguments, Signals& signals) {
   const auto reach = Reach(arguments);
-  if (!reach) return Complain(reach.error());
+  if (!reach) return PrintError(reach.error());
   const auto participant = MakeParticipant(*reach);
-  if (!participant) return Complain(participant.error());
+  if (!participant) return PrintError(participant.error());
   std::printf("%s\n", DescribeReach(*reach).c_str());
   std::fflush(stdout);
   if (!Look(arguments, signals)) return kInterrupted;

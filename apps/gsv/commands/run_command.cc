@@ -229,7 +229,7 @@ base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) 
     exit_code = JudgeExpectations(**judge, options, findings, exit_code);
   }
   if (options.runtime.has_broker) (*runtime)->launcher().SettleOutput();
-  if (auto ok = (*runtime)->recordings().StopAll(); !ok) exit_code = Complain(ok.error());
+  if (auto ok = (*runtime)->recordings().StopAll(); !ok) exit_code = PrintError(ok.error());
   if (is_quiet) return exit_code;
   if (!options.recording.topics.empty()) {
     for (std::string& sentence : ProblemsAtTheEnd(options, std::move(topics))) {
@@ -251,11 +251,11 @@ void AddRunCommand(const CommandLine& line) {
   command->callback([arguments, line] {
     const auto options = Understand(*arguments);
     if (!options) {
-      line.exit_code = Complain(options.error());
+      line.exit_code = PrintError(options.error());
       return;
     }
     const auto result = Run(*options, line.signals);
-    line.exit_code = result ? *result : Complain(result.error());
+    line.exit_code = result ? *result : PrintError(result.error());
   });
   // This command is for `gsv test` and campaigns, and is hidden in lists of commands.
   CLI::App* server =

@@ -106,7 +106,8 @@ void AddSaveCommand(const CommandLine& line) {
       ->type_name("FILE");
   command->callback([arguments, line] {
     base::RedactInLog(arguments->token);
-    if (const auto saved = WriteSaved(*arguments); !saved) line.exit_code = Complain(saved.error());
+    if (const auto saved = WriteSaved(*arguments); !saved)
+      line.exit_code = PrintError(saved.error());
   });
 }
 

@@ -37,16 +37,16 @@ int Serve(const ServeArguments& arguments, Signals& signals) {
   options.viewer = !arguments.headless;
   options.web = arguments.web;
   auto ros2 = Understand(arguments.ros2);
-  if (!ros2) return Complain(ros2.error());
+  if (!ros2) return PrintError(ros2.error());
   options.ros2 = *std::move(ros2);
   options.noted_as = arguments.name;
   auto drives = ParseDrives(arguments.drives);
-  if (!drives) return Complain(drives.error());
+  if (!drives) return PrintError(drives.error());
   options.drives = *std::move(drives);
   auto runtime = Runtime::Start(options);
-  if (!runtime) return Complain(runtime.error());
+  if (!runtime) return PrintError(runtime.error());
   if (auto ok = (*runtime)->OfferService(arguments.name, arguments.scenarios); !ok)
-    return Complain(ok.error());
+    return PrintError(ok.error());
   if (!(*runtime)->viewer_url().empty())
     std::printf("viewer: %s\n", (*runtime)->viewer_url().c_str());
   std::printf("broker: %s\n", (*runtime)->broker().reference().c_str());

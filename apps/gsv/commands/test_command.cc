@@ -138,7 +138,7 @@ void OpenFirstFailure(const std::vector<TestResult>& results, Signals& signals) 
     command.push_back(file);
     const auto replay = ChildProcess::Start(std::move(command), false);
     if (!replay) {
-      Complain(replay.error());
+      PrintError(replay.error());
       return;
     }
     const auto line = (*replay)->ReadLine(std::chrono::seconds(60));
@@ -156,16 +156,16 @@ int RunTests(const TestArguments& arguments, Signals& signals) {
   const auto start = std::chrono::steady_clock::now();
   base::Problems problems;
   if (const auto drives = ParseDrives(arguments.options.drives); !drives) {
-    return Complain(drives.error());
+    return PrintError(drives.error());
   }
   auto cases = FindTestCases(arguments.scenarios, problems);
-  if (!cases) return Complain(cases.error());
+  if (!cases) return PrintError(cases.error());
   for (const base::Problem& problem : problems) {
     std::fprintf(stderr, "gsv: error: %s\n", problem.Sentence().c_str());
   }
   if (!problems.empty()) return kBadModel;
   const auto shard = ParseShard(arguments.shard);
-  if (!shard) return Complain(shard.error());
+  if (!shard) return PrintError(shard.error());
   TestOptions options = arguments.options;
   options.failures = arguments.failures;
   options.record = !arguments.no_record;
@@ -181,9 +181,9 @@ int RunTests(const TestArguments& arguments, Signals& signals) {
     std::ofstream file(arguments.junit);
     file << ToJUnit(results, wall);
     if (!file.flush()) {
-      return Complain({base::ErrorCode::kUnavailable,
-                       "cannot write the report; check the folder and its permissions",
-                       arguments.junit});
+      return PrintError({base::ErrorCode::kUnavailable,
+                         "cannot write the report; check the folder and its permissions",
+                         arguments.junit});
     }
   }
   const std::size_t passed = Count(results, TestResult::Status::kPassed);

@@ -35,7 +35,7 @@ int View(const gateway::RelayedInstance& there, const ViewerOptions& web, Signal
   options.docs_root = ShareFolder() / "docs";
   auto relay = StartViewer(
       web, options, [&](const auto& here) { return gateway::Gateway::StartRelay(here, there); });
-  if (!relay) return Complain(relay.error());
+  if (!relay) return PrintError(relay.error());
   std::printf("viewer: %s\n", (*relay)->url().c_str());
   std::fflush(stdout);
   signals.Wait();
@@ -76,7 +76,7 @@ void AddViewCommand(const CommandLine& line) {
     base::RedactInLog(arguments->token);
     const auto url = ViewerOf(arguments->instance, arguments->broker);
     if (!url) {
-      line.exit_code = Complain(url.error());
+      line.exit_code = PrintError(url.error());
       return;
     }
     line.exit_code =

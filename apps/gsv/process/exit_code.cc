@@ -18,7 +18,7 @@ ExitCode ExitCodeFor(base::ErrorCode code) {
   }
 }
 
-int Complain(const base::Error& error) {
+int PrintError(const base::Error& error) {
   std::fprintf(stderr, "gsv: %s\n", error.Sentence().c_str());
   return ExitCodeFor(error.code);
 }

@@ -19,6 +19,6 @@ enum ExitCode {
 ExitCode ExitCodeFor(base::ErrorCode code);
 
 // Prints the error's sentence on stderr and returns its exit code.
-int Complain(const base::Error& error);
+int PrintError(const base::Error& error);
 
 }  // namespace gsv::app

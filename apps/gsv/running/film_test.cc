@@ -43,7 +43,7 @@ class FilmTest : public testing::Test {
     ASSERT_TRUE((*film)->Finish());
   }
 
-  std::string Complaint() const {
+  std::string ErrorSentence() const {
     const auto film = Film::Start(options_);
     return film ? "" : film.error().Sentence();
   }
@@ -72,9 +72,9 @@ TEST_F(FilmTest, PassesRawFramesToFfmpeg) {
 TEST_F(FilmTest, WithoutFfmpegAnErrorNamesTheFormatsThatWork) {
   options_.ffmpeg = folder_->path() / "missing";
   Name("out.webm");
-  EXPECT_NE(Complaint().find("Install it (apt-get install ffmpeg), or write to NAME.apng"),
+  EXPECT_NE(ErrorSentence().find("Install it (apt-get install ffmpeg), or write to NAME.apng"),
             std::string::npos)
-      << Complaint();
+      << ErrorSentence();
   Name("out.apng");
   Make();
 }
@@ -102,15 +102,15 @@ TEST_F(FilmTest, RemovesAnUnfinishedFilm) {
 TEST_F(FilmTest, NeverOverwrites) {
   Name("out.apng");
   std::ofstream(options_.output) << "mine";
-  EXPECT_NE(Complaint().find("exists already"), std::string::npos);
+  EXPECT_NE(ErrorSentence().find("exists already"), std::string::npos);
   EXPECT_EQ(Text(options_.output), "mine");
 }
 
 TEST_F(FilmTest, RefusesNamesOfOtherKindsAndMissingFolders) {
   Name("out.avi");
-  EXPECT_NE(Complaint().find("must end with .webm, .mp4 or .apng"), std::string::npos);
+  EXPECT_NE(ErrorSentence().find("must end with .webm, .mp4 or .apng"), std::string::npos);
   Name("missing/frames");
-  EXPECT_NE(Complaint().find("cannot make the folder"), std::string::npos);
+  EXPECT_NE(ErrorSentence().find("cannot make the folder"), std::string::npos);
   Name("missing/out.apng");
   const auto film = Film::Start(options_);
   ASSERT_TRUE(film);

@@ -153,9 +153,9 @@ std::vector<std::string> CommandLineOf(const RunRequest& request) {
   int exit_code = kOk;
   if (options) {
     const auto result = Run(*options, signals);
-    exit_code = result ? *result : Complain(result.error());
+    exit_code = result ? *result : PrintError(result.error());
   } else {
-    exit_code = Complain(options.error());
+    exit_code = PrintError(options.error());
   }
   exit_code = EndProgram(exit_code);
   std::fflush(nullptr);
@@ -178,7 +178,7 @@ class RunServer {
   int Serve() {
     while (const auto line = NextLine()) {
       const auto request = ParseRequest(*line);
-      if (!request) return Complain(request.error());
+      if (!request) return PrintError(request.error());
       const auto ending = Serve(*request);
       if (!ending) return kInterrupted;
       const std::string answer = *ending + "\n";

@@ -1,4 +1,4 @@
-// Collision bitmasks, in both movements.
+// Tests collision bitmasks, in both movements.
 #include <gtest/gtest.h>
 
 #include "gsv/dynamics/testing/test_rigid_world.h"
@@ -53,7 +53,7 @@ TEST(CollisionFilter, BodyThatCollidesWithNothingFallsThroughTheGround) {
   EXPECT_NEAR(world.position("box").z, 1 - kG / 2, 1e-9);
 }
 
-// Onto a box and a mesh: each meets the one of two bodies whose bits it shares.
+// On a box and on a mesh: each of two bodies collides only with the one that has a bit in common.
 TEST(CollisionFilter, BodyRestsOnABodyOfItsCategory) {
   for (const geometry::Shape& shape : {geometry::Shape(geometry::Box{{1, 1, 1}}), CubeAsMesh()}) {
     TestWorld world(MakeWorldEngine());
@@ -68,12 +68,12 @@ TEST(CollisionFilter, BodyRestsOnABodyOfItsCategory) {
   }
 }
 
-// Each shape of a body collides by its own bits.
+// Each shape of a body has its own collision bits.
 TEST(CollisionFilter, ShapesOfOneBodyHaveTheirOwnFilters) {
   TestWorld world(MakeWorldEngine());
   world.AddStatic("ground", Filtered(testing::GroundOf(), {2, 2}), {});
   auto model = SolidOf(geometry::Box{{0.2, 0.2, 0.2}}, 1, SurfaceWith({2, 2}));
-  // Reaches 0.4 m lower, and meets nothing that is there.
+  // The shape extends 0.4 m lower, and does not collide with anything there.
   model->links[0].collisions.push_back(model->links[0].collisions[0]);
   model->links[0].collisions[1].shape = geometry::Box{{0.1, 0.1, 1}};
   model->links[0].collisions[1].surface.filter = {1, 1};

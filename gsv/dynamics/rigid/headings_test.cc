@@ -23,7 +23,7 @@ using testing::WorldOnGround;
 
 constexpr double kRadius = 0.1;  // m, of wheels
 
-// A box of 10 kg whose middle is `height` above the ground, without wheels.
+// A box of 10 kg without wheels. Its centre is `height` above the ground.
 std::shared_ptr<model::Model> Body(const Vector3& size, double height) {
   auto model = std::make_shared<model::Model>();
   model->name = "robot";
@@ -40,7 +40,7 @@ std::shared_ptr<model::Model> Body(const Vector3& size, double height) {
   return model;
 }
 
-// A wheel that touches the ground at one point; steered ones hang from a link of their own.
+// A wheel that touches the ground at one point. A steered wheel has a steering link as its parent.
 void AddWheel(model::Model& model, double x, double y, bool is_steered = false) {
   int parent = 0;
   const auto add = [&](const std::string& name, const Vector3& axis, double mass) {
@@ -99,7 +99,7 @@ std::shared_ptr<model::Model> Car() {
   return model;
 }
 
-// A tall one that stands on its lower face.
+// A tall box that stands on its lower face.
 std::shared_ptr<model::Model> Held(DriveKind kind) {
   auto model = Body({0.3, 0.3, 1.2}, 0.6);
   model->drive->kind = kind;
@@ -144,8 +144,9 @@ struct Case {
   double turned = 1;  // as a fraction of the commanded angle
 };
 
-// Coulomb's friction at four points of equal load, whose wheels turn as commanded. About the middle
-// each point slips along and across, and the moments are in balance at B² / (B² + L²).
+// Coulomb's friction at four points of equal load, whose wheels rotate as commanded. In a rotation
+// about the centre, each point slips along and across its wheel. The moments are in balance if the
+// robot rotates by the fraction B² / (B² + L²) of the command.
 constexpr double kSkids = kTrack * kTrack / (kTrack * kTrack + kBase * kBase);
 
 std::vector<Case> Cases() {
@@ -195,7 +196,7 @@ TEST(Headings, CommandHasTheSameEffectForEveryHeading) {
       Case of = c;
       if (kind == world::BodyKind::kPlanarBase) of.turned = 1;
       const Outcome expected = Expected(of);
-      // On an arc a car's radius is that of its rear axle.
+      // The radius of a car's arc is measured at its rear axle.
       const bool is_car = c.model->drive->kind == DriveKind::kAckermann;
       for (int i = 0; i < 8; ++i) {
         const double heading = i * kPi / 4 + 0.1;

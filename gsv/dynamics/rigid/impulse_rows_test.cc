@@ -68,8 +68,8 @@ TEST(ImpulseRows, SoftRowYields) {
   EXPECT_NEAR(rows.velocities(0, 1)[0], 1.5, 1e-12);
 }
 
-// A body of 1 kg that slides in a plane, on a contact that presses by 1 N s. Its inertia along the
-// two axes differs, as that of a wheel does.
+// A body of 1 kg that slides in a plane, on a contact with a normal impulse of 1 N s. Its inertia
+// differs between the two axes, as for a wheel.
 std::array<double, 2> SlipAfter(double angle, double speed, const ImpulseRows::Axes& axes) {
   ImpulseRows rows;
   const std::array<double, 3> velocity{speed * std::cos(angle), speed * std::sin(angle), -1};
@@ -88,7 +88,7 @@ TEST(ImpulseRows, FrictionOpposesTheSlipForAnyMasses) {
   for (const double angle : {0.0, 0.4, 0.8, 1.2, 1.5}) {
     const auto [x, y] = SlipAfter(angle, 5, {{{1, 0}, {0, 1}}});
     const double speed = std::sqrt(x * x + y * y);
-    // Its change, by 0.5 N s against the slip that is left.
+    // The change of velocity, due to 0.5 N s against the remaining slip.
     EXPECT_NEAR(x - 5 * std::cos(angle), -4 * 0.5 * x / speed, 1e-9) << angle;
     EXPECT_NEAR(y - 5 * std::sin(angle), -0.5 * 0.5 * y / speed, 1e-9) << angle;
   }

@@ -16,7 +16,7 @@ using testing::TestWorld;
 
 constexpr double kStep = 1e-3;  // s
 
-// A plate on four wheels that turn about its middle, so that all of them slip.
+// A plate on four wheels that rotate it about its centre, so that all of them slip.
 std::shared_ptr<model::Model> Rover() {
   auto model = SolidOf(geometry::Box{{0.6, 0.4, 0.1}}, 10);
   for (const double x : {-0.2, 0.2}) {
@@ -39,8 +39,8 @@ std::shared_ptr<model::Model> Rover() {
   return model;
 }
 
-// A rover that pushes a box ahead, and another box that slides. So many bodies fall and lie 20 m
-// away.
+// A rover that pushes a box, and another box that slides. `others` bodies fall and come to rest 20
+// m away.
 TestWorld WorldWith(int far_bodies, int threads = 1) {
   TestWorld world(MakeWorldEngine(std::make_shared<base::ThreadTeam>(threads)));
   world.AddStatic("ground", testing::GroundOf(), {});
@@ -81,7 +81,7 @@ TEST(Islands, BodiesFarAwayHaveNoEffect) {
       EXPECT_EQ(alone.joint("rover", wheel), crowded.joint("rover", wheel));
     }
   }
-  // The rover has pushed the box, and the other one has come to rest.
+  // The rover has pushed its box, and the sliding box has come to rest.
   EXPECT_GT(alone.position("pushed").x, 0.55);
   EXPECT_EQ(alone.body("sliding").linear_velocity, geometry::Vector3{});
 }

@@ -1,4 +1,4 @@
-// Compares joints and wheels with rigid-body dynamics with closed forms.
+// Tests joints and wheels in rigid-body dynamics against closed forms.
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -18,7 +18,8 @@ using testing::kG;
 using testing::TestWorld;
 using testing::WorldOnGround;
 
-// One link that hangs from the world: of 1 kg, `length` below (and across) its joint's y axis.
+// One link of 1 kg that hangs from the world. Its centre is `length` below its joint. The joint's
+// axis is y.
 std::shared_ptr<model::Model> Hanging(model::JointKind kind, double length,
                                       const geometry::Vector3& axis = {0, 1, 0}) {
   auto model = testing::ModelOf(geometry::Sphere{0.01}, At(0, 0, -length));
@@ -34,13 +35,14 @@ std::shared_ptr<model::Model> Hanging(model::JointKind kind, double length,
 
 constexpr double kPendulum = 0.5;  // m
 
-// The mean of ten swings from rest at an angle, and the highest of the angles that it gets back to.
+// The mean period of ten swings from rest at an angle, and the largest angle that the pendulum
+// returns to.
 double PeriodOf(double amplitude, double& highest) {
   TestWorld world(MakeWorldEngine());
   world.AddRigid("pendulum", Hanging(model::JointKind::kRevolute, kPendulum), At(0, 0, 2));
   EXPECT_TRUE(world.Start());
   world.state().joint_positions[0] = amplitude;
-  // Each begins where the rate turns from positive to negative.
+  // A swing begins when the rate changes from positive to negative.
   int swings = 0;
   double begun = 0, ended = 0, before = 0;
   for (int i = 1; swings < 11 && i < 50000; ++i) {
@@ -216,7 +218,7 @@ TEST(JointedBody, RobotRollsTheDistanceOfItsWheels) {
   ASSERT_TRUE(world.Start());
   world.Command("robot", {0.5, 0, 0});
   world.Run(4.5, 0.01);
-  // Half a second to get going: 0.125 m; then 4 s at 0.5 m/s.
+  // Half a second of acceleration (0.125 m), then 4 s at 0.5 m/s.
   EXPECT_WITHIN(world.position("robot").x, 2.125, 0.005, "m");
   EXPECT_NEAR(world.position("robot").y, 0, 0.001);
   EXPECT_NEAR(world.position("robot").z, 0, 1e-3);
@@ -230,8 +232,8 @@ TEST(JointedBody, RobotTurnsByTheDifferenceOfItsWheels) {
   ASSERT_TRUE(world.Start());
   world.Command("robot", {0, 0, 1});
   world.Run(1.5, 0.01);
-  // Its tyres are 2 cm wide and slip sideways. They may hold anywhere in that width, which is 14 to
-  // 16 cm from the middle of the robot.
+  // Its tyres are 2 cm wide and slip sideways. Their grip may be anywhere within this width, 14 to
+  // 16 cm from the centre of the robot.
   EXPECT_WITHIN_PERCENT(world.yaw("robot"), 1.5, 100 * (1 - 0.15 / 0.16));
   EXPECT_NEAR(world.position("robot").x, 0, 0.02);
   EXPECT_NEAR(world.position("robot").y, 0, 0.02);
@@ -245,8 +247,9 @@ TEST(JointedBody, RobotSlidesOnASlopeWithoutOdometry) {
   world.AddRigid("robot", WheeledRobot(), incline);
   ASSERT_TRUE(world.Start());
   world.Run(2, 0.01);
-  // The wheels are held. What share of the weight they carry depends on how it shifts: the slide
-  // lies between that of a body without friction and one with all of its weight on the wheels.
+  // The wheels are blocked. The share of the weight that they carry depends on how the weight
+  // shifts. So the distance is between that of a body without friction and that of a body with all
+  // its weight on the wheels.
   const double slid = (Inverse(incline) * world.position("robot")).x;
   EXPECT_GT(slid, 0.95 * kG * (std::sin(angle) - mu * std::cos(angle)) * 2);
   EXPECT_LT(slid, kG * std::sin(angle) * 2);

@@ -1,4 +1,4 @@
-// Joints that close loops of links.
+// Tests joints that close loops of links.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -52,8 +52,8 @@ model::Joint HingeAt(const char* name, int parent, int child, const Vector3& poi
   return joint;
 }
 
-// A crank, coupler and rocker on a base that is fixed to the world; `closing` holds the coupler to
-// the rocker.
+// A crank, a coupler and a rocker on a base that is fixed to the world. The joint `closing`
+// connects the coupler to the rocker.
 std::shared_ptr<model::Model> FourBar(double crank_angle, JointKind closing) {
   const double rocker_angle = RockerAngle(crank_angle);
   const Vector3 a0{0, 0, 0}, b0{kGround, 0, 0};
@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(Loops, FourBarLinkage,
                          ::testing::Values(JointKind::kContinuous, JointKind::kBall),
                          [](const auto& info) { return std::string(NameOf(info.param)); });
 
-// A weld holds the linkage, whatever its weight does.
+// A fixed joint holds the linkage against its weight.
 TEST(LoopJoint, FixedLoopJointHoldsAllLinks) {
   TestWorld world(MakeWorldEngine());
   world.AddRigid("linkage", FourBar(0.9, JointKind::kFixed), At(0, 0, 2));

@@ -1,5 +1,5 @@
-// Joints of several axes, screws, links without gravity and surfaces with two frictions, against
-// closed forms.
+// Tests joints with several axes, screws, links without gravity and surfaces with two friction
+// coefficients against closed forms.
 
 #include <gtest/gtest.h>
 
@@ -22,8 +22,8 @@ using testing::WorldOnGround;
 
 constexpr double kLength = 0.5, kInertia = 1e-3;
 
-// A ball of 1 kg that hangs from the world, kLength below the joint, which turns about `axes` in a
-// row: as the reader makes it of ball and universal joints.
+// A ball of 1 kg that hangs from the world, kLength below a joint with consecutive `axes`. The
+// reader makes such joints from ball and universal joints.
 std::shared_ptr<model::Model> HangingBy(JointKind kind, const std::vector<Vector3>& axes) {
   auto model = testing::ModelOf(geometry::Sphere{0.01}, At(0, 0, -kLength));
   model::Inertial& inertial = model->links[0].inertial;
@@ -49,13 +49,13 @@ std::shared_ptr<model::Model> BallPendulum() {
   return HangingBy(JointKind::kBall, {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}});
 }
 
-// The bob's place against the joint.
+// The position of the bob relative to the joint.
 Vector3 BobOf(const TestWorld& world, const model::Model& model) {
   return world::LinkPoses(model, world.state().joint_positions)[0] * Vector3{0, 0, -kLength};
 }
 
 TEST(ManyAxes, PendulumOnABallJointMovesOnACone) {
-  // With the same inertia about all axes the bob goes round at W² = g / (l cos a).
+  // With equal inertia about all axes, the bob circles at the rate W with W² = g / (l cos a).
   const double angle = 0.7, rate = std::sqrt(kG / (kLength * std::cos(angle)));
   const auto model = BallPendulum();
   TestWorld world(MakeWorldEngine());
@@ -76,8 +76,8 @@ TEST(ManyAxes, PendulumOnABallJointMovesOnACone) {
   EXPECT_WITHIN(BobOf(world, *model).y, start.y, 5e-3, "m");
 }
 
-// Past the turn at which two of the three angles are one: energy and the turn about the vertical
-// stay as they are.
+// The motion passes the singularity, at which two of the three axes coincide. Energy and angular
+// momentum about the vertical are conserved.
 TEST(ManyAxes, ABallJointRotatesAboutAnyAxis) {
   const auto model = BallPendulum();
   TestWorld world(MakeWorldEngine());
@@ -148,7 +148,7 @@ TEST(ManyAxes, ScrewJointMovesAlongItsAxisAsItTurns) {
   world.AddRigid("nut", model, At(0, 0, 5));
   ASSERT_TRUE(world.Start());
   world.Run(0.5, 0.001);
-  // A body that falls by `pitch` per radian must also be rotated.
+  // A body that falls by `pitch` per radian must also rotate.
   const double angle = -kG * pitch / (inertia + pitch * pitch) * 0.5 * 0.5 / 2;
   EXPECT_WITHIN_PERCENT(world.joint("nut", 0), angle, 0.5);
   const Pose nut = world::LinkPoses(*model, world.state().joint_positions)[0];
@@ -172,7 +172,7 @@ TEST(ManyAxes, LinkWithoutGravityFloats) {
   EXPECT_WITHIN(world.joint("arm", 0), 1, 1e-9, "rad");
 }
 
-// A box slides from 2 m/s to a halt along the world's x axis, turned by `yaw`.
+// A box, rotated by `yaw`, slides along the world's x axis from 2 m/s to a stop.
 double SlidingDistance(const model::Surface& surface, double yaw) {
   TestWorld world = WorldOnGround();
   world.AddRigid("box", SolidOf(geometry::Box{{0.4, 0.4, 0.1}}, 3, surface),

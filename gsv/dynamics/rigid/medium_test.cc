@@ -1,4 +1,5 @@
-// Wind, fluids, decay of velocities and kinematic links: every expected value is a closed form.
+// Tests wind, fluids, the decay of velocities, and kinematic links. Every expected value is a
+// closed form.
 #include <cmath>
 #include <numbers>
 
@@ -23,7 +24,8 @@ std::shared_ptr<model::Model> Cube(double mass) {
   return SolidOf(geometry::Box{{0.2, 0.2, 0.2}}, mass);
 }
 
-// v = v0 (1 - k)^(t/h) without gravity, with the world's own step h as SDFormat's decay has it.
+// Without gravity, v = v0 (1 - k)^(t/h). h is the world's step, as in SDFormat's definition of the
+// decay.
 TEST(VelocityDecay, ReducesTheVelocityInEachStepOfTheWorld) {
   for (const double step : {0.001, 0.004}) {
     TestWorld world(MakeWorldEngine());
@@ -42,7 +44,7 @@ TEST(VelocityDecay, ReducesTheVelocityInEachStepOfTheWorld) {
   }
 }
 
-// At the terminal velocity, gravity adds as much in a step as the decay removes.
+// At the terminal velocity, gravity adds in a step the velocity that the decay removes.
 TEST(VelocityDecay, EndsAFallAtItsTerminalVelocity) {
   TestWorld world(MakeWorldEngine());
   auto model = Cube(2);
@@ -53,7 +55,7 @@ TEST(VelocityDecay, EndsAFallAtItsTerminalVelocity) {
   EXPECT_NEAR(world.body("box").linear_velocity.z, -kG * kMediumStep / 0.01, 1e-6);
 }
 
-// Two links on a fixed joint: each loses the share of its own momentum.
+// Two links with a fixed joint: each loses its own fraction of its momentum.
 TEST(VelocityDecay, OfFixedLinksIsWeightedByTheirMass) {
   TestWorld world(MakeWorldEngine());
   world.description().gravity = {};
@@ -88,7 +90,8 @@ TEST(Wind, ForceIsProportionalToTheRelativeVelocity) {
   EXPECT_EQ(world.position("sheltered").x, 5);
 }
 
-// A pendulum of one link hangs where the wind's and the weight's torques balance: tan a = d w / g.
+// A pendulum hangs at the angle at which the torques of wind and weight are in balance: tan a = d w
+// / g.
 TEST(Wind, DeflectsAPendulum) {
   TestWorld world(MakeWorldEngine());
   world.description().wind = model::Wind{{3, 0, 0}, 2};
@@ -105,7 +108,7 @@ TEST(Wind, DeflectsAPendulum) {
   EXPECT_NEAR(world.joint("pendulum", 0), std::atan(2 * 3 / kG), 0.02);
 }
 
-// It rises with (rho V / m - 1) g.
+// It rises with the acceleration (rho V / m - 1) g.
 TEST(Buoyancy, LiftsBodiesLighterThanTheFluid) {
   TestWorld world(MakeWorldEngine());
   world.description().fluid = model::Fluid{1000, {}, {}};
@@ -130,8 +133,8 @@ TEST(Buoyancy, LiftsOnlyTheModelsThatItNames) {
   EXPECT_LT(world.position("stone").z, -10);
 }
 
-// Archimedes: of a flat box, which floats upright, the share is under water that its density is of
-// the water's.
+// Archimedes' principle: the submerged fraction of a flat box that floats upright is its density
+// divided by that of the water.
 TEST(Buoyancy, BoxFloatsAtTheDepthOfItsDensity) {
   for (const double share : {0.25, 0.5, 0.9}) {
     TestWorld world(MakeWorldEngine());
@@ -146,7 +149,7 @@ TEST(Buoyancy, BoxFloatsAtTheDepthOfItsDensity) {
   }
 }
 
-// A ball of half the water's density has its centre in the surface.
+// The centre of a ball with half the density of the water is at the surface.
 TEST(Buoyancy, BallFloatsAtTheDepthOfItsDensity) {
   TestWorld world(MakeWorldEngine());
   world.description().fluid = model::Fluid{1000, {{1, 0}}, {}};
@@ -181,7 +184,7 @@ TEST(KinematicLink, IgnoresForces) {
   ASSERT_TRUE(world.Start());
   world.Run(2, kMediumStep);
   EXPECT_EQ(world.position("shelf"), (Vector3{0, 0, 1}));
-  // It came down at 2 mm a substep.
+  // It fell by 2 mm in a substep.
   EXPECT_NEAR(world.position("stone").z, 1.2, 2e-3);
 }
 
@@ -215,7 +218,7 @@ TEST(KinematicLink, WithADriveFollowsTheDrivesCommand) {
   EXPECT_NEAR(world.position("platform").z, 2, 1e-9);
 }
 
-// A load does not move the arm; the command of its joint turns it.
+// A load does not move the arm, but the command of its joint does.
 TEST(KinematicLink, OnAJointFollowsOnlyTheJointsCommand) {
   TestWorld world(MakeWorldEngine());
   auto model = Cube(1);

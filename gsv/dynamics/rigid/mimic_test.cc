@@ -1,4 +1,4 @@
-// Joints that follow others, in both movements.
+// Tests joints that follow others, in both movements.
 #include <gtest/gtest.h>
 
 #include "gsv/base/test_within.h"
@@ -11,7 +11,7 @@ using testing::At;
 using testing::TestWorld;
 using Kind = world::JointCommand::Kind;
 
-// A base with two fingers, of which the second follows the first.
+// A base with two fingers. The second one follows the first.
 std::shared_ptr<model::Model> Fingers(const model::Mimic& mimic) {
   auto model = testing::SolidOf(geometry::Box{{0.2, 0.2, 0.2}}, 1);
   for (const double side : {1.0, -1.0}) {
@@ -56,8 +56,8 @@ TEST(Mimic, AJointMovesAtItsLeadersRate) {
   EXPECT_NEAR(world.joint("gripper", 2), 2 * world.joint("gripper", 1), 5e-3);
 }
 
-// A gear with the ratio n: the leader turns its own inertia and n² that of its follower, so that a
-// torque t gives it the acceleration t / (I1 + n² I2).
+// A gear with the ratio n. The leader accelerates its own inertia and n² times that of the
+// follower, so that a torque t gives it the acceleration t / (I1 + n² I2).
 TEST(Mimic, LeaderAcceleratesTheInertiaOfItsFollower) {
   auto model = Fingers({1, -3, 0, 0});
   for (model::Link& link : model->links) link.has_gravity = false;

@@ -1,4 +1,4 @@
-// Planar robots and rigid bodies together.
+// Tests planar robots together with rigid bodies.
 #include <gtest/gtest.h>
 
 #include "gsv/dynamics/testing/test_rigid_world.h"
@@ -41,7 +41,7 @@ TEST(Pushing, SlowlyAcceleratingRobotPushesAsWell) {
   ASSERT_TRUE(world.Start());
   world.Command("robot", {0.5, 0, 0});
   world.Run(4, 0.01);
-  // Half a second to get going: 0.125 m; then 3.5 s at 0.5 m/s.
+  // Half a second of acceleration (0.125 m), then 3.5 s at 0.5 m/s.
   EXPECT_NEAR(world.position("robot").x, 0.125 + 1.75, 0.1);
 }
 
@@ -93,7 +93,7 @@ TEST(Pushing, BodyOnARobotMovesWithIt) {
   world.Command("robot", {0.2, 0, 0});
   world.Run(5, 0.01);
   EXPECT_NEAR(world.position("robot").x, 1, 1e-9);
-  // It slips while the robot gets going at once: v² / (2 g) = 2 mm.
+  // It slips when the robot starts at full speed: v² / (2 g) = 2 mm.
   EXPECT_NEAR(world.position("parcel").x, 1, 0.01);
   EXPECT_NEAR(world.position("parcel").z, 0.45, 1e-4);
 }

@@ -1,7 +1,7 @@
-// Remembers a step in which no rigid body moved, so that the same step need not be taken again.
+// Stores a step in which no rigid body moved, so that the same step need not be computed again.
 // Private to this folder: it includes Bullet.
 //
-// Determinism  it only spares a step whose outcome is known; no outcome depends on it.
+// Determinism  it only avoids a step whose result is known, so results do not depend on it.
 #pragma once
 
 #include <vector>
@@ -14,12 +14,12 @@ class RestingState {
  public:
   void Forget() { rests_ = false; }
 
-  // After a step of so many seconds from `before` to `after`, with areas that the rigid bodies may
-  // have reached.
+  // Call this after a step of `seconds` from `before` to `after`, with the areas that the rigid
+  // bodies may have reached.
   void Remember(const RigidScene& scene, const world::State& before, const world::State& after,
                 double seconds, std::vector<Area> areas);
 
-  // Whether a step would change nothing: all is as it was, and no planar body is near.
+  // Whether a step would change nothing: the state has not changed, and no planar body is near.
   bool Holds(const RigidScene& scene, const world::State& before, const world::State& after,
              double seconds) const;
 

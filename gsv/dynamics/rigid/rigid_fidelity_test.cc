@@ -1,5 +1,5 @@
-// Rigid bodies against mechanics: every expected value is a closed form. docs/fidelity.md lists
-// them.
+// Tests rigid bodies against mechanics. Every expected value is a closed form; docs/fidelity.md
+// lists them.
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ model::Surface SurfaceOf(double friction, double restitution = 0) {
   return {friction, friction, restitution};
 }
 
-// A plane inclined about the y axis: down is +x.
+// A plane inclined about the y axis. It descends along +x.
 Pose Inclined(double angle) { return {{0, 0, 0}, geometry::FromAxisAngle({0, 1, 0}, angle)}; }
 
 TEST(RigidFidelity, ABodyFallsAlongTheParabola) {
@@ -87,7 +87,7 @@ TEST(RigidFidelity, ASlidingBoxStopsAfterTheFrictionDistance) {
 }
 
 TEST(RigidFidelity, BallOnTwoEdgesIsNotDeflected) {
-  // 0.5 m between the edges: the ball comes to lie with its middle sqrt(0.5² - 0.25²) above them.
+  // The edges are 0.5 m apart, so the centre of the resting ball is sqrt(0.5² - 0.25²) above them.
   for (const double height : {1.5, 2.0, 2.5, 3.0, 3.5, 4.0}) {
     TestWorld world(MakeWorldEngine());
     world.AddBox("left", {1, 4, 1}, -0.75, 0);
@@ -104,7 +104,8 @@ TEST(RigidFidelity, BallOnTwoEdgesIsNotDeflected) {
   }
 }
 
-// Speed of a ball 0.05 s after it has landed at 2 m/s, moving along at 3 m/s without spin.
+// The speed of a ball 0.05 s after it has landed at 2 m/s, with a horizontal speed of 3 m/s and
+// without spin.
 double SpeedAfterLanding(double friction, double height_more) {
   const double height = 2.0 * 2.0 / (2 * kG) + height_more;
   TestWorld world = WorldOnGround();
@@ -117,7 +118,7 @@ double SpeedAfterLanding(double friction, double height_more) {
 }
 
 TEST(RigidFidelity, FrictionAtAnImpactIsProportionalToTheImpulse) {
-  // The ground is found at different distances within a step.
+  // The contact is found at different times within a step.
   for (const double more : {0.0, 3e-4, 7e-4, 1.3e-3, 1.9e-3}) {
     EXPECT_WITHIN(SpeedAfterLanding(0.1, more), 3 - 0.1 * 2 - 0.1 * kG * 0.05, 2e-3, "m/s") << more;
     // With so much friction the ball rolls at once, at 5/7 of the speed.
@@ -127,7 +128,7 @@ TEST(RigidFidelity, FrictionAtAnImpactIsProportionalToTheImpulse) {
 
 constexpr double kInclineFriction = 0.5;
 
-// A box that is put down on an incline: how far it is down the slope after so many seconds.
+// The distance that a box slides down an incline in `seconds`.
 double SlideDown(double angle, double seconds, Vector3& velocity) {
   const Pose incline = Inclined(angle);
   TestWorld world(MakeWorldEngine());
@@ -188,7 +189,7 @@ TEST(RigidFidelity, ACollisionKeepsMomentum) {
     world.Run(1, kStep);
     const double va = world.body("a").linear_velocity.x, vb = world.body("b").linear_velocity.x;
     EXPECT_WITHIN(mass * va + vb, mass * speed, 1e-9, "kg m/s") << mass;
-    // Give or take the depth at which bodies rest in each other, in one substep.
+    // The tolerance is the depth at which resting bodies overlap, in one substep.
     EXPECT_WITHIN(vb - va, e * speed, 0.0101, "m/s") << mass;
     EXPECT_EQ(world.body("a").collisions, 1u) << mass;
     table.Row({mass, va, vb, speed * (mass - e) / (mass + 1), speed * mass * (1 + e) / (mass + 1)});
@@ -230,7 +231,7 @@ TEST(RigidFidelity, StackIsStableForAMinute) {
   }
 }
 
-// One cube on another, at rest from the beginning.
+// One cube on another, at rest from the start.
 TEST(RigidFidelity, HeavyBoxOnALightBoxIsStable) {
   for (const double mass : {10.0, 1e3, 1e5}) {
     TestWorld world = WorldOnGround();
@@ -256,8 +257,8 @@ TEST(RigidFidelity, SlabOnFourLightLegsIsStable) {
   EXPECT_WITHIN(world.position("slab").z, 0.55, 1e-4, "m");
 }
 
-// Coulomb's friction knows no direction: µ g in each, and a box on an incline stays or slides
-// whichever way it faces.
+// Coulomb's friction is isotropic: the deceleration is µ g in each direction, and whether a box on
+// an incline slides does not depend on its heading.
 TEST(RigidFidelity, FrictionIsTheSameInEveryDirection) {
   const double mu = 0.3, angle = 0.35;  // tan 0.35 = 0.365
   for (int i = 0; i < 8; ++i) {

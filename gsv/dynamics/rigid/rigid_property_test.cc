@@ -51,7 +51,7 @@ TEST(RigidProperty, RunIsRepeatable) {
 }
 
 TEST(RigidProperty, StepDependsOnlyOnTheState) {
-  // Another engine, that has seen nothing of the way there, takes the same step.
+  // A new engine, without data of earlier steps, takes the same step.
   TestWorld lived = Heap(2), fresh = Heap(2);
   lived.Run(1, 0.01);
   fresh.state() = lived.state();
@@ -79,7 +79,8 @@ TEST(RigidProperty, BodiesNeverPenetrateTheGroundOrEachOther) {
         ASSERT_GT(world.position("solid" + std::to_string(s)).z, 0.05) << seed << ", step " << i;
       }
     }
-    // A robot touches a body that it runs into, and a falling body may be pressed against a robot.
+    // A robot touches a body that it collides with, and a falling body may be pressed against a
+    // robot.
     double deepest = 0;
     for (const auto& overlap : world.engine().Overlaps(world.state(), 0)) {
       deepest = std::max(deepest, overlap.depth);

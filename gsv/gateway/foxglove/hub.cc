@@ -103,13 +103,15 @@ void Hub::Apply(Member& member, const foxglove::Subscribe& message) {
   for (const foxglove::Subscription& wish : message.subscriptions) {
     const auto topic = topics_.find(wish.channel);
     if (topic == topics_.end()) {
-      Complain(member, "there is no channel " + std::to_string(wish.channel) + " to subscribe to");
+      SendWarning(member,
+                  "there is no channel " + std::to_string(wish.channel) + " to subscribe to");
     } else if (member.subscriptions.contains(wish.id)) {
-      Complain(member, "the subscription " + std::to_string(wish.id) +
-                           " is in use; unsubscribe it first, or take another number");
+      SendWarning(member, "the subscription " + std::to_string(wish.id) +
+                              " is in use; unsubscribe it first, or take another number");
     } else if (!topic->second.listeners.try_emplace(member.client.get(), Listener{wish.id})
                     .second) {
-      Complain(member, "the channel " + topic->second.channel.topic + " is subscribed to already");
+      SendWarning(member,
+                  "the channel " + topic->second.channel.topic + " is subscribed to already");
     } else {
       member.subscriptions.emplace(wish.id, wish.channel);
       has_graph_changed_ = true;
@@ -121,7 +123,7 @@ void Hub::Apply(Member& member, const foxglove::Unsubscribe& message) {
   for (const foxglove::SubscriptionId id : message.subscriptions) {
     const auto subscription = member.subscriptions.find(id);
     if (subscription == member.subscriptions.end()) {
-      Complain(member, "there is no subscription " + std::to_string(id) + " to end");
+      SendWarning(member, "there is no subscription " + std::to_string(id) + " to end");
       continue;
     }
     const auto topic = topics_.find(subscription->second);
@@ -143,10 +145,10 @@ void Hub::Apply(Member& member, const foxglove::WatchGraph& message) {
 }
 
 void Hub::Apply(Member& member, const foxglove::Unsupported& message) {
-  Complain(member, "this server does not offer the operation '" + message.op + "'");
+  SendWarning(member, "this server does not offer the operation '" + message.op + "'");
 }
 
-void Hub::Complain(Member& member, std::string_view message) {
+void Hub::SendWarning(Member& member, std::string_view message) {
   member.client->SendStatus(StatusLevel::kError, message);
 }
 

@@ -99,7 +99,7 @@ class Hub {
   void Apply(Member& member, const foxglove::Unsubscribe& message) GSV_REQUIRES(mutex_);
   void Apply(Member& member, const foxglove::WatchGraph& message) GSV_REQUIRES(mutex_);
   void Apply(Member& member, const foxglove::Unsupported& message) GSV_REQUIRES(mutex_);
-  static void Complain(Member& member, std::string_view message);
+  static void SendWarning(Member& member, std::string_view message);
   bool IsGraphWatched() const GSV_REQUIRES(mutex_);
   foxglove::ConnectionGraph Graph() const GSV_REQUIRES(mutex_);
   void PublishGraph();

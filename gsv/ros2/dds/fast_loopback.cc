@@ -18,8 +18,8 @@ using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::rtps::Locator_t;
 using eprosima::fastrtps::rtps::LocatorsIterator;
 
-// Stands for kDiscoveryGroup among the peers. The group itself would not do: participants with default
-// settings announce it too, and Fast DDS would then multicast more than announcements.
+// Represents kDiscoveryGroup among the peers. The group itself cannot be used: participants with
+// default settings announce it too, and Fast DDS would then multicast more than announcements.
 constexpr const char* kGroupPeer = "127.255.255.254";
 constexpr const char* kDiscoveryGroup = "239.255.0.1";  // RTPS 2.3, 9.6.1.4
 
@@ -30,7 +30,7 @@ bool IsGroupPeer(const Locator_t& locator) {
 // Fast DDS deletes no iterator through this base class.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wnon-virtual-dtor"
-// Passes on the destinations but kGroupPeer. What goes there is multicast on this machine.
+// Passes on all destinations except kGroupPeer. Data for kGroupPeer is multicast on this machine.
 class WithoutGroup final : public LocatorsIterator {
  public:
   WithoutGroup(LocatorsIterator& next, const LocatorsIterator& end,

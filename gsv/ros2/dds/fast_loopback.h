@@ -1,4 +1,5 @@
-// A UDP transport of Fast DDS that stays on this machine and yet reaches participants that do not.
+// A UDP transport of Fast DDS that stays on this machine, but also reaches participants on this
+// machine that use the network.
 //
 // Its sockets are bound to 127.0.0.1. A participant of this machine that announces the address of a network
 // interface is sent to at 127.0.0.1, where it listens as well. Fast DDS alone offers one or the other: with
@@ -17,8 +18,8 @@ namespace gsv::ros2::dds {
 std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> LoopbackTransport(
     std::uint32_t max_peers);
 
-// A peer by which this transport reaches participants of this machine that wait for multicast, as Cyclone DDS
-// does with default settings: announcements to it are multicast on loopback.
+// A peer for participants on this machine that wait for multicast, as Cyclone DDS does with default
+// settings. Announcements to this peer are multicast on loopback.
 eprosima::fastrtps::rtps::Locator_t LocalGroup(std::uint32_t domain);
 
 }  // namespace gsv::ros2::dds

@@ -40,7 +40,7 @@ namespace rtps = eprosima::fastrtps::rtps;
 using eprosima::fastrtps::types::ReturnCode_t;
 
 constexpr std::uint32_t kMaxDomain = 232;  // higher ones have no ports
-// So many participants of this machine can be found without multicast.
+// The number of participants on this machine that can be found without multicast.
 constexpr std::uint32_t kMaxLocalPeers = 32;
 
 Guid GuidOf(const rtps::GUID_t& guid) {
@@ -50,7 +50,7 @@ Guid GuidOf(const rtps::GUID_t& guid) {
   return bytes;
 }
 
-// A participant, of which a GUID's first bytes are.
+// The prefix of a GUID, which identifies the participant.
 using Prefix = std::array<std::uint8_t, 12>;
 
 Prefix PrefixOf(const Guid& guid) {
@@ -75,7 +75,7 @@ Request RequestOf(const fast::SampleInfo& info) {
   request.identity.writer = request.writer;
   request.identity.sequence =
       static_cast<std::int64_t>(info.sample_identity.sequence_number().to64long());
-  // Clients of rmw_fastrtps name here the reader that waits for the reply.
+  // In this field, clients of rmw_fastrtps name the reader that waits for the reply.
   const rtps::GUID_t& reader = info.related_sample_identity.writer_guid();
   if (reader == rtps::GUID_t::unknown()) return request;
   request.identity.writer = GuidOf(reader);
@@ -287,7 +287,7 @@ class FastWriter final : public Writer, fast::DataWriterListener {
 
 class FastReader final : public Reader, fast::DataReaderListener {
  public:
-  // `on_message` gets the samples, or if it is empty `on_request` does.
+  // Samples go to `on_message`, or to `on_request` if `on_message` is empty.
   FastReader(fast::Subscriber& subscriber,
              std::function<void(std::span<const std::byte>)> on_message,
              std::function<void(std::span<const std::byte>, const Request&)> on_request = {})
@@ -449,7 +449,7 @@ class FastParticipant final : public Participant {
                       "Fast DDS refuses the topic with type " + topic.type, topic.name);
   }
 
-  // A topic stays for as long as the participant: robots that come back use it again.
+  // Topics exist as long as the participant, so that robots that are added again can reuse them.
   fast::Topic* TopicOf(const Topic& topic) {
     const base::MutexLock lock(mutex_);
     const auto found = topics_.find(topic.name);

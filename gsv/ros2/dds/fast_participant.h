@@ -1,4 +1,4 @@
-// The participant by Fast DDS 2.9.
+// Implements Participant with Fast DDS 2.9.
 #pragma once
 
 #include <memory>
@@ -7,8 +7,8 @@
 
 namespace gsv::ros2::dds {
 
-// Fails when the domain is out of range or no socket can be had. Removes ROS_DISCOVERY_SERVER from the
-// environment, which would take the place of `options`, and logs that.
+// Fails if the domain is out of range or no socket is available. Removes ROS_DISCOVERY_SERVER from
+// the environment, because it would override `options`, and logs this.
 base::Result<std::unique_ptr<Participant>> MakeFastParticipant(const ParticipantOptions& options);
 
 }  // namespace gsv::ros2::dds

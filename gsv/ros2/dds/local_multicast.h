@@ -3,7 +3,7 @@
 // Linux delivers it to each socket that is bound to the port and has joined any group (IP_MULTICAST_ALL of
 // ip(7)), provided that somebody joined this group on loopback, which the sender does.
 //
-// By it, participants are found that wait for multicast, as Cyclone DDS does with default settings.
+// This reaches participants that wait for multicast, as Cyclone DDS does with default settings.
 //
 // Threads  any.
 #pragma once
@@ -16,7 +16,7 @@ namespace gsv::ros2::dds {
 
 class LocalMulticast {
  public:
-  // `group`: a dotted IPv4 address. Where loopback refuses multicast, nothing is sent.
+  // `group`: a dotted IPv4 address. If loopback does not allow multicast, nothing is sent.
   explicit LocalMulticast(const char* group);
   ~LocalMulticast();
   LocalMulticast(const LocalMulticast&) = delete;

@@ -1,4 +1,4 @@
-// The plug-in that holds the DDS library, lib/gsv/gsv-ros2.so, and how it is loaded.
+// Loads lib/gsv/gsv-ros2.so, the plug-in that contains the DDS library.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace gsv::ros2::dds {
 
-// Grows with each change of participant.h.
+// Increase it with each change of participant.h.
 inline constexpr int kModuleInterface = 3;
 inline constexpr const char* kModuleSymbol = "gsv_ros2_module";
 inline constexpr const char* kModuleFile = "gsv-ros2.so";
@@ -22,7 +22,8 @@ struct Module {
 // Finds the plug-in in one of `folders`, without loading it. Fails with kUnavailable where there is none.
 base::Result<std::string> FindModule(const std::vector<std::string>& folders);
 
-// Loads the plug-in from one of `folders`; it stays loaded. Fails with kUnavailable where there is none.
+// Loads the plug-in from one of `folders`; it stays loaded. Fails with kUnavailable if none of them
+// contains it.
 base::Result<const Module*> LoadModule(const std::vector<std::string>& folders);
 
 }  // namespace gsv::ros2::dds

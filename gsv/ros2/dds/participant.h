@@ -1,4 +1,4 @@
-// A DDS participant as GSV needs it: topics whose samples are bytes in CDR.
+// The interface of a DDS participant: topics whose samples are bytes in CDR.
 //
 // No DDS library is named here. The implementation is a plug-in (module.h), so that a program without
 // ROS 2 neither loads nor links one.
@@ -20,7 +20,7 @@
 
 namespace gsv::ros2::dds {
 
-// As RTPS sends it: twelve bytes of prefix, then four bytes of the entity.
+// The GUID in the form of RTPS: twelve bytes of prefix, then four bytes of the entity.
 using Guid = std::array<std::uint8_t, 16>;
 
 struct Qos {
@@ -32,7 +32,7 @@ struct Qos {
   friend bool operator==(const Qos&, const Qos&) = default;
 };
 
-// A topic under the names that go over the wire.
+// A topic with its DDS names.
 struct Topic {
   std::string name;  // "rt/pebble/scan"
   std::string type;  // "sensor_msgs::msg::dds_::LaserScan_"
@@ -40,7 +40,7 @@ struct Topic {
   std::string user_data;  // USER_DATA of the endpoint; may be empty
 };
 
-// How far discovery reaches.
+// The range of discovery.
 enum class Range {
   kLocalhost,  // nothing leaves this machine, nothing is received from elsewhere
   kPeers,      // the machines in `peers`, without multicast
@@ -77,12 +77,13 @@ struct Request {
 class Writer {
  public:
   virtual ~Writer() = default;
-  // One sample with its encapsulation header. Does not wait for readers: of a reader that does not
-  // keep up, the oldest samples are lost. One thread at a time.
+  // Writes one sample with its encapsulation header. Does not wait for readers: a reader that does
+  // not keep up loses the oldest samples. One thread at a time.
   virtual void Write(std::span<const std::byte> sample) = 0;
-  // One sample that is the reply to a request.
+  // Writes one sample as the reply to a request.
   virtual void WriteReply(std::span<const std::byte> sample, const SampleIdentity& request) = 0;
-  // Whether a reader of the participant that has this endpoint matches. A reply that is written before is lost.
+  // Whether a reader matches that belongs to the same participant as this endpoint. A reply that is
+  // written earlier is lost.
   virtual bool HasReaderBeside(const Guid& endpoint) const = 0;
   virtual bool has_readers() const = 0;
   virtual Guid guid() const = 0;
@@ -104,12 +105,12 @@ struct Endpoint {
 
 class Participant {
  public:
-  // Larger samples that come in are dropped.
+  // Larger incoming samples are dropped.
   static constexpr std::size_t kMaxSampleIn = 16 << 20;
 
   virtual ~Participant() = default;
 
-  // `on_match` is called when a reader comes or goes; may be empty.
+  // `on_match` is called when a reader is added or removed; may be empty.
   virtual base::Result<std::unique_ptr<Writer>> MakeWriter(const Topic& topic,
                                                            std::function<void()> on_match) = 0;
   virtual base::Result<std::unique_ptr<Reader>> MakeReader(

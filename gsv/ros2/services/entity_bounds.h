@@ -1,4 +1,4 @@
-// The extent of bodies.
+// Computes the extent of bodies.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,9 @@
 
 namespace gsv::ros2 {
 
-// The smallest box around a body's collision shapes, along the axes of its frame, at the positions of its joints;
-// around its visuals where it has no collision shapes. Nothing for a body that has neither, and for one with a
-// plane, which has no end.
+// The smallest box around a body's collision shapes, along the axes of its frame, at the present
+// joint positions. If it has no collision shapes, its visuals are used. Returns nothing for a body
+// with neither, and for a body with a plane, because planes are infinite.
 std::optional<geometry::Bounds> BoundsOfBody(const world::Snapshot& snapshot, int body);
 
 // The smallest box along the world's axes around such a box.

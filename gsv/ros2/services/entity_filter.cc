@@ -88,7 +88,7 @@ base::Status CheckBounds(const Bounds& bounds) {
                     "bounds must have 2 points, found " + std::to_string(bounds.points.size()));
 }
 
-// A body without an end overlaps everything.
+// An infinite body overlaps everything.
 bool Passes(const Bounds& bounds, const world::Snapshot& snapshot, int body) {
   if (bounds.type == Bounds::kTypeEmpty) return true;
   const auto own = BoundsOfBody(snapshot, body);

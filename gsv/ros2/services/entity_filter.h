@@ -1,6 +1,7 @@
 // The filters of GetEntities and GetEntitiesStates.
 //
-// A filter is untrusted input: regular expressions are bounded, so that none takes long.
+// A filter is untrusted input. Regular expressions are restricted, so that their evaluation is
+// fast.
 #pragma once
 
 #include <memory>
@@ -12,12 +13,12 @@
 
 namespace gsv::ros2 {
 
-// The category of a body, one of EntityCategory's.
+// The category of a body, a constant of EntityCategory.
 std::uint8_t CategoryOf(const world::Body& body);
 
-// The indices of the bodies that pass, ascending. kNotFound never occurs. Fails with kInvalidArgument for a regular
-// expression that is wrong, longer than 256 characters, or has repetitions {n} or back references; with
-// kUnavailable for tags and for bounds other than boxes and spheres.
+// The indices of the bodies that pass the filter, in ascending order. Fails with kInvalidArgument
+// for a regular expression that is wrong, longer than 256 characters, or has repetitions {n} or
+// back references; with kUnavailable for tags and for bounds other than boxes and spheres.
 base::Result<std::vector<int>> FilterEntities(
     const world::Snapshot& snapshot, const messages::simulation_interfaces::EntityFilters& filters);
 

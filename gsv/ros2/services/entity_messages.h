@@ -15,15 +15,17 @@ inline constexpr const char* kEntityFrame = "world";
 // The state of a body in the frame "world"; velocities and accelerations are those of its origin.
 messages::simulation_interfaces::EntityState StateOf(const world::Snapshot& snapshot, int body);
 
-// A box as two corners: the upper right one and the lower left one.
+// A box as two corners: first the upper right one, then the lower left one.
 messages::simulation_interfaces::Bounds BoxOf(const geometry::Bounds& bounds);
 
-// The pose of an untrusted message. An orientation of all zeros is none. Fails with kInvalidArgument for numbers that
-// are not finite, an orientation that is no unit quaternion within 1 %, and for frames other than "world" and "".
+// The pose of an untrusted message. An orientation of zeros means no rotation. Fails with
+// kInvalidArgument for numbers that are not finite, for an orientation that is not a unit
+// quaternion (within 1 %), and for frames other than "world" and "".
 base::Result<geometry::Pose> PoseIn(const std::string& frame,
                                     const messages::geometry_msgs::Pose& pose);
 
-// Whether a pose is upright and at height zero, as the default one is: such a body is put onto the floor.
+// Whether a pose is upright and at height zero, as the default pose is. A body at such a pose is
+// put on the floor.
 bool StandsOnTheFloor(const geometry::Pose& pose);
 
 }  // namespace gsv::ros2

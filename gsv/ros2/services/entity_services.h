@@ -1,14 +1,14 @@
 // GetEntities, GetEntityInfo, GetEntityState, GetEntitiesStates, GetEntityBounds, SetEntityState, GetNamedPoses,
 // GetNamedPoseBounds and GetCurrentWorld.
 //
-// Every body of the simulation is an entity, by its name. Worlds have no named poses.
+// Every body of the simulation is an entity with the same name. Worlds have no named poses.
 #pragma once
 
 #include "gsv/ros2/services/simulation_services.h"
 
 namespace gsv::ros2 {
 
-// `served` outlives the host of the services.
+// `served` must outlive the host of the services.
 void OfferEntityServices(ServedSimulation& served);
 
 // The index of an entity, or kNotFound with a suggestion.

@@ -2,7 +2,7 @@
 //
 // Source   design.ros2.org, "Actions"; action_msgs of Jazzy.
 // Threads  one at a time.
-// Bounded  at most 100 goals that are not finished; of the finished ones the last 100 are kept.
+// Bounded  at most 100 unfinished goals, and the last 100 finished goals.
 #pragma once
 
 #include <array>
@@ -20,16 +20,16 @@ class GoalList {
   using Status = std::int8_t;  // one of GoalStatus's
   static constexpr std::size_t kMaxGoals = 100;
 
-  // Accepts a goal. False when its id is known, or there are too many.
+  // Accepts a goal. Returns false if its id is already known, or if there are too many goals.
   bool Accept(const Id& id, const messages::builtin_interfaces::Time& stamp);
   // STATUS_UNKNOWN: there is no such goal.
   Status StatusOf(const Id& id) const;
   bool IsFinished(const Id& id) const;
-  // Begins to execute an accepted goal. False when it is to be cancelled instead.
+  // Begins to execute an accepted goal. Returns false if the goal is being cancelled.
   bool Begin(const Id& id);
   void Finish(const Id& id, Status status);
 
-  // Marks the goals that the request means, which are then canceling; the response says which.
+  // Marks the goals of the request as canceling. The response lists them.
   messages::action_msgs::CancelGoalResponse Cancel(
       const messages::action_msgs::CancelGoalRequest& request);
 

@@ -34,7 +34,7 @@ rcl::SetParametersResult ResultOfSetting(const rcl::Parameter& parameter) {
   return {false, "use_sim_time is always true"};
 }
 
-// A prefix "a.b" stands for the parameters below it, and for that of this name.
+// A prefix "a.b" selects the parameter "a.b" and the parameters below it.
 bool IsListed(const rcl::ListParametersRequest& request) {
   for (const std::string& prefix : request.prefixes) {
     if (prefix == kUseSimTime) return true;

@@ -1,4 +1,4 @@
-// The results of simulation_interfaces, and edits that need a pause.
+// Makes the results of simulation_interfaces, and performs edits that need a pause.
 #pragma once
 
 #include <functional>
@@ -12,11 +12,12 @@ namespace gsv::ros2 {
 
 messages::simulation_interfaces::Result Succeeded();
 messages::simulation_interfaces::Result Failed(std::uint8_t code, std::string message);
-// kNotFound, kNotRunning and kEnded have codes of their own, others are a failed operation.
+// kNotFound, kNotRunning and kEnded have their own codes. All other errors give
+// RESULT_OPERATION_FAILED.
 messages::simulation_interfaces::Result ResultOf(const base::Error& error);
 messages::simulation_interfaces::Result ResultOf(const base::Status& status);
 
-// The phase now.
+// The current phase.
 simulation::Phase PhaseOf(const simulation::Simulation& simulation);
 
 // Performs an edit. If the simulation runs, it is paused for that and resumed.

@@ -61,7 +61,7 @@ base::Status Play(Simulation& simulation, Phase phase) {
   return phase == Phase::kCreated ? simulation.Start() : simulation.Resume();
 }
 
-// From the start it pauses before the first step.
+// A simulation that has not started is paused before its first step.
 base::Status Hold(Simulation& simulation, Phase phase) {
   return phase == Phase::kCreated ? simulation.RunThrough(base::SimTime(0)) : simulation.Pause();
 }

@@ -1,4 +1,5 @@
-// What there is to put a simulation together from, and doing it.
+// Requests the models, worlds and behaviours for setting up a simulation, and creates or edits
+// simulations.
 import type { Ros2Support } from "./ros2";
 import { parseRos2Support } from "./ros2";
 import type { RobotSetUp, Scenario } from "./scenario";
@@ -42,7 +43,7 @@ export interface BodyPlace {
   yaw: number;
 }
 
-// A thing that is no robot: of a model, or like one that stands there or was removed.
+// An object that is not a robot: made from a model, or a copy of an existing or removed object.
 export interface NewObject {
   name: string; // empty: after its model
   model?: string;
@@ -65,7 +66,7 @@ export interface SavedWorld {
 
 const UPLOAD_TIMEOUT_MS = 300_000;
 
-// Reading a world takes its time, and so do behaviours that are made.
+// Reading a world and starting behaviours may take long.
 const LONG_TIMEOUT_MS = 60_000;
 
 export class SetUpApi {
@@ -94,7 +95,7 @@ export class SetUpApi {
     });
   }
 
-  // Those that are no robots.
+  // The models that are not robots.
   async objectModels(): Promise<string[]> {
     const answer = objectAt(await this.server.get("api/models", LONG_TIMEOUT_MS), "models");
     return listAt(answer.objects ?? [], "objects").map((each) => textAt(objectAt(each, "objects").name, "name"));
@@ -118,7 +119,7 @@ export class SetUpApi {
     return parseRos2Support(await this.server.get("api/ros2"));
   }
 
-  // The scene as it would stand at its start.
+  // Returns the scene at the start of the simulation.
   async preview(scenario: Scenario): Promise<Preview> {
     const shown = { ...scenarioJson(scenario), name: "", record: false };
     const answer = objectAt(await this.server.post("api/preview", shown, LONG_TIMEOUT_MS), "preview");
@@ -128,7 +129,7 @@ export class SetUpApi {
     return { scene, poses, warnings };
   }
 
-  // Sends files that belong together; gives where each lies on the server's machine.
+  // Sends files that belong together. Returns the path of each on the server's machine.
   async upload(files: readonly DroppedFile[]): Promise<string[]> {
     const begun = objectAt(await this.server.post("api/uploads", {}), "upload");
     const set = textAt(begun.upload, "upload");
@@ -142,7 +143,7 @@ export class SetUpApi {
     return places;
   }
 
-  // Gives its name.
+  // Returns its name.
   async create(scenario: Scenario): Promise<string> {
     const status = await this.server.post("api/simulations", scenarioJson(scenario), LONG_TIMEOUT_MS);
     return textAt(objectAt(status, "status").name, "name");
@@ -152,7 +153,7 @@ export class SetUpApi {
     await this.server.delete(simulationPath(simulation), LONG_TIMEOUT_MS);
   }
 
-  // Gives the name under which it stands.
+  // Returns the name that it got.
   async addRobot(simulation: string, robot: RobotSetUp, isAvatar: boolean): Promise<string> {
     const body = { ...robotJson(robot), avatar: isAvatar };
     const answer = await this.server.post(`${simulationPath(simulation)}/robots`, body, LONG_TIMEOUT_MS);
@@ -163,7 +164,7 @@ export class SetUpApi {
     await this.server.delete(`${simulationPath(simulation)}/robots/${encodeURIComponent(robot)}`);
   }
 
-  // Gives the name under which it stands.
+  // Returns the name that it got.
   async addObject(simulation: string, { place, ...object }: NewObject): Promise<string> {
     const body = { ...object, ...place };
     const answer = await this.server.post(`${simulationPath(simulation)}/objects`, body, LONG_TIMEOUT_MS);

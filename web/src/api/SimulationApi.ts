@@ -1,4 +1,4 @@
-// What the page asks of a simulation, and tells it.
+// The requests about a simulation.
 import { ApiError, JsonServer, simulationPath } from "./JsonServer";
 import { SetUpApi } from "./SetUpApi";
 import { Credentials } from "./credentials";
@@ -59,7 +59,7 @@ export class SimulationApi {
     this.viewers = new ViewersApi(new JsonServer(base, fetchPage), credentials);
   }
 
-  // Opens a recording for this page alone: all that is asked from now on concerns this replay.
+  // Opens a recording for this page only. All further requests are about this replay.
   async openRecording(recording: string): Promise<void> {
     this.server.moveTo("");
     const path = `api/recordings/${encodeURIComponent(recording)}/replay`;
@@ -129,7 +129,7 @@ export class SimulationApi {
     return parseDifference(await this.root.get(path, DIFFERENCE_TIMEOUT_MS));
   }
 
-  // What is asked from now on shows this token.
+  // All further requests carry this token.
   admit(token: string): void {
     this.credentials.token = token;
   }
@@ -146,7 +146,8 @@ export class SimulationApi {
     return parseScene(await this.server.get(`${simulationPath(name)}/scene`));
   }
 
-  // An image of the view, which the server draws; `query`: of view.jpg in docs/api.yaml.
+  // Returns an image of the view, drawn by the server. `query`: the parameters of view.jpg in
+  // docs/api.yaml.
   image(name: string, query: string, signal: AbortSignal): Promise<Response> {
     return this.server.fetch(`view.jpg?simulation=${encodeURIComponent(name)}&${query}`, signal);
   }
@@ -164,17 +165,17 @@ export class SimulationApi {
     await this.server.post(`${simulationPath(name)}/${encodeURIComponent(command)}`, given, ACTION_TIMEOUT_MS);
   }
 
-  // In real time: simulated seconds per second of wall-clock time.
+  // For real time: simulated seconds per second of wall-clock time.
   async setFactor(name: string, factor: number): Promise<SimulationStatus> {
     return parseStatus(await this.server.post(`${simulationPath(name)}/real_time_factor`, { real_time_factor: factor }));
   }
 
-  // The recorded instant, or the end that is nearer.
+  // Goes to this recorded instant, or to the nearest one in the recording.
   async seek(name: string, time: number): Promise<SimulationStatus> {
     return parseStatus(await this.server.post(`${simulationPath(name)}/seek`, { time_s: time }));
   }
 
-  // Over so many recorded poses; then the replay stands still.
+  // Goes forward or back by a number of recorded poses, and pauses.
   async stepPoses(name: string, poses: number): Promise<SimulationStatus> {
     return parseStatus(await this.server.post(`${simulationPath(name)}/step`, { poses }));
   }
@@ -183,22 +184,22 @@ export class SimulationApi {
     return parseReplay(await this.server.post(`${simulationPath(name)}/replay`, change));
   }
 
-  // What happened in a recording, by time.
+  // The events of a recording, in the order of time.
   async events(name: string): Promise<RecordedEvent[]> {
     return parseEvents(await this.server.get(`${simulationPath(name)}/events`));
   }
 
-  // The log of a recording, by time.
+  // The log of a recording, in the order of time.
   async log(name: string): Promise<RecordedLine[]> {
     return parseLog(await this.server.get(`${simulationPath(name)}/log`));
   }
 
-  // What a robot's behaviour printed last.
+  // The last output of a robot's behaviour.
   async output(name: string, robot: string): Promise<OutputLine[]> {
     return parseOutput(await this.server.get(`${simulationPath(name)}/health?robot=${encodeURIComponent(robot)}`));
   }
 
-  // A value over the whole of a recording, as far as it is read; at most so many points.
+  // A value over the whole recording, as far as it is read, with at most this many points.
   async curve(name: string, of: CurveOf, most: number): Promise<WholeCurve> {
     return parseCurve(await this.server.get(`${simulationPath(name)}/curve?${curveQuery(of, most)}`));
   }
@@ -211,7 +212,7 @@ export class SimulationApi {
     return parseRecording(await this.server.post(`${simulationPath(name)}/recording`, { record }));
   }
 
-  // Has the live stream list the topics of the robot's sensors, however many others there are.
+  // Makes the live stream list the topics of the robot's sensors, however many others there are.
   async listTopics(name: string, robot: string): Promise<void> {
     await this.server.get(`${simulationPath(name)}/robots/${encodeURIComponent(robot)}/topics`);
   }
@@ -238,7 +239,8 @@ export class SimulationApi {
     const url = new URL(this.server.url("ws"));
     url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
     const { token, viewer } = this.credentials;
-    // A page can give a WebSocket no headers. Not URLSearchParams: a "+" is a "+" to the server.
+    // A WebSocket cannot have headers, so the token is in the address. URLSearchParams is not used
+    // because the server takes a "+" literally.
     const query = Object.entries({ simulation: name, token, viewer }).filter(([, value]) => value !== "");
     url.search = query.map(([key, value]) => `${key}=${encodeURIComponent(value)}`).join("&");
     return url.href;

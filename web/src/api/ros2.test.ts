@@ -16,7 +16,7 @@ test("the namespaces of robots stand by their names", () => {
   expect(parseRos2(json, [{ ...pebble, namespace: "" }])).toEqual({ ros2, robots: [pebble] });
 });
 
-test("what was saved is loaded as it was", () => {
+test("a saved file is loaded unchanged", () => {
   const scenario = { ...EMPTY_SCENARIO, world: "maze", robots: [pebble], ros2: { ...PLAIN_ROS2, distro: "humble" } };
   expect(parseScenario(JSON.parse(JSON.stringify(scenarioJson(scenario))))).toEqual({ scenario, left: [] });
 });

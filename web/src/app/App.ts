@@ -1,4 +1,4 @@
-// What the panels, the keyboard and the pointer can ask for.
+// The actions that panels, keyboard and pointer can request.
 import type { Action, SimulationApi } from "../api/SimulationApi";
 import { camerasOf } from "../api/scene";
 import { poseOf } from "../scene/poses";
@@ -85,8 +85,8 @@ export class App {
     this.filming = new Filming(store, () => world()?.video() ?? null);
   }
 
-  // Sends one action. What comes of it arrives with the stream: the answer may come later than what
-  // happened after it. A refusal shows the server's sentence.
+  // Sends one action. Its effects arrive with the stream, so the answer may come after later
+  // events. If the server refuses, its sentence is shown.
   act(action: Action, count = 1): Promise<void> {
     return this.command(action, (simulation) => this.api.act(simulation, action, count));
   }
@@ -121,7 +121,7 @@ export class App {
     if (isAllowed(this.store.get().status?.phase, "step")) void this.act("step");
   }
 
-  // The camera pane turns to the selected robot's camera, if it has one.
+  // Shows the selected robot's camera in the camera pane, if it has one.
   select(robot: string | null): void {
     this.edits.choose(null);
     this.store.set(({ selection, selectedPose, viewMode, scene, camera }) => ({
@@ -161,7 +161,8 @@ export class App {
     else this.pickAll(rest);
   }
 
-  // Looks that way at the selected robot, or the first one when none is; a second time ends it.
+  // Selects this view of the selected robot, or of the first one if none is selected. A second call
+  // ends it.
   toggleViewMode(mode: ViewMode): void {
     const { selection, viewMode, status } = this.store.get();
     const robot = selection ?? status?.robots[0]?.name ?? null;
@@ -169,7 +170,7 @@ export class App {
     this.store.set({ mapMode: false, viewMode: robot === null || viewMode === mode ? "orbit" : mode });
   }
 
-  // What was moved by hand in the picture. Resolves to whether it stands there now.
+  // Moves a body to where it was dragged in the view. Resolves to whether the body is there now.
   place(body: string, place: Placed): Promise<boolean> {
     this.store.set({ placing: false });
     return this.store.get().setUp ? this.setUp.place(body, place) : this.edits.place(body, place);
@@ -280,7 +281,7 @@ export class App {
     else if (!setUp) void this.edits.remove(selection);
   }
 
-  // Counter-clockwise, in radians, while one edits.
+  // In edit mode: rotates counter-clockwise, in radians.
   turnSelected(angle: number): void {
     const body = chosenOf(this.store.get());
     if (this.store.get().editing && body !== null) void this.edits.turn(body, angle);
@@ -319,7 +320,7 @@ export class App {
     this.world()?.resetView();
   }
 
-  // What turns the view by hand needs an eye of its own.
+  // The user can only rotate the view if it is not a robot's own view.
   private leaveEye(): void {
     if (this.store.get().viewMode === "eye") this.store.set({ viewMode: "orbit" });
   }
@@ -333,7 +334,7 @@ export class App {
     this.panels.open(IMAGES_PANEL);
   }
 
-  // Draws a value against simulated time from now on.
+  // Plots a value against simulated time from now on.
   plot(source: Source, key: string, unit?: string): void {
     const known = [...ROBOT_VALUES, ...SIMULATION_VALUES].find((value) => value.key === key)?.unit ?? "";
     this.store.set(({ plots }) => ({ plots: withCurve(plots, source, key, unit ?? known) }));
@@ -354,12 +355,12 @@ export class App {
     }
   }
 
-  // Begins a video of the view, or ends it.
+  // Starts or ends a video of the view.
   film(): void {
     this.filming.toggle();
   }
 
-  // The address bar shows the link as well.
+  // Also shows the link in the address bar.
   copyLink(): void {
     const link = this.link.linkTo(location.href);
     history.replaceState(null, "", link);
@@ -389,7 +390,8 @@ export class App {
     this.store.set(({ changedKeys }) => ({ changedKeys: withChangedKey(changedKeys, original, key) }));
   }
 
-  // To the clipboard; says that it is there, or what to copy where the browser does not allow it.
+  // Copies to the clipboard and reports it. If the browser does not allow this, shows the text to
+  // copy.
   async copy(text: string, done: string): Promise<void> {
     try {
       await navigator.clipboard.writeText(text);

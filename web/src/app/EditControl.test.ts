@@ -37,7 +37,7 @@ async function editing(here: Required<BodyPlace> = BEFORE, phase: "paused" | "ru
   return { store, api, pause, control };
 }
 
-test("a move is taken back to where it was, height included, and done again", async () => {
+test("a move is undone with its height, and redone", async () => {
   const { store, api, control } = await editing();
   expect(await control.place("a", AFTER)).toBe(true);
   expect(store.get().editing!.undo).toEqual(["move a"]);
@@ -48,7 +48,7 @@ test("a move is taken back to where it was, height included, and done again", as
   expect(api.placeBody).toHaveBeenLastCalledWith("house", "a", AFTER);
 });
 
-test("what was added is removed by undo, under the name it got", async () => {
+test("undo removes an added body by its name", async () => {
   const { api, control } = await editing();
   await control.add({ ...newRobot(EMPTY_SCENARIO, "b"), name: "" }, false);
   await control.undo();
@@ -57,7 +57,7 @@ test("what was added is removed by undo, under the name it got", async () => {
   expect(api.addRobot).toHaveBeenLastCalledWith("house", expect.objectContaining({ name: "b_2", place: UPRIGHT }), false);
 });
 
-test("what was removed comes back where it stood, with its behaviour by name", async () => {
+test("a removed robot is restored at its place with its behaviour", async () => {
   const { api, control } = await editing();
   await control.remove("a");
   expect(api.removeRobot).toHaveBeenCalledWith("house", "a");
@@ -66,7 +66,7 @@ test("what was removed comes back where it stood, with its behaviour by name", a
   expect(api.addRobot).toHaveBeenCalledWith("house", again, false);
 });
 
-test("a robot that came with the world comes back by its name alone", async () => {
+test("a robot of the world file is restored by its name only", async () => {
   const { store, api, control } = await editing();
   store.set({ scene: scene({ bodies: [body("a", { isOfWorld: true })] }) });
   await control.remove("a");
@@ -74,14 +74,14 @@ test("a robot that came with the world comes back by its name alone", async () =
   expect(api.addRobot).toHaveBeenCalledWith("house", expect.objectContaining({ name: "a", model: "" }), false);
 });
 
-test("a robot comes back on its wheels: its request takes no roll and pitch", async () => {
+test("a restored robot is upright, because its request has no roll and pitch", async () => {
   const { api, control } = await editing({ ...BEFORE, roll: 0, pitch: 0 });
   await control.remove("a");
   await control.undo();
   expect(api.addRobot).toHaveBeenCalledWith("house", expect.objectContaining({ place: UPRIGHT }), false);
 });
 
-test("what the server refuses is told and is no edit", async () => {
+test("a refused edit is reported and not stored", async () => {
   const { store, api, control } = await editing();
   api.placeBody.mockRejectedValueOnce(new ApiError(422, "there is no room at (1, 2)"));
   expect(await control.place("a", AFTER)).toBe(false);
@@ -89,7 +89,7 @@ test("what the server refuses is told and is no edit", async () => {
   expect(store.get().editing).toMatchObject({ undo: [], isBusy: false });
 });
 
-test("what runs is paused first, and editing ends when it goes on", async () => {
+test("editing pauses a running simulation, and ends when it resumes", async () => {
   const { store, pause } = await editing(BEFORE, "running");
   expect(pause).toHaveBeenCalledOnce();
   expect(store.get().editing).not.toBeNull();
@@ -97,7 +97,7 @@ test("what runs is paused first, and editing ends when it goes on", async () => 
   expect(store.get().editing).toBeNull();
 });
 
-test("an object that was added is chosen, and goes and comes under its name", async () => {
+test("an added object is selected, and undo and redo keep its name", async () => {
   const { store, api, control } = await editing();
   expect(store.get().editing!.objects).toEqual(["crate"]);
   store.set({ scene: scene({ bodies: [body("crate_2", { isRobot: false })] }) });
@@ -110,14 +110,14 @@ test("an object that was added is chosen, and goes and comes under its name", as
   expect(api.addObject).toHaveBeenLastCalledWith("house", { name: "crate_2", model: "crate", place: BEFORE });
 });
 
-test("an object that was removed comes back as a copy of itself, where it stood", async () => {
+test("a removed object is restored as a copy at its former place", async () => {
   const { api, control } = await editing();
   await control.removeObject("box");
   await control.undo();
   expect(api.addObject).toHaveBeenCalledWith("house", { name: "box", copy_of: "box", place: BEFORE });
 });
 
-test("a turn leaves an object at its height; a move puts it on the floor", async () => {
+test("a rotation keeps an object's height, and a move puts it on the floor", async () => {
   const { store, api, control } = await editing();
   await control.turn("box", 0.5);
   expect(api.placeBody).toHaveBeenLastCalledWith("house", "box", { ...BEFORE, yaw: 0.5, roll: 0, pitch: 0 });
@@ -126,7 +126,7 @@ test("a turn leaves an object at its height; a move puts it on the floor", async
   expect(store.get().editing!.undo).toEqual(["turn box", "move box"]);
 });
 
-test("a turn goes on from the last one, whether or not the scene shows it yet", async () => {
+test("a rotation continues from the last one, even if the scene does not show it yet", async () => {
   const { api, control } = await editing();
   await control.turn("box", 0.5);
   await control.turn("box", 0.25);
@@ -135,7 +135,7 @@ test("a turn goes on from the last one, whether or not the scene shows it yet", 
   expect(api.placeBody).toHaveBeenLastCalledWith("house", "box", expect.objectContaining({ yaw: 0.5 }));
 });
 
-test("what is chosen is let go of when it is gone", async () => {
+test("a selection ends when its object is removed", async () => {
   const { store, control } = await editing();
   control.choose("box");
   expect(store.get().editing!.chosen).toBe("box");

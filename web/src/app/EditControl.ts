@@ -1,5 +1,5 @@
-// Changes who stands in a simulation that stands still, with undo and redo. The server knows of no
-// history: an edit is taken back by doing its opposite.
+// Edits the bodies of a paused simulation, with undo and redo. The server keeps no history, so undo
+// performs the opposite edit.
 import type { BodyPlace, NewObject, SetUpApi } from "../api/SetUpApi";
 import type { Placed, RobotSetUp } from "../api/scenario";
 import type { Editing, GizmoTool } from "../state/editing";
@@ -16,7 +16,7 @@ const STANDS_M = 1e-6; // who moved by less was turned
 const PASTED_AT_M = 0.5; // from the original, along x and y
 
 export interface Bodies {
-  // Where a body was last reported; null while unknown.
+  // The last reported pose of a body; null while it is unknown.
   placeOf(body: string): Required<BodyPlace> | null;
 }
 
@@ -47,7 +47,7 @@ export class EditControl {
     private readonly bodies: Bodies,
     private readonly pause: () => Promise<void>,
   ) {
-    // It ends when the simulation goes on, or another one is watched.
+    // Editing ends when the simulation resumes or another one is watched.
     store.watch(
       ({ status, simulation }) => `${status?.phase === "paused" || status?.phase === "created"} ${simulation}`,
       () => this.store.get().editing && this.end(),
@@ -105,7 +105,7 @@ export class EditControl {
     this.patch({ wall });
   }
 
-  // Resolves to whether it stands there now.
+  // Resolves to whether the body is there now.
   place(body: string, place: Placed): Promise<boolean> {
     const before = this.placeOf(body);
     if (!before) return Promise.resolve(false);
@@ -133,7 +133,7 @@ export class EditControl {
     return this.place(body, { x: before.x, y: before.y, yaw: before.yaw + angle });
   }
 
-  // What comes is chosen, so that it can be put where it belongs.
+  // Selects the added body, so that it can be placed.
   async addObject(object: NewObject, name = ""): Promise<boolean> {
     const { simulation } = this.store.get();
     if (!simulation) return false;
@@ -281,8 +281,8 @@ export class EditControl {
     };
   }
 
-  // A robot that comes back has a new instance of its behaviour. One that came with the world needs no
-  // model but its name.
+  // A robot that is added again gets a new instance of its behaviour. A robot from the world file
+  // needs only its name, and no model.
   private robotAgain(robot: string): RobotSetUp | null {
     const known = this.store.get().status?.robots.find(({ name }) => name === robot);
     const place = this.placeOf(robot);
@@ -327,7 +327,7 @@ export class EditControl {
     return true;
   }
 
-  // The stream tells that it is paused, some time after the server has answered.
+  // The stream reports the pause some time after the server's answer.
   private standsStill(): Promise<void> {
     return new Promise((resolve) => {
       const unwatch = this.store.watch(
@@ -349,7 +349,8 @@ export class EditControl {
     this.store.set(({ editing }) => (editing ? { editing: { ...editing, ...change } } : {}));
   }
 
-  // One edit at a time. False: another is under way, or the server refused, and says why.
+  // Performs one edit at a time. Returns false if another edit is in progress, or if the server
+  // refuses (the reason is shown).
   private async ask(work: () => Promise<void>): Promise<boolean> {
     if (!this.store.get().editing || this.store.get().editing?.isBusy) return false;
     this.patch({ isBusy: true });
@@ -365,12 +366,12 @@ export class EditControl {
   }
 }
 
-// A robot is put on its wheels, and its request knows of no other way.
+// A robot is placed upright on its wheels; requests cannot specify another orientation.
 function upright(place: BodyPlace) {
   return { x: place.x, y: place.y, yaw: place.yaw, ...(place.z !== undefined && { z: place.z }) };
 }
 
-// An object lies as it lay; turned on the spot, it stays at its height, too.
+// An object keeps its orientation. If it is rotated in place, it also keeps its height.
 function asObject(place: Placed, before: BodyPlace, isTurn: boolean): BodyPlace {
   const { roll = 0, pitch = 0, z } = before;
   return { ...place, roll, pitch, ...(isTurn && z !== undefined && { z }) };

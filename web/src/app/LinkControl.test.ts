@@ -46,7 +46,7 @@ test("a link shows the same instant from the same place with the same robot", as
   expect(to.act).not.toHaveBeenCalled();
 });
 
-test("what plays is stopped at the instant that was asked for", async () => {
+test("playback stops at the requested instant", async () => {
   location.hash = "#t=3";
   const { control, act, seek } = page({ replay: REPLAY, status: simulationStatus("running") });
   control.start(window);
@@ -54,7 +54,7 @@ test("what plays is stopped at the instant that was asked for", async () => {
   expect(act).toHaveBeenCalledWith("pause");
 });
 
-test("a link waits for the scene, and is shown once", () => {
+test("a link waits for the scene and is applied once", () => {
   location.hash = "#view=1,2,3,0,0,0&select=a";
   const { control, store, place } = page({ scene: null, status: null });
   control.start(window);
@@ -68,7 +68,7 @@ test("a link waits for the scene, and is shown once", () => {
   expect(place.viewpoint).toEqual([5, 5, 5, 0, 0, 0]);
 });
 
-test("an instant waits until it is known that this is a recording", async () => {
+test("a seek waits until the page knows that it is a recording", async () => {
   location.hash = "#t=3";
   const { control, seek, store } = page();
   control.start(window);
@@ -77,7 +77,7 @@ test("an instant waits until it is known that this is a recording", async () => 
   await vi.waitFor(() => expect(seek).toHaveBeenCalledWith(3));
 });
 
-test("a link to a robot that is gone, or to an instant of what runs, shows what is there", () => {
+test("a link to a removed robot, or to an instant of a live simulation, shows the present state", () => {
   location.hash = "#t=3&select=ghost&mode=eye";
   const { control, store, seek } = page();
   control.start(window);
@@ -85,7 +85,7 @@ test("a link to a robot that is gone, or to an instant of what runs, shows what 
   expect(seek).not.toHaveBeenCalled();
 });
 
-test("of several simulations the link names its own", () => {
+test("with several simulations, the link contains the simulation's name", () => {
   const simulations = ["house", "yard"].map((name) => ({ name, phase: "running", robots: 0 }) as const);
   const { control } = page({ simulations, simulation: "house" });
   expect(new URL(control.linkTo("http://127.0.0.1:8080/?quality=high#old")).search).toBe(

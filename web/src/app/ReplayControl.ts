@@ -1,7 +1,7 @@
-// Plays a recording: what the timeline and its keys ask for.
+// Plays a recording on behalf of the timeline and its keys.
 //
-// The server makes one move at a time. Of the instants that are wished for meanwhile only the last
-// counts, as with a slider that is dragged; steps add up.
+// The server performs one seek at a time. Of the instants requested meanwhile, only the last one
+// counts, as for a slider that is dragged. Steps add up.
 import type { Action, SimulationApi } from "../api/SimulationApi";
 import type { Replay } from "../api/replay";
 import type { State } from "../state/State";
@@ -25,7 +25,7 @@ export class ReplayControl {
     private readonly act: (action: Action) => Promise<void>,
   ) {}
 
-  // What plays pauses; what stands at the end begins anew.
+  // Pauses if it plays. At the end, starts again from the beginning.
   async playOrPause(): Promise<void> {
     const { status, replay, time } = this.store.get();
     if (!status || !replay) return;
@@ -35,7 +35,8 @@ export class ReplayControl {
     return this.act("resume");
   }
 
-  // Within the recording. Resolves when it is there, or at another instant that was wished for later.
+  // Goes to an instant within the recording. Resolves when the replay is there, or at an instant
+  // that was requested later.
   seek(time: number): Promise<void> {
     const { replay } = this.store.get();
     if (!replay) return Promise.resolve();
@@ -45,7 +46,7 @@ export class ReplayControl {
     return this.move();
   }
 
-  // Over so many recorded poses, backwards if negative; then it stands still.
+  // Moves by a number of recorded poses (negative: backwards), and pauses.
   step(poses: number): void {
     if (!this.store.get().replay) return;
     const last = this.moves.at(-1);
@@ -65,7 +66,7 @@ export class ReplayControl {
     if (replay) void this.seek(replay.end);
   }
 
-  // To the next event, or the last one.
+  // Goes to the next or the previous event.
   toEvent(direction: 1 | -1): void {
     const { replay, time, wishedTime } = this.store.get();
     const there = replay && markBeside(allMarks(this.store.get()), wishedTime ?? time, direction);

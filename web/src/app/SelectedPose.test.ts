@@ -8,7 +8,7 @@ function at(x: number, stamp: number) {
   return { pose: new Matrix4().makeRotationZ(0.5).setPosition(x, 2, 0), stamp };
 }
 
-test("it gives position and heading, and the speed in simulated time", () => {
+test("it provides position, heading, and the speed in simulated time", () => {
   const selected = new SelectedPose();
   expect(selected.update("a", at(1, 10), 0)).toEqual({
     x: 1,
@@ -23,7 +23,7 @@ test("it gives position and heading, and the speed in simulated time", () => {
   expect(selected.update("a", at(1.25, 10.5), 100)?.speed).toBeCloseTo(0.5);
 });
 
-test("values do not change faster than they can be read", () => {
+test("values change at a readable rate", () => {
   const selected = new SelectedPose();
   selected.update("a", at(1, 0), 0);
   expect(selected.update("a", at(2, 0.05), 50)).toBeNull();
@@ -42,7 +42,7 @@ test("a jump in a recording does not count as speed", () => {
   expect(selected.update("a", at(9, 31), 200)?.speed).toBe(0);
 });
 
-test("a turn over the back of the circle is a small one", () => {
+test("a rotation across pi is small", () => {
   const facing = (yaw: number, stamp: number) => ({ pose: new Matrix4().makeRotationZ(yaw), stamp });
   const selected = new SelectedPose();
   selected.update("a", facing(3.1, 0), 0);
@@ -51,7 +51,7 @@ test("a turn over the back of the circle is a small one", () => {
   expect(shortWay(-2 * Math.PI)).toBeCloseTo(0);
 });
 
-test("a heading of a tilted robot is that of its x axis", () => {
+test("the heading of a tilted robot is that of its x axis", () => {
   const tilted = new Matrix4().makeRotationZ(-2).multiply(new Matrix4().makeRotationY(0.3));
   const { roll, pitch, yaw } = rotationOf(tilted);
   expect([roll, pitch, yaw]).toEqual([expect.closeTo(0), expect.closeTo(0.3), expect.closeTo(-2)]);

@@ -1,4 +1,4 @@
-// Follows the pose of the selected robot for the inspector, at a pace that can be read.
+// Provides the pose of the selected robot for the inspector, at a readable rate.
 import { Vector3 } from "three";
 import type { Matrix4 } from "three";
 import { shortWay } from "../live/angle";
@@ -21,7 +21,7 @@ export class SelectedPose {
   private speed = 0;
   private turnRate = 0;
 
-  // Gives what to show, or null when it is too early for the next value.
+  // Returns the values to show, or null if it is too early for the next values.
   update(robot: string, latest: StampedPose, nowMs: number): RobotPose | null {
     if (robot !== this.robot) this.start(robot);
     if (nowMs - this.updatedMs < SHORTEST_UPDATE_MS) return null;

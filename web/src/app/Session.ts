@@ -1,5 +1,5 @@
-// Keeps the store in step with the server: finds the simulation, fetches its scene, listens to its
-// live stream, and starts over when the connection was lost or the layout changed.
+// Keeps the store consistent with the server: finds the simulation, fetches its scene, reads its
+// live stream, and starts again when the connection was lost or the layout has changed.
 import type { SimulationApi } from "../api/SimulationApi";
 import { ApiError, needsToken } from "../api/JsonServer";
 import type { SceneDescription } from "../api/scene";
@@ -56,7 +56,7 @@ const NOTHING_WATCHED: Partial<State> = {
 
 const NO_COUNTS: ReadonlyMap<string, TopicCount> = new Map();
 
-// What the page's address asks for, if it does.
+// What the page's address requests, if anything.
 export interface Wanted {
   simulation: string | null;
   recording: string | null; // that is to be replayed for this page alone
@@ -64,7 +64,7 @@ export interface Wanted {
 
 export const NOTHING_WANTED: Wanted = { simulation: null, recording: null };
 
-// The live stream, as far as the session needs it.
+// The part of the live stream that the session uses.
 export type LiveClient = Pick<FoxgloveClient, "connect" | "close" | "retryNow" | "subscribe" | "parameter" | "missingTopics"> &
   Partial<Pick<FoxgloveClient, "counts">>;
 export type ClientFactory = (url: string, events: ClientEvents) => LiveClient;
@@ -115,7 +115,7 @@ export class Session implements TopicSource {
     this.sceneText = "";
     this.store.set({ ...NOTHING_WATCHED, simulation: name });
     this.connect(name);
-    // The list needs neither the stream nor the scene, which take long to come for a crowd.
+    // The list needs neither the stream nor the scene, which arrive late for a crowd.
     if (this.instant === null) void this.fetchStatus(name);
   }
 
@@ -151,13 +151,13 @@ export class Session implements TopicSource {
     this.connect(simulation);
   }
 
-  // One that was created just now.
+  // A simulation that was created just now.
   async joinNew(name: string): Promise<void> {
     this.store.set({ simulations: await this.api.simulations() });
     this.join(name);
   }
 
-  // Watches nothing until it is told to join or to start.
+  // Watches nothing until join() or start() is called.
   rest(): void {
     clearTimeout(this.timer);
     this.leave();
@@ -171,7 +171,7 @@ export class Session implements TopicSource {
     this.topics.attach(null);
   }
 
-  // Reads a topic of the simulation that is watched, and then of the next one.
+  // Reads a topic of the present simulation, and of each later one.
   subscribe<Message>(topic: string, handler: (message: Message) => void, options?: TopicOptions): () => void {
     this.wishes.lookSoon();
     return this.topics.subscribe(topic, handler, options);
@@ -181,12 +181,12 @@ export class Session implements TopicSource {
     return this.topics.read;
   }
 
-  // What has come on each topic that is read.
+  // The number of messages and bytes received on each topic that is read.
   counts(): ReadonlyMap<string, TopicCount> {
     return this.client?.counts ?? NO_COUNTS;
   }
 
-  // What the stream's server says of a parameter; null when it says nothing.
+  // The value of a parameter according to the server of the stream; null if it does not answer.
   parameter(name: string): Promise<ParameterValue | null> {
     return this.client?.parameter(name) ?? Promise.resolve(null);
   }
@@ -199,7 +199,7 @@ export class Session implements TopicSource {
     this.takeReplay(status);
   }
 
-  // Only the API tells of a replay; the stream tells its speed.
+  // Only the API reports that it is a replay. The stream reports its speed.
   private takeReplay({ replay: told, targetFactor }: SimulationStatus): void {
     const known = this.store.get().replay;
     const replay = told ?? (known && { ...known, speed: targetFactor });
@@ -236,14 +236,14 @@ export class Session implements TopicSource {
     }
   }
 
-  // Begins anew with a token.
+  // Starts again with a token.
   admit(): void {
     this.store.set({ refusal: "" });
     this.start();
   }
 
-  // Whether there is something to look for: a recording that is asked for may be gone. Throws what
-  // may be otherwise at the next attempt.
+  // Returns whether there is something to look for: a requested recording may no longer exist.
+  // Throws errors that may be gone at the next attempt.
   private async openRecording(): Promise<boolean> {
     const { recording } = this.wanted;
     if (recording === null || this.hasOpened) return true;
@@ -263,7 +263,7 @@ export class Session implements TopicSource {
     try {
       this.store.set({ abilities: await this.api.setUp.abilities() });
     } catch {
-      // Then nothing is offered that the server might not be able to do.
+      // Until then, the page offers nothing that the server may not support.
     }
   }
 
@@ -287,8 +287,8 @@ export class Session implements TopicSource {
     client.connect();
   }
 
-  // Listens to what changes all the time, once there is a view for it: until then each update would
-  // be another picture of the page, which take long where no graphics card makes them.
+  // Subscribes to the frequently changing topics once there is a view. Until then, each update
+  // would make the browser draw the page again, which is slow without a graphics card.
   private hear(): void {
     const { topics } = this;
     topics.subscribe<LayoutMessage>(PACKED_POSES, (message) => this.takePoses(message), { orElse: POSES });
@@ -297,7 +297,7 @@ export class Session implements TopicSource {
       const { status, simulation } = this.store.get();
       const hadFailed = status?.phase === "failed";
       this.takeStatus(statusFromMessage(message));
-      // The stream says that it failed, the API says why.
+      // The stream reports the failure, and the API the reason.
       if (message.state === "failed" && !hadFailed && simulation !== null) void this.fetchStatus(simulation);
     });
     topics.subscribe<HealthMessage>("/gsv/health", (message) => this.store.set({ health: healthOf(message) }));
@@ -318,7 +318,8 @@ export class Session implements TopicSource {
     this.wishes.lookSoon();
   }
 
-  // After a server's restart the simulation may be gone: then look for what is there now.
+  // After a restart of the server, the simulation may no longer exist. Then the page looks for
+  // other simulations.
   private async checkStillThere(name: string): Promise<void> {
     try {
       await this.api.status(name);
@@ -330,7 +331,7 @@ export class Session implements TopicSource {
         return this.goLive();
       }
       this.leave();
-      // A replay of one's own ended with its server; another one goes on where it stood.
+      // A page's own replay ends with its server. A new one continues at the same instant.
       this.instant = this.store.get().replay && this.hasOpened ? this.store.get().time : null;
       this.hasOpened = false;
       this.store.set({ ...NOTHING_WATCHED, simulation: null });
@@ -384,7 +385,7 @@ export class Session implements TopicSource {
       this.newsSince = Math.min(this.newsSince, status.time);
       if (status.replay) void this.fetchEvents(name);
     } catch {
-      // The stream carries the status as well, and says when it is lost.
+      // The stream also carries the status, and reports a lost connection.
     }
   }
 
@@ -393,7 +394,7 @@ export class Session implements TopicSource {
     if (this.store.get().simulation === name) this.store.set({ events });
   }
 
-  // A new subscription brings the past events as well; only what happens from now on is news.
+  // A new subscription also delivers past events. Only later events are news.
   private takeEvent(message: LifecycleEventMessage): void {
     if (seconds(message.stamp) < this.newsSince) return;
     if (message.event === "agent_dead" || message.event === "agent_unresponsive") {

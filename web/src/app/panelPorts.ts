@@ -1,4 +1,4 @@
-// The ports through which panels see this page.
+// The ports by which panels access this page.
 import type { SimulationApi } from "../api/SimulationApi";
 import type { PanelPorts } from "../panels/contract/ports";
 import type { App } from "./App";

@@ -19,7 +19,7 @@ function pressed(key: string) {
   return Object.entries(app).flatMap(([name, { mock }]) => mock.calls.map((call) => [name, ...call]));
 }
 
-test("keys have their commands in either case", () => {
+test("keys work in upper and lower case", () => {
   expect(pressed("t")).toEqual([["topView"]]);
   expect(pressed("T")).toEqual([["topView"]]);
   expect(pressed(" ")).toEqual([["startPauseOrResume"]]);
@@ -28,11 +28,11 @@ test("keys have their commands in either case", () => {
   expect(pressed("5")).toEqual([["toggle", "trails"]]);
 });
 
-test("other keys have none", () => {
+test("other keys have no command", () => {
   for (const key of ["z", "'", "toString", "constructor"]) expect(commandOf({ ...plain, key })).toBeNull();
 });
 
-test("the browser keeps its own shortcuts", () => {
+test("the browser's shortcuts still work", () => {
   expect(commandOf({ ...plain, key: "r", ctrlKey: true })).toBeNull();
   expect(commandOf({ ...plain, key: "t", metaKey: true })).toBeNull();
 });
@@ -55,7 +55,7 @@ test("a recording's keys step, jump and find events", () => {
   expect(replayCommandOf({ ...plain, key: "ArrowLeft", altKey: true })).toBeNull();
 });
 
-test("Space runs and pauses after a button was pressed with the pointer, and is its own where it was reached by keys", () => {
+test("Space runs and pauses after a click on a button, but presses a button that was focused by keyboard", () => {
   const startPauseOrResume = vi.fn();
   const state = { replay: null, setUp: null, editing: null, singleKeys: true, changedKeys: {} };
   listenForKeys({ startPauseOrResume, store: { get: () => state } } as unknown as App);
@@ -78,7 +78,7 @@ test("the timeline's slider leaves keys to the page", () => {
   expect(isTyping(document.querySelector("input"))).toBe(false);
 });
 
-test("keys are left alone where somebody types or chooses", () => {
+test("keys have no effect while somebody types or chooses", () => {
   document.body.innerHTML = "<input><select></select><dialog open><button></button></dialog><dialog class=closed><input></dialog><p></p>";
   expect(isTyping(document.querySelector("input"))).toBe(true);
   expect(isTyping(document.querySelector("select"))).toBe(true);
@@ -96,13 +96,13 @@ test("a panel's key opens and closes it", () => {
   expect(toggle.mock.calls).toEqual([["status"], ["log"]]);
 });
 
-test("characters are single keys, and named keys and those with Ctrl are none", () => {
+test("characters are single keys, but named keys and keys with Ctrl are not", () => {
   for (const key of ["a", "A", "?", " ", "5", "é"]) expect(isSingleKey({ ...plain, key })).toBe(true);
   for (const key of ["Escape", "ArrowLeft", "Delete", "F1"]) expect(isSingleKey({ ...plain, key })).toBe(false);
   expect(isSingleKey({ ...plain, key: "z", ctrlKey: true })).toBe(false);
 });
 
-test("with single keys turned off letters do nothing, and Esc does", () => {
+test("with single keys turned off, letters have no effect, but Esc has", () => {
   const app = {
     topView: vi.fn(),
     escape: vi.fn(),

@@ -1,5 +1,5 @@
-// The page's keys. They are quiet while somebody types or chooses from a list, and while a sheet is
-// open; a focused button keeps Space and Enter for itself.
+// The keys of the page. They have no effect while somebody types, chooses from a list, or has a
+// sheet open. A focused button receives Space and Enter itself.
 import type { App } from "../app/App";
 import type { ReplayControl } from "../app/ReplayControl";
 import { PANELS } from "../panels/registry";
@@ -17,7 +17,7 @@ export interface Key {
   shiftKey?: boolean;
 }
 
-// Each in lower case, with what it asks for.
+// The keys in lower case, with their actions.
 const COMMANDS: Record<string, (app: App) => unknown> = {
   " ": (app) => app.startPauseOrResume(),
   n: (app) => app.stepOnce(),
@@ -61,7 +61,7 @@ export function editCommandOf({ key, ctrlKey, metaKey, altKey, shiftKey }: Key):
   return lower === "z" ? (app) => app.undo() : null;
 }
 
-// What only a recording's keys ask for: held, they repeat.
+// The keys of recordings. They repeat while they are held.
 export function replayCommandOf(event: Key): ((replay: ReplayControl) => void) | null {
   if (event.ctrlKey || event.altKey || event.metaKey) return null;
   const poses = event.shiftKey ? MANY_POSES : 1;
@@ -89,20 +89,20 @@ function asOriginal(event: Key, changed: ChangedKeys): Key {
   return { key: isSingleKey(event) ? originalKey(key, changed) : key, ctrlKey, altKey, metaKey };
 }
 
-// A letter, a digit, punctuation or Space, pressed by itself or with Shift.
+// Whether it is a letter, digit, punctuation or Space, without Ctrl or Alt.
 export function isSingleKey({ key, ctrlKey, altKey, metaKey }: Key): boolean {
   return [...key].length === 1 && !ctrlKey && !altKey && !metaKey;
 }
 
-// Whether keys belong to the element that has the focus. The timeline's slider leaves them to the page, and so does
-// a dialog that was just closed, whose field has the focus for a moment more.
+// Whether the focused element receives the keys itself. The timeline's slider leaves them to the
+// page, and so does a dialog that was just closed, whose field still has the focus for a moment.
 export function isTyping(target: EventTarget | null): boolean {
   if (!(target instanceof Element)) return false;
   if (target.closest("dialog:not([open])")) return false;
   return target.closest("input:not([type=range]), textarea, select, [contenteditable], dialog") !== null;
 }
 
-// Ctrl K (Cmd K), wherever the focus is.
+// Ctrl K (Cmd K), at any focus.
 export function isPaletteKey({ key, ctrlKey, metaKey, altKey, shiftKey }: Key): boolean {
   return key.toLowerCase() === "k" && (ctrlKey || metaKey) && !altKey && !shiftKey;
 }
@@ -131,7 +131,7 @@ export function listenForKeys(app: App, page: Pick<Window, "addEventListener"> =
     event.preventDefault();
     command(app);
   });
-  // A button that was pressed with the pointer does not keep Space for itself.
+  // A button that was clicked does not receive Space.
   page.addEventListener("click", ({ detail, target }) => {
     if (detail > 0 && target instanceof Element) target.closest("button")?.blur();
   });

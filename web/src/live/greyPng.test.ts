@@ -34,7 +34,7 @@ function png(values: number[], width: number, { depth = 16, filter = 0 } = {}): 
   return new Uint8Array(parts.flatMap((part) => [...part]));
 }
 
-test("the least value is dark, the largest bright, whatever they are", async () => {
+test("the smallest value is dark and the largest bright", async () => {
   const values = (await valuesOfGreyPng(png([28815, 28815, 35000, 31908], 2)))!;
   expect([...values.values]).toEqual([28815, 28815, 35000, 31908]);
   const image = coloured(values);
@@ -43,12 +43,12 @@ test("the least value is dark, the largest bright, whatever they are", async () 
   expect([...image.rgba.slice(8, 12)]).toEqual([252, 255, 164, 255]);
 });
 
-test("an image of one value has one colour", async () => {
+test("an image of equal values has one colour", async () => {
   const { rgba } = coloured((await valuesOfGreyPng(png([7, 7], 2)))!);
   expect([...rgba]).toEqual([0, 0, 4, 255, 0, 0, 4, 255]);
 });
 
-test("what is no such image, or not whole, is left to others", async () => {
+test("other images and incomplete images are left to other decoders", async () => {
   const whole = png([1, 2, 3, 4], 2);
   expect(await valuesOfGreyPng(png([1, 2], 2, { depth: 8 }))).toBeNull();
   expect(await valuesOfGreyPng(png([1, 2], 2, { filter: 1 }))).toBeNull();

@@ -5,7 +5,7 @@ import type { ValueImage } from "./valueImage";
 const SIGNATURE = [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a];
 const MOST_PIXELS = 1 << 24;
 
-// Null: it is no 16-bit grey PNG without filters, as gsv writes them, or not whole.
+// Returns null if it is not a complete 16-bit grey PNG without filters, as gsv writes them.
 export async function valuesOfGreyPng(png: Uint8Array): Promise<ValueImage | null> {
   const parts = partsOf(png);
   if (!parts) return null;

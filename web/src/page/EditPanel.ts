@@ -1,4 +1,4 @@
-// The panel in which robots and objects of a paused simulation are added, turned and removed.
+// The panel for adding, rotating and removing robots and objects of a paused simulation.
 import type { App } from "../app/App";
 import type { Behaviours } from "../api/SetUpApi";
 import type { State } from "../state/State";
@@ -16,11 +16,11 @@ import { createShapeForm } from "./ShapeForm";
 
 const TURN = Math.PI / 12;
 
-// Of what is no robot; a robot's value is its model.
+// The prefix of objects in the list; the value of a robot is its model.
 const OBJECT = "object ";
 const COPY = "copy ";
 
-// Open while one edits; closing it ends that.
+// Open while editing is on. Closing the panel ends editing.
 export function editPanel(app: App): Panel {
   app.store.watch(
     ({ editing }) => editing !== null,

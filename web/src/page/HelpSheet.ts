@@ -1,4 +1,4 @@
-// The sheet of keys and gestures.
+// The sheet with keys and gestures.
 import type { App } from "../app/App";
 import { PANELS } from "../panels/registry";
 import { OVERLAYS } from "../state/overlays";
@@ -110,7 +110,8 @@ export function createHelpSheet(app: App): HTMLElement {
   return sheet;
 }
 
-// Keys with Ctrl are the browser's kind of shortcut, and nobody says an arrow: they stay.
+// Keys with Ctrl and arrow keys remain active, because speech input does not produce them by
+// accident.
 function singleKeysSetting(app: App): HTMLElement {
   const field = checkField("Single-key shortcuts", (isOn) => app.useSingleKeys(isOn));
   app.store.watch(

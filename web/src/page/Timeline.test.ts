@@ -24,7 +24,7 @@ test("for a recording it takes the buttons' place", () => {
   expect([bar.hidden, run.hidden]).toEqual([false, true]);
 });
 
-test("the slider spans the recording and says in words where it stands", () => {
+test("the slider spans the recording and describes its position in words", () => {
   const { slider, store, bar } = timeline({ time: 12.5 });
   expect([slider.min, slider.max, slider.value]).toEqual(["0", "80", "12.5"]);
   expect(slider.getAttribute("aria-valuetext")).toBe("0:12.50 of 1:20.00");
@@ -33,7 +33,7 @@ test("the slider spans the recording and says in words where it stands", () => {
   expect(bar.querySelector(".timeline-times")?.textContent).toBe("0:40.00 / 1:20.00");
 });
 
-test("a wish is shown until the server has answered, and a held slider stays where it is", () => {
+test("a requested time is shown until the server has answered, and a held slider does not move", () => {
   const { slider, store, bar } = timeline({ time: 10 });
   store.set({ wishedTime: 60 });
   expect(slider.value).toBe("60");
@@ -46,7 +46,7 @@ test("a wish is shown until the server has answered, and a held slider stays whe
   expect(slider.value).toBe("62");
 });
 
-test("what the slider is drawn to is sought", () => {
+test("dragging the slider seeks", () => {
   const { app, slider } = timeline();
   const seek = vi.spyOn(app.replay, "seek").mockResolvedValue();
   slider.value = "33";
@@ -54,7 +54,7 @@ test("what the slider is drawn to is sought", () => {
   expect(seek).toHaveBeenCalledWith(33);
 });
 
-test("its buttons ask for what they say", () => {
+test("its buttons request their actions", () => {
   const { app, named } = timeline();
   const step = vi.spyOn(app.replay, "step").mockImplementation(() => {});
   const toEnd = vi.spyOn(app.replay, "toEnd").mockImplementation(() => {});
@@ -84,7 +84,7 @@ test("without a connection nothing can be moved", () => {
   expect(bar.querySelectorAll(".timeline-transport button:not(:disabled)")).toHaveLength(0);
 });
 
-test("a mark stands at its instant, says what happened as it is, and goes there", () => {
+test("a mark is at its time, shows the event literally, and goes to its time", () => {
   const events = [
     { time: 0, event: "started", robot: "", detail: "" },
     { time: 20, event: "agent_dead", robot: "a", detail: "<b>a</b>: killed" },
@@ -99,7 +99,7 @@ test("a mark stands at its instant, says what happened as it is, and goes there"
   expect(seek).toHaveBeenCalledWith(20);
 });
 
-test("the speed is one of those there are, or the one it was started at", () => {
+test("the speed is a listed one, or the initial one", () => {
   const { app, bar, store } = timeline();
   const choice = bar.querySelector("select")!;
   const setSpeed = vi.spyOn(app.replay, "setSpeed").mockResolvedValue();
@@ -121,21 +121,21 @@ test("the speed is one of those there are, or the one it was started at", () => 
   expect(choice.options).toHaveLength(8);
 });
 
-test("loop shows whether it is on", () => {
+test("the loop button shows its state", () => {
   const { named, store } = timeline();
   expect(named("Loop").getAttribute("aria-pressed")).toBe("false");
   store.set({ replay: { ...REPLAY, loop: true } });
   expect(named("Loop").getAttribute("aria-pressed")).toBe("true");
 });
 
-test("the status bar calls it a replay, and tells its speed", () => {
+test("the status bar shows that it is a replay, and its speed", () => {
   const status = simulationStatus("paused", { mode: "lockstep", realTimeFactor: 0 });
   const bar = createStatusBar(timeline({ status, replay: { ...REPLAY, speed: 0.25 } }).app);
   expect(bar.querySelector('[data-testid="connection"]')?.textContent).toBe("Replay");
   expect(bar.querySelector('[data-testid="factor"]')?.textContent).toBe("0.25×");
 });
 
-test("a typed time is gone to by Enter; what is no time is marked", () => {
+test("Enter goes to a typed time, and an invalid time is marked", () => {
   const { app, bar } = timeline({ time: 10 });
   const seek = vi.spyOn(app.replay, "seek").mockResolvedValue();
   const field = bar.querySelector<HTMLInputElement>(".typed-time")!;

@@ -129,7 +129,7 @@ function times(app: App): HTMLElement {
   return element("span", { class: "timeline-times number", title: "Simulated time" }, now, end, typedTime(app));
 }
 
-// Enter goes to the instant that was typed.
+// Enter goes to the typed instant.
 function typedTime(app: App): HTMLElement {
   const field = element("input", {
     class: "typed-time number",
@@ -158,7 +158,7 @@ function speedChoice(app: App): HTMLElement {
   app.store.watch(
     ({ replay }) => replay?.speed ?? 1,
     (speed) => {
-      // It may have been started at a speed of its own.
+      // The replay may have been started at another speed.
       const speeds = [...new Set([...SPEEDS, speed])].sort((a, b) => a - b);
       choice.replaceChildren(
         ...speeds.map((each) => new Option(`${each}×`, String(each), false, each === speed)),

@@ -1,4 +1,4 @@
-// The buttons in the view's head: how the eye moves, and what is drawn over the world.
+// The buttons above the view: camera modes and overlays.
 import type { App } from "../app/App";
 import type { State, ViewMode } from "../state/State";
 import type { IconButton } from "../ui/iconButton";

@@ -14,12 +14,12 @@ export interface Command {
 
 const MAX_FOUND = 50;
 
-// Those that can be done now.
+// The commands that are possible at present.
 export function commandsOf(app: App): Command[] {
   return [...runCommands(app), ...viewCommands(app), ...placeCommands(app), ...robotCommands(app), ...topicCommands(app)];
 }
 
-// Those that have each word of the text; what begins with the text comes first.
+// The entries that contain each word of the text. Those that begin with the text come first.
 export function findCommands(commands: readonly Command[], text: string): Command[] {
   const words = text.toLowerCase().split(/\s+/).filter(Boolean);
   const fitting = commands.filter(({ group, label }) => {

@@ -19,7 +19,7 @@ test("a curve is drawn to the edges of the time that is shown", () => {
   ]);
 });
 
-test("where values are missing the curve is broken", () => {
+test("a curve has a gap where values are missing", () => {
   const steady = Array.from({ length: 20 }, (_, i) => [i / 10, 1] as [number, number]);
   const breaks = (...more: [number, number][]) =>
     columnsOf(seriesOf(...steady, ...more), { min: 0, max: 10 })[1].filter((value) => value === null).length;
@@ -28,7 +28,7 @@ test("where values are missing the curve is broken", () => {
   expect(breaks([2, NaN], [2.1, 1])).toBe(1);
 });
 
-test("a gap is long against the pace of the values", () => {
+test("a gap is long compared with the interval of the values", () => {
   const slow = seriesOf([0, 1], [5, 1], [10, 1]);
   expect(gapOf(slow, { min: 0, max: 11 })).toBe(40);
   expect(gapOf(seriesOf([0, 1]), { min: 0, max: 1 })).toBe(Infinity);
@@ -51,7 +51,7 @@ test("a range has room, and is never empty", () => {
   expect(max).toBeGreaterThan(3);
 });
 
-test("the axis ends now, or with the last value there is", () => {
+test("the axis ends at the present or at the last value", () => {
   const curves = [curve([2, 0], [8, 0]), curve()];
   expect(timeRange(curves, 5, 20)).toEqual({ min: 15, max: 20 });
   expect(timeRange(curves, 30, 4)).toEqual({ min: 0, max: 30 });

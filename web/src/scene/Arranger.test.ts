@@ -78,7 +78,7 @@ function pointer(type: string, x: number, y: number): Event {
 
 const place = () => new Vector3().setFromMatrixPosition(bodies.poseOf(0)!);
 
-test("a body is dragged over the floor, and stays where it was taken hold of", async () => {
+test("a body is dragged over the floor at the point where it was grabbed", async () => {
   pointer("pointerdown", 0.2, 0.1);
   pointer("pointermove", 2.2, 1.1);
   expect(place().x).toBeCloseTo(2, 6);
@@ -90,7 +90,7 @@ test("a body is dragged over the floor, and stays where it was taken hold of", a
   expect(arranger.holds).toBe(true); // until the new scene is there
 });
 
-test("what is refused is let go, so that the next poses show it where it was", async () => {
+test("after a refusal, the next poses show the body at its former place", async () => {
   onPlace.mockResolvedValueOnce(false);
   pointer("pointerdown", 0, 0);
   pointer("pointermove", 2, 0);
@@ -98,7 +98,7 @@ test("what is refused is let go, so that the next poses show it where it was", a
   await vi.waitFor(() => expect(arranger.holds).toBe(false));
 });
 
-test("the arrow's tip turns the selected robot", () => {
+test("dragging the arrow's tip rotates the selected robot", () => {
   selection = "a";
   arranger.showHandle();
   const tip = arranger.handle.tip!;
@@ -108,7 +108,7 @@ test("the arrow's tip turns the selected robot", () => {
   expect(onPlace).toHaveBeenCalledWith("a", { x: 0, y: 0, yaw: expect.closeTo(Math.PI / 2, 6) });
 });
 
-test("a press without a drag chooses the robot; the floor is left to the view", () => {
+test("a click without a drag selects the robot, and clicks on the floor belong to the view", () => {
   pointer("pointerdown", 0, 0);
   pointer("pointerup", 0, 0);
   expect(onPick).toHaveBeenCalledWith("a");
@@ -120,13 +120,13 @@ test("a press without a drag chooses the robot; the floor is left to the view", 
   expect(heard).toHaveBeenCalledOnce();
 });
 
-test("a click on the floor puts the selected robot there, heading as before", () => {
+test("a click on the floor moves the selected robot there with the same heading", () => {
   selection = "a";
   arranger.placeAt(arranger.floorAt({ x: SIZE / 2 + 3 * PX, y: SIZE / 2 })!);
   expect(onPlace).toHaveBeenCalledWith("a", { x: expect.closeTo(3, 6), y: expect.closeTo(0, 6), yaw: 0 });
 });
 
-test("an object is chosen by a press, and keeps lying as it lies when it is turned", () => {
+test("an object is selected by a click, and keeps its tilt when it is rotated", () => {
   pointer("pointerdown", 0, 4);
   pointer("pointerup", 0, 4);
   expect(onPick).toHaveBeenCalledWith("box");
@@ -143,7 +143,7 @@ test("an object is chosen by a press, and keeps lying as it lies when it is turn
   expect(onPlace).toHaveBeenCalledWith("box", expect.objectContaining({ yaw: expect.closeTo(Math.PI / 2, 6) }));
 });
 
-test("what stands firm is dragged only once it was chosen", () => {
+test("a fixed body can be dragged only after it was selected", () => {
   pointer("pointerdown", -4, 0);
   pointer("pointermove", -4, 2);
   pointer("pointerup", -4, 2);
@@ -155,7 +155,7 @@ test("what stands firm is dragged only once it was chosen", () => {
   expect(onPlace).toHaveBeenCalledWith("shelf", { x: expect.closeTo(-4, 6), y: expect.closeTo(2, 6), yaw: 0 });
 });
 
-test("while nothing may be moved it does nothing", () => {
+test("it does nothing while moving is not allowed", () => {
   arranger.isOn = false;
   pointer("pointerdown", 0, 0);
   pointer("pointermove", 2, 0);

@@ -25,7 +25,7 @@ export interface ArrangerView {
 
 export interface ArrangerEvents {
   onPick(body: string): void;
-  // Resolves to whether it stands there now.
+  // Resolves to whether the body is there now.
   onPlace(body: string, place: Placed): Promise<boolean>;
 }
 
@@ -52,14 +52,14 @@ export class Arranger {
     private readonly events: ArrangerEvents,
   ) {
     const { host } = view;
-    // Before the view's own gestures hear of it.
+    // Registered before the view's own gestures.
     host.addEventListener("pointerdown", (event) => this.grab(event), true);
     host.addEventListener("pointermove", (event) => this.pull(event), true);
     host.addEventListener("pointerup", (event) => this.drop(event), true);
     host.addEventListener("pointercancel", () => this.giveUp(), true);
   }
 
-  // With every picture.
+  // Called with every frame.
   showHandle(): void {
     const robot = this.isOn && this.hasArrow ? this.view.selection() : null;
     const ring = robot === null ? null : this.view.robots()?.ringOf(robot);
@@ -68,7 +68,7 @@ export class Arranger {
     else this.handle.hide();
   }
 
-  // Where one takes hold of the arrow; null while it is hidden.
+  // The place of the arrow's tip; null while it is hidden.
   tipOnScreen(): ScreenPlace | null {
     const { tip } = this.handle;
     return tip && screenPlaceOf(tip, this.view.camera, this.view.host.getBoundingClientRect());
@@ -81,8 +81,8 @@ export class Arranger {
     if (body !== null && subject) void this.events.onPlace(body, { x, y, yaw: subject.yaw });
   }
 
-  // Whether what is shown is not where it was last reported: it is in somebody's hand, or was just
-  // put down.
+  // Whether the displayed pose differs from the last reported one: the body is being dragged, or
+  // was just released.
   get holds(): boolean {
     return this.held !== null && this.held === this.view.bodies();
   }
@@ -96,7 +96,7 @@ export class Arranger {
     const body = turns ? this.selected() : (bodies?.pick(this.ray(start)) ?? null);
     const index = body && bodies ? bodies.indexOf(body.name) : -1;
     const before = bodies?.poseOf(index)?.clone();
-    // What stands firm is taken hold of once it was chosen.
+    // A body that is fixed in place can be dragged only after it was selected.
     if (!body || !before || body.isFixed || (body.isStatic && body.name !== this.view.selection())) return;
     const grip = this.onPlane(start, before.elements[14]!);
     if (!grip) return;
@@ -130,7 +130,7 @@ export class Arranger {
     void this.events.onPlace(name, drag.place).then((stands) => stands || this.giveUp());
   }
 
-  // It goes back to where it was last reported.
+  // The body returns to its last reported pose.
   private giveUp(): void {
     this.drag = null;
     this.held = null;
@@ -152,7 +152,7 @@ export class Arranger {
     return rayThrough(at, this.view.host.getBoundingClientRect(), this.view.camera);
   }
 
-  // What is fixed there, or the floor.
+  // The place on a fixed body, or on the floor.
   floorAt(at: ScreenPlace): Vector3 | null {
     return this.view.bodies()?.pointOf(this.ray(at)) ?? this.onPlane(at, 0);
   }
@@ -177,7 +177,7 @@ function turned(before: Matrix4, point: Vector3): Placed {
   return { x, y, yaw: Math.atan2(point.y - y, point.x - x) };
 }
 
-// world_from_body there, as high and as tilted as before.
+// world_from_body at that place, with the same height and tilt as before.
 function atPlace(before: Matrix4, { x, y, yaw }: Placed): Matrix4 {
   const turn = new Matrix4().makeRotationZ(yaw - placeOf(before).yaw);
   return turn.multiply(before).setPosition(x, y, before.elements[14]!);

@@ -28,7 +28,7 @@ function rigBeforeWalls(free: { m: number }): CameraRig {
 
 const drawnFrom = (rig: CameraRig) => rig.camera.position.distanceTo(rig.controls.target);
 
-test("a chase is drawn from before the wall, and from where one stands where there is none", () => {
+test("a chase is drawn from in front of a wall, and from the camera's place if there is no wall", () => {
   const free = { m: Infinity };
   const rig = rigBeforeWalls(free);
   rig.follow(HERE, true);
@@ -53,7 +53,7 @@ test("a chase is drawn from before the wall, and from where one stands where the
   expect(drawnFrom(rig)).toBeCloseTo(far);
 });
 
-test("a chase draws back little by little, and asks for pictures until it has", () => {
+test("a chase moves back gradually and requests frames until it is done", () => {
   vi.stubGlobal("matchMedia", () => ({ matches: false }));
   const free = { m: 1 };
   const rig = rigBeforeWalls(free);
@@ -75,7 +75,7 @@ test("a chase draws back little by little, and asks for pictures until it has", 
   expect(drawnFrom(rig)).toBeCloseTo(rig.viewpoint.position.distanceTo(rig.viewpoint.target), 1);
 });
 
-test("walls are in nobody's way who does not chase", () => {
+test("walls have an effect only in a chase", () => {
   const rig = rigBeforeWalls({ m: 1 });
   rig.update(1000);
   expect(drawnFrom(rig)).toBeCloseTo(Math.hypot(4, 12));
@@ -96,7 +96,7 @@ test("following keeps the direction of the view while the robot moves and turns"
 });
 
 // The view of a link had been raised by half the robot's height when its model arrived.
-test("the view stays where it is when the shape of the robot becomes known", () => {
+test("the view does not move when the robot's shape is loaded", () => {
   const rig = rigAt(new Vector3(0, -4, 12), new Vector3(0, 0, 0));
   rig.follow({ ...HERE, middle: HERE.position });
   rig.viewpoint = { position: new Vector3(1, 2, 6), target: new Vector3(1, 2, 0.7) };
@@ -104,7 +104,7 @@ test("the view stays where it is when the shape of the robot becomes known", () 
   expectNear(rig.controls.target, 1, 2, 0.7);
 });
 
-test("a chase stays behind the robot, however it turns", () => {
+test("a chase stays behind a robot that rotates", () => {
   const rig = rigAt(new Vector3(0, -4, 12), new Vector3(0, 0, 0));
   rig.follow(HERE, true);
   rig.update(0);
@@ -116,7 +116,7 @@ test("a chase stays behind the robot, however it turns", () => {
   expect(rig.camera.position.x).toBeCloseTo(HERE.position.x, 3);
 });
 
-test("from following to a chase it flies behind", () => {
+test("when following changes to a chase, the camera flies behind the robot", () => {
   const rig = rigAt(new Vector3(0, -4, 12), new Vector3(0, 0, 0));
   rig.follow(HERE);
   rig.update(0);
@@ -125,7 +125,7 @@ test("from following to a chase it flies behind", () => {
   expect(rig.camera.position.x).toBeLessThan(HERE.position.x - 1);
 });
 
-test("out of a robot's eye one sees what lies ahead of it, and afterwards all is as before", () => {
+test("a robot's view shows what is ahead, and afterwards the former view returns", () => {
   const rig = rigAt(new Vector3(0, -4, 12), new Vector3(0, 0, 0));
   rig.lookFrom({ worldFromEye: new Matrix4().makeRotationZ(Math.PI / 2).setPosition(5, 6, 0.7), view: null });
   rig.update(0);
@@ -140,7 +140,7 @@ test("out of a robot's eye one sees what lies ahead of it, and afterwards all is
 });
 
 // An image with the aspect 4:3 that is 60° wide: its height is 2 atan(tan(30°) 3 / 4) = 46.826°.
-test("a robot's eye sees as wide as its camera, whatever the shape of the window", () => {
+test("a robot's view has the width of its camera in windows of any shape", () => {
   const rig = rigAt(new Vector3(0, -4, 12), new Vector3(0, 0, 0));
   const before = rig.camera.fov;
   rig.resize(1600, 900);

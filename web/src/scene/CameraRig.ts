@@ -1,5 +1,5 @@
-// The eye: orbits, flies to views, goes along with a robot, or looks out of it. The world's z is up.
-// A chase draws nearer than one stands where a wall is in between.
+// The camera of the view: orbits, flies to views, follows a robot, or shows a robot's view. The
+// world's z is up. In a chase, the image is drawn from nearer if a wall is in between.
 import type { Box3 } from "three";
 import { MOUSE, MathUtils, Matrix4, PerspectiveCamera, TOUCH, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
@@ -18,9 +18,9 @@ const MAP_FIELD_OF_VIEW_DEG = 1;
 const MAP_DEPTH = 200; // m, that is drawn below and above where one looks
 const FLIGHT_MS = 450;
 const MARGIN = 1.04;
-// From the south-west, well above: over the walls of a room into it.
+// From the south-west, well above the walls of a room.
 const FIRST_DIRECTION = new Vector3(0.35, 0.72, -0.85).normalize();
-// Not quite straight down, where the orbit would have no heading: north is up in the picture.
+// Not exactly vertical, because the orbit would have no heading then. North is up in the image.
 const DOWN = new Vector3(0, 0.001, -1).normalize();
 const FOLLOWING_DISTANCE = 5; // m
 const FOLLOWING_STEEPNESS = Math.tan((68 * Math.PI) / 180); // over the walls beside a robot
@@ -32,8 +32,8 @@ const LOOK_MS = 100; // between looks for walls
 const BACK_OFF_MS = 250; // to draw back once there is room
 const AHEAD = 2; // m: where one looks who leaves a robot's eye
 
-// A robot that is watched: where it is, the middle of its shape (which is its place until the shape
-// is known), and where its x axis points (radians about the world's z).
+// A robot that is followed: its position, the centre of its shape (equal to the position until the
+// shape is known), and the direction of its x axis (radians about the world's z).
 export interface Subject {
   position: Vector3;
   middle: Vector3;
@@ -69,8 +69,8 @@ export class CameraRig {
   private orbitDepth = { near: 0.05, far: 500 }; // m, that is drawn while it is no map
   private readonly still: boolean;
 
-  // `freeAlong`: how far one sees from a place in a direction (of length 1), of at most `far`; more
-  // where nothing is in the way. In metres.
+  // `freeAlong`: the free distance in metres from a place in a direction (unit length), up to
+  // `far`; larger if nothing is in the way.
   constructor(
     canvas: HTMLElement,
     onChange: () => void,
@@ -95,14 +95,14 @@ export class CameraRig {
     this.widen();
   }
 
-  // Where it stands and looks, or will when it has arrived.
+  // The position and target of the camera, or of the end of its flight.
   get viewpoint(): Viewpoint {
     const { position, target } = this.flight?.to ??
       this.beforeEye ?? { position: this.stand.position, target: this.controls.target };
     return { position: position.clone(), target: target.clone() };
   }
 
-  // Stands there at once, or as soon as it leaves a robot's eye.
+  // Moves there at once, or when the robot's view ends.
   set viewpoint({ position, target }: Viewpoint) {
     this.flight = null;
     if (this.beforeEye) {
@@ -126,7 +126,7 @@ export class CameraRig {
     this.viewpoint = { position: new Vector3(x, y, z), target: new Vector3(tx, ty, tz) };
   }
 
-  // Shows the box from above at an angle; at once when `fly` is false.
+  // Shows the box from above at an angle; at once if `fly` is false.
   frame(box: Box3, fly: boolean): void {
     this.lookAt(box, FIRST_DIRECTION, fly);
   }
@@ -167,8 +167,8 @@ export class CameraRig {
     return (2 * distance * Math.tan(radians(this.camera.fov) / 2)) / this.height;
   }
 
-  // Flies to the subject and goes along with it from now on; `turning`: behind it, turning as it
-  // turns. null ends it.
+  // Flies to the subject and follows it. `turning`: stays behind it and rotates with it. null ends
+  // this.
   follow(subject: Subject | null, turning = false): void {
     if (!subject) {
       if (this.subject && this.turning) this.stayBeforeWall();
@@ -183,7 +183,7 @@ export class CameraRig {
     this.fly({ position: target.clone().add(turning ? behind(subject.yaw) : this.overhead()), target });
   }
 
-  // Moves along with the followed robot.
+  // Moves with the followed robot.
   moveTo({ position, middle, yaw }: Subject): void {
     const { subject } = this;
     if (!subject) return;
@@ -198,7 +198,7 @@ export class CameraRig {
     for (const point of this.points()) point.applyMatrix4(motion);
   }
 
-  // Sees what that eye sees, until it is told null.
+  // Shows this robot's view until it is called with null.
   lookFrom(eye: Eye | null): void {
     if (!eye) return this.leaveEye();
     const { worldFromEye, view } = eye;
@@ -221,13 +221,13 @@ export class CameraRig {
     return moved || isBackingOff || this.flight !== null;
   }
 
-  // Who ends a chase stands where it was drawn from.
+  // When a chase ends, the camera stays at the place from which the last image was drawn.
   private stayBeforeWall(): void {
     if (!this.beforeEye) this.stand.position.copy(this.camera.position);
   }
 
-  // Draws from where one stands, or from before the wall that is in the way. Whether there is room to
-  // draw back.
+  // Draws from the camera's place, or from in front of a wall that is in between. Returns whether
+  // there is room to move back.
   private draw(nowMs: number): boolean {
     this.camera.position.copy(this.stand.position);
     this.camera.quaternion.copy(this.stand.quaternion);
@@ -269,7 +269,7 @@ export class CameraRig {
     this.fly(beforeEye);
   }
 
-  // As wide as the eye sees that it looks out of.
+  // Uses the width of the robot's view.
   private widen(): void {
     const { camera, eyeView } = this;
     const ownFov = this.beforeMap ? MAP_FIELD_OF_VIEW_DEG : FIELD_OF_VIEW_DEG;
@@ -339,7 +339,7 @@ export class CameraRig {
   }
 }
 
-// The same heading, from no lower than one follows a robot.
+// Keeps the heading, from at least the height for following a robot.
 function steepened(back: Vector3): Vector3 {
   back.z = Math.max(back.z, FOLLOWING_STEEPNESS * Math.hypot(back.x, back.y));
   return back;

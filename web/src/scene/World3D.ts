@@ -1,5 +1,5 @@
-// The 3D view: the only place where three.js and the rest of the page meet. Frames are drawn when
-// something changed. Positions on the screen are in CSS pixels of the page.
+// The 3D view, the only interface between three.js and the rest of the page. It draws frames only
+// after changes. Screen positions are in CSS pixels of the page.
 import type { Matrix4, Object3D } from "three";
 import { Scene } from "three";
 import type { SceneDescription } from "../api/scene";
@@ -40,8 +40,8 @@ import { ShadowPace } from "./ShadowPace";
 import { ShownPoses } from "./ShownPoses";
 import type { DrawnView } from "../view/DrawnView";
 
-// Where a graphics card draws, and where none does: there the beams of a crowd would take longer than all
-// the rest.
+// Settings with and without a graphics card: without one, the beams of a crowd would take longer
+// than everything else.
 const MOST_BEAMS = 20_000;
 const MOST_BEAMS_IN_SOFTWARE = 2000;
 
@@ -125,7 +125,7 @@ export class World3D {
     for (const press of ["pointerdown", "pointerup", "keydown"] as const) {
       addEventListener(press, (event) => "repeat" in event && event.repeat ? undefined : this.loop.holdBack(), { capture: true });
     }
-    // three.js itself asks for the context back, and sets it up anew.
+    // three.js itself requests the context again and sets it up.
     canvas.addEventListener("webglcontextlost", () => this.setGraphics(false));
     canvas.addEventListener("webglcontextrestored", () => this.setGraphics(true));
     onClick(canvas, (place) => this.click(place));
@@ -137,12 +137,12 @@ export class World3D {
     return this.loop.frames;
   }
 
-  // Whether a picture is being drawn, or will be.
+  // Whether a frame is being drawn or requested.
   get isDrawing(): boolean {
     return this.loop.isBusy;
   }
 
-  // Shows another scene, or none. The camera stays where it is when only the layout changed.
+  // Shows another scene, or none. If only the layout has changed, the camera stays where it is.
   setScene(scene: SceneDescription | null): void {
     this.clear();
     this.library.keepOnly(new Set(scene?.bodies.flatMap(({ model, collisions }) => [model, collisions ?? model])));
@@ -169,7 +169,7 @@ export class World3D {
     this.loop.request();
   }
 
-  // A reading that is drawn in the world: points, contacts.
+  // Shows a reading in the world: points or contacts.
   setReading(topic: string, message: unknown): void {
     this.overlays.takeReading(topic, message);
     this.loop.request();
@@ -187,7 +187,7 @@ export class World3D {
     this.loop.request();
   }
 
-  // The object that is to be moved by hand.
+  // Sets the object that the user can move.
   choose(object: string | null): void {
     this.watch.choose(object);
     this.loop.request();
@@ -220,19 +220,19 @@ export class World3D {
     this.loop.request();
   }
 
-  // How the robots are doing, and which of them a filter has chosen.
+  // Sets the states of the robots, and those that a filter selects.
   setStates(states: RobotStates): void {
     this.signs.setStates(states);
     this.loop.request();
   }
 
-  // What the scenario expects, drawn where it applies.
+  // Sets the expectations, which are drawn at their places.
   setExpectations(expectations: readonly Expectation[]): void {
     this.overlays.expectations.set(expectations);
     this.loop.request();
   }
 
-  // The beams of the last message that was read are not read any more.
+  // Removes the beams of a topic that is no longer read.
   forgetBeams(): void {
     this.lastBeams = null;
     this.overlays.forgetBeams();
@@ -269,7 +269,7 @@ export class World3D {
     if (this.parts) this.rig.frame(this.parts.focus, true);
   }
 
-  // Where the eye stands and what it looks at, in metres; it stands there at once.
+  // Moves the camera at once: its position and target, in metres.
   get viewpoint(): Viewpoint {
     return this.rig.viewNumbers;
   }
@@ -291,7 +291,7 @@ export class World3D {
     return this.drawn?.canvas ?? this.renderer.domElement;
   }
 
-  // What is seen at present, with the names, as PNG.
+  // The present view with the names, as PNG.
   picture(): Promise<Blob> {
     this.draw(performance.now());
     return pngOf(this.surface, (context) => {
@@ -299,30 +299,30 @@ export class World3D {
     });
   }
 
-  // What is seen from now on, without the names.
+  // A stream of the view, without the names.
   video(): MediaStream {
     return videoOf(this.surface);
   }
 
-  // world_from_robot as last reported and its simulated time; null while unknown.
+  // world_from_robot as last reported, with its simulated time; null while unknown.
   latestPose(robot: string): { pose: Matrix4; stamp: number } | null {
     return this.poses.latestOf(robot);
   }
 
-  // world_from_body of whatever stands there; null while unknown.
+  // world_from_body of any body; null while unknown.
   bodyPose(body: string): Matrix4 | null {
     const index = this.bodies?.indexOf(body) ?? -1;
     return this.poses.latestOf(body)?.pose ?? this.bodies?.poseOf(index) ?? null;
   }
 
-  // Where a robot's middle is drawn on the page; null when it is not in the picture.
+  // The place on the page where a robot's centre is drawn; null if it is outside the view.
   screenPosition(robot: string): ScreenPlace | null {
     const middle = this.watch.robots?.middleOf(robot);
     if (!middle) return null;
     return screenPlaceOf(middle, this.rig.camera, this.host.getBoundingClientRect());
   }
 
-  // Where the tip of the selected robot's arrow is drawn on the page.
+  // The place on the page where the tip of the selected robot's arrow is drawn.
   turnHandle(): ScreenPlace | null {
     return this.arranger.tipOnScreen();
   }
@@ -412,7 +412,8 @@ export class World3D {
     this.loop.request();
   }
 
-  // Just before a frame is drawn: a canvas of another size is empty until then.
+  // Called just before a frame is drawn, because a canvas that gets another size is empty until
+  // then.
   private resizeCanvas(): void {
     if (!this.isResized) return;
     this.isResized = false;
@@ -472,7 +473,7 @@ export class World3D {
     return hit && !hit.isFixed ? hit.name : null;
   }
 
-  // What stands firm and was put there by hand, so that it can be taken away again.
+  // An object that was placed by the user, so that it can be removed again.
   private firmAt(place: ScreenPlace): string | null {
     if (!this.arranger.isOn) return null;
     const ray = rayThrough(place, this.host.getBoundingClientRect(), this.rig.camera);

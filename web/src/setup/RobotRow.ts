@@ -1,4 +1,4 @@
-// One robot (or avatar) of a set-up: what it is, where it starts, what drives it.
+// The form for one robot or avatar: its model, its start, and its behaviour.
 import type { App } from "../app/App";
 import type { RobotList, RobotSetUp } from "../api/scenario";
 import type { SetUp } from "../state/setUp";
@@ -81,7 +81,7 @@ export class RobotRow {
     this.yaw.show(robot.place ? robot.place.yaw * DEGREES : null);
   }
 
-  // `input`: of which field; empty, or one without an input: of the robot.
+  // `input`: the name of the field; empty, or without an input of its own: the whole robot.
   refuse(input: string, sentence: string): void {
     for (const field of this.fields.values()) field.refuse("");
     const field = this.fields.get(input);
@@ -145,7 +145,7 @@ export class RobotRow {
     this.app.setUp.changeRobot(this.list, this.index, change);
   }
 
-  // One of the offers' names, or else a constraint.
+  // The name of an offer, or else a constraint.
   private changeBehaviour(value: string): void {
     const offers = this.app.store.get().setUp?.behaviours?.offers ?? [];
     const isName = value === "" || offers.some(({ name }) => name === value) || value === this.robot?.behaviour;
@@ -166,7 +166,7 @@ export class RobotRow {
   }
 }
 
-// None, each offer once, and the one that a file asks for and nobody offers.
+// None, each offer once, and a behaviour from a file that nobody offers.
 function behaviourOptions({ behaviours }: SetUp, { behaviour }: RobotSetUp) {
   const names = [...new Set((behaviours?.offers ?? []).map(({ name }) => name))].sort();
   const options = names.map((name) => ({ value: name, label: name }));

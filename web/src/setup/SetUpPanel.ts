@@ -1,4 +1,4 @@
-// The form with which a simulation is put together, beside the picture of what would stand there.
+// The form for setting up a simulation, beside a preview of it.
 import type { App } from "../app/App";
 import type { RobotList, Scenario } from "../api/scenario";
 import type { SetUp } from "../state/setUp";
@@ -74,7 +74,7 @@ export function createSetUpPanel(app: App): HTMLElement {
     },
   );
 
-  // It may stand where the form is not scrolled to.
+  // The field may be scrolled out of sight.
   function showObjection(): void {
     panel.querySelector(".field-error:not([hidden])")?.scrollIntoView({ block: "center" });
   }
@@ -137,7 +137,7 @@ function head(app: App): HTMLElement {
   );
 }
 
-// Worlds from this machine: chosen here, or dropped anywhere onto the page.
+// Worlds from this machine: chosen here, or dropped anywhere on the page.
 function uploads(app: App): HTMLElement {
   const chooser = (label: string, isFolder: boolean) => {
     const file = element("input", {
@@ -162,7 +162,7 @@ function uploads(app: App): HTMLElement {
   );
 }
 
-// Whatever the page shows: a file that it did not take would replace it.
+// On every page, because the browser would replace the page by a file that it does not handle.
 function takeDrops(app: App): void {
   const isTaken = ({ dataTransfer }: DragEvent) => {
     const { setUp, abilities } = app.store.get();

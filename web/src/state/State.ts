@@ -1,5 +1,5 @@
-// What the page knows and shows. Only Session, the commands of App and the panels' own controls
-// change it.
+// The state of the page: what it knows and shows. Only Session, the commands of App and the panels'
+// own controls change it.
 import type { Action } from "../api/SimulationApi";
 import type { Recording } from "../api/recording";
 import type { Kept, RecordingNote } from "../api/history";
@@ -30,7 +30,7 @@ export interface Notice {
   sentence: string;
 }
 
-// Where a robot is, as last reported: metres and radians in the world.
+// The last reported pose of a robot: metres and radians in the world.
 export interface RobotPose {
   x: number;
   y: number;
@@ -62,7 +62,8 @@ export type View = "starting" | "open" | "interrupted" | "none"; // interrupted:
 // The program that draws the view.
 export type Drawer = "browser" | "server";
 
-// How the eye moves: by hand; along with the selected robot; along and turning with it; as its eye.
+// The camera mode: free, following the selected robot, behind it and rotating with it, or the
+// robot's own view.
 export type ViewMode = "orbit" | "follow" | "chase" | "eye";
 
 export interface State {

@@ -1,4 +1,4 @@
-// Editing a simulation that stands still: what can be added, done again and taken back.
+// The state of editing: what can be added, and the edits that can be undone and redone.
 import type { Behaviours, ModelChoice } from "../api/SetUpApi";
 import type { SceneDescription } from "../api/scene";
 
@@ -46,7 +46,7 @@ export const FIRST_EDITING: Editing = {
   isBusy: false,
 };
 
-// What can be taken hold of by hand, but for robots: the name of one body of each model.
+// The movable bodies other than robots: the name of one body of each model.
 export function copiesOf(scene: SceneDescription | null): string[] {
   const names = new Map<string, string>(); // by model
   for (const { name, model, isRobot, isAvatar, isFixed } of scene?.bodies ?? []) {
@@ -55,7 +55,7 @@ export function copiesOf(scene: SceneDescription | null): string[] {
   return [...names.values()].sort();
 }
 
-// What edits are about: the chosen object, or else the selected robot.
+// The body that edits apply to: the chosen object, or else the selected robot.
 export function chosenOf({ editing, selection }: { editing: Editing | null; selection: string | null }): string | null {
   return editing?.chosen ?? selection;
 }

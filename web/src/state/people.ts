@@ -1,4 +1,4 @@
-// Who of those who watch may act on the simulation that this page shows.
+// Determines which viewers may act on the simulation that this page shows.
 import type { People, Person } from "../api/ViewersApi";
 
 export const NO_PEOPLE: People = { viewers: [], you: 0 };
@@ -7,7 +7,7 @@ export function youOf({ viewers, you }: People): Person | null {
   return viewers.find(({ number }) => number === you) ?? null;
 }
 
-// Those who look at the same simulation as you.
+// The viewers of the same simulation.
 export function together(people: People): Person[] {
   const simulation = youOf(people)?.simulation ?? "";
   return simulation === "" ? [] : people.viewers.filter((person) => person.simulation === simulation);
@@ -17,7 +17,7 @@ export function holderOf(people: People): Person | null {
   return together(people).find(({ holds }) => holds) ?? null;
 }
 
-// While nobody holds control, all may. The server has the last word.
+// While nobody has control, all viewers may act. The server decides.
 export function mayAct(people: People): boolean {
   const holder = holderOf(people);
   return holder === null || holder.number === people.you;
@@ -31,7 +31,7 @@ export function needsControl(people: People): string {
   return together(people).length > 1 ? "Others are watching this simulation. Take control first." : "";
 }
 
-// Whose question you have to answer, if there is one.
+// The viewer whose request you must answer, if there is one.
 export function asker(people: People): Person | null {
   if (!youOf(people)?.holds) return null;
   return together(people).find(({ asks }) => asks === 1) ?? null;

@@ -28,7 +28,7 @@ export const NO_PLOTS: Plots = { curves: [], span: 30, against: null, events: tr
 export const SPANS: readonly (number | null)[] = [10, 30, 120, 600, null];
 export const MOST_CURVES = 8;
 
-// Told apart on white and on black.
+// Colours that are distinguishable on white and on black.
 const COLOURS = ["#2f81e0", "#e0701a", "#2a9d4a", "#c2399b", "#d0453e", "#12938f", "#8a63d2", "#9a7d0a"];
 
 export const ROBOT_VALUES: readonly { key: string; label: string; unit: string }[] = [
@@ -61,7 +61,7 @@ export function curveName({ source, key }: Pick<Curve, "source" | "key">): strin
   return source.kind === "robot" ? `${source.robot} ${label}` : label;
 }
 
-// With the curve, unless it is there or there are too many.
+// Adds the curve, unless it exists or there are too many.
 export function withCurve(plots: Plots, source: Source, key: string, unit: string): Plots {
   const id = curveId(source, key);
   const isThere = plots.curves.some((curve) => curve.id === id);

@@ -1,4 +1,4 @@
-// Which robots the list shows, in which order and groups.
+// Selects, sorts and groups the robots of the list.
 import type { RobotStatus } from "../api/status";
 import type { RobotHealth, ShownState } from "./health";
 import { STATE_WORDS, badness } from "./health";
@@ -32,7 +32,7 @@ export function isTitle(entry: Entry): entry is { title: string; count: number }
   return "title" in entry;
 }
 
-// What stands before the last slash of a name; without one, the name without its number.
+// The part of a name before its last slash; without one, the name without its number.
 export function namespaceOf(name: string): string {
   const slash = name.lastIndexOf("/");
   return slash > 0 ? name.slice(0, slash) : name.replace(/[_-]?\d+$/, "");
@@ -51,8 +51,8 @@ const FIELDS: Record<string, (robot: ListedRobot) => string> = {
   state: ({ state }) => `${state} ${STATE_WORDS[state]}`,
 };
 
-// Words that must all fit: "pebble" a part of the name, "model:scout" a part of another field, "/^a\d$/"
-// a regular expression on the name, "model:/^sc/" on a field.
+// Words that must all match: "pebble" is a part of the name, "model:scout" a part of another field,
+// "/^a\d$/" a regular expression for the name, and "model:/^sc/" one for a field.
 export function queryOf(text: string): Query {
   const tests: ((robot: ListedRobot) => boolean)[] = [];
   let problem = "";
@@ -94,8 +94,8 @@ export function filtered(robots: readonly ListedRobot[], { text, state }: RobotF
 
 const COLLATOR = new Intl.Collator("en", { numeric: true });
 
-// Names in their order, "a2" before "a10". Kept while the names are the same: among thousands a comparison of
-// texts for each update would take too long.
+// Names in natural order, "a2" before "a10". Cached while the names do not change, because
+// comparing thousands of texts for each update would take too long.
 export class NameOrder {
   private names: readonly string[] = [];
   private ranks = new Map<string, number>();
@@ -144,7 +144,7 @@ function keyOf(sorting: Sorting): (robot: ListedRobot) => number {
   }
 }
 
-// The group with the first robot comes first.
+// The group that contains the first robot comes first.
 function grouped(robots: readonly ListedRobot[], grouping: Exclude<Grouping, "none">): Entry[] {
   const groups = new Map<string, ListedRobot[]>();
   for (const robot of robots) {

@@ -9,14 +9,14 @@ function event(time: number, event: string, more: Partial<RecordedEvent> = {}): 
   return { time, event, robot: "", detail: "", ...more };
 }
 
-test("an instant has its place in the span, and none beyond it", () => {
+test("an instant has a place in the span only", () => {
   expect(shareOf(12.5, REPLAY)).toBe(0.25);
   expect(shareOf(9, REPLAY)).toBe(0);
   expect(shareOf(21, REPLAY)).toBe(1);
   expect(shareOf(5, { ...REPLAY, start: 5, end: 5 })).toBe(0);
 });
 
-test("a mark says what happened, when and to whom", () => {
+test("a mark shows the event, its time and its robot", () => {
   const marks = marksOf(
     [
       event(10, "started"),
@@ -32,7 +32,7 @@ test("a mark says what happened, when and to whom", () => {
   ]);
 });
 
-test("events of about one instant share a mark, which stays readable", () => {
+test("events at about the same time share a readable mark", () => {
   const crowd = Array.from({ length: 9 }, (_, i) => event(12 + i / 1000, "robot_added", { robot: `r${i}` }));
   const marks = marksOf([...crowd, event(13, "failed")], REPLAY);
   expect(marks.map(({ time, isBad }) => ({ time, isBad }))).toEqual([
@@ -44,7 +44,7 @@ test("events of about one instant share a mark, which stays readable", () => {
   expect(lines.at(-1)).toBe("and 3 more events");
 });
 
-test("from any instant there is a next and a last mark, or none", () => {
+test("each instant has a next and a previous mark, or none", () => {
   const marks = marksOf([event(11, "started"), event(15, "paused")], REPLAY);
   expect(markBeside(marks, 11, 1)).toBe(15);
   expect(markBeside(marks, 15, -1)).toBe(11);

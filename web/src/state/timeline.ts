@@ -1,4 +1,4 @@
-// What a timeline shows of a recording's events: those of about one instant share a mark.
+// The marks of a recording's events on the timeline. Events close together share a mark.
 import type { Difference, Kept, RecordingNote } from "../api/history";
 import type { RecordedEvent, Replay } from "../api/replay";
 import { count, formatTime } from "../ui/format";
@@ -12,7 +12,7 @@ export interface Mark {
   text: string; // a line for each event
 }
 
-// The part of the span that two marks need to be told apart.
+// The minimum distance of two marks, as a fraction of the span.
 const NARROWEST_SHARE = 1 / 250;
 const MOST_LINES = 6;
 const BAD = ["agent_dead", "agent_unresponsive", "failed", "expectation_violated"];
@@ -101,7 +101,7 @@ export function allMarks({ replay, kept, time, events, notes, comparison }: Mark
   return marksOf(all, span);
 }
 
-// The instant of the next mark after `time`, or of the last one before it; null: there is none.
+// The time of the next mark after `time`, or of the last one before it; null if there is none.
 export function markBeside(marks: Mark[], time: number, direction: 1 | -1): number | null {
   const CLOSE = 1e-6;
   const found =

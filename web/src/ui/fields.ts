@@ -1,16 +1,16 @@
-// Labelled inputs of forms, each with the place where the server's objection stands.
+// Labelled inputs of forms, each with a place for the server's error.
 import { element, setText } from "./element";
 
 export interface Field<Value> {
   element: HTMLElement;
   show(value: Value): void;
-  // What is wrong with it; empty: nothing.
+  // Shows an error; empty: none.
   refuse(sentence: string): void;
 }
 
 let nextId = 1;
 
-// A label, its control, and what is wrong with what stands there.
+// A label, its control, and its error.
 function labelled<Value>(
   label: string,
   control: HTMLInputElement | HTMLSelectElement,
@@ -35,8 +35,8 @@ function labelled<Value>(
   };
 }
 
-// Gives `take` what was typed once it is done. What shows a value in the meantime (an answer of the
-// server's, another field) waits until then: nobody loses what they are typing.
+// Calls `take` with the typed text when typing is finished. New values (from the server or another
+// field) wait until then, so that typed text is not lost.
 function keepTyped(input: HTMLInputElement, take: () => void) {
   let isTyping = false;
   let latest = input.value;
@@ -45,7 +45,7 @@ function keepTyped(input: HTMLInputElement, take: () => void) {
     isTyping = false;
     take();
   });
-  // Left without a change: it was typed back to what it had been.
+  // Left without a change: the text is the same as before.
   input.addEventListener("blur", () => {
     isTyping = false;
     input.value = latest;
@@ -65,7 +65,7 @@ export function textField(label: string, placeholder: string, take: (text: strin
   return labelled(label, input, show);
 }
 
-// An empty field counts as `otherwise`; so many digits after the point are shown.
+// An empty field means `otherwise`. This number of digits is shown after the decimal point.
 export function numberField(
   label: string,
   otherwise: number | null,
@@ -102,7 +102,7 @@ export interface ChoiceField extends Field<string> {
   offer(options: Option[]): void;
 }
 
-// Chooses from a list, which may change.
+// A selection from a list, which may change.
 export function choiceField(label: string, take: (value: string) => void): ChoiceField {
   const select = element("select", {});
   const replace = replaceOptions(select);
@@ -120,8 +120,8 @@ export function choiceField(label: string, take: (value: string) => void): Choic
   };
 }
 
-// Gives `select` other options, if they are others: a list that is open closes when its options are
-// replaced. Whether they were.
+// Replaces the options if they differ, because a list that is open closes when its options are
+// replaced. Returns whether they differed.
 function replaceOptions(select: HTMLSelectElement) {
   let offered = "";
   return (options: Option[]): boolean => {
@@ -147,7 +147,7 @@ function grouped(options: Option[]): HTMLElement[] {
 
 const OTHER = "\0other"; // no name holds it
 
-// Chooses from a list, or something else that is typed.
+// A selection from a list, or a typed text.
 export function choiceOrText(
   label: string,
   other: { choice: string; placeholder: string },

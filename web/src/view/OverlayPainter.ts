@@ -1,5 +1,5 @@
-// Paints the lines, points and plain surfaces of overlays over an image, projected by its camera. They
-// lie on top: an image has no depths that could hide them.
+// Paints the lines, points and plain surfaces of overlays on an image, projected with its camera.
+// They are on top, because an image has no depths that could hide them.
 import type { BufferAttribute, BufferGeometry, Camera, InterleavedBufferAttribute, Object3D } from "three";
 import { Color, LineSegments, Matrix4, Mesh, Points, Vector4 } from "three";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
@@ -25,7 +25,7 @@ export class OverlayPainter {
     this.clipFromWorld.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
   }
 
-  // Paints what is visible of these objects and below them.
+  // Paints the visible parts of these objects and their children.
   paint(roots: readonly Object3D[]): void {
     for (const root of roots) {
       root.updateMatrixWorld();
@@ -36,7 +36,7 @@ export class OverlayPainter {
   private paintObject(object: Object3D): void {
     if ((object as Partial<Mesh>).material && isInvisible((object as Mesh).material)) return;
     this.clipFromObject.multiplyMatrices(this.clipFromWorld, object.matrixWorld);
-    // Wide lines are a mesh for three.js, too.
+    // Wide lines are also meshes in three.js.
     if (object instanceof LineSegments2) this.paintWideLines(object);
     else if (object instanceof LineSegments) this.paintLines(object);
     else if (object instanceof Points) this.paintPoints(object);

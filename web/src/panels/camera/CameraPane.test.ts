@@ -21,7 +21,7 @@ function opened(state: Partial<State>) {
   return { store, topics, waiting: () => body.querySelector(".picture-waiting")!.textContent };
 }
 
-test("a camera is listened to once there is a view, and its picture waited for", () => {
+test("a camera is subscribed when there is a view, and the pane waits for its image", () => {
   const { store, topics, waiting } = opened({ view: "starting" });
   expect(waiting()).toBe("Waiting for an image…");
   expect(topics.read).toEqual([]);
@@ -29,7 +29,7 @@ test("a camera is listened to once there is a view, and its picture waited for",
   expect(topics.read).toEqual(["/a/eye"]);
 });
 
-test("nothing is listened to while the panel is out of sight", () => {
+test("nothing is subscribed while the panel is out of sight", () => {
   const { ports, topics } = testPorts({ scene: SCENE, camera: camerasOf(SCENE)[0]! });
   const { whileOpen } = mount(ports);
   expect(topics.read).toEqual([]);
@@ -39,7 +39,7 @@ test("nothing is listened to while the panel is out of sight", () => {
   expect(topics.read).toEqual([]);
 });
 
-test("a recording that has no picture yet is not waited for", () => {
+test("the pane does not wait for a recording without images", () => {
   const { store, waiting } = opened({});
   store.set({ replay: { start: 0, end: 10, speed: 1, loop: false } });
   expect(waiting()).toBe("The recording has no image of this camera up to this time.");

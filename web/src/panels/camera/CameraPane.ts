@@ -105,7 +105,7 @@ export function mount(ports: Ports): MountedPanel {
       build();
     },
   );
-  // Another simulation has another stream, even under the same topic's name.
+  // Another simulation has another stream, even for the same topic name.
   state.watch(
     ({ simulation, view, replay }) => ({ simulation, isStarting: view === "starting", isRecorded: replay !== null }),
     listen,

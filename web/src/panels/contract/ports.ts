@@ -1,7 +1,8 @@
-// What a panel can ask of the page around it.
+// The interfaces by which a panel accesses the page.
 //
-// A panel names in its mount function only the ports that it uses, and knows nothing else of the page: a
-// test, or another page, mounts it with ports of its own. app/panelPorts.ts makes them for the viewer.
+// A panel names only the ports that it uses in its mount function, and knows nothing else of the
+// page. So tests or other pages can mount it with their own ports. app/panelPorts.ts implements the
+// ports for the viewer.
 import type { ServerFigures } from "../../api/MetricsApi";
 import type { CommandArguments, CommandDescription } from "../../api/commands";
 import type { CurveOf, WholeCurve } from "../../api/curve";
@@ -33,23 +34,24 @@ export interface PanelPorts {
 }
 
 export interface TrafficPort {
-  // Messages and bytes that have come on each topic that the page reads or has read.
+  // The number of messages and bytes received on each topic that the page reads or has read.
   counts(): ReadonlyMap<string, TopicCount>;
   choose(topic: string | null): void; // whose messages are shown
   open(topic: string): void; // shows its messages, and opens their panel
 }
 
-// Questions that the live stream does not answer. Promises reject with the server's sentence.
+// Requests to the server that the live stream cannot answer. Promises reject with the server's
+// sentence.
 export interface ServerPort {
-  // The figures of /metrics (docs/monitoring.md).
+  // The metrics of /metrics (docs/monitoring.md).
   figures(): Promise<ServerFigures>;
-  // A parameter of the live stream; null where the server has none of that name.
+  // A parameter of the live stream; null if the server has no such parameter.
   parameter(name: string): Promise<ParameterValue | null>;
   // The lines of a recording's log.
   log(simulation: string): Promise<RecordedLine[]>;
-  // What a robot's behaviour printed last.
+  // The last output of a robot's behaviour.
   output(simulation: string, robot: string): Promise<OutputLine[]>;
-  // What is read so far of one value over a whole recording, in at most `most` samples.
+  // One value over a whole recording, as far as it is read, with at most `most` samples.
   curve(simulation: string, of: CurveOf, most: number): Promise<WholeCurve>;
   // The same over the past that the server keeps of a running simulation.
   pastCurve(simulation: string, of: CurveOf, most: number): Promise<WholeCurve>;
@@ -57,7 +59,7 @@ export interface ServerPort {
   comparedCurve(of: CurveOf, most: number): Promise<WholeCurve | null>;
 }
 
-// Commands on a simulation. Promises reject with the server's sentence.
+// Commands to a simulation. Promises reject with the server's sentence.
 export interface CommandsPort {
   list(simulation: string): Promise<CommandDescription[]>;
   run(simulation: string, command: string, given: CommandArguments): Promise<void>;
@@ -80,7 +82,7 @@ export interface ReplayPort {
 
 export interface RobotsPort {
   select(robot: string | null): void;
-  // What a click on the body does: selects a robot, and while one edits chooses an object.
+  // Same as a click on the body: selects a robot, or in edit mode an object.
   pick(body: string, isAdding?: boolean): void; // `isAdding`: besides what is chosen
   filter(change: Partial<RobotFilter>): void; // in the list and in the view
   follow(): void; // the selected robot, with the view; a second time ends it
@@ -91,7 +93,7 @@ export interface CamerasPort {
 }
 
 export interface PlotsPort {
-  // Draws a value against simulated time from now on, and opens the plots.
+  // Plots a value against simulated time from now on, and opens the plots.
   add(source: Source, key: string, unit?: string): void;
   remove(curve: string): void;
   setSpan(seconds: number | null): void; // the newest so many; null: all
@@ -106,6 +108,6 @@ export interface EditsPort {
 
 export interface NoticesPort {
   notify(kind: "error" | "note", sentence: string): void;
-  // To the clipboard; `done` says that it is there.
+  // Copies to the clipboard. `done` is the message after success.
   copy(text: string, done: string): Promise<void>;
 }

@@ -1,4 +1,4 @@
-// Ports on a store of the test's own, with nothing behind them but what the test sends.
+// Ports with a test's own store. They provide only what the test sends.
 import { vi } from "vitest";
 import type { TopicSource } from "../../protocol/SharedTopics";
 import type { State } from "../../state/State";
@@ -9,7 +9,7 @@ import type { PanelPorts } from "./ports";
 export class TestTopics implements TopicSource {
   private readonly handlers = new Map<string, Set<(message: never) => void>>();
 
-  // Those that somebody reads.
+  // The topics that are being read.
   get read(): string[] {
     return [...this.handlers.keys()];
   }

@@ -1,4 +1,4 @@
-// The inspector as a panel; without a selection it says how to get one.
+// The inspector as a panel. Without a selection, it explains how to select a robot.
 import { element } from "../../ui/element";
 import type { MountedPanel } from "../contract/Panel";
 import { createInspector } from "./Inspector";

@@ -59,7 +59,7 @@ function samples(feed: PlotFeed, source: Source, key: string): number[][] {
   return Array.from({ length: series.length }, (_, i) => [series.timeAt(i), series.valueAt(i)]);
 }
 
-test("a robot's pose and speed are taken from the poses, by simulated time", () => {
+test("a robot's pose and speed come from the poses by simulated time", () => {
   const { feed, onData, takePoses } = feeding([curve(A, "x"), curve(A, "speed"), curve(A, "turn_rate")]);
   takePoses(poses(1, 5, 3.1));
   takePoses(poses(1.5, 6, -3.1));
@@ -72,13 +72,13 @@ test("a robot's pose and speed are taken from the poses, by simulated time", () 
   expect(onData).toHaveBeenCalledTimes(2);
 });
 
-test("poses of another layout are nobody's", () => {
+test("poses of another layout are ignored", () => {
   const { feed, takePoses } = feeding([curve(A, "x")]);
   takePoses({ ...poses(1, 5), layout_version: 2 });
   expect(samples(feed, A, "x")).toEqual([]);
 });
 
-test("a pause adds nothing, a reset begins anew", () => {
+test("a pause adds nothing, and a reset starts again", () => {
   const { feed, takePoses } = feeding([curve(A, "x"), curve(A, "speed")]);
   for (const [time, x] of [
     [7, 1],
@@ -92,7 +92,7 @@ test("a pause adds nothing, a reset begins anew", () => {
   expect(samples(feed, A, "speed")).toEqual([]);
 });
 
-test("of a recording, what was seen stays, whichever way one goes", () => {
+test("in a recording, values stay in both directions", () => {
   const replay = { start: 0, end: 20, speed: 1, loop: false };
   const { feed, takePoses } = feeding([curve(A, "x"), curve(A, "speed")], { replay });
   for (const [time, x] of [
@@ -109,7 +109,7 @@ test("of a recording, what was seen stays, whichever way one goes", () => {
   expect(samples(feed, A, "speed")).toEqual([]);
 });
 
-test("a sensor is heard only while it is plotted", () => {
+test("a sensor is subscribed only while it is plotted", () => {
   const sonar: Source = { kind: "sensor", topic: "/a/sonar" };
   const { store, feed, topics } = feeding([curve(sonar, "range")]);
   topics.send("/a/sonar", { header: { stamp: { sec: 3, nsec: 0 } }, range: 1.25 });
@@ -119,7 +119,7 @@ test("a sensor is heard only while it is plotted", () => {
   expect(feed.seriesOf(curveId(sonar, "range"))).toBeNull();
 });
 
-test("the real-time factor and what a robot has driven come with the status", () => {
+test("the status contains the real-time factor and the robots' distances", () => {
   const { store, feed } = feeding([curve({ kind: "simulation" }, "real_time_factor"), curve(A, "distance")]);
   const status = simulationStatus("running", {
     time: 4,
@@ -131,14 +131,14 @@ test("the real-time factor and what a robot has driven come with the status", ()
   expect(samples(feed, A, "distance")).toEqual([[4, 3]]);
 });
 
-test("another simulation's curves begin anew", () => {
+test("the curves of another simulation start again", () => {
   const { store, feed, takePoses } = feeding([curve(A, "x")]);
   takePoses(poses(1, 5));
   store.set({ simulation: "yard" });
   expect(samples(feed, A, "x")).toEqual([]);
 });
 
-test("of a recording the whole curve stands for what is played", () => {
+test("in a recording, the complete curve replaces the played values", () => {
   const replay = { start: 0, end: 20, speed: 1, loop: false };
   const { feed, onData, takePoses } = feeding([curve(A, "x")], { replay });
   takePoses(poses(10, 1));

@@ -39,7 +39,7 @@ function panelIn(state: Partial<State> = {}) {
   return { store, topics, panel, choose, names };
 }
 
-test("a value is chosen, its curve is in the legend with its present value, and goes again", () => {
+test("a chosen value appears in the legend with its present value, and can be removed", () => {
   const { store, topics, panel, choose, names } = panelIn();
   expect(panel.querySelector<HTMLElement>(".plot-empty")!.hidden).toBe(false);
   choose("Add a curve", "robot x");
@@ -60,7 +60,7 @@ test("a value is chosen, its curve is in the legend with its present value, and 
   expect(names()).toEqual(["real-time factor"]);
 });
 
-test("without a selection only the simulation's values are offered", () => {
+test("without a selection, only the simulation's values are offered", () => {
   const { panel, store } = panelIn();
   const groups = () => [...panel.querySelectorAll("optgroup")].map(({ label }) => label);
   expect(groups()).toEqual(["a", "Simulation"]);
@@ -68,7 +68,7 @@ test("without a selection only the simulation's values are offered", () => {
   expect(groups()).toEqual(["Simulation"]);
 });
 
-test("what the selected span is, the choice says", () => {
+test("the choice shows the selected span", () => {
   const { store, choose } = panelIn();
   choose("Time shown", "null");
   expect(store.get().plots.span).toBeNull();

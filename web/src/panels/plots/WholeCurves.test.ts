@@ -32,7 +32,7 @@ function reading(answer: (of: CurveOf) => WholeCurve) {
   return { store, asked, heard, notify: ports.notices.notify };
 }
 
-test("of a recording it asks until all is read, and shows what is there meanwhile", async () => {
+test("a recording is requested until it is read completely, and shown meanwhile", async () => {
   let read = 0;
   const { store, asked, heard } = reading(() => told(++read, read >= 3));
   const plotted = curve(SONAR, "range");
@@ -45,7 +45,7 @@ test("of a recording it asks until all is read, and shows what is there meanwhil
   expect(asked.slice(3)).toEqual([{ robot: "a", key: "x" }]);
 });
 
-test("of what runs it asks nothing, and its plots keep their span", async () => {
+test("for a live simulation it requests nothing, and plots keep their span", async () => {
   const { store, asked } = reading(() => told(1, true));
   store.set({ plots: { ...NO_PLOTS, curves: [curve({ kind: "simulation" }, "late_steps")] } });
   await vi.runAllTimersAsync();
@@ -57,7 +57,7 @@ test("of what runs it asks nothing, and its plots keep their span", async () => 
   expect(store.get().plots.span).toBeNull();
 });
 
-test("it stops asking for what is no longer plotted", async () => {
+test("it stops requesting curves that are no longer plotted", async () => {
   const { store, asked } = reading(() => told(1, false));
   store.set({ replay: REPLAY, plots: { ...NO_PLOTS, curves: [curve(SONAR, "range")] } });
   await vi.advanceTimersByTimeAsync(1000);
@@ -68,7 +68,7 @@ test("it stops asking for what is no longer plotted", async () => {
   expect(asked).toHaveLength(length);
 });
 
-test("what is missing is told", async () => {
+test("missing data is reported", async () => {
   const { store, notify } = reading(({ key }) => {
     if (key === "gone") throw new Error("no such topic");
     return told(1, true, "a chunk is damaged");

@@ -1,4 +1,4 @@
-// The robots, filtered, sorted and grouped as the viewer asks for; only the rows in sight exist.
+// The list of robots, filtered, sorted and grouped. Only the rows in sight exist.
 import { listedRobots } from "../../state/listedRobots";
 import type { Entry, RobotFilter } from "../../state/robotList";
 import { NameOrder, entriesOf, inOrderOf, isFiltering, isTitle } from "../../state/robotList";
@@ -11,7 +11,7 @@ import { VirtualRows } from "./VirtualRows";
 
 type Ports = Pick<PanelPorts, "state" | "robots">;
 
-// As style/robots.css has it.
+// Must equal the height in style/robots.css.
 const ROW_PX = 50;
 const TITLE_PX = 30;
 
@@ -81,7 +81,7 @@ export class RobotList {
     return robot === null ? -1 : this.entries.findIndex((entry) => !isTitle(entry) && entry.status.name === robot);
   }
 
-  // Up and down go to the next robot, whether its row exists yet or not.
+  // The up and down keys go to the next robot, even if its row does not exist yet.
   private onKey(event: KeyboardEvent): void {
     const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
     if (!step) return;

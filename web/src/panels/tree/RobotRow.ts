@@ -1,4 +1,5 @@
-// One robot of the list: its state, its name, what it does or why it does not, how far it drove.
+// One robot of the list: its state, its name, what it does or why it does not move, and its
+// distance.
 import type { ListedRobot } from "../../state/robotList";
 import { agentLabel } from "../../state/actions";
 import { STATE_WORDS, isTrouble, sentenceOf } from "../../state/health";
@@ -59,7 +60,7 @@ export class RobotRow {
     setAttribute(this.button, "title", [why, status.detail].filter((line) => line !== "").join("\n"));
   }
 
-  // Empty while all is well.
+  // Empty if there is no problem.
   private why({ health, state }: ListedRobot): string {
     return health && (isTrouble(state) || health.level > 0) ? sentenceOf(health, this.ports.state.get().time) : "";
   }
@@ -67,7 +68,7 @@ export class RobotRow {
   private work({ status, kind }: ListedRobot, agent: string): string {
     const behaviour = `${status.behaviour || "no behaviour"} · ${agent}`;
     if (kind === "robot") return behaviour;
-    // What was recorded stays so.
+    // A recorded robot cannot be changed.
     if (kind === "avatar") return this.ports.state.get().replay ? "avatar" : "avatar · W A S D";
     return status.behaviour ? `station · ${behaviour}` : "station";
   }

@@ -11,7 +11,7 @@ function robot(name: string, behaviour = "") {
   return { name, model: name, behaviour, agentPhase, detail: "", distance: 1.5, collisions: 0 };
 }
 
-test("a station is listed as one, and counted apart from the robots", () => {
+test("a station is listed as such and counted separately from robots", () => {
   const robots = [robot("cart", "wander"), robot("post"), robot("tower", "watch")];
   const stations = ["post", "tower"].map((name) => body(name, { isRobot: false, isStation: true }));
   const { ports } = testPorts({
@@ -37,7 +37,7 @@ function crowd(count: number) {
 
 const names = (tree: HTMLElement) => [...tree.querySelectorAll<HTMLElement>("[data-robot]")].map(({ dataset }) => dataset.robot);
 
-test("who is in trouble comes first and says why", () => {
+test("robots in trouble come first with the reason", () => {
   const { ports } = testPorts({ ...crowd(8), health: health({ robot: "r5", state: "stuck", reason: "sonar reads 0.2 m" }) });
   const tree = createSceneTree(ports, document.createElement("div"));
   expect(names(tree).slice(0, 3)).toEqual(["r5", "r0", "r1"]);
@@ -46,7 +46,7 @@ test("who is in trouble comes first and says why", () => {
   expect(first.querySelector(".dot")!.getAttribute("data-state")).toBe("stuck");
 });
 
-test("a search shows who fits, and says when nobody does", () => {
+test("a search shows the matching robots, and says if there are none", () => {
   const { ports } = testPorts(crowd(30));
   const tree = createSceneTree(ports, document.createElement("div"));
   const field = tree.querySelector<HTMLInputElement>("input[type=search]")!;
@@ -63,7 +63,7 @@ test("a search shows who fits, and says when nobody does", () => {
   expect(tree.querySelector(".robot-problem")!.textContent).toContain("not a regular expression");
 });
 
-test("of thousands only the rows in sight exist, and a click on one selects it", () => {
+test("only the rows in sight exist, and a click on one selects its robot", () => {
   const { ports, store } = testPorts(crowd(5000));
   const tree = createSceneTree(ports, document.createElement("div"));
   expect(names(tree).length).toBeLessThan(40);
@@ -73,7 +73,7 @@ test("of thousands only the rows in sight exist, and a click on one selects it",
   expect(tree.querySelector('[data-robot="r4000"]')!.getAttribute("aria-pressed")).toBe("true");
 });
 
-test("the keys up and down go from robot to robot", () => {
+test("the up and down keys move between robots", () => {
   const { ports } = testPorts(crowd(30));
   const tree = createSceneTree(ports, document.createElement("div"));
   const press = (robot: string, key: string) =>
@@ -84,7 +84,7 @@ test("the keys up and down go from robot to robot", () => {
   expect(ports.robots.select).toHaveBeenLastCalledWith("r2");
 });
 
-test("without stations only robots are counted", () => {
+test("without stations, only robots are counted", () => {
   const { ports } = testPorts({
     scene: scene({ bodies: [body("cart")] }),
     status: { robots: [robot("cart", "wander")] } as unknown as SimulationStatus,

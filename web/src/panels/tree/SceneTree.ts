@@ -1,4 +1,4 @@
-// The list at the side: the robots and how they are doing, and what else is in the world.
+// The list at the side: the robots with their states, and the other bodies of the world.
 import type { RobotStatus } from "../../api/status";
 import type { SceneBody, SceneDescription } from "../../api/scene";
 import { robotsOf } from "../../api/scene";
@@ -11,7 +11,7 @@ import { createRobotTools } from "./RobotTools";
 
 type Ports = Pick<PanelPorts, "state" | "robots">;
 
-// `pages`: what leads to the other pages.
+// `pages`: links to the other pages.
 export function createSceneTree(ports: Ports, pages: HTMLElement): HTMLElement {
   const heading = element("h2", {}, "Robots");
   const robots = new RobotList(ports);
@@ -85,7 +85,7 @@ function showWorld(ports: Ports, details: HTMLElement, scene: SceneDescription |
   );
 }
 
-// While one edits, what can be moved can be chosen here.
+// In edit mode, movable objects can be selected here.
 function objectEntry(ports: Ports, { name, isFixed }: SceneBody): string | HTMLElement {
   const { editing } = ports.state.get();
   if (!editing || isFixed) return name;
