@@ -477,7 +477,7 @@ TEST_F(SdfReaderTest, ReadsRobotsWithRemainsOfXacroAndALateDeclaration) {
       folder_.Write("late.urdf", "<!-- made by hand -->\n<?xml version='1.0'?>\n<robot name='r'>" +
                                      link + "</robot>");
   EXPECT_TRUE(ModelLibrary().ReadModel(late.string(), problems_).has_value());
-  EXPECT_THAT(Sentences(), testing::Contains(HasSubstr("late.urdf:2: <?xml …?> stands behind")));
+  EXPECT_THAT(Sentences(), testing::Contains(HasSubstr("late.urdf:2: <?xml …?> is preceded by")));
 }
 
 TEST_F(SdfReaderTest, ReadsRos2ControlOfAModelInAWorld) {

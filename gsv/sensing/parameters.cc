@@ -56,7 +56,7 @@ geometry::Vector2 ParameterReader::Pair(const std::string& name, geometry::Vecto
   }
   for (const double value : {pair.x, pair.y}) {
     if (value >= low && value <= high) continue;
-    Refuse(fmt::format("{} is {}, but must be between {} and {}", name, value, low, high));
+    Refuse(fmt::format("{} is {}; it must lie between {} and {}", name, value, low, high));
     return otherwise;
   }
   return pair;
@@ -73,7 +73,7 @@ geometry::Vector3 ParameterReader::Triple(const std::string& name, geometry::Vec
   }
   for (const double value : {triple.x, triple.y, triple.z}) {
     if (value >= low && value <= high) continue;
-    Refuse(fmt::format("{} is {}, but must be between {} and {}", name, value, low, high));
+    Refuse(fmt::format("{} is {}; it must lie between {} and {}", name, value, low, high));
     return otherwise;
   }
   return triple;

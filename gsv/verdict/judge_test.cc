@@ -150,7 +150,7 @@ TEST(Judge, MissingRobotOrSensorIsAnErrorWithItsPlace) {
   const auto simulation = Make(Lockstep(1s));
   ASSERT_TRUE(simulation->AddRobot(Robot("scout", 0, 0)));
   const std::pair<const char*, const char*> refused[]{
-      {"{never_collides: marvin}", "t.yaml:3:5: nothing that stands in the world is called"},
+      {"{never_collides: marvin}", "t.yaml:3:5: there is no body in the world with the name"},
       {"{always: {sensor: {of: scout/nose, at_least: 1}}}", "has no sensor \"nose\""},
       {"{eventually: {ended: wall}}", "\"wall\" is not a robot"},
       {"{distance_at_least: {between: [scout, b], metres: 1}}", "is called \"b\""}};

@@ -141,7 +141,7 @@ TEST_F(TestCommand, ExpectationAboutAnUnknownRobotIsAnErrorWithItsPlace) {
   const std::string file = Scenario("marvin.yaml", "expect: [{never_collides: marvin}]\n");
   const Outcome run = Test({file, "--no-record"});
   EXPECT_EQ(run.ending, "exit code 3");
-  EXPECT_THAT(run.out, HasSubstr("marvin.yaml:4:10: nothing that stands in the world is called"));
+  EXPECT_THAT(run.out, HasSubstr("marvin.yaml:4:10: there is no body in the world with the name"));
 }
 
 }  // namespace

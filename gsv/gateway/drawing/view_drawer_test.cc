@@ -149,8 +149,8 @@ TEST_F(ViewDrawerTest, BoundsViewsAndViewers) {
   const auto third_view = drawer_.Take(Request(34));
   ASSERT_FALSE(third_view);
   EXPECT_EQ(third_view.error().message,
-            "the server draws 2 views already, which is the limit; close one of them, or use the "
-            "same camera as another");
+            "the server already draws 2 views, which is the limit; close one of them, or use the "
+            "same camera as another one");
   {
     const auto shared = drawer_.Take(Request(33));
     ASSERT_TRUE(shared);

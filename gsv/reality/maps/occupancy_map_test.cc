@@ -115,7 +115,7 @@ TEST_F(OccupancyMapTest, IsRecoveredFromTheWorldThatItMakes) {
   }
   EXPECT_EQ(occupied, 8);
   EXPECT_THAT(MapOfWorld(*world, {0.5, 3, 0.5}).error().Sentence(),
-              HasSubstr("nothing stands in the world at a height of 3 m"));
+              HasSubstr("there is nothing in the world at a height of 3 m"));
   EXPECT_THAT(MapOfWorld(*world, {1e-4, 0.2, 0.5}).error().Sentence(),
               HasSubstr("choose a coarser --resolution"));
 }
