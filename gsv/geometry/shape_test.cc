@@ -125,7 +125,7 @@ TEST(Tessellate, TrianglesOfASphereStayWithinTheStatedDistance) {
     const double allowed = 2 * radius * (1 - std::cos(kPi / segments));
     for (const Vector3& p : mesh.positions) EXPECT_NEAR(Norm(p), radius, 1e-12);
     for (const Triangle& t : mesh.triangles) {
-      // The point of a triangle's plane that is nearest to the centre.
+      // The distance from the centre to the triangle's plane.
       const double depth = Dot(Normalized(FaceNormal(mesh, t)), mesh.positions[t[0]]);
       EXPECT_GE(depth, radius - allowed);
     }

@@ -65,9 +65,10 @@ TEST(Readings, WrongSizeIsAnErrorWithExpectedAndFoundSize) {
   EXPECT_EQ(Refusal<Imu>({1, 2, 3, 4, 5, 6, 7}),
             "front: a reading has the wrong size: expected 6 or 10 values, found 7 values and 0 "
             "labels");
-  EXPECT_EQ(Refusal<Contact>({1, 2, 3, 4, 5, 6, 7, 8, 9}, {"wall", "floor"}),
-            "front: a reading has the wrong size: expected groups of 8 values and 1 label, found 9 "
-            "values and 2 labels");
+  EXPECT_EQ(
+      Refusal<Contact>({1, 2, 3, 4, 5, 6, 7, 8, 9}, {"wall", "floor"}),
+      "front: a reading has the wrong size: expected groups of 11 values and 1 label, found 9 "
+      "values and 2 labels");
   EXPECT_EQ(Refusal<DepthImage>({2, 2, 1, 1, 1}),
             "front: a reading has the wrong size: expected 2 values, then groups of 1 value, found "
             "5 values and 0 labels");

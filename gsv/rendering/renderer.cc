@@ -213,8 +213,8 @@ class Renderer::RenderThread {
                     std::promise<Result<Product>> Request::*promise) {
     std::size_t first = 0;
     for (const auto& request : requests) {
-      // Releases the request's data before its caller continues, which may count the remaining
-      // copies.
+      // Releases the request's data before the caller continues, because the caller may count the
+      // remaining copies.
       request->snapshot.reset();
       const std::size_t count = request->views.size();
       if (made) {

@@ -395,7 +395,7 @@ std::vector<Expectation> ReadExpectations(YamlMapping& scenario, double duration
     if (expectation.formula.by.value_or(0) > duration && duration > 0)
       mapping.AddProblem("by", "by lies after the end of the run, at duration");
     if (expectation.formula.from > duration && duration > 0)
-      mapping.AddProblem("from", "from lies after the end of the run, at duration");
+      mapping.AddProblem("from", "'from' is after the end of the run (duration)");
     if (scenario.place().problem_count() == problem_count) expectation.yaml = OneLineYaml(node);
     expectation.name = name.value_or(expectation.yaml);
     expectations.push_back(std::move(expectation));

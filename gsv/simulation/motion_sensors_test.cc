@@ -148,7 +148,7 @@ TEST(MotionSensors, ABumperDetectsTheWall) {
   EXPECT_TRUE(before.values.empty());
   const Driven driven = Drive(Rover("contact"), {{{0.5, 0, 0}, 2s}}, 2.0);
   EXPECT_EQ(*driven.labels, std::vector<std::string>{"wall"});
-  ASSERT_EQ(driven.values.size(), 8u);
+  ASSERT_EQ(driven.values.size(), 11u);
   // the distance from the sensor, which is 0.15 m ahead, to the wall's face
   EXPECT_WITHIN(driven.values[0], 0.05, 1e-3, "m");
   EXPECT_NEAR(driven.values[3], 1, 1e-6);

@@ -73,8 +73,8 @@ class ImpulseRows {
   // of iterations.
   int Solve(int max_iterations, double tolerance);
 
-  // The impulses of a cone along the rows as they were added (with axes of unit length at right
-  // angles).
+  // The impulses of a friction cone, along the axes with which its rows were added. These axes must
+  // be orthonormal.
   std::array<double, 2> ConeImpulse(int cone) const;
 
  private:

@@ -26,8 +26,8 @@ TEST(SolveLinear, RejectsASingularMatrix) {
   EXPECT_FALSE(SolveLinear(a, b));
 }
 
-// A column of bodies of these masses on the ground. Each is pulled down by 1 m/s, and there is one
-// row between each body and the one below it.
+// A column of bodies of these masses on the ground. Each has a downward velocity of 1 m/s, and
+// there is one row between each body and the one below it.
 class Column {
  public:
   explicit Column(const std::vector<double>& masses) {

@@ -13,7 +13,7 @@ void JointRow::Set(double rate, double lower, double upper) {
   lower_ = lower;
   upper_ = upper;
   softness_ = 0;
-  // Bullet leaves out a motor of none.
+  // Bullet skips a motor whose maximum impulse is 0.
   setMaxAppliedImpulse(std::max(-lower, upper));
 }
 

@@ -466,7 +466,7 @@ void JointTree::BeforeSubstep(double seconds) {
   if (!plan_.media.empty()) Immerse(seconds);
 }
 
-// Wind, fluids and the decay of velocities, on each part.
+// Applies wind, fluid forces and the decay of velocity to each part.
 void JointTree::Immerse(double seconds) {
   const auto count = static_cast<std::size_t>(tree_.getNumLinks()) + 1;
   // velocities of each part, in its own frame

@@ -48,7 +48,8 @@ std::unique_ptr<MovingBody> MakeJointTree(const RigidBody& plan,
 // resistance of one per cent: a body that would start to roll on a slope of half a degree stays.
 inline constexpr double kResting = 0.1;
 
-// Velocity of the model's origin, from that of a point of it.
+// Stores the velocity of the model's origin, computed from the velocity of one of the model's
+// points.
 void StoreMotion(const geometry::Pose& world_from_model, const geometry::Vector3& point,
                  const geometry::Vector3& velocity, const geometry::Vector3& angular_velocity,
                  world::BodyState& body);

@@ -46,7 +46,7 @@ TEST(XmlFault, NamesAttributesThatAreMalformed) {
 
 TEST(XmlFault, NamesCommentsThatDoNotEnd) {
   ExpectFault("<a>\n <!-- </a>", 2, 2, "the comment does not end. Add -->");
-  ExpectFault("", 1, 1, "it holds no element");
+  ExpectFault("", 1, 1, "the file contains no element");
 }
 
 TEST(XmlFault, SurvivesTextOfAnyKind) {

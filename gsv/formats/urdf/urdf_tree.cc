@@ -69,7 +69,8 @@ class TreeMaker {
     problems_.push_back({base::Problem::Severity::kWarning, message, model_.name});
   }
 
-  // The first link without a parent is the root, under a link for the model's frame if its own is another.
+  // The first link without a parent is the root. If its frame differs from the model's frame, a
+  // link for the model's frame is added above it.
   void AddRoots(const std::vector<bool>& has_parent) {
     std::string root = has_world_ ? kWorldLink : "";
     Pose model_from_root;

@@ -16,8 +16,8 @@ namespace gsv::gateway {
 
 class LiveOperations final : public Operations {
  public:
-  // Commands, which may block, run on `workers`, which must outlive the last call. Does not keep
-  // the simulation alive. `recordings` may be null: then recording is not available.
+  // Commands may block, so they run on `workers`. `workers` must outlive the last call. Does not
+  // keep the simulation alive. `recordings` may be null: then recording is not available.
   LiveOperations(const std::shared_ptr<simulation::Simulation>& simulation, WorkerPool& workers,
                  RecordingSwitch* recordings);
 

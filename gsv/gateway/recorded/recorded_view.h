@@ -39,7 +39,7 @@ class RecordedView {
     base::SimTime time{};
     messages::gsv_msgs::Poses poses;
   };
-  // Null: none.
+  // Null if there is no such message.
   const messages::gsv_msgs::Poses* NewestAt(base::SimTime time, std::uint16_t channel);
   void Load(const recording::MessageBlock& block, std::uint16_t channel);
   std::shared_ptr<const model::Model> FindModel(const std::string& id);

@@ -107,7 +107,8 @@ TEST_F(LogReaderTest, ReportsTimeThatGoesBackAndAClockThatJumps) {
   EXPECT_THAT(Problem(1), HasSubstr("a.log:23: the clock jumps from 19 to 500 s"));
 }
 
-// The odometry of a log with rows at these times, and a problem for each that is left out.
+// Reads a log with rows at these times. Returns its odometry, with a problem for each row that is
+// skipped.
 struct Dated {
   std::vector<double> times;
   std::vector<double> read;

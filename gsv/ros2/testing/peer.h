@@ -74,7 +74,7 @@ class Peer {
     return samples_[topic].size();
   }
 
-  // A writer that somebody listens to.
+  // Returns a writer that has at least one matched reader.
   std::unique_ptr<dds::Writer> Talk(const std::string& topic, const std::string& type,
                                     const dds::Qos& qos = {}) {
     auto writer =

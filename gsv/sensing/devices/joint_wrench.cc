@@ -23,7 +23,7 @@ struct WrenchSum {
   }
 };
 
-// Whether a link hangs from the joint.
+// For each link: whether it is in the subtree below the joint.
 std::vector<bool> LinksBelow(const model::Model& model, int joint) {
   std::vector<bool> is_below(model.links.size());
   is_below[static_cast<std::size_t>(model.joints[static_cast<std::size_t>(joint)].child)] = true;

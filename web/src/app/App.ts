@@ -230,7 +230,7 @@ export class App {
     if (!this.endPointing()) this.select(null);
   }
 
-  // A shape: before the selected robot if there is room, else at the first free place.
+  // Adds a shape in front of the selected robot if there is room, else at the first free place.
   async addShape(shape: Shape): Promise<boolean> {
     const { selection, editing } = this.store.get();
     const robot = editing?.chosen == null && selection !== null ? placeIn(this.world(), selection) : null;

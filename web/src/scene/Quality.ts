@@ -2,7 +2,7 @@
 // number of pixels, and increases it again when there is time.
 
 const SLOW_MS = 55;
-const VERY_SLOW_MS = 200; // counts as often as it could have been slow
+const VERY_SLOW_MS = 200; // such a frame counts as several slow frames
 const FAST_MS = 20;
 const PATIENCE = 12; // frames in a row
 const LOWEST = 0.6;

@@ -102,7 +102,7 @@ export interface PlotsPort {
 }
 
 export interface EditsPort {
-  // Puts a body exactly there, while one edits. Resolves to whether it stands there now.
+  // In edit mode, moves a body to exactly this pose. Resolves to whether it is there now.
   pose(pose: BodyPose): Promise<boolean>;
 }
 

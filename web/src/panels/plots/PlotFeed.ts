@@ -109,7 +109,7 @@ export class PlotFeed {
     this.onData();
   }
 
-  // The past of a run's curve, before what was plotted as it came.
+  // Adds the earlier part of a run's curve, before the values that were received live.
   takePast(id: string, curve: WholeCurve): void {
     const series = this.series.get(id);
     if (!series) return;
