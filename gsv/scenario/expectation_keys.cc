@@ -393,7 +393,7 @@ std::vector<Expectation> ReadExpectations(YamlMapping& scenario, double duration
     expectation.source.text = mapping.Source();
     expectation.formula = reader.Read(mapping, 1);
     if (expectation.formula.by.value_or(0) > duration && duration > 0)
-      mapping.AddProblem("by", "by lies after the end of the run, at duration");
+      mapping.AddProblem("by", "'by' is after the end of the run (duration)");
     if (expectation.formula.from > duration && duration > 0)
       mapping.AddProblem("from", "'from' is after the end of the run (duration)");
     if (scenario.place().problem_count() == problem_count) expectation.yaml = OneLineYaml(node);

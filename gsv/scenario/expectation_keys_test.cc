@@ -127,7 +127,7 @@ TEST(TestKeys, ErrorsInExpectationsAreReportedWithTheirPlace) {
                   "and ended",
                   HasSubstr("t.yaml:6:45: 'from' and 'by' belong to expectations about time only"),
                   "t.yaml:7:26: at_least and at_most, or one of them, are needed",
-                  "t.yaml:7:43: by is after the end of the run, at duration",
+                  "t.yaml:7:43: 'by' is after the end of the run (duration)",
                   "t.yaml:8:55: at_most lies below at_least",
                   HasSubstr("t.yaml:8:73: 'by' is before 'from'"),
                   "t.yaml:9:14: before must be a list of 2 conditions",
