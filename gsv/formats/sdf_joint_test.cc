@@ -227,7 +227,7 @@ TEST_F(SdfJointTest, ReadsTheSlipOfWheelsAndSurfaces) {
   const auto model = Read(
       "<gsv:slip><gsv:longitudinal>0.1</gsv:longitudinal><gsv:lateral>0.2</gsv:lateral></gsv:slip>"
       "<link name='a'><collision name='c'><geometry><sphere><radius>0.1</radius></sphere>"
-      "</geometry><surface><friction><ode><slip1>0.3</slip1><slip2>0.4</slip2></ode></friction>"
+      "</geometry><surface>"
       "<gsv:slip><gsv:lateral>0.5</gsv:lateral></gsv:slip></surface></collision></link>"
       "<link name='b'><collision name='c'><geometry><sphere><radius>0.2</radius></sphere>"
       "</geometry></collision></link><joint name='j' type='revolute'><parent>a</parent><child>b"
@@ -242,8 +242,6 @@ TEST_F(SdfJointTest, ReadsTheSlipOfWheelsAndSurfaces) {
   EXPECT_EQ(model->drive->slip.longitudinal, 0.1);
   EXPECT_EQ(model->drive->slip.lateral, 0.2);
   const model::Surface& surface = model->links[0].collisions[0].surface;
-  EXPECT_EQ(surface.slip, 0.3);
-  EXPECT_EQ(surface.slip2, 0.4);
   EXPECT_EQ(surface.wheel_slip.longitudinal, 0);
   EXPECT_EQ(surface.wheel_slip.lateral, 0.5);
   ASSERT_TRUE(model->links[1].wheel);

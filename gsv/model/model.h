@@ -145,7 +145,7 @@ int FindJoint(const std::vector<Joint>& joints, const std::string& name);
 // An initial command of a joint, from the model's own controllers.
 struct JointTarget {
   enum class Kind { kPosition, kVelocity, kEffort };  // rad or m; rad/s or m/s; N m or N
-  int joint = 0;                             // index in Model::joints
+  int joint = 0;                                      // index in Model::joints
   Kind kind = Kind::kPosition;
   double value = 0;
 };

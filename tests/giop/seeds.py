@@ -12,9 +12,9 @@ TRADER_KEYS = {"Lookup": b"TradingService", "Register": b"TradingRegister", "Adm
                "Link": b"TradingLink", "Proxy": b"TradingProxy"}
 REPOSITORY = "CosTradingRepos::ServiceTypeRepository"
 # The sensor that has each interface.
-SENSORS = {"Sonar": "sonar", "Lidar": "lidar", "Camera": "camera", "PositioningSystem": "positioning", "Imu": "imu",
+SENSORS = {"Sonar": "sonar", "Lidar": "lidar", "IntensityLidar": "lidar", "Camera": "camera", "PositioningSystem": "positioning", "Imu": "imu",
            "Odometer": "odometry", "SatelliteReceiver": "navsat", "Magnetometer": "magnetometer",
-           "Altimeter": "altimeter", "Bumper": "contact", "ForceTorque": "force_torque", "JointEncoders": "joint_encoders", "Battery": "battery",
+           "Altimeter": "altimeter", "Bumper": "contact", "Ranging": "ranging", "JointEncoders": "joint_encoders", "Battery": "battery",
            "LogicalCamera": "logical_camera", "Radio": "radio", "Microphone": "microphone",
            "DepthCamera": "depth_camera", "SegmentationCamera": "segmentation_camera",
            "BoundingBoxCamera": "boundingbox_camera",
@@ -52,8 +52,8 @@ REFUSED = {
     "CosTrading::Register::resolve": "UnknownTraderName", "CosTrading::Admin::set_type_repos": "system exception",
     "sba::SensorFactory::open": "Refused", "sba::JointActuator::apply": "Refused",
     "sba::ScenarioRun::outcome": "NotRunning",
-    # It is mounted on a link that hangs from no joint.
-    "sba::ForceTorque::wrench": "Failed"}
+    # It is closed at once: on the base, which has no joint, it cannot be read.
+    "sba::ForceTorque::wrench": "Ended", "sba::ForceTorque::measure": "Ended", "sba::ForceTorque::traits": "Ended"}
 
 
 class World:
@@ -166,7 +166,12 @@ class World:
         self.targets["sba::JointActuator"] = self.call("sba::JointedHardware", "open_joint", name=self.joint)[""]
         for interface, kind in SENSORS.items():
             self.targets[f"sba::{interface}"] = self.call(
-                "sba::SensorFactory", "create", type=kind, description=self.traits(f"my_{kind}", kind))[""]
+                "sba::SensorFactory", "create", type=kind,
+                description=self.traits(f"my_{interface.lower()}", kind))[""]
+        self.targets["sba::ForceTorque"] = self.call(
+            "sba::SensorFactory", "create", type="force_torque",
+            description=self.traits("my_forcetorque", "force_torque"))[""]
+        self.call("sba::ForceTorque", "close")
         self.targets["sba::AgentBehaviour"] = self.call("sba::AgentBehaviourFactory", "create")[""]
         run = self.call("sba::ScenarioService", "run", **self.values_of("sba::ScenarioService", "run"))[""]
         if run.key:  # else the server has as many as it takes
@@ -184,6 +189,9 @@ class World:
 
     def traits(self, name, kind):
         parameters = [{"name": "image.width", "value": "32"}, {"name": "image.height", "value": "24"}]
+        if kind == "ranging":
+            return {"name": name, "type": kind, "mounting": PLACE, "update_rate_hz": 0.0,
+                    "parameters": [{"name": "anchor", "value": "block"}]}
         return {"name": name, "type": kind, "mounting": PLACE, "update_rate_hz": 0.0,
                 "parameters": parameters if "camera" in kind else []}
 

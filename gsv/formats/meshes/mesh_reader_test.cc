@@ -230,7 +230,8 @@ TEST_F(MeshReaderTest, ReadsTheTrianglesOfATruncatedStl) {
   ASSERT_TRUE(mesh.has_value()) << mesh.error().Sentence();
   EXPECT_THAT(mesh->triangles->triangles, SizeIs(1));
   ASSERT_THAT(problems_, SizeIs(1));
-  EXPECT_THAT(problems_[0].message, HasSubstr("declares more triangles than the file contains; 1 of"));
+  EXPECT_THAT(problems_[0].message,
+              HasSubstr("declares more triangles than the file contains; 1 of"));
 }
 
 std::string Replaced(std::string text, const std::string& from, const std::string& to) {

@@ -85,8 +85,6 @@ model::Surface ReadSurface(const sdf::ElementPtr& collision, const ReadingContex
   if (direction && geometry::IsFinite(FromIgnition(*direction)) && direction->Length() > 0) {
     surface.friction_direction = geometry::Normalized(FromIgnition(*direction));
   }
-  take(surface.slip, {"surface", "friction", "ode", "slip1"});
-  take(surface.slip2, {"surface", "friction", "ode", "slip2"});
   if (collision->HasElement("surface")) {
     surface.wheel_slip = ReadSlip(collision->GetElement("surface"), context);
   }
