@@ -229,7 +229,7 @@ TEST(ScenarioFile, ABehaviourIsChosenByNameOrByConstraint) {
 }
 
 TEST(ScenarioFile, AFileThatIsNotAScenarioIsRefused) {
-  EXPECT_THAT(ProblemsIn(""), ElementsAre(HasSubstr("room.yaml: it is empty")));
+  EXPECT_THAT(ProblemsIn(""), ElementsAre(HasSubstr("room.yaml: the file is empty")));
   EXPECT_THAT(ProblemsIn("world: a\nrobots: ]\n"),
               ElementsAre("room.yaml:2:9: this is not valid YAML: illegal flow end"));
   EXPECT_THAT(ProblemsIn("a text"),

@@ -153,7 +153,7 @@ TEST(Judge, MissingRobotOrSensorIsAnErrorWithItsPlace) {
       {"{never_collides: marvin}", "t.yaml:3:5: there is no body in the world with the name"},
       {"{always: {sensor: {of: scout/nose, at_least: 1}}}", "has no sensor \"nose\""},
       {"{eventually: {ended: wall}}", "\"wall\" is not a robot"},
-      {"{distance_at_least: {between: [scout, b], metres: 1}}", "is called \"b\""}};
+      {"{distance_at_least: {between: [scout, b], metres: 1}}", "with the name \"b\""}};
   for (const auto& [expect, sentence] : refused) {
     const auto judge =
         Judge::Attach(ScenarioOf(std::string("  - ") + expect + "\n").expect, *simulation);

@@ -65,7 +65,7 @@ TEST(TextureReader, RefusesImagesThatAreTooLargeOrDeclareAWrongSize) {
   TextureReader reader{ReadLimits{}};
   const auto large = reader.Read(folder.Write("large.tga", Tga(30000, 30000, "", 24)));
   ASSERT_FALSE(large.has_value());
-  EXPECT_THAT(large.error().Sentence(), HasSubstr("claims 30000 x 30000"));
+  EXPECT_THAT(large.error().Sentence(), HasSubstr("declares 30000 x 30000"));
   EXPECT_THAT(large.error().Sentence(), HasSubstr("large.tga"));
 
   const std::string png_that_ends_early =
