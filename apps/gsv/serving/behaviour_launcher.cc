@@ -19,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds kStartTimeout{60};
+constexpr std::chrono::milliseconds kEndOfOutput{500};
 constexpr int kMaxPrograms = 64;
 
 struct FoundProgram {
@@ -127,7 +128,8 @@ base::Status BehaviourLauncher::Ensure(const std::string& behaviour, int program
       output_.BeginOutput(*child);
       continue;
     }
-    const std::string ending = child->Ending();
+    // A program's output may end a moment before the program.
+    const std::string ending = child->AwaitEnd(kEndOfOutput);
     if (ending.empty()) {
       return base::Fail(base::ErrorCode::kBehaviour, "did not offer its behaviour in time",
                         program);
