@@ -130,7 +130,8 @@ test("its curves are dashed beside those of the first", async () => {
   await page.getByText("at 0:04.00", { exact: true }).waitFor();
   // Two curves of one colour: the one alone has fewer pixels of it.
   const coloured = () =>
-    plot.evaluate((canvas) => {
+    plot.evaluate((plotted) => {
+      const canvas = plotted.matches("canvas") ? plotted : plotted.querySelector("canvas");
       const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
       let count = 0;
       for (let i = 0; i < data.length; i += 4) {

@@ -33,9 +33,9 @@ export class PastControl {
 
   start(): void {
     this.store.watch(
-      ({ simulation, connection, status, replay }) => ({
-        // The status says whether it is a replay.
-        simulation: status !== null && replay === null ? simulation : null,
+      ({ simulation, connection, status, replay, abilities }) => ({
+        // The status says whether it is a replay, and so does the server that replays a recording.
+        simulation: status !== null && replay === null && abilities.recording === "" ? simulation : null,
         isOpen: connection.phase === "open",
       }),
       ({ simulation, isOpen }) => {
