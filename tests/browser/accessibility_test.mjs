@@ -67,6 +67,8 @@ async function openFilled(url) {
   const { page } = await openPage(browser, url);
   await waitUntilDrawn(page);
   await page.locator("[data-robot]").first().click();
+  // The browser keeps the layout: a test before may have left another panel in front.
+  await page.getByRole("tab", { name: "Inspector", exact: true }).click();
   await page.getByRole("button", { name: "Plot speed" }).click();
   await page.locator('[data-sensor="sonar_00"] dd').waitFor();
   return page;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs `gsv run --ros2` with an SROS2 keystore: who has keys is heard, who has none is not.
+"""Runs `gsv run --ros2` with an SROS2 keystore: participants with keys are accepted, and others are not.
 
   ros2_security_test.py GSV ROS2_PEER ROS2_FAST_CLIENT PLUGIN_FOLDER
 

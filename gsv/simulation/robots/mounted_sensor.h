@@ -78,7 +78,7 @@ class MountedSensor {
 
   // Returns the sample at the instant of `sampling`. It is taken now, unless it was taken before.
   base::Result<sensing::Reading> Read(const sensing::Sampling& sampling);
-  // The same, for others than the behaviour in its turn.
+  // The same, for callers other than the robot's behaviour.
   base::Result<sensing::Reading> Watch(const sensing::Sampling& sampling);
 
   // From now on, each of the sweeps counts as a reading.

@@ -25,7 +25,7 @@ interface Named {
   namespace?: string; // empty: the robot's name
 }
 
-// What is as it would be anyway is left out.
+// Omits settings that equal the defaults.
 export function ros2Json({ others, ...settings }: Ros2SetUp, robots: readonly Named[]): JsonObject | true {
   const chosen = robots.flatMap((robot) => (robot.namespace ? [[nameOf(robot), robot.namespace] as const] : []));
   const namespaces = { ...others, ...Object.fromEntries(chosen) };

@@ -133,8 +133,8 @@ export class App {
     }));
   }
 
-  // What was clicked at: a robot is selected, and while one edits an object is chosen. `isAdding`: besides
-  // what is chosen already, or no more.
+  // Handles a click on a body: selects a robot, or in edit mode an object. `isAdding`: adds the body to the
+  // selection, or removes it if it is selected.
   pick(body: string | null, isAdding = false): void {
     const { scene, editing } = this.store.get();
     if (isAdding && editing && body !== null && chosenOf(this.store.get()) !== null) return this.addToChoice(body);

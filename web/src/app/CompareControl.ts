@@ -74,9 +74,8 @@ export class CompareControl {
       if (simulation === undefined) throw new Error("The recording has no simulation.");
       const scene = await api.scene(simulation).catch(() => null);
       if (!isWanted()) return;
-      // First, because the models of the scene are fetched from there.
-      this.connect(api, simulation);
       this.set({ simulation, scene });
+      this.connect(api, simulation);
       this.follow(true);
     } catch (error) {
       if (isWanted()) this.set({ problem: (error as Error).message });

@@ -91,7 +91,7 @@ export class EditControl {
     if (editing && (editing.chosen !== object || editing.more.length > 0)) this.patch({ chosen: object, more: [] });
   }
 
-  // What is chosen besides the first.
+  // Sets the selected bodies besides the first one.
   chooseMore(more: readonly string[]): void {
     this.patch({ more });
   }

@@ -87,7 +87,7 @@ export class LinkControl {
     const time = this.instant;
     if (time === null || (!replay && !kept)) return;
     this.instant = null;
-    // What is no longer kept of a run, or has not come yet, is not looked at.
+    // A time before or after the kept part of a run is ignored.
     if (!replay && kept && (time < kept.start || time > kept.end)) return;
     if (replay && status?.phase === "running") await this.page.pause();
     await this.page.seek(time);

@@ -218,7 +218,7 @@ export class SetUpControl {
     }
   }
 
-  // The same, but nothing can be created meanwhile.
+  // Performs the request. The simulation cannot be created until it has ended.
   private async hold(work: () => Promise<void>): Promise<void> {
     this.patch(() => ({ isHeld: true }));
     await this.ask(work);

@@ -17,7 +17,7 @@ export function createPeopleMenu(app: App): HTMLElement {
       menu.element.hidden = people.viewers.length === 0;
       setText(number, people.viewers.length > 1 ? String(people.viewers.length) : "");
       menu.button.classList.toggle("held", holderOf(people) !== null);
-      // What is seen is a part of the name (WCAG 2.5.3).
+      // The accessible name contains the visible number (WCAG 2.5.3).
       menu.button.setAttribute("aria-label", people.viewers.length > 1 ? `Viewers ${people.viewers.length}` : "Viewers");
       menu.button.title = titleOf(people);
       list.replaceChildren(...lines(people).map((line) => element("li", {}, line)));
