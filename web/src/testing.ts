@@ -23,16 +23,17 @@ export interface PageHandle {
   readonly robots: string[];
   // The last reported position of the robot in metres, and its simulated time; null while unknown.
   robotPosition(name: string): { x: number; y: number; z: number; time: number } | null;
-  // Where the robot of the recording that is compared with is drawn, in metres; null: it is not.
+  // The place where the ghost of this robot is drawn (from the recording that is compared with), in
+  // metres; null: none.
   ghostPosition(name: string): { x: number; y: number } | null;
   // The place where the robot's centre is drawn, in CSS pixels of the page; null if it is outside
   // the view.
   robotScreenPosition(name: string): { x: number; y: number } | null;
   // The place where the tip of the selected robot's arrow is drawn; null while it is hidden.
   turnHandle(): { x: number; y: number } | null;
-  // Where the handle along an axis of the world is drawn, by which the chosen body is moved; null while hidden.
+  // The place of the gizmo's handle for this axis of the world; null while it is hidden.
   gizmoHandle(axis: "x" | "y" | "z"): { x: number; y: number } | null;
-  // The bodies that are chosen, the first one first.
+  // The selected bodies, the first one first.
   readonly chosen: readonly string[];
 }
 

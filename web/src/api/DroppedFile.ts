@@ -1,4 +1,4 @@
-// A file that was dropped onto the page or chosen, or that is in such an archive.
+// A file that the user dropped onto the page or chose, or a file inside such a zip archive.
 export interface DroppedFile {
   path: string; // "world.sdf", "folder/meshes/cube.stl"
   size: number; // bytes

@@ -2,8 +2,8 @@
 // error sentence of the server, or a timeout.
 import { textOr } from "./json";
 
-// A refusal by the server. `message` is its sentence, and `field` the field of the request that it
-// is about (empty: none in particular).
+// The server has refused a request. `message` is the server's sentence. `field` names the field of
+// the request that caused it (empty: no particular field).
 export class ApiError extends Error {
   constructor(
     readonly httpStatus: number,
@@ -35,7 +35,7 @@ export class JsonServer {
     return new URL(path, this.base).href;
   }
 
-  // Sets the path, below the root, that all further requests are relative to. Empty: the root.
+  // Sets the path below the root to which all further requests are relative. Empty: the root.
   moveTo(path: string): void {
     this.base = new URL(path, this.root).href;
   }

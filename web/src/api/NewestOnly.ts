@@ -1,9 +1,10 @@
-// Sends the newest of several wishes: one request at a time, and of those that came meanwhile only the last.
+// Sends requests one at a time. If several are made while one is pending, only the last of them is
+// sent.
 export class NewestOnly<Wish> {
   private isSending = false;
   private unsent: { wish: Wish } | null = null;
 
-  // `send` may fail; `onProblem` gets its sentence.
+  // `send` may fail; `onProblem` gets the error sentence.
   constructor(
     private readonly send: (wish: Wish) => Promise<void>,
     private readonly onProblem: (sentence: string) => void,

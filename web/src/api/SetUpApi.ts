@@ -57,7 +57,7 @@ export interface Preview {
   warnings: string[]; // what the files lack
 }
 
-// The texts of both files, and what they do not hold.
+// The texts of the world file and the scenario file, and a list of what these files leave out.
 export interface SavedWorld {
   sdf: string;
   scenario: string;
@@ -143,7 +143,7 @@ export class SetUpApi {
     return places;
   }
 
-  // Returns its name.
+  // Returns the name of the new simulation.
   async create(scenario: Scenario): Promise<string> {
     const status = await this.server.post("api/simulations", scenarioJson(scenario), LONG_TIMEOUT_MS);
     return textAt(objectAt(status, "status").name, "name");
@@ -153,7 +153,7 @@ export class SetUpApi {
     await this.server.delete(simulationPath(simulation), LONG_TIMEOUT_MS);
   }
 
-  // Returns the name that it got.
+  // Returns the name that the robot got.
   async addRobot(simulation: string, robot: RobotSetUp, isAvatar: boolean): Promise<string> {
     const body = { ...robotJson(robot), avatar: isAvatar };
     const answer = await this.server.post(`${simulationPath(simulation)}/robots`, body, LONG_TIMEOUT_MS);
@@ -164,7 +164,7 @@ export class SetUpApi {
     await this.server.delete(`${simulationPath(simulation)}/robots/${encodeURIComponent(robot)}`);
   }
 
-  // Returns the name that it got.
+  // Returns the name that the object got.
   async addObject(simulation: string, { place, ...object }: NewObject): Promise<string> {
     const body = { ...object, ...place };
     const answer = await this.server.post(`${simulationPath(simulation)}/objects`, body, LONG_TIMEOUT_MS);
@@ -175,7 +175,8 @@ export class SetUpApi {
     await this.server.delete(`${simulationPath(simulation)}/objects/${encodeURIComponent(object)}`);
   }
 
-  // The world as it stands now; `file`: how the scenario names it.
+  // Returns the present state of the world as files. `file`: the name by which the scenario refers
+  // to the world file.
   async saveWorld(simulation: string, file: string): Promise<SavedWorld> {
     const path = `${simulationPath(simulation)}/world?file=${encodeURIComponent(file)}`;
     const answer = objectAt(await this.server.get(path, LONG_TIMEOUT_MS), "world");

@@ -36,7 +36,7 @@ export interface Drive {
 
 // Stopping and resetting wait for the behaviours.
 const ACTION_TIMEOUT_MS = 60_000;
-// Both recordings are read.
+// The server reads both recordings completely.
 const DIFFERENCE_TIMEOUT_MS = 120_000;
 
 export class SimulationApi {
@@ -67,7 +67,7 @@ export class SimulationApi {
     this.server.moveTo(textAt(answer.base, "replay.base"));
   }
 
-  // The same server, to ask of another replay than this page's.
+  // An API of the same server, for another replay than this page's.
   another(): SimulationApi {
     return new SimulationApi(this.base, this.fetchPage, this.credentials);
   }
@@ -76,7 +76,7 @@ export class SimulationApi {
     return this.root;
   }
 
-  // What the server keeps of a running simulation's past; null: nothing.
+  // The part of a running simulation's past that the server keeps; null: none.
   async kept(name: string): Promise<Kept | null> {
     try {
       return parseKept(await this.root.get(`${simulationPath(name)}/history`));
@@ -86,8 +86,8 @@ export class SimulationApi {
     }
   }
 
-  // Opens the kept past for this page alone: all that is asked from now on concerns this replay, until
-  // leavePast().
+  // Opens the kept past as a replay for this page alone. All further requests are about this
+  // replay, until leavePast().
   async openPast(name: string): Promise<void> {
     const answer = objectAt(await this.root.post(`${simulationPath(name)}/history`, {}), "history");
     this.server.moveTo(textAt(answer.base, "history.base"));
@@ -97,17 +97,17 @@ export class SimulationApi {
     this.server.moveTo("");
   }
 
-  // How a replay plays.
+  // The playback state of a replay.
   async replay(name: string): Promise<Replay> {
     return parseReplay(await this.server.get(`${simulationPath(name)}/replay`));
   }
 
-  // Of a running simulation: what happened, or was noted, from that instant on.
+  // The events and notes of a running simulation from this simulated time on.
   async eventsFrom(name: string, from: number): Promise<RecordedEvent[]> {
     return parseEvents(await this.root.get(`${simulationPath(name)}/events?from_s=${from}`));
   }
 
-  // A note on an instant of a running simulation, for all viewers.
+  // Adds a note at a simulated time of a running simulation. All viewers see it.
   async addNote(name: string, time: number, text: string, author: string): Promise<void> {
     await this.root.post(`${simulationPath(name)}/notes`, { text, time_s: time, ...(author && { author }) });
   }
@@ -129,7 +129,7 @@ export class SimulationApi {
     return parseDifference(await this.root.get(path, DIFFERENCE_TIMEOUT_MS));
   }
 
-  // All further requests carry this token.
+  // Sends this token with all further requests.
   admit(token: string): void {
     this.credentials.token = token;
   }
@@ -165,7 +165,7 @@ export class SimulationApi {
     await this.server.post(`${simulationPath(name)}/${encodeURIComponent(command)}`, given, ACTION_TIMEOUT_MS);
   }
 
-  // For real time: simulated seconds per second of wall-clock time.
+  // Sets the target real-time factor: simulated seconds per second of wall-clock time.
   async setFactor(name: string, factor: number): Promise<SimulationStatus> {
     return parseStatus(await this.server.post(`${simulationPath(name)}/real_time_factor`, { real_time_factor: factor }));
   }
@@ -199,7 +199,8 @@ export class SimulationApi {
     return parseOutput(await this.server.get(`${simulationPath(name)}/health?robot=${encodeURIComponent(robot)}`));
   }
 
-  // A value over the whole recording, as far as it is read, with at most this many points.
+  // A value over the whole recording as far as the server has read it, with at most this number of
+  // points.
   async curve(name: string, of: CurveOf, most: number): Promise<WholeCurve> {
     return parseCurve(await this.server.get(`${simulationPath(name)}/curve?${curveQuery(of, most)}`));
   }

@@ -1,4 +1,4 @@
-// The joints of a body: their limits, their state, and what they are commanded (docs/api.yaml).
+// The joints of a body: their limits, their state, and their commands (docs/api.yaml).
 import { listAt, numberAt, numberOr, objectAt, textAt, textOr } from "./json";
 
 export const COMMAND_KINDS = ["position", "velocity", "effort"] as const;

@@ -130,8 +130,8 @@ export function robotJson(robot: RobotSetUp): JsonObject {
   };
 }
 
-// Throws an error with the place if the text is not a scenario. `left` gets the keys that the page
-// does not know; they are ignored.
+// Throws an error with the place if the text is not a scenario. The page ignores keys that it does
+// not know; `left` lists them.
 export function parseScenario(value: unknown): { scenario: Scenario; left: string[] } {
   const json = objectAt(value, "the file");
   const { ros2, robots } = parseRos2(json.ros2, parseRobots(json.robots, "robots"));

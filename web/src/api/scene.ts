@@ -109,7 +109,8 @@ export function robotsOf(scene: SceneDescription | null): readonly SceneBody[] {
 
 const robotsOfScene = oncePerScene((scene) => scene.bodies.filter(hasAgent));
 
-// A scene never changes, and the answer for a thousand robots takes long.
+// The result is cached per scene, because a scene never changes and the computation for a thousand
+// robots takes long.
 function oncePerScene<Result>(compute: (scene: SceneDescription) => Result): (scene: SceneDescription) => Result {
   const known = new WeakMap<SceneDescription, { result: Result }>();
   return (scene) => {

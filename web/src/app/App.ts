@@ -146,7 +146,7 @@ export class App {
     this.edits.choose(known.name);
   }
 
-  // Chooses all of these; the first is what they are moved by.
+  // Selects all of these bodies. Moves and turns refer to the first one.
   pickAll([first, ...more]: readonly string[]): void {
     if (first === undefined || !this.store.get().editing) return;
     this.pick(first);
@@ -170,13 +170,14 @@ export class App {
     this.store.set({ mapMode: false, viewMode: robot === null || viewMode === mode ? "orbit" : mode });
   }
 
-  // Moves a body to where it was dragged in the view. Resolves to whether the body is there now.
+  // Moves a body to the pose to which the user dragged it. Resolves to whether the body is there
+  // now.
   place(body: string, place: Placed): Promise<boolean> {
     this.store.set({ placing: false });
     return this.store.get().setUp ? this.setUp.place(body, place) : this.edits.place(body, place);
   }
 
-  // What was put somewhere by the gizmo or by numbers.
+  // Sets the poses that the gizmo or typed numbers have given to bodies.
   pose(poses: readonly BodyPose[]): Promise<boolean> {
     const posed = poses.map(({ body, ...place }) => ({ body, place }));
     const [first] = posed;
@@ -184,7 +185,7 @@ export class App {
     return first ? this.setUp.place(first.body, first.place) : Promise.resolve(false);
   }
 
-  // Whether the next click on the floor puts the selection there.
+  // Whether the next click on the floor moves the selection there.
   setPlacing(placing: boolean): void {
     const { editing, setUp } = this.store.get();
     if (placing) this.endPointing();
@@ -202,7 +203,7 @@ export class App {
     this.store.set({ ruler: isOn ? [] : null });
   }
 
-  // A point of the world that was clicked for the ruler or a wall.
+  // Receives a clicked point of the world for the ruler or a wall.
   takePoint(point: Point): void {
     const { ruler, editing } = this.store.get();
     if (ruler) this.store.set({ ruler: ruler.length < 2 ? [...ruler, point] : [point] });
@@ -215,7 +216,7 @@ export class App {
     void this.edits.addObject({ name: "", model: modelOf(shape), place }, "wall");
   }
 
-  // Ends what the next click would do; false: nothing was under way.
+  // Cancels the pending use of the next click. Returns false if there was none.
   endPointing(): boolean {
     const { placing, ruler, editing } = this.store.get();
     const wasOn = placing || ruler !== null || editing?.wall != null;
@@ -225,7 +226,7 @@ export class App {
     return true;
   }
 
-  // Escape: ends what is under way, or else the choice.
+  // Escape: cancels the present operation, or else clears the selection.
   escape(): void {
     if (!this.endPointing()) this.select(null);
   }
@@ -256,7 +257,7 @@ export class App {
     if (this.edits.copy(allChosen(this.store.get())) > 0) void this.edits.paste();
   }
 
-  // Downloads the world as it stands now, and with `scenario` a scenario of it.
+  // Downloads the present state of the world, and with `scenario` also a scenario file for it.
   async saveWorld(scenario: boolean): Promise<void> {
     const { simulation } = this.store.get();
     if (!simulation) return;
@@ -305,7 +306,7 @@ export class App {
     this.store.set(({ shown }) => ({ shown: { ...shown, [overlay]: !shown[overlay] } }));
   }
 
-  // The view as a map: from above, north up.
+  // Shows the view as a map: from above, north up.
   setMap(mapMode: boolean): void {
     this.store.set({ mapMode, ...(mapMode && { viewMode: "orbit" }) });
   }
@@ -355,7 +356,7 @@ export class App {
     }
   }
 
-  // Starts or ends a video of the view.
+  // Starts or stops a video of the view.
   film(): void {
     this.filming.toggle();
   }
@@ -385,7 +386,7 @@ export class App {
     this.store.set({ singleKeys });
   }
 
-  // Gives a command another single key, by the one with which the page comes.
+  // Assigns another single key to a command. `original` is the command's default key.
   changeKey(original: string, key: string): void {
     this.store.set(({ changedKeys }) => ({ changedKeys: withChangedKey(changedKeys, original, key) }));
   }
@@ -411,7 +412,7 @@ export class App {
   }
 }
 
-// The name of a simulation as that of a file.
+// The name of a simulation as a file name.
 function worldFileName(simulation: string): string {
   return `${simulation.replace(/[^\p{L}\p{N}_.-]+/gu, "_").slice(0, 80)}.sdf`;
 }

@@ -20,7 +20,7 @@ export interface Bodies {
   placeOf(body: string): Required<BodyPlace> | null;
 }
 
-// A body and where it is to stand.
+// A body and the pose that it is to get.
 export interface Posed {
   body: string;
   place: BodyPlace;
@@ -36,7 +36,7 @@ interface Copied {
 export class EditControl {
   private done: Edit[] = []; // the newest last
   private takenBack: Edit[] = [];
-  // What was put somewhere, until a scene shows it there.
+  // The poses that were set here and are not in a received scene yet.
   private readonly unseen = new Map<string, BodyPlace>();
   private copied: Copied[] = [];
   private pastes = 0; // of what was copied
@@ -85,7 +85,8 @@ export class EditControl {
     });
   }
 
-  // The object that edits are about from now on; null: the selected robot. Nothing else is chosen.
+  // Selects the object that further edits apply to; null: the selected robot. Clears the rest of
+  // the selection.
   choose(object: string | null): void {
     const { editing } = this.store.get();
     if (editing && (editing.chosen !== object || editing.more.length > 0)) this.patch({ chosen: object, more: [] });
@@ -115,7 +116,8 @@ export class EditControl {
     return move ? this.do({ ...move, name: `${isTurn ? "turn" : "move"} ${body}` }) : Promise.resolve(false);
   }
 
-  // Puts bodies exactly there; robots stand on the floor, upright. Resolves to whether all stand there now.
+  // Sets exactly these poses; robots stay on the floor, upright. Resolves to whether all bodies
+  // have their pose now.
   pose(posed: readonly Posed[]): Promise<boolean> {
     const moves = posed.flatMap((each) => {
       const before = this.placeOf(each.body);
@@ -126,7 +128,7 @@ export class EditControl {
     return this.do(moves.length === 1 ? moves[0]! : together(`move ${moves.length} bodies`, moves));
   }
 
-  // Counter-clockwise, in radians.
+  // Rotates the body counter-clockwise, in radians.
   turn(body: string, angle: number): Promise<boolean> {
     const before = this.placeOf(body);
     if (!before) return Promise.resolve(false);
@@ -159,7 +161,7 @@ export class EditControl {
     return removal ? this.do(removal) : Promise.resolve(false);
   }
 
-  // Robots and objects, as one edit.
+  // Removes robots and objects as one edit.
   removeAll(bodies: readonly string[]): Promise<boolean> {
     const removals = bodies.flatMap(
       (body) => (this.isObject(body) ? this.removalOfObject(body) : this.removalOfRobot(body)) ?? [],
@@ -168,7 +170,7 @@ export class EditControl {
     return this.do(removals.length === 1 ? removals[0]! : inOrder(`remove ${removals.length} bodies`, removals));
   }
 
-  // Keeps the bodies for paste(). Gives how many.
+  // Stores copies of the bodies for paste(). Returns their number.
   copy(bodies: readonly string[]): number {
     this.copied = bodies.flatMap((body) => {
       const place = this.placeOf(body);
@@ -180,7 +182,7 @@ export class EditControl {
     return this.copied.length;
   }
 
-  // Adds what was copied once more, beside the originals; it is chosen then.
+  // Adds the copied bodies beside the originals, and selects the new ones.
   async paste(): Promise<boolean> {
     const { simulation } = this.store.get();
     if (!simulation || this.copied.length === 0) return false;
@@ -226,7 +228,7 @@ export class EditControl {
     };
   }
 
-  // `names` gets the name under which it stands.
+  // `names` receives the name that the object got.
   private addition(simulation: string, object: NewObject, names: string[]): Edit {
     let { name, place } = object;
     return {
@@ -327,7 +329,7 @@ export class EditControl {
     return true;
   }
 
-  // The stream reports the pause some time after the server's answer.
+  // Waits for the pause: the stream reports it some time after the server's answer.
   private standsStill(): Promise<void> {
     return new Promise((resolve) => {
       const unwatch = this.store.watch(

@@ -1,5 +1,5 @@
-// Notes on instants: of a recording, beside which they are saved, or of a running simulation, whose viewers
-// and recordings all get them.
+// Notes at simulated times. Notes of a recording are saved beside its file. Notes of a running
+// simulation go to all viewers and into its recordings.
 import type { SimulationApi } from "../api/SimulationApi";
 import { youOf } from "../state/people";
 import type { State } from "../state/State";
@@ -10,12 +10,12 @@ import { notify } from "./notices";
 
 type NotesApi = Pick<SimulationApi, "notesOf" | "addNoteTo" | "removeNote" | "addNote">;
 
-// The recording that is replayed, by the name that the server knows it by; empty: none.
+// The server's name of the recording that is replayed; empty: none.
 export function recordingOf({ replay, inPast, abilities }: State): string {
   return replay && !inPast ? abilities.recording : "";
 }
 
-// Whether a note can be kept: beside a recording, or in a simulation that runs.
+// Whether notes can be added: to a recording, or to a running simulation.
 export function canNote(state: State): boolean {
   return state.simulation !== null && (state.replay === null || state.inPast || recordingOf(state) !== "");
 }
@@ -30,7 +30,7 @@ export class NotesControl {
     this.store.watch(recordingOf, (recording) => void this.load(recording));
   }
 
-  // On the instant that the page shows. Resolves to whether it was kept.
+  // Adds a note at the instant that the page shows. Resolves to whether it was stored.
   async add(text: string): Promise<boolean> {
     const state = this.store.get();
     const { simulation, wishedTime, time, people } = state;
@@ -46,7 +46,8 @@ export class NotesControl {
       await this.api.addNote(simulation, instant, text, author);
       const detail = author ? `${author}: ${text}` : text;
       const note = { time: instant, event: "note", robot: "", detail };
-      // A run's notes come with its other events; its past was opened before this one.
+      // Notes of a running simulation arrive with its other events. The displayed past was opened
+      // before this note, so it is added here.
       if (state.inPast) this.store.set(({ events }) => ({ events: withNewEvents(events, [note]) }));
     });
   }

@@ -1,5 +1,5 @@
-// The past of a running simulation: how much of it the server keeps, what happened in it, and looking at it
-// while the run continues.
+// The past of a running simulation: the part that the server keeps, the events in it, and its
+// replay while the run continues.
 import type { SimulationApi } from "../api/SimulationApi";
 import type { CurveOf, WholeCurve } from "../api/curve";
 import type { RecordedEvent } from "../api/replay";
@@ -47,7 +47,7 @@ export class PastControl {
     );
   }
 
-  // Goes to an instant of the recording, or of the past that is kept.
+  // Goes to an instant of the recording, or of the kept past.
   lookAt(time: number): Promise<void> {
     const { replay, kept } = this.store.get();
     if (replay) return this.replay.seek(time);
@@ -61,7 +61,7 @@ export class PastControl {
     this.session.goLive();
   }
 
-  // A value over the past that is kept.
+  // A value over the kept past.
   async curve(simulation: string, of: CurveOf, most: number): Promise<WholeCurve> {
     const now = Date.now();
     if (this.reader?.simulation !== simulation || now - this.reader.openedMs > READER_MS) {
@@ -88,7 +88,7 @@ export class PastControl {
       const kept = await this.api.kept(simulation);
       if (!isWanted()) return;
       if (kept === null) return this.store.set({ kept });
-      // A reset begins at 0 again.
+      // After a reset, simulated time begins at 0 again.
       if (kept.end < this.asked - OVERLAP_S) {
         this.asked = 0;
         this.store.set({ events: [] });
@@ -100,7 +100,7 @@ export class PastControl {
       this.take(found);
       if (!shallowEqual(kept, this.store.get().kept)) this.store.set({ kept });
     } catch {
-      // The connection tells of itself; the next answer may come.
+      // The connection reports its own failures, and the next request may succeed.
     }
     clearTimeout(this.timer);
     if (isWanted()) this.timer = setTimeout(() => void this.ask(simulation), POLL_MS);

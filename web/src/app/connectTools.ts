@@ -1,4 +1,4 @@
-// Connects the store with what edits and measures in the view.
+// Connects the store with the tools that edit and measure in the view.
 import { poseOf } from "../scene/poses";
 import type { World3D } from "../scene/World3D";
 import { allChosen, chosenOf } from "../state/editing";
@@ -34,7 +34,7 @@ export function connectTools(store: Store<State>, world: World3D): void {
   );
 }
 
-// The pose of what is edited, as it was last reported; not while it is held.
+// Shows the last reported pose of the edited body, except while the user drags it.
 export function showChosenPose(store: Store<State>, world: World3D): void {
   const state = store.get();
   if (world.tools.holds) return;

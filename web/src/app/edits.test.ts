@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import type { Edit } from "./edits";
 import { inOrder, together } from "./edits";
 
-// Writes down what is done; `refuses` is asked before each.
+// Logs the edits that are made. `refuses` is called before each edit.
 function recorder(refuses: (what: string, log: readonly string[]) => boolean = () => false) {
   const log: string[] = [];
   const edit = (name: string): Edit => {
@@ -30,7 +30,7 @@ test("what was done before a refusal is taken back", async () => {
 });
 
 test("bodies that stand in each other's way move one after the other", async () => {
-  // a can go only once b has left.
+  // "+a" fails until b is removed.
   const { log, edit } = recorder((what, log) => what === "+a" && !log.includes("+b"));
   await together("all", [edit("a"), edit("b")]).apply();
   expect(log).toEqual(["+b", "+a"]);

@@ -1,4 +1,4 @@
-// Edits of a world: each can be taken back, and several can be one.
+// Edits of a world. Each edit can be undone, and several can be combined into one.
 
 export interface Edit {
   name: string; // "move pebble"
@@ -6,7 +6,8 @@ export interface Edit {
   revert(): Promise<void>;
 }
 
-// One after the other. If one is refused, those before it are taken back, and the refusal is thrown.
+// Performs the edits in this order. If one is refused, undoes the earlier ones and throws the
+// refusal.
 export function inOrder(name: string, edits: readonly Edit[]): Edit {
   const run = async (list: readonly Edit[], forth: "apply" | "revert", back: "apply" | "revert") => {
     const done: Edit[] = [];
@@ -27,8 +28,8 @@ export function inOrder(name: string, edits: readonly Edit[]): Edit {
   };
 }
 
-// In any order that the server allows: one that is refused, since another body still stands there, is tried
-// again after the others.
+// Performs the edits in any order that the server allows. An edit that fails because another body
+// still occupies the place is tried again after the others.
 export function together(name: string, edits: readonly Edit[]): Edit {
   const run = async (list: readonly Edit[], forth: "apply" | "revert", back: "apply" | "revert") => {
     const done: Edit[] = [];

@@ -73,7 +73,7 @@ function until(store: Store<State>, holds: (state: State) => boolean): Promise<v
     const unwatch = store.watch(holds, (isTrue) => {
       if (!isTrue) return;
       resolve();
-      // The callback may be called at once, before there is anything to end.
+      // The callback may run at once, before `unwatch` is defined.
       queueMicrotask(() => unwatch());
     });
   });

@@ -1,6 +1,6 @@
-// <gsv-view src="http://HOST:PORT/">: the view of a running simulation or a recording in any page. The
-// server draws it, so that the page needs neither WebGL nor the permission of a WebSocket. One file, served
-// as /gsv-view.js; docs/viewer.md describes the attributes.
+// <gsv-view src="http://HOST:PORT/">: the view of a running simulation or a recording in any page.
+// The server draws it, so the page needs no WebGL and no permission for a WebSocket. The element is
+// one file, /gsv-view.js; docs/viewer.md describes the attributes.
 import type { Side } from "./camera";
 import { FIRST_SIDE, PLACING, imageUrl, turned, zoomed } from "./camera";
 
@@ -69,7 +69,7 @@ export class GsvView extends HTMLElement {
     if (this.isConnected) this.refresh();
   }
 
-  // The side from which it is seen, in degrees.
+  // The direction from which the camera looks, in degrees.
   get view(): Side {
     return { ...this.side };
   }
@@ -114,7 +114,7 @@ export class GsvView extends HTMLElement {
     });
   }
 
-  // Something else is to be shown: a stream of it.
+  // Requests a new stream, because the attributes have changed.
   private refresh(): void {
     clearTimeout(this.retry);
     const label = this.getAttribute("label") || "View of the simulation";
@@ -124,7 +124,8 @@ export class GsvView extends HTMLElement {
     this.show("view.mjpeg");
   }
 
-  // While the camera moves single images come one after the other, so that none is late.
+  // While the camera moves, single images are requested one after the other, so that none of them
+  // is late.
   private moved(): void {
     clearTimeout(this.steady);
     this.steady = setTimeout(() => this.refresh(), STEADY_MS);

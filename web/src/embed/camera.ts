@@ -1,4 +1,5 @@
-// The address of an image that the server draws (docs/api.yaml, /view.jpg), for a view that a person turns.
+// The address of an image that the server draws (docs/api.yaml, /view.jpg), for a view that the
+// user rotates.
 
 export interface Side {
   azimuth: number; // degrees: heading of the view, counter-clockwise from x
@@ -26,7 +27,7 @@ export function zoomed(side: Side, factor: number): Side {
   return { ...side, zoom: Math.min(LARGEST_ZOOM, Math.max(SMALLEST_ZOOM, side.zoom * factor)) };
 }
 
-// What places the camera by itself: then it cannot be turned.
+// The attributes that fix the camera. With any of them, the user cannot rotate the view.
 export const PLACING = ["eye", "target", "follow", "camera"] as const;
 const PASSED = [...PLACING, "fov", "quality", "token", "simulation"] as const;
 

@@ -45,7 +45,7 @@ export function commandOf({ key, ctrlKey, altKey, metaKey }: Key): ((app: App) =
 
 const TURN = Math.PI / 12;
 
-// Taking back what was changed; turning, copying and removing what is chosen.
+// The keys for undo and redo, and for rotating, copying and removing the selection.
 export function editCommandOf({ key, ctrlKey, metaKey, altKey, shiftKey }: Key): ((app: App) => unknown) | null {
   if (altKey) return null;
   if (!ctrlKey && !metaKey) {
@@ -83,7 +83,7 @@ export function replayCommandOf(event: Key): ((replay: ReplayControl) => void) |
   }
 }
 
-// The key with which the page comes for what this key asks for.
+// The default key of the command to which the pressed key is assigned.
 function asOriginal(event: Key, changed: ChangedKeys): Key {
   const { key, ctrlKey, altKey, metaKey } = event;
   return { key: isSingleKey(event) ? originalKey(key, changed) : key, ctrlKey, altKey, metaKey };

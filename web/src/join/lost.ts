@@ -10,7 +10,7 @@ export interface LostSimulation {
   replay: string; // the recording's name in the server's folder; empty: there is none
 }
 
-// Servers that keep no note, such as `gsv run`, have no such list.
+// Servers that keep no record of crashes, such as `gsv run`, have no such list.
 export async function fetchLost(server: JsonServer): Promise<LostSimulation[]> {
   try {
     const answer = objectAt(await server.get("api/lost"), "lost");

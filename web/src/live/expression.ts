@@ -1,7 +1,7 @@
-// Expressions over fields: "hypot({/a/odom twist.twist.linear.x}, {a speed}) * 3.6". A reference stands in
-// braces: a topic, a robot or "simulation", then a space and the field or value.
+// Expressions over fields: "hypot({/a/odom twist.twist.linear.x}, {a speed}) * 3.6". A reference is
+// written in braces: a topic, a robot or "simulation", then a space and the field or value.
 //
-// Bounded: the length, the depth and the number of references. Nothing but arithmetic can be evaluated.
+// The length, the depth and the number of references are bounded. Only arithmetic is evaluated.
 
 const MAX_LENGTH = 300;
 const MAX_DEPTH = 50;
@@ -37,13 +37,13 @@ export interface Reference {
 
 export interface Expression {
   references: readonly Reference[];
-  // `values` in the order of the references.
+  // Evaluates the expression; `values` are in the order of the references.
   evaluate(values: readonly number[]): number;
 }
 
 type Term = (values: readonly number[]) => number;
 
-// Throws an Error with a sentence for people.
+// Throws an Error with a sentence for the user.
 export function parseExpression(text: string): Expression {
   if (text.trim() === "") throw new Error("The expression is empty. Type for example {pebble speed} * 3.6.");
   if (text.length > MAX_LENGTH) throw new Error(`The expression is longer than ${MAX_LENGTH} characters.`);

@@ -1,4 +1,5 @@
-// Images whose pixels are values, such as depths in metres: in colours, with the value under the pointer.
+// Images whose pixels are values, such as depths in metres. They are drawn in colours, and show the
+// value under the pointer.
 import type { PointCloud } from "./clouds";
 
 export interface ValueImage {
@@ -17,7 +18,7 @@ export interface ColouredImage {
 const MAX_PIXELS = 1 << 24;
 const FLOAT32 = 7;
 
-// The colour map "inferno" (Smith and van der Walt), in between by straight lines.
+// The colour map "inferno" (Smith and van der Walt), interpolated linearly between these colours.
 const STOPS = [
   [0, 0, 4],
   [66, 10, 104],
@@ -28,7 +29,8 @@ const STOPS = [
 ] as const;
 const NOTHING = [32, 38, 46, 255] as const; // where nothing was measured
 
-// Of a depth camera: the distance along the view, which is x in its frame. Null: the cloud has no rows.
+// The image of a depth camera: the distance along the viewing direction, which is x in the camera's
+// frame. Null: the cloud has no rows.
 export function depthImageOf({ width, height, fields, data, point_step, row_step, is_bigendian }: PointCloud): ValueImage | null {
   const x = fields.find(({ name, datatype }) => name === "x" && datatype === FLOAT32);
   const isWhole = height > 1 && width > 0 && width * height <= MAX_PIXELS && point_step >= 4 && row_step >= width * point_step;
@@ -43,7 +45,7 @@ export function depthImageOf({ width, height, fields, data, point_step, row_step
   return { width, height, values, unit: "m" };
 }
 
-// The least and the largest value; equal to each other where there are none.
+// The smallest and the largest value; the two are equal if there are no values.
 export function spanOf(values: Float32Array): [number, number] {
   let [least, largest] = [Infinity, -Infinity];
   for (const value of values) {
@@ -54,7 +56,7 @@ export function spanOf(values: Float32Array): [number, number] {
   return least <= largest ? [least, largest] : [0, 0];
 }
 
-// From the least value, dark, to the largest, bright.
+// Colours the values, from the smallest (dark) to the largest (bright).
 export function coloured({ width, height, values }: ValueImage): ColouredImage {
   const [least, largest] = spanOf(values);
   const scale = largest > least ? 1 / (largest - least) : 0;
@@ -65,7 +67,7 @@ export function coloured({ width, height, values }: ValueImage): ColouredImage {
 
 export const SCALE_CSS = `linear-gradient(to right, ${STOPS.map((stop) => `rgb(${stop.join(" ")})`).join(", ")})`;
 
-// Of a part from 0 to 1.
+// The colour of a value that is scaled to the range from 0 to 1.
 export function colourAt(part: number): [number, number, number, number] {
   const place = part * (STOPS.length - 1);
   const below = Math.min(Math.floor(place), STOPS.length - 2);

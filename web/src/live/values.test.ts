@@ -98,7 +98,7 @@ test("a field has the unit of the nearest path above it", () => {
 });
 
 test("angles are in the order roll, pitch, yaw", () => {
-  // Rz(0.3) Ry(0.2) Rx(0.1), multiplied out as half angles.
+  // The quaternion of Rz(0.3) Ry(0.2) Rx(0.1), computed from half angles.
   const [cr, sr] = [Math.cos(0.05), Math.sin(0.05)];
   const [cp, sp] = [Math.cos(0.1), Math.sin(0.1)];
   const [cy, sy] = [Math.cos(0.15), Math.sin(0.15)];

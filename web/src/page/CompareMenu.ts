@@ -1,4 +1,5 @@
-// Chooses a recording that is laid over the one that is replayed, and says where the two first differ.
+// The menu for comparing the replayed recording with another one. It reports where the two first
+// differ.
 import type { App } from "../app/App";
 import type { RecordingLine } from "../recordings/recordings";
 import type { Comparison } from "../state/comparison";

@@ -120,7 +120,7 @@ function createEditPanel(app: App): HTMLElement {
   return panel;
 }
 
-// What one can do next.
+// A hint about what the user can do next.
 function hintOf(state: State): string {
   const { placing, editing } = state;
   const all = allChosen(state);

@@ -1,4 +1,4 @@
-// What the handles in the view do: move or turn, freely or in steps.
+// The buttons that select the mode of the gizmo: move or rotate, freely or in steps.
 import type { App } from "../app/App";
 import type { GizmoTool } from "../state/editing";
 import { checkField, choiceField } from "../ui/fields";

@@ -149,7 +149,7 @@ function keyLine(app: App, [names, meaning]: Line): Node[] {
   return line(isChangeable ? [keyButton(app, names[0]!, meaning)] : names.map((name) => element("kbd", {}, name)), meaning);
 }
 
-// Shows the key, and takes another one: a press, then the key. Esc leaves it as it is.
+// Shows the key. A press on the button and then on a key assigns that key; Esc cancels.
 function keyButton(app: App, original: string, meaning: string): HTMLElement {
   const key = element("kbd");
   const button = element("button", { class: "key-button", type: "button" }, key);

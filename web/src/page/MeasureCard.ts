@@ -1,4 +1,4 @@
-// What the ruler measures, and the scale of the map; both lie over the view.
+// The result of the ruler, and the scale bar of the map. Both are drawn over the view.
 import type { App } from "../app/App";
 import type { Point } from "../state/State";
 import { element, setText } from "../ui/element";
@@ -55,7 +55,7 @@ function rowsOf({ distance, dx, dy, dz, angleDeg }: Measured): HTMLElement[] {
   return Object.entries(rows).flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]);
 }
 
-// The longest of 1, 2 and 5 times a power of ten that fits, in metres.
+// The longest length that fits, in metres: 1, 2 or 5 times a power of ten.
 export function barLength(metresPerPixel: number): number {
   const longest = BAR_PX * metresPerPixel;
   const power = 10 ** Math.floor(Math.log10(longest));
@@ -67,7 +67,7 @@ export interface ScaleBar {
   show(metresPerPixel: number): void;
 }
 
-// Only a map has one scale everywhere.
+// Only shown on a map, because only a map has the same scale everywhere.
 export function createScaleBar(app: App): ScaleBar {
   const bar = element("div", { class: "scale-line" });
   const label = element("span", {});

@@ -1,4 +1,5 @@
-// Notes on instants: written at the present one, listed, gone to, and removed from a recording.
+// The menu of notes: adds one at the present instant, lists all, goes to the time of one, and
+// removes notes from a recording.
 import type { App } from "../app/App";
 import { canNote, recordingOf } from "../app/NotesControl";
 import type { RecordingNote } from "../api/history";

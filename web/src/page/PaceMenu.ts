@@ -1,4 +1,4 @@
-// The menu for the real-time factor, and for the number of steps to take.
+// The menu for the real-time factor, and for the number of simulation steps to run.
 import type { App } from "../app/App";
 import { canAct, isAllowed } from "../state/actions";
 import { mayAct } from "../state/people";

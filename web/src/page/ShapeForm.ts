@@ -1,4 +1,5 @@
-// Adds boxes, cylinders, spheres and walls of a given size; a wall also by two clicks on the floor.
+// The form that adds boxes, cylinders, spheres and walls of a given size. A wall can also be drawn
+// with two clicks on the floor.
 import type { App } from "../app/App";
 import type { LengthName, Shape, ShapeKind } from "../state/shapes";
 import { FIRST_SHAPE, faultOf, lengthsOf } from "../state/shapes";

@@ -1,5 +1,5 @@
-// The bar of time below a recording, and below a run whose past is kept: where it stands, to be dragged; what
-// happened; how a recording plays; notes; what it is compared with.
+// The timeline below a recording, or below a run whose past is kept: a slider for the time, marks
+// of events, and controls for playback, notes and comparison.
 import type { App } from "../app/App";
 import { SPEEDS } from "../app/ReplayControl";
 import { shallowEqual } from "../state/Store";
@@ -50,7 +50,7 @@ export function createTimeline(app: App): HTMLElement {
   return bar;
 }
 
-// Returns from the past of a run that continues.
+// The button that returns from the past to the running simulation.
 function liveButton(app: App): HTMLElement {
   const made = element(
     "button",
@@ -129,7 +129,7 @@ function times(app: App): HTMLElement {
   return element("span", { class: "timeline-times number", title: "Simulated time" }, now, end, typedTime(app));
 }
 
-// Enter goes to the typed instant.
+// A field for a time. Enter goes to the typed instant.
 function typedTime(app: App): HTMLElement {
   const field = element("input", {
     class: "typed-time number",

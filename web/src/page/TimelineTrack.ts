@@ -1,4 +1,4 @@
-// The slider of a timeline, with marks of what happened.
+// The slider of a timeline, with marks of events.
 import type { App } from "../app/App";
 import type { State } from "../state/State";
 import { shallowEqual } from "../state/Store";
@@ -13,12 +13,13 @@ export function createTimelineTrack(app: App): HTMLElement {
   return element("div", { class: "timeline-track" }, slider(app), marks(app));
 }
 
-// Where it will be as soon as the server has answered.
+// The time to show: the requested one while the server has not answered.
 export function shownTime({ time, wishedTime }: State): number {
   return wishedTime ?? time;
 }
 
-// A browser's own slider: it knows pointers, touch and keys, and tells assistive technology.
+// The browser's own slider, because it handles pointers, touch and keys, and works with assistive
+// technology.
 function slider(app: App): HTMLElement {
   const input = element("input", { type: "range", class: "timeline-slider", step: "any" });
   let isHeld = false;
@@ -31,14 +32,14 @@ function slider(app: App): HTMLElement {
     ({ replay, kept, time, now }) => {
       const span = spanOf(replay, kept, now);
       if (!span) return;
-      // A held slider keeps its ends: they would move the thumb.
+      // While the slider is dragged, its range stays as it is: a change would move the thumb.
       if (!isHeld || replay) {
         input.min = String(span.start);
         input.max = String(span.end);
       }
       const whole = replay ? formatTime(span.end) : "the running simulation";
       input.setAttribute("aria-valuetext", `${formatTime(time)} of ${whole}`);
-      // What plays does not draw the thumb away from under a finger.
+      // Playback does not move the thumb while the user holds it.
       if (!isHeld) input.value = String(time);
     },
     shallowEqual,
@@ -54,7 +55,7 @@ function slider(app: App): HTMLElement {
   return input;
 }
 
-// A press on a mark goes to its instant; keys reach them by "," and ".".
+// A press on a mark goes to its time; the keys "," and "." do the same.
 function marks(app: App): HTMLElement {
   const place = element("div", { class: "timeline-marks", role: "group", "aria-label": "Events" });
   let timer: ReturnType<typeof setTimeout> | undefined;

@@ -1,4 +1,4 @@
-// Curves against another curve: the path of a point. Along both axes a metre has the same length.
+// Curves against another curve, such as the path of a point. Both axes have the same scale.
 import type uPlot from "uplot";
 import type { Range } from "./columns";
 import { rangeOf } from "./columns";
@@ -89,7 +89,7 @@ function dataOf(paths: readonly Path[]): uPlot.AlignedData {
   return [null, ...paths.map(({ points }) => points)] as unknown as uPlot.AlignedData;
 }
 
-// Points in the order of time, whichever way they go.
+// Draws the points in the order of time. Their x values may increase and decrease.
 function drawPath(chart: uPlot, index: number): null {
   const [xs, ys] = chart.data[index] as unknown as [number[], number[]];
   const { ctx, bbox } = chart;

@@ -1,4 +1,5 @@
-// Curves against simulated time: a chart of uPlot's for each unit, one below the other, on one time axis.
+// Curves against simulated time: one uPlot chart per unit, one below the other, with the same time
+// axis.
 import type uPlot from "uplot";
 import { formatTime } from "../ui/format";
 import type { DrawnCurve, Range } from "./columns";
@@ -38,7 +39,7 @@ interface Strip {
   curves: readonly DrawnCurve[];
 }
 
-// The simulated instant under a pixel of charts that are so wide.
+// The simulated time at pixel `x` of charts of this width.
 export function timeAt(x: number, width: number, time: Range): number {
   return time.min + ((x - LEFT_PX) / Math.max(1, width - LEFT_PX - RIGHT_PX)) * (time.max - time.min);
 }

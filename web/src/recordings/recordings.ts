@@ -54,7 +54,8 @@ function parseRecordingLine(json: unknown): RecordingLine {
   };
 }
 
-// The page that replays it in its own session, from that simulated second on.
+// The address of a page that replays the recording in its own session, from that simulated second
+// on.
 export function replayUrl(name: string, from: number | null = null): string {
   return `./?recording=${encodeURIComponent(name)}${from === null ? "" : `#t=${from}`}`;
 }

@@ -62,7 +62,8 @@ beforeEach(() => {
   arranger.isOn = true;
 });
 
-// At metres from the middle of the picture; jsdom has no PointerEvent.
+// A pointer event at this distance in metres from the centre of the image. jsdom has no
+// PointerEvent.
 function pointer(type: string, x: number, y: number): Event {
   const event = new MouseEvent(type, {
     bubbles: true,

@@ -1,5 +1,5 @@
-// Moves what stands in the world by hand, while that is allowed: drag a body over the floor, drag the
-// tip of the chosen one's arrow to turn it. Every other gesture is the view's.
+// Moves bodies by hand in edit mode. Dragging a body moves it over the floor; dragging the tip of
+// the selected body's arrow rotates it. All other gestures move the camera.
 import type { Camera } from "three";
 import { Matrix4, Plane, Vector3 } from "three";
 import type { SceneBody } from "../api/scene";

@@ -12,8 +12,8 @@ import { fittingDistance } from "./framing";
 const { clamp, degToRad: radians } = MathUtils;
 
 const FIELD_OF_VIEW_DEG = 50;
-// Of a map: so narrow, from so far away, that it is orthographic within a hundredth. The server draws no
-// narrower.
+// The field of view of a map. It is so narrow that the map deviates from an orthographic one by
+// less than a hundredth. The server does not support a narrower one.
 const MAP_FIELD_OF_VIEW_DEG = 1;
 const MAP_DEPTH = 200; // m, that is drawn below and above where one looks
 const FLIGHT_MS = 450;
@@ -116,7 +116,7 @@ export class CameraRig {
     this.controls.dispatchEvent({ type: "change" });
   }
 
-  // Of a map: that of the view before it, which a link can show.
+  // The camera as numbers for a link. For a map, that of the view before it.
   get viewNumbers(): ViewNumbers {
     const { position, target } = this.beforeMap ?? this.viewpoint;
     return [...position.toArray(), ...target.toArray()];
@@ -135,8 +135,8 @@ export class CameraRig {
     this.lookAt(box, DOWN, true);
   }
 
-  // From above, north up and without perspective; pressing and dragging moves it. It shows what was in the
-  // middle, as large as before.
+  // Shows the view from above, north up and without perspective; dragging moves it. The centre and
+  // the scale stay as they were.
   setMap(isOn: boolean): void {
     if (isOn === (this.beforeMap !== null)) return;
     const { position, target } = this.viewpoint;
@@ -161,7 +161,7 @@ export class CameraRig {
     }
   }
 
-  // What a pixel shows, in metres, at the distance of what one looks at.
+  // The width of a pixel in metres, at the distance of the camera's target.
   get metresPerPixel(): number {
     const distance = this.stand.position.distanceTo(this.controls.target);
     return (2 * distance * Math.tan(radians(this.camera.fov) / 2)) / this.height;

@@ -17,8 +17,8 @@ function crowd(count: number) {
   ];
   detail.add(meshes, RADIUS, places);
   const camera = new PerspectiveCamera(90);
-  // A picture 800 pixels high of 90 degrees: 400 pixels a metre at a metre, so the nearest measures
-  // 80 pixels across at a metre.
+  // An image 800 pixels high with a 90° field of view has 400 pixels per metre at a distance of 1
+  // m. The nearest robot is 80 pixels wide at 1 m.
   const look = (distance: number) => {
     camera.position.set(0, 0, distance);
     detail.choose(camera, 800);
@@ -57,7 +57,7 @@ describe("CrowdDetail", () => {
     const middle = new Vector3();
     for (let i = from; i < to; i++) middle.add(new Vector3().fromBufferAttribute(geometry.getAttribute("position"), i));
     [7, 8, 9].forEach((value, k) => expect(middle.getComponent(k) / 24).toBeCloseTo(value, 5));
-    // The first face looked along x, and looks along y now.
+    // The first face's normal was along x, and is along y now.
     const normal = new Vector3().fromBufferAttribute(geometry.getAttribute("normal"), from);
     [0, 1, 0].forEach((value, k) => expect(normal.getComponent(k)).toBeCloseTo(value, 6));
   });

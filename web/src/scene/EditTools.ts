@@ -1,5 +1,5 @@
-// What edits and measures in the view: the gizmo on the chosen bodies, rings around them, the rectangle
-// that chooses several, and the points that are clicked for a ruler or a wall.
+// The tools that edit and measure in the view: the gizmo on the selected bodies, rings around them,
+// the rectangle that selects several, and the clicked points of a ruler or a wall.
 import type { Camera, Matrix4, Vector3 } from "three";
 import { Group, Matrix4 as Matrix } from "three";
 import type { OrbitControls } from "three/addons/controls/OrbitControls.js";
@@ -15,7 +15,7 @@ import { RectangleChoice } from "./RectangleChoice";
 import type { RobotPlaces } from "./RobotPlaces";
 import { poseOf } from "./poses";
 
-// What a click does: chooses what is there, puts the choice there, or gives the point.
+// The use of a click: it selects a body, moves the selection there, or provides a point.
 export type ClickUse = "choose" | "place" | "point";
 
 export interface EditToolsView {
@@ -36,7 +36,7 @@ export interface EditToolsEvents {
   onPoint(point: Point): void;
   onPlacePoint(point: Point): void;
   onDrag(pose: BodyPose): void; // of the first that is chosen, while it is held
-  // Resolves to whether all stand there now.
+  // Resolves to whether all bodies have their pose now.
   onPose(poses: readonly BodyPose[]): Promise<boolean>;
 }
 
@@ -66,25 +66,26 @@ export class EditTools {
     this.group.add(this.rings, this.marks.group, this.gizmo.root);
   }
 
-  // Null: nothing is edited.
+  // null: edit mode is off.
   setTool(tool: GizmoTool | null): void {
     this.tool = tool;
     this.rectangle.isOn = tool !== null;
     this.refresh();
   }
 
-  // The gizmo is on the first.
+  // Selects the bodies. The gizmo is on the first one.
   choose(chosen: readonly string[]): void {
     this.chosen = chosen;
     this.refresh();
   }
 
-  // Whether what is shown is not where it was last reported: it is held, or was just put down.
+  // Whether the displayed pose differs from the last reported one: the user drags the body, or has
+  // just released it.
   get holds(): boolean {
     return this.held !== null && this.held === this.view.bodies();
   }
 
-  // With every picture.
+  // Called with every frame.
   show(): void {
     this.gizmo.attach(this.tool ? this.poseOf(this.chosen[0]) : null);
     const others = this.chosen.slice(1).flatMap((name) => this.view.robots()?.ringOf(name) ?? []);
@@ -95,12 +96,12 @@ export class EditTools {
     });
   }
 
-  // Whether a press there is the gizmo's.
+  // Whether a press at this place is on a handle of the gizmo.
   isHandleAt(at: ScreenPlace): boolean {
     return this.tool !== null && this.gizmo.isAt(at);
   }
 
-  // A click that is not for choosing. Whether it was one.
+  // Handles a click that does not select. Returns whether it was one.
   click(at: ScreenPlace): boolean {
     if (this.clickUse === "choose") return false;
     const point = this.view.pointAt(at);
@@ -150,7 +151,7 @@ export class EditTools {
     void this.events.onPose(this.poses(bodies)).then((stand) => stand || this.giveUp());
   }
 
-  // They go back to where they were last reported.
+  // Returns the bodies to their last reported poses.
   private giveUp(): void {
     const bodies = this.view.bodies();
     if (bodies && this.held === bodies) for (const { index, pose } of this.before) bodies.moveBody(index, pose);

@@ -1,5 +1,5 @@
-// The handles by which the chosen bodies are moved and turned: three's TransformControls, on a frame of
-// their own that the bodies follow.
+// The handles that move and rotate the selected bodies: three's TransformControls, attached to a
+// separate frame that the bodies follow.
 import type { Camera } from "three";
 import { Group, Matrix4, Object3D, Vector3 } from "three";
 import type { OrbitControls } from "three/addons/controls/OrbitControls.js";
@@ -13,7 +13,7 @@ const HANDLE_SHARE = 0.5; // of the length of an arrow, where it is taken hold o
 
 export interface GizmoEvents {
   onGrab(): void;
-  // The frame has moved by this, in the world, since it was taken hold of.
+  // The motion of the frame in the world since the user took hold of a handle.
   onMove(motion: Matrix4): void;
   onDrop(): void;
 }
@@ -48,7 +48,7 @@ export class Gizmo {
       events.onMove(this.frame.matrixWorld.clone().multiply(this.before.clone().invert()));
     });
     this.controls.addEventListener("mouseUp", () => events.onDrop());
-    // The view's own gestures wait while a handle is held.
+    // The gestures of the camera are off while the user holds a handle.
     let wasEnabled = true;
     this.controls.addEventListener("dragging-changed", ({ value }) => {
       if (value) wasEnabled = orbit.enabled;
@@ -60,12 +60,13 @@ export class Gizmo {
     return this.controls.dragging;
   }
 
-  // `isUpright`: it can only stand on the floor, as robots do.
+  // `isUpright`: the body stays upright on the floor, as robots do.
   setTool(tool: GizmoTool, isUpright: boolean): void {
     this.tool = tool;
     this.isUpright = isUpright;
     this.controls.setMode(tool.mode === "turn" ? "rotate" : "translate");
-    // Turned about its own axes; moved along the world's, whose numbers are shown.
+    // Rotation is about the body's own axes; motion is along the axes of the world, whose
+    // coordinates are shown.
     this.controls.setSpace(tool.mode === "turn" ? "local" : "world");
     this.controls.setTranslationSnap(tool.snaps ? tool.distance : null);
     this.controls.setRotationSnap(tool.snaps ? (tool.angleDeg * Math.PI) / 180 : null);
@@ -74,7 +75,7 @@ export class Gizmo {
     this.controls.showZ = isUpright ? isTurn : true;
   }
 
-  // At a body's pose; null: there is none to be moved.
+  // Puts the handles at a body's pose; null: there is no body to move.
   attach(worldFromBody: Matrix4 | null): void {
     if (this.isDragging) return;
     if (!worldFromBody || !this.tool) return void this.controls.detach();
@@ -86,7 +87,7 @@ export class Gizmo {
     }
   }
 
-  // Whether a press there takes hold of a handle.
+  // Whether a press at this place is on a handle.
   isAt({ x, y }: ScreenPlace): boolean {
     if (!this.controls.object || !this.controls.enabled) return false;
     const frame = this.host.getBoundingClientRect();
@@ -96,11 +97,11 @@ export class Gizmo {
     return this.controls.axis !== null;
   }
 
-  // Where the handle of an axis of the world is drawn, on the page; null while it is hidden.
+  // The place on the page where the handle of a world axis is drawn; null while it is hidden.
   handleAt(axis: "x" | "y" | "z"): ScreenPlace | null {
     if (!this.controls.object) return null;
     const origin = this.frame.getWorldPosition(new Vector3());
-    // As TransformControlsGizmo scales itself, with a perspective camera.
+    // The scale of TransformControlsGizmo for a perspective camera.
     const distance = origin.distanceTo(this.camera.getWorldPosition(new Vector3()));
     const { fov, zoom } = this.camera as unknown as { fov: number; zoom: number };
     const scale = (distance * Math.min((1.9 * Math.tan((Math.PI * fov) / 360)) / zoom, 7) * SIZE) / 4;

@@ -27,7 +27,7 @@ const SCENE = scene({
   ],
 });
 
-// The robot at (10, 0, 0), its arm at (10, 0, 1), turned to the left.
+// The robot is at (10, 0, 0), its arm at (10, 0, 1), rotated to the left.
 const QUARTER = Math.SQRT1_2;
 const POSES = new Float64Array([10, 0, 0, 0, 0, 0, 1, 10, 0, 1, 0, 0, QUARTER, QUARTER]);
 

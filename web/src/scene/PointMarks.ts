@@ -1,4 +1,5 @@
-// Points that a person has clicked, and the lines between them: what a ruler measures, a wall's first end.
+// Points that the user has clicked, and the lines between them: the ends of a ruler, or the first
+// end of a wall.
 import { BufferGeometry, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, SphereGeometry } from "three";
 import type { Point } from "../state/State";
 

@@ -11,7 +11,7 @@ const LONGEST_DELAY_MS = 300;
 // The delay as a multiple of the interval. It is larger than one, so that the next update arrives
 // before it is needed.
 const DELAY_INTERVALS = 1.6;
-// How much of an arrival's jitter is believed.
+// The weight of a new arrival time in the estimate of the interval.
 const JITTER_TRUST = 0.15;
 
 export interface PoseSample {

@@ -1,5 +1,5 @@
-// A choice of several bodies: Shift or Ctrl with a click adds one to the choice or takes it away, with a
-// drag it chooses all in a rectangle.
+// Selects several bodies: with Shift or Ctrl, a click adds a body to the selection or removes it,
+// and a drag selects all bodies in a rectangle.
 import type { ScreenPlace } from "./picking";
 
 const DRAG_PX = 5;
@@ -22,7 +22,7 @@ export class RectangleChoice {
     this.mark.className = "choice-rectangle";
     this.mark.hidden = true;
     host.append(this.mark);
-    // Before the view's own gestures hear of it.
+    // Registered before the camera's own gestures.
     host.addEventListener("pointerdown", (event) => this.begin(event), true);
     host.addEventListener("pointermove", (event) => this.draw(event), true);
     host.addEventListener("pointerup", (event) => this.end(event), true);

@@ -198,7 +198,8 @@ export class World3D {
     this.loop.request();
   }
 
-  // Whether what stands there may be moved by hand; with an arrow to turn it, where there is no gizmo.
+  // Sets whether the user may move bodies by hand. `hasArrow`: with an arrow that rotates the body,
+  // if there is no gizmo.
   setArranging(isOn: boolean, hasArrow = true): void {
     this.arranger.isOn = isOn;
     this.arranger.hasArrow = hasArrow;
@@ -214,7 +215,7 @@ export class World3D {
     this.loop.request();
   }
 
-  // The points of a ruler or a wall.
+  // Shows the points of a ruler or a wall.
   showPoints(points: readonly Point[]): void {
     this.tools.marks.show(points);
     this.loop.request();
@@ -239,7 +240,7 @@ export class World3D {
     this.loop.request();
   }
 
-  // The robots of a second recording, whose models `library` has; null: none.
+  // Shows the robots of a second recording, whose models are in `library`; null: none.
   setGhosts(scene: SceneDescription | null, library: ModelLibrary): void {
     this.ghosts.setScene(scene, library, () => this.loop.request());
     this.loop.request();
@@ -250,7 +251,7 @@ export class World3D {
     this.loop.request();
   }
 
-  // Where the ghost of a robot is drawn, in metres in the world; null: it has none.
+  // The place where the ghost of a robot is drawn, in metres in the world; null: there is no ghost.
   ghostPlace(robot: string): [number, number, number] | null {
     return this.ghosts.placeOf(robot);
   }
@@ -463,7 +464,8 @@ export class World3D {
     if (this.tools.isHandleAt(place) || this.tools.click(place)) return;
     const robot = this.robotAt(place);
     const firm = robot === null ? this.firmAt(place) : null;
-    // While one edits, what is chosen stays chosen: it is to be moved.
+    // In edit mode, a click beside all bodies keeps the selection, because the user wants to move
+    // it.
     if (firm === null && robot === null && this.arranger.isOn && this.watch.selection !== null) return;
     this.events.onPick(firm ?? robot);
   }

@@ -80,7 +80,8 @@ export function drawView(lines: LineLayer, worldFromCamera: Matrix4, view: Camer
   });
 }
 
-// The length of an arrow for a force: the square root keeps a crate of 1 kg and a car in one view.
+// The length of an arrow for a force. It grows with the square root of the force, so that arrows
+// for a crate of 1 kg and for a car are both visible.
 export function forceLength(newtons: number): number {
   return Math.min(LONGEST_FORCE, FORCE_LENGTH * Math.sqrt(newtons / FORCE_UNIT));
 }
@@ -106,7 +107,8 @@ function drawForce(lines: LineLayer, worldFromSensor: Matrix4, point: readonly n
   const along = force.map((component) => component / newtons);
   const tip = point.map((value, i) => value + length * along[i]!);
   lines.add(worldFromSensor, point, tip, CONTACT_COLOUR);
-  // Across the arrow: by the axis that it is least along.
+  // A direction perpendicular to the arrow, computed from the axis to which the arrow is least
+  // parallel.
   const least = along.reduce((best, value, i) => (Math.abs(value) < Math.abs(along[best]!) ? i : best), 0);
   const aside = along.map((value, i) => (i === least ? 1 : 0) - value * along[least]!);
   for (const side of [-1, 1]) {

@@ -4,7 +4,7 @@ import type { SceneDescription } from "../api/scene";
 
 export const EDIT_PANEL = "edit"; // open while one edits
 
-// The handles by which the chosen body is moved or turned, and the steps in which they do.
+// The mode and the steps of the handles that move or rotate the selected body.
 export interface GizmoTool {
   mode: "move" | "turn";
   snaps: boolean;
@@ -60,7 +60,7 @@ export function chosenOf({ editing, selection }: { editing: Editing | null; sele
   return editing?.chosen ?? selection;
 }
 
-// All that edits are about; what they are measured from comes first.
+// All selected bodies. The first one is the reference for moves and turns.
 export function allChosen(state: { editing: Editing | null; selection: string | null }): readonly string[] {
   const first = chosenOf(state);
   return first === null ? [] : [first, ...(state.editing?.more ?? [])];

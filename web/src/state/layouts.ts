@@ -50,7 +50,7 @@ export function fileOf({ name, text }: SavedLayout): string {
   return `${JSON.stringify({ gsv_layout: FILE_VERSION, name, layout: text }, null, 2)}\n`;
 }
 
-// Reads the layout in a file, or returns the reason why it is none.
+// Reads the layout in a file, or returns the reason why the file contains no layout.
 export function fromFile(content: string): SavedLayout | { problem: string } {
   let told: unknown;
   try {

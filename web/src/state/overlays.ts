@@ -65,7 +65,7 @@ export function loadShown(storage: Pick<Storage, "getItem"> | null): Shown {
   try {
     kept = JSON.parse(storage?.getItem(KEY) ?? "null");
   } catch {
-    // The content was written by another program.
+    // The stored text comes from another program.
   }
   const flags = (typeof kept === "object" && kept !== null ? kept : {}) as Record<string, unknown>;
   const shown = { ...FIRST_SHOWN };

@@ -23,8 +23,8 @@ export function mayAct(people: People): boolean {
   return holder === null || holder.number === people.you;
 }
 
-// Why you have to take control before you drive something: another viewer has it, or might drive too. Empty:
-// you need not.
+// The reason why this viewer must take control before it drives a body: another viewer has control,
+// or might drive too. Empty: control is not needed.
 export function needsControl(people: People): string {
   const holder = holderOf(people);
   if (holder !== null) return holder.number === people.you ? "" : `${holder.name} has control.`;

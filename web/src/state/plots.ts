@@ -1,4 +1,4 @@
-// Which values are drawn, against simulated time or against each other.
+// The values that are plotted, against simulated time or against each other.
 import type { Reference } from "../live/expression";
 import { parseExpression } from "../live/expression";
 
@@ -76,7 +76,7 @@ export function withoutCurve(plots: Plots, id: string): Plots {
   return { ...plots, against, curves: plots.curves.filter((curve) => curve.id !== id) };
 }
 
-// What a reference of an expression stands for.
+// The value that a reference in an expression refers to.
 export function referredTo({ of, key }: Reference): Pick<Curve, "source" | "key"> {
   if (of.startsWith("/")) return { source: { kind: "topic", topic: of }, key };
   return { source: of === "simulation" ? { kind: "simulation" } : { kind: "robot", robot: of }, key };
@@ -89,7 +89,7 @@ export function referenceTo({ source, key }: Pick<Curve, "source" | "key">): str
   return `{${of} ${key}}`;
 }
 
-// The values of which a curve is made: itself, or those that its expression refers to.
+// The values from which a curve is computed: its own value, or those that its expression refers to.
 export function inputsOf(curve: Pick<Curve, "source" | "key">): Pick<Curve, "source" | "key">[] {
   if (curve.source.kind !== "expression") return [curve];
   return parseExpression(curve.key).references.map(referredTo);

@@ -120,7 +120,7 @@ export function entriesOf(robots: readonly ListedRobot[], filter: RobotFilter, o
   return filter.grouping === "none" ? sorted : grouped(sorted, filter.grouping);
 }
 
-// `entries` in the order in which `shown` has them; what is new comes last.
+// `entries` in the order of `shown`; new entries come last.
 export function inOrderOf(shown: readonly Entry[], entries: readonly Entry[]): Entry[] {
   const places = new Map(shown.map((entry, place) => [nameOf(entry), place]));
   const placeOf = (entry: Entry) => places.get(nameOf(entry)) ?? shown.length;

@@ -15,7 +15,7 @@ export function keepSingleKeys(storage: Pick<Storage, "setItem"> | null, isOn: b
   }
 }
 
-// Keys that people have changed: by the key that the page comes with, in lower case.
+// The keys that the user has changed, by the command's default key (lower case).
 export type ChangedKeys = Readonly<Record<string, string>>;
 
 const CHANGED = "gsv.keys";
@@ -26,7 +26,7 @@ export function loadChangedKeys(storage: Pick<Storage, "getItem"> | null): Chang
   try {
     kept = JSON.parse(storage?.getItem(CHANGED) ?? "null");
   } catch {
-    // Written by something else.
+    // The stored text comes from another program.
   }
   if (typeof kept !== "object" || kept === null) return {};
   const isKey = (key: unknown): key is string => typeof key === "string" && [...key].length === 1;
@@ -41,13 +41,13 @@ export function keepChangedKeys(storage: Pick<Storage, "setItem"> | null, change
   }
 }
 
-// The key that the command of `original` has now.
+// The present key of the command with this default key.
 export function keyOf(original: string, changed: ChangedKeys): string {
   const key = original.toLowerCase();
   return Object.hasOwn(changed, key) ? changed[key]! : key;
 }
 
-// The key with which the page comes for the command that is asked for; empty: no command has this key now.
+// The default key of the command to which the pressed key is assigned; empty: none.
 export function originalKey(pressed: string, changed: ChangedKeys): string {
   const key = pressed.toLowerCase();
   const found = Object.keys(changed).find((original) => changed[original] === key);
@@ -55,7 +55,8 @@ export function originalKey(pressed: string, changed: ChangedKeys): string {
   return Object.hasOwn(changed, key) ? "" : key;
 }
 
-// Gives the command of `original` another key; the command that has that key gets the former one.
+// Assigns another key to the command with this default key. If another command has that key, the
+// two exchange their keys.
 export function withChangedKey(changed: ChangedKeys, original: string, pressed: string): ChangedKeys {
   const [own, key] = [original.toLowerCase(), pressed.toLowerCase()];
   const former = keyOf(own, changed);

@@ -19,7 +19,7 @@ const BAD = ["agent_dead", "agent_unresponsive", "failed", "expectation_violated
 
 const MOST_EVENTS = 3000;
 
-// The stretch of time that a timeline spans: the recording, or what is kept of a run up to now.
+// The time range of a timeline: the recording, or the kept past of a run until now.
 export type Span = Pick<Replay, "start" | "end">;
 
 export function spanOf(replay: Replay | null, kept: Kept | null, time: number): Span | null {
@@ -28,7 +28,8 @@ export function spanOf(replay: Replay | null, kept: Kept | null, time: number): 
   return { start: kept.start, end: Math.max(kept.end, time) };
 }
 
-// `known` with those of `found` that are not in it, by time; `known` itself if there are none.
+// `known` and those events of `found` that it does not contain, by time. Returns `known` itself if
+// there are none.
 export function withNewEvents(known: RecordedEvent[], found: readonly RecordedEvent[]): RecordedEvent[] {
   const keys = new Set(known.map(keyOf));
   const added = found.filter((event) => !keys.has(keyOf(event)));
@@ -40,7 +41,8 @@ function keyOf({ time, event, robot, detail }: RecordedEvent): string {
   return JSON.stringify([time, event, robot, detail]);
 }
 
-// What is marked besides the events: the notes of the recording, and where another one first differs.
+// The marks besides events: the notes of the recording, and the first difference from another
+// recording.
 export function furtherEvents(notes: readonly RecordingNote[], difference: Difference | null): RecordedEvent[] {
   const events = notes.map(({ time, text }) => ({ time, event: NOTE, robot: "", detail: text }));
   if (difference?.time == null) return events;
@@ -54,7 +56,7 @@ export function shareOf(time: number, { start, end }: Span): number {
   return end > start ? Math.min(1, Math.max(0, (time - start) / (end - start))) : 0;
 }
 
-// `events` by time. Those before the span are left out.
+// The marks of the events, by time. Events before the range are omitted.
 export function marksOf(events: readonly RecordedEvent[], span: Span): Mark[] {
   const groups: RecordedEvent[][] = [];
   for (const event of events) {
@@ -92,7 +94,7 @@ function lineOf({ time, event, robot, detail }: RecordedEvent): string {
 
 type Marked = Pick<State, "replay" | "kept" | "time" | "events" | "notes" | "comparison">;
 
-// What the timeline marks: events, notes, and the first difference from a second recording.
+// All marks of the timeline: events, notes, and the first difference from a second recording.
 export function allMarks({ replay, kept, time, events, notes, comparison }: Marked): Mark[] {
   const span = spanOf(replay, kept, time);
   if (!span) return [];

@@ -9,7 +9,7 @@ function controlOf<T extends HTMLElement>(field: { element: HTMLElement }, selec
   return field.element.querySelector<T>(selector)!;
 }
 
-// As a browser tells of keys that are typed, and of a field that is left.
+// The events that a browser sends when the user types into a field and leaves it.
 function type(input: HTMLInputElement, text: string): void {
   input.focus();
   input.value = text;

@@ -5,7 +5,7 @@ export function download(name: string, content: Blob): void {
   link.href = URL.createObjectURL(content);
   link.download = name;
   link.click();
-  // The browser reads it after the click.
+  // The browser reads the address some time after the click.
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }
 

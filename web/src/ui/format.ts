@@ -1,6 +1,6 @@
 // Formats numbers for people.
 
-// 75.25 → "1:15.25"; from an hour on "1:01:15.25". Not rounded up: the time has been reached.
+// 75.25 → "1:15.25"; from one hour on "1:01:15.25". The last digit is never rounded up.
 export function formatTime(seconds: number): string {
   const hundredths = Math.max(0, Math.floor(seconds * 100 + 1e-6));
   const two = (value: number) => String(value).padStart(2, "0");
@@ -30,14 +30,14 @@ export function formatDistance(metres: number): string {
   return `${metres.toFixed(metres < 100 ? 2 : 1)} m`;
 }
 
-// Without a minus sign before zero.
+// Writes "0" and never "-0".
 export function formatNumber(value: number, digits: number): string {
   const text = value.toFixed(digits);
   return Number(text) === 0 ? text.replace("-", "") : text;
 }
 
-// A measured value with its unit: as many digits as are read at a glance, degrees on the earth to
-// the centimetre.
+// A measured value with its unit: a readable number of digits, degrees of latitude and longitude to
+// about a centimetre.
 export function formatValue(value: number, unit: string): string {
   const tail = unit === "" ? "" : unit === "°" ? unit : ` ${unit}`;
   if (Number.isNaN(value)) return "–";
@@ -59,7 +59,7 @@ export function formatSize(bytes: number): string {
   return bytes < 1e9 ? `${(bytes / 1e6).toFixed(1)} MB` : `${(bytes / 1e9).toFixed(2)} GB`;
 }
 
-// "2026-01-31T23:59:59Z" as people write it where they are; empty: it is no date.
+// "2026-01-31T23:59:59Z" in the user's local format; empty: the text is not a date.
 export function formatDate(text: string): string {
   const date = new Date(text);
   if (Number.isNaN(date.getTime())) return "";

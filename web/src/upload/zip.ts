@@ -1,8 +1,8 @@
-// Zip archives of a world with what belongs to it: read here, in the page, so that the server gets plain
-// files under the limits and the names that it allows.
+// Reads zip archives that contain a world and its files. The page unpacks them, so that the server
+// receives plain files with limited size and valid names.
 //
-// Input    hostile. The archive's list is believed before anything is unpacked, and held to while it is:
-//          a file that turns out longer than it said, or damaged, is refused.
+// Input    untrusted. The listed sizes are checked before anything is unpacked. A file that is
+//          longer than its listed size, or damaged, is refused.
 // Bounded  MOST_FILES, LARGEST_FILE, LARGEST_TOTAL; one file is in memory at a time.
 import type { Entry } from "@zip.js/zip.js";
 import { BlobReader, ZipReader } from "@zip.js/zip.js/lib/zip-no-worker-inflate.js";

@@ -1,4 +1,5 @@
-// The part of zip.js that reads, on the page's own thread: its package has types for the whole only.
+// The types of the part of zip.js that reads on the page's own thread. The package has types for
+// the whole library only.
 declare module "@zip.js/zip.js/lib/zip-no-worker-inflate.js" {
   export { BlobReader, ZipReader } from "@zip.js/zip.js";
 }

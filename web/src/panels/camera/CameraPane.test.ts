@@ -11,7 +11,7 @@ import { testPorts } from "../contract/testPorts";
 const EYE: SceneSensor = { name: "eye", type: "camera", overlay: "picture", link: "base", topic: "/a/eye", view: null };
 const SCENE = scene({ bodies: [body("a", { sensors: [EYE] })] });
 
-// jsdom draws nothing.
+// jsdom has no canvas.
 beforeEach(() => void vi.spyOn(HTMLCanvasElement.prototype, "getContext").mockReturnValue(null));
 
 function opened(state: Partial<State>) {

@@ -1,4 +1,5 @@
-// The images of a camera, or of all of them in a grid. It listens only to those in sight.
+// The images of one camera, or of all cameras in a grid. It subscribes only to the cameras in
+// sight.
 import type { CameraChoice, SceneDescription } from "../../api/scene";
 import { camerasOf, robotsOf } from "../../api/scene";
 import { shallowEqual } from "../../state/Store";
@@ -133,7 +134,7 @@ function nameOf({ robot, sensor }: CameraChoice): string {
   return robot + SEPARATOR + sensor;
 }
 
-// Cameras, then depth cameras, whose points are images of depths.
+// The cameras, then the depth cameras, whose point clouds are shown as depth images.
 function imagesOf(scene: SceneDescription | null): readonly CameraChoice[] {
   let found = scene ? known.get(scene) : NO_CAMERAS;
   if (!found) {

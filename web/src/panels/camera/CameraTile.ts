@@ -1,5 +1,5 @@
-// One camera: its newest image, the instant of it and its age when it is behind; of depth images the scale, and the
-// value under the pointer.
+// One camera: its newest image with its time, and its age if it is late. Depth images also have a
+// colour scale and show the value under the pointer.
 import type { CameraChoice } from "../../api/scene";
 import type { ValueImage } from "../../live/valueImage";
 import { SCALE_CSS, spanOf } from "../../live/valueImage";
@@ -60,8 +60,8 @@ export class CameraTile {
     });
   }
 
-  // Listens from now on, if there is a view: a canvas takes its first image only when the browser has started what
-  // draws.
+  // Subscribes to the camera. Waits for the view, because a canvas can draw only when the browser's
+  // graphics have started.
   listen(): void {
     this.end();
     this.end = () => {};
@@ -73,7 +73,8 @@ export class CameraTile {
     setText(this.value, "");
     this.waiting.hidden = false;
     const { view, replay } = this.ports.state.get();
-    // A recording holds those that somebody asked for; what it has, it gives at once.
+    // A recording contains only the images that were requested while it was made. It sends an image
+    // of the present instant at once, if it has one.
     setText(this.waiting, replay ? "The recording has no image of this camera up to this time." : "Waiting for an image…");
     if (view === "starting") return;
     this.end = this.ports.topics.subscribe<CameraMessage>(this.camera.topic, (image) => this.painter.take(image), { newestOnly: true });
@@ -84,10 +85,10 @@ export class CameraTile {
     this.end = () => {};
   }
 
-  // The simulated time has changed.
+  // Updates the age, because the simulated time has changed.
   judgeAge(): void {
     const { replay, time } = this.ports.state.get();
-    // A recording may have been moved to before its first image.
+    // The replay may have gone to an instant before the image's time.
     this.picture.classList.toggle("of-later", replay !== null && this.shownTime > time + SAME_INSTANT_S);
     if (this.shownTime === -Infinity) return;
     const age = time - this.shownTime;
@@ -116,7 +117,7 @@ export class CameraTile {
     this.judgeAge();
   }
 
-  // The value under the pointer: the image stands in the middle of the canvas' box, as large as it fits.
+  // Shows the value under the pointer. The image is centred in the canvas and as large as it fits.
   private point({ offsetX, offsetY }: PointerEvent): void {
     if (!this.values) return setText(this.value, "");
     const { width, height, values, unit } = this.values;
@@ -133,7 +134,7 @@ export class CameraTile {
     event.preventDefault();
     const before = this.zoom;
     this.zoomBy(event.deltaY < 0 ? ZOOM_STEP : 1 / ZOOM_STEP);
-    // What is under the pointer stays there.
+    // The point of the image under the pointer stays there.
     const { left, top } = frame.getBoundingClientRect();
     const [x, y] = [event.clientX - left, event.clientY - top];
     const growth = this.zoom / before;

@@ -1,5 +1,5 @@
-// Paints the images of one camera: one is decoded at a time, and of those that arrive meanwhile only the newest is
-// kept.
+// Paints the images of one camera. One image is decoded at a time; of those that arrive meanwhile,
+// only the newest is kept.
 import type { PointCloud } from "../../live/clouds";
 import { valuesOfGreyPng } from "../../live/greyPng";
 import type { ValueImage } from "../../live/valueImage";
@@ -20,11 +20,11 @@ export class ImagePainter {
   private busy = false;
   private isPainted = false;
   private generation = 0;
-  // Kept by the processor, not the graphics card: where none is, the page would wait for the 3D picture
+  // Drawn by the processor: without a graphics card, the page would otherwise wait for the 3D view
   // that is being drawn.
   private readonly context: CanvasRenderingContext2D | null;
 
-  // `onProblem` gets the sentence of an image that cannot be shown.
+  // `onProblem` gets a sentence if an image cannot be shown.
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly onPainted: (painted: Painted) => void,
@@ -57,7 +57,7 @@ export class ImagePainter {
     this.busy = false;
   }
 
-  // Gives the sentence of a problem; empty: none.
+  // Returns a sentence about the problem; empty: none.
   private async paint(image: CameraMessage, generation: number): Promise<string> {
     if ("point_step" in image) {
       const depths = depthImageOf(image);
@@ -72,7 +72,7 @@ export class ImagePainter {
       return "";
     }
     const type = image.format.includes("png") ? "image/png" : "image/jpeg";
-    // A copy: the message may be a view on memory that the connection uses again.
+    // A copy, because the connection reuses the memory to which the message refers.
     const blob = new Blob([image.data.slice()], { type });
     const bitmap = await createImageBitmap(blob).catch(() => null);
     if (!bitmap) return `The image cannot be decoded (format ${image.format}).`;

@@ -53,9 +53,9 @@ export interface ServerPort {
   output(simulation: string, robot: string): Promise<OutputLine[]>;
   // One value over a whole recording, as far as it is read, with at most `most` samples.
   curve(simulation: string, of: CurveOf, most: number): Promise<WholeCurve>;
-  // The same over the past that the server keeps of a running simulation.
+  // The same for the past that the server keeps of a running simulation.
   pastCurve(simulation: string, of: CurveOf, most: number): Promise<WholeCurve>;
-  // The same over the recording that the page compares with; null: it compares with none.
+  // The same for the recording that the page compares with; null: there is no comparison.
   comparedCurve(of: CurveOf, most: number): Promise<WholeCurve | null>;
 }
 
@@ -67,9 +67,9 @@ export interface CommandsPort {
 
 // Commands to bodies. Promises reject with the server's sentence.
 export interface ControlPort {
-  // Takes control of the simulation, or asks the one who has it.
+  // Takes control of the simulation, or requests it from the viewer who has it.
   take(): Promise<void>;
-  // The velocity of an avatar, or of a robot without a behaviour, until the next command.
+  // Sets the velocity of an avatar, or of a robot without a behaviour, until the next command.
   drive(simulation: string, robot: string, drive: Drive): Promise<void>;
   joints(simulation: string, body: string): Promise<BodyJoints>;
   commandJoint(simulation: string, body: string, joint: string, kind: JointCommandKind, value: number): Promise<void>;

@@ -1,10 +1,10 @@
-// The line that says why commands are not possible without control, with the button to get it.
+// The line that says why commands need control, with the button that requests it.
 import { holderOf, needsControl, youOf } from "../../state/people";
 import { shallowEqual } from "../../state/Store";
 import { element, setText } from "../../ui/element";
 import type { PanelPorts } from "../contract/ports";
 
-// `follow` begins to watch, and gives the function that ends it.
+// `follow` begins to watch, and returns the function that ends this.
 export function controlLine(state: PanelPorts["state"], control: Pick<PanelPorts["control"], "take">) {
   const sentence = element("span");
   const button = element("button", { class: "button", type: "button", onclick: () => void control.take() });

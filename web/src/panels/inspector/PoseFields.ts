@@ -1,4 +1,5 @@
-// The pose of what is edited, as numbers that can be typed: metres, and degrees of roll, pitch and yaw.
+// The pose of the edited body as numbers that can be typed: metres, and degrees of roll, pitch and
+// yaw.
 import type { BodyPose } from "../../state/State";
 import { allChosen } from "../../state/editing";
 import type { Field } from "../../ui/fields";

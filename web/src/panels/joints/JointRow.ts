@@ -1,4 +1,4 @@
-// One joint: its position between its limits, a slider and a number to command it.
+// One joint: its position between its limits, and a slider and a number field that command it.
 import { NewestOnly } from "../../api/NewestOnly";
 import type { Joint } from "../../api/joints";
 import { element, setAttribute, setText } from "../../ui/element";

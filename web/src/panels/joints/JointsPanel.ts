@@ -1,4 +1,5 @@
-// The joints of a robot or an arm: where each stands between its limits, and a slider that moves it.
+// The joints of a robot or an arm: the position of each between its limits, and a slider that
+// commands it.
 import type { BodyJoints } from "../../api/joints";
 import { needsControl } from "../../state/people";
 import type { State } from "../../state/State";
@@ -104,7 +105,8 @@ export function mount({ state, control }: Ports): MountedPanel {
   return { body: element("div", { class: "joints-body" }, line, note, list), tools: [choice, inDegrees], whileOpen };
 }
 
-// Robots first, then arms and other objects; static bodies have no joints that move.
+// Robots first, then arms and other objects. Static bodies are omitted, because their joints do not
+// move.
 function jointedBodies({ scene }: State): string[] {
   const jointed = (scene?.bodies ?? []).filter(({ joints }) => joints.length > 0);
   return [...jointed.filter(({ isRobot }) => isRobot), ...jointed.filter(({ isRobot }) => !isRobot)].map(({ name }) => name);

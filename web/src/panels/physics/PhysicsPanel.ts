@@ -1,4 +1,5 @@
-// Physics: step and speed, what the steps cost, and which behaviours hold them up, step by step.
+// The panel Physics: step and speed, the cost of the steps by part, and the behaviours that delay
+// them.
 import type { SimulationStatus } from "../../api/status";
 import { shallowEqual } from "../../state/Store";
 import { element, setText } from "../../ui/element";
@@ -35,7 +36,7 @@ export function mount({ state, topics, server, robots }: Ports): MountedPanel {
     steps.show(costs.longest(MAX_STEPS));
     holdUps.show(costs);
   };
-  // A server does not answer for a parameter that it does not have.
+  // The server does not answer a request for a parameter that it does not have.
   const load = async () => {
     const value = await server.parameter("/gsv/step_size_s").catch(() => null);
     if (typeof value !== "number") return;
@@ -92,7 +93,7 @@ function milliseconds(seconds: number): string {
   return `${ms >= 100 ? ms.toFixed(0) : ms >= 1 ? ms.toFixed(2) : ms.toFixed(3)} ms`;
 }
 
-// The mean cost of a step, by part.
+// Bars of the mean cost of a step, by part.
 class Bars {
   private readonly rows = PARTS.map(({ key, label, hint }) => {
     const bar = element("span", { class: `cost-bar ${key}` });
@@ -117,7 +118,7 @@ class Bars {
   }
 }
 
-// A line for each of the longest steps, with a bar of its parts.
+// A line for each of the longest steps, with a bar for each of its parts.
 class Waterfall {
   private readonly lines: { step: HTMLElement; bar: HTMLElement; who: HTMLElement; total: HTMLElement; element: HTMLElement }[] = [];
   private readonly rows = element("tbody");

@@ -1,4 +1,4 @@
-// Where the wall-clock time of steps goes (/gsv/step_costs): over the last seconds, by part and by behaviour.
+// The wall-clock time of steps over the last seconds (/gsv/step_costs), by part and by behaviour.
 import type { SimulationStatus } from "../../api/status";
 import { formatFactor } from "../../ui/format";
 
@@ -49,12 +49,12 @@ export class StepCosts {
     return this.messages.reduce((sum, { steps }) => sum + Number(steps), 0);
   }
 
-  // Seconds of wall-clock time.
+  // The wall-clock time of this part in seconds.
   of(part: Part): number {
     return this.messages.reduce((total, { sum }) => total + sum[part], 0);
   }
 
-  // All but the wait for the next step's instant.
+  // The time of all parts except the wait for the next step.
   get busy(): number {
     return PARTS.reduce((sum, { key }) => (key === "idle_s" ? sum : sum + this.of(key)), 0);
   }
@@ -71,7 +71,7 @@ export class StepCosts {
     return [...found.values()].sort((a, b) => b.total - a.total);
   }
 
-  // The steps that took longest, in their order.
+  // The longest steps, in the order of time.
   longest(most: number): StepCost[] {
     const all = this.messages.flatMap(({ longest }) => longest);
     const chosen = [...all].sort((a, b) => busyTime(b) - busyTime(a)).slice(0, most);
@@ -85,7 +85,7 @@ export function busyTime(cost: StepCost): number {
 
 type Pace = Pick<SimulationStatus, "mode" | "phase" | "targetFactor" | "realTimeFactor">;
 
-// Why the run is as fast as it is, and what to do.
+// A sentence: what determines the speed of the run, and what to do about it.
 export function paceSentence({ mode, phase, targetFactor, realTimeFactor }: Pace, costs: StepCosts): string {
   if (phase !== "running") return "The simulation does not run. Start it to measure its steps.";
   if (costs.steps === 0) return "No step yet.";

@@ -1,4 +1,5 @@
-// Draws the curves of the plots while the panel is in sight, and their values into the legend.
+// Draws the curves of the plots while the panel is in sight, and writes their values into the
+// legend.
 import { PathChart } from "../../plot/PathChart";
 import type { DrawnCurve, Range } from "../../plot/columns";
 import { pathOf, timeRange } from "../../plot/columns";
@@ -49,7 +50,7 @@ export class PlotDrawing {
     if (typeof ResizeObserver !== "undefined") new ResizeObserver(() => this.request()).observe(place);
   }
 
-  // Draws what changes until the function that it gives is called.
+  // Redraws on each change until the returned function is called.
   open(): () => void {
     this.isOpen = true;
     this.request();
@@ -92,7 +93,7 @@ export class PlotDrawing {
     this.request();
   }
 
-  // A recording goes where the plot is pressed, and along while it is held.
+  // In a recording, a press on the plot goes to that time, and dragging follows the pointer.
   private hold({ button, pointerId }: PointerEvent, x: number): void {
     const { replay, plots } = this.ports.state.get();
     if (button !== 0 || !replay || plots.against !== null) return;
@@ -117,7 +118,7 @@ export class PlotDrawing {
     });
   }
 
-  // The same values of the recording that is compared with, dashed.
+  // The same values of the recording that is compared with, as dashed curves.
   private compared(curves: readonly Shown[]): DrawnCurve[] {
     return curves.flatMap(({ id, unit, colour }) => {
       const series = this.feed.comparedOf(id);
@@ -173,7 +174,7 @@ export class PlotDrawing {
   }
 }
 
-// The event that is pointed at.
+// The event under the pointer.
 function eventAt(marks: readonly Mark[], pointed: number | null, width: number, span: Range): string {
   if (pointed === null) return "";
   const near = (NEAR_PX / Math.max(1, width)) * (span.max - span.min);
@@ -181,7 +182,7 @@ function eventAt(marks: readonly Mark[], pointed: number | null, width: number, 
   return found.length === 0 ? "" : ` · ${found.map(({ label }) => label).join(", ")}`;
 }
 
-// The page's colours, which follow light and dark.
+// The page's present colours (light or dark).
 function lookOf(place: HTMLElement): Look {
   const style = getComputedStyle(place);
   const of = (name: string) => style.getPropertyValue(name).trim() || "grey";

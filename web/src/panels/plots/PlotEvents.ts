@@ -1,4 +1,5 @@
-// The events that plots mark: of what runs as they come, the hundred before included; of a recording all.
+// The events that plots mark. For a running simulation: new events and the last hundred before. For
+// a recording: all events.
 import type { RecordedEvent } from "../../api/replay";
 import type { LifecycleEventMessage } from "../../protocol/messages";
 import { seconds } from "../../protocol/messages";
@@ -15,7 +16,7 @@ export class PlotEvents {
 
   constructor(private readonly ports: Pick<PanelPorts, "state" | "topics">) {}
 
-  // Listens until the function that it gives is called.
+  // Listens until the returned function is called.
   open(onChange: () => void): () => void {
     return this.ports.topics.subscribe<LifecycleEventMessage>(TOPIC, ({ stamp, event, robot, detail }) => {
       this.take({ time: seconds(stamp), event, robot, detail });
@@ -33,7 +34,7 @@ export class PlotEvents {
     }));
   }
 
-  // A new subscription brings events that are there already; a reset begins anew.
+  // A new subscription repeats earlier events. A reset starts a new list.
   private take(event: RecordedEvent): void {
     const { simulation } = this.ports.state.get();
     if (simulation !== this.simulation || event.event === "reset") this.live = [];

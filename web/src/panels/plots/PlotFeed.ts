@@ -1,6 +1,6 @@
-// Collects the values of the plots' curves as they arrive, each by its simulated instant. Sensors
-// are subscribed only while one of their values is plotted. Of a recording the server tells the whole
-// curve, which then stands for what is played.
+// Collects the values of the plotted curves as they arrive, by simulated time. A sensor is
+// subscribed only while one of its values is plotted. For a recording, the server computes the
+// whole curve, which then replaces the values from playback.
 import type { WholeCurve } from "../../api/curve";
 import type { SceneDescription } from "../../api/scene";
 import { robotsOf } from "../../api/scene";
@@ -50,7 +50,7 @@ export class PlotFeed {
   private simulation: string | null = null;
   private newest = -Infinity; // s, simulated
 
-  // `onData`: there is something new to draw.
+  // `onData` is called when there are new values to draw.
   constructor(
     private readonly state: StateReader<State>,
     private readonly topics: TopicSource,
@@ -63,7 +63,7 @@ export class PlotFeed {
       () => this.listen(),
       shallowEqual,
     );
-    // A run and its past have curves of their own.
+    // A run and its past have separate curves.
     this.state.watch(
       ({ replay }) => replay !== null,
       () => this.forgetRecorded(),
@@ -89,17 +89,17 @@ export class PlotFeed {
     return this.series.get(id) ?? null;
   }
 
-  // Of the recording that is compared with.
+  // The curve of the same value in the recording that is compared with.
   comparedOf(id: string): Series | null {
     return this.compared.get(id) ?? null;
   }
 
-  // Whether a recording has more of its values than are plotted.
+  // Whether the recording has more values than are plotted.
   isThinned(id: string): boolean {
     return this.whole.get(id)?.isWhole === false;
   }
 
-  // All that is known of a recording's curve.
+  // Stores the curve that the server has computed for a recording.
   takeWhole(id: string, curve: WholeCurve): void {
     const series = this.series.get(id);
     if (!series) return;
@@ -180,7 +180,7 @@ export class PlotFeed {
     const isField = ({ source }: Input) => source.kind === "topic" && source.topic === topic;
     const fields: Record<string, number> = {};
     for (const { key } of this.inputs.filter(isField)) {
-      // An expression may also name a value as the inspector does: "ranges.min".
+      // An expression may also use the inspector's name of a value, such as "ranges.min".
       const value = numberAt(message, parsePath(key) ?? []) ?? values[key];
       if (value !== undefined) fields[key] = value;
     }
@@ -208,7 +208,8 @@ export class PlotFeed {
     if (!this.whole.has(id)) this.series.get(id)?.push(time, value);
   }
 
-  // What runs never goes back, unless it was reset; a recording does, and its values stay true.
+  // Simulated time of a run goes back only after a reset; then the values are dropped. The time of
+  // a recording may go back, and its values remain valid.
   private goOn(time: number): void {
     const wasReset = time < this.newest - LONGEST_GAP_S && this.state.get().replay === null;
     if (wasReset) {
@@ -285,7 +286,7 @@ function formulaOf({ id, source, key }: Curve): Formula[] {
   return [{ id, inputs: references.map((each) => idOf(referredTo(each))), evaluate }];
 }
 
-// Those of the sensors that are there, and the poses of robots.
+// The topics of the existing sensors, and the poses of robots.
 function topicsOf(curves: readonly Input[], scene: SceneDescription | null): string[] {
   const plotted = new Set(curves.flatMap(({ source }) => (source.kind === "sensor" ? [source.topic] : [])));
   const present = robotsOf(scene).flatMap(({ sensors }) => sensors.map(({ topic }) => topic));

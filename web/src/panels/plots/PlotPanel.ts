@@ -1,5 +1,5 @@
-// The panel of plots: values against simulated time or against each other, several curves, as a table for
-// other programs.
+// The panel of plots: values against simulated time or against each other. The curves can be saved
+// as a table.
 import { MOST_SAMPLES } from "../../live/Series";
 import { csvOf } from "../../live/csv";
 import { curveName } from "../../state/plots";
@@ -17,7 +17,7 @@ import { WholeCurves } from "./WholeCurves";
 
 type Ports = Pick<PanelPorts, "state" | "topics" | "replay" | "plots"> & WholeCurvePorts;
 
-// Collects from when it is mounted, whether it is open or not.
+// Collects values from the moment it is mounted, even while the panel is closed.
 export function mount(ports: Ports): MountedPanel {
   const empty = element(
     "p",

@@ -8,8 +8,8 @@ import type { PanelPorts } from "../contract/ports";
 
 type Ports = Pick<PanelPorts, "state" | "plots">;
 
-// The values of the simulation and of the selected robot; those of sensors are in the inspector, all others
-// in the topics.
+// The values of the simulation and of the selected robot. Values of sensors are added in the
+// inspector, all others in the panel of topics.
 export function addChoice({ state, plots }: Ports): HTMLElement {
   const choice = element("select", { "aria-label": "Add a curve" });
   const fill = ({ selection, isFull }: { selection: string | null; isFull: boolean }) => {
@@ -62,7 +62,7 @@ function spanLabel(seconds: number): string {
   return seconds < 120 ? `${seconds} s` : `${seconds / 60} min`;
 }
 
-// What the horizontal axis has: simulated time, or one of the curves.
+// Selects the horizontal axis: simulated time, or one of the curves.
 export function acrossChoice({ state, plots }: Ports): HTMLElement {
   const choice = element("select", { "aria-label": "Horizontal axis", title: "Plot against time, or against a curve" });
   choice.addEventListener("change", () => plots.setAgainst(choice.value === "" ? null : choice.value));
@@ -88,7 +88,7 @@ export function eventsCheck({ state, plots }: Ports): HTMLElement {
   return element("label", { class: "check-line", title: "Mark events such as pauses and dead behaviours" }, box, "Events");
 }
 
-// Adds an expression of fields as a curve. Gives the button that shows the form, and the form.
+// Adds an expression of fields as a curve. Returns the button that opens the form, and the form.
 export function expressionForm({ state, plots }: Ports): { button: HTMLElement; form: HTMLElement } {
   const input = element("input", {
     type: "text",

@@ -1,6 +1,6 @@
-// Of a recording, has the server read each plotted value from end to end, and hands on what it has
-// read so far until it is done. Of a run, the same for the past that the server keeps; of a second
-// recording that is compared with, for its curves.
+// Requests each plotted value over a whole recording, and passes on what the server has read so far
+// until it is complete. For a running simulation, does the same for the kept past; for a
+// comparison, for the second recording.
 import type { CurveOf, WholeCurve } from "../../api/curve";
 import { MOST_SAMPLES } from "../../live/Series";
 import { parseExpression } from "../../live/expression";
@@ -17,7 +17,7 @@ export type WholeCurvePorts = Pick<PanelPorts, "state" | "notices"> & {
   plots: Pick<PanelPorts["plots"], "setSpan">;
 };
 
-// What was read so far of a curve.
+// Called with the part of a curve that was read so far.
 export interface CurveEvents {
   onWhole(id: string, curve: WholeCurve): void; // of a recording
   onPast(id: string, curve: WholeCurve): void; // of a run, up to when it was asked for
@@ -39,7 +39,7 @@ export class WholeCurves {
   start(): void {
     this.ports.state.watch(
       ({ replay }) => replay !== null,
-      // A recording is looked at from end to end; what runs, as it comes.
+      // A recording is plotted from end to end, a running simulation only over the newest seconds.
       (isReplay) => isReplay && this.ports.plots.setSpan(null),
     );
     this.ports.state.watch(
@@ -98,7 +98,7 @@ export class WholeCurves {
     }
   }
 
-  // Asks until all is read. What cannot be read is said if `isMissed`.
+  // Requests the value until all of it is read. If it cannot be read, reports this if `isMissed`.
   private async read(
     plotted: Curve,
     get: (of: CurveOf) => Promise<WholeCurve | null>,
@@ -122,7 +122,7 @@ export class WholeCurves {
         if (!isWanted()) return;
       }
     } catch (error) {
-      // What is played is plotted all the same.
+      // The values from playback are plotted nevertheless.
       tell((error as Error).message);
     }
   }

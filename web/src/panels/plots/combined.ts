@@ -1,4 +1,5 @@
-// A curve that is computed from others: at each of their instants, from the newest value of each.
+// A curve that is computed from others: at each time at which one of them has a value, from the
+// newest value of each.
 import type { WholeCurve } from "../../api/curve";
 import type { Expression } from "../../live/expression";
 

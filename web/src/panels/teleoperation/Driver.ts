@@ -1,5 +1,5 @@
-// Drives one robot at a time: sends a wish when it changes, repeats it while it lasts, and stops the robot when
-// nothing asks for motion any more. After a refusal it sends nothing until all is let go.
+// Drives one robot at a time: sends a command when it changes, repeats it while it lasts, and stops
+// the robot when there is no input. After a refusal it sends nothing until all inputs are released.
 import { NewestOnly } from "../../api/NewestOnly";
 import type { Drive } from "../../api/SimulationApi";
 import type { Speeds, Wish } from "./driving";
@@ -20,7 +20,7 @@ export class Driver {
   private isRefused = false;
   private timer: ReturnType<typeof setInterval> | undefined;
 
-  // `onProblem` gets the sentence of a refusal.
+  // `onProblem` gets the server's sentence after a refusal.
   constructor(
     send: (robot: string, drive: Drive) => Promise<void>,
     private readonly onProblem: (sentence: string) => void,
@@ -35,7 +35,7 @@ export class Driver {
     return this.timer !== undefined;
   }
 
-  // From now on it drives this one. The one before must stand.
+  // Selects the robot to drive, and stops the previous one.
   setRobot(robot: string | null): void {
     this.robot = robot;
   }

@@ -1,4 +1,5 @@
-// A round pad: dragged on, or with keys while it has the focus, it gives a wish. Its own keys do not reach the page.
+// A round pad that commands a motion when the user drags on it, or presses keys while it has the
+// focus. These keys do not reach the page.
 import { element } from "../../ui/element";
 import type { Wish } from "./driving";
 import { STILL, isDrivingKey, isStill, wishOfKeys, wishOfPoint } from "./driving";

@@ -1,4 +1,5 @@
-// The first gamepad that is connected, read while the panel is in sight: browsers report its sticks only when asked.
+// Reads the first connected gamepad while the panel is in sight. It must poll, because browsers
+// send no events for sticks.
 import type { Wish } from "./driving";
 import { STILL, wishOfGamepad } from "./driving";
 
@@ -18,7 +19,7 @@ export class GamepadReader {
     private readonly gamepads: () => readonly (Gamepad | null)[] = () => navigator.getGamepads?.() ?? [],
   ) {}
 
-  // Reads until the function that it gives is called.
+  // Reads until the returned function is called.
   open(): () => void {
     const clock = setInterval(() => this.read(), READ_MS);
     return () => {

@@ -1,5 +1,6 @@
-// Driving a robot by hand: keys while the pad has the focus, a finger or the mouse on the pad, or a gamepad.
-// Whatever is let go of stops the robot: keys, the pad, the focus, the panel, the page.
+// Drives a robot by hand: by keys while the pad has the focus, by finger or mouse on the pad, or by
+// gamepad. The robot stops when the input ends or when the pad, the panel or the page loses the
+// focus.
 import { needsControl } from "../../state/people";
 import type { State } from "../../state/State";
 import { shallowEqual } from "../../state/Store";
@@ -114,7 +115,8 @@ export function mount({ state, control }: Ports): MountedPanel {
   return { body, tools: [choice], whileOpen };
 }
 
-// Calls it when the window loses the focus, is hidden or closed. Gives the function that ends this.
+// Calls `letGo` when the window loses the focus, or is hidden or closed. Returns the function that
+// ends this.
 function whenPageIsLeft(letGo: () => void): () => void {
   const hide = () => document.visibilityState === "hidden" && letGo();
   document.addEventListener("visibilitychange", hide);
@@ -125,7 +127,7 @@ function whenPageIsLeft(letGo: () => void): () => void {
   };
 }
 
-// Robots without a behaviour or with one that has finished, then avatars.
+// The robots without a running behaviour, then the avatars.
 function drivable({ scene, status }: State): readonly string[] {
   const free = new Set(
     (status?.robots ?? []).filter(({ behaviour, agentPhase }) => behaviour === "" || agentPhase === "finished").map(({ name }) => name),

@@ -1,4 +1,5 @@
-// What keys, a pad under a finger and a gamepad ask for, as parts of the greatest speeds.
+// The motion that keys, a pad under a finger or a gamepad command, as fractions of the maximum
+// speeds.
 
 export interface Wish {
   ahead: number; // -1 to 1
@@ -26,7 +27,7 @@ export function isDrivingKey(key: string): boolean {
   return KEYS.has(key.toLowerCase());
 }
 
-// Of the held keys, in lower case. Opposite keys cancel each other.
+// The motion for the held keys (lower case). Opposite keys cancel each other.
 export function wishOfKeys(held: ReadonlySet<string>): Wish {
   const any = (keys: string[]) => (keys.some((key) => held.has(key)) ? 1 : 0);
   return {
@@ -36,13 +37,14 @@ export function wishOfKeys(held: ReadonlySet<string>): Wish {
   };
 }
 
-// Of a point on the pad: x to the right and y down from its middle, as parts of its radius.
+// The motion for a point on the pad: x to the right and y down from its centre, as fractions of its
+// radius.
 export function wishOfPoint(x: number, y: number): Wish {
   const length = Math.max(1, Math.hypot(x, y));
   return { ahead: -y / length || 0, left: 0, turn: -x / length || 0 };
 }
 
-// The left stick drives and turns, the right stick goes sideways.
+// The left stick drives and turns; the right stick moves sideways.
 export function wishOfGamepad({ axes }: Pick<Gamepad, "axes">): Wish {
   const axis = (i: number) => {
     const value = axes[i] ?? 0;

@@ -40,8 +40,8 @@ export class RobotList {
     this.followAttention();
   }
 
-  // While one points at the list or is in it by keys, its rows stay where they are: a row that moves away
-  // cannot be pressed.
+  // While the pointer or the keyboard focus is in the list, its rows stay where they are: nobody
+  // can click a row that moves away.
   private followAttention(): void {
     const { scroller } = this.rows;
     const release = () => {

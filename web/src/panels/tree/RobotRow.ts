@@ -1,5 +1,5 @@
-// One robot of the list: its state, its name, what it does or why it does not move, and its
-// distance.
+// One robot of the list: its state, its name, its activity or the reason why it does not move, and
+// its distance.
 import type { ListedRobot } from "../../state/robotList";
 import { agentLabel } from "../../state/actions";
 import { STATE_WORDS, isTrouble, sentenceOf } from "../../state/health";
@@ -34,7 +34,7 @@ export class RobotRow {
     return this.button.dataset.robot ?? "";
   }
 
-  // With Shift or Ctrl, while one edits: besides what is chosen.
+  // In edit mode, a click with Shift or Ctrl adds the robot to the selection.
   private choose({ shiftKey, ctrlKey, metaKey }: MouseEvent): void {
     const isAdding = this.ports.state.get().editing !== null && (shiftKey || ctrlKey || metaKey);
     if (isAdding) this.ports.robots.pick(this.robot, true);

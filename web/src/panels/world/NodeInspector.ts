@@ -1,4 +1,4 @@
-// What is known of the chosen part of the world, as it changes.
+// Shows what is known about the selected part of the world, and updates it.
 import type { SceneBody, SceneDescription, SceneSensor } from "../../api/scene";
 import { anglesOf, stampOf, valuesOf } from "../../live/values";
 import type { PosesMessage } from "../../protocol/messages";
@@ -42,7 +42,7 @@ export class NodeInspector {
     this.show([["", "Choose a part of the world to see where it is and what it reads."]]);
   }
 
-  // Reads what the node needs until another one is opened, or close() is called.
+  // Reads the data of the node until another node is opened, or close() is called.
   open(node: WorldNode): void {
     this.end();
     this.facts.replaceChildren();
@@ -94,7 +94,7 @@ export class NodeInspector {
     };
   }
 
-  // Each value has a curve beside it, once.
+  // Adds a plot button beside the value; each value has one.
   private addPlot(key: string, { topic, name }: SceneSensor, unit: string): void {
     const cell = this.cells.get(key)?.parentElement;
     if (!cell || cell.querySelector("button")) return;
@@ -196,7 +196,7 @@ function factsOf(body: SceneBody, link: string | null): Line[] {
   ];
 }
 
-// A link without a pose of its own moves with its model, and what is static stays where it was put.
+// A link without its own pose moves with its model. A static body keeps its initial pose.
 function poseLines(scene: SceneDescription | null, message: PosesMessage | null, body: SceneBody, link: string | null, now: number): Line[] {
   const entry = scene?.poses.findIndex((each) => scene.bodies[each.body]?.name === body.name && each.link === link) ?? -1;
   const isFresh = message !== null && scene?.layoutVersion === message.layout_version && entry >= 0;

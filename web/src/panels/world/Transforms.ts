@@ -1,4 +1,4 @@
-// The newest transforms of /tf and /tf_static: each frame under its parent, with its instant.
+// The newest transforms of /tf and /tf_static: each frame with its parent and its time.
 import type { TopicSource } from "../../protocol/SharedTopics";
 import type { TransformsMessage } from "../../protocol/messages";
 import { seconds } from "../../protocol/messages";
@@ -18,7 +18,7 @@ const MAX_FRAMES = 5000;
 export class Transforms {
   private readonly frames = new Map<string, Frame>();
 
-  // Listens until the function that it gives is called. `onChange` is called after each message.
+  // Listens until the returned function is called. `onChange` is called after each message.
   open(topics: TopicSource, onChange: () => void): () => void {
     const listen = (topic: string, isStatic: boolean) =>
       topics.subscribe<TransformsMessage>(
@@ -50,7 +50,7 @@ export class Transforms {
     return this.frames.get(child) ?? null;
   }
 
-  // By parent and name.
+  // The frames, sorted by parent and name.
   list(): Frame[] {
     return [...this.frames.values()].sort((a, b) => a.parent.localeCompare(b.parent) || a.child.localeCompare(b.child));
   }

@@ -1,5 +1,5 @@
-// The tree of the world: every body with its links, joints and sensors, the transforms, and an inspector of the
-// chosen part.
+// The tree of the world: every body with its links, joints and sensors, the transforms, and an
+// inspector of the selected part.
 import { shallowEqual } from "../../state/Store";
 import { element } from "../../ui/element";
 import type { MountedPanel } from "../contract/Panel";
@@ -59,7 +59,7 @@ export function mount(ports: Ports): MountedPanel {
     const ends = [
       state.watch(({ scene, simulation }) => ({ scene, simulation }), () => {
         showBodies();
-        // The part may be gone, or be described anew.
+        // In a new scene, the part may be missing or different.
         const name = chosen && chosen.kind !== "transform" ? chosen.body.name : null;
         if (name === null) return;
         const body = state.get().scene?.bodies.find((each) => each.name === name);

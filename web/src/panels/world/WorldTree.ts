@@ -1,4 +1,5 @@
-// The tree: a body unfolds into its links, joints and sensors when it is opened, not before.
+// The tree of bodies. The links, joints and sensors of a body are added when the user opens its
+// entry.
 import type { SceneBody } from "../../api/scene";
 import { element, setText } from "../../ui/element";
 import { count } from "../../ui/format";

@@ -1,4 +1,4 @@
-// What the tree of the world holds: bodies with their links, joints and sensors, and transforms.
+// The nodes in the tree of the world: bodies with their links, joints and sensors, and transforms.
 import type { SceneBody, SceneDescription, SceneJoint, SceneSensor } from "../../api/scene";
 
 export type WorldNode =
@@ -8,7 +8,7 @@ export type WorldNode =
   | { kind: "sensor"; body: SceneBody; sensor: SceneSensor }
   | { kind: "transform"; child: string };
 
-// The same for the same thing in another description of the scene.
+// The same part has the same ID in another description of the scene.
 export function nodeId(node: WorldNode): string {
   switch (node.kind) {
     case "body":
@@ -31,8 +31,8 @@ export function kindOf(body: SceneBody): string {
   return body.isStatic ? "static" : "dynamic";
 }
 
-// Robots first, then what moves, then what stands; each by name. Those that have the text in the name of themselves,
-// or of a link, joint or sensor.
+// Robots first, then moving bodies, then static ones; each group by name. Includes the bodies with
+// the text in their name, or in the name of a link, joint or sensor.
 export function bodiesOf(scene: SceneDescription | null, text: string): SceneBody[] {
   const order = ["robot", "avatar", "station", "dynamic", "static"];
   const wanted = text.trim().toLowerCase();
