@@ -100,6 +100,7 @@ class ScenarioRunServant final : public POA_sba::ScenarioRun {
 
   void destroy() override {
     Cancel();
+    is_destroyed_ = true;
     service_.Forget(this);
   }
 
@@ -118,7 +119,11 @@ class ScenarioRunServant final : public POA_sba::ScenarioRun {
     if (result_->status == TestResult::Status::kInterrupted)
       throw sba::Ended("the server aborted the scenario");
   }
-  void NoteQuestion() { asked_ = RunClock::now().time_since_epoch(); }
+  // While destroy() returns, the object adapter still passes calls on.
+  void NoteQuestion() {
+    if (is_destroyed_) throw CORBA::OBJECT_NOT_EXIST();
+    asked_ = RunClock::now().time_since_epoch();
+  }
 
   void Work() {
     TestResult result;
@@ -146,6 +151,7 @@ class ScenarioRunServant final : public POA_sba::ScenarioRun {
   const double timeout_, abandoned_after_;
   std::atomic<RunClock::duration> asked_{RunClock::now().time_since_epoch()};
   std::atomic<bool> is_cancelled_{false};
+  std::atomic<bool> is_destroyed_{false};
   mutable base::Mutex mutex_;
   base::ConditionVariable ended_;
   std::optional<TestResult> result_ GSV_GUARDED_BY(mutex_);

@@ -74,8 +74,8 @@ export class CompareControl {
       if (simulation === undefined) throw new Error("The recording has no simulation.");
       const scene = await api.scene(simulation).catch(() => null);
       if (!isWanted()) return;
+      this.connect(api, simulation); // first: the scene's models come from this replay
       this.set({ simulation, scene });
-      this.connect(api, simulation);
       this.follow(true);
     } catch (error) {
       if (isWanted()) this.set({ problem: (error as Error).message });

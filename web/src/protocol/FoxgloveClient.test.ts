@@ -133,7 +133,6 @@ test("a reader of the newest messages skips older ones", async () => {
   // While this thread is busy, these messages wait at the socket.
   for (let i = 0; i < 50; i++) {
     server.send(greeting(1, i, ""));
-    server.send(greeting(2, i, ""));
   }
   await eventually(() => expect(all).toHaveBeenCalledTimes(50));
   await eventually(() => expect(newest).toHaveBeenLastCalledWith({ number: 49, text: "" }));
@@ -184,20 +183,29 @@ test("parameters are requested from servers that have them", async () => {
   expect(await unanswered).toBeNull();
 });
 
-test("ending a subscription tells the server, and late messages are dropped", async () => {
+test("readers of one channel share a subscription, which ends with the last of them", async () => {
   const server = await serve();
   const { client, problems } = connectTo(server);
   const handler = vi.fn();
   const other = vi.fn();
-  const unsubscribe = client.subscribe("/greeting", handler);
-  client.subscribe("/greeting", other);
-  await eventually(() => expect(server.heard).toHaveLength(1));
-  unsubscribe();
-  await eventually(() => expect(server.heard.at(-1)).toEqual({ op: "unsubscribe", subscriptionIds: [1] }));
-  server.send(greeting(1, 1, "late"));
-  server.send(greeting(2, 2, "in time"));
+  const endFirst = client.subscribe("/greeting", handler);
+  const endOther = client.subscribe("/nowhere", other, { orElse: "/greeting" });
+  await eventually(() => expect(server.heard).toEqual([{ op: "subscribe", subscriptions: [{ id: 1, channelId: 7 }] }]));
+  server.send(greeting(1, 1, "to both"));
   await eventually(() => expect(other).toHaveBeenCalledOnce());
-  expect(handler).not.toHaveBeenCalled();
+  expect(handler).toHaveBeenCalledOnce();
+  endFirst();
+  server.send(greeting(1, 2, "to the other"));
+  await eventually(() => expect(other).toHaveBeenCalledTimes(2));
+  expect(handler).toHaveBeenCalledOnce();
+  endOther();
+  await eventually(() => expect(server.heard.at(-1)).toEqual({ op: "unsubscribe", subscriptionIds: [1] }));
+  client.subscribe("/greeting", handler);
+  server.send(greeting(1, 3, "late"));
+  await eventually(() => expect(server.heard.at(-1)).toEqual({ op: "subscribe", subscriptions: [{ id: 2, channelId: 7 }] }));
+  server.send(greeting(2, 4, "in time"));
+  await eventually(() => expect(handler).toHaveBeenCalledTimes(2));
+  expect(handler).toHaveBeenLastCalledWith({ number: 4, text: "in time" });
   expect(problems).toEqual([]);
 });
 

@@ -52,6 +52,12 @@ interface Subscription {
   id: number | null; // null: not subscribed at the server
 }
 
+// A server refuses a second subscription of a channel, so all subscriptions of a channel share one.
+interface SubscribedChannel {
+  channel: Channel;
+  subscriptions: Set<Subscription>;
+}
+
 export class FoxgloveClient implements TopicSource {
   private socket: WebSocket | null = null;
   private attempt = 0;
@@ -60,7 +66,7 @@ export class FoxgloveClient implements TopicSource {
   private nextSubscription = 1;
   private readonly channels = new Map<number, Channel>();
   private readonly subscriptions = new Set<Subscription>();
-  private readonly channelOf = new Map<number, { subscription: Subscription; channel: Channel }>();
+  private readonly subscribed = new Map<number, SubscribedChannel>(); // by the ID that the server knows
   private readonly decoders = new MessageDecoders();
   private readonly reported = new Set<string>();
   private readonly counted = new Map<string, TopicCount>(); // by topic
@@ -139,10 +145,14 @@ export class FoxgloveClient implements TopicSource {
 
   private unsubscribe(subscription: Subscription): void {
     this.subscriptions.delete(subscription);
-    if (subscription.id === null) return;
-    this.channelOf.delete(subscription.id);
-    this.send({ op: "unsubscribe", subscriptionIds: [subscription.id] });
+    const { id } = subscription;
+    if (id === null) return;
     subscription.id = null;
+    const shared = this.subscribed.get(id);
+    shared?.subscriptions.delete(subscription);
+    if (!shared || shared.subscriptions.size > 0) return;
+    this.subscribed.delete(id);
+    this.send({ op: "unsubscribe", subscriptionIds: [id] });
   }
 
   private open(): void {
@@ -178,7 +188,7 @@ export class FoxgloveClient implements TopicSource {
     this.socket = null;
     clearTimeout(this.timer);
     this.channels.clear();
-    this.channelOf.clear();
+    this.subscribed.clear();
     this.hasParameters = false;
     for (const name of [...this.questions.keys()]) this.answer(name, null);
     for (const subscription of this.subscriptions) subscription.id = null;
@@ -232,10 +242,10 @@ export class FoxgloveClient implements TopicSource {
 
   private unadvertise(ids: number[]): void {
     for (const id of ids) this.channels.delete(id);
-    for (const [id, { subscription, channel }] of [...this.channelOf]) {
+    for (const [id, { subscriptions, channel }] of [...this.subscribed]) {
       if (!ids.includes(channel.id)) continue;
-      this.channelOf.delete(id);
-      subscription.id = null;
+      this.subscribed.delete(id);
+      for (const subscription of subscriptions) subscription.id = null;
     }
     this.tellTopics();
   }
@@ -248,13 +258,20 @@ export class FoxgloveClient implements TopicSource {
 
   private request(subscriptions: Subscription[]): void {
     const byTopic = new Map([...this.channels.values()].map((channel) => [channel.topic, channel]));
+    const idOfChannel = new Map([...this.subscribed].map(([id, { channel }]) => [channel.id, id]));
     const wanted: { id: number; channelId: number }[] = [];
     for (const subscription of subscriptions) {
       const { topic, orElse } = subscription;
       const channel = byTopic.get(topic) ?? (orElse === undefined ? undefined : byTopic.get(orElse));
       if (!channel || subscription.id !== null) continue;
-      subscription.id = this.nextSubscription++;
-      this.channelOf.set(subscription.id, { subscription, channel });
+      const known = idOfChannel.get(channel.id);
+      subscription.id = known ?? this.nextSubscription++;
+      if (known !== undefined) {
+        this.subscribed.get(known)!.subscriptions.add(subscription);
+        continue;
+      }
+      idOfChannel.set(channel.id, subscription.id);
+      this.subscribed.set(subscription.id, { channel, subscriptions: new Set([subscription]) });
       wanted.push({ id: subscription.id, channelId: channel.id });
     }
     if (wanted.length > 0) this.send({ op: "subscribe", subscriptions: wanted });
@@ -262,13 +279,15 @@ export class FoxgloveClient implements TopicSource {
 
   private receiveBinary(frame: DataView): void {
     if (frame.byteLength < MESSAGE_DATA_HEADER_BYTES || frame.getUint8(0) !== MESSAGE_DATA) return;
-    const entry = this.channelOf.get(frame.getUint32(1, true));
+    const entry = this.subscribed.get(frame.getUint32(1, true));
     if (!entry) return; // unsubscribed while this was under way
-    const { subscription, channel } = entry;
+    const { subscriptions, channel } = entry;
     this.count(channel.topic, frame.byteLength);
     const payload = new DataView(frame.buffer, frame.byteOffset + MESSAGE_DATA_HEADER_BYTES);
-    if (subscription.newestOnly) this.handOverLater(subscription, channel, payload);
-    else this.handOver(subscription, channel, payload);
+    for (const subscription of [...subscriptions]) {
+      if (subscription.newestOnly) this.handOverLater(subscription, channel, payload);
+      else this.handOver(subscription, channel, payload);
+    }
   }
 
   private count(topic: string, bytes: number): void {

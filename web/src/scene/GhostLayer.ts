@@ -13,7 +13,7 @@ export class GhostLayer {
   private readonly material = new MeshBasicMaterial({
     color: 0x8b5cf6,
     transparent: true,
-    opacity: 0.4,
+    opacity: 0.6,
     depthWrite: false,
   });
   private shown: { bodies: BodyLayer; entries: readonly number[]; layoutVersion: number } | null = null;

@@ -70,7 +70,10 @@ export class PlotFeed {
     );
     this.state.watch(
       ({ comparison }) => comparison?.recording,
-      () => this.compared.clear(),
+      () => {
+        this.compared.clear();
+        this.onData();
+      },
     );
     this.state.watch(
       ({ status }) => status,
