@@ -12,7 +12,7 @@
 
 namespace gsv::base {
 
-// The event that a written file survives: the end of the process, or a loss of power.
+// The events after which a written file must still exist.
 enum class Durability { kProcess, kPowerLoss };  // kPowerLoss waits until the disk has the data
 
 // Writes a temporary file beside `file` and renames it. Returns kUnavailable if the file cannot be

@@ -43,7 +43,7 @@ TEST_P(AtomicFileTest, ReportsAFailedRenameAndLeavesNoTemporaryFile) {
 }
 
 TEST_P(AtomicFileTest, KeepsThePreviousFileIfTheDiskIsFull) {
-  // The next draft cannot be written, because its device is full.
+  // The next write fails, because the device of the temporary file is full.
   ASSERT_TRUE(WriteAtomically(file_, "before", GetParam()));
   fs::create_symlink("/dev/full", DraftPath(file_, getpid()));
   const Status written = WriteAtomically(file_, "after", GetParam());

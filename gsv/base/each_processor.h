@@ -1,6 +1,6 @@
-// GSV_FOR_EACH_PROCESSOR before a function: it is compiled for processors with and without AVX2, and
-// the loader chooses the version for the processor it finds. Sanitizers cannot start before it does.
-// Both versions give the same bits, since nothing is contracted or reassociated.
+// GSV_FOR_EACH_PROCESSOR before a function compiles it with and without AVX2; the loader chooses.
+// Sanitizer builds have one version, because a sanitizer cannot start before the loader chooses.
+// Both give bit-identical results, because the compiler neither fuses nor reorders operations.
 #pragma once
 
 #include "gsv/base/sanitizer.h"

@@ -13,9 +13,9 @@
 
 namespace gsv::base {
 
-// Each code stands for one reaction of the caller. The command line maps codes to exit codes.
+// Each code corresponds to one reaction of the caller. The command line maps codes to exit codes.
 enum class ErrorCode {
-  kInvalidArgument,  // a request that can never succeed as it stands (exit code 2)
+  kInvalidArgument,  // a request that cannot succeed without a change (exit code 2)
   kBadModel,         // a world, robot, mesh or texture that cannot be used (3)
   kBehaviour,        // a behaviour that threw, crashed or hung (4)
   kNotFound,         // a name, file or offer that is not there (5 unless it is a model: 3)
@@ -46,7 +46,7 @@ inline tl::unexpected<Error> Fail(ErrorCode code, std::string message, std::stri
 
 inline tl::unexpected<Error> Fail(Error error) { return tl::unexpected<Error>(std::move(error)); }
 
-// One thing found while reading a file. Readers collect all of them before they return.
+// A problem that was found while a file was read. Readers collect all problems before they return.
 struct Problem {
   enum class Severity { kWarning, kError };
   Severity severity = Severity::kWarning;

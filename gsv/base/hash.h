@@ -23,11 +23,11 @@ class Hash {
   void Add(std::uint64_t value);
   void Add(std::int64_t value) { Add(static_cast<std::uint64_t>(value)); }
   void Add(double value) { Add(std::bit_cast<std::uint64_t>(value)); }
-  // Adds the length as well, so that "ab", "c" and "a", "bc" differ.
+  // Also adds the length, so that "ab", "c" and "a", "bc" have different hashes.
   void Add(std::string_view bytes);
 
   std::uint64_t Digest() const;
-  // Sixteen lower-case hexadecimal digits.
+  // The hash as sixteen lower-case hexadecimal digits.
   std::string Hex() const;
 
  private:

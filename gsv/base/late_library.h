@@ -6,7 +6,7 @@
 extern "C" {
 
 // The function `name` of the library `file` (a soname, or a path) or of a library that it needs.
-// Loads the library if it is not loaded, and keeps it. If there is no such library or function, it
-// prints why on stderr and exits with 127, as the dynamic linker does at the start of a program.
+// Loads the library if it is not loaded, and keeps it. If one of them is missing, prints the reason
+// on stderr and exits with 127, as the dynamic linker does.
 void* gsv_late_function(const char* file, const char* name) noexcept;
 }

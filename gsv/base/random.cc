@@ -59,7 +59,7 @@ double Noise::Uniform() {
 }
 
 double Noise::Gaussian() {
-  const double u = 1.0 - Uniform();  // in (0, 1]: its logarithm is finite
+  const double u = 1.0 - Uniform();  // u is in (0, 1], so its logarithm is finite
   const double v = Uniform();
   return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
 }

@@ -15,8 +15,8 @@ inline constexpr bool kHasThreadSanitizer = true;
 inline constexpr bool kHasThreadSanitizer = false;
 #endif
 
-// These sanitizers reserve terabytes of addresses and use few, so that the address space cannot be
-// limited.
+// These sanitizers reserve terabytes of address space, so a limit on address space would make the
+// program fail.
 inline constexpr bool kReservesAddressSpace = kHasAddressSanitizer || kHasThreadSanitizer;
 
 // The factor by which time limits are extended: sanitizers slow programs down by two to ten times.

@@ -24,8 +24,8 @@ inline std::string FormatNumber(double value) {
   return text;
 }
 
-// Records the error as a property of the running test, unless a larger one of this bound and unit
-// is recorded.
+// Records the error as a property of the running test, unless a larger error with the same bound
+// and unit is already recorded.
 inline void RecordLargestError(double error, double bound, const std::string& unit) {
   const std::string key = "within " + FormatNumber(bound) + " " + unit;
   const ::testing::TestInfo* const test = ::testing::UnitTest::GetInstance()->current_test_info();

@@ -22,8 +22,8 @@
 // Declares the order in which a thread locks mutexes.
 #define GSV_ACQUIRED_AFTER(...) GSV_THREAD_ATTRIBUTE(acquired_after(__VA_ARGS__))
 
-// Marks functions whose caller holds the mutex, must not hold it, holds it afterwards, or no longer
-// holds it.
+// Marks functions that require their caller to hold the mutex, or not to hold it, and functions
+// that lock or unlock it.
 #define GSV_REQUIRES(...) GSV_THREAD_ATTRIBUTE(requires_capability(__VA_ARGS__))
 #define GSV_REQUIRES_SHARED(...) GSV_THREAD_ATTRIBUTE(requires_shared_capability(__VA_ARGS__))
 #define GSV_EXCLUDES(...) GSV_THREAD_ATTRIBUTE(locks_excluded(__VA_ARGS__))

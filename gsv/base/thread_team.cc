@@ -71,8 +71,8 @@ void ThreadTeam::RunPieces(std::size_t self) {
       job_.call(job_.work, begin, std::min(begin + job_.grain, part.end));
     }
   }
-  // No piece is left. The first thread that notices closes the job, so that others do not join it
-  // again while the last pieces are in progress.
+  // No piece is left. The first thread that notices this closes the job, so that no other thread
+  // joins it while the last pieces are in progress.
   state_.fetch_and(~kOpen, std::memory_order_relaxed);
 }
 

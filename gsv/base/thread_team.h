@@ -63,8 +63,8 @@ class ThreadTeam {
   // for.
   static constexpr unsigned kOpen = 1u << 31;
   Job job_;
-  // The part of the range that a thread begins with. Equal parts in successive jobs keep data in
-  // the thread's cache. Afterwards the thread helps others.
+  // The part of the range with which a thread begins. Equal parts in successive jobs keep data in
+  // the thread's cache. When its own part is done, the thread takes pieces of other parts.
   struct alignas(64) Part {
     std::atomic<std::size_t> next{0};  // where the next piece begins
     std::size_t end = 0;

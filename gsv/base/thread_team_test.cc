@@ -77,7 +77,8 @@ bool AllOthersSleep() {
 // Regression: threads without a piece once kept their processors busy.
 TEST(ThreadTeam, ThreadsWithoutAPieceSleep) {
   constexpr int kLooks =
-      200;  // required consecutive checks: a thread that polls may also rest once
+      200;  // the number of consecutive checks that must succeed, because a thread that polls may
+            // also sleep for a moment
   constexpr auto kTimeout = std::chrono::seconds(30);
   std::latch begun(2), end(1);
   std::thread job([&] {

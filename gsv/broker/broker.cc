@@ -77,7 +77,7 @@ CORBA::ORB_ptr StartOrb(const orb::OrbAccess& access) {
   return CORBA::ORB_init(no_arguments, nullptr, "omniORB4", settings);
 }
 
-// The reason why the endpoint could not be opened, which omniORB does not report.
+// Returns the reason why the endpoint could not be opened, because omniORB does not report it.
 std::string WhyNotListening(const BrokerOptions& options) {
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;

@@ -27,8 +27,8 @@ bool EndWith(pid_t parent) {
 }
 
 // Ends the process without destroying the ORB. A late thread of the ORB would use the destroyed ORB
-// and crash (seen with omniORB 4.2.5 after a minute of mutated requests). With sanitizers and
-// coverage the ORB is destroyed, so that leaks and executed lines are reported.
+// and crash (seen with omniORB 4.2.5 after a minute of mutated requests). In builds with sanitizers
+// or coverage the ORB is destroyed, so that leaks and executed lines are reported.
 int End(Broker& broker, int exit_code) {
   broker.Close();
   // The reference goes to stdout. If writing fails, no client has received it.

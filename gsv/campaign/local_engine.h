@@ -9,8 +9,8 @@
 namespace gsv::campaign {
 
 struct Progress {
-  std::size_t planned = 0, done = 0, not_passed = 0;  // `done` includes the runs of earlier drivers
-  double seconds_left = 0;                            // wall-clock time; 0 if it is unknown
+  std::size_t planned = 0, done = 0, not_passed = 0;  // `done` includes earlier drivers' runs
+  double seconds_left = 0;                            // wall-clock time to the end; 0 if unknown
 };
 
 struct LocalEngine {

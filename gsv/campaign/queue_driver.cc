@@ -16,7 +16,7 @@ constexpr std::chrono::milliseconds kGatherPeriod{500};
 // after this time without progress, the driver prints the reason
 constexpr auto kSilence = std::chrono::seconds(30);
 constexpr std::size_t kFewTasks = 1000;
-// how often a run's task may end during the run before the run becomes an error
+// a run becomes an error when its tasks have ended during the run this often
 constexpr std::size_t kMaxAttempts = 3;
 constexpr int kGone = 2;  // how many consecutive queries must miss a task before it counts as gone
 constexpr std::size_t kMaxLogBytes = 1000;  // how many bytes of the log an error shows
@@ -284,7 +284,7 @@ class Drive {
   std::vector<Batch> batches_;  // ordered by number
   std::set<int> ours_;          // batches that this driver submitted
   std::set<std::int64_t> done_;
-  std::size_t done_before_ = 0;  // how many runs were done when this driver started
+  std::size_t done_before_ = 0;  // number of runs that were done when this driver started
   Progress progress_;
   // number of queries that did not find the task, by share
   std::map<std::string, int> looks_without_;

@@ -11,7 +11,7 @@ using testing::At;
 using testing::TestWorld;
 
 constexpr double kAttachedStep = 0.01;
-constexpr double kCrateSide = 0.2;  // m, of the crate
+constexpr double kCrateSide = 0.2;  // edge length of the crate, m
 
 const Pose kLinkFromCrate = At(0.35, 0, 0.25);
 
@@ -33,7 +33,8 @@ Attachment HoldCrate(const TestWorld& world, const Pose& link_from_held = kLinkF
   return {world.layout().Find("robot"), 0, world.layout().Find("crate"), link_from_held};
 }
 
-// Puts the crate where the robot holds it. This is the task of the code that attached it.
+// Puts the crate where the robot holds it. In a simulation, the code that attached the crate does
+// this.
 void CarryCrate(TestWorld& world) {
   world.body("crate").world_from_model = world.body("robot").world_from_model * kLinkFromCrate;
 }

@@ -72,11 +72,11 @@ class WorldEngine final : public Engine {
   }
 
   void UseAttachments() {
-    // All of them accepted these bodies before.
+    // Every attached body was accepted before, so this cannot fail.
     if (auto layout = attached_.TakeChanged()) GSV_CHECK(UseLayout(std::move(layout)));
   }
 
-  // Actors move first, because they stop for nobody. Then planar bodies move, while rigid bodies
+  // Actors move first, because nothing stops them. Then planar bodies move, while rigid bodies
   // stand still. Planar bodies that were stopped by rigid ones push them. After the rigid bodies
   // have moved, the planar bodies move again from the start of the step.
   void MoveAll(base::SimTime step, world::State& state, std::vector<world::Contact>& contacts) {
@@ -131,7 +131,7 @@ class WorldEngine final : public Engine {
   }
 
   AttachedLayout attached_;
-  std::shared_ptr<const world::Layout> layout_;  // includes the attached bodies
+  std::shared_ptr<const world::Layout> layout_;  // the layout with the attached bodies
   ActorMover actors_;
   Crowd crowd_;
   std::unique_ptr<PlanarMover> planar_;

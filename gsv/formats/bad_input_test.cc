@@ -20,7 +20,7 @@ class BadInputTest : public testing::Test {
     EXPECT_EQ(world.error().code, ErrorCode::kBadModel);
     return world.error();
   }
-  // The warnings for a model that is read without errors.
+  // The warnings that reading this model gives. It must be read without errors.
   std::vector<std::string> WarningsIn(const std::string& model_content) {
     problems_.clear();
     const auto model =

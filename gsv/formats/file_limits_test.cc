@@ -1,4 +1,4 @@
-// Each limit on files: a file at the limit is read. With a limit that is one lower, the file is
+// Tests each limit on files: a file at the limit is read. If the limit is lower by one, the file is
 // refused, or the part beyond the limit is left out.
 #include <functional>
 
@@ -18,7 +18,7 @@ class FileLimitsTest : public testing::Test {
  protected:
   using Reads = std::function<base::Status(const ReadLimits&)>;
 
-  // Checks the limit of this name with a file that needs `needed`.
+  // Checks the limit with this name, by a file for which `needed` is just enough.
   static void ExpectLimit(const std::string& name, std::size_t needed, const Reads& reads) {
     ReadLimits limits;
     ASSERT_TRUE(SetLimit(name + "=" + std::to_string(needed), limits));
@@ -56,7 +56,7 @@ class FileLimitsTest : public testing::Test {
 };
 
 TEST_F(FileLimitsTest, LimitsOfWorldsAreEnforced) {
-  // sdf, world, model, link.
+  // The depth of elements is four: sdf, world, model, link.
   const std::string world =
       "<sdf version='1.9'><world name='w'><model name='a'><link name='l'/></model>"
       "<model name='b'><link name='l'/></model></world></sdf>";
@@ -75,7 +75,7 @@ TEST_F(FileLimitsTest, LimitsOfIncludesAreEnforced) {
   folder_.Write("a/model.sdf", model(include("b")));
   folder_.Write("b/model.sdf", model(include("c")));
   folder_.Write("c/model.sdf", model(""));
-  // Counted from the model that the world includes.
+  // The depth counts from the model that the world includes.
   ExpectLimit("include_depth", 2,
               World("<sdf version='1.9'><world name='w'>" + include("a") + "</world></sdf>"));
 }

@@ -1,4 +1,5 @@
-// A single error in a file affects one thing, which a warning names; the rest is read.
+// Tests that a single error in a file affects one part only. A warning names this part, and the
+// rest is read.
 #include <filesystem>
 
 #include <gmock/gmock.h>
@@ -44,7 +45,7 @@ class FlawTest : public testing::Test {
   std::shared_ptr<const model::Model> Robot(const std::string& content) {
     return Model("r.urdf", "<robot name='r'>\n" + content + "</robot>");
   }
-  // All problems, which must be warnings.
+  // All problems of the last reading, which must be warnings.
   std::vector<std::string> Said() const {
     std::vector<std::string> said;
     for (const base::Problem& problem : problems_) {
@@ -75,7 +76,7 @@ class FlawTest : public testing::Test {
   base::Problems problems_;
 };
 
-// Each value, and a part of the warning.
+// Each case is an invalid value, and a part of the warning about it.
 TEST_F(FlawTest, AnInvalidValueIsReplaced) {
   const std::pair<const char*, const char*> links[] = {
       {"<pose>1 2 3 0 0</pose>", "6 numbers are expected; 1 2 3 0 0 0 is used"},
@@ -200,7 +201,7 @@ TEST_F(FlawTest, AnInertiaIsRepairedUnlessItsModelNeverMoves) {
   const auto world = World("<model name='m'>" + zero);
   EXPECT_EQ(Find(world, "m")->links[0].inertial.mass, 1);
   EXPECT_THAT(Said(), ElementsAre(HasSubstr("1 kg is used")));
-  // It breaks only the triangle inequality, so it is used unchanged.
+  // This inertia only violates the triangle inequality, so it is used unchanged.
   const auto flat = World(
       "<model name='m'><link name='l'><inertial><mass>5</mass><inertia><ixx>0.1</ixx><iyy>0.1"
       "</iyy><izz>0.9</izz></inertia></inertial></link></model>");

@@ -39,7 +39,7 @@ class HostileInputTest : public testing::Test {
   std::shared_ptr<const model::Model> model_;
 };
 
-// Ten entities, each of which expands to ten times the one before.
+// Each of ten entities expands to ten times the one before.
 TEST_F(HostileInputTest, EntitiesAreNotExpanded) {
   std::string text = "<?xml version='1.0'?><!DOCTYPE sdf [<!ENTITY a0 'ha'>";
   for (int i = 1; i < 10; ++i) {
@@ -99,8 +99,8 @@ std::string Gltf(const std::string& index_bytes, int byte_length) {
 }
 
 TEST_F(HostileInputTest, GltfWithOutOfRangeIndicesOrBuffersIsRejected) {
-  EXPECT_TRUE(Mesh("good.gltf", Gltf("AAEC", 39)).has_value());    // 0, 1, 2
-  EXPECT_FALSE(Mesh("index.gltf", Gltf("AAH/", 39)).has_value());  // 0, 1, 255
+  EXPECT_TRUE(Mesh("good.gltf", Gltf("AAEC", 39)).has_value());    // the indices 0, 1, 2
+  EXPECT_FALSE(Mesh("index.gltf", Gltf("AAH/", 39)).has_value());  // the indices 0, 1, 255
   EXPECT_FALSE(Mesh("short.gltf", Gltf("", 39)).has_value());
   EXPECT_FALSE(Mesh("huge.gltf", Gltf("AAEC", 2'000'000'000)).has_value());
 }

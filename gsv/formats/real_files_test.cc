@@ -1,4 +1,5 @@
-// Worlds and robots of other authors load, with warnings only about missing parts.
+// Tests that worlds and robots of other authors can be read, with warnings only about missing
+// parts.
 #include <algorithm>
 #include <chrono>
 #include <set>
@@ -24,7 +25,8 @@ class RealFilesTest : public testing::Test {
   }
 };
 
-// Missing files, and elements that gsv does not support; nothing in these files is misspelt.
+// Whether the problem is expected: a missing file, or an element that GSV does not support. No name
+// in these files is misspelt.
 bool IsKnownToBeAbsent(const base::Problem& problem) {
   if (problem.severity != base::Problem::Severity::kWarning) return false;
   for (const char* absent :
@@ -116,8 +118,8 @@ TEST_F(RealFilesTest, TurtleBot3HouseAndBurgerLackOneMesh) {
       }
     }
   }
-  EXPECT_GT(textured, 90);          // bricks and wood everywhere
-  EXPECT_LT(pictures.size(), 12u);  // each is read once
+  EXPECT_GT(textured, 90);          // Nearly all visuals have a texture, such as bricks or wood.
+  EXPECT_LT(pictures.size(), 12u);  // each image is read once
 
   const auto burger =
       library.ReadModel("turtlebot3_burger", problems, turtlebot3 / "worlds/x.world");
@@ -134,12 +136,13 @@ TEST_F(RealFilesTest, TurtleBot3HouseAndBurgerLackOneMesh) {
   EXPECT_EQ((*burger)->drive->linear_acceleration.max, 1);
   ASSERT_THAT((*burger)->sensors, SizeIs(2));
   EXPECT_EQ(model::NumberOr((*burger)->sensors[1].parameters, "scan.horizontal.samples", 0), 360);
-  // The base's visual is missing, so that its collision box is drawn.
+  // The mesh of the base's visual is missing, so its collision box is drawn instead.
   EXPECT_TRUE(std::holds_alternative<geometry::Box>((*burger)->links[1].visuals.at(0).shape));
 }
 
 TEST_F(RealFilesTest, TurtleBot3WorldStandsUpright) {
-  // Its meshes declare Y_UP but have z up: 0.25 * 200 inches high, from 0.3 m below the ground.
+  // The meshes declare Y_UP but have z up. The arena is 0.25 * 200 inches high and begins 0.3 m
+  // below the ground.
   base::Problems problems;
   const auto world =
       ModelLibrary().ReadWorld(RealFolder() / "turtlebot3/worlds/turtlebot3_world.world", problems);
@@ -164,7 +167,7 @@ TEST_F(RealFilesTest, PioneerIsMeasured) {
       ModelLibrary().ReadModel((RealFolder() / "gazebo_models/pioneer2dx").string(), problems);
   ASSERT_TRUE(pioneer.has_value());
   ASSERT_TRUE((*pioneer)->drive.has_value());
-  EXPECT_NEAR((*pioneer)->drive->wheel_separation, 0.34, 1e-9);  // wheels at y = ±0.17
+  EXPECT_NEAR((*pioneer)->drive->wheel_separation, 0.34, 1e-9);  // the wheels are at y = ±0.17
   EXPECT_NEAR((*pioneer)->drive->wheel_radius, 0.11, 1e-9);
   // The axis is given in the model's frame: both wheels rotate about y.
   for (const auto& joint : (*pioneer)->joints) {

@@ -60,13 +60,13 @@ TEST_F(SdfActor, ReadsTheScriptInTheOrderOfItsTrajectories) {
   ASSERT_EQ(script->trajectories.size(), 2u);
   const auto& first = script->trajectories[0];
   EXPECT_EQ(first.tension, 0.6);
-  // The first pose applies from the start on.
+  // The first pose applies from the beginning of the script.
   ASSERT_EQ(first.waypoints.size(), 3u);
   EXPECT_EQ(first.waypoints[0].time.count(), 0);
   EXPECT_EQ(first.waypoints[0].pose, first.waypoints[1].pose);
   EXPECT_EQ(first.waypoints[1].time, std::chrono::milliseconds(500));
   EXPECT_EQ(first.waypoints[2].pose.position, (Vector3{2, 0, 1}));
-  // It starts where its trajectory starts.
+  // The actor starts at the start of its trajectory.
   EXPECT_EQ(world.models[0].world_from_model.position, (Vector3{11, 0, 1}));
 }
 

@@ -76,7 +76,7 @@ TEST_F(SdfJointTest, ABallJointIsThree) {
 }
 
 TEST_F(SdfJointTest, AScrewHasItsPitchInMetresARadian) {
-  // 4 rad/m of a left-handed thread.
+  // The older element is 4 rad/m of a left-handed thread.
   const auto old =
       ReadJoint("screw", "<thread_pitch>4</thread_pitch><axis><xyz>0 0 1</xyz></axis>");
   EXPECT_EQ(old->joints.at(0).kind, JointKind::kScrew);
@@ -89,8 +89,8 @@ TEST_F(SdfJointTest, AScrewHasItsPitchInMetresARadian) {
   EXPECT_THAT(problems_[0].message, HasSubstr("must have a pitch"));
 }
 
-// SDFormat: from the reference body, the child turns -ratio times as far as the parent. An output
-// shaft about the opposite axis turns by the opposite angle.
+// SDFormat defines: seen from the reference body, the child rotates by -ratio times the angle of
+// the parent. An output shaft about the opposite axis rotates by the opposite angle.
 TEST_F(SdfJointTest, GearboxCouplesTheJointsOfItsTwoLinks) {
   const auto shaft = [](const std::string& name, const std::string& parent,
                         const std::string& child, const std::string& axis) {

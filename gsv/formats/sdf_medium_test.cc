@@ -1,5 +1,5 @@
-// Effects on bodies, and collision filters: bitmasks, wind, fluids, decay, kinematic links,
-// automatic inertia, joints that follow others.
+// Tests media, collision filters and other properties of bodies: bitmasks, wind, fluids, decay,
+// kinematic links, automatic inertia, joints that follow others.
 #include <gmock/gmock.h>
 
 #include "gsv/base/test_folder.h"
@@ -126,7 +126,7 @@ TEST_F(SdfMedium, AFluidIsReadWithItsLayers) {
   EXPECT_TRUE(problems_.empty());
 }
 
-// A box of 6 m³ and 500 kg/m³: m (b² + c²)/12.
+// A box of 6 m³ with 500 kg/m³ has the moments m (b² + c²)/12.
 TEST_F(SdfMedium, InertiaIsMadeOfShapes) {
   const auto model = ModelOf(
       "<link name='l'><inertial auto='true'><density>500</density>"

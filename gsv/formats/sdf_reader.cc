@@ -168,7 +168,7 @@ class ModelLibrary::Reader {
 
   base::Mutex mutex_;
   const std::map<std::string, std::string> drives_;
-  // Models with the chosen drives, by the model as in its file.
+  // Models with the chosen drives, by the model that was read from the file.
   std::map<std::shared_ptr<const Model>, std::shared_ptr<const Model>> driven_
       GSV_GUARDED_BY(mutex_);
   ModelStore store_ GSV_GUARDED_BY(mutex_);

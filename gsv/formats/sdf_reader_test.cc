@@ -206,7 +206,8 @@ TEST_F(SdfReaderTest, FlattensNestedModels) {
   const model::Joint& elbow = model->joints[1];
   EXPECT_EQ(elbow.name, "left::elbow");
   EXPECT_EQ(elbow.kind, model::JointKind::kContinuous);
-  ExpectNear(elbow.axis, {0, 1, 0});  // in the joint's frame, rotated like the arm
+  ExpectNear(elbow.axis, {0, 1, 0});  // The axis is in the joint's frame, which is rotated with the
+                                      // arm.
   ExpectNear(elbow.model_from_joint.orientation * elbow.axis, {-1, 0, 0});
   EXPECT_EQ(model->joints[0].parent, 0);
   EXPECT_EQ(model->joints[0].child, 1);
@@ -539,8 +540,8 @@ TEST_F(SdfReaderTest, TakesTwoFreeWheelsOfAUrdfAsADifferentialDrive) {
   EXPECT_THAT(Sentences(), IsEmpty());
 }
 
-// SDFormat's cone (1.11), <light_on> (1.9) and <screw_thread_pitch> (1.10), which a reader of 1.9
-// lacks.
+// The file uses SDFormat's cone (1.11), <light_on> (1.9) and <screw_thread_pitch> (1.10), which
+// libsdformat for 1.9 does not know.
 TEST_F(SdfReaderTest, ReadsElementsOfVersionsSince110) {
   for (const char* version : {"1.10", "1.11", "1.12"}) {
     problems_.clear();

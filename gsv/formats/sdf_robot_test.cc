@@ -274,7 +274,7 @@ TEST_F(SdfRobotTest, ReadsSensorsOfKnownAndUnknownTypes) {
   EXPECT_EQ(model::NumberOr(eye.parameters, "image.width", 0), 320);
   EXPECT_EQ(model::NumberOr(eye.parameters, "clip.near", 0), 0.05);
   EXPECT_NEAR(eye.link_from_sensor.position.z, 1.4,
-              1e-12);  // 1 + 0.5 in the model, 0.1 up the link
+              1e-12);  // 1 + 0.5 from the model, and 0.1 along the link
 
   const auto& echo = model->sensors[2];
   EXPECT_EQ(echo.type, "sonar");

@@ -30,7 +30,7 @@ class SdfTerrain : public ::testing::Test {
     folder_.Write("snow.tga", Tga(2, 250, 250, 250));
   }
 
-  // The material of a visual that is 3 m high everywhere.
+  // The material of a visual that has a height of 3 m everywhere.
   model::Material MaterialOf(const std::string& textures) {
     const std::string map = "<geometry><heightmap><uri>hill.tga</uri><size>10 10 3</size>" +
                             textures + "</heightmap></geometry>";
@@ -59,7 +59,7 @@ TEST_F(SdfTerrain, IsDrawnWithItsTexture) {
   EXPECT_EQ(material.base_colour, (model::Colour{1, 1, 1, 1}));
 }
 
-// At 3 m, half-way in the fading distance above the height where snow begins.
+// The height of 3 m is halfway in the fading distance above the height at which snow begins.
 TEST_F(SdfTerrain, BlendsTexturesByHeight) {
   const auto material = MaterialOf(
       "<texture><diffuse>sand.tga</diffuse><size>2</size></texture>"

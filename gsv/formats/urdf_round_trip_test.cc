@@ -1,4 +1,5 @@
-// Models that are written as URDF and read again, by way of urdfdom and libsdformat, are the same.
+// Tests that models stay the same when they are written as URDF and read again by urdfdom and
+// libsdformat.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -70,7 +71,7 @@ void ExpectSameLink(const model::Link& a, const model::Link& b) {
         << a.name;
   }
   if (!a.visuals.empty() && !b.visuals.empty()) {
-    // libsdformat makes a colour of URDF brighter by a quarter, as Gazebo shows it.
+    // libsdformat multiplies the colours of URDF by 1.25, as Gazebo shows them.
     const double shown = std::min(1.0, a.visuals[0].materials[0].base_colour.r / 0.8);
     EXPECT_NEAR(shown, b.visuals[0].materials[0].base_colour.r, 1e-6) << a.name;
   }
@@ -179,7 +180,8 @@ TEST_F(UrdfRoundTripTest, KeepsAStaticModelAndOneThatIsHeldByTheWorld) {
   ExpectSame(*held);
 }
 
-// A door leaf whose frame is in its middle turns about its edge: that takes a link at the edge.
+// The frame of a door leaf is in its middle, and it turns about its edge. This requires a link at
+// the edge.
 TEST_F(UrdfRoundTripTest, AddsALinkIfTheJointIsOutsideItsChildsFrame) {
   const ModelPointer door = ReadText(
       "<sdf version='1.9'><model name='m'><link name='frame'/><link name='leaf'><pose>0.4 0 1 0 0 "
@@ -234,8 +236,8 @@ double MassOf(const model::Model& model) {
   return mass;
 }
 
-// Links that only URDF's tree needs are merged with the links that are fixed to them, and these
-// then have their names.
+// An added link, which only URDF's tree needs, is merged with the link that is fixed to it. The
+// merged link has the name of the added one.
 TEST_F(UrdfRoundTripTest, KeepsMassAndJointsOfRealRobots) {
   if (RealFolder().empty()) GTEST_SKIP() << "GSV_REAL_DIR names no folder of real worlds";
   for (const char* name :
@@ -243,7 +245,7 @@ TEST_F(UrdfRoundTripTest, KeepsMassAndJointsOfRealRobots) {
         "gazebo_models/pioneer2dx", "gazebo_models/pioneer3at"}) {
     const ModelPointer model = Read((RealFolder() / name).string(), problems_);
     const ModelPointer read = WrittenAndRead(*model);
-    // The links inside a ball joint have no mass, and get some as they are read.
+    // The links inside a ball joint have no mass, and the reader gives them some.
     const bool has_balls =
         std::any_of(model->joints.begin(), model->joints.end(),
                     [](const model::Joint& joint) { return joint.kind == JointKind::kBall; });

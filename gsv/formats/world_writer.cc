@@ -26,12 +26,12 @@ using geometry::Pose;
 using model::PlacedModel;
 using tinyxml2::XMLElement;
 
-// The elements whose text names a file.
+// The elements whose text is the name of a file.
 constexpr const char* kFileElements[]{"uri",           "filename",        "albedo_map",
                                       "normal_map",    "light_map",       "roughness_map",
                                       "metalness_map", "glossiness_map",  "specular_map",
                                       "emissive_map",  "environment_map", "ambient_occlusion_map"};
-// A place beside which there are no models.
+// A place without models beside it.
 constexpr const char* kNowhere = "/gsv-nowhere/world.sdf";
 constexpr int kMaxDepth = 256;
 
@@ -57,7 +57,7 @@ bool IsSameModel(const model::Model& a, const model::Model& b) {
   return &a == &b || (!a.source.empty() && a.source == b.source && a.name == b.name);
 }
 
-// The number and its neighbours, the nearest first.
+// Returns the number and its neighbouring doubles, the nearest first.
 std::vector<double> Neighbours(double number) {
   constexpr int kSteps = 4;
   std::vector<double> numbers{number};
@@ -69,7 +69,7 @@ std::vector<double> Neighbours(double number) {
   return numbers;
 }
 
-// Angles that become exactly `q`; nullopt if there are none near its own.
+// Returns angles that convert exactly to `q`; nullopt if there are none near its own angles.
 std::optional<geometry::RollPitchYaw> AnglesOf(const geometry::Quaternion& q) {
   const geometry::RollPitchYaw angles = geometry::ToRollPitchYaw(q);
   for (const double roll : Neighbours(angles.roll)) {
@@ -128,7 +128,7 @@ class WorldWriter {
     problems_.push_back({Problem::Severity::kWarning, message, where});
   }
 
-  // A world without a file of its own was made around a model, or by a program.
+  // Opens the world's file. A world without a file was made around a model, or by a program.
   base::Status Open() {
     std::error_code ignored;
     const bool has_file =
@@ -181,7 +181,8 @@ class WorldWriter {
     return {};
   }
 
-  // By the rules of the reader: included models first, and a second model of one name gets a number.
+  // Names the elements by the rules of the reader: included models first, and a second model with
+  // the same name gets a number.
   void NameElements() {
     for (XMLElement* const include : ChildrenOf("include")) {
       const std::string name = NameOfInclude(*include);
@@ -222,7 +223,7 @@ class WorldWriter {
     }
   }
 
-  // Copies of the elements, since models may be copied from one that was removed.
+  // Stores copies of the elements, because a model may be copied after its original was removed.
   void KeepTemplates() {
     for (const auto& [name, element] : elements_) {
       templates_[name] = element->DeepClone(file_.document.get())->ToElement();
@@ -263,7 +264,7 @@ class WorldWriter {
     return pose && !pose->relative_to.empty();
   }
 
-  // Whether the element of that name in the file can stay.
+  // Whether the element with that name in the file can stay unchanged.
   bool Keep(const PlacedModel& placed) {
     const auto found = elements_.find(placed.name);
     const PlacedModel* const original = Original(placed.name);
@@ -290,7 +291,7 @@ class WorldWriter {
     }
     element.DeleteAttribute("placement_frame");
     XMLElement* const written = file_.document->NewElement("pose");
-    // After the URI and the name, as one expects it in an <include>.
+    // The pose comes after the URI and the name, as is usual in an <include>.
     XMLElement* const name = element.FirstChildElement("name");
     if (IsInclude(element) && name != nullptr) {
       element.InsertAfterChild(name, written);
@@ -307,7 +308,7 @@ class WorldWriter {
     // The reader normalizes a quaternion, which may change its last bits.
     written->SetAttribute("rotation_format", "quat_xyzw");
     written->SetText(Joined({p.x, p.y, p.z, q.x, q.y, q.z, q.w}).c_str());
-    file_.root->SetAttribute("version", "1.9");  // the first that has quaternions
+    file_.root->SetAttribute("version", "1.9");  // the first version with quaternions
   }
 
   void Add(const PlacedModel& placed) {
@@ -321,7 +322,7 @@ class WorldWriter {
     world_->InsertEndChild(element);
   }
 
-  // A new element with this model; null, with a problem, if it cannot be written.
+  // Returns a new element for this model. If it cannot be written, adds a problem and returns null.
   XMLElement* ElementFor(const PlacedModel& placed) {
     const std::string& source = placed.model->source;
     if (IsShapeName(source)) return ShapeElement(source);
@@ -359,7 +360,7 @@ class WorldWriter {
         ->ToElement();
   }
 
-  // model://NAME if that finds the same file from everywhere, else the path.
+  // Returns model://NAME if this name finds the same file from any folder, else the path.
   std::string UriOfFile(const std::string& source) const {
     const fs::path path = fs::absolute(xacro::FilePart(source)).lexically_normal();
     const std::string by_name = "model://" + path.parent_path().filename().string();
@@ -402,8 +403,9 @@ class WorldWriter {
   XmlFile file_;
   XMLElement* world_ = nullptr;
   std::set<std::string> names_;
-  std::map<std::string, XMLElement*> elements_;   // of the file, by the names that the reader gave
-  std::map<std::string, XMLElement*> templates_;  // copies of these, owned by the document
+  std::map<std::string, XMLElement*> elements_;   // elements of the file, by the names that the
+                                                  // reader gave them
+  std::map<std::string, XMLElement*> templates_;  // copies of these elements, owned by the document
 };
 
 }  // namespace

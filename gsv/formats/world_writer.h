@@ -1,11 +1,11 @@
 // Writes a changed world as SDFormat.
 //
-// The text is that of the world's own file with the models as they stand now. So it keeps what GSV
-// does not simulate, such as plugins of Gazebo. An unchanged model keeps its element. A moved model
-// gets an absolute <pose>. A removed model loses its element. An added model becomes an <include> of
-// its file, or an inline <model> if it is a shape (sdf/shape_model.h) or was copied from an inline
-// model. Names of files that are found only beside the world's file become absolute paths, so that
-// the text may be saved in any folder.
+// The text is that of the world's own file, with the present models and poses. So it keeps parts
+// that GSV does not simulate, such as plugins of Gazebo. An unchanged model keeps its element. A
+// moved model gets an absolute <pose>. A removed model loses its element. An added model becomes an
+// <include> of its file, or an inline <model> if it is a shape (sdf/shape_model.h) or was copied
+// from an inline model. Names of files that are found only beside the world's file become absolute
+// paths, so that the text may be saved in any folder.
 //
 // Frames  ModelLibrary::ReadWorld() reads the poses back bit by bit if roll, pitch and yaw can express
 //         them, as they do for all poses that users set; else within rounding.
@@ -22,7 +22,7 @@
 
 namespace gsv::formats {
 
-// `original` is the world as ReadWorld() returned it. `models` are all models that stand in it now.
+// `original` is the world as ReadWorld() returned it. `models` are all models that are in it now.
 base::Result<std::string> WriteWorld(const model::WorldDescription& original,
                                      const std::vector<model::PlacedModel>& models,
                                      const geometry::Vector3& gravity, const ReadOptions& options,

@@ -42,7 +42,7 @@ class WorldWriterTest : public testing::Test {
     EXPECT_TRUE(world) << (world ? "" : world.error().Sentence());
     return world.value_or(model::WorldDescription{});
   }
-  // Writes the models into another folder, and reads that.
+  // Writes the models to a file in another folder, and reads that file.
   model::WorldDescription Again(const model::WorldDescription& world,
                                 const std::vector<PlacedModel>& models) {
     const auto text = WriteWorld(world, models, world.gravity, {}, problems_);

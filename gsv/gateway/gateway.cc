@@ -11,7 +11,7 @@ namespace gsv::gateway {
 namespace {
 
 constexpr std::size_t kReaderThreads = 2, kCommanderThreads = 2;
-constexpr std::size_t kRelayReaderThreads = 4;  // they wait for the other instance
+constexpr std::size_t kRelayReaderThreads = 4;  // these threads wait for the other instance
 
 class LocalGateway final : public Gateway, private Handler {
  public:
@@ -64,7 +64,8 @@ class LocalGateway final : public Gateway, private Handler {
     return set_->CheckControl(viewer, simulation);
   }
 
-  // In the order in which the threads may start; Stop() ends them in reverse order.
+  // These members are in the order in which their threads may start; Stop() ends them in reverse
+  // order.
   const StaticFiles files_;
   const Documentation documentation_;
   const metrics::Monitor monitor_;

@@ -6,7 +6,7 @@
 // replayed; or another instance whose simulations are relayed. All have the same addresses and
 // messages, so that the same viewer shows them.
 //
-// Threads  its own; it never waits for stepping threads, nor they for it.
+// Threads  its own; it and the stepping threads never wait for each other.
 #pragma once
 
 #include <filesystem>
@@ -38,7 +38,7 @@ struct GatewayOptions : ServerOptions {
   SimulationFactory* factory = nullptr;
   // The folder of recordings to list and replay; empty: none.
   std::filesystem::path recordings_folder{};
-  std::string only_recording{};  // a file in the folder; empty: all
+  std::string only_recording{};  // a single file of the folder that is served; empty: all files
   uploads::UploadLimits uploads{};
   recordings::SessionLimits replays{};
   // Bytes that are kept of the past of each simulation (recording/run_history.h); 0: nothing.
@@ -50,13 +50,13 @@ struct GatewayOptions : ServerOptions {
 struct RelayedInstance {
   // the address that the other instance prints, such as "http://192.168.1.7:8080/"
   std::string url;
-  std::string token{};      // used for all clients of the relay; empty: none
+  std::string token{};      // for the other instance, used for all clients; empty: none
   std::string authority{};  // a PEM file with the certificates to trust; empty: the system's
 };
 
 class Gateway {
  public:
-  // Serves the simulations of this program. All three fail if the port is not available.
+  // Serves the simulations of this program. All three functions fail if the port is not available.
   static base::Result<std::unique_ptr<Gateway>> Start(
       const GatewayOptions& options, std::shared_ptr<SimulationDirectory> directory);
   // Serves a recording. `player` must outlive the gateway.

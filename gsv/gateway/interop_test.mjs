@@ -1,6 +1,6 @@
-// Watches the development server with other people's code: Foxglove's own client, its reader of
+// Tests the development server with software by others: Foxglove's own client, its reader of
 // message definitions and its CDR decoder. The robots drive by a formula (see
-// testing/scripted_simulation.h), so every value can be told from a message's time stamp.
+// testing/scripted_simulation.h), so every value follows from the time stamp of its message.
 //
 //   node interop_test.mjs MODULES_ROOT GATEWAY_DEV_SERVER
 //
@@ -66,7 +66,7 @@ class Watcher {
     throw new Error(message);
   }
 
-  // The next event of that name.
+  // Waits for the next event with that name.
   next(name) {
     return new Promise((resolve) => {
       const once = (event) => {
@@ -77,7 +77,7 @@ class Watcher {
     });
   }
 
-  // Calls a service as its advertisement says; gives the decoded response.
+  // Calls a service as its advertisement describes it, and returns the decoded response.
   async call(name, request = {}) {
     const service = (await this.services).find((each) => each.name === name);
     assert.equal(service.request.encoding, "cdr");

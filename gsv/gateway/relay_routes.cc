@@ -1,5 +1,5 @@
-// The routes of a relay for another instance, which answers the requests. The relay checks their
-// permissions, too, by its own tokens.
+// The routes of a relay for another instance, which answers the requests. The relay also checks
+// permissions, with its own tokens.
 #include <map>
 #include <thread>
 #include <utility>
@@ -19,7 +19,7 @@ namespace {
 constexpr const char* kSocket = "/ws";
 constexpr std::size_t kMaxStreams = 64;
 constexpr std::chrono::seconds kProbeTime{5};
-// A reset waits for behaviours; a large model is written once.
+// The limit is long, because a reset waits for behaviours, and a large model must be written.
 constexpr std::chrono::seconds kRequestTime{60};
 
 base::Status Probe(const upstream::Address& address) {
@@ -106,8 +106,8 @@ class RelayRoutes final : public RouteSet {
   }
 
  private:
-  // The request for an image at the other instance, without the client's token, which is the relay's.
-  // `is_stream`: made of a request for view.mjpeg.
+  // Returns the request for an image at the other instance, without the client's token, which is
+  // valid only for the relay. `is_stream` means that the request is for view.mjpeg.
   static Request ImageRequest(const Request& request, bool is_stream) {
     Request forwarded = request;
     forwarded.raw_target.clear();
@@ -132,7 +132,7 @@ class RelayRoutes final : public RouteSet {
     return *std::move(answer);
   }
 
-  // `socket`: path of the stream at the other instance.
+  // `socket` is the path of the stream at the other instance.
   base::Result<std::shared_ptr<Hub>> FindHub(const Request& request, const std::string& socket) {
     const auto& query = request.target.query;
     const auto found = query.find("simulation");
@@ -159,7 +159,7 @@ class RelayRoutes final : public RouteSet {
   boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{
       io_.get_executor()};
   base::Mutex mutex_;
-  // By socket and name of the simulation. An empty name stands for the first simulation.
+  // Streams by socket and name of the simulation. An empty name means the first simulation.
   std::map<std::pair<std::string, std::string>, std::shared_ptr<upstream::Stream>> streams_
       GSV_GUARDED_BY(mutex_);
   std::thread thread_;

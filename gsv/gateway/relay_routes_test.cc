@@ -76,7 +76,7 @@ class RelayTest : public ::testing::Test {
   std::shared_ptr<testing::SimulationList> directory_ = std::make_shared<testing::SimulationList>();
   std::unique_ptr<Gateway> gateway_;
   std::unique_ptr<Gateway> relay_;
-  // Empty for HTTP.
+  // Empty for plain HTTP.
   TlsFiles tls_;
   std::string authority_;
 };
@@ -158,7 +158,7 @@ TEST_F(RelayTest, AtMostSixtyFourSimulationsArePassedOn) {
     EXPECT_NE(refused.body.find("too many simulations are open"), std::string::npos)
         << refused.body;
   }
-  // Others still view one of them.
+  // Other viewers still watch one of them.
   Viewer another(port(), "/ws?simulation=arena_7");
   another.ReceiveText("serverInfo");
 }

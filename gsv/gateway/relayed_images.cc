@@ -18,7 +18,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kThreads = 4;
 constexpr std::chrono::seconds kImageTime{30};
-// Streams look for the end of the relay so often.
+// Streams check at this interval whether the relay has ended.
 constexpr std::chrono::milliseconds kMaxWait{500};
 
 std::string TimeOf(const Response& image) {
@@ -28,7 +28,7 @@ std::string TimeOf(const Response& image) {
   return "0";
 }
 
-// The number in the tag of an image.
+// Returns the number in the entity tag of an image.
 std::string NumberOf(const Response& image) {
   const std::size_t end = image.etag.size();
   return end > 2 ? image.etag.substr(1, end - 2) : std::string();
@@ -65,7 +65,7 @@ class RelayedStream final : public BodyStream, public std::enable_shared_from_th
     if (!is_accepted) take(std::nullopt);
   }
 
-  // In the pool. The other instance answers when something has changed, or after a second.
+  // Runs in the pool. The other instance answers when something has changed, or after a second.
   void Fetch(const Take& take) {
     if (Clock::now() < due_) return WaitAndAsk(take);
     Request request = image_;

@@ -1,5 +1,5 @@
-// Streams of images (view.mjpeg) through a relay: it asks the other instance for one image after
-// another, and sends them as a stream of its own.
+// Streams of images (view.mjpeg) through a relay: it requests one image after another from the
+// other instance, and sends them as its own stream.
 //
 // Threads  any; requests to the other instance are made by a pool of its own.
 // Bounded  kMaxImageStreams streams.
@@ -24,8 +24,8 @@ class RelayedImages {
   RelayedImages(boost::asio::io_context& io, upstream::Address address);
   ~RelayedImages();
 
-  // The response to GET …/view.mjpeg; `image` is the same request for view.jpg, without `fps` and
-  // `token`. Waits for the first image.
+  // Returns the response to GET …/view.mjpeg. `image` is the same request for view.jpg, without
+  // `fps` and `token`. Waits for the first image.
   Response Open(const Request& request, const Request& image);
   // Ends the streams.
   void Stop();
@@ -34,7 +34,7 @@ class RelayedImages {
   boost::asio::io_context& io_;
   const upstream::Address address_;
   const std::shared_ptr<WorkerPool> pool_;
-  const std::shared_ptr<int> seats_ = std::make_shared<int>(0);  // used by each stream
+  const std::shared_ptr<int> seats_ = std::make_shared<int>(0);  // each stream holds a copy
 };
 
 }  // namespace gsv::gateway

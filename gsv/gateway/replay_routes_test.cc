@@ -1,4 +1,4 @@
-// The gateway of a recording.
+// Tests the gateway of a recording.
 #include <filesystem>
 #include <map>
 #include <set>
@@ -86,7 +86,7 @@ TEST_F(ReplayGatewayTest, ReturnsAValueOverTheWholeRecording) {
   ASSERT_EQ(times.size(), places.size());
   ASSERT_GT(times.size(), 30u);
   EXPECT_EQ(times.back(), 2.0);
-  // The robot drives at 0.5 m/s from its first or second step on.
+  // The robot drives at 0.5 m/s, beginning with the first or second step.
   for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(places[i], 0.5 * times[i], 0.011);
   const json speed = WholeCurve(port(), "robot=robot&key=speed&most=4");
   EXPECT_EQ(speed["is_whole"], false);
@@ -161,7 +161,7 @@ TEST_F(ReplayGatewayTest, HasItsOwnServicesAndParameters) {
   EXPECT_EQ(values["parameters"][0]["value"], 4.0);
   EXPECT_EQ(values["parameters"][1]["value"], false);
   Post("replay", R"({"loop":true})");
-  // It may come together with the change of speed.
+  // The change of `loop` may come together with the change of speed.
   json loop;
   while (loop.is_null()) {
     values = viewer.ReceiveText("parameterValues");

@@ -1,4 +1,4 @@
-// The corners of a box whose edges run along the axes.
+// The corners of a box whose edges are parallel to the axes.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace gsv::geometry {
 
-// In the order of binary numbers: x changes fastest, z slowest.
+// Returns the corners in the order of binary numbers: x changes fastest, z slowest.
 inline std::array<Vector3, 8> CornersOf(const Bounds& box) {
   std::array<Vector3, 8> corners;
   for (unsigned i = 0; i < corners.size(); ++i) {

@@ -53,7 +53,7 @@ struct PlanarPosition {
   friend bool operator==(const PlanarPosition&, const PlanarPosition&) = default;
 };
 
-// The position of a point that is given in the base's frame.
+// Returns the position in the world of a point that is given in the base's frame.
 inline Vector2 PointAt(Vector2 point, const PlanarPosition& at) {
   return {at.x + (at.cosine * point.x - at.sine * point.y),
           at.y + (at.sine * point.x + at.cosine * point.y)};
@@ -68,12 +68,12 @@ struct Twist {
 
 inline bool Moves(const Twist& twist) { return twist.x != 0 || twist.y != 0 || twist.angular != 0; }
 
-// The position after `seconds` of a base that starts at `from`.
+// Returns the position after `seconds` of a base that starts at `from`.
 inline PlanarPosition Advance(const PlanarPosition& from, const Twist& twist, double seconds) {
   double forward = twist.x * seconds, left = twist.y * seconds;
   PlanarPosition to = from;
   if (twist.angular != 0) {
-    // By the half angle: 1 - cos a = 2 sin² (a/2) does not cancel where a is small.
+    // The half angle is used, because 1 - cos a = 2 sin² (a/2) loses no digits if a is small.
     const double angle = twist.angular * seconds;
     const SineCosine half(angle / 2);
     const double sine = 2 * half.sine * half.cosine;

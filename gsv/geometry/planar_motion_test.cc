@@ -16,7 +16,7 @@ TEST(SineCosine, AgreesWithTheLibraryToTheLastBits) {
     for (int i = 0; i < 10'000; ++i) {
       const double angle = angles(random);
       const SineCosine is(angle);
-      // Two units in the last place.
+      // The tolerance is two units in the last place.
       ASSERT_NEAR(is.sine, std::sin(angle), std::abs(std::sin(angle)) * 0x1p-51) << angle;
       ASSERT_NEAR(is.cosine, std::cos(angle), 0x1p-52) << angle;
     }

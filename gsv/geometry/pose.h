@@ -26,7 +26,7 @@ inline Vector3 operator*(const Quaternion& rotation, const Vector3& vector) {
   return vector + 2.0 * Cross(u, Cross(u, vector) + rotation.w * vector);
 }
 inline Quaternion Inverse(const Quaternion& q) { return {q.w, -q.x, -q.y, -q.z}; }
-// The identity for a quaternion of length zero.
+// Returns the identity for a quaternion of length zero.
 inline Quaternion Normalized(const Quaternion& q) {
   const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   if (!(length > 0)) return {};
@@ -39,9 +39,9 @@ struct RollPitchYaw {
   double roll = 0, pitch = 0, yaw = 0;
 };
 Quaternion FromRollPitchYaw(const RollPitchYaw& angles);
-// Pitch lies in [-pi/2, pi/2]; at its ends roll is 0.
+// The pitch is in [-pi/2, pi/2]; at the ends of this range the roll is 0.
 RollPitchYaw ToRollPitchYaw(const Quaternion& q);
-// `axis` has unit length.
+// `axis` must have unit length.
 Quaternion FromAxisAngle(const Vector3& axis, double angle);
 double Yaw(const Quaternion& q);
 
@@ -63,7 +63,7 @@ inline Pose Inverse(const Pose& a_from_b) {
   return {-(b_from_a * a_from_b.position), b_from_a};
 }
 
-// A pose on level ground: at (x, y, z), rotated by `yaw` about z.
+// Returns a pose on level ground: at (x, y, z), rotated by `yaw` about z.
 Pose PlanarPose(double x, double y, double z, double yaw);
 
 // Returns the same angle in (-pi, pi].

@@ -56,7 +56,7 @@ void AddRevolution(std::span<const ProfilePoint> profile, int segments, Triangle
   }
 }
 
-// A disc at height z that faces up (+1) or down (-1).
+// Adds a disc at height z that faces up (+1) or down (-1).
 void AddDisc(double radius, double z, int facing, int segments, TriangleMesh& mesh) {
   const std::uint32_t centre = NextVertex(mesh);
   const Vector3 normal{0, 0, static_cast<double>(facing)};
@@ -77,7 +77,8 @@ void AddDisc(double radius, double z, int facing, int segments, TriangleMesh& me
   }
 }
 
-// A rectangle seen from the tip of its normal: `right` and `up` are half its width and height.
+// Adds a rectangle, as seen from the tip of its normal: `right` and `up` are half its width and
+// height.
 void AddRectangle(const Vector3& centre, const Vector3& right, const Vector3& up,
                   const Vector3& normal, TriangleMesh& mesh) {
   const std::uint32_t first = NextVertex(mesh);
@@ -89,8 +90,8 @@ void AddRectangle(const Vector3& centre, const Vector3& right, const Vector3& up
   mesh.triangles.push_back({first, first + 2, first + 3});
 }
 
-// Points of a quarter circle in the profile's half-plane, about (0, centre_z), from one latitude to
-// another, including both.
+// Returns points of a quarter circle in the profile's half-plane, about (0, centre_z), from one
+// latitude to another, including both.
 std::vector<ProfilePoint> Arc(double radius, double centre_z, double from, double to, int steps) {
   std::vector<ProfilePoint> points;
   for (int i = 0; i <= steps; ++i) {
@@ -114,11 +115,12 @@ void SpreadTexture(std::vector<ProfilePoint>& profile) {
   for (ProfilePoint& p : profile) p.v /= length;
 }
 
-// The two half axes of a plane's rectangle. They are x and y if the normal is z.
+// Returns the two half axes of a plane's rectangle. They are along x and y if the normal is z.
 std::pair<Vector3, Vector3> HalfAxes(const Plane& plane) {
   const Vector3 n = Normalized(plane.normal);
   const Vector3 z{0, 0, 1};
-  // The smallest rotation from z to the normal; for the opposite normal a half turn about x.
+  // The rotation is the smallest one from z to the normal; for the opposite normal it is half a
+  // turn about x.
   const Quaternion turn = n.z < -1 + 1e-12
                               ? Quaternion{0, 1, 0, 0}
                               : Normalized(Quaternion{1 + n.z, Cross(z, n).x, Cross(z, n).y, 0});

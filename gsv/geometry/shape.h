@@ -21,7 +21,7 @@ struct Sphere {
 struct Cylinder {
   double radius = 0.5, length = 1;
 };
-// `length` is that of the cylindrical part: the whole is length + 2 radius long.
+// `length` is that of the cylindrical part: the whole capsule is length + 2 radius long.
 struct Capsule {
   double radius = 0.5, length = 1;
 };
@@ -45,12 +45,12 @@ struct Mesh {
 
 using Shape = std::variant<Box, Sphere, Cylinder, Capsule, Ellipsoid, Cone, Plane, Mesh>;
 
-// The surface as triangles with normals and texture coordinates; for a Mesh a scaled copy. Round
-// shapes have `segments` (at least 3) around. Their vertices lie on the true surface, and the
-// triangles within radius * (1 - cos(pi / segments)) of it, twice that for doubly curved surfaces.
+// Returns the surface as triangles with normals and texture coordinates; for a Mesh, a scaled copy.
+// Round shapes have `segments` (at least 3) around. Their vertices are on the true surface. The
+// maximum deviation is radius * (1 - cos(pi / segments)), or twice that if doubly curved.
 TriangleMesh Tessellate(const Shape& shape, int segments = 32);
 
-// The smallest box around the shape along the axes of its frame. For a Plane: its rectangle.
+// Returns the smallest box around the shape along its frame's axes. For a Plane: its rectangle.
 Bounds BoundsOf(const Shape& shape);
 
 }  // namespace gsv::geometry

@@ -26,7 +26,7 @@ double Area(const TriangleMesh& mesh) {
   return area;
 }
 
-// The volume inside the triangles (divergence theorem); negative if they face inwards.
+// Returns the volume inside the triangles (divergence theorem); negative if they face inwards.
 double Volume(const TriangleMesh& mesh) {
   double volume = 0;
   for (const Triangle& t : mesh.triangles) {
@@ -35,8 +35,8 @@ double Volume(const TriangleMesh& mesh) {
   return volume;
 }
 
-// Vertices - edges + faces of the surface, with vertices at the same place counted once. Also
-// checks that every edge occurs once in each direction: the surface is closed and consistently
+// Returns vertices - edges + faces of the surface, where vertices at the same place count as one.
+// Also checks that every edge occurs once in each direction: the surface is closed and consistently
 // oriented.
 int EulerCharacteristic(const TriangleMesh& mesh) {
   using Place = std::tuple<long, long, long>;
@@ -66,8 +66,8 @@ struct Solid {
 };
 
 std::vector<Solid> Solids() {
-  // Knud Thomsen's formula for an ellipsoid's area is approximate; a spheroid's is exact:
-  // oblate with a = 1, c = 0.5, e² = 1 - c²/a².
+  // Knud Thomsen's formula for an ellipsoid's area is approximate. For an oblate spheroid the exact
+  // area is known: a = 1, c = 0.5, e² = 1 - c²/a².
   const double e = std::sqrt(0.75);
   const double spheroid = 2 * kPi * (1 + 0.25 / e * std::atanh(e));
   std::vector<Solid> solids;
@@ -143,7 +143,7 @@ TEST(Tessellate, PartsCoverAllTriangles) {
 TEST(Tessellate, EveryFaceOfABoxShowsTheWholeTextureUpright) {
   const TriangleMesh box = Tessellate(Box{{2, 2, 2}});
   ASSERT_EQ(box.positions.size(), 24u);
-  // The face towards +x, seen from there with z up, has +y to the right.
+  // On the face towards +x, seen from outside with z up, +y is to the right.
   for (std::size_t i = 0; i < box.positions.size(); ++i) {
     if (box.normals[i].x < 0.5) continue;
     EXPECT_EQ(box.texture_coordinates[i].x, box.positions[i].y > 0 ? 1 : 0);
@@ -185,7 +185,8 @@ TEST(Tessellate, NormalsOfAStretchedMeshStayPerpendicular) {
 TEST(BoundsOf, EnclosesTheTessellationTightly) {
   for (const Solid& solid : Solids()) {
     SCOPED_TRACE(solid.name);
-    // With a multiple of four segments the extreme points of every axis are vertices.
+    // If the number of segments is a multiple of four, the extreme points along every axis are
+    // vertices.
     const Bounds true_bounds = BoundsOf(solid.shape);
     const Bounds drawn = BoundsOf(Tessellate(solid.shape, 32));
     EXPECT_NEAR(Norm(true_bounds.min - drawn.min), 0, 1e-12);

@@ -38,7 +38,8 @@ SolidMoments Of(const Cylinder& cylinder) {
   return Symmetric(pi * r * r * l, {}, r * r / 4, r * r / 4, l * l / 12);
 }
 
-// A cylinder between two half balls, whose centroids are 3/8 of the radius outside of it.
+// The capsule is a cylinder between two half balls. Their centroids are at 3/8 of the radius from
+// its ends.
 SolidMoments Of(const Capsule& capsule) {
   const double r = capsule.radius, l = capsule.length;
   const SolidMoments middle = Of(Cylinder{r, l}), ball = Of(Sphere{r});
@@ -77,7 +78,7 @@ void AddTetrahedron(const Vector3& a, const Vector3& b, const Vector3& c, SolidM
 
 SolidMoments Of(const Mesh& mesh) {
   const auto& positions = mesh.triangles->positions;
-  // Relative to the first corner, so that a mesh far from its origin loses no digits.
+  // Positions are relative to the first corner, so that a mesh far from its origin loses no digits.
   const Vector3 origin = positions.empty() ? Vector3{} : Scaled(positions[0], mesh.scale);
   SolidMoments sum;
   for (const auto& t : mesh.triangles->triangles) {
@@ -85,7 +86,7 @@ SolidMoments Of(const Mesh& mesh) {
     AddTetrahedron(corner(0), corner(1), corner(2), sum);
   }
   if (sum.volume == 0) return {};
-  const double sign = sum.volume < 0 ? -1 : 1;  // inside out, or mirrored
+  const double sign = sum.volume < 0 ? -1 : 1;  // the mesh is inside out, or mirrored
   const Vector3 c = 1 / sum.volume * sum.centroid;
   SolidMoments moments;
   moments.volume = sign * sum.volume;

@@ -8,28 +8,28 @@
 
 namespace gsv::geometry {
 
-// Units  m³, m, m⁵. `xx` is the integral of (x - centroid.x)² over the volume, `xy` that of
-//        (x - centroid.x)(y - centroid.y), and so on.
+// Units  m³, m, m⁵. `xx` is the integral of (x - centroid.x)² over the volume, `xy` that of (x -
+//        centroid.x)(y - centroid.y), and so on.
 struct SolidMoments {
   double volume = 0;
   Vector3 centroid;
   double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
 };
 
-// In the shape's frame. A plane has no volume. A mesh must be closed: the result of an open one
-// depends on where its origin lies. It may be inside out.
+// Returns the moments in the shape's frame. A plane has no volume. A mesh must be closed, because
+// the result for an open mesh depends on the position of its origin. It may be inside out.
 SolidMoments MomentsOf(const Shape& shape);
 
 // The part of a closed mesh below the plane z = `height` in the world: its volume and the integral
-// of the position over it. Exact; the cut needs no lid, as it spans no volume with a point of the
-// plane.
+// of the position over it. The result is exact. The cut needs no lid, because a lid and a point of
+// the plane enclose no volume.
 struct VolumeBelow {
   double volume = 0;     // m³
   Vector3 first_moment;  // m⁴, in the world
 };
 VolumeBelow BelowHeight(const TriangleMesh& mesh, const Pose& world_from_mesh, double height);
 
-// The part of a sphere below the plane, which is a cap, in closed form.
+// Returns the part of a sphere below the plane, which is a cap, in closed form.
 VolumeBelow SphereBelowHeight(double radius, const Vector3& centre_in_world, double height);
 
 }  // namespace gsv::geometry

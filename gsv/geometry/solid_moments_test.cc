@@ -66,7 +66,8 @@ TEST(BelowHeight, CutsABoxAtTheSurface) {
   EXPECT_NEAR(below.first_moment.z / below.volume, (-0.5 + 0.25) / 2, 1e-12);
 }
 
-// Rotated by 45° about x, a cube of edge 1 has a triangle of half the diagonal below its centre.
+// A cube of edge 1 that is rotated by 45° about x has, below its centre, a triangle with a height
+// of half the diagonal.
 TEST(BelowHeight, CutsATurnedCubeAtTheSurface) {
   const Mesh cube = MeshOf(Box{{1, 1, 1}});
   const Pose turned{{}, FromAxisAngle({1, 0, 0}, pi / 4)};

@@ -33,7 +33,7 @@ struct Bounds {
   Vector3 min, max;
 };
 
-// The bounding box; the origin for a mesh without vertices.
+// Returns the bounding box; the origin for a mesh without vertices.
 Bounds BoundsOf(const TriangleMesh& mesh);
 
 }  // namespace gsv::geometry

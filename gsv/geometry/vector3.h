@@ -51,12 +51,12 @@ inline Vector3 Cross(const Vector3& a, const Vector3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 inline double Norm(const Vector3& a) { return std::sqrt(Dot(a, a)); }
-// The x axis for a vector of length zero.
+// Returns the x axis for a vector of length zero.
 inline Vector3 Normalized(const Vector3& a) {
   const double length = Norm(a);
   return length > 0 ? a * (1.0 / length) : Vector3{1, 0, 0};
 }
-// The component-wise product, as for a scale.
+// Returns the component-wise product, for example to apply a scale.
 inline Vector3 Scaled(const Vector3& a, const Vector3& scale) {
   return {a.x * scale.x, a.y * scale.y, a.z * scale.z};
 }

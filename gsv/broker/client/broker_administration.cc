@@ -95,7 +95,7 @@ void ForEach(std::uint32_t count, const Work& work) {
   for (auto& worker : workers) worker.get();
 }
 
-// Returns nullopt if the link was removed meanwhile.
+// Returns the description of a link, or nullopt if the link was removed meanwhile.
 std::optional<LinkDescription> Describe(CORBA::ORB_ptr orb, CosTrading::Link_ptr link,
                                         const char* name) {
   try {

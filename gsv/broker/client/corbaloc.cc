@@ -32,7 +32,7 @@ base::Result<std::string> NormaliseReference(std::string_view reference) {
   } else if (address.starts_with(":")) {
     address.remove_prefix(1);
   } else {
-    return std::string(reference);  // the other protocol is rir
+    return std::string(reference);  // the only other protocol is rir, which needs no version
   }
   const std::size_t slash = address.find('/');
   if (slash == 0 || slash == std::string_view::npos || slash + 1 == address.size()) {

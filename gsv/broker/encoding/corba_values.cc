@@ -185,7 +185,7 @@ void FillSimple(const Value& value, CORBA::Any& any) {
   GSV_CHECK(!"a simple type was expected");
 }
 
-// Sets `any`, which is empty, to `value`.
+// Sets `any` to `value`. `any` must be empty.
 void FillAny(const Value& value, CORBA::Any& any) {
   if (const OtherValue* other = value.AsOther()) {
     cdrEncapsulationStream stream = StreamOf(other->encoded);

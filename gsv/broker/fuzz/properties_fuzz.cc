@@ -33,7 +33,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const auto& [name, value] : *properties) {
     const Value* read = again->Find(name);
     GSV_CHECK(read != nullptr && read->Type() == value.Type());
-    // NaN is not equal to itself.
+    // NaN is not equal to itself, so such values cannot be compared.
     const bool comparable = value.AsOther() == nullptr && value == value;
     GSV_CHECK(!comparable || *read == value);
   }

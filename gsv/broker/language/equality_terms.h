@@ -14,7 +14,7 @@ struct EqualityTerm {
   ScalarValue value;
 };
 
-// Returns these terms among those that `and` joins from the root on, in their order.
+// Returns the equality terms in order: those that `and` joins at the top level of the constraint.
 std::vector<EqualityTerm> EqualityTerms(const Expression& constraint);
 
 }  // namespace gsv::broker

@@ -14,7 +14,7 @@ struct TermOutcome {
   enum class Result : std::uint8_t { kTrue, kFalse, kNoValue };
   std::string term;  // the term as text, with all its parentheses
   Result result = Result::kNoValue;
-  std::vector<std::string> missing{};  // properties in the term that the offer does not have
+  std::vector<std::string> missing{};  // properties in the term that the offer lacks
 };
 
 // Returns the terms in the order of the constraint, which matches if all are TRUE. Terms after one

@@ -19,7 +19,7 @@ struct DynamicLimits {
   std::chrono::milliseconds call_timeout{500};   // time limit of one evaluation
   std::chrono::milliseconds query_budget{2000};  // limit of the sum of all waits of one query
   std::chrono::milliseconds lifetime{1000};      // how long a value, or a failure, is cached
-  std::size_t value_bytes = 2048;                // a larger value counts as unavailable
+  std::size_t value_bytes = 2048;                // a larger encoding counts as unavailable
   std::size_t per_offer = 8;
   std::size_t answers = 10'000;  // number of cached values
 };
@@ -48,13 +48,13 @@ struct TraderLimits {
   std::size_t offers = 200'000;
   std::size_t properties_per_offer = 128;
   std::size_t offer_bytes = 32 * 1024;  // maximum size of encoded properties and reference
-  // names of all service types together, so that list_types fits into a message
+  // total length of all type names, so that the answer of list_types fits into a message
   std::size_t type_names_bytes = 32 * 1024;
   std::size_t type_bytes = 32 * 1024;  // description of one type with everything that it inherits
   std::size_t super_types = 64;        // maximum number of direct and indirect super types
   std::size_t iterators = 1000;
   std::size_t offers_in_iterators = 2'000'000;
-  std::chrono::seconds iterator_lifetime{60};  // time since its last use
+  std::chrono::seconds iterator_lifetime{60};  // an unused iterator is removed after it
 };
 
 }  // namespace gsv::broker

@@ -20,7 +20,7 @@ void NameTable::Share(PropertyList& properties) {
   if (known_.size() > enough_) ForgetUnused();
 }
 
-// If only the table holds a name list, no other thread can get that list at the same time.
+// If only this table holds a list of names, no other thread can start to use it at the same time.
 void NameTable::ForgetUnused() {
   std::erase_if(known_, [](const Names& names) { return names.use_count() == 1; });
   enough_ = std::max(enough_, 2 * known_.size());

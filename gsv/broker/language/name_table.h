@@ -29,7 +29,7 @@ class NameTable {
   void ForgetUnused();
 
   std::unordered_set<Names, Hash, Equal> known_;
-  std::size_t enough_ = 64;  // the size at which unused names are removed
+  std::size_t enough_ = 64;  // the table removes unused lists when it has this size
 };
 
 }  // namespace gsv::broker

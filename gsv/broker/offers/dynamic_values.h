@@ -52,7 +52,7 @@ class DynamicValues {
 
  private:
   using Key = std::pair<std::uint64_t, std::string>;
-  // The last index of a property with this name, in offers with these property names.
+  // The index at which this property was found last, for offers with these property names.
   struct Place {
     std::string name;
     std::shared_ptr<const PropertyNames> names{};

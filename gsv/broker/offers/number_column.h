@@ -46,8 +46,8 @@ class NumberColumn {
 // Threads  any thread may call Of().
 class NumberColumns {
  public:
-  // Returns null if the column does not exist (yet). Until Clear(), `offers` must be the same in
-  // each call.
+  // Returns null if the column does not exist (yet). `offers` must be the same in every call until
+  // Clear().
   std::shared_ptr<const NumberColumn> Of(const Offers& offers, const std::string& property);
   // Removes all columns. Call it while no query runs.
   void Clear() {
@@ -58,7 +58,7 @@ class NumberColumns {
  private:
   base::Mutex mutex_;
   std::map<std::string, std::shared_ptr<const NumberColumn>> columns_
-      GSV_GUARDED_BY(mutex_);  // null after the first request
+      GSV_GUARDED_BY(mutex_);  // null after the first request for the property
 };
 
 }  // namespace gsv::broker

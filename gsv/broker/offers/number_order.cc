@@ -16,7 +16,7 @@ struct Keyed {
 };
 
 constexpr int kDigitBits = 11;
-constexpr int kDigits = 6;  // the digits have 66 bits together
+constexpr int kDigits = 6;  // the number of digits; together they hold 66 bits
 constexpr std::size_t kDigitValues = std::size_t{1} << kDigitBits;
 
 std::size_t Digit(std::uint64_t key, int digit) {
@@ -69,8 +69,8 @@ std::vector<std::uint32_t> AscendingOrder(const std::vector<long double>& number
   } else {
     SortByKey(entries);
   }
-  // Rounding to double keeps the order, but makes some different numbers equal. Those are sorted by
-  // the exact numbers.
+  // Rounding to double keeps the order, but may make different numbers equal. Runs of equal numbers
+  // are sorted again by their exact values.
   for (auto run = entries.begin(); !exact && run != entries.end();) {
     const auto end = std::upper_bound(run, entries.end(), *run, by_key);
     std::stable_sort(run, end, [&](const Keyed& a, const Keyed& b) {

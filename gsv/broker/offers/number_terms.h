@@ -16,7 +16,7 @@ struct NumberTerm {
 };
 
 struct NumberTerms {
-  std::vector<NumberTerm> terms;  // those that `and` joins from the root on, in their order
+  std::vector<NumberTerm> terms;  // those that `and` joins at the top level, in order
   bool complete = true;           // whether the constraint has no other terms
 };
 

@@ -8,7 +8,7 @@
 namespace gsv::broker {
 namespace {
 
-// A chunk with fewer offers has no columns: each offer is evaluated.
+// A chunk with fewer offers has no number columns: each of its offers is evaluated.
 constexpr std::size_t kWorthColumns = OfferColumn::kChunk / 4;
 
 bool IsBefore(const OfferPtr& offer, std::uint64_t number) { return offer->number < number; }

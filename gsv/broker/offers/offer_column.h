@@ -26,7 +26,7 @@ class OfferChunk {
   const Offers& offers() const { return offers_; }
   // Returns null if the column does not exist (yet).
   std::shared_ptr<const NumberColumn> ColumnOf(const std::string& property) const;
-  // Returns what the columns tell about each offer. Empty if there is no column for the terms.
+  // Returns what the columns decide for each offer. Empty if no column fits the terms.
   std::vector<Choice> Choose(const std::vector<NumberTerm>& terms) const;
 
  private:

@@ -19,7 +19,8 @@ class RandomValues {
 
   std::size_t Below(std::size_t bound) { return random_() % bound; }
 
-  // Returns values of different types that are equal, and some that equal no other value.
+  // Returns a random value. Some of the values are equal although their types differ, and some
+  // equal no other value.
   Value AnyValue() {
     const auto small = static_cast<std::int32_t>(Below(4));
     switch (Below(9)) {

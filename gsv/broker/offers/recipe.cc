@@ -35,8 +35,9 @@ std::optional<std::string> LiteralOf(const Value& value) {
   return std::nullopt;
 }
 
-// Parses a recipe. Calls `text` with each literal part, `property` with each name, and `constraint`
-// for each `$*`. Returns false if the text is not a recipe, or if a call returns false.
+// Parses a recipe. Calls `text` for each literal part, `property` for each property name, and
+// `constraint` for each `$*`. Returns false if the text is not a recipe, or if a call returns
+// false.
 bool Read(std::string_view recipe, const std::function<void(std::string_view)>& text,
           const std::function<bool(std::string_view)>& property,
           const std::function<void()>& constraint) {

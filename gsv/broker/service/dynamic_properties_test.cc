@@ -119,8 +119,8 @@ TEST_F(DynamicPropertiesTest, AreEvaluatedOnlyWhenNeeded) {
   EXPECT_EQ(evaluator_->calls, 0);
 }
 
-// The broker of this test caches an answer for a second. Therefore, a query finds the new value
-// only some time after a query found the old one.
+// The broker of this test caches an answer for a second. So a query may still return the old value
+// for some time after the value has changed.
 TEST_F(DynamicPropertiesTest, AreCachedForTheirLifetime) {
   ExportSpeed();
   EXPECT_EQ(SpeedOf(Query("Robot").offers[0]), 5);

@@ -54,7 +54,7 @@ std::set<std::string> Limits(BrokerNode::Answer answer) {
 using Names = std::set<std::string>;
 using Sequence = std::vector<CORBA::Long>;
 
-// Broker i has an offer of type "Robot" whose property n is i.
+// Several brokers. Broker i has an offer of type "Robot" whose property n is i.
 class FederationTest : public testing::Test {
  protected:
   void Start(std::size_t count, const std::vector<std::string>& arguments = {"0"}) {
@@ -256,7 +256,7 @@ TEST_F(FederationTest, AKilledTraderIsReported) {
   EXPECT_NE(output.find("does not respond"), std::string::npos) << output;
 }
 
-// One trader on the way is stopped. Those before it still answer in time.
+// One trader on the way is stopped. The traders before it still answer in time.
 TEST_F(FederationTest, HangingTraderDelaysAQueryByAtMostItsTimeout) {
   Start(4, {"0", "per_hop_ms=250"});
   Connect(0, 1);
@@ -281,8 +281,8 @@ std::size_t DescriptorsOf(pid_t process) {
   return static_cast<std::size_t>(std::distance(begin(all), end(all)));
 }
 
-// The call would take seven seconds. This is two more than the ORB waits for a call before it shuts
-// itself down.
+// The call would take seven seconds, which is two seconds more than the ORB waits for calls in
+// progress when it shuts down.
 TEST_F(FederationTest, BrokerStopsCleanlyWhileACallWaitsForAnotherBroker) {
   Start(2, {"0", "per_hop_ms=1400"});
   Connect(0, 1);
@@ -293,7 +293,7 @@ TEST_F(FederationTest, BrokerStopsCleanlyWhileACallWaitsForAnotherBroker) {
       Node(0).Query("Robot", "", "",
                     {Follow(CosTrading::always), BrokerNode::Policy("hop_count", ULong(5))});
     } catch (const CORBA::Exception&) {
-      // The broker ends: the query gets no answer.
+      // The broker has ended, so the query gets no answer.
     }
   });
   while (DescriptorsOf(Node(0).broker_.pid()) == before) {

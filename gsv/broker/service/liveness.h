@@ -13,7 +13,7 @@ namespace gsv::broker {
 // Calls _non_existent and returns:
 // kGone    if the service reports that it does not exist, or if the operating system at its address
 //          refuses the connection;
-// kSilent  if there is no answer in time, as when the network is cut;
+// kSilent  if there is no answer in time, for example because the network is interrupted;
 // kAlive   for any other answer, and for a service that this ORB cannot address.
 Liveness CheckLiveness(CORBA::ORB_ptr orb, const std::string& reference,
                        std::chrono::milliseconds timeout);

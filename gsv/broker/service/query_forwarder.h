@@ -68,7 +68,7 @@ class QueryForwarder {
   base::Mutex mutex_;
   std::size_t underway_ GSV_GUARDED_BY(mutex_) = 0;
   std::map<std::string, bool> silent_
-      GSV_GUARDED_BY(mutex_);  // silent traders, and whether a query is calling them
+      GSV_GUARDED_BY(mutex_);  // silent traders, and whether a query calls them now
 };
 
 }  // namespace gsv::broker

@@ -68,7 +68,8 @@ void OfferFile::Close() {
   works_ = false;
   waiting_.clear();
   written_.notify_all();
-  (void)database_.Run("PRAGMA wal_checkpoint(TRUNCATE)");  // if this fails, the next Open() does it
+  (void)database_.Run("PRAGMA wal_checkpoint(TRUNCATE)");  // if this fails, the next Open() empties
+                                                           // the log
 }
 
 base::Result<TraderState> OfferFile::Load() {

@@ -7,7 +7,7 @@
 
 #include "gsv/broker/broker_command.h"
 
-// The arguments are the port, then NAME=VALUE for limits, and data=FILE.
+// The arguments are the port, then limits as NAME=VALUE, and data=FILE for the data file.
 int main(int argc, char** argv) {
   gsv::broker::BrokerCommand command;
   command.parent = getppid();

@@ -36,8 +36,8 @@ struct LivenessOptions {
 
 enum class Liveness {
   kAlive,
-  kGone,    // it reported so, or its port refuses connections
-  kSilent,  // it did not answer in time
+  kGone,    // the service reported its end, or its port refuses connections
+  kSilent,  // the service did not answer in time
 };
 
 class LivenessMonitor {

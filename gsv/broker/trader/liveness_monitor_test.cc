@@ -18,7 +18,8 @@ class Services {
     ++asked_[reference];
     most_underway_ = std::max(most_underway_, ++underway_);
     changed_.notify_all();
-    // Each call waits until enough others are in progress. So one call too many would be noticed.
+    // Each call waits until the expected number of calls is in progress. So the test would notice
+    // an additional call.
     changed_.wait(lock, [this] { return most_underway_ >= wait_for_; });
     --underway_;
     const auto found = pulses_.find(reference);

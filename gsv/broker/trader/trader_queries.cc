@@ -51,7 +51,7 @@ struct Trader::Candidates {
   // the types, with their descriptions if not with_modifiable
   std::map<std::string, ServiceType> types{};
 
-  // An estimate of the number of steps of the search.
+  // Estimates the number of steps of the search.
   std::size_t Steps(const Expression& constraint) const;
   bool Admit(const Offer& offer) const {
     return (with_proxies || offer.proxy == nullptr) &&
@@ -82,9 +82,10 @@ class Trader::Search {
   }
 
  private:
-  // Returns false if enough offers were searched or found.
+  // Returns false when the limit of searched or found offers is reached.
   bool LookThrough(const OfferChunk& chunk) {
-    // A limit depends on every offer before it.
+    // If there is a limit on the number of offers, the result for an offer depends on every offer
+    // before it.
     const std::vector<Choice> choices =
         candidates_.cut ? std::vector<Choice>() : chunk.Choose(terms_.terms);
     const auto order = ordered_by_ != nullptr ? chunk.ColumnOf(*ordered_by_) : nullptr;
@@ -109,7 +110,8 @@ class Trader::Search {
       matches_.proxies.push_back(offer);
       return;
     }
-    // After one offer without a known number, all further ones are evaluated.
+    // If the number of one offer is unknown, the numbers of all later ones are computed by
+    // evaluation, too.
     if (number && matches_.known.size() == matches_.offers.size()) {
       matches_.known.push_back(*number);
     }

@@ -34,7 +34,8 @@ class HostileInputTest : public BrokerFixture {
     EXPECT_GE(Query("Robot", "n == 1").offers->length(), 1u);
   }
 
-  // An empty sequence of sequences of sequences, `depth` levels deep.
+  // Returns an empty sequence whose type is nested `depth` levels deep: a sequence of sequences of
+  // sequences.
   static CORBA::Any Nested(int depth) {
     CORBA::TypeCode_var type = CORBA::TypeCode::_duplicate(CORBA::_tc_long);
     for (int i = 0; i < depth; ++i) type = TestOrb()->create_sequence_tc(0, type);
@@ -103,7 +104,8 @@ TEST_F(HostileInputTest, AcceptsConstraintsUpToTheLimits) {
   };
   EXPECT_NO_THROW(Query("Robot", nested(64)));
   Raised<CosTrading::IllegalConstraint>([&] { Query("Robot", nested(65)); });
-  // A comparison takes three nodes and one to join it. A literal takes one, and so does `not`.
+  // A comparison takes three nodes, and one more to join it to the rest. A literal takes one node,
+  // and so does `not`.
   std::string thousand = "n == 0";
   for (int i = 1; i < 249; ++i) thousand += " or n == 1";
   thousand += " or not TRUE or TRUE";
@@ -212,7 +214,8 @@ TEST_F(ScarceMemoryTest, SurvivesOffersThatExceedItsMemory) {
   Raised<CORBA::NO_MEMORY>([&] {
     while (ids.size() < kMoreThanFit) ids.push_back(Export("Robot", large));
   });
-  // All clients get answers, also over new connections. An iterator would keep offers in memory.
+  // All clients get answers, also over new connections. The test uses no iterators, because they
+  // would keep offers in memory.
   CORBA::Any one;
   one <<= CORBA::ULong(1);
   const std::vector<CosTrading::Policy> only_one = {Policy("search_card", one)};

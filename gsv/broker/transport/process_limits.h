@@ -12,7 +12,7 @@ struct ProcessLimits {
   // that do not catch bad_alloc (memory_reserve.h).
   std::size_t address_space_bytes = std::size_t{2} << 30;
   int malloc_arenas = 2;
-  std::size_t descriptors = 8192;  // fewer if the system allows fewer
+  std::size_t descriptors = 8192;  // the process gets fewer if the system allows fewer
 };
 
 // Limits the whole process. Call it before threads start.

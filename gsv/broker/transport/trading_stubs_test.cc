@@ -72,7 +72,7 @@ class Parrot {
     }
     const std::lock_guard lock(mutex_);
     if (message[7] == kRequest) request_ = message;
-    // The zero stands in the place of the header's last four bytes, for the alignment.
+    // The ULong(0) stands for the last four bytes of the header, so that the alignment is right.
     RawCdr reply = RawCdr().ULong(0).ULong(id).ULong(status_).ULong(0);
     return RawMessage(orb::MessageType::kReply, reply.Align(8).Raw(body_).bytes().substr(4));
   }

@@ -46,8 +46,8 @@ double& At(Matrix& m, int row, int column) {
   return column == 0 ? m[row].x : column == 1 ? m[row].y : m[row].z;
 }
 
-// Rotates the axes until the inertia is diagonal: Jacobi's method, with the largest product of
-// inertia first.
+// Finds the principal axes: rotates the axes until the inertia is diagonal (Jacobi's method, which
+// eliminates the largest off-diagonal element first).
 Quaternion PrincipalAxes(Matrix inertia, Vector3& moments) {
   Quaternion axes;
   const Matrix given = inertia;
@@ -103,7 +103,7 @@ void Weigh(const model::Model& model, Part& part) {
 
 namespace {
 
-// The joint that each link hangs from, or -1.
+// Returns for each link the joint whose child it is, or -1.
 std::vector<int> ParentJoints(const model::Model& model) {
   std::vector<int> parent_joint(model.links.size(), -1);
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
@@ -112,8 +112,9 @@ std::vector<int> ParentJoints(const model::Model& model) {
   return parent_joint;
 }
 
-// The three joints of a ball joint are consecutive, and several ball joints may follow one another.
-// Every third joint moves the child link.
+// Whether the joint is one of the first two joints of a ball joint. The three joints of a ball
+// joint are consecutive, and several ball joints may follow one another. Only every third joint
+// moves the child link.
 bool IsWithinBall(const model::Model& model, const std::vector<int>& parent_joint, int joint) {
   int in_a_row = 0;
   for (; joint >= 0 && model.joints[joint].kind == model::JointKind::kBall; ++in_a_row) {
@@ -139,7 +140,7 @@ Articulation MakeArticulation(const model::Model& model) {
   for (const model::Joint& joint : model.joints) {
     if (joint.parent < 0) articulation.is_fixed = true;
   }
-  // From the roots outwards, because a link's part depends on its parent's part.
+  // The loop goes from the roots outwards, because a link's part depends on the part of its parent.
   for (std::size_t placed = 0, before = 1; placed != before;) {
     before = placed;
     for (std::size_t l = 0; l < model.links.size(); ++l) {

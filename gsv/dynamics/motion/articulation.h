@@ -13,25 +13,25 @@
 namespace gsv::dynamics {
 
 struct Part {
-  // The joint of the model between the part and its parent; -1 for the base. A ball joint is three
-  // joints, and this is the last of them.
+  // The joint of the model between this part and its parent; -1 for the base. A ball joint is three
+  // joints of the model, and this is the last of them.
   int joint = -1;
-  int parent = -1;  // a part before this one; -1: the base has none
+  int parent = -1;  // index of the parent part, which comes before this one; -1 for the base
   std::vector<int> links;
   double mass = 0;
   geometry::Pose model_from_part;
   geometry::Vector3 inertia;  // principal moments
   double heaviness = 1;       // the fraction of its mass on which gravity acts
-  bool is_kinematic = false;  // no force moves it
+  bool is_kinematic = false;  // forces do not move it
 };
 
 struct Articulation {
-  std::vector<Part> parts;  // parents before children; the first is the base
+  std::vector<Part> parts;  // parents come before their children; the first part is the base
   std::vector<int> part_of_link;
-  // The base does not move: a joint attaches a link to the world, or the base is kinematic and has
-  // child parts.
+  // Whether the base is fixed in the world: a joint attaches a link to the world, or the base is
+  // kinematic and has child parts.
   bool is_fixed = false;
-  double mass = 0;  // mass of all parts
+  double mass = 0;  // total mass of all parts
 };
 
 // Links that are not the child of a joint belong to the base, which moves with the model's frame.

@@ -35,8 +35,9 @@ TEST(Articulation, FixedLinksAreOnePart) {
   EXPECT_EQ(articulation.parts[1].parent, 0);
   EXPECT_FALSE(articulation.is_fixed);
   EXPECT_DOUBLE_EQ(articulation.mass, 7);
-  // A body of 1 kg is at 0 m and one of 2 kg at 3 m, so their centre is at 2 m. The moment about
-  // it, across the line between them, is 0.5 + 0.5 + 1 * 2² + 2 * 1² = 7 kg m².
+  // Two bodies, of 1 kg at 0 m and of 2 kg at 3 m, have their common centre of mass at 2 m. The
+  // moment of inertia about that centre, perpendicular to the line between them, is 0.5 + 0.5 + 1 *
+  // 2² + 2 * 1² = 7 kg m².
   const Part& base = articulation.parts[0];
   EXPECT_DOUBLE_EQ(base.mass, 3);
   EXPECT_NEAR(base.model_from_part.position.x, 2, 1e-12);
@@ -46,7 +47,8 @@ TEST(Articulation, FixedLinksAreOnePart) {
 }
 
 TEST(Articulation, ComputesThePrincipalAxes) {
-  // A body with moments 1, 2 and 3, described in axes that are turned against its own.
+  // A body with the moments 1, 2 and 3, given in axes that are rotated relative to its principal
+  // axes.
   const geometry::Quaternion turned = geometry::FromRollPitchYaw({0.3, -0.5, 1.1});
   model::Model model;
   model.links = {LinkAt(0, 1)};

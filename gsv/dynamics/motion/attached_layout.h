@@ -1,4 +1,4 @@
-// A layout with attachments, in the form that engines compute with. The shapes of an attached body
+// Converts a layout with attachments to the layout that engines use. The shapes of an attached body
 // belong to the link that holds it. The attached body itself is static and collides with nothing.
 //
 // Determinism  the outcome depends on which attachments there are, not on the order in which they
@@ -17,12 +17,12 @@ class AttachedLayout {
   // Removes all attachments.
   void Reset(std::shared_ptr<const world::Layout> layout);
 
-  // Like the operations of Engine.
+  // The same as the functions of Engine.
   base::Status Attach(const Attachment& attachment, const world::State& state);
   void Detach(int held_body);
 
-  // The layout with all attachments, if they have changed since the last call or Reset(); else
-  // null.
+  // Returns the layout with all attachments if they have changed since the last call or Reset();
+  // else null.
   std::shared_ptr<const world::Layout> TakeChanged();
 
  private:
@@ -37,7 +37,7 @@ class AttachedLayout {
   std::shared_ptr<const world::Layout> Derive() const;
 
   std::shared_ptr<const world::Layout> layout_;
-  std::vector<Held> held_;  // by holder, link and held body
+  std::vector<Held> held_;  // ordered by holder, link and held body
   bool has_changed_ = false;
 };
 

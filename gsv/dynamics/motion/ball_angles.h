@@ -1,8 +1,8 @@
 // Converts between a ball joint's orientation and angular velocity, and the angles and rates of the
 // three joints that form it.
 //
-// Frames  the child turns by Rot(a1, q1) Rot(a2, q2) Rot(a3, q3) in the joint's frame, the a being
-//         its axes. In the child's part frame that is one rotation, as solvers know it.
+// Frames  the child is rotated by Rot(a1, q1) Rot(a2, q2) Rot(a3, q3) in the joint's frame, where
+//         a1, a2, a3 are the axes. Solvers use this as one rotation in the child's part frame.
 #pragma once
 
 #include <array>

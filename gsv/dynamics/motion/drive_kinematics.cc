@@ -68,7 +68,7 @@ base::Status Check(const model::Model& model) {
   return status;
 }
 
-// The position of the drive's reference point on the model's x axis.
+// The x coordinate of the drive's reference point in the model's frame.
 double ReferenceX(const model::Model& model) {
   const model::Drive& drive = *model.drive;
   double sum = 0, rearmost = 0;
@@ -138,7 +138,7 @@ void DriveKinematics::AddWheels(const model::Model& model, const std::vector<int
     if (drive_.kind == DriveKind::kSynchro) wheel.angle = 0;
     if (drive_.kind == DriveKind::kAckermann && ahead > 1e-6) wheel.ahead = ahead;
     if (drive_.kind == DriveKind::kMecanum) {
-      // Rollers at 45°, seen from above as an X.
+      // With rollers at 45°, the rollers form an X when seen from above.
       const double diagonal = ahead < 0 ? 1 : -1;
       wheel.left = side * diagonal * per_metre;
       wheel.angle = -side * (drive_.wheel_separation + drive_.wheel_base) / 2 * per_metre;
@@ -174,7 +174,7 @@ void DriveKinematics::SetSlip(const model::Model& model) {
   const bool rolls =
       drive_.kind == DriveKind::kDifferential || drive_.kind == DriveKind::kAckermann;
   slips_ = rolls && !drive_.slip.is_none() && !drive_.left_wheels.empty();
-  // Steered wheels turn without sliding aside.
+  // Steered wheels roll without sliding sideways.
   if (!slips_ || drive_.kind == DriveKind::kAckermann || !(drive_.slip.lateral > 0)) return;
   double square = 0;
   for (const auto* joints : {&drive_.left_wheels, &drive_.right_wheels}) {
@@ -194,7 +194,9 @@ world::DriveCommand DriveKinematics::TrueMotion(const world::DriveCommand& motio
   world::DriveCommand moves = wheels_are_as_believed_ ? motion : RolledMotion(motion);
   if (!slips_) return moves;
   moves.angular *= turn_share_;
-  const double side_force = moves.linear * moves.angular / kStandardGravity;  // over the load
+  const double side_force = moves.linear * moves.angular / kStandardGravity;  // the side force
+                                                                              // divided by the
+                                                                              // weight
   moves.lateral -= drive_.slip.lateral * side_force * std::abs(moves.linear);
   return moves;
 }

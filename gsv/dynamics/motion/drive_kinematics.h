@@ -4,12 +4,12 @@
 // Frames   the model's; the commanded velocity is that of the drive's reference point: halfway
 //          between the wheels along x, on the rear axle for Ackermann steering, the model's origin
 //          for a base without wheels.
-// Slip     with a drive's slip (model::Slip) the forces follow from the motion at a constant speed. On
-//          an arc, the side force m v w makes the base drift outwards at lateral * v w / g * |v|. The
-//          base turns by a share b² / (b² + longitudinal / lateral * x²) of what the wheels turn it
-//          by, where b is half of the wheel separation and x² the mean square of the wheels'
-//          distances along x from the reference point. Both compliances must be above 0 for that. The
-//          slip while a base accelerates is left out.
+// Slip     with a drive's slip (model::Slip) the forces follow from the motion at a constant speed.
+//          On an arc, the side force m v w makes the base drift outwards at lateral * v w / g *
+//          |v|. The base rotates by the fraction b² / (b² + longitudinal / lateral * x²) of the
+//          rotation that the wheels command, where b is half of the wheel separation and x² the
+//          mean square of the wheels' distances along x from the reference point. This applies if
+//          both compliances are above 0. Slip during acceleration is not modelled.
 // Source   for the wheels' equations: Siegwart, Nourbakhsh, Scaramuzza, "Introduction to Autonomous
 //          Mobile Robots", 2nd edition, chapter 3.
 #pragma once
@@ -29,8 +29,8 @@ namespace gsv::dynamics {
 inline constexpr double kMaxLinearSpeed = 100;   // m/s
 inline constexpr double kMaxAngularSpeed = 100;  // rad/s
 
-// The distance that a base's reference point covered in a step, in the base's frame, and the change of
-// the base's heading.
+// The distance that a base's reference point has covered in a step, in the base's frame, and the
+// change of the base's heading.
 struct Travel {
   double forward = 0, left = 0, angle = 0;
 };
@@ -68,28 +68,28 @@ class DriveKinematics {
   }
   double reference_x() const { return reference_x_; }
 
-  // Sets the wheels and the steering according to the distance that the base has travelled and its
-  // present motion. The spans have an entry for each joint of the model.
+  // Sets the joints of wheels and steering according to the base's travel and its present motion.
+  // The spans have an entry for each joint of the model.
   void TurnJoints(const Travel& travel, const world::DriveCommand& motion, double step_seconds,
                   std::span<double> positions, std::span<double> velocities) const;
 
  private:
   // A wheel rotates by forward * travel.forward + left * travel.left + angle * travel.angle. A
-  // wheel in front of an Ackermann base's rear axle rolls along its own steered path instead.
+  // wheel in front of the rear axle of an Ackermann base rolls along its own steered path instead.
   struct Wheel {
     int joint = 0;
     double forward = 0, left = 0, angle = 0;  // rad/m, rad/m, rad/rad
-    double ahead = 0;                         // m in front of the rear axle
+    double ahead = 0;                         // distance in front of the rear axle, m
   };
   struct Steered {
     int joint = 0;
-    double sign = 1;     // sign of the joint's axis along z
-    double lateral = 0;  // m to the left
+    double sign = 1;     // sign of the z component of the joint's axis
+    double lateral = 0;  // distance to the left, m
   };
 
   void AddWheels(const model::Model& model, const std::vector<int>& joints, double side);
   void SetSlip(const model::Model& model);
-  // TrueMotion() without slip: what the wheels roll.
+  // TrueMotion() without slip: the motion of wheels that roll.
   world::DriveCommand RolledMotion(const world::DriveCommand& motion) const;
   double RollOf(const Wheel& wheel, const Travel& travel) const;
   double SteeringAngle(const Steered& steered, double curvature) const;
@@ -98,7 +98,7 @@ class DriveKinematics {
   double reference_x_ = 0;
   bool wheels_are_as_believed_ = true;
   bool slips_ = false;
-  double turn_share_ = 1;  // of the turn that the wheels roll, in (0, 1]
+  double turn_share_ = 1;  // fraction of the wheels' rotation that the base performs, in (0, 1]
   std::vector<Wheel> wheels_;
   std::vector<Steered> steered_;
 };

@@ -10,7 +10,7 @@ namespace {
 using base::FromSeconds;
 using model::DriveKind;
 
-// Wheels at (±0.3, ±0.25), the rear ones first. The front wheels have steering joints.
+// Wheels are at (±0.3, ±0.25), the rear ones first. The front wheels have steering joints.
 model::Model FourWheels(DriveKind kind) {
   model::Model model;
   model.name = "cart";
@@ -111,12 +111,14 @@ TEST(DriveKinematics, AckermannWheelsAreTangentToTheirCircles) {
   const model::Model model = FourWheels(DriveKind::kAckermann);
   const DriveKinematics drive = Make(model);
   std::vector<double> positions(6), velocities(6);
-  const world::DriveCommand motion{2, 0, 1};  // about a centre 2 m to the left of the rear axle
+  const world::DriveCommand motion{2, 0, 1};  // The centre of the circle is 2 m to the left of the
+                                              // rear axle.
   drive.TurnJoints({0.02, 0, 0.01}, motion, 0.01, positions, velocities);
   EXPECT_NEAR(positions[4], std::atan(0.6 / 1.75), 1e-12);
   EXPECT_NEAR(positions[5], std::atan(0.6 / 2.25), 1e-12);
   EXPECT_NEAR(velocities[4], positions[4] / 0.01, 1e-9);
-  // Each wheel's speed is its distance from that centre times the turning rate.
+  // The speed of each wheel is its distance from the centre of the circle times the angular
+  // velocity.
   EXPECT_NEAR(velocities[0], 1.75 / 0.1, 1e-12);
   EXPECT_NEAR(velocities[1], 2.25 / 0.1, 1e-12);
   EXPECT_NEAR(velocities[2], std::hypot(1.75, 0.6) / 0.1, 1e-12);

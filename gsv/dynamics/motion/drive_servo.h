@@ -10,7 +10,7 @@ namespace gsv::dynamics {
 
 class DriveServo {
  public:
-  // Starts at the state's time.
+  // The servo starts at the state's time.
   DriveServo(const DriveKinematics& kinematics, const world::BodyState& body, base::SimTime now)
       : kinematics_(kinematics), drive_(body.drive), now_(now) {}
 

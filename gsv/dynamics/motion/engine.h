@@ -1,9 +1,9 @@
 // An engine moves the bodies of a world by one step.
 //
 // Threads      one thread at a time (the stepping thread).
-// Determinism  Step() is a function of the layout, the attachments (in whatever order they were
-//              made), the state and the step size alone; nothing that it keeps between calls may
-//              change the outcome.
+// Determinism  Step() is a function of the layout, the attachments (not of their order), the state
+//              and the step size. Data that an engine keeps between calls must not change the
+//              result.
 #pragma once
 
 #include <memory>
@@ -31,32 +31,32 @@ class Engine {
   // after each change. If it fails, another layout must be set before anything else is called.
   virtual base::Status SetLayout(std::shared_ptr<const world::Layout> layout) = 0;
 
-  // From the next call on, the collision shapes of the held body are part of the holder's link, and
-  // the engine does not move the body: the caller writes its pose into the state. It adds no mass.
-  // Its joints keep their positions in `state`. Costs as much as SetLayout(), once for all that was
-  // attached and detached since the last Step(), Overlaps() or OverlapsOf().
+  // Makes the collision shapes of the held body a part of the holder's link. The engine no longer
+  // moves the held body: the caller writes its pose into the state. It adds no mass, and its joints
+  // keep their positions in `state`. All attachments and detachments since the last Step(),
+  // Overlaps() or OverlapsOf() cost together as much as one SetLayout().
   //
-  // Refuses (kInvalidArgument) a body or link that does not exist, a held body that rigid-body
-  // dynamics does not move or that already holds or is held, and a holder that is static or held.
+  // Returns kInvalidArgument for a missing body or link, a static or held holder, and a held body
+  // that rigid-body dynamics does not move, that already holds a body, or that is already held.
   virtual base::Status Attach(const Attachment& attachment, const world::State& state) = 0;
-  // The body moves by itself again, from its pose in the state. Ignored if it is not attached.
+  // Lets the body move by itself again, from its pose in the state. Ignored if it is not attached.
   virtual void Detach(int held_body) = 0;
 
-  // Advances `state`, which fits the layout, from its time t to t + step: drives follow their
-  // commands within their limits, bodies do not overlap, wheel joints turn. The caller sets
+  // Advances `state`, which must match the layout, from its time t to t + step: drives follow their
+  // commands within their limits, bodies do not overlap, and wheel joints turn. The caller sets
   // state.step and state.time. Replaces `contacts` by the contacts at t + step, in the order of
   // (first, second, supports). `began` compares with BodyState::in_contact and the contacts of the
   // step before. A vector that is passed again keeps its memory.
   virtual void Step(base::SimTime step, world::State& state,
                     std::vector<world::Contact>& contacts) = 0;
 
-  // Pairs of bodies, at least one of them a robot, that overlap in `state` (by more than
-  // `tolerance` metres): two robots at one place, a robot inside a wall.
+  // Returns the pairs of bodies, of which at least one is a robot, that overlap in `state` by more
+  // than `tolerance` metres. Examples are two robots at one place, and a robot inside a wall.
   virtual std::vector<world::Contact> Overlaps(const world::State& state, double tolerance) = 0;
 
-  // The overlaps of one body, which cost much less than all. For an object they include overlaps
-  // with other objects and with walls. Two static bodies may overlap. A body inside a mesh that does
-  // not touch the mesh's surface is not detected.
+  // Returns the overlaps of one body, which costs much less than Overlaps(). For an object, these
+  // include overlaps with other objects and with walls. Two static bodies may overlap. The function
+  // does not detect a body that is inside a mesh and does not touch its surface.
   virtual std::vector<world::Contact> OverlapsOf(const world::State& state, int body,
                                                  double tolerance) = 0;
 };

@@ -7,7 +7,7 @@ namespace {
 
 using Kind = world::JointCommand::Kind;
 
-// As gz::math::PID does, limits in the wrong order do not hold.
+// As in gz::math::PID, limits have no effect if the minimum exceeds the maximum.
 double Limited(double value, const model::Range& range) {
   return range.min <= range.max ? std::clamp(value, range.min, range.max) : value;
 }
@@ -31,7 +31,7 @@ JointDemand DemandOf(const model::Joint& joint, const world::JointCommand& comma
   JointDemand demand;
   demand.lower = Limited(-effort, gains.effort) * seconds;
   demand.upper = Limited(effort, gains.effort) * seconds;
-  // The effort is `push` less `damping` times the velocity at the end of the substep.
+  // The effort is `push` minus `damping` times the velocity at the end of the substep.
   double push = integral + gains.offset, damping = gains.d;
   if (command.kind == Kind::kPosition) {
     push += gains.p * ErrorOf(command, position, velocity);

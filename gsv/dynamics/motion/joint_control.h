@@ -1,9 +1,9 @@
 // The PID controllers of joints (model::JointGains).
 //
-// Effort  p e + I - d v for a position, p e + I - d dv/dt for a velocity, where e is the command less
-//         the measured value, v the joint's velocity and I the integral term. It is computed with
-//         the velocity at the end of a substep, so that large gains on light links stay stable. A
-//         position controller without enough damping of its own is damped by p times the substep.
+// Effort  p e + I - d v for a position, p e + I - d dv/dt for a velocity, where e is the command
+//         less the measured value, v the joint's velocity and I the integral term. It is computed
+//         with the velocity at the end of a substep, so that large gains on light links stay
+//         stable. A position controller with little damping gets p times the substep.
 // Source  gz::math::PID, whose integral term is limited, and whose derivative acts on the error of
 //         a constant command.
 #pragma once
@@ -19,14 +19,14 @@ struct JointDemand {
   double lower = 0, upper = 0;
 };
 
-// The gains that a command of this kind uses, or null.
+// Returns the gains that apply to a command of this kind, or null.
 const model::JointGains* GainsFor(const model::Joint& joint, world::JointCommand::Kind kind);
 
-// The demand in a substep of `seconds`, for a joint at `position` and `velocity`.
+// Returns the demand in a substep of `seconds` for a joint at `position` with `velocity`.
 JointDemand DemandOf(const model::Joint& joint, const world::JointCommand& command, double position,
                      double velocity, double integral, double seconds);
 
-// Adds the errors of the next step to the integral terms of all rigid bodies' controllers.
+// Adds the errors of the next step to the integral terms of the controllers of all rigid bodies.
 void IntegrateErrors(const world::Layout& layout, double step_seconds, world::State& state);
 
 }  // namespace gsv::dynamics

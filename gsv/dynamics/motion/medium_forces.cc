@@ -14,7 +14,8 @@ using geometry::Vector3;
 
 constexpr int kSegmentsAround = 24;
 
-// The mass below a height, and its first moment (the integral of the position over the mass).
+// The mass of fluid below a height, and its first moment (the integral of the position over the
+// mass).
 struct Displaced {
   double mass = 0;
   Vector3 moment;
@@ -66,7 +67,8 @@ geometry::VolumeBelow DisplacedBelow(const Displacer& displacer, const Pose& wor
   return below;
 }
 
-// From the lowest layer upwards: everything above a boundary has the density of the upper layer.
+// Fluids are added from the lowest layer upwards: everything above a layer's boundary has the
+// density of the upper layer.
 Displaced DisplacedBy(const Displacer& displacer, const Pose& world_from_part,
                       const model::Fluid& fluid) {
   const Vector3 centre = world_from_part * displacer.centre;
@@ -142,7 +144,7 @@ Wrench WrenchOf(const PartMedium& medium, const Part& part, const PartMotion& mo
   for (const Displacer& displacer : medium.displacers) {
     const Displaced displaced = DisplacedBy(displacer, motion.world_from_part, *world.fluid);
     wrench.force -= displaced.mass * world.gravity;
-    // About the part's centre of mass.
+    // The torque is about the part's centre of mass.
     wrench.torque -=
         Cross(displaced.moment - displaced.mass * motion.world_from_part.position, world.gravity);
   }

@@ -2,8 +2,8 @@
 //
 // Frames  wrenches, velocities: world axes; torques about the part's centre of mass.
 // Units   N, N m, m/s, rad/s.
-// Source  Gazebo's systems WindEffects and Buoyancy; for <velocity_decay> Gazebo with ODE, which
-//         takes a share of the velocity in each step of the world.
+// Source  Gazebo's systems WindEffects and Buoyancy; for <velocity_decay>: Gazebo with ODE, where a
+//         body loses a fraction of its velocity in each step of the world.
 #pragma once
 
 #include <vector>
@@ -18,10 +18,10 @@ struct Displacer {
   double volume = 0;         // m³
   geometry::Vector3 centre;  // centre of the volume
   double radius = 0;         // radius of a sphere; 0 for other shapes
-  // closed surface of other shapes; empty if the fluid has no layers
+  // closed surface of any other shape; empty if the fluid has no layers
   geometry::TriangleMesh surface{};
-  double reach = 0;              // m: no point is farther from `centre`
-  double volume_of_surface = 0;  // m³: less than `volume` where the shape is round
+  double reach = 0;              // distance of the farthest point from `centre`, m
+  double volume_of_surface = 0;  // m³ inside `surface`; below `volume` for round shapes
 };
 
 // The properties of one part of a body that these forces depend on.
@@ -32,7 +32,7 @@ struct PartMedium {
   std::vector<Displacer> displacers;
 };
 
-// One for each part of the body; empty if no such forces act on the body.
+// Returns an entry for each part of the body; empty if no such forces act on the body.
 std::vector<PartMedium> MakeMedium(const world::Layout& layout, const world::Body& body,
                                    const Articulation& articulation);
 
@@ -45,7 +45,7 @@ struct PartMotion {
   geometry::Vector3 velocity, angular_velocity;
 };
 
-// The mean over the next `seconds`. This is at most one step of the world.
+// Returns the mean wrench over the next `seconds`, which must be at most one step of the world.
 Wrench WrenchOf(const PartMedium& medium, const Part& part, const PartMotion& motion,
                 const model::WorldDescription& world, double seconds);
 

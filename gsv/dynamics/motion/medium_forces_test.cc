@@ -39,7 +39,7 @@ TEST(MediumForces, AreZeroWithoutAMedium) {
   EXPECT_TRUE(MakeMedium(layout, layout.bodies[0], MakeArticulation(*model)).empty());
 }
 
-// The lift acts at the centre of the volume: half a metre beside the centre of mass.
+// The lift acts at the centre of the volume, which is half a metre beside the centre of mass.
 TEST(MediumForces, ActAtTheCentreOfTheDisplacedVolume) {
   model::WorldDescription world;
   world.fluid = model::Fluid{1000, {}, {}};
@@ -49,7 +49,7 @@ TEST(MediumForces, ActAtTheCentreOfTheDisplacedVolume) {
   EXPECT_NEAR(wrench.torque.x, 0, 1e-9);
 }
 
-// Half in water, a quarter in oil, a quarter in air.
+// The body is half in water, a quarter in oil, and a quarter in air.
 TEST(MediumForces, AddUpTheLayersOfAFluid) {
   model::WorldDescription world;
   world.fluid = model::Fluid{1000, {{0, 800}, {0.25, 1}}, {}};

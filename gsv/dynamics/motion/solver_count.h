@@ -1,13 +1,13 @@
-// A count for benches of how hard the solvers of rigid-body dynamics work.
+// Counts the iterations of the solvers of rigid-body dynamics, for benchmarks.
 #pragma once
 
 #include <cstdint>
 
 namespace gsv::dynamics {
 
-// The number of iterations of all islands, engines and threads of this process so far.
+// The number of iterations so far, summed over all islands, engines and threads of this process.
 std::uint64_t SolverIterations();
-// Adds to it. Any thread may call it.
+// Adds to the count. Any thread may call it.
 void CountSolverIterations(int iterations);
 
 }  // namespace gsv::dynamics

@@ -1,4 +1,4 @@
-// The slip of wheels: how fast the contact of a wheel slides under a friction force.
+// The slip of wheels: the velocity at which a wheel's contact slides under a friction force.
 //
 // Model   slip velocity = friction force * compliance * |rate| * radius / normal force, along the
 //         rolling direction and along the axle. It is proportional to the force, as the normal force
@@ -14,9 +14,9 @@ namespace gsv::dynamics {
 
 struct RollingWheel {
   model::SlippingWheel wheel;
-  geometry::Vector3 axle;  // in the part's frame, unit length
+  geometry::Vector3 axle;  // direction of the axle in the part's frame, unit length
 
-  // m/(s N) for each rad/s of the wheel, on ground with a slip of its own.
+  // Slip per friction force, m/(s N), for each rad/s of the wheel; the ground adds its slip.
   double PerRateAlong(const model::Slip& ground) const {
     return (wheel.slip.longitudinal + ground.longitudinal) * wheel.radius / wheel.normal_force;
   }
@@ -25,9 +25,9 @@ struct RollingWheel {
   }
 };
 
-// The part as a wheel: one of its links says so (model::Link::wheel), or the model's drive turns it.
-// A drive's wheels share the weight of the model in equal parts, at a gravity in m/s². Null for other
-// parts.
+// Returns the part as a wheel if one of its links is a wheel (model::Link::wheel), or if the
+// model's drive turns it. The wheels of a drive share the weight of the model equally, at a gravity
+// in m/s². Null for other parts.
 std::optional<RollingWheel> WheelOf(const model::Model& model, const Articulation& articulation,
                                     const Part& part, double gravity);
 

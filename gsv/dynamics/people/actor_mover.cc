@@ -19,8 +19,8 @@ Vector3 RateBetween(const geometry::Quaternion& from, const geometry::Quaternion
   return axis * (2 * std::atan2(sine, turn.w) / (sine * seconds));
 }
 
-// The distances along a trajectory: at each of kSamples instants between two waypoints, and at the
-// last waypoint.
+// Returns the distances along a trajectory at kSamples instants between each two waypoints, and at
+// the last waypoint.
 constexpr int kSamples = 32;
 
 std::vector<double> WaysAlong(const model::Trajectory& trajectory) {
@@ -51,7 +51,7 @@ double WayAt(const model::Trajectory& trajectory, const std::vector<double>& way
   return ways[at] + (part - whole) * (ways[std::min(at + 1, ways.size() - 1)] - ways[at]);
 }
 
-// The current frame of an animation, counted from 0.
+// Returns the current frame of an animation, counted from 0.
 int FrameAt(const model::Animation& animation, double share) {
   const int count = animation.frame_count();
   return std::min(count - 1, static_cast<int>((share - std::floor(share)) * count));

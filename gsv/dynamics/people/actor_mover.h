@@ -1,10 +1,10 @@
 // Moves the actors of a world along their scripts.
 //
-// Animations    the joints have the positions of the frame whose time has come; by distance, of the
-//               share that the way since the trajectory's start is of the one that the animation
-//               covers.
-// Velocities    the mean over the step. An actor that jumps, because its script begins anew
-//               elsewhere, has none in that step, and hits nothing on its way.
+// Animations    the joints have the positions of the current frame. It follows from the time, or
+//               for an animation by distance from the distance travelled since the trajectory's
+//               start, divided by the distance that the animation covers.
+// Velocities    the mean over the step. An actor whose script restarts at another place jumps: its
+//               velocity is zero in that step, and it touches nothing in between.
 // Threads       one thread at a time.
 // Determinism   an actor's pose is a function of its initial pose, its script and the time.
 #pragma once
@@ -21,9 +21,9 @@ class ActorMover {
  public:
   void SetLayout(const std::shared_ptr<const world::Layout>& layout);
 
-  // Writes the poses and velocities of the actors at state.time + step. `before`, unless it is
-  // null, is the state at the step's start. In it, actors that jump get the pose at which they
-  // arrive.
+  // Writes the poses and velocities of the actors at state.time + step. `before` is the state
+  // at the start of the step, or null. In `before`, actors that jump get their pose after the
+  // jump.
   void Move(base::SimTime step, world::State& state, world::State* before) const;
 
  private:
@@ -32,11 +32,11 @@ class ActorMover {
     const model::Script* script = nullptr;
     geometry::Pose world_from_trajectory;
     int first_joint = 0;
-    std::vector<std::vector<double>> ways;  // by trajectory, see WaysAlong()
+    std::vector<std::vector<double>> ways;  // distances by trajectory, see WaysAlong()
   };
   static void Pose(const Actor& actor, const ScriptInstant& instant, world::State& state);
 
-  std::shared_ptr<const world::Layout> layout_;  // keeps the scripts
+  std::shared_ptr<const world::Layout> layout_;  // keeps the scripts alive
   std::vector<Actor> actors_;
 };
 

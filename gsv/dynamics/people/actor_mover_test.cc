@@ -1,4 +1,4 @@
-// Actors among robots and loose things.
+// Actors among robots and dynamic bodies.
 #include <gtest/gtest.h>
 
 #include "gsv/dynamics/testing/test_rigid_world.h"
@@ -12,7 +12,7 @@ using testing::TestWorld;
 
 constexpr double kActorStep = 0.01;
 
-// Walks from x = 0 to 4 in 4 s, and back if it loops.
+// An actor that walks from x = 0 to 4 in 4 s, and back if it loops.
 std::shared_ptr<model::Model> WalkerOf(bool loops) {
   auto model = testing::ModelOf(geometry::Cylinder{0.3, 1.8}, PlanarPose(0, 0, 0.9, 0));
   auto script = std::make_shared<model::Script>();
@@ -63,7 +63,7 @@ TEST(ActorMover, StopsARobotThatRunsIntoIt) {
   world.Command("robot", {0.5, 0, 0});
   std::vector<world::Contact> contacts;
   for (int i = 0; i < 900; ++i) contacts = world.Step(kActorStep);
-  // Radii: 0.3 m and 0.2 m.
+  // The radii are 0.3 m and 0.2 m.
   EXPECT_NEAR(world.position("robot").x, 4.5, 1e-5);
   ASSERT_EQ(contacts.size(), 1u);
   EXPECT_EQ(world.body("robot").collisions, 1u);
@@ -79,7 +79,7 @@ TEST(ActorMover, WalksThroughAStandingRobot) {
   ASSERT_EQ(contacts.size(), 1u);
   EXPECT_NEAR(contacts[0].depth, 0.2, 1e-6);
   EXPECT_EQ(world.body("robot").collisions, 1u);
-  // It gets no further in, but can leave.
+  // The robot gets no further into the actor, but can leave it.
   world.Command("robot", {-0.5, 0, 0});
   world.Run(1, kActorStep);
   EXPECT_NEAR(world.position("robot").x, 4.3, 1e-5);
@@ -126,7 +126,7 @@ TEST(ActorMover, ShowsTheAnimationFrameOfTheTime) {
   ASSERT_TRUE(world.Start());
   world.Run(0.74, kActorStep);
   EXPECT_EQ(world.joint("walker", 0), 1);
-  world.Run(2, kActorStep);  // 2.74 s: again
+  world.Run(2, kActorStep);  // At 2.74 s the animation has started again.
   EXPECT_EQ(world.joint("walker", 0), 1);
 }
 
@@ -134,12 +134,13 @@ TEST(ActorMover, ShowsTheAnimationFrameOfTheDistance) {
   TestWorld world(MakeWorldEngine());
   world.AddActor("walker", AnimatedWalker(true), {});
   ASSERT_TRUE(world.Start());
-  // x(t) = 6 u² - 4 u³ + 2 u with u = t / 4.
+  // The position is x(t) = 6 u² - 4 u³ + 2 u with u = t / 4.
   for (int i = 1; i <= 390; ++i) {
     world.Step(kActorStep);
     const double u = i * kActorStep / 4, x = 6 * u * u - 4 * u * u * u + 2 * u;
     const double frames = 4 * (x - std::floor(x));
-    if (std::abs(frames - std::round(frames)) < 0.02) continue;  // at a frame's edge
+    // Skips instants at the change of a frame.
+    if (std::abs(frames - std::round(frames)) < 0.02) continue;
     ASSERT_EQ(world.joint("walker", 0), std::floor(frames)) << x;
   }
 }

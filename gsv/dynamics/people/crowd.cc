@@ -12,8 +12,10 @@ namespace {
 
 constexpr double kTurningTime = 0.3;   // s
 constexpr double kFastestTurn = 4;     // rad/s
-constexpr double kStandsStill = 0.05;  // a slower pedestrian keeps its heading, m/s
-constexpr double kSameSide = 0.5;      // the cosine of 60 degrees
+constexpr double kStandsStill = 0.05;  // a pedestrian that is slower than this keeps its heading,
+                                       // m/s
+constexpr double kSameSide = 0.5;      // cosine of 60 degrees: obstacles within this angle count as
+                                       // one
 constexpr double kRoundingOfCells = 1e-9;
 
 // The lowest and the highest point of a body, relative to its origin. Approximate for a body that
@@ -94,7 +96,7 @@ void Crowd::SliceWalls(const world::State& state) {
   is_sliced_ = true;
 }
 
-// A counting sort into cells. It keeps the order of bodies within a cell.
+// Sorts the others into cells (counting sort). The order of bodies within a cell is kept.
 void Crowd::SortOthers(const world::State& state) {
   Vector2 low, high;
   for (std::size_t i = 0; i < others_.size(); ++i) {
@@ -128,7 +130,7 @@ void Crowd::SortOthers(const world::State& state) {
     ++cell_start_[cell_of_[i]];
   }
   for (std::size_t c = 1; c < cell_start_.size(); ++c) cell_start_[c] += cell_start_[c - 1];
-  // Each cell's run is filled from its end, which leaves cell_start_ at its start.
+  // Each cell's run is filled from its end. Afterwards cell_start_ is the start of the run.
   for (std::size_t i = others_.size(); i-- > 0;) {
     const std::uint32_t place = --cell_start_[cell_of_[i]];
     sorted_[place] = others_[i];
@@ -169,7 +171,7 @@ Vector2 Crowd::ForceOfWalls(const Walker& walker, Vector2 at) const {
     double distance;
     Vector2 away;
   };
-  std::array<Side, 16> near;  // the nearest, ascending
+  std::array<Side, 16> near;  // the nearest obstacles, in ascending order of distance
   std::size_t count = 0;
   const ConvexPiece point = Disc(at, 0);
   const ObstacleField& walls = walls_[walker.level];

@@ -1,16 +1,16 @@
 // Decides for the pedestrians of a world how they want to move in the next step, by the social
-// force model (social_force.h). Planar kinematics then moves them, so that they enter neither each
-// other nor anything else.
+// force model (social_force.h). Planar kinematics then moves them, so that they do not overlap each
+// other or anything else.
 //
-// Others        all that planar kinematics moves, actors, and rigid bodies no wider than
-//               kMaxRadius about their origin: as discs about their origins, on the same floor.
-// Walls         the bodies that stand still, sliced between kStep above a pedestrian's feet and
-//               its top: the nearest point of each, but of those that lie within 60 degrees of a
-//               nearer one none, so that a wall of many pieces is one wall.
-// Goals         one is reached within kArrival of it. Nobody looks for a way round.
-// Heading       the body turns to where it walks.
-// Threads       one thread at a time, which a team helps.
-// Determinism   the outcome is a function of the layout, the state and the step.
+// Others        are all bodies that planar kinematics moves, actors, and rigid bodies within
+//               kMaxRadius of their origin. Each counts as a disc about its origin.
+// Walls         are the static bodies, sliced between kStep above a pedestrian's feet and its top.
+//               Each acts with its nearest point. A point within 60 degrees of a nearer one is
+//               ignored, so that a wall of many pieces acts as one wall.
+// Goals         A goal is reached within kArrival of it. There is no path planning.
+// Heading       The body rotates towards its direction of motion.
+// Threads       One thread at a time, which a team helps.
+// Determinism   The result is a function of the layout, the state and the step.
 #pragma once
 
 #include <array>
@@ -38,15 +38,15 @@ class Crowd {
 
   void SetLayout(std::shared_ptr<const world::Layout> layout);
 
-  // Writes the commands of all pedestrians for a step from state.time on, and counts the goals that
-  // they have reached.
+  // Writes the commands of all pedestrians for a step that starts at state.time, and counts the
+  // goals that they have reached.
   void Decide(base::SimTime step, world::State& state);
 
  private:
   struct Walker {
     int body = 0;
     const world::Pedestrian* pedestrian = nullptr;
-    std::size_t level = 0;  // the level of the walls that it sees
+    std::size_t level = 0;  // the level at which walls are sliced for this pedestrian
     // The goal after `reached` goals. It is stored because it is drawn at random only once.
     bool has_goal = false;
     std::uint32_t reached = 0;
@@ -54,12 +54,12 @@ class Crowd {
   };
   struct Other {
     int body = 0;
-    int walker = -1;  // its index; -1: it is no pedestrian
+    int walker = -1;  // index of the walker; -1 for a body that is not a pedestrian
     double radius = 0, height = 0;
     Vector2 at, velocity;
     double z = 0;
   };
-  // The walkers of one batch. The forces of many pairs are computed together.
+  // Number of walkers in a batch. The forces of many pairs are computed together.
   static constexpr std::size_t kBlock = 64;
   struct Block {
     std::array<Vector2, kBlock> directions, forces;
@@ -68,7 +68,7 @@ class Crowd {
 
   void SliceWalls(const world::State& state);
   void SortOthers(const world::State& state);
-  // `walkers` are indices.
+  // Decides for the walkers with these indices.
   void DecideFor(std::span<const std::uint32_t> walkers, double seconds, double left, Block& block,
                  world::State& state);
   // Returns the direction to the walker's goal. If the walker has reached the goal, increments its
@@ -87,7 +87,7 @@ class Crowd {
   std::vector<Interval> levels_;       // heights at which walls are sliced
   std::vector<ObstacleField> walls_;   // by level
   std::vector<int> standing_;          // bodies that are walls
-  std::vector<geometry::Pose> poses_;  // theirs, as sliced
+  std::vector<geometry::Pose> poses_;  // the poses of these bodies when they were sliced
   bool is_sliced_ = false;
 
   std::vector<Other> others_;  // by body

@@ -21,7 +21,7 @@ std::shared_ptr<const model::PedestrianGroup> GroupTo(std::vector<model::Pedestr
   return group;
 }
 
-// Walks from the first goal of the route to the second.
+// A pedestrian that walks from the first goal of the route to the second.
 void AddPedestrian(TestWorld& world, const std::string& name,
                    const std::shared_ptr<const model::PedestrianGroup>& group,
                    const geometry::Pose& start, double speed = 1.34) {
@@ -62,15 +62,15 @@ TEST(Crowd, TwoPedestriansPassSymmetrically) {
   for (int i = 0; i < 500; ++i) {
     EXPECT_TRUE(world.Step(kCrowdStep).empty());
     const geometry::Vector3 &a = world.position("ann"), &b = world.position("bob");
-    // One path is the other one, rotated by 180 degrees about the origin. Rounding errors grow
-    // while the pedestrians avoid each other.
+    // One path is the other one rotated by 180 degrees about the origin. The tolerance allows for
+    // rounding errors, which grow while the pedestrians avoid each other.
     ASSERT_NEAR(a.x, -b.x, 1e-3);
     ASSERT_NEAR(a.y, -b.y, 1e-3);
     const double apart = std::hypot(a.x - b.x, a.y - b.y);
     if (apart < closest) side = a.y;
     closest = std::min(closest, apart);
   }
-  EXPECT_LT(side, -0.2);  // each keeps to its right
+  EXPECT_LT(side, -0.2);  // each pedestrian keeps to its right
   EXPECT_GT(closest, 0.5);
   EXPECT_GT(world.position("ann").x, 4);
 }
@@ -110,7 +110,7 @@ TEST(Crowd, PedestriansAvoidARobotAndStopAFastOne) {
   EXPECT_EQ(world.body("ann").collisions, 0u);
   TestWorld hall(MakeWorldEngine());
   hall.AddRobot("robot", testing::DiscRobot(), PlanarPose(2, 0, 0, kTurned));
-  // It wants to stay where it is, in a corner.
+  // The pedestrian wants to stay where it is, in a corner.
   hall.AddBox("west", {0.2, 4, 2}, -0.4, 0);
   hall.AddBox("north", {4, 0.2, 2}, 0, 0.4);
   hall.AddBox("south", {4, 0.2, 2}, 0, -0.4);

@@ -1,10 +1,10 @@
 // The forces of the social force model (social_force.h) for many pairs at once.
 //
-// The values equal the results of Apart(), RepulsionByOther() and AsSeen() to the bit: the
-// operations and their order are the same, but an instruction processes several pairs.
+// The values are bit-identical to the results of Apart(), RepulsionByOther() and AsSeen(): the
+// operations and their order are the same, but each instruction processes several pairs.
 //
 // Units    metres, seconds. Vectors in the plane of the world.
-// Threads  an object for each thread.
+// Threads  each thread has its own object.
 #pragma once
 
 #include <array>
@@ -18,10 +18,10 @@ namespace gsv::dynamics {
 
 class Repulsions {
  public:
-  // Adds the force of another on the pedestrian `walker` to forces[walker], at the latest in
-  // Finish(). The forces of one pedestrian are added in the order of the calls. `between` leads
-  // from the other's centre to the pedestrian's; `radii` is the sum of both radii; `wanted` is as
-  // of AsSeen().
+  // Adds the force of another body on the pedestrian `walker` to forces[walker], at the latest in
+  // Finish(). The forces of one pedestrian are added in the order of the calls. `between` is the
+  // vector from the other's centre to the pedestrian's. `radii` is the sum of both radii. `wanted`
+  // is the desired direction, as for AsSeen().
   void Add(std::uint32_t walker, geometry::Vector2 between, double radii,
            geometry::Vector2 other_velocity, geometry::Vector2 wanted,
            std::span<geometry::Vector2> forces) {

@@ -1,18 +1,18 @@
 // The pose of an actor at a given time, according to its script.
 //
-// Positions     a cubic Hermite spline through the waypoints (Catmull and Rom 1974, with tension):
-//               the tangent at waypoint i is (1 - tension) (p[i+1] - p[i-1]) / 2, at the ends of an
-//               open trajectory (1 - tension) (p[1] - p[0]) / 2, and where the last position equals
-//               the first both have the tangent of a closed curve. Between two waypoints the
-//               spline's parameter grows evenly with time. So does ignition::math::Spline, which
-//               Gazebo's actors follow. With a tension of 1 the way is straight, and the actor
-//               stops at each waypoint.
-// Orientations  spherical linear interpolation, the shorter way round. (Gazebo's is a spline as
+// Positions     follow a cubic Hermite spline through the waypoints (Catmull and Rom 1974, with
+//               tension). The tangent at waypoint i is (1 - tension) (p[i+1] - p[i-1]) / 2. At the
+//               ends of an open trajectory it is (1 - tension) (p[1] - p[0]) / 2. If the last
+//               position equals the first, both have the tangent of a closed curve. Between two
+//               waypoints, the spline's parameter is proportional to time. This is the spline of
+//               ignition::math::Spline, which Gazebo's actors use. With a tension of 1 the path is
+//               straight, and the actor stops at each waypoint.
+// Orientations  are interpolated spherically, the shorter way round. (Gazebo uses a spline here as
 //               well, which differs between waypoints.)
-// Times         as SDFormat has it: the script waits for its delay, runs its trajectories one after
-//               the other, and begins again if it loops, waiting anew. Before it has run for the
-//               first time its actor stands at the first waypoint; later, at the last.
-// Determinism   a function of the arguments alone.
+// Times         follow SDFormat: the script waits for its delay, then runs its trajectories one
+//               after the other. If it loops, it starts again, including the delay. Before it first
+//               runs, the actor is at the first waypoint; later, at the last.
+// Determinism   a function of the arguments only.
 #pragma once
 
 #include <cstdint>
@@ -23,12 +23,12 @@ namespace gsv::dynamics {
 
 struct ScriptInstant {
   geometry::Pose pose;         // trajectory_from_actor
-  std::int64_t cycle = 0;      // how often the script has begun anew
+  std::int64_t cycle = 0;      // number of times that the script has restarted
   std::size_t trajectory = 0;  // the trajectory that the actor follows
-  base::SimTime since{0};      // since that trajectory's start
+  base::SimTime since{0};      // time since that trajectory's start
 };
 
-// `time` is not below zero.
+// Returns the state of the script at `time`, which must not be negative.
 ScriptInstant InstantOf(const model::Script& script, base::SimTime time);
 
 // The pose on a trajectory. Before the first waypoint it is the pose of the first one, and after

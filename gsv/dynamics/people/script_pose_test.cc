@@ -42,14 +42,16 @@ TEST(PoseOnTrajectory, PassesThroughItsWaypoints) {
 }
 
 TEST(PoseOnTrajectory, FollowsTheHermitePolynomialWithinASegment) {
-  // Tangents of the middle segment, from x = 1 to 3: (3 - 0) / 2 and (7 - 1) / 2.
+  // The tangents of the middle segment, from x = 1 to 3, are (3 - 0) / 2 and (7 - 1) / 2.
   const auto trajectory = TrajectoryOf({{0, PlanarPose(0, 0, 0, 0)},
                                         {1, PlanarPose(1, 0, 0, 0)},
                                         {3, PlanarPose(3, 0, 0, 0)},
                                         {4, PlanarPose(7, 0, 0, 0)}});
-  // At a quarter: 0.84375 · 1 + 0.15625 · 3 + 0.140625 · 1.5 - 0.046875 · 3.
+  // The weights at a quarter of the segment: 0.84375 · 1 + 0.15625 · 3 + 0.140625 · 1.5 - 0.046875
+  // · 3.
   EXPECT_NEAR(XAt(trajectory, 1.5), 1.3828125, 1e-12);
-  // The first segment's own tangents: (1 - 0) / 2 and 1.5; at half: 0.5 + 0.125 (0.5 - 1.5).
+  // The tangents of the first segment are (1 - 0) / 2 and 1.5. At half of it, the position is 0.5 +
+  // 0.125 (0.5 - 1.5).
   EXPECT_NEAR(XAt(trajectory, 0.5), 0.375, 1e-12);
 }
 
@@ -64,7 +66,7 @@ TEST(PoseOnTrajectory, IsLinearAndStopsAtWaypointsAtFullTension) {
 }
 
 TEST(PoseOnTrajectory, IsSmoothAtTheEndOfAClosedTrajectory) {
-  // A square: at its first corner the tangent is (next - last but one) / 2 = (1, -1).
+  // The path is a square. At its first corner, the tangent is (next - last but one) / 2 = (1, -1).
   const auto square = TrajectoryOf({{0, PlanarPose(0, 0, 0, 0)},
                                     {1, PlanarPose(2, 0, 0, 0)},
                                     {2, PlanarPose(2, 2, 0, 0)},
@@ -94,7 +96,7 @@ TEST(ScriptInstant, WaitsBeforeEachTime) {
   EXPECT_EQ(x(0), 1);
   EXPECT_EQ(x(1.9), 1);
   EXPECT_NEAR(x(4), 3, 1e-12);    // halfway
-  EXPECT_NEAR(x(6.5), 5, 1e-12);  // waits at the end of the trajectory
+  EXPECT_NEAR(x(6.5), 5, 1e-12);  // the actor waits at the end of the trajectory
   EXPECT_NEAR(x(10), 3, 1e-12);   // and again
   EXPECT_EQ(InstantOf(script, FromSeconds(10)).cycle, 1);
 }

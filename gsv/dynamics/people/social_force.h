@@ -6,17 +6,17 @@
 //              dv/dt = (v0 e - v) / tau + sum of w(e, f) f over the others + sum of f over walls,
 //            and is never faster than 1.3 v0.
 // Others     f = -grad V0 exp(-b / sigma), where 2 b = sqrt((|r| + |r - s|)² - |s|²) is the smaller
-//            diameter of an ellipse through the pedestrian, r = x - x_other, and s the other's
-//            velocity times dt, the length of a stride as it is seen ahead.
+//            diameter of an ellipse through the pedestrian, r = x - x_other, and s is the other's
+//            velocity times dt: the distance that it is expected to walk.
 //              V0 = 2.1 m²/s², sigma = 0.3 m, dt = 2 s
 // Sight      w is 1 for pedestrians within 100 degrees of e, and 0.5 for those behind.
-// Walls      f = (U0 / R) exp(-d / R) away from the wall's nearest point, d away.
-//              U0 = 10 m²/s², R = 0.2 m
+// Walls      f = (U0 / R) exp(-d / R) away from the nearest point of the wall, which is at the
+//              distance d. U0 = 10 m²/s², R = 0.2 m
 // Driving    tau = 0.5 s. The driving term is integrated exactly, the forces by Euler's method: a
-//            pedestrian alone has the speed v0 (1 - exp(-t / tau)) at time t, whatever the step.
-// Ours       Instead of the paper's fluctuations each force of another is turned by kAside to the
-//            right, so that two who meet head on pass on each other's left instead of standing.
-//            The radii of both shorten the distance: see Apart().
+//            single pedestrian has the speed v0 (1 - exp(-t / tau)) at time t for any step size.
+// Ours       differs from the paper in two ways. Each force of another pedestrian is rotated by
+//            kAside to the right, instead of the paper's fluctuations, so that two who meet head on
+//            pass each other. Both radii reduce the distance: see Apart().
 // Units      metres, seconds. Vectors in the plane of the world.
 #pragma once
 
@@ -26,8 +26,8 @@
 namespace gsv::dynamics {
 
 inline constexpr double kRelaxationTime = 0.5;  // s
-inline constexpr double kMaxSpeedFactor = 1.3;  // as a factor of the desired speed
-// Pedestrians (m between centres) and walls (m) that are further away have no effect.
+inline constexpr double kMaxSpeedFactor = 1.3;  // maximum speed as a multiple of the desired speed
+// Pedestrians (m between centres) and walls (m) beyond these distances have no effect.
 inline constexpr double kOthersReach = 3, kWallsReach = 1.2;
 
 // The vector from another pedestrian to this one. `between` is the vector from centre to centre. It

@@ -11,7 +11,7 @@ using geometry::Vector2;
 
 double LengthOf(Vector2 v) { return std::hypot(v.x, v.y); }
 
-// The potential of Helbing and Molnár, as the paper writes it.
+// The potential of Helbing and Molnár, as in the paper.
 double PotentialAt(Vector2 apart, Vector2 velocity) {
   const Vector2 stride = 2.0 * velocity;
   const double sum = LengthOf(apart) + LengthOf(apart - stride);
@@ -38,7 +38,7 @@ TEST(SocialForce, IsTheRotatedGradientOfThePotential) {
 }
 
 TEST(SocialForce, OfAStandingPedestrianDecaysWithTheDistance) {
-  // Without a stride b is the distance.
+  // If the other does not move, b equals the distance.
   EXPECT_NEAR(LengthOf(RepulsionByOther({0.9, 0}, {})), 7 * std::exp(-3.0), 1e-12);
 }
 
@@ -53,7 +53,7 @@ TEST(SocialForce, IsHalvedFromBehind) {
   const Vector2 from_ahead{-1, 0}, from_behind{1, 0};
   EXPECT_EQ(AsSeen(from_ahead, {1, 0}), from_ahead);
   EXPECT_EQ(AsSeen(from_behind, {1, 0}), (Vector2{0.5, 0}));
-  // At 99 and 101 degrees to the direction of motion.
+  // One pedestrian is at 99 degrees to the direction of motion, and one at 101 degrees.
   const auto from = [](double degrees) {
     const double a = degrees * 3.14159265358979323846 / 180;
     return Vector2{-std::cos(a), -std::sin(a)};

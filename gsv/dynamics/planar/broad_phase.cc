@@ -10,7 +10,7 @@ namespace gsv::dynamics {
 using geometry::Vector2;
 
 // Cells are as wide as the widest disc, or wider if there would be many more cells than discs. So
-// discs that overlap are in the same cell or in adjacent ones.
+// two discs that overlap are in the same cell or in adjacent cells.
 void BroadPhase::Sort(std::span<const Vector2> centres, std::span<const double> radii) {
   Vector2 low = centres[0], high = centres[0];
   double widest = 1e-3;
@@ -36,7 +36,7 @@ void BroadPhase::Sort(std::span<const Vector2> centres, std::span<const double> 
     ++cell_start_[cell_of_[i]];
   }
   for (std::size_t c = 1; c < cell_start_.size(); ++c) cell_start_[c] += cell_start_[c - 1];
-  // Each cell's run is filled from its end, which leaves cell_start_ at its start.
+  // Each cell's run is filled from its end. Afterwards cell_start_ is the start of the run.
   for (std::size_t i = centres.size(); i-- > 0;) {
     const std::uint32_t at = --cell_start_[cell_of_[i]];
     entries_[at] = {centres[i].x, centres[i].y, radii[i], static_cast<std::uint32_t>(i)};
@@ -74,8 +74,8 @@ const std::vector<BroadPhase::Pair>& BroadPhase::Find(std::span<const Vector2> c
       const std::uint32_t begin = cell_start_[cell], end = cell_start_[cell + 1];
       if (begin == end) continue;
       PairWithin(begin, end);
-      // The cell to the right and the three cells above; the other neighbours check this cell.
-      // Cells of one row are adjacent in entries_.
+      // Compares with the cell to the right and the three cells above; the cells on the other sides
+      // compare with this one. Cells of one row are adjacent in entries_.
       if (column + 1 < columns_) PairAcross(begin, end, end, cell_start_[cell + 2]);
       if (row + 1 < rows_) {
         const std::size_t above = cell + columns_;

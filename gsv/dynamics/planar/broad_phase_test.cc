@@ -52,7 +52,7 @@ TEST(ObstacleField, FindsAllNearObstacles) {
   for (int i = 0; i < 2000; ++i) {
     const Vector2 point{uniform(-30, 30), uniform(-30, 30)};
     const double reach =
-        i % 2 ? uniform(0, 0.3) : uniform(0.3, 8);  // within the margin, and beyond
+        i % 2 ? uniform(0, 0.3) : uniform(0.3, 8);  // distances within the margin, and beyond it
     std::vector<bool> found(obstacles.size());
     field.ForEachNear(point, reach, [&](std::uint32_t index) { found[index] = true; });
     for (std::size_t k = 0; k < obstacles.size(); ++k) {

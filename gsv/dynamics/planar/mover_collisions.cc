@@ -5,20 +5,20 @@
 namespace gsv::dynamics {
 namespace {
 
-// m: the distance that a slow mover may move before candidates are searched for again. With a
-// larger value, each step has more candidates to check.
+// The distance (m) that a mover with a small reach may move before candidates are searched for
+// again. With a larger value, each step has more candidates to check.
 constexpr double kRoom = 0.25;
 
-// The number of pairs that make another thread worthwhile.
+// With this number of pairs, another thread pays off.
 constexpr std::size_t kPairsAtOnce = 32;
 
-// Pieces that overlap in height by no more than this do not meet.
+// Pieces whose height ranges overlap by no more than this do not touch.
 constexpr double kSameHeight = 1e-9;
 
 // Far larger than the rounding errors of distances, and far smaller than distances that matter.
 constexpr double kPairRounding = 1e-6;
 
-// The interval of heights that both have; empty (low above high) if there are none.
+// The range of heights that two pieces share; empty (low above high) if they share none.
 Interval SharedHeights(const Footprint::Piece& a, double height_a, const Footprint::Piece& b,
                        double height_b) {
   return {std::max(a.heights.low + height_a, b.heights.low + height_b),
@@ -161,7 +161,7 @@ std::optional<Impact> MoverCollisions::PairImpact(const Motions& motions,
   std::optional<Impact> impact;
   if (both > 0) impact = FirstImpact(pair, a, b, both);
   if (impact || end <= both) return impact;
-  // One of them has reached its end and stands still; the other continues.
+  // One of the two has reached its end and stays there; the other continues.
   a.start = Advance(a.start, a.twist, both);
   b.start = Advance(b.start, b.twist, both);
   (first_time <= both ? a : b).twist = geometry::Twist{};

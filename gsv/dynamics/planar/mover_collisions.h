@@ -1,13 +1,13 @@
 // Finds the movers that may collide with each other, and when they do.
 //
-// Method       Candidates are pairs that come close within some steps. They are searched for only
-//              when a mover has left its room (a Verlet list). Find() selects the candidates that
-//              may meet now. Stop() handles all of these at once. A mover whose own motion closes a
-//              gap is stopped where the pair meets. The affected pairs are then checked again with
-//              the shortened motions, until nothing changes. So the result does not depend on the
-//              order of movers, and no intermediate state has overlaps: after kIterations
-//              iterations, movers still in conflict stay at their starts, which were free. The
-//              result does not depend on when candidates were searched for, because Find() decides.
+// Method       Candidates are pairs that may come close within some steps. They are searched for
+//              only when a mover leaves the space for which they were found (a Verlet list). Find()
+//              selects the candidates that may meet now. Stop() handles all of these at once. A
+//              mover whose own motion closes a gap is stopped where the pair meets. The affected
+//              pairs are then checked again with the shortened motions, until nothing changes. So
+//              the result does not depend on the order of movers, and no intermediate state has
+//              overlaps: after kIterations iterations, movers still in conflict stay at their
+//              starts, which were free. So the time of the search has no effect.
 // Units        metres, seconds, world frame. Spans are as long as PlanarScene::movers().
 #pragma once
 
@@ -42,11 +42,11 @@ class MoverCollisions {
   void FindCandidates(std::span<const geometry::PlanarPosition> starts,
                       std::span<const double> travels);
 
-  // Lists the pairs that may meet while no part of mover m moves further than travels[m]. All
-  // movers have room.
+  // Lists the pairs that may touch if no part of mover m moves further than travels[m]. HasRoom()
+  // must be true for all movers.
   void Find(std::span<const geometry::PlanarPosition> starts, std::span<const double> travels);
-  // Lists the pairs of one mover with `others`, in ascending order, at their positions. No mover
-  // needs room.
+  // Lists the pairs of one mover with `others`, in ascending order, at their positions. HasRoom()
+  // is not required.
   void FindOf(std::uint32_t mover, std::span<const std::uint32_t> others,
               std::span<const geometry::PlanarPosition> starts);
 
@@ -58,7 +58,7 @@ class MoverCollisions {
 
   // Appends to `touching` the pairs that touched when they were found.
   void AddTouching(std::vector<BodyPair>& touching) const;
-  // Offers the contacts of movers at `positions`.
+  // Passes the contacts of movers at `positions` to the collector.
   void Collect(std::span<const geometry::PlanarPosition> positions,
                ContactCollector& contacts) const;
 
@@ -66,13 +66,13 @@ class MoverCollisions {
   static constexpr int kIterations = 8;
 
   struct PiecePair {
-    std::uint32_t first, second;  // pieces of the two footprints
+    std::uint32_t first, second;  // indices of pieces of the two footprints
     geometry::PlanarPosition first_found_at, second_found_at;
     Separation separation;  // there
   };
   struct MoverPair {
     std::uint32_t first, second;           // movers
-    std::uint32_t begin_piece, end_piece;  // its run in near_pieces_
+    std::uint32_t begin_piece, end_piece;  // start and end of its run in near_pieces_
   };
   struct Room {
     Vector2 centre;
@@ -80,8 +80,8 @@ class MoverCollisions {
   };
   // The result for a mover, during the search.
   struct Outcome {
-    double time;           // until the mover stops
-    int since, new_since;  // iteration that found this, for this iteration and for the next
+    double time;           // time until the mover stops
+    int since, new_since;  // iteration that found this, for this iteration and the next
   };
   struct Motions {
     std::span<const geometry::PlanarPosition> starts;

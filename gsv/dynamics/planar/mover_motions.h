@@ -42,10 +42,10 @@ class MoverMotions {
 
   // Sets a mover's position from `state`.
   void Load(std::uint32_t mover, const world::State& state);
-  // Starts a first leg of `seconds`, in which the mover follows its command; with 0 s it stays.
+  // Starts the first leg, of `seconds`: the mover follows its command. With 0 s it stays.
   void FollowCommand(std::uint32_t mover, const world::State& state, double seconds);
   void SetLeg(std::uint32_t mover, const geometry::Twist& twist, double seconds);
-  // Moves it to its leg's end.
+  // Moves the mover to the end of its leg.
   void RunLeg(std::uint32_t mover, Journey& journey);
   // Writes the mover's pose, velocity and wheel angles to `state`.
   void Store(std::uint32_t mover, const Journey& journey, double seconds,
@@ -57,11 +57,11 @@ class MoverMotions {
 
   // One entry for each of the scene's movers.
   std::vector<geometry::PlanarPosition> positions;
-  std::vector<world::DriveCommand> drives;  // during the motion, then at its end
-  std::vector<geometry::Twist> twists;      // in this leg
-  std::vector<double> times;                // in this leg; 0 for a mover at rest
+  std::vector<world::DriveCommand> drives;  // during the leg, then at its end
+  std::vector<geometry::Twist> twists;      // twist in this leg
+  std::vector<double> times;                // duration in this leg; 0 at rest
   std::vector<double> reaches;   // the largest distance that any part may move in this step
-  std::vector<Vector2> normals;  // for stopped movers, the direction towards the obstacle
+  std::vector<Vector2> normals;  // for a stopped mover, the direction towards the obstacle
 
  private:
   const PlanarScene& scene_;

@@ -1,9 +1,9 @@
 // Finds the static obstacles that movers may run into, and the times of the contacts.
 //
-// Clearance    of each mover it is remembered how much room there was around it when it was last
-//              looked at; while it keeps to that room nothing is searched. It only ever spares
-//              questions whose answer is "nothing", so no outcome depends on it. Loose obstacles
-//              move: they are searched for each time.
+// Clearance    for each mover, the free distance around it at the last search is stored. While the
+//              mover stays within that distance, no search is needed. This skips only searches that
+//              would find nothing, so no result depends on it. Dynamic obstacles are searched for
+//              in each step.
 // Threads      Find() and Stop() may run concurrently for different chunks of movers.
 // Units        metres, seconds, world frame.
 #pragma once
@@ -52,8 +52,8 @@ class NearObstacles {
     geometry::PlanarPosition found_at;
     Separation separation;  // there
   };
-  // A mover with its origin at `centre`, at any heading, is further than `radius` from every
-  // obstacle.
+  // Stores that a mover with its origin at `centre`, at any heading, is further than `radius` from
+  // every obstacle.
   struct Clearance {
     Vector2 centre;
     double radius = -1;

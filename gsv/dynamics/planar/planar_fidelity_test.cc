@@ -39,8 +39,8 @@ std::shared_ptr<model::Model> TwoWheeled(double left_scale, double right_scale) 
   return robot;
 }
 
-// Borenstein and Feng's UMBmark: once around a square of 10 m, stopping at each corner; counter-
-// clockwise for turn = 1, clockwise for -1.
+// Borenstein and Feng's UMBmark: the robot drives once around a square of 10 m and stops at each
+// corner; counter-clockwise for turn = 1, clockwise for -1.
 TestWorld AroundTheSquare(std::shared_ptr<model::Model> robot, double turn) {
   TestWorld world(MakeWorldEngine());
   world.AddRobot("robot", std::move(robot), {});
@@ -67,7 +67,7 @@ TEST(PlanarFidelity, UnequalWheelsMissTheStartByTheClosedForm) {
   // Source: J. Borenstein and L. Feng, "Measurement and correction of systematic odometry errors in
   // mobile robots", IEEE Trans. Robotics and Automation 12(6), 1996. E is the ratio of the right
   // wheel's diameter to the left one's. Then each side is an arc of radius R = b/2 (E + 1) / (E -
-  // 1) that turns by beta = L / R. The end is off by 2 L beta along both axes.
+  // 1) that turns by beta = L / R. The end differs from the start by 2 L beta along both axes.
   base::testing::Table table("umbmark");
   for (const double ratio : {1.00002, 1.00005, 1.0001, 1.00015, 1.0002}) {
     const double left = 2 / (1 + ratio), right = 2 * ratio / (1 + ratio);
@@ -78,7 +78,7 @@ TEST(PlanarFidelity, UnequalWheelsMissTheStartByTheClosedForm) {
       EXPECT_WITHIN_PERCENT(world.position("robot").x, turn * expected, 2);
       EXPECT_WITHIN_PERCENT(world.position("robot").y, -expected, 2);
       EXPECT_WITHIN_PERCENT(geometry::WrapAngle(world.yaw("robot")), 4 * beta, 2);
-      // The wheels have turned for a perfect square: odometry does not see the error.
+      // According to the wheels, the path is a perfect square: odometry does not notice the error.
       table.Row({ratio, turn * world.position("robot").x, -world.position("robot").y, expected});
       const double left_path = world.joint("robot", 0) * kRadius;
       const double right_path = world.joint("robot", 1) * kRadius;
@@ -96,17 +96,18 @@ TEST(PlanarFidelity, AnAccelerationLimitIsRespected) {
   ASSERT_TRUE(world.Start());
   world.Command("robot", {1, 0, 0});
   world.Run(3, 0.001);
-  // Two seconds of acceleration (1 m), and one second at 1 m/s. The sum over the steps differs from
-  // the integral by the length of one step at most.
+  // The robot accelerates for two seconds (1 m), and then drives one second at 1 m/s. The sum over
+  // the steps differs from the integral by at most the length of one step.
   EXPECT_WITHIN(world.position("robot").x, 2, 0.002, "m");
   world.Command("robot", {0, 0, 0});
   world.Run(1, 0.001);
-  // v² / 2 a
+  // The stopping distance is v² / 2 a.
   EXPECT_WITHIN(world.position("robot").x, 2 + 0.25, 0.002, "m");
   EXPECT_EQ(world.body("robot").drive.actual.linear, 0);
 }
 
-// Two axles: the torque of the wheels that slide along balances that of those that slide aside.
+// A base with two axles rotates such that the torque of wheels that slide lengthwise balances the
+// torque of wheels that slide sideways.
 TEST(PlanarFidelity, SlippingSkidSteerTurnsLessThanItsWheels) {
   const double base = 0.5, along = 2, across = 5;
   auto robot = TwoWheeled(1, 1);
@@ -131,7 +132,7 @@ TEST(PlanarFidelity, SlippingSkidSteerTurnsLessThanItsWheels) {
   world.Run(2, 0.01);
   const double b2 = kSeparation * kSeparation;
   EXPECT_WITHIN(world.yaw("robot"), 2 * b2 / (b2 + base * base * along / across), 1e-9, "rad");
-  // The wheels have turned for two radians.
+  // According to the wheels, the base has rotated by two radians.
   const double right_path = world.joint("robot", robot->drive->right_wheels[0]) * kRadius;
   EXPECT_WITHIN(right_path, 2 * kSeparation / 2, 1e-9, "m");
 }
@@ -145,8 +146,8 @@ TEST(PlanarFidelity, SlippingRobotDriftsOutOfItsArc) {
   ASSERT_TRUE(world.Start());
   world.Command("robot", {speed, 0, rate});
   world.Run(2 * kPi / rate, 2 * kPi / rate / 1000);
-  // A circle whose radius is that of the total velocity. It closes, as the rate is that of the
-  // wheels.
+  // The path is a circle whose radius follows from the total velocity. The circle closes after the
+  // time that the wheels' turning rate gives.
   const double drift = lateral * speed * rate / 9.80665 * speed;
   EXPECT_WITHIN(Norm(world.body("robot").linear_velocity), std::hypot(speed, drift), 1e-9, "m/s");
   EXPECT_WITHIN(world.position("robot").x, 0, 1e-6, "m");

@@ -1,10 +1,10 @@
-// Moves the joints of robots with planar movement, other than wheels: a head that pans, a lift.
+// Moves the joints of planar robots except wheels, such as a head that pans, or a lift.
 //
 // How          A joint with a position command moves there at its velocity limit (without a limit:
 //              at once) and stops. A joint with a velocity command moves at this velocity. Both
 //              stay within the joint's limits. Obstacles do not stop a joint, and a joint pushes
-//              nothing: the robot's footprint stays the one with all joints at zero.
-// Determinism  a function of the layout, the state and the step alone.
+//              nothing: the robot's footprint is always the one with all joints at zero.
+// Determinism  a function of only the layout, the state and the step.
 #pragma once
 
 #include "gsv/world/state.h"

@@ -15,7 +15,7 @@ namespace {
 // Movers are processed in chunks with their own lists, so that results do not depend on the number
 // of threads.
 constexpr std::size_t kChunk = 128;
-// The number of chunks that make another thread worthwhile.
+// With this number of chunks, another thread pays off.
 constexpr std::size_t kChunksAtOnce = 4;
 
 // A step has up to three legs: the commanded arc; after a contact, a slide along the obstacle; then
@@ -35,12 +35,12 @@ class TeamMover final : public PlanarMover {
  private:
   struct Stopped {
     std::uint32_t mover;
-    double remaining;  // s of this step
+    double remaining;  // time left in this step, s
     Journey journey;
   };
   struct alignas(64) Chunk {  // each has its own cache line, because threads write to adjacent ones
     bool is_as_sliced, has_room;
-    std::vector<std::uint32_t> in_contact;  // movers in contact before the step
+    std::vector<std::uint32_t> in_contact;  // movers that were in contact before the step
     std::vector<Stopped> stopped;
   };
 
@@ -65,13 +65,16 @@ class TeamMover final : public PlanarMover {
 
   const std::shared_ptr<base::ThreadTeam> team_;
   PlanarScene scene_;
-  std::vector<Sight> sights_;  // of the movers, if there are dynamic bodies
+  std::vector<Sight> sights_;  // the areas in which movers look for obstacles, if there are dynamic
+                               // bodies
   MoverMotions motions_;
   NearObstacles obstacles_;
   MoverCollisions pairs_;
   std::vector<Chunk> chunks_;
-  std::vector<BodyPair> touching_;         // at the step's start, ascending
-  std::vector<Stopped> stopped_;           // in this step, ascending
+  std::vector<BodyPair> touching_;         // pairs that touched at the step's start, in ascending
+                                           // order
+  std::vector<Stopped> stopped_;           // movers that were stopped in this step, in ascending
+                                           // order
   std::vector<std::uint32_t> neighbours_;  // used by OverlapsOf()
 };
 
@@ -112,7 +115,7 @@ void TeamMover::LookForLoose(const world::State& state, double seconds) {
   scene_.SliceLoose(state, sights_);
 }
 
-// In a step of 0 s nothing moves.
+// Nothing moves in a step of 0 s.
 void TeamMover::Begin(const world::State& state, double seconds) {
   if (!scene_.StandsAsSliced(state)) Slice(state);
   LookForLoose(state, seconds);

@@ -14,13 +14,13 @@
 //             Bases that can move sideways slide along the obstacle. Bases do not push each other.
 //             The result does not depend on the order of bodies.
 //             A base that starts inside an obstacle can leave it, but cannot move deeper.
-// Mesh        A mesh is a surface: a robot wholly inside a closed mesh touches nothing.
+// Mesh        A mesh is a surface: a robot completely inside a closed mesh touches nothing.
 //
-// Errors      SetLayout() refuses drives that make no sense (kBadModel) and poses that are not
+// Errors      SetLayout() refuses invalid drives (kBadModel) and poses that are not
 //             finite.
-// Threads     one thread at a time, which a team helps where there are many robots.
-// Determinism Step() is a function of layout, state and step size alone, whatever came before and
-//             however large the team is.
+// Threads     one thread at a time, which a team helps where there are many robots. Determinism
+// Step() is a function of only layout, state and step size. It does not depend on earlier
+//             calls or on the size of the team.
 #pragma once
 
 #include <memory>

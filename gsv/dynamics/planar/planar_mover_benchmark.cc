@@ -1,8 +1,8 @@
 // Measures the time of a step of the planar mover. Run it in a release build.
 //
-// Step: robots wander over a square of 4 m² each, half of them round, half of them boxes with two
-// wheels, among one wall for every four robots; many of them push against something. Crowd: see
-// test_crowd.h, a few per cent touch something.
+// Step: robots wander over a square with 4 m² per robot and one wall for every four robots. Half of
+// the robots are round, half are boxes with two wheels. Many of them push against an obstacle.
+// Crowd: see test_crowd.h. A few per cent of the robots touch an obstacle.
 
 #include <benchmark/benchmark.h>
 
@@ -72,7 +72,7 @@ void Step(benchmark::State& bench) {
 }
 BENCHMARK(Step)->Arg(5)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond);
 
-// The crowd of test_crowd.h, including its decisions.
+// Measures a step of the crowd of test_crowd.h, including the robots' decisions.
 void Run(benchmark::State& bench, std::shared_ptr<const model::Model> robot) {
   const auto team = std::make_shared<base::ThreadTeam>(static_cast<int>(bench.range(1)));
   testing::Crowd crowd(static_cast<int>(bench.range(0)), std::move(robot), MakeWorldEngine(team));

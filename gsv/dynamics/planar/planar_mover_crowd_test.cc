@@ -13,7 +13,7 @@ namespace {
 
 using testing::Crowd;
 
-constexpr double kDense = 1.9;  // m² a robot
+constexpr double kDense = 1.9;  // area of the floor per robot, m²
 
 void AddContacts(const std::vector<world::Contact>& contacts, base::Hash& hash) {
   for (const world::Contact& c : contacts) {
@@ -51,7 +51,8 @@ TEST(PlanarMoverCrowd, IsEqualForAnyNumberOfThreads) {
       testing::RobotOf(geometry::Box{{0.3, 0.2, 0.4}}, 0.4, model::DriveKind::kVelocity);
   const auto expect_same = [](const auto& robot, int longest) {
     const auto alone = DigestsOfRun(robot, longest, nullptr);
-    // More threads than processors take turns, which takes long.
+    // Few steps for many threads: if there are more threads than processors, they take turns, which
+    // takes long.
     for (const auto& [threads, steps] : {std::pair{1, 300}, {2, 2000}, {3, 300}, {7, 100}}) {
       const auto together = DigestsOfRun(robot, std::min(steps, longest),
                                          std::make_shared<base::ThreadTeam>(threads));
@@ -62,8 +63,8 @@ TEST(PlanarMoverCrowd, IsEqualForAnyNumberOfThreads) {
   expect_same(sliding, 300);
 }
 
-// A mover caches data from step to step to spare searches. A mover with an empty cache, or with
-// another one, must take the same step.
+// A mover caches data between steps to avoid searches. A mover with an empty cache, or with a
+// different one, must compute the same step.
 TEST(PlanarMoverCrowd, CachesDoNotChangeTheResult) {
   Crowd crowd(150, testing::BoxRobot(0.3, 0.2), MakeWorldEngine(), kDense);
   ASSERT_TRUE(crowd.Start());
@@ -72,7 +73,7 @@ TEST(PlanarMoverCrowd, CachesDoNotChangeTheResult) {
     world::State copy = crowd.world().state();
     const auto fresh = MakeWorldEngine();
     ASSERT_TRUE(fresh->SetLayout(std::make_shared<world::Layout>(crowd.world().layout())));
-    // Before every third step, all movers are put at other places, near or far.
+    // Before every third step, all movers are placed elsewhere, near or far.
     if (i % 3 == 0) {
       world::State elsewhere = copy;
       for (const std::size_t robot : crowd.robots()) {
@@ -100,7 +101,7 @@ TEST(PlanarMoverCrowd, OverlapsOfABodyAreASubsetOfAllOverlaps) {
   ASSERT_TRUE(crowd.Start());
   for (int i = 0; i < 300; ++i) crowd.Step();
   world::State state = crowd.world().state();
-  // Some move into others and into boxes.
+  // Some robots drive into others and into boxes.
   for (std::size_t i = 0; i < crowd.robots().size(); i += 3) {
     state.bodies[crowd.robots()[i]].world_from_model.position.x += 0.3;
   }

@@ -1,6 +1,6 @@
 // Tests properties that must hold in every world, in random worlds. Overlaps are detected by code
-// that shares nothing with the mover: points on the solids' surfaces are inserted into the solids'
-// equations.
+// that shares nothing with the mover: it evaluates the equations of the solids at points of their
+// surfaces.
 
 #include <algorithm>
 
@@ -45,7 +45,7 @@ double Depth(const Shape& shape, const Vector3& p) {
   return 1;  // a mesh has no inside
 }
 
-// Points all over the surface.
+// Returns points distributed over the whole surface.
 std::vector<Vector3> SurfacePoints(const Shape& shape) {
   std::vector<Vector3> points;
   const auto heights = {-1.0, -0.95, -0.8, -0.4, 0.0, 0.4, 0.8, 1.0};
@@ -95,7 +95,7 @@ struct Solid {
   Pose world_from_solid;
   bool robot;
   double ground;                 // a robot drives over obstacles below this height
-  std::vector<Vector3> surface;  // points, in its own frame
+  std::vector<Vector3> surface;  // points of the surface, in the solid's own frame
   double radius;                 // radius of a sphere around the points
 };
 
@@ -170,7 +170,7 @@ std::shared_ptr<model::Model> RobotOfKind(int kind) {
   return robot;
 }
 
-// Obstacles of all sorts in a fenced square, and robots in free places.
+// Obstacles of all kinds in a fenced square, and robots at free places.
 struct RandomWorld {
   explicit RandomWorld(std::uint64_t seed) : random(seed) {
     for (int i = 0; i < 4; ++i) {
@@ -258,7 +258,7 @@ void CommandAll(TestWorld& world, Random& random) {
 TEST(PlanarMoverProperty, TestDetectsOverlaps) {
   TestWorld world(MakeWorldEngine());
   world.AddRobot("robot", testing::DiscRobot(0.25), geometry::PlanarPose(0, 0, 0, 0));
-  world.AddBox("wall", {0.1, 4, 1}, 0.299, 0);  // a millimetre deep
+  world.AddBox("wall", {0.1, 4, 1}, 0.299, 0);  // a millimetre deep in the wall
   ASSERT_TRUE(world.Start());
   const std::vector<Solid> solids = SolidsOf(world.layout(), world.state());
   ASSERT_EQ(solids.size(), 2u);
@@ -346,7 +346,7 @@ TEST(PlanarMoverProperty, CrowdPassesACorridorWithoutOverlaps) {
     world.Step(0.05);
     EXPECT_TRUE(world.engine().Overlaps(world.state(), 0).empty()) << i;
   }
-  // Nothing delays the first robot of each lane.
+  // The first robot of each lane is not delayed.
   for (int i = 0; i < 3; ++i) {
     EXPECT_NEAR(world.body("r" + std::to_string(i)).distance, 15 * (0.2 + 0.05 * i), 1e-9);
   }

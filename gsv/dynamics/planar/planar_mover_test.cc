@@ -23,7 +23,8 @@ TEST(PlanarMover, DrivesAHalfCircleExactly) {
   TestWorld world = Empty();
   world.AddRobot("robot", DiscRobot(), PlanarPose(1, 2, 0.5, 0));
   ASSERT_TRUE(world.Start());
-  // Radius v / w = 2 m; after pi seconds at 1 rad/s on the far side of the circle.
+  // The radius is v / w = 2 m. After pi seconds at 1 rad/s the robot is on the opposite side of the
+  // circle.
   world.Command("robot", {2, 0, 1});
   const double step = base::ToSeconds(base::FromSeconds(kPi / 100));
   world.Run(100 * step, step);
@@ -83,7 +84,7 @@ TEST(PlanarMover, DoesNotTunnelThroughAThinWall) {
   for (const double yaw : {0.0, 0.3, 1.0}) {
     TestWorld world = Empty();
     world.AddRobot("robot", BoxRobot(0.4, 0.3), PlanarPose(0, 0, 0, yaw));
-    // A millimetre thick, two metres ahead.
+    // The wall is a millimetre thick and two metres ahead.
     world.AddBox("wall", {0.001, 40, 1}, 2 * std::cos(yaw), 2 * std::sin(yaw), 0, yaw);
     ASSERT_TRUE(world.Start());
     world.Command("robot", {10, 0, 0});
@@ -96,7 +97,7 @@ TEST(PlanarMover, DoesNotTunnelThroughAThinWall) {
 TEST(PlanarMover, ReportsTheBeginOfAContactOnce) {
   TestWorld world = Empty();
   world.AddRobot("robot", DiscRobot(0.2), PlanarPose(0, 0, 0, 0));
-  world.AddBox("wall", {0.1, 4, 1}, 0.3, 0);  // 5 cm ahead
+  world.AddBox("wall", {0.1, 4, 1}, 0.3, 0);  // The wall is 5 cm ahead.
   ASSERT_TRUE(world.Start());
   world.Command("robot", {1, 0, 0});
   EXPECT_TRUE(world.Step(0.01).empty());
@@ -141,7 +142,7 @@ TEST(PlanarMover, TurnsOnTheSpotAgainstAWallAndDrivesAway) {
 TEST(PlanarMover, BoxDoesNotRotateIntoAWall) {
   TestWorld world = Empty();
   world.AddRobot("robot", BoxRobot(0.6, 0.2), PlanarPose(0, 0, 0, 0));
-  world.AddBox("wall", {4, 0.1, 1}, 0, 0.25);  // its face is 0.1 m from the robot's side
+  world.AddBox("wall", {4, 0.1, 1}, 0, 0.25);  // the wall's face is 0.1 m from the robot's side
   ASSERT_TRUE(world.Start());
   world.Command("robot", {0, 0, 1});
   world.Run(3, 0.01);
@@ -166,7 +167,8 @@ TEST(PlanarMover, HeadOnRobotsMeetInTheMiddle) {
   world.Run(3, 0.07);
   EXPECT_NEAR(world.position("a").x, -0.2, kGap);
   EXPECT_NEAR(world.position("b").x, 0.2, kGap);
-  EXPECT_NEAR(world.position("a").x + world.position("b").x, 0, 1e-12);  // neither is favoured
+  EXPECT_NEAR(world.position("a").x + world.position("b").x, 0, 1e-12);  // the result favours
+                                                                         // neither robot
   EXPECT_EQ(world.body("a").collisions, 1u);
   EXPECT_EQ(world.body("b").collisions, 1u);
 }
@@ -301,7 +303,7 @@ TEST(PlanarMover, WheelAnglesEqualTheRolledDistance) {
   ASSERT_TRUE(world.Start());
   world.Command("robot", {0.4, 0, 1});
   world.Run(2, 0.01);
-  // Left 0.4 - 0.15, right 0.4 + 0.15 m/s.
+  // The left wheel has 0.4 - 0.15 m/s, the right one 0.4 + 0.15 m/s.
   EXPECT_NEAR(world.joint("robot", 0), 2 * 0.25 / 0.05, 1e-9);
   EXPECT_NEAR(world.joint("robot", 1), -2 * 0.55 / 0.05, 1e-9);
   EXPECT_NEAR(world.joint_velocity("robot", 0), 0.25 / 0.05, 1e-12);
@@ -329,7 +331,7 @@ TEST(PlanarMover, OverlapsReturnsTheOverlappingPairs) {
 TEST(PlanarMover, RobotThatStartsInsideAWallCanLeaveIt) {
   TestWorld world = Empty();
   world.AddRobot("robot", DiscRobot(0.2), PlanarPose(0, 0, 0, 0));
-  world.AddBox("wall", {1, 4, 1}, 0.6, 0);  // 10 cm deep
+  world.AddBox("wall", {1, 4, 1}, 0.6, 0);  // 10 cm deep in the wall
   ASSERT_TRUE(world.Start());
   world.Command("robot", {1, 0, 0});
   world.Run(1, 0.01);
@@ -343,7 +345,7 @@ TEST(PlanarMover, ObstacleIsUsedAtItsNewPoseAfterAMove) {
   TestWorld world = Empty();
   world.AddRobot("robot", DiscRobot(0.2), PlanarPose(0, 0, 0, 0));
   auto box = testing::ModelOf(geometry::Box{{0.2, 0.2, 0.2}});
-  world.AddRobot("box", box, PlanarPose(1, 0, 0.1, 0));  // neither static nor driven
+  world.AddRobot("box", box, PlanarPose(1, 0, 0.1, 0));  // a body that is neither static nor driven
   ASSERT_TRUE(world.Start());
   world.Command("robot", {1, 0, 0});
   world.Step(0.01);

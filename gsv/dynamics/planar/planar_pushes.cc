@@ -10,7 +10,7 @@ namespace {
 
 using geometry::Vector3;
 
-// The friction between wheels and ground: SDFormat's default for all surfaces.
+// The friction coefficient between wheels and ground: SDFormat's default for all surfaces.
 constexpr double kTraction = 1;
 
 // The velocity, in the world frame, of a point of a planar body whose drive has this motion.

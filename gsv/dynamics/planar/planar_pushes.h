@@ -17,21 +17,21 @@ class PlanarPushes {
   // Rejects invalid drives with kBadModel.
   base::Status SetLayout(std::shared_ptr<const world::Layout> layout);
 
-  // The pushes by planar robots that were stopped by rigid bodies (`contacts`) when planar
-  // kinematics moved them from `before` to `state`. They are in the order of (robot, object).
+  // Returns the pushes by planar robots that rigid bodies have stopped (`contacts`) when planar
+  // kinematics moved the robots from `before` to `state`. They are ordered by (robot, object).
   std::span<Push> Find(base::SimTime step, const world::State& before, const world::State& state,
                        const std::vector<world::Contact>& contacts);
 
-  // Call this after the rigid bodies have moved. A robot that pushes has the speed of the pushed
-  // body; if it pushes several bodies, that of the slowest one.
+  // Call this after the rigid bodies have moved. A robot that pushes gets the speed of the pushed
+  // body; if it pushes several bodies, the speed of the slowest one.
   void LimitSpeeds(base::SimTime step, const world::State& before, world::State& state) const;
   // Sets the impulses of the contacts through which robots pushed.
   void SetImpulses(std::vector<world::Contact>& contacts) const;
 
  private:
   struct Pusher {
-    int body = 0;    // index in the layout
-    double low = 0;  // height (m) above the model's origin from which on it pushes
+    int body = 0;    // index of the body in the layout
+    double low = 0;  // the robot pushes above this height over the model's origin, m
     double mass = 0;
     DriveKinematics kinematics;
   };

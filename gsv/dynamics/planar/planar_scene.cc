@@ -12,10 +12,10 @@ namespace {
 
 using geometry::Quaternion;
 
-// Pieces that extend less than this above the climb height do not collide.
+// Pieces that extend above the climb height by less than this do not collide.
 constexpr double kThinnest = 1e-9;
 
-// The part of a pose's rotation that is not about the vertical.
+// Returns the rotation without its part about the vertical.
 Quaternion TiltOf(const Quaternion& orientation) {
   if (std::abs(orientation.x) < 1e-12 && std::abs(orientation.y) < 1e-12) return {};
   return geometry::FromAxisAngle({0, 0, 1}, -geometry::Yaw(orientation)) * orientation;
@@ -31,7 +31,7 @@ double SpinRadius(const Footprint& footprint, double reference_x) {
                              : std::sqrt(Dot(piece.centre, piece.centre)) + piece.radius;
     radius = std::max(radius, reach);
   }
-  // A slide and a turn on the spot may follow an arc.
+  // A slide along an obstacle and a turn in place may follow an arc.
   return radius + 2 * std::abs(reference_x);
 }
 
@@ -68,7 +68,8 @@ base::Status PlanarScene::SetLayout(std::shared_ptr<const world::Layout> layout)
   std::vector<MoverKind> kinds;
   std::vector<Mover> movers;
   std::vector<int> standing, loose;
-  std::map<const model::Model*, std::uint32_t> known;  // upright ones; only for lookups
+  std::map<const model::Model*, std::uint32_t> known;  // footprints of upright models; used only
+                                                       // for lookups
   std::uint32_t pieces = 0;
   for (std::size_t i = 0; i < layout->bodies.size(); ++i) {
     const world::Body& body = layout->bodies[i];

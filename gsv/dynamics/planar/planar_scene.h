@@ -1,16 +1,16 @@
 // The planar mover's view of a layout: the movers, their footprints and the obstacles.
 //
-// Levels   obstacles are sliced once for each distinct interval of heights that a piece of some
-//          footprint takes up: from what the robot can drive over (ClimbHeight above its lowest
-//          point) or the piece's own lowest point, whichever is higher, to the piece's highest
-//          point. So a floor that a robot stands on, a ground plane and a door sill are no
-//          obstacles, and a table is one only to what reaches its top or its legs. Beyond
-//          kMaxLevels distinct intervals, their ends are rounded up to a grid just coarse enough.
-// Dynamic  Rigid bodies and actors are separate obstacles. Those in some mover's sight are sliced,
-//          and again when one of them has moved. A body that reaches less than kRides below the top
-//          of a piece lies on the robot and is not an obstacle to it.
-// Caching  slices are kept while obstacles and the heights of robots stay where they are; nothing
-//          depends on whether they were kept.
+// Levels   Obstacles are sliced once for each distinct range of heights of a piece of a footprint.
+//          The range begins at the height up to which the robot can climb (ClimbHeight above its
+//          lowest point) or at the lowest point of the piece, whichever is higher, and ends at the
+//          highest point of the piece. So the floor, a ground plane and a door sill are no
+//          obstacles. A table is an obstacle only for pieces that reach its top or its legs. Beyond
+//          kMaxLevels ranges, their ends are rounded to a grid.
+// Dynamic  Rigid bodies and actors are separate obstacles. Only those in the sight of some mover
+//          are sliced, and again when one of them has moved. A body that extends less than kRides
+//          below the top of a piece lies on the robot and is not an obstacle to it.
+// Caching  Slices are kept while the obstacles and the heights of robots do not change. The result
+//          does not depend on this.
 #pragma once
 
 #include <cstdint>
@@ -35,13 +35,13 @@ struct MoverKind {
   DriveKinematics kinematics;
   Footprint footprint;
   double climb = 0;
-  double spin_radius = 0;  // no part moves faster than speed + spin_radius * turning rate
+  double spin_radius = 0;  // no part of the mover is faster than speed + spin_radius * turning rate
 };
 
 struct Mover {
-  int body = 0;  // index in the layout; movers are in the order of bodies
+  int body = 0;  // index of the body in the layout; movers are in the order of bodies
   std::uint32_t kind = 0;
-  std::uint32_t first_level = 0;  // first level of its pieces, see PlanarScene::level()
+  std::uint32_t first_level = 0;  // the first level of its pieces, see PlanarScene::level()
   int first_joint = 0, joint_count = 0;
 };
 
@@ -55,7 +55,7 @@ class PlanarScene {
  public:
   static constexpr int kMaxLevels = 64;
 
-  // Rejects invalid drives and poses that are not finite.
+  // Returns an error for invalid drives and for poses that are not finite.
   base::Status SetLayout(std::shared_ptr<const world::Layout> layout);
 
   // Slices the obstacles of `state` for movers at their heights.
@@ -65,7 +65,7 @@ class PlanarScene {
   void SliceLoose(const world::State& state, std::span<const Sight> sights);
   // Whether Slice() was called, and all bodies other than movers are where they were then.
   bool StandsAsSliced(const world::State& state) const;
-  // Whether a mover at height z is at the height of the last Slice().
+  // Whether the mover at height z has the height of the last Slice().
   bool IsAsSliced(std::size_t mover, double z) const { return heights_[mover] == z; }
 
   const world::Layout& layout() const { return *layout_; }
@@ -98,12 +98,12 @@ class PlanarScene {
   std::vector<Interval> intervals_;  // height intervals of the levels
   std::vector<int> standing_;        // bodies that are neither movers nor dynamic obstacles
   std::vector<geometry::Pose> standing_poses_;  // poses of static bodies when they were sliced
-  std::vector<double> heights_;                 // heights of the movers when obstacles were sliced
+  std::vector<double> heights_;                 // heights of the movers at the last slicing
   std::vector<ObstacleField> fields_;
-  std::vector<int> loose_;           // bodies that are rigid, and actors
+  std::vector<int> loose_;           // indices of rigid bodies and actors
   std::vector<double> loose_radii_;  // theirs
-  std::vector<int> seen_;            // indices of the sliced ones
-  std::vector<double> loose_state_;  // bodies, poses and joints when they were sliced
+  std::vector<int> seen_;            // indices of the sliced dynamic obstacles
+  std::vector<double> loose_state_;  // bodies, poses and joints at the last slicing
   std::vector<ObstacleField> loose_fields_;
   bool is_sliced_ = false, is_loose_sliced_ = false;
 };

@@ -7,8 +7,8 @@
 
 namespace gsv::dynamics {
 
-// The vertices (scaled) of each set of triangles that share vertex positions, in the order of the
-// triangles. One set of all vertices if there are more than `max_pieces` sets.
+// Returns the scaled vertices of each set of triangles that share vertex positions, in the order of
+// the triangles. If there are more than `max_pieces` sets, returns one set of all vertices.
 std::vector<std::vector<geometry::Vector3>> ConnectedPieces(const geometry::Mesh& mesh,
                                                             int max_pieces);
 

@@ -1,4 +1,4 @@
-// Makes the list of contacts: one for each pair of bodies, by (first, second).
+// Makes the list of contacts: one for each pair of bodies, ordered by (first, second).
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace gsv::dynamics {
 
-// Bodies' indices in the layout.
+// The indices of two bodies in the layout.
 struct BodyPair {
   int first, second;
   // NOLINTNEXTLINE(modernize-use-nullptr)
@@ -21,13 +21,13 @@ class ContactCollector {
   // 0, bodies that overlap by less than -gap have none.
   ContactCollector(std::vector<world::Contact>& contacts, double gap);
 
-  // Offers the separation of a piece of the first body from a piece of the second one. The deepest
-  // pieces of a pair of bodies make the contact; among equal ones, the first. Offer all pieces of a
-  // first body one after the other.
+  // Passes the separation of a piece of the first body from a piece of the second one. The deepest
+  // piece of each pair of bodies gives the contact; among equally deep pieces, the first one. All
+  // pieces of a first body must be passed one after the other.
   void Offer(const BodyPair& bodies, const Separation& separation, double height);
 
-  // Sorts the contacts, and marks those that began: their pairs are not in `touching`. `touching`
-  // must be in ascending order.
+  // Sorts the contacts and sets `began` for pairs that are not in `touching`. `touching` must be in
+  // ascending order.
   void Finish(const std::vector<BodyPair>& touching);
 
  private:

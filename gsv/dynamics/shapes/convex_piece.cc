@@ -11,7 +11,7 @@ namespace {
 
 using geometry::kInfinity;
 
-// Hulls omit corners whose distance from the line between their neighbours is less than this.
+// A hull omits corners that are closer than this to the line between their neighbours.
 constexpr double kFlat = 1e-9;
 
 // Larger than the rounding errors in comparisons of squared distances.
@@ -21,7 +21,7 @@ constexpr double kClearly = 1 + 1e-6;
 struct ClosestPoints {
   double squared = kInfinity;
   Vector2 on_a, on_b;
-  Vector2 edge;  // the edge on which one of them lies between its ends; else (0, 0)
+  Vector2 edge;  // the edge, if the closest point lies between the ends of one; else (0, 0)
 };
 
 // Compares each vertex with each edge. If `swapped` is true, the vertices are those of b.
@@ -100,7 +100,7 @@ Separation SeparateOverlapping(const ConvexPiece& a, const ConvexPiece& b,
   result.distance = -kInfinity;
   TryAxes(a, b, 1, result.distance, result.normal);
   TryAxes(b, a, -1, result.distance, result.normal);
-  if (result.distance == -kInfinity) {  // two points at one place
+  if (result.distance == -kInfinity) {  // both points are at the same place
     result.distance = 0;
     result.normal = {1, 0};
   }
@@ -211,7 +211,8 @@ ConvexPiece BoundingDisc(const ConvexPiece& piece) {
 
 namespace {
 
-// Andrew's monotone chain; counter-clockwise, without corners flatter than kFlat.
+// Computes the hull by Andrew's monotone chain: counter-clockwise, without corners that are flatter
+// than kFlat.
 std::vector<Vector2> HullCorners(std::vector<Vector2> points) {
   std::sort(points.begin(), points.end(),
             [](Vector2 a, Vector2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
@@ -231,7 +232,7 @@ std::vector<Vector2> HullCorners(std::vector<Vector2> points) {
       }
       hull.push_back(*it);
     }
-    hull.pop_back();  // the next chain starts with it
+    hull.pop_back();  // the next chain starts with this point
   };
   add_chain(points.begin(), points.end());
   add_chain(points.rbegin(), points.rend());
@@ -251,7 +252,7 @@ ConvexPiece PolygonAround(const std::function<double(Vector2)>& support, double 
   }
   std::vector<Vector2> corners;
   for (int k = 0; k < kSides; ++k) {
-    // The intersection of the lines direction·p = reach of two neighbours.
+    // The corner is the intersection of the lines direction·p = reach of two adjacent edges.
     const Vector2 d = direction[k], e = direction[(k + 1) % kSides];
     const double determinant = Cross(d, e);
     const double p = reach[k], q = reach[(k + 1) % kSides];

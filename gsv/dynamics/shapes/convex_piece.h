@@ -15,8 +15,8 @@ namespace gsv::dynamics {
 
 using geometry::Vector2;
 
-// All points within `radius` of the convex hull of the vertices: with one vertex a disc, with two a
-// segment or stadium, with more a polygon.
+// All points within `radius` of the convex hull of the vertices. One vertex gives a disc, two give
+// a segment or stadium, more give a polygon.
 struct ConvexPiece {
   static constexpr int kMaxVertices = 16;
 
@@ -29,13 +29,13 @@ struct ConvexPiece {
 
 ConvexPiece Disc(Vector2 centre, double radius);
 
-// The hull of any number (at least one) of points. A hull of more than kMaxVertices corners becomes
+// Returns the hull of at least one point. If it would have more than kMaxVertices corners, returns
 // the smallest polygon around it whose edges have kMaxVertices evenly spread directions.
 ConvexPiece Hull(std::vector<Vector2> points);
 
-// The polygon around a shape whose edges face `angle`, `angle` + 1/kMaxVertices of a turn, and so
-// on. `support` gives how far the shape reaches in a direction of unit length. Exact for polygons
-// whose edges have such directions.
+// Returns the polygon around a shape whose edges face `angle`, `angle` + 1/kMaxVertices of a turn,
+// and so on. `support` returns the extent of the shape in a direction of unit length. The result is
+// exact for polygons whose edges have these directions.
 ConvexPiece PolygonAround(const std::function<double(Vector2)>& support, double angle);
 
 // The piece, rotated by the angle with the given cosine and sine, then translated.
@@ -44,8 +44,8 @@ void Place(const ConvexPiece& piece, double x, double y, double cosine, double s
 
 // The distance or overlap of two pieces.
 struct Separation {
-  double distance = 0;  // below 0: how deep they overlap, along the normal
-  Vector2 normal;       // unit length, from the first to the second
+  double distance = 0;  // negative if they overlap: the depth along the normal
+  Vector2 normal;       // unit length, from the first piece to the second
   Vector2 point;        // the point at which they are closest, halfway between them
 };
 

@@ -23,7 +23,7 @@ TEST(Separate, OfDiscsIsTheGapBetweenThem) {
   EXPECT_NEAR(s.distance, 2, 1e-15);
   EXPECT_NEAR(s.normal.x, 0.6, 1e-15);
   EXPECT_NEAR(s.normal.y, 0.8, 1e-15);
-  EXPECT_NEAR(s.point.x, 0.6 * 2, 1e-15);  // halfway between 1 and 3 along the line
+  EXPECT_NEAR(s.point.x, 0.6 * 2, 1e-15);  // the point is halfway between 1 and 3 along the line
   EXPECT_NEAR(Separate(Disc({0, 0}, 1), Disc({1, 0}, 1)).distance, -1, 1e-15);
 }
 
@@ -31,7 +31,9 @@ TEST(Separate, OfADiscAndAPolygonIsMeasuredToFaceOrCorner) {
   const ConvexPiece box = Rectangle(0, 0, 2, 1);
   EXPECT_NEAR(Separate(Disc({5, 0.5}, 1), box).distance, 2, 1e-15);
   EXPECT_NEAR(Separate(Disc({5, 5}, 1), box).distance, 4, 1e-15);
-  EXPECT_NEAR(Separate(Disc({1.5, 0}, 0.25), box).distance, -0.75, 1e-15);  // 0.5 inside, and wide
+  EXPECT_NEAR(Separate(Disc({1.5, 0}, 0.25), box).distance, -0.75, 1e-15);  // 0.5 inside the box,
+                                                                            // plus the disc's
+                                                                            // radius
   EXPECT_NEAR(Separate(box, Disc({5, 0.5}, 1)).normal.x, 1, 1e-15);
 }
 
@@ -74,14 +76,15 @@ ConvexPiece RandomPiece(base::Noise& noise) {
   return piece;
 }
 
-// The extent of a piece along an axis, from its definition.
+// The extent of a piece along an axis, computed from its definition.
 double Top(const ConvexPiece& piece, Vector2 axis) {
   double top = -1e9;
   for (const Vector2 v : piece.points()) top = std::max(top, Dot(v, axis));
   return top + piece.radius;
 }
 
-// By the separating axis theorem: the distance of convex sets is the largest gap along any axis.
+// The distance by the separating axis theorem: the largest gap between the convex sets along any
+// axis.
 double LargestGap(const ConvexPiece& a, const ConvexPiece& b) {
   double largest = -1e9, step = 2 * std::numbers::pi / 3600, best_angle = 0;
   for (const double finer : {1.0, 1e-3, 1e-6}) {

@@ -85,15 +85,16 @@ Interval Union(const std::vector<Footprint::Piece>& pieces) {
   return all;
 }
 
-// Pieces with the same collision filter.
+// Simplifies pieces that have the same collision filter.
 void Simplify(std::vector<Footprint::Piece>& pieces) {
   const Interval heights = Union(pieces);
-  if (pieces.size() > 256) pieces = Layers(pieces, heights);  // too many to compare each with each
+  // There are too many pieces to compare all pairs.
+  if (pieces.size() > 256) pieces = Layers(pieces, heights);
   DropCovered(pieces);
   if (pieces.size() > Footprint::kMaxPieces) pieces = Layers(pieces, heights);
 }
 
-// The pieces grouped by filter, in the order in which the filters appear.
+// Simplifies the pieces of each filter separately, in the order in which the filters first occur.
 void SimplifyByFilter(std::vector<Footprint::Piece>& pieces) {
   std::vector<Footprint::Piece> simplified;
   while (!pieces.empty()) {

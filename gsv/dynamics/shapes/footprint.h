@@ -1,11 +1,11 @@
 // The space that a model occupies, as a few upright prisms.
 //
 // Frame   the model's, with its z axis up.
-// Rule    each collision (at zero joint positions) is a prism over its silhouette, from its lowest
-//         to its highest point; one that lies within another is left out. More than kMaxPieces are
-//         replaced by kMaxPieces layers, each the hull of all that reaches into it. What meets
-//         nothing by its filter is left out; pieces of different filters are never joined, so
-//         that a model that has several may have more than kMaxPieces.
+// Rule    Each collision (at zero joint positions) becomes a prism over its silhouette, from its
+//         lowest to its highest point. A prism inside another one is left out. More than kMaxPieces
+//         prisms are replaced by kMaxPieces layers, each of which is the hull of all prisms in it.
+//         Collisions whose filter excludes everything are left out. Pieces with different filters
+//         are never joined, so a model with several filters may have more than kMaxPieces.
 #pragma once
 
 #include <vector>
@@ -22,16 +22,16 @@ struct Footprint {
   struct Piece {
     ConvexPiece shape;
     Interval heights;
-    Vector2 centre;  // centre and radius of a disc that contains the piece
+    Vector2 centre;  // centre and radius of a disc around the piece
     double radius = 0;
     model::CollisionFilter filter{};
   };
   std::vector<Piece> pieces;  // empty if the model collides with nothing
-  Interval heights;           // height interval of all of them
-  double radius = 0;          // about the model's origin
+  Interval heights;           // range of heights of all pieces
+  double radius = 0;          // radius about the model's origin that contains all pieces
 };
 
-// `tilt` turns the model's frame into one whose z axis is up (normally the identity).
+// `tilt` rotates the model's frame into a frame whose z axis is up (normally the identity).
 Footprint MakeFootprint(const model::Model& model, const geometry::Quaternion& tilt);
 
 // The height of an edge that the model can drive over. Anything lower than this above its lowest

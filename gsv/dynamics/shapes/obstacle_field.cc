@@ -9,7 +9,8 @@ namespace gsv::dynamics {
 namespace {
 
 constexpr double kSmallestCell = 0.25;
-constexpr double kTooLarge = 500;  // radius in m; every query checks larger obstacles
+constexpr double kTooLarge = 500;  // larger obstacles (radius in m) are not in the grid; every
+                                   // query checks them
 constexpr double kMostCells = 1 << 20;
 constexpr double kMostEntries = 1 << 23;
 
@@ -24,7 +25,7 @@ struct Range {
   }
 };
 
-// The extent along x of the hull of the piece's vertices, within a band of y.
+// Returns the extent along x of the part of the piece's hull that lies within a band of y.
 Range ReachIn(const ConvexPiece& piece, const Range& band) {
   Range reach;
   for (int k = 0; k < piece.vertex_count; ++k) {
@@ -80,8 +81,8 @@ void ObstacleField::LayOutGrid() {
   rows_ = static_cast<int>((top - bottom_) / size) + 2;
 }
 
-// Calls `visit` with each cell within the margin of the obstacle: the disc around such a cell has a
-// point within the margin.
+// Calls `visit` with each cell that is within the margin of the
+// obstacle.
 template <typename Visit>
 void ObstacleField::ForEachCellNear(const Obstacle& obstacle, Visit visit) const {
   const ConvexPiece& shape = obstacle.shape;

@@ -17,9 +17,9 @@ namespace gsv::dynamics {
 
 struct Obstacle {
   ConvexPiece shape;
-  Vector2 centre;  // centre and radius of a disc that contains the shape
+  Vector2 centre;  // centre and radius of a disc around the shape
   double radius = 0;
-  int body = 0;  // index in the layout
+  int body = 0;  // index of the body in the layout
   model::CollisionFilter filter{};
 };
 
@@ -59,8 +59,8 @@ class ObstacleField {
   template <typename Visit>
   void ForEachCellNear(const Obstacle& obstacle, Visit visit) const;
 
-  // The cell of a coordinate, which is given in cells. Coordinates outside the grid belong to the
-  // cells at its edge.
+  // Returns the index of the cell for a coordinate in units of cells. Coordinates outside the grid
+  // belong to the cells at its edge.
   static int Clamped(double coordinate, int count) {
     return coordinate < 1 ? 0 : coordinate >= count ? count - 1 : static_cast<int>(coordinate);
   }
@@ -74,7 +74,7 @@ class ObstacleField {
   }
 
   std::vector<Obstacle> obstacles_;
-  std::vector<std::uint32_t> everywhere_;  // too large for the grid
+  std::vector<std::uint32_t> everywhere_;  // obstacles that are too large for the grid
   double margin_ = 0;
   double left_ = 0, bottom_ = 0, per_cell_ = 1;
   int columns_ = 0, rows_ = 0;

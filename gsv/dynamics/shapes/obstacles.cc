@@ -13,7 +13,7 @@ namespace {
 using geometry::Pose;
 using geometry::Vector3;
 
-// A half-space is a square of this size behind its edge.
+// A half-space is represented by a square of this side length behind its edge, m.
 constexpr double kEndless = 20000;
 
 void SlicePlane(const geometry::Plane& plane, const Pose& pose, Interval heights,
@@ -23,7 +23,7 @@ void SlicePlane(const geometry::Plane& plane, const Pose& pose, Interval heights
   if (std::abs(normal.z) > level) return;
   const Vector2 out{normal.x / level, normal.y / level};
   const Vector2 along{-out.y, out.x};
-  // The edge is at the height at which the half-space extends the furthest.
+  // The edge is at the height at which the half-space extends furthest.
   const double height = normal.z > 0 ? heights.low : heights.high;
   const double shift = -normal.z * (height - pose.position.z) / level;
   const Vector2 edge = Vector2{pose.position.x, pose.position.y} + shift * out;
@@ -31,7 +31,7 @@ void SlicePlane(const geometry::Plane& plane, const Pose& pose, Interval heights
   pieces.push_back(Hull({edge - side, edge + side, edge + side - back, edge - side - back}));
 }
 
-// Adds the pieces in `pieces`, and clears it.
+// Adds the pieces in `pieces` as obstacles, and clears `pieces`.
 void AddObstacles(std::vector<ConvexPiece>& pieces, int body, const model::CollisionFilter& filter,
                   std::vector<Obstacle>& obstacles) {
   for (const ConvexPiece& piece : pieces) {

@@ -1,5 +1,5 @@
-// The obstacles of a world between two heights: slices of everything that wheeled bases cannot
-// push.
+// The obstacles of a world between two heights: slices of everything that wheeled bases cannot push
+// away.
 #pragma once
 
 #include <span>
@@ -11,19 +11,19 @@
 
 namespace gsv::dynamics {
 
-// Slices, between the heights, of the collisions of all bodies that stand still, in the order of
-// the bodies, with joints at zero. A plane whose normal is within 45° of the vertical is ground and
-// left out; a steeper one is a wall without end.
+// Returns slices, between the two heights, of the collisions of all static bodies, in the order of
+// the bodies, with joints at zero. A plane whose normal is within 45° of the vertical counts as
+// ground and is left out. A steeper plane is an infinite wall.
 std::vector<Obstacle> CollectObstacles(const world::Layout& layout, const world::State& state,
                                        Interval heights);
 
-// The same for `bodies`, which are rigid bodies or actors, at their present joint positions. Planes
-// are omitted.
+// Like CollectObstacles(), for `bodies`, which are rigid bodies or actors, at their present joint
+// positions. Planes are omitted.
 std::vector<Obstacle> CollectLooseObstacles(const world::Layout& layout, const world::State& state,
                                             std::span<const int> bodies, Interval heights);
 
-// The radius around the origin of a rigid body or actor that contains all its collision shapes at
-// all times. It is infinite for a rigid body with joints.
+// The radius about the origin of a rigid body or actor that contains all its collision shapes at
+// all times. Infinite for a rigid body with joints.
 double LooseRadius(const world::Body& body);
 
 }  // namespace gsv::dynamics

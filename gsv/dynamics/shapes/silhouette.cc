@@ -18,7 +18,7 @@ using geometry::Vector3;
 
 // A shape is upright if the sine of the angle between its axis and the vertical is less than this.
 constexpr double kUpright = 1e-9;
-// Shapes that only touch a slice are not in it.
+// A shape that overlaps a slice by less than this is not in it.
 constexpr double kTouching = 1e-9;
 constexpr int kSegments = 32;
 
@@ -81,7 +81,7 @@ std::vector<Vector2> Corners(const Shape& shape, const Pose& pose) {
   return corners;
 }
 
-// The radius of the shape's widest circle between two heights above its centre, for a solid of
+// Returns the largest radius of the shape between two heights above its centre, if it is a solid of
 // revolution about the vertical. Negative for other shapes.
 double UprightRadius(const Shape& shape, const Pose& pose, Interval h) {
   const Vector3 axis = pose.orientation * Vector3{0, 0, 1};
@@ -108,7 +108,7 @@ double UprightRadius(const Shape& shape, const Pose& pose, Interval h) {
   return -1;
 }
 
-// The shape, enlarged so that its tessellation encloses the original shape.
+// Returns the shape, enlarged so that its tessellation encloses the original shape.
 Shape Widened(Shape shape) {
   const double wider = 1 / std::cos(std::numbers::pi / kSegments);
   if (auto* cylinder = std::get_if<geometry::Cylinder>(&shape)) cylinder->radius *= wider;
@@ -124,7 +124,8 @@ struct Clipped {
   int count = 0;
 };
 
-// Keeps the corners where sign * z >= sign * height, and adds those where edges cross it.
+// Keeps the corners where sign * z >= sign * height, and adds corners where edges cross this
+// height.
 Clipped ClipAt(const Clipped& polygon, double height, double sign) {
   Clipped kept;
   for (int i = 0; i < polygon.count; ++i) {

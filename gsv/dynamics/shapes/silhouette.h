@@ -1,9 +1,9 @@
-// Shapes seen from above: the area that a shape, or its part between two heights, covers in the
-// plane.
+// Silhouettes and slices of shapes: the area in the plane that a shape, or its part between two
+// heights, covers when seen from above.
 //
-// Frames  `pose` takes the shape's frame to a frame whose z axis is up; silhouettes are in the xy
-//         plane of that frame.
-// Errors  none: the readers have checked the shapes.
+// Frames  `pose` transforms the shape's frame to a frame whose z axis is up; silhouettes are in the
+//         xy plane of that frame.
+// Errors  none, because the readers have checked the shapes.
 #pragma once
 
 #include <vector>
@@ -18,12 +18,12 @@ struct Interval {
   friend bool operator==(const Interval&, const Interval&) = default;
 };
 
-// Heights that the shape reaches. Not for a Plane.
+// Returns the range of heights of the shape. Not for a Plane.
 Interval Heights(const geometry::Shape& shape, const geometry::Pose& pose);
 
-// The area that the shape covers seen from above; for a mesh, its convex hull. Exact for boxes,
-// spheres, upright and lying cylinders and capsules, and upright cones. For other shapes: the
-// smallest polygon around the shape with edges in sixteen directions. Not for a Plane.
+// Returns the area that the shape covers when seen from above; for a mesh, its convex hull. The
+// result is exact for boxes, spheres, upright and lying cylinders and capsules, and upright cones.
+// Others: the smallest polygon around it with edges in sixteen directions. Not for a Plane.
 ConvexPiece Silhouette(const geometry::Shape& shape, const geometry::Pose& pose);
 
 // Adds the area covered by the part of the shape strictly between the two heights. This is one piece

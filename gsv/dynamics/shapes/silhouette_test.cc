@@ -35,7 +35,7 @@ TEST(Silhouette, OfAnUprightCylinderIsADisc) {
 }
 
 TEST(Silhouette, OfALyingCylinderIsARectangle) {
-  const Pose lying{{0, 0, 0}, FromAxisAngle({1, 0, 0}, kPi / 2)};  // its axis along y
+  const Pose lying{{0, 0, 0}, FromAxisAngle({1, 0, 0}, kPi / 2)};  // the shape's axis is along y
   const ConvexPiece piece = Silhouette(geometry::Cylinder{0.3, 1}, lying);
   EXPECT_EQ(piece.vertex_count, 4);
   EXPECT_NEAR(ReachX(piece), 0.3, 1e-9);
@@ -85,8 +85,8 @@ TEST(Slice, OfAConeIsWidestAtItsBase) {
 }
 
 TEST(Slice, OfATiltedBoardIsThePartBetweenTheHeights) {
-  // A board at 45° through the origin: between z = 0.1 and 0.2 its mid-plane covers x from -0.2 to
-  // -0.1, and half its thickness times sqrt 2 more on each side.
+  // A board is inclined by 45° and passes through the origin. Between z = 0.1 and 0.2 its mid-plane
+  // covers x from -0.2 to -0.1, and half its thickness times sqrt 2 more on each side.
   const Pose tilted{{0, 0, 0}, FromAxisAngle({0, 1, 0}, kPi / 4)};
   const auto pieces = Sliced(geometry::Box{{10, 2, 0.02}}, tilted, {0.1, 0.2});
   ASSERT_EQ(pieces.size(), 1u);
@@ -100,7 +100,8 @@ TEST(Slice, OfATiltedCylinderEnclosesItTightly) {
   ASSERT_EQ(pieces.size(), 1u);
   EXPECT_GE(ReachY(pieces[0]), 0.3);
   EXPECT_LE(ReachY(pieces[0]), 0.3 * 1.02);
-  // Across, the ellipse 0.3 / cos 0.5 shifted by tan 0.5 times the height.
+  // The section is an ellipse with the half-axis 0.3 / cos 0.5, shifted by tan 0.5 times the
+  // height.
   const double expected = 0.3 / std::cos(0.5) + 0.1 * std::tan(0.5);
   EXPECT_GE(ReachX(pieces[0]), expected - 1e-9);
   EXPECT_LE(ReachX(pieces[0]), expected * 1.02);

@@ -8,10 +8,10 @@
 namespace gsv::dynamics {
 namespace {
 
-constexpr double kFloorGap = 0.25e-6;  // the part of kStopGap that remains after rounding
-constexpr int kMaxAdvances = 64;       // after this number the pieces are stopped
-constexpr double kApproach = 1e-9;     // m/s; less is sliding
-constexpr double kNoise = 1e-12;       // m/s; less is rounding
+constexpr double kFloorGap = 0.25e-6;  // the part of kStopGap that is left even after rounding
+constexpr int kMaxAdvances = 64;       // the pieces are stopped after this number of advances
+constexpr double kApproach = 1e-9;     // m/s; a slower approach counts as sliding
+constexpr double kNoise = 1e-12;       // m/s; a smaller speed is a rounding error
 
 // The corners of a piece along an axis: their positions, their speeds, and bounds of their
 // accelerations.
@@ -48,7 +48,7 @@ double Gap(const MovingCorners& a, const MovingCorners& b) {
          *std::max_element(a.along.begin(), a.along.begin() + a.count);
 }
 
-// The time after which `gap` may be closed at this speed and acceleration.
+// Returns the earliest time at which `gap` may be closed with this speed and acceleration.
 double TimeToClose(double gap, double speed, double acceleration) {
   const double root = std::sqrt(speed * speed + 2 * acceleration * gap);
   if (speed > 0) return 2 * gap / (speed + root);
@@ -58,8 +58,8 @@ double TimeToClose(double gap, double speed, double acceleration) {
 // The first time at which some pair of corners may have come within `keep` of each other.
 struct FirstMeeting {
   double time;
-  double gap = 0;    // the present gap of that pair
-  double speed = 0;  // the present speed at which the gap closes
+  double gap = 0;    // the present gap between these corners
+  double speed = 0;  // the present speed at which this gap closes
 };
 
 FirstMeeting MeetAtTheEarliest(const MovingCorners& a, const MovingCorners& b, double keep,

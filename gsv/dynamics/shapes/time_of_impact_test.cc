@@ -20,7 +20,7 @@ ConvexPiece Rectangle(double half_length, double half_width) {
 TEST(Advance, FollowsACircle) {
   for (const double w : {1e-12, 1e-6, 0.3, -2.0, 40.0}) {
     const geometry::PlanarPosition end = geometry::Advance({1, 2, 0, 1}, {0.7, 0, w}, 1.5);
-    // Heading along y at first; the centre is v / w to the left.
+    // The piece first moves along y; the centre of its circle is v / w to the left.
     const double r = 0.7 / w, angle = w * 1.5;
     const double x = std::abs(w) < 1e-5 ? 1 - 0.7 * 1.5 * angle / 2 : 1 - r * (1 - std::cos(angle));
     EXPECT_NEAR(end.x, x, 1e-9) << w;
@@ -32,7 +32,7 @@ TEST(Advance, FollowsACircle) {
 
 TEST(Advance, CanMoveSideways) {
   const geometry::PlanarPosition end = geometry::Advance({}, {0, 2, std::numbers::pi}, 1);
-  // Half a circle of radius 2 / pi, starting to the left: it ends at x = -2 r.
+  // The path is half a circle of radius 2 / pi to the left. It ends at x = -2 r.
   EXPECT_NEAR(end.x, -4 / std::numbers::pi, 1e-12);
   EXPECT_NEAR(end.y, 0, 1e-12);
 }

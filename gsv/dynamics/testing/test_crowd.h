@@ -1,8 +1,8 @@
 // A crowd for tests and benchmarks: robots that wander about a walled square.
 //
-// 10 m² a robot, and a box of 1 m for every four. A robot drives 0.5 m/s; every 0.4 s it decides
-// anew: who touches something backs off and then turns on the spot, of the others one in four
-// drives a bend. So a few per cent are in contact at any time.
+// There are 10 m² per robot, and a box of 1 m for every four robots. A robot drives at 0.5 m/s and
+// makes a new decision every 0.4 s. A robot in contact drives back and then turns in place. One in
+// four of the others drives a curve. So a few per cent of the robots are in contact at any time.
 #pragma once
 
 #include <cmath>
@@ -26,7 +26,7 @@ class Crowd {
       world_.AddBox("wall" + std::to_string(i), {0.2, side + 1.4, 1}, out * std::cos(a),
                     out * std::sin(a), 0, a);
     }
-    // One place in a raster for each robot and box; boxes take each fifth.
+    // Places form a grid, one for each robot and box. Every fifth place has a box.
     const int places = robots + robots / 4;
     const int columns = static_cast<int>(std::ceil(std::sqrt(places)));
     const double raster = side / columns;
@@ -52,7 +52,7 @@ class Crowd {
     return {};
   }
 
-  // Gives commands to those whose turn it is.
+  // Sends new commands to the robots that are due for a decision.
   void Decide() {
     for (std::size_t i = world_.state().step % kStepsPerChoice; i < robots_.size();
          i += kStepsPerChoice) {
@@ -66,7 +66,7 @@ class Crowd {
     }
   }
 
-  // Decides and takes one step; returns how many contacts there are.
+  // Makes the decisions and takes one step. Returns the number of contacts.
   std::size_t Step() {
     Decide();
     world_.Step(base::FromSeconds(kStep), contacts_);

@@ -11,7 +11,7 @@ inline constexpr double kG = 9.8;  // m/s²
 // Upright.
 inline geometry::Pose At(double x, double y, double z) { return {{x, y, z}, {}}; }
 
-// A solid of one shape with the inertia that it has by the textbook.
+// A solid of one shape, with its inertia from textbook formulas.
 inline std::shared_ptr<model::Model> SolidOf(const geometry::Shape& shape, double mass,
                                              const model::Surface& surface = {}) {
   auto model = ModelOf(shape);
@@ -45,7 +45,7 @@ inline TestWorld WorldOnGround(const model::Surface& surface = {}) {
   return world;
 }
 
-// Of all bodies, each of one link: kinetic, and potential above z = 0.
+// Returns kinetic energy plus potential energy above z = 0 of all bodies, each of one link.
 inline double EnergyOf(const TestWorld& world) {
   double energy = 0;
   for (std::size_t i = 0; i < world.layout().bodies.size(); ++i) {

@@ -30,7 +30,7 @@ inline std::shared_ptr<model::Model> ModelOf(const geometry::Shape& shape,
   return model;
 }
 
-// Stands on its lowest point; takes any velocity at once.
+// A robot that stands on its lowest point and reaches any velocity at once.
 inline std::shared_ptr<model::Model> RobotOf(
     const geometry::Shape& shape, double height,
     model::DriveKind kind = model::DriveKind::kDifferential) {
@@ -48,7 +48,7 @@ inline std::shared_ptr<model::Model> BoxRobot(double length, double width) {
   return RobotOf(geometry::Box{{length, width, 0.4}}, 0.4);
 }
 
-// A world under construction, and then its state from step to step.
+// A world that a test builds, and then its state from step to step.
 class TestWorld {
  public:
   explicit TestWorld(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}
@@ -76,13 +76,13 @@ class TestWorld {
     Add(name, std::move(model), pose,
         has_drive ? world::BodyKind::kPlanarBase : world::BodyKind::kUnmoved);
   }
-  // A box standing at (x, y) with its foot at height z.
+  // Adds a box at (x, y) whose bottom is at height z.
   void AddBox(const std::string& name, const geometry::Vector3& size, double x, double y,
               double z = 0, double yaw = 0) {
     AddStatic(name, ModelOf(geometry::Box{size}), geometry::PlanarPose(x, y, z + size.z / 2, yaw));
   }
 
-  // Gravity, wind, fluids; to be changed before Start().
+  // Gravity, wind and fluids. They may be changed before Start().
   model::WorldDescription& description() { return description_; }
 
   base::Status Start() {

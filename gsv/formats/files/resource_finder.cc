@@ -17,8 +17,10 @@ using base::ErrorCode;
 
 constexpr int kParentsSearched = 5;
 constexpr std::size_t kLongestName = 4096;
-constexpr int kPackageParents = 4;       // parent folders of a file that may be its workspace
-constexpr std::size_t kMaxGroups = 200;  // folders to search beside each of these
+constexpr int kPackageParents = 4;       // number of parent folders in which a ROS workspace of a
+                                         // file is searched
+constexpr std::size_t kMaxGroups = 200;  // maximum number of folders that are searched beside each
+                                         // of these
 constexpr std::uintmax_t kLargestPackageFile = 1u << 20;
 
 bool StartsWith(std::string_view text, std::string_view prefix) {
@@ -134,7 +136,7 @@ std::string ModelOfWebAddress(const std::string& address) {
   return name + "/" + path.substr(files + sizeof kFiles - 1);
 }
 
-// The name in a folder's package.xml; empty without one.
+// The name in a folder's package.xml; empty if there is no such file.
 std::string PackageName(const fs::path& folder) {
   const fs::path file = folder / "package.xml";
   std::error_code error;
@@ -175,7 +177,7 @@ std::optional<fs::path> FindInPackage(const fs::path& path, const fs::path& nami
   return std::nullopt;
 }
 
-// Version "1.5" as 105; 0 if it is not a version.
+// Returns version "1.5" as 105; 0 for a text that is not a version.
 int VersionNumber(const char* text) {
   int major = 0, minor = 0;
   if (text == nullptr || std::sscanf(text, "%d.%d", &major, &minor) != 2) return 0;
@@ -327,7 +329,8 @@ base::Result<fs::path> ModelFileIn(const fs::path& folder) {
       const char* name = sdf->GetText();
       const int version = VersionNumber(sdf->Attribute("version"));
       if (name == nullptr || ClimbsOut(name) || version < kOldest) continue;
-      // A version newer than any that this program knows is used only if there is no other.
+      // A version that is newer than all versions known to this program is used only if there is no
+      // other.
       const int rank = version <= kNewest ? version : 1;
       if (rank > best_version && Exists(folder / name)) {
         best_version = rank;

@@ -35,13 +35,13 @@ class ResourceFinder {
   explicit ResourceFinder(std::vector<std::filesystem::path> search_path = {},
                           bool allow_absolute_paths = true);
 
-  // `naming_file` is the file that contains the name; empty: the current folder.
+  // Finds a file. `naming_file` is the file that contains the name; empty: the current folder.
   base::Result<std::filesystem::path> Find(std::string_view name,
                                            const std::filesystem::path& naming_file = {}) const;
-  // The names of the models on the search path and among ours, to suggest one for a misspelt name:
-  // at most 10,000, each folder's in alphabetical order.
+  // Returns the names of the models on the search path and of built-in ones, to suggest one for a
+  // misspelt name: at most 10,000, those of each folder in alphabetical order.
   std::vector<std::string> ModelNames() const;
-  // The folders in which models are searched, in order: 2, 3 and 4 above.
+  // The folders in which models are searched, in order: steps 2, 3 and 4 above.
   const std::vector<std::filesystem::path>& search_path() const { return search_path_; }
   bool allows_absolute_paths() const { return allow_absolute_paths_; }
 
@@ -52,7 +52,7 @@ class ResourceFinder {
   base::Result<std::filesystem::path> FindByPath(const std::string& path,
                                                  const std::filesystem::path& naming_file) const;
 
-  std::vector<std::filesystem::path> search_path_;  // the caller's, the environment's, our own
+  std::vector<std::filesystem::path> search_path_;  // of caller, environment, and built in
   bool allow_absolute_paths_;
 };
 
@@ -60,10 +60,10 @@ class ResourceFinder {
 base::Result<std::filesystem::path> FindBeside(const std::string& name,
                                                const std::filesystem::path& naming_file);
 
-// http:// or https://.
+// Whether the name begins with http:// or https://.
 bool IsWebAddress(std::string_view name);
 
-// The file of `folder` to read: the newest in its model.config of a version that SDFormat 1.9
+// Returns the file of `folder` to read: the newest in its model.config whose version SDFormat 1.9
 // includes; without a model.config, model.sdf.
 base::Result<std::filesystem::path> ModelFileIn(const std::filesystem::path& folder);
 

@@ -12,8 +12,8 @@ struct XmlFault {
   std::string sentence;      // the fault and a remedy: "<model> is not closed. Add </model>."
 };
 
-// The first error in tags, attributes, comments and other markup. Nothing if there is none;
-// entities and characters are not checked.
+// Returns the first error in tags, attributes, comments and other markup, or nothing if there is
+// none. Entities and characters are not checked.
 std::optional<XmlFault> FindXmlFault(std::string_view text);
 
 // "FILE:LINE:COLUMN" and the sentence of an error, for a text that a parser refused on `line`.

@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 class GlbBuffer {
  public:
-  // Each returns the index that other parts of the file refer to.
+  // Each of these returns the index by which other parts of the file refer to the added data.
   int AddBytes(std::span<const std::uint8_t> bytes);  // a buffer view
   int AddPositions(std::span<const float> xyz);       // an accessor with its bounds
   int AddVectors(std::span<const float> values, int components);

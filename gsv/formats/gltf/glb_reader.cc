@@ -26,7 +26,7 @@ constexpr std::int64_t kGlbFloat = 5126, kGlbShort = 5123, kGlbInt = 5125;
 // times.
 constexpr std::size_t kMaxGlbNumbers = 200'000'000;
 
-// Thrown and caught in this file only: the file is not what WriteGlb() writes.
+// Thrown and caught in this file only, if the file was not written by WriteGlb().
 struct Flaw {
   std::string what;
 };
@@ -44,7 +44,7 @@ GlbBytes PartOf(GlbBytes bytes, std::size_t at, std::size_t size) {
   return bytes.subspan(at, size);
 }
 
-// The member, or null.
+// Returns the member with that name, or null.
 const GlbJson& Member(const GlbJson& object, const char* name) {
   static const GlbJson kNothing;
   if (!object.is_object()) return kNothing;
@@ -101,7 +101,8 @@ model::Colour ColourOf(const GlbJson& list, double otherwise) {
   return {SrgbOf(c.x), SrgbOf(c.y), SrgbOf(c.z), std::clamp(ElementOf(list, 3, 1), 0.0, 1.0)};
 }
 
-// The rectangle that Tessellate() made of a geometry::Plane with the normal (0, 0, 1).
+// Returns the plane if the mesh is the rectangle that Tessellate() makes of a geometry::Plane with
+// the normal (0, 0, 1).
 std::optional<geometry::Plane> AsPlane(const geometry::TriangleMesh& mesh) {
   if (mesh.positions.size() != 4 || mesh.triangles.size() != 2) return std::nullopt;
   for (const Vector3& p : mesh.positions) {
@@ -269,7 +270,7 @@ class GlbModelReader {
     return values;
   }
 
-  // `size`: bytes of an element.
+  // `size` is the size of an element in bytes.
   GlbBytes DataOf(const GlbJson& accessor, std::size_t size) {
     const std::size_t count = WholeOf(Member(accessor, "count"), "count");
     numbers_ += std::min(count, kMaxGlbNumbers) * (size / 2);
@@ -301,7 +302,7 @@ class GlbModelReader {
     return material;
   }
 
-  // Null without a texture that can be decoded.
+  // Returns null if there is no texture, or if it cannot be decoded.
   std::shared_ptr<const model::Image> ReadTexture(const GlbJson& reference) {
     if (reference.is_null()) return nullptr;
     const std::size_t index = WholeOf(Member(reference, "index"), "a texture");

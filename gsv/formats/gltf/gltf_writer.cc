@@ -109,7 +109,7 @@ class Writer {
     return Add(std::move(node), nodes_);
   }
 
-  // -1 if nothing is visible.
+  // Returns -1 if nothing is visible.
   int AddVisual(const model::Visual& visual) {
     const auto* file_mesh = std::get_if<geometry::Mesh>(&visual.shape);
     const std::shared_ptr<const TriangleMesh> triangles =
@@ -128,7 +128,7 @@ class Writer {
   // Returns the same mesh for equal shapes.
   std::shared_ptr<const TriangleMesh> Tessellated(const geometry::Shape& shape) {
     const geometry::Bounds bounds = geometry::BoundsOf(shape);
-    double more = 0;  // a size that the bounds do not give
+    double more = 0;  // the size of the shape, if its bounds do not determine it
     if (const auto* capsule = std::get_if<geometry::Capsule>(&shape)) more = capsule->radius;
     Vector3 normal;
     if (const auto* plane = std::get_if<geometry::Plane>(&shape)) normal = plane->normal;
@@ -198,7 +198,7 @@ class Writer {
       }
     };
     set_map(material.base_colour_map, "baseColorTexture", true, pbr);
-    // The map was combined from several files, so that no single file has its content.
+    // The map was combined from several files, so no single file contains it.
     set_map(material.metallic_roughness_map, "metallicRoughnessTexture", false, pbr);
     json["pbrMetallicRoughness"] = std::move(pbr);
     set_map(material.normal_map, "normalTexture", true, json);
@@ -213,7 +213,7 @@ class Writer {
     return AddOnce(std::move(json), materials_, material_index_);
   }
 
-  // -1 without a usable image.
+  // Returns -1 if there is no usable image.
   int AddTexture(const std::shared_ptr<const Image>& image, bool original_allowed) {
     if (image == nullptr) return -1;
     const auto [it, is_new] = texture_index_.try_emplace({image.get(), original_allowed}, -1);

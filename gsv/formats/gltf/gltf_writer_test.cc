@@ -98,7 +98,7 @@ TEST(WriteGlb, PlacesEveryVisualAtItsLink) {
   ASSERT_NE(scene, nullptr);
   const aiNode* wheel = scene->mRootNode->mChildren[1];
   ASSERT_EQ(wheel->mNumChildren, 1u);
-  // Half a metre along the link's x, which points along the model's y.
+  // The point is half a metre along the link's x axis, which is the model's y axis.
   const aiVector3D at = ToScene(wheel->mChildren[0], {0, 0, 0});
   EXPECT_NEAR(at.x, 1, 1e-6);
   EXPECT_NEAR(at.y, 2.5, 1e-6);
@@ -138,7 +138,7 @@ TEST(WriteGlb, FacesOutward) {
 
 TEST(WriteGlb, WritesEqualMeshesAndMaterialsOnce) {
   const nlohmann::json json = JsonOf(Glb(Robot()));
-  EXPECT_EQ(json["meshes"].size(), 2u);  // a box, and one cylinder for both wheels
+  EXPECT_EQ(json["meshes"].size(), 2u);  // the meshes: a box, and one cylinder for both wheels
   EXPECT_EQ(json["materials"].size(), 1u);
 }
 
@@ -153,7 +153,8 @@ TEST(WriteGlb, SharesVerticesBetweenPartsAndTexturesBetweenMaterials) {
   model.links[0].visuals[0].materials = {red, blue};
   const Bytes glb = Glb(model);
   const nlohmann::json json = JsonOf(glb);
-  EXPECT_EQ(json["accessors"].size(), 5u);  // positions, normals, uv, two runs of indices
+  EXPECT_EQ(json["accessors"].size(), 5u);  // the accessors: positions, normals, uv, and two runs
+                                            // of indices
   EXPECT_EQ(json["images"].size(), 1u);
   Assimp::Importer importer;
   const aiScene* scene = Read(glb, importer);
@@ -212,7 +213,7 @@ TEST(EncodeForWeb, ScalesLargeImagesDown) {
   std::size_t at = 0;
   while (at + 9 < b.size() && !(b[at] == 0xff && b[at + 1] == 0xc0)) ++at;
   ASSERT_LT(at + 9, b.size());
-  EXPECT_EQ(b[at + 5] * 256 + b[at + 6], 34);  // 100 / 3000 of 1024
+  EXPECT_EQ(b[at + 5] * 256 + b[at + 6], 34);  // 100 / 3000 of 1024 pixels
   EXPECT_EQ(b[at + 7] * 256 + b[at + 8], 1024);
 }
 

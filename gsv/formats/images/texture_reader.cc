@@ -74,7 +74,7 @@ base::Status CheckSize(int width, int height, const std::string& source, const R
               source);
 }
 
-// Each pixel becomes the mean of a square of pixels, so that no side exceeds the limit.
+// Each pixel becomes the mean of a square of pixels, such that no side exceeds the limit.
 std::shared_ptr<Image> ScaledDown(std::shared_ptr<Image> image, const ReadLimits& limits) {
   const int longest = std::max(image->width, image->height);
   if (longest <= limits.texture_side) return image;
@@ -214,7 +214,7 @@ std::shared_ptr<const Image> TextureReader::Combine(const std::shared_ptr<const 
   auto image = std::make_shared<Image>(Image{size.width, size.height, 3, {}, size.source});
   image->pixels.reserve(static_cast<std::size_t>(size.width) *
                         static_cast<std::size_t>(size.height) * 3);
-  // The first channel of the nearest pixel: both maps are grey.
+  // The value is the first channel of the nearest pixel, because both maps are grey.
   const auto sample = [&](const Image* map, int x, int y) -> std::uint8_t {
     if (map == nullptr) return 255;
     const int column = x * map->width / size.width, row = y * map->height / size.height;

@@ -15,7 +15,7 @@ namespace {
 
 using base::ErrorCode;
 
-// GeoTIFF 1.1 (OGC 19-008r4), and GDAL's value for unknown heights.
+// Tags and values of GeoTIFF 1.1 (OGC 19-008r4), and GDAL's tag for unknown heights.
 constexpr ttag_t kPixelScaleTag = 33550, kTiePointTag = 33922, kGeoKeysTag = 34735;
 constexpr ttag_t kNoDataTag = 42113;
 constexpr std::uint16_t kModelTypeKey = 1024, kGeographic = 2;

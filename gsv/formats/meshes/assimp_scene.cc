@@ -35,8 +35,8 @@ std::string LowerExtension(const fs::path& path) {
   return extension;
 }
 
-// assimp refuses COLLADA files with blanks at the start of a <color>. The blanks move into the tag,
-// where they do no harm and no offset changes.
+// assimp refuses COLLADA files with blanks at the start of a <color>. This moves the blanks into
+// the tag, where they have no effect. All offsets stay the same.
 void MoveBlanksOutOfColours(std::string& text) {
   for (std::size_t tag = text.find("<color"); tag != std::string::npos;
        tag = text.find("<color", tag + 1)) {
@@ -51,8 +51,8 @@ void MoveBlanksOutOfColours(std::string& text) {
   }
 }
 
-// A file beside a mesh. As assimp's own streams, whose classes a library that is loaded late cannot
-// provide.
+// A file beside a mesh. It replaces assimp's own streams, because a library that is loaded on
+// demand cannot provide their classes.
 class FileStream final : public Assimp::IOStream {
  public:
   static FileStream* Open(const char* name) {
@@ -88,7 +88,7 @@ class FileStream final : public Assimp::IOStream {
   std::FILE* const file_;
 };
 
-// Reads the mesh itself from memory, and other files only from its folder and the parent of that.
+// Reads the mesh from memory, and other files only from the mesh's folder and its parent folder.
 class MeshFolder final : public Assimp::IOSystem {
  public:
   MeshFolder(fs::path file, std::string text)

@@ -44,8 +44,8 @@ struct Accessor {
   int line = 0;
 };
 
-// The count in an attribute: `absent` if there is none, and `odd` if it has anything but digits,
-// which assimp reads differently from other programs.
+// The count in an attribute. If there is no such attribute, it is `absent`. If the text has
+// anything but digits, which assimp reads differently from other programs, it is `odd`.
 double CountIn(const XMLElement& element, const char* attribute, double absent, double odd) {
   const char* text = element.Attribute(attribute);
   if (text == nullptr) return absent;
@@ -94,7 +94,7 @@ class Checker : public tinyxml2::XMLVisitor {
     return wrong == nullptr;
   }
 
-  // Call it at the end, as arrays may come after their accessors.
+  // Call this at the end, because arrays may come after their accessors.
   void CheckAccessors() {
     for (const Accessor& accessor : accessors_) {
       const auto array = arrays_.find(accessor.array);
@@ -109,7 +109,7 @@ class Checker : public tinyxml2::XMLVisitor {
 
  private:
   double bytes_;
-  // number of values by id; the smallest, if several arrays have the id
+  // number of values of each array, by id; the smallest number, if several arrays have the id
   std::map<std::string, double> arrays_;
   std::vector<Accessor> accessors_;
 };

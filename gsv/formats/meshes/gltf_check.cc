@@ -38,7 +38,7 @@ std::optional<std::string_view> JsonOf(std::string_view glb) {
   return json;
 }
 
-// Receives each value in turn, and stores none.
+// Receives the values one by one, and stores none of them.
 class ClaimChecker : public nlohmann::json_sax<nlohmann::json> {
  public:
   explicit ClaimChecker(const ReadLimits& limits)
@@ -50,7 +50,7 @@ class ClaimChecker : public nlohmann::json_sax<nlohmann::json> {
       claims_ = name == "buffers" || name == "bufferViews" || name == "accessors";
     }
     if (depth_ == kInElement) is_sparse_ = name == "sparse";
-    // Elsewhere, and in an element's "extras", such a name has another meaning.
+    // In other places, and in the "extras" of an element, such a name has another meaning.
     if (!claims_ || !(depth_ == kInElement || (depth_ > kInElement && is_sparse_))) return true;
     if (name == "byteLength" || name == "byteOffset" || name == "byteStride") most_ = most_bytes_;
     if (name == "count") most_ = most_values_;

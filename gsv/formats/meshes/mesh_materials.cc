@@ -66,7 +66,7 @@ class MaterialReader {
     }
     ai_real opacity = 1;
     if (!IsGltf(source) && source.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS) {
-      // Some exporters write zero and mean the opposite, since an invisible mesh is useless.
+      // Some exporters write zero for an opaque material; an invisible mesh would be useless.
       material.base_colour.a = opacity > 0 ? Unit(static_cast<double>(opacity)) : 1.0;
     }
   }

@@ -18,7 +18,8 @@ Vector3 ToVector(const aiVector3D& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
-// The area is zero up to rounding: the sine of the angle between two edges vanishes.
+// Whether the triangle's area is zero up to rounding: the sine of the angle between two edges
+// vanishes.
 bool IsDegenerate(const Vector3& a, const Vector3& b, const Vector3& c) {
   const Vector3 ab = b - a, ac = c - a, normal = geometry::Cross(ab, ac);
   constexpr double kSine = 1e-12;

@@ -84,7 +84,7 @@ TEST_F(MeshReaderTest, AppliesTheUnitOfColladaButNotItsAxes) {
 }
 
 TEST_F(MeshReaderTest, AppliesTheNodesOfTheScene) {
-  // Rotated by a quarter turn about z and moved by (10, 0, 0): x becomes y.
+  // The triangle is rotated by a quarter turn about z and moved by (10, 0, 0): x becomes y.
   const auto mesh = Read(
       "a.dae", Collada("<unit meter='1'/>", "1 0 0 1", "0 -1 0 10  1 0 0 0  0 0 1 0  0 0 0 1"));
   ASSERT_TRUE(mesh.has_value());

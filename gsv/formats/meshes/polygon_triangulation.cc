@@ -15,7 +15,7 @@ struct Corner {
 };
 using Ring = std::vector<Corner>;
 
-// Twice the area of the triangle a b c; positive when counter-clockwise.
+// Returns twice the area of the triangle a b c; positive if it is counter-clockwise.
 double Turn(const Vector2& a, const Vector2& b, const Vector2& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
@@ -61,7 +61,8 @@ Hit FirstHit(const Ring& ring, const Vector2& eye) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const std::size_t next = (i + 1) % ring.size();
     const Vector2 &a = ring[i].point, &b = ring[next].point;
-    if (!(a.y <= eye.y && b.y >= eye.y) || a.y == b.y) continue;  // the inside is left of an edge
+    // The interior is on the left of an edge.
+    if (!(a.y <= eye.y && b.y >= eye.y) || a.y == b.y) continue;
     const double x = a.x + (eye.y - a.y) / (b.y - a.y) * (b.x - a.x);
     if (x >= eye.x && x < hit.x) hit = {x, a.x > b.x ? i : next};
   }
@@ -92,7 +93,7 @@ std::size_t VisibleCorner(const Ring& ring, const Vector2& eye) {
   return best;
 }
 
-// Inserts the hole into the ring, by a bridge from the visible corner.
+// Inserts the hole into the ring, with a bridge from the visible corner.
 bool JoinHole(Ring& ring, const Ring& hole) {
   const std::size_t start = Rightmost(hole);
   const std::size_t corner = VisibleCorner(ring, hole[start].point);

@@ -12,13 +12,13 @@ namespace gsv::formats {
 
 using Outline = std::vector<geometry::Vector2>;
 
-// Twice the area; positive when counter-clockwise.
+// Returns twice the area; positive if the outline is counter-clockwise.
 double TwiceSignedArea(const Outline& outline);
 
-// Ear clipping, holes joined to the outer outline by bridges (D. Eberly, "Triangulation by Ear
-// Clipping"). `outer` runs counter-clockwise and each hole clockwise, inside it; none crosses
-// itself or another. Triangles are counter-clockwise; their corners index the points of outer, then
-// of holes[0], and so on. Quadratic in the number of points.
+// Cuts a polygon into triangles by ear clipping. Bridges join the holes to the outer outline (D.
+// Eberly, "Triangulation by Ear Clipping"). `outer` must be counter-clockwise, and each hole
+// clockwise and inside it. No outline may cross itself or another. Triangles are counter-clockwise;
+// their corners index the points of outer, then of holes[0], and so on. Quadratic time.
 base::Result<std::vector<std::array<std::uint32_t, 3>>> Triangulate(
     const Outline& outer, const std::vector<Outline>& holes);
 

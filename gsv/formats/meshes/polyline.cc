@@ -35,7 +35,7 @@ Outline WithoutRepeatedPoints(const Outline& outline) {
   return points;
 }
 
-// An outline with the holes directly inside it.
+// An outline, and the holes directly inside it.
 struct Region {
   Outline outer;
   std::vector<Outline> holes;
@@ -68,7 +68,7 @@ std::vector<Region> ToRegions(const std::vector<Outline>& outlines) {
   return regions;
 }
 
-// Walls have separate vertices, so that edges stay sharp.
+// Walls have separate vertices, so that edges have sharp normals.
 void AddWalls(const Outline& outline, double height, TriangleMesh& mesh) {
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Vector2 &a = outline[i], &b = outline[(i + 1) % outline.size()];

@@ -1,4 +1,4 @@
-// Makes prisms over outlines, for SDFormat's <polyline>.
+// Makes prisms from outlines, for SDFormat's <polyline>.
 #pragma once
 
 #include <vector>

@@ -14,7 +14,8 @@ namespace {
 using geometry::Vector2;
 using geometry::Vector3;
 
-// By the divergence theorem; correct only if the surface is closed and faces outwards.
+// Returns the volume by the divergence theorem. The result is correct only if the surface is closed
+// and faces outwards.
 double Volume(const geometry::TriangleMesh& mesh) {
   double six_volumes = 0;
   for (const auto& t : mesh.triangles) {
@@ -36,7 +37,8 @@ TEST(ExtrudeOutlines, MakesAPrismOfEitherSenseOfRotation) {
 }
 
 TEST(ExtrudeOutlines, KeepsConcaveOutlines) {
-  // A square of side 1 with a triangle of base 1 and height 0.5 cut from its right side.
+  // The outline is a square of side 1, from whose right side a triangle of base 1 and height 0.5 is
+  // cut.
   const Outline arrow = {{-0.5, -0.5}, {-0.5, 0.5}, {0.5, 0.5}, {0, 0}, {0.5, -0.5}};
   EXPECT_NEAR(Volume(ExtrudeOutlines({arrow}, 1).value()), 0.75, 1e-12);
 }
@@ -80,7 +82,8 @@ TEST(ExtrudeOutlines, RefusesOutlinesWithoutArea) {
 }
 
 TEST(ExtrudeOutlines, TerminatesOnSelfIntersectingOutlines) {
-  // A bow tie whose halves differ in size: either result is acceptable, but it must end.
+  // The outline is a bow tie whose halves differ in size. A mesh and an error are both acceptable,
+  // but the call must return.
   const auto mesh = ExtrudeOutlines({{{0, 0}, {2, 2}, {2, 0}, {0, 3}}}, 1);
   EXPECT_TRUE(!mesh.has_value() || !mesh->triangles.empty());
 }

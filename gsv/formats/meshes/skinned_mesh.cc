@@ -89,13 +89,13 @@ class Skeleton {
   double length() const { return length_; }
   const std::vector<Node>& nodes() const { return nodes_; }
 
-  // The index of the node of that name, or -1.
+  // Returns the index of the node with that name, or -1.
   int Find(const std::string& name) const {
     const auto found = by_name_.find(name);
     return found == by_name_.end() ? -1 : found->second;
   }
 
-  // The root_from_node of every node.
+  // Returns root_from_node of every node.
   std::vector<aiMatrix4x4> PosesAt(double seconds) const {
     std::vector<aiMatrix4x4> poses;
     for (const Node& node : nodes_) {
@@ -139,8 +139,8 @@ class BoneCutter {
   BoneCutter(const aiScene& scene, const Skeleton& skeleton, const ReadLimits& limits)
       : scene_(scene), skeleton_(skeleton), limits_(limits), pieces_(skeleton.nodes().size()) {}
 
-  // The triangles by node, in the root's frame with the skeleton at its rest poses. False if there
-  // are more than the limit.
+  // Assigns the triangles to nodes, in the root's frame with the skeleton at its rest poses.
+  // Returns false if there are more than the limit.
   bool Cut(const std::vector<aiMatrix4x4>& rest) {
     for (std::size_t n = 0; n < skeleton_.nodes().size(); ++n) {
       const aiNode& node = *skeleton_.nodes()[n].node;
@@ -292,13 +292,13 @@ void IntoFrame(const Pose& root_from_bone, double scale, TriangleMesh& mesh) {
   Vector3 spare;
   for (const auto& corners : mesh.triangles) spare = mesh.positions[corners[0]];
   for (Vector3& position : mesh.positions) {
-    if (!geometry::IsFinite(position)) position = spare;  // no triangle uses it
+    if (!geometry::IsFinite(position)) position = spare;  // no triangle uses this vertex
     position = scale * (bone_from_root * position);
   }
   for (Vector3& normal : mesh.normals) normal = bone_from_root.orientation * normal;
 }
 
-// The common ancestor of all bones: the first node that is one.
+// Returns the common ancestor of all bones: the first node that is an ancestor of each.
 std::size_t RootOf(const Skeleton& skeleton, const std::vector<TriangleMesh>& meshes) {
   for (std::size_t n = 0; n < meshes.size(); ++n) {
     if (skeleton.nodes()[n].channel != nullptr) return n;

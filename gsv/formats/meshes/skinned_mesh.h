@@ -30,7 +30,7 @@ struct SkinnedMesh {
     std::vector<geometry::Pose> skin_from_bone;               // one per frame
   };
   std::vector<Bone> bones;
-  std::vector<model::Material> materials;  // materials of the parts of the meshes, by index
+  std::vector<model::Material> materials;  // materials of the mesh's parts, by index
   std::vector<geometry::Vector3> root;     // one per frame: position of the root bone in the skin
   double length = 0;                       // s, above zero
 };
@@ -39,9 +39,9 @@ inline constexpr double kFramesPerSecond = 30;
 inline constexpr int kMaxFrames = 240;
 inline constexpr double kMinTriangles = 0.01;
 
-// `motion`: the file with the animation for the skeleton of `skin`, matched by bone names; it may
-// be the same file. `scale`: factor of all lengths. kNotFound: the skin has no skeleton, or
-// `motion` has no animation of it.
+// Reads a skin with its animation. `motion` is the file with the animation for the skeleton of
+// `skin`, matched by bone names; it may be the same file. `scale` is a factor of all lengths.
+// kNotFound: the skin has no skeleton, or `motion` has no animation for it.
 base::Result<SkinnedMesh> ReadSkinnedMesh(const std::filesystem::path& skin,
                                           const std::filesystem::path& motion, double scale,
                                           const ReadLimits& limits, TextureReader& textures,

@@ -31,7 +31,7 @@ TEST_F(SkinnedMeshTest, GivesEachBoneItsTriangles) {
   ASSERT_EQ(mesh->bones.size(), 2u);
   EXPECT_EQ(mesh->bones[0].name, "A");
   EXPECT_EQ(mesh->bones[1].name, "B");
-  const Vector3 corners[]{{0, 0, 0}, {2, 0, 0}};  // in the bones' own frames
+  const Vector3 corners[]{{0, 0, 0}, {2, 0, 0}};  // The corners are in the bones' own frames.
   for (int bone = 0; bone < 2; ++bone) {
     const geometry::TriangleMesh& triangles = *mesh->bones[bone].triangles;
     EXPECT_EQ(triangles.triangles.size(), 1u);

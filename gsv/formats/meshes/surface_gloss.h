@@ -8,8 +8,8 @@
 
 namespace gsv::formats {
 
-// Blinn-Phong's exponent n as the roughness r of a microfacet model: r^4 = 2 / (n + 2) (Walter et
-// al. 2007). Without an exponent, the strength of the highlight gives 0.9 (none) to 0.4 (white).
+// Returns the roughness r of a microfacet model for Blinn-Phong's exponent n: r^4 = 2 / (n + 2)
+// (Walter et al. 2007). Without an exponent: 0.9 (no highlight) to 0.4 (white).
 inline double RoughnessOf(const model::Colour& specular, double shininess) {
   const double strength = std::clamp(std::max({specular.r, specular.g, specular.b}), 0.0, 1.0);
   const double by_strength = 0.9 - 0.5 * strength;

@@ -43,7 +43,7 @@ class GridHeights {
 
 double Fraction(double value) { return value - std::floor(value); }
 
-// The colour at a point, in metres from the terrain's lower left corner.
+// Returns the colour at a point, in metres from the terrain's lower left corner.
 Rgb PixelAt(const TerrainLayer& layer, double x, double y) {
   if (layer.image == nullptr) return {kGreyLevel, kGreyLevel, kGreyLevel};
   const model::Image& image = *layer.image;
@@ -58,7 +58,7 @@ Rgb PixelAt(const TerrainLayer& layer, double x, double y) {
           static_cast<double>(pixel[2])};
 }
 
-// The mean colour of a square with this side, in metres, about a point.
+// Returns the mean colour of a square about a point. Its side is in metres.
 Rgb MeanAt(const TerrainLayer& layer, double x, double y, double side) {
   const double pixels =
       layer.image == nullptr ? 1 : side / layer.tile * static_cast<double>(layer.image->width);
@@ -75,14 +75,14 @@ Rgb MeanAt(const TerrainLayer& layer, double x, double y, double side) {
   return sum;
 }
 
-// The fraction that a layer covers at a height.
+// Returns the fraction of the surface that a layer covers at a height.
 double ShareAt(const TerrainLayer& layer, double height) {
   if (height < layer.min_height) return 0;
   if (!(layer.fade_distance > 0)) return 1;
   return std::min((height - layer.min_height) / layer.fade_distance, 1.0);
 }
 
-// A side so large that no pixel of a tile is lost, within the limit.
+// Returns a side length so large that no pixel of a tile is lost, within the limit.
 int SideFor(geometry::Vector2 size, const std::vector<TerrainLayer>& layers) {
   double side = 1;
   for (const TerrainLayer& layer : layers) {

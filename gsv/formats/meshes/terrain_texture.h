@@ -12,9 +12,9 @@ namespace gsv::formats {
 // A texture that covers the terrain in tiles.
 struct TerrainLayer {
   std::shared_ptr<const model::Image> image;  // null: an even grey
-  double tile = 10;                           // m: a tile's side
-  // It covers the layers before it from this height upwards, increasingly over a distance. Ignored
-  // for the first layer.
+  double tile = 10;                           // side of a tile, m
+  // From this height upwards the layer covers the layers before it, with a fraction that grows over
+  // the distance. Ignored for the first layer.
   double min_height = 0, fade_distance = 0;  // m
 };
 

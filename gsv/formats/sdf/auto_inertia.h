@@ -8,11 +8,11 @@
 
 namespace gsv::formats {
 
-// Water's: SDFormat's default of <density>, kg/m³.
+// SDFormat's default of <density>, which is the density of water, kg/m³.
 inline constexpr double kDefaultDensity = 1000;
 
-// For uniformly filled collisions, each with its density (kg/m³). The principal frame is parallel
-// to the link's frame. Nothing if they have no volume.
+// Returns the inertia of uniformly filled collisions, each with its density (kg/m³). The principal
+// frame is parallel to the link's frame. Returns nothing if the collisions have no volume.
 std::optional<model::Inertial> InertialOf(const std::vector<model::Collision>& collisions,
                                           const std::vector<double>& densities);
 

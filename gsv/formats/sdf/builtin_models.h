@@ -5,11 +5,11 @@
 
 namespace gsv::formats {
 
-// SDFormat text for the last part of a web address or of a model:// name: Ground Plane (a <model>)
-// or Sun (a <light>), in any spelling; empty for any other.
+// Returns the SDFormat text for the last part of a web address or of a model:// name: Ground Plane
+// (a <model>) or Sun (a <light>), in any spelling. Empty for any other name.
 std::string_view BuiltInModel(std::string_view uri);
 
-// A world with a ground plane and a sun, or only with a sun.
+// Returns a world with a ground plane and a sun, or only with a sun.
 std::string_view EnvironmentWorld(bool with_ground_plane);
 
 }  // namespace gsv::formats

@@ -21,7 +21,7 @@ using tinyxml2::XMLElement;
 
 constexpr char kScope[] = "::";
 
-// A text as elements, with a flag that they were changed.
+// The elements of a text, and whether they were changed.
 struct Tree {
   SdfText* text;
   std::unique_ptr<tinyxml2::XMLDocument> document;
@@ -74,7 +74,7 @@ std::string NameIn(const XMLElement& element) {
          (name == nullptr ? "" : " \"" + std::string(name) + "\"");
 }
 
-// The texts in brackets: "a" for "link with name[a] already exists".
+// Returns the texts in brackets, such as "a" of "link with name[a] already exists".
 std::vector<std::string> Bracketed(const std::string& message) {
   std::vector<std::string> texts;
   for (std::size_t open = message.find('['); open != std::string::npos;
@@ -86,7 +86,7 @@ std::vector<std::string> Bracketed(const std::string& message) {
   return texts;
 }
 
-// The word before `after`: "link" for "specified by link with name[" and " with name[".
+// Returns the word before `after`: "link" for "specified by link with name[" and " with name[".
 std::string WordBefore(const std::string& message, const std::string& after, std::size_t from = 0) {
   const std::size_t end = message.find(after, from);
   if (end == std::string::npos) return "";
@@ -121,8 +121,8 @@ class DocumentRepair {
         {base::Problem::Severity::kWarning, message, PlaceOf(tree.text->path, element)});
   }
 
-  // Calls `change` for the elements of a kind and name. It returns whether it has changed
-  // something.
+  // Calls `change` for the elements of a kind with a name. `change` returns whether it has changed
+  // the element. Returns whether any was changed.
   void ForNamed(const std::string& kind, const std::string& name,
                 const std::function<bool(Tree&, XMLElement&)>& change) {
     for (Tree& tree : trees_) {
@@ -175,7 +175,7 @@ class DocumentRepair {
     });
   }
 
-  // A pose relative to a missing frame becomes relative to its parent.
+  // Makes the element's pose relative to its parent, because the pose's frame is missing.
   void MakeOwn(const std::string& kind, const std::string& name, const std::string& missing) {
     ForNamed(kind, name, [&](Tree& tree, XMLElement& element) {
       XMLElement* pose = element.FirstChildElement("pose");
@@ -342,7 +342,7 @@ class DocumentRepair {
     return false;
   }
 
-  // Removing such an element would leave nothing.
+  // Whether the element must not be removed, because nothing would be left.
   static bool IsTop(const XMLElement& element) {
     const auto* parent = element.Parent()->ToElement();
     return parent == nullptr || std::strcmp(parent->Name(), "sdf") == 0;

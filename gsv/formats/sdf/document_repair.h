@@ -10,14 +10,14 @@ namespace gsv::formats {
 
 // Changes the document, or a file that it includes, so that libsdformat's errors go away. It leaves
 // out elements that cannot be read and joints between missing links. It drops references to missing
-// frames, and changes names that are in use or reserved. Each change gives a warning. False if it
-// could repair nothing; URDF is never changed.
+// frames, and changes names that are in use or reserved. Each change gives a warning. Returns false
+// if nothing could be repaired. URDF is never changed.
 bool RepairAfter(const sdf::Errors& errors, SdfText& document, IncludedFiles& includes,
                  base::Problems& problems);
 
 // Gazebo Classic saves a model that was assembled from others with links named "INNER::LINK".
-// libsdformat splits these names, and throws if their poses are relative to something outside.
-// Writes "INNER.LINK" instead, with a warning. False if there is no such name.
+// libsdformat splits these names, and throws if their poses are relative to something outside. This
+// function writes "INNER.LINK" instead, with a warning. Returns false if there is no such name.
 bool SeparateNames(SdfText& document, IncludedFiles& includes, base::Problems& problems);
 
 }  // namespace gsv::formats

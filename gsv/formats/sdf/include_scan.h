@@ -1,5 +1,5 @@
-// Finds, reads and repairs included files before libsdformat reads them. Each include is found from
-// the file that contains it, and an unreadable one is left out alone.
+// Finds, reads and repairs included files before libsdformat reads them. Each include is searched
+// relative to the file that contains it. Only unreadable includes are left out.
 #pragma once
 
 #include <filesystem>
@@ -28,7 +28,7 @@ class IncludeScan {
   // if includes form a cycle or exceed the depth limit.
   void Scan(tinyxml2::XMLElement& element, const std::filesystem::path& file);
 
-  // The file of an <include>; searched once.
+  // Returns the file of an <include>. Each name is searched once.
   base::Result<std::filesystem::path> FileOf(const std::string& uri,
                                              const std::filesystem::path& naming_file);
 

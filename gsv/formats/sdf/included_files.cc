@@ -6,7 +6,7 @@
 namespace gsv::formats {
 namespace {
 
-// A descriptor of a memory file with the text; -1 if there is no memory.
+// Returns a descriptor of a file in memory with the text; -1 if there is no memory.
 int InMemory(const std::string& text) {
   const int descriptor = memfd_create("gsv-include", MFD_CLOEXEC);
   if (descriptor < 0) return -1;

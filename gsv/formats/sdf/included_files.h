@@ -1,5 +1,5 @@
-// Provides the files that a document includes to libsdformat, as repaired texts in memory with
-// names of our own.
+// Provides the repaired texts of included files to libsdformat, as files in memory with names that
+// GSV chooses.
 #pragma once
 
 #include <filesystem>
@@ -14,13 +14,13 @@ struct SdfText {
   std::string text;
 };
 
-// The key is what the <uri> of an <include> names.
+// The key is the text in the <uri> of an <include>.
 using IncludedFiles = std::map<std::string, SdfText>;
 
-// Provides texts as files. libsdformat reads an included file only by its name, so that each text
-// gets the name of a memory file, for the lifetime of this object.
+// Provides texts as files. libsdformat reads an included file only by its name, so each text gets
+// the name of a file in memory during the lifetime of this object.
 //
-// Errors   if there is no memory for a text, its own file is read.
+// Errors   if there is no memory for a text, libsdformat reads the original file.
 class IncludedFileServer {
  public:
   explicit IncludedFileServer(const IncludedFiles& files) : files_(files) {}
@@ -28,10 +28,10 @@ class IncludedFileServer {
   IncludedFileServer(const IncludedFileServer&) = delete;
   IncludedFileServer& operator=(const IncludedFileServer&) = delete;
 
-  // The name under which the text for `uri` can be read; empty if there is none.
+  // Returns the name under which the text for `uri` can be read; empty if there is none.
   std::string Find(const std::string& uri);
 
-  // The file of a name that Find() returned; null for other names.
+  // Returns the file for a name that Find() has returned; null for other names.
   const std::filesystem::path* SourceOf(const std::string& name) const;
 
  private:

@@ -27,7 +27,8 @@ TEST(JointForest, LeavesAForestUnchanged) {
   EXPECT_EQ(joints[1].axis, (geometry::Vector3{0, 0, 1}));
 }
 
-// 0 -> 1 <- 2: the second joint is reversed, and its axis with it, so that its position stays.
+// The joints are 0 -> 1 <- 2. The second one is reversed together with its axis, so that its
+// position stays the same.
 TEST(JointForest, ReversesAJointIfALinkHasTwoParents) {
   std::vector<Joint> joints = {Between("a", 0, 1), Between("b", 2, 1)};
   EXPECT_THAT(MakeForest(3, joints), IsEmpty());
@@ -36,7 +37,7 @@ TEST(JointForest, ReversesAJointIfALinkHasTwoParents) {
   EXPECT_EQ(joints[1].axis, (geometry::Vector3{0, 0, -1}));
 }
 
-// 0 -> 1 and 3 -> 2 -> 1: the whole chain above the second joint is reversed.
+// The joints are 0 -> 1 and 3 -> 2 -> 1. The whole chain above the second joint is reversed.
 TEST(JointForest, ReversesAChain) {
   std::vector<Joint> joints = {Between("a", 0, 1), Between("b", 3, 2), Between("c", 2, 1)};
   EXPECT_THAT(MakeForest(4, joints), IsEmpty());
@@ -46,7 +47,8 @@ TEST(JointForest, ReversesAChain) {
   EXPECT_EQ(joints[1].child, 3);
 }
 
-// 0 -> 1, and world -> 2 -> 1: a joint to the world cannot be reversed, so the other side is.
+// The joints are 0 -> 1 and world -> 2 -> 1. A joint to the world cannot be reversed, so the other
+// joint is.
 TEST(JointForest, KeepsTheWorldAtTheTop) {
   std::vector<Joint> joints = {Between("a", 0, 1), Between("w", -1, 2), Between("b", 2, 1)};
   EXPECT_THAT(MakeForest(3, joints), IsEmpty());

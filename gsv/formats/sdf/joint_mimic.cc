@@ -33,7 +33,7 @@ class MimicReader {
     }
   }
 
-  // Joints that follow each other in a cycle have no leader.
+  // Removes followers that follow each other in a cycle, because such joints have no leader.
   void DropCircles() {
     for (model::Joint& joint : model_.joints) {
       if (!joint.mimic) continue;
@@ -74,7 +74,7 @@ class MimicReader {
                      Number(*mimic, "reference", 0)};
   }
 
-  // The value is an attribute in URDF, an element in SDFormat.
+  // Returns a value, which is an attribute in URDF and an element in SDFormat.
   double Number(const XMLElement& mimic, const char* name, double otherwise) {
     const char* text = mimic.Attribute(name);
     if (const auto* child = mimic.FirstChildElement(name)) text = child->GetText();

@@ -23,9 +23,9 @@ namespace gsv::formats {
 
 // The content of an included file: a model, or a single light.
 struct StoredFile {
-  FramedModel framed;  // its model is null if the file holds a light
+  FramedModel framed;  // its model is null if the file contains a light
   std::optional<model::Light> light;
-  geometry::Pose world_from_light;  // the pose in the file
+  geometry::Pose world_from_light;  // pose of the light in the file
   base::Problems problems;
   base::Problems broken_rules;  // see ReadOptions::check_rules
 };
@@ -40,7 +40,7 @@ class ModelStore {
         textures_(limits_),
         meshes_(limits_, textures_) {}
 
-  // `plugins`: text of <plugin> elements that an <include> adds to the model.
+  // Reads a file. `plugins` is the text of <plugin> elements that an <include> adds to the model.
   base::Result<std::shared_ptr<const StoredFile>> Read(const std::filesystem::path& file,
                                                        const std::string& plugins = {});
 
@@ -74,7 +74,7 @@ class ModelStore {
   TextureReader textures_;
   MeshReader meshes_;
   std::map<std::pair<std::filesystem::path, std::string>, std::shared_ptr<const StoredFile>> files_;
-  // The same files by the names in the sources, so that each file is looked up once.
+  // The same files by the names that sources use, so that each name is looked up once.
   std::map<std::pair<std::string, std::string>, std::shared_ptr<const StoredFile>> by_name_;
 };
 

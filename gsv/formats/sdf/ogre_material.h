@@ -11,11 +11,11 @@
 
 namespace gsv::formats {
 
-// The values of a material's first pass; members are empty if it does not set them.
+// The values of a material's first pass. Members that the pass does not set are empty.
 struct OgreMaterial {
   std::optional<model::Colour> ambient, diffuse, specular, emissive;
   double shininess = 0;
-  std::string texture;  // file of the first texture unit
+  std::string texture;  // file of the texture in the first texture unit
 };
 
 // The materials of a script by name. Reads `material NAME [: PARENT] { technique { pass { … } } }`

@@ -18,7 +18,7 @@ using SensorCheck = std::function<base::Status(const model::SensorDescription&)>
 
 struct ReadOptions {
   std::vector<std::filesystem::path> model_path;  // see --model-path
-  bool allow_absolute_paths = true;               // in the names that files contain
+  bool allow_absolute_paths = true;               // whether names in files may be absolute paths
   // Drives that replace those of models, by the name with which ModelLibrary::ReadModel() reads the
   // model. Their form is that of model/drive_choice.h.
   std::map<std::string, std::string> drives;
@@ -26,7 +26,7 @@ struct ReadOptions {
   // Also adds an error for each of SDFormat's rules on names and references that a named file
   // breaks, see gsv/formats/support/naming_rules.h. Reading repairs these; a check refuses them.
   bool check_rules = false;
-  SensorCheck check_sensor;  // empty: sensors are not checked
+  SensorCheck check_sensor;  // if it is empty, sensors are not checked
 };
 
 }  // namespace gsv::formats

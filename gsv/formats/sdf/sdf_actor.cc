@@ -52,7 +52,8 @@ class ActorReader {
  private:
   std::string Place(const XMLElement& element) const { return PlaceOf(context_.source, element); }
 
-  // A number from 0 to the maximum length of a script; or `otherwise`, with a problem.
+  // Returns a number between 0 and the maximum length of a script. For any other value, adds a
+  // problem and returns `otherwise`.
   double NumberOf(const XMLElement& parent, const char* name, double otherwise) const {
     const XMLElement* element = parent.FirstChildElement(name);
     if (element == nullptr) return otherwise;
@@ -170,7 +171,8 @@ class ActorReader {
     mesh->InsertNewChildElement("scale")->SetText((number + " " + number + " " + number).c_str());
   }
 
-  // The animation of the first trajectory's type, else the first one. Null if there is none.
+  // Returns the animation whose name is the type of the first trajectory, or else the first one.
+  // Null if there is none.
   const XMLElement* AnimationToShow() const {
     const XMLElement* script = actor_.FirstChildElement("script");
     const XMLElement* trajectory =
@@ -214,9 +216,9 @@ class ActorReader {
     return true;
   }
 
-  // A cylinder with a head, 1.75 m tall. Skins such as Gazebo's have their origin in the hip, and
-  // the waypoints have its height: then the figure's feet are at that distance below the first
-  // waypoint.
+  // A cylinder with a head, 1.75 m tall. The origin of skins such as Gazebo's is in the hip, and
+  // waypoints are at its height. Then the figure's feet are below the first waypoint by that
+  // height.
   void AddFigure(const Pose& start) {
     const double height = start.position.z;
     const double feet = height > 0.5 && height < 1.5 ? -height : 0;
@@ -240,7 +242,7 @@ class ActorReader {
 
   XMLElement& actor_;
   const ReadingContext& context_;
-  std::map<std::string, bool> follows_way_;  // value of interpolate_x, by animation
+  std::map<std::string, bool> follows_way_;  // value of interpolate_x, by the name of the animation
   std::shared_ptr<const SkinnedMesh> skin_;
 };
 
@@ -280,7 +282,7 @@ void AddBone(const SkinnedMesh& skin, const SkinnedMesh::Bone& bone, model::Mode
   actor.links.back().visuals.push_back(std::move(visual));
 }
 
-// The lowest corner of the boxes of all bones, in the skin's frame, at the first frame.
+// Returns the lowest corner of the boxes of all bones, in the skin's frame, at the first frame.
 double LowestOf(const SkinnedMesh& skin) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const SkinnedMesh::Bone& bone : skin.bones) {

@@ -19,7 +19,7 @@ bool IsClassicControl(const sdf::Element& plugin) {
          std::string::npos;
 }
 
-// The numbers of an element, if it exists and has as many.
+// Returns the numbers of an element if it exists and has this many numbers.
 std::optional<std::vector<double>> NumbersOf(const sdf::ElementPtr& parent, const char* name,
                                              std::size_t count, const ReadingContext& context) {
   if (!parent->HasElement(name)) return std::nullopt;

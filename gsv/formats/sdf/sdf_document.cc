@@ -57,7 +57,7 @@ std::string Shortened(std::string text) {
   return text;
 }
 
-// One reading of the current texts.
+// The result of parsing the current texts once.
 struct Reading {
   std::unique_ptr<sdf::Root> root = std::make_unique<sdf::Root>();
   sdf::Errors errors;
@@ -78,7 +78,8 @@ void ConfigureBy(IncludedFileServer& server) {
   config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::LOG);
 }
 
-// Errors of an element in memory then name the file from which the text came.
+// Sets the sources of elements, so that errors of an element in memory name the file from which the
+// text came.
 void NameSources(const sdf::ElementPtr& element, const IncludedFileServer& server) {
   if (element == nullptr) return;
   if (const auto* source = server.SourceOf(element->FilePath())) {
@@ -151,7 +152,7 @@ Reading ReadOnce(const std::string& text, const IncludedFiles& includes)
   Reasons().reasons.clear();
   try {
     reading.errors = Load(text, *reading.root);
-  } catch (const sdf::Exception& exception) {  // it is not a std::exception
+  } catch (const sdf::Exception& exception) {  // sdf::Exception does not derive from std::exception
     reading.exception = exception.GetErrorStr();
   } catch (const std::exception& exception) {
     reading.exception = exception.what();
@@ -199,7 +200,7 @@ bool IsChecked(const sdf::Error& error) {
          code == sdf::ErrorCode::ATTRIBUTE_DEPRECATED ||
          code == sdf::ErrorCode::LINK_INERTIA_INVALID ||
          code == sdf::ErrorCode::MODEL_WITHOUT_LINK ||
-         code == sdf::ErrorCode::STRING_READ;  // contains the whole text
+         code == sdf::ErrorCode::STRING_READ;  // this error repeats the whole text
 }
 
 void Collect(const sdf::Errors& errors, const std::filesystem::path& source,
@@ -213,7 +214,7 @@ void Collect(const sdf::Errors& errors, const std::filesystem::path& source,
   }
 }
 
-// The reason why nothing could be read.
+// Returns an error with the reason why nothing could be read.
 tl::unexpected<base::Error> Refusal(const Reading& reading, const std::filesystem::path& source) {
   constexpr auto kBadModel = base::ErrorCode::kBadModel;
   std::string reasons;

@@ -18,7 +18,7 @@ namespace gsv::formats {
 struct SdfDocument {
   std::unique_ptr<sdf::Root> root;
   std::filesystem::path source;
-  // Poses cannot be resolved, possibly also those of valid elements.
+  // Whether poses cannot be resolved, possibly also those of valid elements.
   bool has_broken_frames = false;
 };
 
@@ -28,15 +28,15 @@ struct SdfDocument {
 base::Result<SdfDocument> ParseSdf(const SdfText& document, const IncludedFiles& includes,
                                    base::Problems& problems);
 
-// Must be held during calls of libsdformat's functions that read.
+// Must be locked during calls of libsdformat's functions that read.
 base::Mutex& SdformatMutex();
 void SilenceConsoles() GSV_REQUIRES(SdformatMutex());
 
-// The description of <sdf> and of all elements below it. Made once, as this takes longer than reading a
-// small file. Read only.
+// Returns the description of <sdf> and of all elements below it. It is made once, because that
+// takes longer than reading a small file. It must not be changed.
 sdf::ElementPtr SdfSchema() GSV_REQUIRES(SdformatMutex());
 
-// The file that contains an element, and "file:line: element path" for messages about it.
+// Return the file that contains an element, and "file:line: element path" for messages about it.
 std::filesystem::path FileOf(const sdf::Element& element, const std::filesystem::path& source);
 std::string PlaceOf(const sdf::Element& element, const std::filesystem::path& source);
 

@@ -22,7 +22,8 @@ std::optional<DriveKind> KindOf(const std::string& file_name, const std::string&
     const char* part;
     DriveKind kind;
   };
-  // Parts of file names and class names, in lower case, without "-" and "_".
+  // The known drives, by a part of the file name or class name of their plugin, in lower case,
+  // without "-" and "_".
   static constexpr Known known[] = {
       {"diffdrive", DriveKind::kDifferential},      {"skidsteerdrive", DriveKind::kDifferential},
       {"ackermannsteering", DriveKind::kAckermann}, {"ackermanndrive", DriveKind::kAckermann},
@@ -153,7 +154,7 @@ class DriveReader {
     drive_.wheel_radius = diameter && *diameter > 0
                               ? *diameter / 2
                               : Positive({"wheel_radius", "wheelRadius"}, MeasuredRadius());
-    // GSV's own parameters, for wheels that differ from the drive's assumption.
+    // Two parameters of GSV, for wheels that differ from what the drive assumes.
     drive_.left_wheel_scale =
         Positive({"left_wheel_radius"}, drive_.wheel_radius) / drive_.wheel_radius;
     drive_.right_wheel_scale =
@@ -162,7 +163,8 @@ class DriveReader {
     drive_.steering_limit = Positive({"steering_limit", "max_steer"}, drive_.steering_limit);
   }
 
-  // A limit in both directions; a lone maximum also applies backwards, as in Gazebo.
+  // Returns a limit in both directions. If there is only a maximum, it also applies backwards, as
+  // in Gazebo.
   model::Range Limits(const std::string& what) const {
     model::Range range;
     const auto max = Number({("max_" + what).c_str()});
@@ -195,7 +197,7 @@ class DriveReader {
 
   const Joint& JointAt(int index) const { return model_.joints[static_cast<std::size_t>(index)]; }
 
-  // The centre of the wheel's collision shapes, or its joint if it has none.
+  // Returns the centre of the wheel's collision shapes, or of its joint if it has none.
   Vector3 WheelCentre(int joint) const {
     const model::Link& wheel = model_.links[static_cast<std::size_t>(JointAt(joint).child)];
     if (wheel.collisions.empty()) return JointAt(joint).model_from_joint.position;

@@ -18,7 +18,7 @@ struct Shaft {
   double sign;
 };
 
-// The direction in the model's frame; without length where the file has none.
+// Returns the direction in the model's frame. Its length is zero if the file has none.
 Vector3 AxisOf(const sdf::Joint& source, unsigned index, const Joint& gearbox) {
   const sdf::JointAxis* axis = source.Axis(index);
   ignition::math::Vector3d xyz;

@@ -55,7 +55,7 @@ bool IsElevationModel(const std::filesystem::path& file) {
   return extension == ".tif" || extension == ".tiff";
 }
 
-// The textures of a visual's heightmap, each but the first with its blend.
+// Returns the textures of a visual's heightmap. Each texture except the first has a blend.
 std::vector<TerrainLayer> ReadLayers(const sdf::Heightmap& heightmap,
                                      const std::filesystem::path& file,
                                      const ReadingContext& context) {
@@ -70,7 +70,7 @@ std::vector<TerrainLayer> ReadLayers(const sdf::Heightmap& heightmap,
       layer.min_height = heightmap.BlendByIndex(i - 1)->MinHeight();
       layer.fade_distance = heightmap.BlendByIndex(i - 1)->FadeDistance();
     } else if (i > 0) {
-      break;  // the height where it begins is missing
+      break;  // the height at which the next texture begins is missing
     }
     const std::string place = texture.Element() == nullptr
                                   ? context.source.string()
@@ -90,7 +90,8 @@ std::vector<TerrainLayer> ReadLayers(const sdf::Heightmap& heightmap,
   return layers;
 }
 
-// An image, or an elevation model in TIFF, which may have its own size, as in Gazebo.
+// Reads an image, or an elevation model in TIFF. Like in Gazebo, an elevation model may define its
+// size.
 base::Result<SdfShape> ReadHeightmap(const sdf::Heightmap& heightmap,
                                      const std::filesystem::path& file, bool is_drawn,
                                      const ReadingContext& context) {
@@ -153,7 +154,7 @@ base::Result<SdfShape> ReadPlane(const sdf::Plane& plane) {
                  {size.x, size.y});
 }
 
-// SDFormat has cones since 1.11: an older reader keeps the element unchanged.
+// Cones exist in SDFormat since 1.11: libsdformat 12 keeps the element unchanged.
 base::Result<SdfShape> ReadCone(const sdf::ElementPtr& geometry) {
   const sdf::ElementPtr cone = geometry->GetElement("cone");
   const double radius = cone->Get<double>("radius", 0.5).first;

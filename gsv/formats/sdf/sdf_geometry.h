@@ -13,7 +13,7 @@ namespace gsv::formats {
 
 struct SdfShape {
   geometry::Shape shape;
-  geometry::Pose visual_from_shape;        // a heightmap is at its <pos>
+  geometry::Pose visual_from_shape;        // the pose of a heightmap is its <pos>
   std::vector<model::Material> materials;  // materials of a mesh; empty for other shapes
 };
 

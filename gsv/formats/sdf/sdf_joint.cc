@@ -20,7 +20,7 @@ double LimitOrInfinity(double value) {
   return std::abs(value) >= kNoLimit ? std::copysign(INFINITY, value) : value;
 }
 
-// A positive upper bound; SDFormat uses -1 for "none".
+// Returns a positive upper bound; SDFormat writes -1 for "none".
 double BoundOrInfinity(double value) { return value >= 0 && value < kNoLimit ? value : INFINITY; }
 
 void ReadAxis(const sdf::JointAxis& axis, const std::string& place, const ReadingContext& context,
@@ -63,7 +63,7 @@ double ThreadPitch(const sdf::Joint& source) {
   return -1 / source.ThreadPitch();
 }
 
-// Copies of the joint, one for each axis.
+// Returns copies of the joint, one for each axis.
 std::vector<Joint> InARow(const sdf::Joint& source, const Joint& joint, const std::string& place,
                           const ReadingContext& context) {
   std::vector<Joint> row;

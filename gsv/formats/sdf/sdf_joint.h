@@ -16,7 +16,7 @@
 namespace gsv::formats {
 
 // Adds the joint that `source` describes to `model`. `joint` has its name, links and frame already;
-// `place` is for messages. A zero axis and inverted limits are repaired and reported as problems.
+// Messages name `place`. A zero axis and inverted limits are repaired and reported as problems.
 //
 void AddJoint(const sdf::Joint& source, model::Joint joint, const std::string& place,
               const ReadingContext& context, model::Model& model);

@@ -52,7 +52,7 @@ class TargetReader {
     return otherwise;
   }
 
-  // The gains of a joint's controller, and its limits. The defaults are Gazebo's.
+  // Sets the gains and limits of a joint's controller. The defaults are Gazebo's.
   void SetUp(JointTarget::Kind kind, Joint& joint) const {
     if (kind == JointTarget::Kind::kVelocity) {
       if (Flag("use_force_commands")) joint.velocity_gains = GainsOf({1, 0, 0});

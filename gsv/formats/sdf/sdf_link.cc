@@ -26,7 +26,7 @@ using model::Visual;
 constexpr double kMissingMeshGrey = 0.5;
 constexpr std::size_t kLongestReason = 200;
 
-// The value of a child along a path of elements, if each exists.
+// Returns the value of a child at the end of a path of elements, if all of them exist.
 template <typename T>
 std::optional<T> ValueAt(sdf::ElementPtr element, std::initializer_list<const char*> path) {
   for (const char* name : path) {
@@ -65,8 +65,8 @@ model::Surface ReadSurface(const sdf::ElementPtr& collision, const ReadingContex
                    PlaceOf(*collision, context.source));
     }
   };
-  // A single friction applies in all directions, as in gz-sim, whose own test of boxes on a slope
-  // sets only <mu>.
+  // If the file has only one friction coefficient, it applies in all directions, as in gz-sim,
+  // whose own test of boxes on a slope sets only <mu>.
   const auto take_both = [&](const char* engine, const char* first, const char* second) {
     take(surface.friction, {"surface", "friction", engine, first});
     if (ValueAt<double>(collision, {"surface", "friction", engine, first})) {
@@ -104,7 +104,7 @@ bool IsPositiveDefinite(const model::Inertial& i) {
   return i.ixx > 0 && second > 0 && determinant > 0;
 }
 
-// The inertia of a link that never moves is not used, so that nothing is checked.
+// Reads the inertia. It is not checked for a link that never moves, because it is not used there.
 model::Inertial ReadInertial(const sdf::Link& link, bool is_static, const ReadingContext& context) {
   model::Inertial inertial;
   const sdf::ElementPtr element = link.Element();
@@ -138,7 +138,7 @@ sdf::ElementPtr GeometryElement(const sdf::ElementPtr& element) {
                                                                : nullptr;
 }
 
-// An element's density in kg/m³, or `otherwise`.
+// Returns an element's density in kg/m³, or `otherwise`.
 double DensityOf(const sdf::ElementPtr& element, double otherwise, const ReadingContext& context) {
   if (element == nullptr || !element->HasElement("density")) return otherwise;
   const auto [density, is_number] = element->Get<double>("density", otherwise);
@@ -194,7 +194,7 @@ void MakeInertialOfShapes(const sdf::Link& source, const std::vector<double>& de
     link.inertial = {};
     return;
   }
-  // A <mass> beside it scales the inertia, as in SDFormat 1.12.
+  // If there is also a <mass>, it scales the inertia, as in SDFormat 1.12.
   const double scale =
       element->HasElement("mass") && link.inertial.mass > 0 ? link.inertial.mass / made->mass : 1;
   link.inertial = *made;
@@ -205,7 +205,7 @@ void MakeInertialOfShapes(const sdf::Link& source, const std::vector<double>& de
   }
 }
 
-// A fraction of the velocity.
+// Reads a decay, which is a fraction of the velocity.
 double ReadDecay(const sdf::Link& source, const char* name, const ReadingContext& context) {
   const double decay = ValueAt<double>(source.Element(), {"velocity_decay", name}).value_or(0.0);
   if (decay >= 0 && decay <= 1) return decay;
@@ -215,7 +215,7 @@ double ReadDecay(const sdf::Link& source, const char* name, const ReadingContext
   return 0;
 }
 
-// A link's own <enable_wind>, or that of the nearest model around it.
+// Returns the link's own <enable_wind>, or that of the innermost model around it.
 bool HasWind(const sdf::Link& source) {
   for (auto element = source.Element(); element != nullptr; element = element->GetParent()) {
     if (element->GetName() != "link" && element->GetName() != "model") break;
@@ -258,7 +258,7 @@ std::vector<Visual> CollisionsAsVisuals(const model::Link& link) {
   return visuals;
 }
 
-// The temperature of Gazebo's thermal system; nothing if the visual has none.
+// Returns the temperature according to Gazebo's thermal system; nothing if the visual has none.
 std::optional<double> TemperatureOf(const sdf::ElementPtr& visual, const ReadingContext& context) {
   if (!visual->HasElement("plugin")) return std::nullopt;
   for (auto plugin = visual->GetElement("plugin"); plugin != nullptr;

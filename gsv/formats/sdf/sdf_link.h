@@ -8,14 +8,14 @@
 
 namespace gsv::formats {
 
-// The caller sets name and pose. If the mesh of a visual is missing, the link's collision shapes
-// replace it, once, in grey. A collision without its mesh is left out. `is_static`: the inertia is
-// not used, so that it is not checked.
+// Reads a link; the caller sets its name and pose. If the mesh of a visual is missing, the link's
+// collision shapes replace it, once, in grey. A collision whose mesh is missing is left out. If
+// `is_static` is true, the inertia is not used, and so not checked.
 model::Link ReadLink(const sdf::Link& source, bool is_static, const ReadingContext& context);
 
-// A pose resolved by libsdformat in the frame of its parent element, or in `resolve_to`. A pose
-// that cannot be resolved gives a warning, and is used as written. A non-finite pose becomes the
-// identity.
+// Returns a pose that libsdformat resolves in the frame of the element's parent, or in
+// `resolve_to`. A pose that cannot be resolved gives a warning, and is used as written. A pose that
+// is not finite becomes the identity.
 geometry::Pose Resolve(const sdf::SemanticPose& pose, const std::string& resolve_to,
                        const std::string& place, const ReadingContext& context);
 

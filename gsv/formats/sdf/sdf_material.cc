@@ -169,7 +169,7 @@ class MaterialOfVisual {
     return scripts;
   }
 
-  // An image in the folders of the visual's script, found by its name alone, as by OGRE.
+  // Finds an image in the folders of the visual's script. Like OGRE, this uses only the file name.
   std::optional<fs::path> FindBesideScripts(const std::string& name) const {
     for (const fs::path& place : script_places_) {
       for (const fs::path& folder : {place, place.parent_path(), place / "../textures",
@@ -190,7 +190,7 @@ class MaterialOfVisual {
     if (ogre.emissive) material_.emissive = *ogre.emissive;
     if (ogre.specular) material_.roughness = RoughnessOf(*ogre.specular, ogre.shininess);
     if (ogre.texture.empty()) return;
-    // An image without a colour beside it is not tinted.
+    // If the pass has an image and no colour, the image is not tinted.
     if (!ogre.diffuse) material_.base_colour = {};
     const auto file = FindBesideScripts(ogre.texture);
     const auto image = file ? context_.textures.Read(*file)
@@ -208,7 +208,7 @@ class MaterialOfVisual {
   sdf::ElementPtr element_;
   fs::path file_;
   std::string place_;
-  std::vector<fs::path> script_places_;  // files and folders in its <script>
+  std::vector<fs::path> script_places_;  // files and folders that its <script> names
   const ReadingContext& context_;
   Material material_;
 };

@@ -9,9 +9,9 @@
 
 namespace gsv::formats {
 
-// The visual's own material; none if it has none, or an empty one. Colours: <diffuse>, else the
-// script's, else <ambient>. A script's name is searched in its <uri>s, then among Gazebo's own.
-// Transparency is not applied.
+// Reads the visual's own material. Returns nothing if the visual has none, or an empty one. The
+// colour is <diffuse>, else that of the script, else <ambient>. The name of a script is searched in
+// its <uri>s, then among Gazebo's materials. Transparency is not applied.
 std::optional<model::Material> ReadVisualMaterial(const sdf::Visual& visual,
                                                   const ReadingContext& context);
 

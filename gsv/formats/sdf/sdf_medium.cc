@@ -18,7 +18,8 @@ using tinyxml2::XMLElement;
 
 constexpr std::size_t kMaxLayers = 1000;
 
-// Whether the plugin's file or class has one of these names, in lower case without "-" and "_".
+// Whether the file or class of the plugin has one of these names, in lower case without "-" and
+// "_".
 bool IsPlugin(const XMLElement& plugin, std::initializer_list<std::string_view> parts) {
   for (const char* attribute : {"filename", "name"}) {
     std::string plain;
@@ -38,7 +39,8 @@ class MediumReader {
  public:
   explicit MediumReader(const ReadingContext& context) : context_(context) {}
 
-  // A child's number, which is at least `least`; `otherwise` if there is no child.
+  // Returns the number of a child, which must be at least `least`. Returns `otherwise` if there is
+  // no such child.
   double Number(const XMLElement& parent, const char* name, double otherwise, double least) const {
     const XMLElement* element = parent.FirstChildElement(name);
     return element == nullptr ? otherwise : NumberOf(*element, otherwise, least);

@@ -76,7 +76,8 @@ class ModelReader {
     return element == nullptr ? context_.source.string() : PlaceOf(*element, context_.source);
   }
 
-  // Links, frames and nested models. Elements that refer to links are added when all links exist.
+  // Adds links, frames and nested models. Elements that refer to links are added when all links
+  // exist.
   void AddParts(const sdf::Model& source, const std::string& scope, const Pose& root_from_model,
                 int levels_left, bool is_in_static) {
     if (levels_left == 0) {
@@ -154,7 +155,7 @@ class ModelReader {
     return it == model_.links.end() ? -1 : static_cast<int>(it - model_.links.begin());
   }
 
-  // The link at an end of a joint. The end may also be a frame that is attached to a link.
+  // Adds a joint. Each of its ends is a link, or a frame that is attached to a link.
   void AddJoint(const sdf::Joint& source, const std::string& scope, const std::string& place) {
     std::string parent, child;
     if (!source.ResolveParentLink(parent).empty()) parent = source.ParentLinkName();
@@ -179,7 +180,7 @@ class ModelReader {
     formats::AddJoint(source, std::move(joint), place, context_, model_);
   }
 
-  // The links of a static nested model are fixed in the world at their pose in this model.
+  // Fixes the links of static nested models in the world, at their pose in this model.
   void FixStaticLinks() {
     if (model_.is_static || static_links_.empty()) return;
     if (static_links_.size() == model_.links.size()) {
@@ -207,7 +208,7 @@ class ModelReader {
     model_.joints.insert(model_.joints.begin(), to_world.begin(), to_world.end());
   }
 
-  // The joint itself, which the forest does not hold, keeps the loop closed.
+  // Stores the joints that close loops, because the forest does not contain them.
   void KeepLoops(std::vector<Joint> loops) {
     for (Joint& joint : loops) {
       const std::string name = "the joint \"" + joint.name + "\" closes a loop";
@@ -227,7 +228,7 @@ class ModelReader {
     }
   }
 
-  // One of the joints that a ball or universal joint became.
+  // Whether this is one of the joints into which a ball or universal joint was split.
   bool IsPartOfAChain(const Joint& joint) const {
     const auto is_cross = [&](int link) {
       return link >= 0 &&
@@ -255,8 +256,8 @@ class ModelReader {
     context_.Warn(sentence, place);
   }
 
-  // A contact sensor detects the collisions that it names, so that with a wrong name it detects
-  // none.
+  // Reports names of collisions that do not exist. A contact sensor with such a name would detect
+  // nothing.
   void CheckCollisionNames(const model::SensorDescription& sensor, const std::string& place) const {
     if (sensor.type != "contact" && sensor.type != "bumper") return;
     for (const std::string& name : model::CollisionNamesOf(sensor)) {
@@ -267,7 +268,8 @@ class ModelReader {
     }
   }
 
-  // `frame` is the link or joint with the sensor; a joint's sensor is on its child link.
+  // Adds a sensor. `frame` is the link or joint that has the sensor; the sensor of a joint is on
+  // its child link.
   void AddSensor(const sdf::ElementPtr& element, const std::string& frame) {
     model::SensorDescription sensor = ReadSensor(element);
     const std::string place = PlaceOfElement(element);
@@ -325,7 +327,8 @@ class ModelReader {
     return geometry::Inverse(model_from_owner) * it->second * raw;
   }
 
-  // Two links may each have a "camera": the later one gets the name of its link as prefix.
+  // Returns a unique name. If two links each have a "camera", the name of the second link becomes a
+  // prefix of the second camera's name.
   std::string UniqueSensorName(const std::string& name, const std::string& owner) {
     if (sensor_names_.insert(name).second) return name;
     std::string unique = owner + "::" + name;
@@ -345,7 +348,7 @@ class ModelReader {
     model_.drive = std::move(drive);
   }
 
-  // GSV's own element: <gsv:movement>planar or rigid</gsv:movement>.
+  // Reads an element of GSV: <gsv:movement>planar or rigid</gsv:movement>.
   void ReadMovement(const sdf::ElementPtr& element) {
     if (element == nullptr || !element->HasElement("gsv:movement")) return;
     const auto text = element->GetElement("gsv:movement")->Get<std::string>();
@@ -357,7 +360,7 @@ class ModelReader {
     }
   }
 
-  // GSV's own element: <gsv:slip>, the slip of the drive's wheels.
+  // Reads an element of GSV: <gsv:slip>, the slip of the drive's wheels.
   void ReadSlipOfDrive(const sdf::ElementPtr& element) {
     const model::Slip slip = ReadSlip(element, context_);
     if (slip.is_none()) return;

@@ -13,7 +13,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// "x y" or "x y radius"; anything else gives a place that is not a number.
+// Reads "x y" or "x y radius". Any other text gives a goal with NaN.
 model::PedestrianGoal GoalFrom(const XMLElement& element) {
   const char* text = element.GetText();
   const std::vector<std::string> words = WordsOf(text == nullptr ? "" : text);

@@ -31,7 +31,7 @@ class SchemaBuilder {
  public:
   explicit SchemaBuilder(const std::set<std::string>& without) : without_(without) {}
 
-  // The description that a file of the schema holds; null if there is none.
+  // Returns the description in a file of the schema; null if there is none.
   sdf::ElementPtr FromFile(const std::string& file) {
     const auto known = elements_.find(file);
     if (known != elements_.end()) return known->second;

@@ -1,4 +1,4 @@
-// The schema of SDFormat as libsdformat has it: a description of each element.
+// The schema of SDFormat in libsdformat: a description of each element.
 #pragma once
 
 #include <set>

@@ -21,7 +21,7 @@ std::string TextOf(const sdf::ParamPtr& param) {
   return text;
 }
 
-// All that an element's description says, but what its children say.
+// Returns the content of an element's description, without the descriptions of its children.
 std::string TextOf(const sdf::Element& element) {
   std::string text = element.GetName() + "|" + element.GetRequired() + "|" +
                      element.GetDescription() + "|" + element.ReferenceSDF() + "|" +
@@ -30,7 +30,7 @@ std::string TextOf(const sdf::Element& element) {
   return text;
 }
 
-// The number of descriptions that were compared.
+// Returns the number of descriptions that were compared.
 int ExpectSame(const sdf::Element& ours, const sdf::Element& theirs, const std::string& path) {
   EXPECT_EQ(TextOf(ours), TextOf(theirs)) << path;
   EXPECT_EQ(ours.GetElementDescriptionCount(), theirs.GetElementDescriptionCount()) << path;

@@ -55,19 +55,19 @@ ParameterValue ValueOf(sdf::Param& param, bool defined_by_sdformat) {
   return defined_by_sdformat ? ParameterValue(text) : FromText(text);
 }
 
-// The parent describes an element that SDFormat defines.
+// Whether SDFormat defines the element: its parent's description has it.
 bool IsDefined(const sdf::Element& element) {
   const sdf::ElementPtr parent = element.GetParent();
   return parent != nullptr && parent->HasElementDescription(element.GetName());
 }
 
-// Elements that libsdformat adds have its defaults.
+// Whether libsdformat has added the element, with its default value.
 bool IsDefault(const sdf::Element& element) {
   return IsDefined(element) && element.GetValue() != nullptr && !element.GetValue()->GetSet();
 }
 
-// Of repeated elements the first counts, except that a contact sensor uses the names of all its
-// collisions.
+// If an element is repeated, the first one is used. For a contact sensor, the names of all its
+// collisions are used.
 void AddParameter(const std::string& path, ParameterValue value, Parameters& parameters) {
   const auto [known, is_new] = parameters.emplace(path, value);
   if (is_new || path != model::kCollisionNames) return;
@@ -107,7 +107,8 @@ model::SensorDescription ReadSensor(const sdf::ElementPtr& sensor) {
   description.type = sensor->Get<std::string>("type");
   description.update_rate = sensor->Get<double>("update_rate", 0.0).first;
   description.visualize = sensor->Get<bool>("visualize", false).first;
-  // A preset fills in all that the file does not give.
+  // If there is a preset, only the parameters in the file are read, because the preset provides the
+  // others.
   Flatten(sensor, "", sensor->HasElement(kPreset), description.parameters);
   return description;
 }

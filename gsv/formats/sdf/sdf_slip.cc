@@ -24,7 +24,7 @@ bool IsWheelSlip(const sdf::Element& plugin) {
   return false;
 }
 
-// A number that is at least 0, or `otherwise` after a warning.
+// Returns a number that is at least 0. For any other value, adds a warning and returns `otherwise`.
 double NumberOf(const sdf::ElementPtr& parent, const char* name, double otherwise,
                 const ReadingContext& context) {
   if (!parent->HasElement(name)) return otherwise;

@@ -3,8 +3,8 @@
 // WheelSlip   <wheel link_name="…"> with <slip_compliance_lateral>, <slip_compliance_longitudinal>,
 //             <wheel_normal_force> (N) and <wheel_radius> (m; default: that of the wheel's
 //             collision).
-// <gsv:slip>  <gsv:longitudinal> and <gsv:lateral>, the compliances, both 0 by default. In a <model>
-//             those of the wheels of its drive; in a <surface> those of wheels that roll on it.
+// <gsv:slip>  <gsv:longitudinal> and <gsv:lateral>, the compliances, both 0 by default. In a
+//             <model> they apply to its drive's wheels, in a <surface> to wheels on it.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ namespace gsv::formats {
 void ReadWheelSlip(const sdf::ElementPtr& plugin, const std::string& scope,
                    const ReadingContext& context, model::Model& model);
 
-// The <gsv:slip> of a model or a surface; none if it has no such element.
+// Returns the <gsv:slip> of a model or a surface; zero slip if there is no such element.
 model::Slip ReadSlip(const sdf::ElementPtr& parent, const ReadingContext& context);
 
 }  // namespace gsv::formats

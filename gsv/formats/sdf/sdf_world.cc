@@ -40,7 +40,8 @@ void ReadPhysics(const sdf::Physics& physics, const ReadingContext& context,
   } else {
     context.Warn("<max_step_size> must lie between 1e-6 s and 1 s; 0.001 s is used", place);
   }
-  // Not positive: as fast as possible, which the caller decides.
+  // A factor that is not positive means "as fast as possible". The caller of this function decides
+  // that.
   if (physics.RealTimeFactor() > 0) world.real_time_factor = physics.RealTimeFactor();
 }
 
@@ -92,7 +93,7 @@ model::Light ReadLight(const sdf::Light& source, const ReadingContext& context) 
   }
   light.diffuse = FromIgnition(source.Diffuse());
   light.intensity = std::max(source.Intensity(), 0.0);
-  // SDFormat has <light_on> since 1.9; libsdformat 12 keeps the element unchanged.
+  // Elements <light_on> exist in SDFormat since 1.9; libsdformat 12 keeps the element unchanged.
   if (source.Element() != nullptr && source.Element()->HasElement("light_on") &&
       !source.Element()->Get<bool>("light_on", true).first) {
     light.intensity = 0;

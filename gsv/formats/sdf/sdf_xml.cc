@@ -82,7 +82,7 @@ base::Status CheckVersion(XmlFile& file, base::Problems& problems) {
   return {};
 }
 
-// Sets the source of each element, in the order of the document, as its user data.
+// Sets the user data of each element to its source, in the order of the document.
 void NameSources(XMLElement& element, std::vector<ElementSource>& sources, std::size_t& next) {
   if (next == sources.size()) return;
   element.SetUserData(&sources[next++]);
@@ -106,8 +106,8 @@ base::Status TakeExpanded(xacro::Expansion expanded, XmlFile& file) {
   return {};
 }
 
-// The effect of a failure depends on the file's name: a robot description that is not named .xacro
-// may have remains of xacro, which other programs ignore.
+// Expands xacro. The effect of a failure depends on the file's name: a robot description whose name
+// does not end in .xacro may contain remains of xacro, which other programs ignore.
 base::Status Expand(const ResourceFinder& finder, const ReadLimits& limits,
                     const std::map<std::string, std::string>& arguments, base::Problems& problems,
                     XmlFile& file) {
@@ -131,7 +131,8 @@ base::Status Expand(const ResourceFinder& finder, const ReadLimits& limits,
 bool BlankLateDeclaration(std::string& text) {
   const std::size_t start = text.find("<?xml ");
   if (start == std::string::npos || start == 0) return false;
-  if (text.find_first_not_of(" \t\r\n") == start) return false;  // tinyxml2 accepts that
+  // Tinyxml2 accepts a declaration after blanks.
+  if (text.find_first_not_of(" \t\r\n") == start) return false;
   const std::size_t end = text.find("?>", start);
   if (end == std::string::npos) return false;
   std::replace_if(

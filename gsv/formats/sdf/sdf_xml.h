@@ -20,7 +20,7 @@ enum class XmlDialect { kSdf, kUrdf };
 struct XmlFile {
   std::filesystem::path path;
   std::filesystem::path named;  // the name as given to ReadXml(), with the arguments for xacro
-  std::vector<ElementSource> sources;  // for a xacro file, the user data of its elements
+  std::vector<ElementSource> sources;  // of a xacro file: the sources of its elements
   std::unique_ptr<tinyxml2::XMLDocument> document;
   tinyxml2::XMLElement* root = nullptr;  // <sdf> or <robot>
   XmlDialect dialect = XmlDialect::kSdf;
@@ -29,8 +29,8 @@ struct XmlFile {
 };
 
 // Reads a file and checks its size, its XML, its root and version. A version newer than 1.9 is read
-// as 1.9: ReportUnsupported() names what is lost. A xacro file is expanded (xacro/xacro.h); its
-// path may have arguments (xacro/arguments.h).
+// as 1.9: ReportUnsupported() names the elements that are lost. A xacro file is expanded
+// (xacro/xacro.h); its path may have arguments (xacro/arguments.h).
 base::Result<XmlFile> ReadXml(const std::filesystem::path& path, const ResourceFinder& finder,
                               const ReadLimits& limits, base::Problems& problems);
 
@@ -43,7 +43,7 @@ void ReportUnsupported(const XmlFile& file, base::Problems& problems);
 class LineKeepingPrinter {
  public:
   void Text(const std::string& text);  // markup, unchanged
-  void Escaped(const char* text);      // text or an attribute's value, on one line
+  void Escaped(const char* text);      // prints a text or an attribute's value on one line
   void Element(const tinyxml2::XMLElement& element);
   std::string Take() { return std::move(out_); }
 

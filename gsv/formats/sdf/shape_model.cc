@@ -150,7 +150,7 @@ class ShapeReader {
         (y * y + z * z) / 12, (x * x + z * z) / 12, (x * x + y * y) / 12};
   }
 
-  // "R G B A", each from 0 to 1.
+  // Returns the colour as "R G B A", with numbers from 0 to 1.
   base::Result<std::string> ColourText() {
     const std::string digits = Take("colour").value_or("b4b4b4");
     unsigned value = 0;

@@ -9,7 +9,7 @@
 
 #include "gsv/base/mutex.h"
 
-// The link option --undefined names this, so that the linker takes this file.
+// The linker option --undefined requests this symbol, so that the linker includes this file.
 extern "C" const char gsv_shared_regex = 0;
 
 #ifdef __GLIBCXX__
@@ -38,7 +38,7 @@ Automaton Compile(const char* first, const char* last, const std::locale& locale
 }
 
 Automaton CompileOnce(const char* first, const char* last, const std::locale& locale, Flags flags) {
-  // The meaning of an expression may depend on the locale.
+  // Expressions in another locale are not shared, because their meaning may depend on the locale.
   if (locale != std::locale::classic()) return Compile(first, last, locale, flags);
   Compiled& compiled = AllCompiled();
   const std::pair key(std::string(first, last), static_cast<unsigned>(flags));
@@ -61,8 +61,8 @@ std::size_t SharedRegexCount() {
   return compiled.automata.size();
 }
 
-// The function of libstdc++ before GCC 12, std::__detail::__compile_nfa<std::regex_traits<char>, const
-// char*>(), which libsdformat calls. Headers of today do not declare it.
+// The function of libstdc++ before GCC 12, std::__detail::__compile_nfa<std::regex_traits<char>,
+// const char*>(), which libsdformat calls. Current headers do not declare it.
 Automaton
 CompileNfa(const char* first, const char* last, const std::locale& locale, Flags flags) __asm__(
     "_ZNSt8__detail13__compile_nfaINSt7__cxx1112regex_traitsIcEEPKcEENSt9enable_ifIXsrNS_20__is_"
@@ -76,7 +76,7 @@ Automaton CompileNfa(const char* first, const char* last, const std::locale& loc
 
 }  // namespace gsv::formats
 
-// The function of today's libstdc++, which libignition-math and this program call.
+// The function of the current libstdc++, which libignition-math and this program call.
 template <>
 void std::basic_regex<char>::_M_compile(const char* first, const char* last, flag_type flags) {
   _M_automaton = gsv::formats::CompileOnce(first, last, _M_loc, flags);

@@ -15,7 +15,7 @@ namespace gsv::formats {
 
 inline constexpr std::size_t kMaxSharedRegexes = 64;
 
-// The number of expressions that are kept; 0 with another C++ library than libstdc++.
+// The number of compiled expressions that are kept; 0 if the C++ library is not libstdc++.
 std::size_t SharedRegexCount();
 
 }  // namespace gsv::formats

@@ -16,14 +16,14 @@ namespace {
 using tinyxml2::XMLElement;
 
 constexpr double kBallRadius = 0.05;     // m
-constexpr char kNoUrdfLimit[] = "1e16";  // the limit that SDFormat writes for none
+constexpr char kNoUrdfLimit[] = "1e16";  // the limit that SDFormat writes for "no limit"
 
 // The requirement of urdfdom for an attribute, and the value that replaces an invalid one.
 struct Attribute {
   const char* element;
   const char* name;
   const char* type;       // see value_text.h
-  const char* otherwise;  // null: the element needs the attribute
+  const char* otherwise;  // null if the element requires the attribute
 };
 
 constexpr Attribute kAttributes[] = {
@@ -233,12 +233,13 @@ class UrdfPartRepair {
         if (name == nullptr)
           LeaveOut(*material, "it has no name");
         else
-          robot.DeleteChild(material);  // it is empty; its users are reported
+          robot.DeleteChild(material);  // the material is empty; the elements that use it are
+                                        // reported
       } else if (!materials_.insert(name).second) {
         LeaveOut(*material, "there is one of that name already");
       }
     }
-    // A material that a visual defines is available to all visuals.
+    // Adds the materials that visuals define, because they are available to all visuals.
     for (auto* link = robot.FirstChildElement("link"); link != nullptr;
          link = link->NextSiblingElement("link")) {
       for (auto* visual = link->FirstChildElement("visual"); visual != nullptr;

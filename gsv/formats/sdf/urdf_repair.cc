@@ -19,9 +19,9 @@ namespace {
 using tinyxml2::XMLElement;
 
 constexpr double kDefaultMass = 0.1;  // kg
-constexpr double kLightest = 1e-6;    // kg; for libsdformat a smaller mass is none
-constexpr std::size_t kMaxNamed = 8;  // in one message
-constexpr char kWorld[] = "world";    // libsdformat treats a link of this name as the world
+constexpr double kLightest = 1e-6;    // kg; libsdformat ignores a smaller mass
+constexpr std::size_t kMaxNamed = 8;  // maximum number of links named in one message
+constexpr char kWorld[] = "world";    // libsdformat treats a link with this name as the world
 
 struct UrdfJoint {
   XMLElement* element;
@@ -138,12 +138,13 @@ class UrdfRepair {
     return link;
   }
 
-  // Keeps only the largest tree of links that joints connect, as urdfdom requires one tree.
+  // Keeps only the largest tree of links that are connected by joints, because urdfdom requires a
+  // single tree.
   void KeepLargestTree() {
-    std::map<std::string, std::vector<std::string>> trees;  // links by root
+    std::map<std::string, std::vector<std::string>> trees;  // links by the root of their tree
     for (const auto& [name, link] : links_) trees[RootOf(name)].push_back(name);
     if (trees.size() < 2) return;
-    // If they are equal, the first by line.
+    // Of trees with equal size, the first by line is kept.
     const auto rank = [&](const auto& tree) {
       return std::make_pair(tree.second.size(), -links_.at(tree.first)->GetLineNum());
     };
@@ -185,7 +186,7 @@ class UrdfRepair {
     return true;
   }
 
-  // Removes a root that only represents the world, so that the robot can move freely.
+  // Removes a root link that only represents the world, so that the robot can move freely.
   void FreeFloatingRoots() {
     for (bool is_changed = true; is_changed;) {
       is_changed = false;
@@ -231,10 +232,10 @@ class UrdfRepair {
     return true;
   }
 
-  // libsdformat drops a link without mass, with its joint and everything below. Links that are
-  // fixed together need one mass.
+  // Gives links a mass. libsdformat drops a link without mass, with its joint and everything below
+  // it. A group of links that are fixed together needs only one mass.
   void GiveMass() {
-    // by the top link of each group of links that are fixed together
+    // whether the group has mass, by the top link of each group of links that are fixed together
     std::map<std::string, bool> has_mass;
     std::vector<std::string> order;
     for (auto* link = robot_.FirstChildElement("link"); link != nullptr;

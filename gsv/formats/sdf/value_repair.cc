@@ -74,7 +74,7 @@ class ValueRepair {
     }
   }
 
-  // Removes an element that cannot be used.
+  // Whether the element cannot be used and must be removed.
   bool IsLeftOut(XMLElement& element) {
     std::string reason;
     if (std::strcmp(element.Name(), "joint") == 0) {
@@ -122,7 +122,7 @@ class ValueRepair {
     element.SetAttribute(key.c_str(), value.c_str());
   }
 
-  // A name that no sibling of this kind has.
+  // Returns a name that no sibling of this kind has.
   static std::string FreeName(const XMLElement& element) {
     std::set<std::string> names;
     const auto* parent = element.Parent()->ToElement();
@@ -154,7 +154,7 @@ class ValueRepair {
     element.SetAttribute("type", taken);
   }
 
-  // Whether it is the direction of a joint's axis.
+  // Whether the element is the direction of a joint's axis.
   static bool IsAxis(const XMLElement& element) {
     const auto* parent = element.Parent()->ToElement();
     return std::strcmp(element.Name(), "xyz") == 0 && parent != nullptr &&

@@ -11,7 +11,7 @@ namespace gsv::formats {
 namespace {
 
 constexpr std::size_t kLongestQuote = 60;
-constexpr double kBrightestByMistake = 2;  // a colour up to this is assumed to mean 1
+constexpr double kBrightestByMistake = 2;  // a colour component up to this value counts as 1
 constexpr double kByteColour = 255;
 
 std::string TextOf(double value) {
@@ -27,7 +27,7 @@ std::string Joined(const std::vector<double>& values) {
 }
 
 struct WrittenNumbers {
-  std::vector<double> values;  // up to the first word that is not a number
+  std::vector<double> values;  // the numbers before the first word that is not a number
   std::size_t words = 0;
   bool are_all_clean = true;
 };
@@ -153,7 +153,7 @@ LeadingNumber LeadingNumberOf(const std::string& word) {
   char* end = nullptr;
   number.value = std::strtod(word.c_str(), &end);
   number.is_number = end != word.c_str();
-  // "1.0f" is the notation of C.
+  // "1.0f" is a number in the notation of C.
   number.is_all =
       number.is_number && (*end == '\0' || ((*end == 'f' || *end == 'F') && end[1] == '\0'));
   return number;
@@ -172,7 +172,7 @@ RepairedText RepairText(const std::string& type, const std::string& text,
   static const std::map<std::string, std::size_t> vectors = {
       {"vector3", 3},  {"ignition::math::Vector3d", 3}, {"vector2d", 2},
       {"vector2i", 2}, {"ignition::math::Vector2d", 2}, {"ignition::math::Vector2i", 2}};
-  if (WordsOf(text).empty()) return {text, ""};  // libsdformat uses the default
+  if (WordsOf(text).empty()) return {text, ""};  // for an empty text, libsdformat uses the default
   if (type == "bool") return RepairFlag(text, otherwise);
   if (type == "double" || type == "float" || type == "int" || type == "unsigned int" ||
       type == "uint64_t") {

@@ -7,19 +7,19 @@
 
 namespace gsv::formats {
 
-// A valid text of a value, and the problem with the original; `wrong` is empty if there was none.
+// A valid text of a value, and the problem with the original text (empty: none).
 struct RepairedText {
   std::string text;
   std::string wrong;
 };
 
-// The words of a text, without blanks and without commas at their ends.
+// Returns the words of a text, without blanks and without commas at their ends.
 std::vector<std::string> WordsOf(std::string_view text);
 
-// The number at the begin of a word, and whether it is all of the word.
+// The number at the start of a word.
 struct LeadingNumber {
   double value = 0;
-  bool is_number = false;  // it begins with a number
+  bool is_number = false;  // whether the word begins with a number
   bool is_all = false;
 };
 LeadingNumber LeadingNumberOf(const std::string& word);
@@ -27,13 +27,13 @@ LeadingNumber LeadingNumberOf(const std::string& word);
 // Whether the text is three numbers, all of them 0.
 bool IsZeroVector(std::string_view text);
 
-// `type` is libsdformat's name of it: "bool", "double", "int", "unsigned int", "pose", "color",
-// "vector3" and so on; texts of other types are always valid. `has_quaternion`: the pose has the
-// form x y z qx qy qz qw.
+// Repairs a text. `type` is libsdformat's name of the type: "bool", "double", "int", "unsigned
+// int", "pose", "color", "vector3" and so on. Texts of other types are always valid. If
+// `has_quaternion` is true, a pose has the form x y z qx qy qz qw.
 RepairedText RepairText(const std::string& type, const std::string& text,
                         const std::string& otherwise, bool has_quaternion = false);
 
-// At most about 60 characters of a text, on one line, for a message.
+// Returns at most about 60 characters of a text, on one line, for a message.
 std::string Quoted(std::string_view text);
 
 }  // namespace gsv::formats

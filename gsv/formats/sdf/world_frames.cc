@@ -35,7 +35,8 @@ base::Result<WrittenPose> ReadPose(const tinyxml2::XMLElement& element) {
   WrittenPose written;
   const tinyxml2::XMLElement* pose = element.FirstChildElement("pose");
   if (pose == nullptr) return written;
-  for (const char* attribute : {"frame", "relative_to"}) {  // `frame` until SDFormat 1.6
+  // The attribute was called `frame` until SDFormat 1.6.
+  for (const char* attribute : {"frame", "relative_to"}) {
     if (const char* value = pose->Attribute(attribute)) written.relative_to = value;
   }
   if (written.relative_to == "world") written.relative_to.clear();

@@ -14,11 +14,11 @@ namespace gsv::formats {
 // A <pose> as in the file.
 struct WrittenPose {
   geometry::Pose pose;
-  std::string relative_to;  // empty: the world
+  std::string relative_to;  // the name of a frame; empty: the world
 };
 
-// The <pose> of an element; default: the identity. Six numbers, with @degrees, or seven with
-// @rotation_format "quat_xyzw". A malformed or infinite one is an error.
+// Reads the <pose> of an element (default: the identity). It has six numbers, optionally with
+// @degrees, or seven with @rotation_format "quat_xyzw". A malformed or infinite pose is an error.
 base::Result<WrittenPose> ReadPose(const tinyxml2::XMLElement& element);
 
 class WorldFrames {
@@ -28,8 +28,8 @@ class WorldFrames {
   void Add(const std::string& name, WrittenPose at, geometry::Pose frame_from_origin = {},
            const std::map<std::string, geometry::Pose>* inner_frames = nullptr);
 
-  // The pose of an added element's origin in the world. Fails for missing names, and for poses that
-  // are relative to each other.
+  // Returns the pose in the world of an element that was added. Fails for missing names, and for
+  // poses that are relative to each other.
   base::Result<geometry::Pose> WorldFrom(const std::string& name) const;
   base::Result<geometry::Pose> WorldFrom(const WrittenPose& pose) const;
 

@@ -75,12 +75,12 @@ class WorldReader {
     WrittenPose at;
     std::string placement_frame;
     std::optional<bool> is_static;
-    bool poses_itself = false;                 // whether its file sets the pose
-    std::size_t distinct = 0;                  // inline: index into distinct_
+    bool poses_itself = false;                 // whether the element that places it sets its pose
+    std::size_t distinct = 0;                  // for an inline model: index into distinct_
     std::shared_ptr<const StoredFile> stored;  // included
   };
 
-  // Inline models that differ only in name and pose.
+  // A group of inline models that differ only in name and pose.
   struct Distinct {
     XMLElement* element;
     std::optional<FramedModel> framed;
@@ -242,7 +242,10 @@ class WorldReader {
 
     element.SetAttribute("name", "");
     const auto script = scripts_.find(&element);
-    const std::string own = script == scripts_.end() ? "" : placement.name;  // no two are equal
+    const std::string own = script == scripts_.end() ? "" : placement.name;  // makes the text
+                                                                             // unique, because each
+                                                                             // script belongs to
+                                                                             // one actor
     const auto [it, is_new] =
         distinct_by_text_.emplace(PrintCompact(element) + own, distinct_.size());
     element.SetAttribute("name", placement.name.c_str());
@@ -275,7 +278,8 @@ class WorldReader {
     }
   }
 
-  // An error in one model must not affect the others: then each is read separately.
+  // If one model has an error, each model is parsed separately, so that the error does not affect
+  // the others.
   void ParseModels(std::size_t first, std::size_t end) {
     base::Problems problems;
     const auto document =
@@ -316,7 +320,7 @@ class WorldReader {
     return name == nullptr ? "" : name;
   }
 
-  // The elements in the order of their lines, as the printer requires.
+  // Returns a document with these elements in the order of their lines, as the printer requires.
   std::string Document(std::size_t first, std::size_t end, bool with_surroundings) const {
     std::vector<const XMLElement*> elements;
     if (with_surroundings) elements.assign(surroundings_.begin(), surroundings_.end());
@@ -378,7 +382,7 @@ class WorldReader {
     return framed ? &*framed : nullptr;
   }
 
-  // The inverse of the placement frame's pose in the model.
+  // Returns the inverse of the placement frame's pose in the model.
   Pose FrameFromModel(const Placement& placement, const FramedModel& framed) {
     if (placement.placement_frame.empty()) return {};
     const auto it = framed.model_from_frame.find(placement.placement_frame);

@@ -18,7 +18,7 @@ using model::JointKind;
 using tinyxml2::XMLElement;
 
 constexpr int kDeepestState = 32;
-// rad or m: a joint this close to zero is set to zero, so that models stay shared.
+// rad or m: a joint position closer to zero than this is set to zero, so that models stay shared.
 constexpr double kAtZero = 1e-9;
 
 std::string NameAttribute(const XMLElement& element) {
@@ -35,7 +35,8 @@ std::optional<Pose> StatePose(const XMLElement& element, const ReadingContext& c
   return std::nullopt;
 }
 
-// Calls `visit` with each child of one of two names: SDFormat 1.12 renamed them.
+// Calls `visit` with each child that has one of two names, because SDFormat 1.12 renamed these
+// elements.
 template <typename Visit>
 void ForEachChild(const XMLElement& parent, const char* name, const char* newer, Visit visit) {
   for (auto* child = parent.FirstChildElement(); child != nullptr;
@@ -46,7 +47,7 @@ void ForEachChild(const XMLElement& parent, const char* name, const char* newer,
   }
 }
 
-// <angle axis="0"> up to 1.11, then <axis_state><position>.
+// Reads <angle axis="0">, which SDFormat has up to 1.11, or <axis_state><position>.
 std::optional<double> PositionOf(const XMLElement& joint) {
   const XMLElement* element = joint.FirstChildElement("angle");
   if (const auto* axis = joint.FirstChildElement("axis_state")) {
@@ -59,7 +60,7 @@ std::optional<double> PositionOf(const XMLElement& joint) {
                                                   : number.value;
 }
 
-// The displacement of a joint's child frame against its parent frame.
+// Returns the displacement of a joint's child frame relative to its parent frame.
 double Displacement(const model::Joint& joint, const Pose& joint_from_moved) {
   if (joint.kind == JointKind::kPrismatic) return Dot(joint.axis, joint_from_moved.position);
   const auto& q = joint_from_moved.orientation;

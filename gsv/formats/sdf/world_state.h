@@ -19,14 +19,14 @@ namespace gsv::formats {
 
 class WorldState {
  public:
-  // Removes the states from a <world>. Inserted models become part of the world. A state with
-  // another world's name is left out with a warning.
+  // Removes the states from a <world>. Inserted models become a part of the world. A state that
+  // belongs to another world is left out with a warning.
   void Read(tinyxml2::XMLElement& world, const ReadingContext& context);
 
   // Whether the state deletes this model or light.
   bool IsDeleted(const std::string& name) const { return deleted_.count(name) != 0; }
 
-  // Places a model and its joints by the state.
+  // Sets the pose and the joint positions of a model from the state.
   void Apply(model::PlacedModel& placed) const;
   std::optional<geometry::Pose> LightPose(const std::string& name) const;
 

@@ -23,7 +23,8 @@ std::string Tag(std::string_view name) { return "<" + std::string(name) + ">"; }
 
 std::string Spaced(const std::string& sentence) { return sentence.empty() ? "" : " " + sentence; }
 
-// A sensor whose type SDFormat does not define accepts all elements of its own type.
+// Whether the type of the sensor is one of GSV's, which SDFormat does not define. Such a sensor
+// accepts all elements of its type.
 bool IsSensorOfOurs(const XMLElement& element) {
   static constexpr std::string_view kTypes[] = {"air_flow",
                                                 "air_pressure",
@@ -94,7 +95,7 @@ class ElementAudit {
                          PlaceOf(file_.path, element) + ": " + PathOf(element)});
   }
 
-  // The reader uses the first world, else the first model, else a light.
+  // Visits the root. The reader uses the first world, else the first model, else a light.
   void VisitRoot(const ElementSupport& root) {
     const XMLElement* taken = nullptr;
     for (const char* kind : {"world", "model", "light"}) {

@@ -22,11 +22,11 @@ namespace gsv::formats {
 
 struct AuditedFile {
   std::filesystem::path path;
-  const tinyxml2::XMLElement* root;  // <sdf> or <robot>
-  int minor_version = 0;             // 9 of SDFormat 1.9; 0 of URDF
+  const tinyxml2::XMLElement* root;  // the element <sdf> or <robot>
+  int minor_version = 0;             // 9 for SDFormat 1.9; 0 for URDF
 };
 
-// Adds one warning for each place, at most kMaxFindings per file and one that counts the rest.
+// Adds one warning per place: at most kMaxFindings, and one with the number of the others.
 void AuditElements(const AuditedFile& file, base::Problems& problems);
 
 inline constexpr int kMaxFindings = 1000;

@@ -17,10 +17,10 @@ struct ElementSource {
   int line = 0;
 };
 
-// "file:line" of an element: that of its ElementSource, or else its line in `file`.
+// Returns "file:line" of an element: that of its ElementSource, or else its line in `file`.
 std::string PlaceOf(const std::filesystem::path& file, const tinyxml2::XMLNode& node);
 
-// "world/model[box]/link[l]": names distinguish siblings.
+// Returns a path such as "world/model[box]/link[l]". Names distinguish siblings.
 std::string PathOf(const tinyxml2::XMLElement& element);
 
 }  // namespace gsv::formats

@@ -49,9 +49,9 @@ bool IsReserved(const std::string& name) {
 // The names of siblings in a model or in a world.
 struct Scope {
   std::map<std::string, const XMLElement*> names;
-  bool is_open = false;  // an include adds names that are not known here
+  bool is_open = false;  // whether an include adds names that are not known here
 
-  // Whether an element of that name may exist. Names of parts of nested models are not checked.
+  // Whether an element with that name may exist. Names of parts of nested models are not checked.
   bool Has(const std::string& name) const {
     if (is_open || name.empty() || IsReserved(name)) return true;
     return names.count(name.substr(0, name.find("::"))) != 0;
@@ -162,7 +162,7 @@ class NamingRules {
     }
   }
 
-  // The parts of a link have different names within each kind.
+  // Checks that the collisions, and the visuals, of a link have different names.
   void CheckLink(const XMLElement& link, const Scope& scope) {
     std::set<std::pair<std::string, std::string>> names;
     for (auto* child = link.FirstChildElement(); child != nullptr;
@@ -204,7 +204,8 @@ class NamingRules {
     Report("its " + std::string(what) + " names \"" + name + "\", which does not exist", element);
   }
 
-  // The link to which a frame or joint of that name is attached; empty if it is not known.
+  // Returns the link to which a frame or joint with that name is attached; empty if it is not
+  // known.
   static std::string LinkOf(std::string name, const Scope& scope) {
     for (int step = 0; step < kMostSteps; ++step) {
       const XMLElement* element = scope.Find(name);
@@ -222,7 +223,8 @@ class NamingRules {
     return {};
   }
 
-  // The reference of an element's pose or, with `attachment`, of its motion.
+  // Returns the frame to which the pose of an element is relative, or with `attachment` the frame
+  // to which it is attached.
   static std::string Next(const XMLElement& element, bool attachment) {
     const std::string_view kind = element.Name();
     const std::string relative_to = attachment ? std::string() : RelativeTo(element);

@@ -12,7 +12,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// Parameters of drives and controllers, by GSV's names or Gazebo's; see sdf_drive.cc.
+// Parameters of drives and controllers, with the names of GSV or of Gazebo; see sdf_drive.cc.
 constexpr std::string_view kParameters[] = {
     "left_joint",
     "right_joint",
@@ -82,7 +82,7 @@ constexpr std::string_view kParameters[] = {
     "angular_velocity",
 };
 
-// GSV's own elements of models and parameters of sensors.
+// Elements of models and parameters of sensors that GSV defines.
 constexpr std::string_view kOurs[] = {
     "movement",
     "slip",

@@ -9,10 +9,10 @@
 
 namespace gsv::formats {
 
-// Sentences about a <plugin>: it is not supported, or a parameter of a drive looks misspelt.
+// Returns sentences about an unsupported <plugin>, or about parameters that look misspelt.
 std::vector<std::string> AboutPlugin(const tinyxml2::XMLElement& plugin);
 
-// A sentence about an element such as <gsv:beem> that looks misspelt; empty about all others.
+// Returns a sentence about an element such as <gsv:beem> that looks misspelt; empty for all others.
 std::string AboutOurElement(std::string_view name);
 
 }  // namespace gsv::formats

@@ -39,7 +39,7 @@ std::string_view Likeliest(std::string_view written, const std::set<std::string_
   return best;
 }
 
-// The shortest path from `parent` down to an element of that name, such as "<axis>".
+// Returns the shortest path from `parent` down to an element with that name, such as "<axis>".
 std::string WayDown(std::string_view written, const ElementSupport& parent, int levels) {
   if (levels == 0) return {};
   std::set<std::string_view> names;

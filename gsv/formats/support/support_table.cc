@@ -15,7 +15,7 @@ std::string_view Trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(' ') - first + 1);
 }
 
-// Removes the text before `separator` and returns it; all of it if there is no separator.
+// Removes the text before `separator` and returns it; the whole text if there is no separator.
 std::string_view TakeUntil(std::string_view& text, std::string_view separator) {
   const std::size_t end = text.find(separator);
   const std::string_view taken = text.substr(0, end);
@@ -31,7 +31,7 @@ Support SupportOf(std::string_view sign) {
   return Support::kNoEffect;
 }
 
-// 9 for "1.9"; 0 for an empty text.
+// Returns 9 for "1.9", and 0 for an empty text.
 int MinorVersion(std::string_view text) {
   if (text.empty()) return 0;
   int minor = 0;

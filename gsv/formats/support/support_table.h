@@ -23,12 +23,12 @@ enum class Support {
 struct ElementSupport {
   std::string name;  // without "@"
   Support support = Support::kFull;
-  int since = 0, until = 0;  // minor versions of SDFormat 1; until 0: still exists
+  int since = 0, until = 0;  // first and last minor version of SDFormat 1 (0: still exists)
   bool is_repeatable = false;
   std::optional<std::string_view> otherwise;  // text with the same meaning as a missing element
   std::string_view note;
 
-  // The element or attribute of that name; null if SDFormat has none there.
+  // Returns the element or attribute with that name; null if SDFormat has none in this element.
   const ElementSupport* Child(std::string_view child) const;
   const ElementSupport* Attribute(std::string_view attribute) const;
 
@@ -36,13 +36,13 @@ struct ElementSupport {
   ByName children, attributes;
   const ElementSupport* definition = nullptr;  // the definition that lists more content
 
-  // For a definition that accepts the elements of others (URDF's <gazebo>).
+  // For a definition that accepts the elements of other definitions (URDF's <gazebo>).
   std::vector<const ElementSupport*> borrowed;
 };
 
 struct PluginSupport {
   Support support;
-  std::string_view part;  // a part of its file's or class's name, in lower case without "-" and "_"
+  std::string_view part;  // part of the file or class name, lower case, no "-" and "_"
   std::string_view note;
 };
 

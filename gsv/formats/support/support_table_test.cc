@@ -46,7 +46,7 @@ TEST(SupportTable, KnowsPluginsByFileOrClass) {
 }
 
 // The description files of libsdformat. Each element and attribute of each version must be in the
-// table, and each default in the table must be the description's.
+// table, and each default in the table must equal that of the description.
 class InstalledSchemaTest : public testing::TestWithParam<int> {
  protected:
   void SetUp() override {
@@ -73,7 +73,8 @@ class InstalledSchemaTest : public testing::TestWithParam<int> {
          include = include->NextSiblingElement("include")) {
       tinyxml2::XMLDocument part;
       const fs::path file = folder_ / include->Attribute("filename");
-      if (part.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) continue;  // some are not installed
+      // Some of the files are not installed.
+      if (part.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) continue;
       const std::string name = part.RootElement()->Attribute("name");
       CompareOne(*part.RootElement(), support.Child(name), path + "/" + name);
     }
@@ -105,7 +106,7 @@ TEST_P(InstalledSchemaTest, IsAllInTheTable) {
     const std::string name = entry.path().stem();
     if (described.RootElement()->FirstChildElement("element") == nullptr &&
         described.RootElement()->FirstChildElement("attribute") == nullptr) {
-      continue;  // it does not describe its content
+      continue;  // the description of this element does not list its content
     }
     Compare(*described.RootElement(), SupportTable::Get().Definition(name), name);
   }

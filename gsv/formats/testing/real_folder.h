@@ -5,7 +5,7 @@
 
 namespace gsv::formats {
 
-// The worlds and robots of other authors, or nothing if they are not installed.
+// Returns the folder of the worlds and robots of other authors; empty if they are not installed.
 inline std::filesystem::path RealFolder() {
   const char* folder = std::getenv("GSV_REAL_DIR");
   if (folder == nullptr || !std::filesystem::is_directory(folder)) return {};

@@ -10,7 +10,7 @@ namespace {
 using geometry::Pose;
 using model::JointKind;
 
-constexpr double kSameFrame = 1e-9;  // m, and the sine of half an angle
+constexpr double kSameFrame = 1e-9;  // tolerance for equal frames: m, and the sine of half an angle
 constexpr const char* kWorldLink = "world";
 
 bool IsIdentity(const Pose& pose) {

@@ -1,9 +1,9 @@
-// A model's links and joints as the one tree that URDF has.
+// Converts a model's links and joints to a single tree, as URDF requires.
 //
-// Frames  URDF has no frame for a joint: it is that of the child link. A joint moves to its child's frame
-//         where that changes nothing. A joint that turns about an axis beside that frame gets an empty link
-//         at its own frame, to which the child is fixed. So every link keeps its frame.
-//         Readers that merge what is fixed (libsdformat) give the merged link the name of the empty one.
+// Frames  URDF has no separate frame for a joint: it is the frame of the child link. A joint moves
+//         to its child's frame if that changes nothing. If a joint turns about an axis that does
+//         not pass through that frame, an empty link is added at the joint's frame, and the child
+//         is fixed to it. So every link keeps its frame. libsdformat merges both under its name.
 #pragma once
 
 #include <string>
@@ -24,11 +24,11 @@ struct UrdfJoint {
 };
 
 struct UrdfTree {
-  std::vector<std::string> empty_links;  // links that the model does not have
+  std::vector<std::string> empty_links;  // names of added links, which the model does not have
   std::vector<UrdfJoint> joints;
 };
 
-// Warnings name what URDF cannot hold: screws, ball joints and links that nothing connects.
+// Warnings name the parts that URDF cannot represent: screws, ball joints and unconnected links.
 UrdfTree MakeUrdfTree(const model::Model& model, base::Problems& problems);
 
 }  // namespace gsv::formats

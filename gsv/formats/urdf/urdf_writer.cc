@@ -18,7 +18,8 @@ using geometry::Pose;
 using geometry::Vector3;
 
 constexpr double kUnlimited = 1e16;  // the value that SDFormat writes for "none"
-constexpr int kSegments = 32;        // around a round shape that becomes a mesh
+constexpr int kSegments = 32;        // number of segments around a round shape that is converted to
+                                     // a mesh
 
 std::string Numbers(std::initializer_list<double> values) {
   std::string text;
@@ -129,7 +130,7 @@ class UrdfText {
     out_.PushAttribute("name", link.name.c_str());
     if (link.inertial.mass > 0) WriteInertial(link.inertial);
     for (const model::Visual& visual : link.visuals) WriteVisual(visual);
-    // libsdformat applies friction to collisions whose names it makes itself.
+    // libsdformat applies friction only to collisions whose names it makes itself.
     const bool is_named = !HasFriction(link);
     for (const model::Collision& collision : link.collisions) {
       WriteShape("collision", is_named ? collision.name : "", collision.link_from_collision,
@@ -151,7 +152,7 @@ class UrdfText {
     out_.CloseElement();
   }
 
-  // One for each material of a mesh that has several.
+  // Writes a visual for each material of a mesh that has several.
   void WriteVisual(const model::Visual& visual) {
     const auto* mesh = std::get_if<geometry::Mesh>(&visual.shape);
     if (mesh == nullptr || visual.materials.size() < 2 || mesh->triangles->parts.size() < 2) {
@@ -207,7 +208,7 @@ class UrdfText {
     out_.CloseElement();
   }
 
-  // Meshes that are shared are written once.
+  // Returns the file of a mesh. Each shared mesh is written once.
   const std::string& MeshFileOf(const geometry::Mesh& mesh, std::optional<std::size_t> part) {
     const auto key = std::make_pair(mesh.triangles.get(), part);
     const auto known = mesh_files_.find(key);
@@ -302,7 +303,7 @@ class UrdfText {
   tinyxml2::XMLPrinter out_;
   Urdf urdf_;
   std::map<ColourKey, std::string> materials_;
-  // The order of the pointers does not affect the output.
+  // The order of the pointers does not affect the output, because the map is only used for lookups.
   std::map<std::pair<const geometry::TriangleMesh*, std::optional<std::size_t>>, std::string>
       mesh_files_;
 };

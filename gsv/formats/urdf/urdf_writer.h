@@ -3,10 +3,10 @@
 //
 // Frames    every link of the model keeps its name and its frame. Links are added where URDF's tree needs
 //           them, see urdf_tree.h.
-// Shapes    URDF has boxes, cylinders, spheres and meshes. All others become meshes. A mesh is an STL file
-//           for each of its materials, since an STL file has none.
-// Gazebo    <gazebo> elements hold what Gazebo adds to URDF: friction, gravity, static models, and that
-//           fixed joints stay. Other readers skip them.
+// Shapes    URDF has boxes, cylinders, spheres and meshes. All others become meshes. A mesh becomes
+//           one STL file for each of its materials, because STL has no materials.
+// Gazebo    <gazebo> elements have Gazebo's additions to URDF: friction, gravity, static models,
+//           and that fixed joints are kept. Other readers ignore them.
 // Left out  sensors, drives and textures, which are warnings; restitution and shadows.
 // Equal models give equal files.
 // Threads   any.
@@ -30,8 +30,8 @@ struct Urdf {
   std::vector<UrdfMesh> meshes;
 };
 
-// In the text, `mesh_prefix` stands before the file names of meshes: "meshes/", "file:///tmp/robot/",
-// "package://robot/meshes/". What URDF cannot hold is appended to `problems`.
+// `mesh_prefix` comes before the file names of meshes: "meshes/", "file:///tmp/robot/",
+// "package://robot/". Parts that URDF cannot represent are reported in `problems`.
 Urdf WriteUrdf(const model::Model& model, const std::string& mesh_prefix, base::Problems& problems);
 
 }  // namespace gsv::formats

@@ -11,16 +11,16 @@ struct NamedFile {
   std::map<std::string, std::string> arguments;  // empty for any file that is not a xacro file
 };
 
-// The name without its arguments.
+// Returns the name without its arguments.
 inline std::string FilePart(const std::string& name) {
   const std::size_t at = name.find(".xacro?");
   return at == std::string::npos ? name : name.substr(0, at + 6);
 }
 
-// Arguments are separated by "&"; %20 and its like are decoded.
+// Splits a name. Arguments are separated by "&"; "%20" and the like are decoded.
 NamedFile SplitArguments(const std::string& name);
 
-// The same name with slashes in its arguments written as %2F: it is a path in one folder then.
+// Returns the name with slashes in its arguments written as %2F, so that it is one path.
 std::string AsPath(const std::string& name);
 
 }  // namespace gsv::formats::xacro

@@ -10,9 +10,11 @@ namespace {
 
 using Kind = Expression::Kind;
 
-constexpr std::size_t kMaxValues = 20'000;  // in a list, including the values in its items
+constexpr std::size_t kMaxValues = 20'000;  // maximum number of values in a list, including the
+                                            // values in its items
 
-// Counts down by the values inside. Lists may share items, so that a few bytes may hold very many.
+// Whether the value has at most `room` values inside; decreases `room`. Lists may share items, so a
+// small expression may produce very many.
 bool Fits(const Value& value, std::size_t& room) {
   if (room == 0) return false;
   --room;
@@ -81,7 +83,7 @@ class Evaluator {
     return Refuse("\"" + name + "\" is not defined");
   }
 
-  // "pi" of `math.pi`: a module is not a value.
+  // Whether the node is a module, such as `math` in `math.pi`. A module is not a value.
   static bool IsModule(const Expression& node) {
     return node.kind == Kind::kName &&
            (node.text == "math" || node.text == "xacro" || node.text == "python");

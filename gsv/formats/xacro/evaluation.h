@@ -15,9 +15,9 @@ namespace gsv::formats::xacro {
 
 // The scope of an expression: the properties, arguments and YAML files that it can use.
 struct EvaluationContext {
-  // A property's value, or none if there is no such property.
+  // Returns a property's value, or nothing if there is no such property.
   std::function<base::Result<std::optional<Value>>(const std::string& name)> property;
-  // The content of a YAML file, and the value of an argument; may be empty.
+  // Return the content of a YAML file, and the value of an argument. Each may be empty.
   std::function<base::Result<Value>(const std::string& file)> load_yaml;
   std::function<base::Result<Value>(const std::string& name)> argument;
   // Receives the texts of xacro.message(), xacro.warning() and xacro.error(); may be empty.

@@ -23,7 +23,7 @@ bool IsIdentifier(const std::string& name) {
                      [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c >= 0x80; });
 }
 
-// Elements of robot descriptions that a macro without the prefix cannot replace.
+// Whether the element belongs to robot descriptions; a macro without the prefix cannot replace it.
 bool IsOfUrdf(const std::string& name) {
   for (const char* known :
        {"link",   "joint",    "visual",   "collision", "inertial",     "inertia",
@@ -119,7 +119,8 @@ Expander::Handler Expander::HandlerOf(const Node& node, bool takes_plain_names) 
   struct Known {
     const char* name;
     Handler handler;
-    std::vector<const char*> attributes;  // attributes of the form without the prefix
+    std::vector<const char*> attributes;  // attributes of the form of the element without the
+                                          // prefix
   };
   static const std::vector<Known> kKnown{
       {"property", &Expander::OnProperty, {"name", "value"}},
@@ -173,7 +174,8 @@ base::Status Expander::UnknownMacro(const std::string& name, const Node& call) {
   return {};
 }
 
-// Without the prefix a name is not sufficient: <camera> in a macro "camera" is an element.
+// Whether the node looks like a call. Without the prefix, the name is not sufficient: <camera> in a
+// macro "camera" is an element.
 bool Expander::LooksLikeCall(const Node& node, const Macro& macro) const {
   if (active_.contains(macro.definition.get())) return false;
   if (!macro.definition->text.starts_with("xacro:")) return true;
@@ -501,7 +503,8 @@ base::Result<Value> Expander::Command(const std::string& command, const Node& at
     if (missing_packages_.insert(rest).second) {
       problems_.push_back({base::Problem::Severity::kWarning, folder.error().message, at.place()});
     }
-    return Value{"package://" + rest};  // the user of the name then reports what is missing
+    return Value{"package://" + rest};  // the element that uses the name later reports the missing
+                                        // package
   }
   if (name == "dirname") return Value{at.file->parent_path().string()};
   if (name == "eval") {

@@ -68,7 +68,7 @@ class Expander {
   std::map<std::string, std::string> arguments_;
   const Resolve resolve_;
   Space main_;
-  bool takes_plain_names_ = false;  // <macro> for <xacro:macro>, in descriptions of robots
+  bool takes_plain_names_ = false;  // whether <macro> means <xacro:macro>
   std::set<const Node*> active_;    // definitions of the macros that are being expanded
   std::string missing_file_;        // the last include that was not found; empty if there was none
   std::set<std::string> missing_packages_;

@@ -1,4 +1,5 @@
-// Expands xacro files as xacro's documentation describes it; expected values are by hand.
+// Tests the expansion of xacro files as xacro's documentation describes it. The expected values
+// were computed by hand.
 #include <gmock/gmock.h>
 
 #include "gsv/base/test_folder.h"
@@ -14,7 +15,7 @@ using testing::SizeIs;
 
 class ExpanderTest : public testing::Test {
  protected:
-  // The root's content, on one line; or "refused: …" with the place.
+  // Returns the content of the root on one line; or "refused: …" with the place.
   std::string Expanded(const std::string& content, std::map<std::string, std::string> args = {}) {
     const auto file = folder_.Write("robot.xacro", "<robot>" + content + "</robot>");
     tinyxml2::XMLDocument document;
@@ -177,7 +178,7 @@ TEST_F(ExpanderTest, SkipsCallsOfMacrosInAMissingFile) {
               HasSubstr("robot.xacro:2: the include of absent.xacro is ignored: cannot find"));
   EXPECT_THAT(problems_[1].Sentence(),
               HasSubstr("robot.xacro:3: the call of the macro \"lidar\" is ignored"));
-  // A missing value cannot be left out.
+  // A missing value is an error, even where the element could be left out.
   EXPECT_THAT(Expanded("<xacro:include filename='absent.xacro'/><a b='${height}'/>"),
               HasSubstr("(absent.xacro is missing)"));
 }
@@ -200,7 +201,7 @@ TEST_F(ExpanderTest, KeepsTheSourceOfEachElement) {
   }
   EXPECT_EQ(places, (std::vector<std::string>{"robot.xacro:1", "robot.xacro:3", "part.xacro:3",
                                               "robot.xacro:5"}));
-  // In the text <b/> is on the line of the call.
+  // In the output, <b/> is on the line of the call.
   tinyxml2::XMLDocument plain;
   ASSERT_EQ(plain.Parse(expanded->xml.c_str()), tinyxml2::XML_SUCCESS);
   EXPECT_EQ(plain.RootElement()->FirstChildElement("b")->GetLineNum(), 4);

@@ -138,7 +138,7 @@ class Parser {
   }
 
  private:
-  // After an error all results are null, and nothing more is read.
+  // Stores the error. After it, all results are null, and nothing more is read.
   ParsedPtr Refuse(const std::string& why) {
     if (error_.empty()) error_ = why;
     at_ = tokens_.size() - 1;

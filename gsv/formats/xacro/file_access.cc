@@ -21,7 +21,7 @@ tl::unexpected<base::Error> NoFile(const std::string& why, const std::string& wh
   return base::Fail(base::ErrorCode::kBadModel, why, where);
 }
 
-// The error for a missing file; all other errors are kBadModel.
+// Returns the error for a missing file. All other errors are kBadModel.
 tl::unexpected<base::Error> Missing(const std::string& why) {
   return base::Fail(base::ErrorCode::kNotFound, why);
 }

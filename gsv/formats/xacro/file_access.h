@@ -18,8 +18,8 @@ class FileAccess {
   FileAccess(const ResourceFinder& finder, const ReadLimits& limits)
       : finder_(finder), limits_(limits) {}
 
-  // The root of an included file, and the values of a YAML file; the file `in` contains `name`.
-  // kNotFound: there is no such file or package; kBadModel: it cannot be used.
+  // Return the root of an included file, and the values of a YAML file. `in` is the file that
+  // contains `name`. kNotFound: there is no such file or package. kBadModel: it cannot be used.
   base::Result<NodePtr> ReadIncluded(const std::string& name, const std::filesystem::path& in);
   base::Result<Value> ReadYaml(const std::string& name, const std::filesystem::path& in);
   base::Result<std::filesystem::path> Package(const std::string& name,
@@ -35,7 +35,7 @@ class FileAccess {
   std::map<std::string, std::filesystem::path> packages_;
   std::map<std::filesystem::path, NodePtr> included_;
   std::map<std::filesystem::path, Value> yaml_;
-  std::size_t bytes_ = 0;  // read so far
+  std::size_t bytes_ = 0;  // number of bytes that were read
   int includes_ = 0;
 };
 

@@ -30,7 +30,7 @@ base::Result<Value> Whole(double value) {
   return Value{static_cast<std::int64_t>(value)};
 }
 
-// Functions of one real number.
+// A function of one real number.
 using Curve = double (*)(double);
 const std::map<std::string, Curve>& Curves() {
   static const std::map<std::string, Curve> curves{
@@ -202,7 +202,7 @@ bool AreNumbers(const Arguments& a) {
   return std::all_of(a.begin(), a.end(), [](const Value& value) { return value.is_number(); });
 }
 
-// A real result of real arguments; an error where Python raises an exception.
+// Returns a real result of real arguments, or an error where Python raises an exception.
 base::Result<Value> RealResult(const std::string& name, double result, const Arguments& a) {
   const bool are_finite =
       std::all_of(a.begin(), a.end(), [](const Value& v) { return std::isfinite(Real(v)); });

@@ -5,7 +5,7 @@ namespace {
 
 bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-// Reads up to a blank outside of quotes and braces.
+// Reads up to a blank that is outside of quotes and braces.
 std::string ReadWord(const std::string& text, std::size_t& at) {
   std::string word;
   bool in_quotes = false;
@@ -53,7 +53,7 @@ std::vector<Parameter> ParseParameters(const std::string& text) {
       SkipBlanks(text, at);
       ReadDefault(ReadWord(text, at), parameter);
     } else if (at < text.size() && !IsBlank(text[at])) {
-      ++at;  // a lone colon
+      ++at;  // a colon without "="
     }
     for (; parameter.name.starts_with('*'); parameter.name.erase(0, 1)) {
       parameter.kind = parameter.kind == Parameter::Kind::kValue ? Parameter::Kind::kBlock

@@ -12,16 +12,16 @@ namespace gsv::formats::xacro {
 struct Parameter {
   enum class Kind {
     kValue,
-    kBlock,     // *name: an element
-    kChildren,  // **name: what is in an element
+    kBlock,     // *name: the parameter is an element
+    kChildren,  // **name: the parameter is the content of an element
   };
   std::string name;  // without asterisks
   Kind kind = Kind::kValue;
-  bool is_forwarded = false;  // ^: the caller's property of that name, if there is one
+  bool is_forwarded = false;  // ^: the default is the caller's property
   std::optional<std::string> otherwise;
 };
 
-// "a b:=1 c:=^|'x y' *block": separated by blanks; in quotes and in ${…} blanks do not separate.
+// Parses "a b:=1 c:=^|'x y' *block". Blanks outside of quotes and ${…} separate parameters.
 std::vector<Parameter> ParseParameters(const std::string& text);
 
 struct Macro {

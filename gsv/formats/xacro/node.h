@@ -20,7 +20,7 @@ struct Node {
   std::vector<std::shared_ptr<const Node>> children;
   std::shared_ptr<const std::filesystem::path> file;
   int line = 0;       // in `file`
-  int call_line = 0;  // in the main file: its own, or that of the call or include
+  int call_line = 0;  // line in the main file: of the node itself, or of the call or include
 
   // Returns null if there is none.
   const std::string* attribute(const std::string& name) const;
@@ -29,13 +29,13 @@ struct Node {
 
 using NodePtr = std::shared_ptr<const Node>;
 
-// Leaves out comments, and texts of blanks.
+// Converts an element. Leaves out comments, and texts that consist of blanks.
 NodePtr ToNode(const tinyxml2::XMLElement& element,
                const std::shared_ptr<const std::filesystem::path>& file);
 
-// XML in which each element is on its node's call line, or below if lines would go back, and the
-// source of each element in the order of the document. Ends soon after `max_bytes`: nodes may share
-// children, so that a few nodes can be a very long text.
+// Returns XML in which each element is on its node's call line, or on a later line if lines would
+// decrease, and the source of each element in the order of the document. Ends soon after
+// `max_bytes`: nodes may share children, so a few nodes may become a very long text.
 Expansion ToXml(const Node& node, std::size_t max_bytes);
 
 }  // namespace gsv::formats::xacro

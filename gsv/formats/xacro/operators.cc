@@ -17,7 +17,7 @@ tl::unexpected<base::Error> WrongTypes(const std::string& sign, const Value& a, 
   return WrongOperand("\"" + sign + "\" does not take " + TypeName(a) + " and " + TypeName(b));
 }
 
-// A bool counts as 0 or 1.
+// Returns an integer. A bool counts as 0 or 1.
 std::optional<std::int64_t> IntegerIn(const Value& value) {
   if (const auto* truth = value.as<bool>()) return *truth ? 1 : 0;
   if (const auto* number = value.as<std::int64_t>()) return *number;
@@ -31,7 +31,7 @@ double NumberIn(const Value& value) {
 
 base::Result<Value> Power(std::int64_t base, std::int64_t exponent) {
   std::int64_t power = 1;
-  // |base| >= 2 exceeds 64 bits after 63 iterations.
+  // A power with |base| >= 2 exceeds 64 bits after 63 iterations.
   if (base == 0 || base == 1) return Value{exponent == 0 ? std::int64_t{1} : base};
   if (base == -1) return Value{std::int64_t{exponent % 2 == 0 ? 1 : -1}};
   for (std::int64_t i = 0; i < exponent; ++i) {
@@ -55,7 +55,7 @@ base::Result<Value> ApplyToIntegers(const std::string& sign, std::int64_t a, std
       overflows = __builtin_sub_overflow(std::int64_t{0}, a, &result);
       if (sign == "%") return Value{std::int64_t{0}};
     } else {
-      // Rounded down, as Python does.
+      // The quotient is rounded down, as in Python.
       const bool is_uneven = a % b != 0 && (a < 0) != (b < 0);
       result = sign == "//" ? a / b - (is_uneven ? 1 : 0) : a % b + (is_uneven ? b : 0);
     }

@@ -9,8 +9,8 @@
 
 namespace gsv::formats::xacro {
 
-// A folder of that name where the finder looks for package://NAME; else, up to five folders above
-// the naming file, a folder whose package.xml has that name, or one beside it.
+// Returns a folder with that name where the finder looks for package://NAME. Else a folder whose
+// package.xml has that name: one of five folders above the naming file, or beside one.
 base::Result<std::filesystem::path> FindPackage(const std::string& name,
                                                 const std::filesystem::path& naming_file,
                                                 const ResourceFinder& finder);

@@ -1,4 +1,4 @@
-// Scopes of properties, blocks and macros; each scope sees those around it.
+// Scopes of properties, blocks and macros. Each scope can access the scopes around it.
 #pragma once
 
 #include <functional>
@@ -22,7 +22,7 @@ struct Property {
   Value value;
   NodePtr defined_at;
   bool is_lazy = false;
-  bool is_resolving = false;  // detects properties that need themselves
+  bool is_resolving = false;  // used to detect properties that refer to themselves
 };
 
 // The nodes that <xacro:insert_block> inserts.
@@ -35,13 +35,13 @@ using Resolve = std::function<base::Result<Value>(const std::string& text, const
 
 class Scope final : public Names {
  public:
-  // `parent` must outlive this scope; null: the outermost.
+  // `parent` must outlive this scope. It is null for the outermost scope.
   Scope(Scope* parent, const Resolve& resolve) : parent_(parent), resolve_(resolve) {}
 
   Scope* parent() { return parent_; }
   Scope& outermost() { return parent_ == nullptr ? *this : parent_->outermost(); }
 
-  // Converts a text that is a number or truth value.
+  // Sets a property. Converts a text that is a number or truth value.
   void Set(const std::string& name, const Value& value, const NodePtr& at, bool is_lazy);
   void Remove(const std::string& name) { properties_.erase(name); }
   bool Has(const std::string& name) const;
@@ -63,7 +63,7 @@ struct Space {
   Space(Space* outer_space, Scope* outer_scope, const Resolve& resolve)
       : outer(outer_space), scope(outer_scope, resolve) {}
 
-  // The macro of that name, such as "wheel" or "arm.gripper", and the space that it is in.
+  // Returns the macro with that name, such as "wheel" or "arm.gripper", and its space.
   std::pair<const Macro*, Space*> FindMacro(const std::string& name);
 
   Space* const outer;

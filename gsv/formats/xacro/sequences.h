@@ -1,5 +1,5 @@
-// Python's functions that make a list of others: range, reversed, sorted, enumerate, zip, and any
-// and all.
+// Python's functions of lists: range, reversed, sorted, enumerate, zip, and any and
+// all.
 #pragma once
 
 #include <string>
@@ -11,11 +11,11 @@
 namespace gsv::formats::xacro {
 
 bool IsSequenceFunction(const std::string& name);
-// kBadModel for arguments that do not fit, and for lists of more than 10,000 values.
+// Returns kBadModel for invalid arguments, and for lists of more than 10,000 values.
 base::Result<Value> CallSequenceFunction(const std::string& name,
                                          const std::vector<Value>& arguments);
 
-// "{}", "{N}" and "{:.Df}" of str.format(): other fields are refused.
+// Formats "{}", "{N}" and "{:.Df}" as str.format() does. Other fields are refused.
 base::Result<Value> Formatted(const std::string& text, const std::vector<Value>& arguments);
 
 }  // namespace gsv::formats::xacro

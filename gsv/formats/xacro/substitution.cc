@@ -4,10 +4,10 @@ namespace gsv::formats::xacro {
 namespace {
 
 constexpr std::size_t kLongestSubstitution = 1u << 20;
-constexpr int kDeepestSubstitution = 8;  // ${…} in $(…) in ${…}
+constexpr int kDeepestSubstitution = 8;  // maximum nesting, as in ${…} in $(…) in ${…}
 
-// The position where the bracket at `open` closes, except in strings and inner brackets; npos:
-// none.
+// Returns the position at which the bracket at `open` closes, ignoring strings and inner brackets;
+// npos if it does not close.
 std::size_t ClosingOf(const std::string& text, std::size_t open) {
   const char opening = text[open], closing = opening == '{' ? '}' : ')';
   int depth = 0;
@@ -25,7 +25,7 @@ std::size_t ClosingOf(const std::string& text, std::size_t open) {
       return i;
     }
   }
-  // An unclosed apostrophe in an expression is ignored.
+  // An apostrophe that is not closed in an expression is ignored.
   return quote == 0 ? std::string::npos : text.find(closing, open);
 }
 

@@ -14,7 +14,7 @@ namespace gsv::formats::xacro {
 // Returns the value of "$(command)". `command` includes the argument: "arg name", "find package".
 using Command = std::function<base::Result<Value>(const std::string& command)>;
 
-// The value of the expression if the text is a single ${expression}; otherwise a text.
+// Returns the value of the expression if the text is a single ${expression}; otherwise a text.
 base::Result<Value> Substitute(const std::string& text, const EvaluationContext& context,
                                const Command& command);
 

@@ -9,7 +9,7 @@
 namespace gsv::formats::xacro {
 namespace {
 
-constexpr int kDeepestText = 32;  // lists in lists
+constexpr int kDeepestText = 32;  // maximum nesting of lists in a text
 
 std::string Trimmed(const std::string& text) {
   constexpr const char* kBlanks = " \t\n\r\f\v";
@@ -124,7 +124,7 @@ std::string FloatText(double value) {
   const std::string text(digits.data(), end);
   const std::size_t e = text.find('e');
   const int exponent = std::atoi(text.c_str() + e + 1);
-  // Python: decimals for exponents from -4 to 15.
+  // As in Python, exponents from -4 to 15 are written as decimals.
   if (exponent < -4 || exponent >= 16) {
     return text.substr(0, e) + "e" + (exponent < 0 ? "-" : "+") +
            (std::abs(exponent) < 10 ? "0" : "") + std::to_string(std::abs(exponent));

@@ -1,4 +1,4 @@
-// The values of xacro's expressions: those types of Python that robot descriptions use.
+// The values of xacro's expressions: the types of Python that robot descriptions use.
 #pragma once
 
 #include <cstdint>
@@ -39,33 +39,33 @@ struct Value {
   // Returns the elements of a list or tuple, else null.
   const List* items() const;
   const Dictionary* dictionary() const;
-  bool is_number() const;  // bool, int or float
+  bool is_number() const;  // Whether the value is a bool, an int or a float.
 };
 
 Value MakeList(List items);
 Value MakeTuple(List items);
 Value MakeDictionary(Dictionary entries);
 
-// "int", "str", … for messages.
+// Returns "int", "str", … for messages.
 const char* TypeName(const Value& value);
 
-// Equals Python's str(). Floats become the shortest text that is read back as the same number.
+// Converts like Python's str(). Floats get the shortest text that restores the same number.
 std::string ToText(const Value& value);
 std::string FloatText(double value);
 
 bool IsTrue(const Value& value);
-// Equals Python's ==. Numbers are compared by value, and values of other types differ.
+// Compares like Python's ==. Numbers are compared by value, and values of other types differ.
 bool AreEqual(const Value& a, const Value& b);
 
 // Converts a property's or a parameter's text to a number or truth value if it is one: "2" is 2,
-// "2.0" a float, "true" a bool. A text in single quotes loses them; one with "_" stays a text.
+// "2.0" a float, "true" a bool. Removes single quotes around a text. A text with "_" stays a text.
 Value FromLiteral(const std::string& text);
 
-// Python's int() and float() of a text; none if that would fail.
+// Convert a text like Python's int() and float(); nothing if that would fail.
 std::optional<std::int64_t> ParseInteger(const std::string& text);
 std::optional<double> ParseFloat(const std::string& text);
 
-// The truth value of a condition for <xacro:if>; none if it is neither true nor false.
+// Returns the truth value of a condition for <xacro:if>; nothing if it is neither true nor false.
 std::optional<bool> ConditionOf(const Value& value);
 
 }  // namespace gsv::formats::xacro

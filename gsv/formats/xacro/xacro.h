@@ -32,7 +32,7 @@ bool NeedsExpansion(const tinyxml2::XMLElement& root, const std::filesystem::pat
 struct ExpandOptions {
   const ResourceFinder& finder;
   const ReadLimits& limits;
-  std::map<std::string, std::string> arguments;  // over the defaults of <xacro:arg>
+  std::map<std::string, std::string> arguments;  // values that override the defaults of <xacro:arg>
 };
 
 struct Expansion {

@@ -19,7 +19,7 @@ bool Contains(const std::vector<std::string>& list, const std::string& value) {
   return std::find(list.begin(), list.end(), value) != list.end();
 }
 
-// Text from an untrusted client, short enough to repeat in a message.
+// Quotes a text from an untrusted client, shortened so that a message can repeat it.
 std::string Quoted(std::string_view text) { return "'" + std::string(text.substr(0, 100)) + "'"; }
 
 }  // namespace

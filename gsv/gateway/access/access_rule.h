@@ -2,8 +2,8 @@
 // programs.
 //
 // A page from any site may try to reach 127.0.0.1 (cross-site requests, WebSockets, DNS rebinding).
-// The Host header has the name under which the browser reached the server, the Origin header the
-// origin of the page. Browsers let pages forge neither.
+// The Host header has the name under which the browser reached the server, and the Origin header
+// has the origin of the page. Browsers prevent pages from forging them.
 #pragma once
 
 #include <cstdint>

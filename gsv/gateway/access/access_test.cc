@@ -60,7 +60,7 @@ TEST(Permissions, FollowTheRoute) {
   options.factory = &factory;
   options.recordings_folder = ::testing::TempDir();
   const auto gateway = Gateway::Start(options, directory).value();
-  // The permission, and the simulation on which no other viewer may hold control, or "".
+  // A permission, and the simulation that no other viewer may control ("" if there is none).
   using Taken = std::pair<Permission, std::string>;
   const auto taken = [&](const char* method, const char* target) {
     const Router::Match match = gateway->router().Find(method, ParseTarget(target).value());
@@ -92,7 +92,8 @@ TEST(Permissions, FollowTheRoute) {
     const bool is_private = route.pattern.starts_with("/replays/") ||
                             route.pattern.starts_with("/api/recordings") ||
                             route.pattern.starts_with("/api/viewers") ||
-                            route.pattern.ends_with("/history");  // a replay of one's own
+                            route.pattern.ends_with("/history");  // opens a replay that belongs to
+                                                                  // this viewer alone
     if (route.method == "GET" || is_private) continue;
     EXPECT_EQ(route.permission, control) << route.pattern;
     EXPECT_EQ(route.needs_control, route.pattern.find("{name}") != std::string::npos)

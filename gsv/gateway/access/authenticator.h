@@ -20,7 +20,7 @@ struct Credentials {
 
 struct Principal {
   Permission permission = Permission::kNone;
-  bool showed_credentials = false;  // valid or not: a refusal is 403, otherwise 401
+  bool showed_credentials = false;  // valid or not; a refusal is then 403, not 401
   // The time at which the permission ends and a WebSocket is closed. nullopt: never.
   std::optional<std::chrono::steady_clock::time_point> expires{};
 };

@@ -1,4 +1,4 @@
-// Authenticators that answer later, and permissions that expire.
+// Tests authenticators that answer later, and permissions that expire.
 #include "gsv/gateway/access/authenticator.h"
 
 #include <condition_variable>
@@ -29,7 +29,7 @@ class Desk final : public Authenticator {
   }
   std::string Refusal(const Principal&, Permission) const override { return "not for you"; }
 
-  // The token of the next question, which gets this answer.
+  // Answers the next question, and returns the token that it contains.
   std::string AnswerNext(const Principal& principal) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return !questions_.empty(); });

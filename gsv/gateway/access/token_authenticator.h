@@ -29,7 +29,7 @@ base::Status CheckToken(std::string_view token);
 
 class TokenAuthenticator final : public Authenticator {
  public:
-  // `is_exposed`: other machines can reach the server.
+  // `is_exposed` means that other machines can reach the server.
   TokenAuthenticator(Tokens tokens, bool is_exposed)
       : tokens_(std::move(tokens)), is_exposed_(is_exposed) {}
 
@@ -37,7 +37,7 @@ class TokenAuthenticator final : public Authenticator {
   void Authenticate(const Credentials& credentials, Answer answer) override;
   std::string Refusal(const Principal& principal, Permission needed) const override;
 
-  // The permission of a client with `token`; empty: none.
+  // Returns the permission of a client with `token`, which is empty if it has none.
   Permission PermissionOf(std::string_view token) const;
 
  private:
@@ -45,10 +45,10 @@ class TokenAuthenticator final : public Authenticator {
   const bool is_exposed_;
 };
 
-// Compares in constant time.
+// Compares two secrets in constant time.
 bool EqualsSecret(std::string_view shown, std::string_view secret);
 
-// The token of "Authorization: Bearer TOKEN"; empty: none.
+// Returns the token of "Authorization: Bearer TOKEN"; empty if there is none.
 std::string_view BearerToken(std::string_view authorization);
 
 }  // namespace gsv::gateway::access

@@ -15,7 +15,7 @@ std::string NewKey() {
   return fmt::format("{:08x}{:08x}{:08x}{:08x}", random(), random(), random(), random());
 }
 
-// One line of limited length, without a partial character at its end.
+// Returns the name as one line of limited length, without an incomplete character at its end.
 std::string CleanName(const std::string& name) {
   std::string clean;
   for (const char c : name) {
@@ -218,7 +218,7 @@ void ViewerRegistry::ReleaseControl(const std::string& key) {
   ++version_;
 }
 
-// A new holder of control answers the next request.
+// When control passes to another viewer, that viewer becomes responsible for the next request.
 void ViewerRegistry::PassControl(Control& control, Time now) {
   control.holder = control.questions.front().key;
   control.questions.pop_front();

@@ -32,17 +32,17 @@ class ViewerRegistry {
   static constexpr std::size_t kMaxViewers = 1000;
 
   struct ViewerState {
-    std::uint64_t number = 0;  // never used again
+    std::uint64_t number = 0;  // the number of the viewer, which is never used again
     std::string name;
-    std::string simulation;  // selected; empty: none
-    bool holds = false;      // control of it
+    std::string simulation;  // the selected simulation; empty if there is none
+    bool holds = false;      // whether the viewer has control of this simulation
     std::size_t asks = 0;    // position in the queue for control, from 1; 0: not waiting
     std::chrono::milliseconds
-        left{};  // For the first in the queue: time until control passes without an answer.
+        left{};  // first in the queue: time until control passes without an answer
   };
   struct ViewerList {
     std::vector<ViewerState> viewers;  // by number
-    std::uint64_t you = 0;             // 0: not a viewer
+    std::uint64_t you = 0;             // number of the calling viewer; 0 if it is not a viewer
   };
   struct Admission {
     std::uint64_t number = 0;

@@ -12,7 +12,7 @@ using std::chrono::seconds;
 // Two viewers and a clock that the test sets.
 class ViewerRegistryTest : public ::testing::Test {
  protected:
-  // Both viewers send requests until then.
+  // Advances the clock. Both viewers send requests until then.
   void WaitUntil(int second) {
     for (; now_ < start_ + seconds(second); now_ += seconds(1)) {
       registry_.List(ada_.key, now_);
@@ -90,7 +90,7 @@ TEST_F(ViewerRegistryTest, ControlPassesWhenTheHolderLeavesOrIsSilent) {
   ASSERT_TRUE(registry_.Leave(ada_.key, now_));
   EXPECT_EQ(Holder(), bob_.number);
   EXPECT_FALSE(registry_.RequestControl(ada_.key, now_));
-  now_ += seconds(9);  // Bob's machine sleeps
+  now_ += seconds(9);  // Bob's machine is suspended, so it sends nothing
   EXPECT_TRUE(CheckControl(""));
   EXPECT_TRUE(registry_.List("", now_).viewers.empty());
   EXPECT_EQ(registry_.Rename(bob_.key, "Bob", now_).error().code, base::ErrorCode::kNotFound);
@@ -111,7 +111,8 @@ TEST_F(ViewerRegistryTest, EachSimulationHasItsOwnHolder) {
 TEST_F(ViewerRegistryTest, AHolderWhoSelectsAnotherSimulationReleasesControl) {
   ASSERT_TRUE(registry_.RequestControl(ada_.key, now_));
   ASSERT_TRUE(registry_.RequestControl(bob_.key, now_));
-  ASSERT_TRUE(registry_.SelectSimulation(ada_.key, "arena", now_));  // she views it already
+  ASSERT_TRUE(registry_.SelectSimulation(ada_.key, "arena", now_));  // Ada already views this
+                                                                     // simulation
   EXPECT_EQ(Holder(), ada_.number);
   ASSERT_TRUE(registry_.SelectSimulation(ada_.key, "", now_));
   EXPECT_EQ(Holder(), bob_.number);
@@ -131,7 +132,7 @@ TEST_F(ViewerRegistryTest, TheVersionGrowsWithEachChange) {
   EXPECT_FALSE(is_news());
   ASSERT_TRUE(registry_.Rename(bob_.key, "Robert", now_));
   EXPECT_TRUE(is_news());
-  now_ += seconds(9);  // both are silent
+  now_ += seconds(9);  // both viewers have sent nothing for too long
   EXPECT_TRUE(is_news());
   EXPECT_FALSE(is_news());
 }

@@ -11,7 +11,7 @@
 
 namespace gsv::gateway::access {
 
-// The viewers as in GET /api/viewers, without `you` if it is 0.
+// Returns the viewers as in GET /api/viewers, without `you` if it is 0.
 std::string ViewerListJson(const ViewerRegistry::ViewerList& standing);
 
 class ViewersApi {

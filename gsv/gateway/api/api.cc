@@ -14,7 +14,7 @@
 namespace gsv::gateway {
 namespace {
 
-// Answers about the robot of `?robot=NAME`, or about all.
+// Answers about the robot in `?robot=NAME`, or about all robots.
 template <typename Make>
 Response OfRobot(const simulation::Simulation& simulation, const Request& request, Make make) {
   const auto found = request.target.query.find("robot");
@@ -117,7 +117,7 @@ Response Api::Scene(const SimulationPointer& simulation) {
       200, presentation::SceneJson(*simulation, models_.identify(), models_.identify_collisions()));
 }
 
-// A read-only request does not change the simulation; the list is for viewers.
+// Advertises topics for viewers. The request is read-only for the simulation.
 Response Api::Topics(const SimulationPointer& simulation, const std::string& robot) const {
   if (simulation->snapshot()->layout->Find(robot) < 0) {
     return ErrorResponse(404, "there is no robot '" + robot + "'");

@@ -48,7 +48,7 @@ class ApiTest : public ::testing::Test {
   const std::string path_ = "/api/simulations/first%20light";
 };
 
-// Remembers the commands that it got.
+// Stores the commands that it gets.
 class FakeRecordings final : public RecordingSwitch {
  public:
   Totals totals() override { return {}; }
@@ -276,7 +276,8 @@ TEST_F(ApiTest, TheSceneDescribesAllBodies) {
   const json scene = AskJson("GET", path_ + "/scene", 200);
   EXPECT_EQ(scene["layout_version"], 1);
   EXPECT_EQ(scene["name"], "arena");
-  ASSERT_EQ(scene["bodies"].size(), 8u);  // avatar, 4 crates, floor, 2 robots
+  ASSERT_EQ(scene["bodies"].size(), 8u);  // the bodies are an avatar, 4 crates, a floor and 2
+                                          // robots
   const json& crate = scene["bodies"][1];
   EXPECT_EQ(crate["name"], "crate_0");
   EXPECT_EQ(crate["is_static"], true);

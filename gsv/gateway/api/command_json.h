@@ -18,9 +18,9 @@ namespace gsv::gateway {
 base::Result<simulation::Arguments> ParseArguments(const simulation::Command& command,
                                                    std::string_view body);
 
-// All commands of the table: an array of {"name", "summary", "parameters": [{"name", "type", "unit",
-// "summary", "required", "minimum", "maximum", "default", "default_meaning"}]}. What a parameter does
-// not have is left out.
+// All commands of the table: an array of {"name", "summary", "parameters": [{"name", "type",
+// "unit", "summary", "required", "minimum", "maximum", "default", "default_meaning"}]}. Keys
+// without a value are left out.
 std::string CommandsJson();
 
 // Parses {"linear_m_s": v, "lateral_m_s": v, "angular_rad_s": w}. A missing value is 0.
@@ -29,7 +29,7 @@ base::Result<world::DriveCommand> ParseDriveCommand(std::string_view body);
 // Parses {"position": v}, {"velocity": v} or {"effort": v}: exactly one of them, in SI units.
 base::Result<world::JointCommand> ParseJointCommand(std::string_view body);
 
-// {"record": true or false}.
+// Parses {"record": true or false}.
 base::Result<bool> ParseRecordingSwitch(std::string_view body);
 
 }  // namespace gsv::gateway

@@ -19,7 +19,7 @@ std::string Text(const FactoryJson& json) {
   return json.dump(-1, ' ', false, FactoryJson::error_handler_t::replace);
 }
 
-// The poses that the live stream would send as /gsv/poses.
+// Returns the poses in the form in which the live stream sends /gsv/poses.
 FactoryJson PosesJson(const world::Snapshot& snapshot) {
   FactoryJson numbers = FactoryJson::array();
   for (const geometry::Pose& pose :

@@ -44,8 +44,8 @@ class FactoryApi {
   ModelStore& models_;
 };
 
-// The response to a valid request that cannot be carried out: 422 or the usual status, with the
-// field.
+// Returns the response to a valid request that cannot be carried out: status 422, or the usual
+// status of the error, with the field.
 Response Refusal(const FieldError& wrong);
 
 }  // namespace gsv::gateway

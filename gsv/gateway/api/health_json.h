@@ -11,7 +11,7 @@ namespace gsv::gateway {
 // The health of one robot, or of all robots if `robot` is empty. Reads range sensors of robots that
 // do not move.
 std::string HealthJson(simulation::Simulation& simulation, const std::string& robot);
-// The lines that behaviours' programs printed, of one robot or of all.
+// Returns the lines that the programs of behaviours printed, for one robot or for all.
 std::string OutputJson(const simulation::Simulation& simulation, const std::string& robot);
 
 }  // namespace gsv::gateway

@@ -28,12 +28,13 @@ const char* NameOfCommand(Kind kind) {
   return "";
 }
 
-// A limit that is infinite is left out.
+// Adds a limit. Infinite limits are left out.
 void AddFinite(OrderedJson& json, const char* key, double value) {
   if (std::isfinite(value)) json[key] = value;
 }
 
-// Fixed joints have no position, and ball joints none that is one number.
+// Whether the joint is listed: a fixed joint has no position, and that of a ball joint is not a
+// single number.
 bool IsListed(const model::Joint& joint) { return model::TakesCommands(joint.kind); }
 
 OrderedJson JointJson(const world::Snapshot& snapshot, const world::Body& body, int number) {
@@ -54,7 +55,7 @@ OrderedJson JointJson(const world::Snapshot& snapshot, const world::Body& body, 
     const char* const kind = NameOfCommand(command.kind);
     if (*kind != '\0') json["command"] = {{kind, command.value}};
   }
-  // Whether it can be commanded at all.
+  // Whether the joint takes commands at all.
   const auto takes = world::CheckJointCommand(body, number, {Kind::kPosition, 0});
   if (!takes) json["refusal"] = takes.error().message;
   return json;

@@ -1,4 +1,4 @@
-// The joints of the bodies of a simulation: their state, and commands to them.
+// Routes for the joints of a simulation's bodies: their state, and commands to them.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace gsv::gateway {
 std::optional<std::string> ControlledByBehaviour(const simulation::Simulation& simulation,
                                                  const std::string& robot);
 
-// GET  …/bodies/{body}/joints          the joints that move, with their limits and their state
+// GET  …/bodies/{body}/joints          the movable joints, with their limits and their state
 // POST …/bodies/{body}/joints/{joint}  commands a joint: {"position": v}, {"velocity": v} or
 //                                      {"effort": v}
 std::vector<Route> JointRoutes(const std::shared_ptr<SimulationDirectory>& directory);

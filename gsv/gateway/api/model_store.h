@@ -24,7 +24,7 @@ class ModelStore {
 
   explicit ModelStore(WriteGlb write) : write_(std::move(write)) {}
 
-  // The model's identity, for Glb().
+  // Returns the identifier of the model, for Glb().
   std::string Identify(const std::shared_ptr<const model::Model>& model);
   // Returns the identifier of the model's collision shapes, or an empty text if it has none.
   std::string IdentifyCollisions(const std::shared_ptr<const model::Model>& model);
@@ -38,7 +38,7 @@ class ModelStore {
     return [this](const auto& model) { return IdentifyCollisions(model); };
   }
 
-  // The GLB of a model; kNotFound if no existing model has this identity.
+  // Returns the GLB of a model; kNotFound if no existing model has this identifier.
   base::Result<SharedBytes> Glb(const std::string& id);
 
  private:

@@ -18,13 +18,13 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::size_t kDefaultCurvePoints = 4000;
-constexpr double kLatest = 9e9;  // s: limit of a time in nanoseconds
+constexpr double kLatest = 9e9;  // limit of a time that is converted to nanoseconds, s
 
 std::string JsonText(const OrderedJson& json) {
   return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
-// {"poses": N} steps over recorded poses, {"count": N} over steps of the simulation.
+// Takes {"poses": N}, steps over recorded poses, or {"count": N}, steps of the simulation.
 base::Status StepBy(ReplayPlayer& player, const std::string& body) {
   const nlohmann::json json = nlohmann::json::parse(body, nullptr, false);
   if (json.is_object() && json.contains("poses")) {
@@ -84,7 +84,8 @@ curves::CurveRequest CurveRequestOf(const Target& target) {
     const auto parsed =
         std::from_chars(value.data(), value.data() + value.size(), request.max_points);
     const bool is_number = parsed.ec == std::errc() && parsed.ptr == value.data() + value.size();
-    if (!is_number) request.max_points = 0;  // is refused, like other values out of range
+    // The value 0 is refused, like other values out of range.
+    if (!is_number) request.max_points = 0;
   }
   return request;
 }
@@ -185,7 +186,8 @@ Response RefuseEdit(const Replay&, const Request&) {
 
 using ReplayHandler = std::function<Response(const Replay&, const Request&)>;
 
-// Finds the replay for `handler`. 404 if there is none, or if it is not of the simulation {name}.
+// Calls `handler` with the replay. Answers 404 if there is none, or if it is not of the simulation
+// {name}.
 Route::Handler OfReplay(const FindReplay& find, ReplayHandler handler) {
   return [find, handler = std::move(handler)](const Request& request) {
     const base::Result<Replay> replay = find(request);
@@ -226,7 +228,7 @@ std::vector<Route> ReplayRoutes(const FindReplay& find) {
     routes.push_back({"GET", std::move(pattern), Permission::kWatch, false, Pool::kReaders,
                       OfReplay(find, handler), std::move(summary)});
   };
-  // No change of a replay takes long, so readers do it.
+  // Changes of a replay run on the threads for readers, because none of them takes long.
   const auto change = [&](std::string method, std::string_view below, ReplayHandler handler,
                           std::string_view summary) {
     routes.push_back({std::move(method), simulation + std::string(below), Permission::kControl,

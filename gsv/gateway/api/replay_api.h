@@ -27,10 +27,10 @@ using FindReplay = std::function<base::Result<Replay>(const Request&)>;
 
 std::vector<Route> ReplayRoutes(const FindReplay& find);
 
-// {"time_s": T}: a finite number within the range of times.
+// Parses {"time_s": T}, where T is a finite number within the range of times.
 base::Result<base::SimTime> ParseSeekTime(std::string_view body);
 
-// {"speed": S, "loop": B}; absent values are unchanged.
+// A change from {"speed": S, "loop": B}. Absent values are unchanged.
 struct ReplayChange {
   std::optional<double> speed;
   std::optional<bool> loop;

@@ -54,7 +54,7 @@ FieldResult<std::string> TakeName(ScenarioJson& json, const char* name) {
   return value.get<std::string>();
 }
 
-// The first problem.
+// Returns the first problem as an error.
 template <typename T>
 FieldResult<T> Judged(T value, const base::Problems& problems) {
   if (problems.empty()) return value;
@@ -65,7 +65,7 @@ FieldResult<void> RefuseWhatIsNotForViewers(const ScenarioJson& json) {
   constexpr std::string_view kKnown[]{"name",    "world",       "mode", "real_time_factor",
                                       "step",    "duration",    "seed", "robots",
                                       "avatars", "pedestrians", "ros2"};
-  constexpr std::string_view kFormer = "factor";  // the deprecated name of real_time_factor
+  constexpr std::string_view kFormer = "factor";  // a deprecated name of real_time_factor
   for (const auto& [name, value] : json.items()) {
     if (name != kFormer &&
         std::find(std::begin(kKnown), std::end(kKnown), name) == std::end(kKnown)) {
@@ -115,8 +115,8 @@ FieldResult<RobotToAdd> ParseRobotRequest(std::string_view body) {
   if (!json) return tl::make_unexpected(json.error());
   const auto is_avatar = TakeFlag(*json, "avatar");
   if (!is_avatar) return tl::make_unexpected(is_avatar.error());
-  // A robot without a model is the one of that name in the world. In a scenario such a robot has no
-  // pose of its own; here it has one.
+  // A robot without a model refers to the robot with that name in the world file. A scenario gives
+  // such a robot no pose, but a request may.
   const bool is_of_world = !json->contains("model") && json->contains("name");
   if (is_of_world) (*json)["model"] = "the world's";
   base::Problems problems;

@@ -11,23 +11,23 @@
 
 namespace gsv::gateway {
 
-// {name, world, mode: real_time|lockstep, real_time_factor, step, duration, seed, record, robots, avatars, pedestrians,
-// ros2};
-// `record` is a boolean here. Only the world is required.
+// Parses {name, world, mode: real_time|lockstep, real_time_factor, step, duration, seed,
+// record, robots, avatars, pedestrians, ros2}. `record` is a boolean here. Only `world` is
+// required.
 FieldResult<SimulationRequest> ParseSimulationRequest(std::string_view body);
 
 struct RobotToAdd {
   scenario::RobotEntry robot;
   bool is_avatar = false;
 };
-// {name, model, x, y, z, yaw, behaviour, behaviour_constraint, movement: rigid|planar, drive,
-// avatar}; only the model is required.
+// Parses {name, model, x, y, z, yaw, behaviour, behaviour_constraint, movement: rigid|planar,
+// drive, avatar}. Only `model` is required.
 FieldResult<RobotToAdd> ParseRobotRequest(std::string_view body);
 
-// {x, y, z, roll, pitch, yaw}; x and y are required.
+// Parses {x, y, z, roll, pitch, yaw}. x and y are required.
 FieldResult<Placement> ParsePlace(std::string_view body);
 
-// {name, model, copy_of, x, y, z, roll, pitch, yaw}; either model or copy_of is required.
+// Parses {name, model, copy_of, x, y, z, roll, pitch, yaw}. Either model or copy_of is required.
 FieldResult<ObjectRequest> ParseObjectRequest(std::string_view body);
 
 }  // namespace gsv::gateway

@@ -30,7 +30,7 @@ SimulationHandler Applying(const simulation::Command& command) {
   };
 }
 
-// A robot with a behaviour is driven by the behaviour alone.
+// Drives a robot. A robot with a behaviour accepts only the commands of its behaviour.
 Response Drive(const SimulationPointer& simulation, const Request& request) {
   const std::string& robot = request.Parameter("robot");
   const std::shared_ptr<simulation::Agent> agent = simulation->agent(robot);

@@ -10,12 +10,12 @@
 
 namespace gsv::gateway {
 
-// The complete status; for a replay with "replay" from ReplayJson(), and without the robots' health.
+// Returns the complete status; for a replay with "replay" (ReplayJson()) and without health.
 std::string StatusJson(const simulation::SimulationStatus& status);
 std::string StatusJson(const simulation::SimulationStatus& status, const ReplayClock& replay);
-// {"start_s", "end_s", "time_s", "speed", "loop"}
+// Returns {"start_s", "end_s", "time_s", "speed", "loop"}.
 std::string ReplayJson(const ReplayClock& clock);
-// {"recording", "path", "messages", "dropped_messages", "size_bytes"}
+// Returns {"recording", "path", "messages", "dropped_messages", "size_bytes"}.
 std::string RecordingJson(const RecordingSwitch::State& state);
 // {"topics"}
 std::string TopicsJson(const std::vector<std::string>& topics);

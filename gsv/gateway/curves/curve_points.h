@@ -1,5 +1,5 @@
-// A curve in bounded memory. It keeps all samples while they fit, and then the minimum and maximum
-// of equal time bins, each at its own instant. So no spike is lost, and every point is a sample.
+// A curve in bounded memory. It keeps all samples while they fit. Then it keeps minimum and maximum
+// of equal time bins, at their own instants: no peak is lost.
 #pragma once
 
 #include <cstddef>
@@ -18,13 +18,13 @@ struct Point {
 
 class CurvePoints {
  public:
-  // For samples from `start` to `end`. Keeps at most `max_points`, >= 2.
+  // `start` and `end` are the range of the samples' times. Keeps at most `max_points`, >= 2.
   CurvePoints(base::SimTime start, base::SimTime end, std::size_t max_points);
 
-  // A sample outside of the range counts at its nearer end.
+  // Adds a sample. A sample outside of the range is assigned to the nearer end of it.
   void Add(base::SimTime time, double value);
 
-  std::size_t samples() const { return samples_; }  // added so far
+  std::size_t samples() const { return samples_; }  // number of samples so far
   bool is_whole() const { return bins_.empty(); }   // whether every sample is a point
 
   // The points by time. A bin without finite samples has one point, its first.
@@ -42,7 +42,7 @@ class CurvePoints {
   const std::size_t max_points_;
   std::size_t samples_ = 0;
   std::vector<Point> points_;
-  std::vector<TimeBin> bins_;  // empty: points_ holds all
+  std::vector<TimeBin> bins_;  // empty while points_ holds all samples
 };
 
 }  // namespace gsv::gateway::curves

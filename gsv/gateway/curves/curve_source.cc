@@ -20,7 +20,8 @@ namespace {
 
 using recording::MessageRecord;
 
-constexpr base::SimTime kMaxGap = std::chrono::seconds(1);  // between poses for a speed
+constexpr base::SimTime kMaxGap = std::chrono::seconds(1);  // maximum time between two poses from
+                                                            // which a speed is computed
 constexpr std::size_t kMaxKeyLength = 200;
 
 using ChannelIds = std::set<std::uint16_t>;
@@ -112,7 +113,7 @@ class PoseSource final : public CurveSource {
   }
 
  private:
-  using Numbers = std::array<double, 7>;  // x y z qx qy qz qw
+  using Numbers = std::array<double, 7>;  // the seven numbers x y z qx qy qz qw
 
   std::optional<double> Value(base::SimTime time, const Numbers& now) {
     if (key_ == "x") return now[0];

@@ -29,7 +29,7 @@ struct CurveRequest {
 class CurveSource {
  public:
   virtual ~CurveSource() = default;
-  // The sample of the next message, by time; nothing if it has none.
+  // Returns the sample of the next message, in the order of time; nothing if the message has none.
   virtual std::optional<double> SampleIn(const recording::MessageRecord& message) = 0;
 };
 

@@ -100,7 +100,8 @@ TEST(FieldValue, OmitsNonFiniteValues) {
   EXPECT_TRUE(std::isnan(FieldValue(message, "ranges.min").value()));
 }
 
-// Ranges from 1 m, which grow by one millimetre every 10 ms, in chunks of a tenth of a second.
+// A recording of ten seconds in chunks of a tenth of a second. The ranges begin at 1 m and grow by
+// one millimetre every 10 ms.
 recording::Bytes TenSeconds() {
   recording::Bytes bytes;
   recording::MemorySink sink(bytes);

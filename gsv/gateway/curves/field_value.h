@@ -1,9 +1,9 @@
 // A number of a message by its key in the viewer's list (web/src/live/values.ts): names of fields
 // joined with dots, and at the end
 //   [I]            a number of a list that has at most eight
-//   [NAME]         a number that stands beside this one of the message's names (JointState)
+//   [NAME]         the number that belongs to this name in the message's list of names (JointState)
 //   .min .max .mean   of the finite values of a longer list
-//   .count [0]     of a list of things
+//   .count [0]     of a list of objects
 //   .roll .pitch .yaw   of a rotation, in radians
 //
 // Input  untrusted message and key.
@@ -16,11 +16,11 @@
 
 namespace gsv::gateway::curves {
 
-// `message`: from messages::Definition::Decode(). Nothing if it has no such number.
+// Returns the number, or nothing. `message` comes from messages::Definition::Decode().
 std::optional<double> FieldValue(const nlohmann::ordered_json& message, std::string_view key);
 
-// An angle of R = Rz(yaw) Ry(pitch) Rx(roll), in radians; `which` is "roll", "pitch" or "yaw",
-// otherwise nothing.
+// Returns an angle of R = Rz(yaw) Ry(pitch) Rx(roll) in radians. `which` is "roll", "pitch" or
+// "yaw"; for any other text, returns nothing.
 std::optional<double> AngleOf(double x, double y, double z, double w, std::string_view which);
 
 }  // namespace gsv::gateway::curves

@@ -8,7 +8,8 @@ namespace gsv::gateway::curves {
 namespace {
 
 constexpr std::size_t kMaxCurves = 16;
-constexpr int kMessagesBetweenLooks = 256;  // between checks of the clock and of is_dropped
+constexpr int kMessagesBetweenLooks = 256;  // number of messages between two checks of the clock
+                                            // and of is_dropped
 
 }  // namespace
 

@@ -21,7 +21,7 @@ inline constexpr std::size_t kMaxCurvePoints = 100'000;
 
 struct Curve {
   std::vector<Point> points;  // by time
-  std::size_t samples = 0;    // read so far
+  std::size_t samples = 0;    // number of samples that were read so far
   bool is_whole = true;       // whether every sample is a point
   bool is_done = false;       // the end was reached, or reading was ended early
   base::SimTime read_to{};    // end of the points
@@ -36,7 +36,7 @@ class RecordedCurves {
       : reader_(reader), scene_(scene), timeout_(timeout) {}
   ~RecordedCurves() { Stop(); }
 
-  // The curve as far as it was read. Errors: see MakeCurveSource(); kInvalidArgument if
+  // Returns the curve as far as it was read. Errors: see MakeCurveSource(); kInvalidArgument if
   // `request.max_points` is not from 2 to kMaxCurvePoints; kUnavailable after Stop().
   base::Result<Curve> Get(const CurveRequest& request);
 
@@ -57,7 +57,7 @@ class RecordedCurves {
   base::Mutex mutex_;
   base::ConditionVariable changed_;
   std::vector<std::shared_ptr<Job>> jobs_
-      GSV_GUARDED_BY(mutex_);  // the most recently requested last
+      GSV_GUARDED_BY(mutex_);  // the curves; the most recently requested one is last
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
   std::thread thread_;
 };

@@ -171,7 +171,7 @@ bool ViewDrawer::Serve(const std::string& name) {
   return true;
 }
 
-// Number 0 means all images of the world.
+// Returns the requests of a world that are due. Number 0 means all images of the world.
 std::vector<ViewDrawer::Pending> ViewDrawer::TakeDue(const std::string& name,
                                                      std::uint64_t number) {
   std::vector<Pending> due;
@@ -224,7 +224,8 @@ void ViewDrawer::Draw(const ViewInstant& instant, std::uint64_t number, std::vec
       kept_.push_back({request, *answer});
     }
     for (Pending& each : same) {
-      each.seat.reset();  // before its viewer may ask again
+      each.seat.reset();  // the viewer's place must be free before the viewer can send its next
+                          // request
       each.answer(answer);
     }
   }

@@ -25,25 +25,25 @@
 namespace gsv::gateway::drawing {
 
 struct DrawingLimits {
-  std::size_t views = 8;              // different cameras at the same time
-  std::size_t viewers = 64;           // requests and streams at the same time
-  std::int64_t pixels = 3840 * 2160;  // of one image
+  std::size_t views = 8;              // number of different cameras at the same time
+  std::size_t viewers = 64;           // number of requests and streams at the same time
+  std::int64_t pixels = 3840 * 2160;  // number of pixels of one image
 };
 
 enum class ImageFormat { kJpeg, kPng };
 
-// Equal requests share an image.
+// A request for an image. Equal requests share one image.
 struct ViewRequest {
-  std::string world;  // key of the source: a name
+  std::string world;  // name of the world, the key of its source
   view::Camera camera;
   ImageFormat format = ImageFormat::kJpeg;
-  int quality = 80;  // of a JPEG, 1 to 100
+  int quality = 80;  // quality of the JPEG, 1 to 100
   friend bool operator==(const ViewRequest&, const ViewRequest&) = default;
 };
 
 struct DrawnImage {
   SharedBytes bytes;
-  std::uint64_t number = 0;  // grows with each change of the world
+  std::uint64_t number = 0;  // increases with each change of the world
   base::SimTime time{};
 };
 
@@ -102,9 +102,9 @@ class ViewDrawer {
   base::Result<SharedBytes> Encode(const model::Image& image, const ViewRequest& request) const;
 
   const DrawingLimits limits_;
-  std::shared_ptr<rendering::Renderer> renderer_;  // of the thread; null until it is needed
-  std::uint64_t next_number_ = 0;                  // of the thread
-  std::vector<Kept> kept_;                         // of the thread: the last images
+  std::shared_ptr<rendering::Renderer> renderer_;  // of the drawing thread; null at first
+  std::uint64_t next_number_ = 0;                  // used by the drawing thread
+  std::vector<Kept> kept_;                         // used by the drawing thread: the last images
 
   base::Mutex mutex_;
   base::ConditionVariable changed_;

@@ -61,7 +61,7 @@ class FakeSource final : public ViewSource {
   std::shared_ptr<const world::Snapshot> snapshot_ GSV_GUARDED_BY(mutex_);
 };
 
-// The source of a ViewDrawer; the test owns it.
+// A source that refers to one that the test owns, for a ViewDrawer.
 class Borrowed final : public ViewSource {
  public:
   explicit Borrowed(std::shared_ptr<FakeSource> source) : source_(std::move(source)) {}
@@ -122,7 +122,7 @@ TEST_F(ViewDrawerTest, DrawsAtOnceAndThenOnlyOnChange) {
   const auto same = Get(Ask(Request(), first->number, 1ms));
   ASSERT_TRUE(same);
   EXPECT_EQ(same->number, first->number);
-  EXPECT_EQ(same->bytes.data(), first->bytes.data());  // it was not drawn again
+  EXPECT_EQ(same->bytes.data(), first->bytes.data());  // the image was not drawn again
   auto next = Ask(Request(), first->number);
   source_->Change();
   const auto changed = Get(std::move(next));
@@ -159,7 +159,7 @@ TEST_F(ViewDrawerTest, BoundsViewsAndViewers) {
     EXPECT_EQ(fourth.error().code, base::ErrorCode::kUnavailable);
     EXPECT_NE(fourth.error().message.find("3 viewers"), std::string::npos);
   }
-  EXPECT_TRUE(drawer_.Take(Request(33)));  // a place is free again
+  EXPECT_TRUE(drawer_.Take(Request(33)));  // one place is free again
   const auto huge = drawer_.Take(Request(4000));
   ASSERT_FALSE(huge);
   EXPECT_EQ(huge.error().code, base::ErrorCode::kInvalidArgument);

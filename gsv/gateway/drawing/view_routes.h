@@ -23,7 +23,7 @@ struct ViewedWorld {
 };
 using FindWorld = std::function<base::Result<ViewedWorld>(const Request&)>;
 
-// Parses the parameters of the query. `is_stream`: of view.mjpeg.
+// Parses the parameters of the query. `is_stream` is true for view.mjpeg.
 struct ViewQuery {
   ViewRequest view;
   std::optional<std::uint64_t> after;  // number of the image that the client has
@@ -31,7 +31,7 @@ struct ViewQuery {
 };
 base::Result<ViewQuery> ParseViewQuery(const Target& target, bool is_stream);
 
-// `drawer` must outlive the routes. `find` is called on the server's thread, and returns at once.
+// `drawer` must outlive the routes. The server's thread calls `find`, which must return at once.
 std::vector<Route> ViewRoutes(const std::string& prefix, ViewDrawer& drawer, const FindWorld& find);
 
 }  // namespace gsv::gateway::drawing

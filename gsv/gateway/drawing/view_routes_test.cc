@@ -1,4 +1,4 @@
-// Images over HTTP: of a simulation, of another instance, and with tokens.
+// Tests images over HTTP: of a simulation, through another instance, and with tokens.
 #include "gsv/gateway/drawing/view_routes.h"
 
 #include <arpa/inet.h>
@@ -69,7 +69,7 @@ class ViewRoutesTest : public ::testing::Test {
 
   HttpReply Get(const std::string& target) const { return Fetch(gateway_->port(), "GET", target); }
 
-  // The two sides in a JPEG's frame header (ITU-T T.81, B.2.2).
+  // Returns the width and height in a JPEG's frame header (ITU-T T.81, B.2.2).
   static std::pair<int, int> SizeOf(const std::string& jpeg) {
     const std::size_t frame = jpeg.find("\xff\xc0");
     if (frame == std::string::npos) return {};
@@ -136,7 +136,7 @@ TEST_F(ViewRoutesTest, StreamsImagesUntilTheClientLeaves) {
   EXPECT_EQ(received.substr(0, 15), "HTTP/1.1 200 OK");
   EXPECT_NE(received.find("multipart/x-mixed-replace; boundary=gsv-image"), std::string::npos);
   EXPECT_NE(received.find("Gsv-Time: 0.000000"), std::string::npos);
-  gateway_->Stop();  // ends the stream
+  gateway_->Stop();  // this ends the stream
   while (!connection.ReceiveSome().empty()) {
   }
 }
@@ -181,7 +181,7 @@ TEST_F(ViewRoutesTest, ARelayForwardsAStreamOfImages) {
   EXPECT_EQ(refused.status, 404);
   EXPECT_NE(refused.body.find("there is no robot 'nobody'"), std::string::npos);
   EXPECT_EQ(Fetch((*relay)->port(), "GET", "/view.mjpeg?fps=1000").status, 400);
-  (*relay)->Stop();  // ends the stream
+  (*relay)->Stop();  // this ends the stream
   while (!connection.ReceiveSome().empty()) {
   }
 }

@@ -14,7 +14,7 @@
 namespace gsv::gateway::drawing {
 
 struct ViewInstant {
-  // The current snapshot. It is another object if anything has changed.
+  // The current snapshot. If anything has changed, this is another object than before.
   std::shared_ptr<const world::Snapshot> snapshot;
   view::SceneLookup lookup;  // valid until the next Now()
   base::SimTime time{};

@@ -10,8 +10,9 @@ using foxglove::Parameter;
 using foxglove::StatusLevel;
 
 constexpr int kMaxCalls = 8;  // maximum number of calls of one client that are in progress
-constexpr std::size_t kMaxProblems = 10;  // in one request
-// Each client has its own value; a client gets it if it requests this name.
+constexpr std::size_t kMaxProblems = 10;  // maximum number of problems that are reported for one
+                                          // request
+// Each client has its own value of this parameter, and gets it if it requests this name.
 constexpr const char* kDroppedUpdates = "/gsv/dropped_updates";
 
 std::vector<Parameter> Named(std::vector<Parameter> all, const std::vector<std::string>& names) {

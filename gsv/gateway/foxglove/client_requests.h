@@ -19,7 +19,7 @@ namespace gsv::gateway {
 
 class ClientRequests {
  public:
-  // `operations` null: every request is refused.
+  // If `operations` is null, every request is refused.
   explicit ClientRequests(std::shared_ptr<Operations> operations);
 
   // The capabilities for the server info.
@@ -57,7 +57,7 @@ class ClientRequests {
   const std::shared_ptr<Operations> operations_;
   mutable base::Mutex mutex_;
   std::map<Client*, ClientState> clients_ GSV_GUARDED_BY(mutex_);
-  std::vector<foxglove::Parameter> sent_ GSV_GUARDED_BY(mutex_);  // the parameters as sent last
+  std::vector<foxglove::Parameter> sent_ GSV_GUARDED_BY(mutex_);  // as sent last
   foxglove::PlaybackState playback_ GSV_GUARDED_BY(mutex_);       // the state that was last sent
 };
 

@@ -16,8 +16,8 @@ namespace {
 using nlohmann::json;
 using testing::RecordingClient;
 
-// One service, whose answer the test gives; two parameters, of which /speed can be set; a playback
-// at 5 ns.
+// Operations with one service, whose answer the test gives, two parameters, of which /speed can be
+// set, and a playback at 5 ns.
 class FakeOperations final : public Operations {
  public:
   std::vector<foxglove::Service> services() const override {
@@ -161,7 +161,7 @@ TEST_F(ClientRequestsTest, ParametersAreReadSetAndWatched) {
   EXPECT_EQ(texts.back()["parameters"][0]["value"], "arena");
   EXPECT_EQ(texts.back()["parameters"][1]["value"], 3.0);
   hub_.PublishChanges();
-  hub_.PublishChanges();  // sends nothing twice
+  hub_.PublishChanges();  // the same values are not sent again
   EXPECT_EQ(watcher->texts().size(), 4u);
   EXPECT_EQ(watcher->texts().back()["parameters"],
             json::parse(R"([{"name":"/speed","value":3.0,"type":"float64"}])"));
@@ -221,10 +221,10 @@ TEST_F(ClientRequestsTest, TheGraphNamesPublishersViewersAndServices) {
   SetDriveState(*watcher, {{"op", "unsubscribeConnectionGraph"}});
   hub_.Unadvertise(std::vector{channels[0]});
   hub_.PublishChanges();
-  EXPECT_EQ(watcher->texts().size(), told + 1);  // of the topic itself
+  EXPECT_EQ(watcher->texts().size(), told + 1);  // the new message is about the topic itself
 }
 
-// Commands by name, and the conversion of requests by their services.
+// Tests commands by name, and the conversion of requests to their services.
 class CommandServicesTest : public ::testing::Test {
  protected:
   base::Result<std::function<CommandServices::Response()>> Prepare(std::uint32_t service,

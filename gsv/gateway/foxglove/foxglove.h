@@ -17,11 +17,11 @@
 
 namespace gsv::gateway::foxglove {
 
-// In the order of the server's preference.
+// The supported subprotocols, in the order of the server's preference.
 inline constexpr std::array<std::string_view, 2> kSubprotocols{"foxglove.sdk.v1",
                                                                "foxglove.websocket.v1"};
 
-// Chooses from a Sec-WebSocket-Protocol header; empty: no common subprotocol.
+// Chooses a subprotocol from a Sec-WebSocket-Protocol header; empty if there is no common one.
 std::string_view ChooseSubprotocol(std::string_view offered);
 
 using ChannelId = std::uint32_t;
@@ -46,7 +46,7 @@ struct ServerInfo {
   std::vector<std::string> capabilities;
   std::map<std::string, std::string> metadata;
   std::string session_id;  // changes when the server restarts
-  // For a playback, which then has the capability of playback control.
+  // Set for a playback, which then has the capability of playback control.
   std::optional<TimeRange> playback{};
 };
 

@@ -35,7 +35,7 @@ Json ToJson(const Parameter& parameter) {
   return json;
 }
 
-// The entries of `after` that are missing in `before`, or have other parties there.
+// Returns the entries of `after` that are missing in `before`, or that list other parties there.
 Json Changed(const ConnectionGraph::Parties& before, const ConnectionGraph::Parties& after,
              const char* parties_name) {
   Json list = Json::array();

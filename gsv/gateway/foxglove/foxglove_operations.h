@@ -20,7 +20,7 @@ namespace gsv::gateway::foxglove {
 // The request or response of a service. Its schema is empty if it has no fields.
 struct ServiceMessage {
   std::string schema_name;  // "std_srvs/srv/Trigger_Response"
-  std::string schema;       // in ros2msg; the bytes are CDR
+  std::string schema;       // in the format ros2msg; the messages are CDR
 };
 struct Service {
   std::uint32_t id = 0;
@@ -29,7 +29,7 @@ struct Service {
   ServiceMessage request, response;
 };
 
-// Empty: a value of an unsupported type.
+// The value of a parameter. Empty if its type is not supported.
 using ParameterValue = std::variant<std::monostate, bool, double, std::string>;
 struct Parameter {
   std::string name;
@@ -51,14 +51,14 @@ struct PlaybackState {
   std::uint64_t time_ns = 0;
   float speed = 1;
   bool did_seek = false;
-  std::string request;  // id of the answered request; empty: none
+  std::string request;  // id of the request to which this is the answer; empty if there is none
 };
 
 // Server to client.
 std::string AdvertiseServicesText(std::span<const Service> services);
 std::string ServiceFailureText(std::uint32_t service, std::uint32_t call, std::string_view message);
 std::string ParameterValuesText(std::span<const Parameter> parameters, const std::string& request);
-// The update from `before` to `after`; empty if they are equal.
+// Returns the update from `before` to `after`; empty if they are equal.
 std::string GraphUpdateText(const ConnectionGraph& before, const ConnectionGraph& after);
 std::vector<std::byte> ServiceResponseBytes(std::uint32_t service, std::uint32_t call,
                                             std::span<const std::byte> response);

@@ -53,7 +53,7 @@ base::Result<ClientMessage> ParseUnsubscribe(const Json& list) {
   return message;
 }
 
-// Limit of strings that a client chooses and that are sent back.
+// Limit of the length of strings that a client chooses and that are sent back.
 constexpr std::size_t kMaxRequestLength = 256;
 
 base::Result<std::string> ParseRequest(const Json& json) {
@@ -111,7 +111,7 @@ base::Result<ClientMessage> ParseSetParameters(const Json& json) {
   return message;
 }
 
-// Reads values from bytes; a missing value is 0.
+// Reads values from bytes. A value beyond the end is 0.
 class BytesReader {
  public:
   explicit BytesReader(std::string_view bytes) : rest_(bytes) {}

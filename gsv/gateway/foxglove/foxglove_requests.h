@@ -28,7 +28,7 @@ struct Unsubscribe {
 };
 struct GetParameters {
   std::vector<std::string> names;  // empty: all
-  std::string request;             // returned with the answer
+  std::string request;             // id of the request, which is returned with the answer
 };
 struct SetParameters {
   std::vector<Parameter> parameters;
@@ -36,7 +36,7 @@ struct SetParameters {
 };
 struct WatchParameters {
   std::vector<std::string> names;  // empty: all
-  bool is_end = false;             // end of watching
+  bool is_end = false;             // whether the client stops watching
 };
 struct WatchGraph {
   bool is_end = false;

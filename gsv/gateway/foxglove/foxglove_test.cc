@@ -98,7 +98,7 @@ TEST(Foxglove, ReadsServiceCalls) {
 }
 
 TEST(Foxglove, ReadsPlaybackRequests) {
-  // Pause, at speed 1.5, at 1 s.
+  // A request to pause, at speed 1.5, at 1 s.
   const std::string bytes("\x03\x01\0\0\xc0\x3f\x01\0\xca\x9a\x3b\0\0\0\0\x02\0\0\0id", 21);
   const auto message = ParseClientBytes(bytes);
   ASSERT_TRUE(message);
@@ -111,7 +111,7 @@ TEST(Foxglove, ReadsPlaybackRequests) {
     EXPECT_FALSE(ParseClientBytes(bytes.substr(0, size))) << size;
   }
   std::string other = bytes;
-  other[1] = 2;  // neither play nor pause
+  other[1] = 2;  // a value that is neither play nor pause
   EXPECT_FALSE(ParseClientBytes(other));
   other[1] = 0;
   other[6] = 0;  // no seek

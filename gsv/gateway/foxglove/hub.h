@@ -47,7 +47,7 @@ class Hub {
 
   bool has_clients() const;
   bool IsSubscribed(foxglove::ChannelId channel) const;
-  // Whether there are subscribers without a message on this channel so far.
+  // Whether the channel has subscribers that have received no message on it yet.
   bool HasNewSubscribers(foxglove::ChannelId channel) const;
   // Returns the channels in order. The cost grows with the number of subscriptions, not of
   // channels.
@@ -59,18 +59,18 @@ class Hub {
   };
   enum class Audience {
     kAll,
-    kEstablished,  // all but new subscribers
+    kEstablished,  // all subscribers except new ones
   };
   void Publish(foxglove::ChannelId channel, const Message& message,
                Audience audience = Audience::kAll);
   // Sends earlier messages to new subscribers, which then count as established.
   void Welcome(foxglove::ChannelId channel, std::span<const Message> messages);
   void PublishTime(std::uint64_t time_ns);
-  // Sends a status message. Later clients get the newest ones as well.
+  // Sends a status message. Clients that connect later get the newest status messages as well.
   void SendStatus(foxglove::StatusLevel level, std::string_view message);
   // Sets the publishers of a channel in the connection graph (default: "gsv").
   void SetPublishers(foxglove::ChannelId channel, std::set<std::string> publishers);
-  // Sends changes since the last call: graph, parameters, state of a playback.
+  // Publishes changes since the last call: of graph, parameters and playback state.
   void PublishChanges(bool has_jumped = false);
 
   // Closes all clients, and each later one, with this reason.
@@ -83,7 +83,7 @@ class Hub {
   };
   struct Member {
     std::shared_ptr<Client> client;
-    std::string name;  // in the graph
+    std::string name;  // name of the client in the graph
     bool watches_graph = false;
     std::map<foxglove::SubscriptionId, foxglove::ChannelId> subscriptions{};
   };

@@ -28,7 +28,7 @@ class Operations {
   // Fails for an unknown or fixed parameter, or an invalid value.
   virtual base::Status Set(const foxglove::Parameter& parameter) = 0;
 
-  // The state of a playback; nothing for simulations.
+  // The state of a playback; nothing for a running simulation.
   virtual std::optional<foxglove::PlaybackState> playback() const { return std::nullopt; }
   virtual base::Status Control(const foxglove::PlaybackControl& request);
 };

@@ -1,5 +1,5 @@
-// A method, a target and, after a newline, a body, for the API of a simulation and the parsers of a
-// replay's API.
+// Takes any bytes as a method, a target and, after a newline, a body, for the API of a simulation
+// and the parsers of a replay's API.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -62,7 +62,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto target = ParseTarget(request.raw_target);
   if (!target) return 0;
   for (const std::string& segment : target->segments) {
-    if (segment.size() > 1000) continue;  // when escaped, it could exceed the limit of targets
+    if (segment.size() > 1000) continue;  // the escaped segment could exceed the limit of targets
     GSV_CHECK(ParseTarget("/" + Escape(segment))->segments ==
               (segment.empty() ? std::vector<std::string>{} : std::vector{segment}));
   }

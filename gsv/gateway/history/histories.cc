@@ -7,7 +7,7 @@
 namespace gsv::gateway::history {
 namespace {
 
-// The periods of rounds, wall-clock time.
+// The periods of sampling, in wall-clock time.
 constexpr std::chrono::milliseconds kWatchedRound{50};
 constexpr std::chrono::milliseconds kUnwatchedRound{250};
 
@@ -58,7 +58,7 @@ bool Histories::Round() {
     is_any_watched = is_any_watched || is_watched;
     Of(simulation)->Round(now, is_watched);
   }
-  std::vector<Entry> gone;  // ended without the lock
+  std::vector<Entry> gone;  // these entries are destroyed after the lock was released
   const base::MutexLock lock(mutex_);
   const auto is_there = [&](const Entry& entry) {
     return std::find(simulations.begin(), simulations.end(), entry.simulation.lock()) !=

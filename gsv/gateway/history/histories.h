@@ -20,12 +20,12 @@ class Histories {
   using SimulationPointer = std::shared_ptr<simulation::Simulation>;
   using IsWatched = std::function<bool(const SimulationPointer&)>;
 
-  // `capacity`: bytes for each simulation. `is_watched` is called on the thread of this object.
+  // `capacity`: bytes for each simulation. This object's own thread calls `is_watched`.
   Histories(std::shared_ptr<SimulationDirectory> directory, std::size_t capacity,
             IsWatched is_watched);
   ~Histories() { Stop(); }
 
-  // The history of a simulation, begun at the latest now.
+  // Returns the history of a simulation. It begins at the latest with this call.
   std::shared_ptr<recording::RunHistory> Of(const SimulationPointer& simulation);
 
   // Ends the thread.
@@ -38,7 +38,7 @@ class Histories {
   };
 
   void Run();
-  // Samples each simulation. True if one of them has viewers.
+  // Samples each simulation. Returns true if one of them has viewers.
   bool Round();
 
   const std::shared_ptr<SimulationDirectory> directory_;

@@ -26,7 +26,7 @@ Response NoHistory() {
   return ErrorResponse(404, "this server keeps no past of its simulations (--history 0)");
 }
 
-// The query ?from_s=T; 0 without it.
+// Returns the time of the query ?from_s=T; 0 if it is absent.
 base::Result<base::SimTime> FromTime(const Request& request) {
   const auto from = request.target.query.find("from_s");
   if (from == request.target.query.end()) return base::SimTime(0);
@@ -39,8 +39,8 @@ base::Result<base::SimTime> FromTime(const Request& request) {
                     "'from_s' must be a time in simulated seconds, from 0 on");
 }
 
-// By time: the newest events and notes, and the collisions that the history has. Only what happened,
-// or was noted, from `from` on.
+// Returns the newest events and notes and the collisions of the history, ordered by time. Only
+// those that happened, or were noted, at `from` or later.
 std::vector<RecordedEvent> EventsOf(const simulation::Simulation& simulation,
                                     const std::vector<recording::Collision>& collisions,
                                     base::SimTime from) {
@@ -106,7 +106,8 @@ Response HistoryApi::Open(const SimulationPointer& simulation) {
   if (histories_ == nullptr) return NoHistory();
   auto reader = histories_->Of(simulation)->Open();
   if (!reader) return ErrorResponse(reader.error());
-  // The store knows the models that were asked for.
+  // The simulation's models are looked up first, because the store finds only models that it has
+  // identified.
   for (const world::Body& body : simulation->snapshot()->layout->bodies) {
     (void)models_.Identify(body.model);
     (void)models_.IdentifyCollisions(body.model);

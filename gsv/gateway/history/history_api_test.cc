@@ -18,7 +18,7 @@ using nlohmann::json;
 using std::chrono_literals::operator""h;
 using testing::HttpReply;
 
-// A robot that drives towards a wall at 2 m/s, on a server that keeps its past.
+// A server that keeps the past of a simulation in which a robot drives towards a wall at 2 m/s.
 class HistoryApiTest : public ::testing::Test {
  protected:
   void Serve(std::size_t history_bytes = 1 << 20) {
@@ -68,7 +68,7 @@ TEST_F(HistoryApiTest, OpensThePastAsAReplayWhileTheRunContinues) {
   EXPECT_EQ(json::parse(Get(kSimulation).body)["time_s"], 2.0);
   EXPECT_EQ(Post(past + "api/simulations/simulation/seek", R"({"time_s": 0.5})").status, 200);
   EXPECT_EQ(json::parse(Get(kSimulation).body)["time_s"], 2.0);
-  // The models are those of the simulation.
+  // The models of the past are those of the simulation.
   const json scene = json::parse(Get(past + "api/simulations/simulation/scene").body);
   ASSERT_EQ(scene["bodies"].size(), 2u);
   const std::string model = scene["bodies"][0]["model"];
@@ -94,7 +94,7 @@ TEST_F(HistoryApiTest, EventsIncludeCollisionsAndNotes) {
     }
   }
   EXPECT_EQ(collision["robot"], "robot");
-  // By the time at which it was noted, not by the instant that it is on.
+  // Notes are selected by the time at which they were made, not by the instant to which they refer.
   const json late = json::parse(Get(kSimulation + "/events?from_s=2").body);
   EXPECT_TRUE(std::any_of(late.begin(), late.end(),
                           [](const json& event) { return event["time_s"] == 0.25; }));

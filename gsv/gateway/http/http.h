@@ -17,13 +17,13 @@
 namespace gsv::gateway {
 
 struct Request {
-  // "GET", "POST"; a HEAD arrives as GET, and its response is sent without the body.
+  // "GET" or "POST". A HEAD request arrives as GET, and its response is sent without the body.
   std::string method;
   std::string raw_target;  // unparsed: "/api/simulations?x=1"
   Target target;
   std::string body;
   std::string content_type;
-  std::string if_none_match;  // the header's value, or empty
+  std::string if_none_match;  // value of the If-None-Match header, or empty
   std::string viewer;  // the viewer's key (Gsv-Viewer), or empty; see access/viewer_registry.h
   // parameters of the path by name, see Route
   std::map<std::string, std::string, std::less<>> parameters;
@@ -38,7 +38,7 @@ struct Response {
   SharedBytes body;
   std::string etag;  // the tag with its quotes; empty if there is none
   std::string cache_control = "no-store";
-  std::string allow;  // 405: the methods that are allowed
+  std::string allow;  // for status 405: the allowed methods
   // Whether pages of this server may show the response in a frame. Other pages never may.
   bool allows_own_frames = false;
   // Whether pages of other sites may embed the response, as an image.

@@ -25,8 +25,8 @@ struct Route {
   using FindHub = std::function<base::Result<std::shared_ptr<Hub>>(const Request&)>;
 
   std::string method;  // "GET" (also for HEAD), "POST", "PUT", "DELETE"
-  // "/api/simulations/{name}/scene". A parameter is one segment, or its beginning, as in
-  // "/api/models/{id}.glb"; "{path...}" is the last part of a pattern: one or more segments.
+  // For example "/api/simulations/{name}/scene". A parameter is one segment, or its beginning, as
+  // in "/api/models/{id}.glb". "{path...}" ends a pattern, and matches one or more segments.
   std::string pattern;
   Permission permission = Permission::kWatch;
   // Whether the request is refused while another viewer holds control of the simulation {name}. For
@@ -40,9 +40,9 @@ struct Route {
   // Whether the body is a file: larger and slower bodies are allowed, and a body is read only if
   // the client may send it.
   bool takes_file = false;
-  // The hub of WebSockets at this address; null: no WebSockets.
+  // Returns the hub of WebSockets at this address; null if there are none.
   FindHub find_hub{};
-  // Answers later, instead of `handler`: called on the server's thread, and must return at once.
+  // Answers later, instead of `handler`. The server's thread calls it, and it returns at once.
   std::function<void(const Request&, const Respond&)> later{};
   // Whether the query may have the token, as for a WebSocket: an image in a page has no headers.
   bool accepts_token_in_query = false;

@@ -28,14 +28,15 @@ std::vector<std::string_view> SegmentsOf(std::string_view pattern) {
 struct Router::Node {
   // Finds or makes the child node.
   Node* Child(std::string_view segment_of_pattern);
-  // The node for the rest of a path; null: none. Sets the parameter if the segment is one.
+  // Returns the node for the rest of a path, or null. Sets the parameter if the segment is one.
   const Node* Next(const std::string& segment, Match& match) const;
 
   std::map<std::string, std::unique_ptr<Node>, std::less<>> literals;
   std::unique_ptr<Node> parameter, rest;
   std::string name, suffix;          // name and suffix of the parameter that leads to this node
   std::vector<const Route*> routes;  // routes that end here
-  Permission least = Permission::kControl;  // the lowest permission of the routes here and below
+  Permission least = Permission::kControl;  // the lowest permission of the routes at this node and
+                                            // below
 };
 
 Router::Node* Router::Node::Child(std::string_view segment) {
@@ -98,8 +99,8 @@ Router::Match Router::Find(std::string_view method, const Target& target) const 
   Match match;
   match.permission = root_->least;
   const Node* node = root_.get();
-  // The deepest "{path...}" on the way, below the first segment, and the parameters up to it. It has
-  // what longer patterns do not have.
+  // The deepest "{path...}" on the path, below the first segment, and the parameters up to it. It
+  // matches if no longer pattern does.
   const Node* rest = nullptr;
   auto parameters_of_rest = match.parameters;
   for (const std::string& segment : target.segments) {

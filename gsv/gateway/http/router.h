@@ -21,11 +21,11 @@ class Router {
  public:
   struct Match {
     const Route* route = nullptr;  // valid during the lifetime of the router; null: see NoRoute()
-    // The permission for the answer. Without a route: the lowest permission of all routes whose
-    // paths begin with the same segment.
+    // The permission that the answer requires. Without a route: the lowest permission of all routes
+    // whose paths begin with the same segment.
     Permission permission = Permission::kNone;
-    std::string allow;  // the methods of the address: "GET, POST"; empty: no route has it
-    std::map<std::string, std::string, std::less<>> parameters;  // by name; without "{path...}"
+    std::string allow;  // the methods of the address, such as "GET, POST"; empty if no route has it
+    std::map<std::string, std::string, std::less<>> parameters;  // by name; no "{path...}"
   };
 
   // Patterns must be well-formed, and no two routes may have the same method and address

@@ -143,7 +143,7 @@ Response StaticFiles::Get(const Request& request) const {
     return segments.empty() ? Explain()
                             : ErrorResponse(404, "there is no resource at this address");
   }
-  // Pages of other sites load it, to show the view (docs/viewer.md).
+  // Pages of other sites load this file to show the view (docs/viewer.md).
   found->allows_other_sites = segments == std::vector<std::string>{"gsv-view.js"};
   // The names of files under assets/ change with their content.
   if (found->status < 400 && !segments.empty() && segments.front() == "assets") {

@@ -18,12 +18,12 @@ class StaticFiles {
   // `root` may be empty or missing: then "/" explains how to build it.
   explicit StaticFiles(const std::filesystem::path& root);
 
-  // "/" is index.html. 404 for missing and hidden files, and for paths that leave the root (by
-  // "..", a separator inside a segment, or a symbolic link).
+  // Returns a file; "/" is index.html. Returns 404 for missing and hidden files, and for paths that
+  // leave the root (by "..", a separator inside a segment, or a symbolic link).
   Response Get(const Request& request) const;
 
-  // The file of the segments below the root, or 304 if `if_none_match` names its entity tag. No
-  // segments: index.html. Empty if Get() answers 404.
+  // Returns the file of the segments below the root, or 304 if `if_none_match` names its entity
+  // tag. Without segments: index.html. Empty where Get() answers 404.
   std::optional<Response> Find(const std::vector<std::string>& segments,
                                const std::string& if_none_match) const;
 
@@ -34,17 +34,17 @@ class StaticFiles {
  private:
   Response Explain() const;
 
-  std::filesystem::path given_;  // the path as the user gave it
+  std::filesystem::path given_;  // the root as the user gave it
   std::filesystem::path root_;   // canonical; empty if there is no such directory
 };
 
 // The documentation site at "/docs/", as tools/make_docs builds it.
 class Documentation {
  public:
-  // `root` may be empty or absent: then "/docs/" says how to build it.
+  // `root` may be empty or absent: then "/docs/" explains how to build it.
   explicit Documentation(const std::filesystem::path& root) : files_(root) {}
 
-  // "/docs/" is index.html, and "/docs" redirects to it. 404 as StaticFiles.
+  // "/docs/" is index.html, and "/docs" redirects to it. Returns 404 like StaticFiles.
   Response Get(const Request& request) const;
 
   // The routes need no permission. The handlers are valid during the lifetime of this object.
@@ -54,7 +54,7 @@ class Documentation {
   const StaticFiles files_;
 };
 
-// The content type by the extension, case-insensitive; else "application/octet-stream".
+// Returns the content type by the file extension (in any case) or "application/octet-stream".
 std::string_view ContentTypeOf(const std::filesystem::path& file);
 
 }  // namespace gsv::gateway

@@ -28,7 +28,8 @@ std::optional<std::string> Unescape(std::string_view text) {
   return plain;
 }
 
-// Calls use(part) for each part between separators; stops and returns false if one is refused.
+// Calls use(part) for each part between separators. If a call returns false, stops and returns
+// false.
 template <typename Use>
 bool ForEachPart(std::string_view text, char separator, Use&& use) {
   while (!text.empty()) {

@@ -13,14 +13,14 @@ namespace gsv::gateway {
 // "/api/simulations/a%20b?x=1" is {"api", "simulations", "a b"} and {"x": "1"}. Segments may hold
 // any byte, '/' and ".." included: code that uses them as file names must check them.
 struct Target {
-  std::vector<std::string> segments;  // "/" has none; a final '/' adds none
+  std::vector<std::string> segments;  // "/" has no segments; a '/' at the end adds none
   std::map<std::string, std::string> query;
 };
 
 // Fails if the target does not begin with '/', is too long, or has a malformed escape.
 base::Result<Target> ParseTarget(std::string_view target);
 
-// The inverse for one segment or query value: all but unreserved characters become %XX.
+// The inverse for one segment or query value: all characters except unreserved ones become %XX.
 std::string Escape(std::string_view text);
 
 }  // namespace gsv::gateway

@@ -20,7 +20,7 @@ constexpr std::size_t kMaxEmptyBytes = 8;
 
 constexpr const char* kResponse = "bool success\nstring message\n";
 
-// "SetGravity" of "set_gravity".
+// Returns "SetGravity" for "set_gravity".
 std::string TypeName(std::string_view name) {
   std::string type;
   bool is_first = true;
@@ -47,7 +47,7 @@ const char* FieldType(const simulation::Parameter& parameter) {
   return "";
 }
 
-// The value of a field that leaves the argument at its default.
+// Whether the field has the value that means "use the default".
 bool IsAbsent(const simulation::Parameter& parameter, const ArgumentValue& value) {
   if (parameter.is_required()) return false;
   if (const auto* number = std::get_if<double>(&value)) return std::isnan(*number);
@@ -106,7 +106,8 @@ ArgumentValue ReadValue(const simulation::Parameter& parameter, messages::CdrRea
       if (number <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) {
         return static_cast<std::int64_t>(number);
       }
-      return static_cast<double>(number);  // too large for an integer, so it is refused
+      return static_cast<double>(number);  // the number is too large for an integer, so it is
+                                           // refused later
     }
     case ParameterType::kFlag:
       return ReadField<bool>(reader);

@@ -28,8 +28,8 @@ class CommandTopic {
   const std::shared_ptr<Hub> hub_;
   foxglove::ChannelId channel_ = 0;
   std::shared_ptr<const world::Layout> layout_;
-  std::vector<world::DriveState> sent_;  // the command that was last sent, by body of layout_
-  std::size_t next_ = 0;                 // first body of the next round
+  std::vector<world::DriveState> sent_;  // the command that was last sent, for each body of layout_
+  std::size_t next_ = 0;                 // index of the first body of the next round
 };
 
 }  // namespace gsv::gateway

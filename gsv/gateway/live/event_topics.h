@@ -26,14 +26,14 @@ class EventTopics {
     foxglove::ChannelId channel = 0;
     std::size_t history = 0;
     SharedBytes (*encode)(const simulation::Event& event) = nullptr;
-    bool has_notes = false;  // whether it has the notes, and nothing else
+    bool has_notes = false;  // whether the topic has only the notes
   };
   // Events or output, and the topics that publish them.
   struct Source {
     std::vector<simulation::Event> (simulation::Simulation::*since)(std::uint64_t first) const;
     std::uint64_t simulation::SimulationStatus::*count;
     std::vector<Topic> topics;
-    std::uint64_t next = 0;  // number of the first unpublished event
+    std::uint64_t next = 0;  // number of the first event that was not published yet
   };
   static std::vector<simulation::Event> TakeNew(const simulation::Simulation& simulation,
                                                 Source& source);

@@ -52,7 +52,7 @@ std::vector<foxglove::Parameter> ParametersOf(const Simulation& simulation) {
   return {{"/gsv/name", specification.name},
           {"/gsv/world", specification.world->name},
           {"/gsv/mode", std::string(ToString(specification.mode))},
-          // A text, since a JSON number need not have that many digits.
+          // The seed is a text, because a JSON number may not have enough digits.
           {"/gsv/seed", std::to_string(specification.seed)},
           {"/gsv/duration_s", base::ToSeconds(specification.duration)},
           {"/gsv/step_size_s",

@@ -13,7 +13,7 @@ namespace {
 
 using testing::ScriptedSimulation;
 
-// Remembers its commands; it has one recording, /tmp/arena.mcap.
+// Stores its commands; it has one recording, /tmp/arena.mcap.
 class OneRecording final : public RecordingSwitch {
  public:
   Totals totals() override { return {}; }
@@ -49,7 +49,7 @@ class LiveOperationsTest : public ::testing::Test {
  protected:
   void TearDown() override { workers_.Stop(); }
 
-  // The answer of the service of this name, or that there is none.
+  // Calls the service with this name. Returns its answer, or that there is no such service.
   Reply Call(LiveOperations& operations, const std::string& name) const {
     for (const foxglove::Service& service : operations.services()) {
       if (service.name != name) continue;

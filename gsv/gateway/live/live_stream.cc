@@ -14,7 +14,7 @@ namespace {
 
 namespace topics = presentation::topics;
 
-constexpr double kRefreshRate = 1;  // Hz: rate of looking for new sensors
+constexpr double kRefreshRate = 1;  // Hz: rate at which new sensors are searched for
 
 foxglove::ServerInfo InfoOf(const simulation::Simulation& simulation) {
   const auto started = std::chrono::system_clock::now().time_since_epoch();

@@ -22,8 +22,8 @@
 
 namespace gsv::gateway {
 
-// The rate of packed poses, in Hz of wall-clock time. Among many bodies they come as often as this
-// many bytes per second allow, and not less often than at the lowest rate.
+// The rate of packed poses, in Hz of wall-clock time. If there are many bodies, the limit of bytes
+// per second reduces it, but not below the lowest rate.
 inline constexpr double kPackedPosesRate = 20;
 inline constexpr double kLowestPackedPosesRate = 8;
 inline constexpr double kMaxPackedBytesPerSecond = 350'000;
@@ -57,7 +57,7 @@ class LiveStream {
     foxglove::ChannelId channel = 0;
     SharedBytes (LiveStream::*encode)(const world::Snapshot&) const = nullptr;
     double rate = kPublishRate;
-    double lowest_rate = kPublishRate;  // where kMaxPackedBytesPerSecond limits the rate
+    double lowest_rate = kPublishRate;  // if bytes per second limit the rate
     Pacing pacing{rate};
     std::weak_ptr<const world::Snapshot> published;
     Hub::Message latest;
@@ -66,7 +66,7 @@ class LiveStream {
   void FollowLayout(simulation::Simulation& simulation, const world::Snapshot& snapshot,
                     WallTime now);
   void PublishTime(const SnapshotPointer& snapshot);
-  static double RateFor(const SnapshotTopic& topic);  // Hz, of its latest message's size
+  static double RateFor(const SnapshotTopic& topic);  // Hz, by its last message's size
   void Publish(SnapshotTopic& topic, const SnapshotPointer& snapshot, WallTime now);
 
   SharedBytes EncodeClock(const world::Snapshot& snapshot) const;
@@ -82,7 +82,7 @@ class LiveStream {
   HealthTopics health_;
 
   std::shared_ptr<const world::Layout> layout_;
-  std::vector<presentation::PoseEntry> pose_list_;  // poses of the bodies of layout_
+  std::vector<presentation::PoseEntry> pose_list_;  // list of the poses of layout_
   Pacing refresh_pacing_;
   std::weak_ptr<const world::Snapshot> time_of_;  // the last snapshot whose time was published
   CommandTopic commands_;

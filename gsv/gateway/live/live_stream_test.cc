@@ -43,7 +43,7 @@ TEST_F(LiveStreamTest, SendsPosesInTheOrderOfTheSnapshotsBodies) {
   const auto poses = Decoded<Poses>(data[0]);
   EXPECT_EQ(poses.step, 300u);
   EXPECT_EQ(poses.layout_version, 1u);
-  // The avatar and its wheels, robot_0 and its wheels.
+  // The six poses are those of the avatar, robot_0, and the two wheels of each.
   ASSERT_EQ(poses.poses.size(), 7u * 6);
   const double* robot = &poses.poses[7 * 3];
   EXPECT_NEAR(robot[0], std::cos(0.6), 1e-12);
@@ -139,10 +139,11 @@ TEST_F(LiveStreamTest, ALargeStatusIsSentLessOftenWhileOnlyCountersChange) {
   for (int i = 0; i < 10 * kSeconds; ++i) round();
   const std::size_t count = viewer->data(1).size();
   const auto size = static_cast<double>(viewer->data(1)[0].payload.size());
-  EXPECT_GT(size * kStatusRate, kMaxStatusBytesPerSecond);  // otherwise this shows nothing
+  EXPECT_GT(size * kStatusRate, kMaxStatusBytesPerSecond);  // the status must exceed the limit, or
+                                                            // this test shows nothing
   EXPECT_GE(static_cast<double>(count), kLowestStatusRate * kSeconds);
   EXPECT_LE(static_cast<double>(count - 1) * size, kMaxStatusBytesPerSecond * kSeconds * 1.1);
-  // A change of a state does not wait.
+  // A change of a state is published at once.
   ASSERT_TRUE(crowd->Start());
   round();
   EXPECT_EQ(viewer->data(1).size(), count + 1);
@@ -210,7 +211,8 @@ TEST_F(LiveStreamTest, DiagnosticsAreSentOncePerSecondAndWithAChangeOfPhase) {
   ASSERT_EQ(client_->data(1).size(), before + 1);
   const auto diagnostics =
       Decoded<messages::diagnostic_msgs::DiagnosticArray>(client_->data(1).back());
-  ASSERT_EQ(diagnostics.status.size(), 3u);  // the simulation and two robots
+  ASSERT_EQ(diagnostics.status.size(), 3u);  // the status is that of the simulation and of two
+                                             // robots
   EXPECT_EQ(diagnostics.status[0].message, "running");
 }
 
@@ -227,7 +229,7 @@ TEST_F(LiveStreamTest, TransformsAreAgainstTheWorldAndTheRobot) {
   EXPECT_EQ(transforms[4].child_frame_id, "robot_0/left_wheel");
   EXPECT_NEAR(transforms[4].transform.translation.x, 0, 1e-12);
   EXPECT_NEAR(transforms[4].transform.translation.y, 0.17, 1e-12);
-  // Turned by 2 rad about its axle, y.
+  // The wheel is rotated by 2 rad about its axle, y.
   EXPECT_NEAR(transforms[4].transform.rotation.y, std::sin(1.0), 1e-12);
   EXPECT_NEAR(transforms[4].transform.rotation.w, std::cos(1.0), 1e-12);
 }

@@ -10,15 +10,15 @@ using WallTime = std::chrono::steady_clock::time_point;
 
 class Pacing {
  public:
-  explicit Pacing(double rate) { SetRate(rate); }  // Hz, > 0
+  explicit Pacing(double rate) { SetRate(rate); }  // `rate` is in Hz, > 0
 
   // Applies from the next Done() on.
   void SetRate(double rate) {
     interval_ = std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / rate));
   }
 
-  // Whether it is time to send. A little early counts, so that jitter does not skip a round. The
-  // mean rate does not exceed the given one, as early calls count as on time.
+  // Whether it is time to send. A slightly early call counts as on time, so that jitter does not
+  // skip a round. The mean rate does not exceed the given rate.
   bool IsDue(WallTime now) const { return now + interval_ / 4 >= next_; }
   void Done(WallTime now) { next_ = (now - next_ > interval_ ? now : next_) + interval_; }
 

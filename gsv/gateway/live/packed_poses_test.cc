@@ -19,9 +19,9 @@ using std::chrono::seconds;
 using testing::Decoded;
 using testing::LiveStreamTest;
 
-using Rotation = std::array<double, 4>;  // x y z w
+using Rotation = std::array<double, 4>;  // the four numbers x y z w
 
-// As the message's definition has it.
+// Unpacks a rotation as the definition of the message describes it.
 Rotation Unpacked(const std::uint16_t* numbers) {
   const int missing = 2 * (numbers[0] >> 15) + (numbers[1] >> 15);
   Rotation rotation{};
@@ -44,7 +44,8 @@ double AngleBetween(const Rotation& a, const double* b) {
 TEST_F(LiveStreamTest, PackedPosesAreThePosesRounded) {
   Subscribe(1, "/gsv/poses");
   Subscribe(2, "/gsv/packed_poses");
-  // All around the circle, so that each of z and w is once the largest component, with both signs.
+  // The angles cover the whole circle, so that z and w each are the largest component, with both
+  // signs.
   for (int i = 1; i <= 40; ++i) {
     simulation_->Advance(seconds(1));
     Round(seconds(1));

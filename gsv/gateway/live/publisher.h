@@ -22,7 +22,7 @@ class Publisher {
             access::ViewerRegistry* registry = nullptr);
   ~Publisher();
 
-  // The hub of a simulation, created at the first call.
+  // Returns the hub of a simulation, which is created at the first call.
   std::shared_ptr<Hub> HubOf(const std::shared_ptr<simulation::Simulation>& simulation);
   // See SensorTopics.
   void WantSensorsOf(const std::shared_ptr<simulation::Simulation>& simulation,
@@ -44,7 +44,7 @@ class Publisher {
   std::shared_ptr<LiveStream> StreamOf(const std::shared_ptr<simulation::Simulation>& simulation);
   void Run();
   void Wake();
-  // Runs all streams. False: there are no viewers.
+  // Runs all streams. Returns false if there are no viewers.
   bool Round();
   // Closes streams whose simulation is no longer in the directory.
   void DropEnded();

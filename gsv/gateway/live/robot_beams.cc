@@ -21,7 +21,7 @@ struct RobotBeams::Robot {
   Pacing pacing{kRobotBeamsRate};
   std::weak_ptr<const world::Snapshot> published;
   std::atomic<bool> is_busy{false};
-  presentation::BeamMarkers markers;  // used by the job only
+  presentation::BeamMarkers markers;  // used only by the job
 };
 
 std::set<std::string> RobotBeams::Heard() const {

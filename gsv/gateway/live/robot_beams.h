@@ -1,6 +1,6 @@
-// The live topics /gsv/beams/ROBOT: the beams of one robot, as /gsv/beams has those of all. Only
-// robots whose topics were requested have one (WantedRobots). A viewer of a crowd draws the beams of
-// the selected robot only, which are a small part of /gsv/beams.
+// The live topics /gsv/beams/ROBOT: the beams of one robot, while /gsv/beams has the beams of all.
+// The topic exists only for robots whose topics were requested (WantedRobots). A viewer of a crowd
+// draws only the beams of the selected robot, which are a small part of /gsv/beams.
 //
 // Threads  one thread. Readings are taken by workers.
 #pragma once
@@ -36,7 +36,7 @@ class RobotBeams {
   // The robots whose beams have subscribers.
   std::set<std::string> Heard() const;
 
-  // From now on these robots have a topic. A robot that had one before keeps it.
+  // Adds a topic for each of these robots. The topics of earlier robots are kept.
   void Refresh(const Sources& sources);
 
   // Takes the beams that have subscribers and are due.

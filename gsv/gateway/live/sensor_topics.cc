@@ -49,9 +49,10 @@ struct SensorTopics::Sensor {
 
   foxglove::ChannelId channel = 0;            // 0: none
   foxglove::ChannelId companion_channel = 0;  // 0: none
-  bool is_wanted = false;                     // it has channels because its robot is requested
+  bool is_wanted = false;                     // whether it has channels because its robot was
+                                              // requested
   Pacing pacing;
-  std::optional<std::int64_t> asked_at_step;  // step of the latest snapshot when it was last read
+  std::optional<std::int64_t> asked_at_step;  // step of the latest snapshot at the last reading
   WallTime asked_at{};
   std::atomic<std::chrono::nanoseconds> took{};  // the last reading
   std::atomic<bool> is_busy{false};
@@ -104,7 +105,7 @@ RobotBeams::Sources SensorTopics::WantedBeams() const {
   return sources;
 }
 
-// The sensors that exist now; those that existed before keep their state.
+// Returns the sensors that exist now. A sensor that existed before keeps its state.
 SensorTopics::Sensors SensorTopics::Found(simulation::Simulation& simulation,
                                           const world::Layout& layout) {
   if (!made_) made_.emplace(simulation.sensor_types());
@@ -142,7 +143,7 @@ void SensorTopics::Withdraw(const Sensors& found) {
   hub_->Unadvertise(gone);
 }
 
-// For the robots that are requested now.
+// Frees channels for the robots that are requested now.
 void SensorTopics::EvictUnheard(Sensors& found) {
   const std::set<std::string> forgotten = wanted_.EvictUnheard([this] { return RobotsHeard(); });
   if (forgotten.empty()) return;

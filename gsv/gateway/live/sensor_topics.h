@@ -26,9 +26,9 @@
 
 namespace gsv::gateway {
 
-// A thousand robots have more topics than a viewer can list. Advertised are those of this many
-// sensors, and those of wanted robots (WantedRobots). A status message reports that some are
-// missing.
+// A thousand robots have more topics than a viewer can list. The stream advertises the topics of
+// this many sensors, and of requested robots (WantedRobots). A status message reports that others
+// are missing.
 inline constexpr std::size_t kMaxSensorTopics = 2000;
 
 class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
@@ -68,7 +68,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
                       const std::shared_ptr<Sensor>& sensor);
   void PublishBeams(const std::shared_ptr<simulation::Simulation>& simulation,
                     const std::shared_ptr<const world::Snapshot>& snapshot, WallTime now);
-  // On a worker.
+  // Runs on a worker.
   void TakeReading(simulation::Simulation& simulation, Sensor& sensor);
   void TakeBeams(simulation::Simulation& simulation, const world::Snapshot& snapshot,
                  const SensorList& sensors);
@@ -76,7 +76,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   const std::shared_ptr<Hub> hub_;
   WorkerPool& workers_;
   foxglove::ChannelId beams_channel_ = 0, transforms_channel_ = 0;
-  std::optional<sensing::SensorSet> made_;  // set with the first simulation
+  std::optional<sensing::SensorSet> made_;  // set when the first simulation is known
   Sensors sensors_;
   std::map<foxglove::ChannelId, std::shared_ptr<Sensor>> by_channel_;
   std::size_t topics_ = 0;  // number of channels that were not requested

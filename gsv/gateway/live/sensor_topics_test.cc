@@ -36,7 +36,7 @@ TEST_F(LiveStreamTest, AReadingIsTakenOnlyForSubscribersAndOnlyWhenTimeHasPassed
   Subscribe(1, "/robot_0/front_sonar");
   const auto range = Decoded<messages::sensor_msgs::Range>(RoundUntil(1, 1));
   EXPECT_EQ(range.header.frame_id, "robot_0/front_sonar");
-  // Northwards from (1, 0) there is no obstacle for 5 m.
+  // There is no obstacle for 5 m to the north of (1, 0).
   EXPECT_FLOAT_EQ(range.range, 5);
   Round(seconds(1));
   simulation_->Advance(milliseconds(10));
@@ -74,7 +74,7 @@ class ManySensorsTest : public LiveStreamTest {
     Round(seconds(2));
   }
 
-  // The current number of sensor topics, by robot.
+  // Returns the present number of sensor topics, by robot.
   std::map<std::string, std::size_t> TopicsByRobot() const {
     std::map<std::uint64_t, std::string> robots;  // by channel
     for (const auto& text : client_->texts()) {
@@ -95,7 +95,7 @@ class ManySensorsTest : public LiveStreamTest {
   }
   std::size_t Topics(const std::string& robot) const { return TopicsByRobot()[robot]; }
 
-  // Requests the robot, as the API does if a viewer has chosen it.
+  // Requests the sensors of the robot, as the API does if a viewer has selected it.
   void Want(const std::string& robot) {
     stream_.WantSensorsOf(robot);
     Round();
@@ -110,7 +110,7 @@ TEST_F(ManySensorsTest, TwoThousandHaveATopicAndTheRestIsReported) {
   Mount("robot_0", 0, 1000);
   EXPECT_EQ(Topics("robot_0"), 1000u);
   EXPECT_EQ(WarningCount(complaint_), 0u);
-  Mount("robot_0", 1000, 2000);  // more, with the sensors that it has already
+  Mount("robot_0", 1000, 2000);  // adds sensors to the ones that it already has
   EXPECT_LT(Topics("robot_0"), 2000u);
   EXPECT_GT(Topics("robot_0"), 1980u);
   EXPECT_EQ(WarningCount(complaint_), 1u);
@@ -126,7 +126,7 @@ TEST_F(ManySensorsTest, FurtherSensorsGetATopicWhenTheirRobotIsRequested) {
   Subscribe(1, "/robot_1/many_2");
   EXPECT_EQ(Decoded<messages::sensor_msgs::Range>(RoundUntil(1, 1)).header.frame_id,
             "robot_1/many_2");
-  Mount("robot_1", 3, 5);  // sensors mounted later as well
+  Mount("robot_1", 3, 5);  // sensors that are mounted later are listed as well
   EXPECT_EQ(Topics("robot_1"), 5u);
   Want("nobody");
   workers_.Stop();
@@ -210,7 +210,7 @@ TEST_F(LiveStreamTest, CompanionsOfImagesComeAtOnceAndWithEachImage) {
   Subscribe(1, "/robot_0/camera/camera_info");
   const auto info = Decoded<messages::sensor_msgs::CameraInfo>(RoundUntil(1, 1));
   EXPECT_EQ(info.header.frame_id, "robot_0/camera");
-  EXPECT_EQ(readings, 0);  // no image is taken for that
+  EXPECT_EQ(readings, 0);  // no image is rendered for that
   Subscribe(2, "/robot_0/camera");
   const auto image = Decoded<messages::sensor_msgs::CompressedImage>(RoundUntil(2, 1));
   const auto beside = Decoded<messages::sensor_msgs::CameraInfo>(RoundUntil(1, 2));

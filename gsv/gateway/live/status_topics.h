@@ -36,7 +36,7 @@ class StatusTopics {
     foxglove::ChannelId channel = 0;
     SharedBytes (*encode)(const simulation::SimulationStatus& status) = nullptr;
     Pacing pacing;
-    // nothing: its size does not limit its rate
+    // nothing means that the size does not limit the rate
     std::optional<double> max_bytes_per_second{};
     std::optional<simulation::Phase> phase{};  // the phase that was last published
     std::uint64_t states = 0;                  // hash of the states that were last published

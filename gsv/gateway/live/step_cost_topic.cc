@@ -38,7 +38,7 @@ StepCost CostOf(const StepTimes& times) {
   return cost;
 }
 
-// Without the time until the step was due.
+// Returns the time of the step without the wait until it was due.
 std::chrono::nanoseconds BusyTime(const StepTimes& times) { return times.total() - times.idle; }
 
 bool IsLonger(const StepTimes& a, const StepTimes& b) { return BusyTime(a) > BusyTime(b); }
@@ -66,7 +66,7 @@ class StepCostTopic::Watch final : public simulation::Observer {
     ++collected_.steps;
     Add(times, collected_.sum);
     AddHoldUp(times);
-    // The shortest of the longest steps is at the front of the heap.
+    // The heap has its shortest step at the front.
     std::vector<StepTimes>& longest = collected_.longest;
     if (longest.size() == kMaxLongestSteps) {
       if (!IsLonger(times, longest.front())) return;
@@ -77,7 +77,7 @@ class StepCostTopic::Watch final : public simulation::Observer {
     std::push_heap(longest.begin(), longest.end(), IsLonger);
   }
 
-  // Returns what was collected since the last call; nothing if there were no steps.
+  // Returns the costs since the last call; nothing if there were no steps.
   std::optional<StepCosts> Take() {
     Collected collected;
     {

@@ -1,5 +1,5 @@
-// The live topic /gsv/step_costs: where the wall-clock time of steps goes, and which behaviours hold
-// them up.
+// The live topic /gsv/step_costs: the wall-clock time of steps by part, and the behaviours that
+// delay them.
 //
 // Steps are timed only while there are subscribers.
 //
@@ -25,7 +25,7 @@ class StepCostTopic {
   // Advertises the topic.
   explicit StepCostTopic(std::shared_ptr<Hub> hub);
 
-  // Publishes the costs since the last message, twice a second, if there were steps.
+  // Publishes the costs since the last message, twice per second, if there were steps.
   void Publish(simulation::Simulation& simulation, WallTime now);
 
  private:
@@ -34,7 +34,7 @@ class StepCostTopic {
   const std::shared_ptr<Hub> hub_;
   foxglove::ChannelId channel_ = 0;
   Pacing pacing_;
-  std::shared_ptr<Watch> watch_;  // while there are subscribers
+  std::shared_ptr<Watch> watch_;  // set while there are subscribers
 };
 
 }  // namespace gsv::gateway

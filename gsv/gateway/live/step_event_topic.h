@@ -88,7 +88,7 @@ class StepEventTopic {
   const std::shared_ptr<Hub> hub_;
   foxglove::ChannelId channel_ = 0;
   const Collect collect_;
-  std::shared_ptr<Watch> watch_;  // while there are subscribers
+  std::shared_ptr<Watch> watch_;  // set while there are subscribers
 };
 
 // /gsv/contacts: contacts that begin.

@@ -1,4 +1,4 @@
-// The robots whose sensors viewers have requested, if there are more than the advertised ones.
+// The robots whose sensors viewers have requested beyond those that the stream advertises.
 //
 // Threads  Want() and has_requests() from any; the others from one thread.
 #pragma once
@@ -20,7 +20,7 @@ class WantedRobots {
   void Want(const std::string& robot);
   bool has_requests() const;
 
-  // Takes the requests since the last call. False: there were none.
+  // Takes the requests since the last call. Returns false if there were none.
   bool TakeRequests();
   // If there are too many robots, evicts those that are not `heard` (called only then), the oldest
   // request first. Returns the evicted robots.

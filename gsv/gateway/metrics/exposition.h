@@ -18,7 +18,7 @@ class Exposition {
     std::string_view name, value;
   };
 
-  // Begins a family of samples; each name may occur once.
+  // Begins a family of samples. Each name may be used once.
   void Begin(std::string_view name, Kind kind, std::string_view help);
   void Add(double value, std::initializer_list<Label> labels = {});
   void Add(std::uint64_t value, std::initializer_list<Label> labels = {});

@@ -24,7 +24,7 @@ using testing::Viewer;
 
 struct Family {
   std::string help, type;
-  std::map<std::string, double> samples;  // by the text of their labels: {phase="running"}
+  std::map<std::string, double> samples;  // values by the text of their labels: {phase="running"}
 };
 
 // Reads the text format 0.0.4 strictly, and independently of the writer: each family has its HELP,
@@ -164,13 +164,13 @@ TEST_F(MetricsTest, CountViewersAndSentBytes) {
   Start();
   EXPECT_EQ(Value("gsv_viewers"), 0);
   const double sent = Value("gsv_sent_bytes_total");
-  EXPECT_GT(sent, 0);  // the pages before
+  EXPECT_GT(sent, 0);  // the bytes of the pages before
   const double refused = Value("gsv_http_answers_total", "{status=\"4xx\"}");
   EXPECT_EQ(Ask("/nothing").status, 404);
   EXPECT_EQ(Value("gsv_http_answers_total", "{status=\"4xx\"}"), refused + 1);
   {
     Viewer viewer(gateway_->port());
-    ASSERT_TRUE(viewer.Receive());  // so the viewer is connected
+    ASSERT_TRUE(viewer.Receive());  // the viewer is connected now
     EXPECT_EQ(Value("gsv_viewers"), 1);
     EXPECT_GE(Value("gsv_connections"), 2);
     viewer.Close();

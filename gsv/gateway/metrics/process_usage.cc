@@ -13,7 +13,7 @@
 namespace gsv::gateway::metrics {
 namespace {
 
-// Fields of /proc/self/stat, numbered as in proc(5); the second one may have blanks.
+// Fields of /proc/self/stat, numbered as in proc(5). The second field may contain blanks.
 constexpr int kFirstAfterName = 3, kUserTime = 14, kSystemTime = 15, kThreads = 20, kStart = 22,
               kResidentPages = 24;
 
@@ -53,7 +53,8 @@ ProcessUsage ReadProcessUsage() {
        each.increment(error)) {
     ++usage.descriptors;
   }
-  if (usage.descriptors > 0) --usage.descriptors;  // the one that counted them
+  // Does not count the descriptor that is used for counting.
+  if (usage.descriptors > 0) --usage.descriptors;
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) == 0) usage.max_descriptors = limit.rlim_cur;
   return usage;

@@ -11,8 +11,8 @@ struct ProcessUsage {
   std::uint64_t threads = 0;
   std::uint64_t descriptors = 0;
   std::uint64_t max_descriptors = 0;  // limit of descriptors
-  double processor_seconds = 0;       // time of all threads
-  double start_time = 0;              // s since 1970
+  double processor_seconds = 0;       // processor time of all threads
+  double start_time = 0;              // start of the process, s since 1970
   double uptime = 0;                  // s
 };
 

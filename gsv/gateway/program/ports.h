@@ -17,7 +17,7 @@ class SimulationDirectory {
  public:
   virtual ~SimulationDirectory() = default;
 
-  // In the order for users. A viewer opens the first by default.
+  // Returns the simulations in the order for users. A viewer opens the first one by default.
   virtual std::vector<std::shared_ptr<simulation::Simulation>> List() = 0;
   // Returns null if the name is unknown.
   virtual std::shared_ptr<simulation::Simulation> Find(const std::string& name) = 0;

@@ -34,13 +34,13 @@ struct SimulationRequest {
 // The requested pose of a body.
 struct Placement {
   geometry::Pose world_from_body;
-  bool on_ground = true;  // stand on the floor; the height is ignored
+  bool on_ground = true;  // whether the body stands on the floor; the height is then ignored
 };
 
-// A new object: of a model, or a copy of a body that exists, came with the world or was removed.
+// A new object: from a model, or a copy of an existing, removed or initial body.
 struct ObjectRequest {
-  std::string name;                // empty: after its model
-  std::string model, copy_of;      // one of the two
+  std::string name;                // the name; empty: derived from the model
+  std::string model, copy_of;      // exactly one of the two is set
   std::optional<Placement> place;  // default: the first free place
 };
 
@@ -58,21 +58,21 @@ class SimulationFactory {
   struct Behaviours {
     std::vector<BehaviourLine> offers;
     std::string broker;         // its address
-    std::string start_command;  // command of a program that offers one
+    std::string start_command;  // the command of a program that offers such a behaviour
   };
   // Whether simulations can be published to ROS 2 nodes, by the key `ros2` of their scenario.
   struct Ros2Support {
     bool is_available = false;
     std::string reason;     // why not
-    std::string reach;      // the domain, and who can be reached there
+    std::string reach;      // the domain, and which machines can be reached in it
     std::string published;  // the simulation that is published now; empty: none
   };
   struct Preview {
-    std::shared_ptr<simulation::Simulation> simulation;  // it is not listed and never runs
+    std::shared_ptr<simulation::Simulation> simulation;  // not listed; never runs
     std::vector<std::string> warnings;                   // problems of the files
   };
 
-  // A world as it stands now, and a scenario that has the rest: behaviours, avatars, seed, faults.
+  // The present state of a world, and a scenario with the rest: behaviours, avatars, seed, faults.
   struct SavedWorld {
     std::string sdf, scenario;          // the texts of both files
     std::vector<std::string> warnings;  // the parts that are not saved
@@ -81,14 +81,14 @@ class SimulationFactory {
   virtual ~SimulationFactory() = default;
 
   virtual std::vector<std::string> Worlds() = 0;  // ours
-  // Returns the models that can be robots, both built-in and on the model path.
+  // Returns the models that can be robots: built-in ones and those on the model path.
   virtual std::vector<ModelLine> Models() = 0;
-  virtual std::vector<std::string> Objects() = 0;  // including models that are not robots
+  virtual std::vector<std::string> Objects() = 0;  // also models that are no robots
   virtual base::Result<Behaviours> FindBehaviours(const std::string& constraint) = 0;
 
   virtual Ros2Support Ros2() { return {}; }
 
-  // Creates a preview of the start, without behaviours.
+  // Creates a preview of the initial state, without behaviours.
   virtual FieldResult<Preview> Show(const SimulationRequest& request) = 0;
   // Creates a simulation without starting it; starts a recording on request.
   virtual FieldResult<std::shared_ptr<simulation::Simulation>> Create(

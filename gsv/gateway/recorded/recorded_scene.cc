@@ -36,7 +36,7 @@ void AddRobotsOf(const Json& scene, std::set<std::string>& robots) {
   }
 }
 
-// The entries of "poses" that are bodies, not links.
+// Returns the indices of the entries of "poses" that are bodies and not links, by name.
 std::map<std::string, std::size_t> BodyPosesOf(const Json& scene) {
   std::map<std::string, std::size_t> places;
   const Json& bodies = MemberOf(scene, "bodies");

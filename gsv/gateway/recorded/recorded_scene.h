@@ -17,7 +17,7 @@
 
 namespace gsv::gateway {
 
-// Gives the GLB file of a model by its identifier, or kNotFound. From any thread.
+// Returns the GLB file of a model by its identifier, or kNotFound. Called from any thread.
 using ModelSource = std::function<base::Result<SharedBytes>(const std::string& id)>;
 
 class RecordedScene {
@@ -28,8 +28,8 @@ class RecordedScene {
 
   const base::Problems& problems() const { return problems_; }
 
-  // The scene for poses with this layout_version, as attached; else the first one. kNotFound, with
-  // a sentence, if the recording has none.
+  // Returns the attached scene for poses with this layout_version; else the first one. kNotFound,
+  // with a sentence, if the recording has none.
   base::Result<SharedBytes> Scene(std::uint32_t layout_version) const;
 
   // The indices of bodies' poses in gsv_msgs/Poses of that layout, by name.
@@ -41,7 +41,7 @@ class RecordedScene {
   // Whether one of the scenes has a body of this name.
   bool HasBody(const std::string& name) const;
 
-  // The GLB file of a model, or kNotFound.
+  // Returns the GLB file of a model, or kNotFound.
   base::Result<SharedBytes> Model(const std::string& id) const;
 
  private:
@@ -56,8 +56,8 @@ class RecordedScene {
   const recording::McapReader& reader_;
   const ModelSource model_source_;
   std::set<std::string> robots_;
-  std::map<std::uint32_t, Entry> scenes_;                           // by layout version
-  std::map<std::string, recording::AttachmentIndexRecord> models_;  // by attachment's name
+  std::map<std::uint32_t, Entry> scenes_;                           // scenes by layout version
+  std::map<std::string, recording::AttachmentIndexRecord> models_;  // by attachment name
   base::Problems problems_;
 };
 

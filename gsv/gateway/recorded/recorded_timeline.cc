@@ -18,7 +18,8 @@ constexpr std::size_t kMaxCollisions = 500;
 constexpr std::size_t kMaxLines = 5000;
 constexpr std::size_t kMaxBytes = 1 << 20;
 
-// A block without an index may have messages of any channel.
+// Whether the block may contain messages of these channels. A block without an index may contain
+// messages of any channel.
 bool MayHold(const MessageBlock& block, const std::set<std::uint16_t>& channels) {
   return block.channels.empty() ||
          std::any_of(block.channels.begin(), block.channels.end(),
@@ -64,7 +65,7 @@ base::SimTime RecordedTimeline::PoseBeside(base::SimTime time, std::int64_t coun
     return nearest(*a) < nearest(*b);
   });
   const auto wanted = static_cast<std::size_t>(std::abs(count));
-  // distances to poses, the nearest first; at most as many as needed
+  // time distances to poses, the nearest first; at most as many as needed
   std::set<base::SimTime> distances;
   for (const MessageBlock* block : blocks) {
     if (distances.size() == wanted && nearest(*block) > *distances.rbegin()) break;

@@ -25,10 +25,10 @@ struct RecordedEvent {
 struct RecordedLine {
   base::SimTime time{};
   int level = 20;          // as in rcl_interfaces/msg/Log: 10 debug to 50 fatal
-  std::string name, text;  // source and message
+  std::string name, text;  // the source, and the message
 };
 
-// A collision as an event. Live timelines have the same.
+// Returns a collision as an event. Live timelines use the same form.
 RecordedEvent CollisionEvent(base::SimTime time, const std::string& first,
                              const std::string& second);
 
@@ -37,15 +37,15 @@ class RecordedTimeline {
   // Both must outlive this.
   RecordedTimeline(const recording::McapReader& reader, const RecordedScene& scene);
 
-  // The instant of the `count`th recorded pose after `time`, or before it if `count` is negative;
-  // at most the end or start of the recording. Reads the blocks around `time`.
+  // Returns the time of the `count`th recorded pose after `time`, or before it if `count` is
+  // negative. At most the start or end of the recording. Reads the blocks around `time`.
   base::SimTime PoseBeside(base::SimTime time, std::int64_t count) const;
 
   // The first thousand events, the first thousand notes and the first 500 collisions, by time. The
   // first call reads their blocks.
   const std::vector<RecordedEvent>& Events() const;
 
-  // The first five thousand lines by time, likewise.
+  // Returns the first five thousand lines by time. The first call reads their blocks.
   const std::vector<RecordedLine>& Log() const;
 
  private:
@@ -54,7 +54,7 @@ class RecordedTimeline {
   ChannelIds ChannelsOf(const std::string& topic) const;
   std::vector<RecordedEvent> ReadEvents() const;
   std::vector<RecordedLine> ReadLog() const;
-  // The entries that `use` makes of the messages of these channels, within the limits.
+  // Returns the entries that `use` makes from the messages of these channels, within the limits.
   template <typename Message, typename Entry, typename Use>
   std::vector<Entry> ReadAll(const ChannelIds& channels, std::size_t max_entries, Use use) const;
 

@@ -34,8 +34,8 @@ messages::gsv_msgs::LifecycleEvent Event(const std::string& event, const std::st
   return message;
 }
 
-// Poses every 20 ms from 0 to 980 ms, in chunks of a tenth of a second; clocks every 5 ms between
-// them; two events.
+// A recording of one second in chunks of a tenth of a second: poses every 20 ms from 0 to 980 ms,
+// clocks every 5 ms, and two events.
 recording::Bytes OneSecond() {
   recording::Bytes bytes;
   recording::MemorySink sink(bytes);

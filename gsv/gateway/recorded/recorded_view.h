@@ -29,9 +29,9 @@ class RecordedView {
   RecordedView(const recording::McapReader& reader, const RecordedScene& scene)
       : reader_(reader), scene_(scene) {}
 
-  // The newest recorded poses that are not after `time`. Before the first ones: those of the scene.
+  // Returns the newest poses not after `time`; before the first ones those of the scene.
   base::Result<Instant> At(base::SimTime time);
-  // The world at the instant of a message.
+  // Returns the world at the instant of a message.
   base::Result<Instant> At(const messages::gsv_msgs::Poses& poses);
 
  private:
@@ -46,9 +46,9 @@ class RecordedView {
 
   const recording::McapReader& reader_;
   const RecordedScene& scene_;
-  std::map<std::uint32_t, view::DrawnScene> scenes_;                   // by layout version
+  std::map<std::uint32_t, view::DrawnScene> scenes_;                   // scenes by layout version
   std::map<std::string, std::shared_ptr<const model::Model>> models_;  // by identifier
-  const recording::MessageBlock* loaded_ = nullptr;  // the block whose poses are below
+  const recording::MessageBlock* loaded_ = nullptr;  // the block that contains the poses below
   std::vector<Timed> poses_;                         // by time
 };
 

@@ -51,7 +51,8 @@ TEST_F(RecordedViewTest, ShowsTheNewestPosesOfEachInstant) {
   EXPECT_NEAR(XAt(1020ms) - XAt(1000ms), 0.01, 1e-9);
   EXPECT_NEAR(XAt(2000ms), 1.0, 0.011);
   EXPECT_NEAR(XAt(500ms), 0.25, 0.011);  // backwards, too
-  EXPECT_NEAR(XAt(-5s), 0, 0.02);        // where the scene was recorded
+  EXPECT_NEAR(XAt(-5s), 0, 0.02);        // before the start, the robot is where the scene was
+                                         // recorded
 }
 
 TEST_F(RecordedViewTest, ARecordingWithoutASceneHasASentence) {

@@ -99,7 +99,7 @@ base::Status NoteFile::Remove(std::int64_t id) const {
   return Write(*notes);
 }
 
-// A new file takes the place of the old one, so that a crash leaves one of them.
+// A new file replaces the old one, so that after a crash one of the two is complete.
 base::Status NoteFile::Write(const std::vector<Note>& notes) const {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Note& note : notes) {

@@ -17,18 +17,18 @@ namespace gsv::gateway::recordings {
 inline constexpr std::size_t kMaxNotes = 1000;
 
 struct Note {
-  std::int64_t id = 0;  // > 0, unique in the file
+  std::int64_t id = 0;  // positive, unique in the file
   double time_s = 0;    // simulated
   std::string text;
-  std::string created;  // RFC 3339, UTC
+  std::string created;  // time of creation by RFC 3339, in UTC
 };
 
 class NoteFile {
  public:
-  // `recording`: the path of the MCAP file.
+  // `recording` is the path of the MCAP file.
   explicit NoteFile(const std::string& recording) : path_(recording + ".notes.json") {}
 
-  // The notes by time; empty if there is no file.
+  // Returns the notes by time; empty if there is no file.
   base::Result<std::vector<Note>> Read() const;
   // Adds a note and returns its identifier. kInvalidArgument: there are kMaxNotes already.
   base::Result<std::int64_t> Add(double time_s, const std::string& text,

@@ -1,4 +1,4 @@
-// Requests for notes on an instant of a run or of a recording.
+// Requests for notes at an instant of a run or of a recording.
 //
 // Input  untrusted.
 #pragma once
@@ -13,9 +13,9 @@ namespace gsv::gateway::recordings {
 // Limit of the text of a note, in bytes.
 inline constexpr std::size_t kMaxNoteLength = 1000;
 
-// The body of a request for a note: {"text": TEXT, "time_s": T, "author": NAME}.
+// A request for a note, from the body {"text": TEXT, "time_s": T, "author": NAME}.
 struct NoteRequest {
-  std::string text;              // with the author, if there is one: "NAME: TEXT"
+  std::string text;              // the text; with an author, it is "NAME: TEXT"
   std::optional<double> time_s;  // nothing: now
 };
 base::Result<NoteRequest> ParseNoteRequest(const std::string& body);

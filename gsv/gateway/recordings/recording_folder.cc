@@ -20,7 +20,8 @@ constexpr std::size_t kMaxListed = 1000;
 constexpr std::size_t kMaxTextBytes = 1000;
 constexpr const char* kFailuresFolder = "gsv-failures";
 
-// A finished file ends with the magic bytes. Any other file would have to be read as a whole.
+// Whether the file is finished: then it ends with the magic bytes. Other files would have to be
+// read completely.
 bool IsFinished(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::array<char, recording::kMagic.size()> end{};
@@ -30,7 +31,7 @@ bool IsFinished(const fs::path& file) {
                           [](char a, std::byte b) { return static_cast<std::byte>(a) == b; });
 }
 
-// The value as a number; nothing if it is none.
+// Returns the value as a number; nothing if it is not a number.
 std::optional<double> NumberIn(const recording::StringMap& values, const std::string& key) {
   const auto found = values.find(key);
   if (found == values.end()) return std::nullopt;
@@ -132,7 +133,7 @@ RecordingLine RecordingFolder::Look(const std::string& name, const fs::path& fil
   line.name = name;
   std::error_code error;
   line.size = fs::file_size(file, error);
-  if (error) line.size = 0;  // the file was just removed
+  if (error) line.size = 0;  // the file was removed in the meantime
   const auto modified = fs::last_write_time(file, error);
   if (!error) {
     line.modified = std::chrono::time_point_cast<std::chrono::system_clock::duration>(

@@ -25,7 +25,7 @@ namespace gsv::gateway::recordings {
 struct RecordingLine {
   enum class State {
     kComplete,
-    kUnfinished,  // being recorded, or truncated: contents unknown
+    kUnfinished,  // the recording is in progress or truncated, so its content is unknown
     kUnreadable,
   };
 
@@ -33,15 +33,15 @@ struct RecordingLine {
   std::uint64_t size = 0;  // bytes
   std::chrono::system_clock::time_point modified;
   State state = State::kComplete;
-  std::string problem;  // a sentence, if it is unreadable
+  std::string problem;  // a sentence with the reason, if it is unreadable
   base::SimTime start{}, end{};
   std::uint64_t messages = 0;
-  // Empty or nothing if the recording does not contain it.
+  // Empty or nothing if the recording does not contain the value.
   std::string world;
   std::optional<std::uint64_t> robots;
   std::string verdict;                // "passed" or "failed"
   std::string sentence;               // the sentence of the first violation
-  std::optional<double> violation_s;  // its simulated time
+  std::optional<double> violation_s;  // simulated time of the first violation
 };
 
 class RecordingFolder {
@@ -58,15 +58,15 @@ class RecordingFolder {
   const std::filesystem::path& path() const { return folder_; }
   const std::string& only() const { return only_; }
 
-  // Empty if the folder does not exist.
+  // Lists the recordings. The list is empty if the folder does not exist.
   Listing List();
 
-  // The path for McapReader::Open(). kNotFound with a sentence.
+  // Returns the path for McapReader::Open(), or kNotFound with a sentence.
   base::Result<std::string> Find(const std::string& name) const;
 
  private:
   bool IsName(const std::string& name) const;
-  // The file of a recording by its name; empty: none.
+  // Returns the file of a recording by its name; empty if there is none.
   std::filesystem::path FileOf(const std::filesystem::path& path) const;
   RecordingLine Look(const std::string& name, const std::filesystem::path& file);
 

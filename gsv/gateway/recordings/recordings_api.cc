@@ -20,7 +20,7 @@ std::string Text(const RecordingsJson& json) {
   return json.dump(-1, ' ', false, RecordingsJson::error_handler_t::replace);
 }
 
-// The time by RFC 3339, to the second: "2026-01-31T23:59:59Z".
+// Returns the time by RFC 3339, to the second: "2026-01-31T23:59:59Z".
 std::string DateText(std::chrono::system_clock::time_point time) {
   const std::time_t seconds = std::chrono::system_clock::to_time_t(time);
   std::tm utc{};

@@ -18,7 +18,7 @@ using nlohmann::json;
 using testing::HttpReply;
 using testing::Viewer;
 
-// A folder with one recording of two seconds, served without a simulation.
+// A server without a simulation, for a folder with one recording of two seconds.
 class RecordingsApiTest : public ::testing::Test {
  protected:
   class NoSimulations final : public SimulationDirectory {
@@ -80,7 +80,7 @@ TEST_F(RecordingsApiTest, ListsTheRecordingsOfTheFolder) {
 }
 
 TEST_F(RecordingsApiTest, ADamagedFileIsReported) {
-  // It ends with the magic bytes of a recording, but is none.
+  // The file ends with the magic bytes of a recording, but is not a recording.
   std::ofstream(folder_ / "bad.mcap") << "XXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXX\x89MCAP0\r\n";
   const json listed = json::parse(Get("/api/recordings").body)["recordings"];
   const auto bad = std::find_if(listed.begin(), listed.end(),
@@ -193,7 +193,7 @@ TEST_F(RecordingsApiTest, NotesStayBesideTheRecording) {
   EXPECT_EQ(testing::Fetch(gateway_->port(), "DELETE", notes + "/" + id).status, 404);
   EXPECT_EQ(testing::Fetch(gateway_->port(), "DELETE", notes + "/x").status, 404);
   EXPECT_EQ(Get("/api/recordings/gone.mcap/notes").status, 404);
-  // The file is no recording.
+  // The file is not a recording.
   EXPECT_EQ(json::parse(Get("/api/recordings").body)["recordings"].size(), 1u);
 }
 
@@ -205,7 +205,7 @@ TEST_F(RecordingsApiTest, ComparesTwoRecordings) {
   const json found = json::parse(Get(difference + "?with=slow.mcap").body);
   EXPECT_EQ(found["equal"], false);
   EXPECT_EQ(found["robot"], "robot");
-  // Both stand still at 0 s; the first commands differ in the first steps.
+  // In both, the robot is at rest at 0 s; the first commands differ in the first steps.
   EXPECT_LT(found["time_s"], 0.1);
   EXPECT_NE(found["text"], "");
   EXPECT_EQ(Get(difference).status, 400);

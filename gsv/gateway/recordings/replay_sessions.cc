@@ -37,7 +37,7 @@ std::map<std::string, ReplaySessions::Entry> ReplaySessions::TakeUnwatched() {
   const base::MutexLock lock(mutex_);
   for (auto entry = sessions_.begin(); entry != sessions_.end();) {
     const auto next = std::next(entry);
-    // A viewer that watches it or sends a request holds it as well.
+    // A session is also kept while a viewer watches it or sends a request.
     if (entry->second.replay.player.use_count() > 1) {
       entry->second.used = now;
     } else if (now - entry->second.used > limits_.unwatched) {

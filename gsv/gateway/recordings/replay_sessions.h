@@ -33,7 +33,7 @@ class ReplaySessions {
   // session. kUnavailable: too many sessions.
   base::Result<std::string> Open(const std::string& path, const std::string& recording);
 
-  // The same for a player; `recording` may be empty: then viewers cannot open it again.
+  // Adds a session for a player. If `recording` is empty, viewers cannot open the recording again.
   base::Result<std::string> Add(std::unique_ptr<ReplayPlayer> player, const std::string& recording);
 
   // The routes below /replays/{session}/: the API of a replay, and its live stream at ws. All need
@@ -54,7 +54,7 @@ class ReplaySessions {
   };
 
   base::Result<Replay> Find(const std::string& name);
-  // Removes the sessions without viewers; they end when they are destroyed.
+  // Removes the sessions without viewers and returns them; they end when they are destroyed.
   std::map<std::string, Entry> TakeUnwatched();
 
   const SessionLimits limits_;

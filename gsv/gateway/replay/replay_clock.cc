@@ -8,7 +8,7 @@ namespace {
 
 using simulation::Phase;
 
-// A round that comes later than this slows the replay down; the replay does not skip.
+// If a round is later than this, the replay becomes slower instead of skipping.
 constexpr std::chrono::milliseconds kMaxRoundTime{200};
 
 base::Status Refuse(const char* action, const char* needed, Phase phase) {

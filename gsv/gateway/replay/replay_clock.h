@@ -16,7 +16,7 @@ class ReplayClock {
  public:
   using WallTime = std::chrono::steady_clock::time_point;
 
-  // Begins at `start`. `speed`: simulated seconds per second of wall-clock time, > 0.
+  // Begins at `start`. `speed` is in simulated seconds per second of wall-clock time, > 0.
   ReplayClock(base::SimTime start, base::SimTime end, double speed, bool loop)
       : start_(start), end_(end), speed_(speed), loop_(loop), position_(start) {}
 
@@ -28,7 +28,7 @@ class ReplayClock {
   simulation::Phase phase() const { return phase_; }
   bool is_playing() const { return phase_ == simulation::Phase::kRunning; }
 
-  // kNotRunning with a sentence if the phase does not allow it.
+  // Returns kNotRunning with a sentence if the phase does not allow this.
   base::Status Start();
   base::Status Pause();
   base::Status Resume();
@@ -43,8 +43,8 @@ class ReplayClock {
   void SetSpeed(double speed) { speed_ = speed; }
   void SetLoop(bool loop) { loop_ = loop; }
 
-  // Advances with the wall clock. True if it passed the end and restarts (with `loop`). Without
-  // `loop` it stays at the end, finished.
+  // Advances with the wall clock. Returns true if it has passed the end and restarts (with `loop`).
+  // Without `loop` it stays at the end, finished.
   bool Advance(WallTime now);
 
  private:
@@ -54,7 +54,7 @@ class ReplayClock {
   bool loop_;
   base::SimTime position_;
   simulation::Phase phase_ = simulation::Phase::kCreated;
-  WallTime last_{};  // time of the last Advance(); {}: none
+  WallTime last_{};  // time of the last Advance(); {} before the first one
 };
 
 }  // namespace gsv::gateway

@@ -12,7 +12,7 @@ namespace {
 using simulation::AgentPhase;
 
 constexpr std::chrono::nanoseconds kRound{1'000'000'000 / 30};
-constexpr std::int64_t kMaxPoses = 1000;  // in one step
+constexpr std::int64_t kMaxPoses = 1000;  // maximum number of poses in one step
 constexpr double kMinSpeed = 0.001, kMaxSpeed = 1000;
 
 recording::StringMap Metadata(const recording::McapReader& reader, const std::string& name) {
@@ -39,7 +39,7 @@ AgentPhase ParseAgentPhase(const std::string& text) {
   return AgentPhase::kNone;
 }
 
-// Pose number `index` in a message; the identity if there are fewer.
+// Returns pose number `index` of a message; the identity if there are fewer.
 geometry::Pose PoseAt(const messages::gsv_msgs::Poses& message, std::size_t index) {
   geometry::Pose pose;
   if (message.poses.size() / 7 <= index) return pose;
@@ -85,7 +85,7 @@ ReplayPlayer::ReplayPlayer(std::unique_ptr<recording::McapReader> reader, const 
           *reader_, name_, [this] { Wake(); }, std::make_shared<ReplayOperations>(*this)) {
   problems_.insert(problems_.end(), scene_.problems().begin(), scene_.problems().end());
   ReadMetadata();
-  // The first request also gets the robots.
+  // The first request also gets the robots, before the replay has played.
   stream_.JumpTo(clock_.position());
   thread_ = std::thread([this] { Run(); });
 }

@@ -28,8 +28,8 @@ class ReplayPlayer {
   // Opens a recording at its start. Fails if the file is not a recording or has no messages.
   static base::Result<std::unique_ptr<ReplayPlayer>> Open(const std::string& path,
                                                           const ReplayOptions& options);
-  // The same for a reader. `name`: the name of the simulation, unless the recording has it.
-  // `models`: see RecordedScene.
+  // Opens a reader. `name` is the name of the simulation, unless the recording has it. For `models`
+  // see RecordedScene.
   static base::Result<std::unique_ptr<ReplayPlayer>> Open(
       std::unique_ptr<recording::McapReader> reader, const std::string& name,
       const ReplayOptions& options, ModelSource models = nullptr);
@@ -45,10 +45,10 @@ class ReplayPlayer {
   // Problems of the file.
   const base::Problems& problems() const { return problems_; }
 
-  // The status as of a simulation, at the replay's position.
+  // The status in the form of a simulation's status, at the replay's position.
   simulation::SimulationStatus status() const;
   base::Result<SharedBytes> SceneNow() const;
-  // The recorded poses at the replay's position; empty: none yet.
+  // The recorded poses at the replay's position; empty if there are none yet.
   messages::gsv_msgs::Poses poses() const { return stream_.recorded_poses(); }
   ReplayClock clock() const;
 
@@ -58,7 +58,7 @@ class ReplayPlayer {
   // Advances by `count` steps of the simulation and pauses.
   base::Status Step(std::int64_t count);
   void Rewind();
-  // Moves to the instant, at most to an end, and continues playing if it played.
+  // Moves to the instant, limited to the recording, and continues playing if it played.
   void Seek(base::SimTime time);
   // Moves to the `count`th recorded pose after the position, or before it if negative, and pauses.
   base::Status StepPoses(std::int64_t count);

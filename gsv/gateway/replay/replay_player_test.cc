@@ -32,7 +32,7 @@ TEST_F(ReplayGatewayTest, SeeksForwardsAndBack) {
   viewer.Subscribe(2, "/robot/front");
   viewer.Subscribe(3, "/gsv/beams");
   ReceiveEach(viewer, {1, 2, 3});
-  // The wall is at 2.9 m, the robot at 0.5 m/s times the time.
+  // The wall is at 2.9 m, and the robot is at 0.5 m/s times the time.
   for (const double time : {1.5, 0.25, 1.0}) {
     const HttpReply reply = Post("seek", json{{"time_s", time}}.dump());
     EXPECT_EQ(reply.status, 200);
@@ -41,7 +41,7 @@ TEST_F(ReplayGatewayTest, SeeksForwardsAndBack) {
     EXPECT_EQ(status["phase"], "paused");
     const auto received = ReceiveEach(viewer, {1, 2, 3});
     const Poses poses = Decoded<Poses>(received.at(1));
-    EXPECT_NEAR(poses.poses[0], 0.5 * time, 0.5 * 0.02);  // recorded at 50 Hz
+    EXPECT_NEAR(poses.poses[0], 0.5 * time, 0.5 * 0.02);  // poses are recorded at 50 Hz
     const auto range = Decoded<messages::sensor_msgs::Range>(received.at(2));
     EXPECT_NEAR(range.range, 2.9 - 0.5 * time, 1e-6);  // each is an instant of the 20 Hz sensor
     const auto beams = Decoded<messages::visualization_msgs::MarkerArray>(received.at(3));
@@ -67,14 +67,16 @@ TEST_F(ReplayGatewayTest, StepsAndPauses) {
 TEST_F(ReplayGatewayTest, TheStatusOfEveryPauseIsSent) {
   Viewer viewer(port());
   viewer.Subscribe(1, "/gsv/status");
-  for (const double time : {1.5, 0.25, 1.0, 0.5}) {  // closer than the period of the status
+  // These times differ by less than the period of the status.
+  for (const double time : {1.5, 0.25, 1.0, 0.5}) {
     Post("seek", json{{"time_s", time}}.dump());
     SimulationStatus status;
     do {
       status = Decoded<SimulationStatus>(viewer.ReceiveData(1));
     } while (messages::ToSimTime(status.stamp) != base::FromSeconds(time));
     ASSERT_EQ(status.robots.size(), 1u);
-    EXPECT_NEAR(status.robots[0].distance_m, 0.5 * time, 0.5 * 0.2);  // recorded at 5 Hz
+    EXPECT_NEAR(status.robots[0].distance_m, 0.5 * time, 0.5 * 0.2);  // the status is recorded at 5
+                                                                      // Hz
   }
 }
 
@@ -84,7 +86,7 @@ TEST_F(ReplayGatewayTest, StepsOverRecordedPoses) {
   viewer.ReceiveData(1);
   Post("seek", R"({"time_s":1})");
   viewer.ReceiveData(1);
-  // 50 poses per second, with two steps of the simulation each.
+  // There are 50 poses per second, one for every two steps of the simulation.
   const auto step = [&](const char* body) {
     return json::parse(Post("step", body).body)["time_s"].get<double>();
   };
@@ -130,7 +132,7 @@ std::string ControlBytes(bool play, float speed, std::optional<std::uint64_t> se
   return bytes + "me";
 }
 
-// Opcode 5, the state of the playback.
+// A message with opcode 5: the state of the playback.
 struct StateReceived {
   int status = 0;
   std::uint64_t time_ns = 0;
@@ -149,7 +151,7 @@ StateReceived ReceiveState(Viewer& viewer) {
   return state;
 }
 
-// The answer to a request. Changes go to all viewers, and may come before the answer.
+// Receives the answer to a request. Changes go to all viewers, and may come before the answer.
 StateReceived ReceiveAnswer(Viewer& viewer) {
   for (;;) {
     StateReceived state = ReceiveState(viewer);
@@ -180,7 +182,7 @@ TEST_F(ReplayGatewayTest, FoxglovesPlaybackControlMovesIt) {
   EXPECT_FALSE(state.did_seek);
   do {
     state = ReceiveState(viewer);
-  } while (state.status != 3);  // the end, which no request caused
+  } while (state.status != 3);  // until the end, which no request caused
   EXPECT_EQ(state.time_ns, 2'000'000'000u);
   EXPECT_EQ(state.request, "");
 

@@ -32,7 +32,7 @@ bool IsCommon(const std::string& topic) {
   return topic.starts_with("/gsv/") || presentation::FindTopic(topic) != nullptr;
 }
 
-// "pebble" of "/pebble/camera"; for other topics, a text that is no robot's name.
+// Returns "pebble" for "/pebble/camera"; for other topics, a text that is not the name of a robot.
 std::string RobotOf(const std::string& topic) {
   const std::size_t end = topic.find('/', 1);
   return end == std::string::npos ? std::string() : topic.substr(1, end - 1);
@@ -189,7 +189,7 @@ void ReplayStream::Publish(base::SimTime time, simulation::Phase phase, WallTime
   AdvertiseWanted();
   hub_->PublishChanges(std::exchange(has_jumped_, false));
   const bool has_moved = published_time_ != time;
-  // Another status follows one that came too early only while the replay plays.
+  // The status is sent again later only while the replay plays, if it came too early.
   const bool is_paced = phase == simulation::Phase::kRunning;
   const bool is_due =
       published_phase_ != phase || (has_moved && (!is_paced || status_pacing_.IsDue(now)));

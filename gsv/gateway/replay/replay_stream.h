@@ -39,14 +39,14 @@ class ReplayStream {
 
   // Takes the newest message of each topic that is not after `time`.
   void JumpTo(base::SimTime time);
-  // Takes the messages from the position to `time`, inclusive.
+  // Takes the messages from the present position to `time`, inclusive.
   void PlayTo(base::SimTime time);
   // Publishes the messages since the last call, and the current state to new subscribers. Calls
   // `status` only if it is needed.
   void Publish(base::SimTime time, simulation::Phase phase, WallTime now,
                const std::function<simulation::SimulationStatus()>& status);
 
-  // The last recorded status and poses; empty: none yet.
+  // The last recorded status and poses; empty before the first.
   messages::gsv_msgs::SimulationStatus recorded_status() const;
   messages::gsv_msgs::Poses recorded_poses() const;
 
@@ -54,8 +54,8 @@ class ReplayStream {
   enum class Kind { kPlain, kEvents, kStatus, kClock, kPoses };
   struct Track {
     Kind kind = Kind::kPlain;
-    foxglove::ChannelId channel = 0;  // 0: not published
-    bool is_wanted = false;           // advertised by request
+    foxglove::ChannelId channel = 0;  // 0 if the track is not published
+    bool is_wanted = false;           // whether it was advertised by request
     std::optional<Hub::Message> latest;
     bool is_fresh = false;
   };
@@ -85,7 +85,7 @@ class ReplayStream {
   std::optional<base::SimTime> published_time_;
   std::optional<simulation::Phase> published_phase_;
   Pacing status_pacing_;
-  bool has_jumped_ = false;  // since the last Publish()
+  bool has_jumped_ = false;  // whether there was a jump since the last Publish()
   int warnings_ = 0;
 
   mutable base::Mutex mutex_;

@@ -29,7 +29,7 @@ constexpr int kRobots = kListed + kWanted + 2;
 
 std::string Robot(int i) { return "robot_" + std::to_string(i); }
 
-// A recording with more sensors than are listed, with one reading each, and its replay.
+// A replay of a recording with more sensors than are listed. Each sensor has one reading.
 class CrowdReplayTest : public ::testing::Test {
  public:
   CrowdReplayTest() {

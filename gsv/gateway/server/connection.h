@@ -18,7 +18,7 @@ struct ServerContext {
   const std::shared_ptr<access::Authenticator> authenticator;
   Handler& handler;
   const std::shared_ptr<metrics::Traffic> traffic;
-  const std::shared_ptr<boost::asio::ssl::context> tls;  // null: plain HTTP
+  const std::shared_ptr<boost::asio::ssl::context> tls;  // null for plain HTTP
   std::atomic<std::size_t> uploads{0};                   // current number of uploads
   std::atomic<bool> stopping{false};
 };
@@ -26,8 +26,8 @@ struct ServerContext {
 // The owner of a WebSocket.
 struct SocketOwner {
   access::Principal principal;
-  std::string viewer;       // a key, or empty
-  bool is_private = false;  // its commands affect no other viewer
+  std::string viewer;       // key of the viewer, or empty
+  bool is_private = false;  // whether its commands affect no other viewer
 };
 
 // Counts one connection during its lifetime.
@@ -69,7 +69,7 @@ class UploadSlot {
 class Connection {
  public:
   virtual ~Connection() = default;
-  // On the server's thread: ends the session in order, soon.
+  // Called on the server's thread: ends the session soon, with the closing handshake.
   virtual void Shutdown() = 0;
   // After the server's thread has ended: releases all references to this session.
   virtual void Cut() = 0;

@@ -31,7 +31,8 @@ std::string Text(const http::request<http::string_body>& request, http::field fi
   return std::string(View(request[field]));
 }
 
-// The response to bytes that are not an acceptable request; empty: the connection was closed.
+// Returns the response to bytes that are not an acceptable request; nothing if the connection was
+// closed.
 std::optional<Response> ResponseTo(error_code error, std::uint64_t header_limit,
                                    std::uint64_t body_limit) {
   if (error == http::error::header_limit || error == http::error::buffer_overflow) {
@@ -54,7 +55,7 @@ constexpr std::chrono::minutes kUploadTime{5};
 
 // Time limit for a client to begin TLS, and to close the connection.
 constexpr std::chrono::seconds kLeaveTime{1};
-// or the time limit of a request, if that is shorter
+// if the time limit of a request is shorter than this, that limit is used
 constexpr std::chrono::milliseconds kHandshakeTime{10'000};
 
 std::string PathOf(const Target& target) {
@@ -67,7 +68,7 @@ using KeepTrack = std::function<void(std::weak_ptr<Connection>)>;
 
 class HttpSession final : public Connection, public std::enable_shared_from_this<HttpSession> {
  public:
-  // `buffer`: bytes that were read already.
+  // `buffer` has bytes that were read already.
   HttpSession(ByteStream stream, beast::flat_buffer buffer, std::shared_ptr<ServerContext> context,
               std::unique_ptr<ConnectionSlot> slot, KeepTrack keep_track)
       : stream_(std::move(stream)),
@@ -120,7 +121,8 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     const auto& request = parser_->get();
     version_ = request.version();
     is_head_ = request.method() == http::verb::head;
-    keep_alive_ = false;  // for answers that are sent before the whole request was read
+    keep_alive_ = false;  // if an answer is sent before the whole request was read, the connection
+                          // is closed
     principal_.reset();
     target_ = ParseTarget(View(request.target()));
     match_ = target_ ? context_->handler.router().Find(Method(), *target_) : Router::Match();
@@ -173,7 +175,8 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     return is_head_ ? std::string_view("GET") : View(parser_->get().method_string());
   }
 
-  // A parameter of the query of a WebSocket or an image: a page cannot set their headers.
+  // Returns a parameter of the query of a WebSocket or an image, because a page cannot set their
+  // headers.
   std::string SocketQuery(const std::string& name) const {
     const bool is_read = match_.route != nullptr && (match_.route->find_hub != nullptr ||
                                                      match_.route->accepts_token_in_query);
@@ -376,7 +379,8 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     Drain();
   }
 
-  // Reads the rest that the client sends, so that closing does not discard the answer on its way.
+  // Reads the remaining bytes of the client, because closing the socket with unread bytes could
+  // discard the answer.
   void Drain() {
     is_idle_ = true;
     tcp().expires_after(kLeaveTime);
@@ -396,13 +400,13 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   // The state of the request that is being read or answered:
   base::Result<Target> target_{};
   Router::Match match_;
-  std::optional<access::Principal> principal_;  // nothing until it is known
-  std::unique_ptr<UploadSlot> upload_;          // during an upload
+  std::optional<access::Principal> principal_;  // nothing while it is unknown
+  std::unique_ptr<UploadSlot> upload_;          // set during an upload
   std::uint64_t body_limit_ = 0;
   unsigned version_ = 11;
   bool keep_alive_ = false;
   bool is_head_ = false;
-  bool is_idle_ = false;  // waits for bytes that may never come
+  bool is_idle_ = false;  // whether it waits for a request that may never come
 };
 
 // Reads a connection's first bytes. TLS continues by TLS. A client that uses plain HTTP gets the

@@ -39,11 +39,11 @@ class SendQueue {
   [[nodiscard]] bool PushControl(SharedBytes message, bool is_text = true);
   // Always keeps the newest message. Returns the number of dropped older ones.
   std::size_t PushData(const foxglove::BinaryHeader& header, SharedBytes payload);
-  // The next message: control before data, each in order.
+  // Returns the next message: control messages before data, each kind in order.
   std::optional<Outgoing> Pop();
 
   bool empty() const;
-  std::uint64_t dropped() const;  // data messages so far
+  std::uint64_t dropped() const;  // number of dropped data messages so far
 
  private:
   static Outgoing Take(std::deque<Outgoing>& queue, std::size_t& bytes);

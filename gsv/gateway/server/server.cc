@@ -24,7 +24,7 @@ using boost::system::error_code;
 
 // Time limit for clients to close their connections after Stop().
 constexpr std::chrono::seconds kLastAnswers{1};
-// Delay before the next attempt after the system has run out of descriptors.
+// Delay before the next attempt to accept if the system has no free descriptors.
 constexpr std::chrono::milliseconds kBreath{100};
 
 base::Result<tcp::endpoint> EndpointOf(const ServerOptions& options) {
@@ -69,7 +69,7 @@ base::Status Listen(tcp::acceptor& acceptor, const tcp::endpoint& endpoint,
   return {};
 }
 
-// Informs a client above the limit, without waiting for it.
+// Sends a refusal to a client above the limit, without waiting for it.
 void TurnAway(tcp::socket& socket) {
   static constexpr std::string_view kAnswer =
       "HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\nContent-Type: application/json\r\n"
@@ -184,14 +184,14 @@ class BeastServer final : public Server {
 
   ServerOptions options_;
   std::shared_ptr<asio::ssl::context> tls_;
-  std::string name_;  // the address for clients
+  std::string name_;  // the address that clients use
   Handler* handler_ = nullptr;
   std::shared_ptr<ServerContext> context_;
   std::uint16_t port_ = 0;
   asio::io_context io_{1};
   tcp::acceptor acceptor_;
   asio::steady_timer pause_;
-  std::vector<std::weak_ptr<Connection>> connections_;  // some may have ended
+  std::vector<std::weak_ptr<Connection>> connections_;  // some of these may have ended
   std::promise<void> finished_;
   std::thread thread_;
 };

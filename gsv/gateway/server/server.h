@@ -25,7 +25,7 @@ struct ServerLimits {
   std::uint32_t header_bytes = 16u << 10;
   std::uint64_t body_bytes = 64u << 10;
   std::uint64_t upload_bytes = 64u << 20;  // maximum size of one file
-  std::size_t uploads_at_once = 4;         // each is held in memory until it is complete
+  std::size_t uploads_at_once = 4;         // each is in memory until it is complete
   std::size_t message_bytes = 256u << 10;  // maximum size of one WebSocket message from a client
   // time limit to send a request, or to receive the response
   std::chrono::milliseconds request_time{30'000};
@@ -34,24 +34,24 @@ struct ServerLimits {
   SendLimits send;
 };
 
-// PEM files, both or none.
+// Names of PEM files; either both are set, or none.
 struct TlsFiles {
-  std::string certificate, key;  // certificate with intermediate ones; key
+  std::string certificate, key;  // the certificate with intermediate ones, and the key
 
   bool empty() const { return certificate.empty() && key.empty(); }
 };
 
 struct ServerOptions {
   std::string host = "127.0.0.1";          // an address of this machine, or "localhost"
-  std::uint16_t port = 0;                  // 0: the system chooses
+  std::uint16_t port = 0;                  // 0 if the system chooses
   std::vector<std::string> allowed_hosts;  // see AccessRule
   std::vector<std::string> allowed_origins;
-  // Without tokens and authenticator, only this machine is served.
+  // If there are no tokens and no authenticator, only this machine is served.
   access::Tokens tokens;
-  std::shared_ptr<access::Authenticator> authenticator{};  // replaces the tokens; null: tokens
+  std::shared_ptr<access::Authenticator> authenticator{};  // replaces the tokens, if set
   TlsFiles tls{};                                          // empty: plain HTTP
   ServerLimits limits;
-  std::shared_ptr<metrics::Traffic> traffic{};  // counters; null: none
+  std::shared_ptr<metrics::Traffic> traffic{};  // counters; null if nothing is counted
 };
 
 // Handles the requests of a server that have a route and permission.
@@ -81,7 +81,7 @@ class Server {
   virtual std::uint16_t port() const = 0;
   virtual std::string url() const = 0;  // "http://127.0.0.1:8080/"
 
-  // Closes all connections in order, and forcibly after a moment. Idempotent.
+  // Closes all connections with a closing handshake, and forcibly after a short time. Idempotent.
   virtual void Stop() = 0;
 };
 

@@ -126,7 +126,7 @@ TEST_F(ServerTest, AnInvalidAddressIsNamed) {
   ServerOptions options;
   options.host = "nowhere.example";
   EXPECT_EQ(Server::Start(options, echo_).error().code, base::ErrorCode::kInvalidArgument);
-  options.host = "203.0.113.7";  // reserved for documentation: no machine has it
+  options.host = "203.0.113.7";  // this address is reserved for documentation, so no machine has it
   options.tokens.watch = "a-token-that-nobody-guesses";
   EXPECT_EQ(Server::Start(options, echo_).error().code, base::ErrorCode::kUnavailable);
 }

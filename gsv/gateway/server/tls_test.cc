@@ -1,5 +1,5 @@
-// The server over TLS, tested with OpenSSL's client side (in Boost.Beast), which knows only the
-// authority.
+// Tests the server over TLS with OpenSSL's client side (in Boost.Beast), which trusts only the
+// test's authority.
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl.hpp>
 #include <boost/asio/write.hpp>
@@ -47,7 +47,7 @@ class TlsTest : public testing::ServerTest {
   }
 
   struct Client {
-    // `authority` empty: the system's authorities.
+    // If `authority` is empty, the system's authorities are trusted.
     Client(std::uint16_t port, const std::string& authority, const std::string& host) {
       if (!authority.empty()) context.load_verify_file(authority);
       stream.set_verify_mode(asio::ssl::verify_peer);
@@ -60,7 +60,7 @@ class TlsTest : public testing::ServerTest {
     beast::ssl_stream<beast::tcp_stream> stream{io, context};
   };
 
-  // The answer's status and body. Throws boost::system::system_error.
+  // Returns the answer's status and body. Throws boost::system::system_error.
   std::pair<int, std::string> FetchSecurely(const std::string& more_headers = "",
                                             int version = 0) const {
     Client client(port(), folder() + "/ca.pem", "127.0.0.1");
@@ -72,7 +72,7 @@ class TlsTest : public testing::ServerTest {
     beast::flat_buffer buffer;
     http::response<http::string_body> response;
     http::read(client.stream, buffer, response);
-    // TLS signals the end, so that nobody can truncate an answer unnoticed.
+    // TLS announces the end of the data, so that nobody can truncate an answer unnoticed.
     error_code error;
     char byte = 0;
     client.stream.read_some(asio::buffer(&byte, 1), error);
@@ -89,7 +89,7 @@ TEST_F(TlsTest, DisconnectsAClientThatDoesNotBegin) {
   options.limits.request_time = std::chrono::milliseconds(50);
   Start(options);
   testing::HttpConnection silent(port()), halting(port());
-  halting.Send("\x16\x03\x01");  // the begin of a handshake
+  halting.Send("\x16\x03\x01");  // the first bytes of a handshake
   EXPECT_TRUE(silent.IsClosed());
   EXPECT_TRUE(halting.IsClosed());
 }

@@ -59,7 +59,8 @@ class WebSocketSession final : public Client,
           response.set(beast::http::field::sec_websocket_protocol, name);
         }));
     stream_.auto_fragment(false);
-    stream_.read_message_max(0);  // OnRead() limits it, and sends a sentence
+    stream_.read_message_max(0);  // the stream itself has no limit, because OnRead() checks it and
+                                  // sends a sentence
     stream_.async_accept(request_, [self = shared_from_this()](error_code error) {
       if (!error) self->OnAccepted();
     });
@@ -140,7 +141,7 @@ class WebSocketSession final : public Client,
     } else if (stream_.is_message_done()) {
       TakeMessage();
     }
-    Read();  // also while closing: the client's close frame must be read
+    Read();  // this also applies while closing, because the client's close frame must be read
   }
 
   void TakeMessage() {
@@ -232,10 +233,10 @@ class WebSocketSession final : public Client,
   Outgoing in_flight_;
   std::optional<websocket::close_reason> close_reason_;
   std::atomic<bool> is_woken_{false};
-  bool is_open_ = false;  // accepted, and no close frame was sent
+  bool is_open_ = false;  // the connection was accepted, and no close frame was sent
   bool is_writing_ = false;
   bool has_left_ = false;
-  bool is_counted_ = false;  // it counts as a viewer
+  bool is_counted_ = false;  // the session counts as a viewer
 };
 
 }  // namespace

@@ -82,7 +82,7 @@ TEST_F(ServerTest, FrameWithAWrongLengthEndsOnlyItsConnection) {
   options.limits.message_bytes = 1000;
   Start(options);
   Viewer liar(port()), other(port());
-  // A masked text frame of 2^40 bytes.
+  // A masked text frame that declares 2^40 bytes.
   liar.SendRaw(std::string("\x81\xff\x00\x00\x01\x00\x00\x00\x00\x00mask", 14));
   liar.SendRaw(std::string(50'000, 'x'));
   while (liar.Receive()) {
@@ -103,16 +103,17 @@ TEST_F(ServerTest, FrameWithAWrongLengthEndsOnlyItsConnection) {
 TEST_F(ServerTest, StalledReaderLosesTheOldestDataAndDelaysNoOther) {
   ServerOptions options;
   options.limits.send.data_messages = 4;
-  options.limits.idle_time = std::chrono::minutes(10);  // it reads nothing, so it misses pings
+  options.limits.idle_time = std::chrono::minutes(10);  // the client reads nothing, so it does not
+                                                        // answer pings
   Start(options);
   Viewer stalled(port()), healthy(port());
   stalled.Subscribe(1, "/numbers");
   healthy.Subscribe(1, "/numbers");
-  // More than the system's socket buffers can hold.
+  // The messages are more than the system's socket buffers can hold.
   constexpr std::uint64_t kMessages = 400;
   const std::string ballast(64 << 10, 'x');
   for (std::uint64_t i = 0; i < kMessages; ++i) {
-    // Both must be subscribed before the first message.
+    // Both clients must be subscribed before the first message.
     if (i == 0) {
       healthy.SendText(R"({"op":"unsubscribe","subscriptionIds":[77]})");
       stalled.SendText(R"({"op":"unsubscribe","subscriptionIds":[77]})");
@@ -134,9 +135,9 @@ TEST_F(ServerTest, StalledReaderLosesTheOldestDataAndDelaysNoOther) {
 TEST_F(ServerTest, AStalledReaderAmongFiftyDoesNotDelayTheOthers) {
   ServerOptions options;
   options.limits.send.data_messages = 4;
-  options.limits.idle_time = std::chrono::minutes(10);  // it does not read pings either
+  options.limits.idle_time = std::chrono::minutes(10);  // the client does not read pings either
   Start(options);
-  // It subscribes, and does not read any more.
+  // The client subscribes, and then does not read any more.
   Viewer stalled(port());
   stalled.Subscribe(1, "/numbers");
   std::vector<std::unique_ptr<Viewer>> others;
@@ -144,7 +145,7 @@ TEST_F(ServerTest, AStalledReaderAmongFiftyDoesNotDelayTheOthers) {
     others.push_back(std::make_unique<Viewer>(port()));
     others.back()->Subscribe(1, "/numbers");
     others.back()->SendText(R"({"op":"unsubscribe","subscriptionIds":[77]})");
-    others.back()->ReceiveText("status");  // earlier messages were sent, too
+    others.back()->ReceiveText("status");  // earlier messages were sent to this client, too
   }
   constexpr std::uint64_t kMessages = 60;
   const SharedBytes ballast(std::string(256 << 10, 'x'));
@@ -176,7 +177,7 @@ TEST_F(ServerTest, AViewerThatAnswersNoPingIsDisconnected) {
   ServerOptions options;
   options.limits.idle_time = std::chrono::milliseconds(100);
   Start(options);
-  Viewer silent(port());  // reads nothing, so that it does not answer pings
+  Viewer silent(port());  // this client reads nothing, so it does not answer pings
   echo_.WaitUntil([&] { return echo_.hub().has_clients(); });
   echo_.WaitUntil([&] { return !echo_.hub().has_clients(); });
 }

@@ -23,10 +23,10 @@ class WorkerPool {
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  // Any thread. False: the queue is full, or Stop() was called; the job is dropped.
+  // Any thread. If the queue is full, or after Stop(), drops the job and returns false.
   [[nodiscard]] bool Submit(std::function<void()> job);
 
-  // Waits for running jobs and drops pending ones. Not from a job.
+  // Waits for running jobs and drops pending ones. Must not be called from a job.
   void Stop();
 
  private:

@@ -18,7 +18,7 @@ model::Material Painted(double r, double g, double b) {
   return material;
 }
 
-// The shape is both the visual and the collision.
+// Adds a part whose shape is both its visual and its collision.
 void AddPart(model::Link& link, const geometry::Shape& shape, const Pose& link_from_part,
              const model::Material& material) {
   const std::string name = "part_" + std::to_string(link.visuals.size());

@@ -10,7 +10,7 @@ namespace gsv::gateway::testing {
 
 model::Model FloorModel();
 model::Model CrateModel();  // a cube of 1 m on the ground
-// Two driven wheels (continuous joints), a sonar ahead and one to the left, a lidar, a camera.
+// A robot with two driven wheels (continuous joints), sonars ahead and left, lidar, camera.
 model::Model RobotModel();
 model::WorldDescription ArenaDescription();
 

@@ -21,7 +21,7 @@ using gsv::gateway::testing::SimulationList;
 
 constexpr std::int64_t kStepsBetweenMeetings = 50;
 
-// While the simulation runs, time passes, and two robots meet twice per second.
+// While the simulation runs, advances its time, and makes two robots touch twice per second.
 void Drive(const std::shared_ptr<ScriptedSimulation>& simulation, std::stop_token stop) {
   const auto step = std::chrono::milliseconds(10);
   auto next = std::chrono::steady_clock::now();

@@ -69,7 +69,7 @@ class RecordingClient final : public Client {
     return texts_;
   }
 
-  // Binary control messages.
+  // Returns the binary control messages.
   std::vector<std::string> answers() const {
     const std::lock_guard lock(mutex_);
     return answers_;
@@ -94,7 +94,7 @@ class RecordingClient final : public Client {
     return times;
   }
 
-  // The channel of a topic by the latest advertisement; 0: none.
+  // Returns the channel of a topic according to the latest advertisement; 0 if there is none.
   foxglove::ChannelId ChannelOf(const std::string& topic) const {
     foxglove::ChannelId id = 0;
     for (const nlohmann::json& text : texts()) {

@@ -28,7 +28,7 @@ inline std::string PathFor(const std::string& name) {
   return ::testing::TempDir() + "gsv_replay_" + std::to_string(getpid()) + "_" + name + ".mcap";
 }
 
-// A robot that drives from the origin at `speed`, in m/s, towards a wall, for two seconds.
+// Records two seconds of a robot that drives from the origin towards a wall at `speed`, in m/s.
 inline void RecordRun(const std::string& path, double speed = 0.5) {
   auto simulation = recording::MakeSimulation(std::chrono::seconds(2), recording::Drives(speed));
   recording::RecorderOptions options;
@@ -39,7 +39,7 @@ inline void RecordRun(const std::string& path, double speed = 0.5) {
   ASSERT_TRUE((*recorder)->Stop());
 }
 
-// One message of each of these subscriptions, in any order.
+// Receives one message of each of these subscriptions, in any order.
 inline std::map<int, ReceivedData> ReceiveEach(Viewer& viewer, std::set<int> subscriptions) {
   std::map<int, ReceivedData> received;
   while (!subscriptions.empty()) {

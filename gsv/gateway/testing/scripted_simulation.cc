@@ -16,7 +16,8 @@ using simulation::Phase;
 
 namespace {
 
-constexpr double kTurnRate = 0.2;   // rad/s about the arena's middle
+constexpr double kTurnRate = 0.2;   // angular velocity of the robots about the arena's middle,
+                                    // rad/s
 constexpr double kWheelRate = 1.0;  // rad/s
 const char* const kAvatar = "avatar";
 
@@ -180,7 +181,7 @@ void ScriptedSimulation::SetDriveState(const std::string& robot, const world::Dr
   PublishSnapshot();
 }
 
-// Observers get only this event.
+// Only observers receive this event.
 void ScriptedSimulation::Meet(const std::string& first, const std::string& second) {
   Advance(specification_.world->max_step_size);
   const std::lock_guard lock(mutex_);

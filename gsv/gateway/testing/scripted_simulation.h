@@ -2,8 +2,8 @@
 // closed form. Sensors are real. Bodies move only with Advance().
 //
 // World    "arena": a floor, four crates at (±4, ±4), robots robot_0, robot_1, … and one avatar.
-//          Robot i goes round (0, 0) with radius 1 + i/2 at 0.2 rad/s, ahead by i radians; its
-//          wheels turn at 1 rad/s.
+//          Robot i drives around (0, 0) with radius 1 + i/2 at 0.2 rad/s, with a phase of i
+//          radians. Its wheels turn at 1 rad/s.
 // Threads  any.
 #pragma once
 
@@ -21,14 +21,14 @@ class ScriptedSimulation final : public simulation::Simulation {
 
   // Advances time, in any phase.
   void Advance(base::SimTime time);
-  // The command of robot i.
+  // Returns the command of robot i.
   static world::DriveCommand CommandOf(int robot);
   // Sets a robot's drive command in the latest and later snapshots.
   void SetDriveState(const std::string& robot, const world::DriveCommand& command,
                      base::SimTime time);
-  // Adds a contact of two bodies in the next step, at the first.
+  // Adds a contact of two bodies to the next step, at the origin of the first one.
   void Meet(const std::string& first, const std::string& second);
-  // Passes the times of a step to the observers that want them.
+  // Passes the times of a step to the observers that request them.
   void Time(const simulation::StepTimes& times);
   std::size_t observers() const;
   // Adds a robot at the end; the layout changes.

@@ -25,7 +25,7 @@ class HttpConnection {
   ~HttpConnection();
 
   void Send(const std::string& bytes);
-  // The next response; `has_body` false: to a HEAD request. Empty if the server has closed.
+  // The next response; empty at the connection's end. `has_body`: false for a HEAD request.
   std::optional<HttpReply> Receive(bool has_body = true);
   bool IsClosed();  // waits for data or the end
 
@@ -36,7 +36,7 @@ class HttpConnection {
 
 std::string RequestText(std::uint16_t port, const std::string& method, const std::string& target,
                         const std::string& more_headers = "", const std::string& body = "");
-// One request on a new connection.
+// Sends one request on a new connection.
 HttpReply Fetch(std::uint16_t port, const std::string& method, const std::string& target,
                 const std::string& more_headers = "", const std::string& body = "");
 
@@ -51,7 +51,7 @@ class Viewer {
     ReceivedData data() const { return ParseData(bytes); }
   };
 
-  // Throws std::runtime_error with the server's answer when it refuses.
+  // Throws std::runtime_error with the server's answer if the server refuses.
   explicit Viewer(std::uint16_t port, const std::string& target = "/ws",
                   const std::string& subprotocols = "foxglove.sdk.v1",
                   const std::string& origin = "");
@@ -60,14 +60,14 @@ class Viewer {
   const std::string& subprotocol() const;  // The subprotocol that the server chose.
   void SendText(const std::string& text);
   void SendBinary(const std::string& bytes);
-  void SendRaw(const std::string& bytes);  // past the protocol
-  // The next message; empty when the connection has ended.
+  void SendRaw(const std::string& bytes);  // sends bytes without framing
+  // Receives the next message; empty when the connection has ended.
   std::optional<Frame> Receive();
-  // The next text of that operation; skips others.
+  // Receives the next text with that operation; skips others.
   nlohmann::json ReceiveText(const std::string& op);
-  // The next message of a subscription; keeps those of others for later.
+  // Receives the next message of a subscription; keeps messages of other subscriptions for later.
   ReceivedData ReceiveData(foxglove::SubscriptionId subscription);
-  // The next binary message of that opcode; keeps data for later and skips others.
+  // Receives the next binary message with that opcode; keeps data for later and skips others.
   std::string ReceiveBytes(char opcode);
   // Waits for the advertisement of a service (/gsv/NAME) and calls it with a request in CDR.
   // Returns `success` and `message` of the response.

@@ -35,7 +35,7 @@ class ByteStream {
   using error_code = boost::system::error_code;
   using Tls = boost::beast::ssl_stream<boost::beast::tcp_stream>;
 
-  // Not connected yet.
+  // Creates a stream that is not connected yet.
   explicit ByteStream(boost::asio::io_context& io) : plain_(std::in_place, io) {}
   explicit ByteStream(boost::asio::ip::tcp::socket socket)
       : plain_(std::in_place, std::move(socket)) {}
@@ -46,7 +46,7 @@ class ByteStream {
 
   // Enables TLS, which Handshake() begins. `context` must outlive the stream.
   Tls& StartTls(boost::asio::ssl::context& context);
-  // `come` was read already; `then` gets the number of its bytes that were used. Needs StartTls().
+  // Call StartTls() first. `come` was read already; `then` gets the number of its used bytes.
   void Handshake(boost::asio::ssl::stream_base::handshake_type type, boost::asio::const_buffer come,
                  Completion then);
   // Shuts TLS down; without TLS calls then() at once.
@@ -54,7 +54,7 @@ class ByteStream {
 
   void ReadSome(boost::asio::mutable_buffer into, Completion then);
   void WriteSome(const Parts& parts, Completion then);
-  // Ends the connection of a WebSocket in order.
+  // Ends the connection of a WebSocket with the closing handshake.
   void Teardown(boost::beast::role_type role, Completion then);
 
   // Implements the concept AsyncReadStream of Boost.Beast.

@@ -21,7 +21,7 @@ class Completion {
       : step_(std::make_unique<Step<std::remove_cvref_t<Then>>>(std::forward<Then>(then))) {}
 
   void operator()(boost::system::error_code error, std::size_t bytes = 0) {
-    // Its state is destroyed before the next operation begins, as in Boost.Asio.
+    // The state of the operation is destroyed before the next operation begins, as in Boost.Asio.
     std::exchange(step_, nullptr)->Take(error, bytes);
   }
 

@@ -12,7 +12,7 @@ using foxglove::ChannelId;
 
 namespace {
 
-// Limit of what an untrusted server can make the relay store.
+// Limits the data that an untrusted server can make the relay store.
 constexpr std::size_t kMaxChannels = 10'000;
 
 }  // namespace

@@ -26,7 +26,7 @@ class ChannelMap {
   void Take(const Unadvertise& message);
   void Take(const MessageData& message);
 
-  // Follows the subscriptions of local viewers. Returns the texts to send.
+  // Makes the remote subscriptions equal to those of local viewers. Returns the texts to send.
   std::vector<std::string> FollowDemand();
   // Sends kept messages to new subscribers.
   void ServeNewSubscribers();
@@ -37,14 +37,14 @@ class ChannelMap {
  private:
   struct Source {
     foxglove::ChannelId theirs = 0;
-    std::size_t memory = 1;  // number of messages for a new subscriber
+    std::size_t memory = 1;  // number of kept messages for a new subscriber
     bool is_subscribed = false;
     std::deque<Hub::Message> latest;
   };
   void Welcome(foxglove::ChannelId ours, const Source& source);
 
   const std::shared_ptr<Hub> hub_;
-  std::map<foxglove::ChannelId, Source> sources_;  // by local number
+  std::map<foxglove::ChannelId, Source> sources_;  // sources by local number
   std::map<foxglove::ChannelId, foxglove::ChannelId> ours_by_theirs_;
 };
 

@@ -15,8 +15,8 @@ namespace gsv::gateway::upstream {
 
 class RelayedOperations final : public Operations {
  public:
-  // `simulation`: its name there; empty: the first. Requests run on `workers`, which must outlive
-  // the last call.
+  // `simulation` is its name at the other instance; empty: the first one. Requests run on
+  // `workers`, which must outlive the last call.
   RelayedOperations(const Address& address, const std::string& simulation, WorkerPool& workers);
 
   std::vector<foxglove::Service> services() const override { return services_.list(); }

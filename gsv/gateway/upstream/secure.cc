@@ -28,7 +28,7 @@ void Secure(transport::ByteStream& stream, const Address& address, transport::Co
   transport::ByteStream::Tls& tls = stream.StartTls(*address.tls);
   tls.set_verify_mode(ssl::verify_peer);
   tls.set_verify_callback(ssl::host_name_verification(address.host));
-  // A server with several names chooses its certificate by this name; it cannot be an address.
+  // A server with several names chooses its certificate by this name. It must not be an address.
   if (IsName(address.host)) SSL_set_tlsext_host_name(tls.native_handle(), address.host.c_str());
   stream.Handshake(ssl::stream_base::client, {}, std::move(then));
 }

@@ -12,7 +12,7 @@ namespace gsv::gateway::upstream {
 // address.
 void Secure(transport::ByteStream& stream, const Address& address, transport::Completion then);
 
-// The reason for a failed connection, with advice.
+// Returns the reason for a failed connection, with advice.
 std::string WhyNotConnected(const boost::system::error_code& error);
 inline constexpr char kConnectionHint[] = "check that gsv runs there and that the address is right";
 

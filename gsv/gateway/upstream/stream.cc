@@ -30,7 +30,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using WebSocket = websocket::stream<transport::ByteStream>;
 
-// A large image, or the list of two thousand channels with their definitions.
+// Large enough for an image, or for the list of two thousand channels with their definitions.
 constexpr std::size_t kMaxMessageBytes = 64u << 20;
 constexpr seconds kConnectTime{10};
 constexpr seconds kIdleTime{30};
@@ -58,7 +58,7 @@ struct Attempt {
   WebSocket socket;
   websocket::response_type answer;  // the answer to the handshake
   beast::flat_buffer incoming;
-  std::deque<std::string> outgoing;  // the front is being written
+  std::deque<std::string> outgoing;  // the first one is being written
 };
 using AttemptPointer = std::shared_ptr<Attempt>;
 
@@ -89,7 +89,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
   }
 
  private:
-  // Any thread: a client came, left, subscribed or unsubscribed.
+  // Called from any thread: a client was added or removed, subscribed or unsubscribed.
   void OnDemand() {
     if (is_called_.exchange(true)) return;
     asio::post(io_, [self = shared_from_this()] {
@@ -108,7 +108,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
     channels_->ServeNewSubscribers();
   }
 
-  // A handler that does nothing after the end of its attempt.
+  // Returns a handler that does nothing if its attempt has ended.
   template <typename Then>
   auto ForThis(Then then) {
     return [ self = shared_from_this(), attempt = attempt_, then ]<typename... Results>(
@@ -286,7 +286,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
                                            : "the simulation '" + simulation_ + "' is gone");
   }
 
-  // kPausing: until the next attempt. kIdle: no viewer.
+  // kPausing: waits until the next attempt. kIdle: there are no viewers.
   enum class State { kIdle, kConnecting, kOpen, kPausing };
 
   asio::io_context& io_;
@@ -296,7 +296,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
   std::shared_ptr<Hub> hub_;
   std::optional<ChannelMap> channels_;
   asio::steady_timer pause_;
-  AttemptPointer attempt_;  // null while there is none
+  AttemptPointer attempt_;  // null between attempts
   State state_ = State::kIdle;
   milliseconds pause_length_ = kFirstPause;
   bool is_stopped_ = false;
