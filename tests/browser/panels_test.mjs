@@ -25,10 +25,11 @@ after(async () => {
 const press = (name) => page.getByRole("button", { name, exact: true }).click();
 const panel = (name) => page.getByRole("region", { name, exact: true });
 
-test("physics shows the step, what steps cost, and which behaviour holds them up", async () => {
+test("physics shows gravity and step, what steps cost, and which behaviour holds them up", async () => {
   await press("Physics");
   const physics = panel("Physics");
   await physics.getByText(/^[\d.]+ ms$/).first().waitFor();
+  await physics.getByText("-9.80 m/s² along z").or(physics.getByText("-9.81 m/s² along z")).waitFor();
   await physics.getByText(/^Lockstep: the simulation runs as fast as its steps allow/).waitFor();
   await physics.locator(".panel-table").getByRole("button", { name: "pebble" }).waitFor();
   const rows = physics.locator(".waterfall tbody tr");

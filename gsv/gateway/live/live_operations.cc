@@ -84,6 +84,8 @@ std::vector<foxglove::Parameter> LiveOperations::parameters() const {
   if (const auto simulation = simulation_.lock()) {
     const simulation::Phase phase = simulation->WaitForPhase({}, std::chrono::milliseconds(0));
     parameters.push_back({"/gsv/phase", std::string(ToString(phase))});
+    const auto snapshot = simulation->snapshot();
+    parameters.push_back({"/gsv/gravity_z_m_s2", snapshot->layout->description->gravity.z});
     parameters.push_back({kFactor, simulation->real_time_factor()});
     parameters.push_back({kFormerFactor, simulation->real_time_factor()});
     if (recordings_ != nullptr) {

@@ -89,6 +89,7 @@ class LiveOperationsTest : public ::testing::Test {
 
 TEST_F(LiveOperationsTest, TheFactorCanBeSet) {
   LiveOperations operations(simulation_, workers_, nullptr);
+  EXPECT_EQ(ValueOf(operations, "/gsv/gravity_z_m_s2"), foxglove::ParameterValue(-9.8));
   EXPECT_EQ(ValueOf(operations, "/gsv/real_time_factor"), foxglove::ParameterValue(1.0));
   EXPECT_TRUE(operations.Set({"/gsv/real_time_factor", 2.5}));
   EXPECT_EQ(simulation_->real_time_factor(), 2.5);

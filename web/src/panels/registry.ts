@@ -108,7 +108,7 @@ export const PANELS: readonly Panel[] = [
   {
     id: "physics",
     title: "Physics",
-    hint: "Step and speed, the cost of steps, and the behaviours that hold them up",
+    hint: "Gravity, step and speed, the cost of steps, and the behaviours that hold them up",
     picture: "clock",
     key: "U",
     isAvailable: ({ replay }) => replay === null,

@@ -47,13 +47,14 @@ test("hold-ups are summed over the last seconds, and the longest steps stand in 
   expect(costs.longest(2).map(({ step }) => step)).toEqual([4n, 9n]);
 });
 
-test("the panel shows step, costs and the waterfall, and reads only while it is in sight", async () => {
-  const parameter = vi.fn(async () => 0.005);
+test("the panel shows gravity, step, costs and the waterfall, and reads only while it is in sight", async () => {
+  const parameter = vi.fn(async (name: string) => (name === "/gsv/gravity_z_m_s2" ? -1.62 : 0.005));
   const { ports, topics } = testPorts({ scene: scene({ bodies: [] }), status: RUNNING }, { parameter });
   const { body, whileOpen } = mount(ports);
   expect(topics.read).toEqual([]);
   const end = whileOpen!();
-  await vi.waitFor(() => expect(body.textContent).toContain("5.00 ms"));
+  await vi.waitFor(() => expect(body.textContent).toContain("-1.62 m/s² along z"));
+  expect(body.textContent).toContain("5.00 ms");
   const hold_ups = [{ robot: "a", steps: 2n, total_s: 0.05, longest_s: 0.03 }];
   topics.send("/gsv/step_costs", message(2, { behaviours_s: 0.05, bodies_s: 0.01 }, { hold_ups, longest: [cost(7, { held_up_by: "a", behaviours_s: 0.03 })] }));
   expect([...body.querySelectorAll(".waterfall tbody td")].map(({ textContent }) => textContent)).toEqual(["7", "", "a", "30.00 ms"]);

@@ -1,5 +1,5 @@
-// The panel Physics: step and speed, the cost of the steps by part, and the behaviours that delay
-// them.
+// The panel Physics: gravity, step and speed, the cost of the steps by part, and the behaviours that
+// delay them.
 import type { SimulationStatus } from "../../api/status";
 import { shallowEqual } from "../../state/Store";
 import { element, setText } from "../../ui/element";
@@ -18,9 +18,14 @@ const POLL_MS = 2000;
 const MAX_STEPS = 32;
 const MAX_HOLD_UPS = 20;
 
+interface World {
+  gravity: number | null; // m/s² along z; null: the server does not report it
+  step: number | null; // s
+}
+
 export function mount({ state, topics, server, robots }: Ports): MountedPanel {
   const costs = new StepCosts();
-  let stepSize: number | null = null; // s; null: not known yet
+  let world: World = { gravity: null, step: null };
   const sentence = element("p", { class: "physics-why", role: "status" });
   const facts = createFacts("World", "No simulation.");
   const parts = new Bars();
@@ -31,20 +36,24 @@ export function mount({ state, topics, server, robots }: Ports): MountedPanel {
     const { status, scene } = state.get();
     if (!status) return;
     setText(sentence, paceSentence(status, costs));
-    facts.show(factsOf(status, stepSize, scene?.bodies.length ?? 0));
+    facts.show(factsOf(status, world, scene?.bodies.length ?? 0));
     parts.show(costs);
     steps.show(costs.longest(MAX_STEPS));
     holdUps.show(costs);
   };
   // The server does not answer a request for a parameter that it does not have.
-  const load = async () => {
-    const value = await server.parameter("/gsv/step_size_s").catch(() => null);
+  const ask = async (key: keyof World, parameter: string) => {
+    const value = await server.parameter(parameter).catch(() => null);
     if (typeof value !== "number") return;
-    stepSize = value;
+    world = { ...world, [key]: value };
     show();
   };
+  const load = () => {
+    void ask("gravity", "/gsv/gravity_z_m_s2");
+    void ask("step", "/gsv/step_size_s");
+  };
   const whileOpen = () => {
-    const timer = setInterval(() => void load(), POLL_MS);
+    const timer = setInterval(load, POLL_MS);
     const ends = [
       topics.subscribe<StepCostsMessage>(TOPIC, (message) => {
         costs.add(message);
@@ -60,7 +69,7 @@ export function mount({ state, topics, server, robots }: Ports): MountedPanel {
         shallowEqual,
       ),
     ];
-    void load();
+    load();
     return () => {
       clearInterval(timer);
       ends.forEach((end) => end());
@@ -75,7 +84,7 @@ export function mount({ state, topics, server, robots }: Ports): MountedPanel {
   return { body, whileOpen };
 }
 
-function factsOf(status: SimulationStatus, step: number | null, bodies: number): Fact[] {
+function factsOf(status: SimulationStatus, { gravity, step }: World, bodies: number): Fact[] {
   const isRealTime = status.mode === "real_time";
   const speed = isRealTime ? `${formatFactor(status.realTimeFactor)} of ${formatFactor(status.targetFactor)}` : formatFactor(status.realTimeFactor);
   const facts: Fact[] = [
@@ -85,6 +94,7 @@ function factsOf(status: SimulationStatus, step: number | null, bodies: number):
     ["late steps", status.lateSteps.toLocaleString("en")],
   ];
   if (step !== null) facts.unshift(["step", milliseconds(step)]);
+  if (gravity !== null) facts.unshift(["gravity", `${gravity.toFixed(2)} m/s² along z`]);
   return facts;
 }
 
