@@ -93,12 +93,12 @@ function createWorld(host: HTMLElement, inSoftware: boolean): World3D | null {
       { library, inSoftware, fixedQuality: parameters.get("quality") === "high" },
       {
         onPick: (body) => app.pick(body),
-        onPlace: (body, place) => app.place(body, place),
+        onPlace: (body, place) => app.editActions.place(body, place),
         onAddToChoice: (body) => app.pick(body, true),
         onChoose: (bodies) => app.pickAll(bodies),
-        onPoint: (point) => app.takePoint(point),
+        onPoint: (point) => app.pointing.takePoint(point),
         onDrag: (chosenPose) => store.set({ chosenPose }),
-        onPose: (poses) => app.pose(poses),
+        onPose: (poses) => app.editActions.pose(poses),
         onModelsMissing: (modelsMissing) => store.set({ modelsMissing }),
         onProblem: (sentence) => notify(store, "error", sentence),
         onFrameRate: (framesPerSecond) => {

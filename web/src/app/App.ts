@@ -6,24 +6,20 @@ import type { World3D } from "../scene/World3D";
 import { isAllowed, mainAction } from "../state/actions";
 import type { CameraChoice } from "../api/scene";
 import type { BodyPlace } from "../api/SetUpApi";
-import type { Placed } from "../api/scenario";
-import { findRobot } from "../api/scenario";
 import type { Source } from "../state/plots";
 import { ROBOT_VALUES, SIMULATION_VALUES, withCurve, withoutCurve } from "../state/plots";
 import type { OverlayName } from "../state/overlays";
 import { browserStorage } from "../state/overlays";
 import type { RobotFilter } from "../state/robotList";
-import type { WallDrawing } from "../state/editing";
 import { allChosen, chosenOf } from "../state/editing";
-import type { Shape } from "../state/shapes";
-import { faultOf, footprintOf, modelOf, wallBetween } from "../state/shapes";
-import type { BodyPose, Point, State, ViewMode } from "../state/State";
+import type { State, ViewMode } from "../state/State";
 import { withChangedKey } from "../state/shortcuts";
 import type { Store } from "../state/Store";
 import { EDIT_PANEL } from "../state/editing";
 import { PANELS } from "../panels/registry";
 import { download, fileName } from "../ui/files";
 import { VIEW } from "../state/layout";
+import { EditActions } from "./EditActions";
 import { EditControl } from "./EditControl";
 import { Filming } from "./Filming";
 import { LayoutControl } from "./LayoutControl";
@@ -34,12 +30,12 @@ import { dismiss, notify } from "./notices";
 import { PastControl } from "./PastControl";
 import { PanelControl } from "./PanelControl";
 import { PeopleControl } from "./PeopleControl";
+import { PointingControl } from "./PointingControl";
 import { RecordControl } from "./RecordControl";
 import { ReplayControl } from "./ReplayControl";
 import type { Session } from "./Session";
 import { SetUpControl } from "./SetUpControl";
 
-const BEFORE_ROBOT_M = 0.6; // from a robot's middle to a shape that is put before it
 const PLOTS_PANEL = "plots";
 const IMAGES_PANEL = "images";
 const TOPICS_PANEL = "topics";
@@ -52,6 +48,8 @@ export class App {
   readonly link: LinkControl;
   readonly setUp: SetUpControl;
   readonly edits: EditControl;
+  readonly editActions: EditActions;
+  readonly pointing: PointingControl;
   readonly records: RecordControl;
   readonly people: PeopleControl;
   readonly panels: PanelControl;
@@ -79,6 +77,8 @@ export class App {
     this.edits = new EditControl(store, api.setUp, { placeOf: (body) => placeIn(world(), body) }, () =>
       this.act("pause"),
     );
+    this.pointing = new PointingControl(store, this.edits);
+    this.editActions = new EditActions(store, api.setUp, this.edits, this.setUp, (body) => placeIn(world(), body));
     this.records = new RecordControl(store, api);
     this.people = new PeopleControl(store, session, api.viewers, browserStorage());
     this.panels = new PanelControl(store);
@@ -170,132 +170,9 @@ export class App {
     this.store.set({ mapMode: false, viewMode: robot === null || viewMode === mode ? "orbit" : mode });
   }
 
-  // Moves a body to the pose to which the user dragged it. Resolves to whether the body is there
-  // now.
-  place(body: string, place: Placed): Promise<boolean> {
-    this.store.set({ placing: false });
-    return this.store.get().setUp ? this.setUp.place(body, place) : this.edits.place(body, place);
-  }
-
-  // Sets the poses that the gizmo or typed numbers have given to bodies.
-  pose(poses: readonly BodyPose[]): Promise<boolean> {
-    const posed = poses.map(({ body, ...place }) => ({ body, place }));
-    const [first] = posed;
-    if (!this.store.get().setUp) return this.edits.pose(posed);
-    return first ? this.setUp.place(first.body, first.place) : Promise.resolve(false);
-  }
-
-  // Whether the next click on the floor moves the selection there.
-  setPlacing(placing: boolean): void {
-    const { editing, setUp } = this.store.get();
-    if (placing) this.endPointing();
-    this.store.set({ placing: placing && (editing !== null || setUp !== null) && chosenOf(this.store.get()) !== null });
-  }
-
-  // Draws a wall from the next click on the floor to the one after it.
-  drawWall(wall: Omit<WallDrawing, "from"> | null): void {
-    this.endPointing();
-    if (wall) this.edits.drawWall({ ...wall, from: null });
-  }
-
-  setMeasuring(isOn: boolean): void {
-    this.endPointing();
-    this.store.set({ ruler: isOn ? [] : null });
-  }
-
-  // Receives a clicked point of the world for the ruler or a wall.
-  takePoint(point: Point): void {
-    const { ruler, editing } = this.store.get();
-    if (ruler) this.store.set({ ruler: ruler.length < 2 ? [...ruler, point] : [point] });
-    const wall = editing?.wall;
-    if (!wall) return;
-    if (!wall.from) return this.edits.drawWall({ ...wall, from: { x: point.x, y: point.y } });
-    const { shape, place } = wallBetween(wall.from, point, wall);
-    this.edits.drawWall(null);
-    if (faultOf(shape) !== "") return notify(this.store, "error", "The ends of a wall must be at least 1 mm apart.");
-    void this.edits.addObject({ name: "", model: modelOf(shape), place }, "wall");
-  }
-
-  // Cancels the pending use of the next click. Returns false if there was none.
-  endPointing(): boolean {
-    const { placing, ruler, editing } = this.store.get();
-    const wasOn = placing || ruler !== null || editing?.wall != null;
-    if (!wasOn) return false;
-    this.store.set({ placing: false, ruler: null });
-    if (editing?.wall) this.edits.drawWall(null);
-    return true;
-  }
-
   // Escape: cancels the present operation, or else clears the selection.
   escape(): void {
-    if (!this.endPointing()) this.select(null);
-  }
-
-  // Adds a shape in front of the selected robot if there is room, else at the first free place.
-  async addShape(shape: Shape): Promise<boolean> {
-    const { selection, editing } = this.store.get();
-    const robot = editing?.chosen == null && selection !== null ? placeIn(this.world(), selection) : null;
-    const ahead = BEFORE_ROBOT_M + footprintOf(shape);
-    const place = robot && {
-      x: robot.x + ahead * Math.cos(robot.yaw),
-      y: robot.y + ahead * Math.sin(robot.yaw),
-      yaw: robot.yaw,
-    };
-    return this.edits.addObject({ name: "", model: modelOf(shape), place }, shape.kind);
-  }
-
-  copyChosen(): void {
-    const count = this.edits.copy(allChosen(this.store.get()));
-    if (count > 0) notify(this.store, "note", count === 1 ? "1 body copied." : `${count} bodies copied.`);
-  }
-
-  paste(): void {
-    void this.edits.paste();
-  }
-
-  duplicate(): void {
-    if (this.edits.copy(allChosen(this.store.get())) > 0) void this.edits.paste();
-  }
-
-  // Downloads the present state of the world, and with `scenario` also a scenario file for it.
-  async saveWorld(scenario: boolean): Promise<void> {
-    const { simulation } = this.store.get();
-    if (!simulation) return;
-    const file = worldFileName(simulation);
-    try {
-      const saved = await this.api.setUp.saveWorld(simulation, file);
-      download(file, new Blob([saved.sdf], { type: "application/xml" }));
-      if (scenario) download(file.replace(/\.sdf$/, ".yaml"), new Blob([saved.scenario], { type: "application/yaml" }));
-      for (const warning of saved.warnings) notify(this.store, "note", warning);
-    } catch (error) {
-      notify(this.store, "error", (error as Error).message);
-    }
-  }
-
-  removeSelected(): void {
-    const { setUp, selection, editing } = this.store.get();
-    if (editing && editing.more.length > 0) return void this.edits.removeAll(allChosen(this.store.get()));
-    if (editing?.chosen) return void this.edits.removeObject(editing.chosen);
-    if (selection === null) return;
-    const found = setUp && findRobot(setUp.scenario, selection);
-    if (found) this.setUp.removeRobot(found.list, found.index);
-    else if (!setUp) void this.edits.remove(selection);
-  }
-
-  // In edit mode: rotates counter-clockwise, in radians.
-  turnSelected(angle: number): void {
-    const body = chosenOf(this.store.get());
-    if (this.store.get().editing && body !== null) void this.edits.turn(body, angle);
-  }
-
-  undo(): void {
-    if (this.store.get().setUp) this.setUp.undo();
-    else void this.edits.undo();
-  }
-
-  redo(): void {
-    if (this.store.get().setUp) this.setUp.redo();
-    else void this.edits.redo();
+    if (!this.pointing.end()) this.select(null);
   }
 
   filterRobots(change: Partial<RobotFilter>): void {
@@ -410,11 +287,6 @@ export class App {
   dismiss(notice: number): void {
     dismiss(this.store, notice);
   }
-}
-
-// The name of a simulation as a file name.
-function worldFileName(simulation: string): string {
-  return `${simulation.replace(/[^\p{L}\p{N}_.-]+/gu, "_").slice(0, 80)}.sdf`;
 }
 
 function placeIn(world: World3D | null, body: string): Required<BodyPlace> | null {

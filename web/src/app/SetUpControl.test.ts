@@ -119,11 +119,11 @@ test("a robot is moved to the clicked place, and back by undo", async () => {
   const { app, store } = await opened();
   app.setUp.addRobot("robots", "pebble");
   expect(store.get().selection).toBe("pebble");
-  expect(await app.place("pebble", { x: 1, y: 2, yaw: 3 })).toBe(true);
+  expect(await app.editActions.place("pebble", { x: 1, y: 2, yaw: 3 })).toBe(true);
   expect(store.get().setUp!.scenario.robots[0]!.place).toEqual({ x: 1, y: 2, yaw: 3 });
-  app.undo();
+  app.editActions.undo();
   expect(store.get().setUp!.scenario.robots[0]!.place).toBeNull();
-  app.redo();
+  app.editActions.redo();
   expect(store.get().setUp!.scenario.robots[0]!.place).toEqual({ x: 1, y: 2, yaw: 3 });
   await settled(app);
 });

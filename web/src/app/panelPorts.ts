@@ -36,7 +36,7 @@ export function panelPorts(app: App, api: SimulationApi): PanelPorts {
       filter: (change) => app.filterRobots(change),
       follow: () => app.toggleViewMode("follow"),
     },
-    edits: { pose: (pose) => app.pose([pose]) },
+    edits: { pose: (pose) => app.editActions.pose([pose]) },
     cameras: { show: (camera) => app.showCamera(camera) },
     plots: {
       add: (source, key, unit) => app.plot(source, key, unit),

@@ -49,16 +49,16 @@ const TURN = Math.PI / 12;
 export function editCommandOf({ key, ctrlKey, metaKey, altKey, shiftKey }: Key): ((app: App) => unknown) | null {
   if (altKey) return null;
   if (!ctrlKey && !metaKey) {
-    if (key === "[") return (app) => app.turnSelected(TURN);
-    if (key === "]") return (app) => app.turnSelected(-TURN);
-    return key === "Delete" ? (app) => app.removeSelected() : null;
+    if (key === "[") return (app) => app.editActions.turn(TURN);
+    if (key === "]") return (app) => app.editActions.turn(-TURN);
+    return key === "Delete" ? (app) => app.editActions.remove() : null;
   }
   const lower = key.toLowerCase();
-  if (lower === "c") return (app) => app.copyChosen();
-  if (lower === "v") return (app) => app.paste();
-  if (lower === "d") return (app) => app.duplicate();
-  if (lower === "y" || (lower === "z" && shiftKey)) return (app) => app.redo();
-  return lower === "z" ? (app) => app.undo() : null;
+  if (lower === "c") return (app) => app.editActions.copy();
+  if (lower === "v") return (app) => app.editActions.paste();
+  if (lower === "d") return (app) => app.editActions.duplicate();
+  if (lower === "y" || (lower === "z" && shiftKey)) return (app) => app.editActions.redo();
+  return lower === "z" ? (app) => app.editActions.undo() : null;
 }
 
 // The keys of recordings. They repeat while they are held.

@@ -49,17 +49,17 @@ function createEditPanel(app: App): HTMLElement {
   let driveText = "";
   const [modelSelect, behaviourSelect] = [model, behaviour].map((each) => each.element.querySelector("select")!);
   const add = button("Add", () => void addChosen(app, modelSelect!.value, behaviourSelect!.value, driveText));
-  const place = button("Place", () => app.setPlacing(!app.store.get().placing));
+  const place = button("Place", () => app.pointing.setPlacing(!app.store.get().placing));
   place.title = "Place the selection by a click on the floor";
-  const duplicate = button("Duplicate", () => app.duplicate());
+  const duplicate = button("Duplicate", () => app.editActions.duplicate());
   duplicate.title = "Duplicate the selection (Ctrl D)";
-  const remove = button("Remove", () => app.removeSelected());
+  const remove = button("Remove", () => app.editActions.remove());
   const turns = [
-    pictureButton("Turn left", "turnLeft", () => app.turnSelected(TURN)),
-    pictureButton("Turn right", "turnRight", () => app.turnSelected(-TURN)),
+    pictureButton("Turn left", "turnLeft", () => app.editActions.turn(TURN)),
+    pictureButton("Turn right", "turnRight", () => app.editActions.turn(-TURN)),
   ];
-  const undo = pictureButton("Undo", "undo", () => app.undo());
-  const redo = pictureButton("Redo", "redo", () => app.redo());
+  const undo = pictureButton("Undo", "undo", () => app.editActions.undo());
+  const redo = pictureButton("Redo", "redo", () => app.editActions.redo());
   const hint = element("p", { class: "hint" });
   const panel = element(
     "div",
@@ -73,8 +73,8 @@ function createEditPanel(app: App): HTMLElement {
     element(
       "div",
       { class: "edit-buttons" },
-      saveButton("Save world", "Save the world as it stands now as SDFormat", () => app.saveWorld(false)),
-      saveButton("Save scenario", "Save the world, and a scenario of it with the behaviours", () => app.saveWorld(true)),
+      saveButton("Save world", "Save the world as it stands now as SDFormat", () => app.editActions.saveWorld(false)),
+      saveButton("Save scenario", "Save the world, and a scenario of it with the behaviours", () => app.editActions.saveWorld(true)),
     ),
   );
   const offerBehaviour = () => {

@@ -26,7 +26,7 @@ export function createMeasureCard(app: App): HTMLElement {
   const values = element("dl", { class: "inspector-rows" });
   const close = element(
     "button",
-    { class: "button plain small", type: "button", "aria-label": "End measuring", title: "End measuring (Esc)", onclick: () => app.setMeasuring(false) },
+    { class: "button plain small", type: "button", "aria-label": "End measuring", title: "End measuring (Esc)", onclick: () => app.pointing.setMeasuring(false) },
     icon("close"),
   );
   const card = element(

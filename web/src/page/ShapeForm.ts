@@ -35,7 +35,7 @@ export function createShapeForm(app: App): HTMLElement {
   const isStatic = checkField("Static", (value) => change({ isStatic: value }));
   const colour = colourField("Colour", (value) => change({ colour: value }));
   const fault = element("p", { class: "field-error", role: "alert" });
-  const add = element("button", { class: "button", type: "button", onclick: () => void app.addShape(shape) }, "Add shape");
+  const add = element("button", { class: "button", type: "button", onclick: () => void app.editActions.addShape(shape) }, "Add shape");
   const draw = element(
     "button",
     { class: "button", type: "button", title: "Draw the wall by two clicks on the floor", onclick: () => toggleWall(app, shape) },
@@ -82,5 +82,5 @@ export function createShapeForm(app: App): HTMLElement {
 
 function toggleWall(app: App, { width, height, colour }: Shape): void {
   const isDrawing = app.store.get().editing?.wall != null;
-  app.drawWall(isDrawing ? null : { thickness: width, height, colour });
+  app.pointing.drawWall(isDrawing ? null : { thickness: width, height, colour });
 }

@@ -20,7 +20,7 @@ export function createViewTools(app: App): HTMLElement[] {
       app,
       { picture: "ruler", label: "Measure", title: "Measure between two points" },
       ({ ruler }) => ruler !== null,
-      (isOn) => app.setMeasuring(isOn),
+      (isOn) => app.pointing.setMeasuring(isOn),
     ),
     modeButton(app, "follow", "follow", "Follow", "F"),
     modeButton(app, "chase", "chase", "Chase", "C"),

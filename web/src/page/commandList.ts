@@ -46,7 +46,7 @@ function runCommands(app: App): Command[] {
     add(may && isAllowed(phase, "step"), "Take one step", () => app.stepOnce(), "N");
     add(may && isAllowed(phase, "stop"), "Stop", () => void app.act("stop"));
     add(may && isAllowed(phase, "reset"), "Reset", () => void app.act("reset"));
-    add(state.replay === null && state.abilities.creates && state.simulation !== null, "Save world", () => void app.saveWorld(false));
+    add(state.replay === null && state.abilities.creates && state.simulation !== null, "Save world", () => void app.editActions.saveWorld(false));
     add(canEdit(state), state.editing ? "End editing" : "Edit", () => void app.edits.toggle());
   }
   add(state.abilities.creates && state.setUp === null, "New simulation", () => void app.setUp.open());
@@ -58,7 +58,7 @@ function viewCommands(app: App): Command[] {
   const view = (label: string, key: string, run: () => void): Command => ({ group: "View", label, key, run });
   return [
     { group: "View", label: app.store.get().mapMode ? "Leave the map" : "Map", run: () => app.setMap(!app.store.get().mapMode) },
-    { group: "View", label: "Measure", run: () => app.setMeasuring(true) },
+    { group: "View", label: "Measure", run: () => app.pointing.setMeasuring(true) },
     view("Reset view", "R", () => app.resetView()),
     view("Top view", "T", () => app.topView()),
     view("Follow", "F", () => app.toggleViewMode("follow")),

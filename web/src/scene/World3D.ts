@@ -3,7 +3,6 @@
 import type { Matrix4, Object3D } from "three";
 import { Scene } from "three";
 import type { SceneDescription } from "../api/scene";
-import { hasAgent } from "../api/scene";
 import type { Expectation } from "../state/expectations";
 import type { MarkerArrayMessage, PosesMessage, TransformsMessage } from "../protocol/messages";
 import type { Shown } from "../state/overlays";
@@ -16,6 +15,7 @@ import { EditTools } from "./EditTools";
 import { isAdding } from "./RectangleChoice";
 import { Arranger } from "./Arranger";
 import type { BodyLayer } from "./BodyLayer";
+import { BodyPicker } from "./BodyPicker";
 import { CollisionLayer } from "./CollisionLayer";
 import { CameraRig } from "./CameraRig";
 import { fenceOf } from "./fence";
@@ -25,10 +25,7 @@ import { GhostLayer } from "./GhostLayer";
 import type { ModelLibrary } from "./ModelLibrary";
 import { OverlayLayers } from "./OverlayLayers";
 import type { ScreenPlace } from "./picking";
-import { nearest, onClick, rayThrough, screenPlaceOf } from "./picking";
-import { pngOf, videoOf } from "./capture";
-import { Quality } from "./Quality";
-import type { ViewRenderer } from "./renderer";
+import { onClick } from "./picking";
 import { makeBareRenderer, makeRenderer } from "./renderer";
 import { RenderLoop } from "./RenderLoop";
 import { RobotPlaces } from "./RobotPlaces";
@@ -38,6 +35,7 @@ import { RobotWatch } from "./RobotWatch";
 import { SceneParts } from "./SceneParts";
 import { ShadowPace } from "./ShadowPace";
 import { ShownPoses } from "./ShownPoses";
+import { Surface } from "./Surface";
 import type { DrawnView } from "../view/DrawnView";
 
 // Settings with and without a graphics card: without one, the beams of a crowd would take longer
@@ -62,13 +60,12 @@ export interface WorldOptions {
 
 export class World3D {
   readonly canDraw: boolean; // the browser has WebGL 2
-  private readonly renderer: ViewRenderer;
-  private drawn: DrawnView | null = null; // not null: the server draws
+  private readonly surface: Surface;
   private readonly scene = new Scene();
   private readonly rig: CameraRig;
   private readonly library: ModelLibrary;
   private readonly loop: RenderLoop;
-  private readonly quality: Quality;
+  private readonly picker: BodyPicker;
   private readonly overlays: OverlayLayers;
   private readonly collisions: CollisionLayer;
   private readonly poses = new ShownPoses((sample) => this.overlays.takePoses(sample));
@@ -81,9 +78,6 @@ export class World3D {
   private lastBeams: MarkerArrayMessage | null = null;
   private shown: Shown = FIRST_SHOWN;
   private framedFor = ""; // the environment that the camera was set up for
-  private width = 1;
-  private height = 1;
-  private isResized = false; // since the last frame
   private hasGraphics = true;
   private readonly frameRate: FrameRate;
   private readonly shadows = new ShadowPace();
@@ -96,10 +90,9 @@ export class World3D {
     const isFine = options.fixedQuality || !options.inSoftware;
     const gl = makeRenderer(isFine);
     this.canDraw = gl !== null;
-    this.renderer = gl ?? makeBareRenderer();
+    this.surface = new Surface(gl ?? makeBareRenderer(), options.fixedQuality);
     this.overlays = new OverlayLayers(isFine ? MOST_BEAMS : MOST_BEAMS_IN_SOFTWARE, !isFine);
-    const canvas = this.renderer.domElement;
-    this.quality = new Quality(devicePixelRatio, options.fixedQuality);
+    const { canvas } = this.surface;
     this.library = options.library;
     this.collisions = new CollisionLayer(this.scene, this.library, {
       onChange: () => this.loop.request(),
@@ -118,6 +111,7 @@ export class World3D {
       (from, direction, far) => this.bodies?.freeAlong(from, direction, far) ?? Infinity,
     );
     this.watch = new RobotWatch(this.rig);
+    this.picker = new BodyPicker({ host, camera: this.rig.camera, bodies: () => this.bodies, robots: () => this.watch.robots });
     this.arranger = new Arranger(this.arrangerView(), events);
     this.tools = new EditTools(this.toolsView(), { ...events, onPlacePoint: (point) => this.arranger.placeAt(point) });
     this.scene.add(this.ghosts.group, this.overlays.group, this.signs.marks.points, this.watch.ring.mesh, this.arranger.handle.group, this.tools.group);
@@ -282,27 +276,21 @@ export class World3D {
 
   // Shows images of the server from now on; null: the browser draws.
   drawBy(drawn: DrawnView | null): void {
-    this.drawn?.dispose();
-    this.drawn = drawn;
-    if (drawn) this.renderer.domElement.after(drawn.canvas);
+    this.surface.drawBy(drawn);
     this.refresh();
-  }
-
-  private get surface(): HTMLCanvasElement {
-    return this.drawn?.canvas ?? this.renderer.domElement;
   }
 
   // The present view with the names, as PNG.
   picture(): Promise<Blob> {
     this.draw(performance.now());
-    return pngOf(this.surface, (context) => {
-      if (this.shown.labels) this.signs.labels.paint(context, this.width);
+    return this.surface.picture((context) => {
+      if (this.shown.labels) this.signs.labels.paint(context, this.surface.width);
     });
   }
 
   // A stream of the view, without the names.
   video(): MediaStream {
-    return videoOf(this.surface);
+    return this.surface.video();
   }
 
   // world_from_robot as last reported, with its simulated time; null while unknown.
@@ -318,9 +306,7 @@ export class World3D {
 
   // The place on the page where a robot's centre is drawn; null if it is outside the view.
   screenPosition(robot: string): ScreenPlace | null {
-    const middle = this.watch.robots?.middleOf(robot);
-    if (!middle) return null;
-    return screenPlaceOf(middle, this.rig.camera, this.host.getBoundingClientRect());
+    return this.picker.robotOnScreen(robot);
   }
 
   // The place on the page where the tip of the selected robot's arrow is drawn.
@@ -347,12 +333,12 @@ export class World3D {
   private toolsView(): ConstructorParameters<typeof EditTools>[0] {
     return {
       host: this.host,
-      canvas: this.renderer.domElement,
+      canvas: this.surface.canvas,
       camera: this.rig.camera,
       orbit: this.rig.controls,
       bodies: () => this.bodies,
       robots: () => this.watch.robots,
-      bodyAt: (at) => this.robotAt(at) ?? this.movableAt(at),
+      bodyAt: (at) => this.picker.robotAt(at) ?? this.picker.movableAt(at),
       pointAt: (at) => this.arranger.floorAt(at),
       redraw: () => this.refresh(),
     };
@@ -395,7 +381,7 @@ export class World3D {
   }
 
   private refresh(): void {
-    this.renderer.shadowMap.needsUpdate = true;
+    this.surface.renewShadows();
     this.loop.request();
   }
 
@@ -406,90 +392,57 @@ export class World3D {
   }
 
   private resize(): void {
-    this.width = Math.max(1, this.host.clientWidth);
-    this.height = Math.max(1, this.host.clientHeight);
-    this.rig.resize(this.width, this.height);
-    this.isResized = true;
+    this.surface.resize(this.host.clientWidth, this.host.clientHeight);
+    this.rig.resize(this.surface.width, this.surface.height);
     this.loop.request();
-  }
-
-  // Called just before a frame is drawn, because a canvas that gets another size is empty until
-  // then.
-  private resizeCanvas(): void {
-    if (!this.isResized) return;
-    this.isResized = false;
-    this.renderer.setPixelRatio(this.quality.pixelRatio);
-    this.renderer.setSize(this.width, this.height);
   }
 
   private tookFrame(milliseconds: number): void {
     this.shadows.frameTook(milliseconds);
-    if (this.quality.frameTook(milliseconds)) this.resize();
+    if (this.surface.frameTook(milliseconds)) this.loop.request();
   }
 
   private draw(now: number): boolean {
-    if (!this.hasGraphics && !this.drawn) return false;
+    if (!this.hasGraphics && !this.surface.isDrawnByServer) return false;
     if (!this.arranger.holds && !this.tools.holds && this.poses.show(now)) {
       this.shadows.moved();
       this.watch.move();
     }
+    const { width, height } = this.surface;
     const isFlying = this.rig.update(now);
     this.overlays.place(this.rig.camera.position);
     if (this.bodies) this.collisions.place(this.bodies);
-    this.bodies?.chooseDetail(this.rig.camera, this.height);
+    this.bodies?.chooseDetail(this.rig.camera, height);
     if (this.parts) this.parts.grid.visible = this.shown.grid;
     this.watch.showRing();
     this.arranger.showHandle();
     this.tools.show();
     const isMoving = !this.poses.isSettled(now);
-    if (this.shadows.areDue(isMoving)) this.renderer.shadowMap.needsUpdate = true;
-    this.resizeCanvas();
-    this.signs.placeMarks(this.rig.camera, this.height, this.renderer.getPixelRatio(), this.shown);
-    this.render();
-    this.signs.placeLabels(this.rig.camera, this.width, this.height, this.watch.selection, this.shown);
+    if (this.shadows.areDue(isMoving)) this.surface.renewShadows();
+    this.surface.prepare();
+    this.signs.placeMarks(this.rig.camera, height, this.surface.pixelRatio, this.shown);
+    this.surface.render(this.scene, this.rig.camera, () => this.painted());
+    this.signs.placeLabels(this.rig.camera, width, height, this.watch.selection, this.shown);
     this.events.onScale(this.rig.metresPerPixel);
-    this.frameRate.count(this.drawn?.images ?? this.frames, now);
+    this.frameRate.count(this.surface.images ?? this.frames, now);
     return isFlying || isMoving;
   }
 
-  private render(): void {
-    if (!this.drawn) return this.renderer.render(this.scene, this.rig.camera);
+  // What is painted over an image of the server.
+  private painted(): Object3D[] {
     const { overlays, signs, watch, arranger, tools } = this;
-    const painted: Object3D[] = [overlays.group, signs.marks.points, watch.ring.mesh, arranger.handle.group, tools.group];
-    if (this.parts && this.shown.grid) painted.unshift(this.parts.grid);
-    this.drawn.show(this.rig.camera, this.width, this.height, painted);
+    const objects: Object3D[] = [overlays.group, signs.marks.points, watch.ring.mesh, arranger.handle.group, tools.group];
+    return this.parts && this.shown.grid ? [this.parts.grid, ...objects] : objects;
   }
 
   private click(place: ScreenPlace): void {
     if (this.tools.isHandleAt(place) || this.tools.click(place)) return;
-    const robot = this.robotAt(place);
-    const firm = robot === null ? this.firmAt(place) : null;
+    const robot = this.picker.robotAt(place);
+    const added = robot === null && this.arranger.isOn ? this.picker.addedStaticAt(place) : null;
+    const firm = added === this.watch.selection ? null : added;
     // In edit mode, a click beside all bodies keeps the selection, because the user wants to move
     // it.
     if (firm === null && robot === null && this.arranger.isOn && this.watch.selection !== null) return;
     this.events.onPick(firm ?? robot);
-  }
-
-  private movableAt(place: ScreenPlace): string | null {
-    const hit = this.bodies?.pick(rayThrough(place, this.host.getBoundingClientRect(), this.rig.camera));
-    return hit && !hit.isFixed ? hit.name : null;
-  }
-
-  // An object that was placed by the user, so that it can be removed again.
-  private firmAt(place: ScreenPlace): string | null {
-    if (!this.arranger.isOn) return null;
-    const ray = rayThrough(place, this.host.getBoundingClientRect(), this.rig.camera);
-    const hit = this.bodies?.pick(ray);
-    return hit?.isStatic && !hit.isFixed && hit.name !== this.watch.selection ? hit.name : null;
-  }
-
-  private robotAt(place: ScreenPlace): string | null {
-    if (!this.bodies) return null;
-    const hit = this.bodies.pick(rayThrough(place, this.host.getBoundingClientRect(), this.rig.camera));
-    if (hit && hasAgent(hit)) return hit.name;
-    return nearest(
-      place,
-      (this.watch.robots?.names ?? []).map((name) => ({ name, at: this.screenPosition(name) })),
-    );
   }
 }

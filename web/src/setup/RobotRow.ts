@@ -109,7 +109,7 @@ export class RobotRow {
         title: "Place it by a click on the floor",
         onclick: () => {
           this.select();
-          this.app.setPlacing(true);
+          this.app.pointing.setPlacing(true);
         },
       },
       "Place",

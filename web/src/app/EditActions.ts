@@ -1,0 +1,113 @@
+// The actions that edit the chosen bodies, in a simulation (EditControl) or in the form of a new one
+// (SetUpControl).
+import type { BodyPlace, SetUpApi } from "../api/SetUpApi";
+import type { Placed } from "../api/scenario";
+import { findRobot } from "../api/scenario";
+import { allChosen, chosenOf } from "../state/editing";
+import type { Shape } from "../state/shapes";
+import { footprintOf, modelOf } from "../state/shapes";
+import type { BodyPose, State } from "../state/State";
+import type { Store } from "../state/Store";
+import { download } from "../ui/files";
+import type { EditControl } from "./EditControl";
+import { notify } from "./notices";
+import type { SetUpControl } from "./SetUpControl";
+
+const BEFORE_ROBOT_M = 0.6; // from a robot's middle to a shape that is put before it
+
+export class EditActions {
+  constructor(
+    private readonly store: Store<State>,
+    private readonly api: SetUpApi,
+    private readonly edits: EditControl,
+    private readonly setUp: SetUpControl,
+    private readonly placeOf: (body: string) => Required<BodyPlace> | null, // null: unknown
+  ) {}
+
+  // Moves a body to the pose to which the user dragged it. Resolves to whether the body is there
+  // now.
+  place(body: string, place: Placed): Promise<boolean> {
+    this.store.set({ placing: false });
+    return this.store.get().setUp ? this.setUp.place(body, place) : this.edits.place(body, place);
+  }
+
+  // Sets the poses that the gizmo or typed numbers have given to bodies.
+  pose(poses: readonly BodyPose[]): Promise<boolean> {
+    const posed = poses.map(({ body, ...place }) => ({ body, place }));
+    const [first] = posed;
+    if (!this.store.get().setUp) return this.edits.pose(posed);
+    return first ? this.setUp.place(first.body, first.place) : Promise.resolve(false);
+  }
+
+  // Adds a shape in front of the selected robot if there is room, else at the first free place.
+  async addShape(shape: Shape): Promise<boolean> {
+    const { selection, editing } = this.store.get();
+    const robot = editing?.chosen == null && selection !== null ? this.placeOf(selection) : null;
+    const ahead = BEFORE_ROBOT_M + footprintOf(shape);
+    const place = robot && {
+      x: robot.x + ahead * Math.cos(robot.yaw),
+      y: robot.y + ahead * Math.sin(robot.yaw),
+      yaw: robot.yaw,
+    };
+    return this.edits.addObject({ name: "", model: modelOf(shape), place }, shape.kind);
+  }
+
+  copy(): void {
+    const count = this.edits.copy(allChosen(this.store.get()));
+    if (count > 0) notify(this.store, "note", count === 1 ? "1 body copied." : `${count} bodies copied.`);
+  }
+
+  paste(): void {
+    void this.edits.paste();
+  }
+
+  duplicate(): void {
+    if (this.edits.copy(allChosen(this.store.get())) > 0) void this.edits.paste();
+  }
+
+  // Downloads the present state of the world, and with `scenario` also a scenario file for it.
+  async saveWorld(scenario: boolean): Promise<void> {
+    const { simulation } = this.store.get();
+    if (!simulation) return;
+    const file = worldFileName(simulation);
+    try {
+      const saved = await this.api.saveWorld(simulation, file);
+      download(file, new Blob([saved.sdf], { type: "application/xml" }));
+      if (scenario) download(file.replace(/\.sdf$/, ".yaml"), new Blob([saved.scenario], { type: "application/yaml" }));
+      for (const warning of saved.warnings) notify(this.store, "note", warning);
+    } catch (error) {
+      notify(this.store, "error", (error as Error).message);
+    }
+  }
+
+  remove(): void {
+    const { setUp, selection, editing } = this.store.get();
+    if (editing && editing.more.length > 0) return void this.edits.removeAll(allChosen(this.store.get()));
+    if (editing?.chosen) return void this.edits.removeObject(editing.chosen);
+    if (selection === null) return;
+    const found = setUp && findRobot(setUp.scenario, selection);
+    if (found) this.setUp.removeRobot(found.list, found.index);
+    else if (!setUp) void this.edits.remove(selection);
+  }
+
+  // In edit mode: rotates counter-clockwise, in radians.
+  turn(angle: number): void {
+    const body = chosenOf(this.store.get());
+    if (this.store.get().editing && body !== null) void this.edits.turn(body, angle);
+  }
+
+  undo(): void {
+    if (this.store.get().setUp) this.setUp.undo();
+    else void this.edits.undo();
+  }
+
+  redo(): void {
+    if (this.store.get().setUp) this.setUp.redo();
+    else void this.edits.redo();
+  }
+}
+
+// The name of a simulation as a file name.
+function worldFileName(simulation: string): string {
+  return `${simulation.replace(/[^\p{L}\p{N}_.-]+/gu, "_").slice(0, 80)}.sdf`;
+}

@@ -1,0 +1,54 @@
+// Finds the bodies under the pointer. Places are in CSS pixels of the page.
+import type { PerspectiveCamera } from "three";
+import type { SceneBody } from "../api/scene";
+import { hasAgent } from "../api/scene";
+import type { BodyLayer } from "./BodyLayer";
+import type { ScreenPlace } from "./picking";
+import { nearest, rayThrough, screenPlaceOf } from "./picking";
+import type { RobotPlaces } from "./RobotPlaces";
+
+export interface PickedView {
+  host: HTMLElement;
+  camera: PerspectiveCamera;
+  bodies(): BodyLayer | null;
+  robots(): RobotPlaces | null;
+}
+
+export class BodyPicker {
+  constructor(private readonly view: PickedView) {}
+
+  // A robot or an avatar: the body there, or else the nearest one that is drawn close to the place.
+  robotAt(place: ScreenPlace): string | null {
+    const hit = this.bodyAt(place);
+    if (hit && hasAgent(hit)) return hit.name;
+    const robots = this.view.robots()?.names ?? [];
+    return nearest(
+      place,
+      robots.map((name) => ({ name, at: this.robotOnScreen(name) })),
+    );
+  }
+
+  // A body that can be moved.
+  movableAt(place: ScreenPlace): string | null {
+    const hit = this.bodyAt(place);
+    return hit && !hit.isFixed ? hit.name : null;
+  }
+
+  // A static body that the user has added.
+  addedStaticAt(place: ScreenPlace): string | null {
+    const hit = this.bodyAt(place);
+    return hit?.isStatic && !hit.isFixed ? hit.name : null;
+  }
+
+  // The place on the page where a robot's centre is drawn; null if it is outside the view.
+  robotOnScreen(robot: string): ScreenPlace | null {
+    const middle = this.view.robots()?.middleOf(robot);
+    if (!middle) return null;
+    return screenPlaceOf(middle, this.view.camera, this.view.host.getBoundingClientRect());
+  }
+
+  private bodyAt(place: ScreenPlace): SceneBody | null {
+    const { host, camera } = this.view;
+    return this.view.bodies()?.pick(rayThrough(place, host.getBoundingClientRect(), camera)) ?? null;
+  }
+}

@@ -1,0 +1,94 @@
+// What the view is drawn on: the canvas of the browser's renderer, or the images of the server. It
+// changes the size of the canvas just before a frame is drawn, because a canvas that gets another
+// size is empty until then.
+import type { Object3D, PerspectiveCamera, Scene } from "three";
+import type { DrawnView } from "../view/DrawnView";
+import { pngOf, videoOf } from "./capture";
+import { Quality } from "./Quality";
+import type { ViewRenderer } from "./renderer";
+
+export class Surface {
+  width = 1; // CSS pixels
+  height = 1;
+  private drawn: DrawnView | null = null; // not null: the server draws
+  private readonly quality: Quality;
+  private isResized = false; // since the last frame
+
+  constructor(
+    private readonly renderer: ViewRenderer,
+    fixedQuality: boolean,
+  ) {
+    this.quality = new Quality(devicePixelRatio, fixedQuality);
+  }
+
+  // The canvas that receives the pointer.
+  get canvas(): HTMLCanvasElement {
+    return this.renderer.domElement;
+  }
+
+  get isDrawnByServer(): boolean {
+    return this.drawn !== null;
+  }
+
+  // The number of images of the server so far; null while the browser draws.
+  get images(): number | null {
+    return this.drawn?.images ?? null;
+  }
+
+  get pixelRatio(): number {
+    return this.renderer.getPixelRatio();
+  }
+
+  // Shows images of the server from now on; null: the browser draws.
+  drawBy(drawn: DrawnView | null): void {
+    this.drawn?.dispose();
+    this.drawn = drawn;
+    if (drawn) this.canvas.after(drawn.canvas);
+  }
+
+  resize(width: number, height: number): void {
+    this.width = Math.max(1, width);
+    this.height = Math.max(1, height);
+    this.isResized = true;
+  }
+
+  // The shadows are drawn again with the next frame.
+  renewShadows(): void {
+    this.renderer.shadowMap.needsUpdate = true;
+  }
+
+  // Takes the time between two consecutive frames. Returns true if the next frame has another number
+  // of pixels.
+  frameTook(milliseconds: number): boolean {
+    const hasChanged = this.quality.frameTook(milliseconds);
+    this.isResized ||= hasChanged;
+    return hasChanged;
+  }
+
+  // Brings the canvas to its size. Call this before `render`.
+  prepare(): void {
+    if (!this.isResized) return;
+    this.isResized = false;
+    this.renderer.setPixelRatio(this.quality.pixelRatio);
+    this.renderer.setSize(this.width, this.height);
+  }
+
+  // Draws the scene, or on the images of the server only what is in `painted`.
+  render(scene: Scene, camera: PerspectiveCamera, painted: () => Object3D[]): void {
+    if (this.drawn) this.drawn.show(camera, this.width, this.height, painted());
+    else this.renderer.render(scene, camera);
+  }
+
+  // The present image as PNG, with what `paint` adds.
+  picture(paint: (context: CanvasRenderingContext2D) => void): Promise<Blob> {
+    return pngOf(this.shown, paint);
+  }
+
+  video(): MediaStream {
+    return videoOf(this.shown);
+  }
+
+  private get shown(): HTMLCanvasElement {
+    return this.drawn?.canvas ?? this.canvas;
+  }
+}
