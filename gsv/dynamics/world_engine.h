@@ -4,8 +4,8 @@
 // Together    Rigid bodies stop planar ones, and planar ones push rigid bodies at their target speed
 //             with a force of at most their own weight (traction 1). A rigid body that hits a planar
 //             robot bounces off and does not move the robot. A body that lies on a robot moves with it.
-// Cost        A world without rigid bodies costs as much as the planar mover alone. Determinism as
-// for Engine.
+// Cost        A world without rigid bodies costs as much as the planar mover alone.
+// Determinism as for Engine.
 #pragma once
 
 #include <memory>

@@ -96,7 +96,7 @@ std::string ReasonOf(State state, const simulation::RobotStatus& robot,
   if (!has_command && robot.is_avatar) reason += " (an avatar)";
   if (!has_command && !robot.is_avatar && robot.behaviour.empty()) reason = "it has no behaviour";
   if (!motion.contact.empty()) reason += ", touches " + motion.contact;
-  // All behaviours end at the end of the run, so their end is no problem then.
+  // All behaviours end when the run ends, so an ended behaviour is no problem then.
   const bool has_ended = robot.phase == AgentPhase::kFinished && !IsOver(status.phase);
   if (!has_command && has_ended) reason += ", " + behaviour + " has ended";
   return reason;

@@ -34,13 +34,13 @@ struct Limit {
 struct RobotHealth {
   std::string robot;
   State state = State::kMoving;
-  // kWarning: stuck, in contact, late, or its behaviour has run for 10 s while it stood.
+  // kWarning: stuck, in contact, late, or its behaviour has run for 10 s while it stood still.
   Level level = Level::kFine;
   base::SimTime since{0};  // of `state`
   world::DriveCommand command;
   double linear = 0, angular = 0;  // the actual motion, m/s and rad/s
-  std::optional<Limit> limit;      // of a robot that stands or is stuck
-  std::string contact;             // a body that it touches; empty: none
+  std::optional<Limit> limit;      // set for a robot that stands or is stuck
+  std::string contact;             // a body that the robot touches; empty: none
   std::string summary;             // "has not moved", "has been stuck", "has been dead"
   std::string reason;              // "commanded 0, sonar_00 reads 0.26 m"; empty: none
 };
@@ -61,11 +61,11 @@ RobotHealth HealthOf(const simulation::RobotStatus& robot,
 // Sets the limit, which is a part of the reason.
 void SetLimit(std::optional<Limit> limit, RobotHealth& health);
 
-// "has not moved for 20 s: commanded 0, sonar_00 reads 0.26 m"
+// Returns "has not moved for 20 s: commanded 0, sonar_00 reads 0.26 m".
 std::string Sentence(const RobotHealth& health, base::SimTime now);
-// "stood still from 15.7 s: …", for the end of a run; empty for a robot that moves.
+// Returns "stood still from 15.7 s: …", for the end of a run; empty for a robot that moves.
 std::string FinalSentence(const RobotHealth& health);
-// "3 move, 1 stands, 1 is stuck"
+// Returns "3 move, 1 stands, 1 is stuck".
 std::string Summary(const Report& report);
 
 }  // namespace gsv::health

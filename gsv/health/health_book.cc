@@ -11,7 +11,8 @@ constexpr base::SimTime kReadAgainAfter = std::chrono::seconds(5);
 constexpr double kNear = 1;  // m
 constexpr std::size_t kRobotsReadAtOnce = 500;
 
-// Types whose readings are distances only: "range" of a sonar, "ranges" of a lidar.
+// Whether readings of the type contain only distances, such as "range" of a sonar and "ranges" of a
+// lidar.
 bool MeasuresRanges(const sensing::SensorType& type) {
   const auto& columns = type.layout.values;
   return columns.size() == 1 && columns[0].unit == "m" &&

@@ -15,7 +15,7 @@
 
 namespace gsv::health {
 
-// Access to the sensors of robots. Readings must not change the simulation.
+// Access to the sensors of robots. A reading must not change the simulation.
 struct SensorAccess {
   std::function<std::vector<model::SensorDescription>(const std::string& robot)> sensors;
   std::function<base::Result<sensing::Reading>(const std::string& robot, const std::string& sensor)>

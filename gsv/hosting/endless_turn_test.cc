@@ -56,7 +56,7 @@ class EndlessTurn : public ::testing::TestWithParam<Mode> {
 
  protected:
   void AddRobots(const EndlessBehaviour::Body& body) {
-    for (int i = 0; i < 40; ++i) {  // enough robots that several threads take turns
+    for (int i = 0; i < 40; ++i) {  // so many robots that several threads take turns
       const std::string name = "robot_" + std::to_string(i);
       const int column = i % 10, row = i / 10;
       auto behaviour = HostedEndless("patient", Wait);

@@ -54,7 +54,8 @@ void Fibre::Resume() {
 }
 
 void Fibre::Suspend() {
-  // An exception may also be passed in here; it then unwinds the body.
+  // The data that are passed into the fibre. An exception may be passed as well; it then unwinds
+  // the body.
   struct Arrival {
     SanitizerStack& stack;
     ~Arrival() { stack.AfterEntering(); }

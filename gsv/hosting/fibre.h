@@ -23,7 +23,7 @@ class Fibre {
   Fibre(const Fibre&) = delete;
   Fibre& operator=(const Fibre&) = delete;
 
-  // Called from outside. Runs the body until it suspends itself or returns.
+  // Called from outside. Runs the body until it calls Suspend() or returns.
   void Resume();
   // Called from the body. Returns to the caller of Resume().
   void Suspend();

@@ -41,7 +41,7 @@ std::shared_ptr<HostedBehaviour> Hosted(Scripted::Body body) {
                                            [body] { return std::make_unique<Scripted>(body); });
 }
 
-// Drives towards the wall, slower when nearer.
+// Drives towards the wall, and slows down when it is near.
 class Approach final : public Controller {
  public:
   Approach() : Controller(50ms) {}
@@ -250,7 +250,8 @@ class Slow final : public sensing::Sensor {
   bool TakesLong() const override { return true; }
 };
 
-// Turns on the spot and opens five sonars, which are read together. Calls `look` in each cycle.
+// A behaviour that turns in place and opens five sonars, which are read together. It calls `look`
+// in each cycle.
 class Sweeper final : public Controller {
  public:
   static constexpr int kSonars = 5;
@@ -272,7 +273,8 @@ class Sweeper final : public Controller {
     Ranges swept, alone;
     for (int i = 0; i < kSonars; ++i) {
       EXPECT_EQ(readings.at(i).sensor, "s" + std::to_string(i));
-      if (i > 0) EXPECT_EQ(readings.at(i).time, robot_->Now());  // one test silences the first
+      // One of the tests silences the first sensor.
+      if (i > 0) EXPECT_EQ(readings.at(i).time, robot_->Now());
       swept.push_back(readings.at(i).values.at(0));
       alone.push_back(sonars_[i]->Range());
     }
@@ -292,7 +294,7 @@ TEST(HostedBehaviour, ReadsManySonarsAsOneAfterTheOther) {
   const auto look = [&](const Sweeper::Ranges& swept, const Sweeper::Ranges& alone) {
     EXPECT_EQ(swept, alone);
     for (const double range : swept) echoes += range < 4;
-    // A viewer reads the same; from then on the behaviour shares its samples.
+    // A viewer reads the same sensor; from then on, the behaviour gets the same samples.
     if (++cycles == 5) EXPECT_EQ(simulation->Watch("robot", "s2")->values.at(0), swept[2]);
   };
   ASSERT_TRUE(simulation->AddRobot(
@@ -324,7 +326,7 @@ TEST(HostedBehaviour, ASilentSonarAmongManyKeepsItsRange) {
                         }))));
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
   ASSERT_GT(silent.size(), 15u);
-  EXPECT_NE(silent[2], silent[6]);  // before the fault
+  EXPECT_NE(silent[2], silent[6]);  // before the fault, the value changes
   for (std::size_t i = 11; i < silent.size(); ++i) EXPECT_EQ(silent[i], silent[10]);
 }
 

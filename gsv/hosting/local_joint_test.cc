@@ -120,7 +120,7 @@ TEST(LocalJoint, EffortLiftsAWeightAgainstGravity) {
     if (robot.SleepFor(500ms)) velocity = joint.Read().velocity;
   }))));
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
-  // The force exceeds the weight of 2 kg by one newton.
+  // The force exceeds the weight of the 2 kg by one newton.
   EXPECT_NEAR(velocity, 0.25, 0.005);
 }
 

@@ -27,7 +27,7 @@ SensorTraits TraitsOf(const model::SensorDescription& description,
           description.parameters};
 }
 
-// Fewer beams are cast one by one.
+// With fewer beams, each beam is cast separately.
 constexpr std::size_t kMinSweep = 3;
 
 void CopyValue(double value, SimTime time, Reading& to) {

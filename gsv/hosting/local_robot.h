@@ -31,9 +31,9 @@ class LocalRobot final : public Robot {
   void End() { is_running_ = false; }
   void Note(const base::Error& error);
 
-  // Whether all open sensors answer at once, and the readings of an exchange, by name.
+  // Whether all open sensors are fast, and the readings of an exchange, ordered by name.
   bool HasOnlyFastSensors() const;
-  // `are_named`: the readings are those of the last call, and nobody has changed them.
+  // `are_named` means that `readings` are those of the last call, and that nobody has changed them.
   void ReadOpenSensors(std::vector<Reading>& readings, bool are_named = false);
 
   // Implementation of Robot.
@@ -53,7 +53,7 @@ class LocalRobot final : public Robot {
   // Reads a sensor. Returns nullopt if the run is over, or if the sensor fails, which ends the run.
   std::optional<sensing::Reading> Read(simulation::MountedSensor& sensor);
 
-  // The caller handles kInvalidArgument; any other failure ends the run.
+  // kInvalidArgument is returned to the caller; any other failure ends the run.
   base::Status Send(const simulation::MountedSensor& radio, const std::string& receiver,
                     const std::string& content);
 
@@ -77,22 +77,22 @@ class LocalRobot final : public Robot {
   const std::shared_ptr<simulation::Agent> agent_;
   simulation::Turn* turn_ = nullptr;
   Suspend suspend_;
-  // Casts the beams of this turn, at the first call, if they may be cast together.
+  // At the first call, casts the beams of this turn if allowed. Whether they were cast.
   bool HasSwept();
   void PlanSweeps();
   void SweepInto(std::vector<Reading>& readings, bool are_named);
 
   std::vector<SensorPtr> open_;  // ordered by name
-  std::size_t ray_sensors_ = 0;  // how many of them cast rays
+  std::size_t ray_sensors_ = 0;  // how many of the open sensors cast rays
 
   // The beams of open sensors, to be cast together.
   static constexpr std::size_t kNoBeam = static_cast<std::size_t>(-1);
   sensing::BeamSet beams_;
   std::vector<std::size_t> beam_of_;  // the number in beams_ of each open sensor, or kNoBeam
-  std::vector<double> values_;        // those of the beams in this turn
+  std::vector<double> values_;        // the values of the beams in this turn
   std::shared_ptr<simulation::Sweeps> sweeps_;
-  bool has_swept_ = false;  // in this turn
-  std::size_t named_ = 0;   // sensors whose names the readings have, if nobody has changed them
+  bool has_swept_ = false;  // whether the beams were cast in this turn
+  std::size_t named_ = 0;   // number of unchanged names in the readings
   std::atomic<bool> is_running_{true};
   std::string error_;
 };

@@ -13,7 +13,7 @@
 
 namespace gsv::hosting {
 
-// Returns the file of the behaviour in the first of these folders that has one, or an empty text.
+// Returns the file of the behaviour in the first folder that has one, or an empty text.
 std::string FindPlugin(const std::string& behaviour, const std::vector<std::string>& folders);
 
 // Fails if the file is not a library, if it is not a behaviour, or if it was built for another

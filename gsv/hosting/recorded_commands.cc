@@ -5,7 +5,7 @@
 namespace gsv::hosting {
 namespace {
 
-// After the last command the behaviour waits for ever and does not finish, because the hash of a
+// After the last command the behaviour waits for ever instead of finishing, because the hash of a
 // run depends on that.
 constexpr base::SimTime kNever = base::SimTime::max() / 2;
 

@@ -80,7 +80,7 @@ class CdrReader {
   }
   void Read(std::string& text);
   // Reads the count of a sequence whose elements take at least `element_size` bytes each. Returns 0
-  // if the message is too short for so many.
+  // if the message is too short for this count.
   std::size_t ReadCount(std::size_t element_size);
   void ReadBlock(void* data, std::size_t size, std::size_t alignment);
 

@@ -40,7 +40,7 @@ std::vector<std::string> Words(std::string_view line) {
   return words;
 }
 
-// Returns the number if the whole text is one.
+// Returns the number if the whole text is a number.
 std::optional<std::size_t> Number(std::string_view text) {
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);

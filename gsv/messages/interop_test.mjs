@@ -1,6 +1,6 @@
-// Decodes messages of every type with other people's code: the definition by @foxglove/rosmsg, the
-// bytes by @foxglove/rosmsg2-serialization. Each value must be the one that the rule of
-// sample_filler.h gives, and each of ROS's types must be what ROS 2 Humble has, according to
+// Decodes messages of every type with software by others: the definition with @foxglove/rosmsg, the
+// bytes with @foxglove/rosmsg2-serialization. Each value must follow the rule of sample_filler.h,
+// and each of ROS's types must equal that of ROS 2 Humble, according to
 // @foxglove/rosmsg-msgs-common.
 //
 //   node interop_test.mjs MODULES_ROOT WRITE_SAMPLES
@@ -17,7 +17,8 @@ const { parse } = require("@foxglove/rosmsg");
 const { ros2humble } = require("@foxglove/rosmsg-msgs-common");
 const { MessageReader } = require("@foxglove/rosmsg2-serialization");
 
-// The rule of sample_filler.h, driven by the definition as the foreign parser understood it.
+// Computes the expected values by the rule of sample_filler.h, from the definition as the parser
+// returned it.
 class Expectation {
   constructor(definitions, seed) {
     this.definitions = definitions;
@@ -63,7 +64,7 @@ function plain(value) {
 }
 
 function assertIsHumbles(name, definition) {
-  // The common messages hold no services, and neither ours nor those of these packages.
+  // rosmsg-msgs-common contains no services, no types of GSV, and no types of these packages.
   if (/^(gsv_msgs|ros_gz_interfaces|vision_msgs|simulation_interfaces|service_msgs)\/|\/srv\//.test(name)) return;
   const humbles = ros2humble[name.replace("/msg/", "/")];
   const fields = ({ definitions }) =>

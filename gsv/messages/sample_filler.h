@@ -13,11 +13,11 @@ class SampleFiller {
  public:
   explicit SampleFiller(std::uint32_t seed) : next_(seed) {}
 
-  // A sequence has n mod 4 elements.
+  // A sequence gets n mod 4 elements.
   std::size_t Count() { return next_++ % 4; }
   // A flag is true if n is odd.
   void Value(bool& value) { value = next_++ % 2 == 1; }
-  // A string has at most six times "x".
+  // A string gets n mod 7 times "x".
   void Value(std::string& value) { value.assign(next_++ % 7, 'x'); }
   // Integers are n mod 100, and negative if the type allows that and n is odd. Other numbers are n
   // + 0.5.

@@ -17,16 +17,16 @@ struct CollisionIndex {
   friend bool operator==(const CollisionIndex&, const CollisionIndex&) = default;
 };
 
-// The parameter of a contact sensor that holds the names, one per line; empty: all collisions.
+// The parameter of a contact sensor with the names, one per line; empty: all collisions.
 inline constexpr const char* kCollisionNames = "collision";
 
-// The names in the sensor's description, without SDFormat's "__default__".
+// Returns the names in the sensor's description, without SDFormat's "__default__".
 std::vector<std::string> CollisionNamesOf(const SensorDescription& sensor);
 
-// The collision of that name for a sensor on `link`: of that link, else of another. The name may
-// be scoped ("base::bumper", "robot::base::bumper"), and may be one that Gazebo gives to a
-// collision of a link which its URDF reader has merged into another
-// ("base_fixed_joint_lump__bumper_collision_1"). Nothing if no collision has it.
+// Returns the collision with that name for a sensor on `link`: of that link, else of another. The
+// name may be scoped ("base::bumper", "robot::base::bumper"). It may also be the name that Gazebo
+// gives to a collision of a merged link ("base_fixed_joint_lump__bumper_collision_1"). Nothing if
+// there is none.
 std::optional<CollisionIndex> FindCollision(const Model& model, int link, std::string_view name);
 
 }  // namespace gsv::model

@@ -31,29 +31,29 @@ struct Range {
 };
 
 // The slip of a wheel, without unit: its contact slides at compliance * |rolling speed| * friction
-// force / normal force, as with Gazebo's WheelSlip. With 0 the wheel rolls without slip up to the
-// friction limit. At a pull of a tenth of the load, a compliance of 1 gives a slip ratio of a tenth.
+// force / normal force, as in WheelSlip of Gazebo. With 0 there is no slip up to the friction
+// limit. At a pull of a tenth of the load, a compliance of 1 gives a slip ratio of a tenth.
 struct Slip {
   double longitudinal = 0;  // along the wheel's rolling direction
   double lateral = 0;       // along its axle
   bool is_none() const { return longitudinal == 0 && lateral == 0; }
 };
 
-// Units  m, rad, s. Joints are indices into Model::joints.
+// Units  m, rad, s. Joints are indices in Model::joints.
 struct Drive {
   DriveKind kind = DriveKind::kDifferential;
   std::vector<int> left_wheels;
   std::vector<int> right_wheels;
   std::vector<int> steered;       // kAckermann: steering joints
-  double wheel_separation = 0.3;  // between left and right contact points
+  double wheel_separation = 0.3;  // distance between the left and right contact points
   double wheel_radius = 0.1;
   // kDifferential: the true radii of the wheels over wheel_radius, the drive's parameter.
   double left_wheel_scale = 1, right_wheel_scale = 1;
-  double wheel_base = 0;        // kAckermann, kMecanum: front to rear axle
+  double wheel_base = 0;        // kAckermann, kMecanum: distance from front to rear axle
   double steering_limit = 0.5;  // kAckermann
   Range linear_velocity, angular_velocity;
   Range linear_acceleration, angular_acceleration;
-  Slip slip;  // of the wheels that have none of their own
+  Slip slip;  // for wheels that have no slip of their own
   // The base brakes after this time without a command; zero: never.
   base::SimTime command_timeout{0};
   DriveOrigin origin = DriveOrigin::kPlugin;

@@ -105,7 +105,7 @@ std::string Names(const Model& model, const std::vector<int>& joints) {
   return names;
 }
 
-// Appends the joints of these names; a name with "+" that no joint has is a list.
+// Appends the joints with these names. A name with "+" that no joint has is a list of names.
 base::Status FindJoints(const Model& model, const std::vector<std::string>& names,
                         std::vector<int>& joints) {
   if (names.empty()) return {};
@@ -130,7 +130,8 @@ base::Status FindJoints(const Model& model, const std::vector<std::string>& name
   return {};
 }
 
-// The initial drive: the model's own or the guessed one, if it has that kind; else its wheels.
+// Returns the initial drive: the model's own or the guessed one, if it has that kind; else one with
+// the same wheels.
 Drive StartFrom(const Model& model, DriveKind kind) {
   if (model.drive && model.drive->kind == kind) return *model.drive;
   Drive guess = GuessDrive(model);

@@ -24,22 +24,22 @@ namespace gsv::model {
 
 struct DriveChoice {
   DriveKind kind = DriveKind::kNone;
-  std::vector<std::string> left, right, steer;  // names of joints
+  std::vector<std::string> left, right, steer;  // names of the joints
   std::optional<double> radius, separation, wheel_base, steering_limit;
 };
 
-// kInvalidArgument with the expected form.
+// Returns kInvalidArgument with the expected form.
 [[nodiscard]] base::Result<DriveChoice> ParseDriveChoice(const std::string& text);
 
-// The model as a robot. `choice` is a text as above; empty: the model's own drive, else the guessed
-// one. If there is none, only joints and sensors are used. Returns the same model if nothing
-// changes. kBadModel if the model lacks the chosen joints, or if there is no choice and it has no
-// drive, wheels, movable joints or sensors.
+// Returns the model as a robot. `choice` is a text as above. If it is empty, the model's own drive
+// or else the guessed one is used. If there is none, only joints and sensors are used. Returns the
+// same model if nothing changes. Returns kBadModel if the model lacks the chosen joints, or if
+// there is no choice and it has no drive, wheels, movable joints or sensors.
 [[nodiscard]] base::Result<std::shared_ptr<const Model>> AsRobot(std::shared_ptr<const Model> model,
                                                                  const std::string& choice);
 
-// "differential, guessed from wheels left_wheel, right_wheel; radius 0.1 m, separation 0.4 m" for a
-// model with a drive.
+// Returns, for example, "differential, guessed from wheels left_wheel, right_wheel; radius 0.1 m,
+// separation 0.4 m". The model must have a drive.
 std::string DescribeDrive(const Model& model);
 
 }  // namespace gsv::model

@@ -17,8 +17,8 @@ constexpr double kAcross = 0.9;  // cosine between an axis and the model's y axi
 constexpr double kIdlerRadius = 0.8;
 // wheels nearer to the middle than this fraction of the half track are casters
 constexpr double kMiddle = 0.25;
-constexpr double kNarrowest = 0.01;  // m, half track
-// how far a caster is behind its swivel, as a fraction of the radius
+constexpr double kNarrowest = 0.01;  // minimum half track, m
+// minimum distance of a caster behind its swivel, as a fraction of the radius
 constexpr double kTrail = 0.15;
 constexpr double kMaxSteeringAngle = 1.4;  // rad
 constexpr double kFullTurn = 6.2;          // rad
@@ -52,7 +52,7 @@ struct Sorted {
 
 Sorted Sort(const Model& model) {
   Sorted sorted;
-  std::vector<Wheel> turning;  // all the way about their swivel
+  std::vector<Wheel> turning;  // wheels that can turn all the way about their swivel
   for (const Wheel& wheel : FindWheels(model)) {
     if (std::abs(wheel.axis.y) < kAcross) continue;
     const bool is_limited = wheel.swivel && !TurnsFreely(JointAt(model, *wheel.swivel)) &&
@@ -86,7 +86,7 @@ void KeepDriven(const Model& model, std::vector<Wheel>& wheels) {
   }
 }
 
-// The wheels to the left and to the right of the centre between the outermost ones.
+// Adds the wheels to the left and to the right of the centre between the outermost wheels.
 bool AddSides(const std::vector<Wheel>& wheels, Drive& drive) {
   if (wheels.empty()) return false;
   const auto [right, left] =
@@ -103,7 +103,8 @@ bool AddSides(const std::vector<Wheel>& wheels, Drive& drive) {
   return true;
 }
 
-// Rollers at 45° slide along the diagonal, as the direction of friction shows.
+// Whether the rollers are at 45°: then friction is small along the diagonal, as the direction of
+// friction shows.
 bool HasDiagonalRollers(const Model& model, const Wheel& wheel) {
   if (IsNamed(model, wheel, {"mecanum"})) return true;
   const Link& link = model.links[static_cast<std::size_t>(JointAt(model, wheel.joint).child)];
@@ -147,7 +148,8 @@ double MeanY(const Model& model, const std::vector<int>& joints) {
 
 void MeasureSteering(const Model& model, Drive& drive) {
   if (drive.steered.empty()) return;
-  // By the definition of the kinematics: from the rearmost wheel's joint to the steering joints.
+  // The wheel base is defined as the distance from the rearmost wheel's joint to the steering
+  // joints.
   double rear = std::numeric_limits<double>::infinity();
   for (const auto* wheels : {&drive.left_wheels, &drive.right_wheels}) {
     for (const int joint : *wheels) {

@@ -1,4 +1,4 @@
-// Robots of well-known kinds, as in public descriptions, assembled from shapes.
+// Robots of well-known kinds, as in public descriptions, made of shapes.
 #include "gsv/model/drive_guess.h"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ using testing::UnorderedElementsAre;
 constexpr double kQuarter = std::numbers::pi / 2;
 const geometry::Quaternion kAxisLeft = geometry::FromAxisAngle({1, 0, 0}, -kQuarter);
 
-// A box as a base, with mounted parts.
+// A box as a base, with mounted parts. Tests add these parts.
 class Robot {
  public:
   Robot() {

@@ -14,7 +14,7 @@ struct Image {
   int height = 0;
   int channels = 3;
   std::vector<std::uint8_t> pixels;
-  std::string source;  // the file it was read from, for messages
+  std::string source;  // the file from which it was read, for messages
 };
 
 }  // namespace gsv::model

@@ -26,7 +26,7 @@ struct Fluid {
   };
   double density = 1000;      // density below all layers, kg/m³
   std::vector<Layer> layers;  // by ascending height; each layer ends where the next one begins
-  // The models ("boat") and links ("boat::hull") that are lifted; empty for all.
+  // The models ("boat") and links ("boat::hull") that the fluid lifts; empty for all.
   std::vector<std::string> lifted;
 };
 

@@ -26,15 +26,15 @@ struct Visual {
   // One per material slot of a mesh; other shapes use the first. Never empty.
   std::vector<Material> materials{Material{}};
   bool cast_shadows = true;
-  std::optional<double> temperature = std::nullopt;  // in K; nullopt for the temperature of the air
+  std::optional<double> temperature = std::nullopt;  // in K; nullopt: that of the air
 };
 
 // A wheel that slips, as Gazebo's WheelSlip describes it: the normal force is a constant, so that
 // slip is proportional to the friction force.
 struct SlippingWheel {
   Slip slip;
-  double normal_force = 0;  // N, above 0
-  double radius = 0;        // m, above 0
+  double normal_force = 0;  // > 0, N
+  double radius = 0;        // > 0, m
 };
 
 // Coulomb friction, slip and restitution, as in SDFormat's <surface>.
@@ -73,8 +73,8 @@ struct Link {
   std::vector<Visual> visuals;
   std::vector<Collision> collisions;
   bool has_gravity = true;
-  bool has_wind = false;  // whether the world's wind pushes it
-  // whether no force moves it, but only its drive or the command of its joint
+  bool has_wind = false;  // whether the wind of the world pushes it
+  // whether it moves only by its drive or the command of its joint, and not by forces
   bool is_kinematic = false;
   // The fraction of its velocity that it loses in each step of the world's length, in [0, 1]:
   // SDFormat's <velocity_decay>, as Gazebo applies it with ODE.
@@ -106,30 +106,30 @@ struct Mimic {
   double multiplier = 1, offset = 0, reference = 0;
 };
 
-// The gains of a PID controller, as gz::math::PID has them: effort = p e + i ∫e dt + d de/dt, where e
-// is the command less the measured value.
+// The gains of a PID controller, as gz::math::PID has them: effort = p e + i ∫e dt + d de/dt, where
+// e is the command minus the measured value.
 struct JointGains {
   double p = 1, i = 0, d = 0;
-  Range integral{-1, 1};      // of the term i ∫e dt, N m or N
-  Range effort{-1000, 1000};  // of the sum, N m or N; the joint's effort_limit holds as well
+  Range integral{-1, 1};      // limits of the term i ∫e dt, N m or N
+  Range effort{-1000, 1000};  // limits of the sum; effort_limit applies as well
   double offset = 0;          // added to the sum, N m or N
 };
 
 struct Joint {
   std::string name;
   JointKind kind = JointKind::kFixed;
-  int parent = -1;  // link index; -1: the world
+  int parent = -1;  // index of the parent link; -1: the world
   int child = 0;    // link index
   // The joint's frame in the model at zero position. The child rotates about or slides along
   // `axis`.
   geometry::Pose model_from_joint;
   geometry::Vector3 axis{0, 0, 1};  // unit length, in the joint's frame
   Range position_limits;
-  double effort_limit = std::numeric_limits<double>::infinity();  // N or N m
+  double effort_limit = std::numeric_limits<double>::infinity();  // in N or N m
   double velocity_limit = std::numeric_limits<double>::infinity();
   double damping = 0;
   double friction = 0;
-  double thread_pitch = 0;  // m/rad, of kScrew
+  double thread_pitch = 0;  // in m/rad, for kScrew
   std::optional<Mimic> mimic = std::nullopt;
   // How commands of a position and of a velocity are followed with rigid-body dynamics (default: as
   // fast as the joint's limits allow).
@@ -139,13 +139,13 @@ struct Joint {
 // "revolute", "prismatic", …
 const char* NameOf(JointKind kind);
 
-// The index of the joint of that name that accepts commands, or -1.
+// Returns the index of the joint with that name that accepts commands, or -1.
 int FindJoint(const std::vector<Joint>& joints, const std::string& name);
 
 // An initial command of a joint, from the model's own controllers.
 struct JointTarget {
   enum class Kind { kPosition, kVelocity, kEffort };  // rad or m; rad/s or m/s; N m or N
-  int joint = 0;                                      // index in Model::joints
+  int joint = 0;                                      // index of the joint in Model::joints
   Kind kind = Kind::kPosition;
   double value = 0;
 };
@@ -160,18 +160,18 @@ struct Script;  // gsv/model/script.h
 
 struct Model {
   std::string name;    // the name in the file
-  std::string source;  // the file it was read from, for messages
+  std::string source;  // the file from which it was read, for messages
   bool is_static = false;
   // The pose in the file, used in a world if no other pose is given.
   geometry::Pose default_pose;
   std::vector<Link> links;    // links[0] is the canonical link; never empty
   std::vector<Joint> joints;  // a forest: no link is the child of two joints
-  // They close loops of links: each holds two links of the forest together, with rigid-body
-  // dynamics only. It has no position in a state, takes no commands, and has no limits or losses.
-  // Their kinds: fixed, revolute, continuous, prismatic, ball.
+  // Joints that close loops of links: each holds two links of the forest together, with rigid-body
+  // dynamics only. Such a joint has no position in a state, no commands, limits or losses. Its kind
+  // is fixed, revolute, continuous, prismatic or ball.
   std::vector<Joint> loop_joints;
   std::vector<JointTarget> joint_targets;  // at most one per joint
-  std::vector<double> start_positions;     // initial positions of the joints; empty for zero
+  std::vector<double> start_positions;     // initial positions of the joints; empty: all zero
   std::vector<SensorDescription> sensors;
   std::vector<ControlSystem> control_systems;
   std::optional<Drive> drive;             // set for a robot that can be given a behaviour
@@ -179,14 +179,14 @@ struct Model {
   std::shared_ptr<const Script> script;   // for an actor, else null
 };
 
-// The radius about the model's origin, in its xy plane, of a circle that contains the boxes around
-// all collisions except planes.
+// Returns the radius about the model's origin, in its xy plane, of a circle that contains the boxes
+// around all collisions except planes.
 double FootprintRadius(const Model& model);
 
-// The lowest z, in the model's frame, of the boxes around all collisions except planes; 0 if there
-// are none. Exact for boxes; a lower bound for tilted round shapes.
+// Returns the lowest z, in the model's frame, of the boxes around all collisions except planes; 0
+// if there are none. Exact for boxes; a lower bound for tilted round shapes.
 double LowestPoint(const Model& model);
-// The lowest z relative to the origin, for a rotated model.
+// Returns the lowest z relative to the origin, for a rotated model.
 double LowestPoint(const Model& model, const geometry::Quaternion& world_from_model);
 
 }  // namespace gsv::model

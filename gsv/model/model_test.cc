@@ -19,7 +19,7 @@ Model With(const geometry::Shape& shape, const geometry::Pose& model_from_link) 
 }
 
 TEST(FootprintRadius, ReachesTheFarthestCorner) {
-  // A box of 2 x 4 with its centre at (1, 0): the corner (2, 2) is farthest.
+  // A box of 2 x 4 has its centre at (1, 0), so its corner (2, 2) is farthest away.
   const Model model = With(geometry::Box{{2, 4, 1}}, {{1, 0, 0}, {}});
   EXPECT_NEAR(FootprintRadius(model), std::hypot(2.0, 2.0), 1e-12);
 }
@@ -31,7 +31,7 @@ TEST(FootprintRadius, IgnoresPlanes) {
 }
 
 TEST(LowestPoint, IsThatOfARotatedBox) {
-  // A cube of side 1 on its edge: half its diagonal is below its centre.
+  // A cube of side 1 stands on its edge, so half of its diagonal is below its centre.
   const auto turned = geometry::FromAxisAngle({1, 0, 0}, std::numbers::pi / 4);
   EXPECT_NEAR(LowestPoint(With(geometry::Box{{1, 1, 1}}, {{0, 0, 3}, turned})),
               3 - std::numbers::sqrt2 / 2, 1e-12);

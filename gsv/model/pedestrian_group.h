@@ -34,14 +34,14 @@ struct PedestrianGroup {
   friend bool operator==(const PedestrianGroup&, const PedestrianGroup&) = default;
 };
 
-inline constexpr int kMaxPedestrians = 100'000;  // maximum per group
+inline constexpr int kMaxPedestrians = 100'000;  // maximum number of pedestrians in a group
 
 // Rejects groups without goals, counts and sizes out of range, and numbers that are not finite
 // (kInvalidArgument).
 base::Status Check(const PedestrianGroup& group);
 
-// The model of a member: a simple figure that faces along x, with its feet at z = 0, in one of
-// kPedestrianLooks colourings, and a collision cylinder.
+// Returns the model of a member: a simple figure that faces along x, with its feet at z = 0, in one
+// of kPedestrianLooks colourings, and a collision cylinder.
 inline constexpr int kPedestrianLooks = 8;
 std::shared_ptr<const Model> PedestrianModel(const PedestrianGroup& group, int look);
 

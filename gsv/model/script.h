@@ -13,7 +13,7 @@
 namespace gsv::model {
 
 struct Waypoint {
-  base::SimTime time{0};  // since the trajectory's start
+  base::SimTime time{0};  // time since the trajectory's start
   geometry::Pose pose;
 };
 
@@ -26,10 +26,10 @@ struct Trajectory {
 
 // Joint positions of a model over time: a gait.
 struct Animation {
-  base::SimTime length{0};  // above zero; the animation repeats after it
+  base::SimTime length{0};  // the length, > 0; the animation repeats after it
   double distance = 0;      // the distance that the gait covers in `length`, m; 0 if it is unknown
   int joint_count = 0;
-  std::vector<double> positions;  // keyframes, evenly over `length`, of joint_count values each
+  std::vector<double> positions;  // joint_count values for each of the evenly spaced keyframes
   int frame_count() const {
     return joint_count == 0 ? 0 : static_cast<int>(positions.size()) / joint_count;
   }

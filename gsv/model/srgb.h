@@ -6,7 +6,7 @@
 
 namespace gsv::model {
 
-// `value` is clamped to [0, 1].
+// Decodes one component. `value` is clamped to [0, 1].
 inline double LinearFromSrgb(double value) {
   value = std::clamp(value, 0.0, 1.0);
   return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);

@@ -17,7 +17,8 @@ constexpr int kDirections = 16;  // number of directions in which a wheel's exte
 // minimum ratio of the smallest to the largest extent; a 12-sided mesh counts as round
 constexpr double kRoundness = 0.88;
 constexpr double kMinRadius = 0.005;
-constexpr double kLevel = 0.35;    // maximum sine of an axis' slope, because wheels may have camber
+constexpr double kLevel = 0.35;    // maximum sine of an axle's slope, because wheels may have
+                                   // camber
 constexpr double kUpright = 0.9;   // minimum cosine between a swivel and the vertical
 constexpr double kManyTurns = 20;  // rad
 
@@ -56,7 +57,7 @@ struct Reach {
   }
 };
 
-// The extent of shapes about an axis through `origin`, both across the axis and along it.
+// The extent of shapes from an axis through `origin`, both perpendicular to the axis and along it.
 class Extent {
  public:
   Extent(const Vector3& origin, const Vector3& axis) : origin_(origin), axis_(axis) {
@@ -88,7 +89,7 @@ class Extent {
     const double least = *std::min_element(across_.begin(), across_.end());
     return std::isfinite(radius()) && radius() > kMinRadius && least > kRoundness * radius();
   }
-  // Halfway along the axis.
+  // Returns the point halfway along the axis.
   Vector3 middle() const { return origin_ + (ahead_ - behind_) / 2 * axis_; }
 
  private:
@@ -99,7 +100,7 @@ class Extent {
   double behind_ = -std::numeric_limits<double>::infinity();
 };
 
-// The joint whose child is that link, or -1.
+// Returns the joint whose child is that link, or -1.
 int JointInto(const Model& model, int link) {
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
     if (model.joints[j].child == link) return static_cast<int>(j);
@@ -107,7 +108,7 @@ int JointInto(const Model& model, int link) {
   return -1;
 }
 
-// The link and all links that fixed joints connect to it.
+// Returns the link and all links that fixed joints connect to it.
 std::vector<int> RigidPart(const Model& model, int link) {
   std::vector<int> part{link};
   for (std::size_t i = 0; i < part.size(); ++i) {

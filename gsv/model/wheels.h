@@ -16,21 +16,21 @@ struct Wheel {
   int joint = 0;  // the joint of the wheel; an index in Model::joints, like all below
   geometry::Vector3 centre;
   geometry::Vector3 axis;     // unit length
-  double radius = 0;          // 0: the link has no shape
-  std::optional<int> swivel;  // the joint about the vertical between wheel and base, if any
+  double radius = 0;          // 0 if the link has no shape
+  std::optional<int> swivel;  // the vertical joint between wheel and base, if any
 };
 
 // Whether a joint turns without limit: continuous, or revolute with a range of several turns.
 bool TurnsFreely(const Joint& joint);
 
-// The wheel on a joint, measured on its collisions, or on its visuals if only these are round.
-// Nothing if neither is round about the joint's axis. Links that are fixed to the wheel's link are
-// parts of it.
+// Returns the wheel on a joint, measured on its collisions, or on its visuals if only these are
+// round. Nothing if neither is round about the joint's axis. Links that are fixed to the wheel's
+// link are parts of it.
 std::optional<Wheel> MeasureWheel(const Model& model, int joint);
 
-// All wheels that may carry the model: on joints that turn freely about a level axis, and touching
-// the ground on which the model's lowest collision stands. A link without any shape counts if its
-// name or its joint's contains "wheel". In the order of the joints.
+// Returns all wheels that may carry the model, in the order of the joints. They are on joints that
+// turn freely about a level axis, and touch the ground below the model's lowest collision. A link
+// without any shape counts if its name or its joint's contains "wheel".
 std::vector<Wheel> FindWheels(const Model& model);
 
 // Whether the name of the joint, of its child link or of its swivel contains one of these words,

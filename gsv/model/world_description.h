@@ -19,7 +19,7 @@ struct Light {
   geometry::Vector3 direction{0, 0, -1};  // in the light's frame, unit length
   Colour diffuse{1, 1, 1, 1};
   double intensity = 1;
-  double range = 10;  // m: point and spot lights end here
+  double range = 10;  // range of point and spot lights, m
   double constant_attenuation = 1, linear_attenuation = 0, quadratic_attenuation = 0;
   double inner_angle = 0, outer_angle = 0;  // rad: spot
   bool cast_shadows = true;
@@ -55,8 +55,8 @@ struct WorldDescription {
   double real_time_factor = 1;
   geometry::Vector3 gravity{0, 0, -9.8};
   geometry::Vector3 magnetic_field{5.5645e-6, 22.8758e-6, -42.3884e-6};  // T
-  double temperature = 288.15;                                           // K, of the air
-  std::optional<GeodeticOrigin> origin;  // absent: no satellite navigation
+  double temperature = 288.15;                                           // of the air, K
+  std::optional<GeodeticOrigin> origin;  // absent: the world has no satellite navigation
   std::optional<Wind> wind;
   std::optional<Fluid> fluid;
   SceneLook scene;

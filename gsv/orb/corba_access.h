@@ -28,7 +28,7 @@ CorbaAccess AccessFromEnvironment();
 // Checks whether a server may listen there. kInvalidArgument: the sentence says what is required.
 base::Status CheckListening(const CorbaAccess& access, const std::string& host);
 
-// Returns true for 127.0.0.0/8, ::1 and "localhost".
+// Whether the host is in 127.0.0.0/8, ::1 or "localhost".
 bool IsLoopback(std::string_view host);
 
 // Settings for CORBA::ORB_init() that apply the environment's variables.
@@ -37,8 +37,8 @@ struct OrbAccess {
   std::array<const char*, 2> client_rules;  // clientTransportRule, each
 };
 
-// Before each CORBA::ORB_init() of a process that listens on `host`; port 0: any. Installs the
-// transports. Fails with a sentence that names the file or says what is missing.
+// Call this before each CORBA::ORB_init() of a process that listens on `host`; port 0: any.
+// Installs the transports. Fails with a sentence that names the file or the missing setting.
 base::Result<OrbAccess> PrepareAccess(const std::string& host, int port);
 
 }  // namespace gsv::orb

@@ -17,7 +17,7 @@ void NameOnce(base::Error& error) {
   if (rest.starts_with("/")) error.where.clear();
 }
 
-// All sba exceptions have one member, the reason.
+// All exceptions of the module sba have one member, the reason.
 template <typename Exception>
 bool Matches(const CORBA::UserException& exception, const std::string& where, ErrorCode code,
              base::Error& error) {

@@ -10,14 +10,14 @@
 
 namespace gsv::orb {
 
-// The error of a remote call's exception, as a sentence about the peer at `where`.
+// Return the error for an exception of a remote call, as a sentence about the peer at `where`.
 base::Error ToError(const CORBA::SystemException& exception, const std::string& where);
 base::Error ToError(const CORBA::UserException& exception, const std::string& where);
 
-// If certificates are the reason why the connection failed: a sentence about the peer; else empty.
-// Call it once, on the thread that made the call.
+// Returns a sentence about the peer if certificates are the reason why the connection failed, else
+// an empty text. Call it once, on the thread that made the call.
 std::string WhyNotConnected(const CORBA::SystemException& exception);
-// Clears the reason of earlier calls. Call it before a remote call, on the same thread.
+// Clears the reasons of earlier failures. Call it before a remote call, on the same thread.
 void ForgetConnectionFailure();
 
 // Returns whether the exception proves that the peer is gone: its port refuses connections, or the

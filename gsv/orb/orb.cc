@@ -51,7 +51,7 @@ base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
   const std::string message_time =
       std::to_string(std::chrono::milliseconds(options.message_time).count());
   const std::string call_timeout = std::to_string(options.call_timeout.count());
-  // It replaces the call's limit if a call has to connect first.
+  // It replaces the call's limit if the call has to connect first.
   const std::string connect_timeout =
       std::to_string(std::min<std::int64_t>(options.call_timeout.count(), 5000));
   const std::string connections = std::to_string(options.max_connections_per_server);
@@ -83,7 +83,7 @@ base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
       {"strictIIOP", "0"},
       {"traceLevel", "0"},
       {"unixTransportPermission", "0600"},
-      // without a local endpoint, this null ends the list
+      // without a local endpoint, this null ends the list early
       {local_endpoint.empty() ? nullptr : "endPoint", local_endpoint.c_str()},
       {nullptr, nullptr},
   };

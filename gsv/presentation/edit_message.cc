@@ -19,14 +19,14 @@ constexpr Edit::Kind kKinds[]{Edit::Kind::kAddRobot, Edit::Kind::kAddAvatar, Edi
                               Edit::Kind::kRemove,   Edit::Kind::kPlace,     Edit::Kind::kCommand};
 constexpr Edit::Moment kMoments[]{Edit::Moment::kBeforeTurns, Edit::Moment::kAfterTurns,
                                   Edit::Moment::kAmidTurns};
-const std::string kDrive = " drive ";  // followed by a choice, see model/drive_choice.h
+const std::string kDrive = " drive ";  // the word is followed by a choice, see model/drive_choice.h
 constexpr model::Movement kMovements[]{model::Movement::kPlanar, model::Movement::kRigid};
 
 const char* ToString(model::Movement movement) {
   return movement == model::Movement::kRigid ? "rigid" : "planar";
 }
 
-// The value with that name.
+// Returns the value with that name.
 template <typename Value, std::size_t kCount>
 std::optional<Value> Named(const std::string& name, const Value (&values)[kCount]) {
   const auto found = std::find_if(std::begin(values), std::end(values),
@@ -36,7 +36,7 @@ std::optional<Value> Named(const std::string& name, const Value (&values)[kCount
 
 using Texts = std::map<std::string, std::string>;
 
-// One argument per line, such as "z=-1.62".
+// Writes one argument per line, such as "z=-1.62".
 std::string Lines(const Texts& arguments) {
   std::string lines;
   for (const auto& [name, value] : arguments) lines += name + "=" + value + "\n";

@@ -9,8 +9,8 @@ namespace gsv::presentation {
 
 messages::gsv_msgs::Edit EditMessage(const simulation::Edit& edit);
 
-// The edit of a message. Fails for an invalid edit, such as an unknown kind or a pose that is not
-// finite.
+// Returns the edit in a message. Fails for an invalid edit, such as an unknown kind or a pose that
+// is not finite.
 base::Result<simulation::Edit> EditFrom(const messages::gsv_msgs::Edit& message);
 
 }  // namespace gsv::presentation

@@ -7,9 +7,9 @@
 
 namespace gsv::presentation {
 
-// Without the robots that move.
+// The message lists only robots that do not move.
 messages::gsv_msgs::Health HealthMessage(const health::Report& report);
-// Whether a message differs in more than time and actual motion, so that it is worth sending.
+// Whether messages differ in more than time and actual motion, so that sending is useful.
 bool IsNews(const messages::gsv_msgs::Health& message, const messages::gsv_msgs::Health& sent);
 
 messages::gsv_msgs::Expectations ExpectationsMessage(

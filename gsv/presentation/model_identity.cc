@@ -9,7 +9,7 @@
 namespace gsv::presentation {
 namespace {
 
-// Increase it when the same model is written differently, so that browsers fetch it again.
+// Increase this number when the same model is written differently, so that browsers fetch it again.
 constexpr std::uint64_t kWriterVersion = 1;
 
 class Identity {

@@ -8,7 +8,7 @@
 
 namespace gsv::presentation {
 
-// Sixteen hexadecimal digits: a hash of all data of the model's GLB.
+// Returns sixteen hexadecimal digits: a hash of all data of the model's GLB.
 std::string ModelIdentity(const model::Model& model);
 
 }  // namespace gsv::presentation

@@ -17,13 +17,13 @@ inline constexpr std::string_view kNoteEvent = "note";
 
 inline bool IsNote(const simulation::Event& event) { return event.kind == kNoteEvent; }
 
-// The detail of a note on the instant `time`: "at 12.5 s: TEXT".
+// Returns the detail of a note on the instant `time`: "at 12.5 s: TEXT".
 std::string NoteDetail(base::SimTime time, std::string_view text);
 
-// The instant that the note is on: the one of NoteDetail(), or else the time of the event.
+// Returns the instant of the note: the one in NoteDetail(), or else the time of the event.
 base::SimTime TimeOfNote(const simulation::Event& event);
 
-// The note as a message, stamped with its instant; `detail` is the text alone.
+// Returns the note as a message, stamped with its instant; `detail` is the text only.
 messages::gsv_msgs::LifecycleEvent NoteMessage(const simulation::Event& event);
 
 }  // namespace gsv::presentation

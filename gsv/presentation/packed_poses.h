@@ -8,8 +8,8 @@
 
 namespace gsv::presentation {
 
-// `list` belongs to the snapshot's layout. Positions are rounded to 0.1 mm. The rotation between a
-// packed orientation and the given one is less than 0.0002 rad.
+// `list` must be that of the snapshot's layout. Positions are rounded to 0.1 mm. A packed
+// orientation differs from the given one by a rotation of less than 0.0002 rad.
 messages::gsv_msgs::PackedPoses PackedPosesMessage(const world::Snapshot& snapshot,
                                                    const std::vector<PoseEntry>& list);
 

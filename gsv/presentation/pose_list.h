@@ -15,10 +15,10 @@ struct PoseEntry {
   friend bool operator==(const PoseEntry&, const PoseEntry&) = default;
 };
 
-// For each non-static body in the order of the layout: the body, then its moving links.
+// Lists each non-static body in the order of the layout, followed by its moving links.
 std::vector<PoseEntry> PoseListOf(const world::Layout& layout);
 
-// The pose of each entry; `list` belongs to the snapshot's layout.
+// Returns the pose of each entry; `list` must be that of the snapshot's layout.
 std::vector<geometry::Pose> PosesOf(const world::Snapshot& snapshot,
                                     const std::vector<PoseEntry>& list);
 

@@ -12,14 +12,14 @@ namespace gsv::presentation {
 messages::gsv_msgs::SimulationStatus StatusMessage(const simulation::SimulationStatus& status);
 messages::gsv_msgs::LifecycleEvent EventMessage(const simulation::Event& event);
 
-// An event as a log message from the robot, or from "gsv" for the simulation. A line of output is
-// the message itself, with the stream as its file: information on stdout, a warning on stderr. Failures of a
-// behaviour or the simulation are errors; requests that could not be carried out are warnings.
+// Returns an event as a log message from the robot, or from "gsv" for the simulation. A line of
+// output is the message itself, with the stream as its file: information on stdout, a warning on
+// stderr. Failures of a behaviour or the simulation are errors; failed requests are warnings.
 messages::rcl_interfaces::Log LogMessage(const simulation::Event& event);
 
-// The diagnostics of the simulation, then of each robot by name. The simulation: an error if it has
-// failed, a warning while it is blocked. A robot: an error if its behaviour has died, a warning
-// while it is unresponsive.
+// Returns the diagnostics of the simulation, and then of each robot by name. The simulation has an
+// error if it has failed, and a warning while it is blocked. A robot has an error if its behaviour
+// has died, and a warning while it is unresponsive.
 messages::diagnostic_msgs::DiagnosticArray DiagnosticsMessage(
     const simulation::SimulationStatus& status);
 

@@ -96,7 +96,8 @@ Json SensorsJson(const SceneSource& source, const world::Body& body, sensing::Se
               {"link", body.model->links[sensor.link].name},
               {"pose", PoseJson(sensor.link_from_sensor)},
               {"topic", SensorTopic(body.name, sensor.name)}};
-    // By the path of a field in the sensor's message; a path includes all fields below it.
+    // Adds units by the path of a field in the sensor's message; a path includes all fields below
+    // it.
     if (auto units = type->layout.Units(); !units.empty()) json["units"] = std::move(units);
     const auto made = known.Of(sensor);
     if (const auto frustum = made ? (*made)->frustum() : std::nullopt) {
@@ -108,7 +109,7 @@ Json SensorsJson(const SceneSource& source, const world::Body& body, sensing::Se
   return sensors;
 }
 
-// The joints that can move, each in the frame of its child link if that has its own pose
+// Returns the movable joints, each in the frame of its child link if that link has its own pose
 // (`moving`), else in the model's frame.
 Json JointsJson(const model::Model& model, const std::set<int>& moving) {
   Json joints = Json::array();
@@ -129,7 +130,7 @@ Json JointsJson(const model::Model& model, const std::set<int>& moving) {
   return joints;
 }
 
-// A static body of the world file, which cannot be removed.
+// Whether this is a static body of the world file, which cannot be removed.
 bool IsFixed(const world::Layout& layout, const world::Body& body) {
   const auto& models = layout.description->models;
   return body.is_static() &&
@@ -138,7 +139,7 @@ bool IsFixed(const world::Layout& layout, const world::Body& body) {
          });
 }
 
-// A body of the world file: its model is known if it is added again.
+// Whether this is a body of the world file, whose model is known if it is added again.
 bool IsOfWorld(const world::Layout& layout, const world::Body& body) {
   const auto& models = layout.description->models;
   return std::any_of(models.begin(), models.end(), [&](const model::PlacedModel& placed) {
@@ -198,7 +199,7 @@ bool HasEnd(const model::Collision& collision) {
   return !std::holds_alternative<geometry::Plane>(collision.shape);
 }
 
-// In the model's frame, at zero joint positions.
+// Returns the bounds in the model's frame, at zero joint positions.
 std::optional<Bounds> VisibleBounds(const model::Model& model) {
   std::optional<Bounds> bounds;
   for (const model::Link& link : model.links) {
@@ -213,7 +214,8 @@ std::optional<Bounds> VisibleBounds(const model::Model& model) {
 }  // namespace
 
 Bounds SceneBounds(const world::Snapshot& snapshot) {
-  std::map<const model::Model*, std::optional<Bounds>> of_model;  // a model may be used often
+  std::map<const model::Model*, std::optional<Bounds>> of_model;  // the bounds by model, because a
+                                                                  // model may be used often
   std::optional<Bounds> bounds;
   for (std::size_t i = 0; i < snapshot.layout->bodies.size(); ++i) {
     const model::Model* model = snapshot.layout->bodies[i].model.get();
@@ -231,7 +233,7 @@ std::string SceneJson(const SceneSource& source) {
   Json lights = Json::array();
   for (const model::Light& light : layout.description->lights) lights.push_back(LightJson(light));
   Json bodies = Json::array();
-  std::vector<std::set<int>> moving(layout.bodies.size());  // links, of each body
+  std::vector<std::set<int>> moving(layout.bodies.size());  // moving links of each body
   for (const PoseEntry& entry : PoseListOf(layout)) {
     if (entry.link >= 0) moving[entry.body].insert(entry.link);
   }

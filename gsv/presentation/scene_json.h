@@ -19,21 +19,21 @@ struct SceneSource {
   // The sensors of a robot, avatar or station of the snapshot.
   std::function<std::vector<model::SensorDescription>(const std::string& robot)> sensors;
   IdentifyModel identify;
-  // The identifier of CollisionModel(); empty: no collisions.
+  // Returns the identifier of CollisionModel(); empty: the scene has no collisions.
   IdentifyModel identify_collisions;
 };
 std::string SceneJson(const SceneSource& source);
 
-// The scene at the simulation's latest snapshot.
+// Returns the scene at the simulation's latest snapshot.
 std::string SceneJson(const simulation::Simulation& simulation, const IdentifyModel& identify,
                       const IdentifyModel& identify_collisions);
 
-// A model whose visuals are the collision shapes of the given one, without planes, which are
-// unbounded.
+// Returns a model whose visuals are the collision shapes of the given one. Planes are left out,
+// because they are unbounded.
 model::Model CollisionModel(const model::Model& model);
 bool HasCollisions(const model::Model& model);
 
-// The bounding box of all visuals except planes; a box of 10 m about the origin if there are none.
+// Returns the bounding box of all visuals except planes; without any, 10 m about the origin.
 geometry::Bounds SceneBounds(const world::Snapshot& snapshot);
 
 }  // namespace gsv::presentation

@@ -15,11 +15,11 @@
 
 namespace gsv::presentation {
 
-// The topic of readings, "/pebble/camera", and of a companion message,
+// Returns the topic of readings, "/pebble/camera", or of a companion message,
 // "/pebble/camera/camera_info".
 std::string SensorTopic(const std::string& robot, const std::string& sensor);
 std::string CompanionTopic(const std::string& sensor_topic, const sensing::Companion& companion);
-// The topics of all sensors of the robot.
+// Returns the topics of all sensors of the robot.
 std::vector<std::string> SensorTopicNames(const simulation::Simulation& simulation,
                                           const std::string& robot);
 
@@ -30,7 +30,7 @@ void AppendSensorTransform(const world::Layout& layout, int body,
                            base::SimTime time, messages::tf2_msgs::TFMessage& message);
 
 // Whether viewers draw lines for the readings: for types with lines, and for types with points if
-// the file has <visualize>.
+// the file sets <visualize>.
 bool HasLines(const sensing::SensorType& type, const model::SensorDescription& sensor);
 
 // The lines of all robots at one instant: a marker per robot, and a deletion for each robot that no
@@ -45,7 +45,7 @@ class BeamMarkers {
   messages::visualization_msgs::MarkerArray Take(base::SimTime time);
 
  private:
-  std::map<std::string, std::vector<geometry::Vector3>> points_;  // in the world, by robot
+  std::map<std::string, std::vector<geometry::Vector3>> points_;  // points in the world, by robot
   std::set<std::string> shown_;                                   // robots in the last message
 };
 

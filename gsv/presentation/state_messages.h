@@ -25,27 +25,27 @@ messages::gsv_msgs::Poses PosesMessage(const world::Snapshot& snapshot,
 messages::geometry_msgs::TransformStamped StampedTransform(std::string_view parent,
                                                            std::string child, base::SimTime time,
                                                            const geometry::Pose& parent_from_child);
-// "robot/base_link", or the name of a body that is not a robot.
+// Returns "robot/base_link", or the name of a body that is not a robot.
 std::string BodyFrame(const world::Body& body);
-// The frame of a link that moves relative to its body. Its name may differ if the body's own frame
-// has it.
+// Returns the frame of a link that moves relative to its body. If the body's own frame has this
+// name, the result differs from the link's name.
 std::string LinkFrame(const world::Body& body, const model::Link& link);
 
-// map → body for each entry of a body, body → link for each entry of a link.
+// Returns map → body for each entry of a body, and body → link for each entry of a link.
 messages::tf2_msgs::TFMessage TransformsMessage(const world::Snapshot& snapshot,
                                                 const std::vector<PoseEntry>& list);
 
 messages::gsv_msgs::Contact ContactMessage(const world::Snapshot& snapshot,
                                            const world::Contact& contact);
 
-// The command that a device follows. It must follow one.
+// Returns the command that a device follows. The device must follow one.
 messages::gsv_msgs::ActuatorCommand ActuatorMessage(const world::DeviceState& device,
                                                     const world::State& state);
 
 messages::gsv_msgs::Transmission TransmissionMessage(const world::Snapshot& snapshot,
                                                      const world::Transmission& transmission);
 
-// The last command of a robot's drive, taken from a `state` at least one step later.
+// Returns the last command of a robot's drive. `state` must be from at least one step later.
 messages::gsv_msgs::Command CommandMessage(const std::string& robot, const world::DriveState& drive,
                                            const world::State& state);
 

@@ -24,11 +24,11 @@ struct TopicOf {
   const char* name;
 };
 
-// The way in which a recording's messages are played.
+// How messages of a topic in a recording are played.
 enum class Replay {
-  kNewest,   // the newest one at each instant
-  kEach,     // each message during play, none during a seek
-  kByClock,  // the player publishes its own: time and status of the replay
+  kNewest,   // the newest message at each instant
+  kEach,     // each message during playback, none during a seek
+  kByClock,  // the player publishes its own messages: time and status of the replay
 };
 
 struct Topic {
@@ -37,7 +37,7 @@ struct Topic {
   bool is_live = true;
   bool is_recorded = true;
   Replay replay = Replay::kNewest;
-  bool is_reproducible = true;  // whether it is equal in every run, and so a part of content hashes
+  bool is_reproducible = true;  // equal in every run, and so hashed
   std::size_t history = 1;      // number of earlier messages that a new live subscriber gets
 };
 
@@ -58,7 +58,7 @@ inline constexpr TopicOf<messages::gsv_msgs::SimulationStatus> kStatus{"/gsv/sta
 inline constexpr TopicOf<messages::diagnostic_msgs::DiagnosticArray> kDiagnostics{"/diagnostics"};
 inline constexpr TopicOf<messages::gsv_msgs::LifecycleEvent> kEvents{"/gsv/events"};
 inline constexpr TopicOf<messages::rcl_interfaces::Log> kLog{"/rosout"};
-// The lines that behaviours' programs print.
+// The lines that the programs of behaviours print.
 inline constexpr TopicOf<messages::rcl_interfaces::Log> kOutput{"/gsv/output"};
 // The notes of viewers.
 inline constexpr TopicOf<messages::gsv_msgs::LifecycleEvent> kNotes{"/gsv/notes"};
@@ -71,7 +71,7 @@ inline constexpr TopicOf<messages::gsv_msgs::Transmission> kRadio{"/gsv/radio"};
 inline constexpr TopicOf<messages::gsv_msgs::StateHash> kStateHash{"/gsv/state_hash"};
 // This topic is in every recording of an edited simulation, whatever topics are selected.
 inline constexpr TopicOf<messages::gsv_msgs::Edit> kEdits{"/gsv/edits"};
-// Where the wall-clock time of steps goes.
+// The wall-clock time of steps by part.
 inline constexpr TopicOf<messages::gsv_msgs::StepCosts> kStepCosts{"/gsv/step_costs"};
 inline constexpr TopicOf<messages::std_msgs::String> kViewers{"/gsv/viewers"};
 

@@ -21,7 +21,7 @@ struct Vector {
                       Value("y", "", &Vector::y), Value("z", "", &Vector::z));
 };
 
-// Fixed-axis roll, pitch, yaw as in URDF.
+// A pose with fixed-axis roll, pitch and yaw as in URDF.
 struct Placement {
   double x = 0, y = 0, z = 0;
   double roll = 0, pitch = 0, yaw = 0;
@@ -58,13 +58,13 @@ struct Sonar {
 
 struct Lidar {
   static constexpr const char* kType = "lidar";
-  std::span<const double> ranges;  // one per beam; infinite if nothing was hit
+  std::span<const double> ranges;  // one per beam; infinite if the beam hit nothing
   // One per beam, or none if the lidar does not measure them. In a reading they follow the ranges.
   // The layout cannot tell them apart, so that Decode() leaves all values in `ranges`.
   std::span<const double> intensities;
   static constexpr auto kFields = std::make_tuple(Value("ranges", "m", &Lidar::ranges));
 
-  // The parameter of a lidar that measures intensities: a number above 0.
+  // The parameter of a lidar that measures intensities: a number > 0.
   static constexpr const char* kIntensityParameter = "intensity_scale";
   // Returns the decoded values of such a lidar with the intensities in their own member.
   Lidar WithIntensities() const {
@@ -121,15 +121,15 @@ struct Navsat {
 
 struct Magnetometer {
   static constexpr const char* kType = "magnetometer";
-  Vector field;  // in the sensor's frame
+  Vector field;  // field in the sensor's frame
   static constexpr auto kFields =
       std::make_tuple(Value("field", "T", &Magnetometer::field, "magnetic_field"));
 };
 
 struct Altimeter {
   static constexpr const char* kType = "altimeter";
-  double position = 0, velocity = 0;  // above the reference
-  double reference = 0;               // in the world
+  double position = 0, velocity = 0;  // above the reference height
+  double reference = 0;               // reference height in the world
   static constexpr auto kFields =
       std::make_tuple(Value("position", "m", &Altimeter::position, "vertical_position"),
                       Value("velocity", "m/s", &Altimeter::velocity, "vertical_velocity"),
@@ -142,7 +142,7 @@ struct Touch {
   std::string other;
   Vector point, normal;
   double depth = 0;
-  double closing_speed = 0;  // at which the bodies met; 0: they touched before this step
+  double closing_speed = 0;  // speed at which the bodies met; 0: they touched before this step
   Vector force;
   static constexpr auto kFields = std::make_tuple(
       Value("other", "", &Touch::other), Value("point", "m", &Touch::point),
@@ -156,7 +156,7 @@ struct Contact {
       std::make_tuple(Value("touches", "", &Contact::touches, "contacts"));
 };
 
-// The force and torque that a joint transmits, the torque about the joint's origin.
+// The force and torque that a joint transmits. The torque is about the joint's origin.
 struct ForceTorque {
   static constexpr const char* kType = "force_torque";
   Vector force, torque;
@@ -205,7 +205,7 @@ struct LogicalCamera {
 };
 
 struct HeardMessage {
-  std::uint64_t number = 0;  // counted from 1, since the radio was opened
+  std::uint64_t number = 0;  // counted from 1 since the radio was opened
   double sent = 0;
   double strength = 0;
   std::string sender;          // robot
@@ -222,17 +222,17 @@ struct Radio {
   static constexpr auto kFields = std::make_tuple(Value("messages", "", &Radio::messages));
 };
 
-// To one radio anchor, as tags of ultra-wideband (UWB) radio measure it.
+// The distance to one radio anchor, as tags of ultra-wideband (UWB) radio measure it.
 struct Ranging {
   static constexpr const char* kType = "ranging";
-  double distance = std::numeric_limits<double>::infinity();  // infinite if it is not received
+  double distance = std::numeric_limits<double>::infinity();  // infinite: not received
   static constexpr auto kFields =
       std::make_tuple(Value("distance", "m", &Ranging::distance, "range"));
 };
 
 struct Microphone {
   static constexpr const char* kType = "microphone";
-  double level = 0;  // re 20 uPa, of all sounds
+  double level = 0;  // sound level of all sounds, dB re 20 uPa
   // frequency of the loudest sound; 0 if no sound is louder than the ambient noise
   double frequency = 0;
   std::string source;  // ROBOT/SPEAKER of the loudest sound
@@ -282,18 +282,18 @@ struct Camera {
       std::make_tuple(Value("width", "px", &Camera::width), Value("height", "px", &Camera::height));
 };
 
-// Rows from the top.
+// A depth image; rows from the top.
 struct DepthImage {
   static constexpr const char* kType = "depth_camera";
   int width = 0, height = 0;
-  std::span<const double> depth;  // along the view; infinite for the background
+  std::span<const double> depth;  // depth along the view; infinite for the background
   static constexpr auto kFields = std::make_tuple(Value("width", "px", &DepthImage::width),
                                                   Value("height", "px", &DepthImage::height),
                                                   Value("depth", "m", &DepthImage::depth));
   bool IsComplete() const { return depth.size() == std::size_t(1) * width * height; }
 };
 
-// Rows from the top. A pixel with label n shows names[n - 1], label 0 is the background.
+// Rows from the top. A pixel with label n shows names[n - 1]; label 0 is the background.
 struct SegmentedImage {
   static constexpr const char* kType = "segmentation_camera";
   int width = 0, height = 0;
@@ -305,7 +305,7 @@ struct SegmentedImage {
   bool IsComplete() const { return pixels.size() == std::size_t(1) * width * height; }
 };
 
-// Rows from the top, temperatures in whole steps of the camera's resolution.
+// A thermal image; rows from the top, temperatures in multiples of the camera's resolution.
 struct ThermalImage {
   static constexpr const char* kType = "thermal_camera";
   int width = 0, height = 0;
@@ -318,8 +318,8 @@ struct ThermalImage {
   bool IsComplete() const { return temperature.size() == std::size_t(1) * width * height; }
 };
 
-// Rows from the top. For each pixel the unit vector that is perpendicular to the visible surface and
-// points towards the camera: three values x, y, z in the sensor frame; NaN where it is unknown.
+// Rows from the top. Each pixel has x, y, z in the sensor frame: the unit normal of the visible
+// surface, which points towards the camera. NaN where it is unknown.
 struct NormalImage {
   static constexpr const char* kType = "normals_camera";
   int width = 0, height = 0;
@@ -330,7 +330,7 @@ struct NormalImage {
   bool IsComplete() const { return normals.size() == std::size_t(3) * width * height; }
 };
 
-// Pixels from the image's upper left corner.
+// A box in pixels from the image's upper left corner.
 struct BoundingBox {
   std::string name;
   double left = 0, top = 0, right = 0, bottom = 0;

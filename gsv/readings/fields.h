@@ -42,7 +42,7 @@ struct Field {
   // the field's path in the message of the type; null for the name, empty for the paths of the
   // parts
   const char* path;
-  bool is_optional;  // may be missing at the end of the values
+  bool is_optional;  // whether the field may be missing at the end of the values
 };
 
 template <typename Struct, typename Member>
@@ -80,14 +80,14 @@ inline constexpr bool kIsAllValues = std::is_same_v<T, std::span<const double>>;
 template <typename T>
 inline constexpr bool kIsAllLabels = std::is_same_v<T, std::span<const std::string>>;
 
-// The position up to which a reading is decoded.
+// The position up to which a reading was decoded.
 class Cursor {
  public:
   Cursor(std::span<const double> values, std::span<const std::string> labels)
       : values_(values), labels_(labels) {}
 
   bool has_values() const { return !values_.empty(); }
-  // Whether every value was present and none is left.
+  // Whether every value was present and no value is left.
   bool is_exact() const { return !is_bad_ && values_.empty() && labels_.empty(); }
 
   double Value() {

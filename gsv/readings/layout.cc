@@ -21,14 +21,14 @@ std::string Counted(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-// "3 values and 1 label"; empty for none.
+// Returns "3 values and 1 label"; empty for none.
 std::string Counted(std::size_t values, std::size_t labels) {
   const std::string names = labels > 0 ? Counted(labels, "label") : "";
   if (values == 0) return names;
   return Counted(values, "value") + (names.empty() ? "" : " and " + names);
 }
 
-// "point.x" after "point.y" becomes ".x".
+// Shortens a name: "point.x" after "point.y" becomes ".x".
 std::string Shortened(const std::string& name, const std::string& before) {
   const std::size_t dot = name.rfind('.');
   const bool is_beside = dot != std::string::npos && before.size() > dot &&
@@ -36,7 +36,7 @@ std::string Shortened(const std::string& name, const std::string& before) {
   return is_beside ? name.substr(dot) : name;
 }
 
-// The names, each unit once after those that share it.
+// Lists the names, with each unit once after the columns that share it.
 std::string Listed(const Columns& columns, Multiplicity occurs) {
   std::string text, before;
   for (std::size_t i = 0; i < columns.size(); ++i) {

@@ -12,7 +12,7 @@ namespace gsv::readings {
 
 enum class Multiplicity {
   kOnce,
-  kOptional,  // once, or missing at the end
+  kOptional,  // once, or missing at the end of the values
   kRepeated,  // any number of times, to the end
 };
 
@@ -20,10 +20,10 @@ enum class Multiplicity {
 struct Place {
   std::string name;  // "touches.point.x"
   std::string unit;  // unit of the innermost field that has one
-  std::string path;  // in the message: "contacts.point.x"
+  std::string path;  // path in the message: "contacts.point.x"
   Multiplicity occurs = Multiplicity::kOnce;
 
-  // The place of a member. `path` null: the name.
+  // Returns the place of a member. If `path` is null, it is the name.
   Place Inside(const char* field, const char* field_unit, const char* field_path) const;
 };
 
@@ -31,21 +31,21 @@ struct Layout {
   struct Column {
     std::string name;  // "angular_velocity.x"
     std::string unit;  // empty: none
-    std::string path;  // in the type's message
+    std::string path;  // path in the type's message
     Multiplicity occurs = Multiplicity::kOnce;
   };
-  // In the order of a reading: first those that occur once. Repeated columns form a group, which is
-  // repeated as a whole.
+  // The columns in the order of a reading: first those that occur once. Repeated columns form a
+  // group, which is repeated as a whole.
   std::vector<Column> values, labels;
 
   void AddValue(const Place& place) { values.push_back(ColumnAt(place)); }
   void AddLabel(const Place& place) { labels.push_back(ColumnAt(place)); }
 
-  // A text for users: "range (m)", "each: point.x, .y, .z (m), … [other]".
+  // Returns a text for users: "range (m)", "each: point.x, .y, .z (m), … [other]".
   std::string Text() const;
-  // The size of a reading as a text: "6 or 10 values", "groups of 8 values and 1 label".
+  // Returns the size of a reading as a text: "6 or 10 values", "groups of 8 values and 1 label".
   std::string Sizes() const;
-  // Units by path in the message. A path applies to all fields below it.
+  // Returns units by path in the message. A path applies to all fields below it.
   std::map<std::string, std::string> Units() const;
 
  private:
@@ -54,7 +54,7 @@ struct Layout {
   }
 };
 
-// An error kCorrupt with the expected and the actual size.
+// Returns an error kCorrupt with the expected and the actual size.
 base::Error WrongSize(const Layout& layout, std::size_t values, std::size_t labels,
                       const std::string& where);
 

@@ -144,7 +144,7 @@ void CompareScans(const Log& log, const std::vector<ScanPair>& pairs, Comparison
             real[i], simulated[i], count);
     }
   } else {
-    // The mean of each sector of thirty degrees.
+    // Returns the mean over each sector of thirty degrees.
     const auto mean = [](const std::vector<double>& values, std::size_t from, std::size_t to) {
       double sum = 0;
       for (std::size_t i = from; i < to; ++i) sum += values[i];

@@ -22,7 +22,7 @@ struct Row {
   double real = 0, simulated = 0, confidence = 0;
 };
 
-// The real and the simulated distribution of one quantity, for a plot.
+// The real and the simulated distribution of one quantity, which are plotted together.
 struct Series {
   std::string what, unit;
   std::vector<double> real, simulated;
@@ -34,17 +34,17 @@ struct Comparison {
 };
 
 struct CompareOptions {
-  std::optional<model::WorldDescription> world;  // none: fitted to every other block of the log
+  std::optional<model::WorldDescription> world;  // none: fitted to every other block
   // Whether the world's walls are updated by the scans of every other block. The update shows doors
   // that are open and objects that have moved.
   bool update_world = false;
   std::string preset;            // the preset of the log's scanner or odometry
-  model::Parameters parameters;  // win over the preset
+  model::Parameters parameters;  // parameters that override the preset
   // Parameters of single sonars of a ring, by beam. They override `parameters`. May be empty.
   std::vector<model::Parameters> beam_parameters;
-  std::optional<TimedPose> start;  // pose of the first scan in the world
+  std::optional<TimedPose> start;  // pose of the robot at the first scan, in the world
   double wheel_distance = 0.3;     // m
-  double height = 0.2;             // m: where the scanner is mounted
+  double height = 0.2;             // height at which the scanner is mounted, m
   std::uint64_t seed = 1;
   int runs = 20;                // number of odometry runs, with seeds from `seed` on
   std::size_t max_scans = 400;  // number of scans to simulate, evenly chosen

@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// A tag that passes an anchor at the origin, along the x axis.
+// The log of a tag that passes an anchor at the origin, along the x axis.
 Log RangesOf(double bias, double bias_per_metre) {
   Log log;
   log.truth_has_yaw = false;
@@ -59,7 +59,7 @@ TEST(Comparison, SimulatesRangesFromWhereTheRobotWas) {
   const auto ranges = SimulatedRanges(log, options);
   ASSERT_TRUE(ranges) << ranges.error().Sentence();
   EXPECT_WITHIN(ranges->at(20), 2.1, 1e-9, "m");
-  EXPECT_TRUE(std::isinf(ranges->at(80)));  // 5 m away
+  EXPECT_TRUE(std::isinf(ranges->at(80)));  // the distance is 5 m here
 }
 
 TEST(Comparison, WritesAFitAsOneElementForEachGroup) {
@@ -85,7 +85,7 @@ TEST(WorldFit, OpensAWallThatBeamsPassAndAddsOneWhereTheyEnd) {
   for (int y = 0; y < 20; ++y) map.cells[static_cast<std::size_t>(20 * y + 10)] = Cell::kOccupied;
   Log log;
   log.beam_angles = {0};
-  // Along the row 5 from x = 0.15 to 1.75 m.
+  // The scans are along the row y = 5 cells, from x = 0.15 to 1.75 m.
   const std::vector<RangeScan> scans(5, {0, {1.6}, TimedPose{0, 0.15, 0.55, 0}});
   const OccupancyMap updated = UpdatedMap(map, log, scans);
   EXPECT_NE(updated.at(10, 5), Cell::kOccupied);

@@ -95,7 +95,7 @@ FittedDevice FitLidar(const Log& log, const std::vector<ScanPair>& pairs) {
   const double scale = device.parameters.back().value;
   device.parameters.push_back(
       Estimated("short_probability", "", pairs, [scale](const std::vector<ScanPair>& some) {
-        // Some of the drawn short distances lie behind the surface and have no effect.
+        // Some of the short distances are drawn beyond the surface, and have no effect.
         double nearer = 0, beams = 0;
         for (const ScanPair& pair : some) {
           for (const double exact : pair.exact) {

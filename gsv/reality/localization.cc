@@ -115,7 +115,7 @@ struct Candidate {
 
 // Finds the pose of the first scan from some of the scans along the path.
 std::optional<TimedPose> FindStart(const Log& log, const LikelihoodField& field) {
-  constexpr double kApart = 1;  // m or rad of odometry between two of these scans
+  constexpr double kApart = 1;  // minimum odometry between two of these scans, m or rad
   constexpr std::size_t kScans = 6, kKept = 300;
   const TimedPose home = Inverted(*log.scans.front().base);
   std::vector<std::pair<const RangeScan*, TimedPose>> views;  // first_from_base

@@ -4,7 +4,7 @@
 //         distance from each cell to the nearest occupied one. The first pose is searched for
 //         everywhere, by several scans along the first metres of odometry; from there each pose is
 //         found near the one before it.
-// Errors  kInvalidArgument where no pose explains the scans.
+// Errors  kInvalidArgument if no pose matches the scans.
 #pragma once
 
 #include <optional>
@@ -20,12 +20,12 @@ class LikelihoodField {
  public:
   explicit LikelihoodField(const OccupancyMap& map);
 
-  // The score of a scan in [0, 1]: how well its finite ranges end on occupied cells. Uses every
-  // `stride`th beam.
+  // Returns the score of a scan in [0, 1]: how many of its finite ranges end on or near occupied
+  // cells. Uses every `stride`th beam.
   double Score(const Log& log, const RangeScan& scan, const TimedPose& base,
                std::size_t stride) const;
-  // The pose with the best score near `guess`: within `reach` m, and a tenth of a radian for each
-  // 0.1 m.
+  // Returns the pose with the best score near `guess`: within `reach` m, and within a tenth of a
+  // radian for each 0.1 m of it.
   TimedPose Refined(const Log& log, const RangeScan& scan, TimedPose guess, double reach) const;
 
   const OccupancyMap& map() const { return map_; }
@@ -38,8 +38,8 @@ class LikelihoodField {
   std::vector<float> distances_;  // m, capped
 };
 
-// The poses, in the world, of every `stride`th scan of log.scans. `start`: the pose of the first
-// one, if known.
+// Returns the poses, in the world, of every `stride`th scan of log.scans. `start` is the pose of
+// the first one, if known.
 base::Result<std::vector<TimedPose>> Localize(const Log& log, const LikelihoodField& field,
                                               const std::optional<TimedPose>& start,
                                               std::size_t stride);

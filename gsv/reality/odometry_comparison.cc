@@ -30,7 +30,7 @@ Relative Between(const TimedPose& from, const TimedPose& to) {
   return {cosine * dx + sine * dy, cosine * dy - sine * dx, WrappedAngle(to.yaw - from.yaw)};
 }
 
-// The true poses every half second.
+// Returns the true poses at intervals of half a second.
 std::vector<TimedPose> Thinned(const std::vector<TimedPose>& truth) {
   std::vector<TimedPose> thinned;
   for (const TimedPose& pose : truth) {
@@ -161,11 +161,11 @@ sensing::OdometryDrift FitDrift(const std::vector<MotionWindow>& windows) {
   drift.linear_scale = 1 / std::max(statistics.way_ratio, 0.01);
   drift.angular_scale = 1 / std::max(statistics.turn_ratio, 0.01);
   double metres = 0, way_squares = 0;
-  // Normal equations of squares = a metres + b radians.
+  // The normal equations of squares = a metres + b radians.
   double mm = 0, mr = 0, rr = 0, ms = 0, rs = 0;
   for (std::size_t i = 0; i < windows.size(); ++i) {
     const MotionWindow& w = windows[i];
-    // In proportion to the odometry's estimate.
+    // The error is proportional to the odometry's estimate.
     const double way = statistics.way_residuals[i] * drift.linear_scale;
     const double turn = std::pow(statistics.turn_residuals[i] * drift.angular_scale, 2);
     metres += w.metres, way_squares += way * way;

@@ -13,7 +13,7 @@ namespace gsv::reality {
 // given.
 base::Result<std::vector<double>> SimulatedRanges(const Log& log, const CompareOptions& options);
 
-// The errors (m) of one range, relative to the reference system.
+// The errors (m) of one range relative to the reference system.
 struct RadioErrors {
   int anchor = 0;
   double distance = 0;

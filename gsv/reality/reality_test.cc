@@ -34,14 +34,14 @@ constexpr double kDegree = kPi / 180;
 
 class Reality : public testing::Test {
  protected:
-  // A row of the table.
+  // Adds a row to the table.
   void Tell(const std::string& what, const std::string& unit, double real, double simulated,
             double confidence, bool is_met) {
     RecordProperty("row " + std::to_string(rows_++),
                    fmt::format("{}|{}|{:.3g}|{:.3g}|{:.2g}|{}", what, unit, real, simulated,
                                confidence, is_met ? "met" : "not met"));
   }
-  // The plot of the table.
+  // Adds the plot to the table.
   void Plot(const Comparison& comparison) { RecordProperty("plot", ToSvg(comparison)); }
   Log Read(const fs::path& path, const std::string& format) {
     auto log = ReadLog(path, format, problems_);
@@ -65,7 +65,7 @@ class RealLog : public Reality {
   fs::path folder_;
 };
 
-// --- The beam of an HC-SR04 before a panel, figures read off published plots.
+// --- The beam of an HC-SR04 in front of a panel, with values from published plots.
 
 model::WorldDescription TargetAt(double distance, double width, double height) {
   auto model = std::make_shared<model::Model>();
@@ -89,7 +89,7 @@ class BeamTest {
   BeamTest(double threshold, double gain_range)
       : parameters_{{"threshold", threshold}, {"gain_range", gain_range}} {}
 
-  // The largest half angle (degrees) at which a panel at a distance is detected.
+  // Returns the largest half angle (degrees) at which a panel at a distance is detected.
   double HalfAngle(double distance, double step) const {
     auto device = DeviceBefore(TargetAt(distance, 0.267, 1.22));
     double angle = 0;
@@ -133,9 +133,10 @@ constexpr PanelTest kPanels[] = {{.17, -24, 26},  {.32, -23, 27},  {.46, -23, 30
                                  {1.37, -31, 35}, {1.52, -19, 28}, {1.68, -35, 32}, {1.83, -29, 29},
                                  {1.98, -29, 29}, {2.11, -31, 17}, {2.26, -15, 18}, {2.41, -23, 21},
                                  {2.57, -27, 21}};
-constexpr double kRule = 2.45, kSheet = 1.68;  // m: how far the two small targets are detected
+constexpr double kRule = 2.45, kSheet = 1.68;  // maximum distances at which the two small targets
+                                               // are detected, m
 
-// The errors (degrees) at the even or the odd distances.
+// Returns the errors (degrees) at the even or the odd distances.
 std::vector<double> PanelErrors(const BeamTest& test, std::size_t first, double step) {
   std::vector<double> errors;
   for (std::size_t i = first; i < std::size(kPanels); i += 2) {
@@ -144,8 +145,8 @@ std::vector<double> PanelErrors(const BeamTest& test, std::size_t first, double 
   return errors;
 }
 
-// Fitted to the panel at nine distances and to the sheet; judged by the panel at the eight distances
-// between and by the rule.
+// The parameters are fitted to the panel at nine distances and to the sheet. They are validated
+// with the panel at the eight distances in between, and with the rule.
 TEST_F(Reality, ASonarHearsAPanelOverTheAnglesOfAnHcSr04) {
   double best = kInfinity, threshold = 0, gain_range = 0;
   for (const double t : {0.06, 0.08, 0.1, 0.12, 0.14, 0.16, 0.19, 0.22}) {
@@ -158,7 +159,8 @@ TEST_F(Reality, ASonarHearsAPanelOverTheAnglesOfAnHcSr04) {
     }
   }
   std::printf("threshold %.3f gain_range %.2f cost %.3f\n", threshold, gain_range, best);
-  for (const sensing::Preset& preset : sensing::Presets()) {  // the preset is this fit
+  // The preset has the values of this fit.
+  for (const sensing::Preset& preset : sensing::Presets()) {
     if (preset.name != "hc_sr04") continue;
     EXPECT_EQ(model::NumberOr(preset.parameters, "threshold", 0), threshold);
     EXPECT_EQ(model::NumberOr(preset.parameters, "gain_range", 0), gain_range);
@@ -185,7 +187,7 @@ TEST_F(Reality, ASonarHearsAPanelOverTheAnglesOfAnHcSr04) {
   Plot(comparison);
 }
 
-// --- Robots with motion capture: fitted to two, judged on a third.
+// --- Robots with motion capture: the parameters are fitted to two and validated with a third.
 
 TEST_F(RealLog, OdometryDriftsAsThatOfARobotItWasNotFittedTo) {
   std::vector<MotionWindow> fitted;
@@ -219,7 +221,7 @@ TEST_F(RealLog, OdometryDriftsAsThatOfARobotItWasNotFittedTo) {
     // Robots of one type differ by this much, so a value may miss its target by its interval.
     EXPECT_NEAR(row.simulated, row.real, 0.1 * row.real + row.confidence) << row.what;
   }
-  // The preset is this fit.
+  // The preset has the values of this fit.
   for (const sensing::Preset& preset : sensing::Presets()) {
     if (preset.name != "irobot_create") continue;
     EXPECT_NEAR(model::NumberOr(preset.parameters, "scale.linear", 0), drift.linear_scale, 0.005);
@@ -342,7 +344,7 @@ model::WorldDescription Arena(const fs::path& landmarks) {
   return world;
 }
 
-// A robot with two wheels. It is so small that it touches nothing.
+// A robot with two wheels that is so small that it touches nothing.
 std::shared_ptr<model::Model> Tracker(double wheel_distance) {
   constexpr double kRadius = 0.01;
   auto model = std::make_shared<model::Model>(*simulation::Disc(kRadius));
@@ -402,7 +404,8 @@ std::vector<TimedPose> Driven(model::WorldDescription world, const Log& log, dou
           if (!simulation::SleepFor(agent, clock, until - agent.Now())) return;
         }
       });
-  world.max_step_size = std::chrono::milliseconds(1);  // the resolution of the log's clock
+  world.max_step_size = std::chrono::milliseconds(1);  // the step equals the resolution of the
+                                                       // log's clock
   simulation::Specification specification =
       simulation::Lockstep(base::FromSeconds(log.wheels.back().time - first));
   specification.world = std::make_shared<model::WorldDescription>(std::move(world));
@@ -440,7 +443,7 @@ PathErrors ErrorsOf(const std::vector<TimedPose>& path, const std::vector<TimedP
 }
 
 // The motor log drives a simulated robot in the rebuilt arena. Wheel distance and first heading are
-// fitted: with them, the path by exact arcs is closest to the camera's path.
+// those for which the path by exact arcs is closest to the camera's path.
 TEST_F(RealLog, WheelOdometryMatchesTheArenaLog) {
   const Log log = Read(folder_ / "arena" / "robot4_scan.txt", "arena");
   double best = kInfinity, distance = 0;
@@ -515,7 +518,7 @@ TEST_F(RealLog, ALaserScansTheArena) {
   }
 }
 
-// --- Ranges to radio anchors: fitted to the even blocks, judged by the odd ones.
+// --- Ranges to radio anchors: fitted to the even blocks, validated with the odd ones.
 
 TEST_F(RealLog, RadioRangesHaveTheBiasAndScatterOfUwb) {
   const Log log = Read(folder_ / "uwb" / "Indoor_UWB_Input.txt", "uwb");
@@ -530,7 +533,7 @@ TEST_F(RealLog, RadioRangesHaveTheBiasAndScatterOfUwb) {
   ASSERT_NE(uwb, nullptr);
   for (const FittedParameter& parameter : devices->front().parameters) {
     std::printf("%s %.5g ± %.2g\n", parameter.name.c_str(), parameter.value, parameter.confidence);
-    // The preset is this fit.
+    // The preset has the values of this fit.
     EXPECT_NEAR(model::NumberOr(uwb->parameters, parameter.name, 0), parameter.value, 5e-4)
         << parameter.name;
   }

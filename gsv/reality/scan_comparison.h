@@ -11,26 +11,26 @@ namespace gsv::reality {
 // errors.
 struct ScanPair {
   TimedPose pose;
-  std::vector<double> real, simulated, exact;  // m; infinite: no echo
+  std::vector<double> real, simulated, exact;  // in m; infinite: no echo
 };
 
-// Shares of beams (Thrun, Burgard, Fox, "Probabilistic Robotics", section 6.3): within `tolerance`
-// of the exact range, shorter, without an echo although there should be one, and longer.
+// Fractions of beams (Thrun, Burgard, Fox, "Probabilistic Robotics", section 6.3): within
+// `tolerance` of the exact range, shorter, without an expected echo, and longer.
 struct Mixture {
   double hit = 0, shorter = 0, none = 0, longer = 0;
 };
 Mixture MixtureOf(const std::vector<ScanPair>& pairs, bool of_real, double tolerance);
 
-// The share of readings with an echo, for each beam.
+// Returns the fraction of readings with an echo, for each beam.
 std::vector<double> EchoShares(const std::vector<ScanPair>& pairs, bool of_real);
 
-// The differences between a beam's readings in consecutive scans of a robot at rest, divided by the
-// square root of two. Their standard deviation is that of a single reading.
+// Returns the differences between a beam's readings in consecutive scans of a robot at rest,
+// divided by the square root of two. Their standard deviation is that of a single reading.
 std::vector<double> RestDifferences(const std::vector<RangeScan>& scans);
 // Returns the differences of simulated readings. Pairs must be in the order of time.
 std::vector<double> RestDifferences(const std::vector<ScanPair>& pairs);
 
-// The median distance between real and simulated ranges of each scan.
+// Returns the median difference between real and simulated ranges of each scan.
 std::vector<double> MedianDifferences(const std::vector<ScanPair>& pairs);
 
 }  // namespace gsv::reality

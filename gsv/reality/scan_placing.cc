@@ -15,7 +15,8 @@ namespace gsv::reality {
 namespace {
 
 constexpr double kCell = 0.1, kUpdatedCell = 0.05, kFineCell = 0.02;  // m
-constexpr double kSmallWorld = 10;  // m: it is searched with fine cells
+constexpr double kSmallWorld = 10;  // a world that is smaller than this is searched with fine
+                                    // cells, m
 
 std::vector<RangeScan> Thinned(std::vector<RangeScan> scans, std::size_t most) {
   const std::size_t stride = std::max<std::size_t>(1, (scans.size() + most - 1) / most);
@@ -24,7 +25,7 @@ std::vector<RangeScan> Thinned(std::vector<RangeScan> scans, std::size_t most) {
   return thinned;
 }
 
-// The map in which poses are searched. It is finer in a small world.
+// Returns the map in which poses are searched. It is finer for a small world.
 base::Result<OccupancyMap> SearchMap(const model::WorldDescription& world, double height) {
   auto map = MapOfWorld(world, {kCell, height, 1});
   if (!map || std::max(map->width, map->height) * kCell > kSmallWorld) return map;
@@ -63,7 +64,7 @@ class PosePolish {
     for (std::size_t i = 0; i < std::min(exact.size(), scan.ranges.size()); ++i) {
       if (!std::isfinite(scan.ranges[i])) continue;
       const double off = std::abs(scan.ranges[i] - exact[i]);
-      cost += off < kWild ? off : kWild;  // an infinite or undefined difference is wild
+      cost += off < kWild ? off : kWild;  // infinite and undefined differences count as kWild
     }
     return cost;
   }
@@ -101,8 +102,8 @@ base::Result<std::vector<RangeScan>> ScansIn(const Log& log, const CompareOption
   return placed;
 }
 
-// The map of the options' world, updated by scans. The poses of all scans are then refined in it,
-// because they were found in a world that was out of date.
+// Returns the map of the options' world, updated by scans. Afterwards the poses of all scans are
+// refined in it, because they were found in a world that was out of date.
 base::Result<OccupancyMap> UpdatedWorld(const Log& log, const CompareOptions& options,
                                         std::vector<RangeScan>& for_world,
                                         std::vector<RangeScan>& to_read) {

@@ -12,7 +12,7 @@ namespace gsv::reality {
 // The scans to compare, and their world.
 struct PlacedScans {
   model::WorldDescription world;
-  std::vector<RangeScan> scans;  // each with `base`
+  std::vector<RangeScan> scans;  // each scan has `base`
 };
 
 // Returns the log with the poses of its scans, if they can be computed from its wheels alone.
@@ -25,20 +25,20 @@ Log WithBases(Log log, const CompareOptions& options);
 base::Result<PlacedScans> PlaceScans(const Log& log, const CompareOptions& options,
                                      bool for_fitting);
 
-// Returns the same scans with the readings of the simulated device.
+// Returns the same scans, each with the readings of the simulated device.
 base::Result<std::vector<ScanPair>> PairScans(const PlacedScans& placed, const Log& log,
                                               const CompareOptions& options);
 
-// The device according to the options.
+// Returns the device that the options describe.
 std::vector<model::SensorDescription> AskedSensors(const Log& log, const CompareOptions& options);
 
 // Readings at or beyond the maximum range become infinite (no echo).
 void MarkMissing(std::vector<double>& ranges, double max_range);
 
-// "sonar" or "lidar".
+// Returns "sonar" or "lidar".
 std::string ScannerOf(const Log& log);
-// The options' preset, if it is one of this type; else empty. A log may have several devices, and a
-// preset is of one type.
+// Returns the options' preset if it is of this type; else an empty text. A log may have several
+// devices, but a preset is of one type.
 std::string PresetOf(const std::string& type, const CompareOptions& options);
 
 }  // namespace gsv::reality

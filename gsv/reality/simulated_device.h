@@ -16,8 +16,8 @@ namespace gsv::reality {
 
 class SimulatedDevice {
  public:
-  // `sensors` are mounted on one robot's base, and all of them are read. Returns kInvalidArgument
-  // for invalid parameters.
+  // `sensors` are mounted on the base of one robot. Returns kInvalidArgument for invalid
+  // parameters.
   static base::Result<SimulatedDevice> Create(const model::WorldDescription& world,
                                               std::vector<model::SensorDescription> sensors,
                                               std::uint64_t seed);
@@ -33,8 +33,8 @@ class SimulatedDevice {
   std::unique_ptr<sensing::RaySceneCache> rays_;
 };
 
-// The sensors of a log's scans: one lidar, or a sonar for each beam. `parameters` override the
-// preset. An empty preset means none.
+// Returns the sensors of a log's scans: one lidar, or a sonar for each beam. `parameters` override
+// the preset. An empty preset means none.
 std::vector<model::SensorDescription> SensorsOf(const Log& log, const std::string& preset,
                                                 const model::Parameters& parameters, double height);
 

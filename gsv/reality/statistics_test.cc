@@ -30,7 +30,7 @@ TEST(Statistics, DistinguishDistributions) {
 }
 
 TEST(Statistics, ComputeCorrelations) {
-  // First-order: x' = 0.7 x + noise has the autocorrelation 0.7.
+  // The first-order process x' = 0.7 x + noise has the autocorrelation 0.7.
   base::Noise noise(1, 2, 3);
   std::vector<double> values = {0};
   for (int i = 0; i < 20000; ++i) values.push_back(0.7 * values.back() + noise.Gaussian());

@@ -9,14 +9,14 @@
 namespace gsv::reality {
 namespace {
 
-constexpr double kSonarHalfAngle = 0.13;  // rad: within it most of the sound returns
-constexpr double kMargin = 6;             // m around the path
+constexpr double kSonarHalfAngle = 0.13;  // half angle within which most of the sound returns, rad
+constexpr double kMargin = 6;             // margin around the path, m
 constexpr double kMaxFittedCells = 25e6;
-constexpr double kFurthest = 50;  // m: echoes from further away are ignored
+constexpr double kFurthest = 50;  // echoes from further away are ignored, m
 constexpr double kWidest = 1000;  // m
 constexpr double kFree = -0.4, kOccupied = 0.9, kKnown = 1.5;
 constexpr double kPerhaps = 0.5, kSeenTwice = 1.2;  // minimum log odds of a wall
-constexpr double kWall = 10;  // more than the evidence of all long readings past a smooth wall
+constexpr double kWall = 10;  // this exceeds the evidence of all long readings past a smooth wall
 
 // A sideways sonar moves along walls. Two consecutive echoes from one wall are joined by a line.
 constexpr double kSideways = 1.2;    // rad
@@ -73,9 +73,9 @@ class LogOdds {
 void JoinWalls(const Log& log, const std::vector<RangeScan>& scans, LogOdds& odds) {
   for (std::size_t i = 0; i < log.beam_angles.size(); ++i) {
     if (std::abs(log.beam_angles[i]) < kSideways) continue;
-    double x = 0, y = 0, range = geometry::kInfinity;  // place and range of the last echo
+    double x = 0, y = 0, range = geometry::kInfinity;  // position and range of the last echo
     TimedPose from;                                    // the pose from which it was measured
-    bool is_lost = false;                              // there was no echo since then
+    bool is_lost = false;                              // whether an echo was missing since then
     for (const RangeScan& scan : scans) {
       if (!scan.base || i >= scan.ranges.size()) continue;
       if (!std::isfinite(scan.ranges[i])) {
@@ -90,8 +90,8 @@ void JoinWalls(const Log& log, const std::vector<RangeScan>& scans, LogOdds& odd
           std::hypot(next_x - x, next_y - y) < kLongestGap) {
         odds.AddWall(x, y, next_x, next_y);
       } else if (std::isfinite(range) && !is_lost && std::hypot(moved_x, moved_y) < kLongestGap) {
-        // The echoes come from two walls. Each wall continues along the path to the middle between
-        // them.
+        // The two echoes come from two walls. Each wall continues along the path to the middle
+        // between them.
         odds.AddWall(x, y, x + moved_x / 2, y + moved_y / 2);
         odds.AddWall(next_x - moved_x / 2, next_y - moved_y / 2, next_x, next_y);
       }

@@ -1,5 +1,5 @@
-// Reads our recordings with other people's code: @mcap/core, by index and as a stream, and
-// @foxglove/rosmsg2-serialization for the messages. All checksums are compared.
+// Reads recordings of GSV with software by others: @mcap/core, by index and as a stream, and
+// @foxglove/rosmsg2-serialization for the messages. Compares all checksums.
 //
 //   node interop_test.mjs PACKAGE_JSON WRITE_RECORDINGS DRAW_RECORDING
 //
@@ -42,7 +42,7 @@ function readable(bytes) {
   };
 }
 
-// What each kind of reader finds, in one form.
+// The results of each kind of reader, in one form.
 class Finding {
   schemas = new Map();
   channels = new Map();
@@ -80,7 +80,7 @@ function readAsStream(bytes) {
   const reader = new McapStreamReader({ decompressHandlers, validateCrcs: true });
   const finding = new Finding();
   const kinds = new Set();
-  // In pieces of odd sizes, as a network would deliver it.
+  // The file is passed in pieces of odd sizes, as a network would deliver it.
   for (let at = 0; at < bytes.length; at += 12_345) {
     reader.append(bytes.subarray(at, at + 12_345));
     for (let record; (record = reader.nextRecord()); ) {
@@ -113,7 +113,7 @@ async function checkWhole(bytes, info) {
   assertInOrder(finding.messages);
   assert.deepEqual(readAsStream(bytes).messages, finding.messages);
 
-  // 200 rounds of every type, ten milliseconds apart.
+  // There are 200 rounds of every type, ten milliseconds apart.
   const types = finding.channels.size;
   assert.ok(types >= 40);
   assert.equal(finding.messages.length, 200 * types);
@@ -127,7 +127,7 @@ async function checkWhole(bytes, info) {
   for (const message of finding.messages) {
     assert.equal(message.logTime, BigInt(message.sequence) * 10_000_000n);
     assert.equal(message.publishTime, message.logTime);
-    // The samples' rule: a clock's seconds are its seed mod 100, negative if odd.
+    // By the rule of the samples, a clock's seconds are its seed mod 100, negative if odd.
     if (message.topic === "/sample_rosgraph_msgs_msg_Clock") {
       const n = message.sequence % 100;
       assert.equal(message.content.clock.sec, message.sequence % 2 === 1 ? -n : n);
@@ -140,7 +140,7 @@ async function checkWhole(bytes, info) {
   const [metadata] = await collect(reader.readMetadata());
   assert.deepEqual(Object.fromEntries(metadata.metadata), { seed: "1", command_line: "gsv run" });
 
-  // From the middle on, one topic.
+  // Reads one topic from the middle on.
   const topics = ["/sample_sensor_msgs_msg_Range"];
   const late = await collect(reader.readMessages({ startTime: 1_500_000_000n, topics }));
   assert.equal(late.length, 50);
@@ -164,7 +164,7 @@ async function checkRecovered(bytes, whole) {
   return messages.length;
 }
 
-// A simulation's recording: every topic is decoded, and says what the run was.
+// Checks the recording of a simulation: every topic can be decoded, and has the content of the run.
 async function checkRun(bytes) {
   const { reader, finding } = await readByIndex(bytes);
   assertInOrder(finding.messages);
@@ -174,7 +174,8 @@ async function checkRun(bytes) {
   assert.deepEqual(topics, ["/clock", "/diagnostics", "/gsv/actuators", "/gsv/beams", "/gsv/commands", "/gsv/contacts",
     "/gsv/events", "/gsv/expectations", "/gsv/health", "/gsv/notes", "/gsv/output", "/gsv/poses", "/gsv/radio", "/gsv/state_hash",
     "/gsv/status", "/robot/back", "/robot/front", "/rosout", "/tf", "/tf_static"]);
-  // The robot meets nobody and is silent. Its behaviour prints nothing, and nothing is expected of it.
+  // These topics have no messages: the robot touches nothing, its behaviour prints nothing, and
+  // there are no expectations.
   const silent = ["/gsv/actuators", "/gsv/contacts", "/gsv/expectations", "/gsv/notes", "/gsv/output", "/gsv/radio"];
   for (const topic of topics) assert.equal(byTopic(topic).length > 0, !silent.includes(topic), topic);
   for (const { logTime, content } of byTopic("/robot/front")) {

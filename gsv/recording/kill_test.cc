@@ -25,8 +25,8 @@ namespace gsv::recording {
 namespace {
 
 constexpr int kMoments = 200;
-// Fewer on slow machines. Attempts in which a program waits too long for a processor do not count,
-// and these are mostly long ones.
+// The number of concurrent programs. It is smaller on slow machines. Attempts in which a program
+// waits too long for a processor do not count, and these are mostly long ones.
 constexpr std::size_t kAtOnce = base::kSlowdown > 1 ? 6 : 20;
 constexpr std::int64_t kMillisecond = 1'000'000;  // in ns
 constexpr std::int64_t kPromised = 1000 * kMillisecond;

@@ -46,7 +46,8 @@ TEST_F(SimulationRecorderTest, BeamsCanBeRecordedWithoutReadings) {
   const auto beams = Read<messages::visualization_msgs::MarkerArray>("/gsv/beams");
   ASSERT_EQ(beams.size(), 11u);
   ASSERT_EQ(beams.back().markers.size(), 1u);
-  EXPECT_EQ(beams.back().markers[0].points.size(), 4u);  // the beams of "front" and of "back"
+  EXPECT_EQ(beams.back().markers[0].points.size(), 4u);  // the points are those of the beams of
+                                                         // "front" and of "back"
 }
 
 // A sensor whose image is one pixel. Its message has the format "jpeg" and no data.
@@ -175,7 +176,7 @@ TEST_F(SimulationRecorderTest, SensorsOfAStationAreRecorded) {
 TEST_F(SimulationRecorderTest, TheSceneListsTheBodyOfEachPose) {
   Record(0.5);
   const auto scenes = Attachments("scene.json");
-  ASSERT_EQ(scenes.size(), 2u);  // one with "back" and one from before
+  ASSERT_EQ(scenes.size(), 2u);  // one scene has "back", and one is from before
   const nlohmann::json scene = Scene(scenes.back());
   ASSERT_EQ(scene["bodies"].size(), 2u);
   EXPECT_EQ(scene["bodies"][0]["name"], "robot");

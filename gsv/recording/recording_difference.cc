@@ -15,7 +15,8 @@ constexpr std::size_t kMaxLines = 20;
 constexpr std::size_t kMaxValueLength = 300;
 constexpr std::size_t kNumbersAPose = 7;  // of gsv_msgs/Poses
 
-// The content of the last attachment of that name up to `time`, else of the first; empty: none.
+// Returns the content of the last attachment with that name up to `time`, else of the first one;
+// empty if there is none.
 std::string AttachmentOf(const McapReader& reader, std::string_view name, base::SimTime time) {
   const AttachmentIndexRecord* chosen = nullptr;
   for (const auto& each : reader.summary().attachments) {
@@ -47,7 +48,7 @@ std::vector<std::string> Without(const std::vector<std::string>& lines,
   return alone;
 }
 
-// The body of the number at `index` of a message with all poses.
+// Returns the body to which the number at `index` of a message with all poses belongs.
 std::string BodyOfPose(const McapReader& reader, base::SimTime time, std::size_t index) {
   const auto scene =
       nlohmann::json::parse(AttachmentOf(reader, kSceneAttachment, time), nullptr, false);
@@ -61,8 +62,8 @@ std::string BodyOfPose(const McapReader& reader, base::SimTime time, std::size_t
   return bodies[body].value("name", "");
 }
 
-// The name in the message, or in the element that holds the field: "transforms.3.transform" is in
-// the element 3 of transforms.
+// Returns the name in the message, or in the element that contains the field:
+// "transforms.3.transform" is in element 3 of transforms.
 std::string NameInMessage(const nlohmann::ordered_json& message, const std::string& field) {
   const nlohmann::ordered_json* at = &message;
   std::string name;
@@ -94,7 +95,7 @@ std::string RobotOf(const McapReader& reader, const Difference& difference) {
     return BodyOfPose(reader, difference.time,
                       std::strtoul(difference.field.c_str() + kPoses.size(), nullptr, 10));
   }
-  if (presentation::FindTopic(topic) == nullptr) {  // a sensor's: /ROBOT/SENSOR
+  if (presentation::FindTopic(topic) == nullptr) {  // the topic of a sensor: /ROBOT/SENSOR
     return topic.substr(1, topic.find('/', 1) - 1);
   }
   auto messages = DecodedMessages::Open(reader, {{topic}, difference.time});

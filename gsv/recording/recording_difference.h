@@ -1,5 +1,5 @@
-// Describes the difference of two recordings for people: first their scenarios, then the first
-// different message, with its robot.
+// Describes the difference of two recordings for people: first the difference of their scenarios,
+// then the first different message and its robot.
 #pragma once
 
 #include <optional>
@@ -14,17 +14,17 @@
 namespace gsv::recording {
 
 struct RecordingDifference {
-  // Lines of the attached scenarios that only one of them has, at most 20 each.
+  // Lines that only one of the attached scenarios has, at most 20 each.
   std::vector<std::string> only_in_first, only_in_second;
   std::optional<Difference> messages;
-  std::string robot;  // or body, which the first different message is about; empty: unknown
+  std::string robot;  // robot or body of the first different message; empty: unknown
 
-  // At most 60 lines.
+  // Returns at most 60 lines.
   std::string Text() const;
   nlohmann::ordered_json Json() const;
 };
 
-// Reads both recordings up to the first difference.
+// Compares two recordings up to the first difference.
 base::Result<RecordingDifference> CompareRecordings(const McapReader& first,
                                                     const McapReader& second);
 

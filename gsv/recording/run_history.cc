@@ -24,13 +24,13 @@ constexpr std::chrono::milliseconds kChunkAge{500};        // wall-clock time
 constexpr std::chrono::milliseconds kWatchedPeriod{50}, kUnwatchedPeriod{250};
 constexpr std::chrono::milliseconds kWatchedStatusPeriod{200}, kUnwatchedStatusPeriod{1000};
 constexpr std::chrono::milliseconds kReadingsPeriod{200}, kSensorListPeriod{1000};
-// The times that each sample must stay away, as a multiple of what it took.
+// An activity pauses for this multiple of the time that it took.
 constexpr int kWatchedRest = 20, kUnwatchedRest = 50;
-// Above every sampling rate: each sample is recorded.
+// This is above every sampling rate, so each sample is recorded.
 constexpr double kHistoryPosesRate = 1000;
 constexpr std::chrono::milliseconds kOpenTimeout{500}, kOpenPoll{5};
 
-// Lets an activity run at a period, and less often if it takes long.
+// Runs an activity periodically, and less often if it takes long.
 class Share {
  public:
   bool IsDue(RunHistory::WallTime now) const { return now >= next_; }
@@ -50,7 +50,8 @@ std::vector<std::string> NamesOf(std::initializer_list<const char*> names) {
   return {names.begin(), names.end()};
 }
 
-// The contacts are written one by one, for each step; /tf repeats the poses.
+// The topics of the state. Contacts are left out, because they are written separately for each
+// step, and /tf, because it repeats the poses.
 Selection StateSelection() {
   return {.topics = NamesOf({topics::kClock.name, topics::kPoses.name, topics::kStatus.name,
                              topics::kEvents.name, topics::kLog.name, topics::kOutput.name,
@@ -68,7 +69,7 @@ WriterOptions RingWriting() {
 
 }  // namespace
 
-// Collects what happens between two rounds.
+// Collects the events and collisions between two rounds.
 class RunHistory::Inbox final : public simulation::Observer {
  public:
   struct Content {

@@ -1,13 +1,13 @@
 // The last minutes of a running simulation, in memory, readable as a recording.
 //
-// A thread of the owner samples the simulation at rates of wall-clock time, so that a fast run costs
-// no more than a slow one. Sampling takes at most a twentieth of that thread's time while the
-// simulation is watched, and a fiftieth while it is not. The stepping thread only notes the events
+// A thread of the owner samples the simulation at rates of wall-clock time, so that a fast run
+// costs no more than a slow one. Sampling takes at most a twentieth of that thread's time while the
+// simulation is watched, and a fiftieth while it is not. The stepping thread only stores the events
 // and the collisions of each step.
 //
-// Records      events, log, output, notes, commands and collisions always; poses and status at a low
-//              rate while nobody watches. While it is watched: poses and status at a higher rate,
-//              health, readings of sensors (without images) and beams.
+// Records      Events, log, output, notes, commands and collisions are always recorded. Poses and
+//              status are recorded at a low rate while nobody watches. For viewers, the rate is
+//              higher, and health, sensor readings (no images) and beams are added.
 // One run      a reset of the simulation starts a new history.
 // Threads      Round() from one thread; the others from any.
 #pragma once
@@ -24,7 +24,7 @@
 
 namespace gsv::recording {
 
-// A robot has met another body.
+// A contact of a robot with another body.
 struct Collision {
   base::SimTime time{};
   std::string robot, other;
@@ -38,20 +38,20 @@ class RunHistory {
   static constexpr double kWatchedRate = 20;
   static constexpr double kUnwatchedRate = 4;
 
-  // `capacity`: see ChunkRing.
+  // For `capacity` see ChunkRing.
   RunHistory(const std::shared_ptr<simulation::Simulation>& simulation, std::size_t capacity);
   ~RunHistory();
 
-  // Takes what is due.
+  // Samples the simulation, if a sample is due.
   void Round(WallTime now, bool is_watched);
 
   std::size_t capacity() const { return capacity_; }
   ChunkRing::Extent extent() const;
-  // The newest collisions of the run, by time; at most 500.
+  // Returns the newest collisions of the run, by time; at most 500.
   std::vector<Collision> collisions() const;
 
-  // A reader of what is kept now. Waits for messages that are on their way, at most half a second.
-  // kNotFound: there are none yet.
+  // Returns a reader of what is kept now. Waits up to half a second for messages that were sampled
+  // but not yet written. kNotFound: there are none yet.
   [[nodiscard]] base::Result<std::unique_ptr<McapReader>> Open() const;
 
  private:

@@ -53,7 +53,7 @@ class SimulationRecorder {
   // ended the recording early, if there was one.
   base::Status Stop();
 
-  // Whether the simulation still exists and the disk has not failed.
+  // Whether the recording continues: the simulation still exists, and the disk has not failed.
   bool is_recording() const;
   McapWriter::Progress progress() const { return writer_->progress(); }
 

@@ -409,7 +409,7 @@ std::shared_ptr<const model::Image> TakeWith(Renderer& renderer, TestScene& scen
   return image ? *image : std::make_shared<const model::Image>();
 }
 
-// The red channel of the wall in the middle row.
+// Returns the red channel of the wall in the middle row.
 int RedAt(const model::Image& image, int x) {
   return image.pixels[static_cast<std::size_t>(3 * (60 * 160 + x))];
 }

@@ -29,7 +29,7 @@ using Truths = std::vector<std::shared_ptr<const GroundTruth>>;
 struct Request {
   std::shared_ptr<const world::Snapshot> snapshot;
   std::vector<CameraView> views;
-  bool is_survey = false;  // the result is `truths` if true, else `images`
+  bool is_survey = false;  // whether the result is `truths` instead of `images`
   std::promise<Result<Images>> images;
   std::promise<Result<Truths>> truths;
   bool abandoned = false;  // the caller no longer waits

@@ -70,7 +70,7 @@ class FormulaReader {
     return formula;
   }
 
-  // The problem was reported already, so reading can stop.
+  // If there are too many formulas, this was already reported, and reading stops.
   bool is_too_large() const { return count_ > kMaxFormulas; }
 
  private:

@@ -68,8 +68,8 @@ struct Scenario {
   friend bool operator==(const Scenario&, const Scenario&) = default;
 };
 
-// Parses "MODEL[@x,y[,yaw]]". Positions are in metres. The yaw is in radians, or in degrees if it
-// ends in "deg".
+// Parses "MODEL[@x,y[,yaw]]". Positions are in metres. The yaw is in radians, or in degrees if the
+// text ends in "deg".
 base::Result<RobotEntry> ParseRobot(const std::string& text);
 
 // Parses "COUNT@x,y[,radius][:x,y[,radius]…]": the number of pedestrians, and the goals of their

@@ -77,7 +77,7 @@ std::optional<std::size_t> LineWithControlCharacter(const std::string& text) {
   return 1 + static_cast<std::size_t>(std::count(text.begin(), found, '\n'));
 }
 
-// Returns the absolute path of a name that exists in the file's folder, or else the name.
+// Returns the absolute path if the name exists in the file's folder, or else the name itself.
 std::string SeenFrom(const std::filesystem::path& folder, const std::string& name) {
   std::error_code ignored;
   const std::string file = formats::xacro::FilePart(name);

@@ -83,7 +83,7 @@ std::vector<model::PedestrianGroup> ReadPedestrianGroups(YamlMapping& mapping) {
     group.radius = keys.Number("radius", 0.05, 1).value_or(group.radius);
     group.height = keys.Number("height", 0.2, 3).value_or(group.height);
     const auto ok = model::Check(group);
-    // Avoids a second report of the same problem.
+    // Avoids reporting the same problem twice.
     if (!ok && mapping.place().problem_count() == problem_count && keys.is_mapping()) {
       keys.AddProblem(ok.error().message);
     }
@@ -103,7 +103,7 @@ std::map<std::string, double> ReadRates(YamlMapping& mapping) {
   return rates;
 }
 
-// One of these words; empty if the key is absent.
+// Returns one of these words; empty if the key is absent.
 std::string ReadWord(YamlMapping& mapping, const char* key,
                      std::initializer_list<const char*> words) {
   const std::string word = mapping.Text(key).value_or("");
@@ -115,7 +115,7 @@ std::string ReadWord(YamlMapping& mapping, const char* key,
   return {};
 }
 
-// true, false, or a mapping of settings.
+// Reads true, false, or a mapping of settings.
 std::optional<Ros2Settings> ReadRos2(YamlMapping& mapping) {
   const auto node = mapping.Any("ros2");
   if (!node) return std::nullopt;

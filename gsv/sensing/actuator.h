@@ -20,8 +20,8 @@ class Actuator : public Device {
  protected:
   using Device::Device;
 
-  // Its state from `followed.since` on. An actuator with light, sound or an attached body returns
-  // its own class of state. `before` is null before the first command.
+  // Returns its state from `followed.since` on. An actuator with light, sound or an attached body
+  // returns its own class of state. `before` is null before the first command.
   virtual world::DeviceStatePtr Follow(world::DeviceMount mount, world::FollowedCommand followed,
                                        const world::DeviceState* /*before*/) const {
     return std::make_shared<const world::ActuatorState>(std::move(mount), std::move(followed));

@@ -8,11 +8,11 @@ namespace {
 
 using geometry::Pose;
 
-// For fewer rays it does not pay to gather what is around.
+// For fewer rays, gathering the candidate set does not pay off.
 constexpr std::size_t kMinPacket = 3;
 
 // The operations are those of world_from_link * link_from_sensor and of the product of its
-// orientation and the x axis, in the same order, so that each bit is equal.
+// orientation and the x axis, in the same order, so that the results are bit-identical.
 GSV_FOR_EACH_PROCESSOR
 void PlaceRays(const Pose& world_from_link, const BeamSet::Beams& beams, RayPacket& rays) {
   const double tx = world_from_link.position.x, ty = world_from_link.position.y,
@@ -35,7 +35,8 @@ void PlaceRays(const Pose& world_from_link, const BeamSet::Beams& beams, RayPack
     const double x = aw * bx + ax * bw + ay * bz - az * by;
     const double y = aw * by - ax * bz + ay * bw + az * bx;
     const double z = aw * bz + ax * by - ay * bx + az * bw;
-    // The x axis has zeros, whose products have a sign.
+    // Products with the zeros of the x axis are kept, because their sign affects the bits of the
+    // result.
     const double cx = (y * 0.0 - z * 0.0) + 1.0 * w;
     const double cy = (z * 1.0 - x * 0.0) + 0.0 * w;
     const double cz = (x * 0.0 - y * 1.0) + 0.0 * w;

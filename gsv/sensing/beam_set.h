@@ -1,7 +1,7 @@
-// The beams of one robot's sensors, cast together: for eight sonars it takes a third of the time of
-// reading one after the other.
+// The beams of one robot's sensors, cast together. For eight sonars, this takes a third of the time
+// of separate readings.
 //
-// Determinism  a value is equal to that of the sensor's Sample(), bit by bit.
+// Determinism  a value is bit-identical to that of the sensor's Sample().
 // Threads      const members may run concurrently, with a Sampling for each.
 #pragma once
 
@@ -21,11 +21,11 @@ class BeamSet {
   void Add(const Sensor& sensor);
   std::size_t size() const { return size_; }
 
-  // values[i] is the value of the reading that the sensor added as number i would take.
+  // Sets values[i] to the value of a reading of the sensor that was added as number i.
   void Sample(const Sampling& sampling, std::span<double> values) const;
 
-  // Beams on one link, by coordinate. `link_from_sensor` has its position in x, y, z, and its
-  // orientation in qw, qx, qy, qz.
+  // Beams on one link, as a structure of arrays. `link_from_sensor` has its position in x, y, z,
+  // and its orientation in qw, qx, qy, qz.
   struct Beams {
     int link = 0;
     std::size_t count = 0;

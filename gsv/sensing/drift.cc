@@ -8,7 +8,7 @@ namespace gsv::sensing {
 namespace {
 
 constexpr double kBlock = 64;  // correlation times
-constexpr int kHalvings = 16;  // down to a thousandth of the correlation time
+constexpr int kHalvings = 16;  // intervals are halved down to a thousandth of the correlation time
 
 }  // namespace
 
@@ -21,9 +21,9 @@ double DriftAt(base::SimTime time, double correlation_time, std::uint64_t seed,
     return base::Noise(seed, stream, number + node).Gaussian();
   };
   double first = draw(block, 0), last = draw(block + 1, 0);
-  double place = blocks - block;  // in [0, 1) of the interval
+  double place = blocks - block;  // position in the interval, as a fraction in [0, 1)
   double length = kBlock;         // length of the interval, in correlation times
-  std::uint64_t node = 1;         // in the order of a heap
+  std::uint64_t node = 1;         // number of the interval, in the order of a heap
   for (int i = 0; i < kHalvings; ++i) {
     length /= 2;
     const double rho = std::exp(-length);

@@ -1,10 +1,10 @@
 // The Ornstein–Uhlenbeck process of variance 1, for drifting biases. Its value at any instant is
 // computed without earlier values.
 //
-// Method       the process is Markov and Gaussian, so that between two known values the middle one
-//              has a normal distribution of known mean and variance. Values 64 correlation times
-//              apart count as independent. From there intervals are halved down to the instant, and
-//              each value is drawn with its own number.
+// Method       the process is Markov and Gaussian. So the value in the middle between two known
+//              values has a normal distribution with a known mean and variance. Values at a
+//              distance of 64 correlation times count as independent. Intervals between them are
+//              halved until the instant is reached. Each value is drawn with its own number.
 // Source       for the distribution between two values: Rasmussen and Williams, "Gaussian Processes
 //              for Machine Learning", appendix B.2.
 // Determinism  a function of the arguments.

@@ -21,7 +21,7 @@ inline messages::std_msgs::Header HeaderOf(const Reading& reading, const std::st
   return HeaderOf(reading.time, frame_id);
 }
 
-// The message in CDR.
+// Returns the message in CDR.
 template <typename Message>
 std::vector<std::uint8_t> Encoded(const Message& message) {
   messages::Bytes bytes;

@@ -11,7 +11,7 @@ namespace gsv::sensing {
 inline constexpr std::string_view kWorldFrame = "map";
 inline constexpr std::string_view kBaseFrame = "base_link";
 inline constexpr std::string_view kOdometryFrame = "odom";
-// z along the view, x to the right, y down.
+// The optical frame: z along the view, x to the right, y down.
 inline constexpr std::string_view kOpticalFrame = "optical";
 
 inline std::string FrameOf(std::string_view body, std::string_view part) {

@@ -3,16 +3,16 @@
 // Parameters  under the prefix that the sensor documents ("noise", "angular_velocity.x.noise"):
 //             type ("none" turns all off), mean and stddev of white noise, bias_mean and
 //             bias_stddev of a bias that is drawn once, dynamic_bias_stddev (in units per root
-//             second) and dynamic_bias_correlation_time (s) of a drifting bias, precision (the step
-//             of the output); and of GSV outlier_probability, outlier_stddev and
+//             second) and dynamic_bias_correlation_time (s) of a drifting bias, precision (the
+//             step of the output). GSV adds outlier_probability, outlier_stddev and
 //             dropout_probability.
 // Model       value + N(mean, stddev) + bias + drift, sometimes + N(0, outlier_stddev), rounded to
 //             the nearest multiple of the precision; or a dropout (NaN). The drift has the standard
 //             deviation dynamic_bias_stddev sqrt(correlation time / 2), to which that of Gazebo
 //             converges.
-// keyed by (seed, robot, sensor, step) and the channel: a draw depends on no other value and not on
-// the order of reading.
-//             no other value, and not on who read before.
+// Determinism random numbers are keyed by (seed, robot, sensor, step) and the channel.
+//             So a number does not depend on other values,
+//             and it does not depend on the order of readings.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ namespace gsv::sensing {
 struct NoiseModel {
   double mean = 0, stddev = 0;
   double bias_mean = 0, bias_stddev = 0;
-  double drift_stddev = 0, drift_time = 0;  // drift_time 0: none
+  double drift_stddev = 0, drift_time = 0;  // drift_time 0: there is no drift
   double precision = 0;                     // 0: exact
   double outlier_probability = 0, outlier_stddev = 0;
   double dropout_probability = 0;
@@ -35,7 +35,7 @@ struct NoiseModel {
   friend bool operator==(const NoiseModel&, const NoiseModel&) = default;
 };
 
-// Reads the parameters. `limit` bounds those in the unit of the quantity.
+// Reads the parameters. `limit` is the limit of those in the unit of the quantity.
 NoiseModel ReadNoise(ParameterReader& reader, const std::string& prefix, double limit);
 
 // The noise of one sensor at one instant.
@@ -43,9 +43,9 @@ class NoisyReading {
  public:
   NoisyReading(const Sampling& sampling, const model::SensorDescription& description);
 
-  // The reading for the true `value`. Channels of a sensor are independent.
+  // Returns the reading for the true `value`. The channels of a sensor are independent.
   double Read(const NoiseModel& model, std::uint64_t channel, double value) const;
-  // The bias and drift, without white noise.
+  // Returns the bias and the drift, without white noise.
   double Bias(const NoiseModel& model, std::uint64_t channel) const;
   bool IsDropped(const NoiseModel& model, std::uint64_t channel) const;
 

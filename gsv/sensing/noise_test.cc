@@ -33,7 +33,7 @@ Moments MomentsOf(int count, const std::function<double(int)>& value) {
   return {mean, squares / count - mean * mean};
 }
 
-// The deviations of the mean and the variance of `count` normal values of variance 1.
+// The standard deviations of the mean and the variance of `count` normal values with variance 1.
 double MeanSigma(int count) { return 1 / std::sqrt(double(count)); }
 double VarianceSigma(int count) { return std::sqrt(2.0 / count); }
 
@@ -47,8 +47,9 @@ TEST(Drift, HasVarianceOneAtEveryInstant) {
 }
 
 TEST(Drift, CorrelationFallsWithTheCorrelationTime) {
-  // The correlation of values a time t apart is exp(-t / correlation time), also where t spans the
-  // border between two blocks (at 640 s) or between two of its halves (at 320 s).
+  // The correlation of two values at a distance of t is exp(-t / correlation time). This must also
+  // hold across the border between two blocks (at 640 s), or between two halves of a block (at 320
+  // s).
   for (const double lag : {0.5, 5.0, 10.0, 20.0}) {
     for (const double middle : {55.0, 320.0, 640.0}) {
       double sum = 0;
@@ -67,13 +68,13 @@ TEST(Drift, ChangesLittleInAShortTime) {
   for (double t = 0; t < 1500; t += 0.37) {
     const double step =
         DriftAt(FromSeconds(t + 1e-3), 10, kSeed, 1) - DriftAt(FromSeconds(t), 10, kSeed, 1);
-    // The bound is five times sqrt(2 dt / correlation time) = 0.014, plus the effect of the
-    // interpolation.
+    // The bound is five times the deviation sqrt(2 dt / correlation time) = 0.014, plus the effect
+    // of interpolation.
     EXPECT_LT(std::abs(step), 0.12) << t;
   }
 }
 
-// A robot has an altimeter, whose readings are of the height 5 above a reference of 0.
+// A robot with an altimeter, whose readings are those of the height 5 above a reference of 0.
 class NoiseTest : public ::testing::Test {
  protected:
   NoiseTest() {

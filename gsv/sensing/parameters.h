@@ -20,19 +20,19 @@ class ParameterReader {
   explicit ParameterReader(const model::SensorDescription& description)
       : description_(description) {}
 
-  // The number of that name, or `otherwise` if it is absent. It must lie in [low, high].
+  // Returns the number with that name, or `otherwise` if it is absent. It must be in [low, high].
   double Number(const std::string& name, double otherwise, double low, double high);
 
   // Returns the integer with that name, or `otherwise` if it is absent. It must be in [low, high].
   int Count(const std::string& name, int otherwise, int low, int high);
 
-  // A flag; a number is true unless it is 0.
+  // Returns a flag. A number is true unless it is 0.
   bool Flag(const std::string& name, bool otherwise);
 
-  // A text; numbers and flags are refused.
+  // Returns a text. Numbers and flags are refused.
   std::string Text(const std::string& name, const std::string& otherwise);
 
-  // Two numbers, written as text: "0.5 0.5". Each must lie in [low, high].
+  // Returns two numbers, written as text: "0.5 0.5". Each must be in [low, high].
   geometry::Vector2 Pair(const std::string& name, geometry::Vector2 otherwise, double low,
                          double high);
 

@@ -1,4 +1,4 @@
-// Named parameter sets of devices that are sold or that were measured.
+// Named parameter sets of commercial or measured devices.
 //
 // A sensor selects one with the parameter "preset" (<gsv:preset>hc_sr04</gsv:preset>). Parameters
 // of the sensor itself override those of the preset. A sensor without a preset is not changed.

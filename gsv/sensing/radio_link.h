@@ -14,16 +14,16 @@ namespace gsv::sensing {
 
 using world::Antenna;
 
-// The received strength in dBm at `distance` (m, at least 1 cm) behind `walls` walls.
+// Returns the received strength in dBm at `distance` (m, at least 1 cm) behind `walls` walls.
 double ArrivingStrength(const world::RadioSetup& sender, const world::RadioSetup& receiver,
                         double distance, int walls);
 
-// The number of solids between two antennas without their carriers: half of the surfaces on the
-// line of sight, rounded up.
+// Returns the number of solids between two antennas, without the robots that carry them: half of
+// the number of surfaces on the line of sight, rounded up.
 int WallsBetween(const world::RayCaster& rays, const Antenna& from, const Antenna& to);
 
-// The strength at which `to` receives `from`; nothing if it does not. Casts rays only if walls make
-// a difference.
+// Returns the strength at which `to` receives `from`; nothing if it does not. Casts rays only if
+// walls affect the result.
 std::optional<double> HeardAt(const Antenna& from, const Antenna& to, const world::RayCaster& rays);
 
 }  // namespace gsv::sensing

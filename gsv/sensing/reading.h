@@ -17,7 +17,7 @@ namespace gsv::sensing {
 // The sensor type's struct defines the layout of `values` and `labels` (gsv/readings/catalogue.h).
 // `image` is null for all but cameras, `labels` for types without labels.
 struct Reading {
-  using Values = boost::container::small_vector<double, 1>;  // one value needs no allocation
+  using Values = boost::container::small_vector<double, 1>;  // a single value needs no allocation
 
   std::int64_t step = 0;
   base::SimTime time{0};  // the sampling instant
@@ -26,8 +26,8 @@ struct Reading {
   std::shared_ptr<const std::vector<std::string>> labels;
 };
 
-// The struct of a reading; spans in it refer to the reading. kCorrupt, with the sensor's name, if
-// the reading does not have the size of the layout.
+// Returns the struct of a reading; spans in it refer to the reading. kCorrupt, with the sensor's
+// name, if the reading does not have the size of the layout.
 template <typename Struct>
 base::Result<Struct> ValuesOf(const Reading& reading, const std::string& sensor) {
   std::span<const std::string> labels;
@@ -37,7 +37,7 @@ base::Result<Struct> ValuesOf(const Reading& reading, const std::string& sensor)
 template <typename Struct>
 void ValuesOf(Reading&& reading, const std::string& sensor) = delete;  // spans would dangle
 
-// Sets the values, and labels if any, of the reading from the struct.
+// Sets the values, and the labels if the struct has any, of the reading.
 template <typename Struct>
 void Fill(const Struct& from, Reading& reading) {
   std::vector<std::string> labels;

@@ -25,7 +25,7 @@ enum class Overlay { kNone, kLines, kPoints, kImage };
 struct Companion {
   std::string topic;
   const messages::Schema* schema = nullptr;
-  // Whether it depends on the reading (the points of a lidar), not only on the description (the
+  // Whether it depends on the reading (the points of a lidar), and not only on the description (the
   // lens of a camera).
   bool of_readings = false;
 };
@@ -49,7 +49,7 @@ struct SensorType {
   std::optional<Companion> companion;  // for cameras only, which also have an optical frame
   Overlay overlay = Overlay::kNone;
 
-  // For a type whose messages depend on the sensor's description; empty: those above.
+  // Set for a type whose messages depend on the description; empty: those above apply.
   std::function<SensorMessages(const model::SensorDescription&)> messages_of;
 
   SensorMessages MessagesOf(const model::SensorDescription& description) const {
@@ -59,10 +59,10 @@ struct SensorType {
 
 class SensorRegistry {
  public:
-  // Fails if the name or an alias is taken.
+  // Adds a type. Fails if its name or an alias is taken.
   base::Status Add(SensorType type);
 
-  // A type by name or alias; null if unknown. Valid during the lifetime of the registry.
+  // Returns a type by name or alias, or null. It is valid during the registry's lifetime.
   const SensorType* Find(std::string_view name) const;
 
   std::vector<std::string> names() const;

@@ -3,10 +3,10 @@
 namespace gsv::sensing {
 namespace {
 
-// For fewer rays it does not pay to gather what is around.
+// For fewer rays, gathering the candidate set does not pay off.
 constexpr std::size_t kFewRays = 3;
 
-// Sensors of a robot stand about so far apart.
+// The typical distance between the sensors of a robot.
 constexpr double kSpread = 0.1;  // m
 
 }  // namespace

@@ -47,11 +47,11 @@ class Sampling {
     return *scene_;
   }
 
-  // The distance along a ray to the nearest surface of another body; infinite if there is none
-  // within the ray's length.
+  // Returns the distance along a ray to the nearest surface of another body; infinite if there is
+  // none within the ray's length.
   double Range(const Ray& ray) const;
 
-  // Announces `count` rays from near the robot, for which gathering a candidate set may pay.
+  // Announces `count` rays from near the robot, so that gathering a candidate set may pay off.
   void ExpectRays(std::size_t count) const { expected_rays_ += count; }
 
   geometry::Pose WorldFromSensor(const model::SensorDescription& description) const {
@@ -64,13 +64,13 @@ class Sampling {
 
   std::uint64_t seed() const { return seed_; }
 
-  // The noise of this sensor at this instant, keyed by (seed, robot, sensor, step).
+  // Returns the noise of this sensor at this instant, keyed by (seed, robot, sensor, step).
   base::Noise NoiseOf(const model::SensorDescription& description) const {
     return {seed_, base::StableId(robot().name + "/" + description.name),
             static_cast<std::uint64_t>(snapshot_->state.step)};
   }
 
-  // A reading without values, stamped with this instant.
+  // Returns a reading without values, stamped with this instant.
   Reading Stamped() const {
     return {snapshot_->state.step, snapshot_->state.time, {}, nullptr, nullptr};
   }
@@ -82,9 +82,9 @@ class Sampling {
   RaySceneCache& rays_;
   mutable std::shared_ptr<const RayScene> scene_;  // null until the first use
   mutable std::size_t expected_rays_ = 0;
-  mutable bool has_gathered_ = false;  // candidates_ are those of the body
+  mutable bool has_gathered_ = false;  // whether candidates_ are those of the present body
   mutable std::unique_ptr<CandidateSet> candidates_;
-  mutable int link_ = -1;  // link of world_from_link_
+  mutable int link_ = -1;  // the link of world_from_link_
   mutable geometry::Pose world_from_link_;
 };
 
@@ -105,8 +105,8 @@ struct Frustum {
 struct Beam {
   double min = 0, max = 0;  // m
 
-  // The value of the reading for the distance to the nearest surface within `max`, which is infinite
-  // if there is none.
+  // Returns the value of the reading for the distance to the nearest surface within `max`; the
+  // distance is infinite if there is none.
   double ValueOf(double echo) const { return echo >= min ? std::min(echo, max) : max; }
 };
 
@@ -128,8 +128,8 @@ class Sensor {
   // Whether Sample() casts rays. Callers that sample many sensors then prepare the ray scene first.
   virtual bool CastsRays() const { return false; }
 
-  // The beam, if Sample() returns nothing but the value of one beam. Null for other sensors, also for
-  // those with noise.
+  // Returns the beam if Sample() returns only the value of one beam. Null for other sensors, and
+  // for sensors with noise.
   virtual const Beam* beam() const { return nullptr; }
 
   using Bytes = std::vector<std::uint8_t>;
@@ -144,17 +144,17 @@ class Sensor {
   virtual Bytes EncodeCompanion(base::SimTime /*time*/, const std::string& /*frame_id*/) const {
     return {};
   }
-  // The companion message for one reading (Companion::of_readings). By default it is the same for
-  // all readings of one instant.
+  // Encodes the companion message for one reading (Companion::of_readings). By default it is the
+  // same for all readings of one instant.
   virtual Bytes EncodeCompanionOf(const Reading& reading, const std::string& frame_id) const {
     return EncodeCompanion(reading.time, frame_id);
   }
-  // The beams of a reading for viewers; types that are drawn as points have a point at each end.
+  // Returns the beams of a reading for viewers. Types that are drawn as points use their ends.
   virtual std::vector<Segment> Beams(const Reading& /*reading*/) const { return {}; }
   // The field of view, if the sensor has one.
   virtual std::optional<Frustum> frustum() const { return std::nullopt; }
 
-  // This sensor as a device, or null if it keeps no state from one step to the next.
+  // Returns this sensor as a device, or null if it keeps no state from one step to the next.
   virtual const Device* device() const { return nullptr; }
 
  private:

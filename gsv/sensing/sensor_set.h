@@ -14,16 +14,16 @@ namespace gsv::sensing {
 
 class SensorSet {
  public:
-  // `types` outlives this.
+  // `types` must outlive this object.
   explicit SensorSet(const SensorRegistry& types) : types_(types) {}
 
-  // kNotFound for an unknown type; else the error of the type for invalid parameters.
+  // Returns kNotFound for an unknown type, and the type's error for invalid parameters.
   base::Result<std::shared_ptr<const Sensor>> Of(const model::SensorDescription& description);
 
  private:
   const SensorRegistry& types_;
-  // By name, as few models use one name for different sensors. Expired ones are removed when
-  // another one of their name is made.
+  // The sensors by name, because few models use one name for different sensors. Expired ones are
+  // removed when another sensor with their name is made.
   std::map<std::string, std::vector<std::weak_ptr<const Sensor>>, std::less<>> known_;
 };
 

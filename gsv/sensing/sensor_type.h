@@ -54,8 +54,8 @@ class SensorOf : public Base {
   virtual std::vector<Segment> BeamsOf(const Values& /*values*/) const { return {}; }
 };
 
-// The type of a SensorOf with the constructor (description, ParameterReader&, context…), which
-// reports invalid parameters to the reader.
+// Makes the type of a class that derives from SensorOf and has the constructor (description,
+// ParameterReader&, context…). The constructor reports invalid parameters to the reader.
 template <typename Kind, typename... Context>
 SensorType MakeSensorType(std::string name, std::vector<std::string> aliases = {},
                           Overlay overlay = Overlay::kNone, Context... context) {

@@ -36,7 +36,8 @@ class SharedSensor final : public ForwardingSensor {
 
 bool SharedReadings::IsOf(const Entry& entry, const Sensor& sensor,
                           const Sampling& sampling) const {
-  // Compares the owners, because another snapshot may have the same address by now.
+  // Compares the owners of the snapshots, because a new snapshot may have the address of an old
+  // one.
   return entry.body == sampling.body() && entry.seed == sampling.seed() &&
          !entry.snapshot.owner_before(sampling.snapshot()) &&
          !sampling.snapshot().owner_before(entry.snapshot) &&

@@ -19,7 +19,7 @@ model::SensorDescription Named(const std::string& name) {
   return description;
 }
 
-// Takes as its image a new one each time it is really asked.
+// A sensor that makes a new image each time it is sampled.
 class CountingSensor final : public Sensor {
  public:
   CountingSensor(const std::string& name, std::atomic<int>& taken)
@@ -59,7 +59,7 @@ class SharedReadingsTest : public ::testing::Test {
     Share(type, readings_);
     return *type.create({});
   }
-  // Which taking of all it was.
+  // Returns the number of the sample.
   double Number(const Sensor& sensor, const std::shared_ptr<world::Snapshot>& snapshot,
                 int body = 0, std::uint64_t seed = 1) {
     const auto reading = sensor.Sample(Sampling(snapshot, body, seed, rays_));

@@ -14,16 +14,16 @@ class BehaviourSource {
  public:
   virtual ~BehaviourSource() = default;
 
-  // A new behaviour from an offer that matches `constraint` (in the Trading Service's constraint
-  // language over the properties of docs/services.md). May take as long as a few remote calls.
+  // Creates a behaviour from an offer that matches `constraint` (in the Trading Service's language,
+  // over the properties of docs/services.md). May take as long as a few remote calls.
   virtual base::Result<std::shared_ptr<simulation::BehaviourPort>> Get(
       const std::string& constraint) = 0;
 
-  // The time limit that its behaviours share; null if they have none.
+  // Returns the time limit that its behaviours share; null if they have none.
   virtual std::shared_ptr<StopTimeout> stop_timeout() const { return nullptr; }
 };
 
-// The constraint for a behaviour's name: name == 'wander'. Escapes quotes in the name.
+// Returns the constraint for a behaviour's name: name == 'wander'. Escapes quotes in the name.
 std::string ConstraintForName(const std::string& name);
 
 }  // namespace gsv::services

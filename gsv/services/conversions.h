@@ -22,15 +22,15 @@ geometry::Pose FromIdl(const sba::Placement& placement);
 // `robot_from_link` is the pose of the sensor's link.
 sba::SensorTraits ToIdl(const model::SensorDescription& description,
                         const geometry::Pose& robot_from_link);
-// Recognises numbers and flags in the texts.
+// Converts texts to parameters, and recognises numbers and flags.
 model::Parameters FromIdl(const sba::NameValues& values);
 sba::NameValues ToIdl(const model::Parameters& parameters);
 // Throws sba::Refused for an unknown option, listing the known ones.
 void RefuseUnknown(const model::Parameters& options, std::initializer_list<std::string_view> known);
 
 sba::CommandDescription ToIdl(const simulation::Command& command);
-// Texts by name, which are parsed as the type of their parameter. If a name occurs twice, the last
-// one counts.
+// Returns texts by name, which are parsed later as the type of their parameter. If a name occurs
+// twice, the last one counts.
 std::map<std::string, std::string> TextsOf(const sba::NameValues& values);
 
 sba::Measurement ToIdl(const std::string& sensor, const sensing::Reading& reading);
@@ -40,7 +40,7 @@ sba::SimulationState ToIdl(const simulation::SimulationStatus& status);
 // defaults.
 simulation::SimulationStatus FromIdl(const sba::SimulationState& state);
 sba::RobotHealths ToIdl(const health::Report& report);
-// Lines of output (simulation::IsOutput()) of one robot or behaviour, or of all.
+// Converts lines of output (simulation::IsOutput()) of one robot or behaviour, or of all.
 sba::OutputLines OutputToIdl(const std::vector<simulation::Event>& lines, std::string_view robot);
 sba::SimulationPhase ToIdl(simulation::Phase phase);
 simulation::Phase FromIdl(sba::SimulationPhase phase);

@@ -11,11 +11,11 @@
 
 namespace gsv::services {
 
-// The joints that take commands.
+// Lists the joints that take commands.
 sba::JointTraitsList* ListJoints(const simulation::Agent& agent);
 
-// Activates the joint of that name in the group. Throws sba::Refused if there is none that takes
-// commands.
+// Activates the joint with that name in the group. Throws sba::Refused if no joint with that name
+// takes commands.
 sba::JointActuator_ptr ActivateJoint(std::shared_ptr<simulation::Agent> agent,
                                      const std::string& name,
                                      const std::shared_ptr<ServantGroup>& group);

@@ -86,11 +86,11 @@ base::Status RemoteBehaviour::Resume() {
 }
 
 void RemoteBehaviour::Destroy() {
-  // The process is ending, and the behaviour, which is still running, would not answer.
+  // The process is ending, and the behaviour is still running and would not answer.
   const bool is_of_no_use = has_not_stopped_ && stop_timeout_->is_shortened();
   if (!is_of_no_use) {
     orb::LimitCalls(behaviour_, stop_timeout_->limit());
-    (void)Call("destroy", [this] { behaviour_->destroy(); });  // it may be gone
+    (void)Call("destroy", [this] { behaviour_->destroy(); });  // the behaviour may be gone
   }
   ReplaceHardware(nullptr);
 }

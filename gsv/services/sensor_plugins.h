@@ -13,8 +13,8 @@
 
 namespace gsv::services {
 
-// The libraries gsv-sensor-*.so in these folders, separated by colons; by folder, then by name.
-// Missing folders are ignored.
+// Returns the libraries gsv-sensor-*.so in these folders, which are separated by colons, ordered by
+// folder and then by name. Missing folders are ignored.
 std::vector<std::filesystem::path> FindSensorPlugins(std::string_view folders);
 
 // Adds the library's types. Fails if the file is not a library, not a sensor module, or built for

@@ -1,9 +1,9 @@
 // The load of a server as dynamic properties of its offers, which the broker evaluates for queries.
 //
-//   simulations   long    how many it has
-//   load          double  what it runs at the moment (simulations that advance, and scenarios), for
-//                         each of the machine's cores
-//   load_average  double  of the machine over the last minute, whoever works there, for each core
+//   simulations   long    number of simulations
+//   load          double  number of advancing simulations and running scenarios, divided by the
+//                         number of the machine's cores
+//   load_average  double  load of the whole machine over the last minute, divided by its cores
 //
 // Threads  ORB threads.
 #pragma once

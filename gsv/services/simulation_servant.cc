@@ -244,7 +244,7 @@ void SimulationServant::stop_recording() {
   orb::ValueOrThrow(service_.hooks().stop_recording(simulation_->specification().name));
 }
 
-// No effect if it was destroyed before.
+// This has no effect if it was already destroyed.
 void SimulationServant::destroy() { (void)service_.Destroy(simulation_->specification().name); }
 
 SimulationServiceServant::SimulationServiceServant(PortableServer::POA_ptr poa,
@@ -356,10 +356,10 @@ void SimulationServiceServant::RunJanitor() {
       if (servant->IsAbandoned()) abandoned.push_back(servant->simulation());
     }
     const bool may_trim = std::exchange(has_destroyed_, false) || ++round % kTrimmingRounds == 0;
-    // Stopping may take long, for example during a reset: it must not block others.
+    // Stopping may take long, for example during a reset, so it must not block other threads.
     lock.unlock();
-    // Memory of simulations, viewers and messages is free in the arenas of many threads. glibc
-    // alone returns only their tops to the system.
+    // Memory of simulations, viewers and messages is free in the arenas of many threads. Without
+    // this call, glibc returns only the ends of the arenas to the system.
     if (may_trim) malloc_trim(0);
     for (const auto& simulation : abandoned) {
       const Phase phase = simulation->status().phase;

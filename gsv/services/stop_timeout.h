@@ -21,7 +21,7 @@ class StopTimeout {
 
   void Shorten() { until_ = Clock::now() + kShortened; }
   bool is_shortened() const { return until_.load() != Clock::time_point::max(); }
-  // The limit of a call that begins now.
+  // Returns the limit for a call that begins now.
   std::chrono::milliseconds limit() const {
     const Clock::time_point until = until_;
     if (until == Clock::time_point::max()) return kNormal;

@@ -132,7 +132,7 @@ TEST(Actuators, AreRemovedWithTheirRobotOrTheirSensor) {
   ASSERT_TRUE(simulation->AddRobot(RobotWithLamp("other", 1, nullptr, {{"brightness", 1.0}})));
   ASSERT_TRUE(simulation->RunUntil(50ms));
   ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kTimeout), Phase::kPaused);
-  // The lamp of the model stays on, even if no behaviour has it open.
+  // The lamp of the model stays on, even if no behaviour has opened it.
   ASSERT_EQ(simulation->snapshot()->state.devices->size(), 2u);
   EXPECT_EQ(BrightnessOf(*simulation, "robot"), 1);
   ASSERT_TRUE(simulation->RemoveRobot("robot"));

@@ -15,16 +15,16 @@
 
 namespace gsv::simulation {
 
-// Where the wall-clock time of one step went, from the end of the step before. A pause does not
+// The wall-clock time of one step by part, from the end of the step before. A pause does not
 // count.
 struct StepTimes {
   std::int64_t step = 0;
   SimTime time{0};
-  std::chrono::nanoseconds behaviours{0};  // turns of behaviours, and in lockstep waits for them
+  std::chrono::nanoseconds behaviours{0};  // behaviours' turns; in lockstep also waits for them
   std::chrono::nanoseconds devices{0};     // actuators, radios and other devices
   std::chrono::nanoseconds bodies{0};      // motion and contacts
   std::chrono::nanoseconds observers{0};   // recorders and viewers
-  std::chrono::nanoseconds idle{0};        // until the step was due, in real time
+  std::chrono::nanoseconds idle{0};        // wait until the step was due, in real time
   // The robot whose behaviour the step waited for last; empty: none.
   std::string held_up_by;
 
@@ -36,7 +36,7 @@ struct StepTimes {
 class Observer {
  public:
   virtual ~Observer() = default;
-  // Whether OnTimes() is called. It must not change. Steps are timed while an observer wants it.
+  // Whether OnTimes() is called. It must not change. Steps are timed while an observer requests it.
   virtual bool wants_times() const { return false; }
   // The times of a step, after OnSnapshot(), on the stepping thread.
   virtual void OnTimes(const StepTimes&) {}

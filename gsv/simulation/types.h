@@ -69,15 +69,15 @@ const char* ToString(AgentPhase phase);
 // (history/motion_history.h).
 struct Motion {
   bool is_moving = false;
-  bool has_moved = false;  // ever since the start, or since it was added
-  SimTime since{0};        // since when it moves, or does not
-  bool is_stuck = false;   // commanded to move for Specification::stuck_after, without effect
-  // Simulated time for which it was commanded to move since it moved last.
+  bool has_moved = false;  // whether it has moved since the start, or since it was added
+  SimTime since{0};        // since when it moves, or does not move
+  bool is_stuck = false;   // commanded to move for stuck_after, without effect
+  // Simulated time for which it was commanded to move since its last motion.
   SimTime commanded_for{0};
-  world::DriveCommand command;  // in effect: zero after the drive's command timeout
-  double linear = 0;            // m/s, the speed of its origin
-  double angular = 0;           // rad/s, about the vertical
-  std::string contact;          // a body that it touches, besides the ground; empty: none
+  world::DriveCommand command;  // the command in effect: zero after the drive's command timeout
+  double linear = 0;            // speed of its origin, m/s
+  double angular = 0;           // turning rate about the vertical, rad/s
+  std::string contact;          // a body that it touches, except the ground; empty: none
   SimTime contact_since{0};
 };
 
@@ -154,18 +154,18 @@ struct ExpectationState {
   enum class Verdict { kPending, kHolds, kViolated };
 
   std::string name;
-  std::string yaml;   // complete, on one line
-  std::string where;  // in the scenario file
+  std::string yaml;   // the complete YAML, on one line
+  std::string where;  // its place in the scenario file
   Verdict verdict = Verdict::kPending;
-  std::int64_t step = 0;  // of the verdict
+  std::int64_t step = 0;  // step of the verdict
   SimTime time{0};
   // The smallest distance to the limit so far, negative beyond it; of a condition that must become
-  // true, the best so far. Nothing if it is not measured.
+  // true, the best so far. Nothing if the expectation has no margin.
   std::optional<double> margin;
-  std::string unit;  // of the margin; empty: none
+  std::string unit;  // unit of the margin; empty: none
   SimTime margin_at{0};
-  std::string detail;               // of a violation
-  std::vector<std::string> bodies;  // that it is about
+  std::string detail;               // detail of a violation
+  std::vector<std::string> bodies;  // bodies to which the expectation refers
   struct Place {
     double x = 0, y = 0, radius = 0;  // m
   };

@@ -114,7 +114,7 @@ bool SetSerial(X509* certificate) {
   return is_set;
 }
 
-// Neither signed nor issued yet.
+// Begins a certificate without issuer and signature.
 Certificate Begin(EVP_PKEY* key, const std::string& name, const Validity& validity) {
   Certificate made(X509_new());
   X509_NAME* const subject = X509_get_subject_name(made.get());
@@ -190,7 +190,7 @@ base::Status MakeAuthority(const fs::path& folder, const Validity& validity) {
   const Certificate made = key ? Begin(key.get(), "gsv authority", validity) : nullptr;
   if (!made) return Failed();
   X509_set_issuer_name(made.get(), X509_get_subject_name(made.get()));
-  // It signs servers and clients, but no further authorities.
+  // The authority may sign certificates of servers and clients, but no further authorities.
   if (!Extend(made.get(), made.get(), NID_basic_constraints, "critical,CA:TRUE,pathlen:0") ||
       !Extend(made.get(), made.get(), NID_key_usage, "critical,keyCertSign,cRLSign") ||
       !Extend(made.get(), made.get(), NID_subject_key_identifier, "hash") ||

@@ -15,15 +15,15 @@
 
 namespace gsv::tls {
 
-// The validity, relative to now.
+// The period in which a certificate is valid, relative to now.
 struct Validity {
-  std::chrono::seconds begins{-300};  // tolerance for differing clocks
+  std::chrono::seconds begins{-300};  // tolerance for clocks that differ
   std::chrono::seconds ends{365 * 86'400};
 };
 
 struct CertificateRequest {
-  std::string name;                // the subject: letters, digits and -._
-  std::vector<std::string> hosts;  // host names and addresses of a server
+  std::string name;                // the name in the certificate: letters, digits and -._
+  std::vector<std::string> hosts;  // host names and addresses of the server
   Validity validity{};
 };
 

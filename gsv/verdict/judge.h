@@ -22,10 +22,10 @@ namespace gsv::verdict {
 struct MeasuredAtom {
   scenario::Formula atom;
   bool was_measured = false;
-  // up to the verdict; `last` is the value at the verdict
+  // range of the values up to the verdict; `last` is the value at the verdict
   double lowest = 0, highest = 0, last = 0;
   double lowest_at = 0, highest_at = 0;  // in s
-  std::string about;                     // the robot, if the quantity is about any robot
+  std::string about;                     // the robot, if the quantity is about any
 };
 
 struct Finding {

@@ -89,7 +89,7 @@ TEST(Judge, SeesFaultsAtTheirInstant) {
   EXPECT_NEAR(base::ToSeconds(ended.time), 2, 0.06);
   EXPECT_TRUE(One("{never_collides: scout}", dies).holds);
   const std::string silent = "faults: [{at: 2, sensor: scout/front}]\n";
-  // From then on 1.9 m remain to the wall.
+  // From the fault on, the sensor keeps its last reading: 1.9 m to the wall.
   EXPECT_TRUE(
       One("{always: {sensor: {of: scout/front, at_least: 1.89, at_most: 1.91}}, from: 2.01}",
           silent)
@@ -101,7 +101,7 @@ TEST(Judge, SeesFaultsAtTheirInstant) {
 }
 
 TEST(Judge, ARobotIsStuckOnceItWasCommandedToMoveForSoLong) {
-  // The disc stands at the wall from 5.4 s on; its motion is sampled every 0.1 s.
+  // The disc stands at the wall from 5.4 s on. Its motion is sampled every 0.1 s.
   const Finding stuck = One("{never: {stuck: {robot: scout, after: 2}}}");
   EXPECT_FALSE(stuck.holds);
   EXPECT_NEAR(base::ToSeconds(stuck.time), 7.4, 0.21);

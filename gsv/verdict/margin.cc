@@ -27,7 +27,8 @@ const scenario::Formula& FirstAtom(const scenario::Formula& condition) {
   return condition.kind == FormulaKind::kAtom ? condition : FirstAtom(condition.parts.front());
 }
 
-// The signed distance to the limit; NaN if a value is missing. Advances `next` over its atoms.
+// Returns the signed distance to the limit; NaN if a value is missing. Advances `next` past the
+// atoms of `condition`.
 double Distance(const scenario::Formula& condition,
                 const std::vector<std::optional<double>>& values, std::size_t& next) {
   if (condition.kind == FormulaKind::kAtom) {

@@ -17,14 +17,14 @@ class Margin {
  public:
   // `values` are those of the formula's atoms at `now`, in the order of Monitor.
   void Note(base::SimTime now, const std::vector<std::optional<double>>& values);
-  // Sets margin, unit and instant.
+  // Sets the margin with its unit and instant in `state`.
   void Fill(simulation::ExpectationState& state) const;
 
  private:
   friend std::optional<Margin> MarginOf(const scenario::Formula& formula);
 
   scenario::Formula condition_;
-  bool must_come_ = false;  // eventually: the greatest distance counts, else the smallest one
+  bool must_come_ = false;  // eventually: the largest distance counts; else the smallest
   base::SimTime from_{0};
   std::optional<base::SimTime> by_;
   std::string unit_;
@@ -32,10 +32,10 @@ class Margin {
   base::SimTime at_{0};
 };
 
-// Nothing for other formulas, and for conditions that are not measured, such as contacts.
+// Nothing for other formulas, and for conditions without a number, such as contacts.
 std::optional<Margin> MarginOf(const scenario::Formula& formula);
 
-// Adds the circles and boxes in which bodies should be or not be.
+// Adds the circles and boxes in which bodies should be, or should not be.
 void AddShapes(const scenario::Formula& formula, simulation::ExpectationState& state);
 
 }  // namespace gsv::verdict

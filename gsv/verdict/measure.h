@@ -31,7 +31,7 @@ class Measure {
   void MoveTo(std::shared_ptr<const world::Snapshot> snapshot);
   // Returns the value, or nullopt if its body was removed or its sensor fails.
   std::optional<double> Of(const scenario::Quantity& quantity);
-  // The robot that is commanded to move without effect for the longest time; empty: none.
+  // The robot that was commanded to move without effect for the longest time; empty: none.
   std::string stuck_longest() const;
 
  private:
@@ -46,7 +46,7 @@ class Measure {
   std::shared_ptr<const world::Snapshot> snapshot_;
   simulation::MotionHistory motions_;
   std::optional<simulation::SimulationStatus> status_;
-  bool is_status_new_ = false;  // for the current snapshot
+  bool is_status_new_ = false;  // whether the status is that of the current snapshot
 };
 
 }  // namespace gsv::verdict

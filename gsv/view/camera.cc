@@ -20,7 +20,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kDefaultFieldOfView = 45;  // degrees
 constexpr double kNear = 0.05, kFar = 5000;
 constexpr double kMaxCoordinate = 1e6;
-// Behind a robot that is followed, and above it.
+// The camera is behind a followed robot and above it.
 constexpr Vector3 kEyeBehind{-3, 0, 2}, kTargetAhead{0.5, 0, 0.3};
 
 std::optional<double> NumberOf(std::string_view text) {
@@ -30,7 +30,7 @@ std::optional<double> NumberOf(std::string_view text) {
   return is_whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-// The horizontal angle for a vertical one, rad.
+// Returns the horizontal angle that belongs to a vertical one, rad.
 double HorizontalOf(double vertical, int width, int height) {
   return 2 * std::atan(std::tan(vertical / 2) * width / height);
 }
@@ -68,7 +68,7 @@ base::Result<rendering::CameraView> OfSensor(const Camera& camera, const SceneLo
   const auto found = lookup.sensor(camera.sensor.substr(0, slash), camera.sensor.substr(slash + 1));
   if (!found) return Fail(found.error());
   rendering::CameraView view{found->world_from_sensor, ParametersOf(camera)};
-  constexpr double kWidest = 3;  // rad, of a pinhole
+  constexpr double kWidest = 3;  // maximum angle of a pinhole, rad
   view.parameters.horizontal_fov = std::min(found->horizontal_fov, kWidest);
   return view;
 }

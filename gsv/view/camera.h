@@ -1,10 +1,10 @@
-// The camera of a view: how a user names it, and where it is at an instant.
+// The camera of a view: its parameters as users give them, and its pose at an instant.
 //
 // Frames  eye and target in the world; with `follow` in the robot's frame without its pitch and
 //         roll: x ahead, y left, z up.
 // Units   metres, degrees, pixels.
-// Errors  sentences that name the parameter and its limits (kInvalidArgument), or the robot or
-//         camera that is not there (kNotFound).
+// Errors  sentences that name the parameter and its limits (kInvalidArgument), or a missing robot
+//         or camera (kNotFound).
 #pragma once
 
 #include <functional>
@@ -24,21 +24,21 @@ inline constexpr double kMinFieldOfView = 1, kMaxFieldOfView = 150;  // degrees
 struct Camera {
   int width = 1280, height = 720;
   std::optional<geometry::Vector3> eye, target;
-  std::optional<double> field_of_view;  // vertical, degrees; default: 45
-  std::string follow;                   // a robot; empty: none
+  std::optional<double> field_of_view;  // vertical angle in degrees; default: 45
+  std::string follow;                   // name of a robot; empty: none
   std::string sensor;                   // "ROBOT/CAMERA": the view of this camera; empty: none
-  ViewOfAllSide side;                   // if none of these places the camera
+  ViewOfAllSide side;                   // used if none of these places the camera
 
   friend bool operator==(const Camera&, const Camera&) = default;
 };
 
-// "1280x720", each side from kMinSide to rendering::kMaxImageSide.
+// Parses "1280x720". Each side is from kMinSide to rendering::kMaxImageSide.
 base::Status SetSize(std::string_view text, Camera& camera);
-// Each side as SetSize() has it.
+// Checks each side as SetSize() does.
 base::Status CheckSize(int width, int height);
-// "1,2.5,-3": three finite numbers. `name`: for the sentence.
+// Parses "1,2.5,-3": three finite numbers. The sentence of an error contains `name`.
 base::Result<geometry::Vector3> ParsePoint(std::string_view text, const std::string& name);
-// A finite number from kMinFieldOfView to kMaxFieldOfView.
+// Parses a finite number from kMinFieldOfView to kMaxFieldOfView.
 base::Result<double> ParseFieldOfView(std::string_view text);
 // Sets a part of Camera::side: "azimuth" and "elevation" (degrees), "zoom".
 base::Status SetSide(const std::string& name, std::string_view text, ViewOfAllSide& side);
@@ -53,12 +53,12 @@ struct SensorView {
 
 // The parts of a scene to which a camera may refer.
 struct SceneLookup {
-  // The pose of a body, or nothing.
+  // Returns the pose of a body, or nothing.
   std::function<std::optional<geometry::Pose>(const std::string& body)> pose;
-  // A camera of a robot. The error names what is missing.
+  // Returns a camera of a robot. The error names the missing part.
   std::function<base::Result<SensorView>(const std::string& robot, const std::string& sensor)>
       sensor;
-  // The corners that the default view shows.
+  // Returns the corners that the default view shows.
   std::function<std::vector<geometry::Vector3>()> corners;
 };
 

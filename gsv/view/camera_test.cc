@@ -12,7 +12,7 @@ namespace {
 using geometry::Pose;
 using geometry::Vector3;
 
-// The robot "pebble" at (10, 20, 0), turned to the left, with the camera "eye" 0.5 m above it.
+// The robot "pebble" is at (10, 20, 0), rotated to the left, with the camera "eye" 0.5 m above it.
 SceneLookup Pebble() {
   const Pose pebble{{10, 20, 0}, geometry::FromRollPitchYaw({0.1, 0.2, std::numbers::pi / 2})};
   return {[pebble](const std::string& body) {
@@ -40,7 +40,7 @@ std::string SentenceOf(const Camera& camera) {
   return placed ? "" : placed.error().Sentence();
 }
 
-// The direction in which the camera looks, unit length.
+// Returns the direction in which the camera looks, with unit length.
 Vector3 AheadOf(const rendering::CameraView& view) {
   return view.world_from_camera.orientation * Vector3{1, 0, 0};
 }
@@ -55,7 +55,7 @@ TEST(ViewCamera, LooksFromEyeToTarget) {
   EXPECT_NEAR(ahead.x, 0, 1e-12);
   EXPECT_NEAR(ahead.y, 0.6, 1e-12);
   EXPECT_NEAR(ahead.z, -0.8, 1e-12);
-  // Its left stays level.
+  // The camera's left axis is horizontal.
   EXPECT_NEAR((view.world_from_camera.orientation * Vector3{0, 1, 0}).z, 0, 1e-12);
 }
 
@@ -65,14 +65,14 @@ TEST(ViewCamera, TheFieldOfViewIsVertical) {
   camera.target = {1, 0, 1};
   camera.width = 300, camera.height = 100;
   camera.field_of_view = 90;
-  // tan(45°) = 1 up, hence 3 to each side.
+  // tan(45°) = 1 upwards, so 3 to each side.
   EXPECT_NEAR(std::tan(Placed(camera).parameters.horizontal_fov / 2), 3, 1e-12);
 }
 
 TEST(ViewCamera, FollowsARobotInItsLevelFrame) {
   Camera camera;
   camera.follow = "pebble";
-  camera.eye = {-2, 0, 1};  // 2 m behind: it looks along the world's y
+  camera.eye = {-2, 0, 1};  // the camera is 2 m behind the robot and looks along the world's y axis
   camera.target = {3, 0, 1};
   const auto view = Placed(camera);
   EXPECT_NEAR(view.world_from_camera.position.x, 10, 1e-9);
@@ -92,7 +92,7 @@ TEST(ViewCamera, ShowsTheViewOfARobotsCamera) {
 
 TEST(ViewCamera, ShowsEverythingByDefault) {
   const auto view = Placed({});
-  // It looks at the middle of the corners.
+  // The camera looks at the middle of the corners.
   const Vector3 middle = geometry::Inverse(view.world_from_camera) * Vector3{0, 0, 0.5};
   EXPECT_GT(middle.x, 1);
   EXPECT_LT(std::hypot(middle.y, middle.z), 0.3 * middle.x);

@@ -1,6 +1,6 @@
 // A scene of a recording, ready to render: its bodies with their models, posed by messages.
 //
-// Links   a link that moves relative to its body is a body of its own in the snapshots, since
+// Links   a link that moves relative to its body is a separate body in the snapshots, because
 //         recordings have the poses of links and not the positions of joints.
 // Lamps   the light of robots' lamps is not in a scene, and is not rendered.
 // Input   untrusted: bodies with an unknown model are left out, and poses that are not finite or
@@ -22,26 +22,26 @@
 
 namespace gsv::view {
 
-// The model with an identifier of the scene; null if there is none.
+// Returns the model with an identifier of the scene; null if there is none.
 using FindModel = std::function<std::shared_ptr<const model::Model>(const std::string& id)>;
 
 class DrawnScene {
  public:
-  // `json`: as presentation::SceneJson() writes it (docs/formats/live.md).
+  // `json` must have the form that presentation::SceneJson() writes (docs/formats/live.md).
   static base::Result<DrawnScene> Make(std::string_view json, const FindModel& find_model);
 
-  // The world at the instant of a message of this scene's layout.
+  // Returns the world at the instant of a message of this scene's layout.
   std::shared_ptr<const world::Snapshot> At(const messages::gsv_msgs::Poses& poses) const;
 
-  // Valid during the lifetime of this and of the snapshot, which must be of At(). The default view
-  // is that of the scene's own poses, so that it does not move with the bodies.
+  // Valid during the lifetime of this object and of `snapshot`, which must come from At(). The
+  // default view is that of the scene's own poses, so that it does not move with the bodies.
   SceneLookup LookupAt(const world::Snapshot& snapshot) const;
 
  private:
   struct Camera {
-    std::string body;  // in the snapshot: the robot, or one of its links
+    std::string body;  // the body in the snapshot: the robot, or one of its links
     geometry::Pose body_from_sensor;
-    double horizontal_fov = 0;  // rad; 0: it is no camera
+    double horizontal_fov = 0;  // rad; 0: the sensor is not a camera
   };
   class Reader;
   DrawnScene() = default;
@@ -49,7 +49,7 @@ class DrawnScene {
   std::shared_ptr<const world::Layout> layout_;
   world::State state_;                // the scene's own poses
   std::vector<int> bodies_of_poses_;  // index of a body for each pose of a message; -1: none
-  std::map<std::pair<std::string, std::string>, Camera> sensors_;  // by robot and name
+  std::map<std::pair<std::string, std::string>, Camera> sensors_;  // cameras by robot and name
 };
 
 }  // namespace gsv::view

@@ -58,12 +58,12 @@ TEST(DrawnScene, PosesBodiesAndTheirMovingLinks) {
   const DrawnScene room = Room();
   const auto snapshot = room.At(Moved());
   EXPECT_EQ(snapshot->layout->bodies.size(),
-            3u);  // wall, robot and its arm; the ghost has no model
+            3u);  // The bodies are the wall, the robot and its arm; the ghost has no model.
   const auto lookup = room.LookupAt(*snapshot);
   EXPECT_EQ(lookup.pose("wall")->position, (Vector3{5, 0, 0.5}));
   EXPECT_EQ(lookup.pose("robot")->position, (Vector3{7, 8, 9}));
   EXPECT_FALSE(lookup.pose("ghost"));
-  // The camera is on the arm, which is turned by half a turn about z.
+  // The camera is on the arm, which is rotated by half a turn about z.
   const auto eye = lookup.sensor("robot", "eye");
   ASSERT_TRUE(eye);
   EXPECT_NEAR(eye->world_from_sensor.position.x, 6.9, 1e-12);
@@ -102,7 +102,7 @@ TEST(DrawnScene, RendersTheBodiesWhereTheyAre) {
   if (!renderer) GTEST_SKIP() << renderer.error().Sentence();
   const DrawnScene room = Room();
   const auto snapshot = room.At({});
-  Camera camera;  // from the robot's west, at its height
+  Camera camera;  // the camera is to the west of the robot, at its height
   camera.width = camera.height = 32;
   camera.eye = {-4, 2, 3};
   camera.target = {1, 2, 3};
@@ -112,7 +112,7 @@ TEST(DrawnScene, RendersTheBodiesWhereTheyAre) {
   const auto image = (*renderer)->Draw(snapshot, *placed);
   ASSERT_TRUE(image) << image.error().Sentence();
   const auto pixel = [&](int x, int y) { return &(*image)->pixels[3 * (y * 32 + x)]; };
-  // The robot's green cube in the middle, and blue background at the edge.
+  // The robot's green cube is in the middle, and the blue background is at the edge.
   EXPECT_GT(pixel(16, 16)[1], 100);
   EXPECT_LT(pixel(16, 16)[2], 60);
   EXPECT_GT(pixel(1, 16)[2], 200);
@@ -125,7 +125,7 @@ TEST(DrawnScene, RefusesTextThatIsNoScene) {
   };
   EXPECT_FALSE(DrawnScene::Make("{", nothing));
   EXPECT_FALSE(DrawnScene::Make("[1, 2]", nothing));
-  // Members of wrong types are as if they were missing.
+  // Members of wrong types are treated as missing.
   EXPECT_TRUE(DrawnScene::Make(R"({"bodies": 7, "poses": {"body": -1}, "lights": [1]})", nothing));
 }
 

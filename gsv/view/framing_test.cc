@@ -83,7 +83,8 @@ TEST(Framing, TheOverviewProjectsAllCornersIntoTheImage) {
 
 TEST(Framing, TheOverviewLooksFromTheSideThatIsAskedFor) {
   const std::vector<Vector3> corners{{-1, -1, -1}, {1, 1, 1}};
-  const rendering::CameraView east = ViewOfAll(corners, 400, 400, {0, 0, 1});  // looks along x
+  const rendering::CameraView east = ViewOfAll(corners, 400, 400, {0, 0, 1});  // this view looks
+                                                                               // along x
   EXPECT_LT(east.world_from_camera.position.x, -1);
   EXPECT_NEAR(east.world_from_camera.position.y, 0, 1e-9);
   EXPECT_NEAR(east.world_from_camera.position.z, 0, 1e-9);

@@ -46,10 +46,10 @@ struct FollowedCommand {
 struct Glow {
   double brightness = 0;  // in (0, 1]
   model::Colour colour{};
-  double radius = 0.02;   // m, of the sphere that glows
-  double range = 0;       // m; 0: visible, but lights nothing
-  double angle = 6.2832;  // rad, of the whole cone; 2 pi: all around
-  double intensity = 1;   // at full brightness
+  double radius = 0.02;   // radius of the glowing sphere, m
+  double range = 0;       // range in m; 0: the lamp is visible, but lights nothing
+  double angle = 6.2832;  // angle of the whole cone, rad; 2 pi: all around
+  double intensity = 1;   // intensity at full brightness
 };
 
 // The sound of a device at one instant.
@@ -58,7 +58,7 @@ struct Sound {
   double frequency = 0;          // Hz
   double volume = 0;             // in (0, 1]
   double elapsed = 0, left = 0;  // s
-  double loudness = 0;           // dB (re 20 µPa) 1 m away at full volume
+  double loudness = 0;           // sound level in dB (re 20 µPa) 1 m away at full volume
 };
 
 // An attached body, which moves with the device's link.
@@ -89,7 +89,7 @@ class DeviceState {
   const std::string& device() const { return mount_.device; }
 
   virtual void AddToHash(base::Hash& hash) const = 0;
-  // Null for a device that follows no command, such as a radio.
+  // Returns the command, or null for a device that follows no command, such as a radio.
   virtual const FollowedCommand* followed() const { return nullptr; }
 
   // Its light for cameras, its sound for microphones, and its attached body; by default none.
@@ -114,13 +114,13 @@ class DeviceState {
   const DeviceMount mount_;
 };
 
-// The state of a device; null if it has none. `devices` may be null.
+// Returns the state of a device; null if it has none. `devices` may be null.
 const DeviceState* FindDevice(const DeviceStates* devices, std::string_view robot,
                               std::string_view device);
-// The index of the device, or the index at which to insert it.
+// Returns the index of the device, or the index at which it must be inserted.
 std::size_t PlaceOf(const DeviceStates& devices, std::string_view robot, std::string_view device);
 
-// Adds first the devices that follow no command, then the others.
+// Adds first the devices that follow no command, and then the others.
 void AddToHash(const DeviceStates& devices, base::Hash& hash);
 
 }  // namespace gsv::world

@@ -16,7 +16,7 @@ DeviceStatePtr Commanded(std::string robot, std::string device, FollowedCommand 
       DeviceMount{std::move(robot), std::move(device), 0, {}}, std::move(followed));
 }
 
-// A device without commands; its hash is its robot's name.
+// A device without commands. Only the name of its robot is hashed.
 class Listener final : public DeviceState {
  public:
   using DeviceState::DeviceState;
@@ -53,7 +53,7 @@ TEST(DeviceHash, DependsOnEachFieldOfACommand) {
   }
 }
 
-// Recordings contain hashes: the order of fields is part of their format.
+// Recordings contain hashes, so the order in which fields are hashed is part of their format.
 TEST(DeviceHash, IncludesDevicesWithoutACommand) {
   base::Hash hash, expected;
   AddToHash({Commanded("a", "lamp", {{{0.5}, "w"}, 7ns}),

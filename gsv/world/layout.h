@@ -28,8 +28,8 @@ enum class BodyKind : std::uint8_t {
 
 struct Pedestrian;  // gsv/world/pedestrian.h
 
-// The kind of a body of this model, unless it is an avatar. `movement` applies to a model with a
-// drive; without a drive only rigid-body dynamics can move the body.
+// Returns the kind of a body of this model, unless it is an avatar. `movement` applies to a model
+// with a drive; a body without a drive can only be moved by rigid-body dynamics.
 BodyKind KindOf(const model::Model& model, bool is_static, model::Movement movement);
 // Returns the kind of a body for a model of a world file.
 BodyKind KindOf(const model::PlacedModel& placed);
@@ -60,13 +60,13 @@ struct Body {
 };
 
 struct Layout {
-  std::uint32_t version = 0;  // grows with each change
+  std::uint32_t version = 0;  // increases with each change
   std::vector<Body> bodies;   // ordered by name
   int joint_count = 0;
   int link_count = 0;
   std::shared_ptr<const model::WorldDescription> description;  // light, sky, gravity; never null
 
-  // Index of the body of that name, or -1.
+  // Returns the index of the body with that name, or -1.
   int Find(std::string_view name) const;
 };
 

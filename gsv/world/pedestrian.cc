@@ -12,7 +12,8 @@ namespace {
 
 using geometry::Vector2;
 
-// Steps of the stream: 0 for a pedestrian's properties, then goals, then attempts to start.
+// The numbers of draws in a pedestrian's stream: 0 for its properties, then those of goals, then
+// those of attempts to start.
 constexpr std::uint64_t kFirstGoal = 1;
 constexpr std::uint64_t kFirstAttempt = 1ULL << 40;
 

@@ -15,18 +15,18 @@ namespace gsv::world {
 struct Pedestrian {
   std::shared_ptr<const model::PedestrianGroup> group;  // never null
   std::uint64_t seed = 0, stream = 0;
-  double speed = 1.34;    // m/s: desired speed
+  double speed = 1.34;    // desired speed, m/s
   std::uint32_t leg = 0;  // first leg of the group's route
 };
 
-// Draws a member's desired speed, between a third of the group's and twice it, and its first leg.
+// Draws a member's desired speed, from a third to twice that of the group, and its first leg.
 Pedestrian DrawPedestrian(std::shared_ptr<const model::PedestrianGroup> group, std::uint64_t seed,
                           std::uint64_t stream);
 
-// The goal after `reached` goals: a point in the disc of goal leg + 1 + reached of the route.
+// Returns the goal after `reached` goals: a point in the disc of goal leg + 1 + reached.
 geometry::Vector2 GoalOf(const Pedestrian& pedestrian, std::uint32_t reached);
 
-// A possible start on the way to its first goal, different for each attempt, from 0.
+// Returns a possible start on the way to its first goal. It differs for each `attempt`.
 geometry::Vector2 StartOf(const Pedestrian& pedestrian, std::uint32_t attempt);
 
 }  // namespace gsv::world

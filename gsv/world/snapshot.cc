@@ -12,7 +12,7 @@ using geometry::Pose;
 
 bool Moves(model::JointKind kind) { return kind != model::JointKind::kFixed; }
 
-// The parent joint of each link, or -1.
+// Returns the parent joint of each link, or -1.
 std::vector<int> ParentJoints(const model::Model& model) {
   std::vector<int> parent_joint(model.links.size(), -1);
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
@@ -21,7 +21,7 @@ std::vector<int> ParentJoints(const model::Model& model) {
   return parent_joint;
 }
 
-// The displacement by a joint at `position` of the links below it, in the model's frame.
+// Returns the displacement of the links below a joint at `position`, in the model's frame.
 Pose Displacement(const model::Joint& joint, double position) {
   if (!Moves(joint.kind) || position == 0.0) return {};
   Pose motion;
@@ -36,7 +36,7 @@ Pose Displacement(const model::Joint& joint, double position) {
   return joint.model_from_joint * motion * Inverse(joint.model_from_joint);
 }
 
-// The parent joint of one link, or -1.
+// Returns the parent joint of one link, or -1.
 int ParentJoint(const model::Model& model, int link) {
   for (std::size_t j = model.joints.size(); j-- > 0;) {
     if (model.joints[j].child == link) return static_cast<int>(j);
@@ -49,7 +49,7 @@ template <class Parent>
 Pose LinkDisplacement(const model::Model& model, std::span<const double> joint_positions, int link,
                       const Parent& parent_joint) {
   Pose displacement;
-  // From the link up to the root; a forest has at most links.size() levels.
+  // The loop goes from the link up to the root; a forest has at most links.size() levels.
   std::size_t level = 0;
   for (int j = parent_joint(link); j >= 0; j = link >= 0 ? parent_joint(link) : -1) {
     GSV_CHECK(level++ < model.links.size());

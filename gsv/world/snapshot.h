@@ -14,10 +14,10 @@ namespace gsv::world {
 // A point at which two bodies touch.
 struct ContactPoint {
   geometry::Vector3 point;   // world
-  geometry::Vector3 normal;  // world, unit length, from the first body to the second
+  geometry::Vector3 normal;  // normal in the world, unit length, from the first body to the second
   double depth = 0;          // m
-  // N s over the step, world: friction and normal force on the second body. Zero if no engine
-  // computes it.
+  // impulse on the second body over the step, N s, in the world: friction and normal force. Zero if
+  // no engine computes it.
   geometry::Vector3 impulse;
 };
 
@@ -28,15 +28,15 @@ struct Contact {
   int first = 0;
   int second = 0;
   geometry::Vector3 point;   // world
-  geometry::Vector3 normal;  // world, unit length
+  geometry::Vector3 normal;  // normal in the world, unit length
   double depth = 0;          // m
-  bool began = false;        // the contact did not exist one step earlier
-  double closing_speed = 0;  // m/s along the normal when the bodies met; 0 unless the contact began
-  // N s over the step along the normal, summed over all contact points; NaN if no engine computes
-  // it. Planar kinematics computes the impulse of a push only.
+  bool began = false;        // whether the contact did not exist one step earlier
+  double closing_speed = 0;  // m/s along the normal when they met; 0 unless it began
+  // impulse along the normal over the step, N s, summed over all contact points; NaN if no engine
+  // computes it. Planar kinematics computes the impulse of a push only.
   double impulse = std::numeric_limits<double>::quiet_NaN();
-  // The second body, static or planar, carries the first from below, as the ground does. Such a
-  // contact is not a collision: only contact sensors report it.
+  // Whether the second body, static or planar, carries the first from below, as the ground does.
+  // Such a contact is not a collision: only contact sensors report it.
   bool supports = false;
   // All points of two rigid bodies, the deepest first, at the end of the last substep in which the
   // bodies touched. Their impulses add up to that of the whole step. Empty if the engine computes
@@ -44,8 +44,8 @@ struct Contact {
   std::vector<ContactPoint> points;
 };
 
-// The contact's points, at least one. Without points of its own, the contact's impulse is along its
-// normal.
+// Returns the contact's points, at least one. If the contact has no points of its own, its impulse
+// is along its normal.
 std::vector<ContactPoint> PointsOf(const Contact& contact);
 
 // The acceleration of a model's origin in world axes: the mean over the last step.
@@ -68,7 +68,7 @@ struct Snapshot {
   std::vector<Transmission> transmissions;
 };
 
-// The mean force of a contact over the last step, from its impulse (N s); zero before the first step.
+// Returns the mean force over the last step, from an impulse (N s); zero before the first step.
 geometry::Vector3 MeanForce(const Snapshot& snapshot, const geometry::Vector3& impulse);
 
 // Called around a step, in this order: keeps the velocities before it, and computes closing speeds
@@ -81,23 +81,23 @@ void FinishAccelerations(const State& state, double step_seconds,
                          std::vector<Acceleration>& accelerations,
                          std::vector<double>& joint_accelerations);
 
-// Poses of a model's links at the given joint positions (one for each joint), model_from_link. A
-// revolute joint turns its child about its axis, a prismatic one slides it along, a screw does
-// both.
+// Returns model_from_link of a model's links at the given joint positions (one for each joint). A
+// revolute joint rotates its child about its axis, a prismatic joint moves it along the axis, and a
+// screw does both.
 std::vector<geometry::Pose> LinkPoses(const model::Model& model,
                                       std::span<const double> joint_positions);
 
-// world_from_link for every link of one body.
+// Returns world_from_link for every link of one body.
 std::vector<geometry::Pose> LinkPoses(const Snapshot& snapshot, int body);
 
-// world_from_link for one link of one body.
+// Returns world_from_link for one link of one body.
 geometry::Pose LinkPose(const Snapshot& snapshot, int body, int link);
 
-// model_from_link for one link of one body, as LinkPoses() has it.
+// Returns model_from_link for one link of one body, like LinkPoses().
 geometry::Pose ModelFromLink(const Snapshot& snapshot, int body, int link);
 
-// Indices of the links that move relative to the model's frame: those below a joint that is not
-// fixed.
+// Returns the indices of the links that move relative to the model's frame: those below a joint
+// that is not fixed.
 std::vector<int> MovingLinks(const model::Model& model);
 
 }  // namespace gsv::world

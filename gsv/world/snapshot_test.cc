@@ -45,8 +45,8 @@ TEST(LinkPoses, EqualTheDescriptionAtJointZero) {
 }
 
 TEST(LinkPoses, ChildLinkFollowsItsParentsJoint) {
-  // Rotated by 90° the hand is at (1, 1, 0); moved out by 0.5 along the rotated axis, at (1, 1.5,
-  // 0).
+  // Rotated by 90°, the hand is at (1, 1, 0). Moved out by 0.5 along the rotated axis, it is at (1,
+  // 1.5, 0).
   const auto poses = LinkPoses(Arm(), std::vector<double>{kPi / 2, 0.5});
   ExpectNear(poses[1].position, {1, 0, 0});
   ExpectNear(poses[2].position, {1, 1.5, 0});
@@ -64,12 +64,13 @@ TEST(LinkPose, AgreesWithLinkPosesInTheWorld) {
   snapshot.state = InitialState(*snapshot.layout);
   snapshot.state.joint_positions = {kPi / 2, 0.5};
   ExpectNear(LinkPose(snapshot, 0, 2).position, {9, -1.5, 0});
-  // The two functions multiply in different orders: equal up to rounding.
+  // The two functions multiply in different orders, so they are equal only up to rounding.
   ExpectNear(LinkPose(snapshot, 0, 2).position, LinkPoses(snapshot, 0)[2].position);
 }
 
 TEST(Contacts, HardnessIsTheClosingSpeedOfTheirPoints) {
-  // One goes ahead at 2 m/s and turns at 3 rad/s about z, the other moves away at 0.5 m/s.
+  // One body moves ahead at 2 m/s and rotates at 3 rad/s about z. The other one moves away at 0.5
+  // m/s.
   State state;
   state.bodies.resize(2);
   state.bodies[0].world_from_model.position = {1, 0, 0};
@@ -81,14 +82,14 @@ TEST(Contacts, HardnessIsTheClosingSpeedOfTheirPoints) {
   std::vector<double> joints;
   KeepVelocities(state, kept, joints);
   state.bodies[0].linear_velocity = {};  // the step has stopped it
-  // At their contact, 0.4 to the right of the first one's centre, its rotation adds 1.2 m/s.
+  // Their contact is 0.4 to the right of the first body's centre, where its rotation adds 1.2 m/s.
   std::vector<Contact> contacts(3, {0, 1, {2, -0.4, 0}, {1, 0, 0}, 0.01, true});
   contacts[1].began = false;
   contacts[2].normal = {-1, 0, 0};
   FinishContacts(state, kept, contacts);
   EXPECT_NEAR(contacts[0].closing_speed, 2 + 1.2 - 0.5, 1e-12);
-  EXPECT_EQ(contacts[1].closing_speed, 0);  // they touched before
-  EXPECT_EQ(contacts[2].closing_speed, 0);  // they move apart
+  EXPECT_EQ(contacts[1].closing_speed, 0);  // these bodies touched before
+  EXPECT_EQ(contacts[2].closing_speed, 0);  // these bodies move apart
 }
 
 TEST(Snapshot, AccelerationsAreTheMeansOfAStep) {

@@ -1,4 +1,4 @@
-// The state that the next step depends on: plain data, and immutable states of devices.
+// The state on which the next step depends: plain data, and immutable states of devices.
 //
 // Frames  poses are world_from_model; velocities are those of the model's origin, in world axes.
 // Units   metres, radians, seconds.
@@ -21,7 +21,7 @@ namespace gsv::world {
 // next command, or for Drive::command_timeout.
 struct DriveCommand {
   double linear = 0;   // m/s, forward
-  double lateral = 0;  // m/s, to the left; ignored by drives that cannot
+  double lateral = 0;  // velocity to the left, m/s; ignored by drives that cannot move sideways
   double angular = 0;  // rad/s, counter-clockwise
   friend bool operator==(const DriveCommand&, const DriveCommand&) = default;
 };
@@ -32,14 +32,14 @@ inline bool IsFinite(const DriveCommand& command) {
 
 struct DriveState {
   DriveCommand command;
-  base::SimTime command_time{0};  // when the command was given
+  base::SimTime command_time{0};  // time at which the command was given
   DriveCommand actual;            // the actual velocity, within acceleration limits
 };
 
 // The pose of a base by dead reckoning of its wheels, relative to the start; see wheel_odometry.h.
 struct Odometry {
   geometry::PlanarPosition place;  // position of its reference point, in the frame of its start
-  double linear = 0, angular = 0;  // m/s, rad/s: over the last step
+  double linear = 0, angular = 0;  // linear and angular velocity over the last step, m/s, rad/s
 };
 
 struct BodyState {
@@ -48,15 +48,15 @@ struct BodyState {
   geometry::Vector3 angular_velocity;
   DriveState drive;
   Odometry odometry;
-  double distance = 0;           // m that the model's origin has travelled
+  double distance = 0;           // distance that the model's origin has travelled, m
   std::uint64_t collisions = 0;  // number of contacts that began, not of steps in contact
-  bool in_contact = false;       // touched a body other than the ground in the last step
+  bool in_contact = false;       // whether it touched a body other than the ground in the last step
 };
 
 // A command to a joint of a rigid body, until the next command.
 struct JointCommand {
   enum class Kind : std::uint8_t {
-    kNone,      // its own damping and friction only
+    kNone,      // no command: only the joint's own damping and friction act
     kPosition,  // rad or m, within the velocity and effort limits
     kVelocity,  // rad/s or m/s, within the effort limit
     kEffort,    // N m or N, within the effort limit
@@ -78,28 +78,28 @@ struct State {
   std::int64_t step = 0;
   base::SimTime time{0};
   std::vector<BodyState> bodies;        // in the order of Layout::bodies
-  std::vector<double> joint_positions;  // body b's start at Layout::bodies[b].first_joint
+  std::vector<double> joint_positions;  // those of body b start at Layout::bodies[b].first_joint
   // The values of a ball joint are its angular velocity about the three axes of the child.
   std::vector<double> joint_velocities;
-  // in the order of joint_positions; empty if there were no commands so far
+  // in the order of joint_positions; empty before the first command
   std::vector<JointCommand> joint_commands;
   // N m or N: the integral terms of the joints' controllers (model::JointGains), in the order of
   // joint_positions; empty if no joint has one
   std::vector<double> joint_integrals;
-  // Number of goals that each pedestrian has reached, as `bodies`; empty: no pedestrians.
+  // Number of goals that each pedestrian has reached, in the order of `bodies`; may be empty.
   std::vector<std::uint32_t> goals;
-  std::shared_ptr<const DeviceStates> devices;  // null: no device has had a state
-  std::shared_ptr<const EngineState> engine;    // null: the engine has no state
+  std::shared_ptr<const DeviceStates> devices;  // null until a device has a state
+  std::shared_ptr<const EngineState> engine;    // null if the engine has no state
 };
 
-// The state at the start: initial poses, at rest, with the joint targets of the models.
+// Returns the state at the start: initial poses, at rest, with the joint targets of the models.
 State InitialState(const Layout& layout);
 
 // Whether the joint belongs to a drive: a wheel or a steering joint.
 bool IsOfDrive(const model::Model& model, int joint);
 
-// Refuses commands that are not finite, efforts for bodies without rigid-body dynamics, and
-// commands to joints that do not exist, take none, or belong to the drive.
+// Returns an error for commands that are not finite, efforts for bodies without rigid-body
+// dynamics, and commands to joints that do not exist, take none, or belong to the drive.
 base::Status CheckJointCommand(const Body& body, int joint, const JointCommand& command);
 
 // Sets the command of a joint.

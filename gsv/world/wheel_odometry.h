@@ -7,9 +7,9 @@
 //               "Introduction to Autonomous Mobile Robots", chapter 5.2.4). Slip, wheels that
 //               differ from the drive's parameters, and external motion do not show.
 // Others        all other drives: the integral of DriveState::actual. For a planar base this is the
-//               motion that obstacles allow, so that stops show in the odometry, as if a sensor
-//               measured the slip. For a rigid body it is the commanded motion of the wheels, as
-//               above.
+//               motion that obstacles allow. So stops at obstacles appear in the odometry, as if a
+//               sensor measured the slip. For a rigid body it is the commanded motion of the
+//               wheels, as above.
 // Threads       one at a time.
 #pragma once
 
@@ -30,12 +30,12 @@ class WheelOdometry {
 
  private:
   struct Wheel {
-    int joint = 0;              // index among all bodies' joints
-    double metres_per_rad = 0;  // part of its side's travel
+    int joint = 0;              // index of the joint among all bodies' joints
+    double metres_per_rad = 0;  // its contribution to the travel of its side
   };
   struct Base {
     int body = 0;
-    std::vector<Wheel> left, right;  // empty: not two rows of wheels
+    std::vector<Wheel> left, right;  // empty if the drive does not have two rows of wheels
     double separation = 1;
   };
 

@@ -13,7 +13,8 @@ namespace {
 using geometry::kPi;
 constexpr double kRadius = 0.1, kSeparation = 0.4, kStep = 0.01;
 
-// Two wheels; the right one's axis points to the right, so that its angle decreases forwards.
+// A robot with two wheels. The axis of the right one points to the right, so its angle decreases
+// when the robot drives forward.
 std::shared_ptr<const Layout> Robot(model::DriveKind kind) {
   auto model = std::make_shared<model::Model>();
   model->links.resize(3);
@@ -38,7 +39,7 @@ std::shared_ptr<const Layout> Robot(model::DriveKind kind) {
   return MakeLayout(1, {body}, std::make_shared<model::WorldDescription>());
 }
 
-// Rolls the wheels `steps` times by so many metres.
+// Rolls the wheels `steps` times by these distances in metres.
 Odometry AfterRolling(double left, double right, int steps) {
   const auto layout = Robot(model::DriveKind::kDifferential);
   WheelOdometry wheels;
@@ -62,7 +63,7 @@ TEST(WheelOdometry, DrivesStraightByTheDistanceOfTheWheels) {
 }
 
 TEST(WheelOdometry, FollowsAnArcExactlyForAnyStep) {
-  // A quarter of a circle of radius 1 to the left.
+  // The path is a quarter of a circle of radius 1 to the left.
   const double left = (1 - kSeparation / 2) * kPi / 2, right = (1 + kSeparation / 2) * kPi / 2;
   for (const int steps : {1, 7, 1000}) {
     const Odometry odometry = AfterRolling(left / steps, right / steps, steps);
@@ -80,7 +81,8 @@ TEST(WheelOdometry, FollowsTheActualVelocityOfOtherDrives) {
   wheels.SetLayout(*layout);
   State state = InitialState(*layout);
   state.bodies[0].odometry.place = {0, 0, 0, 1};
-  state.bodies[0].drive.actual = {0, 1, 0};  // to the left, which is backwards along x
+  state.bodies[0].drive.actual = {0, 1, 0};  // the motion is to the left, which is backwards along
+                                             // x
   wheels.KeepWheels(state);
   wheels.Advance(0.5, state);
   EXPECT_NEAR(state.bodies[0].odometry.place.x, -0.5, 1e-12);

@@ -18,8 +18,8 @@
 //
 // Errors      SetLayout() refuses invalid drives (kBadModel) and poses that are not
 //             finite.
-// Threads     one thread at a time, which a team helps where there are many robots. Determinism
-// Step() is a function of only layout, state and step size. It does not depend on earlier
+// Threads     one thread at a time, which a team helps where there are many robots.
+// Determinism Step() is a function of only layout, state and step size. It does not depend on earlier
 //             calls or on the size of the team.
 #pragma once
 

@@ -43,10 +43,10 @@ class MessageAssembly {
 
   std::size_t limit_;
   State state_ = State::kIncomplete;
-  std::string frame_;  // the incomplete message or fragment
+  std::string frame_;  // the message or fragment that is being received
   std::size_t received_ = 0;
   std::size_t wanted_ = kGiopHeaderBytes;  // size of the frame as known so far
-  std::string message_;                    // joined so far
+  std::string message_;                    // the fragments that were joined so far
   std::uint32_t request_ = 0;              // id of the request whose fragments are joined
 };
 

@@ -12,14 +12,14 @@ namespace {
 // The number of requests without a reply that are remembered.
 constexpr std::size_t kPending = 1024;
 
-// Empty for an unknown name.
+// Returns the types of an operation; empty for an unknown name.
 std::string_view TypesOf(std::span<const Signature> signatures, std::string_view name) {
   const auto found = std::ranges::find(signatures, name, &Signature::name);
   return found != signatures.end() ? found->types : std::string_view();
 }
 
-// Removes from `types` the part before the first `end` outside of brackets, and `end`, and returns
-// the part.
+// Removes from `types` the part before the first `end` that is outside of brackets, and `end`
+// itself, and returns the part.
 std::string_view TakeUntil(std::string_view& types, char end) {
   std::size_t size = 0;
   for (int depth = 0; depth > 0 || types.at(size) != end; ++size) {
@@ -42,7 +42,7 @@ class ValueCheck {
   }
 
  private:
-  // Reads the first type, and removes it from `types`.
+  // Reads a value of the first type, and removes the type from `types`.
   void Read(std::string_view& types) {
     const char kind = types.front();
     types.remove_prefix(1);
@@ -52,7 +52,7 @@ class ValueCheck {
       case 't':
         return type_codes_.TypeCode(in_);
       case 's':
-        in_.Octets();  // the ORB checks the null at its end
+        in_.Octets();  // the ORB checks the terminating null
         return;
       case 'o':
         return SkipReference(in_);
@@ -109,7 +109,7 @@ void CheckRequest(const Signatures& signatures, std::string& message) {
   if (!header || header->type != GiopHeader::kRequest) return;
   CdrReader in = ReaderBehind(*header, message);
   const RequestHeader request = ReadRequestHeader(in);
-  if (!in.ok()) return;  // the ORB refuses it
+  if (!in.ok()) return;  // the ORB refuses such a message
   const std::string_view types = TypesOf(signatures.requests, request.operation);
   const std::size_t body = in.position();
   if (!ValueCheck(in).Has(types)) CutAt(message, body);

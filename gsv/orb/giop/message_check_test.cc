@@ -40,7 +40,7 @@ const Case kCases[] = {
 };
 
 std::string Encapsulated(const RawCdr& values) {
-  // Alignment counts from the byte order. That of the values begins four bytes later.
+  // Alignment counts from the byte with the byte order. The values begin four bytes later.
   return std::string("\x01\0\0\0", 4) + values.bytes();
 }
 

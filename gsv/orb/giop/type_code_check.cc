@@ -41,7 +41,7 @@ enum TypeCodeKind : std::uint32_t {
 constexpr std::uint32_t kIndirection = 0xFFFFFFFF;
 
 struct FixedSize {
-  std::size_t size = 0;  // 0 if it has no fixed size
+  std::size_t size = 0;  // size of a value; 0 if values have no fixed size
   std::size_t alignment = 1;
 };
 

@@ -26,7 +26,7 @@ constexpr std::uint32_t kFixed = 28;
 // Returns the start of encapsulated parameters of a TypeCode.
 RawCdr Parameters() { return RawCdr().Octet(1); }
 RawCdr Named() { return Parameters().String("IDL:T:1.0").String("T"); }
-// Returns `before` and a TypeCode of `kind` with `parameters`.
+// Returns `before`, followed by a TypeCode of `kind` with `parameters`.
 RawCdr With(RawCdr before, std::uint32_t kind, const RawCdr& parameters) {
   return before.ULong(kind).Octets(parameters.bytes());
 }
@@ -102,8 +102,8 @@ TEST(TypeCodeCheckTest, AcceptsAReferenceToAnEarlierType) {
     members.Raw(inner.bytes()).String("b").ULong(0xFFFFFFFF);
     return With({}, kStruct, members.ULong(back));
   };
-  // The distance from the offset to the inner type covers the mark, "b" and its length, and the
-  // type itself.
+  // The distance from the offset to the inner type covers the indirection mark, "b" and its length,
+  // and the type itself.
   const auto distance = static_cast<std::uint32_t>(inner.bytes().size() + 4 + 4 + 4);
   EXPECT_TRUE(IsTypeCode(pair(0u - distance)));
   EXPECT_FALSE(IsTypeCode(pair(0u - distance + 4)));

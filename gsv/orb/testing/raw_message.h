@@ -63,7 +63,7 @@ inline std::string RawMessage(MessageType type, const std::string& after_the_hea
 inline std::string RawRequest(std::string_view key, std::string_view operation,
                               std::string_view body, std::uint32_t id = 1) {
   RawCdr request;
-  // In the place of the header's twelve bytes, for the alignment.
+  // The ULong(0) stands for the last bytes of the header, so that the alignment is right.
   request.ULong(0).ULong(id).Octet(3).Octet(0).Octet(0).Octet(0).UShort(0);
   request.Octets(key).String(operation).ULong(0);
   request.Align(8).Raw(body);

@@ -8,7 +8,7 @@
 namespace gsv::orb {
 namespace {
 
-constexpr long kMaxHandshakeSeconds = 10;  // for calls with a longer limit, or none
+constexpr long kMaxHandshakeSeconds = 10;  // for calls with a longer limit, or without one
 
 IIOP::Address WithHost(const char* host, const IIOP::Address& address) {
   IIOP::Address other;
@@ -85,7 +85,7 @@ omni::giopActiveConnection* LocalAddress::Connect(const omni_time_t& deadline, C
                                                   CORBA::Boolean& timed_out) const {
   omni::giopActiveConnection* const plain = unixAddress::Connect(deadline, flags, timed_out);
   if (plain == nullptr) return nullptr;
-  // omniORB's connection passes its socket to one of ours.
+  // omniORB's connection passes its socket to a connection of this folder.
   const int socket =
       fcntl(static_cast<omni::unixActiveConnection*>(plain)->handle(), F_DUPFD_CLOEXEC, 0);
   plain->getConnection().decrRefCount(true);

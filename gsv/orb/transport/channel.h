@@ -15,7 +15,7 @@ class Channel {
  public:
   virtual ~Channel() = default;
 
-  // Like recv() and send() with MSG_DONTWAIT, but they never return 0. If no bytes can be
+  // Like recv() and send() with MSG_DONTWAIT, except that they never return 0. If no bytes can be
   // transferred now, they return -1 with EAGAIN.
   virtual ssize_t TryReceive(void* buffer, std::size_t size) = 0;
   virtual ssize_t TrySend(const void* buffer, std::size_t size) = 0;
@@ -43,8 +43,8 @@ class PlainChannel final : public Channel {
   const int socket_;
 };
 
-// Waits until poll() reports `events`. Returns 1 if it does, or after a signal; 0 after `deadline`;
-// -1 if poll() failed.
+// Waits until poll() reports `events`. Returns 1 if poll() does, or after a signal; 0 after
+// `deadline`; -1 if poll() failed.
 int AwaitSocket(int socket, short events, const omni_time_t& deadline);
 
 }  // namespace gsv::orb

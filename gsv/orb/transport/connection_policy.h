@@ -56,14 +56,14 @@ class ConnectionHooks {
   virtual void OnSent(std::size_t count) { (void)count; }
 };
 
-// The policy for all connections of the process's ORB.
+// The policy that applies to all connections of the process's ORB.
 struct ConnectionPolicy {
   // Makes a connection's hooks, or null.
   using MakeHooks = std::function<std::unique_ptr<ConnectionHooks>(ConnectionControl&)>;
 
   MessageLimits limits;
-  MakeHooks accepted;  // for connections that clients make; may be empty
-  // For connections that this process makes; may be empty. Without hooks the ORB gets the bytes
+  MakeHooks accepted;  // for connections that clients open; may be empty
+  // For connections that this process opens; may be empty. Without hooks the ORB gets the bytes
   // unchanged.
   MakeHooks made;
   // Whether the ORB shall read now; empty: always. The accepting thread calls it if bytes arrive on

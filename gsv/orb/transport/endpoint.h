@@ -14,11 +14,11 @@
 
 namespace gsv::orb {
 
-// `Base`: omni::tcpEndpoint or omni::unixEndpoint, which bind the socket and publish it.
+// `Base` is omni::tcpEndpoint or omni::unixEndpoint, which bind the socket and publish its address.
 template <typename Base>
 class Endpoint final : public Base {
  public:
-  // `address`: "HOST:PORT" or a file; it must outlive the endpoint. Without a context: no TLS.
+  // `address`, "HOST:PORT" or a file, must outlive the endpoint. Without a context: no TLS.
   explicit Endpoint(const char* address, std::shared_ptr<const TlsContext> context = nullptr)
       : Base(address), listener_(*this, std::move(context)) {}
 
@@ -30,7 +30,7 @@ class Endpoint final : public Base {
     if (!listener_.speaks_tls()) {
       return Base::publish(specifications, all_specifications, all_endpoints, published);
     }
-    // The addresses themselves, as is omniORB's default; it names no others of TLS.
+    // Returns its own addresses, as omniORB does by default; TLS has no others.
     const omni::orbServer::EndpointList& own = *this->addresses();
     const CORBA::ULong count =
         all_endpoints ? own.length() : std::min<CORBA::ULong>(own.length(), 1);

@@ -41,7 +41,8 @@ class PendingHandshake : public omni::SocketHolder {
 
   TlsChannel::Step Proceed() { return is_refused_ ? ReadToTheEnd() : channel_->Handshake(); }
   std::string failure() const { return channel_->failure(); }
-  // The peer loses sent data if its socket is closed while bytes from it are unread.
+  // Reads the unread bytes first: if a socket with unread bytes is closed, the peer loses the data
+  // that were sent to it.
   void Refuse(const std::string& why) {
     constexpr std::string_view kScheme = "giop:ssl:";
     spdlog::warn("refused a CORBA connection from {}: {}", addresses_.peer.substr(kScheme.size()),
@@ -53,7 +54,7 @@ class PendingHandshake : public omni::SocketHolder {
   bool is_refused() const { return is_refused_; }
   bool is_late(Clock::time_point now) const { return now > until_; }
 
-  // The caller then owns the socket.
+  // Returns the channel; the caller then owns the socket.
   std::unique_ptr<TlsChannel> TakeChannel() {
     Leave();
     return std::move(channel_);

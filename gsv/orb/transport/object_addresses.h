@@ -8,8 +8,8 @@
 
 namespace gsv::orb {
 
-// As URIs, "giop:tcp:127.0.0.1:40123", in the order in which the ORB tries them; none for a nil
-// reference. Any thread.
+// Returns URIs such as "giop:tcp:127.0.0.1:40123", in the order in which the ORB tries them; none
+// for a nil reference. Any thread.
 std::vector<std::string> AddressesIn(CORBA::Object_ptr object);
 
 }  // namespace gsv::orb

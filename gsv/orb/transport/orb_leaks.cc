@@ -6,7 +6,7 @@
 #include "gsv/orb/transport/omniorb_internals.h"
 
 // Frees a text without a terminating null. Otherwise a client could use up all memory with some
-// hundred requests (_is_a takes such a text, from any client and for any object).
+// hundred requests, because _is_a takes such a text from any client and for any object.
 char* cdrStream::unmarshalRawString() {
   const auto refuse = [this](CORBA::ULong minor) {
     throw CORBA::MARSHAL(minor, static_cast<CORBA::CompletionStatus>(completion()));

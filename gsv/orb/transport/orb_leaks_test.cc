@@ -18,7 +18,8 @@ void PutOctets(cdrStream& stream, const std::string& octets) {
                          static_cast<int>(octets.size()));
 }
 
-// The memory in use afterwards that was not in use before; AddressSanitizer finds leaks itself.
+// Returns the memory in use after `Do` that was not in use before. AddressSanitizer finds leaks
+// itself.
 template <typename Do>
 std::size_t BytesKeptBy(Do repeat) {
   repeat();
@@ -57,8 +58,8 @@ TEST(RawStrings, InvalidStringsAreRejectedAsByTheOrb) {
   EXPECT_EQ(MinorOf(too_short), CORBA::ULong(omni::MARSHAL_PassEndOfMessage));
 }
 
-// omniORB 4.2.5 leaks all of it. (HostileFloodTest checks that the ORB's own calls use the
-// replacement.)
+// omniORB 4.2.5 would leak all of this memory. (HostileFloodTest checks that the ORB's own calls
+// use the replacement.)
 TEST(RawStrings, UnterminatedStringsLeakNoMemory) {
   EXPECT_LT(BytesKeptBy([] {
               cdrMemoryStream stream;
@@ -100,7 +101,7 @@ TEST_F(ObjectReferences, InvalidProfilesLeakNoMemory) {
 TEST_F(ObjectReferences, ValidReferencesAreReadAndReleased) {
   const std::string profile(
       "\1\1\2\0"  // little-endian, IIOP 1.2
-      "\4\0\0\0"  // four bytes of host
+      "\4\0\0\0"  // the length of the host, four bytes
       "far\0"
       "\x34\x12\0\0"   // the port
       "\3\0\0\0key\0"  // the object's key

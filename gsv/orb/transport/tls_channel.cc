@@ -32,7 +32,7 @@ bool IsAboutCertificate(int alert) {
   }
 }
 
-// The reason of the error in OpenSSL's queue of this thread.
+// Returns the reason of the error in OpenSSL's queue of this thread.
 std::string Reason(long verdict) {
   if (verdict == X509_V_ERR_CERT_HAS_EXPIRED) return "its certificate has expired";
   if (verdict != X509_V_OK) {
@@ -60,7 +60,7 @@ std::string Reason(long verdict) {
 TlsChannel::TlsChannel(std::shared_ptr<const TlsContext> context, int socket, Side side)
     : context_(std::move(context)), socket_(socket), session_(SSL_new(context_->get())) {
   fcntl(socket, F_SETFL, fcntl(socket, F_GETFL) | O_NONBLOCK);
-  if (session_ == nullptr) return;  // no memory: it fails at once
+  if (session_ == nullptr) return;  // there is no memory: the handshake fails at once
   SSL_set_fd(session_, socket);
   side == Side::kServer ? SSL_set_accept_state(session_) : SSL_set_connect_state(session_);
 }

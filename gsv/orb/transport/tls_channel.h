@@ -1,8 +1,8 @@
 // TLS over one connection. Both ends must show a certificate of the same authority, or it fails.
 //
-// Versions 1.2 and 1.3 (RFC 5246, RFC 8446), without resumption and renegotiation: every
-//          connection is a handshake of its own. The host's name is not compared with the
-//          certificate's: of those whom the authority has signed, each may be any.
+// Protocol TLS 1.2 and 1.3 (RFC 5246, RFC 8446), without resumption and renegotiation: every
+//          connection has a full handshake. The name of the host is not compared with that of the
+//          certificate: any certificate of the authority is accepted for any host.
 // Threads  any; one may read while another writes, which OpenSSL alone does not allow.
 #pragma once
 
@@ -59,8 +59,8 @@ class TlsChannel final : public Channel {
   std::string failure_ GSV_GUARDED_BY(mutex_);
 };
 
-// Returns once why the last TLS connection that this thread requested has failed. Empty if it has
-// not.
+// Returns the reason why the last TLS connection that this thread requested has failed, and clears
+// it. Empty if it has not failed.
 std::string TakeTlsFailure();
 void NoteTlsFailure(std::string why);
 

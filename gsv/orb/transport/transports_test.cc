@@ -72,7 +72,7 @@ class MessageTransportTest : public ::testing::Test {
   }
 
  protected:
-  // The ORB, with a doorkeeper in it.
+  // Starts the ORB, which serves a Doorkeeper.
   void Start(const OrbOptions& options = {}) {
     orb_ = *StartOrb(options);
     const PortableServer::POA_var poa = RootPoa(orb_);
@@ -117,7 +117,7 @@ class MessageTransportTest : public ::testing::Test {
       sent += static_cast<std::size_t>(count);
     }
   }
-  // Waits until the ORB, in this process, has begun to read the last `size` bytes.
+  // Waits until the ORB, which is in this process, has begun to read the last `size` bytes.
   static void AwaitReading(int connection, int size) {
     sockaddr_in own{};
     socklen_t length = sizeof own;
@@ -133,7 +133,7 @@ class MessageTransportTest : public ::testing::Test {
       }
     }
   }
-  // The number of the answered request; nothing if the connection ends.
+  // Returns the number of the answered request; nothing if the connection ends.
   static std::optional<std::uint32_t> Answer(int connection) {
     char header[12];
     if (recv(connection, header, 12, MSG_WAITALL) != 12) return std::nullopt;
@@ -147,7 +147,7 @@ class MessageTransportTest : public ::testing::Test {
     return number;
   }
 
-  // The bytes after the header of a call of create(), with `padding` bytes without meaning.
+  // Returns the bytes after the header of a call of create(), with `padding` meaningless bytes.
   std::string Call(std::uint32_t number, std::size_t padding = 0) const {
     RawCdr body = RawCdr().ULong(number).Octet(3).Octet(0).Octet(0).Octet(0).ULong(0).Octets(key_);
     body.String("create").ULong(padding > 0 ? 1 : 0);
@@ -164,7 +164,7 @@ class MessageTransportTest : public ::testing::Test {
 std::string MessageTransportTest::KeyOf(CORBA::Object_ptr object) {
   cdrMemoryStream stream;
   CORBA::Object::_marshalObjRef(object, stream);
-  // Type id, profiles; in the first: version, host, port, key.
+  // The reference has a type id and profiles. The first profile has version, host, port and key.
   const auto skip_string = [&] { CORBA::String_var(stream.unmarshalRawString()); };
   skip_string();
   CORBA::ULong profiles = 0, tag = 0;
@@ -265,7 +265,7 @@ TEST_F(MessageTransportTest, MessageIsReadUpToItsLength) {
   EXPECT_EQ(Answer(connection), 1u);
   Send(connection, RawMessage(MessageType::kRequest, Call(2, 10'001 - around)));
   EXPECT_EQ(Answer(connection), std::nullopt);
-  // Fragments do not make it shorter.
+  // Fragments do not shorten the time limit.
   const int another = Connect();
   const std::string call = Call(3, 10'001 - around);
   Send(another, RawMessage(MessageType::kRequest, call.substr(0, 5000), true) +

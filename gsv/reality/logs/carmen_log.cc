@@ -48,7 +48,7 @@ class CarmenReader {
   }
 
  private:
-  // The logger's time: the last word of each message.
+  // Reads the logger's time, which is the last word of each message.
   bool Time(double& time) {
     std::vector<double> last;
     if (!rows_.Numbers(rows_.size() - 1, 1, last) || !rows_.InOrder(last[0])) return false;
@@ -73,7 +73,7 @@ class CarmenReader {
     ++used_;
   }
 
-  // The number of readings stands in word `place`; nothing if it is unreasonable.
+  // Returns the number of readings, which is word `place`; nothing if the number is unreasonable.
   std::size_t BeamCount(std::size_t place) {
     std::vector<double> v;
     if (!rows_.Numbers(place, 1, v)) return 0;
@@ -90,7 +90,7 @@ class CarmenReader {
     std::vector<double> v;
     double time = 0;
     if (count == 0 || !rows_.Numbers(2, count + 6, v)) return;
-    // 180 readings lie between the whole degrees, 181 on them.
+    // 180 readings are between the whole degrees; 181 readings are at whole degrees.
     const bool has_both_ends = count % 2 == 1;
     const double step = kPi / static_cast<double>(has_both_ends ? count - 1 : count);
     if (!Angles(-kPi / 2 + (has_both_ends ? 0 : step / 2), step, count) || !Time(time)) return;
@@ -98,7 +98,8 @@ class CarmenReader {
             {time, v[count], v[count + 1], WrappedAngle(v[count + 2])});
   }
 
-  // type start fov resolution max accuracy remission_mode n r… n_remissions … laser pose, robot pose
+  // The words are: type start fov resolution max accuracy remission_mode n r… n_remissions … laser
+  // pose, robot pose
   void RobotLaser() {
     std::vector<double> head, v;
     double time = 0;
@@ -149,7 +150,8 @@ base::Result<Log> ReadCarmen(const std::filesystem::path& path, base::Problems& 
   auto rows = TextRows::Open(path, problems);
   if (!rows) return base::Fail(rows.error());
   Log log;
-  log.max_range = 81;  // the SICK LMS of most of these logs; ROBOTLASER1 has its own
+  log.max_range = 81;  // maximum range of the SICK LMS, which most of these logs have; ROBOTLASER1
+                       // has its own
   if (auto read = CarmenReader(*std::move(rows), log).Read(); !read) {
     return base::Fail(read.error());
   }

@@ -1,8 +1,8 @@
 // The log of a real robot, in one structure for all formats.
 //
-// Units   metres, radians, seconds. Times count from the first one in the log.
-// Frames  `truth`, `odometry`: world_from_base and odom_from_base. Angles of beams are those of the
-//         sensor's frame against the base's x axis, counter-clockwise.
+// Units   metres, radians, seconds. Times are relative to the first one in the log.
+// Frames  `truth`, `odometry`: world_from_base and odom_from_base. Angles of beams are relative to
+//         the base's x axis, counter-clockwise.
 #pragma once
 
 #include <optional>
@@ -31,7 +31,7 @@ struct TimedWheels {
   double left = 0, right = 0;
 };
 
-// The readings of all beams, or of all sonars of a ring, at one instant. Infinite: no echo.
+// The readings of all beams, or of a ring's sonars, at one instant. Infinite: no echo.
 struct RangeScan {
   double time = 0;
   std::vector<double> ranges;
@@ -53,10 +53,10 @@ struct Log {
   std::vector<TimedTwist> commands;
   std::vector<TimedWheels> wheels;
   std::vector<double> beam_angles;
-  double max_range = 0;          // the maximum range of beams; such a reading means no echo
-  double sensor_forward = 0;     // m from the base to the sensor, along x
-  bool is_sonar = false;         // beams are cones of sound
-  std::vector<RangeScan> scans;  // each of beam_angles.size() ranges
+  double max_range = 0;          // maximum range; such a reading means no echo
+  double sensor_forward = 0;     // distance from the base to the sensor along x, m
+  bool is_sonar = false;         // whether the beams are cones of sound
+  std::vector<RangeScan> scans;  // each scan has beam_angles.size() ranges
   std::vector<RadioRange> radio;
   double duration() const;
 };

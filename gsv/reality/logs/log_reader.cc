@@ -29,7 +29,7 @@ constexpr Format kFormats[] = {
     {"mcap", ReadMcap},
 };
 
-// Times count from the first of the log.
+// Makes all times relative to the first time of the log.
 void StartAtZero(Log& log) {
   double start = geometry::kInfinity;
   const auto each_series = [&](const auto& use) {

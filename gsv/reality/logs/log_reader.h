@@ -2,8 +2,8 @@
 //
 // Input   untrusted, see text_rows.h. `problems` gets a warning, with file and line, for each row
 //         that is skipped.
-// Errors  kNotFound for a file that is not there, kCorrupt for one that cannot be used,
-//         kInvalidArgument for a format that is unknown.
+// Errors  kNotFound for a missing file, kCorrupt for an unusable file, kInvalidArgument for an
+//         unknown format.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@
 
 namespace gsv::reality {
 
-// In the order in which help lists them.
+// Returns the names of the formats in the order in which the help lists them.
 std::vector<std::string> LogFormats();
 
 // Detects the format of a log from its file name and, for *.log, from its first lines. Returns

@@ -44,7 +44,7 @@ class LogReaderTest : public testing::Test {
   base::Problems problems_;
 };
 
-// ODOM x y theta tv rv accel ipc_time host logger_time
+// The words are: ODOM x y theta tv rv accel ipc_time host logger_time
 const char* const kOdometry =
     "# CARMEN Logfile\n"
     "ODOM 0 0 0 0.5 0 0 100.0 host 0.0\n"
@@ -129,13 +129,13 @@ TEST_F(LogReaderTest, LeavesOutTheRowsWhoseTimeIsWrongAndNotThoseAfterThem) {
     return times;
   };
   const std::vector<Dated> cases{
-      {with(20, {4e9}), whole, 1},   // far in the future
+      {with(20, {4e9}), whole, 1},   // one row is far in the future
       {with(20, {21.5}), whole, 1},  // a little
-      {with(0, {1e6}), whole, 1},    // the first row
+      {with(0, {1e6}), whole, 1},    // the first row is wrong
       {with(20, {900, 901, 902}), whole, 3},
       {with(20, {3.5}), whole, 1},   // the past
-      {with(20, {18.5}), whole, 1},  // the past, a little
-      {with(40, {38.5}), whole, 1},  // the last row
+      {with(20, {18.5}), whole, 1},  // one row is a little in the past
+      {with(40, {38.5}), whole, 1},  // the last row is wrong
   };
   for (const Dated& of : cases) {
     std::string text;
@@ -149,7 +149,7 @@ TEST_F(LogReaderTest, LeavesOutTheRowsWhoseTimeIsWrongAndNotThoseAfterThem) {
     EXPECT_EQ(log.commands.size(), of.read.size());
     EXPECT_THAT(problems_, SizeIs(of.left_out));
   }
-  // Two rows that are swapped: the one that comes late is left out.
+  // Two rows are swapped. The row that comes too late is left out.
   std::vector<double> swapped = whole;
   std::swap(swapped[20], swapped[21]);
   std::string text;

@@ -1,4 +1,4 @@
-// Recordings of ROS 2 messages (MCAP), by GSV or by `ros2 bag record`.
+// Reads recordings of ROS 2 messages (MCAP) by GSV or by `ros2 bag record`.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -30,7 +30,7 @@ double NumberIn(const Json& object, const char* key) {
   return std::nan("");
 }
 
-// The member of that name; null where there is none.
+// Returns the member with that name, or null if there is none.
 const Json& In(const Json& object, const char* key) {
   static const Json kNothing;
   const auto it = object.find(key);
@@ -85,7 +85,7 @@ class McapLog {
     return known->second == topic;
   }
 
-  // The messages come in the order of their times.
+  // Reports a gap between messages, which come in the order of their times.
   void ReportGap(double time) {
     constexpr double kReportedGap = 10;  // s
     if (last_time_ && time - *last_time_ > kReportedGap) {
@@ -124,8 +124,8 @@ class McapLog {
     }
   }
 
-  // The poses of a base in the world (truth) and in its odometry's frame, by the frames' names of
-  // REP-105.
+  // Adds the poses of a base in the world (truth) and in its odometry's frame, which are recognised
+  // by the frames' names of REP-105.
   void AddTransforms(double time, const Json& content) {
     const Json& transforms = In(content, "transforms");
     if (!transforms.is_array()) return;
@@ -152,7 +152,7 @@ class McapLog {
     return frame.substr(frame.rfind('/') + 1);
   }
 
-  // A command in a recording by GSV.
+  // Adds a command of a recording by GSV.
   void AddCommand(double time, const Json& command) {
     const std::string robot = FrameIn(command, "robot");
     if (!IsOfFirstTopic("commands", "/gsv/commands of " + robot)) return;

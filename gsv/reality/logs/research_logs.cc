@@ -33,7 +33,7 @@ base::Status CheckUnit(double largest, double least_credible, const char* unit,
                     path.string());
 }
 
-// Rows of `first`, time, x and y, in these units (s and m).
+// Reads rows of `first`, time, x and y, in these units (s and m).
 base::Result<std::vector<TimedPose>> ReadPlaces(const fs::path& path, const std::string& first,
                                                 double time_unit, double length_unit,
                                                 base::Problems& problems) {
@@ -94,8 +94,9 @@ base::Result<Log> ReadSonarRing(const fs::path& path, base::Problems& problems) 
 }
 
 base::Result<Log> ReadArena(const fs::path& path, base::Problems& problems) {
-  // C. Brenner's lecture on the robot: 2048 steps a turn, straight ahead is beam 330, the scanner
-  // is turned by -4 degrees and 30 mm before the middle of the wheels.
+  // Constants from C. Brenner's lecture on the robot: 2048 steps per turn, straight ahead is beam
+  // 330, and the scanner is rotated by -4 degrees and is 30 mm in front of the middle of the
+  // wheels.
   constexpr double kStep = 2 * kPi / 1024, kMounting = -4 * kDegree, kTick = 0.349 * kMillimetre;
   constexpr std::size_t kBeams = 660;
   Log log;

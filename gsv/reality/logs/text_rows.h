@@ -1,9 +1,9 @@
 // The rows of a text log: words separated by blanks, one row a line.
 //
-// Input   untrusted. A file above 512 MiB and a line above 1 MiB are refused. A row that cannot be
-//         used is left out with a sentence that names file and line; of one file the first 20 such
-//         sentences are kept and the others counted. A file in which every tenth row cannot be used
-//         is refused.
+// Input   untrusted. A file above 512 MiB and a line above 1 MiB are refused. An unusable row is
+//         left out with a sentence that names file and line. For each file, the first 20 such
+//         sentences are kept, and the others are counted. If a tenth of the rows is unusable, the
+//         file is refused.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ class TextRows {
   // Fails with kNotFound or kCorrupt. `problems` must outlive this object.
   static base::Result<TextRows> Open(const std::filesystem::path& path, base::Problems& problems);
 
-  // Moves to the next row; blank lines and those that begin with # are skipped.
+  // Moves to the next row. Skips blank lines and lines that begin with #.
   bool Next();
   std::size_t size() const { return words_.size(); }
   std::string_view word(std::size_t i) const { return words_[i]; }
@@ -34,13 +34,13 @@ class TextRows {
   bool Numbers(std::size_t first, std::size_t count, std::vector<double>& numbers);
 
   // Whether the time of this row may follow that of the row before it. A row that goes back in time
-  // is left out. Up to five rows whose time is ahead of that of the two rows after them are left out
-  // instead: they were used already, so that RemoveMisdated() must remove what came of them. A gap of
-  // more than 10 s is reported.
+  // is left out. But if up to five earlier rows are ahead of this row and the next one, those rows
+  // are wrong. They were used already, so RemoveMisdated() must remove the values made from them. A
+  // gap of more than 10 s is reported.
   bool InOrder(double time);
 
-  // Removes from a series, which has the members `time` of rows, what came of misdated rows. Call it
-  // after Finish().
+  // Removes the values that were made from misdated rows from a series, whose elements have the
+  // member `time` of their row. Call it after Finish().
   template <typename Series>
   void RemoveMisdated(Series& series) const {
     if (misdated_.empty()) return;
@@ -52,7 +52,7 @@ class TextRows {
   void LeaveOut(const std::string& why) { LeaveOutLine(why, line_); }
   void Warn(const std::string& what);
 
-  // After the last row: kCorrupt if too many rows were left out, or none was used.
+  // Call it after the last row. kCorrupt: too many rows were left out, or none was used.
   base::Status Finish(std::size_t used);
 
  private:
@@ -75,7 +75,7 @@ class TextRows {
   int line_ = 0;
   std::vector<std::string_view> words_;
   std::size_t rows_ = 0, left_out_ = 0, warnings_ = 0;
-  // The last rows in order of time, the newest last: at most kMaxMisdated + 1.
+  // The last rows in the order of time, the newest last: at most kMaxMisdated + 1.
   std::vector<TimedLine> recent_;
   // A row that goes back in time, when only a few rows are ahead of it: the next row shows which of
   // them are wrong.

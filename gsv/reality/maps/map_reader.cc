@@ -35,7 +35,7 @@ base::Result<std::string> Contents(const fs::path& path, std::uintmax_t limit) {
   return std::string((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
 }
 
-// Grey values in [0, 1], rows from the top; 1 is white. Below 0: transparent.
+// Grey values in [0, 1], with rows from the top; 1 is white. Negative: transparent.
 struct Grey {
   int width = 0, height = 0;
   std::vector<float> values;
@@ -53,7 +53,7 @@ base::Status CheckSize(double width, double height, const fs::path& path) {
                     path.string());
 }
 
-// P2 and P5 of Netpbm (https://netpbm.sourceforge.net/doc/pgm.html).
+// Reads the formats P2 and P5 of Netpbm (https://netpbm.sourceforge.net/doc/pgm.html).
 class PgmReader {
  public:
   PgmReader(const std::string& bytes, const fs::path& path) : bytes_(bytes), path_(path) {}
@@ -199,7 +199,7 @@ base::Result<MapSettings> ReadSettings(const fs::path& path) {
   return settings;
 }
 
-// A raw value is the occupancy in percent. Values above 100 mean unknown.
+// In the mode raw, the value is the occupancy in percent. Values above 100 mean unknown.
 Cell CellOf(const MapSettings& settings, float white) {
   if (white < 0) return Cell::kUnknown;
   double occupancy = settings.is_negated ? white : 1 - white;
@@ -264,7 +264,7 @@ base::Result<OccupancyMap> ReadBeesoftMap(const fs::path& path) {
   const auto width = static_cast<std::size_t>(map.width);
   const auto height = static_cast<std::size_t>(map.height);
   map.cells.resize(width * height, Cell::kUnknown);
-  // Each row of the file has one x.
+  // Each row of the file contains the cells with one x.
   for (std::size_t x = 0; x < width; ++x) {
     for (std::size_t y = 0; y < height; ++y) {
       double free = 0;

@@ -46,7 +46,7 @@ world::Snapshot WithoutRobots(const model::WorldDescription& description) {
   return snapshot;
 }
 
-// The bounds of everything that has collisions, except planes.
+// Returns the bounds of all bodies with collisions, except planes.
 geometry::Bounds Extent(const std::shared_ptr<const world::Snapshot>& snapshot) {
   using geometry::kInfinity;
   geometry::Bounds all{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
@@ -76,7 +76,7 @@ class Slicer {
   Slicer(const sensing::RayScene& rays, OccupancyMap& map, double height)
       : rays_(rays), map_(map), height_(height) {}
 
-  // Rays along both axes, so that they hit even thin walls.
+  // Casts rays along both axes, so that they hit even thin walls.
   void Run() {
     for (int y = 0; y < map_.height; ++y) Follow(Centre(0, y), {1, 0, 0}, map_.width);
     for (int x = 0; x < map_.width; ++x) Follow(Centre(x, 0), {0, 1, 0}, map_.height);
@@ -97,8 +97,8 @@ class Slicer {
                cell(place.x, map_.origin_x, map_.width)] = Cell::kOccupied;
   }
 
-  // Whether a solid encloses the middle of the cell at `place`: a vertical ray upwards leaves the
-  // solid.
+  // Whether the middle of the cell at `place` is inside a solid: then a vertical ray upwards leaves
+  // the solid.
   bool IsSolid(const geometry::Vector3& place) const {
     const auto middle = [&](double along, double origin) {
       return origin + (std::floor((along - origin) / map_.resolution) + 0.5) * map_.resolution;

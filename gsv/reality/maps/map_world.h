@@ -8,14 +8,14 @@
 
 namespace gsv::reality {
 
-// A world in SDFormat: the occupied cells as walls of this height (m) on a ground plane. Free and
-// unknown cells stay empty. kInvalidArgument if the map has more than 200,000 boxes.
+// Returns a world in SDFormat: the occupied cells are walls of this height (m) on a ground plane.
+// Free and unknown cells stay empty. kInvalidArgument if the map has more than 200,000 boxes.
 base::Result<std::string> WorldOfMap(const OccupancyMap& map, const std::string& name,
                                      double height);
 
 struct SliceOptions {
   double resolution = 0.05;  // m
-  double height = 0.2;       // m over the world's origin, where the world is cut
+  double height = 0.2;       // height above the world's origin at which the world is cut, m
   double margin = 0.5;       // margin around the bodies, m
 };
 

@@ -19,9 +19,9 @@ enum class Cell : std::uint8_t { kFree, kOccupied, kUnknown };
 
 struct OccupancyMap {
   int width = 0, height = 0;  // cells
-  double resolution = 0.05;   // m, a cell's side
+  double resolution = 0.05;   // side of a cell, m
   double origin_x = 0, origin_y = 0, origin_yaw = 0;
-  std::vector<Cell> cells;  // width * height, rows from the bottom
+  std::vector<Cell> cells;  // width * height cells, rows from the bottom
 
   Cell at(int x, int y) const {
     return cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
@@ -29,14 +29,14 @@ struct OccupancyMap {
   }
 };
 
-// `yaml` names the image, resolution, origin, negate, the thresholds and perhaps the mode.
+// `yaml` names the image, resolution, origin, negate, thresholds and optionally the mode.
 base::Result<OccupancyMap> ReadMap(const std::filesystem::path& yaml, base::Problems& problems);
 
 // Reads CMU's text format: "robot_specifications->resolution 10" (cm), "global_map[0]: 800 800",
-// and for each cell the probability that it is free, or -1.
+// and for each cell the probability that it is free, or -1 if it is unknown.
 base::Result<OccupancyMap> ReadBeesoftMap(const std::filesystem::path& path);
 
-// Writes NAME.yaml and NAME.pgm beside it.
+// Writes NAME.yaml and, in the same folder, NAME.pgm.
 base::Status WriteMap(const OccupancyMap& map, const std::filesystem::path& yaml);
 
 // Returns the occupied cells as rectangles, in cells: [x, x + width). Equal runs of adjacent rows

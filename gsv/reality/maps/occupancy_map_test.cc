@@ -45,7 +45,7 @@ TEST_F(OccupancyMapTest, HasTheImagesLastRowAtTheBottom) {
 
 TEST_F(OccupancyMapTest, ReadsNegatedAndRawMaps) {
   EXPECT_EQ(Read(std::string(kYaml) + "negate: 1\n", "P2 2 1 255 255 0").at(0, 0), Cell::kOccupied);
-  // As in map_server, values are percentages, and values above 100 are unknown.
+  // In the mode raw of map_server, values are percentages, and values above 100 mean unknown.
   const OccupancyMap raw = Read(std::string(kYaml) + "mode: raw\n", "P2 3 1 255 100 0 255");
   EXPECT_THAT(raw.cells, ElementsAre(Cell::kOccupied, Cell::kFree, Cell::kUnknown));
 }

@@ -13,7 +13,7 @@ scenario::Place PlaceOf(const geometry::Pose& pose) {
   return {pose.position.x, pose.position.y, pose.position.z, geometry::Yaw(pose.orientation)};
 }
 
-// The shortest number that stands for the same time.
+// Returns the shortest number that is read back as the same time.
 double ShortSeconds(std::chrono::nanoseconds time) {
   return static_cast<double>(time.count()) / 1e9;
 }

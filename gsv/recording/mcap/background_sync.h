@@ -18,7 +18,7 @@ class BackgroundSync {
   // Waits for the requested synchronisations.
   ~BackgroundSync();
 
-  // Requests the synchronisation of all earlier writes. Returns at once.
+  // Requests the synchronisation of everything that was written so far. Returns at once.
   void Ask();
   // The first error of the disk, if there was one.
   base::Status status() const;

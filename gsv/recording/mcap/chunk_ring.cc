@@ -101,7 +101,8 @@ void ChunkRing::AddRecord(const RawRecord& record, const Piece& piece) {
       }
       return;
     default:
-      return;  // the end of the file and its summary, which readers of the ring do not need
+      return;  // the end of the file and its summary are dropped, because readers of the ring do
+               // not need them
   }
 }
 
@@ -113,7 +114,8 @@ void ChunkRing::AddChunk(const ChunkRecord& chunk, std::span<const std::byte> in
                  chunk.start,  chunk.end};
   while (const std::optional<RawRecord> record = TakeRecord(indexes)) {
     if (record->opcode != Opcode::kMessageIndex) continue;
-    // The channel, then the size of the entries: time and offset, eight bytes each.
+    // A message index has the channel, and then the size of the entries: time and offset, eight
+    // bytes each.
     ByteReader reader(record->content);
     const auto channel = reader.Get<std::uint16_t>();
     const std::uint64_t messages = reader.Get<std::uint32_t>() / 16;
@@ -138,7 +140,8 @@ void ChunkRing::Shrink() {
 
 void ChunkRing::DropReplaced() {
   const base::SimTime first = chunks_.front().block.start;
-  std::map<std::string, const Attached*> in_use;  // at the start of the first chunk, by name
+  std::map<std::string, const Attached*> in_use;  // the attachments that are valid at the start of
+                                                  // the first chunk, by name
   for (const Attached& each : attachments_) {
     if (each.index.log_time <= first) in_use[each.index.name] = &each;
   }

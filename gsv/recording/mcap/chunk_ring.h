@@ -1,8 +1,8 @@
 // The newest part of a recording, in memory: an output for McapWriter whose oldest chunks are
 // dropped when all records together exceed a size.
 //
-// Kept     schemas, channels and metadata always; chunks, the newest ones; of the attachments with
-//          one name those that a kept chunk may need, and the newest.
+// Kept     schemas, channels and metadata always; the newest chunks; of several attachments with
+//          one name, those that a kept chunk may need, and the newest.
 // Threads  any.
 #pragma once
 
@@ -26,21 +26,21 @@ class ChunkRing : public std::enable_shared_from_this<ChunkRing> {
   std::unique_ptr<ByteSink> MakeSink();
 
   struct Extent {
-    base::SimTime start{}, end{};  // of the kept messages
+    base::SimTime start{}, end{};  // range of the times of the kept messages
     std::size_t bytes = 0;
-    std::uint64_t messages = 0;  // that were written so far, dropped ones included
+    std::uint64_t messages = 0;  // number of written messages, including dropped ones
   };
   Extent extent() const;
 
-  // A reader of what is kept now, which later writes do not change. kNotFound: there are no
-  // messages yet.
+  // Returns a reader of the messages that are kept now; later writes do not change it. kNotFound:
+  // there are no messages yet.
   [[nodiscard]] base::Result<std::unique_ptr<McapReader>> Open() const;
 
  private:
   class Sink;
   class Source;
   using Stored = std::shared_ptr<const Bytes>;
-  // The bytes of one write: whole records.
+  // The bytes of one write, which are whole records.
   struct Piece {
     std::uint64_t offset = 0;
     Stored bytes;
@@ -60,13 +60,13 @@ class ChunkRing : public std::enable_shared_from_this<ChunkRing> {
   void AddChunk(const ChunkRecord& chunk, std::span<const std::byte> indexes, const Piece& piece)
       GSV_REQUIRES(mutex_);
   void Shrink() GSV_REQUIRES(mutex_);
-  // Drops the attachments that another one of the same name replaces before the first chunk.
+  // Drops an attachment if another one with the same name replaces it before the first chunk.
   void DropReplaced() GSV_REQUIRES(mutex_);
 
   const std::size_t capacity_;
   mutable base::Mutex mutex_;
-  std::uint64_t offset_ GSV_GUARDED_BY(mutex_) = 0;  // of the next write
-  std::size_t size_ GSV_GUARDED_BY(mutex_) = 0;      // bytes of all pieces that are kept
+  std::uint64_t offset_ GSV_GUARDED_BY(mutex_) = 0;  // offset of the next write
+  std::size_t size_ GSV_GUARDED_BY(mutex_) = 0;      // number of bytes of all kept pieces
   std::uint64_t messages_ GSV_GUARDED_BY(mutex_) = 0;
   std::deque<Chunk> chunks_ GSV_GUARDED_BY(mutex_);
   std::vector<Attached> attachments_ GSV_GUARDED_BY(mutex_);

@@ -9,7 +9,8 @@
 namespace gsv::recording {
 namespace {
 
-// Writes chunks of one message of `size` random bytes, which do not compress, at 0, 10, 20, … ms.
+// Writes chunks with one message each, at 0, 10, 20, … ms. A message has `size` random bytes, which
+// cannot be compressed.
 class ChunkRingTest : public ::testing::Test {
  protected:
   explicit ChunkRingTest(std::size_t capacity = 1000)
@@ -72,7 +73,7 @@ TEST_F(ChunkRingTest, DropsTheOldestChunksBeyondItsCapacity) {
   const auto reader = ring_->Open().value();
   const auto times = TimesIn(*reader);
   EXPECT_EQ(times.errors, 0);
-  // A chunk has 200 bytes of data and less than 200 of headers and indexes.
+  // A chunk has 200 bytes of data and less than 200 bytes of headers and indexes.
   EXPECT_GE(times.times.size(), 2u);
   EXPECT_LE(times.times.size(), 4u);
   EXPECT_EQ(times.times.front(), extent.start);

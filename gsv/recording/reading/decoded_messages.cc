@@ -31,7 +31,7 @@ bool IsInfinite(const ordered_json& json) {
 
 std::string Text(const ordered_json& json) {
   if (json.is_number_float() && !std::isfinite(json.get<double>())) {
-    return fmt::format("{}", json.get<double>());  // writes inf, -inf or nan
+    return fmt::format("{}", json.get<double>());  // this writes inf, -inf or nan
   }
   return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }

@@ -32,7 +32,7 @@ base::Result<sensing::Reading> HealthTopic::Read(
   const auto description = std::find_if(list->second.begin(), list->second.end(),
                                         [&](const auto& each) { return each.name == sensor; });
   if (description == list->second.end()) return base::Fail(base::ErrorCode::kNotFound, sensor);
-  // Sensors that share a design share the object that `made_` knows as long as somebody holds it.
+  // Sensors with the same design share an object, which `made_` knows as long as it is in use.
   auto& held = sensors_[robot + "/" + sensor];
   if (held == nullptr || !(held->description() == *description)) {
     auto made = made_.Of(*description);

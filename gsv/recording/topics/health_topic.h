@@ -1,4 +1,4 @@
-// Records /gsv/health at each change, looked for every 0.5 s of simulated time, and every 10 s.
+// Records /gsv/health every 10 s, and at each change (checked every 0.5 s of simulated time).
 //
 // Readings are functions of the snapshot, so they are sampled here, without an effect on the
 // simulation.
@@ -24,7 +24,7 @@ class HealthTopic {
 
   // Sets the sensors from now on.
   void Mount(std::shared_ptr<const SensorLists> lists) { lists_ = std::move(lists); }
-  // Writes what is due. `status` is that of the snapshot.
+  // Writes the messages that are due. `status` is that of the snapshot.
   void Record(const std::shared_ptr<const world::Snapshot>& snapshot,
               const simulation::SimulationStatus& status);
 

@@ -31,9 +31,9 @@ SensorLists SensorsOf(const simulation::Simulation& simulation, const world::Lay
 
 struct Observation {
   std::shared_ptr<const world::Snapshot> snapshot;
-  std::shared_ptr<const SensorLists> sensors;  // null if they are unchanged, or were not checked
+  std::shared_ptr<const SensorLists> sensors;          // null if unchanged or not checked
   std::optional<simulation::SimulationStatus> status;  // set at the rate of the status
-  // Set with the status; empty if nothing is expected.
+  // Set together with the status; empty if the scenario has no expectations.
   std::vector<simulation::ExpectationState> expectations{};
 };
 using Occurrence = std::variant<Observation, simulation::Event>;

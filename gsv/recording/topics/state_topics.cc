@@ -94,7 +94,7 @@ void StateTopics::WriteNewCommands(const world::Snapshot& snapshot) {
     if (!body.is_robot()) continue;
     const world::DriveState& drive = state.bodies[i].drive;
     if (IsSameOrder(drive, std::exchange(written_[body.name], drive))) continue;
-    if (IsSameOrder(drive, {})) continue;  // the robot was removed and added again
+    if (IsSameOrder(drive, {})) continue;  // skips a robot that was removed and added again
     commands_.Write(state.time, presentation::CommandMessage(body.name, drive, state));
   }
 }
@@ -141,7 +141,7 @@ void StateTopics::RecordExpectations(base::SimTime time,
   for (const auto& state : states) verdicts.push_back(state.verdict);
   const bool is_due = expectations_instants_.Pass(time);
   if (!expectations_.is_wanted() || states.empty() || (!is_due && verdicts == verdicts_)) return;
-  // A replay that stands at the instant of a verdict shows the verdict.
+  // The message has the instant of the verdict, so that a replay at this instant shows the verdict.
   base::SimTime instant = time;
   for (std::size_t i = 0; i < states.size(); ++i) {
     using Verdict = simulation::ExpectationState::Verdict;

@@ -29,7 +29,7 @@ class StateTopics {
   void RecordNow(const world::Snapshot& snapshot);
 
   void RecordStatus(const simulation::SimulationStatus& status);
-  // Writes them at each change of a verdict, with the instant of the verdict, and every second.
+  // Writes expectations every second, and at each change of a verdict with its instant.
   void RecordExpectations(base::SimTime time,
                           const std::vector<simulation::ExpectationState>& states);
   void RecordEvent(const simulation::Event& event);

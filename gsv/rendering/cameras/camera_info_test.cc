@@ -102,7 +102,7 @@ TEST(CameraInfo, OfAnEquidistantLensContainsPixelsPerRadian) {
   const CameraInfo info = InfoFor(description);
   EXPECT_EQ(info.distortion_model, "equidistant");
   EXPECT_EQ(info.d, (std::vector<double>{0, 0, 0, 0}));
-  // Half of the width, 300 pixels, covers a quarter turn.
+  // Half of the width, 300 pixels, covers a quarter of a turn.
   EXPECT_WITHIN(info.k[0], 300 / (std::numbers::pi / 2), 1e-9, "pixel");
   const auto at_one_radian = LensFor(description).Project({std::cos(1), -std::sin(1), 0});
   ASSERT_TRUE(at_one_radian);

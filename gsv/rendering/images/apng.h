@@ -13,13 +13,13 @@ namespace gsv::rendering {
 
 class ApngEncoder {
  public:
-  // `frames_a_second` from 0.1 to 240; it is rounded to a hundredth. Plays once.
+  // `frames_a_second` is from 0.1 to 240, and is rounded to a hundredth. The animation plays once.
   ApngEncoder(std::uint32_t frames, double frames_a_second);
 
-  // The bytes of the next frame, which has the size of the first one; the first frame's begin the
-  // file. kInvalidArgument for an image without pixels or of another size.
+  // Returns the bytes of the next frame; those of the first frame begin the file. All frames have
+  // one size. kInvalidArgument for an image without pixels or of another size.
   base::Result<std::vector<std::uint8_t>> Add(const model::Image& image);
-  // The end of the file.
+  // Returns the end of the file.
   static std::vector<std::uint8_t> End();
 
  private:

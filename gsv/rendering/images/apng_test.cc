@@ -1,4 +1,4 @@
-// Splits the files by the specification, and decodes the frames with libpng.
+// Splits the files according to the specification, and decodes the frames with libpng.
 #include "gsv/rendering/images/apng.h"
 
 #include <cstring>
@@ -69,7 +69,7 @@ AnimationBytes Pixels(const AnimationBytes& png) {
   return pixels;
 }
 
-// The frame of an fdAT chunk as a file of its own: libpng computes the checksum of its IDAT.
+// Returns the frame of an fdAT chunk as a complete file; libpng computes the checksum of its IDAT.
 AnimationBytes FrameOf(const Part& header, const Part& fdat) {
   AnimationBytes png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   png.insert(png.end(), header.whole.begin(), header.whole.end());
@@ -79,7 +79,8 @@ AnimationBytes FrameOf(const Part& header, const Part& fdat) {
     }
     png.insert(png.end(), type.begin(), type.end());
     png.insert(png.end(), data.begin(), data.end());
-    std::uint32_t sum = 0xffffffff;  // the checksum of the specification, annex D, bit by bit
+    std::uint32_t sum = 0xffffffff;  // computes the checksum of the specification, annex D, bit by
+                                     // bit
     for (std::size_t i = png.size() - data.size() - 4; i < png.size(); ++i) {
       sum ^= png[i];
       for (int bit = 0; bit < 8; ++bit) sum = sum & 1 ? 0xedb88320 ^ sum >> 1 : sum >> 1;

@@ -48,7 +48,7 @@ GlVertexArray CreateVertexArray();
 GlFramebuffer CreateFramebuffer();
 GlRenderbuffer CreateRenderbuffer();
 
-// `defines` ("#define A\n…") is inserted after the #version line. The source must compile.
+// Inserts `defines` ("#define A\n…") after the #version line. The source must compile.
 GlProgram CreateProgram(std::string_view defines, std::string_view vertex_source,
                         std::string_view fragment_source);
 

@@ -85,14 +85,15 @@ invariant gl_Position;
 void main() {
   vec4 p = vec4(position, 1.0);
   v_position = vec3(dot(row0, p), dot(row1, p), dot(row2, p));
-  // Normals go with the cofactors of the turn and stretch; a mirror would turn them inward.
+  // Normals are transformed by the cofactors of rotation and scale; a reflection would turn them
+  // inward.
   vec3 c0 = cross(row1.xyz, row2.xyz), c1 = cross(row2.xyz, row0.xyz), c2 = cross(row0.xyz, row1.xyz);
   float handedness = dot(row0.xyz, c0) < 0.0 ? -1.0 : 1.0;
   v_normal = handedness * vec3(dot(c0, normal), dot(c1, normal), dot(c2, normal));
   v_uv = uv;
   v_base_colour = base_colour;
   v_emissive_metalness = emissive_metalness;
-  // Neighbouring surfaces, and the same one of two things, get different numbers of eight bits.
+  // Adjacent surfaces, and the same surface of two objects, get different numbers of eight bits.
   float surface = mod(97.0 * mesh_surface + 57.0 * roughness_surface.y, 255.0) + 1.0;
   v_roughness_surface = vec2(roughness_surface.x, surface / 255.0);
   gl_Position = clip_from_relative * vec4(v_position, 1.0);
@@ -128,7 +129,7 @@ vec3 Reflect(Surface surface, vec3 to_light, vec3 to_view, float n_dot_l) {
   float m = 1.0 - v_dot_h, m2 = m * m;
   vec3 fresnel = surface.specular + (1.0 - surface.specular) * (m2 * m2 * m);
   float d = n_dot_h * n_dot_h * (surface.alpha2 - 1.0) + 1.0;
-  // The distribution times pi, alpha2 / d², and the visibility, 0.5 / v.
+  // The terms are the distribution times pi, alpha2 / d², and the visibility, 0.5 / v.
   float v = max(mix(2.0 * n_dot_l * surface.n_dot_v, n_dot_l + surface.n_dot_v, surface.alpha), 1e-4);
   float gloss = 0.5 * surface.alpha2 / (d * d * v);
   return (surface.diffuse * (1.0 - fresnel) + fresnel * min(gloss, 8.0)) * n_dot_l;
@@ -136,7 +137,7 @@ vec3 Reflect(Surface surface, vec3 to_light, vec3 to_view, float n_dot_l) {
 
 vec3 Ambient(Surface surface, vec3 to_view, float roughness) {
   vec3 around = mix(ambient_below.rgb, ambient_above.rgb, 0.5 + 0.5 * surface.normal.z);
-  // Surfaces that face the sun catch more of what bounces about: shape stays visible in shadow.
+  // Surfaces that face the sun get more indirect light, so that shapes stay visible in shadow.
   around *= 0.9 + 0.2 * dot(surface.normal, to_sun.xyz);
   vec3 r = reflect(-to_view, surface.normal);
   vec3 mirrored = mix(mix(ambient_below.rgb, ambient_above.rgb, smoothstep(-0.25, 0.25, r.z)), around, roughness);
@@ -150,8 +151,8 @@ vec3 Ambient(Surface surface, vec3 to_view, float roughness) {
 float SunVisible(vec3 normal, float n_dot_l) {
   vec3 p = v_position + normal * (to_sun.w * (1.5 - n_dot_l));
   vec3 s = (shadow_from_relative * vec4(p, 1.0)).xyz;
-  s.z = max(s.z, 0.0);  // as low as where nothing is
-  const float texel = 1.0 / 2048.0;  // of kSide in shadow_map.cc
+  s.z = max(s.z, 0.0);  // a point below the background is looked up at the background's height
+  const float texel = 1.0 / 2048.0;  // kSide of shadow_map.cc
   return 0.5 * (texture(shadow_map, vec3(s.xy + texel * vec2(-0.6, -0.3), s.z)) +
                 texture(shadow_map, vec3(s.xy + texel * vec2(0.6, 0.3), s.z)));
 }
@@ -179,7 +180,7 @@ vec3 Lamp(Light light, Surface surface, vec3 to_view) {
 #endif
 
 #ifdef NORMAL_MAP
-// A frame along the texture's axes from how position and uv change across the screen
+// The frame along the texture's axes follows from the change of position and uv across the screen
 // (Schüler, "Followup: normal mapping without precomputed tangents", 2013). v runs downwards.
 vec3 Bumped(vec3 n) {
   vec3 bump = texture(normal_map, v_uv).xyz * 2.0 - 1.0;
@@ -268,7 +269,7 @@ void main() {
 const std::string kSkyVertexShader = kFrame + R"(
 out vec3 v_direction;
 void main() {
-  // One triangle over the whole image, infinitely far.
+  // The sky is one triangle over the whole image, infinitely far away.
   vec2 p = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
   v_direction = view_forward.xyz + p.x * view_right.xyz + p.y * view_down.xyz;
   gl_Position = vec4(p, 0.0, 1.0);

@@ -43,7 +43,7 @@ class ShadowMap {
   GlProgram solid_, alpha_mask_;
   ShadowRegion region_;
   Drawn drawn_;                                 // describes the content of still_
-  std::vector<ShadowRegion::Rectangle> moved_;  // the parts in which moving_ differs from still_
+  std::vector<ShadowRegion::Rectangle> moved_;  // the parts in which moving_ and still_ differ
   std::vector<InstanceData> staged_;
 };
 

@@ -65,7 +65,7 @@ void SetFaces(const DrawGroup& group) {
   } else {
     glEnable(GL_CULL_FACE);
   }
-  // Depth grows towards the camera.
+  // The depth value increases towards the camera.
   glPolygonOffset(group.ground ? -1.0f : 0.0f, group.ground ? -64.0f : 0.0f);
 }
 
@@ -89,7 +89,7 @@ unsigned ViewPass::ProgramFor(unsigned features) {
 
 void ViewPass::FindVisible(const CameraView& view, const RenderList& render_list,
                            const ShadowMap* shadows) {
-  // Objects below this size would only flicker.
+  // Objects smaller than this would only flicker.
   constexpr double kMinPixels = 0.3;
   const Frustum frustum = FrustumOf(view);
   const double smallest = kMinPixels / FocalLength(view.parameters);
@@ -178,7 +178,7 @@ void ViewPass::Draw(const CameraView& view, const RenderList& render_list, const
   glDrawArrays(GL_TRIANGLES, 0, 3);
 
   glEnable(GL_BLEND);
-  // The alpha channel keeps the number of the surface behind.
+  // The alpha channel keeps the number of the surface behind the transparent one.
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
   Draw(transparent_calls_, render_list, lamps, instances);
   glDisable(GL_BLEND);

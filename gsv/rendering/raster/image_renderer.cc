@@ -91,7 +91,7 @@ void ImageRenderer::Begin(const CameraView& view, const FrameBlock& block) {
 }
 
 void ImageRenderer::FindVisible(const CameraView& view, const RenderList& render_list) {
-  // Objects below this size would only flicker.
+  // Objects smaller than this would only flicker.
   constexpr double kMinPixels = 0.3;
   const Frustum frustum = FrustumOf(view);
   const double pixel = 1 / FocalLength(view.parameters);  // the size of a pixel at 1 m
@@ -311,8 +311,8 @@ void ImageRenderer::Blend(const CameraView& view, const RenderList& render_list,
             const F8x3 ray = RayAt(x, y);
             Surfaces surfaces;
             FillIn(drawn, t, surface, x, y, visible, true, ray, surfaces);
-            // Few of these pixels are in an image, so they are shaded as if all lamps could reach
-            // them.
+            // Few of these pixels are visible in an image, so they are shaded as if all lamps could
+            // reach them.
             constexpr double kAnywhere = 1e30;
             const Lamps lamps = light.Reaching({-kAnywhere, -kAnywhere, -kAnywhere},
                                                {kAnywhere, kAnywhere, kAnywhere});
@@ -320,7 +320,7 @@ void ImageRenderer::Blend(const CameraView& view, const RenderList& render_list,
             std::uint32_t* to =
                 &rgba_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
             const I8 below = LoadInt(to);
-            // The alpha channel keeps the number of the surface behind.
+            // The alpha channel keeps the number of the surface behind the transparent one.
             I8 mixed = below & SplatInt(static_cast<std::int32_t>(0xff000000u));
             for (int shift = 0; shift < 24; shift += 8) {
               const F8 a = ToFloat((above >> shift) & SplatInt(0xff)),

@@ -94,7 +94,8 @@ std::shared_ptr<DrawTexture> MakeRasterTexture(const model::Image& image) {
 }
 
 Texels Sample(const RasterTexture& texture, float level, F8 u, F8 v) {
-  constexpr float kBand = 0.4f;  // the range, as a part of a level, in which two levels are mixed
+  constexpr float kBand = 0.4f;  // the part of the range between two levels in which they are
+                                 // blended
   const int most = static_cast<int>(texture.levels.size()) - 1;
   level = std::clamp(level, 0.0f, static_cast<float>(most));
   const int fine = std::min(static_cast<int>(level), most);

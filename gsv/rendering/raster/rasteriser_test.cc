@@ -67,8 +67,8 @@ TEST(Rasteriser, DrawsTrianglesThatReachBehindTheCamera) {
   const auto image = renderer->Draw(
       scene.Snapshot(), CameraView{{}, {200, 100, std::numbers::pi / 2, 0.1, 150}}, kDrawTimeout);
   ASSERT_TRUE(image);
-  // f is 100. The wall 0.95 m to the right ends at 150 m, 0.6 pixels right of the middle. At pixel
-  // u its upper and lower edges are (u - 100) / 0.95 from the middle row.
+  // The focal length f is 100 pixels. The wall 0.95 m to the right ends at 150 m, 0.6 pixels right
+  // of the middle. At pixel u, its upper and lower edges are (u - 100) / 0.95 from the middle row.
   for (int u = 105; u < 200; ++u) {
     const double half = (u + 0.5 - 100) / 0.95;
     int green = 0;
@@ -102,7 +102,8 @@ TEST(RasterMesh, CoarserLevelsDisplaceVerticesByAtMostTheirCell) {
     for (std::uint32_t i = 0; i < levels[l].vertex_count; ++i) {
       const std::uint32_t v = levels[l].first_vertex + i;
       const double radius = std::hypot(raster_mesh.x[v], raster_mesh.y[v], raster_mesh.z[v]);
-      // The displacements of all finer levels add up; a cell is 1.5 times the one before.
+      // The displacements of all finer levels add up; each cell is 1.5 times as large as the one
+      // before.
       EXPECT_NEAR(radius, 1, std::sqrt(3.0) * 3 * levels[l].cell);
     }
   }

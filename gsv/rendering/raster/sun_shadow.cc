@@ -10,7 +10,7 @@ namespace gsv::rendering::raster {
 namespace {
 
 constexpr int kStride = kShadowSide + 16;
-constexpr int kFirst = kStride + 1;  // the index of texel (0, 0)
+constexpr int kFirst = kStride + 1;  // the index of texel (0, 0) of the map without its border
 
 // The resolution of shadows, in texels. The shadows of robots are rendered again for each snapshot.
 // The image must not depend on whether an object has moved.

@@ -24,7 +24,7 @@ struct DrawGroup {
   std::uint32_t chunk = 0;  // the chunk of the mesh
   std::uint32_t first_index = 0;
   std::uint32_t index_count = 0;
-  // null where the material has none
+  // each is null if the material has no such map
   std::shared_ptr<const DrawTexture> base_colour, normal, metallic_roughness, emissive;
   Blending blending = Blending::kOpaque;
   bool mirrored = false;

@@ -190,7 +190,7 @@ TEST_F(ActuatorReadings, GripperHoldsABodyUntilItOpens) {
   EXPECT_EQ(Commanded(*gripper, "ear", {{1}, ""}, holding, 3s)->grasp(), nullptr);
 }
 
-// Recordings contain hashes, so the order of fields is part of their format.
+// Recordings contain hashes, so the order in which fields are hashed is part of their format.
 TEST_F(ActuatorReadings, HashIncludesTheGraspedBody) {
   const auto setup = std::make_shared<const GripperSetup>();
   const geometry::Pose link_from_held{{1, 2, 3}, geometry::FromRollPitchYaw({0, 0, 0.5})};
@@ -211,7 +211,8 @@ TEST_F(ActuatorReadings, HashIncludesTheGraspedBody) {
   EXPECT_EQ(hash.Digest(), expected.Digest());
 }
 
-// The level is L = L1 + 20 lg(volume) - 20 lg(r / 1 m), and levels add up as powers.
+// The level is L = L1 + 20 lg(volume) - 20 lg(r / 1 m), and the levels of several sources add as
+// powers.
 TEST_F(ActuatorReadings, MicrophoneHearsByTheInverseSquareLaw) {
   const auto microphone = MakeDevice(MicrophoneType(), {{"ambient", -100.0}});
   const auto speaker = MakeDevice(SpeakerType(), {{"loudness", 85.0}});
@@ -234,7 +235,7 @@ TEST_F(ActuatorReadings, MicrophoneHearsByTheInverseSquareLaw) {
                 "dB");
   EXPECT_EQ(both.values[1], 440);
   EXPECT_EQ(both.labels->front(), "near/speaker");
-  // The speaker of the microphone's own robot counts as at least 0.1 m away.
+  // The distance to the speaker of the microphone's own robot counts as at least 0.1 m.
   Publish({Commanded(*speaker, "ear", {{440, 2, 1}, "tone"})});
   EXPECT_WITHIN(Sampled(*microphone, "ear").values[0], 85 + 20, 1e-9, "dB");
 }

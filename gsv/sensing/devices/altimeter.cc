@@ -49,7 +49,7 @@ class Altimeter final
     return (robot.initial_pose * model_from_sensor).position.z;
   }
 
-  const double reference_;  // NaN for the initial height
+  const double reference_;  // NaN if the reference is the initial height
   const NoiseModel position_noise_, velocity_noise_;
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 using geometry::Vector3;
 
-// the z of a normal that points down within 45 degrees is below this
+// a contact is with the ground if its normal points down within 45 degrees, so that z is below this
 constexpr double kGroundSlope = -0.70;
 constexpr double kNormalLength = 0.3;  // m
 // Two collisions share the point of a contact if their distances from it differ by less than this
@@ -26,8 +26,8 @@ readings::Vector ToVector(const Vector3& v) { return {v.x, v.y, v.z}; }
 Vector3 FromVector(const readings::Vector& v) { return {v.x, v.y, v.z}; }
 
 // Finds the contacts that touch one of the collisions which a bumper names: those whose point is as
-// near to such a collision as to any other collision of the robot. An engine reports points of
-// bodies, and not of their collisions.
+// near to such a collision as to any other collision of the robot. This is needed because an engine
+// reports the bodies of a contact, and not their collisions.
 class NamedCollisions {
  public:
   NamedCollisions(const model::SensorDescription& sensor, std::vector<std::string> names)
@@ -72,7 +72,7 @@ class Bumper final : public SensorOf<readings::Contact, messages::gsv_msgs::Bump
       : SensorOf(description),
         half_view_(reader.Number("field_of_view", 2 * std::numbers::pi, 0, 2 * std::numbers::pi) /
                    2),
-        // A collision that is named, such as a foot, also reports the ground.
+        // If the bumper has named collisions, such as feet, it also reports the ground.
         feels_ground_(reader.Flag("ground", !model::CollisionNamesOf(description).empty())),
         collisions_(description, NamesIn(description, reader)) {}
 
@@ -113,7 +113,7 @@ class Bumper final : public SensorOf<readings::Contact, messages::gsv_msgs::Bump
 
   static std::vector<std::string> NamesIn(const model::SensorDescription& description,
                                           ParameterReader& reader) {
-    (void)reader.Text(model::kCollisionNames, "");  // rejects a value that is not text
+    (void)reader.Text(model::kCollisionNames, "");  // this call rejects a value that is not text
     return model::CollisionNamesOf(description);
   }
 

@@ -147,8 +147,9 @@ TEST_F(DeviceErrors, LidarMixesTwoSurfacesAtAnEdge) {
       if (range > 2.2 && range < 3.8) ++between;
     }
   }
-  // There are two edges with a beam on either side. A beam is mixed towards the edge's side half of
-  // the time, and covers the edge with the probability divergence / step = 0.6.
+  // There are two edges with a beam on either side. In half of the cases, the beam's range is mixed
+  // with that of the edge's side, and the beam covers the edge with the probability divergence /
+  // step = 0.6.
   const double expected = 4 * 0.5 * 0.6 * 0.8 * scans;
   EXPECT_WITHIN_PERCENT(between, expected, 15);
 }
@@ -250,8 +251,8 @@ TEST_F(DeviceErrors, SmallTargetIsDetectedAtAShorterRange) {
 }
 
 TEST_F(DeviceErrors, CornerIsDetectedByItsSecondReflection) {
-  // Two smooth walls are at right angles, 45 degrees to either side of the axis, and meet 2 m
-  // ahead.
+  // Two smooth walls are at right angles to each other, 45 degrees to either side of the axis, and
+  // meet 2 m ahead.
   const auto wall = [](const char* name, double side) {
     return testing::Placed{
         name, testing::ModelOf(geometry::Box{{3, 0.02, 3}}),
@@ -327,7 +328,7 @@ TEST_F(DeviceErrors, RangingNoiseGrowsWithDistance) {
     sum += off, squares += off * off;
   }
   EXPECT_WITHIN(sum / kReadings, 0, 0.005, "m");
-  // the combined deviation of 0.03 and 0.04
+  // the standard deviation from combining 0.03 and 0.04
   EXPECT_WITHIN(std::sqrt(squares / kReadings), 0.05, 0.003, "m");
 }
 

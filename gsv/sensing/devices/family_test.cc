@@ -86,7 +86,7 @@ class SensorTypesTest : public ::testing::Test {
 using Units = std::vector<std::string>;
 const Units kImu = {"rad/s", "rad/s", "rad/s", "m/s²", "m/s²", "m/s²"};
 
-// Records the errors of values that have a unit, see EXPECT_WITHIN.
+// Compares values that have a unit, and records their errors, see EXPECT_WITHIN.
 void ExpectValues(const Reading& reading, const std::vector<double>& expected,
                   const Units& units = {}, double bound = 1e-12) {
   ASSERT_GE(reading.values.size(), expected.size());
@@ -274,7 +274,8 @@ TEST_F(SensorTypesTest, BumperReadsTheForceOnTheRobot) {
   snapshot_->contacts = {{other, body_, {1, 0.5, 0.3}, {0, -1, 0}},
                          {body_, floor, {1, -0.5, 0.3}, {0, -1, 0}}};
   snapshot_->contacts[0].points = {{{1, 0.5, 0.3}, {0, -1, 0}, 0, {0.01, -0.2, 0}}};
-  snapshot_->contacts[1].impulse = 0.3;  // along the normal, without points
+  snapshot_->contacts[1].impulse = 0.3;  // the force is along the normal, because the contact has
+                                         // no points
   const Reading reading = Sample(DescriptionOf("contact"));
   ASSERT_EQ(reading.values.size(), 22u);
   // The robot looks along the world's y axis.

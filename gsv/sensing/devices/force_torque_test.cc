@@ -1,5 +1,5 @@
-// Force-torque sensors against mechanics. Snapshots state how the links move; what engines compute
-// is compared in gsv/simulation/gazebo_values_test.cc.
+// Tests force-torque sensors with the equations of mechanics. The test sets how the links move;
+// values that engines compute are compared in gsv/simulation/gazebo_values_test.cc.
 #include <gtest/gtest.h>
 
 #include "gsv/base/test_within.h"
@@ -18,8 +18,8 @@ using testing::BuiltInSensors;
 
 constexpr double kMass = 3, kLength = 0.7, kG = 9.8;
 
-// Links in a row along x at zero, each with a joint about -y where it begins, so that positive
-// angles lift it, and a mass of no extent at its end.
+// An arm of links in a row along x at zero joint positions. Each link begins with a joint about -y,
+// so that positive angles lift it, and has a point mass at its end.
 std::shared_ptr<model::Model> Arm(const std::vector<double>& masses,
                                   const std::vector<double>& lengths) {
   auto model = std::make_shared<model::Model>();
@@ -55,7 +55,8 @@ class ForceTorqueTest : public ::testing::Test {
     description_.name = "wrist", description_.type = "force_torque", description_.link = 1;
   }
 
-  // By default what the parent exerts on the child, in the child's axes.
+  // Reads the sensor. By default, the reading is what the parent exerts on the child, in the
+  // child's axes.
   readings::ForceTorque Read(model::Parameters parameters = {
                                  {"measure_direction", std::string("parent_to_child")}}) {
     description_.parameters = std::move(parameters);
@@ -90,7 +91,7 @@ TEST_F(ForceTorqueTest, DirectionAndFrameAreThoseOfTheDescription) {
   Place(Arm({kMass}, {kLength}), {{0, 0, 2}, geometry::FromAxisAngle({1, 0, 0}, kPi / 2)});
   snapshot_->state.joint_positions[0] = 0.4;
   const double weight = kMass * kG;
-  // By default the child's frame, and what the child exerts.
+  // With default parameters, the reading is in the child's frame, and is what the child exerts.
   Expect(Read({}).force, {0, -weight, 0}, "N");
   Expect(Read({{"frame", std::string("parent")}}).force, {0, -weight, 0}, "N");
   const Vector3 torque{std::sin(0.4) * kLength * weight, 0, -std::cos(0.4) * kLength * weight};
@@ -112,10 +113,10 @@ TEST_F(ForceTorqueTest, HangingWeightPullsByItsWeight) {
 TEST_F(ForceTorqueTest, SpinningArmIsPulledInwards) {
   Place(Arm({kMass}, {kLength}), {{}, geometry::FromAxisAngle({1, 0, 0}, kPi / 2)});
   const double rate = 4;
-  snapshot_->state.joint_velocities[0] = rate;  // about the vertical
+  snapshot_->state.joint_velocities[0] = rate;  // the arm turns about the vertical
   const readings::ForceTorque held = Read();
   Expect(held.force, {-kMass * rate * rate * kLength, kMass * kG, 0}, "N");
-  // It speeds up.
+  // The arm accelerates.
   snapshot_->joint_accelerations[0] = 2;
   Expect(Read().torque, {0, -2 * kMass * kLength * kLength, kMass * kG * kLength}, "N m");
 }
@@ -139,7 +140,8 @@ TEST_F(ForceTorqueTest, TwoLinksFollowTheEquationsOfLagrange) {
   EXPECT_WITHIN(Read().torque.y, -second, 1e-12, "N m");
 }
 
-// A bar of length l has the inertia m l² / 12 about its middle, and m l² / 3 about its end.
+// A bar of length l has the moment of inertia m l² / 12 about its middle, and m l² / 3 about its
+// end.
 TEST_F(ForceTorqueTest, InertiaOfALinkResistsItsAcceleration) {
   auto arm = Arm({kMass}, {kLength / 2});
   arm->links[1].inertial.iyy = kMass * kLength * kLength / 12;
@@ -165,7 +167,8 @@ TEST_F(ForceTorqueTest, ContactBelowTheJointCarriesAPartOfTheWeight) {
   foot.link_from_collision = {};
   arm->links[0].collisions.push_back(foot);
   Place(arm);
-  // 20 N under the end of the arm, with 5 N of friction towards the base, and 8 N under the base.
+  // A force of 20 N acts under the end of the arm, with 5 N of friction towards the base, and 8 N
+  // act under the base.
   world::Contact contact;
   contact.first = body_, contact.second = snapshot_->layout->Find("ground");
   contact.points = {{{kLength, 0, -0.1}, {0, 0, -1}, 0, {0.005, 0, -0.020}},

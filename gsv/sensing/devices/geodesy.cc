@@ -7,7 +7,7 @@ namespace {
 
 using geometry::Vector3;
 
-constexpr double kMajor = 6378137.0;  // half of the ellipsoid's major axis, m
+constexpr double kMajor = 6378137.0;  // semi-major axis of the ellipsoid, m
 constexpr double kFlattening = 1 / 298.257223563;
 constexpr double kMinor = kMajor * (1 - kFlattening);
 constexpr double kEccentricity2 = kFlattening * (2 - kFlattening);
@@ -25,7 +25,8 @@ Vector3 EcefOf(const GeodeticPlace& place) {
 
 GeodeticPlace PlaceOf(const Vector3& p) {
   const double from_axis = std::hypot(p.x, p.y);
-  // `reduced` is the reduced latitude: the angle of the ellipse's point on its circle.
+  // `reduced` is the reduced latitude: the angle of the corresponding point on the circle around
+  // the ellipse.
   double reduced = std::atan2(kMajor * p.z, kMinor * from_axis);
   double latitude = 0;
   for (int i = 0; i < 4; ++i) {

@@ -32,8 +32,9 @@ TEST(Geodesy, RoundTripReturnsTheSamePlace) {
   }
 }
 
-// On the ellipsoid a small way north turns by way / M, one east by way / (N cos latitude), with M
-// and N the radii of curvature along the meridian and across.
+// M and N are the ellipsoid's radii of curvature along the meridian and across it. A small distance
+// d to the north changes the latitude by d / M. The same distance to the east changes the longitude
+// by d / (N cos latitude).
 TEST(Geodesy, SmallDistancesAreArcsOfTheRadiiOfCurvature) {
   const double a = 6378137.0, f = 1 / 298.257223563, e2 = f * (2 - f);
   model::GeodeticOrigin origin{0.8, 0.2, 0, 0};

@@ -17,8 +17,8 @@ namespace gsv::sensing {
 
 // A gripper's fingers lie along its x axis and close along y.
 struct GripperSetup {
-  double opening = 0.1;                   // m, between the open fingers
-  double reach = 0.08, height = 0.03;     // m, of the fingers
+  double opening = 0.1;                   // distance between the open fingers, m
+  double reach = 0.08, height = 0.03;     // reach and height of the fingers, m
   double closing_time = 0.5;              // s
   std::string left_finger, right_finger;  // joints that show the fingers; empty: none
 };
@@ -28,23 +28,23 @@ class GripperState final : public world::ActuatorState {
  public:
   struct Hold {
     world::Grasp grasp;
-    double width = 0;  // m, of the attached body
+    double width = 0;  // width of the attached body, m
   };
 
-  // `opening_before`: m between the fingers at `followed.since`.
+  // `opening_before` is the distance between the fingers at `followed.since`, m.
   GripperState(world::DeviceMount mount, world::FollowedCommand followed, GripperSetupPtr setup,
                double opening_before, std::optional<Hold> hold = std::nullopt);
 
-  // The state of a gripper that was in the state `before` (null: no command yet): fingers continue
-  // from their opening, and keep an attachment until they open.
+  // Returns the state of a gripper that was in the state `before` (null: no command yet). Fingers
+  // continue from their opening, and keep an attachment until they open.
   static std::shared_ptr<const GripperState> After(const world::DeviceState* before,
                                                    world::DeviceMount mount,
                                                    world::FollowedCommand followed,
                                                    GripperSetupPtr setup);
 
-  // The command is {1} to open, {0} to close.
+  // Whether the command is {1}, to open. {0} is the command to close.
   bool opens() const;
-  double OpeningAt(base::SimTime now) const;  // m, between its fingers
+  double OpeningAt(base::SimTime now) const;  // Returns the distance between the fingers, m.
   const world::Grasp* grasp() const override { return hold_ ? &hold_->grasp : nullptr; }
 
   // Attaches the body between fingers that close in this step.

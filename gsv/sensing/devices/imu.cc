@@ -106,8 +106,8 @@ class Imu final : public SensorOf<readings::Imu, messages::sensor_msgs::Imu> {
   const bool has_orientation_;
   const OrientationReference reference_;
   std::array<NoiseModel, 6> noise_;
-  // By term (first white noise and bias instability, then random walk), then by angular velocity
-  // and force.
+  // The models by term (first white noise and bias instability, then random walk), and then by
+  // angular velocity and force.
   std::array<std::array<NoiseModel, 2>, 2> allan_;
 };
 

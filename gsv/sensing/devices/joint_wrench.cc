@@ -23,11 +23,11 @@ struct WrenchSum {
   }
 };
 
-// For each link: whether it is in the subtree below the joint.
+// Returns for each link whether it is in the subtree below the joint.
 std::vector<bool> LinksBelow(const model::Model& model, int joint) {
   std::vector<bool> is_below(model.links.size());
   is_below[static_cast<std::size_t>(model.joints[static_cast<std::size_t>(joint)].child)] = true;
-  // A forest has as many levels as links at most.
+  // The loop ends, because a forest has at most as many levels as links.
   for (bool has_changed = true; has_changed;) {
     has_changed = false;
     for (const model::Joint& each : model.joints) {
@@ -41,7 +41,7 @@ std::vector<bool> LinksBelow(const model::Model& model, int joint) {
   return is_below;
 }
 
-// Adds the force and torque of a link's motion, less gravity.
+// Adds the force and torque of a link's motion, without gravity.
 void AddInertia(const model::Link& link, const LinkMotion& motion, const Vector3& gravity,
                 WrenchSum& sum) {
   const model::Inertial& i = link.inertial;
@@ -59,7 +59,7 @@ void AddInertia(const model::Link& link, const LinkMotion& motion, const Vector3
   sum.torque += world_from_com.orientation * (times(a) + Cross(w, times(w)));
 }
 
-// The link with the collision that is nearest to a point of the world, or -1.
+// Returns the link with the collision that is nearest to a point of the world, or -1.
 int LinkAt(const model::Model& model, const std::vector<LinkMotion>& motions,
            const Vector3& point) {
   double nearest = std::numeric_limits<double>::infinity();

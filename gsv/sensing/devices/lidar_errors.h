@@ -12,7 +12,7 @@
 //             distributed ranges.
 // Source      for the fractions: Thrun, Burgard and Fox, "Probabilistic Robotics", section 6.3. For
 //             the cosine: Lambert's law and the equation of the lidar.
-// keyed by (seed, robot, sensor, step) and the beam.
+// Determinism random numbers are keyed by (seed, robot, sensor, step) and the beam.
 #pragma once
 
 #include <span>

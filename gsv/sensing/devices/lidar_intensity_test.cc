@@ -31,7 +31,7 @@ std::shared_ptr<model::Model> Coloured(const geometry::Shape& shape, double r, d
   return model;
 }
 
-// A white tetrahedron's face as a mesh: a large triangle across the x axis.
+// Returns the face of a white tetrahedron as a mesh: a large triangle across the x axis.
 geometry::Mesh LargeTriangle() {
   auto triangles = std::make_shared<geometry::TriangleMesh>();
   triangles->positions = {{0, -9, -9}, {0, 9, -9}, {0, 0, 9}};
@@ -42,7 +42,7 @@ geometry::Mesh LargeTriangle() {
   return mesh;
 }
 
-// Beams with the azimuths 0 and ±0.3 from a sensor at the world's origin, facing x.
+// Returns a lidar at the world's origin that faces x, with beams at the azimuths 0 and ±0.3.
 model::SensorDescription Beams(model::Parameters more) {
   model::Parameters parameters{{"scan.horizontal.samples", 3.0},
                                {"scan.horizontal.min_angle", -0.3},
@@ -69,7 +69,8 @@ class LidarIntensity : public ::testing::Test {
 };
 
 TEST_F(LidarIntensity, FollowsTheAngleOfIncidenceAndTheColour) {
-  // A wall across the x axis, turned by 0.5 rad. Of red, green and blue only green is not zero.
+  // The wall is across the x axis, rotated by 0.5 rad. Of its red, green and blue, only green is
+  // not zero.
   const auto wall = Coloured(geometry::Box{{0.2, 40, 4}}, 0, 1, 0);
   for (const bool is_static : {true, false}) {
     const Reading reading = Sample(wall, geometry::PlanarPose(5, 0, 0, 0.5),
@@ -103,7 +104,7 @@ TEST_F(LidarIntensity, OfABallFollowsFromItsNormal) {
       Sample(ball, geometry::PlanarPose(5, 0.5, 0, 0), Beams({{"intensity_scale", 1.0}}));
   for (std::size_t i = 0; i < 3; ++i) {
     const double azimuth = -0.3 + 0.3 * static_cast<double>(i);
-    // The beam passes the centre at d, so that the sine of the angle of incidence is d / 2.
+    // The beam passes the centre at the distance d, so the sine of the angle of incidence is d / 2.
     const double d = std::abs(0.5 * std::cos(azimuth) - 5 * std::sin(azimuth));
     EXPECT_WITHIN(reading.values[3 + i], std::sqrt(1 - d * d / 4), 1e-6, "") << i;
   }
@@ -169,7 +170,7 @@ TEST_F(LidarIntensity, IsInTheScanAndInThePointCloud) {
   float intensity = 0;
   std::memcpy(&intensity, &cloud->data[4 * cloud->point_step + cloud->fields[4].offset],
               sizeof intensity);
-  EXPECT_NEAR(intensity, 100 * std::cos(0.2), 1e-4);  // the middle of the upper row
+  EXPECT_NEAR(intensity, 100 * std::cos(0.2), 1e-4);  // the beam in the middle of the upper row
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 
 namespace gsv::sensing {
 
-// Writes a scan. Its values are row by row from the lowest. LidarScan has no intensities: they are in
+// Writes a scan. Values are in rows, from the lowest one. LidarScan has no intensities: they are in
 // the point cloud.
 void Write(const LidarSettings& settings, const readings::Lidar& measured,
            messages::sensor_msgs::LaserScan& scan);

@@ -22,11 +22,11 @@ struct Angles {
 struct LidarSettings {
   Angles horizontal, vertical;
   double min = 0, max = 0;
-  double noise_mean = 0, noise_stddev = 0;  // white noise without other terms, drawn beam by beam
-  std::optional<NoiseModel> full_noise;     // for any other noise
+  double noise_mean = 0, noise_stddev = 0;  // only white noise, which is drawn for each beam
+  std::optional<NoiseModel> full_noise;     // the noise model if it has other terms
   LidarErrors errors;                       // applied before the noise
-  // The intensity of a white surface at right angles, at the range `intensity_range`, or at any range
-  // if that is 0. 0: the lidar does not measure intensities.
+  // The intensity of a white surface at right angles, at the range `intensity_range`, or at any
+  // range if that is 0. A scale of 0 means that the lidar does not measure intensities.
   double intensity_scale = 0, intensity_range = 0;
 };
 

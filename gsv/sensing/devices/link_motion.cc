@@ -16,7 +16,7 @@ void MoveTo(const Vector3& to, LinkMotion& motion) {
   motion.place = to;
 }
 
-// Passes a joint at the motion's place to the link that it moves. `rate` and `acceleration` are
+// Moves `motion`, which is at a joint, to the link below the joint. `rate` and `acceleration` are
 // along or about `axis`. `around` is the angular velocity of the link above the joint.
 void PassJoint(const model::Joint& joint, const Vector3& axis, const Vector3& around, double rate,
                double acceleration, LinkMotion& motion) {
@@ -56,7 +56,7 @@ class MotionReader {
   }
 
   std::vector<LinkMotion> Read() && {
-    std::vector<int> chain;  // a link and those above it that are not known yet
+    std::vector<int> chain;  // a link and the links above it whose motion is not known yet
     for (std::size_t link = 0; link < motions_.size(); ++link) {
       chain.clear();
       for (int at = static_cast<int>(link); at >= 0 && !is_known_[static_cast<std::size_t>(at)];) {
@@ -75,7 +75,7 @@ class MotionReader {
     return model().joints[static_cast<std::size_t>(joint)];
   }
 
-  // The place of a joint among the values of all joints.
+  // Returns the place of a joint among the values of all joints.
   std::size_t PlaceOf(int joint) const {
     return static_cast<std::size_t>(body_.first_joint + joint);
   }
@@ -85,8 +85,8 @@ class MotionReader {
     return place < snapshot_.joint_accelerations.size() ? snapshot_.joint_accelerations[place] : 0;
   }
 
-  // How many ball joints end at a link without another kind of joint between them. Each ball joint is
-  // three joints.
+  // Returns the number of consecutive ball joints directly above a link. Each ball joint is three
+  // joints.
   int BallsAbove(int link) const {
     int count = 0;
     for (; link >= 0 && above_[static_cast<std::size_t>(link)] >= 0; ++count) {
@@ -118,7 +118,8 @@ class MotionReader {
     motion.world_from_link = poses_[of];
   }
 
-  // The rates of all three are about axes of the link below the last one.
+  // Passes a ball joint. The rates of its three joints are about axes of the link below the last
+  // one.
   void PassBall(int last, const Pose& world_from_joint, LinkMotion& motion) {
     const Vector3 around = motion.angular_velocity;
     for (int joint = last, i = 0; i < 3; ++i) {

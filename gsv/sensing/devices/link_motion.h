@@ -12,14 +12,14 @@ namespace gsv::sensing {
 
 struct LinkMotion {
   geometry::Pose world_from_link;
-  // Of the point of the link that lies at `place`.
+  // The point of the link at `place`, with its velocity and acceleration.
   geometry::Vector3 place, velocity, acceleration;
   geometry::Vector3 angular_velocity, angular_acceleration;
 
   geometry::Vector3 AccelerationOf(const geometry::Vector3& point) const;
 };
 
-// In the order of the model's links.
+// Returns the motions in the order of the model's links.
 std::vector<LinkMotion> MotionsOfLinks(const world::Snapshot& snapshot, int body);
 
 }  // namespace gsv::sensing

@@ -8,7 +8,7 @@
 //             odometry and truth for each metre and radian); random.linear_per_metre (m),
 //             random.angular_per_metre and random.angular_per_radian (rad): deviations after one
 //             metre and one radian, which grow with the root of the distance. See odometry_drift.h.
-// Readings    readings::Odometry; the lateral velocity is that which the drive commands to its
+// Readings    readings::Odometry; the lateral velocity is the one that the drive commands to its
 //             wheels. As a message: nav_msgs/Odometry from ROBOT/odom to ROBOT/base_link.
 #pragma once
 

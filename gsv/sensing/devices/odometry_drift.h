@@ -32,14 +32,14 @@ struct OdometryDrift {
 
 OdometryDrift ReadOdometryDrift(ParameterReader& reader);
 
-// The odometry's estimate of a distance (m) and a turn (rad), from three standard normal numbers.
+// The odometry's estimate of a distance (m) and a turn (rad), with three standard normal numbers.
 struct OdometryStep {
   double way = 0, turn = 0;
 };
 OdometryStep Drifted(const OdometryDrift& drift, OdometryStep exact, double first, double second,
                      double third);
 
-// The place an odometry that drifts believes in.
+// The position that drifting odometry has estimated.
 class DriftState final : public world::DeviceState {
  public:
   DriftState(world::DeviceMount mount, const OdometryDrift& drift)
@@ -57,7 +57,7 @@ class DriftState final : public world::DeviceState {
 
  private:
   const OdometryDrift drift_;
-  std::optional<geometry::PlanarPosition> exact_;  // none before the first step
+  std::optional<geometry::PlanarPosition> exact_;  // nothing before the first step
   geometry::PlanarPosition estimate_;
 };
 

@@ -28,7 +28,7 @@ class OrientationReference {
   Kind kind_ = Kind::kCustom;
   bool is_world_ = true;
   geometry::Quaternion custom_from_world_;
-  // for GRAV_UP and GRAV_DOWN: x points along the horizontal part of this
+  // for GRAV_UP and GRAV_DOWN: x points along the horizontal part of this vector
   geometry::Vector3 along_x_{1, 0, 0};
 };
 

@@ -223,8 +223,8 @@ TEST(Radio, HashIncludesReceivedMessages) {
   EXPECT_EQ(hash.Digest(), expected.Digest());
 }
 
-// The fraction of messages that "b" receives, of those that "a" and perhaps "c" send in one step
-// each.
+// The fraction of messages that "b" receives, if "a" and perhaps "c" send one each per
+// step.
 class RadioOnTheAir : public RadioLink {
  protected:
   std::vector<double> Strengths(const RadioErrors& errors, int messages, bool c_sends = false) {

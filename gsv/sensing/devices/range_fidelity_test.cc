@@ -48,7 +48,7 @@ const geometry::Sphere kSphere{0.8};
 const geometry::Cylinder kCylinder{0.6, 1.5};
 const geometry::Box kBox{{1, 2, 0.5}};
 
-// (p - o) n / d n.
+// The distance is (p - o) n / (d n).
 double ToPlane(const Line& line, const Pose& pose) {
   const Vector3 normal = pose.orientation * kPlane.normal;
   Nearest nearest;
@@ -56,20 +56,20 @@ double ToPlane(const Line& line, const Pose& pose) {
   return nearest.distance();
 }
 
-// |o - c + t d| = r
+// The distance t solves |o - c + t d| = r.
 double ToSphere(const Line& line, const Pose& pose) {
   const Vector3 from_centre = line.origin - pose.position;
   const double b = Dot(line.direction, from_centre);
   const double root =
       std::sqrt(b * b - Dot(from_centre, from_centre) + kSphere.radius * kSphere.radius);
-  Nearest nearest;  // NaN if there is no root, and NaN is not ahead
+  Nearest nearest;  // if there is no root, the value is NaN and does not count as ahead
   nearest.Offer(-b - root);
   nearest.Offer(-b + root);
   return nearest.distance();
 }
 
-// The mantle satisfies |m + t e| = r, where m and e are o - c and d across the axis. The lids are
-// planes.
+// The curved surface satisfies |m + t e| = r, where m and e are o - c and d perpendicular to the
+// axis. The end faces are planes.
 double ToCylinder(const Line& line, const Pose& pose) {
   const double radius = kCylinder.radius, half = kCylinder.length / 2;
   const Vector3 axis = pose.orientation * Vector3{0, 0, 1};
@@ -123,7 +123,7 @@ class RangeFidelity : public ::testing::Test {
     return {reading->values.begin(), reading->values.end()};
   }
 
-  // Tests 160 poses each of shape, robot and sensor.
+  // Tests 160 random poses, each of the shape, the robot and the sensor.
   template <typename Distance>
   void Compare(const geometry::Shape& shape, const Distance& distance_to) {
     testing::Random random(3);

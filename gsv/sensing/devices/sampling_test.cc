@@ -147,7 +147,7 @@ TEST_F(SamplingTest, OnlySonarsWithoutNoiseAndConeHaveABeam) {
 }
 
 TEST_F(SamplingTest, EqualsSequentialSamplingForAnyNumberOfThreads) {
-  // once with much space, and once with too many bodies for a candidate set
+  // once with few bodies nearby, and once with too many for a candidate set
   for (const double room : {10.0, 0.5}) {
     const auto snapshot = MakeCrowd(120, room);
     RaySceneCache rays;

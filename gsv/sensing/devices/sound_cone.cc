@@ -15,7 +15,7 @@ namespace {
 using geometry::Vector3;
 
 using geometry::kPi;
-constexpr double kSpeedOfSound = 343;  // in air of 20 degrees, m/s
+constexpr double kSpeedOfSound = 343;  // in air at 20 degrees Celsius, m/s
 constexpr double kMaxConeAngle = 0.6;  // wider beams are cut off at this angle, rad
 constexpr int kMaxRings = 24;
 constexpr double kMaxSpacing = 0.1;  // rad
@@ -45,7 +45,8 @@ double Directivity(const SoundSettings& sound, double angle) {
 SoundCone::SoundCone(const SoundSettings& sound)
     : sound_(sound),
       spacing_(std::clamp(sound.specular_width, kMaxConeAngle / kMaxRings, kMaxSpacing)) {
-  // Rings of rays, close enough for one of them to be nearly perpendicular to any surface.
+  // The beams are rings of rays, so close to each other that one of them is nearly perpendicular to
+  // any surface.
   beams_.push_back({{1, 0, 0}, 1});
   for (int ring = 1; ring * spacing_ <= kMaxConeAngle; ++ring) {
     const double angle = ring * spacing_;
@@ -72,7 +73,7 @@ double SoundCone::NearestEcho(const Sampling& sampling, const geometry::Pose& wo
   std::vector<std::optional<Hit>> hits(rays.size());
   sampling.Rays().Cast(rays, sampling.body(), hits);
   std::vector<Echo> echoes;
-  std::map<int, std::size_t> nearest_of;  // for each body, an index in rays
+  std::map<int, std::size_t> nearest_of;  // index in `rays`, by body
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (!hits[i]) continue;
     const double strength = EchoOf(rays[i], *hits[i], beams_[i].strength);
@@ -132,8 +133,8 @@ double SoundCone::FilledPart(const Sampling& sampling, const Echo& echo) const {
       Cross(ray.direction, std::abs(ray.direction.z) < 0.9 ? Vector3{0, 0, 1} : Vector3{1, 0, 0}));
   const Vector3 across = Cross(ray.direction, aside);
   const Vector3 middle = distance * ray.direction;
-  // The distance over which the surface deviates by less than an eighth of a wave from the plane
-  // across the sound's path.
+  // Returns the distance over which the surface deviates by less than an eighth of a wave length
+  // from the plane perpendicular to the sound's path.
   const auto extent = [&](const Vector3& way) {
     const auto is_filled = [&](double offset) {
       const Vector3 there = middle + offset * way;
@@ -159,7 +160,7 @@ void SoundCone::AddSecondReflections(const Sampling& sampling, std::span<const R
                                      std::span<const std::optional<Hit>> hits, double max_distance,
                                      std::vector<Echo>& echoes) const {
   constexpr double kOffTheSurface = 1e-6;
-  // angle from the normal in rad; for smaller angles the first echo is detected
+  // angle from the normal, rad; below it the first echo is detected
   constexpr double kOblique = 0.2;
   std::vector<Ray> mirrored;
   std::vector<std::size_t> places;
@@ -215,14 +216,14 @@ void SoundCone::AddCrosstalk(const Sender& sender, std::span<const Ray> rays,
     if (length < 1e-6) continue;
     const Vector3 out = (1 / length) * way;
     const double along = Dot(out, axis);
-    if (along < kLeastCosine) continue;  // the point is outside the sender's lobe
+    if (along < kLeastCosine) continue;  // the point is outside of the sender's lobe
     const double heard = std::sqrt(beams_[i].strength);
     const Vector3 half = geometry::Normalized(out + rays[i].direction);
     const double cosine = std::clamp(-Dot(half, hits[i]->normal), -1.0, 1.0);
     const double returned = heard * ((1 - sound_.roughness) * Mirrored(std::acos(cosine)) +
                                      sound_.roughness * std::max(cosine, 0.0));
     const double distance = (length + hits[i]->distance) / 2;
-    // it would not even be detected on the sender's axis
+    // the echo would not be detected even on the sender's axis
     if (!IsHeard(returned, distance)) continue;
     const double strength =
         returned * std::abs(Directivity(sender.sound, std::acos(std::min(along, 1.0))));

@@ -34,7 +34,7 @@
 namespace gsv::sensing {
 
 struct SoundSettings {
-  double radius = 0.019;      // m, of the transducer
+  double radius = 0.019;      // radius of the transducer, m
   double frequency = 49.4e3;  // Hz
   double threshold = 0.02;    // smallest detected echo; the strongest is 1 from straight ahead,
                               // 0.0175 from the side lobes
@@ -42,17 +42,17 @@ struct SoundSettings {
   // returns.
   double specular_width = 0.035;
   double roughness = 0;   // fraction of the sound that is scattered in all directions
-  double gain_range = 0;  // m; 0: the amplifier compensates any distance
+  double gain_range = 0;  // m; 0: the amplifier compensates every distance
   bool target_size = false;
   bool second_reflections = false;
-  int firing_slot = 0;  // 0: fires alone
+  int firing_slot = 0;  // 0: the sonar fires alone
 };
 
-// transducer_radius, frequency, threshold, specular_width, roughness, gain_range, target_size,
-// second_reflections and firing_slot, with these defaults.
+// Reads transducer_radius, frequency, threshold, specular_width, roughness, gain_range,
+// target_size, second_reflections and firing_slot, with these defaults.
 SoundSettings ReadSound(ParameterReader& reader);
 
-// The relative amplitude, one way, at an angle off the axis.
+// Returns the relative amplitude, one way, at an angle from the axis.
 double Directivity(const SoundSettings& sound, double angle);
 
 class SoundCone {
@@ -64,15 +64,15 @@ class SoundCone {
     geometry::Pose world_from_sonar;
     SoundSettings sound;
   };
-  // The distance of the nearest detected echo; infinite if there is none. The sonar points along
-  // its x axis. `others` fire at the same time.
+  // Returns the distance of the nearest detected echo; infinite if there is none. The sonar points
+  // along its x axis. `others` fire at the same time.
   double NearestEcho(const Sampling& sampling, const geometry::Pose& world_from_sonar,
                      double max_distance, std::span<const Sender> others = {}) const;
 
  private:
   struct Beam {
-    geometry::Vector3 direction;  // in the sonar's frame
-    double strength = 0;          // there and back
+    geometry::Vector3 direction;  // direction in the sonar's frame
+    double strength = 0;          // strength after both ways
   };
 
   struct Echo {
@@ -81,26 +81,26 @@ class SoundCone {
     Hit hit;
   };
 
-  // The strength of the echo of a ray that was sent with `strength`.
+  // Returns the strength of the echo of a ray that was sent with `strength`.
   double EchoOf(const Ray& ray, const Hit& hit, double strength) const;
-  // The fraction that a surface reflects whose normal deviates by `angle` (rad) from the sound.
+  // Returns the fraction that a surface reflects if its normal is at `angle` (rad) to the sound.
   double Mirrored(double angle) const;
   bool IsHeard(double strength, double distance) const;
-  // The nearest echo that is detected when the size of its target counts.
+  // Returns the nearest detected echo if the size of targets matters.
   double NearestHeard(const Sampling& sampling, std::vector<Echo> echoes) const;
-  // The fraction of the first Fresnel zone that the target of an echo fills.
+  // Returns the fraction of the first Fresnel zone that the target of an echo fills.
   double FilledPart(const Sampling& sampling, const Echo& echo) const;
   void AddSecondReflections(const Sampling& sampling, std::span<const Ray> rays,
                             std::span<const std::optional<Hit>> hits, double max_distance,
                             std::vector<Echo>& echoes) const;
   void AddCrosstalk(const Sender& sender, std::span<const Ray> rays,
                     std::span<const std::optional<Hit>> hits, std::vector<Echo>& echoes) const;
-  // The echo of the nearest point of the hit body, searched in steps from the hit. For bodies
-  // thinner than the spacing of the rays, such as posts.
+  // Returns the echo of the nearest point of the hit body, searched in steps from the hit. It is
+  // for bodies that are thinner than the spacing of the rays, such as posts.
   Echo EchoNear(const Sampling& sampling, Ray ray, Hit hit, const geometry::Vector3& axis) const;
 
   const SoundSettings sound_;
-  const double spacing_;  // rad, between rings of rays
+  const double spacing_;  // angle between rings of rays, rad
   std::vector<Beam> beams_;
 };
 

@@ -19,7 +19,7 @@ using geometry::PlanarPose;
 constexpr double kDegrees = std::numbers::pi / 180;
 constexpr double kMax = 6;
 
-// The reading of a cone at the origin that points along x.
+// Returns the reading of a cone at the origin that points along x.
 double Heard(const std::vector<testing::Placed>& things, model::Parameters parameters = {}) {
   std::vector<testing::Placed> placed = things;
   placed.push_back({"robot", testing::ModelOf(geometry::Sphere{0.05}), {}, false});
@@ -47,13 +47,13 @@ std::vector<testing::Placed> WallAt(double angle) {
 TEST(SoundCone, EqualsThePublishedBeamOfAPolaroidTransducer) {
   const SoundSettings polaroid;
   EXPECT_EQ(Directivity(polaroid, 0), 1);
-  // 15 degrees wide at -6 dB, SensComp's data sheet of the 600 series.
+  // The beam is 15 degrees wide at -6 dB, according to SensComp's data sheet of the 600 series.
   EXPECT_WITHIN(20 * std::log10(Directivity(polaroid, 7.5 * kDegrees)), -6, 0.3, "dB");
-  // The first null of a piston: sin t = 0.61 wave length / radius (Kuc and Siegel, 1987).
+  // The first null of a piston is at sin t = 0.61 wave length / radius (Kuc and Siegel, 1987).
   double null = 0;
   while (Directivity(polaroid, null) > 0) null += 1e-5;
   EXPECT_WITHIN(null / kDegrees, std::asin(0.61 * 343 / 49.4e3 / 0.019) / kDegrees, 0.1, "°");
-  // The first side lobe of a piston: -17.6 dB.
+  // The first side lobe of a piston is at -17.6 dB.
   double side_lobe = 0;
   for (double t = null; t < 0.5; t += 1e-3) {
     side_lobe = std::max(side_lobe, std::abs(Directivity(polaroid, t)));
@@ -79,7 +79,8 @@ TEST(SoundCone, DetectsNoSmoothWallBeyondTheCriticalAngle) {
 }
 
 TEST(SoundCone, DetectsARoughWallWhereTheBeamFirstMeetsIt) {
-  // At 45 degrees the beam's near edge, some 11 degrees off, meets it first: 2 / cos(45° - 11°).
+  // At 45 degrees, the near edge of the beam, some 11 degrees off its axis, meets the wall first: 2
+  // / cos(45° - 11°).
   const double heard = Heard(WallAt(45 * kDegrees), {{"roughness", 0.7}});
   EXPECT_GT(heard, 2 / std::cos(33 * kDegrees));
   EXPECT_LT(heard, 2 / std::cos(38 * kDegrees));

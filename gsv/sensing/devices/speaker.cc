@@ -16,7 +16,8 @@ constexpr std::array<std::string_view, 4> kSounds = {"tone", "buzz", "chirp", "n
 
 double ReadLoudness(ParameterReader& reader) { return reader.Number("loudness", 85, 0, 200); }
 
-// The command: frequency (Hz), duration (s), volume in [0, 1]; the word names the sound.
+// A command has the frequency (Hz), the duration (s) and the volume in [0, 1]. Its word names the
+// sound.
 class SpeakerState final : public world::ActuatorState {
  public:
   SpeakerState(world::DeviceMount mount, world::FollowedCommand followed, double loudness)

@@ -14,8 +14,8 @@ namespace {
 using geometry::Bounds;
 using geometry::Vector3;
 
-// One device per process: it has only settings, no scenes. It is never destroyed, as trees may be
-// destroyed after main().
+// One device per process, which has only settings and no scenes. It is never destroyed, because
+// trees may be destroyed after main().
 RTCDevice EmbreeDevice() {
   static const RTCDevice device = [] {
     RTCDevice made = rtcNewDevice("threads=1,set_affinity=0,isa=avx2");
@@ -26,8 +26,8 @@ RTCDevice EmbreeDevice() {
   return device;
 }
 
-// Single precision has a relative error of 6e-8. It affects a box's corner, a ray's origin, and its
-// direction over the extent of the scene.
+// Returns the padding. Single precision has a relative error of 6e-8. It affects the corners of
+// boxes, the origin of a ray, and its direction over the extent of the scene.
 double PaddingFor(const std::vector<Bounds>& boxes) {
   double furthest = 0;
   for (const Bounds& b : boxes) {
@@ -38,13 +38,13 @@ double PaddingFor(const std::vector<Bounds>& boxes) {
   return 1e-6 + 2e-6 * furthest;
 }
 
-// A box that starts beyond this length does not matter.
+// Returns the length in single precision. Boxes beyond the length do not matter.
 float LengthFor(double length, double padding) {
   return static_cast<float>(length + padding + 1e-6 * std::abs(length));
 }
 
 struct Search {
-  RTCIntersectContext context;  // first: Embree returns its address
+  RTCIntersectContext context;  // the first member, because Embree returns its address
   BoundingVolumeTree::Visitor* visitor;
   double padding;
 };

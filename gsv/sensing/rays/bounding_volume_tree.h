@@ -24,14 +24,14 @@ class BoundingVolumeTree {
   BoundingVolumeTree(const BoundingVolumeTree&) = delete;
   BoundingVolumeTree& operator=(const BoundingVolumeTree&) = delete;
 
-  // Replaces all boxes. `often` favours a quick build over quick rays.
+  // Replaces all boxes. `often` means that a quick build matters more than quick rays.
   void Build(std::span<const geometry::Bounds> boxes, bool often);
 
   class Visitor {
    public:
     virtual ~Visitor() = default;
-    // The ray may meet the content of the box. Returns the new length of the ray, at most the
-    // current one.
+    // Called for a box that the ray may hit. Returns the new length of the ray, at most the present
+    // one.
     virtual double Visit(std::uint32_t box) = 0;
   };
   void Cast(const Ray& ray, Visitor& visitor) const;

@@ -8,17 +8,17 @@ namespace {
 
 using geometry::Bounds;
 
-// Up to this number, each box is tested.
+// Up to this number of boxes, each box is tested.
 constexpr std::size_t kFewBoxes = 8;
 
-// If more boxes share a column, for example when they are stacked or one is far from a crowd, the
+// If more boxes share a column, for example if they are stacked, or if one is far from a crowd, the
 // tree is faster.
 constexpr double kMaxOccupancy = 12;
 
 bool FitsGrid(const Bounds& b) {
   const auto fits = [](double x) {
     return std::abs(x) <= ColumnGrid::kMaxCoordinate;
-  };  // NaN does not
+  };  // NaN is not in the range
   return fits(b.min.x) && fits(b.min.y) && fits(b.max.x) && fits(b.max.y);
 }
 

@@ -1,5 +1,5 @@
-// A broad phase for rays: a list for few boxes, a grid of columns for boxes that lie side by side,
-// a bounding volume hierarchy (BVH) for others.
+// A broad phase for rays: a list for few boxes, a grid of columns for boxes side by side, and a
+// bounding volume hierarchy (BVH) for others.
 //
 // Exactness  no box that a ray passes through within its length is left out, within the limits of
 //            ColumnGrid and BoundingVolumeTree.
@@ -22,7 +22,7 @@ class BoxIndex {
   void Build(std::span<const geometry::Bounds> boxes, bool often);
 
   // Calls visit(box) for every box that the ray may pass through within `length`, which `visit` may
-  // shorten; for some of them more than once.
+  // shorten. A box may be visited more than once.
   template <class Visit>
   void Walk(const Ray& ray, const double& length, const Visit& visit) const {
     switch (kind_) {
@@ -38,8 +38,8 @@ class BoxIndex {
     }
   }
 
-  // Adds to `found`, once, every box within `reach` of the place, and possibly others. False if
-  // there is no room or no fast way; then not all are added.
+  // Adds to `found` every box within `reach` of the place, once, and possibly others. If there is
+  // no space or no fast method, returns false, and some boxes are missing.
   bool Near(const geometry::Vector3& place, double reach, FoundBoxes& found) const {
     if (kind_ == Kind::kGrid) return grid_.Near(place, reach, found);
     if (kind_ == Kind::kTree || found.count + count_ > FoundBoxes::kMax) return false;

@@ -9,7 +9,7 @@
 namespace gsv::sensing {
 namespace {
 
-// A packet relative to a place, in single precision.
+// The rays of a packet relative to a place, in single precision.
 struct Rays {
   alignas(32) std::array<float, RayPacket::kMax> ox, oy, oz, dx, dy, dz, length;
 
@@ -26,13 +26,13 @@ struct Rays {
   }
 };
 
-// Candidates by coordinate, from the place.
+// The spheres of the candidates relative to the place, as a structure of arrays.
 struct Spheres {
   const float *x, *y, *z, *squared_radius;
   std::size_t count;
 };
 
-// Both versions set masks[i] to the rays that come within the radius of sphere i, as Find() does.
+// Both versions set masks[i] to the rays that pass within the radius of sphere i, like Find().
 __attribute__((target("avx2"))) void FindTouchedByAvx2(const Rays& rays, const Spheres& spheres,
                                                        unsigned* masks) {
   const __m256 ox = _mm256_load_ps(rays.ox.data()), oy = _mm256_load_ps(rays.oy.data());

@@ -1,7 +1,7 @@
-// The candidate set of solids near one point, gathered once for many rays from there.
+// The candidate set of solids near one point. It is gathered once for many rays from there.
 //
-// Exactness  candidates are culled by bounding spheres in single precision, enlarged by more than
-//            its error, so that no solid on a ray is left out.
+// Exactness  candidates are culled by bounding spheres in single precision. The spheres are
+//            enlarged by more than its error, so that no solid on a ray is omitted.
 // Threads    const members may run concurrently.
 #pragma once
 
@@ -26,7 +26,7 @@ struct BoundingSphere {
 
 class CandidateSet {
  public:
-  // Larger sets are slower than the broad phase.
+  // Maximum number of solids. Larger sets are slower than the broad phase.
   static constexpr std::size_t kMax = 64;
 
   // Clears the set, for solids within `reach` of `place`.
@@ -35,7 +35,7 @@ class CandidateSet {
   const geometry::Vector3& place() const { return place_; }
   double reach() const { return reach_; }
 
-  // Adds a solid with its bounding sphere if `counts`; `number` is the scene's.
+  // Adds a solid with its bounding sphere if `counts`. `number` is its number in the scene.
   void Add(const BoundingSphere& ball, std::uint32_t number, bool counts) {
     if (count_ == kMax) {
       is_overfull_ = is_overfull_ || counts;
@@ -49,11 +49,11 @@ class CandidateSet {
     z_[count_] = static_cast<float>(centre.z);
     squared_radius_[count_] = static_cast<float>(grown * grown);
     numbers_[count_] = number;
-    // Branch-free, as `counts` is unpredictable.
+    // This is branch-free, because `counts` is unpredictable.
     count_ += counts;
   }
 
-  // Ends the gathering; false if there were too many solids.
+  // Ends the gathering. Returns false if there were too many solids.
   bool Finish();
 
   // Whether the set contains all solids that the ray may meet.
@@ -64,8 +64,8 @@ class CandidateSet {
     std::uint32_t number;
     unsigned rays;
   };
-  // Finds the solids that at least one ray of the packet may touch. The packet must lie within the set,
-  // see Hold(). Returns how many they are.
+  // Finds the solids that at least one ray of the packet may touch, and returns their number. The
+  // packet must be within the set, see Hold().
   std::size_t FindTouched(const RayPacket& rays, std::array<Touched, kMax>& touched) const;
 
   // Calls visit(number) for every solid that the ray may touch within `length`, which `visit` may
@@ -78,7 +78,7 @@ class CandidateSet {
     for (std::size_t i = 0; i < count_; i += 4) {
       const __m128 x = _mm_load_ps(&x_[i]) - ox, y = _mm_load_ps(&y_[i]) - oy;
       const __m128 z = _mm_load_ps(&z_[i]) - oz;
-      // The point of the ray that is nearest to the centre.
+      // The point of the ray that is nearest to the sphere's centre.
       const __m128 along =
           _mm_min_ps(_mm_max_ps(x * dx + y * dy + z * dz, _mm_setzero_ps()), Four(length));
       const __m128 gap_x = x - along * dx, gap_y = y - along * dy, gap_z = z - along * dz;
@@ -90,7 +90,7 @@ class CandidateSet {
   }
 
  private:
-  // Single precision errs by 6e-8 of a coordinate, and the gap between ray and centre takes a dozen
+  // Single precision has a relative error of 6e-8, and the gap between ray and centre takes a dozen
   // operations.
   static constexpr double kRounding = 4e-6;
 
@@ -100,7 +100,7 @@ class CandidateSet {
   double reach_ = -1;
   std::size_t count_ = 0;  // followed by up to three that no ray touches
   bool is_overfull_ = false;
-  // Centres from place_.
+  // Centres relative to place_.
   alignas(16) std::array<float, kMax + 4> x_, y_, z_, squared_radius_;
   std::array<std::uint32_t, kMax> numbers_;
 };

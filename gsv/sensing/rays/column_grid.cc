@@ -10,7 +10,7 @@ using geometry::Bounds;
 // The number of columns per box, and the mean number of columns that list a box.
 constexpr double kColumnsPerBox = 2;
 constexpr std::size_t kMaxEntriesPerBox = 8;
-// The maximum in each direction, because an index has 16 bits.
+// The maximum number of columns in each direction, because an index has 16 bits.
 constexpr double kMaxColumns = 30'000;
 
 }  // namespace
@@ -65,7 +65,8 @@ void ColumnGrid::Build(std::span<const Bounds> boxes) {
     Divide(cell *= 1.5, width, depth);
   }
 
-  // Each count becomes the end of its column's entries and, when they are inserted, their start.
+  // Each count becomes the end of its column's entries. Inserting the entries turns it into their
+  // start.
   double squares = 0;
   std::uint32_t end = 0;
   for (std::uint32_t& start : starts_) {
@@ -101,7 +102,7 @@ bool ColumnGrid::Near(const geometry::Vector3& place, double reach, FoundBoxes& 
     const std::uint32_t* starts = &starts_[std::size_t(row) * (columns_ + 2)];
     const std::uint32_t begin = starts[left], second = starts[left + 1], end = starts[right + 1];
     if (count + (end - begin) > FoundBoxes::kMax) return false;
-    // It is hard to predict which of them count, so that they are written without a branch.
+    // Which entries count is hard to predict, so they are written without a branch.
     for (std::uint32_t i = begin; i < end; ++i) {
       const std::uint32_t mark = row_mark | (i < second ? 0 : kFirstColumn);
       found.boxes[count] = entries_[i] & kBox;

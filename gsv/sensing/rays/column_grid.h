@@ -1,9 +1,9 @@
 // A uniform grid of columns over the ground, which finds the boxes near a ray.
 //
-// The grid is fast if boxes lie side by side, as robots and obstacles do; see occupancy().
+// The grid is fast if boxes are side by side, like robots and obstacles; see occupancy().
 //
-// Exactness    a box is listed in every column within kMargin, so that a ray that rounding takes to
-//              the wrong side of a border still meets it, if coordinates are below kMaxCoordinate.
+// Exactness    a box is listed in every column within kMargin. So it is found even if rounding
+//              moves the ray across a border (up to kMaxCoordinate).
 // Threads      const members may run concurrently.
 #pragma once
 
@@ -40,7 +40,7 @@ class ColumnGrid {
   double occupancy() const { return occupancy_; }
 
   // Calls visit(box) for every box that the ray may pass through within `length`, which `visit` may
-  // shorten; for some of them more than once.
+  // shorten. A box may be visited more than once.
   template <class Visit>
   void Walk(const Ray& ray, const double& length, const Visit& visit) const {
     const RayAxis x(ray.origin.x, ray.direction.x), y(ray.origin.y, ray.direction.y);
@@ -48,7 +48,7 @@ class ColumnGrid {
     x.Clip(low_x_, low_x_ + columns_ * cell_, begin, end);
     y.Clip(low_y_, low_y_ + rows_ * cell_, begin, end);
     if (!(begin <= std::min(end, length))) return;
-    // A ring of empty columns around the grid catches what rounding takes over its edge.
+    // A ring of empty columns around the grid is for rays that rounding moves over its edge.
     const int column = IndexOf(x.At(begin) - low_x_), row = IndexOf(y.At(begin) - low_y_);
     double next_x = x.Reaches(low_x_ + (column - x.is_falling) * cell_);
     double next_y = y.Reaches(low_y_ + (row - y.is_falling) * cell_);
@@ -66,8 +66,8 @@ class ColumnGrid {
     }
   }
 
-  // Adds to `found`, once, every box within `reach` of the place, and possibly others. False if
-  // there is no room; then not all are added.
+  // Adds to `found` every box within `reach` of the place, once, and possibly others. If there is
+  // no space, returns false, and some boxes are missing.
   bool Near(const geometry::Vector3& place, double reach, FoundBoxes& found) const;
 
  private:
@@ -79,15 +79,15 @@ class ColumnGrid {
     std::uint16_t first_column, last_column, first_row, last_row;
   };
 
-  // The column (row) of a coordinate, counted from the ring.
+  // Returns the index of the column (row) of a coordinate, counted from the ring.
   int IndexOf(double from_low) const { return static_cast<int>(from_low * per_metre_ + 1); }
   void Divide(double cell, double width, double depth);
-  // Counts the boxes of each column; false if the total exceeds `limit`.
+  // Counts the boxes of each column. Returns false if the total exceeds `limit`.
   bool Count(std::span<const geometry::Bounds> boxes, std::size_t limit);
 
   double low_x_ = 0, low_y_ = 0;
-  double cell_ = 1, per_metre_ = 1;  // a column is cell_ wide and deep
-  int columns_ = 0, rows_ = 0;       // without the ring
+  double cell_ = 1, per_metre_ = 1;  // width and depth of a column
+  int columns_ = 0, rows_ = 0;       // number of columns and rows without the ring
   double occupancy_ = 0;
   std::vector<Range> ranges_;
   std::vector<std::uint32_t> starts_{0, 0};  // the start of each column in `entries_`, and the end

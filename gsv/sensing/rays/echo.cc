@@ -28,7 +28,7 @@ double LinearOf(std::uint8_t channel) {
   return table[channel];
 }
 
-// The mean luminance of a grid of pixels.
+// Returns the mean luminance of a grid of pixels.
 double LuminanceOf(const model::Image& image) {
   constexpr int kGrid = 16;
   const auto channels = static_cast<std::size_t>(image.channels);

@@ -1,7 +1,7 @@
 // The echoes of light pulses: the nearest surface on each ray, with the quantities that determine how
 // much light returns.
 //
-// Threads  as RayScene.
+// Threads  as for RayScene.
 #pragma once
 
 #include <cstddef>
@@ -15,18 +15,18 @@ namespace gsv::sensing {
 
 struct Echo {
   double distance = 0;     // m
-  double cosine = 1;       // of the angle of incidence: 1 at right angles, 0 along the surface
+  double cosine = 1;       // of the angle of incidence; 1 at right angles to the surface
   double reflectance = 0;  // the fraction of light that the surface reflects, from 0 to 1
 };
 
-// Finds the echo of each ray, not of `ignored_body`. `scene` is one of a RaySceneCache.
+// Finds the echo of each ray. Ignores `ignored_body`. `scene` must be from a RaySceneCache.
 void FindEchoes(const RayScene& scene, std::span<const Ray> rays, int ignored_body,
                 std::span<std::optional<Echo>> echoes);
 
-// The reflectance of the collision with this index: the luminance (ITU-R BT.709, linear light) of a
-// visual's base colour. The visual is the one with the collision's name, else the one with the same
-// index, else the first one. A texture counts with the mean of some of its pixels. 0.5 for a link
-// without visuals.
+// Returns the reflectance of the collision with this index: the luminance (ITU-R BT.709, linear
+// light) of a visual's base colour. The visual is the one with the collision's name, else the one
+// with the same index, else the first one. For a texture, the mean of some of its pixels is used.
+// 0.5 for a link without visuals.
 double ReflectanceOf(const model::Link& link, std::size_t collision);
 
 }  // namespace gsv::sensing

@@ -13,7 +13,7 @@ using geometry::Vector3;
 // Boxes and sectors are extended by this, which is more than their rounding errors.
 constexpr double kGrown = 1e-6;        // m, and a fraction of the distance
 constexpr double kWidened = 1e-7;      // rad
-constexpr double kInTheMiddle = 1e-3;  // m: a solid that is nearer than this is on all sides
+constexpr double kInTheMiddle = 1e-3;  // m: a solid that is nearer than this covers all directions
 
 // A rotation by its columns, which are the images of the x, y and z axes.
 struct Rotation {
@@ -30,8 +30,8 @@ struct Rotation {
   Vector3 operator*(const Vector3& v) const { return v.x * x + v.y * y + v.z * z; }
 };
 
-// A point in the fan's plane, along the direction of `ahead` and perpendicular to it on the left,
-// both multiplied by the length of `ahead` in that plane.
+// A point in the fan's plane, as coordinates along `ahead` and perpendicular to it (left), both
+// multiplied by the length of `ahead` in that plane.
 struct Turned {
   double along, across;
 
@@ -55,7 +55,7 @@ double QuickArcTangent(double x) {
                                                                            s * 0.0028662257))))))));
 }
 
-// The angle with that tangent, and the azimuth of (x, y), with the same error.
+// Return the angle with that tangent, and the azimuth of (x, y), with the same error.
 double QuickAngle(double tangent) {
   if (std::abs(tangent) <= 1) return QuickArcTangent(tangent);
   return std::copysign(std::numbers::pi / 2, tangent) - QuickArcTangent(1 / tangent);
@@ -80,7 +80,7 @@ std::optional<Sector> SectorOf(const Fan& fan, const Pose& box_from_fan, const B
       kGrown * (1 + distance + std::abs(origin.x) + std::abs(origin.y) + std::abs(origin.z));
   if (distance > fan.max_distance + grown) return std::nullopt;
 
-  // The box in the fan's frame: its centre and half of its edges.
+  // The box in the fan's frame: its centre and its half edges.
   const Rotation fan_from_box(Inverse(box_from_fan.orientation));
   const Vector3 middle = fan_from_box * (0.5 * (box.min + box.max) - origin);
   const Vector3 half = 0.5 * (box.max - box.min) + Vector3{grown, grown, grown};
@@ -88,7 +88,7 @@ std::optional<Sector> SectorOf(const Fan& fan, const Pose& box_from_fan, const B
   const Vector3 b = half.y * fan_from_box.y;
   const Vector3 c = half.z * fan_from_box.z;
 
-  // The rays go from height 0 to the height above the box's far end.
+  // From the origin to the far end of the box, the rays go from height 0 to this height.
   double height = 0;
   if (fan.elevation != 0) {
     const double far = LengthOf(middle.x, middle.y) + std::abs(a.x) + std::abs(b.x) +
@@ -115,7 +115,8 @@ std::optional<Sector> SectorOf(const Fan& fan, const Pose& box_from_fan, const B
     sector.is_all = true;
     return sector;
   }
-  // The tangents of the corners' azimuths relative to the nearest point, two corners at a time.
+  // The tangents of the corners' azimuths relative to the nearest point. Two corners are processed
+  // at a time.
   __m128d least = _mm_setzero_pd(), most = _mm_setzero_pd();
   const __m128d c_along = _mm_set_pd(to_c.along, -to_c.along);
   const __m128d c_across = _mm_set_pd(to_c.across, -to_c.across);

@@ -1,4 +1,4 @@
-// The rays of one row of a scanner: from one point, at even azimuths.
+// The rays of one row of a scanner: from one point, at evenly spaced azimuths.
 //
 // Exactness  the sector of a solid contains every ray that touches it; callers compute the
 //            intersections.
@@ -19,7 +19,7 @@ namespace gsv::sensing {
 // the elevation over its xy plane.
 struct Fan {
   geometry::Pose world_from_fan;
-  double first = 0, step = 0;                     // rad; step > 0 unless there is one ray
+  double first = 0, step = 0;                     // rad; step > 0 unless there is only one ray
   double elevation = 0;                           // rad
   double max_distance = 0;                        // m
   std::span<const geometry::Vector3> directions;  // unit vectors along the rays, in the fan's frame
@@ -27,12 +27,12 @@ struct Fan {
 
 // The part of a fan that a solid may occlude: azimuths between `from` and `to`, or all.
 struct Sector {
-  double nearest = 0;  // m from the fan's origin to the solid's box
+  double nearest = 0;  // distance from the fan's origin to the solid's box, m
   double from = 0, to = 0;
   bool is_all = false;
 };
 
-// The sector of a box in its own frame; nothing if no ray comes near.
+// Returns the sector of a box in its own frame; nothing if no ray passes near it.
 std::optional<Sector> SectorOf(const Fan& fan, const geometry::Pose& box_from_fan,
                                const geometry::Bounds& box);
 
@@ -49,7 +49,7 @@ void ForRaysIn(const Sector& sector, const Fan& fan, const Visit& visit) {
   const double last = fan.first + static_cast<double>(count - 1) * fan.step;
   const double width = sector.to - sector.from;
   const double slack = kRounding * fan.step;
-  // A fan may turn more than once.
+  // A fan may span more than one turn.
   double from = sector.from + kTurn * std::ceil((fan.first - sector.to - slack) / kTurn);
   for (; from <= last + slack; from += kTurn) {
     const double begin = std::ceil((from - fan.first) / fan.step - kRounding);

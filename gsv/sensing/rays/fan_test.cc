@@ -1,4 +1,4 @@
-// A scan finds the same as each of its rays alone, and as brute force.
+// Tests that a scan has the same result as its rays one by one, and as a brute-force search.
 #include "gsv/sensing/rays/fan.h"
 
 #include <set>
@@ -48,7 +48,7 @@ geometry::Shape AnyShape(Random& random) {
   }
 }
 
-// Shapes of all kinds at any place, static and moving, a floor, and a mesh.
+// Returns shapes of all kinds at random places, static and moving, with a floor and a mesh.
 std::shared_ptr<world::Snapshot> Clutter(Random& random, int count) {
   std::vector<testing::Placed> bodies;
   bodies.reserve(static_cast<std::size_t>(count) + 2);
@@ -70,8 +70,8 @@ struct Scanner {
 };
 
 Scanner AnyScanner(Random& random, int round) {
-  // Level, as on most robots, and in any orientation; from a sector to more than a turn; up and
-  // down.
+  // The fan is level, as on most robots, or has any orientation. It spans from a sector to more
+  // than a turn, and points up or down.
   const Pose place = round % 2 == 0 ? geometry::PlanarPose(random.Uniform(-4, 4),
                                                            random.Uniform(-4, 4), 0.1, round)
                                     : random.AnyPose(4);
@@ -108,7 +108,7 @@ TEST(Fan, EqualsSingleRays) {
   EXPECT_GT(hits, 2000);
 }
 
-// With more solids than can be gathered, each ray is tested separately.
+// If there are more solids than can be gathered, each ray is tested separately.
 TEST(Fan, EqualsSingleRaysAmongManySolids) {
   Random random(6);
   const auto snapshot = Clutter(random, 700);
@@ -154,7 +154,7 @@ TEST(Fan, SectorsContainEachRayOnce) {
   EXPECT_EQ(RaysIn({0, 2, 2.1, true}, 0, degree, 3), (Set{0, 1, 2}));
 }
 
-// For a box that faces the scanner, the sector is known.
+// The sector of a box that faces the scanner is known in closed form.
 TEST(Fan, SectorIsAsWideAsTheBox) {
   const auto directions = DirectionsOf(-1, 0.1, 21, 0);
   const Fan fan{{}, -1, 0.1, 0, 10, directions};

@@ -10,10 +10,10 @@ namespace gsv::sensing {
 // The highest floor for robots.
 inline constexpr double kMaxFloorHeight = 0.3;  // m
 
-// The height of the highest surface at (x, y) that lies at kMaxFloorHeight or below and is less steep
-// than 45°; 0 if there is none within ten metres down. A ground plane, a floor slab and a low
-// platform are floors; a table top is not.
-// Only bodies that `may_carry` accepts count: a robot's roof is no floor.
+// Returns the height of the highest surface at (x, y) that is at most at kMaxFloorHeight and less
+// steep than 45°; 0 if there is none within ten metres down. A ground plane, a floor slab and a low
+// platform are floors; a table top is not. Only bodies that `may_carry` accepts count, because a
+// robot's roof is no floor.
 double FloorHeight(
     const RayScene& scene, double x, double y,
     const std::function<bool(int body)>& may_carry = [](int) { return true; });

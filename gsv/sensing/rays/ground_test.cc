@@ -21,7 +21,7 @@ TEST(FloorHeight, IsThatOfTheHighestFloorWithoutTables) {
   EXPECT_NEAR(FloorHeight(*scene, 0, 0), 0.19, 1e-12);
   EXPECT_NEAR(FloorHeight(*scene, 1.9, 1.9), 0.19, 1e-12);
   EXPECT_NEAR(FloorHeight(*scene, 5, 0), 0, 1e-12);
-  EXPECT_NEAR(FloorHeight(*scene, 20, 0), 0, 1e-12);  // within the wall
+  EXPECT_NEAR(FloorHeight(*scene, 20, 0), 0, 1e-12);  // the place is inside the wall
 }
 
 TEST(FloorHeight, IsZeroWithoutAFloor) {

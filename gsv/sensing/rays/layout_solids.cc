@@ -19,7 +19,7 @@ void AddLink(const model::Link& link, const Pose& set_from_link, int body, Solid
   }
 }
 
-// The parts of a model that are not empty.
+// Returns the parts of a model that have solids.
 std::vector<Part> MakeParts(const model::Model& model) {
   const std::vector<int> moving = world::MovingLinks(model);
   std::vector<Part> parts(1);
@@ -43,9 +43,9 @@ std::vector<Part> MakeParts(const model::Model& model) {
 }  // namespace
 
 LayoutSolids::LayoutSolids(std::shared_ptr<const world::Layout> of) : layout(std::move(of)) {
-  std::map<const model::Model*, int> known;  // only looked up, never iterated
+  std::map<const model::Model*, int> known;  // used only for lookups, never iterated
   std::vector<BodyPart> endless;
-  std::vector<std::pair<int, int>> bodies;  // moving bodies, and their models
+  std::vector<std::pair<int, int>> bodies;  // moving bodies and the numbers of their models
   for (std::size_t i = 0; i < layout->bodies.size(); ++i) {
     const world::Body& body = layout->bodies[i];
     if (body.is_static()) {

@@ -11,13 +11,13 @@
 
 namespace gsv::sensing {
 
-// The solids of one link, or of all links of a model without relative motion. Shared by all bodies
-// of the model.
+// The solids of one link, or of all links of a model that do not move relative to each other. All
+// bodies of the model share it.
 struct Part {
-  int link = -1;   // link of its frame; -1: the model's frame
-  int number = 0;  // within its model
+  int link = -1;   // the link whose frame it has; -1: the model's frame
+  int number = 0;  // number within its model
   SolidSet solids;
-  BoundingSphere ball;  // around the solids, unless they are unbounded
+  BoundingSphere ball;  // bounding sphere of the solids, unless they are unbounded
 };
 
 // A part of one body.
@@ -35,7 +35,7 @@ struct LayoutSolids {
   SolidSet standing;  // the solids of all static bodies
   std::vector<std::vector<Part>> models;
   std::vector<BodyPart> moving;  // ordered by body, with unbounded parts last
-  std::size_t bounded = 0;       // number of bounded ones in `moving`
+  std::size_t bounded = 0;       // number of bounded parts in `moving`
 };
 
 }  // namespace gsv::sensing

@@ -22,8 +22,8 @@ using geometry::Vector3;
 // The number of parts that a thread places at a time.
 constexpr std::size_t kPartsAtOnce = 512;
 
-// Up to this number, rays are cast at all shapes of a part; otherwise at those that its index
-// finds.
+// Up to this number of shapes, rays are cast at all shapes of a part; otherwise at those that its
+// index finds.
 constexpr std::uint32_t kFewShapes = 4;
 
 // In candidate sets, this bit of the number distinguishes static shapes from moving parts.
@@ -101,7 +101,8 @@ void PlacedSolids::MoveTo(std::shared_ptr<const LayoutSolids> solids,
 }
 
 Bearer PlacedSolids::BearerOf(std::size_t part) const {
-  // The numbers of a body's parts come after its primitives.
+  // The upper bits of a solid's number are the number of its part, so that ties are resolved first
+  // by part.
   return {solids_->moving[part].body, static_cast<int>(part),
           static_cast<std::uint32_t>(parts_[part].part->number) << 24};
 }
@@ -111,7 +112,7 @@ void PlacedSolids::CastAtPart(std::size_t index, const Ray& ray, Nearest& neares
   part->solids.Cast(Moved(part_from_world, ray, nearest.distance), -1, nearest, BearerOf(index));
 }
 
-// Called last, since there are many triangles, and earlier hits shorten the ray.
+// This is called last, because there are many triangles, and earlier hits shorten the ray.
 void PlacedSolids::CastAtUnindexed(const Ray& ray, int ignored_body, Nearest& nearest) const {
   for (std::size_t i = solids_->bounded; i < parts_.size(); ++i) {
     if (solids_->moving[i].body != ignored_body) CastAtPart(i, ray, nearest);

@@ -16,8 +16,8 @@ namespace gsv::sensing {
 
 class PlacedSolids final : public RayScene {
  public:
-  // Sets the poses of `snapshot`, which has the layout of `solids`. Reuses memory. No rays may be
-  // cast meanwhile.
+  // Sets the poses of `snapshot`, which must have the layout of `solids`. Reuses memory. No rays
+  // may be cast during this call.
   void MoveTo(std::shared_ptr<const LayoutSolids> solids, const world::Snapshot& snapshot,
               base::ThreadTeam* team);
 
@@ -45,27 +45,27 @@ class PlacedSolids final : public RayScene {
     int body;
   };
 
-  struct Shading;  // a solid and the rays of a fan that it may occlude
+  struct Shading;  // a solid and the rays of a fan that may hit it
 
   void Place(std::size_t index, const world::Snapshot& snapshot);
   Nearest Find(const Ray& ray, int ignored_body) const;
   geometry::Vector3 NormalAt(const Nearest& nearest, const Ray& ray) const;
   Bearer BearerOf(std::size_t part) const;
   void CastAtPart(std::size_t index, const Ray& ray, Nearest& nearest) const;
-  // Finds the bounded solids within the fan's reach, the nearest first; false if there are too
-  // many.
+  // Finds the bounded solids within the fan's reach, the nearest first. Returns false if there are
+  // too many.
   bool FindShadings(const Fan& fan, int ignored_body, std::vector<Shading>& shadings) const;
   void CastAtUnindexed(const Ray& ray, int ignored_body, Nearest& nearest) const;
-  // Returns false if CastAtUnindexed() finds nothing for all rays of a fan.
+  // Returns false if CastAtUnindexed() would find nothing for all rays of a fan.
   bool UnindexedReach(const Fan& fan, int ignored_body) const;
-  // Casts the rays that a solid may occlude at it, all from the fan's origin. directions[i] is the
-  // direction of ray i in the world; `batch` is working memory.
+  // Casts the rays of a fan that may hit a solid at it. directions[i] is the direction of ray i in
+  // the world; `batch` is working memory.
   void CastInto(const Shading& shading, const Fan& fan,
                 std::span<const geometry::Vector3> directions, std::span<Nearest> nearest,
                 RayBatch& batch) const;
 
   std::shared_ptr<const LayoutSolids> solids_;
-  // In the order of LayoutSolids::moving. The last two are for bounded parts only.
+  // Vectors in the order of LayoutSolids::moving. The last two are only for bounded parts.
   std::vector<PlacedPart> parts_;
   std::vector<PlacedSphere> spheres_;
   std::vector<geometry::Bounds> boxes_;

@@ -8,7 +8,7 @@ namespace gsv::sensing {
 
 struct RayAxis {
   double origin, direction;
-  double inverse;  // one over the direction; kept finite, so that no product with zero is undefined
+  double inverse;  // reciprocal of the direction; finite, because 0 times infinity is undefined
   bool is_falling;
 
   RayAxis(double o, double d)
@@ -18,9 +18,9 @@ struct RayAxis {
         is_falling(std::signbit(d)) {}
 
   double At(double distance) const { return origin + distance * direction; }
-  // The distance at which the coordinate is reached; huge with any sign if it hardly changes.
+  // Returns the distance of the coordinate; huge, with any sign, if the ray hardly approaches it.
   double Reaches(double coordinate) const { return (coordinate - origin) * inverse; }
-  // Clips [begin, end], distances along the ray, to the part between two coordinates.
+  // Clips the interval [begin, end] of the ray to the part between two coordinates.
   void Clip(double low, double high, double& begin, double& end) const {
     const double to_low = Reaches(low), to_high = Reaches(high);
     begin = std::max(begin, std::min(to_low, to_high));

@@ -1,4 +1,4 @@
-// A few rays from near one place, by coordinate, so that they are computed together.
+// A few rays from near one place, as a structure of arrays, so that they are computed together.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ struct RayPacket {
 
   std::size_t count = 0;
   alignas(32) Coordinates origin_x{}, origin_y{}, origin_z{};
-  alignas(32) Coordinates direction_x{}, direction_y{}, direction_z{};  // of unit length
+  alignas(32) Coordinates direction_x{}, direction_y{}, direction_z{};  // direction of unit length
   alignas(32) Coordinates max_distance{};                               // m
 
   void Add(const world::Ray& ray) {

@@ -46,7 +46,7 @@ class RaySceneCache::Impl {
   }
 
  private:
-  // Readers that are a few steps late still find their scene.
+  // The number of recent scenes, so that readers that are a few steps late still find theirs.
   static constexpr std::size_t kRecent = 4;
 
   struct Solids {
@@ -70,7 +70,7 @@ class RaySceneCache::Impl {
       solids_ = std::make_shared<Solids>();
       solids_->layout = snapshot->layout;
     }
-    if (recent_.size() == kRecent) recent_.pop_front();  // may return its scene to the pool
+    if (recent_.size() == kRecent) recent_.pop_front();  // this may return its scene to the pool
     auto entry = std::make_shared<Entry>();
     entry->snapshot = snapshot;
     entry->solids = solids_;
@@ -92,7 +92,7 @@ class RaySceneCache::Impl {
   const std::shared_ptr<Pool> pool_ = std::make_shared<Pool>();
   base::Mutex mutex_;
   std::shared_ptr<Solids> solids_ GSV_GUARDED_BY(mutex_);             // solids of the newest layout
-  std::deque<std::shared_ptr<Entry>> recent_ GSV_GUARDED_BY(mutex_);  // the newest last
+  std::deque<std::shared_ptr<Entry>> recent_ GSV_GUARDED_BY(mutex_);  // the newest is last
 };
 
 RaySceneCache::RaySceneCache() : impl_(std::make_unique<Impl>()) {}

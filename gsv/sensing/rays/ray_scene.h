@@ -1,8 +1,8 @@
 // Casts rays against the solids of a world at one instant.
 //
 // Exactness    the broad phase (a grid or Embree) only finds candidates. The distance is then
-//              computed in double precision from the triangle or the analytic shape, identical on
-//              every machine and for every number of threads.
+//              computed in double precision from the triangle or the analytic shape. It is
+//              bit-identical on every machine and for every number of threads.
 // Threads      const members may run concurrently.
 #pragma once
 
@@ -37,24 +37,24 @@ class RayScene : public world::RayCaster {
   virtual void Cast(std::span<const Ray> rays, int ignored_body,
                     std::span<std::optional<Hit>> hits) const = 0;
 
-  // The distance only, which is faster; infinite if Cast() finds nothing.
+  // Returns only the distance, which is faster; infinite if Cast() finds nothing.
   virtual double Range(const Ray& ray, int ignored_body) const = 0;
 
-  // The same for all rays of a fan, which is faster still: the rays of each solid are found, the
-  // nearest solids first. ranges[i] is that of ray i.
+  // Sets ranges[i] to the range of ray i of a fan. This is even faster than Range(): the rays of
+  // each solid are found, beginning with the nearest solid.
   virtual void Scan(const Fan& fan, int ignored_body, std::span<double> ranges) const = 0;
 
-  // Gathers the candidate set within `reach` of `place` without `ignored_body`, which is faster for
-  // several rays from there. False if there are too many candidates.
+  // Gathers the candidate set within `reach` of `place` without `ignored_body`, which makes several
+  // rays from there faster. Returns false if there are too many candidates.
   virtual bool Gather(const geometry::Vector3& place, double reach, int ignored_body,
                       CandidateSet& candidates) const = 0;
 
-  // The same as Range() for each ray of the packet, which is faster for rays from near `place`.
-  // ranges[i] is that of ray i.
+  // Sets ranges[i] to the range of ray i of the packet, which is faster than Range() for rays from
+  // near `place`.
   virtual void Ranges(const RayPacket& rays, const geometry::Vector3& place, int ignored_body,
                       std::span<double> ranges) const = 0;
 
-  // The same as Range() above, for rays within the candidate set (CandidateSet::Hold()) and its
+  // Like Range() above, for a ray within the candidate set (CandidateSet::Hold()) and with its
   // ignored body.
   virtual double Range(const Ray& ray, int ignored_body, const CandidateSet& candidates) const = 0;
 };
@@ -68,8 +68,8 @@ class RaySceneCache {
   RaySceneCache(const RaySceneCache&) = delete;
   RaySceneCache& operator=(const RaySceneCache&) = delete;
 
-  // Any thread; callers with the same snapshot get the same scene. Builds scenes in parallel on
-  // `team`, if given.
+  // Returns the scene of a snapshot. Any thread may call it; calls with the same snapshot return
+  // the same scene. Builds scenes in parallel on `team`, if it is given.
   std::shared_ptr<const RayScene> At(const std::shared_ptr<const world::Snapshot>& snapshot,
                                      base::ThreadTeam* team = nullptr);
 

@@ -90,8 +90,8 @@ TEST(RayScene, EqualsABruteForceSearch) {
   EXPECT_GT(hits, 1000);
 }
 
-// The result does not depend on the arrangement of boxes: a grid is not suited for stacked or
-// distant ones.
+// The result must not depend on the arrangement of boxes. A grid is not suited for stacked or
+// distant boxes.
 TEST(RayScene, EqualsABruteForceSearchInTowersAndFarAway) {
   Random random(14);
   constexpr int kFloors = 120;
@@ -129,7 +129,7 @@ TEST(RayScene, EqualsABruteForceSearchInTowersAndFarAway) {
 }
 
 TEST(RayScene, FirstOfTwoBodiesAtOneDistanceIsHit) {
-  // Side by side, some of them static; rays go along their common faces.
+  // The boxes are side by side, and some are static. The rays go along their common faces.
   constexpr int kBoxes = 20;
   std::vector<Placed> bodies;
   bodies.reserve(kBoxes);
@@ -231,7 +231,8 @@ TEST(RayScene, NearerBodyIsHitFromTheNextSnapshotOn) {
   after->state.bodies[0].world_from_model.position.y = 3;
   const auto new_scene = cache.At(after);
   EXPECT_DOUBLE_EQ(new_scene->Cast(ray, -1)->distance, 8.5);
-  EXPECT_DOUBLE_EQ(old_scene->Cast(ray, -1)->distance, 4.5);  // still of its own snapshot
+  EXPECT_DOUBLE_EQ(old_scene->Cast(ray, -1)->distance, 4.5);  // the old scene is still that of its
+                                                              // own snapshot
 }
 
 TEST(RayScene, OutlivesItsCache) {

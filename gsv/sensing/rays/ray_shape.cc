@@ -23,12 +23,12 @@ struct Span {
 
   Span() = default;
   Span(double from, double to) : enter(from), leave(to) {}
-  // Constructed like a Chord, without its normals.
+  // Constructed like a Chord; the normals are ignored.
   Span(double from, double to, const Vector3&, const Vector3&) : enter(from), leave(to) {}
   bool empty() const { return !(enter <= leave); }
 };
 
-// A span with the outward normals at both ends (of any length).
+// A span with the outward normals at both ends. They may have any length.
 struct Chord : Span {
   Vector3 enter_normal, leave_normal;
 
@@ -37,14 +37,15 @@ struct Chord : Span {
       : Span(from, to), enter_normal(from_normal), leave_normal(to_normal) {}
 };
 
-// The functions below return Spans or Chords, C: usually only the distance is needed.
+// The functions below are templates: they return a Span or a Chord (C), because usually only the
+// distance is needed.
 
 template <class C>
 C Nothing() {
   return {kInfinity, -kInfinity, {}, {}};
 }
 
-// From the start of `from` to the end of `to`.
+// Returns the span from the start of `from` to the end of `to`.
 Span Joined(const Span& from, const Span& to) { return {from.enter, to.leave}; }
 Chord Joined(const Chord& from, const Chord& to) {
   return {from.enter, to.leave, from.enter_normal, to.leave_normal};
@@ -63,7 +64,7 @@ C ConvexUnion(const C& a, const C& b) {
   return Joined(a.enter <= b.enter ? a : b, a.leave >= b.leave ? a : b);
 }
 
-// The chord between the planes at ±half along one axis.
+// Returns the chord between the planes at ±half along one axis.
 template <class C>
 C Slab(double origin, double direction, double half, const Vector3& axis) {
   if (direction == 0) return std::abs(origin) <= half ? C{} : Nothing<C>();
@@ -97,7 +98,7 @@ C Along(const Ray& ray, const geometry::Sphere& sphere) {
   return BallChord<C>(ray, {}, sphere.radius);
 }
 
-// The chord through the infinite cylinder about z.
+// Returns the chord through the infinite cylinder about z.
 template <class C>
 C PipeChord(const Ray& ray, double radius) {
   const Vector3 flat{ray.direction.x, ray.direction.y, 0};
@@ -129,7 +130,8 @@ C Along(const Ray& ray, const geometry::Capsule& capsule) {
 
 template <class C>
 C Along(const Ray& ray, const geometry::Ellipsoid& ellipsoid) {
-  // In coordinates in which it is the unit sphere; the parameter along the ray stays the same.
+  // The coordinates are scaled such that the ellipsoid is the unit sphere. The parameter along the
+  // ray stays the same.
   const Vector3 shrink{1 / ellipsoid.radii.x, 1 / ellipsoid.radii.y, 1 / ellipsoid.radii.z};
   const Vector3 origin = Scaled(ray.origin, shrink), direction = Scaled(ray.direction, shrink);
   const double speed = Dot(direction, direction);
@@ -160,7 +162,7 @@ C Along(const Ray& ray, const geometry::Cone& cone) {
     };
     return Intersection(slab, C{from, to, normal(from), normal(to)});
   };
-  if (std::abs(a) < 1e-14) {  // parallel to the side: one crossing
+  if (std::abs(a) < 1e-14) {  // the ray is parallel to the side and crosses it once
     if (b == 0) return c <= 0 ? slab : Nothing<C>();
     const double t = -c / (2 * b);
     return b > 0 ? side(-kInfinity, t) : side(t, kInfinity);
@@ -171,7 +173,8 @@ C Along(const Ray& ray, const geometry::Cone& cone) {
   double first = q / a, second = q != 0 ? c / q : first;
   if (first > second) std::swap(first, second);
   if (a > 0) return side(first, second);
-  // Steeper than the side: inside one half of the double cone before, inside the other after.
+  // The ray is steeper than the side: it is inside one half of the double cone before the first
+  // crossing, and inside the other after the last.
   const C before = side(-kInfinity, first);
   return before.empty() ? side(second, kInfinity) : before;
 }

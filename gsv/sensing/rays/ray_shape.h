@@ -1,10 +1,10 @@
 // Intersections of rays with single shapes, in closed form and double precision.
 //
 // Frames   ray and result are in the shape's frame; distances are along the unit direction.
-// Result   the distance to the first crossing of the surface, from outside or inside, within
-//          [0, ray.max_distance]; a touch counts as a crossing. Without a crossing nothing. The
-//          normal is that of the surface there, of unit length and against the ray, for a ray that
-//          was found to cross it.
+// Result   the distance to the first crossing of the surface, from outside or inside, within [0,
+//          ray.max_distance]; nothing if there is none. A touch counts as a crossing. The normal is
+//          that of the surface there, with unit length and against the ray. It is computed only for
+//          a ray that crosses the surface.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@
 
 namespace gsv::sensing {
 
-// A corner and the two edges that leave it.
+// A corner and the two edges from it to the other corners.
 struct Triangle {
   geometry::Vector3 corner, edge1, edge2;
 };

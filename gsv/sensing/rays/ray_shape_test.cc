@@ -37,7 +37,7 @@ TEST(RayShape, RespectsTheLengthOfTheRay) {
 }
 
 TEST(RayShape, HitsRoundShapesAtTheRootsOfTheirEquations) {
-  // At height 0.6 a unit sphere is 0.8 wide.
+  // At the height 0.6, the half width of a unit sphere is 0.8.
   EXPECT_WITHIN(DistanceTo(geometry::Sphere{1}, {5, 0, 0.6}, {-1, 0, 0}), 4.2, 1e-12, "m");
   EXPECT_WITHIN(DistanceTo(geometry::Cylinder{1, 2}, {5, 0.6, 0.5}, {-1, 0, 0}), 4.2, 1e-12, "m");
   EXPECT_WITHIN(DistanceTo(geometry::Cylinder{1, 2}, {0.5, 0, 9}, {0, 0, -1}), 8, 1e-12, "m");
@@ -46,7 +46,7 @@ TEST(RayShape, HitsRoundShapesAtTheRootsOfTheirEquations) {
   EXPECT_WITHIN(DistanceTo(geometry::Ellipsoid{{1, 2, 3}}, {0, 0, 9}, {0, 0, -1}), 6, 1e-12, "m");
   EXPECT_WITHIN(DistanceTo(geometry::Ellipsoid{{1, 2, 3}}, {9, 1.2, 0}, {-1, 0, 0}), 8.2, 1e-12,
                 "m");
-  // Halfway up a cone is half as wide.
+  // Halfway up, a cone is half as wide.
   EXPECT_WITHIN(DistanceTo(geometry::Cone{1, 2}, {5, 0, 0}, {-1, 0, 0}), 4.5, 1e-12, "m");
   EXPECT_WITHIN(DistanceTo(geometry::Cone{1, 2}, {0.5, 0, 9}, {0, 0, -1}), 9, 1e-12, "m");
   EXPECT_WITHIN(DistanceTo(geometry::Cone{1, 2}, {0.5, 0, -9}, {0, 0, 1}), 8, 1e-12, "m");
@@ -67,7 +67,7 @@ TEST(RayShape, HitsATriangleAndItsEdgeButNotBesideIt) {
   EXPECT_FALSE(cast(-1e-9, 0.5));
 }
 
-// Negative inside a shape, positive outside, 0 on its surface.
+// The implicit function of a shape: negative inside, positive outside, 0 on the surface.
 struct Implicit {
   Vector3 p;
   double operator()(const geometry::Box& b) const {
@@ -93,7 +93,8 @@ struct Implicit {
   double operator()(const geometry::Mesh&) const { return 1; }
 };
 
-// The first change of sign along the ray, by steps and bisection; negative if the steps find none.
+// Returns the distance of the first change of sign along the ray, found by steps and bisection;
+// negative if there is none.
 double MarchedDistance(const Shape& shape, const Ray& ray) {
   const auto side = [&](double t) {
     return std::visit(Implicit{ray.origin + t * ray.direction}, shape) > 0;
@@ -141,7 +142,7 @@ TEST(RayShape, AgreesWithMarchingAlongRandomRays) {
       ASSERT_LE(Dot(normal, ray.direction), 0) << i;
       ASSERT_NEAR(Norm(normal), 1, 1e-12) << i;
     }
-    if (hit) {  // the surface exists, even if the steps missed a short chord
+    if (hit) {  // a hit is on the surface, even if the steps have missed a short chord
       const Vector3 p = ray.origin + *hit * ray.direction;
       ASSERT_WITHIN(std::visit(Implicit{p}, shape), 0, 1e-9, "m") << i;
     }

@@ -19,7 +19,7 @@ using geometry::Pose;
 using geometry::Shape;
 using geometry::Vector3;
 
-// Up to this number, each triangle is tested.
+// Up to this number of triangles, each is tested.
 constexpr std::size_t kHandful = 6;
 
 // More than the rounding error of a box or a height: a fraction of the length, and metres.
@@ -30,7 +30,7 @@ Bounds BoundsOfTriangle(const Vector3& a, const Vector3& b, const Vector3& c) {
           {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
 }
 
-// The bounds of the shape's own box, rotated.
+// Returns the bounds of the rotated bounding box of the shape.
 Bounds BoundsOfShape(const Shape& shape, const Pose& set_from_shape) {
   const std::array<Vector3, 8> corners = geometry::CornersOf(geometry::BoundsOf(shape));
   Bounds bounds{set_from_shape * corners[0], set_from_shape * corners[0]};
@@ -84,7 +84,7 @@ struct Reach {
   double operator()(const geometry::Mesh&) const { return kInfinity; }
 };
 
-// Whether a ray passes through a box; also true if it passes within rounding.
+// Tests whether a ray passes through a box. Rays that pass it within rounding errors count as well.
 class BoxTest {
  public:
   explicit BoxTest(const Ray& ray)
@@ -203,8 +203,8 @@ void SolidSet::CastAtShapeFrom(const Vector3& origin_in_shape, RayBatch& rays, s
   }
 }
 
-// The climb of a ray towards a plane per metre: at most that of the normal's part in the fan's
-// plane, plus that of the elevation.
+// The rate at which a ray approaches the plane per metre: at most that of the normal's part in the
+// fan's plane, plus that of the elevation.
 bool SolidSet::OthersReach(const Fan& fan) const {
   if (!triangles_.empty()) return true;
   for (const SolidPlane& plane : planes_) {

@@ -19,23 +19,23 @@
 
 namespace gsv::sensing {
 
-// The body of a set that is one part of a moving body.
+// The body that a set belongs to, if the set is one part of a moving body.
 struct Bearer {
-  int body = -1;  // -1: those given to Add()
-  int part = -1;  // in the scene
+  int body = -1;  // -1: the bodies that were given to Add()
+  int part = -1;  // index of the part in the scene
   std::uint32_t first_primitive = 0;
 };
 
 // The nearest surface found so far.
 struct Nearest {
-  double distance = 0;  // at first the ray's length
-  int body = -1;        // -1: none yet
+  double distance = 0;  // initially the length of the ray
+  int body = -1;        // -1: nothing found yet
   std::uint32_t primitive = 0;
   int part = -1;            // the bearer's
-  std::uint32_t solid = 0;  // in its set, see SolidSet::NormalAt()
+  std::uint32_t solid = 0;  // number in its set, see SolidSet::NormalAt()
 
-  // Takes the hit if it is nearer; at equal distance the lower body, then the lower primitive is
-  // kept.
+  // Takes the hit if it is nearer. At equal distance, the lower body and then the lower primitive
+  // is kept.
   void Offer(double at, int whose, std::uint32_t which, int of_part, std::uint32_t in_set) {
     if (at > distance) return;
     if (at == distance && body >= 0 && (whose > body || (whose == body && which >= primitive))) {
@@ -69,12 +69,12 @@ class SolidSet {
   bool empty() const { return triangles_.empty() && shapes_.empty() && planes_.empty(); }
   // Whether it contains a Plane and is unbounded.
   bool endless() const { return !planes_.empty(); }
-  // The bounding box of all but the planes.
+  // The bounding box of everything except the planes.
   const geometry::Bounds& bounds() const { return bounds_; }
   // The bounding sphere.
   BoundingSphere ball() const;
 
-  // Finds a hit nearer than `nearest` on the ray, not of `ignored_body`.
+  // Finds a hit on the ray that is nearer than `nearest`, but not of `ignored_body`.
   void Cast(const Ray& ray, int ignored_body, Nearest& nearest, const Bearer& bearer = {}) const;
 
   // Casts the ray at a part of the set: all shapes, one shape, or the rest.
@@ -85,25 +85,25 @@ class SolidSet {
   void CastAtOthers(const Ray& ray, int ignored_body, Nearest& nearest,
                     const Bearer& bearer = {}) const;
 
-  // The number of shapes if the set has nothing else; otherwise 0.
+  // Returns the number of shapes if the set contains only shapes; otherwise 0.
   std::uint32_t ShapesAlone() const {
     if (!planes_.empty() || !triangles_.empty()) return 0;
     return static_cast<std::uint32_t>(shapes_.size());
   }
-  // CastAtShape() for rays from one point in the shape's frame, without an ignored body.
+  // Like CastAtShape(), for rays from one point in the shape's frame, without an ignored body.
   void CastAtShapeFrom(const geometry::Vector3& origin_in_shape, RayBatch& rays,
                        std::uint32_t shape, const Bearer& bearer = {}) const;
-  // True if CastAtOthers() may hit something with a ray of the fan, which is in the set's frame.
+  // Whether CastAtOthers() may hit something with a ray of the fan, given in the set's frame.
   bool OthersReach(const Fan& fan) const;
-  // Whether a shape may reach into a box; a bounding sphere is loose for long thin shapes.
+  // Whether a shape may extend into a box. For long shapes, this is stricter than the sphere.
   bool ShapeReaches(std::uint32_t shape, const geometry::Bounds& into) const {
     const geometry::Bounds& b = shape_bounds_[shape];
     return b.min.x <= into.max.x && into.min.x <= b.max.x && b.min.y <= into.max.y &&
            into.min.y <= b.max.y && b.min.z <= into.max.z && into.min.z <= b.max.z;
   }
 
-  // Adds to `found` the shapes within `reach` of the place, and possibly others; false if there is
-  // no fast way.
+  // Adds to `found` the shapes within `reach` of the place, and possibly others. Returns false if
+  // there is no fast method.
   bool Near(const geometry::Vector3& place, double reach, FoundBoxes& found) const {
     return shape_index_.Near(place, reach, found);
   }
@@ -117,13 +117,13 @@ class SolidSet {
     return shape_own_bounds_[shape];
   }
 
-  // Adds the shapes within the reach of `candidates`, their numbers marked by `mark`; false if
-  // there is no fast way.
+  // Adds the shapes within the reach of `candidates`, with numbers that contain the bits of `mark`.
+  // Returns false if there is no fast method.
   bool Gather(CandidateSet& candidates, std::uint32_t mark) const;
 
-  // The normal, against the ray, where the ray meets the solid that Nearest names.
+  // Returns the normal, against the ray, at the point where the ray hits the solid of Nearest.
   geometry::Vector3 NormalAt(std::uint32_t solid, const Ray& ray) const;
-  // The reflectance of the solid that Nearest names.
+  // Returns the reflectance of the solid of Nearest.
   float ReflectanceOf(std::uint32_t solid) const;
 
  private:
@@ -140,7 +140,7 @@ class SolidSet {
   };
   struct SolidPlane {
     SolidShape solid;
-    geometry::Vector3 normal;  // in the set's frame
+    geometry::Vector3 normal;  // normal in the set's frame
     double offset;             // along it
   };
   void AddMesh(const geometry::Mesh& mesh, const geometry::Pose& set_from_mesh, int body);
@@ -153,7 +153,7 @@ class SolidSet {
                        const Bearer& bearer) const;
 
   std::vector<SolidTriangle> triangles_;
-  std::unique_ptr<BoundingVolumeTree> triangle_tree_;  // null for few triangles
+  std::unique_ptr<BoundingVolumeTree> triangle_tree_;  // null if there are few triangles
   std::vector<SolidShape> shapes_;
   std::vector<geometry::Bounds> shape_bounds_;      // padded, in the set's frame
   std::vector<BoundingSphere> shape_spheres_;       // padded, in the set's frame
@@ -165,7 +165,7 @@ class SolidSet {
   std::vector<std::pair<std::uint32_t, float>> mesh_reflectances_;
   std::uint32_t primitives_ = 0;
   geometry::Bounds bounds_;
-  bool bounded_ = false;  // bounds_ is valid
+  bool bounded_ = false;  // whether bounds_ is valid
 };
 
 }  // namespace gsv::sensing

@@ -38,7 +38,7 @@ inline geometry::Mesh RandomMesh(Random& random, int triangles, double size) {
   return {mesh, {1.5, 1, 0.5}};
 }
 
-// The distance to a triangle by areas, independent of the implementation; -1 without a hit.
+// Returns the distance to a triangle by an independent method (areas); -1 without a hit.
 inline double ByAreas(const Ray& ray, const geometry::Vector3& a, const geometry::Vector3& b,
                       const geometry::Vector3& c) {
   const geometry::Vector3 normal = Cross(b - a, c - a);

@@ -18,7 +18,7 @@ inline const SensorRegistry& BuiltInSensors() {
   return registry;
 }
 
-// "front", 0.2 m ahead of its link's origin and 0.3 m above it.
+// Describes the sensor "front", 0.2 m ahead of its link's origin and 0.3 m above it.
 inline model::SensorDescription DescriptionOf(const std::string& type,
                                               model::Parameters parameters = {}) {
   model::SensorDescription description;

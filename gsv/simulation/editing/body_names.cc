@@ -30,7 +30,7 @@ base::Status NameRobots(const world::Layout& layout, std::vector<RobotSpecificat
                         robot.name);
     }
   }
-  // by model, so that numbering a crowd does not begin at two for each member
+  // the next number by model, so that the search for a free number is short in a crowd
   std::map<std::string, int> next_number;
   for (RobotSpecification& robot : robots) {
     if (!robot.name.empty()) continue;

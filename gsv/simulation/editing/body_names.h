@@ -12,7 +12,7 @@ namespace gsv::simulation {
 
 base::Status CheckBodyName(const std::string& name);
 
-// Returns an unused name in `layout`: that of the model, numbered from 2 if it is taken.
+// Returns an unused name in `layout`: the model's name, numbered from 2 if it is taken.
 std::string FreeName(const world::Layout& layout, const std::string& model);
 
 // Gives robots without a name that of their model. Fails if a name is invalid, or taken by a body

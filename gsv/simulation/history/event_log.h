@@ -40,9 +40,9 @@ class EventLog {
   void RemoveObserver(const std::shared_ptr<Observer>& observer);
   // Passes a snapshot to every observer, without holding a lock.
   void Publish(const std::shared_ptr<const world::Snapshot>& snapshot) const;
-  // Whether an observer wants the times of steps.
+  // Whether an observer requests the times of steps.
   bool wants_times() const { return wants_times_.load(std::memory_order_relaxed); }
-  // Passes them to the observers that want them, without holding a lock.
+  // Passes the times of a step to the observers that request them, without holding a lock.
   void Publish(const StepTimes& times) const;
 
  private:

@@ -1,9 +1,9 @@
-// Follows how the bases of robots move: since when each one moves or not, and for how long it was
-// commanded to move without effect. It costs a comparison of poses per robot every 0.1 s of simulated
-// time.
+// Follows the motion of robots' bases: since when each one moves or does not move, and for how long
+// it was commanded to move without effect. It costs a comparison of poses per robot every 0.1 s of
+// simulated time.
 //
-// A base moves if within the last second it got further than 1 cm or 0.02 rad from where it was. A
-// base that vibrates or creeps below this speed does not move.
+// A base counts as moving if within the last second its distance from an earlier pose exceeded 1 cm
+// or 0.02 rad. A base that vibrates or creeps below this speed does not move.
 //
 // Threads      one at a time.
 // Determinism  a function of the followed snapshots.
@@ -17,7 +17,7 @@
 
 namespace gsv::simulation {
 
-// Commanded to move for `stuck_after` without moving, and still commanded to.
+// Whether the base was commanded to move for `stuck_after` without moving, and still is.
 bool IsStuck(const Motion& motion, SimTime stuck_after);
 
 class MotionHistory {
@@ -26,15 +26,15 @@ class MotionHistory {
   // than the last one begins a new history.
   void Follow(const world::Snapshot& snapshot);
 
-  // The motion of a robot, but for its contact partner and `is_stuck`. `body` is its index in
-  // `snapshot`, which may be younger than the last sample.
+  // Returns the motion of a robot, without its contact and `is_stuck`. `body` is its index in
+  // `snapshot`, which may be newer than the last sample.
   Motion Of(const world::Snapshot& snapshot, int body) const;
 
  private:
   struct Track {
-    geometry::Pose anchor;  // where it was up to a second ago
+    geometry::Pose anchor;  // its pose at some time within the last second
     SimTime anchored_at{0};
-    SimTime moved_at{0};  // when it was seen to move last
+    SimTime moved_at{0};  // time at which it last moved
     SimTime moves_since{0};
     SimTime commanded_for{0};
     SimTime contact_since{0};
@@ -46,11 +46,11 @@ class MotionHistory {
   static Track Begin(const world::Snapshot& snapshot, std::size_t body);
 
   std::shared_ptr<const world::Layout> layout_;
-  std::vector<Track> tracks_;  // as the bodies of layout_
+  std::vector<Track> tracks_;  // one for each body of layout_
   SimTime sampled_{0};
 };
 
-// For each body the first one that it touches, besides those that carry it; -1: none.
+// Returns for each body the first one that it touches, except bodies that carry it; -1: none.
 std::vector<int> ContactPartners(const world::Snapshot& snapshot);
 
 }  // namespace gsv::simulation

@@ -1,4 +1,4 @@
-// Measures where the wall-clock time of steps goes. Every moment belongs to one part.
+// Measures the wall-clock time of steps by part. Every moment belongs to one part.
 //
 // Threads  the stepping thread.
 #pragma once
@@ -15,11 +15,11 @@ class StepTimer {
  public:
   using Part = std::chrono::nanoseconds StepTimes::*;
 
-  // The time since the end of the last step does not count, as after a pause.
+  // Ignores the time since the end of the last step, as after a pause.
   void Interrupt() { ended_ = WallTime(); }
-  // Of the time since the end of the last step, so much was a wait for the wall clock.
+  // Declares that a part of the time since the end of the last step was a wait for the wall clock.
   void AddIdle(WallDuration idle) { idle_ += idle; }
-  // The step starts. `held_up_by`: see StepTimes.
+  // Starts the times of a step. For `held_up_by` see StepTimes.
   void Begin(WallTime start, std::string held_up_by) {
     times_ = {};
     if (ended_ != WallTime()) {
@@ -35,7 +35,7 @@ class StepTimer {
     times_.*part += now - mark_;
     mark_ = now;
   }
-  // The step ends.
+  // Ends the step and returns its times.
   const StepTimes& End(std::int64_t step, SimTime time) {
     times_.step = step;
     times_.time = time;

@@ -134,7 +134,7 @@ void MountedSensor::Fail(std::shared_ptr<const world::Snapshot> snapshot) {
 
 void MountedSensor::Forget() {
   const base::MutexLock lock(mutex_);
-  ForbidSweeps();  // the behaviour is initialised again, and opens its sensors again
+  ForbidSweeps();  // the behaviour will be initialised again, and opens its sensors again
   sweeps_ = nullptr;
   has_failed_ = false;
   silent_since_ = nullptr;

@@ -52,12 +52,12 @@ class SensorDesigns {
       GSV_GUARDED_BY(mutex_);
 };
 
-// The sensors of a robot that its behaviour reads together, without a look at each of them.
+// The sensors of a robot that its behaviour reads together, so that single sensors need not count.
 struct Sweeps {
-  // How often the behaviour read all of them. Written by the thread of the behaviour's turn.
+  // How often the behaviour has read all of them. The thread of the behaviour's turn writes it.
   std::atomic<std::uint64_t> count{0};
-  // False once one of the sensors has failed, or somebody else reads it, who wants the same samples
-  // without computing them again. They are then read one by one.
+  // Becomes false if one of the sensors fails, or if another reader needs the same samples. Then
+  // the sensors are read one by one.
   std::atomic<bool> is_allowed{true};
 };
 
@@ -81,7 +81,7 @@ class MountedSensor {
   // The same, for callers other than the robot's behaviour.
   base::Result<sensing::Reading> Watch(const sensing::Sampling& sampling);
 
-  // From now on, each of the sweeps counts as a reading.
+  // From now on, each of these sweeps counts as a reading of this sensor.
   void Join(std::shared_ptr<Sweeps> sweeps);
 
   // Applies a fault. From now on the newest sample is that of `snapshot`. If that is null, reading
@@ -104,7 +104,7 @@ class MountedSensor {
 
   mutable base::Mutex mutex_;
   std::shared_ptr<Sweeps> sweeps_ GSV_GUARDED_BY(mutex_);   // null: none
-  std::uint64_t sweeps_before_ GSV_GUARDED_BY(mutex_) = 0;  // their number when the sensor joined
+  std::uint64_t sweeps_before_ GSV_GUARDED_BY(mutex_) = 0;  // count when it joined
   std::int64_t sampled_step_ GSV_GUARDED_BY(mutex_) = -1;   // -1 if it was never sampled
   std::uint32_t sampled_layout_ GSV_GUARDED_BY(mutex_) = 0;
   sensing::Reading newest_ GSV_GUARDED_BY(mutex_);

@@ -117,7 +117,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   void TakeTurn(const Turn::Instant& instant, sensing::Sampling& sampling);
   // The start of the current turn; empty between turns. Any thread may call this.
   std::optional<WallTime> in_turn_since() const;
-  // The duration of the last turn that was timed. For the stepping thread, after the turn.
+  // The duration of the last timed turn. The stepping thread may call this after the turn.
   WallDuration turn_took() const { return turn_took_; }
   std::function<void()> ApplyTurn() GSV_REQUIRES(simulation_mutex);
   // Marks its local behaviour as ready for a turn.

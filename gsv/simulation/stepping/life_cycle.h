@@ -37,7 +37,7 @@ class LifeCycle {
   RunPace& pace() GSV_REQUIRES(simulation_mutex) { return pace_; }
   const RunPace& pace() const GSV_REQUIRES(simulation_mutex) { return pace_; }
 
-  // Carries out a change of run(). `detail` is the detail of its event.
+  // Carries out a change of run(). `detail` becomes the detail of its event.
   void Apply(RunControl::Change change, const std::string& detail = {})
       GSV_REQUIRES(simulation_mutex);
   void Fail(const std::string& reason) GSV_REQUIRES(simulation_mutex);

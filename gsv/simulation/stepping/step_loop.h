@@ -56,7 +56,7 @@ class StepLoop {
   void WakeAgents() GSV_REQUIRES(simulation_mutex);
   // Runs the local behaviours that are due until they wait.
   void TakeTurns();
-  // While steps are timed, the longest of these turns holds the step up if no other agent runs.
+  // Stores the robot with the longest of these turns, unless another agent delays the step.
   void NoteLongestTurn() GSV_REQUIRES(simulation_mutex);
   void PostBlocked(AgentPopulation::AgentPtr agent, std::function<void()> work);
   void GiveUpOn(RobotAgent& agent) GSV_REQUIRES(simulation_mutex);
@@ -81,7 +81,7 @@ class StepLoop {
   std::vector<RobotAgent*> turns_;  // the agents of the current turns
   EventSignaler event_signaler_;
   EventSignaler::Events woken_;  // events of the agents that were just woken
-  bool is_timed_ = false;        // whether an observer wants the times of steps
+  bool is_timed_ = false;        // whether an observer requests the times of steps
   StepTimer timer_;
 
   std::jthread thread_;
