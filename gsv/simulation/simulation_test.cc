@@ -282,7 +282,7 @@ TEST(Simulation, BehaviourThatGivesUpIsDeadWithItsReasonOnOneLine) {
   for (const Event& event : simulation->events(0)) {
     if (event.kind == "agent_dead") told.push_back(event.detail);
   }
-  EXPECT_EQ(told, std::vector<std::string>{"quitter (test on here:1): " + status.detail});
+  EXPECT_EQ(told, std::vector<std::string>{"quitter (test): " + status.detail});
 }
 
 TEST(Simulation, ADeadBehaviourEndsTheRunIfThePolicyRequiresIt) {
@@ -294,7 +294,7 @@ TEST(Simulation, ADeadBehaviourEndsTheRunIfThePolicyRequiresIt) {
   ASSERT_TRUE(simulation->Start());
   behaviour->dead = true;
   EXPECT_EQ(simulation->WaitForPhase({Phase::kFailed}, kTimeout), Phase::kFailed);
-  EXPECT_NE(simulation->status().failure.find("robot (test on here:1)"), std::string::npos);
+  EXPECT_NE(simulation->status().failure.find("the behaviour of robot (test) died"), std::string::npos);
 }
 
 TEST(Simulation, RobotsCannotBePlacedInsideEachOtherOrAWall) {

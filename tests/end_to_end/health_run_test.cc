@@ -114,6 +114,24 @@ TEST_F(HealthRun, ADifferenceNamesScenarioAndRobot) {
   EXPECT_THAT(list.out, HasSubstr("playground, 1 robot\n"));
 }
 
+TEST_F(HealthRun, EqualRunsWhoseBehaviourDiesHaveEqualRecordings) {
+  setenv("PATH", (folder_.path().string() + ":/usr/bin:/bin").c_str(), 1);
+  for (const std::string fault : {"throw", "die"}) {
+    const auto program = folder_.Write(
+        "gsv-" + fault, "#!/bin/sh\nexec '" + Program("../tests/bad_behaviour").string() +
+                            "' --fault " + fault + " \"$@\"\n");
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    const auto record = [&](const std::string& name) {
+      const std::string file = folder_.path() / (fault + name);
+      const Outcome run = Run({"--robot", "pebble@0,0", "--behaviour", fault, "--record", file});
+      EXPECT_THAT(run.out, HasSubstr("was dead from 0.2 s")) << run.err;
+      return file;
+    };
+    const Outcome diff = Gsv({"rec", "diff", record("-1.mcap"), record("-2.mcap")});
+    EXPECT_EQ(diff.ending, "exit code 0") << diff.out << diff.err;
+  }
+}
+
 TEST_F(HealthRun, BashCompletesCommandsOptionsAndValues) {
   EXPECT_EQ(ReplyOfBash("gsv rec inf", 2), "info\n");
   EXPECT_EQ(ReplyOfBash("gsv run --headl", 2), "--headless\n");

@@ -8,6 +8,20 @@
 
 namespace gsv::simulation {
 
+namespace {
+
+// A sentence about a failed call, without the process that was called. Recordings hold the
+// sentence, and equal runs must have equal recordings.
+std::string WithoutProcess(std::string sentence, const BehaviourPort& behaviour) {
+  const std::string process = " on " + behaviour.place();
+  if (const auto at = sentence.find(process); at != std::string::npos) {
+    sentence.erase(at, process.size());
+  }
+  return sentence;
+}
+
+}  // namespace
+
 void AgentPopulation::Add(const std::string& name, std::shared_ptr<const model::Model> model,
                           bool is_avatar, std::shared_ptr<BehaviourPort> behaviour) {
   const auto agent = std::make_shared<RobotAgent>(name, std::move(model), is_avatar, shared_);
@@ -60,8 +74,9 @@ void AgentPopulation::CallAll(const char* what, base::Status (BehaviourPort::*ca
     caller_.Post(agent->robot(), [this, agent, behaviour = agent->behaviour(), what, call] {
       // A behaviour may ignore the pause, because the clock stops anyway.
       if (const auto status = (behaviour.get()->*call)(); !status) {
-        events_.Emit("behaviour_silent", agent->robot(),
-                     std::string(what) + ": " + status.error().Sentence());
+        events_.Emit(
+            "behaviour_silent", agent->robot(),
+            std::string(what) + ": " + WithoutProcess(status.error().Sentence(), *behaviour));
       }
     });
   }
@@ -98,7 +113,7 @@ void AgentPopulation::Reset() {
 
 void AgentPopulation::ReportDeath(RobotAgent& agent, const std::string& detail) {
   agent.ReportDeath(detail);
-  events_.Emit("agent_dead", agent.robot(), agent.Describe() + ": " + detail);
+  events_.Emit("agent_dead", agent.robot(), agent.DescribeInEvents() + ": " + detail);
   shared_->changed.notify_all();
 }
 
@@ -106,7 +121,8 @@ void AgentPopulation::ReportIfFailed(RobotAgent& agent, const char* what,
                                      const base::Status& status) {
   if (status) return;
   const SimulationLock lock(*shared_);
-  ReportDeath(agent, std::string(what) + " failed: " + status.error().Sentence());
+  ReportDeath(agent, std::string(what) + " failed: " +
+                         WithoutProcess(status.error().Sentence(), *agent.behaviour()));
 }
 
 void AgentPopulation::CheckForDeaths() {

@@ -382,7 +382,7 @@ void RobotAgent::ReportFailure(std::string_view reason) {
   if (death_reported_) return;
   has_given_up_ = true;
   ReportDeath("its run ended with an error: " + base::LogLine(reason, kLongestReason, {}));
-  shared_->given_up.emplace_back(robot_, Describe() + ": " + detail_);
+  shared_->given_up.emplace_back(robot_, DescribeInEvents() + ": " + detail_);
 }
 
 void RobotAgent::MakeReady() {
@@ -497,6 +497,10 @@ void RobotAgent::FillStatus(RobotStatus& status) const {
 std::string RobotAgent::Describe() const {
   if (behaviour_ == nullptr) return robot_;
   return robot_ + " (" + behaviour_->name() + " on " + behaviour_->place() + ")";
+}
+
+std::string RobotAgent::DescribeInEvents() const {
+  return behaviour_ == nullptr ? robot_ : robot_ + " (" + behaviour_->name() + ")";
 }
 
 void RobotAgent::AddToHash(base::Hash& hash) const {

@@ -109,6 +109,9 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   void FillStatus(RobotStatus& status) const GSV_REQUIRES(simulation_mutex);
   // Returns a text such as "robot_3 (wander on host:pid)".
   std::string Describe() const GSV_REQUIRES(simulation_mutex);
+  // Returns a text such as "robot_3 (wander)" for events: without the process, so that equal runs
+  // have equal events.
+  std::string DescribeInEvents() const GSV_REQUIRES(simulation_mutex);
   void AddToHash(base::Hash& hash) const GSV_REQUIRES(simulation_mutex);
   SensorRack& rack() { return rack_; }
 

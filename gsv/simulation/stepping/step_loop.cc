@@ -112,7 +112,7 @@ void StepLoop::WakeAgents() {
     if (woken.has_passed && !agent.is_hosted()) woken_.push_back(agent.wait_event());
     if (woken.has_died && parts_.specification.on_failure == FailurePolicy::kFail &&
         run_.is_running()) {
-      parts_.life_cycle.Fail("the behaviour of " + agent.Describe() + " died");
+      parts_.life_cycle.Fail("the behaviour of " + agent.DescribeInEvents() + " died");
     }
   };
   shared.sleepers.TakeDue(shared.now, wake);
@@ -194,9 +194,9 @@ void StepLoop::GiveUpOn(RobotAgent& agent) {
                              std::to_string(parts_.specification.deadline.count()) + " ms";
   agent.MarkUnresponsive(detail);
   parts_.events.Emit("agent_unresponsive", agent.robot(),
-                     agent.Describe() + " " + detail + "; its robot stops");
+                     agent.DescribeInEvents() + " " + detail + "; its robot stops");
   if (parts_.specification.on_failure == FailurePolicy::kFail)
-    parts_.life_cycle.Fail(agent.Describe() + " " + detail);
+    parts_.life_cycle.Fail(agent.DescribeInEvents() + " " + detail);
 }
 
 bool StepLoop::IsDue(SimulationLock& lock) {

@@ -58,8 +58,8 @@ void Watchdog::CheckTurnDeadlines() {
                                " ms; a behaviour in process cannot be interrupted, so run it as a "
                                "separate program, without --in-process";
     agent->MarkUnresponsive(detail);
-    events_.Emit("agent_unresponsive", name, agent->Describe() + " " + detail);
-    if (failure.empty()) failure = agent->Describe() + " " + detail;
+    events_.Emit("agent_unresponsive", name, agent->DescribeInEvents() + " " + detail);
+    if (failure.empty()) failure = agent->DescribeInEvents() + " " + detail;
   }
   if (failure.empty()) return;
   world_lock_.SetStuck(true);
