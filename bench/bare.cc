@@ -1,10 +1,11 @@
-// Bare operations beside the rows of bench/all: what the machine does without GSV.
+// Measures operations without GSV, for comparison with the rows of bench/all.
 //
-//   bare rays       million rays a second of Embree: fans of 360 rays in packets of 16, from 50 places in
-//                   a standing scene of 400 boxes, by two threads
-//   bare columns    milliseconds to find the smallest value among 100,000 rows that satisfy three terms,
-//                   over columns of doubles
-//   bare fill       images of 320×240 a second, of 4 bytes of colour and 4 of depth, that two threads fill
+//   bare rays       million rays a second of Embree: fans of 360 rays in packets of 16, from 50
+//                   places in a static scene of 400 boxes, by two threads
+//   bare columns    milliseconds to find the smallest value among 100,000 rows that satisfy three
+//                   terms, over columns of doubles
+//   bare fill       images of 320×240 a second, of 4 bytes of colour and 4 of depth, that two
+//                   threads fill
 //
 // Prints one number: the best of several repetitions.
 #include <embree3/rtcore.h>
@@ -42,7 +43,7 @@ void OnTwoThreads(const std::function<void(int)>& work) {
   other.join();
 }
 
-// A box of 1 m on the ground, as 12 triangles.
+// Adds a box of 1 m on the ground, as 12 triangles.
 void AddBox(float x, float y, std::vector<float>& positions, std::vector<unsigned>& triangles) {
   const auto first = static_cast<unsigned>(positions.size() / 3);
   for (unsigned i = 0; i < 8; ++i) {

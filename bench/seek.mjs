@@ -1,11 +1,11 @@
 #!/usr/bin/env node
-// How long a viewer of a replay waits after a jump: to so many random instants, until both the
-// request is answered and the poses of that instant have come.
+// Measures how long a viewer of a replay waits after a jump to a random instant, until both the
+// answer and the poses of that instant have arrived.
 //
 //   bench/seek.mjs PACKAGE_JSON URL [SEEKS]
 //
-// PACKAGE_JSON: whose node_modules hold `ws` (web/package.json). URL is that of `gsv replay --paused`.
-// Prints one JSON object; times in ms.
+// PACKAGE_JSON is beside the node_modules with `ws` (web/package.json). URL is that of `gsv replay
+// --paused`. SEEKS is the number of jumps. Prints one JSON object; times in ms.
 import { createRequire } from "node:module";
 import path from "node:path";
 
@@ -23,7 +23,7 @@ const [{ name }] = await json("api/simulations");
 const address = `api/simulations/${encodeURIComponent(name)}`;
 const { start_s, end_s } = await json(`${address}/replay`);
 
-// The instants repeat from run to run.
+// The instants are the same in every run.
 let state = 1n;
 const random = () => {
   state = (state * 6364136223846793005n + 1442695040888963407n) & 0xffffffffffffffffn;
@@ -36,7 +36,7 @@ await new Promise((resolve) => {
   let poses = 0;
   ws.on("message", (data, isBinary) => {
     if (isBinary) {
-      // Opcode 1, the subscription, the time in nanoseconds.
+      // A message has the opcode 1, the subscription, and the time in nanoseconds.
       if (data[0] === 1 && data.readUInt32LE(1) === poses) posesAt(Number(data.readBigUInt64LE(5)) * 1e-9);
       return;
     }

@@ -1,13 +1,13 @@
 #!/usr/bin/env node
-// How the viewer feels in a browser without a graphics card: the time to the first picture and to the list
-// of the robots, from a click to the selection that is shown, frames a second, traffic; and what a graphics
-// card would have to draw.
+// Measures the viewer in a browser without a graphics card: the time to the first image and to the
+// list of robots, the time from a click to the displayed selection, frames per second, traffic, and
+// the number of drawing calls.
 //
 //   bench/viewing.mjs BUILD [WORLD [picture|arrival|clicks|choosing|traffic|frames|drawing]]
 //
-// BUILD is a release build (build/release); WORLD a world for the first picture, without it the
-// TurtleBot3 house in GSV_REAL_DIR. With a third word only that is measured. The machine should do
-// nothing else: load_average says whether it did. Prints one JSON object; times in ms.
+// BUILD is a release build (build/release). WORLD is a world for the first image; the default is
+// the TurtleBot3 house in GSV_REAL_DIR. The third word selects a single measurement. The machine
+// should be idle: load_average shows whether it was. Prints one JSON object; times in ms.
 import fs from "node:fs";
 import os from "node:os";
 import path from "node:path";
@@ -35,7 +35,7 @@ function summary(times) {
   return { median: sorted[sorted.length >> 1], worst: sorted.at(-1), all: times.map((time) => Math.round(time)) };
 }
 
-// `script` runs in the page before its own.
+// `script` runs in the page before the page's own scripts.
 async function withPage(url, use, script = () => {}) {
   const browser = await openBrowser(SIZE);
   try {
@@ -57,9 +57,9 @@ async function withServer(args, use) {
   }
 }
 
-// From the page's address to a picture with every shape, each in a new browser with nothing of ours
-// in its cache. `prepare` readies the browser before the clock starts. The first after the server's
-// start stands apart.
+// Measures from opening the address to an image with every shape, each time in a new browser with
+// an empty cache. `prepare` prepares the browser before the time starts. The first measurement
+// after the server's start is reported separately.
 const picturesWith = (prepare) =>
   withServer([world, "--robot", "pebble@-2,-1", "--behaviour", "wander"], async (url) => {
     const times = [];
@@ -77,8 +77,8 @@ const picturesWith = (prepare) =>
     return { first_after_start: Math.round(times[0]), later: summary(times.slice(1)) };
   });
 
-// As a person's browser is that has been open for a while: its part that draws has started, for
-// another page.
+// Draws on another page first, as in a browser that has been open for a while: the browser's
+// graphics process is then already running.
 async function drawSomethingElse({ context }) {
   const page = await context.newPage();
   await page.setContent("<canvas></canvas>");
@@ -117,8 +117,8 @@ const frames = (robots) =>
     }),
   );
 
-// Each frame's calls and triangles as a graphics card is given them (nothing is left out for want of
-// one), and the time of the page's script for it.
+// Counts the calls and triangles of each frame that a graphics card would get, and the time of the
+// page's script for it. Nothing is omitted for lack of a card.
 function countDrawing() {
   const drawn = (window.testDrawn = { calls: 0, triangles: 0, script_ms: 0 });
   const count = (mode, vertices) => {
@@ -158,8 +158,8 @@ async function drawnBy(page, robots) {
   return { robots, calls_a_frame: each("calls"), triangles_a_frame: each("triangles"), script_ms_a_frame: each("script_ms") };
 }
 
-// From the page's address to the first row of the list, and to a picture with every shape, each in a new
-// browser.
+// Measures from opening the address to the first row of the list, and to an image with every shape,
+// each time in a new browser.
 const arrival = (robots) =>
   withServer(crowd(folder, robots), async (url) => {
     const [list, picture] = [[], []];
@@ -187,7 +187,7 @@ const choosing = (robots) =>
     }),
   );
 
-// Counts what each topic's messages bring: bytes and messages, in window.testTraffic.
+// Counts the bytes and messages of each topic in window.testTraffic.
 function countTraffic() {
   const traffic = (window.testTraffic = {});
   const Socket = window.WebSocket;
@@ -219,7 +219,8 @@ function countTraffic() {
   };
 }
 
-// kB a second, in all and by topic, with the layers as they are at first or with everything off.
+// Returns the traffic in kB per second, in total and by topic, with the initial layers or with all
+// layers switched off.
 const traffic = (robots, off) =>
   withServer(crowd(folder, robots), (url) =>
     withPage(

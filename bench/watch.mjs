@@ -1,11 +1,11 @@
 #!/usr/bin/env node
-// What viewers cost a server: so many of them subscribe to what our viewer shows, some of them
-// stop reading; the server's processor time, memory and late steps are measured meanwhile.
+// Measures the load of viewers on a server: its processor time, memory and late steps. VIEWERS
+// clients subscribe to the topics of the viewer, and STALLED of them stop reading.
 //
 //   bench/watch.mjs PACKAGE_JSON URL PID [VIEWERS] [STALLED] [SECONDS]
 //
-// PACKAGE_JSON: whose node_modules hold `ws` (web/package.json). URL and PID are those of `gsv run`,
-// `gsv serve` or gateway_dev_server. Prints one JSON object.
+// PACKAGE_JSON is beside the node_modules with `ws` (web/package.json). URL and PID are those of
+// `gsv run`, `gsv serve` or gateway_dev_server. Prints one JSON object.
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import path from "node:path";

@@ -26,7 +26,7 @@ template <typename Info>
 CORBA::Boolean Delay(Info&) {
   static std::atomic<std::uint64_t> number{0};
   std::this_thread::sleep_for(NthDelay(Settings(), number++));
-  return true;  // other interceptors follow
+  return true;  // lets further interceptors run
 }
 
 // Reads the number after `key` and "=" at the start of `text`, and removes both from `text`.

@@ -1,12 +1,12 @@
 #!/usr/bin/env node
-// Draws what a recording holds, read with other people's code alone: @mcap/core for the file,
-// @foxglove/rosmsg and @foxglove/rosmsg2-serialization for the messages.
+// Draws the content of a recording with third-party code only: @mcap/core reads the file,
+// @foxglove/rosmsg and @foxglove/rosmsg2-serialization decode the messages.
 //
 //   tools/draw_recording.mjs PACKAGE_JSON FILE.mcap OUT.svg
 //
-// PACKAGE_JSON is the one whose node_modules hold these packages (web/package.json). Drawn from
-// above: each robot's path (/tf), where its sonars' beams ended (/gsv/beams), what its lidars saw
-// (sensor_msgs/msg/LaserScan, placed by /tf and /tf_static).
+// PACKAGE_JSON is beside the node_modules with these packages (web/package.json). The drawing shows
+// from above: each robot's path (/tf), the ends of its sonars' beams (/gsv/beams), and the points
+// of its lidars (sensor_msgs/msg/LaserScan, placed by /tf and /tf_static).
 import { readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import path from "node:path";
@@ -25,7 +25,7 @@ const LEGEND = 26;
 const MOST_POINTS = 6000; // of each kind
 const CELL = 0.03; // m: points that fall into one are drawn once
 
-// Poses in the plane: [x, y, yaw].
+// Composes poses in the plane: [x, y, yaw].
 const compose = ([x, y, yaw], [u, v, turn]) =>
   [x + Math.cos(yaw) * u - Math.sin(yaw) * v, y + Math.sin(yaw) * u + Math.cos(yaw) * v, yaw + turn];
 function planar({ translation, rotation: { x, y, z, w } }) {
@@ -51,7 +51,7 @@ async function* messagesOf(bytes) {
   }
 }
 
-// Points, thinned out: one a cell.
+// A set of points with at most one point per grid cell.
 class Points {
   cells = new Map();
 
@@ -116,7 +116,7 @@ class Drawing {
     for (let i = 1; i < points.length; i += 2) this.echoes.add(points[i].x, points[i].y, ns);
   }
 
-  // Of robots that moved, in the order of their names.
+  // Returns the robots that moved, ordered by name.
   get robots() {
     return [...this.paths.keys()].filter((robot) => this.paths.get(robot).length > 1).sort();
   }

@@ -11,7 +11,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kMountedMin = 0.05;     // m
 constexpr double kMountedMax = 5.0;      // m
-constexpr double kMountedHeight = 0.12;  // m above the origin; low furniture is seen
+constexpr double kMountedHeight = 0.12;  // height above the origin in m; low enough to detect low
+                                         // furniture
 
 double AngleBetween(double a, double b) { return std::abs(std::remainder(a - b, 2 * kPi)); }
 

@@ -17,12 +17,12 @@ class SonarRing {
 
   struct Echo {
     double bearing = 0;    // rad
-    double distance = 0;   // m from the robot's origin
-    bool in_reach = true;  // false: no echo within the sonar's maximum range
+    double distance = 0;   // distance from the robot's origin, m
+    bool in_reach = true;  // false if there is no echo within the sonar's maximum range
   };
   // Reads all sonars, one after the other.
   std::vector<Echo> Read();
-  // The echoes of the ring among the readings of Robot::Exchange().
+  // Returns the ring's echoes in the readings of Robot::Exchange().
   std::vector<Echo> From(const std::vector<Reading>& readings) const;
 
  private:
@@ -30,12 +30,12 @@ class SonarRing {
     std::string name;
     std::unique_ptr<Sonar> sonar;
     double bearing;
-    double offset;  // m from the robot's origin to the sonar
+    double offset;  // distance from the robot's origin to the sonar, m
   };
   std::vector<Mounted> sonars_;
 };
 
-// The smallest distance of echoes within `half_angle` of `bearing`; infinite if there is none.
+// Returns the distance of the nearest echo within `half_angle` of `bearing`; infinite if none.
 double Nearest(const std::vector<SonarRing::Echo>& echoes, double bearing, double half_angle);
 
 }  // namespace gsv

@@ -50,7 +50,7 @@ base::SimTime TimeFrom(double seconds) {
 
 namespace {
 
-// " in wander.py line 12": the innermost frame of a traceback; empty without one.
+// Returns " in wander.py line 12", the innermost frame of a traceback; empty without a traceback.
 std::string PlaceOf(const py::object& trace) {
   if (trace.is_none()) return {};
   const py::list frames = py::module_::import("traceback").attr("extract_tb")(trace);

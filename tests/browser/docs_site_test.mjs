@@ -59,7 +59,7 @@ testOfSite("the C++ reference is linked, and its search finds a class", async ()
   await page.locator("#MSearchField").pressSequentially("RemoteRobot");
   const results = page.frameLocator("iframe[name=MSearchResults]");
   await results.getByText("RemoteRobot", { exact: true }).first().waitFor();
-  // Pages of doxygen name no icon, so the browser asks for one at the root.
+  // Pages of doxygen declare no icon, so the browser requests /favicon.ico.
   assert.deepEqual(faults.filter((fault) => !fault.includes("/favicon.ico")), []);
   await page.close();
 });

@@ -6,7 +6,7 @@ import process from "node:process";
 const folder = process.env.GSV_DOC_IMAGES;
 const QUALITY = 82;
 
-// Append this to a page's address to draw all pixels, however long that takes.
+// Append this to a page's address to draw all pixels, regardless of the time.
 export const SHARP = folder ? "?quality=high" : "";
 
 export async function keepPicture(page, name) {

@@ -1,5 +1,5 @@
-// Commands by hand: a robot is driven through a door by keys, by the pad and by a gamepad, and an arm's joint is
-// moved. Two viewers do not drive one robot.
+// Tests manual control: keys, the pad and a gamepad drive a robot through a door, and a slider
+// moves a joint of an arm. Two viewers cannot drive the same robot at once.
 import assert from "node:assert/strict";
 import path from "node:path";
 import { after, before, test } from "node:test";

@@ -1,4 +1,4 @@
-// <gsv-view> in a plain page of another origin, which knows nothing but the address of the viewer.
+// Tests <gsv-view> in a plain page of another origin, which has only the address of the viewer.
 import assert from "node:assert/strict";
 import { once } from "node:events";
 import http from "node:http";
@@ -29,7 +29,7 @@ after(async () => {
   await server?.stop();
 });
 
-// The page of docs/viewer.md.
+// The page in docs/viewer.md.
 const pageFor = (url, attributes = "") => `<!doctype html>
 <title>Our lab</title>
 <h1>Our lab</h1>

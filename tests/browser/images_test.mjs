@@ -1,4 +1,5 @@
-// The panel of images: all cameras at once, one in full size with zoom, and the values of a depth image.
+// Tests the images panel: all cameras at once, one camera in full size with zoom, and the values of
+// a depth image.
 import assert from "node:assert/strict";
 import path from "node:path";
 import { after, before, test } from "node:test";
@@ -31,7 +32,7 @@ const press = (name) => page.getByRole("button", { name, exact: true }).click();
 const panel = () => page.getByRole("region", { name: "Images", exact: true });
 const camera = () => panel().getByRole("combobox", { name: "Camera" });
 
-// How many different colours each canvas has: an image that has not come has one.
+// Returns the number of different colours of each canvas. It is one while no image has arrived.
 const colours = () =>
   panel()
     .locator("canvas")
@@ -75,7 +76,7 @@ test("a depth image has a scale, and the value under the pointer", async () => {
   const [least, largest] = (await panel().locator(".picture-scale .number").allTextContents()).map(parseFloat);
   assert.ok(least > 0 && largest > least, `from ${least} to ${largest}`);
   const box = await panel().locator("canvas").boundingBox();
-  // Low in the image is the floor, which every depth camera here sees.
+  // The lower part of the image shows the floor, which is in the range of every depth camera here.
   await page.mouse.move(box.x + box.width / 2, box.y + box.height * 0.8);
   const value = panel().locator(".picture-value");
   await until(async () => /\(\d+, \d+\): [\d.]+ m/.test(await value.textContent()), "a depth");

@@ -98,7 +98,7 @@ for (const [name, key, isWanted, least] of [
     const button = page.locator(`.menu-item[aria-keyshortcuts="${key}"]`);
     const isOn = async () => (await button.getAttribute("aria-pressed")) === "true";
     if (!(await isOn())) await page.keyboard.press(key);
-    // A reading may still arrive.
+    // A last reading may still arrive.
     let drawn = 0;
     await until(async () => {
       await settled(page);

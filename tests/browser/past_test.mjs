@@ -1,4 +1,5 @@
-// The past of a simulation that runs: scrubbed to while it continues, with marks, notes and plots; and back.
+// Tests the history of a running simulation: scrubbing while the simulation continues, with marks,
+// notes and plots, and the return to the present.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import os from "node:os";
@@ -79,7 +80,7 @@ test("one scrubs back while the run continues: the page shows where the robot wa
   assert.ok(Math.hypot(later.x - there.x, later.y - there.y) > 0.2, "the robot did not move");
   await settled(page);
   assert.ok(changedPixels(then, await picture(page, clip)) > 50, "the picture is the same");
-  // And the same instant again shows the same place.
+  // The same instant again must show the same place.
   await scrubTo(2);
   await until(async () => Math.abs((await place()).time - there.time) < 1e-6, "the same poses");
   assert.deepEqual(await place(), there);

@@ -1,4 +1,4 @@
-// Checks pictures by their pixels. A picture is the result of pngjs: {width, height, data: RGBA}.
+// Checks images by their pixels. An image is the result of pngjs: {width, height, data: RGBA}.
 import { requireFromWeb } from "./browser.mjs";
 
 const { PNG } = requireFromWeb("pngjs");
@@ -13,7 +13,7 @@ export async function picture(page, clip) {
   return PNG.sync.read(await page.screenshot({ clip, animations: "disabled", caret: "hide" }));
 }
 
-// Returns the part of a picture inside `rectangle`, in the picture's coordinates.
+// Returns the part of an image inside `rectangle`, in the image's coordinates.
 export function cut(image, { x, y, width, height }) {
   const part = new PNG({ width, height });
   PNG.bitblt(image, part, x, y, width, height, 0, 0);

@@ -1,4 +1,4 @@
-// Tests the functions of pixels.mjs with generated pictures.
+// Tests the functions of pixels.mjs with generated images.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { changedPixels, isBlank, isRed, isYellow } from "./pixels.mjs";

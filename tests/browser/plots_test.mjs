@@ -1,4 +1,4 @@
-// Plots: a curve from any field, expressions, paths and marks of events, as they are drawn.
+// Tests plots as they are drawn: curves of any field, expressions, paths, and marks of events.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
@@ -30,7 +30,8 @@ const choose = (name, value) => panel().getByRole("combobox", { name }).selectOp
 const legend = () => panel().getByRole("list", { name: "Curves" });
 const charts = () => panel().getByRole("img", { name: "Plot", exact: true }).locator("canvas");
 
-// How many pixels of a curve are blue, the colour of the first curve, or of the colour of the second.
+// Returns the number of pixels with a colour: blue for the first curve, or the colour of the second
+// curve.
 async function pixelsOf(colour) {
   return charts().evaluateAll((canvases, name) => {
     const isOf = { blue: (r, g, b) => b > 180 && r < 120, orange: (r, g, b) => r > 180 && b < 120 && g > 60 && g < 160 }[name];
@@ -65,7 +66,7 @@ test("a value and an expression of it are two curves in two charts", async () =>
 test("an event is marked where it happened, and named under the pointer", async () => {
   await choose("Time shown", "null");
   const box = await panel().getByRole("img", { name: "Plot", exact: true }).boundingBox();
-  // The pause is the newest instant, at the right edge of the axis.
+  // The instant of the pause is the newest one, at the right edge of the axis.
   await until(async () => {
     for (const left of [10, 11, 12, 13, 14, 16, 18]) {
       await page.mouse.move(box.x + box.width - left, box.y + box.height / 2);

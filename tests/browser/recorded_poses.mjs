@@ -7,12 +7,13 @@ const { parse } = requireFromWeb("@foxglove/rosmsg");
 const { MessageReader } = requireFromWeb("@foxglove/rosmsg2-serialization");
 const fzstd = requireFromWeb("fzstd");
 
-// [{time, poses}], by time; `poses` are seven numbers each, as the scene lists them.
+// Returns [{time, poses}], ordered by time. `poses` has seven numbers for each body, in the order
+// of the scene.
 export async function readPoses(file) {
   return (await readTopic(file, "/gsv/poses")).map(({ time, message }) => ({ time, poses: message.poses }));
 }
 
-// [{time, message}], by time.
+// Returns [{time, message}], ordered by time.
 export async function readTopic(file, topic) {
   const bytes = fs.readFileSync(file);
   const reader = await McapIndexedReader.Initialize({

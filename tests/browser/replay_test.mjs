@@ -147,7 +147,7 @@ test("the view keeps its image until it is drawn in another size", async () => {
 test("events are marked at their times, and a click goes there", async () => {
   const events = await ask(page, "/events");
   assert.deepEqual(
-    // Collisions are events too; which there are depends on where the behaviour drives.
+    // The events also contain collisions, which depend on where the behaviour drives.
     events.filter(({ event }) => event !== "collision").map(({ event, time_s }) => [event, time_s]),
     [
       ["started", 0],

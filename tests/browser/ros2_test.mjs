@@ -1,4 +1,5 @@
-// The switch "Publish to ROS 2" of the form: what the page creates is seen by `gsv ros2 topics`, a process of its own.
+// Tests the switch "Publish to ROS 2" of the form: `gsv ros2 topics`, in a separate process, lists
+// the topics of the simulation that the page creates.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import fs from "node:fs";

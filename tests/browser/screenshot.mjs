@@ -1,10 +1,10 @@
-// Takes a picture of a viewer, as for the documentation.
+// Takes a screenshot of a viewer, as for the documentation.
 //
 //   node screenshot.mjs URL FILE.png [--size 1280x800] [--view default|top|robot] [--select ROBOT]
 //                       [--theme light|dark] [--after SECONDS] [--only-view]
 //
-// --view robot follows the selected robot (or the first). --after waits until that much simulated
-// time is on the clock. --only-view leaves out the panels around the 3D view.
+// --view robot follows the selected robot (or the first). --after waits until the simulated time is
+// SECONDS. --only-view omits the panels around the 3D view.
 import process from "node:process";
 import { parseArgs } from "node:util";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";

@@ -1,7 +1,8 @@
-// A tab whose machine stops for a while, as when a laptop sleeps, while others watch: they lose nothing,
-// and it catches up, or connects again and says so.
+// Tests a tab whose machine stops for a while, as when a laptop sleeps, while other viewers watch.
+// The others lose no messages, and the tab catches up, or connects again and reports this.
 //
-// GSV_STALL_S  how long it stands still (5; `make soak`: 180, longer than a server waits for it)
+// GSV_STALL_S  duration of the stop (5; `make soak`: 180, which is longer than a server waits for
+// it)
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import process from "node:process";
@@ -38,7 +39,8 @@ after(async () => {
   await server?.stop();
 });
 
-// A viewer without a page that is subscribed to the poses. `times` are the times of its updates.
+// Returns a viewer without a page that subscribes to the poses. `times` has the times of its
+// updates.
 async function watch() {
   const socket = new WebSocket(`${server.url.replace("http", "ws")}ws`, ["foxglove.sdk.v1"]);
   const watcher = { socket, times: [], dropped: null };
@@ -78,7 +80,7 @@ function renderersOf({ profile }) {
   return renderers.map(({ pid }) => pid);
 }
 
-// The instant of an update that a watcher receives.
+// Waits until a watcher has received an update of this instant.
 function reached({ socket, times }, time_s) {
   return new Promise((resolve, reject) => {
     socket.on("message", () => Number(times.at(-1)) >= time_s * 1e9 && resolve());

@@ -1,4 +1,4 @@
-// Tests the offers of a service whose host can no longer be reached.
+// Tests the offers of a service whose host is no longer reachable.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -21,7 +21,7 @@ class HealthRun : public ::testing::Test {
     unsetenv("GSV_BROKER");
   }
   static Outcome Gsv(Strings arguments) { return RunProgram("gsv", std::move(arguments)); }
-  // A run of two seconds.
+  // Executes a run of two seconds.
   static Outcome Run(Strings more) {
     Strings arguments{"run", "playground", "--headless", "--lockstep", "--duration", "2"};
     arguments.insert(arguments.end(), more.begin(), more.end());

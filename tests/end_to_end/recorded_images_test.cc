@@ -1,4 +1,4 @@
-// Images and films of recordings, as `gsv snapshot` and `gsv film` make them.
+// Tests images and films of recordings, made by `gsv snapshot` and `gsv film`.
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -14,7 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 using Strings = std::vector<std::string>;
 
-// Half a second of the playground with one robot.
+// Uses a recording of half a second of the playground with one robot.
 class RecordedImages : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -39,7 +39,8 @@ class RecordedImages : public ::testing::Test {
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
-  // The size in a PNG file: big-endian, behind the signature and the head of the first chunk.
+  // Returns the size in a PNG file: big-endian, after the signature and the header of the first
+  // chunk.
   static std::pair<int, int> SizeOf(const std::string& png) {
     const auto number = [&](std::size_t at) {
       int value = 0;
@@ -59,7 +60,7 @@ TEST_F(RecordedImages, ASnapshotIsAnImageOfTheInstant) {
   ASSERT_EQ(whole.ending, "exit code 0") << whole.err;
   EXPECT_THAT(whole.out, HasSubstr("160 x 120 pixels, at 0.250 s"));
   EXPECT_EQ(SizeOf(Text(Path("a.png"))), std::pair(160, 120));
-  // The same instant gives the same bytes, another camera others.
+  // The same instant gives the same bytes, and another camera gives other bytes.
   ASSERT_EQ(Gsv("snapshot", {"--at", "0.25", "--size", "160x120", "-o", Path("b.png")}).ending,
             "exit code 0");
   EXPECT_EQ(Text(Path("a.png")), Text(Path("b.png")));
@@ -79,13 +80,13 @@ TEST_F(RecordedImages, AFilmHasAFrameForEachInstant) {
   for (Strings* each : {&folder, &animation}) each->insert(each->end(), size.begin(), size.end());
   const Outcome frames = Gsv("film", folder);
   ASSERT_EQ(frames.ending, "exit code 0") << frames.err;
-  EXPECT_THAT(frames.out, HasSubstr("11 frames, 0.550 s"));  // at 0, 0.05, … 0.5 s
+  EXPECT_THAT(frames.out, HasSubstr("11 frames, 0.550 s"));  // frames at 0, 0.05, … 0.5 s
   EXPECT_TRUE(std::filesystem::exists(Path("frames/000011.png")));
   EXPECT_FALSE(std::filesystem::exists(Path("frames/000012.png")));
   ASSERT_EQ(Gsv("film", animation).ending, "exit code 0");
   EXPECT_THAT(Text(Path("run.apng")), HasSubstr("acTL"));
   EXPECT_EQ(SizeOf(Text(Path("run.apng"))), std::pair(64, 48));
-  // A frame is the snapshot of its instant.
+  // A frame equals the snapshot of its instant.
   ASSERT_EQ(Gsv("snapshot", {"--at", "0.3", "--size", "64x48", "-o", Path("at.png")}).ending,
             "exit code 0");
   EXPECT_EQ(Text(Path("frames/000007.png")), Text(Path("at.png")));

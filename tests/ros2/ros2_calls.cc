@@ -17,7 +17,7 @@ char* Text(const std::string& text) { return const_cast<char*>(text.c_str()); }
 
 char* Text(const char* text) { return const_cast<char*>(text); }
 
-// The argument, or nothing; "-" is empty.
+// Returns the argument, or an empty text if it is missing or "-".
 std::string Word(const Words& words, std::size_t i) {
   return i >= words.size() || words[i] == "-" ? std::string() : words[i];
 }
@@ -28,7 +28,7 @@ void SetId(Id& id, const Words& words) {
   id[15] = static_cast<std::uint8_t>(Number(words, 0));
 }
 
-// One service of /gsv.
+// A client of one service of /gsv.
 template <typename Request, typename Response>
 class Client {
  public:
@@ -40,7 +40,7 @@ class Client {
     participant.Watch(reader_);
   }
 
-  // False when the server is not found in time.
+  // Returns false if the server is not found within the time limit.
   bool Connect() {
     dds_publication_matched_status_t out{};
     dds_subscription_matched_status_t in{};
@@ -59,7 +59,7 @@ class Client {
     request.number = ++number_;
     if (dds_write(writer_, &request) < 0) Die("a request cannot be sent");
   }
-  // Gives the replies to this client that have come.
+  // Passes the received replies to this client's requests to `use`.
   template <typename Use>
   int Take(Use use) {
     int count = 0;
@@ -116,7 +116,7 @@ Json List(const Sequence& sequence) {
   return list;
 }
 
-// A line with its words to a response; false when none came.
+// Converts a line of words to a call. Returns false if no response came.
 using Call = std::function<bool(const Words& words)>;
 
 class Calls {
@@ -173,7 +173,7 @@ constexpr auto kEntity = [](auto& request, const Words& words) {
   entity = Word(words, 0);
   request.entity = Text(entity);
 };
-// An empty text where no pointer may be null.
+// Sets an empty text where a pointer must not be null.
 constexpr auto kFilter = [](auto& request, const Words& words) {
   static std::string filter;
   filter = Word(words, 0);

@@ -1,4 +1,4 @@
-// Calls services as rmw_cyclonedds does, and an action.
+// Calls services as rmw_cyclonedds does, and uses an action.
 #pragma once
 
 #include <istream>
@@ -22,8 +22,8 @@ namespace gsv::ros2_peer {
 // topic. Returns an exit code.
 int CallAll(Participant& participant, std::istream& lines);
 
-// Sends `count` calls of get_entity_state, of which `window` may be without a reply at a time, and prints how many
-// replies came that fit their requests.
+// Sends `count` calls of get_entity_state, with at most `window` calls in progress at a time, and
+// prints the number of replies that match their requests.
 int CallMany(Participant& participant, const std::string& entity, int count, int window);
 
 }  // namespace gsv::ros2_peer

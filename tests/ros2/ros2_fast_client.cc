@@ -1,10 +1,11 @@
-// A client of get_entity_state that follows rmw_fastrtps: it names the reader that waits for the reply in the request's
-// related sample identity, and finds its replies by theirs.
+// A client of get_entity_state that follows rmw_fastrtps. A request names the reader that waits for
+// the reply, and a reply names its request, both in the related sample identity.
 //
 //   ros2_fast_client PLUGIN_FOLDER ENTITY COUNT WINDOW
 //
-// Sends COUNT calls, of which WINDOW may be without a reply at a time, and prints how many replies came that fit their
-// requests. Exits 0 when all came within 60 s. ROS_DOMAIN_ID chooses the domain.
+// Sends COUNT calls, with at most WINDOW calls in progress at a time, and prints the number of
+// replies that match their requests. Exits with 0 if all came within 60 s. ROS_DOMAIN_ID selects
+// the domain.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>

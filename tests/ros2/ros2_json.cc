@@ -5,7 +5,7 @@
 namespace gsv::ros2_peer {
 namespace {
 
-// Infinities and NaN, which JSON does not have, as strings.
+// Converts infinities and NaN to strings, because JSON has no such numbers.
 Json Number(double value) {
   if (value != value) return "nan";
   if (value - value != 0) return value > 0 ? "inf" : "-inf";

@@ -1,4 +1,4 @@
-// Samples that Cyclone DDS decoded, as JSON with the fields' names.
+// Converts samples that Cyclone DDS decoded to JSON with the names of the fields.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -21,7 +21,7 @@ Json ToJson(const sensor_msgs_msg_dds__Range_& message);
 Json ToJson(const sensor_msgs_msg_dds__Imu_& message);
 Json ToJson(const sensor_msgs_msg_dds__JointState_& message);
 Json ToJson(const sensor_msgs_msg_dds__CameraInfo_& message);
-// The pixels as {"bytes": how many}, with the first three.
+// Converts the pixels to {"bytes": their number}, with the first three bytes.
 Json ToJson(const sensor_msgs_msg_dds__Image_& message);
 Json ToJson(const rcl_interfaces_msg_dds__Log_& message);
 

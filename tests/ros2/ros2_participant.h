@@ -55,14 +55,14 @@ class Participant {
   explicit Participant(const Arguments& arguments)
       : deadline_(Clock::now() +
                   std::chrono::milliseconds(static_cast<std::int64_t>(1000 * arguments.timeout))) {
-    // Replies to clients of another convention do not decode, which would be logged.
+    // Disables the log, because replies to clients of other RMW implementations do not decode.
     dds_set_log_mask(0);
     if (!arguments.uses_multicast) {
       Made(dds_create_domain(arguments.domain, kLoopback), "a domain");
     }
     Join(arguments);
   }
-  // Another participant in the domain of the first.
+  // Joins the domain of the first participant.
   Participant(const Arguments& arguments, const Participant& first) : deadline_(first.deadline_) {
     Join(arguments);
   }
@@ -74,7 +74,7 @@ class Participant {
     return std::equal(std::begin(own.v), std::end(own.v), std::begin(endpoint.participant_key.v));
   }
 
-  // Volatile; best effort takes whatever a writer offers.
+  // Creates a volatile reader. A best-effort reader matches every writer.
   dds_entity_t Reader(const Type& type, const std::string& topic, bool is_reliable = false) {
     dds_qos_t* const qos = dds_create_qos();
     dds_qset_reliability(qos, is_reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
@@ -85,7 +85,7 @@ class Participant {
     dds_delete_qos(qos);
     return reader;
   }
-  // One that also gets what was sent before it came.
+  // Creates a reader that also gets samples that were sent before it existed.
   dds_entity_t LatchedReader(const Type& type, const std::string& topic) {
     dds_qos_t* const qos = dds_create_qos();
     dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
@@ -95,8 +95,9 @@ class Participant {
     dds_delete_qos(qos);
     return reader;
   }
-  // The two ends of a service's client. They keep all samples, as those of rmw_cyclonedds do: the reader gets the
-  // replies to all clients, and with "keep last" these replace a reply that was not taken yet.
+  // Creates the writer and the reader of a service's client. They keep all samples, as in
+  // rmw_cyclonedds: with "keep last", replies to other clients would replace one that was not taken
+  // yet.
   dds_entity_t Requester(const dds_topic_descriptor_t& type, const std::string& service) {
     return Endpoint(&dds_create_writer, type, "rq" + service + "Request", kKeepAll);
   }
@@ -119,12 +120,12 @@ class Participant {
     dds_set_status_mask(reader, DDS_DATA_AVAILABLE_STATUS);
     dds_waitset_attach(waits_, reader, reader);
   }
-  // Waits a moment for discovery. False when the time is over.
+  // Waits briefly for discovery. Returns false after the time limit.
   bool Pause() {
     dds_sleepfor(DDS_MSECS(5));
     return Clock::now() < deadline_;
   }
-  // False when the time is over.
+  // Returns false after the time limit.
   bool WaitForData() {
     const auto left = deadline_ - Clock::now();
     if (left <= left.zero()) return false;
@@ -161,7 +162,7 @@ class Participant {
   dds_entity_t entity_ = 0, waits_ = 0;
 };
 
-// The next sample of a reader goes to `use`; false when there is none.
+// Passes the next sample of a reader to `use`. Returns false if there is none.
 template <typename Use>
 bool TakeOne(dds_entity_t reader, Use use) {
   void* samples[1] = {nullptr};

@@ -1,11 +1,11 @@
 // A ROS 2 peer that shares no code with GSV: Cyclone DDS, with types that its idlc generated from IDL.
 //
-//   ros2_peer listen [--count N] TYPE:TOPIC…     prints N samples of each as JSON, one a line
-//   ros2_peer count --seconds S TYPE:TOPIC…      prints how soon each topic had a sample, and how many samples
-//                                                came in S seconds after that
-//                                                (--reliable: by reliable readers)
-//   ros2_peer latency ROBOT                      sends --count commands to turn left and right, and prints in how many
-//                                                milliseconds ROBOT/imu showed each
+//   ros2_peer listen [--count N] TYPE:TOPIC…     prints N samples of each topic as JSON, one per line
+//   ros2_peer count --seconds S TYPE:TOPIC…      prints the time to the first sample of each topic, and the number
+//                                                of samples in the next S seconds
+//                                                (--reliable: for reliable readers)
+//   ros2_peer latency ROBOT                      sends --count commands to turn left and right, and prints after how many
+//                                                milliseconds ROBOT/imu showed each of them
 //   ros2_peer drive --distance M [--stamped] ROBOT   sends cmd_vel until ROBOT/odom shows M metres
 //   ros2_peer step --seconds S [--speed V] ROBOT answers each /clock with a TwistStamped of its time, until S seconds of
 //                                                simulated time are over
@@ -13,14 +13,14 @@
 //                                                infinities, and 20,000 commands from a second publisher, 10,000 a second
 //   ros2_peer call                               calls the services in the lines of its standard input (ros2_calls.h)
 //   ros2_peer call-many ENTITY                   calls get_entity_state --count times, --window at a time
-//   ros2_peer malformed ROBOT                    sends samples that are cut, and ones with huge counts, to its commands
-//                                                and to a service of /gsv
-//   ros2_peer endpoints TOPIC…                   prints endpoints of others until each topic (rt/clock) was
-//                                                among them: topic, type, QoS, user data
+//   ros2_peer malformed ROBOT                    sends truncated samples, and samples with huge counts, to its command
+//                                                topics and to a service of /gsv
+//   ros2_peer endpoints TOPIC…                   prints endpoints of other participants until each topic (rt/clock)
+//                                                was among them: topic, type, QoS, user data
 //
-// All take --domain D, --timeout SECONDS (default: 20) and --multicast, which leaves Cyclone DDS its default
+// All commands take --domain D, --timeout SECONDS (default: 20) and --multicast, which leaves Cyclone DDS its default
 // settings; without it, it stays on loopback and uses no multicast. TYPE is "sensor_msgs/msg/LaserScan", TOPIC is
-// "/pebble/scan". Exits 0 when all came, 1 when the time is over, 2 on wrong usage.
+// "/pebble/scan". Exits with 0 if all came, 1 after the time limit, 2 for a usage error.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -190,7 +190,7 @@ int Count(const Arguments& arguments) {
   return 0;
 }
 
-// A command goes out with each odometry, so that nothing here depends on time.
+// A command is sent for each odometry message, so that the result does not depend on time.
 int Drive(const Arguments& arguments) {
   if (arguments.words.size() != 1) Die("drive needs one robot, such as /pebble");
   const std::string& robot = arguments.words.front();
@@ -234,7 +234,7 @@ int Drive(const Arguments& arguments) {
   return 0;
 }
 
-// As a node that steps a robot in lockstep.
+// Acts as a node that steps a robot in lockstep.
 int Step(const Arguments& arguments) {
   if (arguments.words.size() != 1) Die("step needs one robot, such as /pebble");
   Participant participant(arguments);
@@ -263,7 +263,7 @@ int Step(const Arguments& arguments) {
   return 0;
 }
 
-// Whether a reader of this writer was found before the time was over.
+// Whether a reader for this writer was found within the time limit.
 bool WaitForReader(Participant& participant, dds_entity_t writer) {
   dds_publication_matched_status_t status{};
   while (dds_get_publication_matched_status(writer, &status) == 0 && status.current_count == 0) {
@@ -272,7 +272,7 @@ bool WaitForReader(Participant& participant, dds_entity_t writer) {
   return true;
 }
 
-// Commands go out at pseudo-random instants, so that they meet each part of a step.
+// Commands are sent at pseudo-random instants, so that they arrive in all parts of a step.
 int Latency(const Arguments& arguments) {
   if (arguments.words.size() != 1) Die("latency needs one robot, such as /pebble");
   const std::string& robot = arguments.words.front();
@@ -308,11 +308,12 @@ int Latency(const Arguments& arguments) {
   return 0;
 }
 
-// Bad commands go out with each odometry, for about two seconds. The robot's odometry must stay finite.
+// Bad commands are sent for each odometry message, for about two seconds. The robot's odometry must
+// stay finite.
 int Disturb(const Arguments& arguments) {
   if (arguments.words.size() != 1) Die("disturb needs one robot, such as /pebble");
   const std::string topic = arguments.words.front() + "/cmd_vel";
-  constexpr int kRounds = 100, kCommandsEach = 200;  // 10,000 a second
+  constexpr int kRounds = 100, kCommandsEach = 200;  // 10,000 commands per second
   Participant participant(arguments);
   const dds_entity_t odometry =
       participant.Reader(TypeNamed("nav_msgs/msg/Odometry"), arguments.words.front() + "/odom");
@@ -344,7 +345,7 @@ int Disturb(const Arguments& arguments) {
   return std::isfinite(x) ? 0 : 1;
 }
 
-// A type of this content under another name.
+// Returns a type with this content under another name.
 dds_topic_descriptor_t Disguised(const dds_topic_descriptor_t& content, const char* name) {
   return {.m_size = content.m_size,
           .m_align = content.m_align,
@@ -357,7 +358,7 @@ dds_topic_descriptor_t Disguised(const dds_topic_descriptor_t& content, const ch
           .m_meta = ""};
 }
 
-// Each sample goes out with an odometry, so that gsv is seen to run on.
+// A sample is sent for each odometry message, which shows that gsv continues to run.
 int Malformed(const Arguments& arguments) {
   if (arguments.words.size() != 1) Die("malformed needs one robot, such as /arm");
   const std::string robot = "rt" + arguments.words.front();

@@ -84,7 +84,7 @@ class Robot {
     return Inverse(world_from_heading_) * in_world;
   }
 
-  // The rotation of a link by the joint above it.
+  // Returns the rotation of a link by the joint above it.
   geometry::Quaternion Steering(int link) const {
     for (std::size_t j = 0; j < model_.joints.size(); ++j) {
       const model::Joint& joint = model_.joints[j];
@@ -95,8 +95,8 @@ class Robot {
     return {};
   }
 
-  // The collision whose surface is nearest to a point on the ground. Balls and wheels have their
-  // radius; of others, the lowest corner counts.
+  // Returns the collision whose surface is nearest to a point on the ground. For balls and wheels
+  // this uses the radius, and for other shapes the lowest corner.
   std::pair<int, const model::Collision*> Nearest(const Vector3& point) const {
     std::pair<int, const model::Collision*> nearest{0, nullptr};
     double least = std::numeric_limits<double>::infinity();
@@ -133,11 +133,12 @@ class Robot {
   Pose world_from_model_, world_from_heading_;
 };
 
-// Mean square distances of the points from their mean, along x and y, and their product.
+// The mean square distances of the points from their mean along x and y, and the mean product of
+// both distances.
 struct Spread {
   double x = 0, y = 0, xx = 0, yy = 0, xy = 0;
   double narrowest() const { return (xx + yy) / 2 - std::hypot((xx - yy) / 2, xy); }
-  // The direction in which they spread most, as an angle from x.
+  // The direction of the largest spread, as an angle from x.
   double direction() const { return std::atan2(2 * xy, xx - yy) / 2; }
 };
 
@@ -169,7 +170,7 @@ void ShareAlongLine(std::vector<Support>& supports, const Spread& spread, const 
 
 // Sets the load of each support, as a fraction of the weight.
 void ShareWeight(std::vector<Support>& supports, const Vector3& centre) {
-  constexpr double kLine = 1e-3;  // smallest spread across a line, m
+  constexpr double kLine = 1e-3;  // minimum spread across a line, m
   const Spread spread = SpreadOf(supports);
   if (spread.narrowest() < kLine * kLine) return ShareAlongLine(supports, spread, centre);
   std::array<Three, 3> rows{};

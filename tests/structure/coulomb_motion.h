@@ -32,8 +32,8 @@ struct GroundMotion {
   double x = 0, y = 0, turn = 0;
 };
 
-// The motion by Coulomb's law if both edges of each wheel carry load, and the minimum and the maximum
-// of each part of it over all choices of one edge of each wheel. Each choice has its own loads.
+// The motion by Coulomb's law if both edges of each wheel carry load, with the minimum and the
+// maximum of each component over all choices of one edge per wheel. Each choice has its own loads.
 struct CoulombRange {
   GroundMotion both, min, max;
 };

@@ -1,5 +1,5 @@
-// `gsv completion`: scripts with which shells complete commands, options and their values. They are
-// made from the table of commands, so that they cannot lack any.
+// `gsv completion`: scripts that let a shell complete commands, options and their values. The
+// scripts are made from the table of commands, so that no command is missing.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -22,12 +22,12 @@ struct CompletedOption {
   std::string name;  // "--robot"
   std::string help;  // one line
   bool takes_value = false;
-  std::vector<std::string> values;  // if it takes only these
+  std::vector<std::string> values;  // the values, if the option takes only these
 };
 
 struct CompletedCommand {
-  std::string path;                                           // "rec info"; empty: gsv itself
-  std::vector<std::pair<std::string, std::string>> commands;  // names and helps
+  std::string path;                                           // "rec info"; empty for gsv itself
+  std::vector<std::pair<std::string, std::string>> commands;  // the names and the help texts
   std::vector<CompletedOption> options;
 };
 
@@ -96,7 +96,7 @@ std::vector<std::string> NamesOf(const CompletedCommand& command) {
   return names;
 }
 
-// Options whose values `gsv list` knows.
+// The options whose values `gsv list` prints.
 const std::array<std::pair<const char*, const char*>, 3> kListed{
     {{"--behaviour", "behaviours"}, {"--robot", "models"}, {"--avatar", "models"}}};
 

@@ -38,7 +38,7 @@ std::string Json(const FoundSimulation& simulation) {
   json.update(nlohmann::ordered_json::parse(gateway::StatusJson(simulation.status)));
   const auto healths = HealthOf(simulation);
   for (auto& robot : json["robots"]) {
-    robot.erase("health");  // it was computed without the robot's motion
+    robot.erase("health");  // the health was computed without the robot's motion
     const auto found = healths.find(robot.value("name", ""));
     if (found == healths.end()) continue;
     const RemoteHealth& health = found->second;
@@ -54,7 +54,7 @@ std::string Json(const FoundSimulation& simulation) {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-// Prints its health if the server reports it, else the detail of its state.
+// Prints the robot's health if the server reports it, else the detail of the robot's state.
 void PrintRobot(const simulation::RobotStatus& robot,
                 const std::map<std::string, RemoteHealth>& healths) {
   const std::string behaviour = robot.behaviour.empty() ? "-" : robot.behaviour;
@@ -125,7 +125,7 @@ int List(const Arguments& arguments) {
   return kOk;
 }
 
-// Prints the lines that behaviours' programs have printed.
+// Prints the lines that behaviour programs have printed.
 int PrintOutput(const Arguments& arguments) {
   const auto simulation = FindOneSimulation(arguments.selection);
   if (!simulation) return PrintError(simulation.error());
@@ -151,8 +151,8 @@ int PrintOutput(const Arguments& arguments) {
 
 using Call = std::function<void(sba::Simulation_ptr, const Arguments&)>;
 
-// Waits until the steps are done. A behaviour may take any time for them. Returns false if the user
-// interrupts.
+// Waits until the steps are done. Behaviours may make this arbitrarily long. Returns false if the
+// user interrupts.
 base::Result<bool> AwaitRest(const FoundSimulation& simulation, Signals& signals) {
   auto phase = sba::PHASE_STARTING;
   while (phase == sba::PHASE_STARTING || phase == sba::PHASE_RUNNING) {

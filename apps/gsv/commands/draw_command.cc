@@ -36,8 +36,8 @@ struct DrawArguments {
   bool json = false;
 };
 
-// Returns the world at the start of a simulation, with pedestrians at their starts. It also works
-// for worlds that cannot be simulated, if they have no pedestrians.
+// Returns the world at the start of a simulation, with pedestrians at their starts. A world that
+// cannot be simulated is accepted if it has no pedestrians.
 base::Result<std::shared_ptr<const world::Snapshot>> FirstInstant(
     model::WorldDescription description) {
   auto world = std::make_shared<const model::WorldDescription>(std::move(description));

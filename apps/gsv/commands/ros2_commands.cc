@@ -29,8 +29,8 @@ using SteadyClock = std::chrono::steady_clock;
 
 struct Ros2CommandArguments {
   std::string range, topic;
-  double seconds = 3;  // of wall time
-  long count = 0;      // of messages; 0: until a signal
+  double seconds = 3;  // wall-clock time, s
+  long count = 0;      // number of messages; 0: no limit
 };
 
 base::Result<ros2::dds::ParticipantOptions> Reach(const Ros2CommandArguments& arguments) {
@@ -54,7 +54,7 @@ base::Result<std::unique_ptr<Participant>> Join(const Ros2CommandArguments& argu
   return MakeParticipant(*reach);
 }
 
-// Waits for the time of the observation. False: a signal has come.
+// Waits for the duration of the observation. Returns false if a signal came.
 bool Look(const Ros2CommandArguments& arguments, Signals& signals) {
   return signals.WaitFor(static_cast<int>(arguments.seconds * 1000)) == 0;
 }
@@ -110,7 +110,7 @@ int Nodes(const Ros2CommandArguments& arguments, Signals& signals) {
   return kOk;
 }
 
-// The topic as its publishers offer it: the strictest QoS that all of them fulfil.
+// Returns the topic with the strictest QoS that all of its publishers offer.
 base::Result<ros2::dds::Topic> Find(const Participant& participant,
                                     const Ros2CommandArguments& arguments, Signals& signals) {
   const std::string name = ros2::DdsTopicName(arguments.topic);

@@ -75,7 +75,7 @@ int Await(Runtime& runtime, Simulation& simulation, const RunOptions& options, S
   }
 }
 
-// Whether the scenario causes this end: a fault kills the behaviour, or a sensor that it reads.
+// Whether the scenario causes this end: a fault stops the behaviour, or a sensor that it reads.
 bool WasToDie(const Simulation& simulation, const std::string& robot) {
   const auto& faults = simulation.specification().faults;
   return std::any_of(faults.begin(), faults.end(), [&](const scenario::Fault& fault) {
@@ -84,7 +84,7 @@ bool WasToDie(const Simulation& simulation, const std::string& robot) {
   });
 }
 
-// Prints how behaviours ended, and returns the exit code that follows from this.
+// Prints how behaviours ended, and returns the exit code for that.
 int JudgeBehaviours(const Simulation& simulation, int exit_code) {
   const auto status = simulation.status();
   for (const auto& robot : status.robots) {

@@ -1,4 +1,4 @@
-// gsv world save: the world of a running simulation, as it stands now, as files.
+// gsv world save: saves the current world of a running simulation as files.
 #include <cstdio>
 #include <filesystem>
 

@@ -20,7 +20,7 @@ namespace {
 
 struct SnapshotArguments {
   std::string output, token, authority;
-  Selection selection;  // its simulation may also be the name of a file
+  Selection selection;  // the name of its simulation may also be a file
   std::optional<double> at;
   view::Camera camera;
 };
@@ -56,7 +56,7 @@ std::string TargetOf(const SnapshotArguments& arguments, const std::string& simu
   return target;
 }
 
-// The sentence that a server sent instead of an image.
+// Returns the sentence that a server sent instead of an image.
 base::Error RefusalOf(const gateway::Response& response) {
   const auto json = nlohmann::json::parse(response.body.view(), nullptr, false);
   const auto sentence = json.is_object() ? json.find("error") : json.end();
@@ -72,7 +72,7 @@ base::Error RefusalOf(const gateway::Response& response) {
           {}};
 }
 
-// The server of the simulation draws it, as it is now.
+// Lets the server of the simulation render the current instant.
 int DrawSimulation(const SnapshotArguments& arguments) {
   if (arguments.at) {
     return RefuseImage({base::ErrorCode::kInvalidArgument,

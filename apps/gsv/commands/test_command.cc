@@ -142,7 +142,7 @@ void OpenFirstFailure(const std::vector<TestResult>& results, Signals& signals) 
       return;
     }
     const auto line = (*replay)->ReadLine(std::chrono::seconds(60));
-    if (!line) return;  // it has said why on stderr
+    if (!line) return;  // the viewer has printed the reason on stderr
     std::fprintf(stderr, "%s (the first failure, %s; end with Ctrl-C)\n", line->c_str(),
                  result.test.name.c_str());
     while (signals.WaitFor(100) == 0 && (*replay)->Ending().empty()) {
@@ -171,7 +171,7 @@ int RunTests(const TestArguments& arguments, Signals& signals) {
   options.record = !arguments.no_record;
   auto share = ShareOf(*std::move(cases), *shard);
   const int jobs = JobsFor(arguments, share.size());
-  // Concurrent runs are not faster if they use more threads.
+  // Concurrent runs are not faster with more threads each.
   if (jobs > 1) options.threads = 1;
   TestSession session(std::move(share), options, !arguments.json);
   const std::vector<TestResult> results = session.Run(jobs, signals);

@@ -83,7 +83,7 @@ int StatusOf(const std::string& answer) {
   return answer.starts_with("HTTP/1.1 ") && answer.size() > 12 ? std::atoi(answer.c_str() + 9) : 0;
 }
 
-// A LocateRequest of GIOP 1.0, little-endian, for any object key (CORBA 3.0, 15.4.5)
+// A LocateRequest of GIOP 1.0, little-endian, for an arbitrary object key (CORBA 3.0, 15.4.5)
 std::string AskingForAnObject() {
   const char request[] = "GIOP\1\0\1\3\x0c\0\0\0\1\0\0\0\4\0\0\0none";
   return {request, sizeof request - 1};

@@ -25,7 +25,7 @@
 namespace gsv::app {
 namespace {
 
-// Enough for a hundred behaviours, as many viewers, and the program's own files.
+// Enough for a hundred behaviours, a hundred viewers, and the program's own files.
 constexpr rlim_t kEnoughDescriptors = 512;
 constexpr double kEnoughRoom = 1;  // space for recordings, GB
 
@@ -85,7 +85,7 @@ void CheckLibrary(const char* name, const char* what, const char* package) {
   }
 }
 
-// Its path; empty: it is not on PATH.
+// Returns the program's path, or an empty text if it is not on PATH.
 std::string FindOnPath(const char* program) {
   const char* const path = std::getenv("PATH");
   std::istringstream folders(path != nullptr ? path : "");
@@ -96,7 +96,7 @@ std::string FindOnPath(const char* program) {
   return {};
 }
 
-// The folder of the Python module that belongs to this program; empty: none.
+// Returns the folder of the Python module that belongs to this program, or an empty text.
 std::string OwnPythonFolder() {
   const auto root = ProgramFolder().parent_path();
   for (const char* folder : {"lib/python3/dist-packages", "python", "sdk/python"}) {
@@ -106,7 +106,7 @@ std::string OwnPythonFolder() {
   return {};
 }
 
-// Behaviours in Python need the module gsv. Nothing else does, so that this never fails.
+// Only behaviours in Python need the module gsv, so this check never fails.
 void CheckPython() {
   const std::string python = FindOnPath("python3");
   if (python.empty()) {

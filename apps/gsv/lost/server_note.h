@@ -25,13 +25,13 @@ struct LostSimulation {
   double time_s = 0;       // simulated time at the last update
   std::int64_t noted = 0;  // time of the last update, s since 1970
   std::string recording;   // a file or folder; empty if it was not recorded
-  // the time of the recording's last message; set after it was read
+  // the time of the recording's last readable message; set after the file was read
   std::optional<double> whole_until_s;
   std::string server;  // the server that ran it, such as "gsv (process 123)"
 };
 
 // Returns a sentence such as "arena on gsv (process 123) was lost at about 12.3 s, when its server
-// ended without a word; recording X.mcap, whole until 11.9 s".
+// ended unexpectedly; recording X.mcap, whole until 11.9 s".
 std::string Sentence(const LostSimulation& lost);
 // Returns {name, world, phase: "lost", last_phase, time_s, noted, server, recording,
 // whole_until_s?, sentence}.

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kMaxLine = 64 * 1024;
 
 struct Ends {
-  int input = -1, output = -1, errors = -1;  // of the child; -1: none, or the parent's
+  int input = -1, output = -1, errors = -1;  // descriptors of the child; -1: none, or the parent's
 };
 
 // Runs in the child and never returns. Another thread may have held malloc's locks during the fork, so this
@@ -41,7 +41,7 @@ struct Ends {
   _exit(127);
 }
 
-// Pointers to the words, and null.
+// Returns pointers to the words, with null at the end.
 std::vector<char*> PointersTo(std::vector<std::string>& words) {
   std::vector<char*> pointers;
   pointers.reserve(words.size() + 1);
@@ -50,7 +50,7 @@ std::vector<char*> PointersTo(std::vector<std::string>& words) {
   return pointers;
 }
 
-// A pipe whose ends close themselves unless they are taken.
+// A pipe that closes its ends, except those that were taken out of it.
 class Pipe {
  public:
   Pipe() = default;

@@ -37,8 +37,8 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   pid_t pid() const { return pid_; }
-  // Descriptors for OutputReader, valid during the lifetime of this object. Errors: -1 unless it is
-  // captured.
+  // Descriptors for OutputReader, valid during the lifetime of this object. errors() is -1 unless
+  // stderr is captured.
   int output() const { return output_; }
   int errors() const { return errors_; }
   int pid_descriptor() const { return pid_descriptor_; }

@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kMaxLineBytes = 16 * 1024;
 constexpr int kPauseMilliseconds = 200;
 constexpr std::chrono::milliseconds kSettleTimeout{500};
-constexpr int kMaxReadsAtEnd = 1000;  // of 4 KiB, more than a pipe holds
+constexpr int kMaxReadsAtEnd = 1000;  // reads of 4 KiB; together more than a pipe holds
 
 // Returns how the child ended. Does not reap it, because its owner does.
 std::string EndingOf(pid_t pid) {
@@ -107,7 +107,7 @@ bool OutputReader::Read(Source& source) {
   return true;
 }
 
-// A process that the child started may keep the pipe open and write on.
+// Another process that the child started may keep the pipe open and continue to write.
 void OutputReader::ReadRest(Source& source) {
   pollfd event{source.descriptor, POLLIN, 0};
   for (int i = 0; i < kMaxReadsAtEnd && poll(&event, 1, 0) > 0 && Read(source); ++i) {

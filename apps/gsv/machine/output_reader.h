@@ -1,7 +1,7 @@
-// Reads what child processes print, line by line, on a thread of its own, so that no child waits
-// for room in a pipe.
+// Reads the output of child processes line by line on its own thread, so that no child blocks on a
+// full pipe.
 //
-// Bounded  a line has at most 16 KiB; a longer one continues in the next.
+// Bounded  a line has at most 16 KiB; a longer line is split.
 // Threads  Add() and the destructor from one thread; the callbacks run on the reader's thread.
 #pragma once
 
@@ -24,9 +24,9 @@ class OutputReader {
   enum class Stream { kOutput, kErrors };
   struct Callbacks {
     std::function<void(pid_t pid, Stream stream, const std::string& line)> on_line;
-    // After its last line. `ending` is "exit code 1" or "signal 11".
+    // Called after the last line. `ending` is "exit code 1" or "signal 11".
     std::function<void(pid_t pid, const std::string& ending)> on_end;
-    // Every 0.2 s, and after each burst of lines.
+    // Called every 0.2 s, and after each burst of lines.
     std::function<void()> on_pause;
   };
 
@@ -35,11 +35,11 @@ class OutputReader {
   OutputReader(const OutputReader&) = delete;
   OutputReader& operator=(const OutputReader&) = delete;
 
-  // Begins with stderr. The child must be captured, and outlive this object.
+  // Starts to read stderr. The child must be captured, and outlive this object.
   void AddErrors(const ChildProcess& child);
-  // Also stdout; the caller no longer reads it.
+  // Starts to read stdout too; the caller must no longer read it.
   void AddOutput(ChildProcess& child);
-  // Waits until all that the children have printed so far was read, for at most half a second.
+  // Waits until all output so far was read, for at most half a second.
   void Settle();
 
  private:
@@ -55,7 +55,7 @@ class OutputReader {
   };
 
   void Run();
-  // False: the stream has ended.
+  // Returns false if the stream has ended.
   bool Read(Source& source);
   void ReadRest(Source& source);
   void Emit(const Source& source, const std::string& line);
@@ -70,7 +70,7 @@ class OutputReader {
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
   bool is_settling_ GSV_GUARDED_BY(mutex_) = false;
   base::ConditionVariable settled_;
-  // Used by the thread.
+  // used by the reader's thread only
   std::vector<Source> sources_;
   std::map<pid_t, Child> children_;
   std::jthread thread_;

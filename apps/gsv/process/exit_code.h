@@ -18,7 +18,7 @@ enum ExitCode {
 
 ExitCode ExitCodeFor(base::ErrorCode code);
 
-// Prints the error's sentence on stderr and returns its exit code.
+// Prints the error as one sentence on stderr and returns its exit code.
 int PrintError(const base::Error& error);
 
 }  // namespace gsv::app

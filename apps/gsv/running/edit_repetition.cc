@@ -28,7 +28,7 @@ std::string AtInstant(base::SimTime time) {
   return fmt::format("at {:.3f} s", base::ToSeconds(time));
 }
 
-// Whether the event is an edit, for recordings from before edits were recorded.
+// Whether the event is an edit. Used for recordings by versions that did not record edits.
 bool IsEdit(const std::string& event) {
   return event == "body_placed" || event == "robot_removed" || event == "robot_added" ||
          event == "avatar_added";
@@ -167,7 +167,7 @@ base::Result<RecordedDoings> ReadDoings(const recording::McapReader& reader,
   using messages::gsv_msgs::LifecycleEvent;
   const recording::Summary& summary = reader.summary();
   RecordedDoings doings;
-  std::vector<LifecycleEvent> told;  // the events about edits
+  std::vector<LifecycleEvent> told;  // the events that describe edits
   bool has_finished = false;
   recording::MessageCursor cursor = reader.Messages();
   for (;;) {

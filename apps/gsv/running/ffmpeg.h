@@ -1,6 +1,6 @@
 // The program ffmpeg as an encoder, which reads frames from its standard input.
 //
-// Errors  kUnavailable if there is no ffmpeg. Its own messages go to stderr.
+// Errors  kUnavailable if there is no ffmpeg. Messages of ffmpeg go to stderr.
 #pragma once
 
 #include <sys/types.h>
@@ -17,8 +17,8 @@ namespace gsv::app {
 
 class Ffmpeg {
  public:
-  // `program` is found in PATH. `input` and `output` are its options for both; it never overwrites
-  // the file `path`. `instead`: what to do without ffmpeg, for the sentence.
+  // Starts `program`, which is searched on the PATH, with its options for `input` and `output`. It
+  // never overwrites the file `path`. `instead` completes the error: what to do without ffmpeg.
   static base::Result<std::unique_ptr<Ffmpeg>> Start(const std::string& program,
                                                      const std::vector<std::string>& input,
                                                      const std::vector<std::string>& output,
@@ -28,9 +28,9 @@ class Ffmpeg {
   Ffmpeg(const Ffmpeg&) = delete;
   Ffmpeg& operator=(const Ffmpeg&) = delete;
 
-  // False if it accepts no more.
+  // Returns false if ffmpeg accepts no more input.
   bool Write(std::span<const std::uint8_t> bytes);
-  // Waits until the file is written; returns whether it was.
+  // Waits until the file is written. Returns whether this succeeded.
   bool Finish();
 
  private:

@@ -29,7 +29,7 @@ FilmKind KindOfFilm(const std::filesystem::path& path) {
   return extension.empty() ? FilmKind::kFolder : FilmKind::kUnknown;
 }
 
-// Removes the film unless it is complete.
+// Removes the film unless it was completed.
 class UnfinishedFile {
  public:
   explicit UnfinishedFile(std::string path) : path_(std::move(path)) {}
@@ -67,7 +67,7 @@ class VideoFilm final : public Film {
                 file_.path());
   }
 
-  UnfinishedFile file_;  // outlives the encoder, which writes it
+  UnfinishedFile file_;  // outlives the encoder, which writes this file
   const std::unique_ptr<Ffmpeg> encoder_;
 };
 

@@ -18,9 +18,9 @@ namespace gsv::app {
 struct FilmOptions {
   std::string output;
   double frames_a_second = 25;
-  std::uint64_t frames = 0;  // that will be added
+  std::uint64_t frames = 0;  // the number of frames that will be added
   int width = 0, height = 0;
-  std::string ffmpeg = "ffmpeg";  // found in PATH
+  std::string ffmpeg = "ffmpeg";  // searched on the PATH
 };
 
 // Returns a sentence if the name is not valid for a film, else an empty text.

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kMaxWorlds = 16;  // maximum number of worlds that are kept
 
-// Makes no renderer. A renderer would start a thread, and checks of sensors need none.
+// Makes no renderer, because a renderer starts a thread and checks of sensors need none.
 base::Result<std::shared_ptr<formats::ModelLibrary>> MakeLibrary(const RuntimeOptions& options) {
   auto sensors = MakeSensorTypes(
       options.sensors, base::Fail(base::ErrorCode::kUnavailable, "files are read without cameras"));

@@ -23,10 +23,10 @@ class RecordedImages {
 
   base::SimTime start() const { return reader_->summary().start; }
   base::SimTime end() const { return reader_->summary().end; }
-  // kInvalidArgument, with the range, if the recording does not have the time.
+  // Returns kInvalidArgument, with the recorded range, if the time is outside the recording.
   base::Status Check(base::SimTime time) const;
 
-  // A camera that follows nothing is placed at its first image.
+  // Renders the image at a time. A camera that follows no robot is placed at the first image.
   base::Result<std::shared_ptr<const model::Image>> Draw(base::SimTime time,
                                                          const view::Camera& camera);
 

@@ -257,7 +257,7 @@ base::Status UnderstandTopics(const std::vector<std::string>& topics) {
 
 constexpr int kMaxPlaced = 2000;
 
-// "grid:50", "random:50": makes that many robots of the one that was given without a pose.
+// "grid:50", "random:50": makes this number of copies of the robot that was given without a pose.
 base::Status UnderstandPlace(const std::string& text, std::vector<scenario::RobotEntry>& robots,
                              RunOptions& options) {
   if (text.empty()) return {};

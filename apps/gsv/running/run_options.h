@@ -36,7 +36,7 @@ struct RunOptions {
   std::map<std::string, model::Movement> movement_of;  // movements by robot
   std::map<std::string, std::string> drive_of;         // drives by robot, see model/drive_choice.h
   bool in_process = false;  // whether behaviours are plug-ins, and not programs
-  Placing placing;          // of robots without a place
+  Placing placing;          // how to place robots that have no place
   // If set, it makes the behaviour of a robot that is added at that time. The named behaviour is
   // not used.
   std::function<std::shared_ptr<simulation::BehaviourPort>(

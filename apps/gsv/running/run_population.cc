@@ -17,7 +17,7 @@ namespace {
 
 using simulation::Simulation;
 
-// Returns the absolute path if a file with this name exists, else the name.
+// Returns the absolute path if a file with this name exists, else the name as given.
 std::string Whole(const std::string& name) {
   std::error_code ignored;
   const std::string file = formats::xacro::FilePart(name);
@@ -52,8 +52,8 @@ base::Status OverrideMovements(const RunOptions& options, const Simulation& simu
                     "--movement " + *left.begin());
 }
 
-// Sets the behaviour of each robot. This is the robot's own one on the command line, or else that
-// for all robots, or else the scenario's.
+// Sets the behaviour of each robot: the robot's own behaviour on the command line, or else the
+// behaviour for all robots, or else that of the scenario.
 base::Status OverrideBehaviours(const RunOptions& options, std::vector<PlacedRobot>& robots) {
   std::set<std::string> names;
   for (PlacedRobot& robot : robots) {
@@ -88,7 +88,7 @@ base::Status CheckNamespaces(const RunOptions& options, const Simulation& simula
   return {};
 }
 
-// Robots of the world file that have no entry may still get a behaviour.
+// Adds the robots of the world file that have no entry, because they may still get a behaviour.
 void AddThoseOfTheWorld(const Simulation& simulation, std::vector<PlacedRobot>& robots,
                         const std::vector<std::string>& of_world) {
   for (const std::string& name : of_world) {
@@ -151,7 +151,7 @@ class RunBehaviours {
   const base::SimTime from_;
 };
 
-// Returns the scenario in which robots that had no place have their actual one.
+// Returns the scenario, in which robots without a place have their actual start.
 scenario::Scenario StartsOf(const Population& population, const scenario::Scenario& asked) {
   scenario::Scenario starts;
   const auto add = [](const std::vector<PlacedRobot>& placed,

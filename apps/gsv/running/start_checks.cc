@@ -19,17 +19,17 @@ using geometry::Vector3;
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kFullTurn = 2 * std::numbers::pi + 1e-6;  // in rad
-constexpr double kFar = 20;         // distance from the extent of the world's bodies, m
+constexpr double kFar = 20;         // distance from the bodies of the world, m
 constexpr double kFloorTop = 0.1;   // a body whose top is below this is a floor and not a wall, m
 constexpr double kRayHeight = 0.3;  // height above the floor of the rays that detect walls, m
 constexpr int kDirections = 64;
 constexpr double kEnclosed = 0.9;  // the fraction of directions that must end at a wall
 constexpr double kOutside = 0.75;
-constexpr double kMaxDrop = 100;  // how far down a floor is searched, m
+constexpr double kMaxDrop = 100;  // maximum depth of the search for a floor, m
 constexpr double kSight = 1000;   // in m
-constexpr int kMaxChecked = 200;  // of a crowd, only so many robots are checked
+constexpr int kMaxChecked = 200;  // maximum number of robots of a crowd that are checked
 
-// The extent over the ground of all bodies except robots, floors and planes.
+// The horizontal extent of all bodies except robots, floors and planes.
 struct Extent {
   double min_x = kUnbounded, min_y = kUnbounded, max_x = -kUnbounded, max_y = -kUnbounded;
 
@@ -128,7 +128,7 @@ class StartCheck {
         Rays().Range({{start.x, start.y, z + kRayHeight}, {0, 0, -1}, kMaxDrop}, body));
   }
 
-  // Returns the fraction of directions in which there is an obstacle, seen from this place.
+  // Returns the fraction of directions in which there is an obstacle, as seen from this place.
   double Walls(double x, double y, int ignored_body) {
     int hits = 0;
     for (int i = 0; i < kDirections; ++i) {
@@ -139,7 +139,7 @@ class StartCheck {
     return static_cast<double>(hits) / kDirections;
   }
 
-  // Looks down on the next surface above: it belongs to a solid, or to a thin roof.
+  // Looks down at the next surface above this place: it belongs to a solid, or to a thin roof.
   bool IsInSolid(double x, double y) {
     const double up = Rays().Range({{x, y, kRayHeight}, {0, 0, 1}, kSight}, -1);
     if (!std::isfinite(up)) return false;

@@ -16,8 +16,8 @@ constexpr double kBoxSide = 1;        // in m
 constexpr double kWallHeight = 1;     // in m
 constexpr double kWallThickness = 0.2;
 
-// The grid whose cells are the places of the robots. Boxes are on every second of its inner
-// corners.
+// The grid whose cells are the places of the robots. Boxes are at every second inner
+// corner.
 struct Raster {
   explicit Raster(int robots)
       : columns(static_cast<int>(std::ceil(std::sqrt(robots)))),

@@ -12,7 +12,7 @@ namespace {
 using geometry::Pose;
 using geometry::Vector3;
 
-// The lowest visible point in the model's frame, at zero joint positions.
+// Returns the height of the lowest visible point in the model's frame, at zero joint positions.
 double LowestToSee(const model::Model& model) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const model::Link& link : model.links) {

@@ -5,7 +5,7 @@
 
 namespace gsv::app {
 
-// Whether a world is a single model: it has at most a ground besides.
+// Whether a world is a single model, with at most a ground besides.
 bool IsModelAlone(const model::WorldDescription& world);
 // Places such a model on the ground, since the origin of a model may be anywhere in it.
 void StandModelOnGround(model::WorldDescription& world);

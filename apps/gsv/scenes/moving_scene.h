@@ -12,7 +12,7 @@
 namespace gsv::app {
 
 struct MovingSceneOptions {
-  std::string world = "office";  // as for `gsv run`, or "square" for that of the crowd with a floor
+  std::string world = "office";  // as for `gsv run`, or the crowd's "square" with floor
   std::string model = "b21r";
   int robots = 50;
   simulation::Mode mode = simulation::Mode::kRealTime;
@@ -22,8 +22,8 @@ struct MovingSceneOptions {
 };
 
 struct MovingScene {
-  // Creates the scene. Robots get the first free places on a spiral about the origin, or those of
-  // the crowd on the square.
+  // Creates the scene. Robots get the first free places on a spiral about the origin, or the places
+  // of the crowd on the square.
   static base::Result<MovingScene> Create(const MovingSceneOptions& options);
 
   // Returns views from the robots' heads in changing directions. Several cameras of one robot look

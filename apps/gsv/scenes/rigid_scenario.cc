@@ -10,7 +10,7 @@ namespace {
 using geometry::Pose;
 using geometry::Vector3;
 
-constexpr double kSpacing = 2;  // m, between rovers or arms
+constexpr double kSpacing = 2;  // distance between rovers or arms, m
 constexpr model::Surface kSurface{0.8, 0.8, 0, {}, {}};
 
 model::Link LinkOf(std::string name, const geometry::Shape& shape, double mass,
@@ -75,10 +75,10 @@ std::shared_ptr<const model::Model> HeapBox() {
   return box;
 }
 
-// It stands on the ground, and a joint attaches it to the ground.
+// The arm stands on the ground, to which a joint attaches it.
 std::shared_ptr<const model::Model> Arm() {
   using Target = model::JointTarget;
-  constexpr double kLength = 0.25;  // m, of each part
+  constexpr double kLength = 0.25;  // length of each part, m
   const std::vector<Vector3> axes{{0, 0, 1}, {0, 1, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, 0}, {0, 0, 1}};
   auto arm = std::make_shared<model::Model>();
   arm->name = "arm";
@@ -141,7 +141,7 @@ std::shared_ptr<const model::Model> BodyOf(RigidScenario scenario) {
 }
 
 std::shared_ptr<const model::Model> GroundOf(RigidScenario scenario, int bodies) {
-  constexpr double kMargin = 20;  // m: the rovers drive circles
+  constexpr double kMargin = 20;  // margin around the rovers, which drive in circles, m
   auto ground = std::make_shared<model::Model>();
   ground->name = "ground";
   ground->is_static = true;

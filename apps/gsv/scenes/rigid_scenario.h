@@ -1,4 +1,4 @@
-// The worlds of `gsv bench rigid`: bodies that rigid-body dynamics moves, on a plane or a mesh.
+// The worlds of `gsv bench rigid`: bodies under rigid-body dynamics, on a plane or a mesh.
 // bench/rigid compares the rovers and the boxes with the same scenes in other engines.
 #pragma once
 
@@ -16,10 +16,10 @@ enum class RigidScenario {
   kArms,     // arms of six joints, which move to a pose and hold it
 };
 
-// The name of the first of the bodies.
+// The name of the first body.
 inline constexpr const char* kFirstRigidBody = "body_00000";
 
-// A world with a step of 1 ms.
+// Returns the world, with a step of 1 ms.
 std::shared_ptr<const model::WorldDescription> RigidWorldOf(RigidScenario scenario, int bodies);
 
 }  // namespace gsv::app

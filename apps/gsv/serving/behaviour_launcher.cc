@@ -50,7 +50,8 @@ FoundProgram FindProgram(const std::string& name) {
   return found;
 }
 
-// Tells sdk/serve.cc that stdout is read as well, and has both streams arrive line by line.
+// Returns variables that tell sdk/serve.cc that stdout is captured, so that it writes both streams
+// line by line.
 std::vector<std::string> CapturedEnvironment() {
   std::vector<std::string> variables{"GSV_OUTPUT_CAPTURED=1"};
   if (std::getenv("PYTHONUNBUFFERED") == nullptr) variables.emplace_back("PYTHONUNBUFFERED=1");
@@ -128,7 +129,7 @@ base::Status BehaviourLauncher::Ensure(const std::string& behaviour, int program
       output_.BeginOutput(*child);
       continue;
     }
-    // A program's output may end a moment before the program.
+    // The output of a program may end a moment before the program itself.
     const std::string ending = child->AwaitEnd(kEndOfOutput);
     if (ending.empty()) {
       return base::Fail(base::ErrorCode::kBehaviour, "did not offer its behaviour in time",

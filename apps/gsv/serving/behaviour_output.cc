@@ -16,7 +16,8 @@ constexpr std::size_t kMaxWaiting = 200;
 constexpr std::size_t kErrorLinesKept = 100;
 constexpr int kMaxLinesPerSecond = 200;
 
-// "wander.py line 12" of `  File "/home/me/wander.py", line 12, in run`; empty for other lines.
+// Returns "wander.py line 12" for `  File "/home/me/wander.py", line 12, in run`, and an empty text
+// for other lines.
 std::string PlaceIn(const std::string& line) {
   constexpr std::string_view kFile = "  File \"", kLine = "\", line ";
   if (!line.starts_with(kFile)) return {};
@@ -83,7 +84,7 @@ void BehaviourOutput::OnLine(pid_t pid, OutputReader::Stream stream, const std::
   const bool is_error = stream == OutputReader::Stream::kErrors;
   const base::MutexLock lock(mutex_);
   Program& program = programs_[pid];
-  // Lines on stderr may be of a log with a format of its own, and stay as they are.
+  // Lines on stderr may be of a log with its own format, so they are not changed.
   std::fprintf(stderr, "%s%s%s%s\n", is_error ? "" : "[", is_error ? "" : program.behaviour.c_str(),
                is_error ? "" : "] ", line.c_str());
   if (is_error) {

@@ -1,10 +1,10 @@
-// The output of the behaviour programs that this process starts: passes it on to stderr, and emits
-// each line as an event of the simulations whose robots the program serves (IsOutput()).
+// Passes the output of behaviour programs that this process starts on to stderr, and emits each
+// line as an event of the simulations whose robots the program serves (IsOutput()).
 //
-// A line belongs to the robot that the program serves, or, if it serves several, to its behaviour.
-// Lines from before a robot has the behaviour are kept until it has.
+// A line belongs to the robot that the program serves, or, if it serves several robots, to its
+// behaviour. Lines are kept until a robot has the behaviour.
 //
-// Bounded  200 lines per second and program, of 2000 bytes each; more are counted.
+// Bounded  200 lines per second and program, of 2000 bytes each; further lines are only counted.
 // Threads  created, used and destroyed on the main thread.
 #pragma once
 
@@ -22,8 +22,8 @@ namespace gsv::app {
 
 class ChildProcess;
 
-// The last error of a program's stderr: a Python exception with its file and line, as in
-// "ValueError: too far in wander.py line 12", else the last line. Empty: there is none.
+// Returns the last error of a program's stderr: a Python exception with its file and line, such as
+// "ValueError: too far in wander.py line 12", else the last line, else an empty text.
 std::string LastError(const std::vector<std::string>& lines);
 
 class BehaviourOutput {
@@ -34,16 +34,16 @@ class BehaviourOutput {
   explicit BehaviourOutput(ListSimulations list);
   ~BehaviourOutput();
 
-  // Begins with the program's stderr.
+  // Starts to pass on the program's stderr.
   void Begin(const ChildProcess& program, const std::string& behaviour);
-  // The program has reported that it is ready: its stdout is its own from here on.
+  // Starts to pass on the program's stdout. Called after the program has reported that it is ready.
   void BeginOutput(ChildProcess& program);
-  // The last error of a program that has ended; see LastError(). Waits for its last lines, for at
-  // most a second.
+  // Returns the last error of a program that has ended; see LastError(). Waits for its last lines,
+  // for at most a second.
   std::string LastErrorOf(const ChildProcess& program);
-  // Waits until what the programs have printed so far was emitted.
+  // Waits until all output of the programs so far was emitted.
   void Settle() { reader_->Settle(); }
-  // From now on the ends of programs are expected.
+  // After this call, the ends of programs are expected and not reported.
   void ExpectEnds();
 
  private:
@@ -53,9 +53,9 @@ class BehaviourOutput {
   };
   struct Program {
     std::string behaviour;
-    std::vector<Line> waiting;                       // for a robot
+    std::vector<Line> waiting;                       // lines that wait for a robot
     std::vector<std::string> errors{};               // the last lines of stderr
-    std::chrono::steady_clock::time_point second{};  // begin of the present one
+    std::chrono::steady_clock::time_point second{};  // the start of the current second
     int lines = 0;                                   // in it
     int left_out = 0;
     bool has_ended = false;
@@ -65,7 +65,7 @@ class BehaviourOutput {
   void OnEnd(pid_t pid, const std::string& ending);
   void Emit(pid_t pid, Program& program, std::string_view kind, std::string text)
       GSV_REQUIRES(mutex_);
-  // Emits the waiting lines, if there is a robot.
+  // Emits the waiting lines if a robot has the behaviour.
   void Flush(pid_t pid, Program& program) GSV_REQUIRES(mutex_);
   void FlushAll();
 

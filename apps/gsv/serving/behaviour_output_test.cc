@@ -26,7 +26,7 @@ TEST(LastError, IsElseTheLastLine) {
             "restarting");
 }
 
-// Collects what a shell prints until it has ended.
+// Collects the output of a shell until it has ended.
 class ReadChild {
  public:
   explicit ReadChild(const std::string& script) {

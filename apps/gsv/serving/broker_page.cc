@@ -22,7 +22,7 @@ using gateway::Response;
 using nlohmann::ordered_json;
 
 constexpr std::chrono::seconds kTimeout{3};
-constexpr std::size_t kShown = 200;  // maximum number of offers that match, and of others
+constexpr std::size_t kShown = 200;  // maximum number of matching offers, and of other offers
 
 // Returns the output of `print` as a list; each line is one JSON value.
 template <typename Print>

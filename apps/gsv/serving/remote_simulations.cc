@@ -75,7 +75,7 @@ base::Status AddSimulationsAt(CORBA::ORB_ptr orb, const std::string& reference,
   const auto offers =
       client->Query(broker::SimulationServiceType().name, "", "first", kMaxOfferedServers);
   if (!offers) {
-    // No simulation has been offered there so far.
+    // No simulation was ever offered there.
     if (offers.error().code == base::ErrorCode::kNotFound) return {};
     return base::Fail(offers.error());
   }

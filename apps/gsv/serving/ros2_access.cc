@@ -85,7 +85,7 @@ Ros2Arguments WithSettings(Ros2Arguments arguments,
   for (const auto& [robot, name_space] : settings->namespaces) {
     namespaces.push_back(robot + "=" + name_space);
   }
-  // The later one of a robot counts.
+  // the last namespace of a robot counts
   arguments.namespaces.insert(arguments.namespaces.begin(), namespaces.begin(), namespaces.end());
   return arguments;
 }
@@ -212,7 +212,7 @@ base::Status Ros2Access::Join() {
 }
 
 void Ros2Access::Show(const SimulationPointer& simulation, ros2::Options options) {
-  bridge_.reset();  // the topics of the one before are free again
+  bridge_.reset();  // removes the topics of the previous simulation
   published_ = simulation;
   bridge_ = ros2::Bridge::Start(*participant_, std::move(options), simulation, spawner_.get());
 }
@@ -255,7 +255,7 @@ base::Result<ros2::Options> Ros2Access::OptionsOf(const scenario::Scenario& scen
   if (const auto support = Support(); !support.is_available) {
     return base::Fail(base::ErrorCode::kUnavailable, support.reason);
   }
-  // The reach is that of the server: a viewer must not open it to other machines.
+  // The range is that of the server: a user of the viewer must not open it to other machines.
   const bool is_wide = ros2::IsExposed(reach_);
   const std::string& range = scenario.ros2->range;
   if (!range.empty() && (range == "subnet") != is_wide) {

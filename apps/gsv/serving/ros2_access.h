@@ -1,6 +1,6 @@
-// ROS 2 of a command: its options, the plug-in with the DDS library, and the simulation that is published.
+// ROS 2 for a command: options, the plug-in with the DDS library, the published simulation.
 //
-// Without --ros2 nothing of it is loaded.
+// Without --ros2 the plug-in is not loaded.
 #pragma once
 
 #include <functional>
@@ -31,29 +31,29 @@ using ros2::kRos2Behaviour;
 // The options as the user gave them.
 struct Ros2Arguments {
   bool is_on = false;
-  std::string range, distro, cmd_vel;  // empty: not given
+  std::string range, distro, cmd_vel;  // empty if not given
   std::vector<std::string> namespaces;
 };
 
-// Adds --ros2, --ros2-range, --ros2-namespace, --ros2-cmd-vel and --ros2-distro. `arguments` outlives the
-// parsing.
+// Adds --ros2, --ros2-range, --ros2-namespace, --ros2-cmd-vel and --ros2-distro. `arguments` must
+// outlive the parsing.
 void AddRos2Options(CLI::App& command, Ros2Arguments& arguments);
-// The same for `gsv replay`: --ros2, --ros2-range and --ros2-distro.
+// Adds the options of `gsv replay`: --ros2, --ros2-range and --ros2-distro.
 void AddRos2ReplayOptions(CLI::App& command, Ros2Arguments& arguments);
-// The options, with a scenario's settings where the user gave none.
+// Returns the options, completed with the settings of a scenario.
 Ros2Arguments WithSettings(Ros2Arguments arguments,
                            const std::optional<scenario::Ros2Settings>& settings);
-// Nothing without --ros2; fails when another of the options is given without it.
+// Returns nullopt without --ros2. Fails if another ROS 2 option is given without --ros2.
 base::Result<std::optional<ros2::Options>> Understand(const Ros2Arguments& arguments);
 
 // Loads the plug-in that holds the DDS library.
 base::Result<std::unique_ptr<ros2::dds::Participant>> MakeParticipant(
     const ros2::dds::ParticipantOptions& options);
 
-// The domain and its range: "domain 0, this machine only".
+// Returns the domain and its range, such as "domain 0, this machine only".
 std::string DescribeReach(const ros2::dds::ParticipantOptions& options);
 
-// A recording that is published while it is replayed.
+// Publishes a recording while it is replayed.
 class Ros2Replay {
  public:
   // Logs a warning if other machines can reach it.
@@ -71,28 +71,28 @@ class Ros2Replay {
   std::unique_ptr<ros2::RecordingBridge> bridge_;
 };
 
-// Publishes one simulation at a time: ROS 2 has one clock in a domain.
+// Publishes one simulation at a time, because a ROS 2 domain has a single clock.
 class Ros2Access final : public Ros2Publisher {
  public:
   using SimulationPointer = std::shared_ptr<simulation::Simulation>;
   using List = std::function<std::vector<SimulationPointer>()>;
 
-  // `options` are those of the command line; empty: it has none, and a simulation is published only if its scenario
-  // asks for it. Until then no thread or socket of DDS exists. `factory` and `library` outlive this: SpawnEntity adds
-  // models by them. `list` returns the simulations of this process.
+  // `options` are those of the command line. Without them, only scenarios can start publishing, and
+  // DDS has no thread or socket until then. `factory` and `library` must outlive this object,
+  // because SpawnEntity uses them to add models. `list` returns the simulations of this process.
   static base::Result<std::unique_ptr<Ros2Access>> Start(std::optional<ros2::Options> options,
                                                          gateway::SimulationFactory& factory,
                                                          formats::ModelLibrary& library, List list);
   ~Ros2Access() override;
 
-  // Whether the command line has --ros2. Only then may the members until Follow() be called.
+  // Whether the command line has --ros2. If it has not, only Follow() may be called first.
   bool is_on() const { return options_.has_value(); }
   std::string Description() const { return DescribeReach(reach_); }
-  // Why others can reach it; empty: they cannot.
+  // Returns why other machines can reach the topics, or an empty text if they cannot.
   std::string Exposure() const;
   // Publishes the simulation of `gsv run`.
   void Publish(const SimulationPointer& simulation);
-  // Publishes the first of the simulations in the list, and the next when that is gone.
+  // Publishes the first simulation in the list, and the next one when that has ended.
   void Follow();
 
   gateway::SimulationFactory::Ros2Support Support() override;
@@ -108,7 +108,7 @@ class Ros2Access final : public Ros2Publisher {
         list_(std::move(list)) {}
   base::Status Join() GSV_REQUIRES(publishing_);
   void Show(const SimulationPointer& simulation, ros2::Options options) GSV_REQUIRES(publishing_);
-  // The simulation that is published now; null: none.
+  // Returns the currently published simulation, or null.
   SimulationPointer Published() GSV_REQUIRES(publishing_);
   void Watch();
 
@@ -118,7 +118,7 @@ class Ros2Access final : public Ros2Publisher {
   const List list_;
   ros2::dds::ParticipantOptions reach_;
 
-  base::Mutex publishing_;  // held while a simulation is published, or no longer
+  base::Mutex publishing_;  // locked while publishing starts or ends
   std::unique_ptr<ros2::dds::Participant> participant_ GSV_GUARDED_BY(publishing_);
   std::unique_ptr<Ros2Spawner> spawner_ GSV_GUARDED_BY(publishing_);
   std::weak_ptr<simulation::Simulation> published_ GSV_GUARDED_BY(publishing_);

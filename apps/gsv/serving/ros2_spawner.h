@@ -12,8 +12,8 @@ namespace gsv::app {
 
 class Ros2Spawner final : public ros2::Spawner {
  public:
-  // Both outlive this. `reads_files`: a URI may also name a file. That is for clients of this machine only, because
-  // others could make gsv read any of the user's files.
+  // Both must outlive this. `reads_files`: URIs may also name files. Only for clients on this
+  // machine, because other clients could make gsv read any file of the user.
   Ros2Spawner(gateway::SimulationFactory& factory, formats::ModelLibrary& library, bool reads_files)
       : factory_(factory), library_(library), reads_files_(reads_files) {}
 
@@ -23,7 +23,7 @@ class Ros2Spawner final : public ros2::Spawner {
                                   const ros2::SpawnRequest& request) override;
 
  private:
-  // The name or the file of a model.
+  // Returns the name or the file of a model.
   base::Result<std::string> ModelOf(const std::string& uri);
 
   gateway::SimulationFactory& factory_;

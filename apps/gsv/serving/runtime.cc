@@ -124,7 +124,8 @@ base::Status Runtime::StartBroker(const RuntimeOptions& options) {
   if (!normalised) return base::Fail(normalised.error());
   orb::OrbOptions orb_options;
   orb_options.local_socket = true;
-  orb_options.check_request = &broker::CheckRequest;  // the load is requested by calls of evalDP
+  orb_options.check_request = &broker::CheckRequest;  // checks calls of evalDP, which request the
+                                                      // load
   if (const std::string host = broker::HostOf(*normalised); !host.empty()) {
     auto local = orb::LocalAddressTowards(host);
     if (!local) return base::Fail(local.error());

@@ -30,12 +30,12 @@ scenario::Place SpiralPlace(int n) {
   return {0.7 * turns * std::cos(angle), 0.7 * turns * std::sin(angle), {}, angle};
 }
 
-// The nth cell of a grid of 1 m: ring by ring about the origin.
+// Returns the nth cell of a grid of 1 m. Cells are counted ring by ring from the origin.
 scenario::Place GridPlace(int n) {
   if (n == 0) return {0, 0, {}, 0};
   const int ring = static_cast<int>(std::ceil((std::sqrt(n + 1.0) - 1) / 2));
   const int side = 2 * ring;
-  const int at = n - (side - 1) * (side - 1);  // in the ring, counted from its first corner
+  const int at = n - (side - 1) * (side - 1);  // index in the ring, counted from its first corner
   const int along = at % side - ring;
   switch (at / side) {
     case 0:
@@ -49,7 +49,7 @@ scenario::Place GridPlace(int n) {
   }
 }
 
-// A place in a disc with about 5 m² for each robot.
+// Returns a place in a disc that has about 5 m² for each robot.
 scenario::Place RandomPlace(int n, const Placing& placing) {
   base::Noise noise(placing.seed, base::StableId("places"), n);
   const double radius = std::sqrt(5.0 * std::max(placing.count, 1) / std::numbers::pi);

@@ -23,7 +23,7 @@ using gateway::FieldResult;
 struct Placing {
   enum class Kind { kSpiral, kGrid, kRandom };
   Kind kind = Kind::kSpiral;
-  int count = 0;           // of all robots that are placed so
+  int count = 0;           // the number of all robots that are placed in this way
   std::uint64_t seed = 0;  // of kRandom
 };
 

@@ -243,8 +243,8 @@ Recordings::Totals Recordings::totals() {
   const base::MutexLock lock(mutex_);
   Totals totals = ended_;
   for (const auto& [name, recording] : recordings_) Add(StateOf(recording), totals);
-  // A recording that is being finished is in neither total for a moment, but the reported totals
-  // must not decrease.
+  // A recording that is being finished is in neither of the two totals for a moment, but the
+  // reported totals must not decrease.
   reported_ = {totals.under_way, std::max(totals.messages, reported_.messages),
                std::max(totals.dropped, reported_.dropped),
                std::max(totals.bytes, reported_.bytes)};

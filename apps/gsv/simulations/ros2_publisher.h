@@ -1,4 +1,4 @@
-// Publishes simulations that viewers create to ROS 2 nodes, as their scenarios' key `ros2` says.
+// Publishes simulations that viewers create to ROS 2 nodes, if their scenarios have the key `ros2`.
 //
 // Threads  any.
 #pragma once
@@ -18,9 +18,9 @@ class Ros2Publisher {
   virtual ~Ros2Publisher() = default;
 
   virtual gateway::SimulationFactory::Ros2Support Support() = 0;
-  // The options of a scenario with the key `ros2`. Fails if they are wrong, or if this process cannot publish it now.
+  // Returns the options of a scenario with the key `ros2`. Fails if they cannot be used.
   virtual base::Result<ros2::Options> OptionsOf(const scenario::Scenario& scenario) = 0;
-  // From here on the simulation is published, until it is removed. Fails if another one is.
+  // Publishes the simulation until it is removed. Fails if another one is published.
   virtual base::Status Publish(const std::shared_ptr<simulation::Simulation>& simulation,
                                ros2::Options options) = 0;
 };

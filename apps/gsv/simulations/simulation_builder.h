@@ -38,9 +38,9 @@ class SimulationBuilder final : public gateway::SimulationFactory {
         finder_(model_path_),
         reading_(reading) {}
 
-  // Publishes simulations whose scenario asks for it through that. Null ends this.
+  // Sets the publisher for simulations whose scenario has the key `ros2`. Null removes it.
   void PublishThrough(Ros2Publisher* publisher);
-  // Lists simulations that are created later in that service as well. Null ends this.
+  // Sets the service that also lists simulations that are created later. Null removes it.
   void OfferThrough(services::SimulationServiceServant* service);
 
   std::vector<std::string> Worlds() override;
@@ -74,9 +74,9 @@ class SimulationBuilder final : public gateway::SimulationFactory {
   gateway::FieldResult<KnownWorld> ReadWorld(const std::string& world);
   gateway::FieldResult<std::shared_ptr<simulation::BehaviourPort>> BehaviourFor(
       const scenario::RobotEntry& robot);
-  // Behaviours of robots in a simulation that is published to ROS 2 with these options; null: it is not published.
+  // Makes the behaviours of a simulation's robots. `published`: its ROS 2 options; null: none.
   BehaviourMaker BehaviourChoice(const ros2::Options* published);
-  // The options of a scenario; empty: it is not published to ROS 2 nodes.
+  // Returns the ROS 2 options of a scenario, or nullopt if it is not published to ROS 2 nodes.
   gateway::FieldResult<std::optional<ros2::Options>> Ros2OptionsOf(
       const scenario::Scenario& scenario);
   Ros2Publisher* publisher();

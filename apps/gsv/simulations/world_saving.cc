@@ -17,7 +17,7 @@ using model::PlacedModel;
 
 struct Standing {
   std::vector<PlacedModel> models;
-  std::map<std::string, geometry::Pose> poses;  // of all bodies
+  std::map<std::string, geometry::Pose> poses;  // poses of all bodies
   std::set<std::string> saved;                  // names of `models`
 };
 
@@ -27,8 +27,8 @@ const PlacedModel* FindOriginal(const model::WorldDescription& world, const std:
   return found == world.models.end() ? nullptr : &*found;
 }
 
-// Whether a world file can say how the body moves. The movement of an original model is kept as it
-// is in the file.
+// Whether a world file can express how the body moves. The movement of an original model stays as
+// in the file.
 bool FitsInWorld(const world::Body& body, const PlacedModel& placed, bool is_original) {
   if (body.is_avatar()) return false;
   if (is_original) return true;
@@ -43,7 +43,7 @@ Standing StandingNow(const world::Snapshot& snapshot, const model::WorldDescript
     const world::Body& body = bodies[i];
     const geometry::Pose& pose = snapshot.state.bodies[i].world_from_model;
     standing.poses[body.name] = pose;
-    if (body.is_pedestrian()) continue;  // its group is in the world or in the scenario
+    if (body.is_pedestrian()) continue;  // the scenario or the world has its group
     const PlacedModel placed{body.name, body.model, pose, body.is_static()};
     if (!FitsInWorld(body, placed, FindOriginal(original, body.name) != nullptr)) continue;
     standing.models.push_back(placed);
@@ -52,7 +52,7 @@ Standing StandingNow(const world::Snapshot& snapshot, const model::WorldDescript
   return standing;
 }
 
-// Robots that the world has need no model and no pose; without a behaviour they need no entry.
+// Robots of the world file need no model and no pose; without a behaviour they need no entry.
 void TakeSavedRobots(const Standing& standing, std::vector<scenario::RobotEntry>& robots,
                      std::vector<std::string>& warnings) {
   for (scenario::RobotEntry& robot : robots) {

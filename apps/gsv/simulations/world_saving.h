@@ -1,9 +1,9 @@
-// Saves the world of a simulation as it stands now: SDFormat for Gazebo and for GSV, and a scenario
-// with what SDFormat cannot hold.
+// Saves the current world of a simulation: as SDFormat for Gazebo and GSV, with a scenario for
+// everything that SDFormat cannot express.
 //
-// The SDFormat text has the models with their present poses (formats/world_writer.h). The scenario
-// names that text as its world. It has the behaviours, the avatars, and each robot whose movement or
-// drive was chosen when it was added.
+// The SDFormat text has the models with their current poses (formats/world_writer.h). The scenario
+// names that text as its world. It has the behaviours, the avatars, and each robot whose movement
+// or drive was chosen when it was added.
 #pragma once
 
 #include <string>

@@ -88,7 +88,7 @@ base::Result<ChildOutcome> RunChild(const TestCase& test, const TestOptions& opt
   return outcome;
 }
 
-// The first robot of the run that the message names.
+// Returns the first robot of the run that the message names.
 std::string RobotIn(const nlohmann::ordered_json& report, const std::string& message) {
   for (const auto& robot : report.value("robots", nlohmann::ordered_json::array())) {
     std::string name = robot.value("name", "");
@@ -97,7 +97,7 @@ std::string RobotIn(const nlohmann::ordered_json& report, const std::string& mes
   return {};
 }
 
-// The health of the robots that do not move at the end, a sentence per line.
+// Returns the health of the robots that do not move at the end, with one sentence per line.
 std::string HealthIn(const nlohmann::ordered_json& report) {
   std::string text;
   for (const auto& robot : report.value("robots", nlohmann::ordered_json::array())) {
