@@ -1,9 +1,9 @@
 // Connects one simulation to ROS 2: publishes the robots' sensors, receives commands, and offers
 // the services that control the simulation.
 //
-// Threads  its own publisher thread, one for sensors that take long, and those of services; members from any
-//          thread. The
-//          stepping thread only hands over snapshots. In lockstep it waits for the publisher, never for a
+// Threads  one publisher thread, one thread for slow sensors, and those of the
+//          services; members from any thread. The stepping thread only hands
+//          over snapshots. In lockstep it waits for the publisher, never for a
 //          reader.
 #pragma once
 

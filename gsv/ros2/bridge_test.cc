@@ -26,7 +26,7 @@ namespace {
 
 using testing::Peer;
 
-// A robot "robot" at the origin in real time, published, and a peer.
+// A published robot "robot" at the origin in real time, and a peer.
 class BridgeTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -66,11 +66,11 @@ TEST_F(BridgeTest, PublishesClockOdometryAndRange) {
   EXPECT_EQ(odometry.pose.pose.position.x, 0);
   EXPECT_EQ(odometry.pose.pose.orientation.w, 1);
   const auto range = peer_->Await<messages::sensor_msgs::Range>("/robot/range");
-  EXPECT_NEAR(range.range, 2.9, 1e-6);  // the wall's near side
+  EXPECT_NEAR(range.range, 2.9, 1e-6);  // distance to the near side of the wall
   EXPECT_EQ(range.header.frame_id, "robot/front");
 }
 
-// One after the other, more participants than the number that is searched for on one machine.
+// Creates participants one after the other, more than are searched for on one machine.
 TEST(Participant, IsFoundThoughManyWereThereBefore) {
   for (int i = 0; i < 40; ++i) ASSERT_NE(testing::MakeParticipant(), nullptr);
   Peer one, other;
@@ -124,7 +124,7 @@ TEST_F(BridgeTest, DrivesARobotByCmdVel) {
   EXPECT_GE(x, 1);
 }
 
-// A robot whose one joint lifts it, by up to half a metre.
+// A robot with one joint, which lifts it by up to half a metre.
 std::shared_ptr<const model::Model> Lift() {
   auto lift = std::make_shared<model::Model>(*simulation::Disc(0.2));
   model::Link fork;
@@ -201,7 +201,8 @@ TEST_F(BridgeTest, TakesNoCommandsForARobotWithABehaviour) {
   ASSERT_TRUE(simulation_->Start());
   peer_->Listen("/driven/odom", "nav_msgs/msg/Odometry", kDefaultQos);
   (void)peer_->Await<messages::nav_msgs::Odometry>("/driven/odom");
-  (void)peer_->Talk("/robot/cmd_vel", "geometry_msgs/msg/Twist");  // there is another publisher now
+  (void)peer_->Talk("/robot/cmd_vel", "geometry_msgs/msg/Twist");  // now there is a second
+                                                                   // publisher
   for (const dds::Endpoint& endpoint : peer_->participant().endpoints()) {
     EXPECT_NE(endpoint.topic.name, "rt/driven/cmd_vel");
   }

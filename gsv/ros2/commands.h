@@ -1,9 +1,9 @@
-// Commands of ROS 2 nodes to a robot's drive and its joints.
+// Passes commands of ROS 2 nodes to a robot's drive and its joints.
 //
 // The bytes are untrusted input. A message that cannot be decoded, or contains a number that is not
 // finite, is rejected. The first message of each such kind is logged.
 //
-// Threads  Take…() on any threads; a command acts from the next step on.
+// Threads  Take…() on any threads; a command applies from the next step on.
 #pragma once
 
 #include <atomic>
@@ -52,7 +52,7 @@ class CommandInput {
   std::atomic<std::uint64_t> refused_{0};
 };
 
-// The `data` of a std_msgs/msg/Float64MultiArray. Fails with kCorrupt.
+// Returns the `data` of a std_msgs/msg/Float64MultiArray. Fails with kCorrupt.
 base::Result<std::vector<double>> DecodeFloat64MultiArray(std::span<const std::byte> sample);
 
 }  // namespace gsv::ros2

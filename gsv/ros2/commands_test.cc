@@ -40,7 +40,8 @@ TEST(CommandInput, DrivesARobotThatHasNoBehaviour) {
   CommandedRobot robot;
   robot.input->TakeTwist(TwistBytes(0.5));
   EXPECT_EQ(robot.input->taken(), 1u);
-  EXPECT_NEAR(robot.XAtTheEnd(), 0.5, 0.02);  // 0.5 m/s for 1 s, the first step before it acts
+  EXPECT_NEAR(robot.XAtTheEnd(), 0.5, 0.02);  // 0.5 m/s for 1 s; the command applies from the
+                                              // second step on
 }
 
 TEST(CommandInput, RejectsNonFiniteCommands) {

@@ -34,7 +34,7 @@ class Feed final : public simulation::Observer {
     SnapshotPointer snapshot;  // null: none
     std::vector<simulation::Event> events;
   };
-  // Returns new entries, at the latest after `timeout` (wall time), or when Wake() is called.
+  // Returns new entries, at the latest after `timeout` (wall-clock time), or when Wake() is called.
   News Next(std::chrono::milliseconds timeout);
   void Wake();
   // Closes the queue, and releases a stepping thread that waits.

@@ -26,14 +26,14 @@ class Frames {
   std::string odom() const { return prefix_ + "odom"; }
   const std::string& base() const { return base_; }
   std::string OfLink(const model::Model& model, int link) const;
-  // The frame of a sensor: that of its link if both are equal, else its own frame.
+  // Returns the frame of a sensor: that of its link if both are equal, else its own frame.
   std::string OfSensor(const model::Model& model, const model::SensorDescription& sensor) const;
 
-  // base → fixed links, links → sensors (and the optical frames of those that have one).
+  // Appends base → fixed links, links → sensors (and optical frames, if any).
   void AppendStatic(const model::Model& model, const std::vector<model::SensorDescription>& sensors,
                     const std::vector<bool>& is_optical, base::SimTime time,
                     messages::tf2_msgs::TFMessage& message) const;
-  // odom → base, base → moving links.
+  // Appends odom → base, and base → moving links.
   void AppendMoving(const world::Snapshot& snapshot, int body, bool has_odometry,
                     messages::tf2_msgs::TFMessage& message) const;
 

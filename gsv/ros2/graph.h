@@ -14,7 +14,7 @@
 
 namespace gsv::ros2 {
 
-// The number of bytes of a Gid: 24 in Humble (16 of them are used), and 16 since Iron.
+// Returns the number of bytes of a Gid: 24 in Humble (16 of them are used), and 16 since Iron.
 std::size_t GidSize(Distro distro);
 
 // Appends a ParticipantEntitiesInfo.
@@ -34,7 +34,7 @@ class Graph {
  private:
   dds::Participant& participant_;
   const Distro distro_;
-  std::unique_ptr<dds::Writer> writer_;  // null: the participant refused it (this is logged)
+  std::unique_ptr<dds::Writer> writer_;  // null if the participant refused it, which is logged
   std::optional<std::vector<NodeInfo>> sent_;
 };
 

@@ -5,9 +5,9 @@
 namespace gsv::ros2 {
 namespace {
 
-// The size of a graph with the node "gsv" in "/" and one writer, for a given size of a Gid.
+// Returns the size of a graph with the node "gsv" in "/" and one writer, for a given size of a Gid.
 std::size_t SizeFor(std::size_t gid) {
-  // Encapsulation, Gid, count; "/" and padding, "gsv", two counts, a Gid.
+  // The parts are: encapsulation, Gid, count; "/" and padding, "gsv", two counts, a Gid.
   return 4 + gid + 4 + (4 + 2 + 2) + (4 + 4) + 4 + 4 + gid;
 }
 

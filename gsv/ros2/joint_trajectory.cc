@@ -60,7 +60,8 @@ base::Result<JointTrajectory::Point> PointOf(MessagePoint& message, std::size_t 
   return JointTrajectory::Point{time, std::move(message.positions), std::move(message.velocities)};
 }
 
-// The cubic Hermite polynomial with these values and slopes at both ends, for `s` from 0 to 1.
+// Returns the value of the cubic Hermite polynomial with these values and slopes at both ends, for
+// `s` from 0 to 1.
 double Cubic(double s, double length, double p0, double v0, double p1, double v1) {
   const double s2 = s * s, s3 = s2 * s;
   return (2 * s3 - 3 * s2 + 1) * p0 + (s3 - 2 * s2 + s) * length * v0 + (3 * s2 - 2 * s3) * p1 +

@@ -1,8 +1,8 @@
 // A trajectory of joints, as MoveIt and ros2_control send it: positions at given times, with
 // interpolation.
 //
-// Source   trajectory_msgs/msg/JointTrajectory; ros2_controllers, "Trajectory Representation": linear where the
-//          points have no velocities, cubic (Hermite) where they have.
+// Source   trajectory_msgs/msg/JointTrajectory; ros2_controllers, "Trajectory Representation":
+//          linear if the points have no velocities, cubic (Hermite) if they have.
 // Units    rad and rad/s, or m and m/s for sliding joints.
 #pragma once
 
@@ -22,16 +22,16 @@ struct JointTrajectory {
 
   struct Point {
     base::SimTime time{};            // time after the start; increases from point to point
-    std::vector<double> positions;   // one for each joint
-    std::vector<double> velocities;  // as many as positions, or none
+    std::vector<double> positions;   // one position for each joint
+    std::vector<double> velocities;  // one velocity for each joint, or empty
   };
 
-  std::optional<base::SimTime> start;  // empty: at once
-  std::vector<int> joints;             // their indices in the model
-  std::vector<Point> points;           // none: the joints stay where they are
+  std::optional<base::SimTime> start;  // empty for an immediate start
+  std::vector<int> joints;             // indices of the joints in the model
+  std::vector<Point> points;           // if empty, the joints stay where they are
 
-  // The positions at a time after the start. Before the first point, they are interpolated from
-  // `initial`, the positions at the start. After the last point, they do not change.
+  // Returns the positions at a time after the start. Before the first point, they are interpolated
+  // from `initial`, the positions at the start. After the last point, they do not change.
   std::vector<double> PositionsAt(base::SimTime time, const std::vector<double>& initial) const;
 };
 

@@ -16,15 +16,15 @@ std::string RosName(std::string_view text);
 // the end.
 bool IsNamespace(std::string_view text);
 
-// "/pebble" and "scan" give "/pebble/scan"; "/" and "scan" give "/scan".
+// Joins names: "/pebble" and "scan" give "/pebble/scan"; "/" and "scan" give "/scan".
 std::string InNamespace(std::string_view name_space, std::string_view name);
 
-// "/pebble/scan" is "rt/pebble/scan".
+// Returns "rt/pebble/scan" for "/pebble/scan".
 std::string DdsTopicName(std::string_view topic);
-// "sensor_msgs/msg/LaserScan" is "sensor_msgs::msg::dds_::LaserScan_".
+// Returns "sensor_msgs::msg::dds_::LaserScan_" for "sensor_msgs/msg/LaserScan".
 std::string DdsTypeName(std::string_view type);
 
-// The reverse. Empty if the name is not that of a topic, or of a message type, of ROS 2.
+// Returns the ROS name of a DDS name, or an empty text if no ROS 2 name is mapped to it.
 std::string RosTopicName(std::string_view dds_topic);
 std::string RosTypeName(std::string_view dds_type);
 

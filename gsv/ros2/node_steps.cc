@@ -98,7 +98,7 @@ void NodeBehaviour::Run(simulation::Agent& agent, simulation::ClockId clock) {
     const base::SimTime now = agent.Now();
     const auto command = steps_->Await(robot_, now);
     if (!command) break;
-    (void)agent.Command(*command);  // it fails only where the wait below does
+    (void)agent.Command(*command);  // if this fails, the wait below fails as well
     const base::SimTime next = (now / period_ + 1) * period_;
     do {
       wait = agent.SleepUntil(clock, next, kStepLease);

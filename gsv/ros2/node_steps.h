@@ -31,7 +31,7 @@ class NodeSteps {
 
   // Stores a command that a node has sent with this time stamp.
   void Offer(const std::string& robot, base::SimTime stamp, const world::DriveCommand& command);
-  // Waits for the command with this time stamp, and repeats /clock meanwhile. Returns nothing once
+  // Waits for the command with this time stamp, and repeats /clock meanwhile. Returns nullopt once
   // the node no longer steps the robot.
   std::optional<world::DriveCommand> Await(const std::string& robot, base::SimTime time);
 

@@ -14,16 +14,16 @@ namespace gsv::ros2 {
 // The period of /clock, in simulated time.
 inline constexpr base::SimTime kClockPeriod = std::chrono::milliseconds(10);
 
-// The distributions differ in the data that discovery exchanges.
+// These distributions differ in the data that discovery exchanges.
 enum class Distro { kHumble, kJazzy, kKilted, kLyrical };
 
 struct Options {
-  std::optional<dds::Range> range{};  // empty: from the environment, else localhost
+  std::optional<dds::Range> range{};  // if empty, from the environment, or else localhost
   Distro distro = Distro::kJazzy;
   // namespaces by robot; a robot that is not listed has "/ROBOT"
   std::map<std::string, std::string> namespaces{};
-  bool is_cmd_vel_stamped = false;     // TwistStamped, else Twist
-  std::shared_ptr<NodeSteps> steps{};  // the robots that nodes step; null: none
+  bool is_cmd_vel_stamped = false;     // true for TwistStamped, false for Twist
+  std::shared_ptr<NodeSteps> steps{};  // the robots that nodes step; null if there are none
 };
 
 base::Result<Distro> ParseDistro(const std::string& text);
@@ -41,7 +41,7 @@ std::string ProcessEnvironment(const char* name);
 base::Result<dds::ParticipantOptions> ParticipantFor(const Options& options,
                                                      const Environment& environment);
 
-// Whether other machines can send and receive.
+// Whether other machines can send and receive data.
 bool IsExposed(const dds::ParticipantOptions& options);
 
 }  // namespace gsv::ros2

@@ -19,7 +19,7 @@
 namespace gsv::ros2 {
 namespace {
 
-// The interval between checks of the position, in wall time.
+// The interval between checks of the position, in wall-clock time.
 constexpr std::chrono::milliseconds kTick{5};
 constexpr std::size_t kMaxTopics = 1000;
 constexpr std::string_view kClockTopic = "/clock";
@@ -65,7 +65,7 @@ class FileBridge final : public RecordingBridge {
   dds::Writer* clock_ = nullptr;
   std::map<std::uint16_t, dds::Writer*> writers_;  // by channel
   std::optional<recording::MessageCursor> cursor_;
-  std::optional<recording::MessageRecord> next_;  // not published yet
+  std::optional<recording::MessageRecord> next_;  // the next message, which is not published yet
   base::Mutex mutex_;
   base::ConditionVariable changed_;
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;

@@ -33,8 +33,8 @@ class RecordingBridge {
   virtual ~RecordingBridge() = default;
 };
 
-// The name under which a recorded topic is published: characters that are not allowed in ROS names
-// are replaced in each part.
+// Returns the name under which a recorded topic is published. In each part, characters that are not
+// allowed in ROS names are replaced.
 std::string PublishedTopic(const std::string& recorded);
 
 }  // namespace gsv::ros2

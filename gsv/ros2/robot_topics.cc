@@ -23,7 +23,7 @@ constexpr base::SimTime kTruthPeriod = std::chrono::milliseconds(20);
 constexpr const char* kRobotNode = "robot";
 constexpr const char* kDriveTopic = "cmd_vel";
 
-// "/fleet/one" gives "fleet/one/", "/" nothing.
+// Returns "fleet/one/" for "/fleet/one", and an empty text for "/".
 std::string PrefixOf(const std::string& name_space) {
   return name_space == "/" ? std::string() : name_space.substr(1) + "/";
 }
@@ -40,7 +40,7 @@ bool HasType(const sensing::SensorRegistry& types,
   });
 }
 
-// The joints that accept commands and do not belong to the drive.
+// Returns the joints that accept commands and do not belong to the drive.
 std::vector<int> FreeJoints(const model::Model& model) {
   std::vector<int> joints;
   for (std::size_t j = 0; j < model.joints.size(); ++j) {

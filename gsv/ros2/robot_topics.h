@@ -30,11 +30,11 @@ class RobotTopics {
     std::function<void()> on_match;
   };
 
-  // `name_space`: "/pebble" or "/". `takes_commands`: no behaviour drives the robot.
+  // `name_space` is a name such as "/pebble", or "/". `takes_commands`: no behaviour drives it.
   RobotTopics(const Context& context, const world::Body& body, std::string name_space,
               bool takes_commands);
 
-  // Whether a new object for the body would equal this one.
+  // Whether these topics are still right for the body.
   bool IsOf(const world::Body& body, const std::vector<model::SensorDescription>& sensors,
             bool takes_commands) const;
 
@@ -68,11 +68,11 @@ class RobotTopics {
   const bool takes_commands_;
   const std::vector<model::SensorDescription> sensors_;
   const Frames frames_;
-  std::vector<bool> is_optical_;                  // in the order of sensors_
+  std::vector<bool> is_optical_;                  // whether each of sensors_ has an optical frame
   std::vector<std::unique_ptr<Source>> sources_;  // before node_, whose readers call them
   Node node_;
-  dds::Writer* description_ = nullptr;  // null: it was sent, or the participant refuses it
-  std::string drive_type_;              // "geometry_msgs/msg/Twist"; empty: takes no cmd_vel
+  dds::Writer* description_ = nullptr;  // null if it was sent, or if the participant refused it
+  std::string drive_type_;              // "geometry_msgs/msg/Twist"; empty: no cmd_vel topic
   dds::Reader* drive_reader_ = nullptr;
   bool has_warned_of_many_ = false;
   bool has_warned_of_type_ = false;

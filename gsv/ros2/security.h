@@ -12,13 +12,13 @@
 
 namespace gsv::ros2 {
 
-// Files of an enclave's folder.
+// The files in the folder of an enclave.
 inline constexpr const char* kEnclaveFiles[]{
     "identity_ca.cert.pem",    "cert.pem",       "key.pem",
     "permissions_ca.cert.pem", "governance.p7s", "permissions.p7s"};
 
-// Sets the enclave of a participant. Fails with kInvalidArgument where a variable has a bad value, or keys that are
-// required are missing.
+// Sets the enclave of a participant. Fails with kInvalidArgument if a variable has an invalid
+// value, or if required keys are missing.
 base::Status UseSecurity(const Environment& environment, dds::ParticipantOptions& participant);
 
 }  // namespace gsv::ros2

@@ -1,4 +1,4 @@
-// Something that is published at regular instants of simulated time.
+// A source of messages that are published at regular instants of simulated time.
 //
 // Threads  one at a time.
 #pragma once
@@ -13,7 +13,7 @@
 
 namespace gsv::ros2 {
 
-// A source's messages are a function of this.
+// The input from which a source makes its messages.
 struct Moment {
   std::shared_ptr<const world::Snapshot> snapshot;
   std::uint64_t seed = 0;  // seed of the simulation
@@ -26,12 +26,12 @@ class Source {
   virtual ~Source() = default;
 
   base::SimTime period() const { return period_; }
-  // Whether an instant has come; asked once for each snapshot.
+  // Whether a message is due at this time. Called once for each snapshot.
   bool Pass(base::SimTime time) { return instants_.Pass(time); }
 
-  // Whether anybody listens.
+  // Whether a topic of the source has subscriptions.
   virtual bool is_wanted() const = 0;
-  // Publish() waits for something outside of its thread, such as a renderer.
+  // Whether Publish() waits for another thread, such as the renderer's.
   virtual bool takes_long() const { return false; }
   // Encodes and sends messages on topics that have subscriptions.
   virtual void Publish(const Moment& moment) = 0;

@@ -12,7 +12,7 @@
 namespace gsv::ros2 {
 namespace {
 
-// The properties of an endpoint that are compared. Many endpoints have equal ones.
+// The compared properties of an endpoint. Many endpoints have equal ones.
 struct Side {
   std::string type, hash;
   bool is_reliable = false, is_transient_local = false;

@@ -1,4 +1,4 @@
-// Finds why publishers and subscriptions of a topic do not match.
+// Finds the reasons why publishers and subscriptions of a topic do not match.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace gsv::ros2 {
 
-// One sentence for each topic and cause: types or type hashes that differ, and QoS of which the
-// subscription asks for more than the publisher offers. Sorted. Other topics than those of ROS 2 are skipped.
+// Returns one sentence for each topic and cause, sorted. Causes: different types or type hashes, or
+// a subscription with a stricter QoS than the publisher offers. Skips topics that are not of ROS 2.
 std::vector<std::string> FindTopicProblems(const std::vector<dds::Endpoint>& endpoints);
 
 }  // namespace gsv::ros2

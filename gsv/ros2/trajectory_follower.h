@@ -1,6 +1,6 @@
 // Lets the joints of a robot follow the trajectories that ROS 2 nodes send.
 //
-// Threads  Take() on any thread; the rest on the publisher's.
+// Threads  Take() on any thread; other functions on the publisher's.
 #pragma once
 
 #include <functional>
@@ -19,12 +19,12 @@ namespace gsv::ros2 {
 
 class TrajectoryFollower final : public Source {
  public:
-  // `joints`: those of the model that take commands. `on_change` is called when a trajectory comes.
+  // `joints` take commands. `on_change` is called when a trajectory arrives.
   TrajectoryFollower(std::shared_ptr<CommandInput> input, std::string body,
                      std::shared_ptr<const model::Model> model, std::vector<int> joints,
                      std::function<void()> on_change);
 
-  // A trajectory_msgs/msg/JointTrajectory, which replaces the current trajectory. A bad one is refused.
+  // Replaces the trajectory by a trajectory_msgs/msg/JointTrajectory, if that is valid.
   void Take(std::span<const std::byte> sample);
 
   bool is_wanted() const override;

@@ -8,10 +8,10 @@
 
 namespace gsv::ros2::dds {
 
-inline constexpr int kMaxParticipants = 120;  // per machine and domain; RTPS 2.3, 9.6.1.3
+inline constexpr int kMaxParticipants = 120;  // maximum per machine and domain; RTPS 2.3, 9.6.1.3
 
-// The lowest index that is not in `taken` and whose ports nobody has bound, on loopback or on all interfaces. -1 if
-// there is none.
+// Returns the lowest index that is not in `taken` and whose ports are free, on loopback or on all
+// interfaces. Returns -1 if there is none.
 int FreeIndex(std::uint32_t domain, bool on_loopback, const std::set<int>& taken);
 
 bool IsLoopbackUp();

@@ -21,7 +21,7 @@ sockaddr_in Address(std::uint32_t ip, std::uint16_t port) {
   return address;
 }
 
-// Whether the socket now sends to the group on loopback.
+// Makes the socket send to the group on loopback. Returns whether this succeeded.
 bool StayOnLoopback(int socket, std::uint32_t group) {
   const sockaddr_in loopback = Address(htonl(INADDR_LOOPBACK), 0);
   ip_mreqn membership{};

@@ -1,7 +1,8 @@
 // Multicast on the loopback interface alone. It reaches programs that joined the group on any interface.
 //
-// Linux delivers it to each socket that is bound to the port and has joined any group (IP_MULTICAST_ALL of
-// ip(7)), provided that somebody joined this group on loopback, which the sender does.
+// Linux delivers it to each socket that is bound to the port and has joined any group
+// (IP_MULTICAST_ALL of ip(7)), provided that a program joined this group on loopback. The sender
+// does.
 //
 // This reaches participants that wait for multicast, as Cyclone DDS does with default settings.
 //

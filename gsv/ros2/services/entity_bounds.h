@@ -8,12 +8,12 @@
 
 namespace gsv::ros2 {
 
-// The smallest box around a body's collision shapes, along the axes of its frame, at the present
-// joint positions. If it has no collision shapes, its visuals are used. Returns nothing for a body
-// with neither, and for a body with a plane, because planes are infinite.
+// Returns the smallest box around a body's collision shapes, along the axes of its frame, at the
+// present joint positions. If it has no collision shapes, its visuals are used. Returns nullopt for
+// a body with neither, and for one with a plane, which is infinite.
 std::optional<geometry::Bounds> BoundsOfBody(const world::Snapshot& snapshot, int body);
 
-// The smallest box along the world's axes around such a box.
+// Returns the smallest box along the world's axes around such a box.
 geometry::Bounds InWorld(const geometry::Bounds& bounds, const geometry::Pose& world_from_body);
 
 }  // namespace gsv::ros2

@@ -13,12 +13,12 @@
 
 namespace gsv::ros2 {
 
-// The category of a body, a constant of EntityCategory.
+// Returns the category of a body, a constant of EntityCategory.
 std::uint8_t CategoryOf(const world::Body& body);
 
-// The indices of the bodies that pass the filter, in ascending order. Fails with kInvalidArgument
-// for a regular expression that is wrong, longer than 256 characters, or has repetitions {n} or
-// back references; with kUnavailable for tags and for bounds other than boxes and spheres.
+// Returns the indices of the bodies that match, in ascending order. Fails with kInvalidArgument for
+// a regular expression that is wrong, longer than 256 characters, or has repetitions {n} or back
+// references; with kUnavailable for tags and for bounds other than boxes and spheres.
 base::Result<std::vector<int>> FilterEntities(
     const world::Snapshot& snapshot, const messages::simulation_interfaces::EntityFilters& filters);
 

@@ -1,4 +1,4 @@
-// Poses and states of bodies as ROS 2 messages.
+// Converts poses and states of bodies to ROS 2 messages.
 #pragma once
 
 #include "gsv/base/error.h"
@@ -12,13 +12,13 @@ namespace gsv::ros2 {
 // The frame of every pose.
 inline constexpr const char* kEntityFrame = "world";
 
-// The state of a body in the frame "world"; velocities and accelerations are those of its origin.
+// Returns a body's state in the frame "world". Velocities and accelerations are of its origin.
 messages::simulation_interfaces::EntityState StateOf(const world::Snapshot& snapshot, int body);
 
-// A box as two corners: first the upper right one, then the lower left one.
+// Converts a box to two corners: first the upper right one, then the lower left one.
 messages::simulation_interfaces::Bounds BoxOf(const geometry::Bounds& bounds);
 
-// The pose of an untrusted message. An orientation of zeros means no rotation. Fails with
+// Returns the pose of an untrusted message. An orientation of zeros means no rotation. Fails with
 // kInvalidArgument for numbers that are not finite, for an orientation that is not a unit
 // quaternion (within 1 %), and for frames other than "world" and "".
 base::Result<geometry::Pose> PoseIn(const std::string& frame,

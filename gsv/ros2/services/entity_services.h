@@ -11,7 +11,7 @@ namespace gsv::ros2 {
 // `served` must outlive the host of the services.
 void OfferEntityServices(ServedSimulation& served);
 
-// The index of an entity, or kNotFound with a suggestion.
+// Returns the index of an entity, or kNotFound with a suggestion.
 base::Result<int> FindEntity(const world::Snapshot& snapshot, const std::string& name);
 
 }  // namespace gsv::ros2

@@ -17,15 +17,15 @@ namespace gsv::ros2 {
 class GoalList {
  public:
   using Id = std::array<std::uint8_t, 16>;
-  using Status = std::int8_t;  // one of GoalStatus's
+  using Status = std::int8_t;  // a constant of GoalStatus
   static constexpr std::size_t kMaxGoals = 100;
 
   // Accepts a goal. Returns false if its id is already known, or if there are too many goals.
   bool Accept(const Id& id, const messages::builtin_interfaces::Time& stamp);
-  // STATUS_UNKNOWN: there is no such goal.
+  // Returns STATUS_UNKNOWN if there is no such goal.
   Status StatusOf(const Id& id) const;
   bool IsFinished(const Id& id) const;
-  // Begins to execute an accepted goal. Returns false if the goal is being cancelled.
+  // Starts to execute an accepted goal. Returns false if the goal is being cancelled.
   bool Begin(const Id& id);
   void Finish(const Id& id, Status status);
 
@@ -33,7 +33,7 @@ class GoalList {
   messages::action_msgs::CancelGoalResponse Cancel(
       const messages::action_msgs::CancelGoalRequest& request);
 
-  // In the order in which they were accepted.
+  // Returns the goals in the order in which they were accepted.
   messages::action_msgs::GoalStatusArray All() const { return {goals_}; }
 
  private:

@@ -15,7 +15,7 @@ GoalList::Id IdOf(std::uint8_t number) {
   return id;
 }
 
-// Goals 1 and 2, accepted at the seconds 1 and 2. The first one is executing.
+// Returns the goals 1 and 2, accepted at 1 s and 2 s. The first one is executing.
 GoalList TwoGoals() {
   GoalList goals;
   EXPECT_TRUE(goals.Accept(IdOf(1), {1, 0}));

@@ -1,5 +1,5 @@
-// The parameter services of a node, with the one parameter that ROS 2 expects of each: use_sim_time. It is true, and
-// cannot be set: gsv's time is the simulated time.
+// The parameter services of a node, with the only parameter that ROS 2 expects of each node:
+// use_sim_time. It is true and cannot be set, because gsv's time is the simulated time.
 //
 // Source  rcl_interfaces of Jazzy.
 #pragma once
@@ -8,7 +8,7 @@
 
 namespace gsv::ros2 {
 
-// `node` is "/gsv".
+// `node` is a name such as "/gsv".
 void OfferParameterServices(ServiceHost& host, const std::string& node);
 
 }  // namespace gsv::ros2

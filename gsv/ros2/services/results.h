@@ -12,12 +12,12 @@ namespace gsv::ros2 {
 
 messages::simulation_interfaces::Result Succeeded();
 messages::simulation_interfaces::Result Failed(std::uint8_t code, std::string message);
-// kNotFound, kNotRunning and kEnded have their own codes. All other errors give
-// RESULT_OPERATION_FAILED.
+// Converts an error to a result. kNotFound, kNotRunning and kEnded have their own codes. All other
+// errors give RESULT_OPERATION_FAILED.
 messages::simulation_interfaces::Result ResultOf(const base::Error& error);
 messages::simulation_interfaces::Result ResultOf(const base::Status& status);
 
-// The current phase.
+// Returns the current phase.
 simulation::Phase PhaseOf(const simulation::Simulation& simulation);
 
 // Performs an edit. If the simulation runs, it is paused for that and resumed.

@@ -19,20 +19,22 @@ using WallClock = std::chrono::steady_clock;
 
 constexpr std::size_t kMaxWaiting = 10'000;   // requests
 constexpr std::size_t kMaxRequest = 1 << 20;  // bytes
-constexpr std::size_t kMaxUnsent = 1000;      // replies whose client is not yet discovered
-// So long a reply waits for its client. Discovery takes that long on a busy machine that loses a datagram: it is sent
-// again after a heartbeat, whose usual period is 3 s.
+constexpr std::size_t kMaxUnsent = 1000;      // maximum number of replies whose clients are not yet
+                                              // discovered
+// Maximum time for which a reply waits for its client. On a busy machine that loses a datagram,
+// discovery takes this long, because the datagram is sent again after a heartbeat, whose usual
+// period is 3 s.
 constexpr std::chrono::milliseconds kDiscovery{10'000};
 constexpr std::chrono::milliseconds kRetry{10};
 
 constexpr std::size_t kEncapsulation = 4;
 constexpr std::size_t kCycloneHeader = 16;
 
-// Deep enough for clients that send their requests without waiting for replies, or get no processor for some seconds.
-// A reply that a client's socket had no room for is sent again after a heartbeat, provided that it is still among the
-// last ones.
+// Deep enough for clients that send requests without waiting for replies, or do not run for some
+// seconds. If a client's socket had no space for a reply, the reply is sent again after a
+// heartbeat, as long as it is in the history.
 constexpr dds::Qos kServiceQos{.depth = 20'000, .heartbeat_ms = 20};
-// Memory is bounded by fewer of those replies that may be large.
+// The history of replies that may be large is shorter, to bound the memory.
 constexpr dds::Qos kListQos{.depth = 200, .heartbeat_ms = 20};
 
 std::vector<std::byte> Joined(std::span<const std::byte> head, std::span<const std::byte> middle,
@@ -61,7 +63,7 @@ class ServiceHost::Service {
   base::Mutex writing;  // one reply at a time
 };
 
-// The replies to clients that discovery has not found yet.
+// Replies to clients that are not yet discovered.
 class ServiceHost::Outbox {
  public:
   Outbox() : thread_([this] { Run(); }) {}

@@ -1,14 +1,16 @@
 // The services of a ROS 2 node, for clients of rmw_fastrtps and of rmw_cyclonedds.
 //
-// A client of rmw_fastrtps finds its reply by the related sample identity (RTPS 2.3, 8.7.5; inline QoS). A client
-// of rmw_cyclonedds finds it by 16 bytes after the encapsulation header, which the reply repeats. A
-// request follows the second if the GUID of the client's writer has the vendor of Cyclone DDS. With DDS Security a GUID
-// has no vendor; then a request without a related sample identity follows the second.
+// A client of rmw_fastrtps finds its reply by the related sample identity (RTPS 2.3, 8.7.5; inline
+// QoS). A client of rmw_cyclonedds finds it by 16 bytes after the encapsulation header, which the
+// reply repeats. A request is of the second kind if the GUID of its writer has the vendor of
+// Cyclone DDS or, with DDS Security (where GUIDs have no vendor), if it has no related identity.
 //
-// Requests are untrusted input. One that does not decode gets no reply, and the first of a service is logged.
+// Requests are untrusted input. One that does not decode gets no reply; each service logs its
+// first.
 //
-// Threads  Offer…(), Advertise() and the destructor on one. Handlers run on the threads of the host, one for each
-//          lane (quick ones and lists share one), so that a slow request does not delay the quick ones. The rest on any.
+// Threads  Offer…(), Advertise() and the destructor on one. Handlers run on the threads of the
+//          host, one for each lane (kQuick and kLists share one), so that slow requests delay no
+//          quick ones. The rest on any.
 // Bounded  10,000 requests wait; further ones are dropped, and the first is logged.
 #pragma once
 
@@ -38,11 +40,11 @@ class ServiceHost {
     kStepping,  // takes as long as the simulation does
   };
   class Service;
-  // Sends the reply to one request, at most once, also later and from another thread.
+  // Sends the reply to one request, at most once. It may be used later and on another thread.
   class Replier {
    public:
-    // `response` is a whole message. Returns at once; the reply is sent once the client can receive it, which
-    // discovery may delay, or after ten seconds.
+    // Sends a complete message. Returns at once. The reply is sent when discovery has found the
+    // client, or after ten seconds.
     void Send(messages::Bytes response) const;
     template <typename Response>
     void SendMessage(const Response& response) const {
@@ -59,12 +61,12 @@ class ServiceHost {
   };
   using Handler = std::function<void(std::span<const std::byte> request, const Replier& reply)>;
 
-  // `participant` outlives the host. `has_hashes`: endpoints carry the hashes of their types.
+  // `participant` must outlive the host. `has_hashes`: endpoints carry the hashes of their types.
   ServiceHost(dds::Participant& participant, bool has_hashes);
-  // Returns when no handler runs any longer.
+  // Returns when no handler is running.
   ~ServiceHost();
 
-  // `service` is "/gsv/get_entities", `type` is "simulation_interfaces/srv/GetEntities".
+  // For example "/gsv/get_entities" of the type "simulation_interfaces/srv/GetEntities".
   void OfferBytes(const std::string& service, const std::string& type, Lane lane, Handler handler);
 
   // `answer` is called with a Request and a Replier.
@@ -86,17 +88,18 @@ class ServiceHost {
                         });
   }
 
-  // A topic of an action. Null when the participant refuses, which is logged. Lives as long as the host.
+  // Makes a writer, which the host owns, for a topic of an action. Returns null, and logs, if the
+  // participant refuses.
   dds::Writer* Advertise(const std::string& topic, const std::string& type, const dds::Qos& qos);
 
-  // Does a job after those that wait in the lane. False when too many wait.
+  // Appends a job to the lane. Returns false if too many jobs wait.
   bool Do(Lane lane, std::function<void()> job);
 
   // The endpoints of all services and topics.
   const std::vector<dds::Guid>& readers() const { return readers_; }
   const std::vector<dds::Guid>& writers() const { return writers_; }
 
-  // Whether the host is being destroyed: handlers that wait then return.
+  // Whether the host is being destroyed. Handlers that wait must then return.
   bool is_stopping() const { return is_stopping_; }
 
  private:

@@ -1,7 +1,7 @@
-// A thread that does jobs one after the other.
+// A thread that executes jobs one after the other.
 //
 // Threads  any.
-// Bounded  Add() refuses a job when there are too many.
+// Bounded  Add() refuses a job if too many wait.
 #pragma once
 
 #include <deque>
@@ -32,7 +32,7 @@ class ServiceWorker {
     changed_.notify_one();
     return true;
   }
-  // Ends after the current job; the others are dropped.
+  // Ends after the current job, and drops the others.
   void Stop() {
     {
       const base::MutexLock lock(mutex_);

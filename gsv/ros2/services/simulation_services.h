@@ -17,14 +17,14 @@
 
 namespace gsv::ros2 {
 
-// The simulation that the services control, and the state that they share.
+// The simulation that the services control, and their shared state.
 class ServedSimulation {
  public:
   using SetNamespace =
       std::function<base::Status(const std::string& robot, const std::string& name_space)>;
 
-  // The host outlives this. The name of the node is "/gsv". The spawner may be null: nothing can be added; else it
-  // outlives this. `namespace_setter` is called with the namespace of a robot that was added.
+  // The host and the spawner must outlive this. The name of the node is "/gsv". With a null spawner
+  // nothing can be added. `namespace_setter` is called with an added robot's namespace.
   ServedSimulation(ServiceHost& service_host, std::string node_name,
                    const std::shared_ptr<simulation::Simulation>& simulation,
                    Spawner* model_spawner, SetNamespace namespace_setter)
@@ -34,8 +34,8 @@ class ServedSimulation {
         set_namespace(std::move(namespace_setter)),
         simulation_(simulation) {}
 
-  // Offers a service of simulation_interfaces: its name is "get_entities", its type "GetEntities". `answer` is called
-  // with the simulation and a Request, and returns the Response, which has a result.
+  // Offers a service of simulation_interfaces, for example "get_entities", "GetEntities". `answer`
+  // is called with the simulation and a Request, and returns the Response with its result.
   template <typename Request, typename Response, typename Answer>
   void Offer(const char* name, const char* type, ServiceHost::Lane lane, Answer answer) {
     host.Offer<Request>(
@@ -55,7 +55,7 @@ class ServedSimulation {
   const std::string node;
   Spawner* const spawner;
   const SetNamespace set_namespace;
-  std::set<std::string> spawned;  // names of entities; of the slow lane
+  std::set<std::string> spawned;  // names of added entities; used on the slow lane
 
  private:
   const std::weak_ptr<simulation::Simulation> simulation_;
@@ -65,7 +65,7 @@ class StepAction;
 
 class SimulationServices {
  public:
-  // `participant` and `spawner` outlive this; the rest as ServedSimulation and ServiceHost.
+  // `participant` and `spawner` must outlive this. See ServedSimulation and ServiceHost.
   SimulationServices(dds::Participant& participant, bool has_hashes,
                      const std::shared_ptr<simulation::Simulation>& simulation, Spawner* spawner,
                      ServedSimulation::SetNamespace set_namespace);
@@ -75,7 +75,7 @@ class SimulationServices {
   const std::vector<dds::Guid>& writers() const { return host_->writers(); }
 
  private:
-  std::unique_ptr<ServiceHost> host_;  // ends first: its handlers use the others
+  std::unique_ptr<ServiceHost> host_;  // destroyed first: its handlers use the others
   std::unique_ptr<ServedSimulation> served_;
   std::unique_ptr<StepAction> steps_;
 };

@@ -10,7 +10,8 @@ namespace interfaces = messages::simulation_interfaces;
 using simulation::Simulation;
 using Lane = ServiceHost::Lane;
 
-constexpr int kMaxNumber = 10'000;  // the maximum number that is appended to a name that is taken
+constexpr int kMaxNumber = 10'000;  // the maximum number that is appended to a name that exists
+                                    // already
 constexpr std::size_t kMaxName = 200;
 
 using SpawnResponse = interfaces::SpawnEntityResponse;
@@ -34,7 +35,8 @@ bool IsTaken(const Simulation& simulation, const std::string& name) {
   return simulation.snapshot()->layout->Find(name) >= 0;
 }
 
-// The wanted name, or with a number; empty: no number is free.
+// Returns the requested name, with a number if it exists already. Returns an empty text if no
+// number is free.
 std::string FreeName(const Simulation& simulation, const std::string& wanted) {
   if (!IsTaken(simulation, wanted)) return wanted;
   for (int i = 2; i < kMaxNumber; ++i) {

@@ -5,10 +5,10 @@
 
 namespace gsv::ros2 {
 
-// `served` outlives the host of the services.
+// `served` must outlive the host of the services.
 void OfferSpawnServices(ServedSimulation& served);
 
-// Removes a robot or an object. The simulation is paused meanwhile if it has to be.
+// Removes a robot or an object. Pauses the simulation meanwhile if necessary.
 base::Status RemoveEntity(simulation::Simulation& simulation, const std::string& name);
 
 }  // namespace gsv::ros2

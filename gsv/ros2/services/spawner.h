@@ -1,6 +1,6 @@
-// The services ask the program for its models and worlds through this, and SpawnEntity adds a model.
+// Gives the services the models and worlds of the program; adds models for SpawnEntity.
 //
-// Threads  one at a time. Calls may take seconds: models are read.
+// Threads  one at a time. Calls may take seconds, because models are read.
 #pragma once
 
 #include <memory>
@@ -15,9 +15,9 @@ namespace gsv::ros2 {
 
 struct SpawnRequest {
   std::string uri;   // in the form of Spawnable::uri, or the file of a model
-  std::string name;  // empty: the model's name, numbered if taken
+  std::string name;  // empty for the model's name, with a number if that exists already
   geometry::Pose world_from_entity;
-  bool on_ground = false;  // stands on the floor; the height is ignored
+  bool on_ground = false;  // whether it is put on the floor; the height is then ignored
 };
 
 class Spawner {
@@ -28,7 +28,7 @@ class Spawner {
   };
 
   struct World {
-    std::string name;  // as `gsv run` takes it
+    std::string name;  // a name as for `gsv run`
     std::string uri;   // its file
   };
 

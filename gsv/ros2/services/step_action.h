@@ -1,6 +1,6 @@
 // The action SimulateSteps: takes steps one by one, with feedback after each.
 //
-// Threads  the handlers are of the quick lane, and the steps of the stepping lane.
+// Threads  handlers run on the quick lane, and steps on the stepping lane.
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@ namespace gsv::ros2 {
 
 class StepAction {
  public:
-  // `served` and this outlive the host of the services.
+  // `served` and this object must outlive the host of the services.
   explicit StepAction(ServedSimulation& served);
 
  private:
@@ -24,7 +24,7 @@ class StepAction {
       const messages::simulation_interfaces::SimulateStepsSendGoalRequest& request);
   void GiveResult(const GoalList::Id& id, const ServiceHost::Replier& reply);
   void Execute(const GoalList::Id& id, std::uint64_t steps);
-  // Takes the steps; returns how many it took of them, and why not all.
+  // Takes the steps. Returns the number of steps taken and, if some are missing, the reason.
   Outcome Take(simulation::Simulation& simulation, const GoalList::Id& id, std::uint64_t steps);
   void SendFeedback(const GoalList::Id& id, std::uint64_t completed, std::uint64_t remaining);
   void Finish(const GoalList::Id& id, const Outcome& outcome);

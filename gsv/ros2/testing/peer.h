@@ -21,7 +21,7 @@ namespace gsv::ros2::testing {
 
 inline constexpr std::chrono::seconds kTimeout{20};
 
-// Tests that run at the same time do not meet.
+// Returns different domains for concurrent tests, so that they do not exchange messages.
 inline std::uint32_t DomainOfProcess() { return 1 + static_cast<std::uint32_t>(getpid()) % 100; }
 
 inline std::unique_ptr<dds::Participant> MakeParticipant(bool watches_endpoints = false) {
@@ -57,7 +57,7 @@ class Peer {
     readers_.push_back(*std::move(reader));
   }
 
-  // The newest message on a topic, once there are so many; fails the test when they do not come.
+  // Returns the newest of at least `count` messages. Fails the test if they do not arrive.
   template <typename Message>
   Message Await(const std::string& topic, std::size_t count = 1) {
     base::MutexLock lock(mutex_);
@@ -79,7 +79,7 @@ class Peer {
                                     const dds::Qos& qos = {}) {
     auto writer =
         participant_->MakeWriter({DdsTopicName(topic), DdsTypeName(type), qos, {}}, [this] {
-          const base::MutexLock lock(mutex_);  // so that no waiter misses it
+          const base::MutexLock lock(mutex_);  // ensures that no waiter misses it
           changed_.notify_all();
         });
     EXPECT_TRUE(writer);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint8_t kNested = 1, kString = 17, kBoundedString = 21;
 constexpr std::uint8_t kArray = 48, kBoundedSequence = 96,
-                       kSequence = 144;  // above the value's kind
+                       kSequence = 144;  // added to the kind of the value
 constexpr std::string_view kSeparator = "\n====";
 constexpr std::string_view kNextType = "MSG: ";
 
@@ -20,7 +20,8 @@ tl::unexpected<base::Error> NoType(std::string message, std::string_view where) 
   return base::Fail(base::ErrorCode::kCorrupt, std::move(message), std::string(where));
 }
 
-// "geometry_msgs/Vector3", and "Vector3" in its package, are "geometry_msgs/msg/Vector3".
+// Returns "geometry_msgs/msg/Vector3" for "geometry_msgs/Vector3", and for "Vector3" in its
+// package.
 std::string FullTypeName(std::string_view type, std::string_view package) {
   const std::size_t slash = type.find('/');
   if (slash == std::string_view::npos) return std::string(package) + "/msg/" + std::string(type);
@@ -35,7 +36,7 @@ std::optional<std::uint64_t> NumberIn(std::string_view text) {
   return number;
 }
 
-// The brackets at the end of a type: "[]", "[9]", "[<=9]".
+// Parses the brackets at the end of a type: "[]", "[9]", "[<=9]".
 bool SetShape(std::string_view brackets, FieldType& type) {
   if (brackets.empty()) return true;
   if (brackets.back() != ']') return false;
@@ -52,12 +53,12 @@ bool SetShape(std::string_view brackets, FieldType& type) {
   return true;
 }
 
-// The type of a field as the definition writes it: "float64[36]", "string<=10", "Vector3[]".
+// Parses the type of a field as in a definition: "float64[36]", "string<=10", "Vector3[]".
 std::optional<FieldType> ParseFieldType(std::string_view text, std::string_view package) {
   static const std::map<std::string, std::uint8_t, std::less<>> kIds =
       {{"int8", 2},     {"uint8", 3},    {"int16", 4},       {"uint16", 5},
        {"int32", 6},    {"uint32", 7},   {"int64", 8},       {"uint64", 9},
-       {"float32", 10}, {"float64", 11}, {"char", 3},  // rosidl makes uint8 of it
+       {"float32", 10}, {"float64", 11}, {"char", 3},  // rosidl converts char to uint8
        {"bool", 15},    {"byte", 16},    {"string", kString}};
   const std::size_t bracket = std::min(text.find('['), text.size());
   std::string_view value = text.substr(0, bracket);
@@ -96,7 +97,7 @@ base::Result<Fields> ParseFields(std::string_view name, std::string_view text) {
   return fields;
 }
 
-// Every nested type is defined.
+// Fails if a nested type is not defined.
 base::Status CheckReferences(const TypeDescription& description, const Fields& fields) {
   for (const FieldDescription& field : fields) {
     if (!field.type.nested_type.empty() &&

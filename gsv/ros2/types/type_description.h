@@ -1,4 +1,4 @@
-// The description of a ROS 2 type: what its hash is made of.
+// The description of a ROS 2 type, from which its hash is computed.
 //
 // Source  REP-2011, REP-2016; type_description_interfaces/msg/TypeDescription, FieldType.
 #pragma once
@@ -16,7 +16,7 @@ namespace gsv::ros2 {
 
 // type_description_interfaces/msg/FieldType.
 struct FieldType {
-  std::uint8_t id = 0;                // the kind of value, and 48, 96 or 144 above it for arrays
+  std::uint8_t id = 0;                // the kind of the value, plus 48, 96 or 144 for arrays
   std::uint64_t capacity = 0;         // size of a fixed array or maximum of a bounded sequence
   std::uint64_t string_capacity = 0;  // maximum length of a bounded string
   std::string nested_type;            // "geometry_msgs/msg/Vector3"
@@ -29,24 +29,24 @@ struct FieldDescription {
 
 using Fields = std::vector<FieldDescription>;
 
-// A type and all that it uses, directly or not.
+// A type, and all types that it uses directly or indirectly.
 struct TypeDescription {
   std::string name;  // "sensor_msgs/msg/LaserScan", "rcl_interfaces/srv/GetParameters"
   Fields fields;
   std::map<std::string, Fields> referenced;  // types by name
 };
 
-// Reads a schema in the encoding "ros2msg". Constants and default values are no part of a description.
-// Fails with kCorrupt where the text names a type that it does not define, or is no definition.
+// Reads a schema in the encoding "ros2msg". A description has no constants and no default values.
+// Fails with kCorrupt if the text is not a definition, or names a type that it does not define.
 [[nodiscard]] base::Result<TypeDescription> DescribeType(const messages::Schema& schema);
 
-// The description of a service, which has fields of its request, its response and its event. `name` is
-// "rcl_interfaces/srv/GetParameters"; the schemas are those of its two halves.
+// Returns the description of a service, which has fields of its request, its response and its
+// event. `name` is "rcl_interfaces/srv/GetParameters"; the schemas: request, response.
 [[nodiscard]] base::Result<TypeDescription> DescribeService(std::string_view name,
                                                             const messages::Schema& request,
                                                             const messages::Schema& response);
 
-// The text that is hashed: JSON as Python's json.dumps writes it, without default values.
+// Returns the text that is hashed: JSON as Python's json.dumps writes it, without default values.
 std::string CanonicalJson(const TypeDescription& description);
 
 }  // namespace gsv::ros2

@@ -25,7 +25,7 @@ const messages::Schema* FindSchema(std::string_view name) {
   return found != schemas.end() && found->name == name ? &*found : nullptr;
 }
 
-// Our own definitions are always in order.
+// Definitions of GSV are always valid.
 std::string HashOf(const base::Result<TypeDescription>& description) {
   GSV_CHECK(description.has_value());
   return TypeHash(*description);

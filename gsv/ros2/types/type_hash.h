@@ -1,4 +1,4 @@
-// The hashes by which ROS 2 nodes see whether they mean the same type.
+// The hashes by which ROS 2 nodes check whether their definitions of a type are equal.
 //
 // Source  REP-2011, REP-2016 (RIHS01): SHA-256 of the type's description in canonical JSON. Endpoints carry
 //         it in their USER_DATA since Iron.
@@ -12,19 +12,19 @@
 
 namespace gsv::ros2 {
 
-// "RIHS01_" and 64 lower-case hexadecimal digits.
+// Returns "RIHS01_" and 64 lower-case hexadecimal digits.
 std::string TypeHash(const TypeDescription& description);
 
-// The hash of a message that gsv/messages defines ("sensor_msgs/msg/LaserScan"), or of a service both
-// halves of which it defines ("rcl_interfaces/srv/GetParameters"). Empty for all others. Computed once.
+// Returns the hash of a message ("sensor_msgs/msg/LaserScan") or service
+// ("rcl_interfaces/srv/GetParameters") of gsv/messages; empty for all others. Computed once.
 std::string TypeHashOf(std::string_view type);
 
-// The USER_DATA of an endpoint of that type: "typehash=RIHS01_…;". Both topics of a service carry
-// the hash of the service, so "pkg/srv/Name_Request" and "…_Response" stand for "pkg/srv/Name". Empty where
-// there is no hash.
+// Returns the USER_DATA of an endpoint of that type: "typehash=RIHS01_…;". Both topics of a service
+// carry the hash of the service, so "pkg/srv/Name_Request" and "…_Response" stand for
+// "pkg/srv/Name". Empty if there is no hash.
 std::string TypeHashUserData(std::string_view type);
 
-// The hash in an endpoint's USER_DATA; empty where there is none. `user_data` is untrusted input.
+// Returns the hash in an endpoint's USER_DATA, or an empty text. `user_data` is untrusted input.
 std::string_view TypeHashIn(std::string_view user_data);
 
 }  // namespace gsv::ros2

@@ -1,4 +1,5 @@
-// Hashes that ROS 2's own packages publish: of Jazzy's, and of simulation_interfaces 2.0.
+// Compares with hashes that packages of ROS 2 publish: those of Jazzy, and of simulation_interfaces
+// 2.0.
 #include "gsv/ros2/types/type_hash.h"
 
 #include <gtest/gtest.h>
