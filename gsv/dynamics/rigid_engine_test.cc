@@ -1,4 +1,4 @@
-// Tests the world's engine with an engine of rigid-body dynamics other than Bullet.
+// Tests the world's engine with an engine of rigid-body dynamics other than the project's.
 #include <gtest/gtest.h>
 
 #include "gsv/dynamics/testing/test_rigid_world.h"

@@ -11,7 +11,7 @@
 #include "gsv/dynamics/planar/planar_joints.h"
 #include "gsv/dynamics/planar/planar_mover.h"
 #include "gsv/dynamics/planar/planar_pushes.h"
-#include "gsv/dynamics/rigid/bullet_engine.h"
+#include "gsv/dynamics/rigid/rigid_body_engine.h"
 
 namespace gsv::dynamics {
 namespace {
@@ -146,7 +146,7 @@ class WorldEngine final : public Engine {
 std::unique_ptr<Engine> MakeWorldEngine(std::shared_ptr<base::ThreadTeam> team,
                                         std::unique_ptr<RigidEngine> rigid) {
   if (team == nullptr) team = std::make_shared<base::ThreadTeam>(1);
-  if (rigid == nullptr) rigid = MakeBulletEngine(team);
+  if (rigid == nullptr) rigid = MakeRigidEngine(team);
   return std::make_unique<WorldEngine>(std::move(team), std::move(rigid));
 }
 

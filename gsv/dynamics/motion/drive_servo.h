@@ -29,7 +29,7 @@ class DriveServo {
   base::SimTime now_;
 };
 
-// Some drives have no wheels that Bullet could roll (synchro, mecanum, velocity). They control the
+// Some drives have no wheels that could roll (synchro, mecanum, velocity). They control the
 // base itself: its horizontal velocity and its turn rate about the vertical approach the target
 // velocity, by at most `grip` (m/s², rad/s²) times `seconds`. There must be no friction between
 // such a base and the bodies that carry it.

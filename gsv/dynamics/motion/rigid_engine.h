@@ -1,4 +1,4 @@
-// An engine of rigid-body dynamics, as WorldEngine uses it. rigid/ implements it with Bullet.
+// An engine of rigid-body dynamics, as WorldEngine uses it. rigid/ implements it.
 //
 // Bodies       the engine moves the bodies of kind kRigidBody. It reads all others from the states:
 //              planar bodies and actors move during a step, and the rest is static.

@@ -1,14 +1,16 @@
 #include "gsv/dynamics/rigid/loop_rows.h"
 
-#include <limits>
+#include <algorithm>
+#include <cmath>
 
 namespace gsv::dynamics {
 namespace {
 
+using geometry::Pose;
+using geometry::Vector3;
 using model::JointKind;
 
-constexpr double kNoBound = std::numeric_limits<double>::infinity();
-constexpr double kCorrection = 0.2;  // share of the drift that a substep takes back
+constexpr double kLoopCorrection = 0.2;  // share of the drift that a substep takes back
 
 int LinearRows(JointKind kind) { return kind == JointKind::kPrismatic ? 2 : 3; }
 
@@ -17,79 +19,78 @@ int AngularRows(JointKind kind) {
   return kind == JointKind::kRevolute || kind == JointKind::kContinuous ? 2 : 3;
 }
 
-// The small rotation from one frame to the other, in the world.
-btVector3 RotationBetween(const btMatrix3x3& first, const btMatrix3x3& second) {
-  btVector3 twice(0, 0, 0);
-  for (int axis = 0; axis < 3; ++axis) {
-    twice += first.getColumn(axis).cross(second.getColumn(axis));
+// The shortest rotation that turns the z axis to `axis`.
+geometry::Quaternion FromZTo(const Vector3& axis) {
+  const Vector3 z{0, 0, 1}, across = Cross(z, axis);
+  if (axis.z < -1 + 1e-12) return {0, 1, 0, 0};
+  return geometry::Normalized({1 + axis.z, across.x, across.y, across.z});
+}
+
+// The velocities that move either end, each once.
+std::vector<int> VelocitiesOf(const LinkTree& tree, int first, int second) {
+  std::vector<int> velocities;
+  for (const int part : {first, second}) {
+    const auto chain = tree.Chain(part);
+    velocities.insert(velocities.end(), chain.begin(), chain.end());
   }
-  return twice / 2;
+  std::sort(velocities.begin(), velocities.end());
+  velocities.erase(std::unique(velocities.begin(), velocities.end()), velocities.end());
+  return velocities;
 }
 
 }  // namespace
 
-LoopRows::LoopRows(btMultiBody& tree, const End& first, const End& second, JointKind kind)
-    : btMultiBodyConstraint(&tree, &tree, first.link, second.link,
-                            LinearRows(kind) + AngularRows(kind), false,
-                            MULTIBODY_CONSTRAINT_FIXED),
-      first_(first),
-      second_(second),
-      linear_rows_(LinearRows(kind)),
-      angular_rows_(AngularRows(kind)) {
-  LoopRows::finalizeMultiDof();
-}
-
-void LoopRows::finalizeMultiDof() {
-  allocateJacobiansMultiDof();
-  m_numDofsFinalized = m_jacSizeBoth;
-}
-
-int LoopRows::getIslandIdA() const { return m_bodyA->getBaseCollider()->getIslandTag(); }
-
-btTransform LoopRows::WorldFromJoint(const End& end) const {
-  const btTransform world_from_link = end.link < 0
-                                          ? m_bodyA->getBaseWorldTransform()
-                                          : m_bodyA->getLink(end.link).m_cachedWorldTransform;
-  return world_from_link * end.link_from_joint;
-}
-
-// One direction in which the first end moves relative to the second at this rate.
-void LoopRows::AddRow(int index, const btVector3& linear, const btVector3& angular,
-                      const btVector3& point, double rate, btMultiBodyConstraintArray& rows,
-                      btMultiBodyJacobianData& bullet, const btContactSolverInfo& info) {
-  const btVector3 zero(0, 0, 0);
-  btScalar* const jacobian = jacobianA(index);
-  btScalar* const second = jacobianB(index);
-  for (const auto& [end, into] : {std::pair{&first_, jacobian}, std::pair{&second_, second}}) {
-    m_bodyA->fillConstraintJacobianMultiDof(end->link, point, angular, linear, into,
-                                            bullet.scratch_r, bullet.scratch_v, bullet.scratch_m);
+void LoopJoint::AddRows(const LinkTree& tree, double seconds, JointRows& rows) const {
+  const Pose first = tree.pose(first_.part) * first_.part_from_joint;
+  const Pose second = tree.pose(second_.part) * second_.part_from_joint;
+  const Matrix3 a = MatrixOf(first.orientation), b = MatrixOf(second.orientation);
+  const Vector3 gap = second.position - first.position;
+  const Vector3 rotation = AngularRows(kind_) == 2
+                               ? Cross(a.z, b.z)
+                               : 0.5 * (Cross(a.x, b.x) + Cross(a.y, b.y) + Cross(a.z, b.z));
+  const Vector3 axes[] = {a.x, a.y, a.z};
+  const std::vector<int> velocities = VelocitiesOf(tree, first_.part, second_.part);
+  // The motion of the first end relative to the second, by each velocity.
+  std::vector<LinkTree::Motion> motions(velocities.size());
+  std::vector<Vector3> of_point;
+  for (const double sign : {1.0, -1.0}) {
+    const int part = sign > 0 ? first_.part : second_.part;
+    tree.PointMotions(part, second.position, of_point);
+    const auto chain = tree.Chain(part);
+    for (std::size_t k = 0; k < chain.size(); ++k) {
+      const auto at = std::lower_bound(velocities.begin(), velocities.end(), chain[k]);
+      LinkTree::Motion& motion = motions[static_cast<std::size_t>(at - velocities.begin())];
+      motion.moving += sign * of_point[k];
+      motion.turning += sign * tree.turning(chain[k]);
+    }
   }
-  for (int i = 0; i < m_jacSizeA; ++i) jacobian[i] -= second[i];
-  btMultiBodySolverConstraint& row = rows.expandNonInitializing();
-  row.m_orgConstraint = this;
-  row.m_orgDofIndex = index;
-  fillMultiBodyConstraint(row, bullet, jacobian, nullptr, zero, zero, zero, zero, 0, info,
-                          -kNoBound, kNoBound, true, 1, false, rate);
-  row.m_contactNormal1 = row.m_contactNormal2 = zero;
-  row.m_relpos1CrossNormal = row.m_relpos2CrossNormal = zero;
+  const auto add = [&](const Vector3& axis, const Vector3& error, bool is_linear) {
+    JointRow& row = rows.AddEmpty();
+    row.target = kLoopCorrection / seconds * Dot(axis, error);
+    for (std::size_t k = 0; k < velocities.size(); ++k) {
+      const double value = Dot(axis, is_linear ? motions[k].moving : motions[k].turning);
+      if (value != 0) rows.AddValue(velocities[k], value);
+    }
+  };
+  for (int i = 0; i < LinearRows(kind_); ++i) add(axes[i], gap, true);
+  for (int i = 0; i < AngularRows(kind_); ++i) add(axes[i], rotation, false);
 }
 
-void LoopRows::createConstraintRows(btMultiBodyConstraintArray& rows,
-                                    btMultiBodyJacobianData& bullet,
-                                    const btContactSolverInfo& info) {
-  const btTransform first = WorldFromJoint(first_), second = WorldFromJoint(second_);
-  const btVector3 gap = second.getOrigin() - first.getOrigin();
-  const btVector3 rotation =
-      angular_rows_ == 2 ? first.getBasis().getColumn(2).cross(second.getBasis().getColumn(2))
-                         : RotationBetween(first.getBasis(), second.getBasis());
-  const double gain = kCorrection / info.m_timeStep;
-  const btVector3 zero(0, 0, 0);
-  for (int i = 0; i < linear_rows_ + angular_rows_; ++i) {
-    const bool is_linear = i < linear_rows_;
-    const btVector3 axis = first.getBasis().getColumn(is_linear ? i : i - linear_rows_);
-    AddRow(i, is_linear ? axis : zero, is_linear ? zero : axis, second.getOrigin(),
-           gain * axis.dot(is_linear ? gap : rotation), rows, bullet, info);
+std::vector<LoopJoint> LoopJointsOf(const RigidBody& plan) {
+  const auto end_of = [&](int link, const model::Joint& joint) -> LoopJoint::End {
+    // An end at the world (-1) is at the base, which then does not move.
+    const int part = link < 0 ? 0 : plan.articulation.part_of_link[static_cast<std::size_t>(link)];
+    const Pose& model_from_part =
+        plan.articulation.parts[static_cast<std::size_t>(part)].model_from_part;
+    return {part,
+            Inverse(model_from_part) * joint.model_from_joint * Pose{{}, FromZTo(joint.axis)}};
+  };
+  std::vector<LoopJoint> joints;
+  for (const model::Joint& joint : plan.model->loop_joints) {
+    const LoopJoint::End parent = end_of(joint.parent, joint), child = end_of(joint.child, joint);
+    if (parent.part != child.part) joints.emplace_back(parent, child, joint.kind);
   }
+  return joints;
 }
 
 }  // namespace gsv::dynamics

@@ -1,45 +1,36 @@
-// The rows of constraint of a joint that closes a loop of links (a four-bar linkage, a scissor
-// lift): it holds two links of one tree together. Private to this folder: it includes Bullet.
+// The rows of a joint that closes a loop of links (a four-bar linkage, a scissor lift): it holds two
+// parts of one tree together.
 //
 // Drift  what the linear velocity constraints leave open is taken back in part each substep
 //        (Baumgarte, "Stabilization of constraints and integrals of motion in dynamical systems",
 //        1972).
 #pragma once
 
-#include <span>
-
-#include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
-
-#include "gsv/dynamics/rigid/bullet_types.h"
-#include "gsv/model/model.h"
+#include "gsv/dynamics/rigid/joint_rows.h"
+#include "gsv/dynamics/rigid/link_tree.h"
 
 namespace gsv::dynamics {
 
-class LoopRows final : public btMultiBodyConstraint {
+class LoopJoint {
  public:
-  // Each end is a link of the tree (-1: its base) with the joint's frame in it. The z axis is the
-  // joint's. `kind` is fixed, revolute, continuous, prismatic or ball.
+  // `kind` is fixed, revolute, continuous, prismatic or ball. Parts as in the articulation. The z
+  // axis of the joint's frames is its axis.
   struct End {
-    int link;
-    btTransform link_from_joint;
+    int part = 0;
+    geometry::Pose part_from_joint;
   };
-  LoopRows(btMultiBody& tree, const End& first, const End& second, model::JointKind kind);
+  LoopJoint(const End& first, const End& second, model::JointKind kind)
+      : first_(first), second_(second), kind_(kind) {}
 
-  void finalizeMultiDof() override;
-  int getIslandIdA() const override;
-  int getIslandIdB() const override { return getIslandIdA(); }
-  void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& bullet,
-                            const btContactSolverInfo& info) override;
-  void debugDraw(btIDebugDraw*) override {}
+  // Adds the rows for a substep of so many seconds.
+  void AddRows(const LinkTree& tree, double seconds, JointRows& rows) const;
 
  private:
-  btTransform WorldFromJoint(const End& end) const;
-  void AddRow(int index, const btVector3& linear, const btVector3& angular, const btVector3& point,
-              double rate, btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& bullet,
-              const btContactSolverInfo& info);
-
-  const End first_, second_;
-  const int linear_rows_, angular_rows_;  // about or along x, then y, then z of the joint
+  End first_, second_;
+  model::JointKind kind_;
 };
+
+// The joints that close the loops of a body.
+std::vector<LoopJoint> LoopJointsOf(const RigidBody& plan);
 
 }  // namespace gsv::dynamics

@@ -1,57 +1,100 @@
-// One body of a rigid scene in Bullet's world: a rigid body, or a tree of links in joint
-// coordinates, which no joint can drift apart in. Private to this folder: it includes Bullet.
+// One body that rigid-body dynamics moves: its equations of motion, the forces on it, and the
+// commands that it follows. It lives as long as the layout.
 #pragma once
 
-#include <memory>
-#include <span>
+#include <optional>
+#include <vector>
 
-#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
-
-#include "gsv/dynamics/rigid/rigid_contacts.h"
+#include "gsv/dynamics/motion/drive_servo.h"
+#include "gsv/dynamics/rigid/loop_rows.h"
 
 namespace gsv::dynamics {
 
 class MovingBody {
  public:
-  virtual ~MovingBody() = default;
+  // `world` is the world that the body is in. Both must outlive the body.
+  MovingBody(const RigidBody& plan, const model::WorldDescription& world);
 
-  // Follows commands for the next substep.
-  virtual void BeforeSubstep(double seconds) = 0;
-  // Applies the effects that the explicit integration does not include.
-  virtual void AfterSubstep(double seconds) = 0;
+  // Starts a step from this state.
+  void Load(const world::State& state);
+  // Computes where the parts are.
+  void Place();
+  // Follows commands for the next substep: forces, rows and the velocities without impulses.
+  void BeforeSubstep(double seconds);
+  // Takes the velocities that the substep ends with, and moves. A body that nothing touched follows
+  // its parabola.
+  void AfterSubstep(std::span<const double> velocities, bool is_touched, double seconds);
+
   // An upper bound of the speed of all points, in m/s.
-  virtual double Speed() const = 0;
+  double Speed() const;
   // m: half of the least thickness of any part.
-  virtual double Thickness() const = 0;
-  virtual void Bounds(btVector3& low, btVector3& high) const = 0;
-  // Returns null for a tree of links.
-  virtual btRigidBody* rigid() { return nullptr; }
+  double thickness() const { return thickness_; }
 
   // Writes pose and velocity to `state`, except for bodies that were at rest and still are.
-  virtual void Store(double seconds, world::State& state) const = 0;
-};
+  // Returns whether it is one of these.
+  bool Store(double seconds, world::State& state) const;
 
-// `world_description` is the world that the body is in.
-std::unique_ptr<MovingBody> MakeFreeBody(const RigidBody& plan,
-                                         const model::WorldDescription& world_description,
-                                         const world::State& state, Owner& owner,
-                                         btMultiBodyDynamicsWorld& world);
-// `owners` are those of the plan's solids. Joints keep to their limits, are damped and rub; those
-// of a drive's wheels turn as the drive wants (RollsOnWheels()), its steering goes where it wants.
-std::unique_ptr<MovingBody> MakeJointTree(const RigidBody& plan,
-                                          const model::WorldDescription& world_description,
-                                          const world::State& state, std::span<Owner* const> owners,
-                                          btMultiBodyDynamicsWorld& world);
+  const RigidBody& plan() const { return plan_; }
+  LinkTree& tree() { return tree_; }
+  const LinkTree& tree() const { return tree_; }
+  const JointRows& rows() const { return rows_; }
+  // Whether it moves by its own velocity, whatever touches it.
+  bool is_kinematic() const { return is_kinematic_; }
+  // Its drive controls the base directly.
+  bool is_held() const { return servo_.has_value() && !rolls_; }
+  geometry::Vector3 VelocityOf(int part, const geometry::Vector3& point) const;
+  // rad/s, without sign; 0 for a part on a ball joint, which has no axle.
+  double WheelRate(int part) const;
+
+ private:
+  struct Motor {
+    int part, joint, velocity;  // in the articulation, in the model, in the tree
+  };
+
+  const Part& part(int index) const {
+    return plan_.articulation.parts[static_cast<std::size_t>(index)];
+  }
+  const model::Joint& JointOf(const Motor& motor) const {
+    return plan_.model->joints[static_cast<std::size_t>(motor.joint)];
+  }
+  void AddForces(double seconds);
+  void Drive(double seconds);
+  world::JointCommand CommandOf(int joint) const;
+  void AddJointRows(double seconds);
+  void AddMotor(const Motor& motor, double seconds);
+  void AddPush(const Motor& motor, double force, double seconds);
+  double AddControl(const Motor& motor, const world::JointCommand& command, double seconds);
+  void AddVelocityLimit(const Motor& motor, double force, double seconds);
+  void AddPositionLimits(const Motor& motor, double seconds);
+  void AddRow(const Motor& motor, double rate, double impulse);
+  void Follow(const Motor& motor, const model::Mimic& mimic, double seconds);
+  void StoreJoints(bool rests, world::State& state) const;
+  void StoreBall(int part, bool rests, world::State& state) const;
+  double Rate(int part) const;
+  geometry::Pose WorldFromModel() const;
+  double RestingSpeed() const;
+
+  const RigidBody& plan_;
+  const model::WorldDescription& world_;
+  LinkTree tree_;
+  JointRows rows_;
+  std::vector<LoopJoint> loops_;
+  std::vector<Motor> motors_;
+  std::optional<DriveServo> servo_;
+  std::vector<world::JointCommand> commands_;  // commands of the model's joints; may be empty
+  std::vector<double> integrals_;              // of the model's joints; may be empty
+  // positions and rates that the drive wants of its joints
+  std::vector<double> wanted_positions_, wanted_rates_;
+  bool is_kinematic_, rolls_;
+  double thickness_;
+  geometry::Vector3 velocity_, angular_velocity_;  // of a kinematic body
+  geometry::Vector3 outer_acceleration_;           // m/s²: of a single body, by outer forces
+  double resting_speed_before_ = 0;
+};
 
 // m/s² and rad/s²: a body keeps its pose if its speed is below this value times the step, before the
 // step and after it. So bodies at rest keep their poses to the bit. The effect equals a rolling
 // resistance of one per cent: a body that would start to roll on a slope of half a degree stays.
 inline constexpr double kResting = 0.1;
-
-// Stores the velocity of the model's origin, computed from the velocity of one of the model's
-// points.
-void StoreMotion(const geometry::Pose& world_from_model, const geometry::Vector3& point,
-                 const geometry::Vector3& velocity, const geometry::Vector3& angular_velocity,
-                 world::BodyState& body);
 
 }  // namespace gsv::dynamics

@@ -38,16 +38,18 @@ void RestingState::Remember(const RigidScene& scene, const world::State& before,
   const bool commanded =
       std::any_of(scene.bodies().begin(), scene.bodies().end(),
                   [](const RigidBody& body) { return body.kinematics.has_value(); });
+  engine_ = after.engine;
   areas_ = std::move(areas);
   seconds_ = seconds;
-  rests_ =
-      !commanded && state_ == ValuesOf(scene, before) && !AnyNear(scene, before, after, areas_);
+  rests_ = !commanded && after.engine == before.engine && state_ == ValuesOf(scene, before) &&
+           !AnyNear(scene, before, after, areas_);
 }
 
 bool RestingState::Holds(const RigidScene& scene, const world::State& before,
                          const world::State& after, double seconds) const {
   return rests_ && before.joint_commands.empty() && seconds == seconds_ &&
-         state_ == ValuesOf(scene, before) && !AnyNear(scene, before, after, areas_);
+         before.engine == engine_ && state_ == ValuesOf(scene, before) &&
+         !AnyNear(scene, before, after, areas_);
 }
 
 }  // namespace gsv::dynamics

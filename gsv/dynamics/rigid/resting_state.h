@@ -4,6 +4,7 @@
 // Determinism  it only avoids a step whose result is known, so results do not depend on it.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "gsv/dynamics/rigid/rigid_scene.h"
@@ -28,6 +29,7 @@ class RestingState {
   double seconds_ = 0;
   std::vector<double> state_;
   std::vector<Area> areas_;
+  std::shared_ptr<const world::EngineState> engine_;
 };
 
 }  // namespace gsv::dynamics

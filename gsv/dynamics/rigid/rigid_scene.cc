@@ -2,66 +2,85 @@
 
 #include <algorithm>
 
-#include "gsv/dynamics/rigid/shape_filter.h"
-
 namespace gsv::dynamics {
 namespace {
 
 using geometry::Pose;
 
-bool IsIdentity(const btTransform& transform) {
-  constexpr double kRounding = 1e-14;
-  const btMatrix3x3 &a = transform.getBasis(), &b = btMatrix3x3::getIdentity();
-  return transform.getOrigin().length() < kRounding && (a[0] - b[0]).length() < kRounding &&
-         (a[1] - b[1]).length() < kRounding && (a[2] - b[2]).length() < kRounding;
+void SetKind(Piece& piece) {
+  using Kind = Piece::Kind;
+  const btCollisionShape& shape = *piece.shape;
+  switch (shape.getShapeType()) {
+    case SPHERE_SHAPE_PROXYTYPE: {
+      const double radius = static_cast<const btSphereShape&>(shape).getRadius();
+      piece.kind = Kind::kSphere;
+      piece.half = {radius, radius, 0};
+      break;
+    }
+    case BOX_SHAPE_PROXYTYPE:
+      piece.kind = Kind::kBox;
+      piece.half = FromBullet(static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin());
+      break;
+    case CYLINDER_SHAPE_PROXYTYPE:
+      piece.kind = Kind::kCylinder;
+      piece.half =
+          FromBullet(static_cast<const btCylinderShape&>(shape).getHalfExtentsWithMargin());
+      break;
+    case CAPSULE_SHAPE_PROXYTYPE: {
+      const auto& capsule = static_cast<const btCapsuleShape&>(shape);
+      piece.kind = Kind::kCapsule;
+      piece.half = {capsule.getRadius(), capsule.getRadius(), capsule.getHalfHeight()};
+      break;
+    }
+    case STATIC_PLANE_PROXYTYPE:
+      piece.kind = Kind::kPlane;
+      piece.normal = FromBullet(static_cast<const btStaticPlaneShape&>(shape).getPlaneNormal());
+      break;
+    default:
+      break;
+  }
 }
 
-// Adds children to a compound and records their properties. A solid of one child needs no compound,
-// which costs as much as its contacts.
 class SolidBuilder {
  public:
-  SolidBuilder(int body, btCompoundShape* compound) : compound_(compound) { solid_.body = body; }
+  explicit SolidBuilder(int body) { solid_.body = body; }
 
-  void Add(const btTransform& solid_from_shape, btCollisionShape* shape,
-           const model::Surface& surface) {
+  void Add(const Pose& solid_from_piece, btCollisionShape* shape, const model::Surface& surface) {
+    Piece& piece = solid_.pieces.emplace_back();
+    piece.solid_from_piece = solid_from_piece;
+    piece.rotation = MatrixOf(solid_from_piece.orientation);
+    piece.shape = shape;
+    piece.surface = surface;
+    SetKind(piece);
+    // A plane has no end.
+    if (piece.kind == Piece::Kind::kPlane) return;
     btVector3 low, high;
     shape->getAabb(btTransform::getIdentity(), low, high);
-    const btVector3 half = (high - low) / 2;
-    const double thickness = half[half.minAxis()];
-    solid_.thickness = std::min(solid_.thickness, thickness);
+    piece.middle = FromBullet((low + high) / 2);
+    piece.box = FromBullet((high - low) / 2);
+    solid_.thickness = std::min({solid_.thickness, piece.box.x, piece.box.y, piece.box.z});
     btVector3 centre;
     btScalar radius = 0;
     shape->getBoundingSphere(centre, radius);
-    solid_.radius = std::max<double>(solid_.radius, (solid_from_shape * centre).length() + radius);
-    compound_->addChildShape(solid_from_shape, shape);
-    only_ = solid_.surfaces.empty() && IsIdentity(solid_from_shape) ? shape : nullptr;
-    SetFilter(*shape, surface.filter);
-    filter_ = Union(filter_, surface.filter);
-    solid_.surfaces.push_back(surface);
+    solid_.radius =
+        std::max<double>(solid_.radius, Norm(solid_from_piece * FromBullet(centre)) + radius);
   }
 
-  Solid Finish() {
-    SetFilter(*compound_, filter_);
-    solid_.shape = only_ != nullptr ? only_ : compound_;
-    return std::move(solid_);
-  }
+  Solid Finish() { return std::move(solid_); }
 
  private:
-  btCompoundShape* compound_;
-  btCollisionShape* only_ = nullptr;  // the only child, if it has the solid's frame
-  model::CollisionFilter filter_ = model::kMeetsNothing;
   Solid solid_;
 };
 
 Solid SolidOf(const Part& part, const model::Model& model, int body, RigidShapes& shapes) {
-  SolidBuilder builder(body, shapes.Compound());
+  SolidBuilder builder(body);
   const Pose part_from_model = Inverse(part.model_from_part);
   for (const int l : part.links) {
     for (const model::Collision& collision : model.links[l].collisions) {
       const Pose pose =
           part_from_model * model.links[l].model_from_link * collision.link_from_collision;
       for (btCollisionShape* shape : shapes.Moving(collision.shape)) {
-        builder.Add(ToBullet(pose), shape, collision.surface);
+        builder.Add(pose, shape, collision.surface);
       }
     }
   }
@@ -71,21 +90,20 @@ Solid SolidOf(const Part& part, const model::Model& model, int body, RigidShapes
 }  // namespace
 
 bool Solid::bounces() const {
-  return std::any_of(surfaces.begin(), surfaces.end(),
-                     [](const model::Surface& surface) { return surface.restitution > 0; });
+  return std::any_of(pieces.begin(), pieces.end(),
+                     [](const Piece& piece) { return piece.surface.restitution > 0; });
 }
 
 bool IsNear(const Solid& planar, const world::State& before, const world::State& after,
             const std::vector<Area>& areas) {
-  if (planar.surfaces.empty()) return false;
+  if (planar.pieces.empty()) return false;
   const geometry::Vector3& at = before.bodies[planar.body].world_from_model.position;
   const geometry::Vector3& to = after.bodies[planar.body].world_from_model.position;
   const double reach = planar.radius;
   return std::any_of(areas.begin(), areas.end(), [&](const Area& area) {
-    return std::max(at.x, to.x) + reach > area.low.x() &&
-           std::min(at.x, to.x) - reach < area.high.x() &&
-           std::max(at.y, to.y) + reach > area.low.y() &&
-           std::min(at.y, to.y) - reach < area.high.y();
+    return std::max(at.x, to.x) + reach > area.low.x &&
+           std::min(at.x, to.x) - reach < area.high.x &&
+           std::max(at.y, to.y) + reach > area.low.y && std::min(at.y, to.y) - reach < area.high.y;
   });
 }
 
@@ -113,23 +131,16 @@ base::Status RigidScene::AddRigid(int index) {
 
 void RigidScene::AddStanding(int index) {
   const model::Model& model = *layout_->bodies[index].model;
-  SolidBuilder builder(index, shapes_.Compound());
+  SolidBuilder builder(index);
   for (const model::Link& link : model.links) {
     for (const model::Collision& collision : link.collisions) {
       const Pose pose = link.model_from_link * collision.link_from_collision;
-      btCollisionShape* shape = shapes_.Standing(collision.shape, collision.surface.filter);
-      if (shape == nullptr) continue;
-      if (std::holds_alternative<geometry::Plane>(collision.shape)) {
-        // Without end, it would make a compound's tree useless.
-        SetFilter(*shape, collision.surface.filter);
-        standing_.push_back({{index, shape, {collision.surface}}, pose});
-      } else {
-        builder.Add(ToBullet(pose), shape, collision.surface);
-      }
+      btCollisionShape* shape = shapes_.Standing(collision.shape);
+      if (shape != nullptr) builder.Add(pose, shape, collision.surface);
     }
   }
-  if (Solid solid = builder.Finish(); !solid.surfaces.empty()) {
-    standing_.push_back({std::move(solid), {}});
+  if (Solid solid = builder.Finish(); !solid.pieces.empty()) {
+    standing_.push_back(std::move(solid));
   }
 }
 
@@ -137,11 +148,11 @@ void RigidScene::AddPlanar(int index) {
   const world::Body& body = layout_->bodies[index];
   const Footprint footprint = MakeFootprint(*body.model, {});
   const double climb = footprint.heights.low + ClimbHeight(*body.model, footprint);
-  SolidBuilder builder(index, shapes_.Compound());
+  SolidBuilder builder(index);
   for (const Footprint::Piece& piece : footprint.pieces) {
     const double low = std::max(piece.heights.low, climb);
     if (!(piece.heights.high > low)) continue;
-    btTransform model_from_shape;
+    Pose model_from_shape;
     btCollisionShape* shape = shapes_.Prism(piece, low, model_from_shape);
     if (shape == nullptr) continue;
     model::Surface surface;
@@ -152,12 +163,12 @@ void RigidScene::AddPlanar(int index) {
 }
 
 void RigidScene::AddActor(int index) {
-  SolidBuilder builder(index, shapes_.Compound());
+  SolidBuilder builder(index);
   for (const model::Link& link : layout_->bodies[index].model->links) {
     for (const model::Collision& collision : link.collisions) {
       const Pose pose = link.model_from_link * collision.link_from_collision;
       for (btCollisionShape* shape : shapes_.Moving(collision.shape)) {
-        builder.Add(ToBullet(pose), shape, collision.surface);
+        builder.Add(pose, shape, collision.surface);
       }
     }
   }

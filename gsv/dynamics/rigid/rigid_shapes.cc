@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <BulletCollision/CollisionShapes/btScaledBvhTriangleMeshShape.h>
 #include <LinearMath/btConvexHullComputer.h>
 
 #include "gsv/dynamics/shapes/connected_pieces.h"
@@ -59,8 +58,6 @@ T* RigidShapes::Own(Arguments&&... arguments) {
   shapes_.push_back(std::move(shape));
   return raw;
 }
-
-btCompoundShape* RigidShapes::Compound() { return Own<btCompoundShape>(); }
 
 void RigidShapes::NextLayout() {
   shapes_.clear();
@@ -135,13 +132,8 @@ btBvhTriangleMeshShape* RigidShapes::MeshOf(const geometry::Mesh& mesh) {
   return meshes_.emplace(key, std::move(made)).first->second->shape.get();
 }
 
-btCollisionShape* RigidShapes::Standing(const geometry::Shape& shape,
-                                        const model::CollisionFilter& filter) {
-  if (const auto* mesh = std::get_if<geometry::Mesh>(&shape)) {
-    btBvhTriangleMeshShape* const shared = MeshOf(*mesh);
-    if (shared == nullptr || filter == model::CollisionFilter{}) return shared;
-    return Own<btScaledBvhTriangleMeshShape>(shared, btVector3(1, 1, 1));
-  }
+btCollisionShape* RigidShapes::Standing(const geometry::Shape& shape) {
+  if (const auto* mesh = std::get_if<geometry::Mesh>(&shape)) return MeshOf(*mesh);
   if (const auto* plane = std::get_if<geometry::Plane>(&shape)) {
     return Own<btStaticPlaneShape>(ToBullet(plane->normal), 0);
   }
@@ -161,12 +153,12 @@ std::vector<btCollisionShape*> RigidShapes::Moving(const geometry::Shape& shape)
 }
 
 btCollisionShape* RigidShapes::Prism(const Footprint::Piece& piece, double low,
-                                     btTransform& model_from_shape) {
+                                     geometry::Pose& model_from_shape) {
   const double high = piece.heights.high;
-  model_from_shape.setIdentity();
+  model_from_shape = {};
   if (piece.shape.vertex_count == 1) {
     const Vector2 centre = piece.shape.vertices[0];
-    model_from_shape.setOrigin({centre.x, centre.y, (low + high) / 2});
+    model_from_shape.position = {centre.x, centre.y, (low + high) / 2};
     return Primitive(geometry::Cylinder{piece.shape.radius, high - low});
   }
   std::vector<Vector3> corners;

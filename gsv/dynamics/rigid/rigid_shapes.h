@@ -13,7 +13,6 @@
 #include "gsv/dynamics/rigid/bullet_types.h"
 #include "gsv/dynamics/shapes/footprint.h"
 #include "gsv/geometry/shape.h"
-#include "gsv/model/collision_filter.h"
 
 namespace gsv::dynamics {
 
@@ -32,18 +31,15 @@ struct StandingMesh {
 class RigidShapes {
  public:
   // The shape of a static body; null if there is nothing to collide with. It lives as long as this
-  // object, until the second NextLayout(). A mesh with a collision filter has its own shape around
-  // the shared triangles.
-  btCollisionShape* Standing(const geometry::Shape& shape, const model::CollisionFilter& filter);
+  // object, until the second NextLayout().
+  btCollisionShape* Standing(const geometry::Shape& shape);
 
   // The shapes of a moving body, one or several, in the frame of `shape`. Planes have none.
   std::vector<btCollisionShape*> Moving(const geometry::Shape& shape);
 
   // A piece of a footprint from height `low` to its top, in the frame of its model.
-  btCollisionShape* Prism(const Footprint::Piece& piece, double low, btTransform& model_from_shape);
-
-  // An empty one, to be filled.
-  btCompoundShape* Compound();
+  btCollisionShape* Prism(const Footprint::Piece& piece, double low,
+                          geometry::Pose& model_from_shape);
 
   // Drops all but those meshes that were used since the last call.
   void NextLayout();

@@ -1,21 +1,21 @@
-#include "gsv/dynamics/rigid/bullet_engine.h"
-
-#include <optional>
+#include "gsv/dynamics/rigid/rigid_body_engine.h"
 
 #include "gsv/dynamics/rigid/resting_state.h"
-#include "gsv/dynamics/rigid/rigid_world.h"
+#include "gsv/dynamics/rigid/rigid_step.h"
 
 namespace gsv::dynamics {
 namespace {
 
-class BulletEngine final : public RigidEngine {
+class RigidBodyEngine final : public RigidEngine {
  public:
-  explicit BulletEngine(std::shared_ptr<base::ThreadTeam> team) : team_(std::move(team)) {}
+  explicit RigidBodyEngine(std::shared_ptr<base::ThreadTeam> team) : team_(std::move(team)) {}
 
   base::Status SetLayout(std::shared_ptr<const world::Layout> layout) override {
     resting_.Forget();
     if (auto ok = scene_.SetLayout(std::move(layout)); !ok) return ok;
-    if (has_bodies() && !kit_) kit_.emplace(team_.get());
+    if (!has_bodies()) return {};
+    if (step_ == nullptr) step_ = std::make_unique<RigidStep>(team_.get());
+    step_->SetScene(scene_);
     return {};
   }
 
@@ -27,31 +27,30 @@ class BulletEngine final : public RigidEngine {
     // While all rest, the contacts of the last step are those of this one.
     if (!pushes.empty() || !resting_.Holds(scene_, before, state, seconds)) {
       contacts_.Clear();
-      RigidWorld world(*kit_, scene_, before, state, seconds);
-      world.Run(pushes, contacts_);
-      world.Store(state);
-      resting_.Remember(scene_, before, state, seconds, world.MakeAreas());
+      step_->Run(before, state, seconds, pushes, contacts_);
+      step_->Store(state);
+      resting_.Remember(scene_, before, state, seconds, step_->MakeAreas());
     }
     contacts_.Store(contacts);
   }
 
   std::vector<world::Contact> OverlapsOf(const world::State& state, int body,
                                          double tolerance) override {
-    return RigidWorld(*kit_, scene_, state, state, 0).OverlapsOf(body, tolerance);
+    return step_->OverlapsOf(state, body, tolerance);
   }
 
  private:
   std::shared_ptr<base::ThreadTeam> team_;  // may be null
-  std::optional<BulletKit> kit_;            // made once there are rigid bodies
   RigidScene scene_;
+  std::unique_ptr<RigidStep> step_;  // made once there are rigid bodies
   RigidContacts contacts_;
   RestingState resting_;
 };
 
 }  // namespace
 
-std::unique_ptr<RigidEngine> MakeBulletEngine(std::shared_ptr<base::ThreadTeam> team) {
-  return std::make_unique<BulletEngine>(std::move(team));
+std::unique_ptr<RigidEngine> MakeRigidEngine(std::shared_ptr<base::ThreadTeam> team) {
+  return std::make_unique<RigidBodyEngine>(std::move(team));
 }
 
 }  // namespace gsv::dynamics

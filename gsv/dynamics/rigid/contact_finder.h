@@ -1,0 +1,113 @@
+// Finds the contacts of rigid bodies with each other and with all other bodies. Private to this
+// folder: it includes Bullet.
+//
+// Broad phase   rigid and planar bodies by sort and sweep, static ones by a tree of boxes that is
+//               kept while they do not move, planes one by one.
+// Margin        contacts begin where two pieces may touch within a substep.
+// Order         by the first body, the second, and their pieces. It depends on nothing else, so that
+//               bodies far away do not change it.
+// Determinism   Find() is a function of the bodies' poses, velocities and the substep.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gsv/dynamics/rigid/bullet_pairs.h"
+#include "gsv/dynamics/rigid/contact.h"
+#include "gsv/dynamics/rigid/moving_body.h"
+#include "gsv/dynamics/rigid/rigid_scene.h"
+
+namespace gsv::dynamics {
+
+// A solid in the world: a part of a rigid body, a static body, or a planar body near rigid ones.
+struct Collider {
+  const Solid* solid = nullptr;
+  int moving = -1, part = 0;  // index of the rigid body, and its part; -1: none
+  bool bounces = false;  // touches others at its full speed, so that its contacts have no margin
+  // of planar bodies
+  geometry::Vector3 position, velocity, angular_velocity;
+};
+
+class ContactFinder {
+ public:
+  // Prepares for the bodies of a scene. `bodies` are in the order of scene.bodies().
+  void SetScene(const RigidScene& scene, std::span<const std::unique_ptr<MovingBody>> bodies);
+
+  // Places the static bodies as the state has them, and forgets the planar ones.
+  void Start(const world::State& state);
+  // Adds a planar body for this step. Returns its index among the planar ones.
+  int AddPlanar(const Solid& solid);
+  void MovePlanar(int index, const geometry::Pose& pose, const geometry::Vector3& velocity,
+                  const geometry::Vector3& angular_velocity);
+  // Places the pieces of the rigid bodies.
+  void PlaceBodies();
+
+  // Finds all contacts. They stay until the next call.
+  std::vector<Contact>& Find(double substep);
+
+  const Collider& collider(int index) const { return colliders_[static_cast<std::size_t>(index)]; }
+  // Of a point of a collider that moves as it does, whatever touches it.
+  geometry::Vector3 VelocityOf(const Collider& collider, const geometry::Vector3& point) const;
+  // The contact's point in the frame of the first's part.
+  geometry::Vector3 PointOnFirst(const Contact& contact) const;
+  // The box around a rigid body.
+  void Bounds(int moving, geometry::Vector3& low, geometry::Vector3& high) const;
+
+ private:
+  // All solids of one body, whose pieces are in a row.
+  struct Group {
+    int moving = -1;  // rigid body, or -1: planar
+    int first_collider = 0, collider_count = 0;
+    int first_piece = 0, piece_count = 0;
+    geometry::Vector3 low, high;
+    double reach = 0;  // m: how far it may get in the substep
+  };
+  struct StaticPiece {
+    PlacedPiece placed;
+    int collider = 0;
+  };
+  struct Node {
+    geometry::Vector3 low, high;
+    int left = -1, right = -1;  // children; -1: a leaf
+    int first = 0, count = 0;   // of a leaf, in static_order_
+  };
+
+  void PlaceStatic(const world::State& state);
+  int BuildNode(int first, int count);
+  void PlaceGroup(Group& group);
+  void FindStaticNear(const geometry::Vector3& low, const geometry::Vector3& high);
+  void AddGroupPairs(double substep);
+  void AddGroupPair(const Group& a, const Group& b);
+  void AddStaticPairs(const Group& group);
+  void AddPair(int first, const PlacedPiece& first_piece, int second,
+               const PlacedPiece& second_piece, double margin);
+  std::optional<SlippingContact> SlippingOf(const Collider& collider, const model::Surface& ground,
+                                            const geometry::Vector3& normal) const;
+  void SetSoftness(double substep);
+  bool GlidesOn(const Collider& first, const Collider& second,
+                const geometry::Vector3& normal) const;
+
+  const RigidScene* scene_ = nullptr;
+  std::span<const std::unique_ptr<MovingBody>> bodies_;
+  std::vector<Collider> colliders_;
+  std::vector<PlacedPiece> pieces_;  // of the groups
+  std::vector<int> collider_of_piece_;
+  std::vector<Group> groups_;         // rigid bodies, then planar ones
+  std::size_t static_colliders_ = 0;  // colliders that stay from step to step
+  std::size_t rigid_pieces_ = 0;
+  std::vector<geometry::Pose> static_poses_;
+  std::vector<StaticPiece> statics_, planes_;
+  std::vector<int> static_order_, near_, stack_;
+  std::vector<Node> nodes_;
+  std::vector<int> order_;  // groups by their least x
+  std::vector<std::pair<int, int>> group_pairs_;
+  std::vector<Contact> contacts_;
+  std::vector<TouchPoint> points_;
+  std::vector<std::pair<int, int>> slipping_;  // pairs of colliders, one for each point
+  BulletPairs bullet_;
+};
+
+}  // namespace gsv::dynamics

@@ -1,0 +1,39 @@
+#include <algorithm>
+#include <cmath>
+
+#include "gsv/dynamics/rigid/contact.h"
+
+namespace gsv::dynamics {
+namespace {
+
+// m: penetration of resting bodies, so that they stay in contact.
+constexpr double kSlop = 1e-5;
+// m/s: what meets slower does not bounce.
+constexpr double kBounces = 0.05;
+// The share of an overlap with a tree of links that a substep takes back.
+constexpr double kTreeCorrection = 0.2;
+// m/s: contacts that close more slowly are not impacts.
+constexpr double kImpact = 0.05;
+
+}  // namespace
+
+std::array<double, 3> TargetsOf(const Contact& contact, bool has_tree, double meeting,
+                                const std::array<double, 3>& free, double substep) {
+  double wanted = 0;
+  if (contact.restitution > 0 && std::abs(meeting) >= kBounces) {
+    wanted = std::max(0.0, -contact.restitution * meeting);
+  }
+  // A gap may close by the end of the step. An overlap is removed over several steps; of bodies
+  // without joints by velocities of its own (RigidStep).
+  const double gap = contact.point.distance + kSlop;
+  wanted -= (gap > 0 ? 1 : (has_tree ? kTreeCorrection : 0)) * gap / substep;
+  // The share of the slip that friction takes in this substep. A contact that closes during the
+  // substep keeps a part of its closing speed: as much as takes the bodies together by the end. The
+  // next substep takes that part. Friction may not be faster than that: one point that sticks before
+  // it touches would throw a body that lands on two edges at once to one side.
+  const double kept = gap / substep, taken = wanted - free[0];
+  const double share = kept > kImpact && taken > 0 ? taken / (taken + kept) : 1;
+  return {wanted, (1 - share) * free[1], (1 - share) * free[2]};
+}
+
+}  // namespace gsv::dynamics

@@ -1,0 +1,62 @@
+// Rows of constraint on the joints of one tree of links.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace gsv::dynamics {
+
+// A row asks that J v + softness * impulse = target, where v are the tree's velocities at the end of
+// a substep. Its impulse (N m s or N s) has bounds.
+struct JointRow {
+  int begin = 0, count = 0;  // of its velocities and values in JointRows
+  double target = 0;         // rad/s or m/s
+  double softness = 0;
+  double lower = 0, upper = 0;
+};
+
+class JointRows {
+ public:
+  static constexpr double kNoBound = std::numeric_limits<double>::infinity();
+
+  void Clear() {
+    rows_.clear();
+    velocities_.clear();
+    values_.clear();
+  }
+  // On one velocity of the tree.
+  JointRow& Add(int velocity) {
+    rows_.push_back({static_cast<int>(values_.size()), 0, 0, 0, -kNoBound, kNoBound});
+    AddValue(velocity, 1);
+    return rows_.back();
+  }
+  // On none yet.
+  JointRow& AddEmpty() {
+    return rows_.emplace_back(
+        JointRow{static_cast<int>(values_.size()), 0, 0, 0, -kNoBound, kNoBound});
+  }
+  // Adds to the last row. No velocity is added twice.
+  void AddValue(int velocity, double value) {
+    velocities_.push_back(velocity);
+    values_.push_back(value);
+    ++rows_.back().count;
+  }
+
+  const std::vector<JointRow>& rows() const { return rows_; }
+  std::span<const int> velocities(const JointRow& row) const {
+    return std::span(velocities_)
+        .subspan(static_cast<std::size_t>(row.begin), static_cast<std::size_t>(row.count));
+  }
+  std::span<const double> values(const JointRow& row) const {
+    return std::span(values_).subspan(static_cast<std::size_t>(row.begin),
+                                      static_cast<std::size_t>(row.count));
+  }
+
+ private:
+  std::vector<JointRow> rows_;
+  std::vector<int> velocities_;
+  std::vector<double> values_;
+};
+
+}  // namespace gsv::dynamics

@@ -1,0 +1,147 @@
+// The equations of motion of a rigid body, or of parts that joints hold together, in joint
+// coordinates, in which no joint can drift apart.
+//
+// Velocities  one number for each degree of freedom: those of the base (angular, then linear of its
+//             centre of mass, in the world) unless it is fixed, then those of the joints, part by
+//             part. A ball joint has three, its angular velocity in the child's frame.
+// Frames      each part's own lies in its centre of mass (Articulation).
+// Method      mass matrix by composite bodies, and a factorisation that keeps its zeros
+//             (Featherstone, Rigid Body Dynamics Algorithms, 2008, sections 6.2 and 6.5). A body
+//             without joints has gyroscopic torques by one implicit Newton step (Catto, Numerical
+//             Methods, GDC 2015).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "gsv/dynamics/motion/ball_angles.h"
+#include "gsv/dynamics/rigid/matrix3.h"
+#include "gsv/dynamics/rigid/rigid_body.h"
+#include "gsv/world/state.h"
+
+namespace gsv::dynamics {
+
+class LinkTree {
+ public:
+  explicit LinkTree(const RigidBody& plan);
+
+  // Takes pose and velocities from the state.
+  void Load(const world::State& state);
+  // Computes where the parts are, from the pose of the base and the joints' positions.
+  void Place();
+  // Writes the mass matrix and factorises it. After Place().
+  void WriteMass();
+
+  // Forces that act until the next ClearForces().
+  void ClearForces();
+  void AddForce(int part, const geometry::Vector3& force, const geometry::Vector3& torque);
+  void AddEffort(int velocity, double effort) { efforts_[Index(velocity)] += effort; }
+  // The momenta after `seconds` of these forces and the motion itself without any impulse: mass
+  // matrix times the velocities that free() then returns. After WriteMass().
+  void Accelerate(double seconds);
+
+  // Moves by `velocities` for `seconds`.
+  void Move(std::span<const double> velocities, double seconds);
+  // Moves the base aside, and turns it.
+  void Shift(const geometry::Vector3& shift, const geometry::Vector3& turn);
+
+  int size() const { return size_; }
+  // The index of a part's first velocity; of the base 0.
+  int first_velocity(int part) const { return links_[Index(part)].first; }
+  bool is_moved_base() const { return base_size_ > 0; }
+  bool is_single() const { return links_.size() == 1; }
+  std::span<double> velocities() { return velocities_; }
+  std::span<const double> velocities() const { return velocities_; }
+  std::span<const double> free() const { return free_; }
+  std::span<const double> free_momenta() const { return free_momenta_; }
+  // The lower triangle of the mass matrix, row by row.
+  double mass(int row, int column) const { return masses_[Index(row * size_ + column)]; }
+
+  double part_mass(int part) const { return links_[Index(part)].mass; }
+  // In the world, of a body without joints. After WriteMass().
+  const Matrix3& inverse_inertia() const { return inverse_inertia_; }
+
+  const geometry::Vector3& position(int part) const { return positions_[Index(part)]; }
+  const Matrix3& rotation(int part) const { return rotations_[Index(part)]; }
+  geometry::Pose pose(int part) const;
+  geometry::Vector3 angular_velocity(int part) const;
+  // Of a point of a part.
+  geometry::Vector3 VelocityOf(int part, const geometry::Vector3& point) const;
+  // The velocity and angular velocity of the base's centre of mass.
+  geometry::Vector3 base_velocity() const;
+  geometry::Vector3 base_angular_velocity() const;
+  void SetBaseVelocity(const geometry::Vector3& velocity,
+                       const geometry::Vector3& angular_velocity);
+
+  double joint_position(int part) const { return joint_positions_[Index(part)]; }
+  double joint_velocity(int part) const { return velocities_[Index(first_velocity(part))]; }
+  // A ball joint's turn since zero.
+  const geometry::Quaternion& turn(int part) const { return turns_[Index(part)]; }
+
+  // The velocities that move a part, from its own to those of the base.
+  std::span<const int> Chain(int part) const { return links_[Index(part)].chain; }
+  // For each velocity of the part's chain the velocity of a point of the part, and its angular
+  // velocity, by a unit of it.
+  struct Motion {
+    geometry::Vector3 turning, moving;
+  };
+  void PointMotions(int part, const geometry::Vector3& point,
+                    std::vector<geometry::Vector3>& motions) const;
+  const geometry::Vector3& turning(int velocity) const { return motions_[Index(velocity)].turning; }
+
+  // J M⁻¹ Jᵀ of a row that has values for the velocities of a part's chain.
+  double Response(int part, std::span<const double> row) const;
+  // M⁻¹ Jᵀ, of a row with values for all velocities; `row` becomes it.
+  void Respond(std::span<double> row) const;
+
+ private:
+  struct Link {
+    int parent = -1, joint = -1;
+    int first = 0, count = 0;  // its velocities
+    model::JointKind kind = model::JointKind::kFixed;
+    geometry::Quaternion parent_from_part;         // at zero
+    geometry::Vector3 axis, pivot_in_parent, arm;  // axis, arm from the pivot: in the part's frame
+    double pitch = 0, mass = 0, heaviness = 1;
+    geometry::Vector3 inertia;
+    std::vector<int> chain;
+  };
+  struct Inertia {
+    double mass;
+    geometry::Vector3 moment;  // mass times position, from the base's centre of mass
+    Matrix3 turning;           // about the base's centre of mass
+  };
+  static std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+  Link LinkOf(int part) const;
+  void PlaceLink(int part);
+  void WriteSingle();
+  void WriteMassesOf(int part, int velocity);
+  void Factorise();
+  void AccelerateSingle(double seconds);
+  void AddBias();
+  double& MassAt(int row, int column) { return masses_[Index(row * size_ + column)]; }
+
+  const RigidBody& plan_;
+  std::vector<Link> links_;
+  std::vector<BallAngles> balls_;  // of the parts in ball_of_
+  std::vector<int> ball_of_;       // by part, -1: none
+  int size_ = 0, base_size_ = 6;
+  std::vector<int> parents_;  // of velocities; -1: none
+
+  geometry::Quaternion base_;                // orientation
+  std::vector<geometry::Quaternion> turns_;  // of ball joints, by part
+  std::vector<double> joint_positions_;      // by part
+  std::vector<geometry::Quaternion> orientations_;
+  std::vector<Matrix3> rotations_;
+  std::vector<geometry::Vector3> positions_;
+  std::vector<double> velocities_, free_, free_momenta_, efforts_;
+  std::vector<geometry::Vector3> forces_, torques_;
+  std::vector<Motion> motions_;  // by velocity; moving: at the base's centre of mass
+  std::vector<Inertia> inertias_;
+  std::vector<Matrix3> own_inertias_;  // about each part's centre of mass
+  std::vector<double> masses_, factors_;
+  Matrix3 inverse_inertia_;  // of a single body
+  mutable std::vector<double> scratch_;
+  std::vector<geometry::Vector3> bias_turning_, bias_moving_, spins_, speeds_;
+};
+
+}  // namespace gsv::dynamics

@@ -1,0 +1,42 @@
+// A piece of a solid where it is now, and the points at which two pieces touch.
+#pragma once
+
+#include <vector>
+
+#include "gsv/dynamics/rigid/rigid_body.h"
+
+namespace gsv::dynamics {
+
+struct PlacedPiece {
+  const Piece* piece = nullptr;
+  geometry::Vector3 position;
+  Matrix3 rotation;
+  geometry::Vector3 low, high;  // the box around it
+};
+
+// Where the piece is if its solid is at `position`, with these axes.
+PlacedPiece Place(const Piece& piece, const geometry::Vector3& position, const Matrix3& rotation);
+
+// A point at which two pieces touch, or may touch soon.
+struct TouchPoint {
+  geometry::Vector3 on_second;  // world
+  geometry::Vector3 normal;     // unit length, from the second to the first
+  double distance = 0;          // m, below 0 where they overlap
+};
+
+// Adds the points at which two pieces are closer than `margin`, in closed form. False for a pair of
+// kinds that it does not know.
+//
+// Sphere and capsule  one point, or one at each end.
+// Cylinder            on a plane: the lowest point of both rims, or four points of the rim on which
+//                     it stands.
+// Box                 on a plane: its corners. On a box: the corners of the area that both faces
+//                     share, at most four, or the point at which two edges cross.
+bool AddTouchPoints(const PlacedPiece& first, const PlacedPiece& second, double margin,
+                    std::vector<TouchPoint>& points);
+
+// The box on the box of AddTouchPoints().
+void AddBoxPoints(const PlacedPiece& first, const PlacedPiece& second, double margin,
+                  std::vector<TouchPoint>& points);
+
+}  // namespace gsv::dynamics

@@ -1,0 +1,57 @@
+// The constant description of a body for rigid-body dynamics: its parts, their shapes and surfaces.
+// It lives as long as the layout.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "gsv/dynamics/motion/articulation.h"
+#include "gsv/dynamics/motion/drive_kinematics.h"
+#include "gsv/dynamics/motion/medium_forces.h"
+#include "gsv/dynamics/motion/wheel_slip.h"
+#include "gsv/dynamics/rigid/matrix3.h"
+#include "gsv/model/model.h"
+
+class btCollisionShape;
+
+namespace gsv::dynamics {
+
+// One shape of a solid: what contacts are found with.
+struct Piece {
+  enum class Kind : std::uint8_t { kSphere, kBox, kCylinder, kCapsule, kPlane, kOther };
+  Kind kind = Kind::kOther;
+  geometry::Pose solid_from_piece;
+  Matrix3 rotation;                   // of solid_from_piece
+  geometry::Vector3 half;             // of a box or cylinder (radius, radius, half length); of a
+                                      // sphere or capsule (radius, radius, half of its axis)
+  geometry::Vector3 normal;           // of a plane, through the piece's origin
+  geometry::Vector3 middle, box;      // of the box around it, and half of its size
+  btCollisionShape* shape = nullptr;  // never null
+  model::Surface surface;
+};
+
+// A collision shape with its surface properties.
+struct Solid {
+  int body = 0;  // index in the layout
+  std::vector<Piece> pieces;
+  double thickness = 1;  // half of the thinnest child's least extent, if that is less than 1 m
+  double radius = 0;     // about the origin of the shape's frame
+  std::optional<RollingWheel> wheel;  // set for a part that rolls
+
+  bool bounces() const;
+};
+
+// A body that rigid-body dynamics moves.
+struct RigidBody {
+  int body = 0;
+  const model::Model* model = nullptr;
+  Articulation articulation;
+  std::vector<Solid> solids;      // the solids of its parts
+  std::vector<PartMedium> media;  // the media of its parts; empty if no medium pushes it
+  std::optional<DriveKinematics> kinematics;
+  int first_joint = 0;
+  bool is_jointed() const { return articulation.parts.size() > 1; }
+};
+
+}  // namespace gsv::dynamics

@@ -1,0 +1,98 @@
+// Takes a step of all rigid bodies of a scene. Private to this folder: it includes Bullet.
+//
+// Determinism  memory is kept from step to step, but nothing that a result depends on: a step is a
+//              function of the scene, the states and the step size alone.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "gsv/base/thread_team.h"
+#include "gsv/dynamics/motion/rigid_engine.h"
+#include "gsv/dynamics/rigid/island_solver.h"
+#include "gsv/dynamics/rigid/kept_impulses.h"
+#include "gsv/dynamics/rigid/rigid_contacts.h"
+
+namespace gsv::dynamics {
+
+class RigidStep {
+ public:
+  // `team`, which may be null, must outlive this. It does not change results.
+  explicit RigidStep(base::ThreadTeam* team) : team_(team) {}
+
+  // `scene` must outlive this, or the next call.
+  void SetScene(const RigidScene& scene);
+
+  // From `before` on. In `after`, the planar bodies have the poses of the step's end.
+  void Run(const world::State& before, const world::State& after, double seconds,
+           std::span<Push> pushes, RigidContacts& contacts);
+  // After Run(): writes where the rigid bodies are and how they move, and the impulses to start
+  // from.
+  void Store(world::State& state) const;
+  // After Run(): the areas that the rigid bodies may reach in a step like this one.
+  std::vector<Area> MakeAreas() const;
+
+  // Takes no step: what overlaps `body` in `state` by more than `tolerance` metres, by (first,
+  // second), one contact for each pair.
+  std::vector<world::Contact> OverlapsOf(const world::State& state, int body, double tolerance);
+
+ private:
+  struct Planar {
+    const Solid* solid;
+    geometry::Pose start;
+    geometry::Vector3 travel;
+    double turn;
+  };
+  struct ActivePush {
+    int push = 0;  // in the caller's list
+    PushRow row;
+    geometry::Vector3 point_in_body;
+    bool has_started = false;
+    double impulse = 0;
+  };
+
+  void Start(const world::State& before, const world::State& after, double seconds);
+  void AddPlanarNear(const world::State& before, const world::State& after);
+  void MovePlanar(double time);
+  void AddPushes(std::span<const Push> pushes);
+  double SubstepFor(double left) const;
+  void TakeSubstep(double time, double substep, std::span<const Push> pushes,
+                   RigidContacts& contacts);
+  void StartPushes(std::span<const Push> pushes, double time, double substep);
+  void MakeIslands();
+  void Join(int a, int b);
+  int RootOf(int moving);
+  void SolveIslands(double substep);
+  void PushApart(const IslandSolver& island, double substep);
+  void KeepImpulses(double substep);
+  void MoveBodies(double substep);
+  int MovedBy(int collider) const;
+  template <typename Work>
+  void ForEachBody(const Work& work);
+
+  base::ThreadTeam* team_;
+  const RigidScene* scene_ = nullptr;
+  double seconds_ = 0;
+  std::vector<std::unique_ptr<MovingBody>> bodies_;
+  ContactFinder finder_;
+  std::vector<Contact>* contacts_ = nullptr;  // the finder's, of this substep
+  std::vector<Planar> planar_;
+  std::vector<ActivePush> pushes_;
+  std::vector<PushRow> push_rows_;
+  std::vector<int> parents_, islands_of_;  // by moving body
+  std::deque<IslandSolver> islands_;       // memory for as many as there have been
+  std::size_t island_count_ = 0;
+  std::vector<int> starts_;  // of each body's velocities
+  std::vector<double> velocities_;
+  std::vector<char> is_touched_;
+  std::shared_ptr<const world::EngineState> kept_before_;  // as the step started; may be null
+  std::shared_ptr<KeptImpulses> kept_;                     // of the last substep; may be null
+  struct Shift {
+    geometry::Vector3 moving, turning;
+  };
+  std::vector<Shift> shifts_;  // by moving body, m/s and rad/s
+};
+
+}  // namespace gsv::dynamics
