@@ -99,7 +99,7 @@ TEST_F(FlawTest, AnInvalidValueIsReplaced) {
   }
 }
 
-TEST_F(FlawTest, AFlawOfTheWorldItselfLeavesItsModels) {
+TEST_F(FlawTest, AnErrorOfTheWorldItselfDoesNotAffectItsModels) {
   for (const char* content :
        {"<physics type='ode'><max_step_size>fast</max_step_size></physics>",
         "<gravity>0 0</gravity>", "<light name='x' type='bulb'/>", "<light name='x'/>",
@@ -221,7 +221,7 @@ TEST_F(FlawTest, AStaticNestedModelDoesNotMove) {
   EXPECT_EQ(outer->links[static_cast<std::size_t>(outer->joints[0].child)].name, "shelf::l");
 }
 
-TEST_F(FlawTest, AScriptWithoutUriIsOneOfGazebosMaterials) {
+TEST_F(FlawTest, AScriptWithoutUriNamesAMaterialOfGazebo) {
   const auto world = World("<model name='m'><link name='l'><visual name='v'>" + std::string(kCube) +
                            "<material><script><name>Gazebo/Red</name></script></material></visual>"
                            "</link></model>");
@@ -260,7 +260,7 @@ TEST_F(FlawTest, AFlawInAnIncludedFileIsNamedWithThatFile) {
   EXPECT_THAT(Said(), ElementsAre(HasSubstr("base/model.sdf:2: <pose> holds \"1 2 3\"")));
 }
 
-TEST_F(FlawTest, AnUnreadableIncludeIsLeftOutAlone) {
+TEST_F(FlawTest, OnlyAnUnreadableIncludeIsOmitted) {
   folder_.Write("walker/model.sdf",
                 "<sdf version='1.6'><actor name='w'><skin><filename>w.dae"
                 "</filename></skin></actor></sdf>");
@@ -335,7 +335,7 @@ TEST_F(FlawTest, ARobotWithoutMassIsRead) {
   EXPECT_THAT(Said(), ElementsAre(HasSubstr("2 links have no mass")));
 }
 
-TEST_F(FlawTest, LinksFixedToOneWithMassNeedNone) {
+TEST_F(FlawTest, LinksFixedToALinkWithMassNeedNoMass) {
   const std::string none =
       "<inertial><mass value='0'/><inertia ixx='0' iyy='0' izz='0' ixy='0' ixz='0' iyz='0'/>"
       "</inertial>";

@@ -34,7 +34,7 @@ class SdfJointTest : public testing::Test {
   base::Problems problems_;
 };
 
-TEST_F(SdfJointTest, AUniversalJointIsTwoWithACrossBetweenThem) {
+TEST_F(SdfJointTest, AUniversalJointBecomesTwoJointsWithACrossBetweenThem) {
   for (const char* type : {"universal", "revolute2"}) {
     const auto model =
         ReadJoint(type,
@@ -61,7 +61,7 @@ TEST_F(SdfJointTest, AUniversalJointIsTwoWithACrossBetweenThem) {
   EXPECT_THAT(problems_, IsEmpty());
 }
 
-TEST_F(SdfJointTest, ABallJointIsThree) {
+TEST_F(SdfJointTest, ABallJointBecomesThreeJoints) {
   const auto model = ReadJoint("ball", "");
   ASSERT_THAT(model->joints, SizeIs(3));
   ASSERT_THAT(model->links, SizeIs(4));
@@ -75,7 +75,7 @@ TEST_F(SdfJointTest, ABallJointIsThree) {
   EXPECT_THAT(problems_, IsEmpty());
 }
 
-TEST_F(SdfJointTest, AScrewHasItsPitchInMetresARadian) {
+TEST_F(SdfJointTest, AScrewHasItsPitchInMetresPerRadian) {
   // The older element is 4 rad/m of a left-handed thread.
   const auto old =
       ReadJoint("screw", "<thread_pitch>4</thread_pitch><axis><xyz>0 0 1</xyz></axis>");
@@ -260,7 +260,7 @@ TEST_F(SdfJointTest, ReportsControllersOfMissingJoints) {
   EXPECT_THAT(problems_[0].Sentence(), AllOf(HasSubstr("m.sdf:2"), HasSubstr("\"nowhere\"")));
 }
 
-TEST_F(SdfJointTest, TakesTheFirstFrictionInEveryDirectionWithoutASecond) {
+TEST_F(SdfJointTest, UsesTheFirstFrictionInEveryDirectionIfThereIsNoSecond) {
   for (const char* friction :
        {"<ode><mu>0.4</mu></ode>", "<bullet><friction>0.4</friction></bullet>"}) {
     const auto model =

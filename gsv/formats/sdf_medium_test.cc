@@ -44,7 +44,7 @@ class SdfMedium : public ::testing::Test {
 constexpr char kSolidBox[] =
     "<collision name='c'><geometry><box><size>1 2 3</size></box></geometry></collision>";
 
-TEST_F(SdfMedium, ABitmaskIsCategoryAsWellUnlessThereIsOne) {
+TEST_F(SdfMedium, ABitmaskIsAlsoTheCategoryUnlessACategoryIsGiven) {
   EXPECT_EQ(FilterOf(""), (model::CollisionFilter{0xFFFF, 0xFFFF}));
   EXPECT_EQ(FilterOf("<collide_bitmask>5</collide_bitmask>"), (model::CollisionFilter{5, 5}));
   EXPECT_EQ(FilterOf("<collide_bitmask>0</collide_bitmask>"), model::kMeetsNothing);
@@ -127,7 +127,7 @@ TEST_F(SdfMedium, AFluidIsReadWithItsLayers) {
 }
 
 // A box of 6 m³ with 500 kg/m³ has the moments m (b² + c²)/12.
-TEST_F(SdfMedium, InertiaIsMadeOfShapes) {
+TEST_F(SdfMedium, InertiaIsComputedFromShapes) {
   const auto model = ModelOf(
       "<link name='l'><inertial auto='true'><density>500</density>"
       "</inertial>" +

@@ -45,7 +45,7 @@ TEST(ShapeModel, WallIsStaticAndRoundShapesHaveTheirRadius) {
   EXPECT_NEAR(cylinder->links[0].inertial.ixx, (3 * 0.25 + 9) / 12, 1e-12);
 }
 
-TEST(ShapeModel, WrongNamesAreRefusedWithTheirFault) {
+TEST(ShapeModel, InvalidNamesAreRejectedWithTheReason) {
   const struct {
     const char* name;
     const char* fault;

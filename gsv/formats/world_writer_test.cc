@@ -104,7 +104,7 @@ TEST_F(WorldWriterTest, IncludesAreKeptAndFoundFromAnotherFolder) {
   ExpectSame(Again(world, models), models);
 }
 
-TEST_F(WorldWriterTest, ModelsThatWerePlacedByAMovedOneStay) {
+TEST_F(WorldWriterTest, ModelsPlacedRelativeToAMovedModelStay) {
   const auto world =
       World("<world name='w'><model name='a'><pose>1 0 0 0 0 0</pose>" + std::string(kLink) +
             "</model><model name='b'><pose relative_to='a'>0 1 0 0 0 0</pose>" + kLink +
@@ -124,7 +124,7 @@ TEST_F(WorldWriterTest, AModelAloneBecomesAWorldThatIncludesIt) {
   ExpectSame(Again(world, models), models);
 }
 
-TEST_F(WorldWriterTest, KeepsWhatIsNotSimulatedAndWritesTheGravity) {
+TEST_F(WorldWriterTest, KeepsElementsThatAreNotSimulatedAndWritesTheGravity) {
   const auto world = World(
       "<world name='w'><plugin name='p' filename='libunknown.so'><rate>3</rate></plugin>"
       "<light name='lamp' type='point'><pose>0 0 3 0 0 0</pose></light></world>");

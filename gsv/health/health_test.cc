@@ -173,7 +173,7 @@ TEST_F(HealthBookTest, ReadsTheSensorsOfARobotThatStandsEveryFiveSeconds) {
   EXPECT_EQ(report.robots[0].limit->value, 0.3);
 }
 
-TEST_F(HealthBookTest, ReadsTheSensorsOfNoMoreRobotsThanItMay) {
+TEST_F(HealthBookTest, ReadsTheSensorsOfALimitedNumberOfRobots) {
   HealthBook book(2);
   std::vector<simulation::RobotStatus> robots;
   for (const char* name : {"a", "b", "c", "d", "e"}) robots.push_back(Robot(name));

@@ -225,7 +225,7 @@ TEST(HostedBehaviour, BehaviourReturnsWhenTheRunIsStopped) {
   has_returned.wait(false);
 }
 
-TEST(HostedBehaviour, BehaviourThatOnlyWaitsForThePastIsEnded) {
+TEST(HostedBehaviour, BehaviourThatOnlyWaitsForPastInstantsIsEnded) {
   auto specification = Lockstep(100ms);
   specification.deadline = 50ms;
   auto simulation = simulation::Make(specification);

@@ -53,7 +53,7 @@ TEST(HealthMessage, HasTheRobotsThatDoNotMove) {
   EXPECT_EQ(message.robots[0].contact, "wall");
 }
 
-TEST(HealthMessage, TimeAndMotionAloneAreNoNews) {
+TEST(HealthMessage, IsNotSentAgainIfOnlyTimeAndMotionChange) {
   const auto sent = HealthMessage(ReportOf({Stuck()}));
   health::RobotHealth later = Stuck();
   later.linear = 0.01;

@@ -21,7 +21,7 @@ TEST(Notes, AMessageHasTheInstantOfTheNote) {
   EXPECT_EQ(message.robot, "pebble");
 }
 
-TEST(Notes, WithoutAnInstantTheNoteIsOnTheTimeOfTheEvent) {
+TEST(Notes, WithoutAnInstantTheNoteHasTheTimeOfTheEvent) {
   for (const char* detail :
        {"plain", "at noon", "at x s: y", "at -1 s: y", "at 1e300 s: y", "at 1"}) {
     EXPECT_EQ(TimeOfNote(Note(detail)), seconds(3)) << detail;

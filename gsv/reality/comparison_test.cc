@@ -26,7 +26,7 @@ Log RangesOf(double bias, double bias_per_metre) {
   return log;
 }
 
-TEST(Comparison, RefusesALogWithoutScansToJudgeBy) {
+TEST(Comparison, RefusesALogWithoutScans) {
   Log log;
   log.beam_angles = {0};
   log.max_range = 5;
@@ -52,7 +52,7 @@ TEST(Comparison, FitsTheBiasOfRangesToAnchors) {
   }
 }
 
-TEST(Comparison, SimulatesRangesFromWhereTheRobotWas) {
+TEST(Comparison, SimulatesRangesAtTheRecordedPoses) {
   CompareOptions options;
   options.parameters = {{"noise.mean", 0.1}, {"max", 4.0}};
   const Log log = RangesOf(0, 0);

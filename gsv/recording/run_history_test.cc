@@ -70,7 +70,7 @@ TEST_F(RunHistoryTest, ReadsNoSensorsWithoutViewers) {
   EXPECT_FALSE(counts.contains("/gsv/health"));
 }
 
-TEST_F(RunHistoryTest, TakesNoMoreThanItsRatesAllow) {
+TEST_F(RunHistoryTest, SamplesAtMostAtItsRates) {
   Advance(10);
   for (int i = 0; i < 100; ++i) {
     ASSERT_TRUE(simulation_->Step(1));

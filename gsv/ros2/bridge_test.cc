@@ -71,7 +71,7 @@ TEST_F(BridgeTest, PublishesClockOdometryAndRange) {
 }
 
 // Creates participants one after the other, more than are searched for on one machine.
-TEST(Participant, IsFoundThoughManyWereThereBefore) {
+TEST(Participant, IsFoundAfterManyOthers) {
   for (int i = 0; i < 40; ++i) ASSERT_NE(testing::MakeParticipant(), nullptr);
   Peer one, other;
   one.Listen("/topic", "geometry_msgs/msg/Twist", kDefaultQos);
@@ -187,7 +187,7 @@ TEST_F(BridgeTest, PutsARobotIntoAnotherNamespace) {
   EXPECT_EQ(odometry.child_frame_id, "base");
 }
 
-TEST_F(BridgeTest, PublishesARobotThatComesLater) {
+TEST_F(BridgeTest, PublishesARobotThatIsAddedLater) {
   Publish();
   ASSERT_TRUE(simulation_->Start());
   ASSERT_TRUE(simulation_->AddRobot(simulation::Robot("late", 0, 3)));

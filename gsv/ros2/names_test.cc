@@ -19,7 +19,7 @@ TEST(RosNames, AreDecodedFromDdsNames) {
   EXPECT_EQ(RosTypeName("LaserScan"), "");
 }
 
-TEST(RosNames, ReplaceWhatRosDoesNotAllow) {
+TEST(RosNames, ReplaceCharactersThatRosDoesNotAllow) {
   EXPECT_EQ(RosName("pebble"), "pebble");
   EXPECT_EQ(RosName("box-1.a b"), "box_1_a_b");
   EXPECT_EQ(RosName("2nd"), "_2nd");

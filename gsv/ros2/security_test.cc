@@ -63,7 +63,7 @@ TEST_F(SecurityTest, WithoutKeysStartsOnlyIfPermitted) {
   EXPECT_FALSE(With(values));
 }
 
-TEST_F(SecurityTest, RefusesValuesThatWouldBeInsecureUnnoticed) {
+TEST_F(SecurityTest, RefusesInvalidValuesInsteadOfDisablingSecurity) {
   const std::map<std::string, std::string> bad[] = {
       {{"ROS_SECURITY_ENABLE", "1"}},
       {{"ROS_SECURITY_STRATEGY", "enforce"}, {"ROS_SECURITY_ENABLE", "true"}},

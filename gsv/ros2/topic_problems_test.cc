@@ -24,7 +24,7 @@ dds::Endpoint EndpointOf(bool is_writer, const std::string& type, const dds::Qos
 
 std::string HashOfDigits(char digit) { return "RIHS01_" + std::string(64, digit); }
 
-TEST(TopicProblems, AreNoneBetweenEqualEnds) {
+TEST(TopicProblems, AreAbsentForEqualEndpoints) {
   const auto data = "typehash=" + HashOfDigits('a') + ";";
   EXPECT_THAT(
       FindTopicProblems({EndpointOf(true, kTwist, {}, data), EndpointOf(false, kTwist, {}, data),
@@ -60,7 +60,7 @@ TEST(TopicProblems, NameQosThatIsNotOffered) {
               IsEmpty());
 }
 
-TEST(TopicProblems, AreNotLookedForOutsideOfRosTopics) {
+TEST(TopicProblems, IgnoreTopicsThatAreNotOfRos) {
   dds::Endpoint writer = EndpointOf(true, kTwist),
                 reader = EndpointOf(false, "std_msgs/msg/String");
   writer.topic.name = reader.topic.name = "some_topic";

@@ -261,7 +261,7 @@ TEST(Simulation, ABehaviourThatNeverWaitsIsDeclaredUnresponsiveAndTheRunContinue
   release.notify_all();
 }
 
-TEST(Simulation, BehaviourThatGivesUpIsDeadWithItsReasonOnOneLine) {
+TEST(Simulation, BehaviourThatGivesUpIsDeadAndItsReasonIsOneLine) {
   auto simulation = Make(Lockstep(500ms));
   const auto quitter = std::make_shared<ThreadBehaviour>([](Agent& agent, ClockId clock) {
     EXPECT_TRUE(agent.Command({1.0, 0, 0}));

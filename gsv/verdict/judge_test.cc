@@ -100,7 +100,7 @@ TEST(Judge, SeesFaultsAtTheirInstant) {
   EXPECT_EQ(lost.time, 2010ms);
 }
 
-TEST(Judge, ARobotIsStuckOnceItWasCommandedToMoveForSoLong) {
+TEST(Judge, ARobotIsStuckAfterItWasCommandedToMoveForTheGivenTime) {
   // The disc stands at the wall from 5.4 s on. Its motion is sampled every 0.1 s.
   const Finding stuck = One("{never: {stuck: {robot: scout, after: 2}}}");
   EXPECT_FALSE(stuck.holds);

@@ -63,13 +63,13 @@ TEST(Margin, OfAConditionOfSeveralNumbersIsThatOfTheWorst) {
   EXPECT_DOUBLE_EQ(state.margin.value(), 0.25);
 }
 
-TEST(Margin, OfNeverStuckIsTheTimeThatIsLeft) {
+TEST(Margin, OfNeverStuckIsTheRemainingTime) {
   const auto state = Noted("{never: {stuck: {robot: a, after: 5}}}", {{0.0}, {3.5}, {0.0}});
   EXPECT_DOUBLE_EQ(state.margin.value(), 1.5);
   EXPECT_EQ(state.unit, "s");
 }
 
-TEST(Margin, CountsInsideOfTheWindowOnly) {
+TEST(Margin, IsMeasuredInsideTheWindowOnly) {
   const auto state = Noted("{always: {speed: {robot: a, at_most: 1}}, from: 1, by: 2}",
                            {{9.0}, {0.5}, {0.25}, {9.0}});
   EXPECT_DOUBLE_EQ(state.margin.value(), 0.5);

@@ -73,7 +73,7 @@ TEST(DrawnScene, PosesBodiesAndTheirMovingLinks) {
   EXPECT_FALSE(lookup.sensor("robot", "nose"));
 }
 
-TEST(DrawnScene, WithoutAMessageBodiesStandWhereTheSceneHasThem) {
+TEST(DrawnScene, WithoutAMessageBodiesHaveThePosesOfTheScene) {
   const DrawnScene room = Room();
   messages::gsv_msgs::Poses none;
   EXPECT_EQ(room.LookupAt(*room.At(none)).pose("robot")->position, (Vector3{1, 2, 3}));
@@ -119,7 +119,7 @@ TEST(DrawnScene, RendersTheBodiesWhereTheyAre) {
   EXPECT_LT(pixel(1, 16)[1], 100);
 }
 
-TEST(DrawnScene, RefusesTextThatIsNoScene) {
+TEST(DrawnScene, RejectsTextThatIsNotAScene) {
   const auto nothing = [](const std::string&) -> std::shared_ptr<const model::Model> {
     return nullptr;
   };

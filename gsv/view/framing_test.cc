@@ -81,7 +81,7 @@ TEST(Framing, TheOverviewProjectsAllCornersIntoTheImage) {
   }
 }
 
-TEST(Framing, TheOverviewLooksFromTheSideThatIsAskedFor) {
+TEST(Framing, TheOverviewLooksFromTheRequestedSide) {
   const std::vector<Vector3> corners{{-1, -1, -1}, {1, 1, 1}};
   const rendering::CameraView east = ViewOfAll(corners, 400, 400, {0, 0, 1});  // this view looks
                                                                                // along x

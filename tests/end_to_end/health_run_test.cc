@@ -52,13 +52,13 @@ TEST_F(HealthRun, PsPrintsWhyARobotStandsAndOffersFindsTheBroker) {
   EXPECT_THAT(offers.out, HasSubstr("SimulationService"));
 }
 
-TEST_F(HealthRun, OffersWithoutABrokerIsAnErrorWithAHint) {
+TEST_F(HealthRun, TheCommandOffersWithoutABrokerIsAnErrorWithAHint) {
   const Outcome offers = Gsv({"offers"});
   EXPECT_EQ(offers.ending, "exit code 5");
   EXPECT_THAT(offers.err, HasSubstr("give its address with --broker"));
 }
 
-TEST_F(HealthRun, ARunEndsWithTheRobotsThatStoodStill) {
+TEST_F(HealthRun, ARunReportsTheRobotsThatStoodStill) {
   const Outcome run = Run({"--robot", "pebble@0,0", "--robot", "pebble@2,0"});
   EXPECT_EQ(run.ending, "exit code 0") << run.err;
   EXPECT_THAT(run.out, HasSubstr("Finished after 2.00 s simulated"));

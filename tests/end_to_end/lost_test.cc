@@ -53,7 +53,7 @@ class CrashReports : public ::testing::Test {
     return gateway::testing::Fetch(port_, method, path, "", body);
   }
   json Get(const std::string& path) const { return json::parse(Ask("GET", path).body); }
-  json LostOnes() const { return Get("/api/lost")["lost"]; }
+  json LostReports() const { return Get("/api/lost")["lost"]; }
   void Create(const std::string& name) const {
     const json scenario = {{"name", name},
                            {"world", "playground"},
@@ -101,7 +101,7 @@ class CrashReports : public ::testing::Test {
 TEST_F(CrashReports, NextServerReportsTheRunsOfAKilledOneUntilDismissed) {
   Serve();
   const std::string pid = std::to_string(server_->process().pid());
-  EXPECT_TRUE(LostOnes().empty());
+  EXPECT_TRUE(LostReports().empty());
   Create("arena");
   Create("maze");
   ASSERT_EQ(Ask("POST", "/api/simulations/arena/start", "{}").status, 200);
@@ -127,7 +127,7 @@ TEST_F(CrashReports, NextServerReportsTheRunsOfAKilledOneUntilDismissed) {
 
   Serve();
   EXPECT_TRUE(Get("/api/simulations").empty());
-  json lost = LostOnes();
+  json lost = LostReports();
   ASSERT_EQ(lost.size(), 2u);
   EXPECT_EQ(lost[0]["name"], "arena");
   EXPECT_EQ(lost[0]["phase"], "lost");
@@ -136,7 +136,7 @@ TEST_F(CrashReports, NextServerReportsTheRunsOfAKilledOneUntilDismissed) {
   EXPECT_EQ(lost[0]["replay"], fs::path(file).filename().string());
   EXPECT_EQ(lost[1]["name"], "maze");
   EXPECT_EQ(lost[1]["recording"], "");
-  while (!lost[0].contains("whole_until_s")) lost = LostOnes();  // the recording is being read
+  while (!lost[0].contains("whole_until_s")) lost = LostReports();  // the recording is being read
   const std::string mended = folder_.path() / "mended.mcap";
   ASSERT_EQ(RunProgram("gsv", {"rec", "recover", file, "-o", mended}).ending, "exit code 0");
   const json info = json::parse(RunProgram("gsv", {"rec", "info", "--json", mended}).out);
@@ -144,18 +144,18 @@ TEST_F(CrashReports, NextServerReportsTheRunsOfAKilledOneUntilDismissed) {
 
   EXPECT_EQ(Ask("DELETE", "/api/lost/" + lost[0]["number"].dump()).status, 200);
   EXPECT_EQ(Ask("DELETE", "/api/lost/" + lost[0]["number"].dump()).status, 404);
-  ASSERT_EQ(LostOnes().size(), 1u);
+  ASSERT_EQ(LostReports().size(), 1u);
   // A report that nobody has dismissed must survive the next crash as well.
   AwaitNoted([&](const json& noted) { return noted["lost"].size() == 1; });
   Kill();
   Serve();
-  ASSERT_EQ(LostOnes().size(), 1u);
-  EXPECT_EQ(LostOnes()[0]["name"], "maze");
+  ASSERT_EQ(LostReports().size(), 1u);
+  EXPECT_EQ(LostReports()[0]["name"], "maze");
   // The regular end of the server leaves the report.
   EXPECT_NE(End().find("maze on lab (process " + pid + ") was lost at about"), std::string::npos);
   EXPECT_TRUE(fs::is_empty(notes()));
   Serve();
-  EXPECT_TRUE(LostOnes().empty());
+  EXPECT_TRUE(LostReports().empty());
 }
 
 TEST_F(CrashReports, ServerReportsOnlyRunsOfItsOwnFolder) {
@@ -164,10 +164,10 @@ TEST_F(CrashReports, ServerReportsOnlyRunsOfItsOwnFolder) {
   AwaitNoted([&](const json& note) { return Find(note, "arena") != nullptr; });
   Kill();
   Serve("recordings");
-  EXPECT_TRUE(LostOnes().empty());
+  EXPECT_TRUE(LostReports().empty());
   End();
   Serve("elsewhere");
-  EXPECT_EQ(LostOnes().size(), 1u);
+  EXPECT_EQ(LostReports().size(), 1u);
 }
 
 TEST_F(CrashReports, CleanShutdownLeavesNoReport) {
@@ -203,7 +203,7 @@ TEST_F(CrashReports, InvalidNotesAreReportedAndTheServerStarts) {
   }
   fs::create_symlink("/dev/zero", notes() / "endless.json");
   Serve();
-  EXPECT_EQ(LostOnes().size(), 1u);
+  EXPECT_EQ(LostReports().size(), 1u);
   const std::string log = End();
   for (const char* name :
        {"bad0", "bad1", "bad2", "bad3", "bad4", "bad5", "bad6", "bad7", "endless"}) {
@@ -218,7 +218,7 @@ TEST_F(CrashReports, MissingFolderForNotesIsReportedAndTheServerStarts) {
   setenv("XDG_STATE_HOME", "/dev/null", 1);
   Serve();
   Create("arena");
-  EXPECT_TRUE(LostOnes().empty());
+  EXPECT_TRUE(LostReports().empty());
   EXPECT_NE(End().find("cannot write crash reports for this server"), std::string::npos);
 }
 

@@ -76,7 +76,7 @@ int Await(Runtime& runtime, Simulation& simulation, const RunOptions& options, S
 }
 
 // Whether the scenario causes this end: a fault stops the behaviour, or a sensor that it reads.
-bool WasToDie(const Simulation& simulation, const std::string& robot) {
+bool IsEndByFault(const Simulation& simulation, const std::string& robot) {
   const auto& faults = simulation.specification().faults;
   return std::any_of(faults.begin(), faults.end(), [&](const scenario::Fault& fault) {
     return fault.body == robot && (fault.kind == scenario::Fault::Kind::kBehaviourDies ||
@@ -88,7 +88,7 @@ bool WasToDie(const Simulation& simulation, const std::string& robot) {
 int JudgeBehaviours(const Simulation& simulation, int exit_code) {
   const auto status = simulation.status();
   for (const auto& robot : status.robots) {
-    if (WasToDie(simulation, robot.name)) continue;
+    if (IsEndByFault(simulation, robot.name)) continue;
     if (robot.phase != simulation::AgentPhase::kDead &&
         robot.phase != simulation::AgentPhase::kUnresponsive)
       continue;

@@ -258,8 +258,8 @@ base::Status UnderstandTopics(const std::vector<std::string>& topics) {
 constexpr int kMaxPlaced = 2000;
 
 // "grid:50", "random:50": makes this number of copies of the robot that was given without a pose.
-base::Status UnderstandPlace(const std::string& text, std::vector<scenario::RobotEntry>& robots,
-                             RunOptions& options) {
+base::Status ParsePlace(const std::string& text, std::vector<scenario::RobotEntry>& robots,
+                        RunOptions& options) {
   if (text.empty()) return {};
   const auto fail = [&](std::string message) {
     return base::Fail(base::ErrorCode::kInvalidArgument, std::move(message), "--place " + text);
@@ -433,7 +433,7 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
   }
   std::vector<scenario::RobotEntry> robots;
   if (auto ok = UnderstandRobots(a.robots, robots); !ok) return base::Fail(ok.error());
-  if (auto ok = UnderstandPlace(a.place, robots, options); !ok) return base::Fail(ok.error());
+  if (auto ok = ParsePlace(a.place, robots, options); !ok) return base::Fail(ok.error());
   std::move(robots.begin(), robots.end(), std::back_inserter(options.scenario.robots));
   if (auto ok = UnderstandRobots(a.avatars, options.scenario.avatars); !ok)
     return base::Fail(ok.error());

@@ -89,8 +89,8 @@ base::Status CheckNamespaces(const RunOptions& options, const Simulation& simula
 }
 
 // Adds the robots of the world file that have no entry, because they may still get a behaviour.
-void AddThoseOfTheWorld(const Simulation& simulation, std::vector<PlacedRobot>& robots,
-                        const std::vector<std::string>& of_world) {
+void AddRobotsOfTheWorld(const Simulation& simulation, std::vector<PlacedRobot>& robots,
+                         const std::vector<std::string>& of_world) {
   for (const std::string& name : of_world) {
     const bool is_told = std::any_of(robots.begin(), robots.end(), [&](const PlacedRobot& robot) {
       return robot.entry.name == name;
@@ -167,8 +167,8 @@ scenario::Scenario StartsOf(const Population& population, const scenario::Scenar
 }
 
 // Returns the actual scenario of the run.
-scenario::Scenario Told(const Simulation& simulation, const RunOptions& options,
-                        const Population& population) {
+scenario::Scenario ActualScenario(const Simulation& simulation, const RunOptions& options,
+                                  const Population& population) {
   scenario::Scenario told = recording::ScenarioOf(simulation);
   const scenario::Scenario& given = options.scenario;
   told.world = Whole(given.world);
@@ -229,7 +229,7 @@ base::Result<scenario::Scenario> PopulateRun(Runtime& runtime, Simulation& simul
     problems.push_back(std::move(problem));
   }
   if (auto ok = CheckNamespaces(options, simulation); !ok) return base::Fail(ok.error());
-  AddThoseOfTheWorld(simulation, population->robots, of_world);
+  AddRobotsOfTheWorld(simulation, population->robots, of_world);
   if (auto ok = OverrideBehaviours(options, population->robots); !ok) return base::Fail(ok.error());
   if (!options.behaviour.empty() && population->robots.empty()) {
     problems.push_back({base::Problem::Severity::kWarning,
@@ -241,7 +241,7 @@ base::Result<scenario::Scenario> PopulateRun(Runtime& runtime, Simulation& simul
   const auto given = GiveBehaviours(simulation, population->robots,
                                     [&](const auto& robot) { return behaviours.Make(robot); });
   if (!given) return base::Fail(given.error().error);
-  return Told(simulation, options, *population);
+  return ActualScenario(simulation, options, *population);
 }
 
 }  // namespace gsv::app

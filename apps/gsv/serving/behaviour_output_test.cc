@@ -18,7 +18,7 @@ TEST(LastError, OfAnExceptionNamesFileAndLineOfTheInnermostFrame) {
             "ValueError: too far in wander.py line 12");
 }
 
-TEST(LastError, IsElseTheLastLine) {
+TEST(LastError, WithoutAnExceptionIsTheLastLine) {
   EXPECT_EQ(LastError({"one", "two", ""}), "two");
   EXPECT_EQ(LastError({}), "");
   EXPECT_EQ(LastError({"Traceback (most recent call last):", "  File \"x.py\"", "KeyError: 1",

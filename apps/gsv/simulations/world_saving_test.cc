@@ -97,7 +97,7 @@ TEST_F(WorldSavingTest, AnEditedWorldIsReadBackAndMovesToTheSameHash) {
   EXPECT_EQ(HashAfter(*again, 500), HashAfter(*edited, 500));  // the crate falls and tumbles
 }
 
-TEST_F(WorldSavingTest, TheScenarioNamesTheWorldAndHasWhatItCannotHold) {
+TEST_F(WorldSavingTest, TheScenarioNamesTheWorldAndAddsWhatSdformatCannotExpress) {
   const auto simulation = Open(folder_.Write("room.sdf", kWorld));
   ASSERT_NE(simulation, nullptr);
   simulation::RobotSpecification avatar;

@@ -9,14 +9,14 @@ namespace gsv::broker {
 namespace {
 
 // A chunk with fewer offers has no number columns: each of its offers is evaluated.
-constexpr std::size_t kWorthColumns = OfferColumn::kChunk / 4;
+constexpr std::size_t kMinOffersForColumns = OfferColumn::kChunk / 4;
 
 bool IsBefore(const OfferPtr& offer, std::uint64_t number) { return offer->number < number; }
 
 }  // namespace
 
 std::shared_ptr<const NumberColumn> OfferChunk::ColumnOf(const std::string& property) const {
-  return offers_.size() < kWorthColumns ? nullptr : columns_.Of(offers_, property);
+  return offers_.size() < kMinOffersForColumns ? nullptr : columns_.Of(offers_, property);
 }
 
 std::vector<Choice> OfferChunk::Choose(const std::vector<NumberTerm>& terms) const {

@@ -68,7 +68,7 @@ TEST(ElementAudit, NamesUnknownAttributes) {
               ElementsAre(EndsWith("It is an element: <static>.")));
 }
 
-TEST(ElementAudit, NamesSecondsAndElementsOfOlderVersions) {
+TEST(ElementAudit, NamesDuplicateElementsAndElementsOfOlderVersions) {
   EXPECT_THAT(
       AuditOfLink("<pose>1 0 0 0 0 0</pose><pose>2 0 0 0 0 0</pose>"),
       ElementsAre(HasSubstr("a second <pose> in <link> is ignored; the first one is used")));

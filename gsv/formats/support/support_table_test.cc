@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using tinyxml2::XMLElement;
 
-TEST(SupportTable, KnowsElementsByDefinitionsInside) {
+TEST(SupportTable, DependsOnTheParentOfAnElement) {
   const ElementSupport* model = SupportTable::Get().sdf().Child("world")->Child("model");
   ASSERT_NE(model, nullptr);
   const ElementSupport* friction =
@@ -25,7 +25,7 @@ TEST(SupportTable, KnowsElementsByDefinitionsInside) {
   EXPECT_EQ(model->Attribute("relative_to"), nullptr);
 }
 
-TEST(SupportTable, KnowsVersionsDefaultsAndWhatMayBeRepeated) {
+TEST(SupportTable, KnowsVersionsDefaultsAndRepeatableElements) {
   const ElementSupport& joint = SupportTable::Get().Definition("joint");
   const ElementSupport* axis = joint.Child("axis");
   EXPECT_EQ(axis->Child("use_parent_model_frame")->until, 6);
@@ -98,7 +98,7 @@ class InstalledSchemaTest : public testing::TestWithParam<int> {
   int compared_ = 0;
 };
 
-TEST_P(InstalledSchemaTest, IsAllInTheTable) {
+TEST_P(InstalledSchemaTest, HasEveryElementInTheTable) {
   for (const auto& entry : fs::directory_iterator(folder_)) {
     if (entry.path().extension() != ".sdf") continue;
     tinyxml2::XMLDocument described;

@@ -268,7 +268,7 @@ TEST_F(ExpanderTest, DistinguishesElementsFromMacrosOfTheSameName) {
             "<i v=\"6\"/><ball_inertia/>");
 }
 
-TEST_F(ExpanderTest, CallsMacrosOfThemselves) {
+TEST_F(ExpanderTest, CallsRecursiveMacrosUpToALimit) {
   EXPECT_EQ(Expanded("<xacro:macro name='m' params='n'><i n='${n}'/><xacro:if value='${n > 0}'>"
                      "<xacro:m n='${n - 1}'/></xacro:if></xacro:macro><xacro:m n='2'/>"),
             "<i n=\"2\"/><i n=\"1\"/><i n=\"0\"/>");

@@ -26,7 +26,7 @@ TEST(AccessRule, RefusesOtherNamesAndPorts) {
   }
 }
 
-TEST(AccessRule, RefusesPagesFromElsewhere) {
+TEST(AccessRule, RefusesPagesOfOtherOrigins) {
   for (const char* origin :
        {"null", "http://evil.example", "https://localhost:8080", "http://localhost:5173",
         "http://localhost", "http://localhost:8080/"}) {

@@ -70,7 +70,7 @@ TEST_F(FactoryApiTest, ReturnsWhetherRos2IsAvailable) {
           {"available", false}, {"reason", "built without it"}, {"reach", ""}, {"published", ""}}));
 }
 
-TEST_F(FactoryApiTest, APreviewIsASceneWithItsPosesAndInNoList) {
+TEST_F(FactoryApiTest, APreviewHasASceneAndPosesButIsNotListed) {
   const auto preview = Ask("POST", "/api/preview", 200, R"({"world": "w"})");
   EXPECT_EQ(preview["warnings"][0], "no mesh");
   EXPECT_FALSE(preview["scene"]["bodies"].empty());

@@ -206,7 +206,7 @@ TEST(ViewQuery, ReadsTheCamera) {
   EXPECT_DOUBLE_EQ(Parsed("fps=5", true)->frames_a_second, 5);
 }
 
-TEST(ViewQuery, RefusesWhatItCannotUse) {
+TEST(ViewQuery, RefusesInvalidParameters) {
   for (const char* query :
        {"size=0x0", "size=100000x100000", "size=big", "eye=1,2,3", "eye=1&target=2", "fov=0",
         "quality=0", "quality=x", "after=-1", "pixel_ratio=9", "size=4000x4000&pixel_ratio=4",

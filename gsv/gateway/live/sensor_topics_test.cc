@@ -106,7 +106,7 @@ class ManySensorsTest : public LiveStreamTest {
       "others when their robot is asked for (docs/formats/live.md)";
 };
 
-TEST_F(ManySensorsTest, TwoThousandHaveATopicAndTheRestIsReported) {
+TEST_F(ManySensorsTest, TwoThousandSensorsHaveATopicAndTheRestIsReported) {
   Mount("robot_0", 0, 1000);
   EXPECT_EQ(Topics("robot_0"), 1000u);
   EXPECT_EQ(WarningCount(complaint_), 0u);

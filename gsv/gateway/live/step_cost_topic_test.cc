@@ -23,7 +23,7 @@ simulation::StepTimes StepOf(std::int64_t step, milliseconds behaviours, const s
   return times;
 }
 
-TEST_F(LiveStreamTest, StepCostsSumUpAndNameWhoHoldsStepsUp) {
+TEST_F(LiveStreamTest, StepTimesAddUpAndNameTheBehaviourThatDelaysSteps) {
   EXPECT_EQ(simulation_->observers(), 0u);
   Subscribe(1, "/gsv/step_costs");
   Round(milliseconds(600));

@@ -93,7 +93,7 @@ TEST_F(RecordedTimelineTest, ReturnsEventsWithTheirTimes) {
   EXPECT_EQ(events[1].detail, "agent_dead at last");
 }
 
-TEST_F(RecordedTimelineTest, ARecordingWithoutPosesHasItsEnds) {
+TEST_F(RecordedTimelineTest, ARecordingWithoutPosesHasAStartAndAnEnd) {
   const recording::Bytes bytes = recording::ThreeChunks();
   const auto reader = recording::Open(bytes).value();
   const RecordedScene scene(*reader);

@@ -55,7 +55,7 @@ TEST_F(RecordedViewTest, ShowsTheNewestPosesOfEachInstant) {
                                          // recorded
 }
 
-TEST_F(RecordedViewTest, ARecordingWithoutASceneHasASentence) {
+TEST_F(RecordedViewTest, ARecordingWithoutASceneGivesASentence) {
   const recording::Bytes bytes = recording::ThreeChunks();
   const auto reader = recording::Open(bytes).value();
   const RecordedScene scene(*reader);

@@ -10,7 +10,7 @@ using simulation::Phase;
 
 constexpr ReplayClock::WallTime kNow{1h};
 
-TEST(ReplayClock, MovesWithTheWallClockTimesItsSpeed) {
+TEST(ReplayClock, AdvancesByTheWallClockTimesItsSpeed) {
   ReplayClock clock(1s, 10s, 3, false);
   ASSERT_TRUE(clock.Start());
   clock.Advance(kNow);
@@ -20,7 +20,7 @@ TEST(ReplayClock, MovesWithTheWallClockTimesItsSpeed) {
   EXPECT_EQ(clock.position(), 1600ms);
 }
 
-TEST(ReplayClock, ARoundThatComesLateSlowsItDown) {
+TEST(ReplayClock, ALateUpdateSlowsItDown) {
   ReplayClock clock(0s, 10s, 1, false);
   ASSERT_TRUE(clock.Start());
   clock.Advance(kNow);
@@ -79,7 +79,7 @@ TEST(ReplayClock, SeeksWithinTheRecording) {
   EXPECT_EQ(clock.position(), 1s);
 }
 
-TEST(ReplayClock, AnotherSpeedAppliesFromHereOn) {
+TEST(ReplayClock, ANewSpeedAppliesFromTheCurrentInstant) {
   ReplayClock clock(0s, 10s, 1, false);
   ASSERT_TRUE(clock.Start());
   clock.Advance(kNow);

@@ -82,7 +82,7 @@ TEST_F(UploadsTest, TwoGigabytesAreRefusedBeforeTheyAreSent) {
   EXPECT_NE(answer->body.find("67108864 bytes"), std::string::npos);
 }
 
-TEST_F(UploadsTest, AMegabyteIsAcceptedOnlyHere) {
+TEST_F(UploadsTest, AMegabyteIsAcceptedForUploadsOnly) {
   Start();
   const std::string megabyte(1 << 20, 'x');
   const auto taken = testing::Fetch(port(), "PUT", "/api/uploads/1/a.sdf", "", megabyte);

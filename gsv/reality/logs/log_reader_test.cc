@@ -85,7 +85,7 @@ TEST_F(LogReaderTest, ReadsAScanOfACarmenLogFromRightToLeft) {
   EXPECT_EQ(log.scans[0].base->y, 6);
 }
 
-TEST_F(LogReaderTest, NamesTheLineOfWhatIsNoNumber) {
+TEST_F(LogReaderTest, NamesTheLineOfAnInvalidNumber) {
   std::string text = kOdometry;
   for (int i = 2; i < 20; ++i) text += "ODOM 0 0 0 0 0 0 0 host " + std::to_string(i) + "\n";
   text += "ODOM nan 0 0 0 0 0 0 host 20\n";
@@ -115,7 +115,7 @@ struct Dated {
   std::size_t left_out;
 };
 
-TEST_F(LogReaderTest, LeavesOutTheRowsWhoseTimeIsWrongAndNotThoseAfterThem) {
+TEST_F(LogReaderTest, SkipsOnlyTheRowsWhoseTimeIsWrong) {
   std::vector<double> whole;
   for (int i = 0; i < 40; ++i) whole.push_back(i);
   const auto with = [&](std::size_t at, std::vector<double> rows) {
@@ -257,7 +257,7 @@ TEST_F(LogReaderTest, ReadsARecordingsScansTransformsAndCommands) {
   EXPECT_THAT(Problem(1), HasSubstr("the clock jumps from 2 to 50 s"));
 }
 
-TEST_F(LogReaderTest, RefusesALogThatIsCutOffEverywhere) {
+TEST_F(LogReaderTest, RefusesEveryTruncationOfALog) {
   EXPECT_THAT(Refusal(folder_.Write("a.log", std::string(kOdometry) + "ODOM 0 0\n"), "carmen"),
               HasSubstr("1 of 3 rows cannot be used"));
   EXPECT_THAT(Problem(0), HasSubstr("the row has 3 fields and needs 7; it may be cut off"));

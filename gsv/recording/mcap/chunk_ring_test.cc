@@ -80,7 +80,7 @@ TEST_F(ChunkRingTest, DropsTheOldestChunksBeyondItsCapacity) {
   EXPECT_EQ(times.times.back(), 190ms);
 }
 
-TEST_F(ChunkRingTest, AReaderKeepsWhatLaterWritesDrop) {
+TEST_F(ChunkRingTest, AReaderKeepsChunksThatAreDroppedLater) {
   WriteChunk(200);
   const auto reader = ring_->Open().value();
   for (int i = 0; i < 20; ++i) WriteChunk(200);
@@ -88,7 +88,7 @@ TEST_F(ChunkRingTest, AReaderKeepsWhatLaterWritesDrop) {
   EXPECT_GT(ring_->extent().start, 0ms);
 }
 
-TEST_F(ChunkRingTest, KeepsANewestChunkAboveTheCapacity) {
+TEST_F(ChunkRingTest, KeepsTheNewestChunkEvenAboveTheCapacity) {
   WriteChunk(5000);
   WriteChunk(6000);
   EXPECT_EQ(TimesIn(*ring_->Open().value()).times, (std::vector<base::SimTime>{10ms}));

@@ -5,7 +5,7 @@
 namespace gsv::rendering {
 namespace {
 
-TEST(EglDevices, AreListedWhereMesaIsInstalled) {
+TEST(EglDevices, AreListedIfMesaIsInstalled) {
   EXPECT_TRUE(
       ListsDevices("EGL_EXT_device_base EGL_EXT_device_enumeration EGL_EXT_device_query "
                    "EGL_EXT_platform_base EGL_EXT_client_extensions EGL_EXT_platform_device "
@@ -14,7 +14,7 @@ TEST(EglDevices, AreListedWhereMesaIsInstalled) {
 
 // These are the extensions of NVIDIA's driver 580 through libglvnd. Regression: the card was not
 // found with them.
-TEST(EglDevices, AreListedWhereNvidiasDriverIsAlone) {
+TEST(EglDevices, AreListedIfNvidiasDriverIsTheOnlyOne) {
   EXPECT_TRUE(ListsDevices(
       "EGL_EXT_platform_base EGL_EXT_device_base EGL_KHR_client_get_all_proc_addresses "
       "EGL_EXT_client_extensions EGL_KHR_debug EGL_KHR_platform_x11 EGL_EXT_platform_x11 "

@@ -9,7 +9,7 @@
 namespace gsv::ros2 {
 namespace {
 
-TEST(TypeHash, OfMessagesIsTheOneThatRosPublishes) {
+TEST(TypeHash, OfMessagesEqualsThePublishedHashOfRos) {
   const std::pair<const char*, const char*> kPublished[] = {
       {"std_msgs/msg/String",
        "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"},
@@ -36,7 +36,7 @@ TEST(TypeHash, OfMessagesIsTheOneThatRosPublishes) {
   for (const auto& [type, hash] : kPublished) EXPECT_EQ(TypeHashOf(type), hash) << type;
 }
 
-TEST(TypeHash, OfServicesIsTheOneThatRosPublishes) {
+TEST(TypeHash, OfServicesEqualsThePublishedHashOfRos) {
   const std::pair<const char*, const char*> kPublished[] = {
       {"rcl_interfaces/srv/ListParameters",
        "RIHS01_3e6062bfbb27bfb8730d4cef2558221f51a11646d78e7bb30a1e83afac3aad9d"},
@@ -77,7 +77,7 @@ TEST(TypeHash, IsFoundInUserDataOfOthers) {
   EXPECT_EQ(TypeHashIn("enclave=/;"), "");
 }
 
-TEST(TypeDescription, HoldsBoundsAndLeavesOutConstantsAndDefaults) {
+TEST(TypeDescription, HasBoundsButNoConstantsAndDefaults) {
   const auto description = DescribeType({"a/msg/Thing", "ros2msg",
                                          "uint8 KIND=3\nuint8 WIDE = 4\nuint8 kind 3\n"
                                          "string<=10[<=2] names # a comment\nPart[2] parts\n"
@@ -93,7 +93,7 @@ TEST(TypeDescription, HoldsBoundsAndLeavesOutConstantsAndDefaults) {
       R"({"name": "on", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}]})");
 }
 
-TEST(TypeDescription, RefusesTextThatIsNoDefinition) {
+TEST(TypeDescription, RejectsTextThatIsNotADefinition) {
   EXPECT_FALSE(DescribeType({"a/msg/A", "ros2msg", "b/B thing\n"}));
   EXPECT_FALSE(DescribeType({"a/msg/A", "ros2msg", "uint8\n"}));
   EXPECT_FALSE(DescribeType({"a/msg/A", "ros2msg", "uint8[x] thing\n"}));

@@ -33,7 +33,7 @@ TEST(AgentClocks, AWaitEndsAtTheFirstInstantAtOrAfterIt) {
   EXPECT_TRUE(clocks.IsRunning());
 }
 
-TEST(AgentClocks, AWaitForAnInstantThatIsHereOrPastReturnsAtOnce) {
+TEST(AgentClocks, AWaitForThePresentOrAPastInstantReturnsAtOnce) {
   AgentClocks clocks;
   const ClockId clock = clocks.Open();
   EXPECT_TRUE(clocks.WaitUntil(clock, 30ms, 30ms));

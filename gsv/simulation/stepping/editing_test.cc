@@ -184,7 +184,7 @@ TEST(Editing, RunThroughTakesTheTurnsOfItsInstantWithoutAStep) {
   EXPECT_TRUE(simulation->Stop());
 }
 
-TEST(Editing, RecordsWhetherAllBehavioursHadHadTheirTurn) {
+TEST(Editing, RecordsWhetherAllBehavioursHadTheirTurnBeforeTheEdit) {
   auto simulation = Make(Room(1s));
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, Drives(0.1))));
   EXPECT_FALSE(simulation->was_edited());

@@ -37,7 +37,7 @@ class ObservedEngine final : public dynamics::Engine {
   const std::unique_ptr<dynamics::Engine> engine_ = dynamics::MakeWorldEngine();
 };
 
-TEST(SteppingSimulation, AnswersAgentsWhileItsEngineIsGivenALayout) {
+TEST(SteppingSimulation, AnswersAgentsWhileItsEngineLoadsALayout) {
   Specification specification = Lockstep(0s);
   specification.step = 10ms;
   auto layout = world::MakeLayout(1, {}, specification.world);
