@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
@@ -171,6 +172,38 @@ Json BodyJson(const SceneSource& source, const world::Body& body, const Pose& po
   return json;
 }
 
+// The masses of a model's links, as its description gives them.
+Json InertialsJson(const model::Model& model) {
+  Json inertials = Json::array();
+  for (const model::Link& link : model.links) {
+    const model::Inertial& inertial = link.inertial;
+    if (!(inertial.mass > 0)) continue;
+    inertials.push_back(
+        {{"link", link.name},
+         {"mass_kg", inertial.mass},
+         {"pose", PoseJson(inertial.link_from_com)},
+         {"pose_in_model", PoseJson(link.model_from_link * inertial.link_from_com)},
+         {"inertia_kg_m2",
+          {inertial.ixx, inertial.iyy, inertial.izz, inertial.ixy, inertial.ixz, inertial.iyz}}});
+  }
+  return inertials;
+}
+
+// By model, of the bodies that can move.
+Json AllInertialsJson(const SceneSource& source) {
+  std::map<const model::Model*, std::shared_ptr<const model::Model>> models;
+  for (const world::Body& body : source.snapshot.layout->bodies) {
+    if (!body.is_static()) models.try_emplace(body.model.get(), body.model);
+  }
+  std::map<std::string, Json> by_identifier;  // in an order that does not depend on addresses
+  for (const auto& [address, model] : models) {
+    by_identifier.try_emplace(source.identify(model), InertialsJson(*model));
+  }
+  Json inertials = Json::object();
+  for (auto& [identifier, list] : by_identifier) inertials[identifier] = std::move(list);
+  return inertials;
+}
+
 Json PoseListJson(const world::Layout& layout) {
   Json list = Json::array();
   for (const PoseEntry& entry : PoseListOf(layout)) {
@@ -248,6 +281,7 @@ std::string SceneJson(const SceneSource& source) {
                    {"look", LookJson(layout.description->scene)},
                    {"lights", std::move(lights)},
                    {"bodies", std::move(bodies)},
+                   {"inertials", AllInertialsJson(source)},
                    {"poses", PoseListJson(layout)}};
   return scene.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -295,6 +295,18 @@ TEST_F(ApiTest, TheSceneDescribesAllBodies) {
   EXPECT_EQ(scene["lights"][0]["kind"], "directional");
 }
 
+TEST_F(ApiTest, TheSceneHasTheMassesOfMovingBodies) {
+  const json scene = AskJson("GET", path_ + "/scene", 200);
+  EXPECT_FALSE(
+      scene["inertials"].contains(std::string(scene["bodies"][1]["model"])));  // a static crate
+  const json& links = scene["inertials"][std::string(scene["bodies"][6]["model"])];
+  ASSERT_EQ(links.size(), 3u);
+  EXPECT_EQ(links[1]["link"], "left_wheel");
+  EXPECT_EQ(links[1]["mass_kg"], 1);
+  EXPECT_EQ(links[1]["pose"], json::parse("[0,0,0,0,0,0,1]"));
+  EXPECT_EQ(links[1]["inertia_kg_m2"], json::parse("[1,1,1,0,0,0]"));
+}
+
 TEST_F(ApiTest, TheSceneIsAsLargeAsItsBodiesWithoutTheFloor) {
   const geometry::Bounds bounds = presentation::SceneBounds(*simulation_->snapshot());
   EXPECT_NEAR(bounds.min.x, -4.5, 1e-12);
