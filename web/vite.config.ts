@@ -26,12 +26,30 @@ function contentSecurityPolicy(): Plugin {
   };
 }
 
+// The page's first script loads the main one when it runs. The browser fetches both at the same time.
+function preloadMain(): Plugin {
+  return {
+    name: "gsv-preload-main",
+    apply: "build",
+    transformIndexHtml: {
+      order: "post",
+      handler: (_, { bundle, path }) => {
+        const main = Object.values(bundle ?? {}).find(
+          (chunk) => chunk.type === "chunk" && chunk.moduleIds.some((id) => id.endsWith("/src/main.ts")),
+        );
+        if (path !== "/index.html" || !main) return [];
+        return [{ tag: "link", attrs: { rel: "modulepreload", crossorigin: true, href: `./${main.fileName}` }, injectTo: "head" }];
+      },
+    },
+  };
+}
+
 // `npm run dev` shows a simulation that runs elsewhere: GSV_SERVER=http://127.0.0.1:PORT
 const server = process.env.GSV_SERVER ?? "http://127.0.0.1:8080";
 
 export default defineConfig({
   base: "./",
-  plugins: [contentSecurityPolicy()],
+  plugins: [contentSecurityPolicy(), preloadMain()],
   build: {
     target: "es2022",
     assetsInlineLimit: 0,

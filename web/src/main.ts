@@ -1,19 +1,7 @@
 // Connects the parts of the page: the store, the session that fills it, the 3D view, and the
 // panels.
-import "uplot/dist/uPlot.min.css";
-import "./style/page.css";
-import "./style/drawn.css";
-import "./style/panels.css";
-import "./style/control.css";
-import "./style/images.css";
-import "./style/physics.css";
-import "./style/plots.css";
-import "./style/robots.css";
-import "./style/setUp.css";
-import "./style/workspace.css";
-import "./style/world.css";
+import { credentials, graphics, parameters, requests } from "./early";
 import { SimulationApi } from "./api/SimulationApi";
-import { pageCredentials } from "./api/credentials";
 import { robotsOf } from "./api/scene";
 import { App } from "./app/App";
 import { panelPorts } from "./app/panelPorts";
@@ -40,7 +28,6 @@ import { pageNames } from "./page/pageLinks";
 import { PANELS } from "./panels/registry";
 import type { PackedPosesMessage, PosesMessage } from "./protocol/messages";
 import { PACKED_POSES, POSES, posesOf } from "./protocol/packedPoses";
-import { startGraphics } from "./scene/graphics";
 import type { RobotStates } from "./scene/RobotSigns";
 import { ModelLibrary } from "./scene/ModelLibrary";
 import { World3D } from "./scene/World3D";
@@ -66,8 +53,6 @@ import type { ViewChoice } from "./app/ViewChoice";
 
 // The page's address may contain: simulation=NAME (the simulation to join), recording=NAME (the
 // recording to replay), and quality=high (draws all pixels, however slow that is).
-const graphics = startGraphics();
-const parameters = new URLSearchParams(location.search);
 const storage = browserStorage();
 const store = new Store<State>({
   ...initialState,
@@ -75,8 +60,7 @@ const store = new Store<State>({
   singleKeys: loadSingleKeys(storage),
   changedKeys: loadChangedKeys(storage),
 });
-const credentials = pageCredentials(window);
-const api = new SimulationApi(document.baseURI, credentials.fetch, credentials);
+const api = new SimulationApi(document.baseURI, requests.fetch, credentials);
 
 // The 3D view is added when the browser has started to draw.
 let world: World3D | null = null;
@@ -125,6 +109,8 @@ const session = new Session(
 const app = new App(store, session, api, () => world);
 const ports = panelPorts(app, api);
 
+const LONGEST_PAINTING_MS = 200;
+
 let nextPose: ReturnType<typeof setTimeout> | undefined;
 
 function showSelectedPose(): void {
@@ -144,11 +130,21 @@ async function openWorld(): Promise<void> {
     (scene) => scene && library.prepare(scene),
   );
   const inSoftware = await graphics;
+  await painted();
   unwatch();
   world = createWorld(view, inSoftware);
   if (!world) return store.set({ view: "none" });
   connectWorld(world);
   drawing = startDrawing(store, api, world, { inSoftware, chosen: chosenDrawer(storage, parameters) });
+}
+
+// Resolves when what is on the page so far is shown, so that the list of robots does not wait for the
+// view. A page in the background shows nothing.
+function painted(): Promise<void> {
+  return new Promise((resolve) => {
+    setTimeout(resolve, LONGEST_PAINTING_MS);
+    requestAnimationFrame(() => setTimeout(resolve));
+  });
 }
 
 function connectWorld(world: World3D): void {

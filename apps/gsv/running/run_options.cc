@@ -32,10 +32,10 @@ void AddWorldOptions(CLI::App& command, RunArguments& a) {
       ->group(kGroup);
   command
       .add_option("--place", a.place,
-                  "put N robots of the --robot without a pose on a grid, or at random\n"
+                  "put N robots of the --robot without a pose: grid:N or random:N\n"
                   "The grid has cells of 1 m. Random places follow --seed. The model is pebble if "
                   "there is no --robot.")
-      ->type_name("grid:N|random:N")
+      ->type_name("WHERE")
       ->group(kGroup);
   command.add_option("--avatar", a.avatars, "add an avatar that people steer from the viewer")
       ->type_name("MODEL[@X,Y[,YAW]]")

@@ -81,11 +81,15 @@ export class PeopleControl {
   async load(): Promise<void> {
     const simulation = this.store.get().simulation ?? "";
     try {
-      if (!this.isThere) await this.api.enter(this.name, simulation);
-      const isNew = this.isThere && simulation !== this.saidSimulation;
-      this.isThere = true;
+      // The server forgets a viewer that was silent for some seconds.
+      let people = this.isThere ? await this.api.people() : NO_PEOPLE;
+      if (people.you === 0) {
+        await this.api.enter(this.name, simulation);
+        people = await this.api.people();
+      } else if (simulation !== this.saidSimulation) {
+        people = await this.api.turn(simulation);
+      }
       this.saidSimulation = simulation;
-      const people = isNew ? await this.api.turn(simulation) : await this.api.people();
       this.isThere = people.you !== 0;
       this.take(people);
     } catch (error) {

@@ -115,8 +115,10 @@ export class Session implements TopicSource {
     this.sceneText = "";
     this.store.set({ ...NOTHING_WATCHED, simulation: name });
     this.connect(name);
-    // The list needs neither the stream nor the scene, which arrive late for a crowd.
-    if (this.instant === null) void this.fetchStatus(name);
+    if (this.instant !== null) return;
+    // Neither needs the stream.
+    void this.fetchStatus(name);
+    void this.fetchScene(name, () => {}); // it is fetched again if the stream opens without it
   }
 
   // Shows the past of the simulation that the server keeps, as a replay for this page alone. What the page
@@ -308,11 +310,18 @@ export class Session implements TopicSource {
   }
 
   private async opened(name: string): Promise<void> {
+    const isFirst = !this.wasOpen;
     if (this.wasOpen) notify(this.store, "note", "Connected again.");
     this.wasOpen = true;
-    this.newsSince = Infinity;
     const instant = this.instant;
     this.instant = null;
+    const { scene, status } = this.store.get();
+    if (isFirst && instant === null && scene && status && status.phase !== "failed") {
+      // Both were fetched just now. The stream reports what has changed since.
+      this.newsSince = status.time;
+      return this.wishes.lookSoon();
+    }
+    this.newsSince = Infinity;
     if (instant !== null) await this.api.seek(name, instant).catch(() => {}); // then it stands at its start
     await Promise.all([this.fetchScene(name), this.fetchStatus(name)]);
     this.wishes.lookSoon();
@@ -346,7 +355,7 @@ export class Session implements TopicSource {
     if (Date.now() - this.sceneFailedAtMs > SCENE_RETRY_MS) void this.fetchScene(simulation);
   }
 
-  private async fetchScene(name: string): Promise<void> {
+  private async fetchScene(name: string, onError = (reason: string) => this.reportScene(reason)): Promise<void> {
     if (this.fetchingScene === name) return;
     this.fetchingScene = name;
     try {
@@ -358,10 +367,14 @@ export class Session implements TopicSource {
       }
     } catch (error) {
       this.sceneFailedAtMs = Date.now();
-      notify(this.store, "error", `Cannot show the scene: ${(error as Error).message}`);
+      onError((error as Error).message);
     } finally {
       if (this.fetchingScene === name) this.fetchingScene = null;
     }
+  }
+
+  private reportScene(reason: string): void {
+    notify(this.store, "error", `Cannot show the scene: ${reason}`);
   }
 
   private takeScene(scene: SceneDescription): void {

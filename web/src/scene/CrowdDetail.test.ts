@@ -53,22 +53,23 @@ describe("CrowdDetail", () => {
     mesh.setMatrixAt(49, new Matrix4().makeRotationZ(Math.PI / 2).setPosition(7, 8, 9));
     detail.moved();
     const { geometry } = look(100).boxes[0]!;
-    const [from, to] = [49 * 24, 50 * 24];
+    const at = (i: number) => new Vector3().fromBufferAttribute(geometry.getAttribute("position"), 49 * 8 + i);
     const middle = new Vector3();
-    for (let i = from; i < to; i++) middle.add(new Vector3().fromBufferAttribute(geometry.getAttribute("position"), i));
-    [7, 8, 9].forEach((value, k) => expect(middle.getComponent(k) / 24).toBeCloseTo(value, 5));
-    // The first face's normal was along x, and is along y now.
-    const normal = new Vector3().fromBufferAttribute(geometry.getAttribute("normal"), from);
-    [0, 1, 0].forEach((value, k) => expect(normal.getComponent(k)).toBeCloseTo(value, 6));
+    for (let i = 0; i < 8; i++) middle.add(at(i));
+    [7, 8, 9].forEach((value, k) => expect(middle.getComponent(k) / 8).toBeCloseTo(value, 5));
+    // The first corner was at (-1, -1, -1) radii from the centre, and is at (1, -1, -1) radii now.
+    [7 + RADIUS, 8 - RADIUS, 9 - RADIUS].forEach((value, k) => expect(at(0).getComponent(k)).toBeCloseTo(value, 5));
   });
 
   it("draws faces that point outwards", () => {
     const { geometry } = crowd(50).look(100).boxes[0]!;
-    const at = (name: string, i: number) => new Vector3().fromBufferAttribute(geometry.getAttribute(name), i);
-    for (let i = 0; i < geometry.index!.count; i += 3) {
-      const [a, b, c] = [0, 1, 2].map((k) => geometry.index!.getX(i + k)) as [number, number, number];
-      const across = at("position", b).sub(at("position", a)).cross(at("position", c).sub(at("position", a)));
-      expect(across.normalize().dot(at("normal", a))).toBeCloseTo(1, 4);
+    const faces = geometry.index!;
+    const at = (i: number) => new Vector3().fromBufferAttribute(geometry.getAttribute("position"), i);
+    for (let i = 0; i < faces.count; i += 3) {
+      const [a, b, c] = [0, 1, 2].map((k) => at(faces.getX(i + k))) as [Vector3, Vector3, Vector3];
+      const across = b.clone().sub(a).cross(c.clone().sub(a)).normalize();
+      const centre = new Vector3(BETWEEN * Math.floor(i / 36), 0, 0);
+      expect(across.dot(a.clone().sub(centre))).toBeCloseTo(RADIUS, 4);
     }
   });
 

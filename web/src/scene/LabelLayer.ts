@@ -27,9 +27,14 @@ interface Box {
 interface Candidate extends Box {
   robot: number;
   x: number;
-  rank: number; // the lowest comes first
-  distance: number;
 }
+
+// A priority is one number, so that thousands are sorted fast: the rank (the lowest comes first), the
+// distance in centimetres, and the number of the robot.
+const ROBOTS_IN_KEY = 2 ** 20;
+const DISTANCES_IN_KEY = 2 ** 24;
+const BEST_RANK = 100; // of a selected robot; the worst robots follow
+const CENTIMETRES = 100;
 
 export class LabelLayer {
   readonly element = document.createElement("div");
@@ -38,6 +43,9 @@ export class LabelLayer {
   private readonly measure = measureText();
   private readonly clipFromWorld = new Matrix4();
   private readonly eye = new Vector3();
+  private keys: Float64Array = new Float64Array(0); // of the robots in the image, by priority
+  private across: Float64Array = new Float64Array(0); // the place of each robot in the image, in CSS pixels
+  private down: Float64Array = new Float64Array(0);
 
   constructor(private readonly onPick: (name: string) => void) {
     this.element.className = "labels";
@@ -85,40 +93,46 @@ export class LabelLayer {
   // The labels that have room, at most MOST_LABELS.
   private chosen(camera: Camera, width: number, height: number, robots: LabelledRobots): Candidate[] {
     const taken: Candidate[] = [];
-    for (const each of this.candidates(camera, width, height, robots)) {
-      if (taken.some((other) => overlap(each, other))) continue;
-      taken.push(each);
-      if (taken.length === MOST_LABELS) break;
+    const found = this.findInImage(camera, width, height, robots);
+    for (let i = 0; i < found && taken.length < MOST_LABELS; i++) {
+      const robot = this.keys[i]! % ROBOTS_IN_KEY;
+      const half = this.widthOf(robots.names[robot]!) / 2;
+      const x = this.across[robot]!;
+      const each = { robot, x, left: x - half, right: x + half, bottom: this.down[robot]! };
+      if (!taken.some((other) => overlap(each, other))) taken.push(each);
     }
     return taken;
   }
 
-  // The labels in front of the camera and inside the image, in the order of priority.
-  private candidates(camera: Camera, width: number, height: number, robots: LabelledRobots): Candidate[] {
+  // Finds the robots in front of the camera and inside the image. Returns their number, and leaves their
+  // places in `across` and `down` and their order in `keys`.
+  private findInImage(camera: Camera, width: number, height: number, robots: LabelledRobots): number {
     const { names, tops, selection } = robots;
+    if (this.keys.length < names.length) {
+      [this.keys, this.across, this.down] = [0, 1, 2].map(() => new Float64Array(names.length)) as [Float64Array, Float64Array, Float64Array];
+    }
+    const { keys, across, down } = this;
     const m = this.clipFromWorld.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements;
     const eye = this.eye.setFromMatrixPosition(camera.matrixWorld);
-    const found: Candidate[] = [];
+    let found = 0;
     for (let robot = 0, at = 0; robot < names.length; robot++, at += 3) {
-      const [x, y, z] = [tops[at]!, tops[at + 1]!, tops[at + 2]!];
+      const x = tops[at]!;
+      const y = tops[at + 1]!;
+      const z = tops[at + 2]!;
       const w = m[3]! * x + m[7]! * y + m[11]! * z + m[15]!;
       if (w <= 0) continue;
-      const across = (m[0]! * x + m[4]! * y + m[8]! * z + m[12]!) / w;
+      const right = (m[0]! * x + m[4]! * y + m[8]! * z + m[12]!) / w;
       const up = (m[1]! * x + m[5]! * y + m[9]! * z + m[13]!) / w;
-      if (Math.abs(across) > 1 || Math.abs(up) > 1 || !robots.isShown(robot)) continue;
-      const middle = ((across + 1) / 2) * width;
-      const half = this.widthOf(names[robot]!) / 2;
-      found.push({
-        robot,
-        x: middle,
-        left: middle - half,
-        right: middle + half,
-        bottom: ((1 - up) / 2) * height,
-        rank: names[robot] === selection ? -Infinity : -robots.badness(robot),
-        distance: Math.hypot(x - eye.x, y - eye.y, z - eye.z),
-      });
+      if (Math.abs(right) > 1 || Math.abs(up) > 1 || !robots.isShown(robot)) continue;
+      across[robot] = ((right + 1) / 2) * width;
+      down[robot] = ((1 - up) / 2) * height;
+      const rank = BEST_RANK - (names[robot] === selection ? BEST_RANK : robots.badness(robot));
+      const distance = Math.sqrt((x - eye.x) ** 2 + (y - eye.y) ** 2 + (z - eye.z) ** 2);
+      const centimetres = Math.min(DISTANCES_IN_KEY - 1, Math.floor(CENTIMETRES * distance));
+      keys[found++] = (rank * DISTANCES_IN_KEY + centimetres) * ROBOTS_IN_KEY + robot;
     }
-    return found.sort((a, b) => a.rank - b.rank || a.distance - b.distance);
+    keys.subarray(0, found).sort();
+    return found;
   }
 
   private widthOf(name: string): number {

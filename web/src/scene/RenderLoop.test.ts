@@ -117,3 +117,25 @@ test("if frames are slow, the next one begins after the page has reacted to a cl
   expect(drawnAfterPress(80)).toEqual([1, 2]);
   expect(drawnAfterPress(20)[0]).toBe(2); // the next frame will not be felt
 });
+
+test("an awaited picture is drawn when it is there", () => {
+  const draw = vi.fn(() => false);
+  const loop = new RenderLoop(draw, () => {});
+  loop.await(1e9);
+  loop.request();
+  for (let now = 0; now < 160; now += 16) frameAt(now);
+  expect(draw).not.toHaveBeenCalled();
+  loop.hurry();
+  frameAt(160);
+  expect(draw).toHaveBeenCalledOnce();
+});
+
+test("a picture for which there is no time does not follow a rest", () => {
+  const loop = new RenderLoop(() => false, () => {});
+  loop.request();
+  frameAt(0);
+  frameAt(500); // a slow frame
+  loop.hurry();
+  frameAt(516);
+  expect(loop.frames).toBe(2);
+});

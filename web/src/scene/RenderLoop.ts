@@ -29,6 +29,8 @@ export class RenderLoop {
   private isWanted = false; // another one
   private isSlow = false; // the last one was
   private heldUntilMs = -Infinity;
+  private awaitedUntilMs = -Infinity;
+  private isUrgent = false; // the next frame follows without a rest
 
   // `draw` returns whether the next frame will differ, so that it is drawn as well. `onFrameTook`
   // gets the time until a frame was drawn.
@@ -53,6 +55,20 @@ export class RenderLoop {
     if (this.isSlow || this.beganMs !== null) this.heldUntilMs = performance.now() + ANSWER_MS;
   }
 
+  // Draws nothing for this time, or until hurry(): what would be drawn is about to be replaced.
+  await(milliseconds: number): void {
+    this.awaitedUntilMs = performance.now() + milliseconds;
+  }
+
+  // Draws the next frame as soon as possible.
+  hurry(): void {
+    this.awaitedUntilMs = -Infinity;
+    this.isUrgent = true;
+    clearTimeout(this.resting);
+    this.resting = undefined;
+    this.request();
+  }
+
   private schedule(): void {
     if (this.scheduled) return;
     this.scheduled = true;
@@ -69,12 +85,14 @@ export class RenderLoop {
       this.beganMs = null;
       this.isSlow = took > SLOW_MS;
       if (took < LONGEST_FRAME_MS) this.onFrameTook(took);
-      if (took > EXHAUSTING_MS && took < LONGEST_FRAME_MS) return this.rest(took);
+      if (took > EXHAUSTING_MS && took < LONGEST_FRAME_MS && !this.isUrgent) return this.rest(took);
     }
     if (!this.isWanted) return;
-    if (this.isSlow && performance.now() < this.heldUntilMs) return this.schedule();
+    const timeMs = performance.now();
+    if (timeMs < this.awaitedUntilMs || (this.isSlow && timeMs < this.heldUntilMs)) return this.schedule();
     this.frames += 1;
     this.beganMs = now;
+    this.isUrgent = false;
     this.isWanted = false; // drawing may ask for another
     this.isWanted = this.draw(performance.now()) || this.isWanted;
     this.fence.mark();

@@ -15,6 +15,7 @@ export class RobotPlaces {
   readonly names: readonly string[];
   private readonly robots: { name: string; body: number }[];
   private readonly places: Float64Array;
+  private readonly heights: Float64Array; // of the labels above the robots' origins, m
 
   constructor(
     private readonly bodies: BodyLayer,
@@ -25,6 +26,8 @@ export class RobotPlaces {
     );
     this.names = this.robots.map(({ name }) => name);
     this.places = new Float64Array(3 * this.robots.length);
+    this.heights = new Float64Array(this.robots.length);
+    this.measure();
   }
 
   // The centre of its shape, in the world.
@@ -56,16 +59,23 @@ export class RobotPlaces {
     return { worldFromEye: eyeAt(pose, this.bodies.templateOf(body)?.bounds ?? null), view: null };
   }
 
+  // Call this when shapes have arrived.
+  measure(): void {
+    this.robots.forEach(({ body }, i) => {
+      this.heights[i] = Math.max(LOWEST_LABEL, this.bodies.templateOf(body)?.bounds.max.z ?? 0);
+    });
+  }
+
   // x y z above each robot, in the order of the names. Each call rewrites it.
   tops(): Float64Array {
-    this.robots.forEach(({ body }, i) => {
-      const { elements } = this.bodies.poseOf(body)!;
-      const top = this.bodies.templateOf(body)?.bounds.max.z ?? 0;
-      this.places[3 * i] = elements[12]!;
-      this.places[3 * i + 1] = elements[13]!;
-      this.places[3 * i + 2] = elements[14]! + Math.max(LOWEST_LABEL, top);
-    });
-    return this.places;
+    const { places, heights, robots, bodies } = this;
+    for (let i = 0; i < robots.length; i++) {
+      const { elements } = bodies.poseOf(robots[i]!.body)!;
+      places[3 * i] = elements[12]!;
+      places[3 * i + 1] = elements[13]!;
+      places[3 * i + 2] = elements[14]! + heights[i]!;
+    }
+    return places;
   }
 
   // Half of each robot's diagonal in metres. If the shape is not loaded yet, that of a small robot.

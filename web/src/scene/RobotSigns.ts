@@ -46,6 +46,7 @@ export class RobotSigns {
 
   // Call this when shapes have arrived.
   measure(): void {
+    this.robots?.measure();
     this.radii = this.robots?.radii() ?? new Float64Array(0);
   }
 

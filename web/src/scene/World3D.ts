@@ -42,6 +42,8 @@ import type { DrawnView } from "../view/DrawnView";
 // than everything else.
 const MOST_BEAMS = 20_000;
 const MOST_BEAMS_IN_SOFTWARE = 2000;
+// A scene is first drawn with its shapes, unless they take longer than this.
+const LONGEST_WAIT_FOR_SHAPES_MS = 400;
 
 export interface WorldEvents extends Pick<ArrangerEvents, "onPlace">, Omit<EditToolsEvents, "onPlacePoint"> {
   onPick(robot: string | null): void;
@@ -361,7 +363,10 @@ export class World3D {
     this.overlays.setScene(bodies);
     this.collisions.setScene(scene);
     const environment = environmentOf(scene);
-    if (this.framedFor !== environment) this.rig.frame(focus, false);
+    if (this.framedFor !== environment) {
+      this.rig.frame(focus, false);
+      this.loop.await(LONGEST_WAIT_FOR_SHAPES_MS);
+    }
     this.framedFor = environment;
     this.poses.setScene(bodies);
     if (this.lastBeams) this.takeBeams(this.lastBeams);
@@ -369,6 +374,7 @@ export class World3D {
       onMissing: (count) => {
         this.signs.measure();
         this.refresh();
+        if (count === 0) this.loop.hurry();
         this.events.onModelsMissing(count);
       },
       onProblem: (sentence) => this.events.onProblem(sentence),

@@ -8,10 +8,10 @@ export function fenceOf(gl: WebGL2RenderingContext): Fence {
     sync = null;
   };
   return {
+    // The browser sends the commands to the graphics when the frame ends.
     mark: () => {
       drop();
       sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
-      gl.flush();
     },
     // Also resolves if the context is lost, because nothing is drawn then.
     isReached: () => {

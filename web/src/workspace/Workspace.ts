@@ -1,7 +1,6 @@
 // The area beside the robot list: the view and the panels, docked by dockview. The store lists the
 // open panels (openPanels). The user may move, resize, maximise and close them, or give them a
 // separate window.
-import "dockview/dist/styles/dockview.css";
 import type { DockviewApi, DockviewGroupPanel, IContentRenderer, IDockviewPanel, IHeaderActionsRenderer, ITabRenderer } from "dockview";
 import { createDockview } from "dockview";
 import type { Panel } from "../panels/contract/Panel";

@@ -66,7 +66,9 @@ export class RobotRow {
   }
 
   private work({ status, kind }: ListedRobot, agent: string): string {
-    const behaviour = `${status.behaviour || "no behaviour"} · ${agent}`;
+    const isAtWork = status.agentPhase === "running" || status.agentPhase === "waiting";
+    const name = status.behaviour || "no behaviour";
+    const behaviour = isAtWork ? name : `${name} · ${agent}`;
     if (kind === "robot") return behaviour;
     // A recorded robot cannot be changed.
     if (kind === "avatar") return this.ports.state.get().replay ? "avatar" : "avatar · W A S D";

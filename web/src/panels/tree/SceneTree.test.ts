@@ -21,7 +21,7 @@ test("a station is listed as such and counted separately from robots", () => {
   const tree = createSceneTree(ports, document.createElement("div"));
   expect(tree.querySelector("h2")!.textContent).toBe("1 robot, 2 stations");
   const rows = [...tree.querySelectorAll(".robot")].map((row) => row.querySelector(".robot-behaviour")!.textContent);
-  expect(rows).toEqual(["wander · running", "station", "station · watch · running"]);
+  expect(rows).toEqual(["wander", "station", "station · watch"]);
 });
 
 function health(...robots: object[]): Health {

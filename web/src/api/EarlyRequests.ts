@@ -1,0 +1,72 @@
+// Requests what the page shows first, before the rest of the page's script is read. Each answer is
+// handed out once, to the request that the page then makes for it.
+import { simulationPath } from "./JsonServer";
+
+// An older answer is not handed out.
+const LONGEST_AGE_MS = 5000;
+
+interface Begun {
+  at: number; // ms
+  answer: Promise<Response>;
+}
+
+export class EarlyRequests {
+  private readonly begun = new Map<string, Begun>(); // by address
+
+  constructor(
+    private readonly root: string,
+    private readonly fetchPage: typeof fetch,
+    private readonly now: () => number = () => performance.now(),
+  ) {}
+
+  // Requests the list of simulations, then the status, the scene and the models of the one that is
+  // wanted, or of the first one. The page reports errors when it asks for the same.
+  async begin(wanted: string | null): Promise<void> {
+    try {
+      const simulations = (await this.ask("api/simulations")) as { name: string }[];
+      const chosen = simulations.find(({ name }) => name === wanted) ?? simulations[0];
+      if (chosen === undefined) return;
+      const path = simulationPath(chosen.name);
+      this.ask(path).catch(() => {});
+      const { bodies } = (await this.ask(`${path}/scene`)) as { bodies: { model: string }[] };
+      // The browser keeps models, which never change.
+      for (const model of new Set(bodies.map((body) => body.model))) {
+        this.fetchPage(this.url(`api/models/${encodeURIComponent(model)}.glb`)).catch(() => {});
+      }
+    } catch {
+      // Without early answers, the page only waits longer.
+    }
+  }
+
+  // Like fetch(), with the early answer if there is one.
+  fetch: typeof fetch = async (input, init) => {
+    const early = this.take(String(input), init?.method);
+    return early ?? this.fetchPage(input, init);
+  };
+
+  private take(address: string, method = "GET"): Promise<Response> | null {
+    const found = this.begun.get(address);
+    this.begun.delete(address);
+    if (found === undefined || method !== "GET" || this.now() - found.at > LONGEST_AGE_MS) return null;
+    return found.answer.catch(() => this.fetchPage(address));
+  }
+
+  private async ask(path: string): Promise<unknown> {
+    const address = this.url(path);
+    const answer = this.fetchPage(address).then(readOnce);
+    answer.catch(() => {});
+    this.begun.set(address, { at: this.now(), answer });
+    return (await answer).json();
+  }
+
+  private url(path: string): string {
+    return new URL(path, this.root).href;
+  }
+}
+
+// A response whose JSON is read once, and may be asked for several times.
+async function readOnce(response: Response): Promise<Response> {
+  const json: Promise<unknown> = response.json();
+  json.catch(() => {});
+  return Object.defineProperty(response, "json", { value: () => json });
+}
