@@ -1,5 +1,7 @@
 #include "gsv/rendering/renderer.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <deque>
 #include <future>
@@ -119,6 +121,7 @@ class Renderer::RenderThread {
   }
 
   void Run(std::promise<Result<std::string>>& started) {
+    pthread_setname_np(pthread_self(), "drawing");  // the rasteriser's threads inherit it
     const bool automatic = options_.back_end == BackEnd::kAutomatic;
     EglOptions egl = options_.egl;
     if (automatic && raster::CanRasterise()) egl.software = false;

@@ -1,5 +1,7 @@
 #include "gsv/ros2/bridge.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <atomic>
 #include <map>
@@ -155,9 +157,17 @@ SimulationBridge::~SimulationBridge() {
     spdlog::info("ROS 2: {} snapshots were skipped because publishing did not keep up",
                  feed_->dropped());
   }
+  if (slow_.skipped() > 0) {
+    spdlog::info(
+        "ROS 2: images of {} instants were skipped, because drawing them did not keep up. Use "
+        "fewer or smaller "
+        "cameras, or a lower rate",
+        slow_.skipped());
+  }
 }
 
 void SimulationBridge::Run() {
+  pthread_setname_np(pthread_self(), "ros2");
   auto refreshed = WallClock::now();
   auto followed = refreshed;
   std::shared_ptr<const world::Layout> layout;

@@ -29,13 +29,12 @@ void WriteHead(const Pixels& pixels, base::SimTime time, const std::string& fram
 
 }  // namespace
 
-void EncodeImage(const model::Image& image, base::SimTime time, const std::string& frame,
-                 messages::Bytes& out) {
+void EncodeImageHead(const model::Image& image, base::SimTime time, const std::string& frame,
+                     messages::Bytes& out) {
   const bool has_alpha = image.channels == 4;
   messages::CdrWriter writer(out);
   WriteHead({image.width, image.height, has_alpha ? "rgba8" : "rgb8", image.channels}, time, frame,
             writer);
-  writer.WriteBlock(image.pixels.data(), image.pixels.size(), 1);
 }
 
 void EncodeDepth(int width, int height, std::span<const double> depth, base::SimTime time,

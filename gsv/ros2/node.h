@@ -17,6 +17,7 @@ namespace gsv::ros2 {
 
 // QoS profiles by rmw/qos_profiles.h.
 inline constexpr dds::Qos kSensorDataQos{.is_reliable = false, .depth = 5};
+inline constexpr dds::Qos kLargeDataQos{.is_reliable = false, .depth = 5, .is_large = true};
 inline constexpr dds::Qos kDefaultQos{.depth = 10};
 inline constexpr dds::Qos kLatchedQos{.is_transient_local = true, .depth = 1};
 inline constexpr dds::Qos kClockQos{.depth = 1};

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gsv/base/log.h"
+#include "gsv/messages/geometry_msgs.h"
 #include "gsv/messages/nav_msgs.h"
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/readings/catalogue.h"
@@ -49,9 +50,9 @@ const Habit* FindHabit(const std::string& type) {
   return found == kHabits.end() ? nullptr : &found->second;
 }
 
-bool Append(const std::vector<std::uint8_t>& bytes, messages::Bytes& out) {
+bool Append(const std::vector<std::uint8_t>& bytes, EncodedMessage& out) {
   const auto* begin = reinterpret_cast<const std::byte*>(bytes.data());
-  out.insert(out.end(), begin, begin + bytes.size());
+  out.head.insert(out.head.end(), begin, begin + bytes.size());
   return !bytes.empty();
 }
 
@@ -60,17 +61,17 @@ SensorOutput OwnMessage(const RosSensor& sensor, std::string topic, std::string 
                         const dds::Qos& qos, const messages::Schema& schema) {
   return {std::move(topic), std::string(schema.name), qos,
           [sensor = sensor.sensor, frame = std::move(frame)](const Reading& reading,
-                                                             messages::Bytes& out) {
+                                                             EncodedMessage& out) {
             const auto bytes = sensor->Encode(reading, frame);
             return bytes && Append(*bytes, out);
           }};
 }
 
 SensorOutput CompanionMessage(const RosSensor& sensor, std::string topic, std::string frame,
-                              const sensing::Companion& companion) {
-  return {std::move(topic), std::string(companion.schema->name), kSensorDataQos,
+                              const dds::Qos& qos, const sensing::Companion& companion) {
+  return {std::move(topic), std::string(companion.schema->name), qos,
           [sensor = sensor.sensor, frame = std::move(frame)](const Reading& reading,
-                                                             messages::Bytes& out) {
+                                                             EncodedMessage& out) {
             return Append(sensor->EncodeCompanionOf(reading, frame), out);
           }};
 }
@@ -78,7 +79,7 @@ SensorOutput CompanionMessage(const RosSensor& sensor, std::string topic, std::s
 SensorOutput OdometryMessage(const RosSensor& sensor, std::string topic, const Frames& frames) {
   return {std::move(topic), "nav_msgs/msg/Odometry", kDefaultQos,
           [name = sensor.description.name, odom = frames.odom(), base = frames.base()](
-              const Reading& reading, messages::Bytes& out) {
+              const Reading& reading, EncodedMessage& out) {
             const auto estimate = sensing::ValuesOf<readings::Odometry>(reading, name);
             if (!estimate) return false;
             messages::nav_msgs::Odometry message;
@@ -90,7 +91,24 @@ SensorOutput OdometryMessage(const RosSensor& sensor, std::string topic, const F
             message.twist.twist.linear.x = estimate->linear;
             message.twist.twist.linear.y = estimate->lateral;
             message.twist.twist.angular.z = estimate->angular;
-            messages::Encode(message, out);
+            messages::Encode(message, out.head);
+            return true;
+          }};
+}
+
+// In the frame of the ground truth, because "map" belongs to the user's own localization.
+SensorOutput PoseMessage(const RosSensor& sensor, std::string topic) {
+  return {std::move(topic), "geometry_msgs/msg/PoseStamped", kDefaultQos,
+          [name = sensor.description.name](const Reading& reading, EncodedMessage& out) {
+            const auto measured = sensing::ValuesOf<readings::Positioning>(reading, name);
+            if (!measured) return false;
+            const readings::Placement& p = measured->world_from_sensor;
+            const geometry::Quaternion turn = geometry::FromRollPitchYaw({p.roll, p.pitch, p.yaw});
+            messages::geometry_msgs::PoseStamped message;
+            message.header = sensing::HeaderOf(reading, std::string(kRosWorldFrame));
+            message.pose.position = {p.x, p.y, p.z};
+            message.pose.orientation = {turn.x, turn.y, turn.z, turn.w};
+            messages::Encode(message, out.head);
             return true;
           }};
 }
@@ -100,22 +118,23 @@ std::string OpticalFrame(const std::string& frame) {
 }
 
 SensorOutput ImageMessage(const std::string& base, const std::string& frame) {
-  return {base + "/image_raw", kImageType, kSensorDataQos,
-          [frame = OpticalFrame(frame)](const Reading& reading, messages::Bytes& out) {
+  return {base + "/image_raw", kImageType, kLargeDataQos,
+          [frame = OpticalFrame(frame)](const Reading& reading, EncodedMessage& out) {
             if (reading.image == nullptr) return false;
-            EncodeImage(*reading.image, reading.time, frame, out);
+            EncodeImageHead(*reading.image, reading.time, frame, out.head);
+            out.rest = std::as_bytes(std::span(reading.image->pixels));
             return true;
           }};
 }
 
 SensorOutput DepthMessage(const RosSensor& sensor, const std::string& base,
                           const std::string& frame) {
-  return {base + "/image_raw", kImageType, kSensorDataQos,
+  return {base + "/image_raw", kImageType, kLargeDataQos,
           [name = sensor.description.name, frame = OpticalFrame(frame)](const Reading& reading,
-                                                                        messages::Bytes& out) {
+                                                                        EncodedMessage& out) {
             const auto image = sensing::ValuesOf<readings::DepthImage>(reading, name);
             if (!image || !image->IsComplete()) return false;
-            EncodeDepth(image->width, image->height, image->depth, reading.time, frame, out);
+            EncodeDepth(image->width, image->height, image->depth, reading.time, frame, out.head);
             return true;
           }};
 }
@@ -131,22 +150,24 @@ class OutputList {
 
   void AddImages() {
     outputs_.push_back(ImageMessage(base_, frame_));
-    AddOwn(base_ + "/image_raw/compressed", OpticalFrame(frame_), kSensorDataQos);
+    AddOwn(base_ + "/image_raw/compressed", OpticalFrame(frame_), kLargeDataQos);
     AddCompanion(base_ + "/camera_info");
   }
   void AddDepth() {
     outputs_.push_back(DepthMessage(sensor_, base_, frame_));
-    AddOwn(base_ + "/points", frame_, kSensorDataQos);
+    AddOwn(base_ + "/points", frame_, kLargeDataQos);
     AddCompanion(base_ + "/camera_info");
   }
   // A lidar with one row gives a scan; one with several rows gives points.
   void AddLidar() {
     if (!sent_.companion) return AddOwn(base_, frame_, kSensorDataQos);
-    AddCompanion(sensor_.is_only ? "points" : RosName(sensor_.description.name) + "/points");
+    AddCompanion(sensor_.is_only ? "points" : RosName(sensor_.description.name) + "/points",
+                 kLargeDataQos);
   }
   void AddOdometry(const Frames& frames) {
     outputs_.push_back(OdometryMessage(sensor_, base_, frames));
   }
+  void AddPose() { outputs_.push_back(PoseMessage(sensor_, base_)); }
   void AddOther(const dds::Qos& qos) {
     AddOwn(base_, frame_, qos);
     if (sent_.companion) AddCompanion(base_ + "/" + sent_.companion->topic);
@@ -158,9 +179,9 @@ class OutputList {
     if (sent_.schema == nullptr) return;
     outputs_.push_back(OwnMessage(sensor_, std::move(topic), std::move(frame), qos, *sent_.schema));
   }
-  void AddCompanion(std::string topic) {
+  void AddCompanion(std::string topic, const dds::Qos& qos = kSensorDataQos) {
     if (!sent_.companion) return;
-    outputs_.push_back(CompanionMessage(sensor_, std::move(topic), frame_, *sent_.companion));
+    outputs_.push_back(CompanionMessage(sensor_, std::move(topic), frame_, qos, *sent_.companion));
   }
 
   const RosSensor& sensor_;
@@ -192,6 +213,8 @@ std::vector<SensorOutput> OutputsOf(const RosSensor& sensor, const Frames& frame
     list.AddLidar();
   } else if (type == readings::Odometry::kType) {
     list.AddOdometry(frames);
+  } else if (type == readings::Positioning::kType) {
+    list.AddPose();
   } else {
     list.AddOther(habit != nullptr && habit->is_sensor_data ? kSensorDataQos : kDefaultQos);
   }
@@ -230,8 +253,11 @@ void SensorSource::Publish(const Moment& moment) {
   }
   for (const Channel& channel : channels_) {
     if (!channel.writer->has_readers()) continue;
-    buffer_.clear();
-    if (channel.output.encode(*reading, buffer_)) channel.writer->Write(buffer_);
+    message_.head.clear();
+    message_.rest = {};
+    if (channel.output.encode(*reading, message_)) {
+      channel.writer->WriteParts(message_.head, message_.rest);
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,13 +18,19 @@
 
 namespace gsv::ros2 {
 
+// A message in two parts. The second may be empty, or the pixels of a reading's image.
+struct EncodedMessage {
+  messages::Bytes head;
+  std::span<const std::byte> rest;
+};
+
 // One message of a reading.
 struct SensorOutput {
   std::string topic;  // relative to the robot's namespace
   std::string type;   // "sensor_msgs/msg/LaserScan"
   dds::Qos qos;
-  // Appends the message. Returns false if this reading has no such message.
-  std::function<bool(const sensing::Reading& reading, messages::Bytes& out)> encode;
+  // Encodes the message into an empty one. Returns false if this reading has no such message.
+  std::function<bool(const sensing::Reading& reading, EncodedMessage& out)> encode;
 };
 
 struct RosSensor {
@@ -60,7 +67,7 @@ class SensorSource final : public Source {
 
   const RosSensor sensor_;
   std::vector<Channel> channels_;
-  messages::Bytes buffer_;
+  EncodedMessage message_;
   bool has_failed_ = false;
 };
 

@@ -1,9 +1,10 @@
 // Publishes sources that take long, such as cameras, on a thread of its own, so that the others do not wait.
 //
 // Threads  Offer(), Drain() and the destructor from one.
-// Bounded  one snapshot at a time. What comes while it is at work is skipped.
+// Bounded  it works on one snapshot at a time, and a few wait. When more come, the oldest is skipped.
 #pragma once
 
+#include <deque>
 #include <thread>
 #include <vector>
 
@@ -18,19 +19,29 @@ class SlowLane {
   SlowLane();
   ~SlowLane();
 
-  // Publishes these, each of which outlives the next Drain(). Drops them when it is at work; `waits`: waits
-  // for the end of that instead.
+  // Enqueues these, each of which outlives the next Drain(). `waits`: first waits until it is idle.
   void Offer(std::vector<Source*> sources, const Moment& moment, bool waits);
   // Waits until it is idle.
   void Drain();
+  // The number of snapshots that were skipped.
+  std::uint64_t skipped() const;
 
  private:
-  void Run();
+  static constexpr std::size_t kMaxWaiting = 2;
 
-  base::Mutex mutex_;
+  struct Job {
+    std::vector<Source*> sources;
+    Moment moment;
+  };
+
+  void Run();
+  void Do(const Job& job);
+
+  mutable base::Mutex mutex_;
   base::ConditionVariable changed_;
-  std::vector<Source*> sources_ GSV_GUARDED_BY(mutex_);
-  std::unique_ptr<Moment> moment_ GSV_GUARDED_BY(mutex_);  // null: idle
+  std::deque<Job> jobs_ GSV_GUARDED_BY(mutex_);  // those that wait
+  bool is_working_ GSV_GUARDED_BY(mutex_) = false;
+  std::uint64_t skipped_ GSV_GUARDED_BY(mutex_) = 0;
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
   std::unique_ptr<base::ThreadTeam> team_;  // used by thread_ only
   std::thread thread_;

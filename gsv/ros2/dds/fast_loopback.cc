@@ -107,6 +107,7 @@ std::shared_ptr<rtps::TransportDescriptorInterface> LoopbackTransport(std::uint3
   auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
   udp->interfaceWhiteList = {"127.0.0.1"};
   udp->maxInitialPeersRange = max_peers;
+  udp->receiveBufferSize = kSocketBuffer;
   return std::make_shared<LoopbackDescriptor>(std::move(udp));
 }
 

@@ -7,6 +7,7 @@
 // the network can send to it.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include <fastdds/rtps/common/Locator.h>
@@ -14,6 +15,9 @@
 #include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
 
 namespace gsv::ros2::dds {
+
+// Bytes that sockets ask for, so that bursts of commands and requests find room. Linux gives at most net.core.rmem_max.
+inline constexpr std::uint32_t kSocketBuffer = 4 << 20;
 
 std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> LoopbackTransport(
     std::uint32_t max_peers);

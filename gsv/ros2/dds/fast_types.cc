@@ -18,9 +18,12 @@ RawType::RawType(const std::string& name, std::size_t max_size) : max_size_(max_
 }
 
 bool RawType::serialize(void* data, eprosima::fastrtps::rtps::SerializedPayload_t* payload) {
-  const auto& sample = *static_cast<const std::span<const std::byte>*>(data);
-  if (sample.size() < kHeader || sample.size() > payload->max_size) return false;
-  std::memcpy(payload->data, sample.data(), sample.size());
+  const auto& sample = *static_cast<const OutgoingSample*>(data);
+  if (sample.head.size() < kHeader || sample.size() > payload->max_size) return false;
+  std::memcpy(payload->data, sample.head.data(), sample.head.size());
+  if (!sample.rest.empty()) {
+    std::memcpy(payload->data + sample.head.size(), sample.rest.data(), sample.rest.size());
+  }
   payload->length = static_cast<std::uint32_t>(sample.size());
   payload->encapsulation = CDR_LE;
   return true;
@@ -36,7 +39,7 @@ bool RawType::deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload
 }
 
 std::function<std::uint32_t()> RawType::getSerializedSizeProvider(void* data) {
-  const auto size = static_cast<const std::span<const std::byte>*>(data)->size();
+  const auto size = static_cast<const OutgoingSample*>(data)->size();
   return [size] { return static_cast<std::uint32_t>(size); };
 }
 

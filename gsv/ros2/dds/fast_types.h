@@ -10,8 +10,14 @@
 
 namespace gsv::ros2::dds {
 
-// A writer takes a std::span<const std::byte>, a reader fills a std::vector<std::byte>. Both hold the encapsulation
-// header.
+// A sample in two parts, as a writer takes it. So the pixels of an image are copied only once.
+struct OutgoingSample {
+  std::span<const std::byte> head;  // begins with the encapsulation header
+  std::span<const std::byte> rest;
+  std::size_t size() const { return head.size() + rest.size(); }
+};
+
+// A writer takes an OutgoingSample, a reader fills a std::vector<std::byte> with the encapsulation header.
 class RawType final : public eprosima::fastdds::dds::TopicDataType {
  public:
   RawType(const std::string& name, std::size_t max_size);

@@ -9,7 +9,7 @@
 namespace gsv::ros2::dds {
 
 // Increase it with each change of participant.h.
-inline constexpr int kModuleInterface = 3;
+inline constexpr int kModuleInterface = 4;
 inline constexpr const char* kModuleSymbol = "gsv_ros2_module";
 inline constexpr const char* kModuleFile = "gsv-ros2.so";
 

@@ -29,6 +29,9 @@ struct Qos {
   int depth = 10;                   // keep last
   int heartbeat_ms =
       0;  // so often a reliable writer asks what is missing; 0: the library's usual time
+  // Samples are larger than a datagram. They are sent in bursts that fit the usual socket buffer of a reader, with
+  // pauses between them. Write() only queues such a sample.
+  bool is_large = false;
   friend bool operator==(const Qos&, const Qos&) = default;
 };
 
@@ -79,7 +82,9 @@ class Writer {
   virtual ~Writer() = default;
   // Writes one sample with its encapsulation header. Does not wait for readers: a reader that does
   // not keep up loses the oldest samples. One thread at a time.
-  virtual void Write(std::span<const std::byte> sample) = 0;
+  void Write(std::span<const std::byte> sample) { WriteParts(sample, {}); }
+  // The same for a sample in two parts, the second of which may be empty.
+  virtual void WriteParts(std::span<const std::byte> head, std::span<const std::byte> rest) = 0;
   // Writes one sample as the reply to a request.
   virtual void WriteReply(std::span<const std::byte> sample, const SampleIdentity& request) = 0;
   // Whether a reader matches that belongs to the same participant as this endpoint. A reply that is

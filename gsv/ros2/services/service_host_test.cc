@@ -63,7 +63,7 @@ class FakeParticipant final : public dds::Participant {
   class FakeWriter final : public dds::Writer {
    public:
     explicit FakeWriter(FakeParticipant& participant) : participant_(participant) {}
-    void Write(std::span<const std::byte>) override {}
+    void WriteParts(std::span<const std::byte>, std::span<const std::byte>) override {}
     void WriteReply(std::span<const std::byte> sample,
                     const dds::SampleIdentity& request) override {
       const base::MutexLock lock(participant_.mutex_);
