@@ -1,11 +1,11 @@
 // A client of get_entity_state that follows rmw_fastrtps. A request names the reader that waits for
 // the reply, and a reply names its request, both in the related sample identity.
 //
-//   ros2_fast_client PLUGIN_FOLDER ENTITY COUNT WINDOW
+//   ros2_fast_client PLUGIN_FOLDER ENTITY COUNT WINDOW [SECONDS]
 //
 // Sends COUNT calls, with at most WINDOW calls in progress at a time, and prints the number of
-// replies that match their requests. Exits with 0 if all came within 60 s. ROS_DOMAIN_ID selects
-// the domain.
+// replies that match their requests. Exits with 0 if all came within SECONDS (default: 60).
+// ROS_DOMAIN_ID selects the domain.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -27,7 +27,7 @@ constexpr const char* kService = "/gsv/get_entity_state";
 constexpr const char* kType = "simulation_interfaces/srv/GetEntityState";
 // The reader also gets the replies to all other clients.
 constexpr dds::Qos kQos{.depth = 20'000, .heartbeat_ms = 20};
-constexpr std::chrono::seconds kPatience{60};
+constexpr int kPatience = 60;  // s
 
 [[noreturn]] void Die(const std::string& why) {
   std::fprintf(stderr, "ros2_fast_client: %s\n", why.c_str());
@@ -49,10 +49,10 @@ class FastClient {
     writer_ = *std::move(writer);
   }
 
-  int Call(const std::string& entity, int count, int window) {
+  int Call(const std::string& entity, int count, int window, std::chrono::seconds patience) {
     messages::Bytes bytes;
     messages::Encode(GetEntityStateRequest{entity}, bytes);
-    const auto until = std::chrono::steady_clock::now() + kPatience;
+    const auto until = std::chrono::steady_clock::now() + patience;
     base::MutexLock lock(mutex_);
     while (!writer_->has_readers() || reader_->writers() == 0) {
       if (changed_.wait_for(lock, std::chrono::milliseconds(5),
@@ -67,11 +67,11 @@ class FastClient {
         writer_->WriteReply(bytes, {reader_->guid(), 0});
         lock.lock();
       }
-      const std::size_t before = replies_.size();
-      if (!changed_.wait_until(lock, until,
-                               [&]() GSV_REQUIRES(mutex_) { return replies_.size() != before; })) {
-        break;
-      }
+      const auto continues = [&]() GSV_REQUIRES(mutex_) {
+        const int replies = static_cast<int>(replies_.size());
+        return replies == count || (sent < count && sent - replies < window);
+      };
+      if (!changed_.wait_until(lock, until, continues)) break;
     }
     return static_cast<int>(replies_.size());
   }
@@ -96,14 +96,15 @@ class FastClient {
 };
 
 int Main(int argc, char** argv) {
-  if (argc != 5) Die("expected PLUGIN_FOLDER ENTITY COUNT WINDOW");
+  if (argc != 5 && argc != 6) Die("expected PLUGIN_FOLDER ENTITY COUNT WINDOW [SECONDS]");
   const auto options = ParticipantFor({}, ProcessEnvironment);
   const auto module = dds::LoadModule({argv[1]});
   if (!options || !module) Die("no DDS");
   auto participant = (*module)->make(*options);
   if (!participant) Die(participant.error().Sentence());
   const int count = std::atoi(argv[3]);
-  const int replies = FastClient(**participant).Call(argv[2], count, std::atoi(argv[4]));
+  const std::chrono::seconds patience(argc == 6 ? std::atoi(argv[5]) : kPatience);
+  const int replies = FastClient(**participant).Call(argv[2], count, std::atoi(argv[4]), patience);
   std::printf("{\"calls\": %d, \"replies\": %d}\n", count, replies);
   return replies == count ? 0 : 1;
 }

@@ -1,6 +1,8 @@
 #include "tests/ros2/ros2_json.h"
 
 #include <cstddef>
+#include <cstring>
+#include <string>
 
 namespace gsv::ros2_peer {
 namespace {
@@ -46,6 +48,27 @@ Json Numbers(const Sequence& values) {
   Json list = Json::array();
   for (std::uint32_t i = 0; i < values._length; ++i) list.push_back(Number(values._buffer[i]));
   return list;
+}
+
+float FloatAt(const std::uint8_t* bytes, std::size_t at) {
+  float value = 0;
+  std::memcpy(&value, bytes + at, sizeof value);
+  return value;
+}
+
+// The value in the middle of an image of 32FC1; null for another encoding.
+Json Centre(const sensor_msgs_msg_dds__Image_& image) {
+  if (std::string(image.encoding) != "32FC1") return {};
+  const std::size_t at = image.height / 2 * image.step + image.width / 2 * sizeof(float);
+  if (at + sizeof(float) > image.data._length) return {};
+  return Number(FloatAt(image.data._buffer, at));
+}
+
+// The first three bytes.
+template <typename Sequence>
+Json First(const Sequence& data) {
+  if (data._length < 3) return {};
+  return Json::array({data._buffer[0], data._buffer[1], data._buffer[2]});
 }
 
 }  // namespace
@@ -130,10 +153,112 @@ Json ToJson(const sensor_msgs_msg_dds__Image_& message) {
           {"is_bigendian", message.is_bigendian},
           {"step", message.step},
           {"data", {{"bytes", message.data._length}}},
-          {"first", message.data._length < 3
-                        ? Json()
-                        : Json::array({message.data._buffer[0], message.data._buffer[1],
-                                       message.data._buffer[2]})}};
+          {"first", First(message.data)},
+          {"centre", Centre(message)}};
+}
+
+Json ToJson(const sensor_msgs_msg_dds__CompressedImage_& message) {
+  return {{"header", Of(message.header)},
+          {"format", message.format},
+          {"data", {{"bytes", message.data._length}}},
+          {"first", First(message.data)}};
+}
+
+Json ToJson(const sensor_msgs_msg_dds__PointCloud2_& message) {
+  Json fields = Json::array(), points = Json::array();
+  for (std::uint32_t i = 0; i < message.fields._length; ++i) {
+    const auto& field = message.fields._buffer[i];
+    fields.push_back({field.name, field.offset, field.datatype, field.count});
+  }
+  for (std::size_t at = 0; message.point_step >= 12 && at + 12 <= message.data._length;
+       at += message.point_step) {
+    const std::uint8_t* const bytes = message.data._buffer;
+    points.push_back({Number(FloatAt(bytes, at)), Number(FloatAt(bytes, at + 4)),
+                      Number(FloatAt(bytes, at + 8))});
+  }
+  return {{"header", Of(message.header)},
+          {"height", message.height},
+          {"width", message.width},
+          {"fields", fields},
+          {"is_bigendian", message.is_bigendian},
+          {"point_step", message.point_step},
+          {"row_step", message.row_step},
+          {"data", {{"bytes", message.data._length}}},
+          {"points", points},
+          {"is_dense", message.is_dense}};
+}
+
+Json ToJson(const sensor_msgs_msg_dds__NavSatFix_& message) {
+  return {{"header", Of(message.header)},
+          {"status", static_cast<int>(message.status.status)},
+          {"service", message.status.service},
+          {"latitude", message.latitude},
+          {"longitude", message.longitude},
+          {"altitude", message.altitude},
+          {"position_covariance", List(message.position_covariance)},
+          {"position_covariance_type", message.position_covariance_type}};
+}
+
+Json ToJson(const sensor_msgs_msg_dds__MagneticField_& message) {
+  return {{"header", Of(message.header)},
+          {"magnetic_field", OfVector(message.magnetic_field)},
+          {"magnetic_field_covariance", List(message.magnetic_field_covariance)}};
+}
+
+Json ToJson(const sensor_msgs_msg_dds__BatteryState_& message) {
+  return {{"header", Of(message.header)},
+          {"voltage", Number(message.voltage)},
+          {"temperature", Number(message.temperature)},
+          {"current", Number(message.current)},
+          {"charge", Number(message.charge)},
+          {"capacity", Number(message.capacity)},
+          {"design_capacity", Number(message.design_capacity)},
+          {"percentage", Number(message.percentage)},
+          {"power_supply_status", message.power_supply_status},
+          {"power_supply_health", message.power_supply_health},
+          {"power_supply_technology", message.power_supply_technology},
+          {"present", message.present},
+          {"cell_voltage", Numbers(message.cell_voltage)},
+          {"cell_temperature", Numbers(message.cell_temperature)},
+          {"location", message.location},
+          {"serial_number", message.serial_number}};
+}
+
+Json ToJson(const geometry_msgs_msg_dds__WrenchStamped_& message) {
+  return {{"header", Of(message.header)},
+          {"force", OfVector(message.wrench.force)},
+          {"torque", OfVector(message.wrench.torque)}};
+}
+
+Json ToJson(const gsv_msgs_msg_dds__Bumper_& message) {
+  Json contacts = Json::array();
+  for (std::uint32_t i = 0; i < message.contacts._length; ++i) {
+    const auto& contact = message.contacts._buffer[i];
+    contacts.push_back({{"other", contact.other},
+                        {"point", OfVector(contact.point)},
+                        {"normal", OfVector(contact.normal)},
+                        {"depth", contact.depth},
+                        {"closing_speed", contact.closing_speed},
+                        {"force", OfVector(contact.force)}});
+  }
+  return {{"header", Of(message.header)}, {"contacts", contacts}};
+}
+
+Json ToJson(const diagnostic_msgs_msg_dds__DiagnosticArray_& message) {
+  Json all = Json::array();
+  for (std::uint32_t i = 0; i < message.status._length; ++i) {
+    const auto& status = message.status._buffer[i];
+    Json values = Json::object();
+    for (std::uint32_t v = 0; v < status.values._length; ++v) {
+      values[status.values._buffer[v].key] = status.values._buffer[v].value;
+    }
+    all.push_back({{"level", status.level},
+                   {"name", status.name},
+                   {"message", status.message},
+                   {"hardware_id", status.hardware_id},
+                   {"values", values}});
+  }
+  return {{"header", Of(message.header)}, {"status", all}};
 }
 
 Json ToJson(const sensor_msgs_msg_dds__CameraInfo_& message) {

@@ -21,6 +21,15 @@ Json ToJson(const sensor_msgs_msg_dds__Range_& message);
 Json ToJson(const sensor_msgs_msg_dds__Imu_& message);
 Json ToJson(const sensor_msgs_msg_dds__JointState_& message);
 Json ToJson(const sensor_msgs_msg_dds__CameraInfo_& message);
+Json ToJson(const sensor_msgs_msg_dds__CompressedImage_& message);
+// Adds the points as lists of x, y and z. These must be the first fields.
+Json ToJson(const sensor_msgs_msg_dds__PointCloud2_& message);
+Json ToJson(const sensor_msgs_msg_dds__NavSatFix_& message);
+Json ToJson(const sensor_msgs_msg_dds__MagneticField_& message);
+Json ToJson(const sensor_msgs_msg_dds__BatteryState_& message);
+Json ToJson(const geometry_msgs_msg_dds__WrenchStamped_& message);
+Json ToJson(const gsv_msgs_msg_dds__Bumper_& message);
+Json ToJson(const diagnostic_msgs_msg_dds__DiagnosticArray_& message);
 // Converts the pixels to {"bytes": their number}, with the first three bytes.
 Json ToJson(const sensor_msgs_msg_dds__Image_& message);
 Json ToJson(const rcl_interfaces_msg_dds__Log_& message);

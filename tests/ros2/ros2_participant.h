@@ -18,14 +18,22 @@ namespace gsv::ros2_peer {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-inline constexpr const char* kLoopback =
-    "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" "
-    "multicast=\"false\"/></Interfaces>"
-    "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</"
-    "ParticipantIndex>"
-    "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex><Peers><Peer "
-    "Address=\"127.0.0.1\"/></Peers>"
-    "</Discovery></Domain></CycloneDDS>";
+// `receive_buffer`: bytes that its sockets ask for; 0: the usual ones of Cyclone DDS.
+inline std::string Loopback(int receive_buffer) {
+  const std::string bytes = std::to_string(receive_buffer) + " B";
+  const std::string buffers = receive_buffer == 0
+                                  ? std::string()
+                                  : "<Internal><SocketReceiveBufferSize min=\"" + bytes +
+                                        "\" max=\"" + bytes + "\"/></Internal>";
+  return "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" "
+         "multicast=\"false\"/></Interfaces>"
+         "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</"
+         "ParticipantIndex>"
+         "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex><Peers><Peer "
+         "Address=\"127.0.0.1\"/></Peers>"
+         "</Discovery>" +
+         buffers + "</Domain></CycloneDDS>";
+}
 
 [[noreturn]] inline void Die(const std::string& message) {
   std::fprintf(stderr, "ros2_peer: %s\n", message.c_str());
@@ -44,7 +52,7 @@ struct Type {
 
 struct Arguments {
   dds_domainid_t domain = 0;
-  int count = 1, window = 100;
+  int count = 1, window = 100, receive_buffer = 0;
   double timeout = 20, distance = 1, seconds = 10, speed = 0.2;
   bool is_stamped = false, is_reliable = false, uses_multicast = false;
   std::vector<std::string> words;
@@ -58,7 +66,8 @@ class Participant {
     // Disables the log, because replies to clients of other RMW implementations do not decode.
     dds_set_log_mask(0);
     if (!arguments.uses_multicast) {
-      Made(dds_create_domain(arguments.domain, kLoopback), "a domain");
+      Made(dds_create_domain(arguments.domain, Loopback(arguments.receive_buffer).c_str()),
+           "a domain");
     }
     Join(arguments);
   }

@@ -3,9 +3,11 @@
 //   ros2_peer listen [--count N] TYPE:TOPIC…     prints N samples of each topic as JSON, one per line
 //   ros2_peer count --seconds S TYPE:TOPIC…      prints the time to the first sample of each topic, and the number
 //                                                of samples in the next S seconds
-//                                                (--reliable: for reliable readers)
+//                                                (--reliable: for reliable readers;
+//                                                --receive-buffer BYTES: buffer of each socket)
 //   ros2_peer latency ROBOT                      sends --count commands to turn left and right, and prints after how many
-//                                                milliseconds ROBOT/imu showed each of them
+//                                                milliseconds ROBOT/imu showed each of them, and how late the sleeps
+//                                                before them ended
 //   ros2_peer drive --distance M [--stamped] ROBOT   sends cmd_vel until ROBOT/odom shows M metres
 //   ros2_peer step --seconds S [--speed V] ROBOT answers each /clock with a TwistStamped of its time, until S seconds of
 //                                                simulated time are over
@@ -56,13 +58,28 @@ const std::map<std::string, Type>& Types() {
     }                                                                           \
   }
   static const std::map<std::string, Type> kTypes = {
-      GSV_PEER_TYPE(rosgraph_msgs, Clock),        GSV_PEER_TYPE(std_msgs, String),
-      GSV_PEER_TYPE(geometry_msgs, PoseStamped),  GSV_PEER_TYPE(geometry_msgs, Twist),
-      GSV_PEER_TYPE(geometry_msgs, TwistStamped), GSV_PEER_TYPE(tf2_msgs, TFMessage),
-      GSV_PEER_TYPE(nav_msgs, Odometry),          GSV_PEER_TYPE(sensor_msgs, LaserScan),
-      GSV_PEER_TYPE(sensor_msgs, Range),          GSV_PEER_TYPE(sensor_msgs, Imu),
-      GSV_PEER_TYPE(sensor_msgs, JointState),     GSV_PEER_TYPE(sensor_msgs, Image),
-      GSV_PEER_TYPE(sensor_msgs, CameraInfo),     GSV_PEER_TYPE(rcl_interfaces, Log)};
+      GSV_PEER_TYPE(rosgraph_msgs, Clock),
+      GSV_PEER_TYPE(std_msgs, String),
+      GSV_PEER_TYPE(geometry_msgs, PoseStamped),
+      GSV_PEER_TYPE(geometry_msgs, Twist),
+      GSV_PEER_TYPE(geometry_msgs, TwistStamped),
+      GSV_PEER_TYPE(tf2_msgs, TFMessage),
+      GSV_PEER_TYPE(nav_msgs, Odometry),
+      GSV_PEER_TYPE(sensor_msgs, LaserScan),
+      GSV_PEER_TYPE(sensor_msgs, Range),
+      GSV_PEER_TYPE(sensor_msgs, Imu),
+      GSV_PEER_TYPE(sensor_msgs, JointState),
+      GSV_PEER_TYPE(sensor_msgs, Image),
+      GSV_PEER_TYPE(sensor_msgs, CameraInfo),
+      GSV_PEER_TYPE(rcl_interfaces, Log),
+      GSV_PEER_TYPE(sensor_msgs, CompressedImage),
+      GSV_PEER_TYPE(sensor_msgs, PointCloud2),
+      GSV_PEER_TYPE(sensor_msgs, NavSatFix),
+      GSV_PEER_TYPE(sensor_msgs, MagneticField),
+      GSV_PEER_TYPE(sensor_msgs, BatteryState),
+      GSV_PEER_TYPE(geometry_msgs, WrenchStamped),
+      GSV_PEER_TYPE(gsv_msgs, Bumper),
+      GSV_PEER_TYPE(diagnostic_msgs, DiagnosticArray)};
 #undef GSV_PEER_TYPE
   return kTypes;
 }
@@ -89,6 +106,8 @@ Arguments Parse(int count, char** words) {
       arguments.timeout = value();
     } else if (word == "--window") {
       arguments.window = static_cast<int>(value());
+    } else if (word == "--receive-buffer") {
+      arguments.receive_buffer = static_cast<int>(value());
     } else if (word == "--seconds") {
       arguments.seconds = value();
     } else if (word == "--speed") {
@@ -124,7 +143,8 @@ int Listen(const Arguments& arguments) {
     if (colon == std::string::npos) Die("expected TYPE:TOPIC, found " + word);
     const Type& type = TypeNamed(word.substr(0, colon));
     const std::string topic = word.substr(colon + 1);
-    const bool is_latched = topic.ends_with("tf_static") || topic.ends_with("robot_description");
+    const bool is_latched =
+        topic.ends_with("tf_static") || topic.ends_with("robot_description") || topic == "/rosout";
     all.push_back(
         {topic, &type,
          is_latched ? participant.LatchedReader(type, topic) : participant.Reader(type, topic),
@@ -283,8 +303,11 @@ int Latency(const Arguments& arguments) {
   participant.Watch(imu);
   if (!WaitForReader(participant, command)) return 1;
   std::minstd_rand random(1);
-  std::vector<double> milliseconds;
+  std::vector<double> milliseconds, sleeps_late;
   double rate = 0;
+  const auto milliseconds_since = [](Clock::time_point time) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - time).count();
+  };
   const auto take = [&] {
     while (TakeOne(imu, [&](const void* sample) {
       rate = static_cast<const sensor_msgs_msg_dds__Imu_*>(sample)->angular_velocity.z;
@@ -292,7 +315,10 @@ int Latency(const Arguments& arguments) {
     }
   };
   for (int i = 0; i < arguments.count; ++i) {
-    dds_sleepfor(DDS_USECS(static_cast<std::int64_t>(20'000 + random() % 20'000)));
+    const auto pause = static_cast<std::int64_t>(20'000 + random() % 20'000);  // us
+    const Clock::time_point begin = Clock::now();
+    dds_sleepfor(DDS_USECS(pause));
+    sleeps_late.push_back(milliseconds_since(begin) - static_cast<double>(pause) / 1000);
     take();
     geometry_msgs_msg_dds__Twist_ twist{};
     twist.angular.z = i % 2 == 0 ? 0.5 : -0.5;
@@ -302,9 +328,9 @@ int Latency(const Arguments& arguments) {
       if (!participant.WaitForData()) return 1;
       take();
     }
-    milliseconds.push_back(std::chrono::duration<double, std::milli>(Clock::now() - sent).count());
+    milliseconds.push_back(milliseconds_since(sent));
   }
-  Print({{"milliseconds", milliseconds}});
+  Print({{"milliseconds", milliseconds}, {"sleeps_late_milliseconds", sleeps_late}});
   return 0;
 }
 
