@@ -133,9 +133,9 @@ class Sensor {
   virtual const Beam* beam() const { return nullptr; }
 
   using Bytes = std::vector<std::uint8_t>;
-  // Encodes a reading as the type's message, in CDR; `frame_id` is the sensor's frame. Empty for a
-  // type without a message. kCorrupt for a reading that does not have the size of the type's
-  // layout.
+  // Encodes a reading as the type's message, in CDR; `frame_id` is the sensor's frame. Returns no
+  // bytes for a type without a message. Fails with kCorrupt for a reading whose size is not that
+  // of the type's layout.
   virtual base::Result<Bytes> Encode(const Reading& /*reading*/,
                                      const std::string& /*frame_id*/) const {
     return Bytes();

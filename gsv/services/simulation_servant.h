@@ -88,7 +88,7 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
   void Publish(std::shared_ptr<simulation::Simulation> simulation);
   // Releases every simulation and deactivates its references.
   void Close();
-  // kNotFound if there is no simulation of this name.
+  // Returns kNotFound if there is no simulation of this name.
   base::Status Destroy(const std::string& simulation);
   SimulationHost& host() { return host_; }
   BehaviourSource* behaviours() { return behaviours_; }

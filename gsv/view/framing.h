@@ -9,9 +9,9 @@
 
 namespace gsv::view {
 
-// Returns the corners, in the world, of the boxes around all visible bodies. Left out are infinite
-// planes, ground that extends far beyond the bodies on it, and bodies so far away that the others
-// would be too small to see. If none is left: a box of 2 m about the origin. Never empty.
+// Returns the corners, in the world, of the boxes around all visible bodies. Infinite planes
+// are omitted, as well as ground far beyond the bodies on it, and bodies so far away that the others
+// would be too small to see. If no body remains, returns a box of 2 m about the origin.
 std::vector<geometry::Vector3> CornersToShow(const world::Snapshot& snapshot);
 
 // The direction of a view of everything, and how near it is.

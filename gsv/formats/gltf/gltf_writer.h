@@ -21,7 +21,7 @@
 
 namespace gsv::formats {
 
-// kBadModel if the file would exceed 1 GiB.
+// Fails with kBadModel if the file would exceed 1 GiB.
 [[nodiscard]] base::Result<std::vector<std::uint8_t>> WriteGlb(const model::Model& model);
 
 }  // namespace gsv::formats

@@ -17,7 +17,7 @@ namespace gsv::gateway {
 
 class FactoryApi {
  public:
-  // Both must outlive this.
+  // Both must outlive this object.
   FactoryApi(SimulationFactory& factory, ModelStore& models) : factory_(factory), models_(models) {}
 
   // The handlers are valid during the lifetime of this object. `directory` finds the simulations.

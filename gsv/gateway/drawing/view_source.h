@@ -23,7 +23,7 @@ struct ViewInstant {
 class ViewSource {
  public:
   virtual ~ViewSource() = default;
-  // kEnded if the simulation is gone; kNotFound if a recording has nothing to draw.
+  // Fails with kEnded if the simulation is gone, with kNotFound if a recording has no scene.
   virtual base::Result<ViewInstant> Now() = 0;
 };
 

@@ -29,7 +29,7 @@ struct Service {
   ServiceMessage request, response;
 };
 
-// The value of a parameter. Empty if its type is not supported.
+// The value of a parameter. It is std::monostate if its type is not supported.
 using ParameterValue = std::variant<std::monostate, bool, double, std::string>;
 struct Parameter {
   std::string name;

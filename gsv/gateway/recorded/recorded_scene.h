@@ -28,8 +28,8 @@ class RecordedScene {
 
   const base::Problems& problems() const { return problems_; }
 
-  // Returns the attached scene for poses with this layout_version; else the first one. kNotFound,
-  // with a sentence, if the recording has none.
+  // Returns the attached scene for poses with this layout_version, or else the first scene. Fails
+  // with kNotFound and a sentence if the recording has no scene.
   base::Result<SharedBytes> Scene(std::uint32_t layout_version) const;
 
   // The indices of bodies' poses in gsv_msgs/Poses of that layout, by name.

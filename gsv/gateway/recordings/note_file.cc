@@ -64,7 +64,8 @@ base::Result<std::vector<Note>> NoteFile::Read() const {
   for (const nlohmann::json& each : json["notes"]) {
     const std::optional<Note> note = NoteOf(each);
     if (!note || notes.size() == kMaxNotes) {
-      return fail("note " + std::to_string(notes.size() + 1) + " is not valid, or one too many");
+      return fail("note " + std::to_string(notes.size() + 1) +
+                  " is not valid, or exceeds the limit");
     }
     notes.push_back(*note);
   }

@@ -22,7 +22,7 @@ struct Address {
 };
 
 // Parses "http://host:port/" or "https://host:port/", as gsv prints it. The default port is 80 or
-// 443. `authority`: a PEM file with the certificates to trust; empty: the system's.
+// 443. `authority` is a PEM file with trusted certificates; if empty, the system's are used.
 base::Result<Address> ParseAddress(std::string_view url, const std::string& authority = {});
 
 }  // namespace gsv::gateway::upstream

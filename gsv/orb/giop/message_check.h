@@ -17,8 +17,8 @@ namespace gsv::orb {
 // The types of an operation's arguments or results, or of an exception's members, in the order in
 // which CDR has them. Each type is one of
 //
-//   1 2 4 8        a value of so many bytes, aligned to its size: octet, short, float, an
-//   enumeration s o            a string, an object reference a t            an any, a TypeCode
+//   1 2 4 8        a value of this number of bytes, aligned to its size, such as an enumeration
+//   s o a t        a string, an object reference, an any, a TypeCode
 //   [TYPES]        a sequence; TYPES are those of an element. A struct is the types of its members.
 //   <SIZE;LABEL:TYPES;LABEL:TYPES;*:TYPES;>
 //                  a union: its discriminator's size, each member with its label as an unsigned

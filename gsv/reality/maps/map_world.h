@@ -9,7 +9,7 @@
 namespace gsv::reality {
 
 // Returns a world in SDFormat: the occupied cells are walls of this height (m) on a ground plane.
-// Free and unknown cells stay empty. kInvalidArgument if the map has more than 200,000 boxes.
+// Free and unknown cells stay empty. Fails with kInvalidArgument beyond 200,000 boxes.
 base::Result<std::string> WorldOfMap(const OccupancyMap& map, const std::string& name,
                                      double height);
 

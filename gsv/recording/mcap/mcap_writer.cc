@@ -11,7 +11,7 @@
 namespace gsv::recording {
 namespace {
 
-// The writer's thread is woken when so many bytes are queued, not for each message.
+// The writer's thread is woken when this number of bytes is queued, not for each message.
 constexpr std::size_t kWorthWaking = std::size_t{256} << 10;
 
 // Writes the records that Append() has joined, one by one.

@@ -17,7 +17,7 @@ class ApngEncoder {
   ApngEncoder(std::uint32_t frames, double frames_a_second);
 
   // Returns the bytes of the next frame; those of the first frame begin the file. All frames have
-  // one size. kInvalidArgument for an image without pixels or of another size.
+  // one size. Fails with kInvalidArgument for an image without pixels or of another size.
   base::Result<std::vector<std::uint8_t>> Add(const model::Image& image);
   // Returns the end of the file.
   static std::vector<std::uint8_t> End();

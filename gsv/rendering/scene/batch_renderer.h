@@ -1,4 +1,4 @@
-// Renders a batch of images and caches data for the next; the interface of back ends.
+// The interface of back ends, which render a batch of images and cache data for the next one.
 //
 // Threads  the render thread only.
 #pragma once
