@@ -9,8 +9,8 @@
 
 namespace gsv::view {
 
-// Returns the corners, in the world, of the boxes around all visible bodies. Infinite planes
-// are omitted, as well as ground far beyond the bodies on it, and bodies so far away that the others
+// Returns the corners, in the world, of the boxes around the visible bodies. It omits infinite
+// planes, ground that extends far beyond the bodies on it, and bodies so far away that the others
 // would be too small to see. If no body remains, returns a box of 2 m about the origin.
 std::vector<geometry::Vector3> CornersToShow(const world::Snapshot& snapshot);
 
