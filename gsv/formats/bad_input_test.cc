@@ -8,8 +8,11 @@ namespace gsv::formats {
 namespace {
 
 using base::ErrorCode;
+using testing::AllOf;
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 class BadInputTest : public testing::Test {
  protected:
@@ -92,7 +95,74 @@ TEST_F(BadInputTest, SkipsTheIncludeThatClosesACycle) {
   EXPECT_EQ(world->models[0].model->links.size(), 2u);
   ASSERT_EQ(problems_.size(), 1u);
   EXPECT_THAT(problems_[0].Sentence(),
-              AllOf(HasSubstr("b/model.sdf:1"), HasSubstr("the includes go round")));
+              AllOf(HasSubstr("b/model.sdf:1"), HasSubstr("the includes form a cycle: "),
+                    HasSubstr("a/model.sdf → "), HasSubstr("b/model.sdf → ")));
+}
+
+// Without a link outside of the cycle nothing is left of the model.
+TEST_F(BadInputTest, NamesTheCycleOfModelsThatHoldNothingElse) {
+  const auto including = [](const std::string& other) {
+    return "<sdf version='1.9'><model name='m'><include><uri>model://" + other +
+           "</uri></include></model></sdf>";
+  };
+  folder_.Write("a/model.sdf", including("b"));
+  folder_.Write("b/model.sdf", including("a"));
+  const auto names_the_cycle =
+      AllOf(HasSubstr("form a cycle: "), HasSubstr("a/model.sdf → "), HasSubstr("b/model.sdf → "));
+  const auto world = ModelLibrary().ReadWorld(
+      folder_.Write("w.sdf",
+                    "<sdf version='1.9'><world "
+                    "name='w'><include><uri>model://a</uri></include></world></sdf>"),
+      problems_);
+  ASSERT_TRUE(world.has_value()) << world.error().Sentence();
+  ASSERT_GE(problems_.size(), 2u);
+  EXPECT_THAT(problems_.front().Sentence(), names_the_cycle);
+  EXPECT_THAT(problems_.back().Sentence(), HasSubstr("has no links"));
+  for (const auto& problem : problems_) EXPECT_THAT(problem.Sentence(), Not(HasSubstr("Graph")));
+  problems_.clear();
+  EXPECT_FALSE(ModelLibrary().ReadModel((folder_.path() / "a/model.sdf").string(), problems_));
+  ASSERT_FALSE(problems_.empty());
+  EXPECT_THAT(problems_.front().Sentence(), names_the_cycle);
+}
+
+TEST_F(BadInputTest, ExpandsEntitiesInNamesAndValues) {
+  const auto world = ModelLibrary().ReadWorld(
+      folder_.Write("w.sdf",
+                    "<!DOCTYPE sdf [<!ENTITY hall 'lobby'><!ENTITY x '1.5'>]>"
+                    "<sdf version='1.9'><world name='&hall;'><model name='&hall;_box'>"
+                    "<pose>&x; 0 0 0 0 0</pose><link name='l'/></model></world></sdf>"),
+      problems_);
+  ASSERT_TRUE(world.has_value()) << world.error().Sentence();
+  EXPECT_TRUE(problems_.empty());
+  EXPECT_EQ(world->name, "lobby");
+  ASSERT_EQ(world->models.size(), 1u);
+  EXPECT_EQ(world->models[0].name, "lobby_box");
+  EXPECT_EQ(world->models[0].world_from_model.position.x, 1.5);
+}
+
+TEST_F(BadInputTest, ReportsAQuaternionOfNoLength) {
+  EXPECT_THAT(
+      WarningsIn("<link name='l'><pose rotation_format='quat_xyzw'>1 2 3 0 0 0 0</pose></link>"),
+      ElementsAre(
+          HasSubstr("a rotation needs a quaternion of a length above 0; 1 2 3 0 0 0 1 is used")));
+}
+
+TEST_F(BadInputTest, ReportsAnExtensionOfNoPartOfTheRobot) {
+  const auto file = folder_.Write("r.urdf",
+                                  "<robot name='r'><link name='base'/>\n"
+                                  "<gazebo reference='base'><mu1>1</mu1></gazebo>\n"
+                                  "<gazebo reference='bas'><mu1>1</mu1></gazebo></robot>");
+  ASSERT_TRUE(ModelLibrary().ReadModel(file.string(), problems_));
+  std::vector<std::string> sentences;
+  for (const auto& problem : problems_) sentences.push_back(problem.Sentence());
+  EXPECT_THAT(sentences,
+              Contains(HasSubstr("r.urdf:3: <gazebo> is ignored: its @reference names \"bas\"")));
+  EXPECT_THAT(sentences, Not(Contains(HasSubstr("\"base\""))));
+}
+
+TEST_F(BadInputTest, ReportsTextBesideElements) {
+  EXPECT_THAT(WarningsIn("<link name='l'/> left over\n"),
+              ElementsAre(HasSubstr("the text \"left over\" in <model> is ignored")));
 }
 
 TEST_F(BadInputTest, ReportsImpossibleMassesAndInertias) {

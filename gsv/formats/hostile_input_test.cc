@@ -40,18 +40,43 @@ class HostileInputTest : public testing::Test {
 };
 
 // Each of ten entities expands to ten times the one before.
-TEST_F(HostileInputTest, EntitiesAreNotExpanded) {
-  std::string text = "<?xml version='1.0'?><!DOCTYPE sdf [<!ENTITY a0 'ha'>";
+TEST_F(HostileInputTest, EntitiesOfManyBytesAreRefused) {
+  std::string text =
+      "<?xml version='1.0'?><!DOCTYPE sdf [<!ENTITY a0 '" + std::string(1000, 'h') + "'>";
   for (int i = 1; i < 10; ++i) {
     text += "<!ENTITY a" + std::to_string(i) + " '";
     for (int k = 0; k < 10; ++k) text += "&a" + std::to_string(i - 1) + ";";
     text += "'>";
   }
   text += "]><sdf version='1.9'><model name='&a9;'><link name='l'/></model></sdf>";
-  (void)SaidOf("m.sdf", text);
-  if (model_ != nullptr) {
-    EXPECT_LT(model_->name.size(), 100u);
+  EXPECT_THAT(SaidOf("m.sdf", text),
+              Contains(HasSubstr("its entities expand to more than the limit")));
+  EXPECT_EQ(model_, nullptr);
+}
+
+// assimp does not end in the first of these meshes, and copies 10^12 nodes in the second.
+TEST_F(HostileInputTest, ColladaNodesThatContainThemselvesAreRefused) {
+  const auto scene = [](const std::string& nodes) {
+    return "<?xml version='1.0'?><COLLADA version='1.4.1'><library_nodes>" + nodes +
+           "</library_nodes><library_visual_scenes><visual_scene id='s'><node><instance_node "
+           "url='#n0'/></node>"
+           "</visual_scene></library_visual_scenes><scene><instance_visual_scene "
+           "url='#s'/></scene></COLLADA>";
+  };
+  const auto round =
+      Mesh("round.dae", scene("<node id='n0'><node id='x'><instance_node url='#n1'/></node></node>"
+                              "<node id='n1'><instance_node url='#x'/></node>"));
+  ASSERT_FALSE(round);
+  EXPECT_THAT(round.error().Sentence(), HasSubstr("one of its nodes contains itself"));
+  std::string nodes;
+  for (int i = 0; i < 12; ++i) {
+    nodes += "<node id='n" + std::to_string(i) + "'>";
+    for (int k = 0; k < 10; ++k) nodes += "<instance_node url='#n" + std::to_string(i + 1) + "'/>";
+    nodes += "</node>";
   }
+  const auto many = Mesh("many.dae", scene(nodes));
+  ASSERT_FALSE(many);
+  EXPECT_THAT(many.error().Sentence(), HasSubstr("more than 1000000 nodes"));
 }
 
 TEST_F(HostileInputTest, NonFiniteValuesAreReportedWithTheirPlace) {

@@ -127,10 +127,14 @@ class ModelLibrary::Reader {
     return ModelOf(store_.Read(file), file, problems);
   }
 
-  static base::Result<std::shared_ptr<const Model>> ModelOf(
+  base::Result<std::shared_ptr<const Model>> ModelOf(
       const base::Result<std::shared_ptr<const StoredFile>>& stored, const fs::path& file,
-      base::Problems& problems) {
-    if (!stored) return Fail(stored.error());
+      base::Problems& problems) GSV_REQUIRES(mutex_) {
+    if (!stored) {
+      const base::Problems reasons = store_.TakeProblemsOfRefused();
+      problems.insert(problems.end(), reasons.begin(), reasons.end());
+      return Fail(stored.error());
+    }
     const StoredFile& read = **stored;
     problems.insert(problems.end(), read.problems.begin(), read.problems.end());
     problems.insert(problems.end(), read.broken_rules.begin(), read.broken_rules.end());

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "gsv/formats/files/xml_entities.h"
+
 namespace gsv::formats {
 namespace {
 
@@ -16,7 +18,9 @@ class FaultFinder {
   std::optional<XmlFault> Find() {
     while (!fault_ && at_ < text_.size()) {
       const std::size_t tag = text_.find('<', at_);
-      if (tag == std::string_view::npos) break;
+      const bool is_in_element = !open_.empty();
+      if (!is_in_element) CheckOutside(text_.substr(at_, tag - at_));
+      if (fault_ || tag == std::string_view::npos) break;
       at_ = tag;
       TakeMarkup();
     }
@@ -47,6 +51,13 @@ class FaultFinder {
     fault_ = XmlFault{static_cast<int>(line), static_cast<int>(column), std::move(sentence)};
   }
 
+  // Outside of the root element there are only blanks.
+  void CheckOutside(std::string_view between) {
+    const std::size_t found = between.find_first_not_of(kXmlBlanks);
+    if (found == std::string_view::npos || (!has_root_ && at_ == 0)) return;
+    FaultAt(at_ + found, "there is text outside of the root element. Remove it");
+  }
+
   bool Starts(std::string_view with) const { return text_.substr(at_).starts_with(with); }
 
   void TakeMarkup() {
@@ -56,6 +67,10 @@ class FaultFinder {
       SkipTo("]]>", "the CDATA section");
     } else if (Starts("<?")) {
       SkipTo("?>", "the declaration");
+    } else if (Starts("<!DOCTYPE")) {
+      const std::size_t end = ReadDoctype(text_, at_).end;
+      if (end == std::string_view::npos) FaultAt(at_, "<!DOCTYPE does not end. Add >");
+      at_ = std::min(end, text_.size());
     } else if (Starts("<!")) {
       SkipTo(">", "the declaration");
     } else if (Starts("</")) {
@@ -168,6 +183,11 @@ std::optional<XmlFault> FindXmlFault(std::string_view text) {
         1, 1,
         "the text is in UTF-16, and only UTF-8 is read. Convert it with iconv -f UTF-16 "
         "-t UTF-8, and delete its encoding=\"UTF-16\""};
+  }
+  if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
+    const auto line = std::count(text.begin(), text.begin() + static_cast<long>(zero), '\n') + 1;
+    return XmlFault{static_cast<int>(line), 1,
+                    "the line contains a byte 0, so this is not a text file. Remove it"};
   }
   return FaultFinder(text).Find();
 }

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstring>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -68,6 +69,52 @@ Accessor AccessorIn(const XMLElement& element) {
           count > 0 ? last + std::max(stride, params) : 0, element.GetLineNum()};
 }
 
+// Which nodes contain which, by <node> and by <instance_node> (COLLADA 1.4.1, 5-68). assimp copies
+// each instance with all its content. It does not end if a node contains itself.
+class NodeGraph {
+ public:
+  // `inside`: the ids of the nodes that contain the element, outermost first.
+  void AddInstance(const std::vector<std::string>& inside, const std::string& url) {
+    if (url.empty() || url.front() != '#') return;
+    for (const std::string& node : inside) contents_[node].push_back(url.substr(1));
+  }
+
+  // The fault as a sentence; null if there is none.
+  const char* Fault() {
+    for (const auto& [node, contents] : contents_) {
+      if (CopiesOf(node, 0) > kMaxCopies && fault_ == nullptr)
+        fault_ = "its nodes contain more than 1000000 nodes";
+      if (fault_ != nullptr) break;
+    }
+    return fault_;
+  }
+
+ private:
+  static constexpr int kDeepestInstance = 64;
+  static constexpr double kMaxCopies = 1e6;
+
+  // The number of nodes in the copy of a node.
+  double CopiesOf(const std::string& node, int depth) {
+    if (const auto known = copies_.find(node); known != copies_.end()) return known->second;
+    const auto contents = contents_.find(node);
+    if (contents == contents_.end() || fault_ != nullptr) return 1;
+    if (depth == kDeepestInstance || !open_.insert(node).second) {
+      fault_ = depth == kDeepestInstance ? "its nodes are nested too deep"
+                                         : "one of its nodes contains itself";
+      return 1;
+    }
+    double copies = 1;
+    for (const std::string& inner : contents->second) copies += CopiesOf(inner, depth + 1);
+    open_.erase(node);
+    return copies_[node] = copies;
+  }
+
+  std::map<std::string, std::vector<std::string>> contents_;
+  std::map<std::string, double> copies_;
+  std::set<std::string> open_;
+  const char* fault_ = nullptr;
+};
+
 class Checker : public tinyxml2::XMLVisitor {
  public:
   explicit Checker(std::size_t bytes) : bytes_(static_cast<double>(bytes)) {}
@@ -81,6 +128,11 @@ class Checker : public tinyxml2::XMLVisitor {
       if (!is_new) known->second = std::min(known->second, values);
     }
     if (name == "accessor") accessors_.push_back(AccessorIn(element));
+    if (name == "node")
+      nodes_.push_back(element.Attribute("id") == nullptr ? "" : element.Attribute("id"));
+    if (name == "instance_node" && element.Attribute("url") != nullptr) {
+      graph_.AddInstance(nodes_, element.Attribute("url"));
+    }
     for (auto* attribute = first; attribute != nullptr; attribute = attribute->Next()) {
       const std::string_view key = attribute->Name();
       const bool counts = key == "count" || key == "stride" || key == "offset";
@@ -92,6 +144,15 @@ class Checker : public tinyxml2::XMLVisitor {
       wrong = "a list of indices contains something other than whole numbers";
     }
     return wrong == nullptr;
+  }
+
+  bool VisitExit(const XMLElement& element) override {
+    if (std::string_view(element.Name()) == "node" && !nodes_.empty()) nodes_.pop_back();
+    return wrong == nullptr;
+  }
+
+  void CheckNodes() {
+    if (wrong == nullptr) wrong = graph_.Fault();
   }
 
   // Call this at the end, because arrays may come after their accessors.
@@ -112,6 +173,8 @@ class Checker : public tinyxml2::XMLVisitor {
   // number of values of each array, by id; the smallest number, if several arrays have the id
   std::map<std::string, double> arrays_;
   std::vector<Accessor> accessors_;
+  std::vector<std::string> nodes_;  // the ids of the nodes that contain the visited element
+  NodeGraph graph_;
 };
 
 }  // namespace
@@ -125,6 +188,7 @@ base::Status CheckCollada(const std::string& text, const std::string& file) {
   Checker checker(text.size());
   document.Accept(&checker);
   checker.CheckAccessors();
+  checker.CheckNodes();
   if (checker.wrong == nullptr) return {};
   return Fail(ErrorCode::kBadModel, checker.wrong, file + ":" + std::to_string(checker.line));
 }

@@ -13,6 +13,7 @@
 #include <sdf/Error.hh>
 
 #include "gsv/formats/sdf/sdf_xml.h"
+#include "gsv/formats/sdf/value_text.h"
 
 namespace gsv::formats {
 namespace {
@@ -333,13 +334,20 @@ class DocumentRepair {
       if (!is_here) continue;
       XMLElement* element = Follow(tree.root(), *error.XmlPath(), error.LineNumber().value_or(0));
       if (element == nullptr || IsTop(*element)) continue;
-      Warn(tree, *element,
-           NameIn(*element) + " cannot be read and is ignored: " + error.Message().substr(0, 200));
+      Warn(tree, *element, NameIn(*element) + WhyUnreadable(*element, error.Message()));
       element->Parent()->DeleteChild(element);
       tree.is_changed = true;
       return true;
     }
     return false;
+  }
+
+  // A summary of libsdformat says less than the value.
+  static std::string WhyUnreadable(const XMLElement& element, const std::string& message) {
+    if (element.GetText() != nullptr && message.rfind("Error reading element", 0) == 0) {
+      return " holds " + Quoted(element.GetText()) + ", which cannot be read; it is ignored";
+    }
+    return " cannot be read and is ignored: " + message.substr(0, 200);
   }
 
   // Whether the element must not be removed, because nothing would be left.

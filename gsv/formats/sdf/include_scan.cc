@@ -74,9 +74,10 @@ void IncludeScan::Visit(XMLElement& element, const fs::path& file) {
 
 base::Result<std::string> IncludeScan::Enter(const fs::path& file) {
   const fs::path path = fs::absolute(file).lexically_normal();
-  if (std::find(open_.begin(), open_.end(), path) != open_.end()) {
-    return Fail(ErrorCode::kBadModel, "the includes go round: this file includes itself",
-                path.string());
+  if (const auto first = std::find(open_.begin(), open_.end(), path); first != open_.end()) {
+    std::string cycle;
+    for (auto each = first; each != open_.end(); ++each) cycle += each->string() + " → ";
+    return Fail(ErrorCode::kBadModel, "the includes form a cycle: " + cycle + path.string());
   }
   if (const auto known = done_.find(path); known != done_.end()) return known->second;
   if (open_.size() > static_cast<std::size_t>(limits_.include_depth)) {

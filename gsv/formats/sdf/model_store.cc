@@ -32,51 +32,59 @@ void Append(const std::string& plugins, XMLElement& model) {
   }
 }
 
+// libsdformat's errors about the frames of a model that has no links. They do not help to find the reason.
+bool IsOfFrameGraphs(const base::Problem& problem) {
+  return problem.message.rfind("FrameAttachedToGraph", 0) == 0 ||
+         problem.message.rfind("Graph has", 0) == 0;
+}
+
 }  // namespace
 
 base::Result<std::shared_ptr<const StoredFile>> ModelStore::Read(const std::filesystem::path& file,
                                                                  const std::string& plugins) {
-  return Keep(file, plugins, [&]() -> base::Result<StoredFile> {
-    base::Problems problems;
-    auto xml = ReadXml(file, finder_, limits_, problems);
+  return Keep(file, plugins, [&](StoredFile& stored) -> base::Status {
+    auto xml = ReadXml(file, finder_, limits_, stored.problems);
     if (!xml) return Fail(xml.error());
-    return ReadFresh(*xml, plugins, std::move(problems));
+    return ReadFresh(*xml, plugins, stored);
   });
 }
 
 base::Result<std::shared_ptr<const StoredFile>> ModelStore::Take(XmlFile xml,
                                                                  base::Problems problems) {
-  return Keep(xml.named, "", [&] { return ReadFresh(xml, "", std::move(problems)); });
+  return Keep(xml.named, "", [&](StoredFile& stored) {
+    stored.problems = std::move(problems);
+    return ReadFresh(xml, "", stored);
+  });
 }
 
 base::Result<std::shared_ptr<const StoredFile>> ModelStore::Keep(
     const std::filesystem::path& file, const std::string& plugins,
-    const std::function<base::Result<StoredFile>()>& read) {
+    const std::function<base::Status(StoredFile&)>& read) {
   const auto name = std::make_pair(file.string(), plugins);
   if (const auto it = by_name_.find(name); it != by_name_.end()) return it->second;
   std::error_code ignored;
   const auto key = std::make_pair(std::filesystem::weakly_canonical(file, ignored), plugins);
   auto& known = files_[key];
   if (known == nullptr) {
-    auto stored = read();
-    if (!stored) return Fail(stored.error());
-    known = std::make_shared<const StoredFile>(std::move(*stored));
+    StoredFile stored;
+    if (auto status = read(stored); !status) {
+      problems_of_refused_ = std::move(stored.problems);
+      return Fail(status.error());
+    }
+    known = std::make_shared<const StoredFile>(std::move(stored));
   }
   return by_name_[name] = known;
 }
 
-base::Result<StoredFile> ModelStore::ReadFresh(XmlFile& xml, const std::string& plugins,
-                                               base::Problems problems) {
+base::Status ModelStore::ReadFresh(XmlFile& xml, const std::string& plugins, StoredFile& stored) {
   const std::filesystem::path& file = xml.named;
-  StoredFile stored;
-  stored.problems = std::move(problems);
   if (check_rules_) CheckNamingRules({xml.path, xml.root, xml.minor_version}, stored.broken_rules);
   if (xml.dialect == XmlDialect::kUrdf) {
     ReportUnsupported(xml, stored.problems);
     std::string text = UrdfText(xml, stored.problems);
-    auto robot = FromText({file, std::move(text)}, {}, std::move(stored));
-    if (robot) Complete(*xml.root, file, true, *robot);
-    return robot;
+    auto status = FromText({file, std::move(text)}, {}, stored);
+    if (status) Complete(*xml.root, file, true, stored);
+    return status;
   }
   ReportUnsupported(xml, stored.problems);
   XMLElement* content = xml.root->FirstChildElement("model");
@@ -102,11 +110,11 @@ base::Result<StoredFile> ModelStore::ReadFresh(XmlFile& xml, const std::string& 
   printer.Text("<sdf version='" + xml.version + "'>");
   printer.Element(*content);
   printer.Text("</sdf>");
-  auto read = FromText({file, printer.Take()}, includes.files(), std::move(stored));
-  if (!read) return read;
-  if (actor.script != nullptr) read->framed.model = ActorOf(*read->framed.model, actor);
-  Complete(*content, file, false, *read);
-  return read;
+  auto status = FromText({file, printer.Take()}, includes.files(), stored);
+  if (!status) return status;
+  if (actor.script != nullptr) stored.framed.model = ActorOf(*stored.framed.model, actor);
+  Complete(*content, file, false, stored);
+  return {};
 }
 
 void ModelStore::Complete(const XMLElement& element, const std::filesystem::path& file,
@@ -123,14 +131,17 @@ void ModelStore::Complete(const XMLElement& element, const std::filesystem::path
   stored.framed.model = std::make_shared<const model::Model>(std::move(driven));
 }
 
-base::Result<StoredFile> ModelStore::FromText(const SdfText& text, const IncludedFiles& includes,
-                                              StoredFile stored) {
+base::Status ModelStore::FromText(const SdfText& text, const IncludedFiles& includes,
+                                  StoredFile& stored) {
   auto document = ParseSdf(text, includes, stored.problems);
   if (!document) return Fail(document.error());
   const ReadingContext context = ContextFor(text.path, stored.problems);
   if (const sdf::Model* model = document->root->Model()) {
     auto framed = formats::ReadModel(*model, context);
-    if (!framed) return Fail(framed.error());
+    if (!framed) {
+      std::erase_if(stored.problems, IsOfFrameGraphs);
+      return Fail(framed.error());
+    }
     stored.framed = std::move(*framed);
   } else if (const sdf::Light* light = document->root->Light()) {
     stored.light = ReadLight(*light, context);
@@ -138,7 +149,7 @@ base::Result<StoredFile> ModelStore::FromText(const SdfText& text, const Include
   } else {
     return Fail(ErrorCode::kBadModel, "the file contains no model", text.path.string());
   }
-  return stored;
+  return {};
 }
 
 }  // namespace gsv::formats

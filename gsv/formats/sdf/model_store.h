@@ -47,6 +47,9 @@ class ModelStore {
   // Stores a file whose XML was read already, with the problems that were found.
   base::Result<std::shared_ptr<const StoredFile>> Take(XmlFile xml, base::Problems problems);
 
+  // The problems of the last file that Read() or Take() refused, once: they say why.
+  base::Problems TakeProblemsOfRefused() { return std::exchange(problems_of_refused_, {}); }
+
   bool checks_rules() const { return check_rules_; }
   const ResourceFinder& finder() const { return finder_; }
   const ReadLimits& limits() const { return limits_; }
@@ -55,17 +58,15 @@ class ModelStore {
   }
 
  private:
-  base::Result<StoredFile> ReadFresh(XmlFile& xml, const std::string& plugins,
-                                     base::Problems problems);
+  base::Status ReadFresh(XmlFile& xml, const std::string& plugins, StoredFile& stored);
   base::Result<std::shared_ptr<const StoredFile>> Keep(
       const std::filesystem::path& file, const std::string& plugins,
-      const std::function<base::Result<StoredFile>()>& read);
+      const std::function<base::Status(StoredFile&)>& read);
   // Adds what libsdformat does not read: <ros2_control>, and the guessed drive of a robot
   // description.
   static void Complete(const tinyxml2::XMLElement& element, const std::filesystem::path& file,
                        bool is_robot, StoredFile& stored);
-  base::Result<StoredFile> FromText(const SdfText& text, const IncludedFiles& includes,
-                                    StoredFile stored);
+  base::Status FromText(const SdfText& text, const IncludedFiles& includes, StoredFile& stored);
 
   ResourceFinder finder_;
   ReadLimits limits_;
@@ -73,6 +74,7 @@ class ModelStore {
   SensorCheck check_sensor_;
   TextureReader textures_;
   MeshReader meshes_;
+  base::Problems problems_of_refused_;
   std::map<std::pair<std::filesystem::path, std::string>, std::shared_ptr<const StoredFile>> files_;
   // The same files by the names that sources use, so that each name is looked up once.
   std::map<std::pair<std::string, std::string>, std::shared_ptr<const StoredFile>> by_name_;

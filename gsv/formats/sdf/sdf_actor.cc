@@ -119,10 +119,21 @@ class ActorReader {
     const char* type = element.Attribute("type");
     const auto animation = follows_way_.find(type == nullptr ? "" : type);
     trajectory.animated_by_distance = animation != follows_way_.end() && animation->second;
+    if (animation == follows_way_.end() && !follows_way_.empty()) {
+      context_.Warn("the type \"" + std::string(type == nullptr ? "" : type) +
+                        "\" of the trajectory names no <animation> of the actor",
+                    Place(element));
+    }
     // If two waypoints have the same time, the later one in the file is used, as in Gazebo.
     std::map<SimTime, Pose> waypoints;
     for (auto* child = element.FirstChildElement("waypoint"); child != nullptr;
          child = child->NextSiblingElement("waypoint")) {
+      for (const char* part : {"time", "pose"}) {
+        if (child->FirstChildElement(part) == nullptr) {
+          context_.Warn("a <waypoint> has no <" + std::string(part) + ">; 0 is used",
+                        Place(*child));
+        }
+      }
       auto pose = ReadPose(*child);
       if (!pose) {
         context_.Warn("the waypoint is ignored: " + pose.error().message, Place(*child));

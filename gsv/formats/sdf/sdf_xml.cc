@@ -7,7 +7,7 @@
 #include <map>
 #include <system_error>
 
-#include "gsv/formats/files/xml_fault.h"
+#include "gsv/formats/files/xml_text.h"
 #include "gsv/formats/support/element_audit.h"
 #include "gsv/formats/xacro/arguments.h"
 #include "gsv/formats/xacro/xacro.h"
@@ -126,23 +126,6 @@ base::Status Expand(const ResourceFinder& finder, const ReadLimits& limits,
   return {};
 }
 
-// XML allows its declaration only at the beginning. If anything comes before it, parsers refuse the
-// file. The declaration is not needed. Returns whether it was blanked.
-bool BlankLateDeclaration(std::string& text) {
-  const std::size_t start = text.find("<?xml ");
-  if (start == std::string::npos || start == 0) return false;
-  // Tinyxml2 accepts a declaration after blanks.
-  if (text.find_first_not_of(" \t\r\n") == start) return false;
-  const std::size_t end = text.find("?>", start);
-  if (end == std::string::npos) return false;
-  std::replace_if(
-      text.begin() + static_cast<std::ptrdiff_t>(start),
-      text.begin() + static_cast<std::ptrdiff_t>(end) + 2, [](char c) { return c != '\n'; }, ' ');
-  return true;
-}
-
-bool ByteOrderMark(const std::string& text) { return text.compare(0, 3, "\xEF\xBB\xBF") == 0; }
-
 }  // namespace
 
 base::Result<XmlFile> ReadXml(const std::filesystem::path& named, const ResourceFinder& finder,
@@ -151,21 +134,13 @@ base::Result<XmlFile> ReadXml(const std::filesystem::path& named, const Resource
   const std::filesystem::path path(name);
   auto text = ReadText(path, limits.xml_bytes);
   if (!text) return Fail(text.error());
-  if (ByteOrderMark(*text)) text->erase(0, 3);
   XmlFile file;
   file.path = path;
   file.named = named;
   file.document = std::make_unique<tinyxml2::XMLDocument>();
-  auto parsed = file.document->Parse(text->data(), text->size());
-  if (parsed == tinyxml2::XML_ERROR_PARSING_DECLARATION && BlankLateDeclaration(*text)) {
-    problems.push_back({Problem::Severity::kWarning,
-                        "<?xml …?> is preceded by other text; move it to the beginning",
-                        path.string() + ":" + std::to_string(file.document->ErrorLineNum())});
-    parsed = file.document->Parse(text->data(), text->size());
-  }
-  if (parsed != tinyxml2::XML_SUCCESS) {
-    const auto error = DescribeXmlError(*text, path.string(), file.document->ErrorLineNum());
-    return Fail(ErrorCode::kBadModel, error.message, error.place);
+  if (auto status = ParseXml(*text, path.string(), limits.xml_bytes, *file.document, problems);
+      !status) {
+    return Fail(status.error());
   }
   file.root = file.document->RootElement();
   if (file.root != nullptr && xacro::NeedsExpansion(*file.root, path)) {

@@ -53,6 +53,7 @@ class UrdfRepair {
     RepairUrdfParts(robot_, file_, problems_);
     TakeLinks();
     TakeJoints();
+    ReportUnknownReferences();
     KeepLargestTree();
     FreeFloatingRoots();
     GiveMass();
@@ -114,6 +115,24 @@ class UrdfRepair {
       }
       above_[joint.child] = joints_.size();
       joints_.push_back(std::move(joint));
+    }
+  }
+
+  // libsdformat drops the extensions of links and joints that do not exist.
+  void ReportUnknownReferences() {
+    for (const auto* gazebo = robot_.FirstChildElement("gazebo"); gazebo != nullptr;
+         gazebo = gazebo->NextSiblingElement("gazebo")) {
+      const char* reference = gazebo->Attribute("reference");
+      if (reference == nullptr || *reference == '\0' || links_.count(reference) != 0) continue;
+      bool is_joint = false;
+      for (const auto* joint = robot_.FirstChildElement("joint"); joint != nullptr && !is_joint;
+           joint = joint->NextSiblingElement("joint")) {
+        const char* name = joint->Attribute("name");
+        is_joint = name != nullptr && std::strcmp(name, reference) == 0;
+      }
+      if (is_joint) continue;
+      Warn(*gazebo, "<gazebo> is ignored: its @reference names " + Quoted(reference) +
+                        ", and the robot has no such link or joint");
     }
   }
 

@@ -95,7 +95,13 @@ RepairedText RepairPose(const std::string& text, bool has_quaternion) {
                                      [](double value) { return std::isfinite(value); });
   if (numbers.values.size() == wanted && numbers.words == wanted && numbers.are_all_clean &&
       is_finite) {
-    return {text, ""};
+    const auto is_zero = [](double value) { return value == 0; };
+    if (!has_quaternion ||
+        !std::all_of(numbers.values.begin() + 3, numbers.values.end(), is_zero)) {
+      return {text, ""};
+    }
+    numbers.values.back() = 1;
+    return {Joined(numbers.values), "a rotation needs a quaternion of a length above 0"};
   }
   const std::string expected =
       std::to_string(wanted) +

@@ -162,6 +162,10 @@ class WorldReader {
     }
     auto stored = store_.Read(found, plugins);
     if (!stored) {
+      base::Problems reasons = store_.TakeProblemsOfRefused();
+      if (refused_.insert(found).second) {
+        problems_.insert(problems_.end(), reasons.begin(), reasons.end());
+      }
       context_.Warn(IncludeLeftOut(UriOf(include), stored.error()), Place(include));
       return {};
     }
@@ -452,6 +456,7 @@ class WorldReader {
   std::vector<XMLElement*> surroundings_;
   std::set<std::string> names_;
   std::set<const StoredFile*> reported_;
+  std::set<std::filesystem::path> refused_;  // included files whose problems are reported
 };
 
 }  // namespace

@@ -66,7 +66,7 @@ class Level {
 
 Expander::Expander(const ExpandOptions& options, base::Problems& problems)
     : problems_(problems),
-      files_(options.finder, options.limits),
+      files_(options.finder, options.limits, problems),
       arguments_(options.arguments),
       resolve_([this](const std::string& text, const Node& at, Scope& scope) {
         return Evaluate(text, at, scope);
@@ -274,21 +274,35 @@ base::Status Expander::OnInclude(const NodePtr& node, Node& parent, Context& con
   if (!name) return base::Fail(name.error());
   const auto is_optional = FlagOf(*node, "optional", false, context.scope);
   if (!is_optional) return base::Fail(is_optional.error());
-  if (name->find_first_of("*?[") != std::string::npos) {
-    return Unfit("the pattern \"" + *name + "\" is not supported; include the files one by one");
-  }
   if (context.includes_left <= 0) {
     return Unfit("files include each other deeper than " + std::to_string(max_include_depth_));
   }
-  const auto root = files_.ReadIncluded(*name, *node->file);
+  if (name->find_first_of("*?[") == std::string::npos) {
+    return Include(*name, *is_optional, node, parent, context);
+  }
+  const auto matching = files_.Matching(*name, *node->file);
+  if (matching.empty() && !*is_optional) {
+    problems_.push_back({base::Problem::Severity::kWarning,
+                         "no file matches the pattern \"" + *name + "\"; nothing is included",
+                         node->place()});
+  }
+  for (const std::string& file : matching) {
+    if (auto status = Include(file, *is_optional, node, parent, context); !status) return status;
+  }
+  return {};
+}
+
+base::Status Expander::Include(const std::string& name, bool is_optional, const NodePtr& node,
+                               Node& parent, Context& context) {
+  const auto root = files_.ReadIncluded(name, *node->file);
   if (!root) {
-    if (!*is_optional && root.error().code != base::ErrorCode::kNotFound) {
+    if (!is_optional && root.error().code != base::ErrorCode::kNotFound) {
       return base::Fail(root.error());
     }
-    if (!*is_optional) missing_file_ = *name;
+    if (!is_optional) missing_file_ = name;
     problems_.push_back({base::Problem::Severity::kWarning,
-                         (*is_optional ? "the optional file is ignored: "
-                                       : "the include of " + *name + " is ignored: ") +
+                         (is_optional ? "the optional file is ignored: "
+                                      : "the include of " + name + " is ignored: ") +
                              root.error().message,
                          node->place()});
     return {};

@@ -42,6 +42,8 @@ class Expander {
   base::Status OnMacro(const NodePtr& node, Node& parent, Context& context);
   base::Status OnArgument(const NodePtr& node, Node& parent, Context& context);
   base::Status OnInclude(const NodePtr& node, Node& parent, Context& context);
+  base::Status Include(const std::string& name, bool is_optional, const NodePtr& node, Node& parent,
+                       Context& context);
   base::Status OnCondition(const NodePtr& node, Node& parent, Context& context);
   base::Status OnInsertBlock(const NodePtr& node, Node& parent, Context& context);
   base::Status OnCall(const NodePtr& node, Node& parent, Context& context);

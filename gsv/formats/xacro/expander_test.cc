@@ -163,6 +163,17 @@ TEST_F(ExpanderTest, IncludesFilesBesideItAndInNamespaces) {
   EXPECT_THAT(problems_, SizeIs(1));
 }
 
+TEST_F(ExpanderTest, IncludesAllFilesThatMatchAPattern) {
+  folder_.Write("legs/b.xacro", "<robot><b/></robot>");
+  folder_.Write("legs/a.xacro", "<robot><a/></robot>");
+  folder_.Write("legs/c.txt", "no XML");
+  EXPECT_EQ(Expanded("<xacro:include filename='legs/*.xacro'/>"), "<a/><b/>");
+  EXPECT_THAT(problems_, SizeIs(0));
+  EXPECT_EQ(Expanded("<xacro:include filename='arms/*.xacro'/><c/>"), "<c/>");
+  ASSERT_THAT(problems_, SizeIs(1));
+  EXPECT_THAT(problems_[0].Sentence(), HasSubstr("no file matches the pattern"));
+}
+
 TEST_F(ExpanderTest, PassesOnTheMessagesOfAFile) {
   EXPECT_EQ(Expanded("\n<a>${xacro.warning('no inertia of', 3)}</a>"), "<a/>");
   ASSERT_THAT(problems_, SizeIs(1));

@@ -1,11 +1,13 @@
 #include "gsv/formats/xacro/file_access.h"
 
+#include <fnmatch.h>
+
 #include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <system_error>
 
-#include "gsv/formats/files/xml_fault.h"
+#include "gsv/formats/files/xml_text.h"
 #include "gsv/formats/xacro/package_finder.h"
 #include "gsv/formats/xacro/yaml_values.h"
 
@@ -70,12 +72,33 @@ base::Result<NodePtr> FileAccess::ReadIncluded(const std::string& name, const fs
   std::ifstream stream(*file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   tinyxml2::XMLDocument document;
-  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS ||
-      document.RootElement() == nullptr) {
-    const auto malformed = DescribeXmlError(text, file->string(), document.ErrorLineNum());
-    return NoFile(malformed.message, malformed.place);
+  if (auto status = ParseXml(text, file->string(), limits_.xml_bytes, document, problems_);
+      !status) {
+    return base::Fail(status.error());
+  }
+  if (document.RootElement() == nullptr) {
+    return NoFile("the file contains no element", file->string());
   }
   return known = ToNode(*document.RootElement(), std::make_shared<const fs::path>(*file));
+}
+
+std::vector<std::string> FileAccess::Matching(const std::string& pattern,
+                                              const fs::path& in) const {
+  std::error_code ignored;
+  const fs::path path(pattern.starts_with("file://") ? pattern.substr(7) : pattern);
+  const fs::path beside = fs::absolute(in, ignored).parent_path();
+  const fs::path folder =
+      (path.is_absolute() ? path : beside / path).parent_path().lexically_normal();
+  std::vector<std::string> names;
+  if (!IsInPackage(folder) && !finder_.allows_absolute_paths()) return names;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (fnmatch(path.filename().c_str(), entry.path().filename().c_str(), FNM_PERIOD) != 0)
+      continue;
+    if (names.size() < kMaxIncludes && entry.is_regular_file(ignored))
+      names.push_back(entry.path().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 base::Result<Value> FileAccess::ReadYaml(const std::string& name, const fs::path& in) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "gsv/base/error.h"
 #include "gsv/formats/files/read_limits.h"
@@ -15,12 +16,15 @@ namespace gsv::formats::xacro {
 
 class FileAccess {
  public:
-  FileAccess(const ResourceFinder& finder, const ReadLimits& limits)
-      : finder_(finder), limits_(limits) {}
+  FileAccess(const ResourceFinder& finder, const ReadLimits& limits, base::Problems& problems)
+      : finder_(finder), limits_(limits), problems_(problems) {}
 
   // Return the root of an included file, and the values of a YAML file. `in` is the file that
   // contains `name`. kNotFound: there is no such file or package. kBadModel: it cannot be used.
   base::Result<NodePtr> ReadIncluded(const std::string& name, const std::filesystem::path& in);
+  // The files whose names match a pattern with *, ? or [] in its last part, in the order of their names.
+  std::vector<std::string> Matching(const std::string& pattern,
+                                    const std::filesystem::path& in) const;
   base::Result<Value> ReadYaml(const std::string& name, const std::filesystem::path& in);
   base::Result<std::filesystem::path> Package(const std::string& name,
                                               const std::filesystem::path& in);
@@ -32,6 +36,7 @@ class FileAccess {
 
   const ResourceFinder& finder_;
   const ReadLimits& limits_;
+  base::Problems& problems_;
   std::map<std::string, std::filesystem::path> packages_;
   std::map<std::filesystem::path, NodePtr> included_;
   std::map<std::filesystem::path, Value> yaml_;

@@ -1,7 +1,10 @@
 #include "gsv/formats/xacro/operators.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
 
 namespace gsv::formats::xacro {
 namespace {
@@ -133,6 +136,132 @@ base::Result<bool> Contains(const Value& a, const Value& b) {
   return WrongTypes("in", a, b);
 }
 
+constexpr int kWidestField = 100;
+
+// The values of a format, from the left: a tuple gives its items, any other value itself.
+class FormatValues {
+ public:
+  explicit FormatValues(const Value& value) : value_(value) {}
+
+  const Value* Next() {
+    const List* items = value_.as<Tuple>() != nullptr ? value_.items() : nullptr;
+    if (items == nullptr) return next_++ == 0 ? &value_ : nullptr;
+    return next_ < items->size() ? &(*items)[next_++] : nullptr;
+  }
+  bool is_used_up() const {
+    return next_ == (value_.as<Tuple>() != nullptr ? value_.items()->size() : 1);
+  }
+
+ private:
+  const Value& value_;
+  std::size_t next_ = 0;
+};
+
+// A field of a format, such as "%-8.3f".
+struct Field {
+  bool is_left = false, has_zeros = false, has_plus = false, has_blank = false;
+  int width = 0, precision = 6;
+  char kind = '\0';
+};
+
+// Reads the field at `i` of `format`, and moves `i` to its last character. No kind: there is no such field.
+Field FieldAt(const std::string& format, std::size_t& i) {
+  Field field;
+  const auto number = [&] {
+    int value = 0;
+    while (i + 1 < format.size() && std::isdigit(static_cast<unsigned char>(format[i + 1])) != 0) {
+      value = std::min(value * 10 + (format[++i] - '0'), kWidestField + 1);
+    }
+    return value;
+  };
+  for (; i + 1 < format.size() && std::strchr("-0+ ", format[i + 1]) != nullptr; ++i) {
+    const char flag = format[i + 1];
+    field.is_left = field.is_left || flag == '-';
+    field.has_zeros = field.has_zeros || flag == '0';
+    field.has_plus = field.has_plus || flag == '+';
+    field.has_blank = field.has_blank || flag == ' ';
+  }
+  field.width = number();
+  if (i + 1 < format.size() && format[i + 1] == '.') {
+    ++i;
+    field.precision = number();
+  }
+  if (i + 1 < format.size()) field.kind = format[++i];
+  if (field.width > kWidestField || field.precision > kWidestField) field.kind = '\0';
+  return field;
+}
+
+// The digits of |value|. Nothing if the kind is none of a number.
+std::string Digits(const Field& field, double value) {
+  char text[512] = "";
+  switch (field.kind) {
+    case 'd':
+    case 'i':
+      std::snprintf(text, sizeof text, "%.0f", std::trunc(value));
+      break;
+    case 'f':
+      std::snprintf(text, sizeof text, "%.*f", field.precision, value);
+      break;
+    case 'e':
+      std::snprintf(text, sizeof text, "%.*e", field.precision, value);
+      break;
+    case 'g':
+      std::snprintf(text, sizeof text, "%.*g", field.precision, value);
+      break;
+    default:
+      break;
+  }
+  return text;
+}
+
+base::Status AppendFormatted(const Field& field, const Value& value, std::string& text) {
+  std::string sign, content;
+  if (field.kind == 's') {
+    content = ToText(value);
+  } else if (!value.is_number()) {
+    return WrongOperand(std::string("\"%\" does not take ") + TypeName(value) + " for a number");
+  } else {
+    const double number = NumberIn(value);
+    content = Digits(field, std::abs(number));
+    sign = std::signbit(number) ? "-" : field.has_plus ? "+" : field.has_blank ? " " : "";
+  }
+  if (content.empty() && field.kind != 's') {
+    return WrongOperand("a field of the format is not supported");
+  }
+  const auto used = static_cast<int>(sign.size() + content.size());
+  const std::string padding(static_cast<std::size_t>(std::max(0, field.width - used)),
+                            field.has_zeros && !field.is_left && field.kind != 's' ? '0' : ' ');
+  if (field.is_left) {
+    text += sign + content + padding;
+  } else {
+    text += padding.starts_with('0') ? sign + padding + content : padding + sign + content;
+  }
+  return {};
+}
+
+// Python's formatting, such as '%.2f' % 1.5.
+base::Result<Value> Formatted(const std::string& format, const Value& value) {
+  std::string text;
+  FormatValues values(value);
+  for (std::size_t i = 0; i < format.size(); ++i) {
+    if (format[i] != '%') {
+      text += format[i];
+    } else if (format.compare(i, 2, "%%") == 0) {
+      text += format[i++];
+    } else {
+      const Field field = FieldAt(format, i);
+      const Value* next = values.Next();
+      if (next == nullptr) return WrongOperand("the format has more fields than values");
+      if (auto status = AppendFormatted(field, *next, text); !status) {
+        return base::Fail(status.error());
+      }
+    }
+    if (text.size() > kLongestText) return WrongOperand("a text is too long");
+  }
+  if (!values.is_used_up()) return WrongOperand("the format has fewer fields than values");
+  return Value{text};
+}
+
 template <typename T>
 bool Ordered(const std::string& word, const T& a, const T& b) {
   if (word == "<") return a < b;
@@ -151,6 +280,7 @@ base::Result<Value> Apply(const std::string& sign, const Value& a, const Value& 
   const auto i = IntegerIn(a), j = IntegerIn(b);
   if (i && j && sign != "/" && !(sign == "**" && *j < 0)) return ApplyToIntegers(sign, *i, *j);
   if (a.is_number() && b.is_number()) return ApplyToFloats(sign, NumberIn(a), NumberIn(b));
+  if (sign == "%" && a.as<std::string>() != nullptr) return Formatted(*a.as<std::string>(), b);
   if (sign == "*" && IsSequence(a) && j) return Repeated(a, *j);
   if (sign == "*" && IsSequence(b) && i) return Repeated(b, *i);
   if (sign == "+" && IsSequence(a) && a.content.index() == b.content.index()) return Joined(a, b);
