@@ -56,5 +56,18 @@ TEST_F(SdfPedestrians, InvalidGroupsAreSkipped) {
   }
 }
 
+TEST_F(SdfPedestrians, NamesWhatIsNoPartOfAGroup) {
+  const auto world = World(
+      "<gsv:pedestrians crowd='1'><gsv:goal>1 2</gsv:goal><gsv:count>3</gsv:count>"
+      "<goal>3 4</goal></gsv:pedestrians>");
+  ASSERT_EQ(world.pedestrians.size(), 1u);
+  std::vector<std::string> messages;
+  for (const base::Problem& problem : problems_) messages.push_back(problem.message);
+  EXPECT_THAT(messages, ::testing::IsSupersetOf(
+                            {"<gsv:pedestrians> has no attribute \"crowd\"; it is ignored",
+                             "<gsv:count> is not an element of <gsv:pedestrians>; it is ignored",
+                             "<goal> is not an element of <gsv:pedestrians>; it is ignored"}));
+}
+
 }  // namespace
 }  // namespace gsv::formats

@@ -1,8 +1,10 @@
 #include "gsv/formats/sdf/sdf_pedestrians.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gsv/formats/sdf/sdf_xml.h"
@@ -35,10 +37,36 @@ void ReadNumber(const XMLElement& parent, const char* name, double& value) {
   }
 }
 
+// Names what is no part of a group, such as a count that is an element.
+void ReportUnknownParts(const XMLElement& element, const ReadingContext& context) {
+  static constexpr std::string_view kAttributes[] = {"name", "count"};
+  static constexpr std::string_view kElements[] = {"gsv:goal",   "gsv:z",     "gsv:speed_deviation",
+                                                   "gsv:radius", "gsv:speed", "gsv:height"};
+  const auto is_of = [](const auto& names, const char* name) {
+    return std::find(std::begin(names), std::end(names), name) != std::end(names);
+  };
+  for (auto* attribute = element.FirstAttribute(); attribute != nullptr;
+       attribute = attribute->Next()) {
+    if (is_of(kAttributes, attribute->Name())) continue;
+    if (std::string_view(attribute->Name()).find(':') != std::string_view::npos) continue;
+    context.Warn("<gsv:pedestrians> has no attribute \"" + std::string(attribute->Name()) +
+                     "\"; it is ignored",
+                 PlaceOf(context.source, element));
+  }
+  for (auto* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    if (is_of(kElements, child->Name())) continue;
+    context.Warn("<" + std::string(child->Name()) +
+                     "> is not an element of <gsv:pedestrians>; it is ignored",
+                 PlaceOf(context.source, *child));
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const model::PedestrianGroup> ReadPedestrians(const XMLElement& element,
                                                               const ReadingContext& context) {
+  ReportUnknownParts(element, context);
   auto group = std::make_shared<model::PedestrianGroup>();
   if (const char* name = element.Attribute("name")) group->name = name;
   if (element.Attribute("count") != nullptr) group->count = element.IntAttribute("count", 0);

@@ -17,14 +17,15 @@ namespace {
 using tinyxml2::XMLAttribute;
 using tinyxml2::XMLElement;
 
+constexpr std::string_view kXmlSpace = " \t\r\n";
+
 bool IsNamespaced(std::string_view name) { return name.find(':') != std::string_view::npos; }
 
 std::string Tag(std::string_view name) { return "<" + std::string(name) + ">"; }
 
 std::string Spaced(const std::string& sentence) { return sentence.empty() ? "" : " " + sentence; }
 
-// Whether the type of the sensor is one of GSV's, which SDFormat does not define. Such a sensor
-// accepts all elements of its type.
+// A sensor whose type SDFormat does not define: GSV has this type, or a plug-in may have it.
 bool IsSensorOfOurs(const XMLElement& element) {
   static constexpr std::string_view kTypes[] = {"air_flow",
                                                 "air_pressure",
@@ -91,8 +92,9 @@ class ElementAudit {
       return;
     }
     ++reported_;
+    const std::string path = PathOf(element);
     problems_.push_back({base::Problem::Severity::kWarning, std::move(message),
-                         PlaceOf(file_.path, element) + ": " + PathOf(element)});
+                         PlaceOf(file_.path, element) + (path.empty() ? "" : ": " + path)});
   }
 
   // Visits the root. The reader uses the first world, else the first model, else a light.
@@ -102,6 +104,7 @@ class ElementAudit {
       if (taken == nullptr) taken = file_.root->FirstChildElement(kind);
     }
     VisitAttributes(*file_.root, root);
+    ReportTextBesideElements(*file_.root);
     for (auto* child = file_.root->FirstChildElement(); child != nullptr;
          child = child->NextSiblingElement()) {
       const std::string_view name = child->Name();
@@ -123,6 +126,7 @@ class ElementAudit {
   void Visit(const XMLElement& element, const ElementSupport& support) {
     above_.push_back({&element, &support});
     VisitAttributes(element, support);
+    ReportTextBesideElements(element);
     const XMLElement* shape = nullptr;
     for (auto* child = element.FirstChildElement(); child != nullptr;
          child = child->NextSiblingElement()) {
@@ -137,6 +141,27 @@ class ElementAudit {
       }
     }
     above_.pop_back();
+  }
+
+  // An element has a value or elements. Text beside elements is mostly what is left of a comment. CDATA sections are
+  // comments in Gazebo's own worlds.
+  void ReportTextBesideElements(const XMLElement& element) {
+    if (element.FirstChildElement() == nullptr) return;
+    for (auto* child = element.FirstChild(); child != nullptr; child = child->NextSibling()) {
+      const tinyxml2::XMLText* text = child->ToText();
+      if (text == nullptr || text->CData()) continue;
+      const std::string_view value = text->Value();
+      const std::size_t first = value.find_first_not_of(kXmlSpace);
+      if (first == std::string_view::npos) continue;
+      constexpr std::size_t kMaxQuoted = 40;
+      const std::size_t length = value.find_last_not_of(kXmlSpace) - first + 1;
+      std::string quoted(value.substr(first, std::min(length, kMaxQuoted)));
+      std::replace(quoted.begin(), quoted.end(), '\n', ' ');
+      Report("the text \"" + quoted + (length > kMaxQuoted ? "…" : "") + "\" in " +
+                 Tag(element.Name()) + " is ignored",
+             element);
+      return;
+    }
   }
 
   void VisitAttributes(const XMLElement& element, const ElementSupport& support) {
@@ -161,7 +186,7 @@ class ElementAudit {
                   const ElementSupport& support) {
     const std::string_view name = child.Name();
     if (IsNamespaced(name)) {
-      if (auto sentence = AboutOurElement(name); !sentence.empty()) Report(sentence, child);
+      VisitOurs(child);
       return;
     }
     if (name == "plugin" && support.Child(name) != nullptr) {
@@ -170,7 +195,14 @@ class ElementAudit {
     }
     const ElementSupport* known = support.Child(name);
     if (known == nullptr) {
-      if (!IsSensorOfOurs(parent)) ReportUnknown(child, parent, support);
+      if (!IsSensorOfOurs(parent)) {
+        ReportUnknown(child, parent, support);
+      } else if (IsOurSensorType(parent.Attribute("type")) &&
+                 !AboutOurElement("gsv:" + std::string(name), false).empty()) {
+        Report(Tag(name) + " is not a parameter of a sensor of the type " +
+                   parent.Attribute("type") + "; it is ignored",
+               child);
+      }
     } else if (known->until != 0 && file_.minor_version > known->until) {
       Report(Tag(name) + " in " + Tag(parent.Name()) + " ended with SDFormat 1." +
                  std::to_string(known->until) + "; it is ignored in a file of 1." +
@@ -185,9 +217,30 @@ class ElementAudit {
     }
   }
 
+  // GSV's own elements, and those in them. Elements of other namespaces are for other programs.
+  void VisitOurs(const XMLElement& element) {
+    const auto sentence = AboutOurElement(element.Name(), IsInSensorOfPlugin());
+    if (!sentence.empty()) {
+      Report(sentence, element);
+      return;
+    }
+    for (auto* child = element.FirstChildElement(); child != nullptr;
+         child = child->NextSiblingElement()) {
+      VisitOurs(*child);
+    }
+  }
+
+  bool IsInSensorOfPlugin() const {
+    return std::any_of(above_.begin(), above_.end(), [](const Above& each) {
+      return IsSensorOfOurs(*each.element) && !IsOurSensorType(each.element->Attribute("type"));
+    });
+  }
+
   void VisitKnown(const XMLElement& element, const ElementSupport& support) {
     if (support.support == Support::kNoEffect) return;
-    if (support.support != Support::kFull && !SaysNothing(element, support)) {
+    // An element with a name is a thing, even if it gives no values.
+    const bool is_thing = support.support == Support::kNone && element.Attribute("name") != nullptr;
+    if (support.support != Support::kFull && (is_thing || !SaysNothing(element, support))) {
       Report(
           Tag(element.Name()) +
               (support.support == Support::kNone ? " is not supported" : " is supported in part") +

@@ -90,6 +90,7 @@ TEST(ElementAudit, NamesUnsupportedElementsUnlessTheyHaveTheDefault) {
                                            "contact/ode: <ode> is not supported"))));
   EXPECT_THAT(contact("<ode><kp>1000000000000.0</kp><kd>1.0</kd></ode>"), IsEmpty());
   EXPECT_THAT(contact("<ode><kp>1e12</kp><stiffness>3</stiffness></ode>"), SizeIs(1));
+  EXPECT_THAT(AuditOfLink("<light name='lamp' type='point'/>"), SizeIs(1));
   EXPECT_THAT(AuditOfLink("<self_collide>1</self_collide>"), SizeIs(1));
   EXPECT_THAT(AuditOfLink("<self_collide>false</self_collide>"), IsEmpty());
 }
@@ -107,6 +108,27 @@ TEST(ElementAudit, IgnoresForeignElementsAndThoseWithoutEffect) {
 TEST(ElementAudit, IgnoresElementsOfOtherSensorTypes) {
   EXPECT_THAT(AuditOfLink("<sensor name='s' type='positioning'><noise/></sensor>"), IsEmpty());
   EXPECT_THAT(AuditOfLink("<sensor name='s' type='imu'><noise/></sensor>"), SizeIs(1));
+}
+
+TEST(ElementAudit, NamesTextBesideElements) {
+  EXPECT_THAT(AuditOf("<sdf version='1.9'>left<model name='m'><link name='l'/>over</model></sdf>"),
+              ElementsAre(HasSubstr("the text \"left\" in <sdf> is ignored"),
+                          HasSubstr("the text \"over\" in <model> is ignored")));
+  EXPECT_THAT(AuditOf("<sdf version='1.9'><![CDATA[ how to ]]><model name='m'/></sdf>"), IsEmpty());
+}
+
+TEST(ElementAudit, NamesParametersThatGsvDoesNotHave) {
+  const auto sensor = [](const std::string& type, const std::string& content) {
+    return AuditOfLink("<sensor name='s' type='" + type + "'>" + content + "</sensor>");
+  };
+  EXPECT_THAT(sensor("sonar", "<gsv:beam>cone</gsv:beam><gsv:smell>1</gsv:smell>"),
+              ElementsAre(HasSubstr("<gsv:smell> is not a GSV element; it is ignored.")));
+  EXPECT_THAT(sensor("sonar", "<gsv:noise><gsv:stdev>1</gsv:stdev></gsv:noise>"),
+              ElementsAre(EndsWith("Did you mean <gsv:stddev>?")));
+  EXPECT_THAT(
+      sensor("odometry", "<scale><linear>1</linear></scale><smell>1</smell>"),
+      ElementsAre(HasSubstr("<smell> is not a parameter of a sensor of the type odometry")));
+  EXPECT_THAT(sensor("of_a_plugin", "<gsv:smell>1</gsv:smell><smell>1</smell>"), IsEmpty());
 }
 
 TEST(ElementAudit, NamesUnsupportedPlugins) {

@@ -82,49 +82,158 @@ constexpr std::string_view kParameters[] = {
     "angular_velocity",
 };
 
-// Elements of models and parameters of sensors that GSV defines.
+// GSV's own elements of worlds and models, and the parameters of its sensors (docs/sensors.md, docs/actuators.md,
+// docs/people.md).
 constexpr std::string_view kOurs[] = {
-    "movement",
-    "slip",
-    "longitudinal",
-    "lateral",
+    "ambient",
+    "anchor",
+    "angle",
+    "angular",
+    "angular_per_metre",
+    "angular_per_radian",
+    "aspect_ratio",
     "beam",
-    "field_of_view",
-    "transducer_radius",
-    "threshold",
-    "specular_width",
-    "roughness",
-    "dropout_probability",
-    "latency",
-    "outlier_probability",
-    "outlier_stddev",
-    "capacity",
-    "initial_charge",
-    "voltage_full",
-    "voltage_empty",
-    "resistance",
-    "idle_current",
-    "drive_charge",
-    "opening",
-    "closing_time",
-    "left_jaw",
-    "right_jaw",
-    "counts_per_turn",
-    "intensity",
+    "beam_divergence",
+    "bias_instability",
+    "bias_mean",
+    "bias_per_metre",
+    "bias_stddev",
     "brightness",
+    "capacity",
+    "capture_ratio",
+    "clip",
+    "closing_time",
+    "collision",
     "colour",
-    "occlusion",
-    "robots_only",
-    "loudness",
-    "path_loss_exponent",
-    "wall_loss",
+    "counts_per_turn",
+    "current",
+    "distortion",
+    "drive_charge",
+    "dropout_probability",
+    "dynamic_bias_correlation_time",
+    "dynamic_bias_stddev",
+    "enable_orientation",
+    "essid",
     "exposure",
     "exposure_time",
-    "readout_time",
-    "shutter_samples",
-    "vignetting",
-    "vertical_reference",
+    "fading",
+    "far",
+    "field_of_view",
+    "firing_slot",
+    "force",
+    "frame",
+    "frequency",
+    "gain",
+    "gain_range",
+    "goal",
+    "ground",
+    "height",
+    "horizontal_fov",
+    "idle_current",
+    "image",
+    "inbox",
+    "incidence_noise",
+    "initial_charge",
+    "intensity",
+    "intensity_range",
+    "intensity_scale",
+    "joint",
+    "latency",
+    "lateral",
+    "left_jaw",
+    "lens",
+    "linear",
+    "linear_per_metre",
+    "longitudinal",
+    "loss_probability",
+    "loudness",
+    "max",
     "max_size",
+    "max_walls",
+    "mean",
+    "measure_direction",
+    "min",
+    "movement",
+    "near",
+    "noise",
+    "noise_density",
+    "occlusion",
+    "opening",
+    "orientation",
+    "outlier_probability",
+    "outlier_stddev",
+    "path_loss_exponent",
+    "pedestrians",
+    "position",
+    "power",
+    "precision",
+    "preset",
+    "radius",
+    "random",
+    "random_walk",
+    "range",
+    "range_noise",
+    "reach",
+    "readout_time",
+    "resistance",
+    "resolution",
+    "right_jaw",
+    "robots_only",
+    "roughness",
+    "scale",
+    "second_reflections",
+    "sensitivity",
+    "short_probability",
+    "short_range",
+    "shutter_samples",
+    "slip",
+    "specular_width",
+    "speed",
+    "speed_deviation",
+    "stddev",
+    "target_size",
+    "threshold",
+    "torque",
+    "transducer_radius",
+    "type",
+    "velocity",
+    "vertical_reference",
+    "vignetting",
+    "voltage",
+    "voltage_empty",
+    "voltage_full",
+    "wall_delay",
+    "wall_loss",
+    "wall_noise",
+    "width",
+    "z",
+};
+
+// The types of docs/sensors.md and docs/actuators.md that SDFormat does not define, with their further names.
+constexpr std::string_view kOurSensorTypes[] = {
+    "positioning",
+    "odometry",
+    "wheel_odometry",
+    "gnss",
+    "bumper",
+    "forcetorque",
+    "joint_encoders",
+    "joint_state",
+    "battery",
+    "radio",
+    "transceiver",
+    "wireless_transceiver",
+    "ranging",
+    "microphone",
+    "gripper",
+    "lamp",
+    "led",
+    "speaker",
+    "buzzer",
+    "wideangle_camera",
+    "wide_angle_camera",
+    "normals_camera",
+    "normals",
 };
 
 template <std::size_t N>
@@ -146,8 +255,10 @@ std::vector<std::string> AboutPlugin(const XMLElement& plugin) {
   const PluginSupport* known = SupportTable::Get().Plugin(file, name);
   std::vector<std::string> sentences;
   if (known == nullptr || known->support == Support::kNone) {
+    const std::string named(file.empty() ? name : file);
     sentences.push_back(
-        "the plugin " + std::string(file.empty() ? name : file) + " is not supported: " +
+        (named.empty() ? "a <plugin> without @filename" : "the plugin " + named) +
+        " is not supported: " +
         (known == nullptr
              ? "GSV loads no plugins of Gazebo. A behaviour or a plug-in of GSV can do its work"
              : std::string(known->note)));
@@ -164,13 +275,20 @@ std::vector<std::string> AboutPlugin(const XMLElement& plugin) {
   return sentences;
 }
 
-std::string AboutOurElement(std::string_view name) {
+bool IsOurSensorType(std::string_view type) {
+  return std::find(std::begin(kOurSensorTypes), std::end(kOurSensorTypes), type) !=
+         std::end(kOurSensorTypes);
+}
+
+std::string AboutOurElement(std::string_view name, bool is_of_plugin) {
   constexpr std::string_view kPrefix = "gsv:";
   if (name.substr(0, kPrefix.size()) != kPrefix) return {};
-  const std::string_view meant = Misspelt(name.substr(kPrefix.size()), kOurs);
-  if (meant.empty()) return {};
-  return "<" + std::string(name) +
-         "> is not a GSV element; it is ignored. Did you mean <gsv:" + std::string(meant) + ">?";
+  const std::string_view plain = name.substr(kPrefix.size());
+  if (std::find(std::begin(kOurs), std::end(kOurs), plain) != std::end(kOurs)) return {};
+  const std::string_view meant = Misspelt(plain, kOurs);
+  if (meant.empty() && is_of_plugin) return {};
+  const std::string sentence = "<" + std::string(name) + "> is not a GSV element; it is ignored.";
+  return meant.empty() ? sentence : sentence + " Did you mean <gsv:" + std::string(meant) + ">?";
 }
 
 }  // namespace gsv::formats
