@@ -24,7 +24,7 @@ const { startServer } = await import("../tests/browser/server.mjs");
 
 const PICTURES = 5;
 const CLICKS = 20;
-const ARRIVALS = 3;
+const ARRIVALS = 7;
 const FRAMES_S = 15;
 const SIZE = { width: 1280, height: 800 };
 

@@ -9,6 +9,7 @@ const QUALITY = 82;
 // Append this to a page's address to draw all pixels, regardless of the time.
 export const SHARP = folder ? "?quality=high" : "";
 
+// Notices, which go away by themselves, are left out.
 export async function keepPicture(page, name) {
   if (!folder) return;
   fs.mkdirSync(folder, { recursive: true });
@@ -19,5 +20,6 @@ export async function keepPicture(page, name) {
     quality: QUALITY,
     animations: "disabled",
     caret: "hide",
+    style: ".notices { visibility: hidden }",
   });
 }

@@ -110,7 +110,10 @@ for (const [name, key, isWanted, least] of [
       await page.keyboard.press(key);
       return drawn >= least;
     }, `${least} pixels of ${name}, ${drawn} at last,`);
-    if (name === "collision shapes") await keepPicture(page, "collisions");
+    if (name === "collision shapes") {
+      await settled(page);
+      await keepPicture(page, "collisions");
+    }
     if (name === "trails") await page.keyboard.press("c");
     if (name === "trails") return; // kept for the next test
     await page.keyboard.press(key);
