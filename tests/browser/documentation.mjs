@@ -14,12 +14,19 @@ export async function keepPicture(page, name) {
   if (!folder) return;
   fs.mkdirSync(folder, { recursive: true });
   const file = path.join(folder, `${name}.jpg`);
+  await showNotices(page, "hidden");
   await page.screenshot({
     path: file,
     type: "jpeg",
     quality: QUALITY,
     animations: "disabled",
     caret: "hide",
-    style: ".notices { visibility: hidden }",
   });
+  await showNotices(page, "");
+}
+
+function showNotices(page, visibility) {
+  return page.evaluate((value) => {
+    for (const notices of document.querySelectorAll(".notices")) notices.style.visibility = value;
+  }, visibility);
 }
