@@ -259,6 +259,35 @@ TEST_F(IMAGE_SUITE, DoesNotDependOnEarlierImages) {
   }
 }
 
+// The renderer keeps the colours of still bodies. Each image must equal that of a new renderer.
+TEST_F(IMAGE_SUITE, OfAViewThatStaysDoesNotDependOnEarlierImages) {
+  model::Light sun;
+  sun.direction = geometry::Normalized(Vector3{-1, 0.5, -1});
+  scene_.description().lights = {sun};
+  scene_.Add("floor", Box{{20, 20, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.7, 0.7, 0.7), true);
+  scene_.Add("chair", Box{{1, 1, 1}}, {{2, 2, 0.5}, {}}, Matt(0.7, 0.2, 0.2), true);
+  auto glass = Matt(0.2, 0.9, 0.2);
+  glass.base_colour.a = 0.5;
+  scene_.Add("glass", Box{{1, 1, 1}}, {{2, -2, 0.5}, {}}, glass, true);
+  scene_.Add("robot", Box{{0.6, 0.6, 1}}, {{-2, 0, 0.5}, {}}, Matt(0.2, 0.2, 0.7));
+  const auto start = scene_.Snapshot();
+  const int robot = start->layout->Find("robot");
+  CameraView view = FromAbove();
+  for (int i = 0; i < 12; ++i) {
+    const auto snapshot = std::make_shared<world::Snapshot>(*start);
+    const double angle = 0.7 * i;
+    snapshot->state.bodies[robot].world_from_model.position = {3 * std::cos(angle),
+                                                               3 * std::sin(angle), 0.5};
+    if (i == 9) view.world_from_camera.position.x += 0.1;
+    const auto fresh = Renderer::Start(Options());
+    ASSERT_TRUE(fresh);
+    const auto alone = (*fresh)->Draw(snapshot, view, std::chrono::seconds(30));
+    const auto after = renderer_->Draw(snapshot, view, std::chrono::seconds(30));
+    ASSERT_TRUE(alone && after);
+    EXPECT_EQ((*alone)->pixels, (*after)->pixels) << i;
+  }
+}
+
 TEST_F(IMAGE_SUITE, GroundBeyondTheShadowMapIsLit) {
   model::Light sun;
   sun.direction = geometry::Normalized(Vector3{1, 0, -1});

@@ -1,7 +1,9 @@
 #include "gsv/rendering/raster/image_renderer.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "gsv/rendering/raster/raster_texture.h"
@@ -26,15 +28,30 @@ const Level& LevelFor(const std::vector<Level>& levels, double pixel_in_mesh) {
   return *level;
 }
 
+bool IsSameView(const CameraView& a, const CameraView& b) {
+  const geometry::Pose &p = a.world_from_camera, &q = b.world_from_camera;
+  return a.parameters == b.parameters && p.position == q.position && p.orientation == q.orientation;
+}
+
+bool Overlap(const ShadowRegion::Rectangle& a, const ShadowRegion::Rectangle& b) {
+  return a.min_x < b.max_x && b.min_x < a.max_x && a.min_y < b.max_y && b.min_y < a.max_y;
+}
+
 }  // namespace
 
+bool ImageRenderer::IsOf(const CameraView& view) const {
+  return background_.render_list_id != 0 && IsSameView(background_.view, view);
+}
+
 model::Image ImageRenderer::Draw(const CameraView& view, const RenderList& render_list,
-                                 const FrameBlock& block, const SunShadow* shadow) {
+                                 std::uint64_t render_list_id, const FrameBlock& block,
+                                 const SunShadow* shadow, base::ThreadTeam* team) {
   Begin(view, block);
+  SetBackground({view, render_list_id, render_list.moved_count(), shadow != nullptr, block});
   FindVisible(view, render_list);
   Cover(view, render_list);
-  const LightModel light(block, shadow);
-  Light(light);
+  const LightModel light(background_.block, shadow);
+  Light(light, shadow, team);
   Blend(view, render_list, light);
   return Smooth();
 }
@@ -42,6 +59,7 @@ model::Image ImageRenderer::Draw(const CameraView& view, const RenderList& rende
 GroundTruth ImageRenderer::DrawGroundTruth(const CameraView& view, const RenderList& render_list,
                                            const FrameBlock& block) {
   Begin(view, block);
+  background_.render_list_id = 0;
   FindVisible(view, render_list);
   Cover(view, render_list);
   GroundTruth truth{width_, height_, {}, {}, {}};
@@ -77,6 +95,7 @@ void ImageRenderer::Begin(const CameraView& view, const FrameBlock& block) {
   rgba_.resize(static_cast<std::size_t>(width_) * height_ + 8);
   triangles_.clear();
   drawn_.clear();
+  is_still_.clear();
   body_of_.clear();
   visual_of_.clear();
   // The centre of pixel (x, y) is at x = (2 x + 1) / width - 1 in clip space, and likewise for y.
@@ -129,6 +148,7 @@ void ImageRenderer::Cover(const CameraView& view, const RenderList& render_list)
     if (IsHidden(view, centre, render_list.items()[seen.item].radius)) continue;
     drawn_.push_back(
         DrawnItem(render_list, seen.item, *seen.level, view.world_from_camera.position));
+    is_still_.push_back(render_list.IsStill(render_list.items()[seen.item].body) ? 1 : 0);
     body_of_.push_back(render_list.items()[seen.item].body);
     visual_of_.push_back(render_list.items()[seen.item].visual);
     CoverWith(static_cast<std::uint32_t>(drawn_.size() - 1),
@@ -202,23 +222,106 @@ F8x3 ImageRenderer::RayAt(int x, int y) const {
   return {part(0), part(1), part(2)};
 }
 
-void ImageRenderer::Light(const LightModel& light) {
-  surface_of_.assign(triangles_.size(), -1);
-  surfaces_.clear();
-  for (int y = 0; y < height_; y += kTileHeight) {
-    for (int x = 0; x < width_; x += kTileWidth) LightTile(light, x, y);
-  }
+void ImageRenderer::SetBackground(const Background& background) {
+  const Background& old = background_;
+  const bool is_same = old.render_list_id == background.render_list_id &&
+                       old.moved_count == background.moved_count &&
+                       old.has_shadow == background.has_shadow &&
+                       IsSameView(old.view, background.view) &&
+                       std::memcmp(&old.block, &background.block, sizeof old.block) == 0;
+  if (is_same) return;
+  background_ = background;
+  const int columns = (width_ + kTileWidth - 1) / kTileWidth;
+  const int rows = (height_ + kTileHeight - 1) / kTileHeight;
+  tiles_.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), {});
 }
 
-void ImageRenderer::LightTile(const LightModel& light, int x0, int y0) {
+void ImageRenderer::Light(const LightModel& light, const SunShadow* shadow,
+                          base::ThreadTeam* team) {
+  const std::size_t threads = team == nullptr ? 1 : static_cast<std::size_t>(team->threads());
+  if (shadings_.size() < threads) shadings_.resize(threads);
+  std::atomic<int> next_row{0};
+  const auto work = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Shading& shading = shadings_[i];
+      shading.surface_of.clear();
+      shading.surfaces.clear();
+      for (int y = 0; (y = next_row++ * kTileHeight) < height_;) {
+        if (shading.surface_of.empty()) shading.surface_of.assign(triangles_.size(), -1);
+        for (int x = 0; x < width_; x += kTileWidth) LightTile(light, shadow, x, y, shading);
+      }
+    }
+  };
+  if (team == nullptr) return work(0, 1);
+  team->ParallelFor(threads, 1, work);
+}
+
+void ImageRenderer::LightTile(const LightModel& light, const SunShadow* shadow, int x0, int y0,
+                              Shading& shading) {
   const int x1 = std::min(x0 + kTileWidth, width_), y1 = std::min(y0 + kTileHeight, height_);
-  const Lamps lamps = LampsOfTile(light, x0, y0, x1, y1);
+  const int columns = (width_ + kTileWidth - 1) / kTileWidth;
+  Tile& tile = tiles_[static_cast<std::size_t>(y0 / kTileHeight * columns + x0 / kTileWidth)];
+  const auto is_shaded_by_movers = [&] {
+    return shadow != nullptr &&
+           std::any_of(shadow->moved().begin(), shadow->moved().end(),
+                       [&](const auto& part) { return Overlap(part, tile.in_shadow); });
+  };
+  const bool is_still = IsStillTile(x0, y0, x1, y1);
+  if (tile.is_kept && is_still && !is_shaded_by_movers()) return;
+  const TileBox box = BoxOfTile(x0, y0, x1, y1);
+  const Lamps lamps = box.is_empty ? Lamps() : light.Reaching(box.min, box.max);
   for (int y = y0; y < y1; ++y) {
-    for (int x = x0; x < x1; x += 8) Light(light, lamps, x, y);
+    for (int x = x0; x < x1; x += 8) Light(light, lamps, x, y, shading);
   }
+  tile.in_shadow = InShadow(box);
+  tile.is_kept = is_still && !is_shaded_by_movers();
 }
 
-Lamps ImageRenderer::LampsOfTile(const LightModel& light, int x0, int y0, int x1, int y1) const {
+// Whether all its pixels show still bodies or the sky.
+bool ImageRenderer::IsStillTile(int x0, int y0, int x1, int y1) const {
+  std::uint32_t last = 0;
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; x += 8) {
+      const I8 ids = LoadInt(&nearest_[At(x, y)]);
+      if (x + 8 <= x1 && Bits(ids == SplatInt(static_cast<std::int32_t>(last))) == 0xff) continue;
+      for (int i = x; i < std::min(x + 8, x1); ++i) {
+        const std::uint32_t id = nearest_[At(i, y)];
+        if (id == last || id == 0) continue;
+        if (is_still_[triangles_[id - 1].drawn] == 0) return false;
+        last = id;
+      }
+    }
+  }
+  return true;
+}
+
+// The texels of the shadow map at which its points may be looked up.
+ShadowRegion::Rectangle ImageRenderer::InShadow(const TileBox& box) const {
+  // The displacement of a look-up along the normal, and the width of the filter.
+  constexpr float kBeside = 4;
+  if (box.is_empty) return {0, 0, 0, 0};
+  const std::array<float, 16>& m = background_.block.shadow_from_relative;
+  float min[2], max[2];
+  for (int row = 0; row < 2; ++row) {
+    min[row] = max[row] = m[static_cast<std::size_t>(12 + row)];
+    const double low[3] = {box.min.x, box.min.y, box.min.z};
+    const double high[3] = {box.max.x, box.max.y, box.max.z};
+    for (int i = 0; i < 3; ++i) {
+      const auto k = static_cast<double>(m[static_cast<std::size_t>(4 * i + row)]);
+      min[row] += static_cast<float>(std::min(k * low[i], k * high[i]));
+      max[row] += static_cast<float>(std::max(k * low[i], k * high[i]));
+    }
+  }
+  // Points outside the map are looked up at its border.
+  const auto texel = [](float at, float beside) {
+    constexpr float kSide = kShadowSide;
+    return static_cast<int>(std::clamp(at * kSide + beside, -1.0f, kSide + 1));
+  };
+  return {texel(min[0], -kBeside), texel(min[1], -kBeside), texel(max[0], kBeside),
+          texel(max[1], kBeside)};
+}
+
+ImageRenderer::TileBox ImageRenderer::BoxOfTile(int x0, int y0, int x1, int y1) const {
   F8 most = Splat(0), least = Splat(1e30f);  // both in 1/w
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; x += 8) {
@@ -235,7 +338,8 @@ Lamps ImageRenderer::LampsOfTile(const LightModel& light, int x0, int y0, int x1
   }
   if (nearest == 0) return {};
   constexpr double kMax = 1e30;
-  Vector3 min{kMax, kMax, kMax}, max{-kMax, -kMax, -kMax};
+  TileBox box{false, {kMax, kMax, kMax}, {-kMax, -kMax, -kMax}};
+  Vector3 &min = box.min, &max = box.max;
   for (const int x : {x0, x1}) {
     for (const int y : {y0, y1}) {
       for (const float inverse_w : {nearest, farthest}) {
@@ -249,10 +353,11 @@ Lamps ImageRenderer::LampsOfTile(const LightModel& light, int x0, int y0, int x1
       }
     }
   }
-  return light.Reaching(min, max);
+  return box;
 }
 
-void ImageRenderer::Light(const LightModel& light, const Lamps& lamps, int x, int y) {
+void ImageRenderer::Light(const LightModel& light, const Lamps& lamps, int x, int y,
+                          Shading& shading) {
   const std::size_t at = At(x, y);
   const I8 ids = LoadInt(&nearest_[at]);
   const F8x3 ray = RayAt(x, y);
@@ -270,13 +375,13 @@ void ImageRenderer::Light(const LightModel& light, const Lamps& lamps, int x, in
       const I8 mask = ids == SplatInt(static_cast<std::int32_t>(id));
       const Triangle& triangle = triangles_[id - 1];
       const Drawn& drawn = drawn_[triangle.drawn];
-      std::int32_t& place = surface_of_[id - 1];
+      std::int32_t& place = shading.surface_of[id - 1];
       if (place < 0) {
-        place = static_cast<std::int32_t>(surfaces_.size());
-        surfaces_.push_back(SurfaceOf(drawn, triangle));
+        place = static_cast<std::int32_t>(shading.surfaces.size());
+        shading.surfaces.push_back(SurfaceOf(drawn, triangle));
       }
-      FillIn(drawn, triangle, surfaces_[static_cast<std::size_t>(place)], x, y, mask, is_first, ray,
-             surfaces);
+      FillIn(drawn, triangle, shading.surfaces[static_cast<std::size_t>(place)], x, y, mask,
+             is_first, ray, surfaces);
       is_first = false;
       left &= ~Bits(mask);
     }
@@ -297,6 +402,7 @@ void ImageRenderer::Light(const LightModel& light, const Lamps& lamps, int x, in
 void ImageRenderer::Blend(const CameraView& view, const RenderList& render_list,
                           const LightModel& light) {
   const F8 near = Splat(static_cast<float>(1 / view.parameters.near));
+  const int columns = (width_ + kTileWidth - 1) / kTileWidth;
   for (const Seen& seen : transparent_) {
     const Drawn drawn =
         DrawnItem(render_list, seen.item, *seen.level, view.world_from_camera.position);
@@ -308,6 +414,10 @@ void ImageRenderer::Blend(const CameraView& view, const RenderList& render_list,
             const I8 visible = covered & in_image & (inverse_w <= near) &
                                (inverse_w > Load(&inverse_w_[At(x, y)]));
             if (Bits(visible) == 0) return;
+            tiles_[static_cast<std::size_t>(y / kTileHeight * columns + x / kTileWidth)].is_kept =
+                tiles_[static_cast<std::size_t>(y / kTileHeight * columns +
+                                                std::min(x + 7, width_ - 1) / kTileWidth)]
+                    .is_kept = false;
             const F8x3 ray = RayAt(x, y);
             Surfaces surfaces;
             FillIn(drawn, t, surface, x, y, visible, true, ray, surfaces);

@@ -1,12 +1,16 @@
 // Renders the view of one camera.
 //
 // First the visible triangle of each pixel: opaque items from near to far, with the ground last.
-// Then each pixel is shaded once. Then transparent items are blended from far to near.
-// Threads  one thread at a time.
+// Then each pixel is shaded once, in tiles. Then transparent items are blended from far to near.
+//
+// A tile that shows only still bodies, on which no moving body casts a shadow, keeps its colours for
+// the next image of the same view. Such an image equals the one of a new ImageRenderer.
+// Threads  one thread at a time; it shades on the threads of a team.
 #pragma once
 
 #include <vector>
 
+#include "gsv/base/thread_team.h"
 #include "gsv/model/image.h"
 #include "gsv/rendering/lenses/ground_truth.h"
 #include "gsv/rendering/raster/lighting.h"
@@ -15,15 +19,18 @@ namespace gsv::rendering::raster {
 
 class ImageRenderer {
  public:
-  // Renders a posed render list, antialiased. `block` must be complete. If `shadow` is null, there
-  // are no shadows.
-  model::Image Draw(const CameraView& view, const RenderList& render_list, const FrameBlock& block,
-                    const SunShadow* shadow);
+  // Renders a posed render list, antialiased. `render_list_id` identifies it. `block` must be
+  // complete. If `shadow` is null, there are no shadows. `team` null: on the caller's thread.
+  model::Image Draw(const CameraView& view, const RenderList& render_list,
+                    std::uint64_t render_list_id, const FrameBlock& block, const SunShadow* shadow,
+                    base::ThreadTeam* team = nullptr);
   // Renders the depth and label image of a view.
   GroundTruth DrawGroundTruth(const CameraView& view, const RenderList& render_list,
                               const FrameBlock& block);
   // The number of allocated pixels.
   std::size_t pixels() const { return nearest_.size(); }
+  // Whether the last image had this view.
+  bool IsOf(const CameraView& view) const;
 
  private:
   struct Seen {
@@ -33,15 +40,43 @@ class ImageRenderer {
     const Level* level = nullptr;
   };
 
+  // The colours of still bodies depend on these.
+  struct Background {
+    CameraView view;
+    std::uint64_t render_list_id = 0;  // 0: none
+    int moved_count = 0;
+    bool has_shadow = false;
+    FrameBlock block{};
+  };
+  struct Tile {
+    bool is_kept = false;                           // rgba_ has its colours without moving bodies
+    ShadowRegion::Rectangle in_shadow{0, 0, 0, 0};  // where its shadows are looked up
+  };
+  // A box around the visible points of a tile, in the frame of FrustumOf().
+  struct TileBox {
+    bool is_empty = true;
+    geometry::Vector3 min, max;
+  };
+  // The data of one thread while it shades.
+  struct Shading {
+    std::vector<std::int32_t> surface_of;  // the index in surfaces by triangle number - 1, or -1
+    std::vector<TriangleSurface> surfaces;
+  };
+
   void Begin(const CameraView& view, const FrameBlock& block);
   void FindVisible(const CameraView& view, const RenderList& render_list);
   void Cover(const CameraView& view, const RenderList& render_list);
   bool IsHidden(const CameraView& view, const geometry::Vector3& centre, double radius) const;
   void CoverWith(std::uint32_t number, float nearest_w);
-  void Light(const LightModel& light);
-  void LightTile(const LightModel& light, int x0, int y0);
-  Lamps LampsOfTile(const LightModel& light, int x0, int y0, int x1, int y1) const;
-  void Light(const LightModel& light, const Lamps& lamps, int x, int y);
+  // Forgets the kept tiles if the background differs.
+  void SetBackground(const Background& background);
+  void Light(const LightModel& light, const SunShadow* shadow, base::ThreadTeam* team);
+  void LightTile(const LightModel& light, const SunShadow* shadow, int x0, int y0,
+                 Shading& shading);
+  bool IsStillTile(int x0, int y0, int x1, int y1) const;
+  TileBox BoxOfTile(int x0, int y0, int x1, int y1) const;
+  ShadowRegion::Rectangle InShadow(const TileBox& box) const;
+  void Light(const LightModel& light, const Lamps& lamps, int x, int y, Shading& shading);
   void Blend(const CameraView& view, const RenderList& render_list, const LightModel& light);
   model::Image Smooth() const;
   F8x3 RayAt(int x, int y) const;
@@ -57,13 +92,14 @@ class ImageRenderer {
   std::vector<float> inverse_w_;        // by pixel, of the nearest surface
   std::vector<std::uint32_t> nearest_;  // by pixel, the number of the triangle from 1; 0 is the sky
   std::vector<Triangle> triangles_;
-  // The index in surfaces_ by triangle number - 1, or -1.
-  std::vector<std::int32_t> surface_of_;
-  std::vector<TriangleSurface> surfaces_;
+  std::vector<Shading> shadings_;
   std::vector<Drawn> drawn_;
+  std::vector<std::uint8_t> is_still_;             // the same order as drawn_, for opaque items
   std::vector<std::int32_t> body_of_, visual_of_;  // the same order as drawn_, for opaque items
   std::vector<Seen> solid_, transparent_;
   std::vector<std::uint32_t> rgba_;
+  Background background_;
+  std::vector<Tile> tiles_;  // by rows
   Rasteriser rasteriser_;
 };
 

@@ -1,5 +1,7 @@
 #include "gsv/rendering/raster/raster_batch_renderer.h"
 
+#include <algorithm>
+
 #include "gsv/rendering/raster/image_renderer.h"
 #include "gsv/rendering/raster/raster_mesh.h"
 #include "gsv/rendering/raster/raster_texture.h"
@@ -29,15 +31,22 @@ base::Result<std::vector<std::shared_ptr<const model::Image>>> RasterBatchRender
   const bool shadows = lighting.sun_casts_shadows();
   if (shadows) shadow_.Draw(render_list, planned.id, lighting.to_sun(), views);
   std::vector<std::shared_ptr<const model::Image>> images(views.size());
+  const auto draw = [&](ImageRenderer& renderer, std::size_t i, base::ThreadTeam* team) {
+    FrameBlock block = lighting.BlockFor(views[i]);
+    const bool shaded = shadows && !shadow_.region().IsEmpty();
+    if (shaded) shadow_.region().Describe(views[i].world_from_camera.position, block);
+    images[i] = std::make_shared<const model::Image>(
+        renderer.Draw(views[i], render_list, planned.id, block, shaded ? &shadow_ : nullptr, team));
+  };
+  if (views.size() == 1) {
+    std::unique_ptr<ImageRenderer> renderer = TakeRenderer(views[0]);
+    draw(*renderer, 0, &team_);
+    GiveBack(std::move(renderer));
+    return images;
+  }
   team_.ParallelFor(views.size(), 1, [&](std::size_t begin, std::size_t end) {
-    std::unique_ptr<ImageRenderer> renderer = TakeRenderer();
-    for (std::size_t i = begin; i < end; ++i) {
-      FrameBlock block = lighting.BlockFor(views[i]);
-      const bool shaded = shadows && !shadow_.region().IsEmpty();
-      if (shaded) shadow_.region().Describe(views[i].world_from_camera.position, block);
-      images[i] = std::make_shared<const model::Image>(
-          renderer->Draw(views[i], render_list, block, shaded ? &shadow_ : nullptr));
-    }
+    std::unique_ptr<ImageRenderer> renderer = TakeRenderer(views[begin]);
+    for (std::size_t i = begin; i < end; ++i) draw(*renderer, i, nullptr);
     GiveBack(std::move(renderer));
   });
   return images;
@@ -49,7 +58,7 @@ base::Result<std::vector<std::shared_ptr<const GroundTruth>>> RasterBatchRendere
   planned.render_list->Pose(snapshot, RenderList::Glow::kHidden);
   std::vector<std::shared_ptr<const GroundTruth>> truths(views.size());
   team_.ParallelFor(views.size(), 1, [&](std::size_t begin, std::size_t end) {
-    std::unique_ptr<ImageRenderer> renderer = TakeRenderer();
+    std::unique_ptr<ImageRenderer> renderer = TakeRenderer(views[begin]);
     for (std::size_t i = begin; i < end; ++i) {
       truths[i] = std::make_shared<const GroundTruth>(renderer->DrawGroundTruth(
           views[i], *planned.render_list, planned.lighting->BlockFor(views[i])));
@@ -59,11 +68,18 @@ base::Result<std::vector<std::shared_ptr<const GroundTruth>>> RasterBatchRendere
   return truths;
 }
 
-std::unique_ptr<ImageRenderer> RasterBatchRenderer::TakeRenderer() {
+std::unique_ptr<ImageRenderer> RasterBatchRenderer::TakeRenderer(const CameraView& view) {
+  // So many views keep what is still in their images.
+  constexpr std::size_t kMinKept = 4;
   const base::MutexLock lock(mutex_);
-  if (idle_.empty()) return std::make_unique<ImageRenderer>();
-  auto renderer = std::move(idle_.back());
-  idle_.pop_back();
+  auto found = std::find_if(idle_.begin(), idle_.end(),
+                            [&](const auto& renderer) { return renderer->IsOf(view); });
+  if (found == idle_.end()) {
+    if (idle_.size() < kMinKept) return std::make_unique<ImageRenderer>();
+    found = idle_.begin();  // the one that was not used for the longest time
+  }
+  auto renderer = std::move(*found);
+  idle_.erase(found);
   return renderer;
 }
 

@@ -33,7 +33,8 @@ class RasterBatchRenderer final : public BatchRenderer {
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) override;
 
  private:
-  std::unique_ptr<ImageRenderer> TakeRenderer();
+  // Prefers the renderer whose last image had this view.
+  std::unique_ptr<ImageRenderer> TakeRenderer(const CameraView& view);
   void GiveBack(std::unique_ptr<ImageRenderer> renderer);
 
   base::ThreadTeam team_;

@@ -21,6 +21,8 @@ class SunShadow {
             const geometry::Vector3& to_sun, const std::vector<CameraView>& views);
 
   const ShadowRegion& region() const { return region_; }
+  // The parts of the map with shadows of moving casters.
+  const std::vector<ShadowRegion::Rectangle>& moved() const { return moved_; }
 
   // The fraction of sunlight at points of the map, in units of its sides from its corner. z grows
   // towards the sun. The fraction is 1 outside the map.

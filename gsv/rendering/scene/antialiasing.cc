@@ -1,6 +1,7 @@
 #include "gsv/rendering/scene/antialiasing.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 namespace gsv::rendering {
@@ -37,18 +38,9 @@ class Smoother {
     const std::size_t pixels = static_cast<std::size_t>(width) * height;
     image_.pixels.resize(pixels * 3);
     along_rows_.resize(pixels);
-    for (std::size_t p = 0; p < pixels; ++p) {
-      std::uint8_t* to = &image_.pixels[3 * p];
-      to[0] = rgba[4 * p], to[1] = rgba[4 * p + 1], to[2] = rgba[4 * p + 2];
-      along_rows_[p] = rgba[4 * p + 3];
-    }
+    Split(rgba, pixels);
     along_columns_.resize(pixels);
-    for (int y = 0; y < height; ++y) {
-      const std::uint8_t* row = &along_rows_[static_cast<std::size_t>(y) * width];
-      for (int x = 0; x < width; ++x) {
-        along_columns_[static_cast<std::size_t>(x) * height + y] = row[x];
-      }
-    }
+    Transpose(width, height);
   }
 
   model::Image Smooth() {
@@ -59,6 +51,42 @@ class Smoother {
   }
 
  private:
+  // Splits pixels into colours and surface numbers.
+  void Split(const std::uint8_t* rgba, std::size_t pixels) {
+    static_assert(std::endian::native == std::endian::little);
+    std::size_t p = 0;
+    for (; p + 4 <= pixels; p += 4) {
+      std::uint32_t in[4], out[3];
+      std::memcpy(in, rgba + 4 * p, sizeof in);
+      out[0] = (in[0] & 0xffffff) | in[1] << 24;
+      out[1] = (in[1] >> 8 & 0xffff) | in[2] << 16;
+      out[2] = (in[2] >> 16 & 0xff) | in[3] << 8;
+      std::memcpy(&image_.pixels[3 * p], out, sizeof out);
+      const std::uint32_t numbers =
+          in[0] >> 24 | (in[1] >> 24) << 8 | (in[2] >> 24) << 16 | (in[3] & 0xff000000);
+      std::memcpy(&along_rows_[p], &numbers, sizeof numbers);
+    }
+    for (; p < pixels; ++p) {
+      std::copy(rgba + 4 * p, rgba + 4 * p + 3, &image_.pixels[3 * p]);
+      along_rows_[p] = rgba[4 * p + 3];
+    }
+  }
+
+  // In blocks that fit into the cache.
+  void Transpose(int width, int height) {
+    constexpr int kBlock = 32;
+    for (int y0 = 0; y0 < height; y0 += kBlock) {
+      for (int x0 = 0; x0 < width; x0 += kBlock) {
+        const int y1 = std::min(y0 + kBlock, height), x1 = std::min(x0 + kBlock, width);
+        for (int x = x0; x < x1; ++x) {
+          std::uint8_t* column = &along_columns_[static_cast<std::size_t>(x) * height];
+          const std::uint8_t* from = &along_rows_[static_cast<std::size_t>(x)];
+          for (int y = y0; y < y1; ++y) column[y] = from[static_cast<std::size_t>(y) * width];
+        }
+      }
+    }
+  }
+
   // `line_stride` and `stride` are the distances, in pixels of the image, between lines and between
   // the pixels of a line.
   void FindEdges(const Surfaces& s, int line_stride, int stride) {
