@@ -21,7 +21,7 @@ const { WebSocket } = require("ws");
 
 const TURN_RATE = 0.2;
 const SONAR_X = 0.25;
-const CAPABILITIES = ["time", "connectionGraph", "services", "parameters", "parametersSubscribe"];
+const CAPABILITIES = ["time", "connectionGraph", "services", "parameters", "parametersSubscribe", "gsvViews"];
 const TOPICS = ["/clock", "/gsv/commands", "/gsv/contacts", "/gsv/poses", "/tf", "/tf_static", "/gsv/status", "/gsv/events", "/gsv/beams",
   "/robot_0/front_sonar", "/robot_0/lidar", "/robot_0/camera"];
 

@@ -5,6 +5,7 @@
 #include "gsv/formats/gltf/gltf_writer.h"
 #include "gsv/gateway/access/viewers_api.h"
 #include "gsv/gateway/api/api.h"
+#include "gsv/gateway/drawing/pushed_views.h"
 #include "gsv/gateway/drawing/view_routes.h"
 #include "gsv/gateway/history/history_api.h"
 #include "gsv/gateway/http/openapi.h"
@@ -93,15 +94,25 @@ class LiveRoutes final : public RouteSet {
   base::Result<std::shared_ptr<Hub>> FindHub(const Request& request) {
     const auto simulation = FindSimulation(request);
     if (!simulation) return base::Fail(simulation.error());
-    return publisher_.HubOf(*simulation);
+    std::shared_ptr<Hub> hub = publisher_.HubOf(*simulation);
+    hub->Offer(std::make_shared<drawing::PushedViews>(
+        drawer_, [weak = std::weak_ptr(*simulation)] { return ViewedOf(weak.lock()); }));
+    return hub;
   }
 
   base::Result<drawing::ViewedWorld> FindViewed(const Request& request) {
     const auto found = FindSimulation(request);
     if (!found) return base::Fail(found.error());
-    return drawing::ViewedWorld{(*found)->status().name, *found, [simulation = *found] {
-                                  return drawing::MakeLiveSource(simulation);
-                                }};
+    return ViewedOf(*found);
+  }
+
+  static base::Result<drawing::ViewedWorld> ViewedOf(
+      const std::shared_ptr<simulation::Simulation>& simulation) {
+    if (simulation == nullptr) {
+      return base::Fail(base::ErrorCode::kEnded, "the simulation has been removed");
+    }
+    return drawing::ViewedWorld{simulation->specification().name, simulation,
+                                [simulation] { return drawing::MakeLiveSource(simulation); }};
   }
 
   const std::vector<Route> more_routes_;

@@ -4,6 +4,7 @@
 
 #include "gsv/gateway/access/viewers_api.h"
 #include "gsv/gateway/api/replay_api.h"
+#include "gsv/gateway/drawing/pushed_views.h"
 #include "gsv/gateway/drawing/view_routes.h"
 #include "gsv/gateway/http/openapi.h"
 #include "gsv/gateway/recordings/recordings_api.h"
@@ -48,13 +49,19 @@ class ReplayRouteSet final : public RouteSet {
   }
 
  private:
-  base::Result<std::shared_ptr<Hub>> FindHub(const Request& request) const {
+  base::Result<std::shared_ptr<Hub>> FindHub(const Request& request) {
     if (auto ok = CheckName(request); !ok) return base::Fail(ok.error());
-    return player_.hub();
+    std::shared_ptr<Hub> hub = player_.hub();
+    hub->Offer(std::make_shared<drawing::PushedViews>(drawer_, [this] { return Viewed(); }));
+    return hub;
   }
 
   base::Result<drawing::ViewedWorld> FindViewed(const Request& request) const {
     if (auto ok = CheckName(request); !ok) return base::Fail(ok.error());
+    return Viewed();
+  }
+
+  base::Result<drawing::ViewedWorld> Viewed() const {
     return drawing::ViewedWorld{player_.name(), player_pointer_, [player = player_pointer_] {
                                   return drawing::MakeReplaySource(player);
                                 }};

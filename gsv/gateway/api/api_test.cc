@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -200,7 +201,8 @@ TEST_F(ApiTest, RefusesBadCommands) {
                            R"({"count":"3"})", R"({"count":1000000001})"}) {
     EXPECT_FALSE(AskJson("POST", path_ + "/step", 400, body)["error"].empty()) << body;
   }
-  for (const char* body : {"1", R"({"linear_m_s":"fast"})", R"({"angular_rad_s":null})"}) {
+  for (const char* body : {"1", R"({"linear_m_s":"fast"})", R"({"angular_rad_s":null})",
+                           R"({"timeout_s":0})", R"({"timeout_s":61})", R"({"timeout_s":"1"})"}) {
     EXPECT_FALSE(AskJson("POST", path_ + "/robots/avatar/drive", 400, body)["error"].empty());
   }
 }
@@ -211,6 +213,15 @@ TEST_F(ApiTest, AnAvatarIsDriven) {
   EXPECT_EQ(simulation_->avatar_command(), (world::DriveCommand{0.5, -0.25, 1}));
   AskJson("POST", path_ + "/robots/avatar/drive", 200, R"({"angular_rad_s":2})");
   EXPECT_EQ(simulation_->avatar_command(), (world::DriveCommand{0, 0, 2}));
+}
+
+TEST_F(ApiTest, AnAvatarStopsWhenNoFurtherCommandComes) {
+  AskJson("POST", path_ + "/robots/avatar/drive", 200, R"({"linear_m_s":0.5,"timeout_s":0.01})");
+  while (simulation_->avatar_command() != world::DriveCommand{}) std::this_thread::yield();
+  // A command without the timeout lasts.
+  AskJson("POST", path_ + "/robots/avatar/drive", 200, R"({"linear_m_s":1,"timeout_s":60})");
+  AskJson("POST", path_ + "/robots/avatar/drive", 200, R"({"linear_m_s":0.5})");
+  EXPECT_EQ(simulation_->avatar_command(), (world::DriveCommand{0.5, 0, 0}));
 }
 
 TEST_F(ApiTest, ARobotWithABehaviourIsNotDriven) {

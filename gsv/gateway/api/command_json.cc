@@ -90,10 +90,11 @@ std::string CommandsJson() {
   return list.dump();
 }
 
-base::Result<world::DriveCommand> ParseDriveCommand(std::string_view body) {
+base::Result<TimedDriveCommand> ParseDriveCommand(std::string_view body) {
   const base::Result<Json> json = ParseObject(body);
   if (!json) return base::Fail(json.error());
-  world::DriveCommand command;
+  TimedDriveCommand timed;
+  world::DriveCommand& command = timed.command;
   const std::pair<const char*, double*> fields[]{{"linear_m_s", &command.linear},
                                                  {"lateral_m_s", &command.lateral},
                                                  {"angular_rad_s", &command.angular}};
@@ -102,7 +103,13 @@ base::Result<world::DriveCommand> ParseDriveCommand(std::string_view body) {
     if (!number) return base::Fail(number.error());
     *value = *number;
   }
-  return command;
+  if (!json->contains("timeout_s")) return timed;
+  const base::Result<double> timeout = NumberOrZero(*json, "timeout_s");
+  if (!timeout || !(*timeout > 0) || *timeout > kMaxDriveTimeout) {
+    return Invalid("'timeout_s' must be a number above 0, at most 60");
+  }
+  timed.timeout = *timeout;
+  return timed;
 }
 
 base::Result<world::JointCommand> ParseJointCommand(std::string_view body) {

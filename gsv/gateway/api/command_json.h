@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,8 +24,15 @@ base::Result<simulation::Arguments> ParseArguments(const simulation::Command& co
 // without a value are left out.
 std::string CommandsJson();
 
-// Parses {"linear_m_s": v, "lateral_m_s": v, "angular_rad_s": w}. A missing value is 0.
-base::Result<world::DriveCommand> ParseDriveCommand(std::string_view body);
+// The longest time in wall-clock seconds after which a robot stops by itself.
+inline constexpr double kMaxDriveTimeout = 60;
+struct TimedDriveCommand {
+  world::DriveCommand command;
+  std::optional<double> timeout;  // s; nothing: the command lasts
+};
+// Parses {"linear_m_s": v, "lateral_m_s": v, "angular_rad_s": w, "timeout_s": t}. A missing value is
+// 0, and a missing timeout is none.
+base::Result<TimedDriveCommand> ParseDriveCommand(std::string_view body);
 
 // Parses {"position": v}, {"velocity": v} or {"effort": v}: exactly one of them, in SI units.
 base::Result<world::JointCommand> ParseJointCommand(std::string_view body);

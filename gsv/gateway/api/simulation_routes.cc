@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "gsv/gateway/api/command_json.h"
+#include "gsv/gateway/api/command_timeouts.h"
 #include "gsv/gateway/api/factory_api.h"
 #include "gsv/gateway/api/joint_routes.h"
 #include "gsv/gateway/api/scenario_json.h"
@@ -30,8 +31,16 @@ SimulationHandler Applying(const simulation::Command& command) {
   };
 }
 
+// The robot stands still, unless a behaviour controls it by now.
+void StopRobot(const std::weak_ptr<Simulation>& weak, const std::string& robot) {
+  const SimulationPointer simulation = weak.lock();
+  const auto agent = simulation ? simulation->agent(robot) : nullptr;
+  if (agent && !ControlledByBehaviour(*simulation, robot)) (void)agent->Command({});
+}
+
 // Drives a robot. A robot with a behaviour accepts only the commands of its behaviour.
-Response Drive(const SimulationPointer& simulation, const Request& request) {
+Response Drive(CommandTimeouts& timeouts, const SimulationPointer& simulation,
+               const Request& request) {
   const std::string& robot = request.Parameter("robot");
   const std::shared_ptr<simulation::Agent> agent = simulation->agent(robot);
   if (!agent) return ErrorResponse(404, "there is no robot '" + robot + "'");
@@ -43,8 +52,18 @@ Response Drive(const SimulationPointer& simulation, const Request& request) {
   if (const auto reason = ControlledByBehaviour(*simulation, robot)) {
     return ErrorResponse(409, *reason);
   }
-  const base::Result<world::DriveCommand> command = ParseDriveCommand(request.body);
-  return command ? Done(agent->Command(*command)) : ErrorResponse(command.error());
+  const base::Result<TimedDriveCommand> timed = ParseDriveCommand(request.body);
+  if (!timed) return ErrorResponse(timed.error());
+  const std::string key = simulation->specification().name + '\n' + robot;
+  timeouts.Cancel(key);
+  const base::Status done = agent->Command(timed->command);
+  if (done && timed->timeout) {
+    timeouts.Set(key,
+                 std::chrono::duration_cast<std::chrono::nanoseconds>(
+                     std::chrono::duration<double>(*timed->timeout)),
+                 [weak = std::weak_ptr(simulation), robot] { StopRobot(weak, robot); });
+  }
+  return Done(done);
 }
 
 Response RemoveRobot(const SimulationPointer& simulation, const Request& request) {
@@ -94,11 +113,15 @@ std::vector<Route> BodyRoutes(const std::shared_ptr<SimulationDirectory>& direct
   using enum Permission;
   using enum Pool;
   const std::string simulation = "/api/simulations/{name}";
+  const auto timeouts = std::make_shared<CommandTimeouts>();
   return {
       {"DELETE", simulation + "/robots/{robot}", kControl, true, kCommanders,
        OfSimulation(directory, &RemoveRobot), "Remove a robot or an avatar"},
       {"POST", simulation + "/robots/{robot}/drive", kControl, true, kCommanders,
-       OfSimulation(directory, &Drive),
+       OfSimulation(directory,
+                    [timeouts](const SimulationPointer& of_name, const Request& request) {
+                      return Drive(*timeouts, of_name, request);
+                    }),
        "Set the velocity of an avatar, or of a robot without a behaviour"},
       {"DELETE", simulation + "/objects/{object}", kControl, true, kCommanders,
        OfSimulation(directory, &RemoveObject), "Remove an object"},

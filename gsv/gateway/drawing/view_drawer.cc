@@ -88,6 +88,11 @@ void ViewDrawer::Ask(std::shared_ptr<Seat> seat, std::uint64_t after, Clock::tim
   answer(Fail(Ended()));
 }
 
+bool ViewDrawer::Withdraw(const Seat& seat) {
+  const base::MutexLock lock(mutex_);
+  return std::erase_if(pending_, [&](const Pending& each) { return each.seat.get() == &seat; }) > 0;
+}
+
 void ViewDrawer::Stop() {
   {
     const base::MutexLock lock(mutex_);
@@ -148,7 +153,7 @@ bool ViewDrawer::Serve(const std::string& name) {
   base::Result<ViewInstant> instant =
       source ? source->Now()
              : base::Result<ViewInstant>(Fail(ErrorCode::kEnded, "the simulation is gone"));
-  std::uint64_t number = 0;
+  Seen seen;
   if (instant) {
     const base::MutexLock lock(mutex_);
     World& world = worlds_[name];
@@ -157,14 +162,15 @@ bool ViewDrawer::Serve(const std::string& name) {
     if (world.snapshot != instant->snapshot) {
       world.snapshot = instant->snapshot;
       world.number = ++next_number_;
+      world.seen = std::chrono::system_clock::now();
     }
     world.used = Clock::now();
-    number = world.number;
+    seen = {world.number, world.seen};
   }
-  std::vector<Pending> due = TakeDue(name, number);
+  std::vector<Pending> due = TakeDue(name, seen.number);
   if (due.empty()) return false;
   if (instant) {
-    Draw(*instant, number, std::move(due));
+    Draw(*instant, seen, std::move(due));
   } else {
     for (const Pending& each : due) each.answer(Fail(instant.error()));
   }
@@ -187,7 +193,7 @@ std::vector<ViewDrawer::Pending> ViewDrawer::TakeDue(const std::string& name,
   return due;
 }
 
-void ViewDrawer::Draw(const ViewInstant& instant, std::uint64_t number, std::vector<Pending> due) {
+void ViewDrawer::Draw(const ViewInstant& instant, const Seen& seen, std::vector<Pending> due) {
   while (!due.empty()) {
     // All requests for the same image.
     const ViewRequest request = due.front().seat->request();
@@ -199,7 +205,7 @@ void ViewDrawer::Draw(const ViewInstant& instant, std::uint64_t number, std::vec
     due.erase(due.begin(), others);
     base::Result<DrawnImage> answer;
     const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {
-      return kept.image.number == number && kept.request == request;
+      return kept.image.number == seen.number && kept.request == request;
     });
     if (known != kept_.end()) {
       answer = known->image;
@@ -214,8 +220,9 @@ void ViewDrawer::Draw(const ViewInstant& instant, std::uint64_t number, std::vec
       if (renderer_ != nullptr) {
         const auto image = renderer_->Draw(instant.snapshot, *placed);
         const auto bytes = image ? Encode(**image, request) : Fail(image.error());
-        answer = bytes ? base::Result<DrawnImage>(DrawnImage{*bytes, number, instant.time})
-                       : Fail(bytes.error());
+        answer =
+            bytes ? base::Result<DrawnImage>(DrawnImage{*bytes, seen.number, instant.time, seen.at})
+                  : Fail(bytes.error());
       }
     }
     if (answer && known == kept_.end()) {

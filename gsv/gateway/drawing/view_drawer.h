@@ -45,6 +45,7 @@ struct DrawnImage {
   SharedBytes bytes;
   std::uint64_t number = 0;  // increases with each change of the world
   base::SimTime time{};
+  std::chrono::system_clock::time_point seen{};  // when the drawer first saw this state
 };
 
 class ViewDrawer {
@@ -71,6 +72,10 @@ class ViewDrawer {
   void Ask(std::shared_ptr<Seat> seat, std::uint64_t after, Clock::time_point earliest,
            std::chrono::milliseconds timeout, Answer answer);
 
+  // Withdraws the request of a seat. False: it is being drawn, or was answered. True: no answer
+  // will come.
+  bool Withdraw(const Seat& seat);
+
   // Answers all pending requests with kEnded, and refuses further ones.
   void Stop();
 
@@ -80,6 +85,7 @@ class ViewDrawer {
     std::shared_ptr<ViewSource> source;
     std::shared_ptr<const world::Snapshot> snapshot;  // the newest one that was checked
     std::uint64_t number = 0;                         // of that
+    std::chrono::system_clock::time_point seen{};     // and when it came
     Clock::time_point used{};
   };
   struct Pending {
@@ -98,7 +104,11 @@ class ViewDrawer {
   // Answers the requests of one world that are due. Returns whether there were any.
   bool Serve(const std::string& name);
   std::vector<Pending> TakeDue(const std::string& name, std::uint64_t number);
-  void Draw(const ViewInstant& instant, std::uint64_t number, std::vector<Pending> due);
+  struct Seen {
+    std::uint64_t number = 0;
+    std::chrono::system_clock::time_point at{};
+  };
+  void Draw(const ViewInstant& instant, const Seen& seen, std::vector<Pending> due);
   base::Result<SharedBytes> Encode(const model::Image& image, const ViewRequest& request) const;
 
   const DrawingLimits limits_;

@@ -1,82 +1,27 @@
 #include "gsv/gateway/drawing/view_drawer.h"
 
-#include <atomic>
 #include <future>
 
 #include <gtest/gtest.h>
 
 #include "gsv/gateway/drawing/view_routes.h"
+#include "gsv/gateway/testing/fake_view_source.h"
 
 namespace gsv::gateway::drawing {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::BorrowedViewSource;
+using testing::FakeViewSource;
 constexpr auto kLimit = 60s;
-
-// A world with a green floor, whose snapshot changes on request.
-class FakeSource final : public ViewSource {
- public:
-  FakeSource() { Change(); }
-
-  base::Result<ViewInstant> Now() override {
-    ++looks;
-    if (has_ended) return base::Fail(base::ErrorCode::kEnded, "the simulation has been removed");
-    const base::MutexLock lock(mutex_);
-    const auto snapshot = snapshot_;
-    return ViewInstant{
-        snapshot,
-        {[](const std::string&) { return std::optional<geometry::Pose>(); },
-         [](const std::string&, const std::string&) -> base::Result<view::SensorView> {
-           return base::Fail(base::ErrorCode::kNotFound, "there is no camera");
-         },
-         [] {
-           return std::vector<geometry::Vector3>{{-1, -1, 0}, {1, 1, 1}};
-         }},
-        snapshot->state.time};
-  }
-
-  void Change() {
-    auto model = std::make_shared<model::Model>();
-    model->links.resize(1);
-    model->links[0].visuals.resize(1);
-    model->links[0].visuals[0].shape = geometry::Box{{1, 1, 1}};
-    world::Body body;
-    body.name = "box";
-    body.model = model;
-    auto snapshot = std::make_shared<world::Snapshot>();
-    snapshot->layout =
-        world::MakeLayout(1, {body}, std::make_shared<const model::WorldDescription>());
-    snapshot->state = world::InitialState(*snapshot->layout);
-    const base::MutexLock lock(mutex_);
-    snapshot->state.time = std::chrono::seconds(++changes_);
-    snapshot_ = snapshot;
-  }
-
-  std::atomic<int> looks = 0;
-  std::atomic<bool> has_ended = false;
-
- private:
-  base::Mutex mutex_;
-  int changes_ GSV_GUARDED_BY(mutex_) = 0;
-  std::shared_ptr<const world::Snapshot> snapshot_ GSV_GUARDED_BY(mutex_);
-};
-
-// A source that refers to one that the test owns, for a ViewDrawer.
-class Borrowed final : public ViewSource {
- public:
-  explicit Borrowed(std::shared_ptr<FakeSource> source) : source_(std::move(source)) {}
-  base::Result<ViewInstant> Now() override { return source_->Now(); }
-
- private:
-  const std::shared_ptr<FakeSource> source_;
-};
 
 class ViewDrawerTest : public ::testing::Test {
  protected:
   ViewDrawerTest() { Show(drawer_); }
 
   void Show(ViewDrawer& drawer) {
-    drawer.SetSource("office", source_, [this] { return std::make_unique<Borrowed>(source_); });
+    drawer.SetSource("office", source_,
+                     [this] { return std::make_unique<BorrowedViewSource>(source_); });
   }
 
   static ViewRequest Request(int width = 32) {
@@ -106,7 +51,7 @@ class ViewDrawerTest : public ::testing::Test {
     return future.get();
   }
 
-  const std::shared_ptr<FakeSource> source_ = std::make_shared<FakeSource>();
+  const std::shared_ptr<FakeViewSource> source_ = std::make_shared<FakeViewSource>();
   ViewDrawer drawer_{DrawingLimits{.views = 2, .viewers = 3, .pixels = 10'000}};
 };
 

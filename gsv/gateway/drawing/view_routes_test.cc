@@ -6,6 +6,8 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "gsv/gateway/gateway.h"
@@ -139,6 +141,21 @@ TEST_F(ViewRoutesTest, StreamsImagesUntilTheClientLeaves) {
   gateway_->Stop();  // this ends the stream
   while (!connection.ReceiveSome().empty()) {
   }
+}
+
+TEST_F(ViewRoutesTest, PushesImagesOverTheWebSocket) {
+  testing::Viewer viewer(gateway_->port());
+  const nlohmann::json capabilities = viewer.ReceiveText("serverInfo")["capabilities"];
+  EXPECT_NE(std::find(capabilities.begin(), capabilities.end(), "gsvViews"), capabilities.end());
+  viewer.SendText(R"({"op":"gsvSubscribeView","id":9,"camera":"size=64x48","sequence":2})");
+  const testing::ReceivedData image = viewer.ReceiveData(9);
+  EXPECT_EQ(image.time_ns, 0u);
+  EXPECT_EQ(image.payload.substr(0, 4), std::string("\2\0\0\0", 4));
+  EXPECT_EQ(SizeOf(image.payload.substr(20)), std::pair(64, 48));
+  viewer.SendText(R"({"op":"gsvSubscribeView","id":9,"camera":"follow=nobody","sequence":3})");
+  EXPECT_NE(
+      viewer.ReceiveText("gsvViewFailure")["message"].dump().find("there is no robot 'nobody'"),
+      std::string::npos);
 }
 
 TEST_F(ViewRoutesTest, NeedsATokenWhichMayBeInTheQuery) {

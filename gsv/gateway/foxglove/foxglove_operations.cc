@@ -104,6 +104,10 @@ std::string ServiceFailureText(std::uint32_t service, std::uint32_t call,
                         {"message", message}});
 }
 
+std::string ViewFailureText(std::uint32_t view, std::string_view message) {
+  return OperationText({{"op", "gsvViewFailure"}, {"id", view}, {"message", message}});
+}
+
 std::string ParameterValuesText(std::span<const Parameter> parameters, const std::string& request) {
   Json list = Json::array();
   for (const Parameter& parameter : parameters) list.push_back(ToJson(parameter));

@@ -57,6 +57,8 @@ struct PlaybackState {
 // Server to client.
 std::string AdvertiseServicesText(std::span<const Service> services);
 std::string ServiceFailureText(std::uint32_t service, std::uint32_t call, std::string_view message);
+// Why a view is not drawn; it has ended.
+std::string ViewFailureText(std::uint32_t view, std::string_view message);
 std::string ParameterValuesText(std::span<const Parameter> parameters, const std::string& request);
 // Returns the update from `before` to `after`; empty if they are equal.
 std::string GraphUpdateText(const ConnectionGraph& before, const ConnectionGraph& after);

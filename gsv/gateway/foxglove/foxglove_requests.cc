@@ -111,6 +111,34 @@ base::Result<ClientMessage> ParseSetParameters(const Json& json) {
   return message;
 }
 
+// Limit of the parameters of a view.
+constexpr std::size_t kMaxCameraLength = 1024;
+
+base::Result<ClientMessage> ParseWatchView(const Json& json) {
+  const std::optional<std::uint32_t> id = AsId(Member(json, "id"));
+  const Json& camera = Member(json, "camera");
+  const std::optional<std::uint32_t> sequence = AsId(Member(json, "sequence"));
+  const bool is_short =
+      camera.is_string() && camera.get_ref<const std::string&>().size() <= kMaxCameraLength;
+  if (id && sequence && is_short) return WatchView{*id, camera.get<std::string>(), *sequence};
+  return Malformed(
+      "'gsvSubscribeView' needs the numbers 'id' and 'sequence' and the string 'camera' of at most "
+      "1024 bytes");
+}
+
+base::Result<ClientMessage> ParseUnwatchView(const Json& json) {
+  const std::optional<std::uint32_t> id = AsId(Member(json, "id"));
+  if (id) return UnwatchView{*id};
+  return Malformed("'gsvUnsubscribeView' needs the number 'id'");
+}
+
+base::Result<ClientMessage> ParseViewShown(const Json& json) {
+  const std::optional<std::uint32_t> id = AsId(Member(json, "id"));
+  const Json& image = Member(json, "image");
+  if (id && image.is_number_unsigned()) return ViewShown{*id, image.get<std::uint64_t>()};
+  return Malformed("'gsvViewShown' needs the numbers 'id' and 'image'");
+}
+
 // Reads values from bytes. A value beyond the end is 0.
 class BytesReader {
  public:
@@ -182,6 +210,9 @@ base::Result<ClientMessage> ParseClientMessage(std::string_view text) {
   if (name == "unsubscribeParameterUpdates") return ParseWatchParameters(json, true);
   if (name == "subscribeConnectionGraph") return WatchGraph{false};
   if (name == "unsubscribeConnectionGraph") return WatchGraph{true};
+  if (name == "gsvSubscribeView") return ParseWatchView(json);
+  if (name == "gsvUnsubscribeView") return ParseUnwatchView(json);
+  if (name == "gsvViewShown") return ParseViewShown(json);
   return Unsupported{name.substr(0, 64)};
 }
 

@@ -53,13 +53,27 @@ struct PlaybackControl {
   std::optional<std::uint64_t> seek_ns;
   std::string request;
 };
+// The images of a view that the server draws: an extension of the protocol (docs/formats/live.md).
+struct WatchView {
+  SubscriptionId id = 0;
+  std::string camera;          // parameters as in the query of /view.mjpeg
+  std::uint32_t sequence = 0;  // returned with each image for this camera
+};
+struct UnwatchView {
+  SubscriptionId id = 0;
+};
+// The client has shown an image, or has left it out.
+struct ViewShown {
+  SubscriptionId id = 0;
+  std::uint64_t image = 0;
+};
 // A message of an unsupported capability.
 struct Unsupported {
   std::string op;
 };
 using ClientMessage =
     std::variant<Subscribe, Unsubscribe, GetParameters, SetParameters, WatchParameters, WatchGraph,
-                 ServiceCall, PlaybackControl, Unsupported>;
+                 ServiceCall, PlaybackControl, WatchView, UnwatchView, ViewShown, Unsupported>;
 
 // Both fail with kCorrupt for invalid messages.
 base::Result<ClientMessage> ParseClientMessage(std::string_view text);

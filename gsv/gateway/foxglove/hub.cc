@@ -29,6 +29,16 @@ Hub::Hub(foxglove::ServerInfo info, std::function<void()> on_demand,
   for (std::string& name : requests_.capabilities()) info_.capabilities.push_back(std::move(name));
 }
 
+void Hub::Offer(std::shared_ptr<Views> views) {
+  const base::MutexLock lock(mutex_);
+  if (views_ == nullptr) views_ = std::move(views);
+}
+
+std::shared_ptr<Views> Hub::views() const {
+  const base::MutexLock lock(mutex_);
+  return views_;
+}
+
 void Hub::Add(std::shared_ptr<Client> client, std::string_view subprotocol) {
   // The older protocol has no playbacks.
   const bool knows_playback = subprotocol == foxglove::kSubprotocols.front();
@@ -36,6 +46,7 @@ void Hub::Add(std::shared_ptr<Client> client, std::string_view subprotocol) {
     const base::MutexLock lock(mutex_);
     foxglove::ServerInfo info = info_;
     if (!knows_playback) info.playback.reset();
+    if (views_) info.capabilities.emplace_back(kViewsCapability);
     client->SendText(SharedBytes(foxglove::ServerInfoText(info)));
     if (closed_) {
       client->Close(close_code_, close_reason_);
@@ -53,6 +64,7 @@ void Hub::Add(std::shared_ptr<Client> client, std::string_view subprotocol) {
 
 void Hub::Remove(Client* client) {
   requests_.Forget(client);
+  if (const auto drawn = views()) drawn->Forget(client);
   {
     const base::MutexLock lock(mutex_);
     members_.erase(client);
@@ -94,9 +106,18 @@ void Hub::Take(Client* client, const foxglove::ClientMessage& message) {
       [&](const auto& content) {
         if constexpr (requires { requests_.Take(sender, content); })
           requests_.Take(sender, content);
+        if constexpr (requires(Views & drawn) { drawn.Take(sender, content); })
+          TakeView(sender, content);
       },
       message);
   on_demand_();
+}
+
+template <typename Request>
+void Hub::TakeView(const std::shared_ptr<Client>& client, const Request& request) {
+  if (const auto drawn = views()) return drawn->Take(client, request);
+  client->SendText(
+      SharedBytes(foxglove::ViewFailureText(request.id, "this server draws no views")));
 }
 
 void Hub::Apply(Member& member, const foxglove::Subscribe& message) {

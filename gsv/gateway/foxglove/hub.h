@@ -20,6 +20,7 @@
 #include "gsv/base/mutex.h"
 #include "gsv/gateway/foxglove/client.h"
 #include "gsv/gateway/foxglove/client_requests.h"
+#include "gsv/gateway/foxglove/views.h"
 
 namespace gsv::gateway {
 
@@ -29,6 +30,9 @@ class Hub {
   // return at once. `operations` null: clients can only subscribe.
   Hub(foxglove::ServerInfo info, std::function<void()> on_demand,
       std::shared_ptr<Operations> operations = nullptr);
+
+  // Offers drawn views to later clients. Only the first call has an effect.
+  void Offer(std::shared_ptr<Views> views);
 
   // The name of the simulation in the server info; empty: none.
   const std::string& simulation() const { return simulation_; }
@@ -95,6 +99,8 @@ class Hub {
 
   void Take(Client* client, const foxglove::ClientMessage& message);
 
+  template <typename Request>
+  void TakeView(const std::shared_ptr<Client>& client, const Request& request);
   void Apply(Member& member, const foxglove::Subscribe& message) GSV_REQUIRES(mutex_);
   void Apply(Member& member, const foxglove::Unsubscribe& message) GSV_REQUIRES(mutex_);
   void Apply(Member& member, const foxglove::WatchGraph& message) GSV_REQUIRES(mutex_);
@@ -103,6 +109,7 @@ class Hub {
   bool IsGraphWatched() const GSV_REQUIRES(mutex_);
   foxglove::ConnectionGraph Graph() const GSV_REQUIRES(mutex_);
   void PublishGraph();
+  std::shared_ptr<Views> views() const;
 
   foxglove::ServerInfo info_;
   const std::string simulation_;
@@ -116,6 +123,7 @@ class Hub {
   bool has_graph_changed_ GSV_GUARDED_BY(mutex_) = false;
   foxglove::ConnectionGraph graph_ GSV_GUARDED_BY(mutex_);  // the graph that was last sent
   ClientRequests requests_;
+  std::shared_ptr<Views> views_ GSV_GUARDED_BY(mutex_);  // null: the server draws none
   bool closed_ GSV_GUARDED_BY(mutex_) = false;
   CloseCode close_code_ GSV_GUARDED_BY(mutex_){};
   std::string close_reason_ GSV_GUARDED_BY(mutex_);

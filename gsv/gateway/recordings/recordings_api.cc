@@ -104,7 +104,7 @@ std::vector<Route> RecordingsApi::Routes(drawing::ViewDrawer& drawer) {
        },
        "Remove a note of a recording"},
   };
-  Append(routes, sessions_.Routes());
+  Append(routes, sessions_.Routes(drawer));
   Append(routes, drawing::ViewRoutes("/replays/{session}", drawer, [this](const Request& request) {
            return sessions_.FindViewed(request.Parameter("session"));
          }));

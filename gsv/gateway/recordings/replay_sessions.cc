@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "gsv/gateway/drawing/pushed_views.h"
+
 namespace gsv::gateway::recordings {
 namespace {
 
@@ -64,7 +66,7 @@ base::Result<Replay> ReplaySessions::Find(const std::string& name) {
   return found->second.replay;
 }
 
-std::vector<Route> ReplaySessions::Routes() {
+std::vector<Route> ReplaySessions::Routes(drawing::ViewDrawer& drawer) {
   const std::string below = "/replays/{session}";
   std::vector<Route> routes = ReplayRoutes([this](const Request& request) {
     (void)TakeUnwatched();
@@ -77,7 +79,14 @@ std::vector<Route> ReplaySessions::Routes() {
   }
   routes.push_back(SocketRoute(
       below + "/ws", false,
-      [this](const Request& request) { return FindHub(request.Parameter("session")); },
+      [this, &drawer](const Request& request) -> base::Result<std::shared_ptr<Hub>> {
+        const std::string& session = request.Parameter("session");
+        auto hub = FindHub(session);
+        if (!hub) return hub;
+        (*hub)->Offer(std::make_shared<drawing::PushedViews>(
+            drawer, [this, session] { return FindViewed(session); }));
+        return hub;
+      },
       "Open the live stream of your replay"));
   return routes;
 }

@@ -1,0 +1,48 @@
+// Stops what somebody drives when no further command comes: a dead man's switch.
+//
+// A page repeats its command while a key is held. If the page, its browser or the network fails, the
+// repetition ends, and the robot must not continue for ever.
+//
+// Time     wall-clock time.
+// Threads  any. The functions run on a thread of this object.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <string>
+#include <thread>
+
+#include "gsv/base/mutex.h"
+
+namespace gsv::gateway {
+
+class CommandTimeouts {
+ public:
+  CommandTimeouts();
+  // Functions that have not run are dropped.
+  ~CommandTimeouts();
+  CommandTimeouts(const CommandTimeouts&) = delete;
+  CommandTimeouts& operator=(const CommandTimeouts&) = delete;
+
+  // Runs `stop` after this time, instead of an earlier function of the same key.
+  void Set(const std::string& key, std::chrono::nanoseconds timeout, std::function<void()> stop);
+  void Cancel(const std::string& key);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Entry {
+    Clock::time_point due;
+    std::function<void()> stop;
+  };
+
+  void Run();
+
+  base::Mutex mutex_;
+  base::ConditionVariable changed_;
+  std::map<std::string, Entry> entries_ GSV_GUARDED_BY(mutex_);
+  bool stopping_ GSV_GUARDED_BY(mutex_) = false;
+  std::thread thread_;
+};
+
+}  // namespace gsv::gateway

@@ -1,0 +1,226 @@
+#include "gsv/gateway/drawing/pushed_views.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "gsv/gateway/foxglove/foxglove_operations.h"
+
+namespace gsv::gateway::drawing {
+namespace {
+
+using base::ErrorCode;
+
+// The drawer answers after this time even if nothing has changed.
+constexpr std::chrono::milliseconds kPushTimeout{5000};
+// A client that reports an image within this time gets the next one drawn ahead.
+constexpr std::chrono::milliseconds kFast{100};
+
+template <typename Number>
+void AppendNumber(Number value, std::string& bytes) {
+  for (std::size_t i = 0; i < sizeof value; ++i) {
+    bytes.push_back(static_cast<char>(value >> (8 * i)));
+  }
+}
+
+base::Result<ViewQuery> QueryOf(const foxglove::WatchView& request) {
+  const auto target = ParseTarget("/view.mjpeg?" + request.camera);
+  if (target) return ParseViewQuery(*target, true);
+  return base::Fail(ErrorCode::kInvalidArgument, "the camera of a view has the wrong form");
+}
+
+}  // namespace
+
+void PushedViews::Take(const std::shared_ptr<Client>& client, const foxglove::WatchView& request) {
+  const Key key{client.get(), request.id};
+  const auto refuse = [&](const base::Error& error) {
+    client->SendText(SharedBytes(foxglove::ViewFailureText(request.id, error.Sentence())));
+  };
+  const auto query = QueryOf(request);
+  if (!query) {
+    Remove(key);
+    return refuse(query.error());
+  }
+  WatchedPtr watched;
+  std::shared_ptr<ViewDrawer::Seat> former;
+  {
+    const base::MutexLock lock(mutex_);
+    const auto of_client = std::count_if(watched_.begin(), watched_.end(), [&](const auto& each) {
+      return each.first.first == client.get();
+    });
+    if (!watched_.contains(key) && static_cast<std::size_t>(of_client) >= kMaxViewsOfClient) {
+      return refuse({ErrorCode::kUnavailable,
+                     "a client can have at most " + std::to_string(kMaxViewsOfClient) +
+                         " views; unsubscribe one of them",
+                     {}});
+    }
+    WatchedPtr& known = watched_[key];
+    if (known == nullptr) known = std::make_shared<Watched>();
+    watched = known;
+    watched->client = client;
+    watched->id = request.id;
+    watched->query = *query;
+    watched->sequence = request.sequence;
+    watched->last = 0;
+    former = std::exchange(watched->seat, nullptr);
+  }
+  if (former != nullptr && drawer_.Withdraw(*former)) {
+    const base::MutexLock lock(mutex_);
+    watched->is_asked = false;
+  }
+  former.reset();
+  Continue(watched);
+}
+
+void PushedViews::Take(const std::shared_ptr<Client>& client,
+                       const foxglove::UnwatchView& request) {
+  Remove({client.get(), request.id});
+}
+
+void PushedViews::Take(const std::shared_ptr<Client>& client, const foxglove::ViewShown& request) {
+  const WatchedPtr watched = Find({client.get(), request.id});
+  if (watched == nullptr) return;  // it ended while the report was under way
+  {
+    const base::MutexLock lock(mutex_);
+    if (watched->unshown == 0) return;
+    --watched->unshown;
+    watched->reported_after = Clock::now() - watched->sent;
+  }
+  Continue(watched);
+}
+
+void PushedViews::Forget(Client* client) {
+  std::vector<Key> keys;
+  {
+    const base::MutexLock lock(mutex_);
+    for (const auto& [key, watched] : watched_) {
+      if (key.first == client) keys.push_back(key);
+    }
+  }
+  for (const Key& key : keys) Remove(key);
+}
+
+PushedViews::WatchedPtr PushedViews::Find(const Key& key) const {
+  const base::MutexLock lock(mutex_);
+  const auto found = watched_.find(key);
+  return found == watched_.end() ? nullptr : found->second;
+}
+
+void PushedViews::Remove(const Key& key) {
+  std::shared_ptr<ViewDrawer::Seat> seat;
+  {
+    const base::MutexLock lock(mutex_);
+    const auto found = watched_.find(key);
+    if (found == watched_.end()) return;
+    seat = std::exchange(found->second->seat, nullptr);
+    found->second->client.reset();
+    watched_.erase(found);
+  }
+  if (seat != nullptr) drawer_.Withdraw(*seat);
+}
+
+void PushedViews::Continue(const WatchedPtr& watched) {
+  {
+    const base::MutexLock lock(mutex_);
+    const int allowed = watched->reported_after < kFast ? 1 : 0;
+    if (watched->is_asked || watched->unshown > allowed || watched->client.expired()) return;
+    watched->is_asked = true;
+  }
+  if (const base::Status asked = Ask(watched); !asked) Fail(watched, asked.error());
+}
+
+base::Status PushedViews::Ask(const WatchedPtr& watched) {
+  const auto world = find_();
+  if (!world) return base::Fail(world.error());
+  ViewRequest view;
+  std::shared_ptr<ViewDrawer::Seat> seat;
+  std::uint32_t sequence = 0;
+  std::uint64_t last = 0;
+  Clock::time_point earliest;
+  {
+    const base::MutexLock lock(mutex_);
+    view = watched->query.view;
+    seat = watched->seat;
+    sequence = watched->sequence;
+    last = watched->last;
+    earliest = std::max(watched->due, Clock::now());
+  }
+  view.world = world->name;
+  if (seat == nullptr) {
+    auto taken = drawer_.Take(view);
+    if (!taken) return base::Fail(taken.error());
+    seat = *std::move(taken);
+    const base::MutexLock lock(mutex_);
+    // Another camera came meanwhile: this image is still drawn, and the next one is of that camera.
+    if (watched->sequence == sequence && !watched->client.expired()) watched->seat = seat;
+  }
+  drawer_.SetSource(world->name, world->identity, world->make);
+  drawer_.Ask(std::move(seat), last, earliest, kPushTimeout,
+              [weak = weak_from_this(), watched, sequence,
+               earliest](const base::Result<DrawnImage>& image) {
+                if (const auto self = weak.lock()) {
+                  self->OnImage(watched, sequence, earliest, image);
+                }
+              });
+  return {};
+}
+
+void PushedViews::OnImage(const WatchedPtr& watched, std::uint32_t sequence,
+                          Clock::time_point earliest, const base::Result<DrawnImage>& image) {
+  if (!image) {
+    {
+      const base::MutexLock lock(mutex_);
+      watched->is_asked = false;
+    }
+    return Fail(watched, image.error());
+  }
+  std::shared_ptr<Client> client;
+  {
+    const base::MutexLock lock(mutex_);
+    watched->is_asked = false;
+    watched->due =
+        earliest + std::chrono::duration_cast<Clock::duration>(
+                       std::chrono::duration<double>(1 / watched->query.frames_a_second));
+    client = watched->client.lock();
+    const bool is_current = watched->sequence == sequence;
+    const bool is_known = is_current && watched->last == image->number;
+    if (is_current) watched->last = image->number;
+    if (is_known) client = nullptr;
+    if (client != nullptr) {
+      ++watched->unshown;
+      watched->sent = Clock::now();
+    }
+  }
+  if (client != nullptr) client->SendBytes(MessageOf(*watched, sequence, *image));
+  Continue(watched);
+}
+
+// The view has ended for the client, which may subscribe to it again.
+void PushedViews::Fail(const WatchedPtr& watched, const base::Error& error) {
+  std::shared_ptr<Client> client;
+  {
+    const base::MutexLock lock(mutex_);
+    client = watched->client.lock();
+  }
+  if (client == nullptr) return;
+  Remove({client.get(), watched->id});
+  client->SendText(SharedBytes(foxglove::ViewFailureText(watched->id, error.Sentence())));
+}
+
+SharedBytes PushedViews::MessageOf(const Watched& watched, std::uint32_t sequence,
+                                   const DrawnImage& image) {
+  const foxglove::BinaryHeader header =
+      foxglove::MessageDataHeader(watched.id, base::NanosecondsOf(image.time));
+  const auto seen =
+      std::chrono::duration_cast<std::chrono::microseconds>(image.seen.time_since_epoch());
+  std::string message;
+  message.reserve(header.size + kImageHeaderSize + image.bytes.size());
+  message.append(reinterpret_cast<const char*>(header.bytes.data()), header.size);
+  AppendNumber(sequence, message);
+  AppendNumber(image.number, message);
+  AppendNumber(static_cast<std::uint64_t>(seen.count()), message);
+  message += image.bytes.view();
+  return SharedBytes(std::move(message));
+}
+
+}  // namespace gsv::gateway::drawing

@@ -1,0 +1,81 @@
+// Sends images of views to clients over their WebSockets, without a request for each image.
+//
+// An image is drawn when the world or the camera has changed, at most as often as the client wants.
+// The client reports each image that it has shown. The next image is drawn only after that, or one
+// image ahead if the last report came fast. So a slow client gets fewer images, and never old ones.
+//
+// Format   docs/formats/live.md: a message on the client's subscription with the header
+//          `kImageHeaderSize`, then a JPEG.
+// Threads  any.
+// Bounded  the views of a client here, all views by the drawer.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "gsv/base/mutex.h"
+#include "gsv/gateway/drawing/view_drawer.h"
+#include "gsv/gateway/drawing/view_routes.h"
+#include "gsv/gateway/foxglove/views.h"
+
+namespace gsv::gateway::drawing {
+
+inline constexpr std::size_t kMaxViewsOfClient = 4;
+// sequence (4 bytes), number (8), microseconds since 1970 when the state was first seen (8); little
+// endian.
+inline constexpr std::size_t kImageHeaderSize = 20;
+
+class PushedViews final : public Views, public std::enable_shared_from_this<PushedViews> {
+ public:
+  // Returns the world of the hub, or an error if it is gone.
+  using FindWorldOfHub = std::function<base::Result<ViewedWorld>()>;
+
+  // `drawer` must outlive the clients of the hub.
+  PushedViews(ViewDrawer& drawer, FindWorldOfHub find) : drawer_(drawer), find_(std::move(find)) {}
+
+  void Take(const std::shared_ptr<Client>& client, const foxglove::WatchView& request) override;
+  void Take(const std::shared_ptr<Client>& client, const foxglove::UnwatchView& request) override;
+  void Take(const std::shared_ptr<Client>& client, const foxglove::ViewShown& request) override;
+  void Forget(Client* client) override;
+
+ private:
+  using Clock = ViewDrawer::Clock;
+  using Key = std::pair<Client*, foxglove::SubscriptionId>;
+  struct Watched {
+    std::weak_ptr<Client> client;
+    foxglove::SubscriptionId id = 0;
+    ViewQuery query;
+    std::uint32_t sequence = 0;
+    std::shared_ptr<ViewDrawer::Seat> seat;  // null: the camera has changed
+    std::uint64_t last = 0;                  // number of the last image of this camera; 0: none
+    bool is_asked = false;                   // an answer of the drawer will come
+    int unshown = 0;                         // images that the client has not reported
+    Clock::time_point due{};                 // earliest time of the next image
+    Clock::time_point sent{};
+    Clock::duration reported_after{};  // time from the last image to its report
+  };
+  using WatchedPtr = std::shared_ptr<Watched>;
+
+  WatchedPtr Find(const Key& key) const;
+  void Remove(const Key& key);
+  // Asks for the next image, if the client can take one.
+  void Continue(const WatchedPtr& watched);
+  base::Status Ask(const WatchedPtr& watched);
+  // `earliest` is that of the request.
+  void OnImage(const WatchedPtr& watched, std::uint32_t sequence, Clock::time_point earliest,
+               const base::Result<DrawnImage>& image);
+  void Fail(const WatchedPtr& watched, const base::Error& error);
+  static SharedBytes MessageOf(const Watched& watched, std::uint32_t sequence,
+                               const DrawnImage& image);
+
+  ViewDrawer& drawer_;
+  const FindWorldOfHub find_;
+  mutable base::Mutex mutex_;
+  std::map<Key, WatchedPtr> watched_ GSV_GUARDED_BY(mutex_);  // and their members
+};
+
+}  // namespace gsv::gateway::drawing

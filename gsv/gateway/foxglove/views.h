@@ -1,0 +1,28 @@
+// The views that the server draws for the clients of a hub.
+//
+// Threads  any; no call blocks. Images are sent later, from another thread.
+#pragma once
+
+#include <memory>
+
+#include "gsv/gateway/foxglove/client.h"
+#include "gsv/gateway/foxglove/foxglove_requests.h"
+
+namespace gsv::gateway {
+
+// The name of this capability in the server info.
+inline constexpr const char* kViewsCapability = "gsvViews";
+
+class Views {
+ public:
+  virtual ~Views() = default;
+  // Sends the images of a view from now on. A view with the same id gets this camera.
+  virtual void Take(const std::shared_ptr<Client>& client, const foxglove::WatchView& request) = 0;
+  virtual void Take(const std::shared_ptr<Client>& client,
+                    const foxglove::UnwatchView& request) = 0;
+  virtual void Take(const std::shared_ptr<Client>& client, const foxglove::ViewShown& request) = 0;
+  // Ends all views of a client.
+  virtual void Forget(Client* client) = 0;
+};
+
+}  // namespace gsv::gateway
