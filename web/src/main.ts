@@ -34,7 +34,7 @@ import { World3D } from "./scene/World3D";
 import { createSetUpPanel } from "./setup/SetUpPanel";
 import { listedRobots } from "./state/listedRobots";
 import { filtered, isFiltering } from "./state/robotList";
-import { browserStorage, keepShown, loadShown } from "./state/overlays";
+import { browserStorage, keepColours, keepShown, loadColours, loadShown } from "./state/overlays";
 import { keepChangedKeys, keepSingleKeys, loadChangedKeys, loadSingleKeys } from "./state/shortcuts";
 import { showKeys } from "./page/keyLabels";
 import type { State } from "./state/State";
@@ -57,6 +57,7 @@ const storage = browserStorage();
 const store = new Store<State>({
   ...initialState,
   shown: loadShown(storage),
+  overlayColours: loadColours(storage),
   singleKeys: loadSingleKeys(storage),
   changedKeys: loadChangedKeys(storage),
 });
@@ -175,6 +176,10 @@ function connectWorld(world: World3D): void {
   store.watch(
     ({ shown }) => shown,
     (shown) => world.show(shown),
+  );
+  store.watch(
+    ({ overlayColours }) => overlayColours,
+    (colours) => world.setOverlayColours(colours),
   );
   store.watch(
     ({ selection }) => selection,
@@ -300,6 +305,10 @@ store.watch(
 store.watch(
   ({ shown }) => shown,
   (shown) => keepShown(storage, shown),
+);
+store.watch(
+  ({ overlayColours }) => overlayColours,
+  (colours) => keepColours(storage, colours),
 );
 store.watch(
   ({ singleKeys }) => singleKeys,

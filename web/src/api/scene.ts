@@ -64,6 +64,15 @@ export interface SceneJoint {
   axis: Triple; // in the joint's frame
 }
 
+// The mass of a link.
+export interface SceneInertial {
+  link: string;
+  mass: number; // kg
+  pose: PoseNumbers; // of the inertia's frame, at the centre of mass, in the link's frame
+  poseInModel: PoseNumbers; // the same at zero joint positions
+  inertia: readonly [number, number, number, number, number, number]; // kg m²: ixx iyy izz ixy ixz iyz
+}
+
 export interface PoseEntry {
   body: number;
   link: string | null; // null: the body's own pose
@@ -77,6 +86,7 @@ export interface SceneDescription {
   lights: SceneLight[];
   bodies: SceneBody[];
   poses: PoseEntry[];
+  inertials?: ReadonlyMap<string, readonly SceneInertial[]>; // by model; absent: of an old recording
 }
 
 export function parseScene(json: unknown): SceneDescription {
@@ -99,6 +109,7 @@ export function parseScene(json: unknown): SceneDescription {
     poses: listAt(scene.poses, "poses").map((entry, i) =>
       parsePoseEntry(entry, bodies.length, `poses[${i}]`),
     ),
+    inertials: parseInertials(scene.inertials),
   };
 }
 
@@ -172,6 +183,27 @@ function parseJoint(joint: JsonObject, where: string): SceneJoint {
     link: typeof joint.link === "string" ? joint.link : null,
     pose: numbersAt(joint.pose, 7, `${where}.pose`),
     axis: triple(joint.axis, `${where}.axis`),
+  };
+}
+
+function parseInertials(value: unknown): SceneDescription["inertials"] {
+  const models = typeof value === "object" && value !== null ? Object.entries(value) : [];
+  return new Map(
+    models.map(([model, links]) => [
+      model,
+      listAt(links, `inertials.${model}`).map((link, i) => parseInertial(link, `inertials.${model}[${i}]`)),
+    ]),
+  );
+}
+
+function parseInertial(value: unknown, where: string): SceneInertial {
+  const inertial = objectAt(value, where);
+  return {
+    link: textAt(inertial.link, `${where}.link`),
+    mass: numberAt(inertial.mass_kg, `${where}.mass_kg`),
+    pose: numbersAt(inertial.pose, 7, `${where}.pose`),
+    poseInModel: numbersAt(inertial.pose_in_model, 7, `${where}.pose_in_model`),
+    inertia: numbersAt(inertial.inertia_kg_m2, 6, `${where}.inertia_kg_m2`) as unknown as SceneInertial["inertia"],
   };
 }
 

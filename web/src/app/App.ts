@@ -8,7 +8,7 @@ import type { CameraChoice } from "../api/scene";
 import type { BodyPlace } from "../api/SetUpApi";
 import type { Source } from "../state/plots";
 import { ROBOT_VALUES, SIMULATION_VALUES, withCurve, withoutCurve } from "../state/plots";
-import type { OverlayName } from "../state/overlays";
+import type { OverlayColours, OverlayName } from "../state/overlays";
 import { browserStorage } from "../state/overlays";
 import type { RobotFilter } from "../state/robotList";
 import { allChosen, chosenOf } from "../state/editing";
@@ -184,6 +184,10 @@ export class App {
   }
 
   // Shows the view as a map: from above, north up.
+  colourOverlays(change: Partial<OverlayColours>): void {
+    this.store.set(({ overlayColours }) => ({ overlayColours: { ...overlayColours, ...change } }));
+  }
+
   setMap(mapMode: boolean): void {
     this.store.set({ mapMode, ...(mapMode && { viewMode: "orbit" }) });
   }

@@ -26,6 +26,7 @@ test("keys work in upper and lower case", () => {
   expect(pressed("Escape")).toEqual([["escape"]]);
   expect(pressed("c")).toEqual([["toggleViewMode", "chase"]]);
   expect(pressed("5")).toEqual([["toggle", "trails"]]);
+  expect(pressed("B")).toEqual([["toggle", "masses"]]);
 });
 
 test("other keys have no command", () => {

@@ -33,7 +33,7 @@ const COMMANDS: Record<string, (app: App) => unknown> = {
   escape: (app) => app.escape(),
   "?": (app) => app.openHelp(true),
 };
-for (const { key, name } of OVERLAYS) COMMANDS[key] = (app) => app.toggle(name);
+for (const { key, name } of OVERLAYS) COMMANDS[key.toLowerCase()] = (app) => app.toggle(name);
 for (const { id, key, isAvailable } of PANELS) {
   if (key) COMMANDS[key.toLowerCase()] = (app) => isAvailable(app.store.get()) && app.panels.toggle(id);
 }

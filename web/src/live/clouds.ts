@@ -7,6 +7,7 @@ export interface LaserScan {
   range_min: number;
   range_max: number;
   ranges: Float32Array;
+  intensities?: ArrayLike<number>; // of each beam; empty: not measured
 }
 
 // For a lidar with several rows, beam i of row r is ranges[r * beams + i].
@@ -32,47 +33,62 @@ export const MOST_POINTS = 20_000; // of one sensor; of more every nth is taken
 const FLOAT32 = 7;
 const FLOAT64 = 8;
 
-// x y z of each point. Empty if the message is of neither kind or invalid.
-export function pointsOf(message: unknown): Float32Array {
-  if (typeof message !== "object" || message === null) return new Float32Array(0);
+export interface Points {
+  points: Float32Array; // x y z of each
+  intensities: Float32Array | null; // of each; null: not measured
+}
+
+const NO_POINTS: Points = { points: new Float32Array(0), intensities: null };
+
+// No points if the message is of neither kind or invalid.
+export function cloudOf(message: unknown): Points {
+  if (typeof message !== "object" || message === null) return NO_POINTS;
   if ("ranges" in message && "beams" in message) return pointsOfRows(message as LidarScan);
   if ("ranges" in message) return pointsOfScan(message as LaserScan);
   if ("point_step" in message) return pointsOfCloud(message as PointCloud);
-  return new Float32Array(0);
+  return NO_POINTS;
 }
 
-function pointsOfScan({ angle_min, angle_increment, range_min, range_max, ranges }: LaserScan): Float32Array {
-  const points = new PointList(ranges.length);
+// x y z of each point.
+export function pointsOf(message: unknown): Float32Array {
+  return cloudOf(message).points;
+}
+
+function pointsOfScan({ angle_min, angle_increment, range_min, range_max, ranges, intensities }: LaserScan): Points {
+  const strengths = intensities?.length === ranges.length ? intensities : null;
+  const points = new PointList(ranges.length, strengths !== null);
   for (let i = 0; i < ranges.length; i += points.stride) {
     const range = ranges[i]!;
     if (!(range >= range_min && range <= range_max)) continue;
     const angle = angle_min + i * angle_increment;
-    points.add(range * Math.cos(angle), range * Math.sin(angle), 0);
+    points.add(range * Math.cos(angle), range * Math.sin(angle), 0, strengths?.[i]);
   }
   return points.taken();
 }
 
-function pointsOfRows(scan: LidarScan): Float32Array {
+function pointsOfRows(scan: LidarScan): Points {
   const { angle_min, angle_increment, range_min, range_max, ranges, beams } = scan;
-  if (!(beams > 0)) return new Float32Array(0);
-  const points = new PointList(ranges.length);
+  if (!(beams > 0)) return NO_POINTS;
+  const strengths = scan.intensities?.length === ranges.length ? scan.intensities : null;
+  const points = new PointList(ranges.length, strengths !== null);
   for (let i = 0; i < ranges.length; i += points.stride) {
     const range = ranges[i]!;
     if (!(range >= range_min && range <= range_max)) continue;
     const azimuth = angle_min + (i % beams) * angle_increment;
     const elevation = scan.vertical_angle_min + Math.floor(i / beams) * scan.vertical_angle_increment;
     const level = range * Math.cos(elevation);
-    points.add(level * Math.cos(azimuth), level * Math.sin(azimuth), range * Math.sin(elevation));
+    points.add(level * Math.cos(azimuth), level * Math.sin(azimuth), range * Math.sin(elevation), strengths?.[i]);
   }
   return points.taken();
 }
 
-function pointsOfCloud(cloud: PointCloud): Float32Array {
+function pointsOfCloud(cloud: PointCloud): Points {
   const offsets = ["x", "y", "z"].map((name) => cloud.fields.find((field) => field.name === name));
   const [x, y, z] = offsets;
   const isReadable =
     x && y && z && [FLOAT32, FLOAT64].includes(x.datatype) && cloud.point_step > 0 && cloud.row_step >= 0;
-  if (!isReadable) return new Float32Array(0);
+  if (!isReadable) return NO_POINTS;
+  const strength = cloud.fields.find(({ name, datatype }) => name === "intensity" && datatype === FLOAT32);
   const view = new DataView(cloud.data.buffer, cloud.data.byteOffset, cloud.data.byteLength);
   const bytes = x.datatype === FLOAT64 ? 8 : 4;
   const little = !cloud.is_bigendian;
@@ -82,12 +98,13 @@ function pointsOfCloud(cloud: PointCloud): Float32Array {
       : bytes === 8
         ? view.getFloat64(at, little)
         : view.getFloat32(at, little);
+  const float32 = (at: number) => (at + 4 > view.byteLength ? NaN : view.getFloat32(at, little));
   const count = Math.min(cloud.width * cloud.height, Math.floor(view.byteLength / cloud.point_step));
-  const points = new PointList(count);
+  const points = new PointList(count, strength !== undefined);
   for (let i = 0; i < count; i += points.stride) {
     const row = Math.floor(i / cloud.width);
     const at = row * cloud.row_step + (i - row * cloud.width) * cloud.point_step;
-    points.add(read(at + x.offset), read(at + y.offset), read(at + z.offset));
+    points.add(read(at + x.offset), read(at + y.offset), read(at + z.offset), strength && float32(at + strength.offset));
   }
   return points.taken();
 }
@@ -95,21 +112,25 @@ function pointsOfCloud(cloud: PointCloud): Float32Array {
 class PointList {
   readonly stride: number;
   private readonly numbers: Float32Array;
-  private used = 0;
+  private readonly intensities: Float32Array | null;
+  private used = 0; // points
 
-  constructor(count: number) {
+  constructor(count: number, hasIntensities: boolean) {
     this.stride = Math.max(1, Math.ceil(count / MOST_POINTS));
-    this.numbers = new Float32Array(3 * Math.ceil(count / this.stride));
+    const taken = Math.ceil(count / this.stride);
+    this.numbers = new Float32Array(3 * taken);
+    this.intensities = hasIntensities ? new Float32Array(taken) : null;
   }
 
-  add(x: number, y: number, z: number): void {
+  add(x: number, y: number, z: number, intensity = 0): void {
     if (!Number.isFinite(x + y + z)) return;
-    this.numbers.set([x, y, z], this.used);
-    this.used += 3;
+    this.numbers.set([x, y, z], 3 * this.used);
+    if (this.intensities) this.intensities[this.used] = intensity;
+    this.used += 1;
   }
 
-  taken(): Float32Array {
-    return this.numbers.subarray(0, this.used);
+  taken(): Points {
+    return { points: this.numbers.subarray(0, 3 * this.used), intensities: this.intensities?.subarray(0, this.used) ?? null };
   }
 }
 

@@ -35,6 +35,7 @@ export function editPanel(app: App): Panel {
     title: "Edit",
     hint: "Move, add and remove robots and objects",
     picture: "edit",
+    group: "Control",
     place: "top-side",
     isAvailable: ({ editing }) => editing !== null,
     absence: "Press Edit at the top to edit the simulation.",

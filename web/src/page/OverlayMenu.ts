@@ -1,6 +1,8 @@
-// The menu of overlays in the view.
+// The menu of overlays in the view, and what the colours of points and trails mean.
 import type { App } from "../app/App";
-import { OVERLAYS } from "../state/overlays";
+import type { OverlayColours } from "../state/overlays";
+import { OVERLAYS, POINT_COLOURS, TRAIL_COLOURS } from "../state/overlays";
+import { element } from "../ui/element";
 import { createMenu, menuItem } from "../ui/menu";
 
 export function createOverlayMenu(app: App): HTMLElement {
@@ -12,5 +14,27 @@ export function createOverlayMenu(app: App): HTMLElement {
     );
     return item;
   });
-  return createMenu("Overlays", "layers", ...items).element;
+  const colours = element(
+    "div",
+    { class: "overlay-colours" },
+    choice(app, "points", "Colour points by", POINT_COLOURS),
+    choice(app, "trails", "Colour trails by", TRAIL_COLOURS),
+  );
+  return createMenu("Overlays", "layers", ...items, colours).element;
+}
+
+function choice<Kind extends keyof OverlayColours>(
+  app: App,
+  kind: Kind,
+  label: string,
+  names: Readonly<Record<OverlayColours[Kind], string>>,
+): HTMLElement {
+  const values = Object.keys(names) as OverlayColours[Kind][];
+  const select = element("select", {}, ...values.map((value) => new Option(names[value], value)));
+  select.addEventListener("change", () => app.colourOverlays({ [kind]: select.value }));
+  app.store.watch(
+    ({ overlayColours }) => overlayColours[kind],
+    (value) => (select.value = value),
+  );
+  return element("label", { class: "overlay-colour" }, label, select);
 }

@@ -8,8 +8,8 @@ import { createOverlayMenu } from "./OverlayMenu";
 
 export function createViewTools(app: App): HTMLElement[] {
   return [
-    iconButton({ picture: "home", label: "Reset view", key: "R", onclick: () => app.resetView() }),
-    iconButton({ picture: "top", label: "Top view", key: "T", onclick: () => app.topView() }),
+    iconButton({ picture: "home", label: "Reset view", word: "Reset", key: "R", onclick: () => app.resetView() }),
+    iconButton({ picture: "top", label: "Top view", word: "Top", key: "T", onclick: () => app.topView() }),
     toggleButton(
       app,
       { picture: "map", label: "Map", title: "Show the world as a map: from above, north up" },
@@ -24,7 +24,7 @@ export function createViewTools(app: App): HTMLElement[] {
     ),
     modeButton(app, "follow", "follow", "Follow", "F"),
     modeButton(app, "chase", "chase", "Chase", "C"),
-    modeButton(app, "eye", "eye", "Robot's eye", "V"),
+    modeButton(app, "eye", "eye", "Robot's eye", "V", "Eye"),
     createOverlayMenu(app),
   ];
 }
@@ -40,8 +40,8 @@ function toggleButton(
   return button;
 }
 
-function modeButton(app: App, mode: ViewMode, picture: IconName, label: string, key: string): HTMLElement {
-  const button = iconButton({ picture, label, key, onclick: () => app.toggleViewMode(mode) });
+function modeButton(app: App, mode: ViewMode, picture: IconName, label: string, key: string, word = label): HTMLElement {
+  const button = iconButton({ picture, label, word, key, onclick: () => app.toggleViewMode(mode) });
   app.store.watch(
     ({ viewMode }) => viewMode === mode,
     (isOn) => button.setAttribute("aria-pressed", String(isOn)),

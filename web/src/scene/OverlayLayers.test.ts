@@ -154,3 +154,51 @@ test("trails grow while hidden, survive a change of layout, and end with the sce
   overlays.place(new Vector3());
   expect(segments(trails)).toBe(0);
 });
+
+test("the masses of a link that moves and of one that does not are at their places", () => {
+  const { overlays, lines, segments } = layers(only("masses"));
+  const at = (x: number) => [x, 0, 0, 0, 0, 0, 1];
+  const inertial = (link: string) => ({ link, mass: 6, pose: at(0.5), poseInModel: at(9), inertia: [1, 1, 1, 0, 0, 0] as const });
+  const inertials = new Map([[SCENE.bodies[0]!.model, [inertial("base"), inertial("arm")]]]);
+  const bodies = new BodyLayer({ ...SCENE, inertials });
+  overlays.setScene(bodies);
+  bodies.setPoses(POSES);
+  overlays.place(new Vector3());
+  expect(segments(lines)).toBe(2 * (3 + 12));
+  const starts = lines.geometry.getAttribute("instanceStart") as InterleavedBufferAttribute;
+  // The base at its place in the model; the arm at its own place, which is turned to the left.
+  [19.06, 0, 0].forEach((value, i) => expect(starts.getComponent(0, i)).toBeCloseTo(value, 5));
+  [10, 0.56, 1].forEach((value, i) => expect(starts.getComponent(15, i)).toBeCloseTo(value, 5));
+});
+
+test("points have the colour of their distance, height or intensity", () => {
+  const { overlays, points } = layers(only("points"));
+  const ranges = new Float32Array([1, 2, 3]);
+  overlays.takeReading("/a/scan", { angle_min: 0, angle_increment: 1, range_min: 0, range_max: 9, ranges, intensities: [30, 20, 10] });
+  const brightness = () => {
+    overlays.place(new Vector3());
+    const colours = points.geometry.getAttribute("color").array;
+    return [0, 1, 2].map((i) => colours[3 * i]! + colours[3 * i + 1]! + colours[3 * i + 2]!);
+  };
+  const [near, middle, far] = brightness();
+  expect(near! < middle! && middle! < far!).toBe(true);
+  overlays.setColours({ points: "intensity", trails: "robot" });
+  expect(brightness()).toEqual([far, middle, near]);
+  overlays.setColours({ points: "height", trails: "robot" });
+  expect(brightness()).toEqual([near, near, near]); // the lidar is level
+});
+
+test("trails by speed are dark where the robot was slow", () => {
+  const { overlays, trails } = layers({ ...only("trails") });
+  overlays.setColours({ points: "range", trails: "speed" });
+  [10, 10.1, 10.2, 11.2].forEach((x, i) => {
+    const moved = POSES.slice();
+    moved[0] = x;
+    overlays.takePoses({ step: i, stamp: i, poses: moved });
+  });
+  overlays.place(new Vector3());
+  const colours = trails.geometry.getAttribute("instanceColorStart") as InterleavedBufferAttribute;
+  const brightness = (i: number) => colours.getX(i) + colours.getY(i) + colours.getZ(i);
+  expect(brightness(0)).toBeCloseTo(brightness(1), 5);
+  expect(brightness(2)).toBeGreaterThan(brightness(1));
+});

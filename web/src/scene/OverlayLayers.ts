@@ -1,22 +1,24 @@
 // The overlays of the view: beams, points, contacts, camera views, trails, axes, actuators.
 import type { Matrix4 } from "three";
 import { Group, Vector3 } from "three";
-import type { SceneSensor } from "../api/scene";
+import type { SceneInertial, SceneSensor } from "../api/scene";
 import { robotsOf } from "../api/scene";
 import type { TouchPoint } from "../live/clouds";
-import { contactsOf, pointsOf } from "../live/clouds";
+import { cloudOf, contactsOf } from "../live/clouds";
 import type { Sound } from "../live/devices";
 import type { MarkerArrayMessage, TransformsMessage } from "../protocol/messages";
 import { seconds } from "../protocol/messages";
-import type { Shown } from "../state/overlays";
-import { FIRST_SHOWN } from "../state/overlays";
+import type { OverlayColours, Shown } from "../state/overlays";
+import { FIRST_COLOURS, FIRST_SHOWN } from "../state/overlays";
 import { BeamLayer } from "./BeamLayer";
 import type { BodyLayer } from "./BodyLayer";
 import { matrixOf } from "./BodyLayer";
 import { DeviceLayer } from "./DeviceLayer";
 import { ExpectationMarks } from "./ExpectationMarks";
+import type { EquivalentBox } from "./inertia";
+import { equivalentBox } from "./inertia";
 import { LineLayer } from "./LineLayer";
-import { drawAxes, drawContact, drawJoint, drawView } from "./markings";
+import { drawAxes, drawContact, drawJoint, drawMass, drawView } from "./markings";
 import { PointLayer } from "./PointLayer";
 import type { PoseSample } from "./PoseInterpolator";
 import { RadioLinks } from "./RadioLinks";
@@ -53,6 +55,8 @@ export class OverlayLayers {
   private sensors = new Map<string, MountedSensor>(); // by topic
   private robots: { name: string; entry: number }[] = [];
   private shown: Shown = FIRST_SHOWN;
+  private colours: OverlayColours = FIRST_COLOURS;
+  private readonly boxes = new Map<SceneInertial, EquivalentBox>();
   private selection: string | null = null;
 
   // Thin lines are used without a graphics card.
@@ -85,6 +89,7 @@ export class OverlayLayers {
       return entry === null ? [] : [{ name, entry }];
     });
     this.beams.keepOnly(new Set());
+    this.boxes.clear();
     this.radio.clear();
     if (!bodies) return;
     if (bodies.scene.name === this.trailsOf) this.trails.keepOnly(names);
@@ -94,6 +99,11 @@ export class OverlayLayers {
 
   show(shown: Shown): void {
     this.shown = shown;
+  }
+
+  setColours(colours: OverlayColours): void {
+    this.colours = colours;
+    this.points.colour = colours.points;
   }
 
   select(robot: string | null): void {
@@ -108,7 +118,7 @@ export class OverlayLayers {
   takeReading(topic: string, message: unknown): void {
     this.devices.take(topic, message);
     this.radio.take(message, performance.now());
-    this.points.set(topic, pointsOf(message));
+    this.points.set(topic, cloudOf(message));
     this.contacts.set(topic, contactsOf(message));
   }
 
@@ -158,7 +168,7 @@ export class OverlayLayers {
     this.drawLines(bodies);
     if (shown.trails) {
       this.trailLines.begin();
-      this.trails.draw(this.trailLines);
+      this.trails.draw(this.trailLines, this.colours.trails);
       this.trailLines.finish();
     }
   }
@@ -180,6 +190,7 @@ export class OverlayLayers {
     if (shown.frames) this.drawFrames(bodies);
     if (shown.actuators) this.drawActuators(bodies);
     if (shown.joints) this.drawJoints(bodies);
+    if (shown.masses) this.drawMasses(bodies);
     lines.finish();
     lines.lines.visible = lines.segments > 0;
   }
@@ -237,6 +248,26 @@ export class OverlayLayers {
         left -= 1;
       }
     });
+  }
+
+  // The links of the selected robot, else of all bodies that can move.
+  private drawMasses(bodies: BodyLayer): void {
+    let left = MOST_AXES;
+    bodies.scene.bodies.forEach(({ name, model, isStatic }, body) => {
+      if (isStatic || (this.selection ?? name) !== name) return;
+      for (const inertial of (bodies.scene.inertials?.get(model) ?? []).slice(0, left)) {
+        const link = bodies.linkPoseOf(body, inertial.link);
+        const frame = (link ?? bodies.poseOf(body))!.clone().multiply(matrixOf(link ? inertial.pose : inertial.poseInModel));
+        drawMass(this.lines, frame, this.boxOf(inertial));
+        left -= 1;
+      }
+    });
+  }
+
+  private boxOf(inertial: SceneInertial): EquivalentBox {
+    let box = this.boxes.get(inertial);
+    if (!box) this.boxes.set(inertial, (box = equivalentBox(inertial)));
+    return box;
   }
 
   private worldFromSensor(topic: string, bodies: BodyLayer): Matrix4 | null {

@@ -1,6 +1,8 @@
 // The paths of the robots: for each, its last places at small distances.
 import type { LineLayer } from "./LineLayer";
 import { rgb } from "./LineLayer";
+import { scaleColour } from "./PointLayer";
+import type { TrailColour } from "../state/overlays";
 
 const MOST_PLACES = 400; // of one robot
 const MOST_ROBOTS = 200;
@@ -8,9 +10,11 @@ const APART_M = 0.05;
 const JUMP_M = 2; // between two updates: it was put there, or the recording was moved
 const COLOURS = [0x2f81e0, 0xe0701a, 0x2a9d4a, 0xc2399b, 0xd0453e, 0x12938f].map(rgb);
 const ABOVE_FLOOR_M = 0.02;
+const LEAST_TOP_SPEED = 0.1; // m/s: noise of a standing robot does not fill the colour scale
 
 interface Trail {
   places: Float32Array; // x y z, a ring
+  stamps: Float64Array; // s, of each place
   first: number;
   count: number;
 }
@@ -33,10 +37,10 @@ export class Trails {
       let trail = this.trails.get(name);
       if (!trail) {
         if (this.trails.size >= MOST_ROBOTS) continue;
-        trail = { places: new Float32Array(3 * MOST_PLACES), first: 0, count: 0 };
+        trail = { places: new Float32Array(3 * MOST_PLACES), stamps: new Float64Array(MOST_PLACES), first: 0, count: 0 };
         this.trails.set(name, trail);
       }
-      extend(trail, x, y, z + ABOVE_FLOOR_M);
+      extend(trail, stamp, x, y, z + ABOVE_FLOOR_M);
     }
   }
 
@@ -44,19 +48,32 @@ export class Trails {
     for (const name of [...this.trails.keys()]) if (!robots.has(name)) this.trails.delete(name);
   }
 
-  draw(lines: LineLayer): void {
+  // In a colour for each robot, or by speed, from 0 (dark) to the largest speed of all trails.
+  draw(lines: LineLayer, by: TrailColour = "robot"): void {
+    const topSpeed = by === "speed" ? this.topSpeed() : 1;
     let index = 0;
-    for (const { places, first, count } of this.trails.values()) {
-      const colour = COLOURS[index++ % COLOURS.length]!;
-      for (let i = 1; i < count; i++) {
-        const from = 3 * ((first + i - 1) % MOST_PLACES);
-        lines.addInWorld(places, from, 3 * ((first + i) % MOST_PLACES), colour);
+    for (const trail of this.trails.values()) {
+      const own = COLOURS[index++ % COLOURS.length]!;
+      for (let i = 1; i < trail.count; i++) {
+        const [from, to] = [(trail.first + i - 1) % MOST_PLACES, (trail.first + i) % MOST_PLACES];
+        const colour = by === "speed" ? scaleColour(speedOf(trail, from, to) / topSpeed) : own;
+        lines.addInWorld(trail.places, 3 * from, 3 * to, colour);
       }
     }
   }
+
+  private topSpeed(): number {
+    let top = LEAST_TOP_SPEED;
+    for (const trail of this.trails.values()) {
+      for (let i = 1; i < trail.count; i++) {
+        top = Math.max(top, speedOf(trail, (trail.first + i - 1) % MOST_PLACES, (trail.first + i) % MOST_PLACES));
+      }
+    }
+    return top;
+  }
 }
 
-function extend(trail: Trail, x: number, y: number, z: number): void {
+function extend(trail: Trail, stamp: number, x: number, y: number, z: number): void {
   const { places } = trail;
   if (trail.count > 0) {
     const last = 3 * ((trail.first + trail.count - 1) % MOST_PLACES);
@@ -64,7 +81,17 @@ function extend(trail: Trail, x: number, y: number, z: number): void {
     if (moved < APART_M) return;
     if (moved > JUMP_M) trail.count = 0;
   }
-  places.set([x, y, z], 3 * ((trail.first + trail.count) % MOST_PLACES));
+  const at = (trail.first + trail.count) % MOST_PLACES;
+  places.set([x, y, z], 3 * at);
+  trail.stamps[at] = stamp;
   if (trail.count < MOST_PLACES) trail.count += 1;
   else trail.first = (trail.first + 1) % MOST_PLACES;
+}
+
+// The mean speed between two places, in m/s; 0 if no time passed between them.
+function speedOf({ places, stamps }: Trail, from: number, to: number): number {
+  const time = stamps[to]! - stamps[from]!;
+  const [a, b] = [3 * from, 3 * to];
+  const way = Math.hypot(places[b]! - places[a]!, places[b + 1]! - places[a + 1]!, places[b + 2]! - places[a + 2]!);
+  return time > 0 ? way / time : 0;
 }

@@ -5,7 +5,7 @@ import { Scene } from "three";
 import type { SceneDescription } from "../api/scene";
 import type { Expectation } from "../state/expectations";
 import type { MarkerArrayMessage, PosesMessage, TransformsMessage } from "../protocol/messages";
-import type { Shown } from "../state/overlays";
+import type { OverlayColours, Shown } from "../state/overlays";
 import { FIRST_SHOWN } from "../state/overlays";
 import type { Viewpoint } from "../state/link";
 import type { Point, ViewMode } from "../state/State";
@@ -214,6 +214,11 @@ export class World3D {
   // Shows the points of a ruler or a wall.
   showPoints(points: readonly Point[]): void {
     this.tools.marks.show(points);
+    this.loop.request();
+  }
+
+  setOverlayColours(colours: OverlayColours): void {
+    this.overlays.setColours(colours);
     this.loop.request();
   }
 

@@ -3,6 +3,7 @@ import type { Matrix4 } from "three";
 import { Vector3 } from "three";
 import type { CameraView, SceneJoint } from "../api/scene";
 import type { TouchPoint } from "../live/clouds";
+import type { EquivalentBox } from "./inertia";
 import type { LineLayer } from "./LineLayer";
 import { rgb } from "./LineLayer";
 
@@ -21,6 +22,8 @@ const CROSS = 0.06; // m
 const JOINT_COLOUR = rgb(0x00b8d4);
 const JOINT_LENGTH = 0.12; // m, to each side
 const CIRCLE_SEGMENTS = 12;
+const MASS_COLOUR = rgb(0xd946c0);
+const BOX_COLOUR = rgb(0x8b5cf6);
 const ORIGIN = [0, 0, 0] as const;
 
 // x red, y green, z blue.
@@ -56,6 +59,25 @@ export function drawJoint(
   for (let i = 0; i < CIRCLE_SEGMENTS; ++i) {
     const angle = (k: number) => (2 * Math.PI * k) / CIRCLE_SEGMENTS;
     add(at(0, angle(i), CROSS), at(0, angle(i + 1), CROSS));
+  }
+}
+
+// A cross at the centre of mass, and the box with the same inertia.
+export function drawMass(lines: LineLayer, worldFromInertia: Matrix4, { frameFromBox, half }: EquivalentBox): void {
+  const [x, y, z] = half;
+  const size = Math.min(CROSS, Math.max(...half) || CROSS);
+  for (const k of [0, 1, 2]) {
+    const end = [0, 1, 2].map((axis) => (axis === k ? size : 0));
+    lines.add(worldFromInertia, end, end.map((value) => -value), MASS_COLOUR);
+  }
+  const worldFromBox = worldFromInertia.clone().multiply(frameFromBox);
+  const sides = [-1, 1];
+  for (const a of sides) {
+    for (const b of sides) {
+      lines.add(worldFromBox, [-x, a * y, b * z], [x, a * y, b * z], BOX_COLOUR);
+      lines.add(worldFromBox, [a * x, -y, b * z], [a * x, y, b * z], BOX_COLOUR);
+      lines.add(worldFromBox, [a * x, b * y, -z], [a * x, b * y, z], BOX_COLOUR);
+    }
   }
 }
 

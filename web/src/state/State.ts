@@ -14,8 +14,8 @@ import type { Editing } from "./editing";
 import type { Expectation } from "./expectations";
 import type { Health } from "./health";
 import { NO_PEOPLE } from "./people";
-import type { Shown } from "./overlays";
-import { FIRST_SHOWN } from "./overlays";
+import type { OverlayColours, Shown } from "./overlays";
+import { FIRST_COLOURS, FIRST_SHOWN } from "./overlays";
 import type { RobotFilter } from "./robotList";
 import { NO_FILTER } from "./robotList";
 import type { SavedLayout } from "./layouts";
@@ -104,6 +104,7 @@ export interface State {
   mapMode: boolean; // whether the view is a map: from above, north up
   viewMode: ViewMode;
   shown: Shown;
+  overlayColours: OverlayColours;
   camera: CameraChoice | null;
   plots: Plots;
   openPanels: readonly string[]; // by id, as panels/registry.ts has them
@@ -158,6 +159,7 @@ export const initialState: State = {
   mapMode: false,
   viewMode: "orbit",
   shown: FIRST_SHOWN,
+  overlayColours: FIRST_COLOURS,
   camera: null,
   plots: NO_PLOTS,
   openPanels: [],

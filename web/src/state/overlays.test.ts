@@ -1,5 +1,5 @@
 import { expect, test, vi } from "vitest";
-import { FIRST_SHOWN, OVERLAYS, OVERLAY_NAMES, keepShown, loadShown } from "./overlays";
+import { FIRST_COLOURS, FIRST_SHOWN, OVERLAYS, OVERLAY_NAMES, keepColours, keepShown, loadColours, loadShown } from "./overlays";
 
 const holding = (text: string | null) => ({ getItem: () => text });
 
@@ -29,4 +29,13 @@ test("a missing or full storage causes no error", () => {
 test("each overlay has its own key", () => {
   expect(OVERLAYS.map(({ name }) => name)).toEqual([...OVERLAY_NAMES]);
   expect(new Set(OVERLAYS.map(({ key }) => key)).size).toBe(OVERLAYS.length);
+});
+
+test("the colours of points and trails are kept, and unknown ones are ignored", () => {
+  const kept = new Map<string, string>();
+  keepColours({ setItem: (key, value) => void kept.set(key, value) }, { points: "height", trails: "speed" });
+  expect(loadColours({ getItem: (key) => kept.get(key) ?? null })).toEqual({ points: "height", trails: "speed" });
+  for (const text of ["{", "null", '{"points":"toString","trails":7}']) {
+    expect(loadColours(holding(text))).toEqual(FIRST_COLOURS);
+  }
 });

@@ -19,6 +19,7 @@ export const OVERLAY_NAMES = [
   "grid",
   "collisions",
   "joints",
+  "masses",
   "actuators",
   "sound",
 ] as const;
@@ -37,6 +38,7 @@ export const OVERLAYS: readonly OverlayKind[] = [
   { name: "grid", label: "Grid", key: "8", hint: "Grid with 1 m cells" },
   { name: "collisions", label: "Collision shapes", key: "9", hint: "Collision shapes used by the physics" },
   { name: "joints", label: "Joints", key: "0", hint: "Axes of the joints" },
+  { name: "masses", label: "Masses", key: "B", hint: "Centres of mass, and boxes with the same inertia" },
   { name: "actuators", label: "Actuators and radio", key: "-", hint: "State of lamps, speakers, grippers and radios" },
   { name: "sound", label: "Sound", key: "=", hint: "Play the sound of the robots' loudspeakers" },
 ];
@@ -53,9 +55,49 @@ export const FIRST_SHOWN: Shown = {
   grid: true,
   collisions: false,
   joints: false,
+  masses: false,
   actuators: true,
   sound: false,
 };
+
+// What the colours of points and trails mean.
+export const POINT_COLOURS = { range: "distance", height: "height", intensity: "intensity" } as const;
+export const TRAIL_COLOURS = { robot: "robot", speed: "speed" } as const;
+export type PointColour = keyof typeof POINT_COLOURS;
+export type TrailColour = keyof typeof TRAIL_COLOURS;
+
+export interface OverlayColours {
+  points: PointColour;
+  trails: TrailColour;
+}
+
+export const FIRST_COLOURS: OverlayColours = { points: "range", trails: "robot" };
+
+const COLOURS_KEY = "gsv.overlayColours";
+
+export function loadColours(storage: Pick<Storage, "getItem"> | null): OverlayColours {
+  try {
+    const { points, trails } = JSON.parse(storage?.getItem(COLOURS_KEY) ?? "{}") as Record<string, unknown>;
+    return {
+      points: isKeyOf(POINT_COLOURS, points) ? points : FIRST_COLOURS.points,
+      trails: isKeyOf(TRAIL_COLOURS, trails) ? trails : FIRST_COLOURS.trails,
+    };
+  } catch {
+    return FIRST_COLOURS; // the stored text comes from another program
+  }
+}
+
+export function keepColours(storage: Pick<Storage, "setItem"> | null, colours: OverlayColours): void {
+  try {
+    storage?.setItem(COLOURS_KEY, JSON.stringify(colours));
+  } catch {
+    // If the storage is full or not allowed, nothing is saved, as in a private window.
+  }
+}
+
+function isKeyOf<Names extends object>(names: Names, value: unknown): value is keyof Names {
+  return typeof value === "string" && Object.hasOwn(names, value);
+}
 
 const KEY = "gsv.overlays";
 

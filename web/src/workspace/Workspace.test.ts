@@ -27,7 +27,7 @@ function panelOf(id: string, more: Partial<Panel> = {}) {
     },
   }));
   const load = vi.fn(async () => ({ mount }));
-  const panel: Panel = { id, title: id, hint: "", picture: "log", isAvailable: () => true, load, ...more };
+  const panel: Panel = { id, title: id, hint: "", picture: "log", group: "Look", isAvailable: () => true, load, ...more };
   return { panel, mount, load, seen };
 }
 

@@ -16,7 +16,7 @@ import type { Space } from "./presets";
 
 const SIDE_PX = 300;
 const BELOW_PX = 250;
-const TOP_SIDE_PX = 270;
+const TOP_SIDE_SHARE = 0.62; // of the height
 const MIN_WIDTH_PX = 150;
 const MIN_HEIGHT_PX = 90;
 const NARROW = "(max-width: 760px)";
@@ -138,7 +138,7 @@ export class Workspace {
     const side = place === "top-side" && !this.isNarrow ? this.kinOf(id, "side") : undefined;
     if (side) {
       const position = { referencePanel: side, direction: "above" as const };
-      return this.constrain(this.api.addPanel({ id, component: id, tabComponent: "tab", title: panel.title, position, initialHeight: TOP_SIDE_PX }));
+      return this.constrain(this.api.addPanel({ id, component: id, tabComponent: "tab", title: panel.title, position, initialHeight: TOP_SIDE_SHARE * this.space.height }));
     }
     const position = kin
       ? { referencePanel: kin, direction: "within" as const }

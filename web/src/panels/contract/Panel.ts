@@ -6,11 +6,16 @@ import type { State } from "../../state/State";
 import type { IconName } from "../../ui/icons";
 import type { PanelPorts } from "./ports";
 
+// The groups of the buttons that open panels, in their order.
+export const PANEL_GROUPS = ["Look", "Control", "Data", "Health"] as const;
+export type PanelGroup = (typeof PANEL_GROUPS)[number];
+
 export interface Panel {
   id: string; // in the store, as the element's class, and in saved layouts and links: it stays
   title: string;
   hint: string; // what it shows, for the help sheet
   picture: IconName;
+  group: PanelGroup;
   key?: string; // the single key that opens and closes it, in upper case
   // Whether server and simulation provide its data, and the viewer has permission. Otherwise the
   // panel is not offered, and if it is open it shows `absence`.

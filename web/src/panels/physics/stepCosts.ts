@@ -102,6 +102,7 @@ function reason(costs: StepCosts): string {
   const share = (part: Part) => costs.of(part) / Math.max(busy, 1e-12);
   const percent = (part: Part) => `${Math.round(100 * share(part))} % of the time`;
   const [first] = costs.holdUps;
+  if (costs.of("idle_s") > busy) return "The steps themselves are fast: other programs on this machine delay them.";
   if (share("behaviours_s") >= LARGE) {
     const name = first ? `the behaviour of ${first.robot}` : "the behaviours";
     return `Behaviours take ${percent("behaviours_s")}, most of all ${name}.`;
@@ -111,6 +112,5 @@ function reason(costs: StepCosts): string {
   }
   if (share("observers_s") >= LARGE) return `Recording and viewers take ${percent("observers_s")}. Record fewer topics.`;
   if (share("devices_s") >= LARGE) return `Actuators and radios take ${percent("devices_s")}.`;
-  if (costs.of("idle_s") > busy) return "The steps themselves are fast: other programs on this machine delay them.";
   return "No part takes more than half of the time.";
 }

@@ -67,7 +67,7 @@ export class TopicList {
       name,
     );
     const [rate, bandwidth] = [element("td", { class: "number" }, "–"), element("td", { class: "number" }, "–")];
-    const row = { element: element("tr", {}, element("td", {}, button), element("td", { class: "dim" }, type), rate, bandwidth), button, rate, bandwidth };
+    const row = { element: element("tr", {}, element("td", {}, button), element("td", { class: "dim", title: type }, type), rate, bandwidth), button, rate, bandwidth };
     this.rows.set(name, row);
     return row;
   }
