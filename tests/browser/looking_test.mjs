@@ -80,10 +80,13 @@ test("a chase follows the selected robot, and a pause stops all motion", async (
   await settled(page);
 });
 
+// From the purple to the yellow end of the colour scale of points.
+const isOfScale = (r, g, b) => (g < 60 && r > 60 && b > 50) || (r > 130 && r > 1.3 * b);
+
 // Switches on one overlay at a time in a paused picture: the view is from behind the robot, or from
 // above for trails.
 for (const [name, key, isWanted, least] of [
-  ["points of lidar and depth camera", "2", isOrange, 60],
+  ["points of lidar and depth camera", "2", isOfScale, 60],
   ["what a camera sees", "4", (...colour) => isYellow(...colour) || isOrange(...colour), 15],
   ["trails", "5", (...colour) => isBlue(...colour) || isOrange(...colour), 40],
   ["frames", "6", (...colour) => [isRed, isGreen, isBlue].some((is) => is(...colour)), 40],
