@@ -123,7 +123,7 @@ test("the robots of another recording are ghosts at the same simulated time", as
   await ghostIsRight(5.5);
 });
 
-test("the first difference is a mark that says what differs", async () => {
+test("the first difference is a mark that names the topic that differs", async () => {
   const mark = page.getByRole("button", { name: /first difference/ });
   await mark.waitFor();
   await mark.click();
@@ -133,7 +133,7 @@ test("the first difference is a mark that says what differs", async () => {
   await page.keyboard.press("Escape");
 });
 
-test("its curves are dashed beside those of the first", async () => {
+test("the curves of the second recording are dashed beside those of the first", async () => {
   await standAt(4);
   await page.locator(`[data-robot="${MOVER}"]`).click();
   await page.getByRole("button", { name: "Plots" }).first().click();
@@ -166,7 +166,7 @@ test("its curves are dashed beside those of the first", async () => {
   await until(async () => (await coloured()) < 0.85 * both, "the second curve to go");
 });
 
-test("both play along", async () => {
+test("both recordings play together", async () => {
   await page.getByRole("button", { name: "Compare with…" }).click();
   await page.locator(".compare-list").getByText("yesterday.mcap").click();
   await standAt(1);

@@ -51,7 +51,7 @@ async function standsStill(robot) {
   }, `${robot} to stand`);
 }
 
-test("a robot without a behaviour is driven through the door by keys, and stands when they are let go", async () => {
+test("keys drive a robot without a behaviour through the door, and releasing them stops it", async () => {
   await press("Teleoperation");
   const choice = panel("Teleoperation").getByRole("combobox", { name: "Robot to drive" });
   assert.deepEqual(await choice.locator("option").allTextContents(), ["pebble"], "the other one has a behaviour");
@@ -90,7 +90,7 @@ test("the pad is dragged by mouse or finger", async () => {
   await standsStill("pebble");
 });
 
-test("a gamepad drives, and the robot stands when it is pulled out", async () => {
+test("a gamepad drives the robot, which stops when the gamepad is disconnected", async () => {
   await page.evaluate(() => (window.pads = [{ index: 0, id: "Test pad", connected: true, axes: [0, -1, 0, 0] }]));
   await panel("Teleoperation").getByText(/Gamepad connected: Test pad/).waitFor();
   await movesOn("pebble", 0.1);
@@ -99,7 +99,7 @@ test("a gamepad drives, and the robot stands when it is pulled out", async () =>
   await standsStill("pebble");
 });
 
-test("a second viewer gets a sentence, and no robot", async () => {
+test("a second viewer cannot drive the same robot, and sees the reason", async () => {
   const { page: second } = await openPage(browser, server.url);
   await second.waitForFunction(() => window.gsv !== undefined);
   await panel("Teleoperation", second).getByText("Others are watching this simulation. Take control first.").waitFor();
@@ -143,13 +143,13 @@ test("an arm's joint is moved by its slider, and shows its limits", async () => 
   await until(async () => Math.abs((await ask(page, "/bodies/arm/joints")).joints[1].position - 0.2) < 0.01, "the slide at 0.2 m");
 });
 
-test("the joints of a robot that its behaviour controls say why they cannot be moved", async () => {
+test("the panel shows why the joints of a robot with a behaviour cannot be moved", async () => {
   const joints = panel("Joints");
   await joints.getByRole("combobox", { name: "Body" }).selectOption("porter");
   await joints.getByText("'porter' is controlled by its behaviour 'wander'. Add a robot without a behaviour to control it yourself.").waitFor();
   assert.equal(await joints.getByRole("slider").first().isDisabled(), true);
 });
 
-test("nothing went wrong, and nothing was asked of another host", () => {
+test("no other host was contacted and there were no errors", () => {
   assert.deepEqual(faults.filter((fault) => !fault.includes("status of 409")), []);
 });

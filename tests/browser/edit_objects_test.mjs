@@ -78,7 +78,7 @@ test("an added object is placed and selected", async () => {
   await page.getByText("crate is chosen").waitFor();
 });
 
-test("it is turned by a number, and by a key", async () => {
+test("an object is rotated by a number, and by a key", async () => {
   const yaw = page.getByRole("region", { name: "Pose" }).getByLabel("Yaw (°)");
   await yaw.fill("90");
   await yaw.press("Enter");

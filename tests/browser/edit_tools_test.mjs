@@ -84,7 +84,7 @@ test("the list, the inspector and the view show the same choice", async () => {
   await pose().getByRole("heading", { name: "box" }).waitFor();
 });
 
-test("a handle moves it along one axis, in steps if it snaps", async () => {
+test("a handle moves the body along one axis, in steps if snapping is on", async () => {
   await edit().getByLabel("Snap").check();
   await edit().getByLabel("Distance").selectOption("0.25");
   await page.keyboard.press("t");
@@ -106,7 +106,7 @@ test("a handle moves it along one axis, in steps if it snaps", async () => {
   assert.equal(Number(await pose().getByLabel("x (m)").inputValue()), Number(now[0].toFixed(4)));
 });
 
-test("numbers put it exactly there, and undo takes each back", async () => {
+test("typed numbers place the body exactly, and undo reverts each of them", async () => {
   await ready();
   const before = await place("box");
   await type("z (m)", 1.5);
@@ -167,7 +167,7 @@ test("the map has a scale, and its ruler agrees with it", async () => {
   await settled(page);
 });
 
-test("several are chosen, moved, copied and removed together", async () => {
+test("several bodies are selected, moved, copied and removed together", async () => {
   await page.locator('[data-object="box"]').click();
   await chosenAre("box");
   await page.locator('[data-object="wall"]').click({ modifiers: ["Shift"] });
@@ -192,7 +192,7 @@ test("several are chosen, moved, copied and removed together", async () => {
   await settled(page);
 });
 
-test("a rectangle chooses what is in it", async () => {
+test("a rectangle selects the bodies inside it", async () => {
   await press("Map");
   await settled(page);
   await page.keyboard.press("Escape");

@@ -54,7 +54,7 @@ async function shown(page) {
   return now;
 }
 
-test("it shows the world, and a drag and the keys turn it", async () => {
+test("the element shows the world, and a drag and the keys turn the view", async () => {
   const { page, faults } = await open(pageFor(server.url));
   const first = await shown(page);
   const view = page.locator("gsv-view");
@@ -76,7 +76,7 @@ test("it shows the world, and a drag and the keys turn it", async () => {
   await page.close();
 });
 
-test("it follows a robot, and says what cannot be shown", async () => {
+test("the element follows a robot, and shows an error for an unknown one", async () => {
   const { page, faults } = await open(pageFor(server.url, 'follow="pebble" label="Pebble at work"'));
   await shown(page);
   const view = page.locator("gsv-view");
@@ -90,7 +90,7 @@ test("it follows a robot, and says what cannot be shown", async () => {
   await page.close();
 });
 
-test("it shows a simulation through a relay", async () => {
+test("the element shows a simulation through a relay", async () => {
   const { page, faults } = await open(pageFor(relay.url));
   await shown(page);
   assert.deepEqual(faults, []);

@@ -25,7 +25,7 @@ after(async () => {
 const press = (name) => page.getByRole("button", { name, exact: true }).click();
 const panel = (name) => page.getByRole("region", { name, exact: true });
 
-test("physics shows gravity and step, what steps cost, and which behaviour holds them up", async () => {
+test("the panel Physics shows gravity, the step, the time of steps, and the behaviour that delays them", async () => {
   await press("Physics");
   const physics = panel("Physics");
   await physics.getByText(/^[\d.]+ ms$/).first().waitFor();
@@ -43,7 +43,7 @@ test("physics shows gravity and step, what steps cost, and which behaviour holds
   await until(async () => !(await page.evaluate(() => window.gsv.topics)).includes("/gsv/step_costs"), "the end of the measurement");
 });
 
-test("the tree of the world leads to links, joints, sensors and transforms", async () => {
+test("the tree of the panel World contains links, joints, sensors and transforms", async () => {
   await press("World");
   const world = panel("World");
   await world.getByLabel("Name in the world").fill("pebble");
@@ -61,6 +61,6 @@ test("the tree of the world leads to links, joints, sensors and transforms", asy
   await part.getByText(/^\d+\.\d\d s$/).first().waitFor();
 });
 
-test("nothing went wrong, and nothing was asked of another host", () => {
+test("no other host was contacted and there were no errors", () => {
   assert.deepEqual(faults, []);
 });

@@ -53,7 +53,7 @@ async function scrubTo(time) {
   await until(async () => Math.abs((await timeOn()) - time) < 0.01, `the instant ${time}`);
 }
 
-test("the timeline spans the run from its start, and goes on with it", async () => {
+test("the timeline spans the run from its start, and grows with it", async () => {
   await until(async () => (await runTime()) > 6, "six simulated seconds");
   assert.equal(await slider().getAttribute("aria-label"), "Time in the run");
   assert.ok(Number(await slider().getAttribute("min")) < 1.5, "it begins late");
@@ -133,7 +133,7 @@ test("a note is a mark for all viewers, also one on a past instant, and is in re
   assert.match(note.detail, /turns here$/);
 });
 
-test("a plot of a run begins where the server's memory does", async () => {
+test("a plot of a run begins at the start of the server's history", async () => {
   await page.locator(`[data-robot="${MOVER}"]`).click();
   await page.getByRole("button", { name: "Plots" }).first().click();
   await page.getByLabel("Add a curve").selectOption({ label: "x" });

@@ -44,7 +44,7 @@ async function pixelsOf(colour) {
   }, colour);
 }
 
-test("a value and an expression of it are two curves in two charts", async () => {
+test("a value and an expression that uses it are two curves in two charts", async () => {
   await choose("Add a curve", "robot speed");
   await press("Expression…");
   await panel().getByLabel("Expression", { exact: true }).fill("{pebble speed} *");
@@ -100,6 +100,6 @@ test("a field of a topic that is not a robot's value is plotted", async () => {
   await until(async () => parseFloat((await legend().locator("li .number").allTextContents()).at(-1)) > step, "the newest step");
 });
 
-test("nothing went wrong, and nothing was asked of another host", () => {
+test("no other host was contacted and there were no errors", () => {
   assert.deepEqual(faults, []);
 });

@@ -48,12 +48,12 @@ async function topics() {
   return stdout;
 }
 
-test("a gsv without the plug-in says why there is no switch", { skip: hasRos2 && "ROS 2 is built" }, async () => {
+test("a gsv without the plug-in shows why there is no switch", { skip: hasRos2 && "ROS 2 is built" }, async () => {
   await press("Create a simulation");
   await page.getByText("Not available: this gsv was built without ROS 2").waitFor();
 });
 
-test("until it is switched on there is nothing of DDS", { skip: !hasRos2 && "built without ROS 2" }, async () => {
+test("until it is switched on, the process has no DDS threads and sockets", { skip: !hasRos2 && "built without ROS 2" }, async () => {
   assert.doesNotMatch(await topics(), /\/clock/);
 });
 
@@ -83,7 +83,7 @@ test("a simulation is published in the chosen namespace", { skip: !hasRos2 && "b
   }
 });
 
-test("while one is published, another one is refused", { skip: !hasRos2 && "built without ROS 2" }, async () => {
+test("while a simulation is published, another one is refused", { skip: !hasRos2 && "built without ROS 2" }, async () => {
   const answer = await fetch(new URL("api/simulations", server.url), {
     method: "POST",
     headers: { "content-type": "application/json" },
@@ -97,7 +97,7 @@ test("while one is published, another one is refused", { skip: !hasRos2 && "buil
   assert.match(reach, /^domain 1\d\d, this machine only$/);
 });
 
-test("its recording has the key in its scenario", { skip: !hasRos2 && "built without ROS 2" }, async () => {
+test("the recording's scenario has the key ros2", { skip: !hasRos2 && "built without ROS 2" }, async () => {
   const { published } = await (await fetch(new URL("api/ros2", server.url))).json();
   const recording = new URL(`api/simulations/${encodeURIComponent(published)}`, server.url);
   await fetch(recording, { method: "DELETE" });
@@ -105,7 +105,7 @@ test("its recording has the key in its scenario", { skip: !hasRos2 && "built wit
   assert.match(fs.readFileSync(path.join(folder, file), "latin1"), /\nros2: \{namespaces: \{pebble: \/fleet\/one\}\}/);
 });
 
-test("nothing else was wrong in the page", () => {
+test("there were no other errors in the page", () => {
   assert.deepEqual(
     faults.filter((fault) => !/status of 4(00|22)/.test(fault)), // refusals, which the browser logs
     [],

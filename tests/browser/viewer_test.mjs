@@ -100,7 +100,7 @@ test("a lost canvas is reported, and the image returns", async () => {
   await show("Names", true);
 });
 
-test("what runs has buttons, and a timeline of what the server keeps of it", async () => {
+test("a running simulation has buttons, and a timeline of the history that the server keeps", async () => {
   await page.getByRole("button", { name: "Step", exact: true }).waitFor();
   await page.getByRole("slider", { name: "Time in the run" }).waitFor();
   assert.equal(await page.getByRole("group", { name: "Playback" }).count(), 0);
@@ -252,7 +252,7 @@ test("keys work: views, help, space", async () => {
   await phaseIs("running");
 });
 
-test("the camera's pictures arrive and have something in them", async () => {
+test("the camera's images arrive and are not blank", async () => {
   const canvas = page.locator("canvas.picture");
   await page.waitForFunction(() => document.querySelector("canvas.picture").width > 1);
   const colours = await canvas.evaluate((each) => {
@@ -352,7 +352,7 @@ test("it works on a phone's screen", async () => {
   }
 });
 
-test("stop ends it, and the buttons say so", async () => {
+test("stop ends the simulation, and the buttons show this", async () => {
   await press("Stop");
   await phaseIs("stopped");
   assert.equal(await page.getByRole("button", { name: "Stop", exact: true }).isDisabled(), true);
@@ -363,7 +363,7 @@ test("no other host was contacted and there were no errors", () => {
   assert.deepEqual(faults, []);
 });
 
-test("after a restart of the server the open page goes on by itself", async () => {
+test("after a restart of the server the open page reconnects by itself", async () => {
   await phaseIs("stopped");
   await server.restart();
   await phaseIs("running");

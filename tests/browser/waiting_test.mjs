@@ -35,7 +35,7 @@ function childCalled(name) {
   return found;
 }
 
-test("a behaviour that is stopped is named, and no longer when it goes on", async () => {
+test("a stopped behaviour is named until it continues", async () => {
   const waiting = page.getByTestId("waiting");
   const behaviour = childCalled("gsv-wander");
   process.kill(behaviour, "SIGSTOP");

@@ -73,7 +73,7 @@ async function standsAt(time, tolerance) {
   );
 }
 
-test("a value is plotted over the whole recording, though nothing of it has been played", async () => {
+test("a value is plotted over the whole recording before any of it was played", async () => {
   await page.locator(`[data-robot="${ROBOT}"]`).click();
   await page.getByRole("button", { name: "Plots", exact: true }).click();
   const added = page.getByRole("combobox", { name: "Add a curve" });
@@ -113,7 +113,7 @@ test("a press on the curve goes to that instant, and dragging goes along", async
   assert.equal((await ask(page, "/replay")).time_s, time);
 });
 
-test("a sensor's value is there as well, from end to end", async () => {
+test("a sensor's value is plotted as well, from start to end", async () => {
   await page.locator('[data-sensor="sonar_00"] dd').waitFor();
   await page.getByRole("button", { name: "Plot sonar_00 range" }).click();
   let rows;

@@ -130,7 +130,7 @@ test("a layout is exported to a file, and imported from it", async () => {
   await page.getByText('layout.json is no layout: it has no "gsv_layout".').waitFor();
 });
 
-test("a link brings its layout; a broken one is said, and the standard layout shown", async () => {
+test("a link opens its layout; an invalid one shows an error and the standard layout", async () => {
   const { page: linked } = await openPage(browser, `${server.url}#layout=c(view~500,status.log*~500)`);
   await waitUntilDrawn(linked);
   await part("Log", linked).waitFor();
@@ -144,7 +144,7 @@ test("a link brings its layout; a broken one is said, and the standard layout sh
   await linked.close();
 });
 
-test("a panel has a window of its own, and returns", async () => {
+test("a panel is moved to its own window, and back", async () => {
   await chooseLayout("Watch a crowd");
   await page.getByRole("tab", { name: "Status", exact: true }).click();
   await press("Arrange status");
@@ -208,6 +208,6 @@ test("on a phone every panel, view and layout can be reached", async () => {
   assert.deepEqual(outside, []);
 });
 
-test("nothing went wrong, and nothing was asked of another host", () => {
+test("no other host was contacted and there were no errors", () => {
   assert.deepEqual(faults, []);
 });

@@ -1,7 +1,7 @@
 import { expect, test, vi } from "vitest";
 import { NewestOnly } from "./NewestOnly";
 
-test("of the wishes that come while one is sent only the last is sent", async () => {
+test("of the requests during a call, only the last one is sent", async () => {
   const answers: (() => void)[] = [];
   const sent: number[] = [];
   const wishes = new NewestOnly<number>(
@@ -18,7 +18,7 @@ test("of the wishes that come while one is sent only the last is sent", async ()
   answers.shift()!();
 });
 
-test("a failure is reported, and the next wish is sent", async () => {
+test("a failure is reported, and the next request is sent", async () => {
   const problems: string[] = [];
   let calls = 0;
   const wishes = new NewestOnly<number>(

@@ -4,12 +4,12 @@ import { EMPTY_SCENARIO, newRobot, parseScenario, scenarioJson } from "./scenari
 
 const pebble = { ...newRobot(EMPTY_SCENARIO, "pebble"), namespace: "/fleet/one" };
 
-test("without settings the key is true, and off it is left out", () => {
+test("without settings the key is true, and switched off it is omitted", () => {
   expect(scenarioJson({ ...EMPTY_SCENARIO, world: "maze", ros2: PLAIN_ROS2 })).toEqual({ world: "maze", ros2: true });
   expect(scenarioJson({ ...EMPTY_SCENARIO, world: "maze", robots: [pebble] }).ros2).toBeUndefined();
 });
 
-test("the namespaces of robots stand by their names", () => {
+test("namespaces are written by the names of their robots", () => {
   const ros2 = { ...PLAIN_ROS2, cmd_vel: "twist_stamped", others: { guard: "/" } };
   const json = { cmd_vel: "twist_stamped", namespaces: { guard: "/", pebble: "/fleet/one" } };
   expect(ros2Json(ros2, [pebble])).toEqual(json);

@@ -36,7 +36,7 @@ function compare() {
   return { store, other, difference, client, control, send: (message: unknown) => handlers.forEach((handler) => handler(message)) };
 }
 
-test("the second recording is opened, goes to the same time, and the difference is told", async () => {
+test("the second recording is opened at the same time, and the first difference is shown", async () => {
   const { store, other, difference, client, control } = compare();
   await control.with("yesterday.mcap");
   expect(other.openRecording).toHaveBeenCalledWith("yesterday.mcap");
@@ -48,7 +48,7 @@ test("the second recording is opened, goes to the same time, and the difference 
   await vi.waitFor(() => expect(other.seek).toHaveBeenLastCalledWith("house", 20));
 });
 
-test("it plays along at the same speed, and is sought only when it is apart", async () => {
+test("the second recording plays at the same speed, and seeks only if its time differs", async () => {
   const { store, other, control, send } = compare();
   await control.with("yesterday.mcap");
   await vi.waitFor(() => expect(other.seek).toHaveBeenCalled());
@@ -62,7 +62,7 @@ test("it plays along at the same speed, and is sought only when it is apart", as
   expect(other.seek).toHaveBeenCalledTimes(seeks);
 });
 
-test("its poses are handed on; the end takes it away", async () => {
+test("the poses of the second recording are passed on until the comparison ends", async () => {
   const { store, control, client, send } = compare();
   const onPoses = vi.fn();
   control.onPoses = onPoses;
@@ -74,7 +74,7 @@ test("its poses are handed on; the end takes it away", async () => {
   expect(store.get().comparison).toBeNull();
 });
 
-test("why it cannot be compared is said", async () => {
+test("the reason is shown if a recording cannot be compared", async () => {
   const { store, other, control } = compare();
   other.openRecording.mockRejectedValueOnce(new Error("there is no recording 'gone'"));
   await control.with("gone");

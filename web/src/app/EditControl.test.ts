@@ -159,7 +159,7 @@ test("several bodies move as one edit; robots stay upright", async () => {
   ]);
 });
 
-test("what is copied is pasted beside the original each time, and chosen then", async () => {
+test("a copied body is pasted beside the original each time, and is then selected", async () => {
   const { api, control, store } = await editing();
   expect(control.copy(["box", "a"])).toBe(2);
   await control.paste();
@@ -173,7 +173,7 @@ test("what is copied is pasted beside the original each time, and chosen then", 
   expect(api.removeObject).toHaveBeenCalledTimes(1);
 });
 
-test("several are removed as one edit, and come back together", async () => {
+test("several bodies are removed as one edit, and restored together", async () => {
   const { api, control, store } = await editing();
   control.choose("box");
   control.chooseMore(["a"]);

@@ -31,7 +31,7 @@ test("the notes of a recording are read with it, and saved beside it", async () 
   expect(api.notesOf).toHaveBeenCalledTimes(3);
 });
 
-test("a note on a run is the simulation's, with the viewer's name, also from its past", async () => {
+test("a note on a run belongs to the simulation and has the viewer's name, also in the past", async () => {
   const people = { viewers: [ADA], you: 1 } as unknown as State["people"];
   const { store, api, control } = notes({ people, replay: REPLAY, inPast: true, abilities: ABILITIES });
   expect(await control.add("slow")).toBe(true);

@@ -31,7 +31,7 @@ function past(api: Partial<SimulationApi>) {
   return { store, session, replay, control };
 }
 
-test("it keeps asking what is kept, and for what happened since", async () => {
+test("the span of the history and the new events are requested repeatedly", async () => {
   const kept = vi.fn(async () => ({ start: 0, end: 40 }));
   const eventsFrom = vi.fn(async (): Promise<(typeof EVENT)[]> => [EVENT]);
   const { store } = past({ kept, eventsFrom });
@@ -43,7 +43,7 @@ test("it keeps asking what is kept, and for what happened since", async () => {
   expect(store.get().events).toEqual([EVENT]);
 });
 
-test("a server that keeps nothing is asked once", async () => {
+test("a server without a history is asked once", async () => {
   const kept = vi.fn(async () => null);
   const { store } = past({ kept });
   await vi.advanceTimersByTimeAsync(10_000);
@@ -51,7 +51,7 @@ test("a server that keeps nothing is asked once", async () => {
   expect(store.get().kept).toBeNull();
 });
 
-test("while the slider is drawn the past is opened once, and the last wish counts", async () => {
+test("while the slider is dragged, the past is opened once, and the last requested time applies", async () => {
   const { store, control, session, replay } = past({ kept: async () => ({ start: 10, end: 40 }), eventsFrom: async () => [] });
   await vi.advanceTimersByTimeAsync(0);
   const first = control.lookAt(30);
@@ -64,7 +64,7 @@ test("while the slider is drawn the past is opened once, and the last wish count
   expect(replay.seek).toHaveBeenLastCalledWith(20);
 });
 
-test("if the past cannot be opened the page stays with the run and says why", async () => {
+test("if the past cannot be opened, the page stays with the run and shows the reason", async () => {
   const { store, control, session } = past({ kept: async () => ({ start: 0, end: 40 }), eventsFrom: async () => [] });
   await vi.advanceTimersByTimeAsync(0);
   session.enterPast.mockRejectedValueOnce(new Error("too many recordings are open"));
@@ -73,7 +73,7 @@ test("if the past cannot be opened the page stays with the run and says why", as
   expect(store.get().notices[0]!.sentence).toContain("too many recordings are open");
 });
 
-test("after a reset the events of the run before are gone", async () => {
+test("after a reset, the events of the earlier run are removed", async () => {
   let end = 40;
   const eventsFrom = vi.fn(async () => (end === 40 ? [EVENT] : []));
   const { store } = past({ kept: async () => ({ start: 0, end }), eventsFrom });

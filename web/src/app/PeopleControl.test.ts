@@ -65,7 +65,7 @@ test("gaining or losing control of the shown simulation is reported", async () =
   expect(sentences()).toEqual(["You have control.", "Bob has control now."]);
 });
 
-test("the stream reports it at once", async () => {
+test("a change of control is reported by the stream at once", async () => {
   const { store, topics, sentences, control: it } = control(async () => ALONE);
   vi.useFakeTimers();
   it.start(new EventTarget() as Window);

@@ -227,7 +227,7 @@ function switchOn(panel: HTMLElement, label: string): void {
   input.dispatchEvent(new Event("change"));
 }
 
-test("switched on, ROS 2 has settings, and each robot a namespace", async () => {
+test("with ROS 2 switched on, the form shows its settings, and a namespace for each robot", async () => {
   const { app, panel } = await opened();
   app.setUp.addRobot("robots", "pebble");
   await settled(app);
@@ -240,14 +240,14 @@ test("switched on, ROS 2 has settings, and each robot a namespace", async () => 
   expect(api.create.mock.calls).toMatchObject([[{ ros2: { cmd_vel: "" }, robots: [{ namespace: "/" }] }]]);
 });
 
-test("a server without ROS 2 says why", async () => {
+test("a server without ROS 2 shows the reason", async () => {
   api.ros2.mockResolvedValue({ isAvailable: false, reason: "this gsv was built without ROS 2", reach: "", published: "" });
   const { panel } = await opened();
   await vi.waitFor(() => expect(panel.textContent).toContain("Not available: this gsv was built without ROS 2."));
   expect(control(panel, "Publish to ROS 2").parentElement!.hidden).toBe(true);
 });
 
-test("the server's objection to ROS 2 stands beside its switch", async () => {
+test("the server's error about ROS 2 is shown beside the switch", async () => {
   const { app, panel } = await opened();
   api.preview.mockRejectedValue(new ApiError(400, "a namespace must begin with a slash", "ros2.namespaces.pebble"));
   switchOn(panel, "Publish to ROS 2");

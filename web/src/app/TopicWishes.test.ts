@@ -18,7 +18,7 @@ function fixture(missing: string[], more: object = {}) {
 beforeEach(() => void vi.useFakeTimers());
 afterEach(() => void vi.useRealTimers());
 
-test("each robot whose sensors are listened to in vain is asked for once", () => {
+test("each robot whose subscribed sensors have no topics is requested once", () => {
   const { wishes, listTopics } = fixture(["/a/sonar", "/a/camera", "/gsv/beams"]);
   wishes.lookSoon();
   wishes.lookSoon();

@@ -15,7 +15,7 @@ function recorder(refuses: (what: string, log: readonly string[]) => boolean = (
   return { log, edit };
 }
 
-test("several edits are done in order, and taken back from the last", async () => {
+test("several edits are done in order, and undone in the reverse order", async () => {
   const { log, edit } = recorder();
   const all = inOrder("all", [edit("a"), edit("b")]);
   await all.apply();
@@ -23,20 +23,20 @@ test("several edits are done in order, and taken back from the last", async () =
   expect(log).toEqual(["+a", "+b", "-b", "-a"]);
 });
 
-test("what was done before a refusal is taken back", async () => {
+test("edits before a refused one are undone", async () => {
   const { log, edit } = recorder((what) => what === "+c");
   await expect(inOrder("all", [edit("a"), edit("b"), edit("c")]).apply()).rejects.toThrow("no +c");
   expect(log).toEqual(["+a", "+b", "-b", "-a"]);
 });
 
-test("bodies that stand in each other's way move one after the other", async () => {
+test("bodies that obstruct each other move one after the other", async () => {
   // "+a" fails until b is removed.
   const { log, edit } = recorder((what, log) => what === "+a" && !log.includes("+b"));
   await together("all", [edit("a"), edit("b")]).apply();
   expect(log).toEqual(["+b", "+a"]);
 });
 
-test("where one cannot move at all, none has moved", async () => {
+test("if one body cannot move, no body is moved", async () => {
   const { log, edit } = recorder((what) => what === "+b");
   await expect(together("all", [edit("a"), edit("b")]).apply()).rejects.toThrow("no +b");
   expect(log).toEqual(["+a", "-a"]);

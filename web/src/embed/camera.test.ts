@@ -3,7 +3,7 @@ import { FIRST_SIDE, imageUrl, turned, zoomed } from "./camera";
 
 const WANTED = { src: "http://host:8080/?simulation=a%20b", attributes: {}, side: FIRST_SIDE, width: 640, height: 360 };
 
-test("the image is that of the address's simulation, from the side that was turned to", () => {
+test("the image shows the simulation in the address, from the side to which the view was turned", () => {
   const url = new URL(imageUrl("view.jpg", WANTED));
   expect(url.origin + url.pathname).toBe("http://host:8080/view.jpg");
   expect(Object.fromEntries(url.searchParams)).toEqual({
@@ -16,7 +16,7 @@ test("the image is that of the address's simulation, from the side that was turn
   expect(imageUrl("view.mjpeg", { ...WANTED, src: "http://host/replays/7/" })).toContain("http://host/replays/7/view.mjpeg?");
 });
 
-test("attributes place the camera, and then no side does", () => {
+test("attributes place the camera instead of a side", () => {
   const attributes = { follow: "pebble", fov: "60", token: "secret", fps: "5" };
   const { searchParams } = new URL(imageUrl("view.mjpeg", { ...WANTED, attributes }));
   expect(searchParams.get("follow")).toBe("pebble");
@@ -27,7 +27,7 @@ test("attributes place the camera, and then no side does", () => {
   expect(new URL(imageUrl("view.jpg", { ...WANTED, attributes })).searchParams.has("fps")).toBe(false);
 });
 
-test("a drag turns it, within what the server draws", () => {
+test("a drag turns the camera within the angles that the server accepts", () => {
   const side = turned(FIRST_SIDE, 100, 50);
   expect(side.azimuth).toBeCloseTo(95);
   expect(side.elevation).toBeCloseTo(54);

@@ -21,7 +21,7 @@ test.each([
   expect(valueOf(text)).toBeCloseTo(value, 12);
 });
 
-test("fields are referred to by topic, robot or simulation, each once", () => {
+test("fields are named by topic, robot or simulation, and listed once", () => {
   const text = "{/a/odom twist.twist.linear.x} - {my robot speed} + {/a/odom twist.twist.linear.x} * {simulation late_steps}";
   const { references, evaluate } = parseExpression(text);
   expect(references).toEqual([
@@ -47,7 +47,7 @@ test.each([
   expect(() => parseExpression(text)).toThrow(sentence);
 });
 
-test("hostile texts end", () => {
+test("the parser terminates for hostile texts", () => {
   expect(() => parseExpression("(".repeat(300))).toThrow();
   expect(() => parseExpression("-".repeat(300))).toThrow("The expression is nested too deeply.");
   expect(() => parseExpression("1+".repeat(400))).toThrow("longer than 300 characters");

@@ -19,14 +19,14 @@ test("a depth camera's points are an image of depths", () => {
   expect(spanOf(image.values)).toEqual([1, 4.5]);
 });
 
-test("a lidar's row, or a cloud that is not whole, is no image", () => {
+test("a lidar's row, and an incomplete cloud, are not images", () => {
   expect(depthImageOf(cloud([1, 2], 2))).toBeNull();
   expect(depthImageOf(cloud([1, 2, 3, 4], 2, { data: new Uint8Array(40) }))).toBeNull();
   expect(depthImageOf(cloud([1, 2, 3, 4], 2, { fields: [] }))).toBeNull();
   expect(depthImageOf(cloud([1, 2, 3, 4], 2, { width: 1e9 }))).toBeNull();
 });
 
-test("where nothing was measured there is a colour of its own", () => {
+test("pixels without a measurement have a separate colour", () => {
   const { rgba } = coloured({ width: 3, height: 1, values: Float32Array.of(1, NaN, 3), unit: "m" });
   expect([...rgba.slice(0, 4)]).toEqual([0, 0, 4, 255]);
   expect([...rgba.slice(4, 8)]).toEqual([32, 38, 46, 255]);

@@ -67,7 +67,7 @@ test("the end card has a link to the replay while the server runs, and a command
   expect(card.querySelector("code")!.textContent).toBe("gsv replay /tmp/house.mcap");
 });
 
-test("its button shows the view", () => {
+test("the button of the end card shows the view", () => {
   const { app, store } = testApp({ status: STATUS });
   [...createEndCard(app).querySelectorAll("button")].find(({ textContent }) => textContent === "Show the view")!.click();
   expect(store.get().endSeen).toBe(true);

@@ -21,7 +21,7 @@ function page(ada: Partial<Person> = {}, bob: Partial<Person> = {}) {
   return { app, store, menu, lines, button };
 }
 
-test("all viewers are listed by name, whatever characters it has", () => {
+test("all viewers are listed by name, with any characters", () => {
   const { lines, menu } = page({}, { holds: true });
   expect(lines()).toEqual(["Ada · you", "<b>Bob</b> · has control"]);
   expect(menu.querySelector("b")).toBeNull();

@@ -15,7 +15,7 @@ function timeline(state: Partial<State> = {}) {
   return { app, store, bar, named, slider: bar.querySelector<HTMLInputElement>("input")! };
 }
 
-test("for a recording it takes the buttons' place", () => {
+test("for a recording the timeline replaces the buttons", () => {
   const { app, store } = testApp({ status: simulationStatus("running") });
   const bar = createTimeline(app);
   const run = createToolbar(app, () => {}).querySelector<HTMLElement>(".toolbar-transport")!;
@@ -151,7 +151,7 @@ test("Enter goes to a typed time, and an invalid time is marked", () => {
   expect(seek).toHaveBeenCalledWith(65.5);
 });
 
-test("below a run it spans what is kept, says live, and goes back where it is drawn to", async () => {
+test('for a run the slider spans the kept history, shows "live", and goes to the time to which it is dragged', async () => {
   const { app, store } = testApp({ status: simulationStatus("running"), time: 42 });
   const bar = createTimeline(app);
   expect(bar.hidden).toBe(true);
@@ -169,7 +169,7 @@ test("below a run it spans what is kept, says live, and goes back where it is dr
   expect(lookAt).toHaveBeenCalledWith(30);
 });
 
-test("in the past of a run a press on Live returns", () => {
+test("in the past of a run, a press on Live returns to the present", () => {
   const { app, bar } = timeline({ inPast: true, kept: { start: 0, end: 80 } });
   const goLive = vi.spyOn(app.past, "goLive").mockImplementation(() => {});
   const live = bar.querySelector<HTMLButtonElement>(".live")!;
@@ -179,7 +179,7 @@ test("in the past of a run a press on Live returns", () => {
   expect(bar.querySelector(".timeline-times")!.textContent).toContain("of the run");
 });
 
-test("notes are listed, gone to and removed; a new one is of the shown time", async () => {
+test("notes are listed, visited and removed; a new note has the shown time", async () => {
   const note = { id: 7, time: 12, text: "<b>slow</b>" };
   const { app, bar } = timeline({
     notes: [note],
@@ -202,7 +202,7 @@ test("notes are listed, gone to and removed; a new one is of the shown time", as
   expect(add).toHaveBeenCalledWith("look");
 });
 
-test("the menu says where two recordings differ, and goes there", () => {
+test("the menu shows where two recordings differ, and goes there", () => {
   const difference = { isEqual: false, time: 3.2, text: "pebble: at 3.2 s /gsv/poses differs\n" };
   const { app, bar } = timeline({
     abilities: { creates: false, records: false, recordings: true, recording: "run.mcap" },

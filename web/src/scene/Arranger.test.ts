@@ -156,7 +156,7 @@ test("a fixed body can be dragged only after it was selected", () => {
   expect(onPlace).toHaveBeenCalledWith("shelf", { x: expect.closeTo(-4, 6), y: expect.closeTo(2, 6), yaw: 0 });
 });
 
-test("it does nothing while moving is not allowed", () => {
+test("drags have no effect while moving is not allowed", () => {
   arranger.isOn = false;
   pointer("pointerdown", 0, 0);
   pointer("pointermove", 2, 0);

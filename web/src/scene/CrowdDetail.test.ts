@@ -28,7 +28,7 @@ function crowd(count: number) {
 }
 
 describe("CrowdDetail", () => {
-  it("draws boxes for a crowd whose nearest is small, and shapes again when it is near", () => {
+  it("draws boxes for a crowd whose nearest robot is small in the image, and shapes again when it is near", () => {
     const { look } = crowd(50);
     const isCoarse = (distance: number) => look(distance).boxes.length > 0;
     expect(isCoarse(6)).toBe(false); // 13 pixels

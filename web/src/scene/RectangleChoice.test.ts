@@ -20,7 +20,7 @@ function choice() {
   return { host, events, rectangle, beyond, send };
 }
 
-test("Shift and a click add what is there to the choice", () => {
+test("Shift and a click add the body there to the selection", () => {
   const { events, beyond, send } = choice();
   send("pointerdown", 10, 20);
   send("pointerup", 11, 21);
@@ -29,7 +29,7 @@ test("Shift and a click add what is there to the choice", () => {
   expect(beyond).not.toHaveBeenCalled();
 });
 
-test("Shift and a drag choose what lies in the rectangle, which is shown", () => {
+test("Shift and a drag select the bodies in the rectangle, which is shown", () => {
   const { host, events, send } = choice();
   const mark = host.querySelector<HTMLElement>(".choice-rectangle")!;
   send("pointerdown", 50, 60);
@@ -43,7 +43,7 @@ test("Shift and a drag choose what lies in the rectangle, which is shown", () =>
   expect(isInside({ x: 60, y: 40 })).toBe(false);
 });
 
-test("without Shift or Ctrl, and while nothing is edited, it takes nothing", () => {
+test("without Shift or Ctrl, and outside of editing, clicks and drags select nothing", () => {
   const { events, rectangle, beyond, send } = choice();
   send("pointerdown", 1, 1, false);
   rectangle.isOn = false;

@@ -16,7 +16,7 @@ test("saved layouts are loaded again", () => {
   expect(loadLayouts(own)).toEqual(saved);
 });
 
-test.each(["{", "null", "7", '[{"name":1}]', '[{"name":"","text":"view"}]', '[null]'])("of what others wrote (%s) nothing is taken", (kept) => {
+test.each(["{", "null", "7", '[{"name":1}]', '[{"name":"","text":"view"}]', '[null]'])("an invalid stored text (%s) is ignored", (kept) => {
   expect(loadLayouts(storage(kept))).toEqual([]);
 });
 

@@ -8,7 +8,7 @@ test("a shape is a model that the server knows by its name", () => {
   expect(modelOf({ ...box, kind: "cylinder", height: 1 })).toContain("shape:cylinder?radius=0.2&length=1&mass=8");
 });
 
-test("lengths and masses that cannot be are refused with a sentence", () => {
+test("impossible lengths and masses are refused with a sentence", () => {
   expect(faultOf(FIRST_SHAPE)).toBe("");
   expect(faultOf({ ...FIRST_SHAPE, width: 0 })).toMatch(/width must be/);
   expect(faultOf({ ...FIRST_SHAPE, height: NaN })).toMatch(/height must be/);
@@ -17,7 +17,7 @@ test("lengths and masses that cannot be are refused with a sentence", () => {
   expect(faultOf({ ...FIRST_SHAPE, kind: "sphere", width: 0 })).toBe(""); // a sphere has none
 });
 
-test("a wall stands between two points", () => {
+test("a wall reaches from one point to another", () => {
   const { shape, place } = wallBetween({ x: 1, y: 1 }, { x: 1, y: 4 }, { thickness: 0.1, height: 2, colour: "b4b4b4" });
   expect([shape.length, shape.width, shape.height, shape.isStatic]).toEqual([3, 0.1, 2, true]);
   expect([place.x, place.y]).toEqual([1, 2.5]);

@@ -27,7 +27,7 @@ test("single keys are on in a browser without storage", () => {
   expect(loadSingleKeys(null)).toBe(true);
 });
 
-test("a changed key asks for its command, its former key for no other, and two commands never share a key", () => {
+test("a changed key runs its command, the former key runs none, and two commands never share a key", () => {
   const changed = withChangedKey({}, "P", "z");
   expect(keyOf("p", changed)).toBe("z");
   expect([originalKey("Z", changed), originalKey("p", changed), originalKey("g", changed)]).toEqual(["p", "z", "g"]); // Z is no command's
@@ -36,7 +36,7 @@ test("a changed key asks for its command, its former key for no other, and two c
   expect(withChangedKey(withChangedKey({}, "p", "z"), "p", "p")).toEqual({});
 });
 
-test("changed keys are kept, and what is no key is left out", () => {
+test("changed keys are stored, and invalid keys are omitted", () => {
   const kept = storage();
   keepChangedKeys(kept, { p: "z" });
   expect(loadChangedKeys(kept)).toEqual({ p: "z" });

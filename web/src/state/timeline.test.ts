@@ -53,7 +53,7 @@ test("each instant has a next and a previous mark, or none", () => {
   expect(markBeside(marks, 11, -1)).toBeNull();
 });
 
-test("a run spans what is kept of it, up to now", () => {
+test("a run's timeline spans its kept history, up to the present", () => {
   expect(spanOf(REPLAY, null, 15)).toEqual({ start: 10, end: 20 });
   expect(spanOf(null, { start: 3, end: 9 }, 9.5)).toEqual({ start: 3, end: 9.5 });
   expect(spanOf(null, { start: 0, end: 0 }, 0)).toBeNull();
@@ -67,7 +67,7 @@ test("events of a run are added once, by time", () => {
   expect(more.map(({ time }) => time)).toEqual([1, 3, 5]);
 });
 
-test("notes and the first difference are marks among the events; what is no longer kept is none", () => {
+test("notes and the first difference are marks among the events; those before the kept history have no mark", () => {
   const state = {
     ...initialState,
     replay: REPLAY,

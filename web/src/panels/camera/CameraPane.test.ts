@@ -47,7 +47,7 @@ test("the pane does not wait for a recording without images", () => {
   expect(waiting()).toBe("Waiting for an image…");
 });
 
-test("the grid listens to every camera, a click on one shows it alone, and the page's choice follows", () => {
+test("the grid subscribes to every camera, and a click on one selects it and shows it alone", () => {
   const other = { ...EYE, name: "rear", topic: "/a/rear" };
   const depth = { ...EYE, name: "depth", type: "depth_camera", overlay: "points" as const, topic: "/a/depth" };
   const { ports, store, topics } = testPorts({ scene: scene({ bodies: [body("a", { sensors: [EYE, other, depth] })] }) });
@@ -64,7 +64,7 @@ test("the grid listens to every camera, a click on one shows it alone, and the p
   expect(topics.read).toEqual(["/a/rear"]);
 });
 
-test("an image that is behind shows its age, one that cannot be decoded says so", async () => {
+test("a late image shows its age, and one that cannot be decoded shows an error", async () => {
   const { ports, store, topics } = testPorts({ scene: SCENE, time: 10 });
   vi.stubGlobal("createImageBitmap", async () => ({ width: 2, height: 2, close: () => {} }));
   const tile = new CameraTile(camerasOf(SCENE)[0]!, ports, "eye");

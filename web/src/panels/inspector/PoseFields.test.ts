@@ -18,7 +18,7 @@ function fields(pose = POSE) {
   return { ports, store, card, input };
 }
 
-test("the pose is shown in metres and degrees, and goes when nothing is chosen", () => {
+test("the pose is shown in metres and degrees, and hidden without a selection", () => {
   const { store, card, input } = fields();
   expect(input("x (m)").value).toBe("1");
   expect(input("Yaw (°)").value).toBe("90");
@@ -28,7 +28,7 @@ test("the pose is shown in metres and degrees, and goes when nothing is chosen",
   expect(card.hidden).toBe(true);
 });
 
-test("a typed number puts the body there, the rest stays", () => {
+test("a typed number changes one coordinate of the body, and no other", () => {
   const { ports, input } = fields();
   input("Roll (°)").value = "180";
   input("Roll (°)").dispatchEvent(new Event("input"));
@@ -36,14 +36,14 @@ test("a typed number puts the body there, the rest stays", () => {
   expect(ports.edits.pose).toHaveBeenCalledWith({ ...POSE, roll: Math.PI });
 });
 
-test("a robot stands upright: it has no height, roll and pitch to type", () => {
+test("a robot is upright, so it has no fields for height, roll and pitch", () => {
   const { input } = fields({ ...POSE, body: "a" });
   const isShown = (label: string) => !input(label).closest<HTMLElement>(".field")!.hidden;
   expect(["x (m)", "y (m)", "Yaw (°)"].every(isShown)).toBe(true);
   expect(["z (m)", "Roll (°)", "Pitch (°)"].some(isShown)).toBe(false);
 });
 
-test("a number that is none is refused, and the field shows the pose again", () => {
+test("an invalid number is refused, and the field shows the pose again", () => {
   const { ports, input } = fields();
   input("x (m)").value = "";
   input("x (m)").dispatchEvent(new Event("input"));

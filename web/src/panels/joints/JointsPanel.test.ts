@@ -65,7 +65,7 @@ test("a joint without limits has its velocity on the slider, and a button that s
   end();
 });
 
-test("why a body or a joint takes no commands is said, and its slider is off", async () => {
+test("the panel shows why a body or a joint takes no commands, and disables the slider", async () => {
   const { slider, end, joints } = await opened({ refusal: "'arm' is controlled by its behaviour" });
   expect(document.querySelector(".joints-note")!.textContent).toBe("'arm' is controlled by its behaviour");
   expect(slider().disabled).toBe(true);

@@ -17,7 +17,7 @@ function message(steps: number, sum: Partial<StepCost>, more: Partial<StepCostsM
 
 const RUNNING = simulationStatus("running", { realTimeFactor: 0.5, targetFactor: 1 });
 
-test("why a run is slower than asked is what takes most of its busy time", () => {
+test("the reason for a slow run is the part that takes most of its computing time", () => {
   const costs = new StepCosts();
   expect(paceSentence(RUNNING, costs)).toBe("No step yet.");
   costs.add(message(10, { bodies_s: 0.9, observers_s: 0.1 }));
@@ -35,7 +35,7 @@ test("why a run is slower than asked is what takes most of its busy time", () =>
   expect(paceSentence(RUNNING, idle)).toContain("other programs on this machine delay them");
 });
 
-test("hold-ups are summed over the last seconds, and the longest steps stand in their order", () => {
+test("delays are summed over the last seconds, and the longest steps are sorted", () => {
   const costs = new StepCosts();
   const held = (robot: string, total_s: number) => ({ robot, steps: 2n, total_s, longest_s: total_s / 2 });
   costs.add(message(2, {}, { hold_ups: [held("a", 1), held("b", 4)], longest: [cost(3, { bodies_s: 1 }), cost(4, { bodies_s: 3 })] }));

@@ -24,7 +24,7 @@ test("events are marked with what happened, once each", () => {
   expect(topics.read).toEqual([]);
 });
 
-test("a reset begins anew, and of a recording all are there", () => {
+test("a reset removes all marks, and a recording has all of its marks at once", () => {
   const { events, send, store } = listening();
   send(9, "paused");
   send(0, "reset");

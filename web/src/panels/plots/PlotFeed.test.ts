@@ -176,7 +176,7 @@ test("an expression is computed at each value of its fields, from the newest of 
   expect(topics.read).toEqual([]);
 });
 
-test("the past of a run comes before what was plotted as it came", () => {
+test("the history of a run precedes the values that were plotted live", () => {
   const { feed, takePoses } = feeding([curve(A, "x")]);
   takePoses(poses(10, 5));
   takePoses(poses(11, 6));
@@ -187,7 +187,7 @@ test("the past of a run comes before what was plotted as it came", () => {
   expect(samples(feed, A, "x").at(-1)).toEqual([12, 7]);
 });
 
-test("back from the past the run is plotted again", () => {
+test("after a return from the past, the run is plotted again", () => {
   const replay = { start: 0, end: 20, speed: 1, loop: false };
   const { feed, store, takePoses } = feeding([curve(A, "x")]);
   store.set({ replay, inPast: true });
@@ -198,7 +198,7 @@ test("back from the past the run is plotted again", () => {
   expect(samples(feed, A, "x")).toEqual([[21, 3]]);
 });
 
-test("the curve of a second recording is kept apart, and goes with it", () => {
+test("the curve of a second recording is separate, and is removed with that recording", () => {
   const comparison = { recording: "old.mcap", simulation: "x", scene: null, difference: null, problem: "" };
   const { feed, store } = feeding([curve(A, "x")], { comparison });
   feed.takeCompared(curveId(A, "x"), { times: Float64Array.from([1]), values: Float64Array.from([9]), isWhole: true, done: true, problem: "" });

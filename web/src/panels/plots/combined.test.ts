@@ -24,7 +24,7 @@ test("values of different instants are combined with the newest of each", () => 
   expect(done).toBe(true);
 });
 
-test("it is as complete as the least complete of them, and has their problem", () => {
+test("a combined curve is as complete as its least complete input, and has the input's problem", () => {
   const thinned = curve([[0, 1]], { isWhole: false });
   const unread = curve([[0, 1]], { done: false, problem: "the recording is damaged" });
   expect(combined([thinned, unread], ([a]) => a!)).toMatchObject({ isWhole: false, done: false, problem: "the recording is damaged" });

@@ -11,26 +11,26 @@ import { mount } from "./TeleoperationPanel";
 beforeEach(() => void vi.useFakeTimers());
 afterEach(() => void vi.useRealTimers());
 
-test("keys give parts of the greatest speeds, and opposite keys cancel each other", () => {
+test("keys command fractions of the maximum speeds, and opposite keys cancel each other", () => {
   expect(wishOfKeys(new Set(["w", "a"]))).toEqual({ ahead: 1, left: 0, turn: 1 });
   expect(wishOfKeys(new Set(["arrowdown", "e"]))).toEqual({ ahead: -1, left: -1, turn: 0 });
   expect(wishOfKeys(new Set(["w", "s"]))).toEqual({ ahead: 0, left: 0, turn: 0 });
 });
 
-test("the pad is a disc: beyond its edge the speed is the greatest", () => {
+test("the pad is a disc, and beyond its edge the speed is the maximum", () => {
   expect(wishOfPoint(0, -0.5)).toEqual({ ahead: 0.5, left: 0, turn: 0 });
   const { ahead, turn } = wishOfPoint(-3, -4);
   expect(ahead).toBeCloseTo(0.8);
   expect(turn).toBeCloseTo(0.6);
 });
 
-test("a stick at rest does not drive", () => {
+test("a gamepad stick at rest does not drive", () => {
   expect(wishOfGamepad({ axes: [0.1, -0.05, 0.02, 0] })).toEqual({ ahead: 0, left: 0, turn: 0 });
   expect(wishOfGamepad({ axes: [0, -1, 1] })).toEqual({ ahead: 1, left: -1, turn: 0 });
   expect(wishOfGamepad({ axes: [NaN] })).toEqual({ ahead: 0, left: 0, turn: 0 });
 });
 
-test("a wish is repeated while it lasts, and ends with a stop; a refusal ends it until all is let go", async () => {
+test("a command is repeated while a key is held, and ends with a stop; after a refusal it ends until all keys are released", async () => {
   const sent: number[] = [];
   let refuses = false;
   const problems: string[] = [];
@@ -60,7 +60,7 @@ test("a wish is repeated while it lasts, and ends with a stop; a refusal ends it
   expect(sent.at(-1)).toBe(1);
 });
 
-test("a gamepad that is pulled out asks for nothing any more", () => {
+test("a disconnected gamepad sends no more commands", () => {
   let pads: (Gamepad | null)[] = [];
   const wishes: number[] = [];
   const notes: string[] = [];

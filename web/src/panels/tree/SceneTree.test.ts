@@ -92,7 +92,7 @@ test("without stations, only robots are counted", () => {
   expect(createSceneTree(ports, document.createElement("div")).querySelector("h2")!.textContent).toBe("1 robot");
 });
 
-test("while one points at the list or is in it by keys, its rows stay where they are", () => {
+test("rows do not move while the pointer or the keyboard focus is in the list", () => {
   const { ports, store } = testPorts({ ...crowd(8), health: health({ robot: "r5", state: "stuck" }) });
   const tree = createSceneTree(ports, document.createElement("div"));
   const list = tree.querySelector(".robot-scroll")!;

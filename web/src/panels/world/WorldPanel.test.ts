@@ -35,7 +35,7 @@ function opened() {
   return { ports, store, topics, end, choose, unfold, facts };
 }
 
-test("robots come first, then what moves, then what stands; a text finds links and sensors too", () => {
+test("robots come first, then moving bodies, then static ones; a text finds links and sensors too", () => {
   const { end } = opened();
   const names = () => [...document.querySelectorAll("[data-node]")].map((each) => each.textContent);
   expect(names()).toEqual(["brobot", "cratedynamic", "wallstatic"]);
