@@ -294,7 +294,8 @@ TEST(Simulation, ADeadBehaviourEndsTheRunIfThePolicyRequiresIt) {
   ASSERT_TRUE(simulation->Start());
   behaviour->dead = true;
   EXPECT_EQ(simulation->WaitForPhase({Phase::kFailed}, kTimeout), Phase::kFailed);
-  EXPECT_NE(simulation->status().failure.find("the behaviour of robot (test) died"), std::string::npos);
+  EXPECT_NE(simulation->status().failure.find("the behaviour of robot (test) died"),
+            std::string::npos);
 }
 
 TEST(Simulation, RobotsCannotBePlacedInsideEachOtherOrAWall) {

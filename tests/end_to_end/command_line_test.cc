@@ -487,7 +487,7 @@ TEST(CommandLine, InProcessBehaviourThatNeverReturnsFailsTheRun) {
           .AwaitEnd();
   EXPECT_EQ(outcome.ending, "exit code 4");
   EXPECT_THAT(outcome.err,
-              HasSubstr("the run failed: pebble (endless on this process) has not returned from "
+              HasSubstr("the run failed: pebble (endless) has not returned from "
                         "its turn within 100 ms"));
   EXPECT_THAT(outcome.err, HasSubstr("the simulation is left to itself"));
   EXPECT_EQ(outcome.LastLine()["phase"], "failed");

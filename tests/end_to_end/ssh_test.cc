@@ -109,8 +109,7 @@ TEST_F(SshCampaign, InterruptEndsTheTasksOnTheHosts) {
   SshHosts hosts(SshHosts::Kind::kStandIn, 1);
   WriteCampaign(hosts, "['127.0.0.1:2']", 4, "1e6");
   Running driver("gsv", run_);
-  const std::string simulator = "run_000000.yaml";
-  while (ProcessesWith(simulator).empty() && driver.process().Ending().empty()) {
+  while (Tasks().empty() && driver.process().Ending().empty()) {
   }
   driver.process().Signal(SIGINT);
   const Outcome outcome = AwaitEnd(driver);

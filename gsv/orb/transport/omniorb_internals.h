@@ -5,8 +5,8 @@
 // A target that includes this file needs omniORB's internal include folder, see ../CMakeLists.txt.
 #pragma once
 
-// Each of these headers needs the headers before it. clang-format
-// off
+// Each of these headers needs the headers before it.
+// clang-format off
 #include <omniORB4/CORBA.h>
 #include <omniORB4/minorCode.h>
 #include <omniORB4/giopEndpoint.h>
