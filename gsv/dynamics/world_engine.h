@@ -17,7 +17,7 @@
 namespace gsv::dynamics {
 
 // `team` helps the planar mover; if it is null, the caller computes alone. `rigid` moves the rigid
-// bodies (default: Bullet).
+// bodies (default: the solver of rigid/).
 std::unique_ptr<Engine> MakeWorldEngine(std::shared_ptr<base::ThreadTeam> team = nullptr,
                                         std::unique_ptr<RigidEngine> rigid = nullptr);
 
