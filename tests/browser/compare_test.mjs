@@ -144,6 +144,7 @@ test("the curves of the second recording are dashed beside those of the first", 
   const coloured = () =>
     plot.evaluate((plotted) => {
       const canvas = plotted.matches("canvas") ? plotted : plotted.querySelector("canvas");
+      if (!canvas) return 0; // it is made when the first values arrive
       const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
       let count = 0;
       for (let i = 0; i < data.length; i += 4) {
