@@ -5,6 +5,7 @@
 #include <cstring>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -14,6 +15,8 @@ namespace {
 using base::ErrorCode;
 
 constexpr int kDeepest = 64;  // glTF itself has about ten levels; the rest is for "extras"
+constexpr std::size_t kDeepestNode = 512;      // assimp descends by recursion
+constexpr std::size_t kMostNodes = 1'000'000;  // after assimp has copied those with several parents
 
 std::uint32_t WordAt(std::string_view bytes, std::size_t place) {
   std::uint32_t word = 0;
@@ -38,7 +41,44 @@ std::optional<std::string_view> JsonOf(std::string_view glb) {
   return json;
 }
 
-// Receives the values one by one, and stores none of them.
+using Children = std::vector<std::vector<std::size_t>>;  // of each node, as indices of nodes
+
+// Returns why assimp must not read nodes with these children, or null.
+const char* FaultOf(const Children& children) {
+  struct Node {
+    std::size_t parents = 0;  // parents that have not been visited yet
+    std::size_t depth = 0;
+    std::size_t copies = 0;  // number of paths from a root
+  };
+  std::vector<Node> nodes(children.size());
+  for (const auto& each : children) {
+    for (const std::size_t child : each) {
+      if (child >= nodes.size()) return "the mesh cannot be read: a node names a missing child";
+      ++nodes[child].parents;
+    }
+  }
+  std::vector<std::size_t> order;  // each node after all its parents
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].parents != 0) continue;
+    order.push_back(i);
+    nodes[i].copies = 1;
+  }
+  std::size_t copies = 0;
+  for (std::size_t next = 0; next < order.size(); ++next) {
+    const Node node = nodes[order[next]];
+    copies += node.copies;
+    if (copies > kMostNodes) return "the mesh has more nodes than the limits allow";
+    if (node.depth > kDeepestNode) return "the mesh cannot be read: its nodes are nested too deep";
+    for (const std::size_t child : children[order[next]]) {
+      nodes[child].depth = std::max(nodes[child].depth, node.depth + 1);
+      nodes[child].copies = std::min(nodes[child].copies + node.copies, kMostNodes + 1);
+      if (--nodes[child].parents == 0) order.push_back(child);
+    }
+  }
+  return order.size() == nodes.size() ? nullptr : "the mesh cannot be read: a node contains itself";
+}
+
+// Receives the values one by one, and stores only the children of nodes.
 class ClaimChecker : public nlohmann::json_sax<nlohmann::json> {
  public:
   explicit ClaimChecker(const ReadLimits& limits)
@@ -47,16 +87,23 @@ class ClaimChecker : public nlohmann::json_sax<nlohmann::json> {
 
   bool key(string_t& name) override {
     if (depth_ == kInRoot) {
+      is_nodes_ = name == "nodes";
       claims_ = name == "buffers" || name == "bufferViews" || name == "accessors";
     }
-    if (depth_ == kInElement) is_sparse_ = name == "sparse";
+    if (depth_ == kInElement) {
+      is_sparse_ = name == "sparse";
+      is_children_ = is_nodes_ && name == "children";
+    }
     // In other places, and in the "extras" of an element, such a name has another meaning.
     if (!claims_ || !(depth_ == kInElement || (depth_ > kInElement && is_sparse_))) return true;
     if (name == "byteLength" || name == "byteOffset" || name == "byteStride") most_ = most_bytes_;
     if (name == "count") most_ = most_values_;
     return true;
   }
-  bool number_unsigned(number_unsigned_t value) override { return Take(value <= most_); }
+  bool number_unsigned(number_unsigned_t value) override {
+    if (is_children_ && depth_ == kInElement + 1) children_.back().push_back(value);
+    return Take(value <= most_);
+  }
   bool number_integer(number_integer_t) override { return Take(most_ == kNoMost); }  // negative
   bool number_float(number_float_t, const string_t&) override { return Take(most_ == kNoMost); }
   bool null() override { return Take(true); }
@@ -72,6 +119,8 @@ class ClaimChecker : public nlohmann::json_sax<nlohmann::json> {
     return false;
   }
 
+  const Children& children() const { return children_; }
+
   const char* wrong = nullptr;
 
  private:
@@ -85,10 +134,11 @@ class ClaimChecker : public nlohmann::json_sax<nlohmann::json> {
   }
   bool Enter() {
     if (++depth_ > kDeepest) wrong = "the mesh cannot be read: its JSON is nested too deeply";
+    if (is_nodes_ && depth_ == kInElement) children_.emplace_back();
     return Take(true) && wrong == nullptr;
   }
   bool Leave() {
-    --depth_;
+    if (--depth_ == kInElement) is_children_ = false;
     return true;
   }
 
@@ -96,6 +146,8 @@ class ClaimChecker : public nlohmann::json_sax<nlohmann::json> {
   std::size_t most_ = kNoMost;  // limit of the next number
   int depth_ = 0;
   bool claims_ = false, is_sparse_ = false;  // state of the parser
+  bool is_nodes_ = false, is_children_ = false;
+  Children children_;
 };
 
 }  // namespace
@@ -118,6 +170,7 @@ base::Status CheckGltf(const std::string& bytes, bool is_binary, const ReadLimit
   json = json.substr(0, json.find('\0'));
   ClaimChecker checker(limits);
   nlohmann::json::sax_parse(json, &checker);
+  if (checker.wrong == nullptr) checker.wrong = FaultOf(checker.children());
   if (checker.wrong == nullptr) return {};
   return Fail(ErrorCode::kBadModel, checker.wrong, file);
 }

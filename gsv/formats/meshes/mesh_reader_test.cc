@@ -217,6 +217,35 @@ TEST_F(MeshReaderTest, TheAlphaOfGltfCountsByItsMode) {
   }
 }
 
+// The file of Gltf() whose nodes have these children.
+std::string GltfWithNodes(const std::vector<std::string>& children) {
+  std::string nodes;
+  for (const std::string& each : children) nodes += ",{\"children\":[" + each + "]}";
+  const std::string written = R"("nodes":[{"mesh":0}],)";
+  std::string text = Gltf("");
+  return text.replace(text.find(written), written.size(), R"("nodes":[{"mesh":0})" + nodes + "],");
+}
+
+TEST_F(MeshReaderTest, RejectsNodesThatContainThemselvesOrAreNestedTooDeep) {
+  EXPECT_TRUE(Read("two.gltf", GltfWithNodes({"0", "1"})).has_value());
+  const auto in_itself = Read("cycle.gltf", GltfWithNodes({"2", "3", "1"}));
+  ASSERT_FALSE(in_itself.has_value());
+  EXPECT_THAT(in_itself.error().message, HasSubstr("a node contains itself"));
+  const auto missing = Read("missing.gltf", GltfWithNodes({"9"}));
+  ASSERT_FALSE(missing.has_value());
+  EXPECT_THAT(missing.error().message, HasSubstr("a node names a missing child"));
+  std::vector<std::string> chain{"0"};
+  std::vector<std::string> doubled{"0,0"};
+  for (int i = 1; i < 100'000; ++i) chain.push_back(std::to_string(i));
+  for (int i = 1; i < 64; ++i) doubled.push_back(std::to_string(i) + "," + std::to_string(i));
+  const auto deep = Read("deep.gltf", GltfWithNodes(chain));
+  ASSERT_FALSE(deep.has_value());
+  EXPECT_THAT(deep.error().message, HasSubstr("its nodes are nested too deep"));
+  const auto many = Read("many.gltf", GltfWithNodes(doubled));
+  ASSERT_FALSE(many.has_value());
+  EXPECT_THAT(many.error().message, HasSubstr("more nodes than the limits allow"));
+}
+
 TEST_F(MeshReaderTest, ReadsEachFileOnce) {
   const auto path = folder_.Write("a.stl", BinaryStl(1, {{0, 0, 0, 1, 0, 0, 0, 1, 0}}));
   TextureReader textures(limits_);
