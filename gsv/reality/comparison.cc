@@ -7,6 +7,7 @@
 
 #include "gsv/geometry/constants.h"
 #include "gsv/reality/odometry_comparison.h"
+#include "gsv/reality/option_check.h"
 #include "gsv/reality/radio_comparison.h"
 #include "gsv/reality/scan_placing.h"
 #include "gsv/reality/simulated_device.h"
@@ -22,30 +23,6 @@ constexpr double kWindow = 5;  // s
 // position of the surface within them is unknown.
 constexpr double kTolerance = 0.5;
 constexpr double k95 = 1.96;
-
-bool HasOdometry(const Log& log) {
-  return log.truth_has_yaw && log.truth.size() > 1 &&
-         (!log.odometry.empty() || !log.wheels.empty() || !log.commands.empty());
-}
-
-bool HasScans(const Log& log) { return !log.scans.empty() && log.scans.front().base; }
-
-base::Status CheckPreset(const Log& log, const CompareOptions& options) {
-  if (options.preset.empty()) return {};
-  std::vector<std::string> types;
-  if (HasOdometry(log)) types.emplace_back("odometry");
-  if (HasScans(log)) types.push_back(ScannerOf(log));
-  if (!log.radio.empty()) types.emplace_back("ranging");
-  for (const std::string& type : types) {
-    if (!PresetOf(type, options).empty()) return {};
-  }
-  if (types.empty()) return {};
-  return base::Fail(
-      base::ErrorCode::kInvalidArgument,
-      fmt::format("there is no preset \"{}\" of the log's devices ({}); docs/sensors.md "
-                  "lists the presets",
-                  options.preset, fmt::join(types, ", ")));
-}
 
 base::Result<sensing::OdometryDrift> DriftOf(const CompareOptions& options) {
   model::SensorDescription description;
@@ -136,6 +113,8 @@ void CompareScans(const Log& log, const std::vector<ScanPair>& pairs, Comparison
   const auto count = static_cast<double>(pairs.size());
   const std::vector<double> real = EchoShares(pairs, true), simulated = EchoShares(pairs, false);
   const auto share = [&](const std::string& what, double a, double b, double trials) {
+    constexpr double kRounding = 1e-12;
+    a = a < kRounding ? 0 : a, b = b < kRounding ? 0 : b;
     result.rows.push_back({device, what, "", a, b, k95 * std::sqrt(b * (1 - b) / trials)});
   };
   if (real.size() <= 16) {
@@ -194,6 +173,7 @@ void CompareScans(const Log& log, const std::vector<ScanPair>& pairs, Comparison
   if (!log.is_sonar) AddScanMedians(device, pairs, result);
   const Mixture real_mix = MixtureOf(pairs, true, kTolerance);
   const Mixture mix = MixtureOf(pairs, false, kTolerance);
+  result.warning = DoubtAbout(real_mix, kTolerance);
   const double beams = count * static_cast<double>(real.size());
   double heard = 0, simulated_heard = 0;
   for (std::size_t i = 0; i < real.size(); ++i) {
@@ -263,7 +243,7 @@ base::Status CompareRadio(const Log& log, const CompareOptions& options, Compari
 base::Result<Comparison> Compare(const Log& given, const CompareOptions& options) {
   const Log log = WithBases(given, options);
   Comparison result;
-  if (auto ok = CheckPreset(log, options); !ok) return base::Fail(ok.error());
+  if (auto ok = CheckOptions(log, options); !ok) return base::Fail(ok.error());
   if (HasOdometry(log)) {
     if (auto ok = CompareOdometry(log, options, result); !ok) return base::Fail(ok.error());
   }

@@ -31,6 +31,7 @@ struct Series {
 struct Comparison {
   std::vector<Row> rows;
   std::vector<Series> series;
+  std::string warning;  // why the values say little about the device; empty if there is no reason
 };
 
 struct CompareOptions {
@@ -62,6 +63,7 @@ struct FittedParameter {
 struct FittedDevice {
   std::string type, name;
   std::vector<FittedParameter> parameters;
+  std::string warning = {};  // as that of a Comparison
 };
 // Fits the parameters to the readings of the even blocks, or for odometry to all windows. For a
 // ring of sonars, returns one device for each beam, in their order. Returns kInvalidArgument in the

@@ -39,6 +39,57 @@ TEST(Comparison, RefusesALogWithoutScans) {
   EXPECT_THAT(empty.error().Sentence(), HasSubstr("the log has nothing to compare"));
 }
 
+// A robot in a room of 4 by 4 m. The log's poses are right, or they are two metres off in each second block.
+Log InARoom(bool is_lost) {
+  Log log;
+  log.max_range = 10;
+  for (int i = -8; i <= 8; ++i) log.beam_angles.push_back(0.1 * i);
+  for (int i = 0; i < 160; ++i) {
+    RangeScan scan{0.1 * i, {}, TimedPose{0.1 * i, 0.005 * i, 0, 0}};
+    for (const double angle : log.beam_angles)
+      scan.ranges.push_back((2 - scan.base->x) / std::cos(angle));
+    if (is_lost && i / 40 % 2 == 1) scan.base->x -= 2;
+    log.scans.push_back(std::move(scan));
+  }
+  return log;
+}
+
+TEST(Comparison, DoubtsPosesThatDoNotFitTheWorld) {
+  const auto right = Compare(InARoom(false), {}), lost = Compare(InARoom(true), {});
+  ASSERT_TRUE(right && lost);
+  EXPECT_EQ(right->warning, "");
+  EXPECT_THAT(lost->warning, HasSubstr("Give a map of the place with --world"));
+}
+
+TEST(Comparison, RefusesParametersThatNoDeviceOfTheLogHas) {
+  CompareOptions options;
+  options.parameters = {{"noise.stdev", 0.1}};
+  const auto refused = Compare(InARoom(false), options);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, base::ErrorCode::kInvalidArgument);
+  EXPECT_THAT(
+      refused.error().message,
+      HasSubstr("devices (lidar) have no parameter \"noise.stdev\". Did you mean noise.stddev?"));
+  EXPECT_FALSE(Fit(InARoom(false), options));
+  options.parameters = {{"noise.stddev", 0.1}, {"range_noise", 0.01}};
+  EXPECT_TRUE(Compare(InARoom(false), options));
+}
+
+TEST(WorldFit, ReachesAsFarAsTheEchoes) {
+  Log log;
+  log.max_range = 80;
+  log.beam_angles = {0};
+  for (int i = 0; i < 20; ++i) log.scans.push_back({0.1 * i, {30.0}, TimedPose{0.1 * i, 0, 0, 0}});
+  const auto map = FitMap(log, log.scans, 0.1);
+  ASSERT_TRUE(map);
+  const int row = static_cast<int>(-map->origin_y / 0.1),
+            column = static_cast<int>((30 - map->origin_x) / 0.1);
+  ASSERT_LT(column + 1, map->width);
+  EXPECT_TRUE(map->at(column, row) == Cell::kOccupied ||
+              map->at(column - 1, row) == Cell::kOccupied ||
+              map->at(column + 1, row) == Cell::kOccupied);
+}
+
 TEST(Comparison, FitsTheBiasOfRangesToAnchors) {
   const auto devices = Fit(RangesOf(0.1, 0.02), {});
   ASSERT_TRUE(devices) << devices.error().Sentence();

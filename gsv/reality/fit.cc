@@ -7,6 +7,7 @@
 
 #include "gsv/reality/comparison.h"
 #include "gsv/reality/odometry_comparison.h"
+#include "gsv/reality/option_check.h"
 #include "gsv/reality/radio_comparison.h"
 #include "gsv/reality/scan_placing.h"
 #include "gsv/reality/statistics.h"
@@ -110,6 +111,7 @@ FittedDevice FitLidar(const Log& log, const std::vector<ScanPair>& pairs) {
   // Omits parameters of short readings whose interval is wider than half their value. By default
   // there are no short readings.
   const std::size_t shared = device.parameters.size() - 2;
+  device.warning = DoubtAbout(MixtureOf(pairs, true, kFitTolerance), kFitTolerance);
   const bool is_known = std::all_of(
       device.parameters.begin() + static_cast<std::ptrdiff_t>(shared), device.parameters.end(),
       [](const FittedParameter& each) { return each.confidence < each.value / 2; });
@@ -243,12 +245,12 @@ class SonarFit {
 
 base::Result<std::vector<FittedDevice>> Fit(const Log& given, const CompareOptions& options) {
   const Log log = WithBases(given, options);
+  if (auto ok = CheckOptions(log, options); !ok) return base::Fail(ok.error());
   std::vector<FittedDevice> devices;
-  if (log.truth_has_yaw && log.truth.size() > 1 &&
-      (!log.odometry.empty() || !log.wheels.empty() || !log.commands.empty())) {
+  if (HasOdometry(log)) {
     devices.push_back(FitOdometry(log, options));
   }
-  if (!log.scans.empty() && log.scans.front().base) {
+  if (HasScans(log)) {
     if (log.is_sonar) {
       auto sonars = SonarFit(log, options).Run();
       if (!sonars) return base::Fail(sonars.error());
@@ -273,6 +275,7 @@ base::Result<std::vector<FittedDevice>> Fit(const Log& given, const CompareOptio
 std::string ToSdf(const std::vector<FittedDevice>& devices) {
   std::string sdf;
   for (const FittedDevice& device : devices) {
+    if (!device.warning.empty()) sdf += "<!-- " + device.warning + " -->\n";
     sdf += fmt::format("<sensor name=\"{}\" type=\"{}\">\n", device.name, device.type);
     // Parameters of one group ("noise.mean", "noise.stddev") share its element.
     std::map<std::string, std::string> groups;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "gsv/reality/statistics.h"
 
 namespace gsv::reality {
@@ -46,6 +48,17 @@ Mixture MixtureOf(const std::vector<ScanPair>& pairs, bool of_real, double toler
   if (count == 0) return mixture;
   return {mixture.hit / count, mixture.shorter / count, mixture.none / count,
           mixture.longer / count};
+}
+
+std::string DoubtAbout(const Mixture& real, double tolerance) {
+  if (real.hit >= 0.5) return "";
+  return fmt::format(
+      "only {:.0f} % of the readings are within {} m of a surface of the world, so the values say "
+      "little about the "
+      "device. Give a map of the place with --world, or a log with poses of a reference system, "
+      "and check "
+      "--mount-forward",
+      100 * real.hit, tolerance);
 }
 
 std::vector<double> EchoShares(const std::vector<ScanPair>& pairs, bool of_real) {

@@ -1,6 +1,7 @@
 // Compares real and simulated readings of beams at the same poses.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "gsv/reality/logs/log.h"
@@ -20,6 +21,10 @@ struct Mixture {
   double hit = 0, shorter = 0, none = 0, longer = 0;
 };
 Mixture MixtureOf(const std::vector<ScanPair>& pairs, bool of_real, double tolerance);
+
+// Returns a sentence if fewer than half of the readings are within `tolerance` of a surface: then the poses or the world are
+// wrong, and the device cannot be judged. Empty otherwise.
+std::string DoubtAbout(const Mixture& real, double tolerance);
 
 // Returns the fraction of readings with an echo, for each beam.
 std::vector<double> EchoShares(const std::vector<ScanPair>& pairs, bool of_real);

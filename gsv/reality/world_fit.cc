@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "gsv/geometry/constants.h"
 #include "gsv/model/model.h"
@@ -10,7 +11,7 @@ namespace gsv::reality {
 namespace {
 
 constexpr double kSonarHalfAngle = 0.13;  // half angle within which most of the sound returns, rad
-constexpr double kMargin = 6;             // margin around the path, m
+constexpr double kMargin = 6;             // margin around the path, for sonars and in rooms, m
 constexpr double kMaxFittedCells = 25e6;
 constexpr double kFurthest = 50;  // echoes from further away are ignored, m
 constexpr double kWidest = 1000;  // m
@@ -100,6 +101,21 @@ void JoinWalls(const Log& log, const std::vector<RangeScan>& scans, LogOdds& odd
   }
 }
 
+// The distance around the path within which nearly all echoes of a laser lie.
+double ReachOfEchoes(const std::vector<RangeScan>& scans) {
+  constexpr double kNearlyAll = 0.98;
+  std::vector<double> ranges;
+  for (const RangeScan& scan : scans) {
+    std::copy_if(scan.ranges.begin(), scan.ranges.end(), std::back_inserter(ranges),
+                 [](double range) { return std::isfinite(range); });
+  }
+  if (ranges.empty()) return kMargin;
+  const auto place = ranges.begin() + static_cast<std::ptrdiff_t>(
+                                          kNearlyAll * static_cast<double>(ranges.size() - 1));
+  std::nth_element(ranges.begin(), place, ranges.end());
+  return std::clamp(*place + 1, kMargin, kFurthest);
+}
+
 }  // namespace
 
 bool IsForFitting(double time) {
@@ -133,7 +149,7 @@ base::Result<OccupancyMap> FitMap(const Log& log, const std::vector<RangeScan>& 
   }
   OccupancyMap map;
   map.resolution = resolution;
-  const double margin = std::min(kMargin, log.max_range + 1);
+  const double margin = std::min(log.is_sonar ? kMargin : ReachOfEchoes(scans), log.max_range + 1);
   map.origin_x = min_x - margin, map.origin_y = min_y - margin;
   map.width = static_cast<int>((max_x - min_x + 2 * margin) / resolution) + 1;
   map.height = static_cast<int>((max_y - min_y + 2 * margin) / resolution) + 1;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -136,6 +137,25 @@ TEST_F(NoiseTest, ReadingsAreMultiplesOfThePrecision) {
     const double value = Read("a", {{"stddev", 1.0}, {"precision", 0.25}}, i);
     EXPECT_EQ(value * 4, std::round(value * 4));
   }
+}
+
+// A deviation below the precision makes readings that stay. Over all true values, two readings with the deviation d
+// that are rounded to steps of s are equal with the probability 1 - 2 d / (sqrt(pi) s), for d well below s.
+TEST_F(NoiseTest, ReadingsStayIfTheDeviationIsBelowThePrecision) {
+  const double deviation = 0.0012, step = 0.01;
+  const int values = 400, pairs = 10;
+  int equal = 0;
+  for (int i = 0; i < values; ++i) {
+    const double offset = step * (i + 0.5) / values;
+    const model::Parameters noise = {
+        {"bias_mean", offset}, {"stddev", deviation}, {"precision", step}};
+    for (int k = 0; k < pairs; ++k) {
+      equal += Read("a", noise, 2 * (pairs * i + k)) == Read("a", noise, 2 * (pairs * i + k) + 1);
+    }
+  }
+  const double p = 1 - 2 * deviation / (std::sqrt(std::numbers::pi) * step);
+  const int count = values * pairs;
+  EXPECT_WITHIN_3_SIGMA(double(equal) / count, p, std::sqrt(p * (1 - p) / count));
 }
 
 TEST_F(NoiseTest, ReadingsDropOutWithTheGivenProbability) {

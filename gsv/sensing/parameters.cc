@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "gsv/sensing/asked_parameters.h"
+
 namespace gsv::sensing {
 
 void ParameterReader::Refuse(const std::string& why) {
@@ -14,6 +16,7 @@ void ParameterReader::Refuse(const std::string& why) {
 }
 
 double ParameterReader::Number(const std::string& name, double otherwise, double low, double high) {
+  AskedParameters::Add(name);
   const auto it = description_.parameters.find(name);
   if (it == description_.parameters.end()) return otherwise;
   const double* value = std::get_if<double>(&it->second);
@@ -29,6 +32,7 @@ double ParameterReader::Number(const std::string& name, double otherwise, double
 }
 
 bool ParameterReader::Flag(const std::string& name, bool otherwise) {
+  AskedParameters::Add(name);
   const auto it = description_.parameters.find(name);
   if (it == description_.parameters.end()) return otherwise;
   if (const bool* flag = std::get_if<bool>(&it->second)) return *flag;
@@ -38,6 +42,7 @@ bool ParameterReader::Flag(const std::string& name, bool otherwise) {
 }
 
 std::string ParameterReader::Text(const std::string& name, const std::string& otherwise) {
+  AskedParameters::Add(name);
   const auto it = description_.parameters.find(name);
   if (it == description_.parameters.end()) return otherwise;
   if (const auto* text = std::get_if<std::string>(&it->second)) return *text;
@@ -47,6 +52,7 @@ std::string ParameterReader::Text(const std::string& name, const std::string& ot
 
 geometry::Vector2 ParameterReader::Pair(const std::string& name, geometry::Vector2 otherwise,
                                         double low, double high) {
+  AskedParameters::Add(name);
   if (!description_.parameters.contains(name)) return otherwise;
   std::istringstream text(Text(name, ""));
   geometry::Vector2 pair;
@@ -64,6 +70,7 @@ geometry::Vector2 ParameterReader::Pair(const std::string& name, geometry::Vecto
 
 geometry::Vector3 ParameterReader::Triple(const std::string& name, geometry::Vector3 otherwise,
                                           double low, double high) {
+  AskedParameters::Add(name);
   if (!description_.parameters.contains(name)) return otherwise;
   std::istringstream text(Text(name, ""));
   geometry::Vector3 triple;

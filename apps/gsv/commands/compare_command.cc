@@ -92,6 +92,10 @@ base::Result<Read> ReadAll(const CompareArguments& arguments) {
   return read;
 }
 
+void PrintWarning(const std::string& warning) {
+  if (!warning.empty()) std::fprintf(stderr, "gsv: warning: %s\n", warning.c_str());
+}
+
 Json NumberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 void Print(const reality::Comparison& comparison, bool json) {
@@ -105,7 +109,9 @@ void Print(const reality::Comparison& comparison, bool json) {
                       {"simulated", NumberOrNull(row.simulated)},
                       {"confidence", NumberOrNull(row.confidence)}});
     }
-    std::printf("%s\n", Json{{"rows", rows}}.dump().c_str());
+    Json printed{{"rows", rows}};
+    if (!comparison.warning.empty()) printed["warning"] = comparison.warning;
+    std::printf("%s\n", printed.dump().c_str());
     return;
   }
   std::printf("%-10s %-46s %10s %10s %10s\n", "device", "what", "real", "simulated", "± (95 %)");
@@ -129,6 +135,7 @@ int Compare(const CompareArguments& arguments) {
     if (!ok) return PrintError(ok.error());
   }
   Print(*comparison, arguments.json);
+  PrintWarning(comparison->warning);
   return kOk;
 }
 
@@ -137,6 +144,7 @@ int Fit(const CompareArguments& arguments) {
   if (!read) return PrintError(read.error());
   const auto devices = reality::Fit(read->log, read->options);
   if (!devices) return PrintError(devices.error());
+  for (const reality::FittedDevice& device : *devices) PrintWarning(device.warning);
   if (!arguments.json) {
     std::printf("%s", reality::ToSdf(*devices).c_str());
     return kOk;
@@ -150,6 +158,7 @@ int Fit(const CompareArguments& arguments) {
                                     {"unit", parameter.unit}};
     }
     list.push_back({{"type", device.type}, {"name", device.name}, {"parameters", parameters}});
+    if (!device.warning.empty()) list.back()["warning"] = device.warning;
   }
   std::printf("%s\n", Json{{"devices", list}}.dump().c_str());
   return kOk;

@@ -1,4 +1,5 @@
 // CARMEN's logs: https://carmen.sourceforge.net (the header of every log lists the messages).
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -44,7 +45,10 @@ class CarmenReader {
     rows_.RemoveMisdated(log_.commands);
     rows_.RemoveMisdated(log_.truth);
     rows_.RemoveMisdated(log_.scans);
-    return done;
+    if (!done) return done;
+    if (auto units = CheckUnits(); !units) return units;
+    if (!has_stated_maximum_) FindMaximum();
+    return {};
   }
 
  private:
@@ -60,7 +64,7 @@ class CarmenReader {
     std::vector<double> v;
     double time = 0;
     if (!rows_.Numbers(1, 6, v) || !Time(time)) return;
-    log_.odometry.push_back({time, v[0], v[1], WrappedAngle(v[2])});
+    log_.odometry.push_back({time, v[0], v[1], Heading(v[2])});
     log_.commands.push_back({time, v[3], v[4]});
     ++used_;
   }
@@ -95,7 +99,7 @@ class CarmenReader {
     const double step = kPi / static_cast<double>(has_both_ends ? count - 1 : count);
     if (!Angles(-kPi / 2 + (has_both_ends ? 0 : step / 2), step, count) || !Time(time)) return;
     AddScan(time, {v.begin(), v.begin() + static_cast<std::ptrdiff_t>(count)},
-            {time, v[count], v[count + 1], WrappedAngle(v[count + 2])});
+            {time, v[count], v[count + 1], Heading(v[count + 2])});
   }
 
   // The words are: type start fov resolution max accuracy remission_mode n r… n_remissions … laser
@@ -114,7 +118,12 @@ class CarmenReader {
     std::vector<double> pose;
     if (!rows_.Numbers(10 + count + static_cast<std::size_t>(remissions), 6, pose)) return;
     if (!Angles(head[1], head[3], count) || !Time(time)) return;
-    if (head[4] > 0) log_.max_range = head[4];
+    log_.sensor_forward =
+        (pose[0] - pose[3]) * std::cos(pose[5]) + (pose[1] - pose[4]) * std::sin(pose[5]);
+    if (head[4] > 0) {
+      log_.max_range = head[4];
+      has_stated_maximum_ = true;
+    }
     AddScan(time, {v.begin(), v.begin() + static_cast<std::ptrdiff_t>(count)},
             {time, pose[3], pose[4], WrappedAngle(pose[5])});
   }
@@ -139,8 +148,71 @@ class CarmenReader {
     ++used_;
   }
 
+  // Ranges in cm or mm are beyond the maximum, and headings in degrees are hundreds.
+  base::Status CheckUnits() const {
+    constexpr double kMostWithoutEcho = 0.95, kLargestHeading = 100;  // rad; a log may count turns
+    std::size_t without = 0, readings = 0;
+    for (const RangeScan& scan : log_.scans) {
+      readings += scan.ranges.size();
+      without +=
+          static_cast<std::size_t>(std::count(scan.ranges.begin(), scan.ranges.end(), kInfinity));
+    }
+    if (readings > 0 &&
+        static_cast<double>(without) > kMostWithoutEcho * static_cast<double>(readings)) {
+      return base::Fail(
+          base::ErrorCode::kCorrupt,
+          fmt::format("{:.0f} % of the ranges are 0, or {} m or more; CARMEN's ranges are in m",
+                      100 * static_cast<double>(without) / static_cast<double>(readings),
+                      log_.max_range),
+          rows_.path().string());
+    }
+    if (largest_heading_ > kLargestHeading) {
+      return base::Fail(
+          base::ErrorCode::kCorrupt,
+          fmt::format("a heading is {:.0f}; CARMEN's headings are in rad", largest_heading_),
+          rows_.path().string());
+    }
+    return {};
+  }
+
+  double Heading(double yaw) {
+    largest_heading_ = std::max(largest_heading_, std::abs(yaw));
+    return WrappedAngle(yaw);
+  }
+
+  // FLASER does not state the scanner's maximum, which is its reading without an echo. The largest reading is the
+  // maximum if it is in the log again and again: echoes do not repeat a distance so often.
+  void FindMaximum() {
+    constexpr double kShare = 0.001, kShortestMaximum = 2;  // m
+    constexpr std::size_t kFewest = 20;
+    double largest = 0;
+    std::size_t count = 0, readings = 0;
+    for (const RangeScan& scan : log_.scans) {
+      for (const double range : scan.ranges) {
+        if (!std::isfinite(range)) continue;
+        ++readings;
+        if (range > largest) largest = range, count = 0;
+        if (range == largest) ++count;
+      }
+    }
+    if (largest < kShortestMaximum || count < kFewest ||
+        static_cast<double>(count) < kShare * static_cast<double>(readings)) {
+      return;
+    }
+    rows_.Warn(fmt::format("the largest reading, {} m, occurs {} times; it is read as \"no echo\"",
+                           largest, count));
+    log_.max_range = largest;
+    for (RangeScan& scan : log_.scans) {
+      for (double& range : scan.ranges) {
+        if (range >= largest) range = kInfinity;
+      }
+    }
+  }
+
   TextRows rows_;
   Log& log_;
+  bool has_stated_maximum_ = false;
+  double largest_heading_ = 0;
   std::size_t used_ = 0, others_ = 0;
 };
 

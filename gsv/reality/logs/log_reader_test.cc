@@ -85,7 +85,45 @@ TEST_F(LogReaderTest, ReadsAScanOfACarmenLogFromRightToLeft) {
   EXPECT_EQ(log.scans[0].base->y, 6);
 }
 
-TEST_F(LogReaderTest, NamesTheLineOfAnInvalidNumber) {
+TEST_F(LogReaderTest, FindsTheReadingWithoutAnEchoOfACarmenLog) {
+  std::string text;
+  for (int i = 0; i < 30; ++i) {
+    text += "FLASER 3 1." + std::to_string(i) + " 50.0 2 5 6 0 0 0 0 9 host " + std::to_string(i) +
+            "\n";
+  }
+  const Log log = Read(folder_.Write("a.log", text), "carmen");
+  ASSERT_THAT(log.scans, SizeIs(30));
+  EXPECT_EQ(log.max_range, 50);
+  EXPECT_THAT(log.scans[7].ranges, ElementsAre(1.7, geometry::kInfinity, 2.0));
+  EXPECT_THAT(Problem(0), HasSubstr("the largest reading, 50 m, occurs 30 times"));
+}
+
+TEST_F(LogReaderTest, RefusesACarmenLogInOtherUnits) {
+  std::string centimetres, degrees;
+  for (int i = 0; i < 10; ++i) {
+    const std::string time = std::to_string(i) + "\n";
+    centimetres += "FLASER 3 166 250 812 5 6 0 0 0 0 9 host " + time;
+    degrees += "ODOM 0 0 " + std::to_string(20 * i) + " 0 0 0 9 host " + time;
+  }
+  EXPECT_THAT(Refusal(folder_.Write("a.log", centimetres), "carmen"),
+              HasSubstr("CARMEN's ranges are in m"));
+  EXPECT_THAT(Refusal(folder_.Write("b.log", degrees), "carmen"),
+              HasSubstr("a heading is 180; CARMEN's headings are in rad"));
+}
+
+TEST_F(LogReaderTest, TakesTheMountOfTheScannerFromACarmenLog) {
+  // The robot faces north at (1, 2), and the laser is 0.3 m ahead of it.
+  const Log log = Read(folder_.Write("a.log",
+                                     "ROBOTLASER1 0 -1.5708 3.1416 1.5708 20 0.01 0 3 1 2 3 0 "
+                                     "1 2.3 1.570796 1 2 1.570796 0 0 0 0 0 9 host 4\n"),
+                       "carmen");
+  ASSERT_THAT(log.scans, SizeIs(1));
+  EXPECT_EQ(log.max_range, 20);
+  EXPECT_WITHIN(log.sensor_forward, 0.3, 1e-6, "m");
+  EXPECT_EQ(log.scans[0].base->y, 2);
+}
+
+TEST_F(LogReaderTest, NamesTheLineOfWhatIsNoNumber) {
   std::string text = kOdometry;
   for (int i = 2; i < 20; ++i) text += "ODOM 0 0 0 0 0 0 0 host " + std::to_string(i) + "\n";
   text += "ODOM nan 0 0 0 0 0 0 host 20\n";

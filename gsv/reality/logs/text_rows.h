@@ -28,6 +28,7 @@ class TextRows {
   std::size_t size() const { return words_.size(); }
   std::string_view word(std::size_t i) const { return words_[i]; }
   int line() const { return line_; }
+  const std::filesystem::path& path() const { return path_; }
 
   // Reads the words from `first` on as numbers. If there are fewer than `count`, or one is not a
   // finite number, returns false and adds a problem.

@@ -159,28 +159,42 @@ base::Result<MapSettings> ReadSettings(const fs::path& path) {
     return fail("this is the map's image; name its YAML file instead");
   }
   MapSettings settings;
+  std::string key;  // being read
   try {
     const YAML::Node map = YAML::Load(*text);
     if (!map.IsMap() || !map["image"] || !map["resolution"]) {
       return fail("the file must be a mapping with at least image and resolution");
     }
-    settings.image = map["image"].as<std::string>();
-    settings.resolution = map["resolution"].as<double>();
-    if (map["mode"]) settings.mode = map["mode"].as<std::string>();
-    if (map["occupied_thresh"]) settings.occupied = map["occupied_thresh"].as<double>();
-    if (map["free_thresh"]) settings.free = map["free_thresh"].as<double>();
+    const auto number = [&](const char* name, double& value) {
+      key = name;
+      if (map[name]) value = map[name].as<double>();
+    };
+    key = "image";
+    settings.image = map[key].as<std::string>();
+    number("resolution", settings.resolution);
+    key = "mode";
+    if (map[key]) settings.mode = map[key].as<std::string>();
+    number("occupied_thresh", settings.occupied);
+    number("free_thresh", settings.free);
+    key = "negate";
     if (map["negate"]) {
       const auto negate = map["negate"].as<std::string>();
       settings.is_negated = negate == "1" || negate == "true";
     }
+    key = "origin";
     if (const YAML::Node origin = map["origin"]) {
       if (!origin.IsSequence() || origin.size() < 2 || origin.size() > 3) {
         return fail("origin must be [x, y, yaw]");
       }
       for (std::size_t i = 0; i < origin.size(); ++i) settings.origin[i] = origin[i].as<double>();
     }
+  } catch (const YAML::BadConversion& exception) {
+    return fail(
+        fmt::format("line {}: {} must be a {}", exception.mark.line + 1, key,
+                    key == "image" || key == "mode" || key == "negate" ? "text" : "number"));
   } catch (const YAML::Exception& exception) {
-    return fail(fmt::format("line {}: {}", exception.mark.line + 1, exception.msg));
+    return fail(
+        fmt::format("line {}: it is not valid YAML: {}", exception.mark.line + 1, exception.msg));
   }
   if (!(settings.resolution >= 1e-3 && settings.resolution <= 100)) {
     return fail(fmt::format("resolution is {}; it must be 0.001 to 100 m", settings.resolution));

@@ -60,6 +60,8 @@ TEST_F(OccupancyMapTest, RejectsFilesThatAreNotMaps) {
               HasSubstr("resolution is 0"));
   EXPECT_THAT(Refusal(std::string(kYaml) + "free_thresh: 0.9\n", "P2 1 1 255 0"),
               HasSubstr("free_thresh is 0.9 and occupied_thresh 0.65; they must ascend"));
+  EXPECT_THAT(Refusal(std::string(kYaml) + "occupied_thresh: many\n", "P2 1 1 255 0"),
+              HasSubstr("occupied_thresh must be a number"));
   EXPECT_THAT(Refusal("image: [\n", "P2 1 1 255 0"), HasSubstr("map.yaml: line "));
   EXPECT_THAT(Refusal("image: map.pgm\nresolution: .nan\n", "P2 1 1 255 0"),
               HasSubstr("resolution is nan"));

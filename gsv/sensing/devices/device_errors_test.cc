@@ -61,6 +61,8 @@ class DeviceErrors : public ::testing::Test {
     return {reading->values.begin(), reading->values.end()};
   }
 
+  double RateAt(const Sensor& imu, double seconds, std::uint64_t seed);
+
   std::shared_ptr<model::Model> robot_ = testing::ModelOf(geometry::Sphere{0.01});
   SensorRegistry registry_;
   std::shared_ptr<world::Snapshot> snapshot_;
@@ -113,6 +115,22 @@ TEST_F(DeviceErrors, LidarNoiseGrowsWithRange) {
   EXPECT_WITHIN_3_SIGMA(seen.deviation, 0.04, 0.04 / std::sqrt(8000.0));
 }
 
+TEST_F(DeviceErrors, LidarNoiseGrowsWithTheAngleOfIncidence) {
+  for (const double angle : {0.0, 30 * kDegree, 60 * kDegree}) {
+    Place({Wall(4, 20, 20, angle)});
+    // The tangent is measured between adjacent beams.
+    const auto lidar = Create("lidar", {{"scan.horizontal.samples", 3.0},
+                                        {"scan.horizontal.min_angle", -1e-3},
+                                        {"scan.horizontal.max_angle", 1e-3},
+                                        {"noise.stddev", 1e-9},
+                                        {"incidence_noise", 0.02}});
+    std::vector<double> ranges;
+    for (int i = 0; i < 4000; ++i) ranges.push_back(Read(*lidar, i)[1]);
+    const double expected = 0.02 * std::tan(angle);
+    EXPECT_WITHIN_3_SIGMA(Spread(ranges).deviation, expected, expected / std::sqrt(8000.0) + 1e-9);
+  }
+}
+
 TEST_F(DeviceErrors, LidarMissesSlantedSurfaces) {
   Place({Wall(2, 60, 1)});
   const auto lidar = Create("lidar", {{"scan.horizontal.samples", 101.0},
@@ -160,6 +178,55 @@ TEST_F(DeviceErrors, ImuNoiseHasItsDensity) {
   std::vector<double> rates;
   for (int i = 0; i < 4000; ++i) rates.push_back(Read(*imu, i)[2]);
   EXPECT_WITHIN_3_SIGMA(Spread(rates).deviation, 0.02, 0.02 / std::sqrt(8000.0));
+}
+
+// The rate that is read at rest at `seconds`.
+double DeviceErrors::RateAt(const Sensor& imu, double seconds, std::uint64_t seed) {
+  snapshot_->state.time = base::FromSeconds(seconds);
+  snapshot_->state.step = static_cast<std::uint64_t>(seconds * 100);
+  const auto reading =
+      imu.Sample(Sampling(snapshot_, snapshot_->layout->Find("robot"), seed, rays_));
+  return reading->values[2];
+}
+
+// A random walk K: the bias changes in a time t by a normal value of the variance K^2 t (IEEE 952, C.1.4).
+TEST_F(DeviceErrors, ImuBiasWalksRandomly) {
+  Place({});
+  const double walk = 1e-3;
+  const auto imu = Create("imu", {{"angular_velocity.random_walk", walk}}, 100);
+  constexpr int kRuns = 3000;
+  for (const double seconds : {20.0, 60.0}) {
+    std::vector<double> changes;
+    for (int seed = 0; seed < kRuns; ++seed) {
+      const auto run = static_cast<std::uint64_t>(seed);
+      changes.push_back(RateAt(*imu, 50 + seconds, run) - RateAt(*imu, 50, run));
+    }
+    const double expected = walk * std::sqrt(seconds);
+    // The walk is a drift of a correlation time of an hour, which takes 0.3 % off the variance after 20 s.
+    EXPECT_WITHIN(Spread(changes).deviation, expected,
+                  (0.01 + 3 / std::sqrt(2.0 * kRuns)) * expected, "rad/s")
+        << seconds;
+  }
+}
+
+// The Allan deviation of a bias that drifts with the correlation time T and the deviation d has its maximum, 0.617 d,
+// at 1.89 T (IEEE 952, C.1.5). It is the instability, to a tenth.
+TEST_F(DeviceErrors, ImuBiasHasItsInstability) {
+  Place({});
+  const double instability = 1e-3, time = 189;
+  const auto imu = Create("imu", {{"angular_velocity.bias_instability", instability}}, 100);
+  constexpr int kRuns = 1000, kPoints = 20;
+  double squares = 0;
+  for (int seed = 0; seed < kRuns; ++seed) {
+    double first = 0, second = 0;
+    for (int i = 0; i < kPoints; ++i) {
+      const double seconds = 100 + time * (i + 0.5) / kPoints;
+      first += RateAt(*imu, seconds, static_cast<std::uint64_t>(seed)) / kPoints;
+      second += RateAt(*imu, seconds + time, static_cast<std::uint64_t>(seed)) / kPoints;
+    }
+    squares += (second - first) * (second - first) / 2 / kRuns;
+  }
+  EXPECT_WITHIN_PERCENT(std::sqrt(squares), instability, 10);
 }
 
 TEST(OdometryDrift, HasTheSameVarianceForAnyLengthOfSteps) {

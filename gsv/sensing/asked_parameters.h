@@ -1,0 +1,30 @@
+// The names of the parameters that a type of sensor has, found by creating a sensor of this type.
+#pragma once
+
+#include <set>
+#include <string>
+
+namespace gsv::sensing {
+
+// While it lives, collects the names that all ParameterReaders of this thread look for. Objects may be nested; a name
+// goes to the innermost one.
+//
+// Threads  use it on the thread that created it.
+class AskedParameters {
+ public:
+  AskedParameters();
+  ~AskedParameters();
+  AskedParameters(const AskedParameters&) = delete;
+  AskedParameters& operator=(const AskedParameters&) = delete;
+
+  const std::set<std::string>& names() const { return names_; }
+
+  // Adds the name to the collection of this thread, if there is one.
+  static void Add(const std::string& name);
+
+ private:
+  std::set<std::string> names_;
+  AskedParameters* const outer_;
+};
+
+}  // namespace gsv::sensing
