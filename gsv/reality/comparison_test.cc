@@ -39,7 +39,8 @@ TEST(Comparison, RefusesALogWithoutScans) {
   EXPECT_THAT(empty.error().Sentence(), HasSubstr("the log has nothing to compare"));
 }
 
-// A robot in a room of 4 by 4 m. The log's poses are right, or they are two metres off in each second block.
+// A robot in a room of 4 by 4 m. The log's poses are right, or they are two metres off in each
+// second block.
 Log InARoom(bool is_lost) {
   Log log;
   log.max_range = 10;

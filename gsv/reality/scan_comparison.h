@@ -22,8 +22,8 @@ struct Mixture {
 };
 Mixture MixtureOf(const std::vector<ScanPair>& pairs, bool of_real, double tolerance);
 
-// Returns a sentence if fewer than half of the readings are within `tolerance` of a surface: then the poses or the world are
-// wrong, and the device cannot be judged. Empty otherwise.
+// Returns a sentence if fewer than half of the readings are within `tolerance` of a surface: then
+// the poses or the world are wrong, and the device cannot be judged. Empty otherwise.
 std::string DoubtAbout(const Mixture& real, double tolerance);
 
 // Returns the fraction of readings with an echo, for each beam.

@@ -6,8 +6,8 @@
 
 namespace gsv::sensing {
 
-// While it lives, collects the names that all ParameterReaders of this thread look for. Objects may be nested; a name
-// goes to the innermost one.
+// While it lives, collects the names that all ParameterReaders of this thread look for. Objects may
+// be nested; a name goes to the innermost one.
 //
 // Threads  use it on the thread that created it.
 class AskedParameters {

@@ -189,7 +189,8 @@ double DeviceErrors::RateAt(const Sensor& imu, double seconds, std::uint64_t see
   return reading->values[2];
 }
 
-// A random walk K: the bias changes in a time t by a normal value of the variance K^2 t (IEEE 952, C.1.4).
+// A random walk K: the bias changes in a time t by a normal value of the variance K^2 t (IEEE 952,
+// C.1.4).
 TEST_F(DeviceErrors, ImuBiasWalksRandomly) {
   Place({});
   const double walk = 1e-3;
@@ -202,15 +203,16 @@ TEST_F(DeviceErrors, ImuBiasWalksRandomly) {
       changes.push_back(RateAt(*imu, 50 + seconds, run) - RateAt(*imu, 50, run));
     }
     const double expected = walk * std::sqrt(seconds);
-    // The walk is a drift of a correlation time of an hour, which takes 0.3 % off the variance after 20 s.
+    // The walk is a drift of a correlation time of an hour, which takes 0.3 % off the variance
+    // after 20 s.
     EXPECT_WITHIN(Spread(changes).deviation, expected,
                   (0.01 + 3 / std::sqrt(2.0 * kRuns)) * expected, "rad/s")
         << seconds;
   }
 }
 
-// The Allan deviation of a bias that drifts with the correlation time T and the deviation d has its maximum, 0.617 d,
-// at 1.89 T (IEEE 952, C.1.5). It is the instability, to a tenth.
+// The Allan deviation of a bias that drifts with the correlation time T and the deviation d has its
+// maximum, 0.617 d, at 1.89 T (IEEE 952, C.1.5). It is the instability, to a tenth.
 TEST_F(DeviceErrors, ImuBiasHasItsInstability) {
   Place({});
   const double instability = 1e-3, time = 189;
