@@ -61,7 +61,7 @@ class YamlMapping {
   std::vector<std::string> Texts(const std::string& key);
   std::vector<YAML::Node> List(const std::string& key);
   std::optional<YAML::Node> Any(const std::string& key);
-  // Calls `read` with each element of a list, and with the field of the element.
+  // Calls `read` with each element of a list and with its field, such as "robots[2]", for messages.
   template <typename Read>
   void Each(const std::string& key, std::size_t max, const Read& read) {
     const std::vector<YAML::Node> list = List(key);

@@ -98,7 +98,8 @@ class XmlPreparation {
     return text_.substr(at).starts_with(with);
   }
 
-  // The index after the next `end`; the end of the text if there is none, which is kept for the parser to find.
+  // Returns the index after the next `end`, or npos if there is none. The rest of the text then
+  // stays as it is, so that the parser reports the error.
   std::size_t After(std::size_t at, std::string_view end) const {
     const std::size_t found = text_.find(end, at);
     return found == std::string_view::npos ? std::string_view::npos : found + end.size();

@@ -30,7 +30,7 @@ float LightOf(std::uint8_t number) {
 }
 
 std::uint8_t NumberFor(float light) {
-  // kMiddles[i] lies between i and i + 1.
+  // kMiddles[i] is the limit of light between the encoded values i and i + 1.
   static const Table kMiddles = TableOf(0.5);
   const auto above = std::upper_bound(kMiddles.begin(), kMiddles.end() - 1, light);
   return static_cast<std::uint8_t>(above - kMiddles.begin());

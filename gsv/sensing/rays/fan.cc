@@ -80,7 +80,7 @@ std::optional<Sector> SectorOf(const Fan& fan, const Pose& box_from_fan, const B
       kGrown * (1 + distance + std::abs(origin.x) + std::abs(origin.y) + std::abs(origin.z));
   if (distance > fan.max_distance + grown) return std::nullopt;
 
-  // The box in the fan's frame: its centre and its half edges.
+  // The box in the fan's frame: its centre, and its half extents enlarged by `grown`.
   const Rotation fan_from_box(Inverse(box_from_fan.orientation));
   const Vector3 middle = fan_from_box * (0.5 * (box.min + box.max) - origin);
   const Vector3 half = 0.5 * (box.max - box.min) + Vector3{grown, grown, grown};
