@@ -131,16 +131,16 @@ test("a wall is drawn by two clicks", async () => {
   await shape().getByLabel("Shape").selectOption("wall");
   await press("Draw wall");
   const at = await onScreen("pebble");
-  await page.mouse.click(at.x - 60, at.y - 90);
+  await page.mouse.click(at.x - 60, at.y - 50);
   await page.getByText("where the wall ends").waitFor();
-  await page.mouse.click(at.x + 60, at.y - 90);
+  await page.mouse.click(at.x + 60, at.y - 50);
   await page.waitForFunction(() => window.gsv.chosen[0] === "wall");
   await settled(page);
   const wall = await body("wall");
   assert.equal(wall.is_static, true);
   assert.equal(wall.is_fixed, false);
   const onMap = await onScreen("wall");
-  assert.ok(Math.hypot(onMap.x - at.x, onMap.y - at.y + 90) < 15, "it stands between the clicks");
+  assert.ok(Math.hypot(onMap.x - at.x, onMap.y - at.y + 50) < 15, "it stands between the clicks");
 });
 
 test("the map has a scale, and its ruler agrees with it", async () => {

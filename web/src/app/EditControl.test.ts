@@ -173,6 +173,19 @@ test("a copied body is pasted beside the original each time, and is then selecte
   expect(api.removeObject).toHaveBeenCalledTimes(1);
 });
 
+test("pasted bodies stay selected if scenes arrive that have only some of them", async () => {
+  const { store, control } = await editing();
+  control.copy(["box", "a"]);
+  await control.paste();
+  const bodies = [body("a"), body("box", { isRobot: false })];
+  store.set({ scene: scene({ bodies: [...bodies, body("crate_2", { isRobot: false })] }) });
+  expect(store.get().editing).toMatchObject({ chosen: "crate_2", more: ["b_2"] });
+  store.set({ scene: scene({ bodies: [...bodies, body("crate_2", { isRobot: false }), body("b_2")] }) });
+  expect(store.get().editing).toMatchObject({ chosen: "crate_2", more: ["b_2"] });
+  store.set({ scene: scene({ bodies: [...bodies, body("crate_2", { isRobot: false })] }) });
+  expect(store.get().editing).toMatchObject({ chosen: "crate_2", more: [] });
+});
+
 test("several bodies are removed as one edit, and restored together", async () => {
   const { api, control, store } = await editing();
   control.choose("box");

@@ -38,6 +38,8 @@ export class EditControl {
   private takenBack: Edit[] = [];
   // The poses that were set here and are not in a received scene yet.
   private readonly unseen = new Map<string, BodyPlace>();
+  // Bodies that were added here and are not in a received scene yet.
+  private readonly arriving = new Set<string>();
   private copied: Copied[] = [];
   private pastes = 0; // of what was copied
 
@@ -56,9 +58,10 @@ export class EditControl {
       ({ scene }) => scene,
       (scene) => {
         this.unseen.clear();
+        for (const { name } of scene?.bodies ?? []) this.arriving.delete(name);
         const { editing } = this.store.get();
-        if (!editing) return;
-        const isThere = (body: string) => scene?.bodies.some(({ name }) => name === body) ?? false;
+        if (!editing) return this.arriving.clear();
+        const isThere = (body: string) => this.arriving.has(body) || (scene?.bodies.some(({ name }) => name === body) ?? false);
         if (editing.chosen !== null && !isThere(editing.chosen)) this.choose(null);
         else if (!editing.more.every(isThere)) this.patch({ more: editing.more.filter(isThere) });
       },
@@ -235,13 +238,20 @@ export class EditControl {
       name: `add ${object.model ?? object.copy_of}`,
       apply: async () => {
         name = await this.api.addObject(simulation, { ...object, name, place });
-        names.push(name);
+        this.added(name, names);
       },
       revert: async () => {
         place = this.placeOf(name) ?? place; // it comes back where it stood
+        this.arriving.delete(name);
         await this.api.removeObject(simulation, name);
       },
     };
+  }
+
+  // A scene with this body may have been received before the server's answer.
+  private added(name: string, names: string[]): void {
+    names.push(name);
+    if (!this.bodyOf(name)) this.arriving.add(name);
   }
 
   private arrival(simulation: string, robot: RobotSetUp, isAvatar: boolean, names: string[]): Edit {
@@ -250,10 +260,11 @@ export class EditControl {
       name: `add ${robot.model}`,
       apply: async () => {
         name = await this.api.addRobot(simulation, { ...robot, name, place }, isAvatar);
-        names.push(name);
+        this.added(name, names);
       },
       revert: async () => {
         const stood = this.placeOf(name);
+        this.arriving.delete(name);
         place = stood ? upright(stood) : place; // it comes back where it stood
         await this.api.removeRobot(simulation, name);
       },
@@ -340,6 +351,7 @@ export class EditControl {
   }
 
   private end(): void {
+    this.arriving.clear();
     this.store.set({ editing: null, placing: false, chosenPose: null });
   }
 
