@@ -195,15 +195,19 @@ test("several bodies are selected, moved, copied and removed together", async ()
 test("a rectangle selects the bodies inside it", async () => {
   await press("Map");
   await settled(page);
-  await page.keyboard.press("Escape");
-  const at = await onScreen("box");
-  await page.keyboard.down("Shift");
-  await page.mouse.move(at.x - 25, at.y - 25);
-  await page.mouse.down();
-  await page.mouse.move(at.x + 25, at.y + 25, { steps: 3 });
-  await page.mouse.up();
-  await page.keyboard.up("Shift");
-  await chosenAre("box");
+  // On a slow machine the map may still be moving into place, so the rectangle is drawn again.
+  await until(async () => {
+    await page.keyboard.press("Escape");
+    const at = await onScreen("box");
+    await page.keyboard.down("Shift");
+    await page.mouse.move(at.x - 25, at.y - 25);
+    await page.mouse.down();
+    await page.mouse.move(at.x + 25, at.y + 25, { steps: 3 });
+    await page.mouse.up();
+    await page.keyboard.up("Shift");
+    await settled(page);
+    return JSON.stringify(await chosen()) === '["box"]';
+  }, "the box in the rectangle");
   await press("Map");
 });
 
