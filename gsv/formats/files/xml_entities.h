@@ -20,7 +20,8 @@ struct XmlDoctype {
   std::size_t end = 0;  // the index after its ">"; npos if it does not end
 };
 
-// Reads the declaration that begins at `begin` of `text` with "<!DOCTYPE". The first declaration of a name counts.
+// Reads the declaration that begins at `begin` of `text` with "<!DOCTYPE". The first declaration of
+// a name counts.
 XmlDoctype ReadDoctype(std::string_view text, std::size_t begin);
 
 // Whether `&name;` is one of the five entities of XML itself, or a character reference.

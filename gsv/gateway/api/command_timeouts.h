@@ -4,6 +4,7 @@
 // repetition ends, and the robot must not continue for ever.
 //
 // Time     wall-clock time.
+// Bounded  one function for each key.
 // Threads  any. The functions run on a thread of this object.
 #pragma once
 

@@ -78,7 +78,7 @@ class MountedSensor {
 
   // Returns the sample at the instant of `sampling`. It is taken now, unless it was taken before.
   base::Result<sensing::Reading> Read(const sensing::Sampling& sampling);
-  // The same, for callers other than the robot's behaviour.
+  // Like Read(), but for a caller that is not the robot's behaviour, such as a live topic.
   base::Result<sensing::Reading> Watch(const sensing::Sampling& sampling);
 
   // From now on, each of these sweeps counts as a reading of this sensor.

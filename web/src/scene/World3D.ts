@@ -439,7 +439,7 @@ export class World3D {
     return isFlying || isMoving;
   }
 
-  // What is painted over an image of the server.
+  // The objects that the page draws over an image from the server.
   private painted(): Object3D[] {
     const { overlays, signs, watch, arranger, tools } = this;
     const objects: Object3D[] = [overlays.group, signs.marks.points, watch.ring.mesh, arranger.handle.group, tools.group];
