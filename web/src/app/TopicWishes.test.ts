@@ -34,6 +34,13 @@ test("a robot is requested if its subscribed beams are not offered", () => {
   expect(listTopics.mock.calls).toEqual([["s", "b"]]);
 });
 
+test("a robot without sensors is not requested, for it has no beams to offer", () => {
+  const { wishes, listTopics } = fixture(["/gsv/beams/wall"]);
+  wishes.lookSoon();
+  vi.runAllTimers();
+  expect(listTopics).not.toHaveBeenCalled();
+});
+
 test("no robot is requested while all topics are listed, or before there is a scene", () => {
   const listed = fixture([]);
   listed.wishes.lookSoon();

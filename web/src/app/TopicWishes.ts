@@ -32,6 +32,8 @@ export class TopicWishes {
     const missing = new Set(this.missing());
     if (missing.size === 0) return;
     for (const { name, sensors } of scene.bodies) {
+      // A robot without sensors has no topics to list, and its beams have none either.
+      if (sensors.length === 0) continue;
       if (!missing.has(`/gsv/beams/${name}`) && !sensors.some(({ topic }) => missing.has(topic))) continue;
       // If there is no answer, these topics have no messages. A new connection requests them again.
       this.api.listTopics(simulation, name).catch(() => {});

@@ -241,6 +241,16 @@ test("a channel that is advertised later is subscribed, and a removed one is for
   expect(server.heard[1]?.subscriptions?.[0]?.channelId).toBe(8);
 });
 
+test("a topic that the server withdrew is not missing", async () => {
+  const server = await serve();
+  const { client } = connectTo(server);
+  client.subscribe("/greeting", () => {});
+  await eventually(() => expect(server.heard).toHaveLength(1));
+  server.send(JSON.stringify({ op: "unadvertise", channelIds: [7] }));
+  await eventually(() => expect(client.topics).toEqual([]));
+  expect(client.missingTopics).toEqual([]);
+});
+
 test("an unreadable message is reported once and has no other effect", async () => {
   const server = await serve();
   const { client, problems } = connectTo(server);

@@ -50,6 +50,7 @@ interface Subscription {
   waiting: DataView | null; // the newest payload, if it is not decoded yet
   restsUntilMs: number;
   id: number | null; // null: not subscribed at the server
+  ended: boolean; // the server offered the topic on this connection, and withdrew it
 }
 
 // A server refuses a second subscription of a channel, so all subscriptions of a channel share one.
@@ -107,9 +108,10 @@ export class FoxgloveClient implements TopicSource {
     return this.counted;
   }
 
-  // The subscribed topics that the server does not offer.
+  // The subscribed topics that the server has not offered since the connection opened. A topic that
+  // the server withdrew is not among them: its robot was removed.
   get missingTopics(): string[] {
-    return [...this.subscriptions].filter(({ id }) => id === null).map(({ topic }) => topic);
+    return [...this.subscriptions].filter(({ id, ended }) => id === null && !ended).map(({ topic }) => topic);
   }
 
   // Subscribes to a topic; returns the function that ends the subscription. With `newestOnly`, no
@@ -127,6 +129,7 @@ export class FoxgloveClient implements TopicSource {
       waiting: null,
       restsUntilMs: -Infinity,
       id: null,
+      ended: false,
     };
     this.subscriptions.add(subscription);
     this.request([subscription]);
@@ -191,7 +194,7 @@ export class FoxgloveClient implements TopicSource {
     this.subscribed.clear();
     this.hasParameters = false;
     for (const name of [...this.questions.keys()]) this.answer(name, null);
-    for (const subscription of this.subscriptions) subscription.id = null;
+    for (const subscription of this.subscriptions) Object.assign(subscription, { id: null, ended: false });
     if (!socket) return;
     socket.onopen = socket.onmessage = socket.onclose = null;
     socket.close();
@@ -245,7 +248,7 @@ export class FoxgloveClient implements TopicSource {
     for (const [id, { subscriptions, channel }] of [...this.subscribed]) {
       if (!ids.includes(channel.id)) continue;
       this.subscribed.delete(id);
-      for (const subscription of subscriptions) subscription.id = null;
+      for (const subscription of subscriptions) Object.assign(subscription, { id: null, ended: true });
     }
     this.tellTopics();
   }
