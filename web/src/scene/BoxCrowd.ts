@@ -1,8 +1,8 @@
 // Draws many boxes in one draw call, with vertices computed by the processor: without a graphics
 // card, each instance would cost a draw call of about 20 µs. The graphics derive the normals of the
 // flat faces, so a box has only eight vertices.
-import type { Box3, Material } from "three";
-import { BoxGeometry, BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh } from "three";
+import type { Box3, Material, Matrix4 } from "three";
+import { BoxGeometry, BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, Vector3 } from "three";
 
 const CORNERS = 8; // bit k of a corner's number: whether it is at the far end of axis k
 const FACES = trianglesOfABox();
@@ -10,17 +10,24 @@ const FACES = trianglesOfABox();
 export class BoxCrowd {
   readonly mesh: Mesh;
   private readonly positions: Float32Array;
-  private readonly middle: readonly number[];
-  private readonly half: readonly number[];
+  private readonly corner: Vector3; // the first corner, in the frame
+  private readonly edges: readonly [Vector3, Vector3, Vector3]; // from there
 
-  // The number of boxes, their size, and the centre of a box in its own frame.
+  // The number of boxes, and the box in its part's frame, which is fixed in the frame of each body.
   constructor(
     box: Box3,
+    frameFromPart: Matrix4,
     material: Material,
     private readonly count: number,
   ) {
-    this.middle = [0, 1, 2].map((k) => (box.min.getComponent(k) + box.max.getComponent(k)) / 2);
-    this.half = [0, 1, 2].map((k) => (box.max.getComponent(k) - box.min.getComponent(k)) / 2);
+    const corner = (x: number, y: number, z: number) => new Vector3(x, y, z).applyMatrix4(frameFromPart);
+    const { min, max } = box;
+    this.corner = corner(min.x, min.y, min.z);
+    this.edges = [
+      corner(max.x, min.y, min.z).sub(this.corner),
+      corner(min.x, max.y, min.z).sub(this.corner),
+      corner(min.x, min.y, max.z).sub(this.corner),
+    ];
     this.positions = new Float32Array(3 * CORNERS * count);
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(this.positions, 3).setUsage(DynamicDrawUsage));
@@ -33,23 +40,21 @@ export class BoxCrowd {
     this.mesh.raycast = () => {};
   }
 
-  // `matrices`: world_from_box of each box, sixteen numbers, column by column.
+  // `matrices`: world_from_frame of each body, sixteen numbers, column by column.
   place(matrices: ArrayLike<number>): void {
-    const [mx, my, mz] = this.middle as [number, number, number];
-    const [hx, hy, hz] = this.half as [number, number, number];
-    const { positions } = this;
+    const { corner, positions } = this;
+    const [i, j, k] = this.edges;
     for (let box = 0; box < this.count; box++) {
       const m = 16 * box;
       for (let row = 0; row < 3; row++) {
         const a = matrices[m + row]!;
         const b = matrices[m + 4 + row]!;
         const c = matrices[m + 8 + row]!;
-        const middle = a * mx + b * my + c * mz + matrices[m + 12 + row]!;
-        const x = 2 * a * hx;
-        const y = 2 * b * hy;
-        const z = 2 * c * hz;
+        const first = a * corner.x + b * corner.y + c * corner.z + matrices[m + 12 + row]!;
+        const x = a * i.x + b * i.y + c * i.z;
+        const y = a * j.x + b * j.y + c * j.z;
+        const z = a * k.x + b * k.y + c * k.z;
         const at = 3 * CORNERS * box + row;
-        const first = middle - (x + y + z) / 2;
         positions[at] = first;
         positions[at + 3] = first + x;
         positions[at + 6] = first + y;

@@ -1,21 +1,34 @@
-import { InstancedMesh, Matrix4, Mesh, MeshBasicMaterial, PerspectiveCamera, SphereGeometry, Vector3 } from "three";
+import type { Mesh } from "three";
+import { Box3, Matrix4, MeshBasicMaterial, PerspectiveCamera, SphereGeometry, Vector3 } from "three";
 import { describe, expect, it } from "vitest";
+import { BodyFrames } from "./BodyFrames";
 import { CrowdDetail } from "./CrowdDetail";
+import { ModelInstances } from "./ModelInstances";
+import { body, scene } from "./testScene";
 
 const RADIUS = 0.1;
 const BETWEEN = 0.3;
 
 function crowd(count: number) {
-  const mesh = new InstancedMesh(new SphereGeometry(RADIUS), new MeshBasicMaterial(), count);
-  const wheel = new InstancedMesh(new SphereGeometry(RADIUS / 4), new MeshBasicMaterial(), count);
-  const places = Array.from({ length: count }, (_, i) => new Matrix4().makeTranslation(BETWEEN * i, 0, 0));
-  places.forEach((place, i) => mesh.setMatrixAt(i, place));
-  const detail = new CrowdDetail();
-  const meshes = [
-    { mesh, size: 2 * RADIUS },
-    { mesh: wheel, size: RADIUS / 2 },
-  ];
-  detail.add(meshes, RADIUS, places);
+  const frames = new BodyFrames(
+    scene({
+      bodies: Array.from({ length: count }, (_, i) => body(String(i), { pose: [BETWEEN * i, 0, 0, 0, 0, 0, 1] })),
+      poses: Array.from({ length: count }, (_, i) => ({ body: i, link: null })),
+    }),
+  );
+  const part = (radius: number) => ({
+    geometry: new SphereGeometry(radius),
+    material: new MeshBasicMaterial(),
+    link: null,
+    linkFromPart: new Matrix4(),
+    modelFromPart: new Matrix4(),
+  });
+  const template = { parts: [part(RADIUS), part(RADIUS / 4)], bounds: new Box3() };
+  const bodies = { bodies: Array.from({ length: count }, (_, i) => i), isFixed: () => false };
+  const instances = new ModelInstances(template, frames, bodies);
+  const [mesh, wheel] = instances.meshes as [Mesh, Mesh];
+  const detail = new CrowdDetail(frames);
+  detail.add(instances, RADIUS);
   const camera = new PerspectiveCamera(90);
   // An image 800 pixels high with a 90° field of view has 400 pixels per metre at a distance of 1
   // m. The nearest robot is 80 pixels wide at 1 m.
@@ -24,7 +37,12 @@ function crowd(count: number) {
     detail.choose(camera, 800);
     return { shapes: [mesh.visible, wheel.visible], boxes: detail.group.children as Mesh[] };
   };
-  return { mesh, places, detail, look };
+  const move = (robot: number, worldFromRobot: Matrix4) => {
+    frames.setMatrix(robot, worldFromRobot);
+    instances.place();
+    detail.moved();
+  };
+  return { move, look };
 }
 
 describe("CrowdDetail", () => {
@@ -48,10 +66,9 @@ describe("CrowdDetail", () => {
   });
 
   it("boxes move and rotate with the bodies", () => {
-    const { mesh, detail, look } = crowd(50);
+    const { move, look } = crowd(50);
     look(100);
-    mesh.setMatrixAt(49, new Matrix4().makeRotationZ(Math.PI / 2).setPosition(7, 8, 9));
-    detail.moved();
+    move(49, new Matrix4().makeRotationZ(Math.PI / 2).setPosition(7, 8, 9));
     const { geometry } = look(100).boxes[0]!;
     const at = (i: number) => new Vector3().fromBufferAttribute(geometry.getAttribute("position"), 49 * 8 + i);
     const middle = new Vector3();

@@ -1,8 +1,13 @@
 // Draws the parts of a distant crowd as boxes and omits small parts: a thousand robots of a few
 // pixels need no thousands of triangles each, which take seconds without a graphics card.
-import type { InstancedMesh, Material, Matrix4, Mesh, PerspectiveCamera } from "three";
+import type { Mesh, PerspectiveCamera } from "three";
 import { Group, Vector3 } from "three";
+import type { FramedPart } from "./bakedParts";
+import type { BodyFrames } from "./BodyFrames";
+import { POSE_NUMBERS } from "./BodyFrames";
 import { BoxCrowd } from "./BoxCrowd";
+import type { ModelInstances, Rig } from "./ModelInstances";
+import { boundsOf } from "./ModelTemplate";
 
 const SMALLEST_CROWD = 50;
 // The size in pixels of the nearest robot of a crowd. Between the two limits, the level of detail
@@ -13,16 +18,11 @@ const FINE_ABOVE = 16;
 // pixels wide.
 const SMALL_SHARE = 0.4;
 
-export interface CrowdMesh {
-  mesh: Mesh;
-  size: number; // from corner to corner, m
-}
-
 interface Crowd {
-  meshes: Mesh[];
-  boxes: { boxes: BoxCrowd; mesh: InstancedMesh }[]; // of the large parts
+  meshes: readonly Mesh[];
+  boxes: { boxes: BoxCrowd; rig: Rig }[]; // of the large parts
   radius: number; // of one of them, m
-  places: readonly Matrix4[]; // world_from_body, as shown now
+  frames: Int32Array; // of the bodies
   isCoarse: boolean;
   isStale: boolean; // the boxes stand where the bodies stood
 }
@@ -31,14 +31,17 @@ export class CrowdDetail {
   readonly group = new Group();
   private readonly crowds: Crowd[] = [];
 
-  // The meshes that show all bodies of one model at `places`. A small number of bodies is left
-  // unchanged.
-  add(meshes: readonly CrowdMesh[], radius: number, places: readonly Matrix4[]): void {
-    if (places.length < SMALLEST_CROWD || !(radius > 0)) return;
-    const largest = Math.max(...meshes.map(({ size }) => size));
-    const large = meshes.filter(({ size }) => size >= SMALL_SHARE * largest);
-    const boxes = large.map(({ mesh }) => ({ mesh: mesh as InstancedMesh, boxes: boxesFor(mesh, places.length) }));
-    this.crowds.push({ meshes: meshes.map(({ mesh }) => mesh), boxes, radius, places, isCoarse: false, isStale: true });
+  constructor(private readonly frames: BodyFrames) {}
+
+  // Adds bodies of one model with this radius in metres. A small number of bodies is left unchanged.
+  add({ meshes, rigs, bodies }: ModelInstances, radius: number): void {
+    if (bodies.length < SMALLEST_CROWD || !(radius > 0)) return;
+    const parts = rigs.flatMap((rig) => rig.parts.map((framed) => ({ rig, framed, size: sizeOf(framed) })));
+    const largest = Math.max(...parts.map(({ size }) => size));
+    const large = parts.filter(({ size }) => size >= SMALL_SHARE * largest);
+    const boxes = large.map(({ rig, framed }) => ({ rig, boxes: boxesFor(framed, bodies.length) }));
+    const frames = Int32Array.from(bodies, (body) => this.frames.frameOf(body));
+    this.crowds.push({ meshes, boxes, radius, frames, isCoarse: false, isStale: true });
   }
 
   // Call this when the bodies have moved.
@@ -50,16 +53,29 @@ export class CrowdDetail {
   choose(camera: PerspectiveCamera, height: number): void {
     const focal = height / 2 / Math.tan((camera.fov * Math.PI) / 360);
     for (const crowd of this.crowds) {
-      const across = (2 * crowd.radius * focal) / nearest(camera, crowd.places);
+      const across = (2 * crowd.radius * focal) / this.nearest(camera, crowd.frames);
       this.show(crowd, crowd.isCoarse ? across < FINE_ABOVE : across < COARSE_BELOW);
       if (!crowd.isCoarse || !crowd.isStale) continue;
-      for (const { boxes, mesh } of crowd.boxes) boxes.place(mesh.instanceMatrix.array);
+      for (const { boxes, rig } of crowd.boxes) boxes.place(rig.matrices.array);
       crowd.isStale = false;
     }
   }
 
   dispose(): void {
     for (const { boxes } of this.crowds) for (const each of boxes) each.boxes.dispose();
+  }
+
+  // The distance from the camera to the nearest body.
+  private nearest(camera: PerspectiveCamera, frames: Int32Array): number {
+    const { numbers } = this.frames;
+    const { x, y, z } = camera.position;
+    let least = Infinity;
+    for (let i = 0; i < frames.length; i++) {
+      const at = POSE_NUMBERS * frames[i]!;
+      const squared = (numbers[at]! - x) ** 2 + (numbers[at + 1]! - y) ** 2 + (numbers[at + 2]! - z) ** 2;
+      if (squared < least) least = squared;
+    }
+    return Math.sqrt(least);
   }
 
   private show(crowd: Crowd, isCoarse: boolean): void {
@@ -73,18 +89,14 @@ export class CrowdDetail {
   }
 }
 
-function boxesFor(mesh: Mesh, count: number): BoxCrowd {
-  mesh.geometry.computeBoundingBox();
-  const boxes = new BoxCrowd(mesh.geometry.boundingBox!, mesh.material as Material, count);
-  boxes.mesh.castShadow = mesh.castShadow;
-  boxes.mesh.receiveShadow = mesh.receiveShadow;
-  return boxes;
+// From corner to corner, m.
+function sizeOf({ part }: FramedPart): number {
+  return boundsOf(part).getSize(new Vector3()).length();
 }
 
-const place = new Vector3();
-
-function nearest(camera: PerspectiveCamera, places: readonly Matrix4[]): number {
-  let least = Infinity;
-  for (const each of places) least = Math.min(least, place.setFromMatrixPosition(each).distanceTo(camera.position));
-  return least;
+function boxesFor({ part, frameFromPart }: FramedPart, count: number): BoxCrowd {
+  boundsOf(part); // computes those of the geometry
+  const boxes = new BoxCrowd(part.geometry.boundingBox!, frameFromPart, part.material, count);
+  boxes.mesh.castShadow = boxes.mesh.receiveShadow = !part.material.transparent;
+  return boxes;
 }

@@ -17,6 +17,7 @@ function place(layer: LabelLayer, robots: Robot[], selection: string | null = nu
     badness: (i) => robots[i]![4] ?? 0,
     isShown: (i) => !hidden.includes(robots[i]![0]),
     selection,
+    isMoving: false,
   });
 }
 
@@ -57,6 +58,26 @@ test("of overlapping labels, the selected one has priority, then the worst, then
   expect(layer.element.firstElementChild!.classList.contains("trouble")).toBe(true);
   place(layer, [["far", 0, 0, -4, 2], near], "near");
   expect(texts(layer)).toEqual(["near"]);
+});
+
+test("while robots move, their labels follow them, and other robots get labels a little later", () => {
+  vi.useFakeTimers({ toFake: ["performance"] });
+  const layer = new LabelLayer(() => {});
+  const names = ["a", "b"];
+  const show = (xOfA: number, zOfA: number, selection: string | null = null) => {
+    const tops = Float64Array.from([xOfA, 0, zOfA, 0, 0, -3]);
+    layer.place(camera, 800, 400, { names, tops, badness: () => 0, isShown: () => true, selection, isMoving: true });
+    return [...layer.element.children].map((label) => `${label.textContent} ${/translate\((\S+)px/.exec((label as HTMLElement).style.transform)![1]}`);
+  };
+  expect(show(0, -2)).toEqual(["a 400.0"]); // in front of b
+  expect(show(0.04, -4)).toEqual(["a 402.0"]); // behind it
+  expect(show(0.04, -4, "b")).toEqual(["b 400.0"]); // a new selection counts at once
+  show(0.04, -4);
+  expect(show(0.04, -2)).toEqual(["b 400.0"]);
+  vi.advanceTimersByTime(200);
+  expect(show(0.04, -2)).toEqual(["a 404.0"]);
+  expect(show(9, -2)).toEqual([]); // outside the image
+  vi.useRealTimers();
 });
 
 test("no two labels of a crowd overlap", () => {

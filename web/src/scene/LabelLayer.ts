@@ -8,6 +8,9 @@ const MOST_LABELS = 40;
 const TEXT_PX = 11.5; // as style/panels.css has it
 const HEIGHT_PX = 20;
 const PADDING_PX = 14; // of both sides, with what keeps two names apart
+// While robots move and the camera stands, the labelled robots are chosen anew after this time.
+// Choosing in every frame would exchange labels all the time, which is restless and slow.
+const CHOICE_MS = 200;
 const CHARACTER_PX = 7; // where the browser does not tell a text's width
 
 export interface LabelledRobots {
@@ -16,6 +19,7 @@ export interface LabelledRobots {
   badness(robot: number): number; // 0: all is well
   isShown(robot: number): boolean;
   selection: string | null;
+  isMoving: boolean; // more frames follow
 }
 
 interface Box {
@@ -24,9 +28,30 @@ interface Box {
   bottom: number;
 }
 
-interface Candidate extends Box {
+interface ShownLabel {
   robot: number;
   x: number;
+  bottom: number;
+}
+
+type Candidate = Box & ShownLabel;
+
+// What the present choice was made for, apart from the places of the robots.
+interface Choice {
+  madeMs: number;
+  names: readonly string[];
+  selection: string | null;
+  clipFromWorld: Matrix4;
+  robots: number[];
+}
+
+// A label of the page, with what was last written to it: a write costs more than a comparison.
+interface Label {
+  element: HTMLElement;
+  frame: number; // in which it was last shown
+  x: number; // tenths of a pixel
+  bottom: number;
+  kind: string; // its classes
 }
 
 // A priority is one number, so that thousands are sorted fast: the rank (the lowest comes first), the
@@ -38,7 +63,9 @@ const CENTIMETRES = 100;
 
 export class LabelLayer {
   readonly element = document.createElement("div");
-  private readonly labels = new Map<string, HTMLElement>();
+  private readonly labels = new Map<string, Label>();
+  private frame = 0;
+  private choice: Choice | null = null;
   private readonly widths = new Map<string, number>();
   private readonly measure = measureText();
   private readonly clipFromWorld = new Matrix4();
@@ -52,19 +79,20 @@ export class LabelLayer {
   }
 
   place(camera: Camera, width: number, height: number, robots: LabelledRobots): void {
-    const shown = this.chosen(camera, width, height, robots);
-    const names = new Set(shown.map(({ robot }) => robots.names[robot]!));
-    for (const [name, label] of [...this.labels]) {
-      if (names.has(name)) continue;
-      label.remove();
-      this.labels.delete(name);
-    }
-    for (const { robot, x, bottom } of shown) {
-      const name = robots.names[robot]!;
+    const { names, selection } = robots;
+    this.frame += 1;
+    for (const { robot, x, bottom } of this.shown(camera, width, height, robots)) {
+      const name = names[robot]!;
       const label = this.labelOf(name);
-      label.style.transform = `translate(${x.toFixed(1)}px, ${bottom.toFixed(1)}px) translate(-50%, -100%)`;
-      label.classList.toggle("selected", name === robots.selection);
-      label.classList.toggle("trouble", robots.badness(robot) > 0);
+      label.frame = this.frame;
+      move(label, Math.round(10 * x), Math.round(10 * bottom));
+      const kind = `label${name === selection ? " selected" : ""}${robots.badness(robot) > 0 ? " trouble" : ""}`;
+      if (kind !== label.kind) label.element.className = label.kind = kind;
+    }
+    for (const [name, { element, frame }] of this.labels) {
+      if (frame === this.frame) continue;
+      element.remove();
+      this.labels.delete(name);
     }
   }
 
@@ -77,7 +105,7 @@ export class LabelLayer {
     context.font = getComputedStyle(this.element).font.replace(/\d+(\.\d+)?px/, `${TEXT_PX}px`);
     context.textBaseline = "middle";
     const frame = this.element.getBoundingClientRect();
-    for (const label of this.labels.values()) {
+    for (const { element: label } of this.labels.values()) {
       const box = label.getBoundingClientRect();
       const [x, y] = [box.left - frame.left, box.top - frame.top];
       context.fillStyle = getComputedStyle(label).backgroundColor;
@@ -88,6 +116,32 @@ export class LabelLayer {
       context.fillText(label.textContent ?? "", x + 6, y + box.height / 2);
     }
     context.restore();
+  }
+
+  // Call this when the answers of `badness` or `isShown` may have changed.
+  renew(): void {
+    this.choice = null;
+  }
+
+  // The labels to show. A present choice remains for a short time, if only the robots have moved.
+  private shown(camera: Camera, width: number, height: number, robots: LabelledRobots): ShownLabel[] {
+    this.clipFromWorld.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
+    const now = performance.now();
+    if (this.choice && robots.isMoving && this.isRecent(this.choice, robots, now)) return this.moved(this.choice, width, height, robots.tops);
+    const chosen = this.chosen(camera, width, height, robots);
+    const { names, selection } = robots;
+    this.choice = { madeMs: now, names, selection, clipFromWorld: this.clipFromWorld.clone(), robots: chosen.map(({ robot }) => robot) };
+    return chosen;
+  }
+
+  private isRecent({ madeMs, names, selection, clipFromWorld }: Choice, robots: LabelledRobots, now: number): boolean {
+    const isSame = names === robots.names && selection === robots.selection && clipFromWorld.equals(this.clipFromWorld);
+    return isSame && now - madeMs < CHOICE_MS;
+  }
+
+  // The chosen robots that are still in the image, at their present places.
+  private moved({ robots }: Choice, width: number, height: number, tops: Float64Array): ShownLabel[] {
+    return robots.flatMap((robot) => (this.project(tops, robot, width, height) ? [{ robot, x: this.across[robot]!, bottom: this.down[robot]! }] : []));
   }
 
   // The labels that have room, at most MOST_LABELS.
@@ -111,28 +165,34 @@ export class LabelLayer {
     if (this.keys.length < names.length) {
       [this.keys, this.across, this.down] = [0, 1, 2].map(() => new Float64Array(names.length)) as [Float64Array, Float64Array, Float64Array];
     }
-    const { keys, across, down } = this;
-    const m = this.clipFromWorld.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements;
+    const { keys } = this;
     const eye = this.eye.setFromMatrixPosition(camera.matrixWorld);
     let found = 0;
-    for (let robot = 0, at = 0; robot < names.length; robot++, at += 3) {
-      const x = tops[at]!;
-      const y = tops[at + 1]!;
-      const z = tops[at + 2]!;
-      const w = m[3]! * x + m[7]! * y + m[11]! * z + m[15]!;
-      if (w <= 0) continue;
-      const right = (m[0]! * x + m[4]! * y + m[8]! * z + m[12]!) / w;
-      const up = (m[1]! * x + m[5]! * y + m[9]! * z + m[13]!) / w;
-      if (Math.abs(right) > 1 || Math.abs(up) > 1 || !robots.isShown(robot)) continue;
-      across[robot] = ((right + 1) / 2) * width;
-      down[robot] = ((1 - up) / 2) * height;
+    for (let robot = 0; robot < names.length; robot++) {
+      if (!this.project(tops, robot, width, height) || !robots.isShown(robot)) continue;
       const rank = BEST_RANK - (names[robot] === selection ? BEST_RANK : robots.badness(robot));
-      const distance = Math.sqrt((x - eye.x) ** 2 + (y - eye.y) ** 2 + (z - eye.z) ** 2);
+      const at = 3 * robot;
+      const distance = Math.sqrt((tops[at]! - eye.x) ** 2 + (tops[at + 1]! - eye.y) ** 2 + (tops[at + 2]! - eye.z) ** 2);
       const centimetres = Math.min(DISTANCES_IN_KEY - 1, Math.floor(CENTIMETRES * distance));
       keys[found++] = (rank * DISTANCES_IN_KEY + centimetres) * ROBOTS_IN_KEY + robot;
     }
     keys.subarray(0, found).sort();
     return found;
+  }
+
+  // Finds the place of a robot in the image. Returns whether it is in front of the camera and inside.
+  private project(tops: Float64Array, robot: number, width: number, height: number): boolean {
+    const m = this.clipFromWorld.elements;
+    const x = tops[3 * robot]!;
+    const y = tops[3 * robot + 1]!;
+    const z = tops[3 * robot + 2]!;
+    const w = m[3]! * x + m[7]! * y + m[11]! * z + m[15]!;
+    if (w <= 0) return false;
+    const right = (m[0]! * x + m[4]! * y + m[8]! * z + m[12]!) / w;
+    const up = (m[1]! * x + m[5]! * y + m[9]! * z + m[13]!) / w;
+    this.across[robot] = ((right + 1) / 2) * width;
+    this.down[robot] = ((1 - up) / 2) * height;
+    return Math.abs(right) <= 1 && Math.abs(up) <= 1;
   }
 
   private widthOf(name: string): number {
@@ -141,18 +201,27 @@ export class LabelLayer {
     return width;
   }
 
-  private labelOf(name: string): HTMLElement {
+  private labelOf(name: string): Label {
     let label = this.labels.get(name);
     if (!label) {
-      label = document.createElement("span");
-      label.className = "label";
-      label.textContent = name;
-      label.addEventListener("click", () => this.onPick(name));
+      const element = document.createElement("span");
+      element.className = "label";
+      element.textContent = name;
+      element.addEventListener("click", () => this.onPick(name));
+      label = { element, frame: 0, x: NaN, bottom: NaN, kind: "label" };
       this.labels.set(name, label);
-      this.element.append(label);
+      this.element.append(element);
     }
     return label;
   }
+}
+
+// Places in tenths of a pixel.
+function move(label: Label, x: number, bottom: number): void {
+  if (x === label.x && bottom === label.bottom) return;
+  label.x = x;
+  label.bottom = bottom;
+  label.element.style.transform = `translate(${(x / 10).toFixed(1)}px, ${(bottom / 10).toFixed(1)}px) translate(-50%, -100%)`;
 }
 
 function overlap(a: Box, b: Box): boolean {

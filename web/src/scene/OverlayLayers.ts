@@ -12,7 +12,7 @@ import type { OverlayColours, Shown } from "../state/overlays";
 import { FIRST_COLOURS, FIRST_SHOWN } from "../state/overlays";
 import { BeamLayer } from "./BeamLayer";
 import type { BodyLayer } from "./BodyLayer";
-import { matrixOf } from "./BodyLayer";
+import { matrixOf } from "./BodyFrames";
 import { DeviceLayer } from "./DeviceLayer";
 import { ExpectationMarks } from "./ExpectationMarks";
 import type { EquivalentBox } from "./inertia";

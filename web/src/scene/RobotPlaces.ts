@@ -2,6 +2,7 @@
 import { Vector3 } from "three";
 import type { SceneBody, SceneSensor } from "../api/scene";
 import { hasAgent } from "../api/scene";
+import { POSE_NUMBERS } from "./BodyFrames";
 import type { BodyLayer } from "./BodyLayer";
 import type { Subject } from "./CameraRig";
 import type { Eye } from "./eye";
@@ -13,7 +14,7 @@ const SMALLEST_RING = 0.16; // m
 
 export class RobotPlaces {
   readonly names: readonly string[];
-  private readonly robots: { name: string; body: number }[];
+  private readonly robots: { name: string; body: number; frame: number }[];
   private readonly places: Float64Array;
   private readonly heights: Float64Array; // of the labels above the robots' origins, m
 
@@ -22,7 +23,7 @@ export class RobotPlaces {
     private readonly frames: SensorFrames,
   ) {
     this.robots = bodies.scene.bodies.flatMap((each, body) =>
-      hasAgent(each) ? [{ name: each.name, body }] : [],
+      hasAgent(each) ? [{ name: each.name, body, frame: bodies.frames.frameOf(body) }] : [],
     );
     this.names = this.robots.map(({ name }) => name);
     this.places = new Float64Array(3 * this.robots.length);
@@ -68,12 +69,13 @@ export class RobotPlaces {
 
   // x y z above each robot, in the order of the names. Each call rewrites it.
   tops(): Float64Array {
-    const { places, heights, robots, bodies } = this;
+    const { places, heights, robots } = this;
+    const { numbers } = this.bodies.frames;
     for (let i = 0; i < robots.length; i++) {
-      const { elements } = bodies.poseOf(robots[i]!.body)!;
-      places[3 * i] = elements[12]!;
-      places[3 * i + 1] = elements[13]!;
-      places[3 * i + 2] = elements[14]! + heights[i]!;
+      const at = POSE_NUMBERS * robots[i]!.frame;
+      places[3 * i] = numbers[at]!;
+      places[3 * i + 1] = numbers[at + 1]!;
+      places[3 * i + 2] = numbers[at + 2]! + heights[i]!;
     }
     return places;
   }

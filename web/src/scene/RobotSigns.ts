@@ -24,6 +24,7 @@ export class RobotSigns {
   private known: RobotStates = { states: null, chosen: null };
   private states: Uint8Array = new Uint8Array(0); // of each robot, by SHOWN_STATES
   private radii: Float64Array = new Float64Array(0);
+  private tops: Float64Array = new Float64Array(0); // in the present frame
 
   constructor(onPick: (name: string) => void) {
     this.labels = new LabelLayer(onPick);
@@ -37,6 +38,7 @@ export class RobotSigns {
 
   setStates(known: RobotStates): void {
     this.known = known;
+    this.labels.renew();
     const unknown = SHOWN_STATES.indexOf("unknown");
     this.states = Uint8Array.from(this.robots?.names ?? [], (name) => {
       const state = known.states?.get(name);
@@ -46,6 +48,7 @@ export class RobotSigns {
 
   // Call this when shapes have arrived.
   measure(): void {
+    this.labels.renew();
     this.robots?.measure();
     this.radii = this.robots?.radii() ?? new Float64Array(0);
   }
@@ -53,21 +56,23 @@ export class RobotSigns {
   // Call this before a frame is drawn. `height` is that of the view in CSS pixels.
   placeMarks(camera: PerspectiveCamera, height: number, ratio: number, { states }: SignsShown): void {
     const { chosen } = this.known;
+    this.tops = this.robots?.tops() ?? this.tops;
     if (!this.robots || !states || (!this.known.states && !chosen)) return this.marks.hide();
     const { names } = this.robots;
     const isChosen = chosen && ((robot: number) => chosen.has(names[robot]!));
-    this.marks.place(this.robots.tops(), { states: this.states, radii: this.radii, isChosen }, camera, height, ratio);
+    this.marks.place(this.tops, { states: this.states, radii: this.radii, isChosen }, camera, height, ratio);
   }
 
-  // Call this when a frame is drawn.
-  placeLabels(camera: PerspectiveCamera, width: number, height: number, selection: string | null, { labels }: SignsShown): void {
-    if (!labels || !this.robots) return;
+  // Call this when a frame is drawn, after placeMarks. `isMoving`: more frames follow.
+  placeLabels(camera: PerspectiveCamera, width: number, height: number, selection: string | null, shown: SignsShown, isMoving: boolean): void {
+    if (!shown.labels || !this.robots) return;
     const { names } = this.robots;
     const { chosen } = this.known;
     this.labels.place(camera, width, height, {
       names,
-      tops: this.robots.tops(),
+      tops: this.tops,
       selection,
+      isMoving,
       badness: (robot) => {
         const state = SHOWN_STATES[this.states[robot]!]!;
         return isTrouble(state) ? badness(state) : 0;

@@ -1,4 +1,5 @@
 // Coloured line segments in one draw call, from arrays that are rewritten for each frame.
+import type { InterleavedBuffer } from "three";
 import {
   BufferAttribute,
   BufferGeometry,
@@ -31,7 +32,16 @@ export class Segments {
   count = 0; // segments that are drawn
 
   constructor({ widthPx, thin, opacity = 1, depthTest = true }: SegmentsLook) {
-    const look = { vertexColors: true, transparent: opacity < 1, opacity, depthTest, toneMapped: false };
+    // Transparent lines hide no other lines behind them.
+    const isTransparent = opacity < 1;
+    const look = {
+      vertexColors: true,
+      transparent: isTransparent,
+      opacity,
+      depthTest,
+      depthWrite: !isTransparent,
+      toneMapped: false,
+    };
     this.lines = thin
       ? new LineSegments(new BufferGeometry(), new LineBasicMaterial(look))
       : new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ ...look, linewidth: widthPx }));
@@ -56,9 +66,10 @@ export class Segments {
     const { geometry } = this.lines;
     if (geometry instanceof LineSegmentsGeometry) geometry.instanceCount = segments;
     else geometry.setDrawRange(0, 2 * segments);
+    if (segments === 0) return;
     for (const attribute of Object.values(geometry.attributes)) {
-      if (attribute instanceof InterleavedBufferAttribute) attribute.data.needsUpdate = true;
-      else if (attribute.usage === DynamicDrawUsage) attribute.needsUpdate = true;
+      if (attribute instanceof InterleavedBufferAttribute) renew(attribute.data, segments);
+      else if (attribute.usage === DynamicDrawUsage) renew(attribute, segments);
     }
   }
 
@@ -67,6 +78,13 @@ export class Segments {
     (this.lines.material as LineBasicMaterial | LineMaterial).dispose();
     this.lines.removeFromParent();
   }
+}
+
+// Sends only the used part of the array to the graphics.
+function renew(buffer: BufferAttribute | InterleavedBuffer, segments: number): void {
+  buffer.clearUpdateRanges();
+  buffer.addUpdateRange(0, NUMBERS_PER_SEGMENT * segments);
+  buffer.needsUpdate = true;
 }
 
 function wideGeometry(positions: Float32Array, colours: Float32Array): LineSegmentsGeometry {

@@ -4,7 +4,7 @@ import type { Matrix4 } from "three";
 import type { PosesMessage } from "../protocol/messages";
 import { seconds } from "../protocol/messages";
 import type { BodyLayer } from "./BodyLayer";
-import { matrixOf } from "./BodyLayer";
+import { matrixOf } from "./BodyFrames";
 import type { PoseSample } from "./PoseInterpolator";
 import { PoseInterpolator } from "./PoseInterpolator";
 

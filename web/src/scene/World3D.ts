@@ -433,7 +433,7 @@ export class World3D {
     this.surface.prepare();
     this.signs.placeMarks(this.rig.camera, height, this.surface.pixelRatio, this.shown);
     this.surface.render(this.scene, this.rig.camera, () => this.painted());
-    this.signs.placeLabels(this.rig.camera, width, height, this.watch.selection, this.shown);
+    this.signs.placeLabels(this.rig.camera, width, height, this.watch.selection, this.shown, isMoving);
     this.events.onScale(this.rig.metresPerPixel);
     this.frameRate.count(this.surface.images ?? this.frames, now);
     return isFlying || isMoving;
