@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gsv/base/check.h"
-
 namespace gsv::dynamics {
 namespace {
 
@@ -12,6 +10,9 @@ using geometry::Pose;
 using geometry::Quaternion;
 using geometry::Vector3;
 using model::JointKind;
+
+// The least pivot of the factorised mass matrix (kg or kg m²), and its least share of the diagonal.
+constexpr double kMinPivot = 1e-100, kMinPivotShare = 1e-12;
 
 Matrix3 Outer(const Vector3& a, const Vector3& b) { return {b.x * a, b.y * a, b.z * a}; }
 
@@ -245,14 +246,18 @@ void LinkTree::WriteMassesOf(int part, int velocity) {
   }
 }
 
-// The mass matrix is Lᵀ D L, where L has zeros wherever the mass matrix has.
+// The mass matrix is Lᵀ D L, where L has zeros wherever the mass matrix has. Two velocities that move
+// all parts alike (parallel axes of a universal joint) and masses that differ by more digits than a
+// double has leave nothing but rounding errors in D. A least pivot then acts as the inertia of a
+// motor would: the velocities stay finite, and all others keep their accuracy.
 void LinkTree::Factorise() {
   factors_ = masses_;
   const auto at = [&](int row, int column) -> double& {
     return factors_[Index(row * size_ + column)];
   };
   for (int k = size_; k-- > 0;) {
-    GSV_CHECK(at(k, k) > 0);
+    const double least = std::max(kMinPivot, kMinPivotShare * mass(k, k));
+    if (!(at(k, k) > least)) at(k, k) = least;
     const double inverse = 1 / at(k, k);
     for (int i = parents_[Index(k)]; i >= 0; i = parents_[Index(i)]) {
       const double factor = at(k, i) * inverse;

@@ -109,6 +109,33 @@ TEST(LinkTree, DoublePendulumFollowsItsEquationsOfMotion) {
   }
 }
 
+// Two hinges about one line, with a cross without mass between them, turn their link as one hinge does.
+TEST(LinkTree, ParallelAxesTurnAsOneHinge) {
+  const double mass = 1.5, arm = 0.4, inertia = 0.02, angle = 0.6, step = 1e-3;
+  model::Model model;
+  model.links = {LinkAt({0, 0, -arm}, mass, {0.01, inertia, 0.03}), {}};
+  model.links[1].inertial = {0, {}, 0, 0, 0};
+  model.joints = {JointAt({}, -1, 1, JointKind::kContinuous, {0, 1, 0}),
+                  JointAt({}, 1, 0, JointKind::kContinuous, {0, 1, 0})};
+  Tree body(model);
+  body.state().joint_positions = {angle, 0};
+  body.Load();
+  ASSERT_EQ(body.tree().size(), 2);
+  body.Accelerate(kG, step);
+  const double rate = -step * mass * kG * arm * std::sin(angle) / (inertia + mass * arm * arm);
+  EXPECT_NEAR(body.tree().free()[0] + body.tree().free()[1], rate, 1e-12);
+}
+
+TEST(LinkTree, MassesThatDifferByMoreThanADoubleHoldsGiveFiniteVelocities) {
+  model::Model model;
+  model.links = {LinkAt({}, 1e-14, {1e-20, 1e-20, 1e-20}), LinkAt({1, 0, 0}, 1e8, {1e8, 1e8, 1e8})};
+  model.joints = {JointAt({0.5, 0, 0}, 0, 1, JointKind::kBall, {0, 0, 1})};
+  Tree body(model);
+  body.Load();
+  body.Accelerate(kG, 1e-3);
+  for (const double velocity : body.tree().free()) EXPECT_TRUE(std::isfinite(velocity));
+}
+
 // The textbook's cart with a pole that hangs down.
 TEST(LinkTree, CartAndPoleFollowTheirEquationsOfMotion) {
   const double cart = 2, pole = 0.5, c = 0.6, inertia = 0.04;
