@@ -381,6 +381,14 @@ TEST_F(FlawTest, AnErrorInAUrdfAffectsOnePart) {
        "has no @effort"},
       {base + UrdfLink("arm", kMassive) + UrdfJoint("j", "hinge", "base", "arm"), "it is fixed"},
       {base + UrdfLink("arm", kMassive) +
+           UrdfJoint("j", "fixed", "base", "arm", "<origin xyz='0 nan 0'/>"),
+       "finite numbers are expected; 0 0 0 is used"},
+      {base + UrdfLink("arm", kMassive) +
+           UrdfJoint("j", "continuous", "base", "arm", "<dynamics friction='inf'/>"),
+       "finite numbers are expected; 0 is used"},
+      {UrdfLink("base", "<inertial><mass value='2'/><inertia/></inertial>"),
+       "<inertia> has no attributes"},
+      {base + UrdfLink("arm", kMassive) +
            UrdfJoint("j", "fixed", "base", "arm", "<origin xyz='0 zero 0'/>"),
        "0 0 0 is used"},
       {with("<visual><geometry/></visual>"), "it has no <geometry> with a shape"},

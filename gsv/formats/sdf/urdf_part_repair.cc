@@ -85,6 +85,16 @@ bool Is(const XMLElement& element, const char* name) {
   return std::strcmp(element.Name(), name) == 0;
 }
 
+constexpr const char* kInertiaKeys[] = {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"};
+
+double BallMoment(double mass) { return 0.4 * std::abs(mass) * kBallRadius * kBallRadius; }
+
+void WriteBall(XMLElement& inertia, double mass) {
+  for (const char* key : kInertiaKeys) {
+    inertia.SetAttribute(key, key[1] == key[2] ? BallMoment(mass) : 0.0);
+  }
+}
+
 std::string NameOfPart(const XMLElement& element) {
   const char* name = element.Attribute("name");
   return "<" + std::string(element.Name()) + ">" +
@@ -129,19 +139,19 @@ class UrdfPartRepair {
       if (!Is(element, known.element)) continue;
       const char* written = element.Attribute(known.name);
       if (written == nullptr) continue;
-      RepairedText repaired =
-          RepairText(known.type, written, known.otherwise == nullptr ? "" : known.otherwise);
-      if (WordsOf(written).empty()) {
-        repaired = {known.otherwise == nullptr ? "" : known.otherwise, "it is empty"};
-      }
+      const std::string otherwise = known.otherwise == nullptr ? "" : known.otherwise;
+      RepairedText repaired = AsPlainNumbers(RepairText(known.type, written, otherwise), otherwise);
+      if (WordsOf(written).empty()) repaired = {otherwise, "it is empty"};
       if (Is(element, "color") && WordsOf(repaired.text).size() == 3) {
         repaired.text += " 1";
         if (repaired.wrong.empty()) repaired.wrong = "4 numbers are expected";
       }
-      if (repaired.wrong.empty() || repaired.text.empty()) continue;
-      Warn(element, "@" + std::string(known.name) + " of <" + element.Name() + "> holds " +
-                        Quoted(written) + ": " + repaired.wrong + "; " + repaired.text +
-                        " is used");
+      if (repaired.text.empty()) continue;
+      if (!repaired.wrong.empty()) {
+        Warn(element, "@" + std::string(known.name) + " of <" + element.Name() + "> holds " +
+                          Quoted(written) + ": " + repaired.wrong + "; " + repaired.text +
+                          " is used");
+      }
       element.SetAttribute(known.name, repaired.text.c_str());
     }
     for (auto* child = element.FirstChildElement(); child != nullptr;
@@ -204,16 +214,19 @@ class UrdfPartRepair {
     }
     XMLElement* inertia = inertial.FirstChildElement("inertia");
     const double kilograms = LeadingNumberOf(mass->Attribute("value")).value;
-    if (inertia == nullptr) {
-      Warn(inertial, "<inertial> has no <inertia>; the inertia of a ball is used");
-      inertia = inertial.InsertNewChildElement("inertia");
+    if (inertia == nullptr || inertia->FirstAttribute() == nullptr) {
+      Warn(inertia == nullptr ? inertial : *inertia,
+           inertia == nullptr ? "<inertial> has no <inertia>; the inertia of a ball is used"
+                              : "<inertia> has no attributes; the inertia of a ball is used");
+      if (inertia == nullptr) inertia = inertial.InsertNewChildElement("inertia");
+      WriteBall(*inertia, kilograms);
+      return;
     }
-    const double moment = 0.4 * std::abs(kilograms) * kBallRadius * kBallRadius;
-    for (const char* key : {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"}) {
+    const double moment = BallMoment(kilograms);
+    for (const char* key : kInertiaKeys) {
       if (HasNumber(*inertia, key)) continue;
       const bool is_moment = key[1] == key[2];
-      if (inertia->Attribute(key) != nullptr ||
-          (is_moment && inertia->FirstAttribute() != nullptr)) {
+      if (inertia->Attribute(key) != nullptr || is_moment) {
         Warn(*inertia, "<inertia> has no @" + std::string(key) + "; " +
                            (is_moment ? "the inertia of a ball" : "0") + " is used");
       }
@@ -356,10 +369,7 @@ void RepairUrdfParts(XMLElement& robot, const std::filesystem::path& file,
 void AddInertial(XMLElement& link, double mass) {
   XMLElement* inertial = link.InsertNewChildElement("inertial");
   inertial->InsertNewChildElement("mass")->SetAttribute("value", mass);
-  XMLElement* inertia = inertial->InsertNewChildElement("inertia");
-  const double moment = 0.4 * mass * kBallRadius * kBallRadius;
-  for (const char* key : {"ixx", "iyy", "izz"}) inertia->SetAttribute(key, moment);
-  for (const char* key : {"ixy", "ixz", "iyz"}) inertia->SetAttribute(key, 0.0);
+  WriteBall(*inertial->InsertNewChildElement("inertia"), mass);
 }
 
 }  // namespace gsv::formats

@@ -191,6 +191,21 @@ RepairedText RepairText(const std::string& type, const std::string& text,
                                  : RepairVector(vector->second, text, otherwise);
 }
 
+RepairedText AsPlainNumbers(RepairedText repaired, const std::string& otherwise) {
+  WrittenNumbers numbers = ReadNumbers(repaired.text);
+  bool are_plain = true;
+  for (double& value : numbers.values) {
+    if (!std::isfinite(value)) return {otherwise, "finite numbers are expected"};
+    if (value != 0 && !std::isnormal(value)) {
+      value = 0;
+      are_plain = false;
+    }
+  }
+  are_plain = are_plain && repaired.text.find_first_of("xXfF") == std::string::npos;
+  if (!are_plain) repaired.text = Joined(numbers.values);
+  return repaired;
+}
+
 std::string Quoted(std::string_view text) {
   std::string quoted = "\"";
   for (const char c : text.substr(0, kLongestQuote)) {

@@ -33,6 +33,10 @@ bool IsZeroVector(std::string_view text);
 RepairedText RepairText(const std::string& type, const std::string& text,
                         const std::string& otherwise, bool has_quaternion = false);
 
+// Writes the numbers of a repaired text as plain decimals, since urdfdom rejects "1.0f", "0x10" and
+// 1e-310. If one is not finite, returns `otherwise` with the reason.
+RepairedText AsPlainNumbers(RepairedText repaired, const std::string& otherwise);
+
 // Returns at most about 60 characters of a text, on one line, for a message.
 std::string Quoted(std::string_view text);
 
