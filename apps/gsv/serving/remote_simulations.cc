@@ -24,8 +24,7 @@ constexpr std::size_t kMaxInstances = 64;
 
 std::string TextOf(const broker::PropertyList& properties, const char* name) {
   const broker::Value* value = properties.Find(name);
-  const std::string* text = value == nullptr ? nullptr : value->As<std::string>();
-  return text == nullptr ? "" : *text;
+  return value == nullptr ? "" : std::string(value->AsText().value_or(""));
 }
 
 RemoteServer ServerFrom(const broker::PropertyList& properties, const std::string& broker) {
@@ -33,9 +32,8 @@ RemoteServer ServerFrom(const broker::PropertyList& properties, const std::strin
   server.name = TextOf(properties, "name");
   server.viewer_url = TextOf(properties, "viewer_url");
   server.broker = broker;
-  if (const broker::Value* pid = properties.Find("pid");
-      pid != nullptr && pid->As<std::int64_t>() != nullptr) {
-    server.pid = std::to_string(*pid->As<std::int64_t>());
+  if (const broker::Value* pid = properties.Find("pid"); pid != nullptr && pid->AsInteger()) {
+    server.pid = std::to_string(*pid->AsInteger());
   }
   server.place = TextOf(properties, "host") + ":" + server.pid;
   return server;

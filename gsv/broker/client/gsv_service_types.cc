@@ -18,13 +18,13 @@ PropertyDefinition Flag(std::string name, PropertyMode mode) {
 void TakeText(const PropertyList& properties, const char* name, std::string& text) {
   const Value* value = properties.Find(name);
   if (value == nullptr) return;
-  if (const auto* found = value->As<std::string>()) text = *found;
+  if (const auto found = value->AsText()) text = *found;
 }
 
 void TakeNumber(const PropertyList& properties, const char* name, std::int32_t& number) {
   const Value* value = properties.Find(name);
   if (value == nullptr) return;
-  if (const auto* found = value->As<std::int64_t>()) number = static_cast<std::int32_t>(*found);
+  if (const auto found = value->AsInteger()) number = static_cast<std::int32_t>(*found);
 }
 
 }  // namespace
@@ -78,9 +78,8 @@ BehaviourOffer BehaviourOfferFrom(const PropertyList& properties) {
   TakeText(properties, "description", offer.description);
   TakeText(properties, "host", offer.host);
   TakeNumber(properties, "pid", offer.pid);
-  if (const Value* managed = properties.Find("time_managed");
-      managed != nullptr && managed->As<bool>() != nullptr) {
-    offer.time_managed = *managed->As<bool>();
+  if (const Value* managed = properties.Find("time_managed")) {
+    offer.time_managed = managed->AsBoolean().value_or(offer.time_managed);
   }
   return offer;
 }

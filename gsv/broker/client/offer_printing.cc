@@ -27,10 +27,10 @@ OrderedJson ToJson(const Value& value) {
     for (const ScalarValue& element : *sequence) array.push_back(ToJson(element));
     return array;
   }
-  if (const auto* truth = value.As<bool>()) return *truth;
-  if (const auto* integer = value.As<std::int64_t>()) return *integer;
-  if (const auto* real = value.As<double>()) return *real;
-  return *value.As<std::string>();
+  if (const auto truth = value.AsBoolean()) return *truth;
+  if (const auto integer = value.AsInteger()) return *integer;
+  if (const auto real = value.AsReal()) return *real;
+  return *value.AsText();
 }
 
 OrderedJson ToJson(const PropertyDefinition& definition) {

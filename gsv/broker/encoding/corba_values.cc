@@ -150,10 +150,10 @@ std::optional<Value> SimpleValue(const CORBA::Any& any) {
 }
 
 void FillSimple(const Value& value, CORBA::Any& any) {
-  const auto integer = [&] { return *value.As<std::int64_t>(); };
+  const auto integer = [&] { return *value.AsInteger(); };
   switch (value.scalar()) {
     case Scalar::kBoolean:
-      any <<= CORBA::Any::from_boolean(*value.As<bool>());
+      any <<= CORBA::Any::from_boolean(*value.AsBoolean());
       return;
     case Scalar::kShort:
       any <<= static_cast<CORBA::Short>(integer());
@@ -168,16 +168,16 @@ void FillSimple(const Value& value, CORBA::Any& any) {
       any <<= static_cast<CORBA::ULong>(integer());
       return;
     case Scalar::kFloat:
-      any <<= static_cast<CORBA::Float>(*value.As<double>());
+      any <<= static_cast<CORBA::Float>(*value.AsReal());
       return;
     case Scalar::kDouble:
-      any <<= static_cast<CORBA::Double>(*value.As<double>());
+      any <<= static_cast<CORBA::Double>(*value.AsReal());
       return;
     case Scalar::kChar:
-      any <<= CORBA::Any::from_char(static_cast<CORBA::Char>(value.As<std::string>()->at(0)));
+      any <<= CORBA::Any::from_char(static_cast<CORBA::Char>(value.AsText()->at(0)));
       return;
     case Scalar::kString:
-      any <<= value.As<std::string>()->c_str();
+      any <<= std::string(*value.AsText()).c_str();
       return;
     case Scalar::kOther:
       break;

@@ -1,19 +1,21 @@
-// Parses any text as a constraint and as a preference. It must be rejected, or the evaluator must
-// agree with the naive one.
+// Parses any text as a constraint and as a preference. It must be rejected, or the evaluators of
+// offers and of columns must agree with the naive one.
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "gsv/base/check.h"
 #include "gsv/broker/language/equality_terms.h"
 #include "gsv/broker/language/evaluation.h"
 #include "gsv/broker/language/expression.h"
+#include "gsv/broker/offers/column_constraint.h"
 #include "gsv/broker/testing/naive_evaluator.h"
 
 using namespace gsv::broker;
 
 namespace {
 
-const PropertyList& Offer() {
+const PropertyList& TestedOffer() {
   static const PropertyList offer({{"a", Value::Long(2)},
                                    {"b", Value::Double(0.5)},
                                    {"c", Value::String("it's")},
@@ -24,18 +26,29 @@ const PropertyList& Offer() {
   return offer;
 }
 
+bool MatchesColumns(const Expression& expression) {
+  const Offers offers = {std::make_shared<const Offer>(Offer{.properties = TestedOffer()})};
+  const ColumnConstraint constraint(expression);
+  ColumnConstraint::Columns columns;
+  for (const std::string& property : constraint.properties()) {
+    columns.push_back(std::make_shared<const PropertyColumn>(offers, property));
+  }
+  return constraint.Choose(columns, 1).front() == Choice::kYes;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   if (const auto constraint = ParseConstraint(text, {})) {
-    const bool matches = Matches(*constraint, Offer());
-    GSV_CHECK(matches == NaivelyMatches(text, Offer()));
+    const bool matches = Matches(*constraint, TestedOffer());
+    GSV_CHECK(matches == NaivelyMatches(text, TestedOffer()));
+    GSV_CHECK(matches == MatchesColumns(*constraint));
     for (const EqualityTerm& term : EqualityTerms(*constraint)) GSV_CHECK(!term.property.empty());
   }
   if (const auto preference = ParsePreference(text, {})) {
     if (!preference->expression.nodes.empty()) {
-      (void)EvaluateNumber(preference->expression, Offer());
+      (void)EvaluateNumber(preference->expression, TestedOffer());
     }
   }
   return 0;

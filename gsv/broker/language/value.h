@@ -6,8 +6,11 @@
 //         A property of any other type may only be used with `exist`.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -56,7 +59,8 @@ struct OtherValue {
   std::shared_ptr<const PropertyType> promised_type{};
 };
 
-// An immutable value that is cheap to copy.
+// An immutable value of 16 bytes that is cheap to copy. It holds numbers and texts of at most 14
+// bytes itself. Copies share everything longer.
 class Value {
  public:
   using Sequence = std::vector<ScalarValue>;
@@ -68,23 +72,28 @@ class Value {
   static Value ULong(std::uint32_t value) { return Integer(Scalar::kULong, value); }
   static Value Float(float value) { return Value(Scalar::kFloat, static_cast<double>(value)); }
   static Value Double(double value) { return Value(Scalar::kDouble, value); }
-  static Value Char(char value) { return Value(Scalar::kChar, std::string(1, value)); }
-  static Value String(std::string value) { return Value(Scalar::kString, std::move(value)); }
+  static Value Char(char value) { return Value(Scalar::kChar, std::string_view(&value, 1)); }
+  static Value String(std::string_view value) { return Value(Scalar::kString, value); }
   // `content` and `elements` have the alternative that belongs to their scalar, see ScalarValue.
-  static Value Of(Scalar scalar, ScalarValue content);
+  static Value Of(Scalar scalar, const ScalarValue& content);
   static Value SequenceOf(Scalar element, Sequence elements);
   static Value Strings(const std::vector<std::string>& elements);
   static Value Other(OtherValue value);
 
+  Value(const Value& other);
+  Value(Value&& other) noexcept;
+  Value& operator=(Value other) noexcept;
+  ~Value() { Release(); }
+
   // The type of the value, or of the elements of a sequence.
   Scalar scalar() const { return scalar_; }
-  bool is_sequence() const { return std::holds_alternative<SequencePtr>(content_); }
+  bool is_sequence() const { return form_ == Form::kSequence; }
 
-  // Returns null if the value is of another kind.
-  template <typename T>
-  const T* As() const {
-    return std::get_if<T>(&content_);
-  }
+  // Return nullopt or null if the value is of another kind. A view is valid as long as this object.
+  std::optional<bool> AsBoolean() const;
+  std::optional<std::int64_t> AsInteger() const;
+  std::optional<double> AsReal() const;
+  std::optional<std::string_view> AsText() const;
   const Sequence* AsSequence() const;
   const OtherValue* AsOther() const;
 
@@ -98,16 +107,41 @@ class Value {
   friend bool operator==(const Value& a, const Value& b);
 
  private:
-  using SequencePtr = std::shared_ptr<const Sequence>;
-  using OtherPtr = std::shared_ptr<const OtherValue>;
-  using Content = std::variant<bool, std::int64_t, double, std::string, SequencePtr, OtherPtr>;
+  static constexpr std::size_t kInlineText = 14;
 
-  Value(Scalar scalar, Content content) : scalar_(scalar), content_(std::move(content)) {}
+  // How `content_` is to be read. Values up to kInlineText are the length of a text in it.
+  enum class Form : std::uint8_t {
+    kBoolean = kInlineText + 1,
+    kInteger,
+    kReal,
+    kLongText,  // the following forms are pointers to shared content
+    kSequence,
+    kOther,
+  };
+  template <typename Content>
+  struct Shared;
+  struct LongText;
+
+  Value(Scalar scalar, bool value);
+  Value(Scalar scalar, std::int64_t value);
+  Value(Scalar scalar, double value);
+  Value(Scalar scalar, std::string_view text);
   static Value Integer(Scalar scalar, std::int64_t value) { return Value(scalar, value); }
 
+  template <typename T>
+  T Read() const;
+  template <typename T>
+  void Write(Form form, const T& content);
+  // Calls `use` with the shared content, if there is any.
+  template <typename Use>
+  void WithShared(const Use& use) const;
+  void Release();
+
+  alignas(8) std::array<char, kInlineText> content_{};
+  Form form_ = Form::kBoolean;
   Scalar scalar_;
-  Content content_;
 };
+static_assert(sizeof(Value) == 16);
 
 // Returns, for example, "unsigned long" for kULong. Not for kOther.
 std::string_view Spelling(Scalar scalar);

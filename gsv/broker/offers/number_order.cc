@@ -51,10 +51,38 @@ void SortByKey(std::vector<Keyed>& entries) {
   }
 }
 
+bool HasSmallerKey(const Keyed& a, const Keyed& b) { return a.key < b.key; }
+
+// Equal keys keep their order.
+void Sort(std::vector<Keyed>& entries) {
+  constexpr std::size_t kFew = 512;
+  if (entries.size() < kFew) {
+    std::stable_sort(entries.begin(), entries.end(), HasSmallerKey);
+  } else {
+    SortByKey(entries);
+  }
+}
+
+std::vector<std::uint32_t> IndicesOf(const std::vector<Keyed>& entries) {
+  std::vector<std::uint32_t> indices;
+  indices.reserve(entries.size());
+  for (const Keyed& entry : entries) indices.push_back(entry.index);
+  return indices;
+}
+
 }  // namespace
 
+std::vector<std::uint32_t> AscendingOrder(std::span<const double> numbers) {
+  std::vector<Keyed> entries;
+  entries.reserve(numbers.size());
+  for (const double number : numbers) {
+    entries.push_back({KeyOf(number), static_cast<std::uint32_t>(entries.size())});
+  }
+  Sort(entries);
+  return IndicesOf(entries);
+}
+
 std::vector<std::uint32_t> AscendingOrder(const std::vector<long double>& numbers) {
-  constexpr std::size_t kFew = 512;
   std::vector<Keyed> entries;
   entries.reserve(numbers.size());
   bool exact = true;
@@ -63,25 +91,17 @@ std::vector<std::uint32_t> AscendingOrder(const std::vector<long double>& number
     exact = exact && (static_cast<long double>(rounded) == number || std::isnan(rounded));
     entries.push_back({KeyOf(rounded), static_cast<std::uint32_t>(entries.size())});
   }
-  const auto by_key = [](const Keyed& a, const Keyed& b) { return a.key < b.key; };
-  if (entries.size() < kFew) {
-    std::stable_sort(entries.begin(), entries.end(), by_key);
-  } else {
-    SortByKey(entries);
-  }
+  Sort(entries);
   // Rounding to double keeps the order, but may make different numbers equal. Runs of equal numbers
   // are sorted again by their exact values.
   for (auto run = entries.begin(); !exact && run != entries.end();) {
-    const auto end = std::upper_bound(run, entries.end(), *run, by_key);
+    const auto end = std::upper_bound(run, entries.end(), *run, HasSmallerKey);
     std::stable_sort(run, end, [&](const Keyed& a, const Keyed& b) {
       return numbers[a.index] < numbers[b.index];
     });
     run = end;
   }
-  std::vector<std::uint32_t> order;
-  order.reserve(entries.size());
-  for (const Keyed& entry : entries) order.push_back(entry.index);
-  return order;
+  return IndicesOf(entries);
 }
 
 }  // namespace gsv::broker

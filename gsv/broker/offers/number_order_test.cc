@@ -19,7 +19,7 @@ constexpr long double kInfinity = std::numeric_limits<long double>::infinity();
 constexpr long double kNone = std::numeric_limits<long double>::quiet_NaN();
 
 TEST(NumberOrder, EqualNumbersKeepTheirOrderAndNanComesLast) {
-  EXPECT_EQ(AscendingOrder({}), Order());
+  EXPECT_EQ(AscendingOrder(LongNumbers()), Order());
   EXPECT_EQ(AscendingOrder({2, kNone, -1, 2, kInfinity, -kInfinity, kNone, 0}),
             (Order{5, 2, 7, 0, 3, 4, 1, 6}));
   EXPECT_EQ(AscendingOrder({0.0L, -0.0L, 0.0L}), (Order{0, 1, 2}));
@@ -42,8 +42,9 @@ TEST(NumberOrder, EqualsStandardSortForManyNumbers) {
       } else if (i % 3 == 0) {
         numbers.push_back(static_cast<long double>(integer % 100) / 8);
       } else {
-        numbers.push_back(large ? static_cast<long double>(integer)
-                                : static_cast<long double>(std::ldexp(integer, -(i % 200))));
+        numbers.push_back(
+            large ? static_cast<long double>(integer)
+                  : static_cast<long double>(std::ldexp(static_cast<double>(integer), -(i % 200))));
       }
     }
     Order expected(numbers.size());
@@ -54,6 +55,9 @@ TEST(NumberOrder, EqualsStandardSortForManyNumbers) {
       return numbers[a] < numbers[b];
     });
     EXPECT_EQ(AscendingOrder(numbers), expected);
+    if (large) continue;  // the others are doubles
+    const std::vector<double> doubles(numbers.begin(), numbers.end());
+    EXPECT_EQ(AscendingOrder(std::span<const double>(doubles)), expected);
   }
 }
 

@@ -8,30 +8,29 @@
 namespace gsv::broker {
 namespace {
 
-// A chunk with fewer offers has no number columns: each of its offers is evaluated.
+// A chunk with fewer offers has no property columns: each of its offers is evaluated.
 constexpr std::size_t kMinOffersForColumns = OfferColumn::kChunk / 4;
 
 bool IsBefore(const OfferPtr& offer, std::uint64_t number) { return offer->number < number; }
 
 }  // namespace
 
-std::shared_ptr<const NumberColumn> OfferChunk::ColumnOf(const std::string& property) const {
+std::shared_ptr<const PropertyColumn> OfferChunk::ColumnOf(const std::string& property) const {
   return offers_.size() < kMinOffersForColumns ? nullptr : columns_.Of(offers_, property);
 }
 
-std::vector<Choice> OfferChunk::Choose(const std::vector<NumberTerm>& terms) const {
-  std::vector<Choice> choices;
-  bool decided = true;
-  for (const NumberTerm& term : terms) {
-    const auto column = ColumnOf(term.property);
-    if (column == nullptr) {
-      decided = false;
-      continue;
-    }
-    if (choices.empty()) choices.resize(offers_.size(), Choice::kYes);
-    column->Narrow(term, choices);
+std::vector<Choice> OfferChunk::Choose(const ColumnConstraint& constraint) const {
+  ColumnConstraint::Columns columns;
+  columns.reserve(constraint.properties().size());
+  for (const std::string& property : constraint.properties()) {
+    columns.push_back(ColumnOf(property));
   }
-  if (!decided) std::replace(choices.begin(), choices.end(), Choice::kYes, Choice::kUnknown);
+  std::vector<Choice> choices = constraint.Choose(columns, offers_.size());
+  if (IsPlain()) return choices;
+  // A proxy may match every constraint.
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (offers_[i]->proxy != nullptr) choices[i] = Choice::kUnknown;
+  }
   return choices;
 }
 
@@ -50,6 +49,22 @@ std::size_t OfferView::size() const {
   std::size_t size = 0;
   for (const auto& chunk : chunks_) size += chunk->offers().size();
   return size;
+}
+
+OfferPtr OfferColumn::Find(std::uint64_t number) const {
+  if (chunks_.empty()) return nullptr;
+  const auto [chunk, index] = PlaceOf(number);
+  const Offers& offers = chunks_[chunk]->offers_;
+  return index < offers.size() && offers[index]->number == number ? offers[index] : nullptr;
+}
+
+Offers OfferColumn::All() const {
+  Offers all;
+  all.reserve(size_);
+  for (const auto& chunk : chunks_) {
+    all.insert(all.end(), chunk->offers_.begin(), chunk->offers_.end());
+  }
+  return all;
 }
 
 void OfferColumn::Put(OfferPtr offer) {

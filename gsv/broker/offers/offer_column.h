@@ -1,6 +1,6 @@
 // The offers of one service type in the order of export. A query reads them without a lock while
 // other threads change them. The offers are stored in chunks. A change copies a chunk that is being
-// read, and the number columns of all other chunks are kept.
+// read, and the property columns of all other chunks are kept.
 //
 // Threads  any thread may read a view. One thread at a time may change the column. Several threads
 //          may make views while no thread changes it.
@@ -14,27 +14,30 @@
 #include <vector>
 
 #include "gsv/broker/language/offer.h"
-#include "gsv/broker/offers/number_column.h"
+#include "gsv/broker/offers/column_constraint.h"
+#include "gsv/broker/offers/property_column.h"
 
 namespace gsv::broker {
 
-// A part of the offers, with their number columns.
+// A part of the offers, with their property columns.
 class OfferChunk {
  public:
   explicit OfferChunk(Offers offers) : offers_(std::move(offers)) {}
 
   const Offers& offers() const { return offers_; }
   // Returns null if the column does not exist (yet).
-  std::shared_ptr<const NumberColumn> ColumnOf(const std::string& property) const;
-  // Returns what the columns decide for each offer. Empty if no column fits the terms.
-  std::vector<Choice> Choose(const std::vector<NumberTerm>& terms) const;
+  std::shared_ptr<const PropertyColumn> ColumnOf(const std::string& property) const;
+  // Returns what the columns decide for each offer.
+  std::vector<Choice> Choose(const ColumnConstraint& constraint) const;
+  // Whether none of the offers is a proxy or has a dynamic property.
+  bool IsPlain() const { return columns_.ArePlain(offers_); }
 
  private:
   friend class OfferColumn;
   friend class OfferView;
 
   Offers offers_;
-  mutable NumberColumns columns_;
+  mutable PropertyColumns columns_;
   std::atomic<int> readers_ = 0;
 };
 
@@ -64,6 +67,11 @@ class OfferColumn {
 
   std::size_t size() const { return size_; }
   OfferView View() const { return OfferView(chunks_); }
+
+  // Returns null if there is no offer with this number.
+  OfferPtr Find(std::uint64_t number) const;
+  // Returns all offers.
+  Offers All() const;
 
   // Adds the offer, or replaces the offer with its number.
   void Put(OfferPtr offer);

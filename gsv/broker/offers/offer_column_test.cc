@@ -84,7 +84,7 @@ TEST(OfferColumn, StaysSortedAfterManyAdditionsAndRemovals) {
   check();
 }
 
-// The number columns of other chunks are kept.
+// The property columns of other chunks are kept.
 TEST(OfferColumn, ChangeAffectsOneChunk) {
   OfferColumn column;
   for (std::uint64_t number = 1; number <= 3000; ++number) column.Put(Numbered(number));

@@ -27,7 +27,7 @@ void OfferStore::Restore(Offer restored) {
   Bucket& bucket = by_type_[offer->type];
   bucket.offers.Put(offer);
   for (PropertyIndex& index : bucket.indices) index.Insert(offer);
-  offers_.emplace(number, std::move(offer));
+  offers_.Put(std::move(offer));
   SkipTo(number + 1);
 }
 
@@ -36,32 +36,29 @@ void OfferStore::SkipTo(std::uint64_t number) { next_number_ = std::max(next_num
 void OfferStore::Replace(Offer offer) {
   names_.Share(offer.properties);
   auto stored = std::make_shared<const Offer>(std::move(offer));
-  const auto found = offers_.find(stored->number);
-  GSV_CHECK(found != offers_.end() && found->second->type == stored->type);
+  const OfferPtr old = offers_.Find(stored->number);
+  GSV_CHECK(old != nullptr && old->type == stored->type);
   Bucket& bucket = by_type_.at(stored->type);
   for (PropertyIndex& index : bucket.indices) {
-    index.Remove(*found->second);
+    index.Remove(*old);
     index.Insert(stored);
   }
   bucket.offers.Put(stored);
-  found->second = std::move(stored);
+  offers_.Put(std::move(stored));
 }
 
 bool OfferStore::Remove(std::uint64_t number) {
-  const auto found = offers_.find(number);
-  if (found == offers_.end()) return false;
-  const auto bucket = by_type_.find(found->second->type);
-  for (PropertyIndex& index : bucket->second.indices) index.Remove(*found->second);
+  const OfferPtr offer = offers_.Find(number);
+  if (offer == nullptr) return false;
+  const auto bucket = by_type_.find(offer->type);
+  for (PropertyIndex& index : bucket->second.indices) index.Remove(*offer);
   bucket->second.offers.Remove(number);
   if (bucket->second.offers.size() == 0) by_type_.erase(bucket);
-  offers_.erase(found);
+  offers_.Remove(number);
   return true;
 }
 
-OfferPtr OfferStore::Find(std::uint64_t number) const {
-  const auto found = offers_.find(number);
-  return found != offers_.end() ? found->second : nullptr;
-}
+OfferPtr OfferStore::Find(std::uint64_t number) const { return offers_.Find(number); }
 
 std::vector<OfferView> OfferStore::OfTypes(const std::vector<std::string>& types) const {
   std::vector<OfferView> views;
@@ -81,14 +78,7 @@ std::size_t OfferStore::CountOfTypes(const std::vector<std::string>& types) cons
   return count;
 }
 
-Offers OfferStore::All() const {
-  Offers all;
-  all.reserve(offers_.size());
-  for (const auto& [number, offer] : offers_) all.push_back(offer);
-  std::sort(all.begin(), all.end(),
-            [](const OfferPtr& a, const OfferPtr& b) { return a->number < b->number; });
-  return all;
-}
+Offers OfferStore::All() const { return offers_.All(); }
 
 const PropertyIndex* OfferStore::Bucket::FindIndex(const std::string& property) const {
   const auto found = std::find_if(indices.begin(), indices.end(), [&](const PropertyIndex& index) {

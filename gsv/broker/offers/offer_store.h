@@ -8,7 +8,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "gsv/broker/language/equality_terms.h"
@@ -59,7 +58,7 @@ class OfferStore {
     const PropertyIndex* FindIndex(const std::string& property) const;
   };
 
-  std::unordered_map<std::uint64_t, OfferPtr> offers_;
+  OfferColumn offers_;
   NameTable names_;
   std::map<std::string, Bucket> by_type_;
   std::uint64_t next_number_ = 1;

@@ -21,21 +21,21 @@ long double RankOf(const Preference& preference, const Offer& offer, DynamicValu
   return preference.kind == Preference::Kind::kMin ? number : -number;
 }
 
-void OrderByRank(const Preference& preference, const std::vector<double>& known,
-                 DynamicValues& values, Offers& offers) {
+std::vector<std::uint32_t> OrderOf(const Preference& preference, const std::vector<double>& known,
+                                   DynamicValues& values, const FoundOffers& offers) {
   const double sign = preference.kind == Preference::Kind::kMin ? 1 : -1;
+  if (known.size() == offers.size()) {
+    std::vector<double> ranks = known;
+    for (double& rank : ranks) rank *= sign;
+    return AscendingOrder(std::span<const double>(ranks));
+  }
   std::vector<long double> ranks;
   ranks.reserve(offers.size());
   for (const double number : known) ranks.push_back(sign * number);
   for (std::size_t i = known.size(); i < offers.size(); ++i) {
     ranks.push_back(RankOf(preference, *offers[i], values));
   }
-  Offers ordered;
-  ordered.reserve(offers.size());
-  for (const std::uint32_t index : AscendingOrder(ranks)) {
-    ordered.push_back(std::move(offers[index]));
-  }
-  offers = std::move(ordered);
+  return AscendingOrder(ranks);
 }
 
 }  // namespace
@@ -48,16 +48,19 @@ const std::string* PropertyToOrderBy(const Preference& preference) {
 }
 
 void OrderBy(const Preference& preference, std::uint64_t seed, const std::vector<double>& known,
-             DynamicValues& values, Offers& offers) {
-  switch (preference.kind) {
-    case Preference::Kind::kFirst:
-      return;
-    case Preference::Kind::kRandom:
-      std::shuffle(offers.begin(), offers.end(), std::mt19937_64(seed));
-      return;
-    default:
-      OrderByRank(preference, known, values, offers);
+             DynamicValues& values, FoundOffers& offers) {
+  if (preference.kind == Preference::Kind::kFirst) return;
+  std::vector<const OfferPtr*> places;
+  if (preference.kind == Preference::Kind::kRandom) {
+    places = offers.places();
+    std::shuffle(places.begin(), places.end(), std::mt19937_64(seed));
+  } else {
+    places.reserve(offers.size());
+    for (const std::uint32_t index : OrderOf(preference, known, values, offers)) {
+      places.push_back(offers.places()[index]);
+    }
   }
+  offers.SetPlaces(std::move(places));
 }
 
 }  // namespace gsv::broker

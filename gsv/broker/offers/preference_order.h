@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "gsv/broker/language/expression.h"
-#include "gsv/broker/language/offer.h"
 #include "gsv/broker/offers/dynamic_values.h"
+#include "gsv/broker/offers/found_offers.h"
 
 namespace gsv::broker {
 
@@ -23,6 +23,6 @@ const std::string* PropertyToOrderBy(const Preference& preference);
 // Orders `offers`. `seed` is that of `random`. `known` has the numbers of the first few offers if
 // min or max orders by a property; it has NaN for an offer without a number.
 void OrderBy(const Preference& preference, std::uint64_t seed, const std::vector<double>& known,
-             DynamicValues& values, Offers& offers);
+             DynamicValues& values, FoundOffers& offers);
 
 }  // namespace gsv::broker

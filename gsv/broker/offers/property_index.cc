@@ -18,10 +18,10 @@ Offers::iterator Place(Offers& offers, std::uint64_t number) {
 }
 
 std::optional<ScalarValue> ScalarOf(const Value& value) {
-  if (const auto* truth = value.As<bool>()) return *truth;
-  if (const auto* integer = value.As<std::int64_t>()) return *integer;
-  if (const auto* real = value.As<double>()) return *real;
-  if (const auto* text = value.As<std::string>()) return *text;
+  if (const auto truth = value.AsBoolean()) return *truth;
+  if (const auto integer = value.AsInteger()) return *integer;
+  if (const auto real = value.AsReal()) return *real;
+  if (const auto text = value.AsText()) return std::string(*text);
   return std::nullopt;
 }
 

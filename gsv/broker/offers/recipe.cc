@@ -10,7 +10,7 @@
 namespace gsv::broker {
 namespace {
 
-std::string Quoted(const std::string& text) {
+std::string Quoted(std::string_view text) {
   std::string literal = "'";
   for (const char c : text) {
     if (c == '\'' || c == '\\') literal.push_back('\\');
@@ -28,10 +28,10 @@ std::optional<std::string> LiteralOf(double value) {
 }
 
 std::optional<std::string> LiteralOf(const Value& value) {
-  if (const auto* truth = value.As<bool>()) return *truth ? "TRUE" : "FALSE";
-  if (const auto* integer = value.As<std::int64_t>()) return std::to_string(*integer);
-  if (const auto* real = value.As<double>()) return LiteralOf(*real);
-  if (const auto* text = value.As<std::string>()) return Quoted(*text);
+  if (const auto truth = value.AsBoolean()) return *truth ? "TRUE" : "FALSE";
+  if (const auto integer = value.AsInteger()) return std::to_string(*integer);
+  if (const auto real = value.AsReal()) return LiteralOf(*real);
+  if (const auto text = value.AsText()) return Quoted(*text);
   return std::nullopt;
 }
 

@@ -102,8 +102,7 @@ void AddFederatedAnswers(TradingObjects& objects, const FederatedQuery& query,
                   std::max(hops, 1u) * objects.trader.limits().federation.per_hop};
   auto answers = objects.forwarder.Ask(objects.orb, forwarded, destinations.all);
   for (std::size_t i = 0; i < answers.size(); ++i) {
-    std::move(answers[i].offers.begin(), answers[i].offers.end(),
-              std::back_inserter(matches.offers));
+    for (OfferPtr& offer : answers[i].offers) matches.offers.AddOther(std::move(offer));
     for (const std::string& name : answers[i].limits_applied) AddLimit(name, matches);
     if (!answers[i].complete) AddLimit(destinations.policies[i], matches);
   }

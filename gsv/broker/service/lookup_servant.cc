@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <set>
+#include <span>
 
 #include "gsv/broker/encoding/corba_values.h"
 #include "gsv/broker/language/names.h"
@@ -35,13 +36,13 @@ bool IsDesired(const DesiredProperties& desired, const std::string& name) {
 }
 
 // The size before dynamic properties are evaluated. A dynamic value has at most `dynamic_bytes`.
-std::size_t EncodedSize(const OfferPtr& offer, const DesiredProperties& desired,
+std::size_t EncodedSize(const Offer& offer, const DesiredProperties& desired,
                         std::size_t dynamic_bytes) {
   constexpr std::size_t kOverhead = 32;
-  std::size_t size = kOverhead + offer->reference.size() / 2;
+  std::size_t size = kOverhead + offer.reference.size() / 2;
   if (!desired.all && desired.names.empty()) return size;
-  size += offer->properties.EncodedSize();
-  for (const Value& value : offer->properties.values()) {
+  size += offer.properties.EncodedSize();
+  for (const Value& value : offer.properties.values()) {
     if (IsDynamic(value)) size += dynamic_bytes;
   }
   return size;
@@ -64,15 +65,14 @@ CosTrading::Offer ToCorba(CORBA::ORB_ptr orb, const Offer& offer, const DesiredP
   return result;
 }
 
-template <typename Iterator>
-CosTrading::OfferSeq* ToCorba(CORBA::ORB_ptr orb, Iterator first, Iterator last,
+CosTrading::OfferSeq* ToCorba(CORBA::ORB_ptr orb, std::span<const OfferPtr* const> offers,
                               const DesiredProperties& desired, DynamicValues& values) {
-  CosTrading::OfferSeq_var offers = new CosTrading::OfferSeq;
-  offers->length(static_cast<CORBA::ULong>(last - first));
-  for (CORBA::ULong i = 0; first != last; ++first, ++i) {
-    offers[i] = ToCorba(orb, **first, desired, values);
+  CosTrading::OfferSeq_var result = new CosTrading::OfferSeq;
+  result->length(static_cast<CORBA::ULong>(offers.size()));
+  for (CORBA::ULong i = 0; i < offers.size(); ++i) {
+    result[i] = ToCorba(orb, **offers[i], desired, values);
   }
-  return offers._retn();
+  return result._retn();
 }
 
 CosTrading::PolicyNameSeq* ToCorba(const std::vector<std::string>& names) {
@@ -138,17 +138,17 @@ void LookupServant::query(const char* type, const char* constr, const char* pref
   }
 
   const std::size_t count = std::min(how_many, objects_.trader.attributes().max_list);
-  const auto end =
-      result.offers.begin() + static_cast<std::ptrdiff_t>(CountFitting(
-                                  result.offers, 0, count, kReplyBytes, [&](const OfferPtr& offer) {
-                                    return EncodedSize(offer, desired, dynamic.value_bytes);
-                                  }));
-  CosTrading::OfferSeq_var first_offers =
-      ToCorba(objects_.orb, result.offers.begin(), end, desired, values);
+  const auto& places = result.offers.places();
+  const std::size_t fitting = CountFitting(
+      places, 0, count, kReplyBytes,
+      [&](const OfferPtr* offer) { return EncodedSize(**offer, desired, dynamic.value_bytes); });
+  CosTrading::OfferSeq_var first_offers = ToCorba(
+      objects_.orb, std::span<const OfferPtr* const>(places).first(fitting), desired, values);
   CosTrading::OfferIterator_var rest;
-  if (end != result.offers.end()) {
-    result.offers.erase(result.offers.begin(), end);
-    const std::uint64_t key = objects_.offer_cursors.Open(std::move(result.offers), desired);
+  if (fitting != places.size()) {
+    const FoundOffers remaining = result.offers.From(fitting);
+    const std::uint64_t key =
+        objects_.offer_cursors.Open(remaining.places(), {desired, remaining.kept()});
     const CORBA::Object_var iterator =
         IteratorReference(objects_.offer_iterators, key, CosTrading::OfferIterator::_PD_repoId);
     rest = CosTrading::OfferIterator::_unchecked_narrow(iterator);
@@ -167,15 +167,14 @@ CORBA::ULong OfferIteratorServant::max_left() {
 CORBA::Boolean OfferIteratorServant::next_n(CORBA::ULong n, CosTrading::OfferSeq_out offers) {
   const std::size_t count = std::min(n, objects_.trader.attributes().max_list);
   const DynamicLimits& dynamic = objects_.trader.limits().dynamic;
-  const auto batch =
-      objects_.offer_cursors.Take(CurrentIterator(objects_.orb), count, kReplyBytes,
-                                  [&](const OfferPtr& offer, const DesiredProperties& desired) {
-                                    return EncodedSize(offer, desired, dynamic.value_bytes);
-                                  });
+  const auto batch = objects_.offer_cursors.Take(
+      CurrentIterator(objects_.orb), count, kReplyBytes,
+      [&](const OfferPtr* offer, const OfferCursorContext& context) {
+        return EncodedSize(**offer, context.desired, dynamic.value_bytes);
+      });
   if (!batch) throw CORBA::OBJECT_NOT_EXIST(0, CORBA::COMPLETED_NO);
   DynamicValues values(&objects_.dynamic, dynamic.query_budget);
-  offers =
-      ToCorba(objects_.orb, batch->entries.begin(), batch->entries.end(), batch->context, values);
+  offers = ToCorba(objects_.orb, batch->entries, batch->context.desired, values);
   return batch->more;
 }
 

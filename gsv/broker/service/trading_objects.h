@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,12 @@ namespace gsv::broker {
 // of 64 KiB.
 constexpr std::size_t kReplyBytes = 48 * 1024;
 
-using OfferCursors = CursorTable<OfferPtr, DesiredProperties>;
+// The properties that the client requests, and the memory of the cursor's offers.
+struct OfferCursorContext {
+  DesiredProperties desired{};
+  std::shared_ptr<const KeptOffers> kept{};
+};
+using OfferCursors = CursorTable<const OfferPtr*, OfferCursorContext>;
 struct NoContext {};
 using OfferIdCursors = CursorTable<std::string, NoContext>;
 

@@ -222,10 +222,10 @@ class Reader {
   }
 
   static Result FromValue(const Value& value) {
-    if (const auto* truth = value.As<bool>()) return *truth;
-    if (const auto* integer = value.As<std::int64_t>()) return Whole(*integer);
-    if (const auto* real = value.As<double>()) return Number{false, 0, *real};
-    if (const auto* text = value.As<std::string>()) return *text;
+    if (const auto truth = value.AsBoolean()) return *truth;
+    if (const auto integer = value.AsInteger()) return Whole(*integer);
+    if (const auto real = value.AsReal()) return Number{false, 0, *real};
+    if (const auto text = value.AsText()) return std::string(*text);
     throw NoValue{};
   }
 

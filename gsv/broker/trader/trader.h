@@ -21,6 +21,7 @@
 #include "gsv/broker/language/limits.h"
 #include "gsv/broker/language/offer.h"
 #include "gsv/broker/offers/dynamic_values.h"
+#include "gsv/broker/offers/found_offers.h"
 #include "gsv/broker/offers/import_policies.h"
 #include "gsv/broker/offers/offer_store.h"
 #include "gsv/broker/offers/scan_slots.h"
@@ -40,7 +41,7 @@ struct Query {
 
 // The results of a query before they are ordered and limited.
 struct MatchingOffers {
-  Offers offers{};
+  FoundOffers offers{};
   Offers proxies{};  // proxies of traders that may have offers for the query
   Preference preference{};
   std::vector<double> known{};  // see OrderBy()
@@ -49,7 +50,7 @@ struct MatchingOffers {
 };
 
 struct QueryResult {
-  Offers offers;
+  FoundOffers offers{};
   // The names of the policies that limited the result.
   std::vector<std::string> limits_applied{};
 };

@@ -1,11 +1,13 @@
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 
 #include "gsv/base/mutex.h"
 #include "gsv/broker/language/equality_terms.h"
 #include "gsv/broker/language/evaluation.h"
-#include "gsv/broker/offers/number_terms.h"
+#include "gsv/broker/offers/column_constraint.h"
 #include "gsv/broker/offers/preference_order.h"
 #include "gsv/broker/offers/query_compilation.h"
 #include "gsv/broker/trader/trader.h"
@@ -30,6 +32,13 @@ bool HasModifiableProperties(const ServiceType& type, const Offer& offer) {
   const PropertyNames& names = *offer.properties.names();
   return !std::all_of(names.begin(), names.end(),
                       [&](const std::string& name) { return IsReadonlyIn(type, name); });
+}
+
+// Returns the integer as a double, or nullopt if a double cannot hold it exactly.
+std::optional<double> ExactNumber(std::int64_t integer) {
+  constexpr std::int64_t kMaxExactInteger = std::int64_t{1} << 53;
+  if (integer < -kMaxExactInteger || integer > kMaxExactInteger) return std::nullopt;
+  return static_cast<double>(integer);
 }
 
 bool IsMatch(const Expression& constraint, const Offer& offer, DynamicValues& values) {
@@ -67,14 +76,14 @@ class Trader::Search {
          MatchingOffers& matches)
       : candidates_(candidates),
         constraint_(constraint),
-        terms_(NumberTermsOf(constraint)),
+        column_constraint_(constraint),
         ordered_by_(PropertyToOrderBy(matches.preference)),
         values_(values),
         matches_(matches),
         left_(candidates.cardinalities.search) {}
 
   void Run() {
-    for (const OfferView& view : candidates_.views) {
+    for (const OfferView& view : matches_.offers.views()) {
       for (const auto& chunk : view.chunks()) {
         if (!LookThrough(*chunk)) return;
       }
@@ -87,22 +96,63 @@ class Trader::Search {
     // If there is a limit on the number of offers, the result for an offer depends on every offer
     // before it.
     const std::vector<Choice> choices =
-        candidates_.cut ? std::vector<Choice>() : chunk.Choose(terms_.terms);
+        candidates_.cut ? std::vector<Choice>() : chunk.Choose(column_constraint_);
     const auto order = ordered_by_ != nullptr ? chunk.ColumnOf(*ordered_by_) : nullptr;
+    if (!choices.empty() && candidates_.with_modifiable && Room() >= choices.size() &&
+        chunk.IsPlain() &&
+        std::find(choices.begin(), choices.end(), Choice::kUnknown) == choices.end()) {
+      TakeChosen(chunk, choices, order.get());
+      return true;
+    }
     for (std::size_t i = 0; i < chunk.offers().size(); ++i) {
       const Choice choice = choices.empty() ? Choice::kUnknown : choices[i];
       if (choice == Choice::kNo) continue;
       if (left_-- == 0) return false;
       const OfferPtr& offer = chunk.offers()[i];
-      const bool known = choice == Choice::kYes && terms_.complete;
-      if (!candidates_.Admit(*offer) || !(known || IsMatch(constraint_, *offer, values_))) continue;
-      if (matches_.offers.size() + matches_.proxies.size() == candidates_.cardinalities.match) {
+      if (!candidates_.Admit(*offer)) continue;
+      if (choice != Choice::kYes && !IsMatch(constraint_, *offer, values_)) continue;
+      if (Room() == 0) {
         matches_.limits_applied.emplace_back("match_card");
         return false;
       }
-      Take(offer, order != nullptr ? order->At(i) : std::nullopt);
+      Take(offer, order != nullptr ? NumberAt(*order, i) : std::nullopt);
     }
     return true;
+  }
+
+  // How many more offers may match.
+  std::size_t Room() const {
+    return candidates_.cardinalities.match - matches_.offers.size() - matches_.proxies.size();
+  }
+
+  // Takes the chosen offers of a plain chunk, all of which are admitted. Does not access the offers.
+  void TakeChosen(const OfferChunk& chunk, const std::vector<Choice>& choices,
+                  const PropertyColumn* order) {
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+      if (choices[i] != Choice::kYes) continue;
+      --left_;
+      if (order != nullptr) TakeNumber(NumberAt(*order, i));
+      matches_.offers.Add(chunk.offers()[i]);
+    }
+  }
+
+  // Returns the number by which min and max order the offer at `index`, or NaN if it has none.
+  // Returns nullopt if the number must be read from the offer.
+  static std::optional<double> NumberAt(const PropertyColumn& column, std::size_t index) {
+    if (column.kinds()[index] == CellKind::kOffer) return std::nullopt;
+    const Operand operand = column.At(index);
+    if (const auto* real = std::get_if<double>(&operand)) return *real;
+    const auto* integer = std::get_if<std::int64_t>(&operand);
+    if (integer == nullptr) return std::numeric_limits<double>::quiet_NaN();
+    return ExactNumber(*integer);
+  }
+
+  // If the number of one offer is unknown, the numbers of all later ones are computed by
+  // evaluation, too.
+  void TakeNumber(std::optional<double> number) {
+    if (number && matches_.known.size() == matches_.offers.size()) {
+      matches_.known.push_back(*number);
+    }
   }
 
   void Take(const OfferPtr& offer, std::optional<double> number) {
@@ -110,17 +160,13 @@ class Trader::Search {
       matches_.proxies.push_back(offer);
       return;
     }
-    // If the number of one offer is unknown, the numbers of all later ones are computed by
-    // evaluation, too.
-    if (number && matches_.known.size() == matches_.offers.size()) {
-      matches_.known.push_back(*number);
-    }
-    matches_.offers.push_back(offer);
+    TakeNumber(number);
+    matches_.offers.Add(offer);
   }
 
   const Candidates& candidates_;
   const Expression& constraint_;
-  const NumberTerms terms_;
+  const ColumnConstraint column_constraint_;
   const std::string* const ordered_by_;
   DynamicValues& values_;
   MatchingOffers& matches_;
@@ -148,10 +194,12 @@ TradingResult<MatchingOffers> Trader::FindMatching(const Query& query,
   if (!preference) return Refuse(preference.error());
 
   Candidates candidates = SelectCandidates(query, EqualityTerms(*constraint));
-  MatchingOffers matches{.preference = std::move(*preference),
+  const std::size_t steps = candidates.Steps(*constraint);
+  MatchingOffers matches{.offers = FoundOffers(std::move(candidates.views)),
+                         .preference = std::move(*preference),
                          .cardinalities = candidates.cardinalities,
                          .limits_applied = std::move(candidates.limits_applied)};
-  ScanSlot turn(candidates.Steps(*constraint) > kWorthATurn ? &scan_slots_ : nullptr);
+  ScanSlot turn(steps > kWorthATurn ? &scan_slots_ : nullptr);
   values.set_slot(&turn);
   Search(candidates, *constraint, values, matches).Run();
   values.set_slot(nullptr);
@@ -167,7 +215,7 @@ std::size_t Trader::Candidates::Steps(const Expression& constraint) const {
 QueryResult Trader::Rank(MatchingOffers matches, DynamicValues& values) const {
   OrderBy(matches.preference, seed_++, matches.known, values, matches.offers);
   if (matches.offers.size() > matches.cardinalities.returned) {
-    matches.offers.resize(matches.cardinalities.returned);
+    matches.offers.Truncate(matches.cardinalities.returned);
     matches.limits_applied.emplace_back("return_card");
   }
   return {std::move(matches.offers), std::move(matches.limits_applied)};

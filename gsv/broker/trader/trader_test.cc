@@ -14,7 +14,7 @@ constexpr std::uint32_t kStem = 0xABCD;
 std::vector<std::string> Names(const QueryResult& result) {
   std::vector<std::string> names;
   for (const OfferPtr& offer : result.offers) {
-    names.push_back(*offer->properties.Find("name")->As<std::string>());
+    names.emplace_back(*offer->properties.Find("name")->AsText());
   }
   return names;
 }

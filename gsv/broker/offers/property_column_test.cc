@@ -1,4 +1,4 @@
-// Compares queries that use number columns with an evaluation of each offer.
+// Compares queries that use property columns with an evaluation of each offer.
 #include <algorithm>
 #include <limits>
 #include <random>
@@ -11,8 +11,6 @@
 
 namespace gsv::broker {
 namespace {
-
-constexpr std::int64_t kBeyondDoubles = (std::int64_t{1} << 53) + 1;
 
 class RandomOffers {
  public:
@@ -69,7 +67,7 @@ class RandomOffers {
   std::mt19937_64 random_{6};
 };
 
-std::vector<std::uint64_t> OfferNumbers(const Offers& offers) {
+std::vector<std::uint64_t> OfferNumbers(const auto& offers) {
   std::vector<std::uint64_t> numbers;
   for (const OfferPtr& offer : offers) numbers.push_back(offer->number);
   return numbers;
@@ -84,7 +82,7 @@ std::vector<std::uint64_t> OneByOne(const Trader& trader, const std::string& tex
   return OfferNumbers(matching);
 }
 
-TEST(NumberColumns, FindTheSameAsAnEvaluationOfEachOffer) {
+TEST(PropertyColumns, FindTheSameAsAnEvaluationOfEachOffer) {
   RandomOffers random;
   Trader trader(TraderLimits{}, 1, 1);
   ASSERT_TRUE(trader.AddType({.name = "Robot"}));
@@ -130,7 +128,7 @@ std::vector<std::uint64_t> OneByOneInOrder(const Trader& trader, const std::stri
   return numbers;
 }
 
-TEST(NumberColumns, OrderLikeAnEvaluationOfEachOffer) {
+TEST(PropertyColumns, OrderLikeAnEvaluationOfEachOffer) {
   RandomOffers random;
   Trader trader(TraderLimits{}, 1, 1);
   ASSERT_TRUE(trader.AddType({.name = "Robot"}));
@@ -159,7 +157,7 @@ class Five : public DynamicEvaluator {
   }
 };
 
-TEST(NumberColumns, OrderDynamicPropertiesAmongTheOthers) {
+TEST(PropertyColumns, OrderDynamicPropertiesAmongTheOthers) {
   Trader trader(TraderLimits{}, 1, 1);
   ASSERT_TRUE(trader.AddType({.name = "Robot"}));
   const auto promised = std::make_shared<const PropertyType>(PropertyType{.scalar = Scalar::kLong});
@@ -177,25 +175,6 @@ TEST(NumberColumns, OrderDynamicPropertiesAmongTheOthers) {
     EXPECT_EQ(found->offers[0]->number, 1u);
     EXPECT_EQ(found->offers[200 + 200 + 200 + 199 + 200]->number, 4u);
   }
-}
-
-TEST(NumberColumns, ContainOnlyNumbersThatADoubleHoldsExactly) {
-  EXPECT_EQ(ExactNumber(kBeyondDoubles - 1), 9007199254740992.0);
-  EXPECT_EQ(ExactNumber(kBeyondDoubles), std::nullopt);
-  EXPECT_EQ(ExactNumber(-kBeyondDoubles), std::nullopt);
-}
-
-TEST(NumberTerms, AreThoseThatMustAllBeTrue) {
-  const auto terms = NumberTermsOf(*ParseConstraint("a > 1 and 2.5 <= b and (c == 3)", {}));
-  ASSERT_EQ(terms.terms.size(), 3u);
-  EXPECT_TRUE(terms.complete);
-  EXPECT_EQ(terms.terms[1].property, "b");
-  EXPECT_EQ(terms.terms[1].op, Operator::kGreaterEqual);
-  EXPECT_EQ(terms.terms[1].number, 2.5);
-  const auto some = NumberTermsOf(*ParseConstraint("a > 1 and (b > 2 or c > 3)", {}));
-  EXPECT_EQ(some.terms.size(), 1u);
-  EXPECT_FALSE(some.complete);
-  EXPECT_FALSE(NumberTermsOf(*ParseConstraint("not a > 1", {})).complete);
 }
 
 }  // namespace

@@ -1,0 +1,61 @@
+// The operators of the constraint language on single values.
+//
+// Source   OMG Trading Object Service (formal/00-06-27), annex B.
+// Threads  pure functions; any thread.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <variant>
+
+#include "gsv/broker/language/expression.h"
+#include "gsv/broker/language/value.h"
+
+namespace gsv::broker {
+
+// A value during an evaluation, or none. Strings are views and are never copied.
+using Operand = std::variant<std::monostate, bool, std::int64_t, double, std::string_view>;
+inline constexpr std::monostate kNoOperand{};
+
+Operand ToOperand(const ScalarValue& value);
+// A sequence and a value of any other type have no operand.
+Operand ToOperand(const Value& value);
+std::optional<long double> ToNumber(const Operand& operand);
+
+// The result of the comparison `op`, or none if the operands cannot be compared.
+Operand Compare(Operator op, const Operand& left, const Operand& right);
+// The result of +, -, * or /, or none if an operand is not a number or the divisor is 0.
+//
+// It applies the numeric promotion of IDL's constant expressions and C. Two integers give an
+// integer, and quotients are truncated. An integer and a real number give a real number. An integer
+// result beyond 64 bits becomes a real number.
+Operand Calculate(Operator op, const Operand& left, const Operand& right);
+double RealResult(Operator op, double left, double right);
+// Whether `sequence` has an element that is equal to `element`, or none if the sequence is null or
+// an element before that cannot be compared. `element` has a value.
+Operand Contains(const Value::Sequence* sequence, const Operand& element);
+// Whether `part` is contained in `whole`, or none if one of them is not a text.
+Operand Substring(const Operand& part, const Operand& whole);
+
+// Calls `use` with the function object of the comparison `op`.
+template <typename Use>
+decltype(auto) WithComparison(Operator op, const Use& use) {
+  switch (op) {
+    case Operator::kEqual:
+      return use(std::equal_to<>());
+    case Operator::kNotEqual:
+      return use(std::not_equal_to<>());
+    case Operator::kLess:
+      return use(std::less<>());
+    case Operator::kLessEqual:
+      return use(std::less_equal<>());
+    case Operator::kGreater:
+      return use(std::greater<>());
+    default:
+      return use(std::greater_equal<>());
+  }
+}
+
+}  // namespace gsv::broker

@@ -1,0 +1,54 @@
+// Evaluates a constraint for many offers at once, operator by operator over the columns of its
+// properties. The result is the same as that of Matches() for each offer.
+//
+// Threads  any thread may call const members.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gsv/broker/language/expression.h"
+#include "gsv/broker/offers/property_column.h"
+
+namespace gsv::broker {
+
+// The result of a constraint for an offer, as far as the columns determine it.
+enum class Choice : std::uint8_t {
+  kNo,       // the constraint is FALSE or has no value
+  kYes,      // the constraint is TRUE
+  kUnknown,  // the constraint must be evaluated for the offer
+};
+
+class ColumnConstraint {
+ public:
+  using Columns = std::vector<std::shared_ptr<const PropertyColumn>>;
+
+  // `constraint` must exist as long as this object.
+  explicit ColumnConstraint(const Expression& constraint);
+
+  // The properties that the constraint names. Each occurs once.
+  const std::vector<std::string>& properties() const { return properties_; }
+  // Returns one choice per offer. `columns` are those of properties(), in the same order, and have
+  // a cell for each of `offers` offers. A column may be null; then the terms with its property are
+  // unknown.
+  std::vector<Choice> Choose(const Columns& columns, std::size_t offers) const;
+
+ private:
+  // A part of the constraint. All terms must be TRUE for the constraint to be TRUE.
+  struct Term {
+    std::size_t root = 0;                   // index of its last node
+    std::vector<std::size_t> properties{};  // indices in properties_
+  };
+
+  void AddTerms(std::size_t root);
+  void AddProperties(std::size_t root, std::vector<std::size_t>& properties) const;
+
+  const Expression& constraint_;
+  std::vector<std::string> properties_;
+  std::vector<std::size_t> column_of_node_;  // index in properties_, by node
+  std::vector<Term> terms_;                  // those that `and` joins at the top level, in order
+};
+
+}  // namespace gsv::broker

@@ -1,0 +1,70 @@
+// The offers that a query found, in order. The list refers to offers in views and does not count
+// references to each of them, so a query that finds many offers does not access their memory.
+//
+// Threads  not safe. The memory of KeptOffers may be released by any thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "gsv/broker/offers/offer_column.h"
+
+namespace gsv::broker {
+
+// Keeps found offers alive.
+struct KeptOffers {
+  std::vector<OfferView> views{};
+  std::deque<OfferPtr> others{};  // offers that are not in a view, at constant addresses
+};
+
+class FoundOffers {
+ public:
+  class Iterator {
+   public:
+    explicit Iterator(const OfferPtr* const* place) : place_(place) {}
+    const OfferPtr& operator*() const { return **place_; }
+    Iterator& operator++() {
+      ++place_;
+      return *this;
+    }
+    bool operator==(const Iterator& other) const { return place_ == other.place_; }
+
+   private:
+    const OfferPtr* const* place_;
+  };
+
+  // The list is empty; `views` are those of the offers that will be added.
+  explicit FoundOffers(std::vector<OfferView> views = {});
+
+  std::size_t size() const { return places_.size(); }
+  bool empty() const { return places_.empty(); }
+  const OfferPtr& operator[](std::size_t index) const { return *places_[index]; }
+  const OfferPtr& front() const { return *places_.front(); }
+  const OfferPtr& back() const { return *places_.back(); }
+  Iterator begin() const { return Iterator(places_.data()); }
+  Iterator end() const { return Iterator(places_.data() + places_.size()); }
+
+  const std::vector<OfferView>& views() const { return kept_->views; }
+  // The places of the offers, which are valid as long as kept().
+  const std::vector<const OfferPtr*>& places() const { return places_; }
+  std::shared_ptr<const KeptOffers> kept() const { return kept_; }
+
+  // `offer` is an element of one of the views.
+  void Add(const OfferPtr& offer) { places_.push_back(&offer); }
+  void AddOther(OfferPtr offer);
+  // Replaces the list by the offers at these places.
+  void SetPlaces(std::vector<const OfferPtr*> places) { places_ = std::move(places); }
+  void Truncate(std::size_t size);
+  // Returns the offers from `first` on. If they are few among many offers of the views, the result
+  // keeps only them alive.
+  FoundOffers From(std::size_t first) const;
+
+ private:
+  std::shared_ptr<KeptOffers> kept_;
+  std::vector<const OfferPtr*> places_;
+};
+
+}  // namespace gsv::broker

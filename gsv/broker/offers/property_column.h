@@ -1,0 +1,93 @@
+// The values of many offers for one property, in arrays. A scan over the arrays does not access the
+// offers.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gsv/base/mutex.h"
+#include "gsv/broker/language/offer.h"
+#include "gsv/broker/language/operand.h"
+
+namespace gsv::broker {
+
+// The content of a column for one offer.
+enum class CellKind : std::uint8_t {
+  kNone,  // the offer has no such property
+  kBoolean,
+  kInteger,
+  kReal,
+  kText,
+  kSequence,
+  kOther,  // a value of any other type
+  kOffer,  // only the offer can answer: its property is dynamic, or it is a proxy
+};
+
+class PropertyColumn {
+ public:
+  // The column is valid as long as `offers`.
+  PropertyColumn(const Offers& offers, std::string_view property);
+
+  std::span<const CellKind> kinds() const { return kinds_; }
+  // The kind of all cells that are neither kNone nor kOffer, or nullopt if their kinds differ. It is
+  // kNone if there are no such cells.
+  std::optional<CellKind> sole_kind() const { return sole_kind_; }
+  // By the kind of the cell: 0 or 1, the integer, the representation of the real number, the index
+  // of the text in texts(), or a sequence for ElementsOf(). 0 for all other kinds.
+  std::span<const std::uint64_t> bits() const { return bits_; }
+  // The different texts of the column.
+  std::span<const std::string_view> texts() const { return texts_; }
+
+  // The value of the cell in the constraint language.
+  Operand At(std::size_t index) const { return ToOperand(kinds_[index], bits_[index]); }
+  // Whether the sequence of the cell contains `element`, see Contains(). `element_text` is the index
+  // of `element` in texts() if it is a text; see IndexOf().
+  Operand ContainsAt(std::size_t index, const Operand& element,
+                     std::optional<std::size_t> element_text) const;
+  // The index of the text in texts(), or texts().size() if no cell has it.
+  std::size_t IndexOf(std::string_view text) const;
+
+ private:
+  class Builder;
+
+  Operand ToOperand(CellKind kind, std::uint64_t bits) const;
+
+  std::vector<CellKind> kinds_;
+  std::optional<CellKind> sole_kind_ = CellKind::kNone;
+  bool has_values_ = false;  // whether a cell is neither kNone nor kOffer
+  std::vector<std::uint64_t> bits_;
+  // The elements of all sequences, one sequence after the other.
+  std::vector<CellKind> element_kinds_;
+  std::vector<std::uint64_t> element_bits_;
+  std::string short_texts_;  // to which most of texts_ refer; the others refer to the offers
+  std::vector<std::string_view> texts_;
+};
+
+// The columns of offers that do not change. A column is made at the second request for its
+// property. So columns cost nothing if every query has other offers.
+//
+// Threads  any thread may call Of() and ArePlain().
+class PropertyColumns {
+ public:
+  // Returns null if the column does not exist (yet). `offers` must be the same in every call until
+  // Clear().
+  std::shared_ptr<const PropertyColumn> Of(const Offers& offers, const std::string& property);
+  // Whether none of the offers is a proxy or has a dynamic property.
+  bool ArePlain(const Offers& offers);
+  // Removes all columns. Call it while no query runs.
+  void Clear();
+
+ private:
+  base::Mutex mutex_;
+  std::map<std::string, std::shared_ptr<const PropertyColumn>> columns_
+      GSV_GUARDED_BY(mutex_);  // null after the first request for the property
+  std::optional<bool> plain_ GSV_GUARDED_BY(mutex_);
+};
+
+}  // namespace gsv::broker
