@@ -365,6 +365,20 @@ TEST_F(FlawTest, AFloatingJointBetweenLinksIsFixed) {
   EXPECT_THAT(Said(), ElementsAre(HasSubstr("\"float\" is fixed")));
 }
 
+TEST_F(FlawTest, NamesWithScopesAreReadWithDots) {
+  const std::string links =
+      "<link name='a::b'/><link name='c'><pose relative_to='a::b'>1 0 0 0 0 0</pose></link>"
+      "<joint name='j::k' type='ball'><parent>a::b</parent><child>c</child></joint>";
+  for (const char* version : {"1.8", "1.9", "1.11"}) {
+    const auto model = Model("scopes.sdf", "<sdf version='" + std::string(version) +
+                                               "'><model name='m'>" + links + "</model></sdf>");
+    EXPECT_THAT(LinksOf(*model), Contains("a.b")) << version;
+    ASSERT_FALSE(model->joints.empty()) << version;
+    EXPECT_EQ(model->joints[0].name, "j.k") << version;
+    EXPECT_THAT(Said(), Contains(HasSubstr("the name \"a::b\" contains"))) << version;
+  }
+}
+
 TEST_F(FlawTest, AnErrorInAUrdfAffectsOnePart) {
   const std::string base = UrdfLink("base", kMassive);
   const auto with = [&](const std::string& content) {

@@ -1,5 +1,7 @@
 #include "gsv/formats/sdf/document_repair.h"
 
+#include <algorithm>
+#include <cstdio>
 #include <cstring>
 #include <functional>
 #include <memory>
@@ -368,28 +370,70 @@ bool RepairAfter(const sdf::Errors& errors, SdfText& document, IncludedFiles& in
   return DocumentRepair(document, includes, problems).After(errors);
 }
 
+namespace {
+
+// Plugins have names such as gz::sim::systems::Physics.
+bool IsInPlugin(const XMLElement& element) {
+  for (const tinyxml2::XMLNode* at = &element; at != nullptr; at = at->Parent()) {
+    if (at->ToElement() != nullptr && std::strcmp(at->Value(), "plugin") == 0) return true;
+  }
+  return false;
+}
+
+// Changes the names in an element: its own, and those to which it refers.
+void ChangeNames(Tree& tree, XMLElement& element,
+                 const std::function<std::string(const std::string&)>& changed) {
+  if (IsInPlugin(element)) return;
+  for (const char* key : {"name", "relative_to", "attached_to", "frame", "expressed_in",
+                          "canonical_link", "placement_frame"}) {
+    const char* value = element.Attribute(key);
+    if (value == nullptr || std::strstr(value, kScope) == nullptr) continue;
+    const std::string name = changed(value);
+    if (name == value) continue;
+    element.SetAttribute(key, name.c_str());
+    tree.is_changed = true;
+  }
+  const bool refers =
+      std::strcmp(element.Name(), "parent") == 0 || std::strcmp(element.Name(), "child") == 0;
+  if (!refers || element.GetText() == nullptr) return;
+  const std::string text = changed(element.GetText());
+  if (text == element.GetText()) return;
+  element.SetText(text.c_str());
+  tree.is_changed = true;
+}
+
+std::string WithDots(std::string text) {
+  for (std::size_t at = 0; (at = text.find(kScope, at)) != std::string::npos;) {
+    text.replace(at, std::strlen(kScope), ".");
+  }
+  return text;
+}
+
+// Whether "::" in names is reserved in the version of a file.
+bool ReservesScope(const XMLElement& sdf) {
+  constexpr int kFirstMinor = 8;
+  const char* version = sdf.Attribute("version");
+  int major = 0, minor = 0;
+  return version != nullptr && std::sscanf(version, "%d.%d", &major, &minor) == 2 &&
+         (major > 1 || minor >= kFirstMinor);
+}
+
+// Whether an attribute of an element that is no plugin contains "::".
+bool HasScopeInAttribute(const std::string& text) {
+  for (std::size_t at = 0; (at = text.find(kScope, at)) != std::string::npos; ++at) {
+    const std::size_t bracket = text.find_last_of("<>", at);
+    if (bracket == std::string::npos || text[bracket] == '>') continue;
+    if (text.compare(bracket, 7, "<plugin") != 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 bool SeparateNames(SdfText& document, IncludedFiles& includes, base::Problems& problems) {
   std::vector<Tree> trees = TreesOf(document, includes);
-  const auto without_scope = [](std::string text) {
-    for (std::size_t at = text.find(kScope); at != std::string::npos; at = text.find(kScope, at)) {
-      text.replace(at, std::strlen(kScope), ".");
-    }
-    return text;
-  };
   for (Tree& tree : trees) {
-    ForEach(tree.root(), [&](XMLElement& element) {
-      for (const char* key : {"name", "relative_to", "attached_to", "frame", "expressed_in"}) {
-        const char* value = element.Attribute(key);
-        if (value == nullptr || std::strstr(value, kScope) == nullptr) continue;
-        element.SetAttribute(key, without_scope(value).c_str());
-        tree.is_changed = true;
-      }
-      const bool refers =
-          std::strcmp(element.Name(), "parent") == 0 || std::strcmp(element.Name(), "child") == 0;
-      if (!refers || element.GetText() == nullptr) return;
-      const std::string text = without_scope(element.GetText());
-      if (text != element.GetText()) element.SetText(text.c_str());
-    });
+    ForEach(tree.root(), [&](XMLElement& element) { ChangeNames(tree, element, WithDots); });
     if (!tree.is_changed) continue;
     problems.push_back(
         {base::Problem::Severity::kWarning,
@@ -398,6 +442,39 @@ bool SeparateNames(SdfText& document, IncludedFiles& includes, base::Problems& p
          tree.text->path.string()});
   }
   return WriteChanged(trees);
+}
+
+bool MayHaveReservedNames(const SdfText& document, const IncludedFiles& includes) {
+  return HasScopeInAttribute(document.text) ||
+         std::any_of(includes.begin(), includes.end(),
+                     [](const auto& include) { return HasScopeInAttribute(include.second.text); });
+}
+
+void SeparateReservedNames(SdfText& document, IncludedFiles& includes, base::Problems& problems) {
+  std::vector<Tree> trees = TreesOf(document, includes);
+  for (Tree& tree : trees) {
+    if (!ReservesScope(*tree.root())) continue;
+    std::set<std::string, std::greater<>> names;  // a name comes before those with which it begins
+    ForEach(tree.root(), [&](XMLElement& element) {
+      const char* name = element.Attribute("name");
+      if (name == nullptr || std::strstr(name, kScope) == nullptr || IsInPlugin(element)) return;
+      if (!names.insert(name).second) return;
+      problems.push_back(
+          {base::Problem::Severity::kWarning,
+           "the name " + Quoted(name) + " contains \"::\"; " + Quoted(WithDots(name)) + " is used",
+           PlaceOf(tree.text->path, element)});
+    });
+    const auto changed = [&names](const std::string& text) {
+      for (const std::string& name : names) {
+        const std::size_t at = text.find(name);
+        if (at == std::string::npos) continue;
+        return text.substr(0, at) + WithDots(name) + text.substr(at + name.size());
+      }
+      return text;
+    };
+    ForEach(tree.root(), [&](XMLElement& element) { ChangeNames(tree, element, changed); });
+  }
+  WriteChanged(trees);
 }
 
 }  // namespace gsv::formats

@@ -268,8 +268,10 @@ sdf::ElementPtr SdfSchema() {
   return schema;
 }
 
-base::Result<SdfDocument> ParseSdf(const SdfText& document, const IncludedFiles& includes,
-                                   base::Problems& problems) {
+namespace {
+
+base::Result<SdfDocument> ParseTexts(const SdfText& document, const IncludedFiles& includes,
+                                     base::Problems& problems) {
   const base::MutexLock lock(SdformatMutex());
   SilenceConsoles();
   Reading reading = ReadOnce(document.text, includes);
@@ -282,6 +284,17 @@ base::Result<SdfDocument> ParseSdf(const SdfText& document, const IncludedFiles&
   result.has_broken_frames =
       std::any_of(reading.errors.begin(), reading.errors.end(), BreaksFrames);
   return result;
+}
+
+}  // namespace
+
+base::Result<SdfDocument> ParseSdf(const SdfText& document, const IncludedFiles& includes,
+                                   base::Problems& problems) {
+  if (!MayHaveReservedNames(document, includes)) return ParseTexts(document, includes, problems);
+  SdfText separated = document;
+  IncludedFiles files = includes;
+  SeparateReservedNames(separated, files, problems);
+  return ParseTexts(separated, files, problems);
 }
 
 std::filesystem::path FileOf(const sdf::Element& element, const std::filesystem::path& source) {

@@ -1,6 +1,7 @@
 #include "gsv/formats/sdf/world_reader.h"
 
 #include <algorithm>
+#include <cctype>
 #include <deque>
 #include <set>
 #include <vector>
@@ -21,6 +22,7 @@
 #include "gsv/formats/sdf/sdf_pedestrians.h"
 #include "gsv/formats/sdf/sdf_world.h"
 #include "gsv/formats/sdf/value_repair.h"
+#include "gsv/formats/sdf/value_text.h"
 #include "gsv/formats/sdf/world_frames.h"
 #include "gsv/formats/sdf/world_state.h"
 
@@ -94,8 +96,26 @@ class WorldReader {
 
   std::string Place(const XMLElement& element) const { return PlaceOf(file_.path, element); }
 
+  // Names are parts of scoped names ("a::b") and of lines of text.
+  std::string AllowedName(const std::string& wanted, const std::string& place) {
+    if (wanted.empty()) return "unnamed";
+    std::string name = wanted;
+    for (std::size_t at = 0; (at = name.find("::", at)) != std::string::npos;) {
+      name.replace(at, 2, ".");
+    }
+    for (char& c : name) {
+      if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = ' ';
+    }
+    if (name != wanted) {
+      context_.Warn("a name cannot contain \"::\" or control characters: " + Quoted(wanted) +
+                        " is read as " + Quoted(name),
+                    place);
+    }
+    return name;
+  }
+
   std::string UniqueName(const std::string& wanted, const std::string& place) {
-    const std::string name = wanted.empty() ? "unnamed" : wanted;
+    const std::string name = AllowedName(wanted, place);
     std::string unique = name;
     for (int i = 1; !names_.insert(unique).second; ++i) unique = name + "_" + std::to_string(i);
     if (unique != name) {

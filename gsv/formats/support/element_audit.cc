@@ -174,6 +174,12 @@ class ElementAudit {
         Report(Tag(element.Name()) + " has no attribute \"" + std::string(name) +
                    "\"; it is ignored." + Spaced(AdviceForAttribute(name, support)),
                element);
+      } else if (known->until != 0 && file_.minor_version > known->until) {
+        if (SaysDefault(attribute->Value(), *known)) continue;
+        Report("the attribute \"" + std::string(name) + "\" of " + Tag(element.Name()) +
+                   " ended with SDFormat 1." + std::to_string(known->until) +
+                   "; it is ignored in a file of 1." + std::to_string(file_.minor_version),
+               element);
       } else if (known->support == Support::kNone && !SaysDefault(attribute->Value(), *known)) {
         Report("the attribute \"" + std::string(name) + "\" of " + Tag(element.Name()) +
                    " is not supported" + NoteOf(*known),

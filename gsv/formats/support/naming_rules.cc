@@ -54,7 +54,7 @@ struct Scope {
   // Whether an element with that name may exist. Names of parts of nested models are not checked.
   bool Has(const std::string& name) const {
     if (is_open || name.empty() || IsReserved(name)) return true;
-    return names.count(name.substr(0, name.find("::"))) != 0;
+    return names.count(name) != 0 || names.count(name.substr(0, name.find("::"))) != 0;
   }
   const XMLElement* Find(const std::string& name) const {
     const auto it = names.find(name);
