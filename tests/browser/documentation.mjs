@@ -6,8 +6,8 @@ import process from "node:process";
 const folder = process.env.GSV_DOC_IMAGES;
 const QUALITY = 82;
 
-// Append this to a page's address to draw all pixels, regardless of the time.
-export const SHARP = folder ? "?quality=high" : "";
+// Append this to a page's address to draw all pixels with the best light, regardless of the time.
+export const SHARP = folder ? "?quality=best" : "";
 
 // Notices, which go away by themselves, are left out.
 export async function keepPicture(page, name) {

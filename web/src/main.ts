@@ -52,7 +52,8 @@ import { chosenDrawer, keepDrawer, startDrawing } from "./app/startDrawing";
 import type { ViewChoice } from "./app/ViewChoice";
 
 // The page's address may contain: simulation=NAME (the simulation to join), recording=NAME (the
-// recording to replay), and quality=high (draws all pixels, however slow that is).
+// recording to replay), and quality=high (draws all pixels, however slow that is) or quality=best
+// (with the light of a machine with a graphics card, too).
 const storage = browserStorage();
 const store = new Store<State>({
   ...initialState,
@@ -72,10 +73,16 @@ const library = new ModelLibrary(
 );
 
 function createWorld(host: HTMLElement, inSoftware: boolean): World3D | null {
+  const quality = parameters.get("quality");
   try {
     return new World3D(
       host,
-      { library, inSoftware, fixedQuality: parameters.get("quality") === "high" },
+      {
+        library,
+        inSoftware,
+        fixedQuality: quality === "high" || quality === "best",
+        hasFineLight: quality === "best" || !inSoftware,
+      },
       {
         onPick: (body) => app.pick(body),
         onPlace: (body, place) => app.editActions.place(body, place),

@@ -4,6 +4,7 @@
 // and sorts transparent ones.
 import type { BufferGeometry } from "three";
 import { DynamicDrawUsage, InstancedBufferAttribute, InstancedMesh, Matrix4, Mesh } from "three";
+import { OCCLUDING_LAYER } from "./AmbientOcclusion";
 import type { FramedPart } from "./bakedParts";
 import { bakeParts } from "./bakedParts";
 import type { BodyFrames } from "./BodyFrames";
@@ -112,6 +113,7 @@ export class ModelInstances {
     mesh.frustumCulled = !isMoving;
     const { material } = mesh;
     mesh.castShadow = mesh.receiveShadow = !Array.isArray(material) && !material.transparent;
+    if (mesh.castShadow) mesh.layers.enable(OCCLUDING_LAYER);
     this.meshes.push(mesh);
   }
 }

@@ -37,3 +37,14 @@ test("a fixed quality does not change", () => {
   frames(quality, 1000, 80);
   expect(quality.pixelRatio).toBe(1);
 });
+
+test("slow frames first end ambient occlusion, and it does not return", () => {
+  const quality = new Quality(1, false, true);
+  frames(quality, 12, 80);
+  expect([quality.hasOcclusion, quality.pixelRatio]).toEqual([false, 1]);
+  frames(quality, 500, 10);
+  expect(quality.hasOcclusion).toBe(false);
+  const fixed = new Quality(1, true, true);
+  frames(fixed, 500, 300);
+  expect(fixed.hasOcclusion).toBe(true);
+});

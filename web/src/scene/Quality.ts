@@ -1,5 +1,5 @@
-// Keeps the frame rate up if drawing is slow, for example without a graphics card: reduces the
-// number of pixels, and increases it again when there is time.
+// Keeps the frame rate up if drawing is slow, for example without a graphics card: omits ambient
+// occlusion, then reduces the number of pixels, and increases it again when there is time.
 
 const SLOW_MS = 55;
 const VERY_SLOW_MS = 200; // such a frame counts as several slow frames
@@ -13,24 +13,39 @@ export class Quality {
   private slow = 0;
   private fast = 0;
 
+  // `isRich`: begins with ambient occlusion.
   constructor(
     private readonly deviceRatio: number,
     private readonly fixed: boolean,
+    private isRich = false,
   ) {}
+
+  // Whether ambient occlusion is drawn. Once it was too slow, it stays off.
+  get hasOcclusion(): boolean {
+    return this.isRich;
+  }
 
   // Device pixels per CSS pixel.
   get pixelRatio(): number {
     return Math.min(HIGHEST_DEVICE_RATIO, this.deviceRatio) * this.scale;
   }
 
-  // Takes the time between two consecutive frames. Returns true if the pixel ratio has changed.
+  // Takes the time between two consecutive frames. Returns true if the next frame is drawn in
+  // another way.
   frameTook(milliseconds: number): boolean {
     if (this.fixed) return false;
     this.slow = milliseconds > SLOW_MS ? this.slow + (milliseconds > VERY_SLOW_MS ? 4 : 1) : 0;
     this.fast = milliseconds < FAST_MS ? this.fast + 1 : 0;
+    if (this.slow >= PATIENCE && this.isRich) return this.omitOcclusion();
     if (this.slow >= PATIENCE && this.scale > LOWEST) return this.rescale(this.scale * 0.8);
     if (this.fast >= 10 * PATIENCE && this.scale < 1) return this.rescale(this.scale * 1.25);
     return false;
+  }
+
+  private omitOcclusion(): boolean {
+    this.isRich = false;
+    this.slow = this.fast = 0;
+    return true;
   }
 
   private rescale(scale: number): boolean {

@@ -1,10 +1,10 @@
 // The parts of a displayed scene: bodies, lights, grid, sky.
-import type { Box3, Group, LineSegments, Scene } from "three";
+import type { Box3, LineSegments, Scene } from "three";
 import type { SceneDescription } from "../api/scene";
 import { BodyLayer } from "./BodyLayer";
 import { focusOf } from "./framing";
 import { disposeGrid, makeGrid } from "./Ground";
-import { disposeLights, makeLights } from "./LightRig";
+import { LightRig } from "./LightRig";
 import type { ModelLibrary } from "./ModelLibrary";
 import { Sky } from "./Sky";
 
@@ -17,17 +17,18 @@ export class SceneParts {
   readonly bodies: BodyLayer;
   readonly focus: Box3; // what one looks at first
   readonly grid: LineSegments;
-  private readonly lights: Group;
+  readonly lights: LightRig;
   private readonly sky: Sky;
   private isGone = false;
 
-  constructor(description: SceneDescription, root: Scene) {
+  // `hasEnvironment`: the ambient light is the environment of `root`.
+  constructor(description: SceneDescription, root: Scene, hasEnvironment: boolean) {
     this.bodies = new BodyLayer(description);
     this.focus = focusOf(description);
-    this.lights = makeLights(description, this.focus);
+    this.lights = new LightRig(description, this.focus, hasEnvironment);
     this.grid = makeGrid(this.focus);
     this.sky = new Sky(description.look);
-    root.add(this.sky.mesh, this.bodies.group, this.lights, this.grid);
+    root.add(this.sky.mesh, this.bodies.group, this.lights.group, this.grid);
   }
 
   // Fetches the models, and shows each when it has arrived.
@@ -50,7 +51,7 @@ export class SceneParts {
   dispose(): void {
     this.isGone = true;
     this.bodies.dispose();
-    disposeLights(this.lights);
+    this.lights.dispose();
     disposeGrid(this.grid);
     this.sky.dispose();
   }

@@ -26,7 +26,7 @@ export class Sky {
   });
 
   constructor(look: SceneDescription["look"]) {
-    this.paint(look.sky ? SKY : shadesOf(colourOf(look.background)));
+    this.paint(shadesOfSky(look.sky ? null : colourOf(look.background)));
     this.mesh = new Mesh(this.geometry, this.material);
     this.mesh.frustumCulled = false;
     this.mesh.renderOrder = -1;
@@ -64,7 +64,9 @@ export class Sky {
   }
 }
 
-function shadesOf(background: Color): typeof SKY {
+// `background`: the colour of a world without a sky.
+export function shadesOfSky(background: Color | null): typeof SKY {
+  if (!background) return SKY;
   return {
     zenith: background.clone().multiplyScalar(0.8),
     horizon: background.clone().lerp(new Color(1, 1, 1), 0.08),

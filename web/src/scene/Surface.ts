@@ -3,6 +3,7 @@
 // size is empty until then.
 import type { Object3D, PerspectiveCamera, Scene } from "three";
 import type { DrawnView } from "../view/DrawnView";
+import type { AmbientOcclusion } from "./AmbientOcclusion";
 import { pngOf, videoOf } from "./capture";
 import { Quality } from "./Quality";
 import type { ViewRenderer } from "./renderer";
@@ -17,8 +18,9 @@ export class Surface {
   constructor(
     private readonly renderer: ViewRenderer,
     fixedQuality: boolean,
+    private readonly occlusion: AmbientOcclusion | null = null,
   ) {
-    this.quality = new Quality(devicePixelRatio, fixedQuality);
+    this.quality = new Quality(devicePixelRatio, fixedQuality, occlusion !== null);
   }
 
   // The canvas that receives the pointer.
@@ -57,8 +59,8 @@ export class Surface {
     this.renderer.shadowMap.needsUpdate = true;
   }
 
-  // Takes the time between two consecutive frames. Returns true if the next frame has another number
-  // of pixels.
+  // Takes the time between two consecutive frames. Returns true if the next frame is drawn in
+  // another way.
   frameTook(milliseconds: number): boolean {
     const hasChanged = this.quality.frameTook(milliseconds);
     this.isResized ||= hasChanged;
@@ -75,8 +77,9 @@ export class Surface {
 
   // Draws the scene, or on the images of the server only what is in `painted`.
   render(scene: Scene, camera: PerspectiveCamera, painted: () => Object3D[]): void {
-    if (this.drawn) this.drawn.show(camera, this.width, this.height, painted());
-    else this.renderer.render(scene, camera);
+    if (this.drawn) return this.drawn.show(camera, this.width, this.height, painted());
+    this.renderer.render(scene, camera);
+    if (this.quality.hasOcclusion) this.occlusion?.darken(scene, camera);
   }
 
   // The present image as PNG, with what `paint` adds.

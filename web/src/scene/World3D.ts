@@ -9,6 +9,7 @@ import type { OverlayColours, Shown } from "../state/overlays";
 import { FIRST_SHOWN } from "../state/overlays";
 import type { Viewpoint } from "../state/link";
 import type { Point, ViewMode } from "../state/State";
+import { AmbientOcclusion } from "./AmbientOcclusion";
 import type { ArrangerEvents } from "./Arranger";
 import type { EditToolsEvents } from "./EditTools";
 import { EditTools } from "./EditTools";
@@ -19,6 +20,7 @@ import { BodyPicker } from "./BodyPicker";
 import { CollisionLayer } from "./CollisionLayer";
 import { CameraRig } from "./CameraRig";
 import { fenceOf } from "./fence";
+import { Environment } from "./Environment";
 import { environmentOf } from "./framing";
 import { FrameRate } from "./FrameRate";
 import { GhostLayer } from "./GhostLayer";
@@ -58,6 +60,7 @@ export interface WorldOptions {
   library: ModelLibrary;
   inSoftware: boolean; // no graphics card draws
   fixedQuality: boolean;
+  hasFineLight: boolean; // light from around, ambient occlusion and shadows fitted to the view
 }
 
 export class World3D {
@@ -82,6 +85,7 @@ export class World3D {
   private framedFor = ""; // the environment that the camera was set up for
   private hasGraphics = true;
   private readonly frameRate: FrameRate;
+  private readonly environment: Environment | null; // null: no fine light
   private readonly shadows = new ShadowPace();
 
   constructor(
@@ -92,7 +96,9 @@ export class World3D {
     const isFine = options.fixedQuality || !options.inSoftware;
     const gl = makeRenderer(isFine);
     this.canDraw = gl !== null;
-    this.surface = new Surface(gl ?? makeBareRenderer(), options.fixedQuality);
+    const occlusion = gl && options.hasFineLight ? new AmbientOcclusion(gl) : null;
+    this.surface = new Surface(gl ?? makeBareRenderer(), options.fixedQuality, occlusion);
+    this.environment = gl && options.hasFineLight ? new Environment(gl, this.scene) : null;
     this.overlays = new OverlayLayers(isFine ? MOST_BEAMS : MOST_BEAMS_IN_SOFTWARE, !isFine);
     const { canvas } = this.surface;
     this.library = options.library;
@@ -361,7 +367,8 @@ export class World3D {
   }
 
   private build(scene: SceneDescription): void {
-    this.parts = new SceneParts(scene, this.scene);
+    this.environment?.show(scene.look);
+    this.parts = new SceneParts(scene, this.scene, this.environment !== null);
     const { bodies, focus } = this.parts;
     this.watch.robots = new RobotPlaces(bodies, this.overlays.frames);
     this.signs.setRobots(this.watch.robots);
@@ -399,7 +406,9 @@ export class World3D {
   private setGraphics(isThere: boolean): void {
     this.hasGraphics = isThere;
     this.events.onGraphics(isThere);
-    if (isThere) this.refresh();
+    if (!isThere) return;
+    this.environment?.renew();
+    this.refresh();
   }
 
   private resize(): void {
@@ -429,7 +438,8 @@ export class World3D {
     this.arranger.showHandle();
     this.tools.show();
     const isMoving = !this.poses.isSettled(now);
-    if (this.shadows.areDue(isMoving)) this.surface.renewShadows();
+    const isFitted = this.environment !== null && this.parts?.lights.fitShadow(this.rig.camera.position, this.rig.controls.target);
+    if (this.shadows.areDue(isMoving) || isFitted) this.surface.renewShadows();
     this.surface.prepare();
     this.signs.placeMarks(this.rig.camera, height, this.surface.pixelRatio, this.shown);
     this.surface.render(this.scene, this.rig.camera, () => this.painted());

@@ -1,0 +1,116 @@
+// Tests how the view lights surfaces, with the quality of a machine with a graphics card: metal
+// reflects its surroundings, corners are darker, and shadows near a robot are sharp.
+import assert from "node:assert/strict";
+import fs from "node:fs";
+import os from "node:os";
+import path from "node:path";
+import { after, before, test } from "node:test";
+import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { picture } from "./pixels.mjs";
+import { startServer } from "./server.mjs";
+import { phaseIs, settled, viewClip } from "./viewing.mjs";
+
+const shape = (name, pose, geometry, colour, more = "") => `
+  <model name="${name}"><static>true</static><pose>${pose} 0 0 0</pose><link name="link"><visual name="visual">
+    <geometry>${geometry}</geometry><material><diffuse>${colour} 1</diffuse>${more}</material>
+  </visual></link></model>`;
+const box = (size) => `<box><size>${size}</size></box>`;
+const METAL = "<pbr><metal><metalness>1</metalness><roughness>0.1</roughness></metal></pbr>";
+// The sun shines towards negative x, so the sides of the block at x = 0.5 and y = -0.5 have no
+// shadow on the ground.
+const WORLD = `<?xml version="1.0"?>
+<sdf version="1.9"><world name="lighting">
+  <light type="directional" name="sun"><cast_shadows>true</cast_shadows><direction>-0.5 0 -1</direction><diffuse>0.5 0.5 0.5 1</diffuse></light>
+  ${shape("ground", "0 0 -0.5", box("60 60 1"), "0.6 0.6 0.6")}
+  ${shape("block", "0 0 0.5", box("1 1 1"), "0.8 0.8 0.8")}
+  ${shape("pole", "3 0 0.1", box("0.02 0.02 0.2"), "0.8 0.8 0.8")}
+  ${shape("ball", "0 -3 0.5", "<sphere><radius>0.5</radius></sphere>", "0.9 0.7 0.3", METAL)}
+</world></sdf>`;
+
+const folder = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-lighting-"));
+let server;
+let browser;
+
+before(async () => {
+  const world = path.join(folder, "lighting.sdf");
+  fs.writeFileSync(world, WORLD);
+  server = await startServer([world]);
+  browser = await openBrowser({ width: 1100, height: 700 });
+  const { page } = await openPage(browser, server.url);
+  await waitUntilDrawn(page);
+  await page.getByRole("button", { name: "Pause", exact: true }).click();
+  await phaseIs(page, "paused");
+  await page.close();
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+  fs.rmSync(folder, { recursive: true, force: true });
+});
+
+// Opens a view from `eye` to `target` (metres), and returns a function that measures the brightness (0 to
+// 255) at a point of the world.
+async function look(quality, eye, target) {
+  const { page, faults } = await openPage(browser, `${server.url}${quality}#view=${[...eye, ...target]}&show=`);
+  await waitUntilDrawn(page);
+  await settled(page);
+  const clip = await viewClip(page);
+  const image = await picture(page, clip);
+  assert.deepEqual(faults, []);
+  await page.close();
+  return (point) => {
+    const { x, y } = project(point, eye, target, image);
+    const at = 4 * (Math.round(y) * image.width + Math.round(x));
+    return (image.data[at] + image.data[at + 1] + image.data[at + 2]) / 3;
+  };
+}
+
+// The pixel of a point for a camera with a vertical field of view of 50 degrees and z up.
+function project(point, eye, target, { width, height }) {
+  const minus = (a, b) => a.map((value, k) => value - b[k]);
+  const dot = (a, b) => a.reduce((sum, value, k) => sum + value * b[k], 0);
+  const cross = ([a, b, c], [d, e, f]) => [b * f - c * e, c * d - a * f, a * e - b * d];
+  const unit = (a) => a.map((value) => value / Math.hypot(...a));
+  const forward = unit(minus(target, eye));
+  const right = unit(cross(forward, [0, 0, 1]));
+  const up = cross(right, forward);
+  const from = minus(point, eye);
+  const scale = height / 2 / Math.tan((25 * Math.PI) / 180) / dot(from, forward);
+  return { x: width / 2 + scale * dot(from, right), y: height / 2 - scale * dot(from, up) };
+}
+
+const BEST = "?quality=best";
+
+test("metal reflects its surroundings where no light shines on it", async () => {
+  const [eye, target] = [[0, -6, 1], [0, -3, 0.5]];
+  const inShade = [-0.3, -3.35, 0.33]; // on the ball, away from the sun
+  const [plain, rich] = [(await look("", eye, target))(inShade), (await look(BEST, eye, target))(inShade)];
+  assert.ok(plain < 30, `without an environment: ${plain}`);
+  assert.ok(rich > 45 && rich > 2 * plain, `with one: ${rich}`);
+});
+
+test("the ground is darker beside a block than in the open, although the sun shines on it", async () => {
+  const [eye, target] = [[2.5, -2.5, 3], [0.5, -0.5, 0]];
+  const [beside, open] = [[0.53, 0, 0], [1.6, 0, 0]];
+  const share = async (quality) => {
+    const at = await look(quality, eye, target);
+    return at(beside) / at(open);
+  };
+  const [plain, rich] = [await share(""), await share(BEST)];
+  assert.ok(Math.abs(plain - 1) < 0.04, `without occlusion: ${plain}`);
+  assert.ok(rich < 0.93, `with it: ${rich}`);
+});
+
+test("the shadow of a pole of 2 cm is sharp, because the shadow map is fitted to the view", async () => {
+  const [eye, target] = [[3, -0.7, 0.5], [2.95, 0, 0.05]];
+  const edge = async (quality) => {
+    const at = await look(quality, eye, target);
+    const share = (y) => at([2.95, y, 0]) / at([2.95, -0.1, 0]);
+    return { inside: share(0), outside: share(-0.025) };
+  };
+  const [plain, rich] = [await edge(""), await edge(BEST)];
+  assert.ok(rich.inside < 0.75, `in the shadow: ${rich.inside}`);
+  assert.ok(rich.outside > 0.9, `15 mm beside it: ${rich.outside}`);
+  assert.ok(plain.outside < 0.9, `15 mm beside it, not fitted: ${plain.outside}`);
+});
