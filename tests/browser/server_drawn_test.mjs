@@ -10,10 +10,12 @@ let server;
 let browser;
 let page;
 let faults;
+const requested = []; // single images
 
 before(async () => {
   server = await startServer(SIMULATION);
   browser = await openBrowser({ width: 1024, height: 680, drawer: null, webgl: false });
+  browser.context.on("request", (request) => request.url().includes("view.jpg") && requested.push(request.url()));
   ({ page, faults } = await openPage(browser, server.url));
   await waitUntilDrawn(page);
 });
@@ -77,7 +79,32 @@ test("the image shows the robots' names, and a click selects a robot", async () 
   await page.getByRole("heading", { name: "pebble" }).first().waitFor();
 });
 
-test("there were no errors", () => {
+test("while the camera moves, a name stays at its robot in the image", async () => {
+  await page.keyboard.press("f"); // the camera follows the robot
+  const gaps = await page.evaluate(async () => {
+    const canvas = document.querySelector(".view canvas:not(.drawn-view)");
+    const label = [...document.querySelectorAll(".view *")].find((each) => each.children.length === 0 && each.textContent === "pebble");
+    const found = [];
+    for (let i = 0; i < 20; i++) {
+      const [x, y] = [400 + 8 * i, 300];
+      for (const type of i === 0 ? ["pointerdown"] : ["pointermove"]) {
+        canvas.dispatchEvent(new PointerEvent(type, { pointerId: 1, button: 0, buttons: 1, clientX: x, clientY: y, bubbles: true }));
+      }
+      const then = window.gsv.frames;
+      while (window.gsv.frames === then) await new Promise(requestAnimationFrame);
+      const place = window.gsv.robotScreenPosition("pebble");
+      const box = label.getBoundingClientRect();
+      if (place && box.width > 0) found.push(Math.abs(box.x + box.width / 2 - place.x));
+    }
+    canvas.dispatchEvent(new PointerEvent("pointerup", { pointerId: 1, button: 0, clientX: 552, clientY: 300, bubbles: true }));
+    return found;
+  });
+  assert.ok(gaps.length > 5, `the name was shown ${gaps.length} times`);
+  assert.ok(Math.max(...gaps) < 12, `names were ${Math.max(...gaps)} pixels away`);
+});
+
+test("the server pushes the images, and there were no errors", () => {
+  assert.deepEqual(requested, []);
   assert.deepEqual(faults, []);
 });
 

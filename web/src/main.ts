@@ -143,7 +143,7 @@ async function openWorld(): Promise<void> {
   world = createWorld(view, inSoftware);
   if (!world) return store.set({ view: "none" });
   connectWorld(world);
-  drawing = startDrawing(store, api, world, { inSoftware, chosen: chosenDrawer(storage, parameters) });
+  drawing = startDrawing(store, api, session, world, { inSoftware, chosen: chosenDrawer(storage, parameters) });
 }
 
 // Resolves when what is on the page so far is shown, so that the list of robots does not wait for the

@@ -12,6 +12,9 @@ export interface PageHandle {
   readonly frames: number;
   // Whether a frame is being drawn or requested.
   readonly isDrawing: boolean;
+  // The times from a state of the world to its image on the screen, in ms, of the last images that
+  // the server drew.
+  readonly imageDelaysMs: readonly number[];
   // The displayed simulated time, in seconds.
   readonly time: number;
   readonly phase: string | null;
@@ -51,6 +54,9 @@ export function exposeForTests(store: Store<State>, world: () => World3D | null,
     },
     get isDrawing() {
       return world()?.isDrawing ?? false;
+    },
+    get imageDelaysMs() {
+      return world()?.imageDelaysMs ?? [];
     },
     get time() {
       return store.get().time;

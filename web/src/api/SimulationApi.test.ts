@@ -24,6 +24,12 @@ test("the real-time factor is posted to its own address", async () => {
   expect(init).toMatchObject({ method: "POST", body: '{"real_time_factor":2.5}' });
 });
 
+test("a drive command ends by itself if no other one follows", async () => {
+  const { api, fetchPage } = answering({});
+  await api.drive("a b", "r", { linear_m_s: 1, lateral_m_s: 0, angular_rad_s: 0 });
+  expect(JSON.parse(String(fetchPage.mock.calls[0]![1]?.body))).toEqual({ linear_m_s: 1, lateral_m_s: 0, angular_rad_s: 0, timeout_s: 1 });
+});
+
 test("a command is posted to its own address with its arguments", async () => {
   const { api, fetchPage } = answering(STATUS);
   await api.command("a b", "set_gravity", { z: -1.62 });

@@ -36,6 +36,8 @@ export interface Drive {
 
 // Stopping and resetting wait for the behaviours.
 const ACTION_TIMEOUT_MS = 60_000;
+// Wall-clock seconds. The page repeats a drive command several times in this period.
+const DRIVE_TIMEOUT_S = 1;
 // The server reads both recordings completely.
 const DIFFERENCE_TIMEOUT_MS = 120_000;
 
@@ -218,9 +220,11 @@ export class SimulationApi {
     await this.server.get(`${simulationPath(name)}/robots/${encodeURIComponent(robot)}/topics`);
   }
 
+  // The robot stops soon after the last command, so that it does not continue if the page crashes or
+  // the connection is lost.
   async drive(name: string, robot: string, drive: Drive): Promise<void> {
     const path = `${simulationPath(name)}/robots/${encodeURIComponent(robot)}/drive`;
-    await this.server.post(path, drive);
+    await this.server.post(path, { ...drive, timeout_s: DRIVE_TIMEOUT_S });
   }
 
   async joints(name: string, body: string): Promise<BodyJoints> {

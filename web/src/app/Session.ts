@@ -11,6 +11,8 @@ import type { ClientEvents, ParameterValue, TopicCount } from "../protocol/Foxgl
 import { FoxgloveClient } from "../protocol/FoxgloveClient";
 import type { TopicOptions, TopicSource } from "../protocol/SharedTopics";
 import { SharedTopics } from "../protocol/SharedTopics";
+import type { LiveView, LiveViewSource, ViewReader } from "../protocol/LiveViews";
+import { SharedViews } from "../protocol/LiveViews";
 import { PACKED_POSES, POSES } from "../protocol/packedPoses";
 import type {
   ClockMessage,
@@ -66,14 +68,15 @@ export const NOTHING_WANTED: Wanted = { simulation: null, recording: null };
 
 // The part of the live stream that the session uses.
 export type LiveClient = Pick<FoxgloveClient, "connect" | "close" | "retryNow" | "subscribe" | "parameter" | "missingTopics"> &
-  Partial<Pick<FoxgloveClient, "counts">>;
+  Partial<Pick<FoxgloveClient, "counts" | "openView">>;
 export type ClientFactory = (url: string, events: ClientEvents) => LiveClient;
 
 type LayoutMessage = Pick<PosesMessage, "layout_version">;
 
-export class Session implements TopicSource {
+export class Session implements TopicSource, LiveViewSource {
   private client: LiveClient | null = null;
   private readonly topics = new SharedTopics(); // of the client
+  private readonly views = new SharedViews(); // of the client
   private timer: ReturnType<typeof setTimeout> | undefined;
   private attempt = 0;
   private sceneText = "";
@@ -171,12 +174,18 @@ export class Session implements TopicSource {
     this.client?.close();
     this.client = null;
     this.topics.attach(null);
+    this.views.attach(null);
   }
 
   // Reads a topic of the present simulation, and of each later one.
   subscribe<Message>(topic: string, handler: (message: Message) => void, options?: TopicOptions): () => void {
     this.wishes.lookSoon();
     return this.topics.subscribe(topic, handler, options);
+  }
+
+  // Opens a view of the present simulation, and of each later one.
+  openView(reader: ViewReader): LiveView {
+    return this.views.openView(reader);
   }
 
   get readTopics(): string[] {
@@ -286,6 +295,7 @@ export class Session implements TopicSource {
     });
     this.client = client;
     this.topics.attach(client);
+    this.views.attach(client.openView ? (client as LiveViewSource) : null);
     client.connect();
   }
 

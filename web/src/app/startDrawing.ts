@@ -1,5 +1,6 @@
 // Starts drawing the view, in the browser or on the server, according to ViewChoice.
 import type { SimulationApi } from "../api/SimulationApi";
+import type { LiveViewSource } from "../protocol/LiveViews";
 import type { World3D } from "../scene/World3D";
 import type { Drawer, State } from "../state/State";
 import type { Store } from "../state/Store";
@@ -8,6 +9,7 @@ import { notify } from "./notices";
 import { ViewChoice } from "./ViewChoice";
 
 const KEY = "gsv.drawer";
+const NOT_PUSHED = "This server does not push images, so the page requests each one. The view is slower.";
 
 export function keepDrawer(storage: Storage | null, drawer: Drawer): void {
   storage?.setItem(KEY, drawer);
@@ -21,6 +23,7 @@ export function chosenDrawer(storage: Storage | null, parameters: URLSearchParam
 export function startDrawing(
   store: Store<State>,
   api: SimulationApi,
+  live: LiveViewSource,
   world: World3D,
   options: { inSoftware: boolean; chosen: string | null },
 ): ViewChoice {
@@ -44,7 +47,12 @@ export function startDrawing(
     }
     if (world.canDraw) store.set({ view: "open" });
     else store.set({ view: "starting" });
-    world.drawBy(new DrawnView(fetchImage, { onImage: () => store.set({ view: "open" }), onProblem: fail }));
+    const events = {
+      onImage: () => store.get().view !== "open" && store.set({ view: "open" }),
+      onProblem: fail,
+      onNotPushed: () => notify(store, "note", NOT_PUSHED),
+    };
+    world.drawBy(new DrawnView({ live, fetchImage }, events));
   };
   choice = new ViewChoice(store, { ...options, canDraw: world.canDraw }, use);
   choice.start();

@@ -2,6 +2,8 @@
 // reconnects with increasing waiting times when the connection is lost. Subscriptions survive a
 // reconnection: they are made again when a server advertises their topic.
 import { backoffMs } from "./Backoff";
+import type { LiveView, LiveViewSource, ViewReader } from "./LiveViews";
+import { ConnectedViews } from "./LiveViews";
 import type { Channel } from "./MessageDecoder";
 import { MessageDecoders } from "./MessageDecoder";
 import type { TopicOptions, TopicSource } from "./SharedTopics";
@@ -59,7 +61,7 @@ interface SubscribedChannel {
   subscriptions: Set<Subscription>;
 }
 
-export class FoxgloveClient implements TopicSource {
+export class FoxgloveClient implements TopicSource, LiveViewSource {
   private socket: WebSocket | null = null;
   private attempt = 0;
   private timer: ReturnType<typeof setTimeout> | undefined;
@@ -73,6 +75,7 @@ export class FoxgloveClient implements TopicSource {
   private readonly counted = new Map<string, TopicCount>(); // by topic
   private readonly questions = new Map<string, (value: ParameterValue | null) => void>(); // by parameter
   private hasParameters = false;
+  private readonly views = new ConnectedViews((message) => this.send(message), () => this.nextSubscription++);
 
   constructor(
     private readonly url: string,
@@ -146,6 +149,12 @@ export class FoxgloveClient implements TopicSource {
     });
   }
 
+  // The images of a view that the server draws. Call show() of the result when the reader is told
+  // that the stream is open.
+  openView(reader: ViewReader): LiveView {
+    return this.views.openView(reader);
+  }
+
   private unsubscribe(subscription: Subscription): void {
     this.subscriptions.delete(subscription);
     const { id } = subscription;
@@ -193,6 +202,7 @@ export class FoxgloveClient implements TopicSource {
     this.channels.clear();
     this.subscribed.clear();
     this.hasParameters = false;
+    this.views.lost();
     for (const name of [...this.questions.keys()]) this.answer(name, null);
     for (const subscription of this.subscriptions) Object.assign(subscription, { id: null, ended: false });
     if (!socket) return;
@@ -212,8 +222,14 @@ export class FoxgloveClient implements TopicSource {
   private receiveText(text: string): void {
     const message = JSON.parse(text) as Record<string, unknown>;
     switch (message.op) {
-      case "serverInfo":
-        this.hasParameters = ((message.capabilities ?? []) as unknown[]).includes("parameters");
+      case "serverInfo": {
+        const capabilities = (message.capabilities ?? []) as unknown[];
+        this.hasParameters = capabilities.includes("parameters");
+        this.views.connected(capabilities.includes("gsvViews"));
+        break;
+      }
+      case "gsvViewFailure":
+        this.views.takeFailure(message);
         break;
       case "parameterValues":
         for (const { name, value } of (message.parameters ?? []) as { name: string; value: ParameterValue }[]) {
@@ -282,11 +298,13 @@ export class FoxgloveClient implements TopicSource {
 
   private receiveBinary(frame: DataView): void {
     if (frame.byteLength < MESSAGE_DATA_HEADER_BYTES || frame.getUint8(0) !== MESSAGE_DATA) return;
-    const entry = this.subscribed.get(frame.getUint32(1, true));
-    if (!entry) return; // unsubscribed while this was under way
+    const id = frame.getUint32(1, true);
+    const payload = new DataView(frame.buffer, frame.byteOffset + MESSAGE_DATA_HEADER_BYTES);
+    const entry = this.subscribed.get(id);
+    // Otherwise it is an image of a view, or it was unsubscribed while this was under way.
+    if (!entry) return void this.views.takeMessage(id, frame.getBigUint64(5, true), payload);
     const { subscriptions, channel } = entry;
     this.count(channel.topic, frame.byteLength);
-    const payload = new DataView(frame.buffer, frame.byteOffset + MESSAGE_DATA_HEADER_BYTES);
     for (const subscription of [...subscriptions]) {
       if (subscription.newestOnly) this.handOverLater(subscription, channel, payload);
       else this.handOver(subscription, channel, payload);

@@ -9,7 +9,7 @@ import type { RobotPlaces } from "./RobotPlaces";
 
 export interface PickedView {
   host: HTMLElement;
-  camera: PerspectiveCamera;
+  camera(): PerspectiveCamera;
   bodies(): BodyLayer | null;
   robots(): RobotPlaces | null;
 }
@@ -44,11 +44,11 @@ export class BodyPicker {
   robotOnScreen(robot: string): ScreenPlace | null {
     const middle = this.view.robots()?.middleOf(robot);
     if (!middle) return null;
-    return screenPlaceOf(middle, this.view.camera, this.view.host.getBoundingClientRect());
+    return screenPlaceOf(middle, this.view.camera(), this.view.host.getBoundingClientRect());
   }
 
   private bodyAt(place: ScreenPlace): SceneBody | null {
     const { host, camera } = this.view;
-    return this.view.bodies()?.pick(rayThrough(place, host.getBoundingClientRect(), camera)) ?? null;
+    return this.view.bodies()?.pick(rayThrough(place, host.getBoundingClientRect(), camera())) ?? null;
   }
 }

@@ -93,3 +93,18 @@ test("the poses of a recent instant are available", () => {
   expect(moving(10).at(0.07)?.[0]).toBeCloseTo(0.28, 12);
   expect(moving(100).at(0.01)).toBeNull();
 });
+
+test("the poses at a simulated time lie between two updates, and the newest one of equal times counts", () => {
+  const interpolator = new PoseInterpolator();
+  const out = new Float64Array(7);
+  expect(interpolator.readAt(1, out)).toBe(false);
+  interpolator.push(update(100, poseAt(1)), 0);
+  interpolator.push(update(200, poseAt(3)), 40);
+  interpolator.push(update(200, poseAt(5)), 80); // edited while paused
+  const at = (stamp: number) => (interpolator.readAt(stamp, out), out[0]);
+  expect(at(1.5)).toBeCloseTo(2, 12);
+  expect(at(1)).toBe(1);
+  expect(at(0.5)).toBe(1);
+  expect(at(2)).toBe(5);
+  expect(at(9)).toBe(5);
+});

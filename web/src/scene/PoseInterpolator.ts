@@ -77,6 +77,20 @@ export class PoseInterpolator {
     return true;
   }
 
+  // Writes the poses at a simulated time, or the nearest known ones. Returns false if there are none
+  // yet.
+  readAt(stamp: number, out: Float64Array): boolean {
+    const last = this.samples.at(-1);
+    if (!last || last.poses.length !== out.length) return false;
+    // Of several samples with the same time, as after an edit while paused, the newest counts.
+    const after = this.samples.findIndex((sample) => sample.stamp > stamp);
+    const to = this.samples[after];
+    const from = this.samples[after - 1];
+    if (to && from) interpolatePoses(from.poses, to.poses, (stamp - from.stamp) / (to.stamp - from.stamp), out);
+    else out.set((to ?? last).poses);
+    return true;
+  }
+
   // Whether `read` gives the same result until the next update arrives.
   isSettled(nowMs: number): boolean {
     const last = this.samples.at(-1);

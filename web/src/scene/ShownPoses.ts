@@ -42,6 +42,13 @@ export class ShownPoses {
     return true;
   }
 
+  // The same for the poses at a simulated time in seconds, as in an image of the server.
+  showAt(stamp: number): boolean {
+    if (!this.bodies || !this.interpolator.readAt(stamp, this.shown)) return false;
+    this.bodies.setPoses(this.shown);
+    return true;
+  }
+
   isSettled(nowMs: number): boolean {
     return this.interpolator.isSettled(nowMs);
   }

@@ -37,15 +37,27 @@ export class Surface {
     return this.drawn?.images ?? null;
   }
 
+  // The image of the server that is shown; null: there is none, or the browser draws.
+  get drawnImage(): DrawnView["shown"] {
+    return this.drawn?.shown ?? null;
+  }
+
+  get imageDelaysMs(): readonly number[] {
+    return this.drawn?.delaysMs ?? [];
+  }
+
   get pixelRatio(): number {
     return this.renderer.getPixelRatio();
   }
 
-  // Shows images of the server from now on; null: the browser draws.
-  drawBy(drawn: DrawnView | null): void {
+  // Shows images of the server from now on; null: the browser draws. `onImage`: there is another
+  // image to paint.
+  drawBy(drawn: DrawnView | null, onImage: () => void): void {
     this.drawn?.dispose();
     this.drawn = drawn;
-    if (drawn) this.canvas.after(drawn.canvas);
+    if (!drawn) return;
+    drawn.onNewImage = onImage;
+    this.canvas.after(drawn.canvas);
   }
 
   resize(width: number, height: number): void {
@@ -62,9 +74,15 @@ export class Surface {
   // Takes the time between two consecutive frames. Returns true if the next frame is drawn in
   // another way.
   frameTook(milliseconds: number): boolean {
+    if (this.drawn) return false;
     const hasChanged = this.quality.frameTook(milliseconds);
     this.isResized ||= hasChanged;
     return hasChanged;
+  }
+
+  // Goes to the newest image of the server, if it draws. Call this at the beginning of a frame.
+  advance(): void {
+    this.drawn?.advance();
   }
 
   // Brings the canvas to its size. Call this before `render`.
@@ -75,9 +93,12 @@ export class Surface {
     this.renderer.setSize(this.width, this.height);
   }
 
-  // Draws the scene, or on the images of the server only what is in `painted`.
+  // Draws the scene, or on the present image of the server only what is in `painted`.
   render(scene: Scene, camera: PerspectiveCamera, painted: () => Object3D[]): void {
-    if (this.drawn) return this.drawn.show(camera, this.width, this.height, painted());
+    if (this.drawn) {
+      this.drawn.show(camera, this.width, this.height);
+      return this.drawn.paint(painted());
+    }
     this.renderer.render(scene, camera);
     if (this.quality.hasOcclusion) this.occlusion?.darken(scene, camera);
   }

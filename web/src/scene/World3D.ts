@@ -1,6 +1,6 @@
 // The 3D view, the only interface between three.js and the rest of the page. It draws frames only
 // after changes. Screen positions are in CSS pixels of the page.
-import type { Matrix4, Object3D } from "three";
+import type { Matrix4, Object3D, PerspectiveCamera } from "three";
 import { Scene } from "three";
 import type { SceneDescription } from "../api/scene";
 import type { Expectation } from "../state/expectations";
@@ -46,6 +46,8 @@ const MOST_BEAMS = 20_000;
 const MOST_BEAMS_IN_SOFTWARE = 2000;
 // A scene is first drawn with its shapes, unless they take longer than this.
 const LONGEST_WAIT_FOR_SHAPES_MS = 400;
+// Poses without an image of the server are shown after this time.
+const LATE_POSES_MS = 150;
 
 export interface WorldEvents extends Pick<ArrangerEvents, "onPlace">, Omit<EditToolsEvents, "onPlacePoint"> {
   onPick(robot: string | null): void;
@@ -84,6 +86,7 @@ export class World3D {
   private shown: Shown = FIRST_SHOWN;
   private framedFor = ""; // the environment that the camera was set up for
   private hasGraphics = true;
+  private latePoses: ReturnType<typeof setTimeout> | undefined;
   private readonly frameRate: FrameRate;
   private readonly environment: Environment | null; // null: no fine light
   private readonly shadows = new ShadowPace();
@@ -119,7 +122,7 @@ export class World3D {
       (from, direction, far) => this.bodies?.freeAlong(from, direction, far) ?? Infinity,
     );
     this.watch = new RobotWatch(this.rig);
-    this.picker = new BodyPicker({ host, camera: this.rig.camera, bodies: () => this.bodies, robots: () => this.watch.robots });
+    this.picker = new BodyPicker({ host, camera: () => this.shownCamera, bodies: () => this.bodies, robots: () => this.watch.robots });
     this.arranger = new Arranger(this.arrangerView(), events);
     this.tools = new EditTools(this.toolsView(), { ...events, onPlacePoint: (point) => this.arranger.placeAt(point) });
     this.scene.add(this.ghosts.group, this.overlays.group, this.signs.marks.points, this.watch.ring.mesh, this.arranger.handle.group, this.tools.group);
@@ -156,7 +159,11 @@ export class World3D {
 
   setPoses(message: PosesMessage): void {
     this.poses.take(message);
-    this.loop.request();
+    if (!this.surface.isDrawnByServer) return this.loop.request();
+    // The server draws these poses too, and its image requests a frame. While paused, the poses may
+    // come after their image.
+    clearTimeout(this.latePoses);
+    this.latePoses = setTimeout(() => this.loop.request(), LATE_POSES_MS);
   }
 
   setBeams(message: MarkerArrayMessage): void {
@@ -289,8 +296,14 @@ export class World3D {
 
   // Shows images of the server from now on; null: the browser draws.
   drawBy(drawn: DrawnView | null): void {
-    this.surface.drawBy(drawn);
+    this.surface.drawBy(drawn, () => this.loop.request());
     this.refresh();
+  }
+
+  // The times from a state of the world to its image on the screen, in ms, of the last images of the
+  // server.
+  get imageDelaysMs(): readonly number[] {
+    return this.surface.imageDelaysMs;
   }
 
   // The present view with the names, as PNG.
@@ -422,9 +435,21 @@ export class World3D {
     if (this.surface.frameTook(milliseconds)) this.loop.request();
   }
 
+  // The camera of what is on the screen: images of the server show where the camera was.
+  private get shownCamera(): PerspectiveCamera {
+    return this.surface.drawnImage?.camera ?? this.rig.camera;
+  }
+
+  private showPoses(now: number): boolean {
+    if (this.arranger.holds || this.tools.holds) return false;
+    const stamp = this.surface.drawnImage?.stamp ?? null;
+    return stamp === null ? this.poses.show(now) : this.poses.showAt(stamp);
+  }
+
   private draw(now: number): boolean {
     if (!this.hasGraphics && !this.surface.isDrawnByServer) return false;
-    if (!this.arranger.holds && !this.tools.holds && this.poses.show(now)) {
+    this.surface.advance();
+    if (this.showPoses(now)) {
       this.shadows.moved();
       this.watch.move();
     }
@@ -441,12 +466,12 @@ export class World3D {
     const isFitted = this.environment !== null && this.parts?.lights.fitShadow(this.rig.camera.position, this.rig.controls.target);
     if (this.shadows.areDue(isMoving) || isFitted) this.surface.renewShadows();
     this.surface.prepare();
-    this.signs.placeMarks(this.rig.camera, height, this.surface.pixelRatio, this.shown);
+    this.signs.placeMarks(this.shownCamera, height, this.surface.pixelRatio, this.shown);
     this.surface.render(this.scene, this.rig.camera, () => this.painted());
-    this.signs.placeLabels(this.rig.camera, width, height, this.watch.selection, this.shown, isMoving);
+    this.signs.placeLabels(this.shownCamera, width, height, this.watch.selection, this.shown, isMoving);
     this.events.onScale(this.rig.metresPerPixel);
     this.frameRate.count(this.surface.images ?? this.frames, now);
-    return isFlying || isMoving;
+    return isFlying || (isMoving && !this.surface.isDrawnByServer);
   }
 
   // The objects that the page draws over an image from the server.

@@ -2,87 +2,168 @@
 // top. The canvas lies over the one that receives the pointer, and does not block it.
 import type { Object3D, PerspectiveCamera } from "three";
 import { Vector3 } from "three";
-import type { FetchImage, ServerCamera } from "./ImageFeed";
+import type { LiveViewSource } from "../protocol/LiveViews";
+import type { ArrivedImage, Feed, FetchImage, ServerCamera } from "./ImageFeed";
 import { ImageFeed, queryOf } from "./ImageFeed";
 import { OverlayPainter } from "./OverlayPainter";
+import { PushedFeed } from "./PushedFeed";
+
+export interface ImageSources {
+  live: LiveViewSource; // pushes images
+  fetchImage: FetchImage; // for servers that push none
+}
 
 export interface DrawnViewEvents {
   onImage(): void;
   onProblem(sentence: string): void;
+  // The server pushes no images, so each is requested.
+  onNotPushed(): void;
 }
 
 const LARGEST_SIDE_PX = 4096;
 const MOST_PX = 3840 * 2160; // the server's limits
 const SMALLEST_SIDE_PX = 16;
-const MOST_CAMERAS = 200; // while no image comes
+const MAX_CAMERAS = 200; // while no image comes
+const KEPT_DELAYS = 1000;
+
+interface DecodedImage {
+  bitmap: ImageBitmap;
+  camera: PerspectiveCamera;
+  arrived: ArrivedImage;
+}
 
 export class DrawnView {
   readonly canvas = document.createElement("canvas");
-  private readonly feed: ImageFeed;
-  private readonly cameras = new Map<string, PerspectiveCamera>(); // of requests under way
-  private overlays: readonly Object3D[] = [];
-  private latest: { image: ImageBitmap; camera: PerspectiveCamera } | null = null;
+  images = 0; // so far
+  // The times from a state of the world to its image on the screen, in ms, of the last images.
+  // Correct only if the server has the same clock.
+  readonly delaysMs: number[] = [];
+  // Called when there is another image for advance().
+  onNewImage = () => {};
+  private feed: Feed;
+  private readonly cameras = new Map<string, PerspectiveCamera>(); // of images under way
+  private wanted: ServerCamera | null = null;
+  private waiting: ArrivedImage | null = null; // the newest that is not decoded yet
+  private isDecoding = false;
+  private isDisposed = false;
+  private next: DecodedImage | null = null;
+  private present: DecodedImage | null = null; // that is shown
 
   constructor(
-    fetchImage: FetchImage,
+    sources: ImageSources,
     private readonly events: DrawnViewEvents,
   ) {
     this.canvas.className = "drawn-view";
     this.canvas.setAttribute("aria-hidden", "true"); // the canvas below it has the name
-    this.feed = new ImageFeed(fetchImage, {
-      onImage: (image, camera) => void this.take(image, camera),
-      onProblem: (sentence) => events.onProblem(sentence),
+    const taken = {
+      onImage: (image: ArrivedImage) => this.take(image),
+      onProblem: (sentence: string) => events.onProblem(sentence),
+    };
+    this.feed = new PushedFeed(sources.live, {
+      ...taken,
+      onNotOffered: () => {
+        events.onNotPushed();
+        this.feed = new ImageFeed(sources.fetchImage, taken);
+        if (this.wanted) this.feed.show(this.wanted);
+      },
     });
   }
 
-  get images(): number {
-    return this.feed.images;
+  // The camera of the image that is shown, and its simulated time in seconds (null: unknown); null:
+  // there is no image yet.
+  get shown(): { camera: PerspectiveCamera; stamp: number | null } | null {
+    return this.present && { camera: this.present.camera, stamp: this.present.arrived.stamp };
   }
 
-  // Shows this camera's images in an area of this size in CSS pixels. The camera is read again only
-  // at the next call.
-  show(camera: PerspectiveCamera, width: number, height: number, overlays: readonly Object3D[]): void {
-    this.overlays = overlays;
-    const wanted = serverCameraOf(camera, width, height, devicePixelRatio);
-    const query = queryOf(wanted);
+  // Goes to the newest image. Call this at the beginning of a frame, so that all that belongs to the
+  // image is placed by the same camera.
+  advance(): void {
+    if (!this.next) return;
+    this.present?.bitmap.close();
+    this.present = this.next;
+    this.next = null;
+    this.report(this.present.arrived);
+  }
+
+  // Requests images of this camera in an area of this size in CSS pixels. The camera is read again
+  // only at the next call.
+  show(camera: PerspectiveCamera, width: number, height: number): void {
+    this.wanted = serverCameraOf(camera, width, height, devicePixelRatio);
+    const query = queryOf(this.wanted);
     if (!this.cameras.has(query)) this.cameras.set(query, camera.clone());
-    if (this.cameras.size > MOST_CAMERAS) this.cameras.delete(this.cameras.keys().next().value!);
-    this.feed.show(wanted);
-    if (this.latest) this.paint();
+    if (this.cameras.size > MAX_CAMERAS) this.cameras.delete(this.cameras.keys().next().value!);
+    this.feed.show(this.wanted);
+  }
+
+  // Paints the present image with these overlays.
+  paint(overlays: readonly Object3D[]): void {
+    const context = this.present && this.canvas.getContext("2d", { alpha: false });
+    if (!this.present || !context) return;
+    const { bitmap, camera } = this.present;
+    const { width, height } = this.present.arrived.camera;
+    if (this.canvas.width !== width || this.canvas.height !== height) {
+      this.canvas.width = width;
+      this.canvas.height = height;
+    }
+    context.drawImage(bitmap, 0, 0, width, height);
+    new OverlayPainter(context, width, height, camera).paint(overlays);
   }
 
   dispose(): void {
+    this.isDisposed = true;
     this.feed.end();
     this.canvas.remove();
-    this.latest?.image.close();
+    for (const image of [this.next, this.present]) image?.bitmap.close();
+    this.next = this.present = null;
   }
 
-  private async take(blob: Blob, of: ServerCamera): Promise<void> {
-    const image = await createImageBitmap(blob);
+  private take(image: ArrivedImage): void {
+    this.waiting?.shown(); // it is left out
+    this.waiting = image;
+    if (!this.isDecoding) void this.decode();
+  }
+
+  private async decode(): Promise<void> {
+    this.isDecoding = true;
+    while (this.waiting) {
+      const arrived = this.waiting;
+      this.waiting = null;
+      const bitmap = await createImageBitmap(arrived.jpeg).catch(() => null);
+      if (this.isDisposed) return bitmap?.close();
+      const camera = this.cameraOf(arrived.camera);
+      if (!bitmap || !camera) {
+        bitmap?.close();
+        arrived.shown();
+        continue;
+      }
+      if (this.next) {
+        this.next.bitmap.close(); // it is left out
+        this.next.arrived.shown();
+      }
+      this.next = { bitmap, camera, arrived };
+      this.images += 1;
+      this.onNewImage();
+      this.events.onImage();
+    }
+    this.isDecoding = false;
+  }
+
+  private cameraOf(of: ServerCamera): PerspectiveCamera | null {
     const query = queryOf(of);
     const camera = this.cameras.get(query);
-    if (!camera) return image.close();
+    if (!camera) return null;
     // Earlier entries belong to images that will not arrive any more.
     for (const known of this.cameras.keys()) {
       if (known === query) break;
       this.cameras.delete(known);
     }
-    this.latest?.image.close();
-    this.latest = { image, camera };
-    this.paint();
-    this.events.onImage();
+    return camera;
   }
 
-  private paint(): void {
-    const { image, camera } = this.latest!;
-    const context = this.canvas.getContext("2d");
-    if (!context) return;
-    if (this.canvas.width !== image.width || this.canvas.height !== image.height) {
-      this.canvas.width = image.width;
-      this.canvas.height = image.height;
-    }
-    context.drawImage(image, 0, 0);
-    new OverlayPainter(context, image.width, image.height, camera).paint(this.overlays);
+  private report({ seenMs, shown }: ArrivedImage): void {
+    if (seenMs !== null) this.delaysMs.push(Date.now() - seenMs);
+    if (this.delaysMs.length > KEPT_DELAYS) this.delaysMs.shift();
+    shown();
   }
 }
 

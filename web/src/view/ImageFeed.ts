@@ -1,5 +1,6 @@
-// Fetches images that the server draws, one after another: the next one is requested when the last
-// one has arrived, so that a slow connection gets fewer images, but never old ones.
+// Fetches images that the server draws, one after another, from servers that push none. The next
+// image is requested when the last one has arrived, so that a slow connection gets fewer images, but
+// never old ones.
 
 // The camera in the server's form; lengths in metres, the size in pixels.
 export interface ServerCamera {
@@ -10,20 +11,33 @@ export interface ServerCamera {
   height: number;
 }
 
+export interface ArrivedImage {
+  jpeg: Blob;
+  camera: ServerCamera; // for which it was drawn
+  stamp: number | null; // s, simulated; null: unknown
+  seenMs: number | null; // when the server first saw this state, in ms since 1970; null: unknown
+  // Call this when the image is on the screen, or is left out.
+  shown(): void;
+}
+
 export interface FeedEvents {
-  // An image, with the camera for which it was drawn.
-  onImage(image: Blob, camera: ServerCamera): void;
+  onImage(image: ArrivedImage): void;
   // The server draws no images, for the reason in the sentence. The feed has ended.
   onProblem(sentence: string): void;
 }
 
+// A source of images. It shows the images of the latest camera.
+export interface Feed {
+  show(camera: ServerCamera): void;
+  end(): void;
+}
+
 export type FetchImage = (query: string, signal: AbortSignal) => Promise<Response>;
 
-const RETRY_MS = 1000;
-const TRIES = 3; // in a row that may fail, as while the server restarts
+export const RETRY_MS = 1000;
+export const TRIES = 3; // in a row that may fail, as while the server restarts
 
-export class ImageFeed {
-  images = 0;
+export class ImageFeed implements Feed {
   private wanted: ServerCamera | null = null;
   private shown = ""; // the camera of the last image, as a query
   private number = ""; // of the last image
@@ -78,12 +92,11 @@ export class ImageFeed {
       const response = await this.fetchImage(query, signal);
       if (response.status === 204) return null;
       if (!response.ok) return await sentenceOf(response);
-      const image = await response.blob();
+      const jpeg = await response.blob();
       if (this.isEnded) return null;
       this.shown = queryOf(camera);
       this.number = (response.headers.get("etag") ?? "").replaceAll('"', "");
-      this.images += 1;
-      this.events.onImage(image, camera);
+      this.events.onImage({ jpeg, camera, stamp: stampOf(response), seenMs: null, shown: () => {} });
       return null;
     } catch (error) {
       if (signal.aborted) return null;
@@ -95,6 +108,11 @@ export class ImageFeed {
 export function queryOf({ eye, target, fieldOfViewDeg, width, height }: ServerCamera): string {
   const point = (place: readonly number[]) => place.map((value) => value.toFixed(4)).join(",");
   return `size=${width}x${height}&eye=${point(eye)}&target=${point(target)}&fov=${fieldOfViewDeg.toFixed(3)}`;
+}
+
+function stampOf(response: Response): number | null {
+  const stamp = response.headers.get("gsv-time");
+  return stamp === null ? null : Number(stamp);
 }
 
 async function sentenceOf(response: Response): Promise<string> {
