@@ -156,18 +156,23 @@ std::vector<TimedPose> SimulatedOdometry(const std::vector<TimedPose>& truth,
 }
 
 sensing::OdometryDrift FitDrift(const std::vector<MotionWindow>& windows) {
-  const MotionStatistics statistics = StatisticsOf(windows);
+  // The errors are those of the estimate. The regression of the estimate on the truth therefore has no
+  // bias, unlike the inverse of MotionStatistics::way_ratio.
+  std::vector<double> ways, turns, true_ways, true_turns;
+  for (const MotionWindow& window : windows) {
+    ways.push_back(window.reckoned_way), true_ways.push_back(window.true_way);
+    turns.push_back(window.reckoned_turn), true_turns.push_back(window.true_turn);
+  }
   sensing::OdometryDrift drift;
-  drift.linear_scale = 1 / std::max(statistics.way_ratio, 0.01);
-  drift.angular_scale = 1 / std::max(statistics.turn_ratio, 0.01);
+  drift.linear_scale = std::max(Slope(true_ways, ways), 0.01);
+  drift.angular_scale = std::max(Slope(true_turns, turns), 0.01);
   double metres = 0, way_squares = 0;
   // The normal equations of squares = a metres + b radians.
   double mm = 0, mr = 0, rr = 0, ms = 0, rs = 0;
   for (std::size_t i = 0; i < windows.size(); ++i) {
     const MotionWindow& w = windows[i];
-    // The error is proportional to the odometry's estimate.
-    const double way = statistics.way_residuals[i] * drift.linear_scale;
-    const double turn = std::pow(statistics.turn_residuals[i] * drift.angular_scale, 2);
+    const double way = ways[i] - drift.linear_scale * true_ways[i];
+    const double turn = std::pow(turns[i] - drift.angular_scale * true_turns[i], 2);
     metres += w.metres, way_squares += way * way;
     mm += w.metres * w.metres, mr += w.metres * w.radians, rr += w.radians * w.radians;
     ms += w.metres * turn, rs += w.radians * turn;

@@ -61,6 +61,23 @@ TEST(OdometryComparison, FitsTheDriftThatMadeTheLog) {
   EXPECT_WITHIN_PERCENT(std::hypot(fit.angular_per_radian, fit.angular_per_metre), 0.06, 30);
 }
 
+// Errors of +-10 cm on ways of 30 cm: the inverse of the regression on the estimate would give 1.17.
+TEST(OdometryComparison, FitsTheScaleWithoutBias) {
+  std::vector<MotionWindow> windows;
+  for (int i = 0; i < 40; ++i) {
+    MotionWindow window;
+    window.true_way = window.metres = 0.3;
+    window.true_turn = window.radians = 0.2;
+    window.reckoned_way = 1.05 * 0.3 + (i % 2 == 0 ? 0.1 : -0.1);
+    window.reckoned_turn = 0.9 * 0.2 + (i / 2 % 2 == 0 ? 0.05 : -0.05);
+    windows.push_back(window);
+  }
+  const sensing::OdometryDrift fit = FitDrift(windows);
+  EXPECT_NEAR(fit.linear_scale, 1.05, 1e-12);
+  EXPECT_NEAR(fit.angular_scale, 0.9, 1e-12);
+  EXPECT_NEAR(fit.linear_per_metre, 0.1 / std::sqrt(0.3), 1e-12);
+}
+
 TEST(WorldFit, FindsTheWallThatAScannerSaw) {
   Log log;
   log.max_range = 10;
