@@ -1,14 +1,14 @@
-// What the page begins before the rest of its script is read, because it takes long: the start of the
-// graphics, and the requests for what is shown first.
+// Begins tasks that take long, before the rest of the page's script is read: starts the graphics, and requests the
+// data that the page shows first.
 import { EarlyRequests } from "./api/EarlyRequests";
 import { pageCredentials } from "./api/credentials";
 import { startGraphics } from "./scene/graphics";
 
 export const parameters = new URLSearchParams(location.search);
 export const credentials = pageCredentials(window);
-// Whether the browser draws in software.
+// Resolves to whether the browser draws in software, without a graphics card.
 export const graphics = startGraphics();
 export const requests = new EarlyRequests(document.baseURI, credentials.fetch);
 
-// A recording is opened first.
+// Not with a recording in the address: the page must open it first.
 if (!parameters.has("recording")) void requests.begin(parameters.get("simulation"));

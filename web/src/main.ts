@@ -128,7 +128,7 @@ function showSelectedPose(): void {
   if (selection === null || !latest) return;
   const pose = selected.update(selection, latest, performance.now());
   if (pose) store.set({ selectedPose: pose });
-  // There may be no further poses, because it is paused or the recording was moved to this instant.
+  // If the simulation is paused or the replay was moved here, no further poses arrive, so a timer shows this one.
   else nextPose = setTimeout(showSelectedPose, SHORTEST_UPDATE_MS);
 }
 
@@ -146,8 +146,8 @@ async function openWorld(): Promise<void> {
   drawing = startDrawing(store, api, session, world, { inSoftware, chosen: chosenDrawer(storage, parameters) });
 }
 
-// Resolves when what is on the page so far is shown, so that the list of robots does not wait for the
-// view. A page in the background shows nothing.
+// Resolves when the browser has drawn the present page, so that the list of robots need not wait for the 3D view. In
+// the background, nothing is drawn.
 function painted(): Promise<void> {
   return new Promise((resolve) => {
     setTimeout(resolve, LONGEST_PAINTING_MS);
@@ -166,7 +166,7 @@ function connectWorld(world: World3D): void {
     ({ editing }) => editing !== null,
     (isEditing) => {
       endPoses();
-      // Undo restores poses exactly, so editing needs the unrounded ones.
+      // Editing needs exact poses and not the rounded ones, because undo restores poses exactly.
       endPoses = isEditing
         ? session.subscribe<PosesMessage>(POSES, takePoses)
         : session.subscribe<PosesMessage | PackedPosesMessage>(PACKED_POSES, takePoses, { orElse: POSES });
@@ -176,7 +176,7 @@ function connectWorld(world: World3D): void {
     ({ scene }) => scene,
     (scene) => {
       world.setScene(scene);
-      showSelectedPose(); // its poses may have come before it
+      showSelectedPose(); // the poses may have arrived before the scene
       showChosenPose(store, world);
     },
   );
@@ -256,7 +256,7 @@ function posesOfPreview(poses: Float64Array, layoutVersion: number): PosesMessag
   return { stamp: { sec: 0, nsec: 0 }, step: 0n, layout_version: layoutVersion, poses };
 }
 
-// The selected avatar, or else the first one. A recorded avatar cannot be driven.
+// Returns the selected avatar, or else the first one. A recorded avatar cannot be driven.
 function avatarToDrive(): string | null {
   const { scene, selection, replay } = store.get();
   if (replay) return null;
@@ -282,7 +282,7 @@ const workspace = new Workspace(
   (space) => STANDARD.layout(space),
 );
 const sceneTree = createSceneTree(ports, pageNames(app));
-// On a narrow screen the list covers the view, so it closes when a robot is chosen.
+// On a narrow screen the list covers the view, so it closes when the user selects a robot.
 sceneTree.addEventListener("click", ({ target }) => {
   if (target instanceof Element && target.closest("[data-robot], [data-object]")) page.classList.remove("sidebar-open");
 });
@@ -339,7 +339,7 @@ app.past.start();
 app.notes.start();
 app.compare.start();
 app.link.start(window);
-// A page's own replay is not visible to others.
+// Viewers of a page's own replay are not listed, because nobody else can see this replay.
 if (!parameters.has("recording")) app.people.start(window);
 session.start();
 void openWorld();

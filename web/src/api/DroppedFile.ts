@@ -5,7 +5,7 @@ export interface DroppedFile {
   content(): Promise<Blob>;
 }
 
-export const LARGEST_FILE = 64 * 2 ** 20; // bytes; the server's limit
+export const LARGEST_FILE = 64 * 2 ** 20; // maximum size of a file that the server accepts, bytes
 export const MOST_FILES = 2000;
 
 export function droppedFile(path: string, file: File): DroppedFile {

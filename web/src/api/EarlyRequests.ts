@@ -1,8 +1,8 @@
-// Requests what the page shows first, before the rest of the page's script is read. Each answer is
-// handed out once, to the request that the page then makes for it.
+// Requests the data that the page shows first, while the rest of the page's script is still being loaded. Each answer
+// is used once, for the page's own request of the same address.
 import { simulationPath } from "./JsonServer";
 
-// An older answer is not handed out.
+// An older answer is not used.
 const LONGEST_AGE_MS = 5000;
 
 interface Begun {
@@ -11,7 +11,7 @@ interface Begun {
 }
 
 export class EarlyRequests {
-  private readonly begun = new Map<string, Begun>(); // by address
+  private readonly begun = new Map<string, Begun>(); // requests that have begun, by address
 
   constructor(
     private readonly root: string,
@@ -19,8 +19,8 @@ export class EarlyRequests {
     private readonly now: () => number = () => performance.now(),
   ) {}
 
-  // Requests the list of simulations, then the status, the scene and the models of the one that is
-  // wanted, or of the first one. The page reports errors when it asks for the same.
+  // Requests the list of simulations, then the status, the scene and the models of the simulation `wanted`, or else
+  // of the first one. The page reports errors when it repeats a request.
   async begin(wanted: string | null): Promise<void> {
     try {
       const simulations = (await this.ask("api/simulations")) as { name: string }[];
@@ -34,11 +34,11 @@ export class EarlyRequests {
         this.fetchPage(this.url(`api/models/${encodeURIComponent(model)}.glb`)).catch(() => {});
       }
     } catch {
-      // Without early answers, the page only waits longer.
+      // If an early request fails, the page only waits longer.
     }
   }
 
-  // Like fetch(), with the early answer if there is one.
+  // Works like fetch(), but returns the early answer if there is one.
   fetch: typeof fetch = async (input, init) => {
     const early = this.take(String(input), init?.method);
     return early ?? this.fetchPage(input, init);
@@ -64,7 +64,7 @@ export class EarlyRequests {
   }
 }
 
-// A response whose JSON is read once, and may be asked for several times.
+// Returns a response whose JSON can be requested several times.
 async function readOnce(response: Response): Promise<Response> {
   const json: Promise<unknown> = response.json();
   json.catch(() => {});

@@ -35,7 +35,7 @@ export class JsonServer {
     return new URL(path, this.base).href;
   }
 
-  // Sets the path below the root to which all further requests are relative. Empty: the root.
+  // Sets the path, below the root, to which all further requests are relative. Empty means the root.
   moveTo(path: string): void {
     this.base = new URL(path, this.root).href;
   }
@@ -53,12 +53,12 @@ export class JsonServer {
     });
   }
 
-  // Returns any response unchanged.
+  // Requests a path, and returns the response as it is.
   fetch(path: string, signal: AbortSignal): Promise<Response> {
     return this.fetchPage(this.url(path), { signal });
   }
 
-  // Sends a file unchanged.
+  // Sends the content of a file.
   put(path: string, content: Blob, timeoutMs: number): Promise<unknown> {
     return this.request(path, { method: "PUT", body: content, signal: AbortSignal.timeout(timeoutMs) });
   }

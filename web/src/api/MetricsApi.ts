@@ -5,7 +5,7 @@ const TIMEOUT_MS = 5000;
 export type ServerFigures = ReadonlyMap<string, number>;
 
 export class MetricsApi {
-  // `base`: the address of the page.
+  // `base` is the address of the page.
   constructor(
     private readonly base: string,
     private readonly fetchPage: typeof fetch,

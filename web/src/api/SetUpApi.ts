@@ -12,10 +12,11 @@ import type { SceneDescription } from "./scene";
 import { parseScene } from "./scene";
 
 export interface Abilities {
-  creates: boolean; // simulations can be put together, and changed
+  creates: boolean; // whether simulations can be created and edited
   records: boolean;
-  recordings: boolean; // recordings can be listed and replayed
-  recording: string; // of a replay: the name under which it can be opened for oneself; empty: none
+  recordings: boolean; // whether recordings can be listed and replayed
+  recording: string; // for a replay: the recording's name, with which each viewer can open a replay of their own;
+                     // else empty
 }
 
 export interface ModelChoice {
@@ -31,13 +32,13 @@ export interface BehaviourChoice {
 
 export interface Behaviours {
   offers: BehaviourChoice[];
-  startCommand: string; // a program that would offer one
+  startCommand: string; // the command that starts a program which offers a behaviour
 }
 
 export interface BodyPlace {
   x: number;
   y: number;
-  z?: number; // without it: on the ground
+  z?: number; // if absent: on the ground
   roll?: number;
   pitch?: number;
   yaw: number;
@@ -45,16 +46,16 @@ export interface BodyPlace {
 
 // An object that is not a robot: made from a model, or a copy of an existing or removed object.
 export interface NewObject {
-  name: string; // empty: after its model
+  name: string; // if empty: named after its model
   model?: string;
   copy_of?: string;
-  place: BodyPlace | null; // null: the first that is free
+  place: BodyPlace | null; // if null: the first free place
 }
 
 export interface Preview {
   scene: SceneDescription;
   poses: Float64Array; // seven numbers for each entry of the scene's poses
-  warnings: string[]; // what the files lack
+  warnings: string[]; // what could not be read from the files
 }
 
 // The texts of the world file and the scenario file, and a list of what these files leave out.
@@ -95,7 +96,7 @@ export class SetUpApi {
     });
   }
 
-  // The models that are not robots.
+  // Returns the models that are no robots.
   async objectModels(): Promise<string[]> {
     const answer = objectAt(await this.server.get("api/models", LONG_TIMEOUT_MS), "models");
     return listAt(answer.objects ?? [], "objects").map((each) => textAt(objectAt(each, "objects").name, "name"));
@@ -129,7 +130,7 @@ export class SetUpApi {
     return { scene, poses, warnings };
   }
 
-  // Sends files that belong together. Returns the path of each on the server's machine.
+  // Sends files that belong together. Returns the path of each file on the server's machine.
   async upload(files: readonly DroppedFile[]): Promise<string[]> {
     const begun = objectAt(await this.server.post("api/uploads", {}), "upload");
     const set = textAt(begun.upload, "upload");
@@ -175,8 +176,8 @@ export class SetUpApi {
     await this.server.delete(`${simulationPath(simulation)}/objects/${encodeURIComponent(object)}`);
   }
 
-  // Returns the present state of the world as files. `file`: the name by which the scenario refers
-  // to the world file.
+  // Returns the present state of the world as files. `file` is the name with which the scenario refers to the world
+  // file.
   async saveWorld(simulation: string, file: string): Promise<SavedWorld> {
     const path = `${simulationPath(simulation)}/world?file=${encodeURIComponent(file)}`;
     const answer = objectAt(await this.server.get(path, LONG_TIMEOUT_MS), "world");

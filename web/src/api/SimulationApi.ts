@@ -34,7 +34,7 @@ export interface Drive {
   angular_rad_s: number;
 }
 
-// Stopping and resetting wait for the behaviours.
+// The time limit is long, because stopping and resetting wait for the behaviours.
 const ACTION_TIMEOUT_MS = 60_000;
 // Wall-clock seconds. The page repeats a drive command several times in this period.
 const DRIVE_TIMEOUT_S = 1;
@@ -44,7 +44,7 @@ const DIFFERENCE_TIMEOUT_MS = 120_000;
 export class SimulationApi {
   readonly setUp: SetUpApi;
   private readonly server: JsonServer;
-  private readonly root: JsonServer; // never moved to a replay
+  private readonly root: JsonServer; // requests at the server's root, also during a replay
 
   readonly viewers: ViewersApi;
   readonly metrics: MetricsApi;
@@ -61,7 +61,7 @@ export class SimulationApi {
     this.viewers = new ViewersApi(new JsonServer(base, fetchPage), credentials);
   }
 
-  // Opens a recording for this page only. All further requests are about this replay.
+  // Opens a recording for this page only. All further requests are sent to this replay.
   async openRecording(recording: string): Promise<void> {
     this.server.moveTo("");
     const path = `api/recordings/${encodeURIComponent(recording)}/replay`;
@@ -78,7 +78,7 @@ export class SimulationApi {
     return this.root;
   }
 
-  // The part of a running simulation's past that the server keeps; null: none.
+  // Returns the part of a running simulation's past that the server stores; null if there is none.
   async kept(name: string): Promise<Kept | null> {
     try {
       return parseKept(await this.root.get(`${simulationPath(name)}/history`));
@@ -88,8 +88,8 @@ export class SimulationApi {
     }
   }
 
-  // Opens the kept past as a replay for this page alone. All further requests are about this
-  // replay, until leavePast().
+  // Opens the stored past as a replay for this page only. All further requests are sent to this replay, until
+  // leavePast().
   async openPast(name: string): Promise<void> {
     const answer = objectAt(await this.root.post(`${simulationPath(name)}/history`, {}), "history");
     this.server.moveTo(textAt(answer.base, "history.base"));
@@ -99,12 +99,12 @@ export class SimulationApi {
     this.server.moveTo("");
   }
 
-  // The playback state of a replay.
+  // Returns the playback state of a replay.
   async replay(name: string): Promise<Replay> {
     return parseReplay(await this.server.get(`${simulationPath(name)}/replay`));
   }
 
-  // The events and notes of a running simulation from this simulated time on.
+  // Returns the events and notes of a running simulation from this simulated time on.
   async eventsFrom(name: string, from: number): Promise<RecordedEvent[]> {
     return parseEvents(await this.root.get(`${simulationPath(name)}/events?from_s=${from}`));
   }
@@ -148,7 +148,7 @@ export class SimulationApi {
     return parseScene(await this.server.get(`${simulationPath(name)}/scene`));
   }
 
-  // Returns an image of the view, drawn by the server. `query`: the parameters of view.jpg in
+  // Returns an image of the view that the server draws. `query` contains the parameters of view.jpg in
   // docs/api.yaml.
   image(name: string, query: string, signal: AbortSignal): Promise<Response> {
     return this.server.fetch(`view.jpg?simulation=${encodeURIComponent(name)}&${query}`, signal);
@@ -172,12 +172,12 @@ export class SimulationApi {
     return parseStatus(await this.server.post(`${simulationPath(name)}/real_time_factor`, { real_time_factor: factor }));
   }
 
-  // Goes to this recorded instant, or to the nearest one in the recording.
+  // Moves the replay to this recorded instant, or to the nearest one.
   async seek(name: string, time: number): Promise<SimulationStatus> {
     return parseStatus(await this.server.post(`${simulationPath(name)}/seek`, { time_s: time }));
   }
 
-  // Goes forward or back by a number of recorded poses, and pauses.
+  // Moves the replay by a number of recorded poses (negative: backwards), and pauses.
   async stepPoses(name: string, poses: number): Promise<SimulationStatus> {
     return parseStatus(await this.server.post(`${simulationPath(name)}/step`, { poses }));
   }
@@ -186,22 +186,22 @@ export class SimulationApi {
     return parseReplay(await this.server.post(`${simulationPath(name)}/replay`, change));
   }
 
-  // The events of a recording, in the order of time.
+  // Returns the events of a recording, ordered by time.
   async events(name: string): Promise<RecordedEvent[]> {
     return parseEvents(await this.server.get(`${simulationPath(name)}/events`));
   }
 
-  // The log of a recording, in the order of time.
+  // Returns the log of a recording, ordered by time.
   async log(name: string): Promise<RecordedLine[]> {
     return parseLog(await this.server.get(`${simulationPath(name)}/log`));
   }
 
-  // The last output of a robot's behaviour.
+  // Returns the last lines that a robot's behaviour printed.
   async output(name: string, robot: string): Promise<OutputLine[]> {
     return parseOutput(await this.server.get(`${simulationPath(name)}/health?robot=${encodeURIComponent(robot)}`));
   }
 
-  // A value over the whole recording as far as the server has read it, with at most this number of
+  // Returns a value over the whole recording, as far as the server has read it, with at most `most`
   // points.
   async curve(name: string, of: CurveOf, most: number): Promise<WholeCurve> {
     return parseCurve(await this.server.get(`${simulationPath(name)}/curve?${curveQuery(of, most)}`));
@@ -215,7 +215,7 @@ export class SimulationApi {
     return parseRecording(await this.server.post(`${simulationPath(name)}/recording`, { record }));
   }
 
-  // Makes the live stream list the topics of the robot's sensors, however many others there are.
+  // Makes the live stream list the topics of the robot's sensors, even if there are very many topics.
   async listTopics(name: string, robot: string): Promise<void> {
     await this.server.get(`${simulationPath(name)}/robots/${encodeURIComponent(robot)}/topics`);
   }

@@ -6,15 +6,15 @@ import { listAt, numberAt, numberOr, objectAt, textAt, textOr } from "./json";
 export interface Person {
   number: number;
   name: string;
-  simulation: string; // that they look at; empty: none
-  holds: boolean; // control of it
-  asks: number; // for it: the place in the row, from 1; 0: does not
-  passesIn: number; // s, of the first in the row: until it passes to them without an answer
+  simulation: string; // the simulation that they view; empty if there is none
+  holds: boolean; // whether they have control of it
+  asks: number; // position in the queue for control, from 1; 0 if not waiting
+  passesIn: number; // for the first in the queue: seconds until they get control without an answer
 }
 
 export interface People {
-  viewers: Person[]; // of the whole server
-  you: number; // 0: none of them
+  viewers: Person[]; // all viewers of the server
+  you: number; // your number; 0 if you are not in the list
 }
 
 export class ViewersApi {
@@ -23,7 +23,7 @@ export class ViewersApi {
     private readonly credentials: Credentials,
   ) {}
 
-  // `simulation`: the simulation that this page shows; empty: none.
+  // `simulation` is the simulation that this page shows; empty if there is none.
   async enter(name: string, simulation: string): Promise<void> {
     const answer = objectAt(await this.server.post("api/viewers", { name, simulation }), "viewer");
     this.credentials.viewer = textAt(answer.key, "viewer.key");

@@ -12,9 +12,9 @@ export interface CommandParameter {
   unit: string; // empty: none
   summary: string;
   isRequired: boolean;
-  minimum: number; // infinite: no bound
+  minimum: number; // infinite if there is no bound
   maximum: number;
-  otherwise: string; // what an absent argument stands for, as a text; empty: it is required
+  otherwise: string; // the meaning of an absent argument, as a text; empty if the argument is required
 }
 
 export interface CommandDescription {

@@ -3,7 +3,7 @@
 const TOKEN = "gsv-token";
 
 export class Credentials {
-  viewer = ""; // the key that the server gave; empty: none yet
+  viewer = ""; // the viewer's key, which the server gives; empty until then
 
   constructor(private readonly storage: Pick<Storage, "getItem" | "setItem"> | null = null) {}
 
@@ -31,8 +31,8 @@ export class Credentials {
     fetch(input, { ...init, headers: { ...(init?.headers as Record<string, string>), ...this.headers } });
 }
 
-// Returns the credentials of this tab. A token at the end of the address (#token=…, which no server
-// or log sees) is removed from the address.
+// Returns the credentials of this tab. If the address ends in a token (#token=…, which no server or log gets), the
+// token is removed from the address.
 export function pageCredentials(window: Window): Credentials {
   const credentials = new Credentials(sessionStorageOf(window));
   const parts = new URLSearchParams(window.location.hash.replace(/^#/, ""));
@@ -50,6 +50,6 @@ function sessionStorageOf(window: Window): Storage | null {
   try {
     return window.sessionStorage;
   } catch {
-    return null; // where the browser keeps nothing
+    return null; // this browser stores nothing
   }
 }

@@ -1,7 +1,8 @@
 // A value over a whole recording, as far as the server has read it.
 import { listAt, numberAt, objectAt, textOr } from "./json";
 
-// The requested value: a number in a topic's messages, of a robot, or (neither) of the simulation.
+// The requested value: a number in a topic's messages, in a robot's state, or (if neither is given) in the
+// simulation's state.
 export interface CurveOf {
   topic?: string;
   robot?: string;
@@ -10,10 +11,10 @@ export interface CurveOf {
 
 export interface WholeCurve {
   times: Float64Array; // s, simulated, ascending
-  values: Float64Array; // NaN: an echo that did not come, a value that dropped out
-  isWhole: boolean; // every sample is there; else of equal stretches the least and the greatest
-  done: boolean; // all of the recording is read, or as much as will be
-  problem: string; // why something is missing; empty: nothing is
+  values: Float64Array; // NaN means a missing echo or a lost value
+  isWhole: boolean; // true: every sample is there; false: the minimum and the maximum of equal time intervals
+  done: boolean; // whether the server has finished reading the recording
+  problem: string; // why values are missing; empty if none are
 }
 
 export function parseCurve(json: unknown): WholeCurve {

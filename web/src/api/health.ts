@@ -3,7 +3,7 @@ import { listAt, numberOr, objectAt, textOr } from "./json";
 
 export interface OutputLine {
   time: number; // s, simulated
-  level: number; // as rcl_interfaces/msg/Log has it
+  level: number; // as in rcl_interfaces/msg/Log
   text: string;
 }
 

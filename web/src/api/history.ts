@@ -1,4 +1,4 @@
-// What the server keeps of the past of a running simulation, and notes of viewers.
+// The past of a running simulation that the server stores, and the notes of viewers.
 import { listAt, numberAt, objectAt, textAt, textOr } from "./json";
 
 export interface Kept {
@@ -28,11 +28,11 @@ export function parseNotes(json: unknown): RecordingNote[] {
   });
 }
 
-// Where two recordings first differ.
+// The first difference between two recordings.
 export interface Difference {
   isEqual: boolean;
-  time: number | null; // s, simulated; null: the messages are equal
-  text: string; // as `gsv rec diff` prints it
+  time: number | null; // simulated time, s; null if the messages are equal
+  text: string; // the text that `gsv rec diff` prints
 }
 
 export function parseDifference(json: unknown): Difference {

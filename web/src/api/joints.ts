@@ -7,21 +7,21 @@ export type JointCommandKind = (typeof COMMAND_KINDS)[number];
 export interface Joint {
   name: string;
   kind: string; // "revolute", "continuous", "prismatic" or "screw"
-  unit: "rad" | "m"; // of the position and its limits
+  unit: "rad" | "m"; // unit of the position and of its limits
   position: number;
-  velocity: number; // in the unit of the position, per second
-  minimum: number; // infinite: no limit
+  velocity: number; // in the position's unit per second
+  minimum: number; // infinite if there is no limit
   maximum: number;
   maxVelocity: number;
-  maxEffort: number; // N m or N
-  command: { kind: JointCommandKind; value: number } | null; // the last one
-  refusal: string; // why it takes no commands; empty: it takes them
+  maxEffort: number; // unit: N m or N
+  command: { kind: JointCommandKind; value: number } | null; // the last command
+  refusal: string; // why the joint accepts no commands; empty if it does
 }
 
 export interface BodyJoints {
   time: number; // s, simulated
   joints: Joint[];
-  refusal: string; // why none of them takes commands from viewers; empty: they do
+  refusal: string; // why no joint of the body accepts commands from viewers; empty if they do
 }
 
 export function parseJoints(json: unknown): BodyJoints {

@@ -13,7 +13,7 @@ export interface PedestrianSetUp {
   name: string;
   count: number;
   route: Goal[];
-  others: JsonObject; // keys that the form does not show: speed, radius, …
+  others: JsonObject; // keys that the form does not show, such as speed and radius
 }
 
 const FIRST_ROUTE: Goal[] = [
@@ -28,12 +28,12 @@ export function newPedestrians(taken: readonly PedestrianSetUp[]): PedestrianSet
   return { name, count: 5, route: FIRST_ROUTE, others: {} };
 }
 
-// The format of --pedestrians: "x,y[,radius]:…".
+// Returns the route in the format of --pedestrians: "x,y[,radius]:…".
 export function routeText(route: readonly Goal[]): string {
   return route.map(({ x, y, radius }) => [x, y, ...(radius === 0 ? [] : [radius])].join(",")).join(":");
 }
 
-// Returns null if the text is not a route.
+// Parses a route. Returns null for other texts.
 export function parseRoute(text: string): Goal[] | null {
   const goals: Goal[] = [];
   for (const part of text.split(":")) {

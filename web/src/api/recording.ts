@@ -3,7 +3,7 @@ import { numberOr, objectAt, textOr } from "./json";
 
 export interface Recording {
   isOn: boolean;
-  path: string; // of the one under way, or of the last one; empty: there was none
+  path: string; // path of the current or the last recording; empty if there was none
   bytes: number;
   droppedMessages: number;
 }

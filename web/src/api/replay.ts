@@ -4,7 +4,7 @@ import { listAt, numberAt, objectAt, textAt, textOr } from "./json";
 export interface Replay {
   start: number; // s, simulated
   end: number;
-  speed: number; // simulated seconds a second
+  speed: number; // simulated seconds per second of wall-clock time
   loop: boolean;
 }
 
@@ -17,7 +17,7 @@ export interface RecordedEvent {
 
 export interface RecordedLine {
   time: number; // s, simulated
-  level: number; // as rcl_interfaces/msg/Log has it: 10 debug to 50 fatal
+  level: number; // as in rcl_interfaces/msg/Log: 10 (debug) to 50 (fatal)
   name: string;
   text: string;
 }

@@ -3,8 +3,8 @@ import type { JsonObject } from "./json";
 import { objectAt, textOr } from "./json";
 
 export interface Ros2SetUp {
-  cmd_vel: string; // the message type of cmd_vel; empty: the server's default
-  distro: string; // of the other nodes; likewise
+  cmd_vel: string; // message type of cmd_vel; empty for the server's default
+  distro: string; // ROS 2 distribution of the other nodes; empty for the server's default
   range: string; // likewise
   others: Record<string, string>; // namespaces of robots that the scenario does not list
 }
@@ -12,9 +12,9 @@ export interface Ros2SetUp {
 // Whether the server can publish new simulations.
 export interface Ros2Support {
   isAvailable: boolean;
-  reason: string; // why not
-  reach: string; // the domain, and who can be reached there
-  published: string; // the simulation that is published now; empty: none
+  reason: string; // why the server cannot publish
+  reach: string; // the ROS 2 domain, and which machines it reaches
+  published: string; // the simulation that is published now; empty if there is none
 }
 
 export const PLAIN_ROS2: Ros2SetUp = { cmd_vel: "", distro: "", range: "", others: {} };
@@ -22,10 +22,10 @@ export const PLAIN_ROS2: Ros2SetUp = { cmd_vel: "", distro: "", range: "", other
 interface Named {
   name: string;
   model: string;
-  namespace?: string; // empty: the robot's name
+  namespace?: string; // if empty: the robot's name
 }
 
-// Omits settings that equal the defaults.
+// Returns the settings as JSON, without those that equal the defaults.
 export function ros2Json({ others, ...settings }: Ros2SetUp, robots: readonly Named[]): JsonObject | true {
   const chosen = robots.flatMap((robot) => (robot.namespace ? [[nameOf(robot), robot.namespace] as const] : []));
   const namespaces = { ...others, ...Object.fromEntries(chosen) };
@@ -34,7 +34,7 @@ export function ros2Json({ others, ...settings }: Ros2SetUp, robots: readonly Na
   return Object.keys(json).length > 0 ? json : true;
 }
 
-// The settings, and the robots with their namespaces.
+// Returns the settings, and the robots with their namespaces.
 export function parseRos2<Robot extends Named>(value: unknown, robots: Robot[]): { ros2: Ros2SetUp | null; robots: Robot[] } {
   if (value === undefined || value === null || value === false) return { ros2: null, robots };
   if (value === true) return { ros2: PLAIN_ROS2, robots };

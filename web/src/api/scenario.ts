@@ -1,6 +1,6 @@
-// A simulation that is being set up: its world, its robots, and how it runs. Metres, radians,
-// seconds. Its JSON is what the server accepts and what a scenario file contains
-// (docs/formats/scenario.md), because JSON is also YAML.
+// A simulation that is being set up: its world, its robots and its options. Metres, radians, seconds. The
+// server accepts it as JSON, which is also a valid scenario file (docs/formats/scenario.md), because JSON is
+// YAML.
 import type { JsonObject } from "./json";
 import { listAt, numberOr, objectAt, textOr } from "./json";
 import type { PedestrianSetUp } from "./pedestrians";
@@ -17,29 +17,29 @@ export interface Placed {
 export interface RobotSetUp {
   name: string;
   model: string;
-  place: Placed | null; // null: the first that is free
-  behaviour: string; // an offer's name; empty: none
-  constraint: string; // or what an offer must fulfil; empty: a name is meant
-  movement: "" | "planar" | "rigid"; // empty: as its model says
-  drive: string; // KIND[,KEY=VALUE]…; empty: as its model says, else guessed from its wheels
-  namespace?: string; // of its ROS 2 topics; empty: its name
+  place: Placed | null; // if null: the first free place
+  behaviour: string; // name of the behaviour's offer; empty for none
+  constraint: string; // instead of a name: a constraint on the behaviour's offer
+  movement: "" | "planar" | "rigid"; // if empty: the movement of the model
+  drive: string; // KIND[,KEY=VALUE]…; if empty: the model's drive, or else a guessed one
+  namespace?: string; // namespace of its ROS 2 topics; if empty: its name
 }
 
 export type RobotList = "robots" | "avatars";
 
 export interface Scenario {
-  name: string; // empty: the server chooses one
+  name: string; // if empty: the server chooses a name
   world: string;
   mode: "real_time" | "lockstep";
   real_time_factor: number;
-  step: number; // 0: the world's
-  duration: number; // 0: until it is stopped
+  step: number; // 0 means the world's own step
+  duration: number; // 0 means until the simulation is stopped
   seed: number;
   record: boolean;
   robots: RobotSetUp[];
   avatars: RobotSetUp[];
   pedestrians: PedestrianSetUp[];
-  ros2: Ros2SetUp | null; // null: it is not published to ROS 2 nodes
+  ros2: Ros2SetUp | null; // null if the simulation is not published to ROS 2 nodes
 }
 
 const FORMER_FACTOR = "factor"; // the former name of real_time_factor in scenario files
@@ -103,7 +103,7 @@ export function findRobot(scenario: Scenario, name: string): { list: RobotList; 
   return null;
 }
 
-// Omits values that equal the defaults.
+// Returns the scenario as JSON, without values that equal the defaults.
 export function scenarioJson(scenario: Scenario): JsonObject {
   const { robots, avatars, pedestrians, ros2, ...rest } = scenario;
   const json: JsonObject = {};
@@ -130,8 +130,8 @@ export function robotJson(robot: RobotSetUp): JsonObject {
   };
 }
 
-// Throws an error with the place if the text is not a scenario. The page ignores keys that it does
-// not know; `left` lists them.
+// Parses a scenario. Throws an error with the place if `value` is no scenario. `left` lists keys that the page does
+// not know and ignores.
 export function parseScenario(value: unknown): { scenario: Scenario; left: string[] } {
   const json = objectAt(value, "the file");
   const { ros2, robots } = parseRos2(json.ros2, parseRobots(json.robots, "robots"));

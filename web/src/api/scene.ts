@@ -10,7 +10,7 @@ export interface SceneLight {
   name: string;
   kind: "directional" | "point" | "spot";
   position: Triple;
-  direction: Triple; // in the world
+  direction: Triple; // in the world frame
   colour: Triple; // sRGB
   intensity: number;
   range: number;
@@ -36,46 +36,46 @@ export interface SceneSensor {
   overlay: Overlay;
   link: string;
   topic: string;
-  view: CameraView | null; // null: it is no camera, or its angles are not told
-  units?: Units; // absent: of a recording that does not tell them
+  view: CameraView | null; // null if the sensor is no camera, or if its angles are unknown
+  units?: Units; // absent in recordings of versions without units
 }
 
 export interface SceneBody {
   name: string;
-  model: string; // the ID under which its shape is fetched
+  model: string; // the identifier with which its shape is fetched
   isStatic: boolean;
-  isFixed: boolean; // static, and came with the world: nobody can move it or take it away
+  isFixed: boolean; // a static body of the world file, which cannot be moved or removed
   isRobot: boolean;
-  isOfWorld: boolean; // a robot that came with the world, not from a model of its own
+  isOfWorld: boolean; // a robot of the world file, without a model file of its own
   isAvatar: boolean;
-  isStation: boolean; // an object with sensors, which nobody drives
+  isStation: boolean; // an object with sensors and without a drive
   pose: PoseNumbers;
   links: string[];
   sensors: SceneSensor[];
-  collisions: string | null; // the ID under which its collision shapes are fetched; null: there are none
-  joints: SceneJoint[]; // those that can move
+  collisions: string | null; // the identifier with which its collision shapes are fetched; null if there are none
+  joints: SceneJoint[]; // only joints that can move
 }
 
 export interface SceneJoint {
   name: string;
   kind: string; // "revolute", "prismatic", …
-  link: string | null; // whose frame the pose is in; null: the body's
+  link: string | null; // the link whose frame the pose is relative to; null for the body's frame
   pose: PoseNumbers;
-  axis: Triple; // in the joint's frame
+  axis: Triple; // in the frame of the joint
 }
 
 // The mass of a link.
 export interface SceneInertial {
   link: string;
   mass: number; // kg
-  pose: PoseNumbers; // of the inertia's frame, at the centre of mass, in the link's frame
-  poseInModel: PoseNumbers; // the same at zero joint positions
+  pose: PoseNumbers; // pose of the frame of `inertia` (origin: centre of mass) relative to the link
+  poseInModel: PoseNumbers; // the same pose relative to the model, at zero joint positions
   inertia: readonly [number, number, number, number, number, number]; // kg m²: ixx iyy izz ixy ixz iyz
 }
 
 export interface PoseEntry {
   body: number;
-  link: string | null; // null: the body's own pose
+  link: string | null; // null for the pose of the body itself
 }
 
 export interface SceneDescription {
@@ -86,7 +86,7 @@ export interface SceneDescription {
   lights: SceneLight[];
   bodies: SceneBody[];
   poses: PoseEntry[];
-  inertials?: ReadonlyMap<string, readonly SceneInertial[]>; // by model; absent: of an old recording
+  inertials?: ReadonlyMap<string, readonly SceneInertial[]>; // by model; absent in old recordings
 }
 
 export function parseScene(json: unknown): SceneDescription {
@@ -120,8 +120,8 @@ export function robotsOf(scene: SceneDescription | null): readonly SceneBody[] {
 
 const robotsOfScene = oncePerScene((scene) => scene.bodies.filter(hasAgent));
 
-// The result is cached per scene, because a scene never changes and the computation for a thousand
-// robots takes long.
+// Caches the result per scene: a scene never changes, and the computation takes long for a thousand
+// robots.
 function oncePerScene<Result>(compute: (scene: SceneDescription) => Result): (scene: SceneDescription) => Result {
   const known = new WeakMap<SceneDescription, { result: Result }>();
   return (scene) => {

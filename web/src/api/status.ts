@@ -28,9 +28,9 @@ export interface SimulationStatus {
   realTimeFactor: number;
   lateSteps: number;
   waitingFor: string; // empty: nobody
-  failure: string; // empty unless failed; the live stream does not carry it
+  failure: string; // empty unless the simulation has failed; missing in the live stream
   robots: RobotStatus[];
-  replay: Replay | null; // null unless it is a recording; the live stream does not carry it
+  replay: Replay | null; // null unless this is a replay; missing in the live stream
 }
 
 export interface SimulationSummary {

@@ -60,7 +60,7 @@ export class App {
     readonly store: Store<State>,
     readonly session: Session,
     private readonly api: SimulationApi,
-    private readonly world: () => World3D | null, // null: the browser cannot draw in 3D, or not yet
+    private readonly world: () => World3D | null, // null before the browser draws in 3D, and if it cannot
   ) {
     this.replay = new ReplayControl(store, api, (action) => this.act(action));
     this.past = new PastControl(store, api, session, this.replay);
@@ -85,8 +85,8 @@ export class App {
     this.filming = new Filming(store, () => world()?.video() ?? null);
   }
 
-  // Sends one action. Its effects arrive with the stream, so the answer may come after later
-  // events. If the server refuses, its sentence is shown.
+  // Sends one action. Its effects arrive with the live stream, so the answer may come after later events. If the
+  // server refuses the action, its sentence is shown.
   act(action: Action, count = 1): Promise<void> {
     return this.command(action, (simulation) => this.api.act(simulation, action, count));
   }
@@ -133,8 +133,8 @@ export class App {
     }));
   }
 
-  // Handles a click on a body: selects a robot, or in edit mode an object. `isAdding`: adds the body to the
-  // selection, or removes it if it is selected.
+  // Handles a click on a body: selects a robot, or in edit mode an object. If `isAdding`, the body is added to the
+  // selection, or removed if it is already selected.
   pick(body: string | null, isAdding = false): void {
     const { scene, editing } = this.store.get();
     if (isAdding && editing && body !== null && chosenOf(this.store.get()) !== null) return this.addToChoice(body);
@@ -146,7 +146,7 @@ export class App {
     this.edits.choose(known.name);
   }
 
-  // Selects all of these bodies. Moves and turns refer to the first one.
+  // Selects all of these bodies. The first one determines the reference for moving and rotating.
   pickAll([first, ...more]: readonly string[]): void {
     if (first === undefined || !this.store.get().editing) return;
     this.pick(first);
@@ -161,8 +161,8 @@ export class App {
     else this.pickAll(rest);
   }
 
-  // Selects this view of the selected robot, or of the first one if none is selected. A second call
-  // ends it.
+  // Selects this camera mode for the selected robot, or for the first one if none is selected. Calling it again ends
+  // the mode.
   toggleViewMode(mode: ViewMode): void {
     const { selection, viewMode, status } = this.store.get();
     const robot = selection ?? status?.robots[0]?.name ?? null;
@@ -170,7 +170,7 @@ export class App {
     this.store.set({ mapMode: false, viewMode: robot === null || viewMode === mode ? "orbit" : mode });
   }
 
-  // Escape: cancels the present operation, or else clears the selection.
+  // Handles Escape: cancels the present operation, or else clears the selection.
   escape(): void {
     if (!this.pointing.end()) this.select(null);
   }
@@ -202,7 +202,7 @@ export class App {
     this.world()?.resetView();
   }
 
-  // The user can only rotate the view if it is not a robot's own view.
+  // A view from a robot's own camera cannot be rotated, so this mode ends first.
   private leaveEye(): void {
     if (this.store.get().viewMode === "eye") this.store.set({ viewMode: "orbit" });
   }
@@ -242,7 +242,7 @@ export class App {
     this.filming.toggle();
   }
 
-  // Also shows the link in the address bar.
+  // Copies a link, and also shows it in the address bar.
   copyLink(): void {
     const link = this.link.linkTo(location.href);
     history.replaceState(null, "", link);

@@ -1,4 +1,4 @@
-// Lays a second recording over the one that is replayed: it plays along, by simulated time.
+// Replays a second recording together with the first one, at the same simulated time, for comparison.
 import type { SimulationApi } from "../api/SimulationApi";
 import type { CurveOf, WholeCurve } from "../api/curve";
 import { FoxgloveClient } from "../protocol/FoxgloveClient";
@@ -13,7 +13,7 @@ import type { Store } from "../state/Store";
 import { shallowEqual } from "../state/Store";
 import { recordingOf } from "./NotesControl";
 
-// Further apart than this, the second recording goes to the instant of the first.
+// If the two are farther apart than this, the second recording is moved to the instant of the first.
 const FARTHEST_APART_S = 0.15;
 
 type CompareApi = Pick<SimulationApi, "another" | "rootServer" | "difference">;
@@ -28,7 +28,7 @@ export interface GhostPoses {
 export class CompareControl {
   onPoses: (poses: GhostPoses) => void = () => {};
   private other: { api: SimulationApi; client: Client; simulation: string } | null = null;
-  private stamp = 0; // s, simulated: where the second recording stands
+  private stamp = 0; // current time of the second recording, simulated, s
   private moving: Promise<void> | null = null;
   private movesAgain = false;
 
@@ -55,7 +55,7 @@ export class CompareControl {
     );
   }
 
-  // Those that can be compared with; the one that is replayed is left out.
+  // Returns the recordings that can be compared with. The replayed one is left out.
   async choices(): Promise<RecordingLine[]> {
     const { lines } = await fetchRecordings(this.api.rootServer);
     const shown = recordingOf(this.store.get());
@@ -74,7 +74,7 @@ export class CompareControl {
       if (simulation === undefined) throw new Error("The recording has no simulation.");
       const scene = await api.scene(simulation).catch(() => null);
       if (!isWanted()) return;
-      this.connect(api, simulation); // first: the scene's models come from this replay
+      this.connect(api, simulation); // connect first: the scene's models come from this replay
       this.set({ simulation, scene });
       this.follow(true);
     } catch (error) {
@@ -90,12 +90,12 @@ export class CompareControl {
     if (this.store.get().comparison) this.store.set({ comparison: null });
   }
 
-  // A value over the whole second recording; null: there is none.
+  // Returns a value over the whole second recording; null if there is no second recording.
   async curve(of: CurveOf, most: number): Promise<WholeCurve | null> {
     return this.other ? this.other.api.curve(this.other.simulation, of, most) : null;
   }
 
-  // Of a model of the second recording.
+  // Returns the address of a model of the second recording.
   modelUrl(id: string): string {
     return (this.other?.api ?? this.api.another()).modelUrl(id);
   }
@@ -129,7 +129,7 @@ export class CompareControl {
     client.connect();
   }
 
-  // Sends the second recording to where the first one is, and has it play or pause alike.
+  // Moves the second recording to the instant of the first, and plays or pauses it like the first.
   private follow(isChange = false): void {
     if (!this.other) return;
     const { status, time, wishedTime } = this.store.get();

@@ -1,4 +1,4 @@
-// The actions that edit the chosen bodies, in a simulation (EditControl) or in the form of a new one
+// The actions that edit the selected bodies, in a simulation (EditControl) or in the form for a new one
 // (SetUpControl).
 import type { BodyPlace, SetUpApi } from "../api/SetUpApi";
 import type { Placed } from "../api/scenario";
@@ -13,7 +13,7 @@ import type { EditControl } from "./EditControl";
 import { notify } from "./notices";
 import type { SetUpControl } from "./SetUpControl";
 
-const BEFORE_ROBOT_M = 0.6; // from a robot's middle to a shape that is put before it
+const BEFORE_ROBOT_M = 0.6; // distance between a robot's origin and a shape that is added in front of it
 
 export class EditActions {
   constructor(
@@ -24,14 +24,14 @@ export class EditActions {
     private readonly placeOf: (body: string) => Required<BodyPlace> | null, // null: unknown
   ) {}
 
-  // Moves a body to the pose to which the user dragged it. Resolves to whether the body is there
-  // now.
+  // Moves a body to the pose to which the user dragged it. Resolves to whether the body is now
+  // there.
   place(body: string, place: Placed): Promise<boolean> {
     this.store.set({ placing: false });
     return this.store.get().setUp ? this.setUp.place(body, place) : this.edits.place(body, place);
   }
 
-  // Sets the poses that the gizmo or typed numbers have given to bodies.
+  // Moves bodies to the poses that the gizmo or typed numbers specify.
   pose(poses: readonly BodyPose[]): Promise<boolean> {
     const posed = poses.map(({ body, ...place }) => ({ body, place }));
     const [first] = posed;

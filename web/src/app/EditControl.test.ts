@@ -197,5 +197,5 @@ test("several bodies are removed as one edit, and restored together", async () =
   expect(api.addObject).toHaveBeenCalledTimes(1);
   expect(api.addRobot).toHaveBeenCalledTimes(1);
   store.set({ scene: scene({ bodies: [body("box", { isRobot: false })] }) });
-  expect(store.get().editing?.more).toEqual([]); // who is gone is not chosen
+  expect(store.get().editing?.more).toEqual([]); // a removed body is no longer selected
 });

@@ -1,5 +1,5 @@
-// Edits the bodies of a paused simulation, with undo and redo. The server keeps no history, so undo
-// performs the opposite edit.
+// Edits the bodies of a paused simulation, with undo and redo. The server stores no history, so undo performs the
+// opposite edit.
 import type { BodyPlace, NewObject, SetUpApi } from "../api/SetUpApi";
 import type { Placed, RobotSetUp } from "../api/scenario";
 import type { Editing, GizmoTool } from "../state/editing";
@@ -12,15 +12,15 @@ import { inOrder, together } from "./edits";
 import { notify } from "./notices";
 
 const MOST_EDITS = 100;
-const STANDS_M = 1e-6; // who moved by less was turned
-const PASTED_AT_M = 0.5; // from the original, along x and y
+const STANDS_M = 1e-6; // if a body moved by less, it was only rotated
+const PASTED_AT_M = 0.5; // offset of a copy from the original, along x and y
 
 export interface Bodies {
-  // The last reported pose of a body; null while it is unknown.
+  // Returns the last reported pose of a body; null while it is unknown.
   placeOf(body: string): Required<BodyPlace> | null;
 }
 
-// A body and the pose that it is to get.
+// A body and its new pose.
 export interface Posed {
   body: string;
   place: BodyPlace;
@@ -28,20 +28,20 @@ export interface Posed {
 
 interface Copied {
   body: string;
-  robot: RobotSetUp | null; // null: it is an object
+  robot: RobotSetUp | null; // null for an object
   isAvatar: boolean;
   place: BodyPlace;
 }
 
 export class EditControl {
-  private done: Edit[] = []; // the newest last
+  private done: Edit[] = []; // edits that can be undone; the newest is last
   private takenBack: Edit[] = [];
-  // The poses that were set here and are not in a received scene yet.
+  // Poses that were set here, but are not in a received scene yet.
   private readonly unseen = new Map<string, BodyPlace>();
-  // Bodies that were added here and are not in a received scene yet.
+  // Bodies that were added here, but are not in a received scene yet.
   private readonly arriving = new Set<string>();
   private copied: Copied[] = [];
-  private pastes = 0; // of what was copied
+  private pastes = 0; // how many times the copied bodies were pasted
 
   constructor(
     private readonly store: Store<State>,
@@ -49,7 +49,7 @@ export class EditControl {
     private readonly bodies: Bodies,
     private readonly pause: () => Promise<void>,
   ) {
-    // Editing ends when the simulation resumes or another one is watched.
+    // Editing ends when the simulation resumes or when the page shows another one.
     store.watch(
       ({ status, simulation }) => `${status?.phase === "paused" || status?.phase === "created"} ${simulation}`,
       () => this.store.get().editing && this.end(),
@@ -88,14 +88,14 @@ export class EditControl {
     });
   }
 
-  // Selects the object that further edits apply to; null: the selected robot. Clears the rest of
-  // the selection.
+  // Selects the object that further edits change; null means the selected robot. Clears the rest of the
+  // selection.
   choose(object: string | null): void {
     const { editing } = this.store.get();
     if (editing && (editing.chosen !== object || editing.more.length > 0)) this.patch({ chosen: object, more: [] });
   }
 
-  // Sets the selected bodies besides the first one.
+  // Sets the selected bodies other than the first one.
   chooseMore(more: readonly string[]): void {
     this.patch({ more });
   }
@@ -109,7 +109,7 @@ export class EditControl {
     this.patch({ wall });
   }
 
-  // Resolves to whether the body is there now.
+  // Moves a body. Resolves to whether the body is now there.
   place(body: string, place: Placed): Promise<boolean> {
     const before = this.placeOf(body);
     if (!before) return Promise.resolve(false);
@@ -119,8 +119,8 @@ export class EditControl {
     return move ? this.do({ ...move, name: `${isTurn ? "turn" : "move"} ${body}` }) : Promise.resolve(false);
   }
 
-  // Sets exactly these poses; robots stay on the floor, upright. Resolves to whether all bodies
-  // have their pose now.
+  // Sets exactly these poses; robots stay upright on the floor. Resolves to whether all bodies now have their
+  // pose.
   pose(posed: readonly Posed[]): Promise<boolean> {
     const moves = posed.flatMap((each) => {
       const before = this.placeOf(each.body);
@@ -138,7 +138,7 @@ export class EditControl {
     return this.place(body, { x: before.x, y: before.y, yaw: before.yaw + angle });
   }
 
-  // Selects the added body, so that it can be placed.
+  // Adds an object and selects it, so that it can be moved.
   async addObject(object: NewObject, name = ""): Promise<boolean> {
     const { simulation } = this.store.get();
     if (!simulation) return false;
@@ -231,7 +231,7 @@ export class EditControl {
     };
   }
 
-  // `names` receives the name that the object got.
+  // Returns the edit that adds an object. `names` receives the object's name.
   private addition(simulation: string, object: NewObject, names: string[]): Edit {
     let { name, place } = object;
     return {
@@ -241,14 +241,14 @@ export class EditControl {
         this.added(name, names);
       },
       revert: async () => {
-        place = this.placeOf(name) ?? place; // it comes back where it stood
+        place = this.placeOf(name) ?? place; // redo adds the object at the place where it was
         this.arriving.delete(name);
         await this.api.removeObject(simulation, name);
       },
     };
   }
 
-  // A scene with this body may have been received before the server's answer.
+  // Call this after a body was added. A scene with it may have arrived before the server's answer.
   private added(name: string, names: string[]): void {
     names.push(name);
     if (!this.bodyOf(name)) this.arriving.add(name);
@@ -265,7 +265,7 @@ export class EditControl {
       revert: async () => {
         const stood = this.placeOf(name);
         this.arriving.delete(name);
-        place = stood ? upright(stood) : place; // it comes back where it stood
+        place = stood ? upright(stood) : place; // redo adds the robot at the place where it was
         await this.api.removeRobot(simulation, name);
       },
     };
@@ -340,7 +340,7 @@ export class EditControl {
     return true;
   }
 
-  // Waits for the pause: the stream reports it some time after the server's answer.
+  // Waits until the pause is reported: the stream reports it some time after the server's answer.
   private standsStill(): Promise<void> {
     return new Promise((resolve) => {
       const unwatch = this.store.watch(
@@ -363,7 +363,7 @@ export class EditControl {
     this.store.set(({ editing }) => (editing ? { editing: { ...editing, ...change } } : {}));
   }
 
-  // Performs one edit at a time. Returns false if another edit is in progress, or if the server
+  // Performs an edit. Only one is performed at a time. Returns false if another edit is in progress, or if the server
   // refuses (the reason is shown).
   private async ask(work: () => Promise<void>): Promise<boolean> {
     if (!this.store.get().editing || this.store.get().editing?.isBusy) return false;
@@ -380,12 +380,12 @@ export class EditControl {
   }
 }
 
-// A robot is placed upright on its wheels; requests cannot specify another orientation.
+// Returns the place of a robot: upright on its wheels. Requests cannot specify another orientation.
 function upright(place: BodyPlace) {
   return { x: place.x, y: place.y, yaw: place.yaw, ...(place.z !== undefined && { z: place.z }) };
 }
 
-// An object keeps its orientation. If it is rotated in place, it also keeps its height.
+// Returns the place of an object, which keeps its orientation. If it is only rotated, it also keeps its height.
 function asObject(place: Placed, before: BodyPlace, isTurn: boolean): BodyPlace {
   const { roll = 0, pitch = 0, z } = before;
   return { ...place, roll, pitch, ...(isTurn && z !== undefined && { z }) };

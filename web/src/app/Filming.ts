@@ -16,7 +16,7 @@ export class Filming {
 
   constructor(
     private readonly store: Store<State>,
-    private readonly video: () => MediaStream | null, // null: nothing is seen
+    private readonly video: () => MediaStream | null, // null if there is no view
     private readonly save: (name: string, content: Blob) => void = download,
   ) {}
 

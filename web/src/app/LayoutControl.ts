@@ -26,12 +26,12 @@ export class LayoutControl {
   constructor(
     private readonly store: Store<State>,
     private readonly storage: Storage | null,
-    private readonly known: ReadonlySet<string>, // ids of panels
+    private readonly known: ReadonlySet<string>, // ids of the existing panels
   ) {
     store.set({ layouts: loadLayouts(storage) });
   }
 
-  // `linked`: the layout in the page's address; null: none.
+  // `linked` is the layout in the page's address; null if there is none.
   start(host: LayoutHost, linked: string | null): void {
     this.host = host;
     const kept = loadCurrent(this.storage);
@@ -53,8 +53,8 @@ export class LayoutControl {
     this.showText(text, `The layout ${name}`);
   }
 
-  // Shows a preset by its name, or a layout by its text. `what` names the layout in an error.
-  // Returns whether it could be shown.
+  // Shows a preset by its name, or a layout by its text. `what` is the layout's name in error messages. Returns
+  // whether the layout could be shown.
   showText(text: string, what: string): boolean {
     const preset = PRESETS.find(({ name }) => name === text);
     if (preset) {
@@ -74,7 +74,7 @@ export class LayoutControl {
     return true;
   }
 
-  // The name of the preset that is shown; null: the standard layout.
+  // The name of the preset that is shown; null for the standard layout.
   get linkText(): string | null {
     const { host } = this;
     if (!host) return null;
@@ -83,7 +83,7 @@ export class LayoutControl {
     return preset ? (preset === STANDARD ? null : preset.name) : text;
   }
 
-  // Replaces a layout of the same name.
+  // Saves the layout. Replaces a layout with the same name.
   save(name: string): void {
     const { host } = this;
     const trimmed = name.trim().slice(0, MAX_NAME);

@@ -105,5 +105,5 @@ test("a link to the past of a run goes there if it is still kept", () => {
   location.hash = "#t=2";
   const later = vi.fn(async () => {});
   new LinkControl(store, { select: () => {}, pause: async () => {}, seek: later }, () => null).start(window);
-  expect(later).not.toHaveBeenCalled(); // what was then is gone
+  expect(later).not.toHaveBeenCalled(); // the link to the earlier time is no longer used
 });

@@ -1,4 +1,4 @@
-// Makes links to the present view, and shows what the page's address refers to.
+// Makes links to the present view. Opens the simulation, time and view that the page's address contains.
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 import type { LinkedView, Viewpoint } from "../state/link";
@@ -8,11 +8,11 @@ export interface Place {
   viewpoint: Viewpoint;
 }
 
-// The functions of the page that a link needs.
+// The functions of the page that a link uses.
 export interface LinkedPage {
   select(robot: string): void;
   pause(): Promise<void>;
-  seek(time: number): Promise<void>; // s, simulated: of a recording, or of the past of a run
+  seek(time: number): Promise<void>; // simulated time, s: of a recording, or of the past of a run
 }
 
 export interface LinkedLayouts {
@@ -22,17 +22,17 @@ export interface LinkedLayouts {
 
 export class LinkControl {
   private wanted: LinkedView | null = null;
-  private instant: number | null = null; // s, simulated: to go to when it can be done
+  private instant: number | null = null; // simulated time, s, to go to as soon as that is possible
 
   constructor(
     private readonly store: Store<State>,
     private readonly page: LinkedPage,
-    private readonly place: () => Place | null, // null where there is no 3D view
+    private readonly place: () => Place | null, // null if there is no 3D view
     private readonly layouts: LinkedLayouts | null = null,
   ) {}
 
-  // Shows what the address refers to, as soon as it is available, and again after each change of
-  // the address.
+  // Shows the content of the page's address as soon as it is available, and after each change of the
+  // address.
   start(window: Window): void {
     const read = () => {
       this.wanted = linkedView(window.location.hash);
@@ -59,7 +59,7 @@ export class LinkControl {
     const { simulations, simulation, replay, time, selection, viewMode, shown, abilities } = this.store.get();
     const url = new URL(page);
     if (simulation !== null && (simulations?.length ?? 0) > 1) url.searchParams.set("simulation", simulation);
-    // Everyone who opens the link of a recording has their own replay.
+    // Everyone who opens a link to a recording gets a separate replay.
     if (replay && abilities.recording !== "") url.searchParams.set("recording", abilities.recording);
     const viewpoint = this.place()?.viewpoint ?? null;
     url.hash = hashOf({ time: replay ? time : null, viewpoint, selection, viewMode, shown, layout: this.layouts?.linkText ?? null });
@@ -81,13 +81,14 @@ export class LinkControl {
     void this.goToInstant();
   }
 
-  // The page may learn only later that it shows a recording. Going to an instant pauses the replay.
+  // Goes to the instant in the address. The page may learn only later that it shows a recording. This pauses the
+  // replay.
   private async goToInstant(): Promise<void> {
     const { replay, kept, status } = this.store.get();
     const time = this.instant;
     if (time === null || (!replay && !kept)) return;
     this.instant = null;
-    // A time before or after the kept part of a run is ignored.
+    // A time outside of the stored part of a run is ignored.
     if (!replay && kept && (time < kept.start || time > kept.end)) return;
     if (replay && status?.phase === "running") await this.page.pause();
     await this.page.seek(time);

@@ -10,7 +10,7 @@ import { notify } from "./notices";
 
 type NotesApi = Pick<SimulationApi, "notesOf" | "addNoteTo" | "removeNote" | "addNote">;
 
-// The server's name of the recording that is replayed; empty: none.
+// The server's name for the recording that is replayed; empty if there is none.
 export function recordingOf({ replay, inPast, abilities }: State): string {
   return replay && !inPast ? abilities.recording : "";
 }
@@ -30,7 +30,7 @@ export class NotesControl {
     this.store.watch(recordingOf, (recording) => void this.load(recording));
   }
 
-  // Adds a note at the instant that the page shows. Resolves to whether it was stored.
+  // Adds a note at the instant that the page shows. Resolves to whether the server has stored it.
   async add(text: string): Promise<boolean> {
     const state = this.store.get();
     const { simulation, wishedTime, time, people } = state;
@@ -46,8 +46,8 @@ export class NotesControl {
       await this.api.addNote(simulation, instant, text, author);
       const detail = author ? `${author}: ${text}` : text;
       const note = { time: instant, event: "note", robot: "", detail };
-      // Notes of a running simulation arrive with its other events. The displayed past was opened
-      // before this note, so it is added here.
+      // Notes of a running simulation arrive with its other events. If the page shows the past, that was opened
+      // before this note, so the note is added here.
       if (state.inPast) this.store.set(({ events }) => ({ events: withNewEvents(events, [note]) }));
     });
   }

@@ -9,10 +9,10 @@ import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 import { shallowEqual } from "../state/Store";
 
-const MOST_READINGS = 16; // sensors at once
+const MOST_READINGS = 16; // maximum number of sensors whose readings are drawn at a time
 const FRAMES_TOPIC = "/tf_static";
 const BEAMS_TOPIC = "/gsv/beams";
-// With more robots, only the beams of the selected one are drawn, because those of all robots would
+// If there are more robots, only the beams of the selected robot are drawn, because the beams of all robots would
 // hide everything.
 export const MOST_ROBOTS_WITH_BEAMS = 20;
 const BUMPERS = ["contact", "bumper"];
@@ -30,7 +30,7 @@ export interface OverlayView {
   keepReadings(topics: ReadonlySet<string>): void;
 }
 
-// Returns the topics that the overlays need at present.
+// Returns the topics that the visible overlays need.
 export function topicsToDraw({ scene, shown, selection, viewMode, replay }: State): string[] {
   const wants = (sensor: SceneSensor) =>
     (shown.points && sensor.overlay === "points") || (shown.contacts && BUMPERS.includes(sensor.type));
@@ -42,7 +42,7 @@ export function topicsToDraw({ scene, shown, selection, viewMode, replay }: Stat
     ...sensors.filter(acts).slice(0, MOST_ACTUATORS),
   ];
   const needsFrames = readings.length > 0 || shown.cameras || shown.frames || viewMode === "eye";
-  // Does not depend on the robot's radios, because a behaviour may mount one at any time.
+  // The scene need not list a radio, because a behaviour may create one at any time.
   const mayHaveRadio = shown.actuators && robotsOf(scene).length > 0;
   const beams = shown.beams && scene ? beamsToDraw(robotsOf(scene), selection, replay !== null) : null;
   return [
@@ -60,7 +60,7 @@ function beamsToDraw(robots: readonly SceneBody[], selection: string | null, isR
   return isReplay ? BEAMS_TOPIC : `${BEAMS_TOPIC}/${selection}`;
 }
 
-// The sensors of the selected robot come first.
+// Returns the sensors, beginning with those of the selected robot.
 function sensorsOf(scene: SceneDescription | null, selection: string | null): SceneSensor[] {
   const robots = robotsOf(scene);
   const first = robots.filter(({ name }) => name === selection);
@@ -68,7 +68,7 @@ function sensorsOf(scene: SceneDescription | null, selection: string | null): Sc
 }
 
 export class OverlayFeed {
-  private readonly ends = new Map<string, () => void>(); // by topic
+  private readonly ends = new Map<string, () => void>(); // functions that end subscriptions, by topic
   private simulation: string | null = null;
 
   constructor(
@@ -78,8 +78,8 @@ export class OverlayFeed {
   ) {}
 
   start(): void {
-    // The inputs that matter, because the state changes many times per second and may contain
-    // thousands of sensors.
+    // Watches only the inputs that matter, because the state changes many times per second and may contain thousands
+    // of sensors.
     this.store.watch(
       ({ simulation, scene, shown, selection, viewMode, replay }) => ({
         simulation,
@@ -95,7 +95,7 @@ export class OverlayFeed {
   }
 
   private listen(simulation: string | null, topics: string[]): void {
-    // Another simulation has other streams, even for the same topic name.
+    // In another simulation, a topic of the same name is another stream.
     const kept = new Set(simulation === this.simulation ? topics : []);
     this.simulation = simulation;
     for (const [topic, end] of [...this.ends]) {

@@ -2,9 +2,9 @@
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 
-// The place in which panels are shown.
+// The part of the page that contains the panels.
 export interface PanelHost {
-  isInSight(id: string): boolean; // false: it is closed, or behind another tab
+  isInSight(id: string): boolean; // false if the panel is closed or behind another tab
   reveal(id: string): void;
 }
 
@@ -13,7 +13,7 @@ export class PanelControl {
 
   constructor(private readonly store: Store<State>) {}
 
-  // Brings a panel behind another tab to the front.
+  // Opens a panel. If it is behind another tab, brings it to the front.
   open(id: string): void {
     this.store.set(({ openPanels }) => (openPanels.includes(id) ? {} : { openPanels: [...openPanels, id] }));
     this.host?.reveal(id);

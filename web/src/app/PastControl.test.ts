@@ -56,7 +56,7 @@ test("while the slider is dragged, the past is opened once, and the last request
   await vi.advanceTimersByTimeAsync(0);
   const first = control.lookAt(30);
   void control.lookAt(5);
-  expect(store.get().wishedTime).toBe(10); // nothing earlier is kept
+  expect(store.get().wishedTime).toBe(10); // nothing earlier is stored
   await first;
   expect(session.enterPast).toHaveBeenCalledOnce();
   expect(replay.seek.mock.calls).toEqual([[10]]);

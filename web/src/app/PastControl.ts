@@ -1,5 +1,5 @@
-// The past of a running simulation: the part that the server keeps, the events in it, and its
-// replay while the run continues.
+// The past of a running simulation: the part that the server stores, the events in it, and its replay while the run
+// continues.
 import type { SimulationApi } from "../api/SimulationApi";
 import type { CurveOf, WholeCurve } from "../api/curve";
 import type { RecordedEvent } from "../api/replay";
@@ -12,8 +12,8 @@ import type { Session } from "./Session";
 import { notify } from "./notices";
 
 const POLL_MS = 2000;
-const OVERLAP_S = 1; // of what is asked again: it may have come late
-const READER_MS = 10_000; // as long as curves are read of the same opened past
+const OVERLAP_S = 1; // events of this time are requested again, because some may have arrived late
+const READER_MS = 10_000; // for this time, curves are read from the same replay of the past
 
 type PastApi = Pick<SimulationApi, "kept" | "eventsFrom" | "another">;
 type PastSession = Pick<Session, "enterPast" | "goLive">;
@@ -21,7 +21,7 @@ type PastSession = Pick<Session, "enterPast" | "goLive">;
 export class PastControl {
   private timer: ReturnType<typeof setTimeout> | undefined;
   private entering: Promise<void> | null = null;
-  private asked = 0; // s, simulated: up to where the events are known
+  private asked = 0; // simulated time, s, up to which events are known
   private reader: { api: Promise<SimulationApi>; simulation: string; openedMs: number } | null = null;
 
   constructor(
@@ -34,7 +34,8 @@ export class PastControl {
   start(): void {
     this.store.watch(
       ({ simulation, connection, status, replay, abilities }) => ({
-        // The status says whether it is a replay, and so does the server that replays a recording.
+        // A replay has no stored past. The status shows a replay, and the server shows whether it replays a
+        // recording.
         simulation: status !== null && replay === null && abilities.recording === "" ? simulation : null,
         isOpen: connection.phase === "open",
       }),
@@ -47,7 +48,7 @@ export class PastControl {
     );
   }
 
-  // Goes to an instant of the recording, or of the kept past.
+  // Goes to an instant of the recording, or of the stored past.
   lookAt(time: number): Promise<void> {
     const { replay, kept } = this.store.get();
     if (replay) return this.replay.seek(time);
@@ -61,7 +62,7 @@ export class PastControl {
     this.session.goLive();
   }
 
-  // A value over the kept past.
+  // Returns a value over the stored past.
   async curve(simulation: string, of: CurveOf, most: number): Promise<WholeCurve> {
     const now = Date.now();
     if (this.reader?.simulation !== simulation || now - this.reader.openedMs > READER_MS) {
@@ -88,7 +89,7 @@ export class PastControl {
       const kept = await this.api.kept(simulation);
       if (!isWanted()) return;
       if (kept === null) return this.store.set({ kept });
-      // After a reset, simulated time begins at 0 again.
+      // After a reset, simulated time starts at 0 again.
       if (kept.end < this.asked - OVERLAP_S) {
         this.asked = 0;
         this.store.set({ events: [] });
@@ -100,7 +101,7 @@ export class PastControl {
       this.take(found);
       if (!shallowEqual(kept, this.store.get().kept)) this.store.set({ kept });
     } catch {
-      // The connection reports its own failures, and the next request may succeed.
+      // Ignored: the connection reports its own failures, and the next request may succeed.
     }
     clearTimeout(this.timer);
     if (isWanted()) this.timer = setTimeout(() => void this.ask(simulation), POLL_MS);

@@ -10,7 +10,7 @@ import { shallowEqual } from "../state/Store";
 import { notify } from "./notices";
 import type { Session } from "./Session";
 
-// The stream reports changes at once. The page must report its presence repeatedly.
+// The stream reports changes at once. The page must report repeatedly that it is present.
 const TOPIC = "/gsv/viewers";
 const PRESENCE_MS = 3000;
 const NAME = "gsv-name";
@@ -81,7 +81,7 @@ export class PeopleControl {
   async load(): Promise<void> {
     const simulation = this.store.get().simulation ?? "";
     try {
-      // The server forgets a viewer that was silent for some seconds.
+      // The server drops viewers that do not report for some seconds.
       let people = this.isThere ? await this.api.people() : NO_PEOPLE;
       if (people.you === 0) {
         await this.api.enter(this.name, simulation);
@@ -93,7 +93,7 @@ export class PeopleControl {
       this.isThere = people.you !== 0;
       this.take(people);
     } catch (error) {
-      // The connection reports its own state. A server without the list of viewers allows all
+      // Ignored if the connection failed, which is reported elsewhere. A server without a list of viewers allows all
       // actions.
       if (!(error instanceof ApiError)) return;
       this.isThere = false;
@@ -101,7 +101,8 @@ export class PeopleControl {
     }
   }
 
-  // The message to all viewers does not say which viewer this page is.
+  // Takes the list of viewers from a message. The message goes to all viewers, so it does not say which one this page
+  // is.
   private hear(text: string): void {
     const { you } = this.store.get().people;
     if (you !== 0) this.take({ ...parsePeople(JSON.parse(text)), you });

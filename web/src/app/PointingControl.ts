@@ -1,4 +1,4 @@
-// What the next clicks in the view do: place the selection, measure, or draw a wall.
+// Decides what the next clicks in the view do: move the selection, measure, or draw a wall.
 import type { WallDrawing } from "../state/editing";
 import { chosenOf } from "../state/editing";
 import { faultOf, modelOf, wallBetween } from "../state/shapes";

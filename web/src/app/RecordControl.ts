@@ -11,7 +11,7 @@ const POLL_MS = 1500;
 
 export class RecordControl {
   private timer: ReturnType<typeof setTimeout> | undefined;
-  private startedHere = ""; // the path of the recording that this page has started
+  private startedHere = ""; // path of the recording that this page has started
 
   constructor(
     private readonly store: Store<State>,
@@ -34,8 +34,8 @@ export class RecordControl {
     );
   }
 
-  // One press ends a recording only if this page has started it, because a command line or another
-  // viewer may rely on other recordings. For those, the page asks first.
+  // One press ends a recording only if this page has started it, because a command line or another viewer may need
+  // other recordings. For those, the page asks first.
   press(): void {
     const { recording } = this.store.get();
     if (recording?.isOn && recording.path !== this.startedHere) this.store.set({ stopRecordingAsked: true });
@@ -61,7 +61,7 @@ export class RecordControl {
   }
 
   private async ask(simulation: string): Promise<void> {
-    const known = await this.api.recording(simulation).catch(() => null); // the connection tells of itself
+    const known = await this.api.recording(simulation).catch(() => null); // the connection reports its own failures
     if (this.store.get().simulation !== simulation) return;
     if (known) this.take(simulation, known);
     clearTimeout(this.timer);

@@ -142,7 +142,7 @@ test("it finds the events before and after the present instant", () => {
   const { control, calls, store } = new Fixture({ events, time: 4 });
   control.toEvent(1);
   expect(calls).toEqual(["seek 6"]);
-  control.toEvent(-1); // from the wish
+  control.toEvent(-1); // counted from the requested time
   expect(store.get().wishedTime).toBe(2);
 });
 

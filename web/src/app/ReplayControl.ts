@@ -1,7 +1,7 @@
-// Plays a recording on behalf of the timeline and its keys.
+// Plays a recording, for the timeline and the keys.
 //
-// The server performs one seek at a time. Of the instants requested meanwhile, only the last one
-// counts, as for a slider that is dragged. Steps add up.
+// The server performs one seek at a time. While it does, only the last requested instant is kept, for example while a
+// slider is dragged. Steps are added up.
 import type { Action, SimulationApi } from "../api/SimulationApi";
 import type { Replay } from "../api/replay";
 import type { State } from "../state/State";
@@ -11,7 +11,7 @@ import { notify } from "./notices";
 
 export const SPEEDS: readonly number[] = [0.1, 0.25, 0.5, 1, 2, 5, 10];
 
-const MOST_POSES = 1000; // in one step; the server's limit
+const MOST_POSES = 1000; // maximum number of poses in one step, as in the server
 
 type Move = { time: number } | { poses: number };
 
@@ -25,7 +25,7 @@ export class ReplayControl {
     private readonly act: (action: Action) => Promise<void>,
   ) {}
 
-  // Pauses if it plays. At the end, starts again from the beginning.
+  // Pauses a replay that plays, or plays a paused one. At the end, starts from the beginning.
   async playOrPause(): Promise<void> {
     const { status, replay, time } = this.store.get();
     if (!status || !replay) return;
@@ -35,8 +35,8 @@ export class ReplayControl {
     return this.act("resume");
   }
 
-  // Goes to an instant within the recording. Resolves when the replay is there, or at an instant
-  // that was requested later.
+  // Goes to an instant of the recording. Resolves when the replay is at this instant, or at one that was requested
+  // later.
   seek(time: number): Promise<void> {
     const { replay } = this.store.get();
     if (!replay) return Promise.resolve();

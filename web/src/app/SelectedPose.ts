@@ -7,7 +7,8 @@ import type { RobotPose } from "../state/State";
 
 export const SHORTEST_UPDATE_MS = 100;
 const SPEED_WINDOW_S = 0.2; // simulated
-const LONGEST_WINDOW_S = 3; // longer than an update at ten times real time; beyond, it was a jump
+const LONGEST_WINDOW_S = 3; // longer than the time between updates at ten times real time; after a longer time, the
+                            // replay has jumped
 
 export interface StampedPose {
   pose: Matrix4;
@@ -21,7 +22,7 @@ export class SelectedPose {
   private speed = 0;
   private turnRate = 0;
 
-  // Returns the values to show, or null if it is too early for the next values.
+  // Returns the values to show, or null if the next values are not due yet.
   update(robot: string, latest: StampedPose, nowMs: number): RobotPose | null {
     if (robot !== this.robot) this.start(robot);
     if (nowMs - this.updatedMs < SHORTEST_UPDATE_MS) return null;

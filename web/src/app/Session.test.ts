@@ -11,7 +11,7 @@ import { Store } from "../state/Store";
 import type { LiveClient } from "./Session";
 import { Session } from "./Session";
 
-// A server with answers that the test sets, and its stream.
+// A server whose answers the test sets, and its stream.
 class Fixture {
   readonly store: Store<State>;
   readonly handlers = new Map<string, (message: never) => void>();

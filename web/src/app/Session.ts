@@ -58,10 +58,10 @@ const NOTHING_WATCHED: Partial<State> = {
 
 const NO_COUNTS: ReadonlyMap<string, TopicCount> = new Map();
 
-// What the page's address requests, if anything.
+// The requests in the page's address.
 export interface Wanted {
   simulation: string | null;
-  recording: string | null; // that is to be replayed for this page alone
+  recording: string | null; // the recording to replay for this page only
 }
 
 export const NOTHING_WANTED: Wanted = { simulation: null, recording: null };
@@ -80,13 +80,14 @@ export class Session implements TopicSource, LiveViewSource {
   private timer: ReturnType<typeof setTimeout> | undefined;
   private attempt = 0;
   private sceneText = "";
-  private fetchingScene: string | null = null; // of the simulation of this name
+  private fetchingScene: string | null = null; // name of the simulation whose scene is being fetched
   private sceneFailedAtMs = -Infinity;
   private wasOpen = false;
-  private hasOpened = false; // the recording that is wanted
-  private instant: number | null = null; // s, simulated: where a replay is to go on
+  private hasOpened = false; // whether the requested recording was opened
+  private instant: number | null = null; // simulated time, s, at which a replay is to continue
   private newsSince = Infinity; // s, simulated
-  private isSwitching = false; // between a run and its past: nothing is lost meanwhile
+  private isSwitching = false; // while the page changes between a run and its past, a closed stream is no lost
+                               // connection
   private readonly wishes: TopicWishes;
 
   constructor(
@@ -119,13 +120,13 @@ export class Session implements TopicSource, LiveViewSource {
     this.store.set({ ...NOTHING_WATCHED, simulation: name });
     this.connect(name);
     if (this.instant !== null) return;
-    // Neither needs the stream.
+    // Neither request needs the stream.
     void this.fetchStatus(name);
-    void this.fetchScene(name, () => {}); // it is fetched again if the stream opens without it
+    void this.fetchScene(name, () => {}); // if the stream opens without the scene, the scene is fetched again
   }
 
-  // Shows the past of the simulation that the server keeps, as a replay for this page alone. What the page
-  // shows stays until the replay shows something else.
+  // Shows the past of the simulation that the server stores, as a replay for this page only. The page does not change
+  // until the replay sends data.
   async enterPast(): Promise<void> {
     const { simulation, inPast } = this.store.get();
     if (simulation === null || inPast) return;
@@ -156,13 +157,13 @@ export class Session implements TopicSource, LiveViewSource {
     this.connect(simulation);
   }
 
-  // A simulation that was created just now.
+  // Joins a simulation that was just created.
   async joinNew(name: string): Promise<void> {
     this.store.set({ simulations: await this.api.simulations() });
     this.join(name);
   }
 
-  // Watches nothing until join() or start() is called.
+  // Shows no simulation until join() or start() is called.
   rest(): void {
     clearTimeout(this.timer);
     this.leave();
@@ -177,7 +178,7 @@ export class Session implements TopicSource, LiveViewSource {
     this.views.attach(null);
   }
 
-  // Reads a topic of the present simulation, and of each later one.
+  // Subscribes to a topic of the present simulation, and of each simulation that is shown later.
   subscribe<Message>(topic: string, handler: (message: Message) => void, options?: TopicOptions): () => void {
     this.wishes.lookSoon();
     return this.topics.subscribe(topic, handler, options);
@@ -197,7 +198,7 @@ export class Session implements TopicSource, LiveViewSource {
     return this.client?.counts ?? NO_COUNTS;
   }
 
-  // The value of a parameter according to the server of the stream; null if it does not answer.
+  // Returns the value of a parameter from the server of the stream; null if there is no answer.
   parameter(name: string): Promise<ParameterValue | null> {
     return this.client?.parameter(name) ?? Promise.resolve(null);
   }
@@ -210,7 +211,7 @@ export class Session implements TopicSource, LiveViewSource {
     this.takeReplay(status);
   }
 
-  // Only the API reports that it is a replay. The stream reports its speed.
+  // The API reports whether this is a replay; the stream does not. The stream reports its speed.
   private takeReplay({ replay: told, targetFactor }: SimulationStatus): void {
     const known = this.store.get().replay;
     const replay = told ?? (known && { ...known, speed: targetFactor });
@@ -253,8 +254,8 @@ export class Session implements TopicSource, LiveViewSource {
     this.start();
   }
 
-  // Returns whether there is something to look for: a requested recording may no longer exist.
-  // Throws errors that may be gone at the next attempt.
+  // Returns whether there is something to connect to: a requested recording may no longer exist. Throws errors that
+  // may not occur at the next attempt.
   private async openRecording(): Promise<boolean> {
     const { recording } = this.wanted;
     if (recording === null || this.hasOpened) return true;
@@ -274,7 +275,7 @@ export class Session implements TopicSource, LiveViewSource {
     try {
       this.store.set({ abilities: await this.api.setUp.abilities() });
     } catch {
-      // Until then, the page offers nothing that the server may not support.
+      // Until the answer arrives, the page offers no action that the server may not support.
     }
   }
 
@@ -309,7 +310,7 @@ export class Session implements TopicSource, LiveViewSource {
       const { status, simulation } = this.store.get();
       const hadFailed = status?.phase === "failed";
       this.takeStatus(statusFromMessage(message));
-      // The stream reports the failure, and the API the reason.
+      // The stream reports that the run failed. The API also reports why.
       if (message.state === "failed" && !hadFailed && simulation !== null) void this.fetchStatus(simulation);
     });
     topics.subscribe<HealthMessage>("/gsv/health", (message) => this.store.set({ health: healthOf(message) }));
@@ -327,18 +328,19 @@ export class Session implements TopicSource, LiveViewSource {
     this.instant = null;
     const { scene, status } = this.store.get();
     if (isFirst && instant === null && scene && status && status.phase !== "failed") {
-      // Both were fetched just now. The stream reports what has changed since.
+      // Both answers are new. The stream reports all changes after them.
       this.newsSince = status.time;
       return this.wishes.lookSoon();
     }
     this.newsSince = Infinity;
-    if (instant !== null) await this.api.seek(name, instant).catch(() => {}); // then it stands at its start
+    if (instant !== null) await this.api.seek(name, instant).catch(() => {}); // if this fails, the replay stays at
+                                                                              // its start
     await Promise.all([this.fetchScene(name), this.fetchStatus(name)]);
     this.wishes.lookSoon();
   }
 
-  // After a restart of the server, the simulation may no longer exist. Then the page looks for
-  // other simulations.
+  // Checks whether the simulation still exists; it may not after a restart of the server. If not, the page searches
+  // for other simulations.
   private async checkStillThere(name: string): Promise<void> {
     try {
       await this.api.status(name);
@@ -350,7 +352,7 @@ export class Session implements TopicSource, LiveViewSource {
         return this.goLive();
       }
       this.leave();
-      // A page's own replay ends with its server. A new one continues at the same instant.
+      // A replay of this page ends with its server. A new replay continues at the same instant.
       this.instant = this.store.get().replay && this.hasOpened ? this.store.get().time : null;
       this.hasOpened = false;
       this.store.set({ ...NOTHING_WATCHED, simulation: null });
@@ -408,16 +410,16 @@ export class Session implements TopicSource, LiveViewSource {
       this.newsSince = Math.min(this.newsSince, status.time);
       if (status.replay) void this.fetchEvents(name);
     } catch {
-      // The stream also carries the status, and reports a lost connection.
+      // Ignored: the stream also carries the status, and reports a lost connection.
     }
   }
 
   private async fetchEvents(name: string): Promise<void> {
-    const events = await this.api.events(name).catch(() => []); // a timeline is of use without them
+    const events = await this.api.events(name).catch(() => []); // the timeline is useful without events, too
     if (this.store.get().simulation === name) this.store.set({ events });
   }
 
-  // A new subscription also delivers past events. Only later events are news.
+  // Handles an event. A new subscription also delivers past events; only later events are shown as notices.
   private takeEvent(message: LifecycleEventMessage): void {
     if (seconds(message.stamp) < this.newsSince) return;
     if (message.event === "agent_dead" || message.event === "agent_unresponsive") {

@@ -1,5 +1,5 @@
 // @vitest-environment jsdom
-import { Blob } from "node:buffer"; // jsdom's cannot be read
+import { Blob } from "node:buffer"; // the Blob of jsdom cannot be read
 import { beforeEach, expect, test, vi } from "vitest";
 import { ApiError } from "../api/JsonServer";
 import { testApp } from "../page/testApp";
@@ -142,7 +142,7 @@ test("a click on Create right after a change is not lost, and two clicks create 
   let answer = () => {};
   const shown = await api.preview({});
   api.preview.mockReturnValueOnce(new Promise((resolve) => (answer = () => resolve(shown))));
-  app.setUp.change({ duration: 5 }); // typed, and left by the press
+  app.setUp.change({ duration: 5 }); // the user types a number and presses the button without leaving the field
   const create = panel.querySelector<HTMLButtonElement>(".set-up-end .primary")!;
   expect(create.disabled).toBe(false);
   create.click();

@@ -1,7 +1,8 @@
-// Sets up a simulation: sends a person's changes to the server, which returns the scene at the
-// start and the problems; finally creates the simulation.
+// Sets up a simulation: sends the user's changes to the server, which returns the scene at the start and the
+// problems. Finally creates the simulation.
 //
-// One preview is requested at a time. Of several changes meanwhile, only the last state counts.
+// One preview is requested at a time. While it is pending, only the last state of the form is kept for the next
+// request.
 import { ApiError } from "../api/JsonServer";
 import type { SetUpApi } from "../api/SetUpApi";
 import type { PedestrianSetUp } from "../api/pedestrians";
@@ -26,9 +27,9 @@ const FIRST_WORLD = "office";
 
 export class SetUpControl {
   private previewing: Promise<void> | null = null;
-  private isStale = false; // changed since the last preview was asked for
+  private isStale = false; // whether the form has changed since the last preview was requested
   private offersTimer: ReturnType<typeof setTimeout> | undefined;
-  private left: string | null = null; // the simulation that was watched before
+  private left: string | null = null; // the simulation that was shown before
 
   constructor(
     private readonly store: Store<State>,
@@ -47,20 +48,20 @@ export class SetUpControl {
     await this.hold(async () => {
       const [worlds, models] = await Promise.all([this.api.worlds(), this.api.models()]);
       const world = worlds.includes(FIRST_WORLD) ? FIRST_WORLD : (worlds[0] ?? "");
-      // Somebody may have dropped a world meanwhile.
+      // The user may have dropped a world file meanwhile.
       this.patch(({ scenario }) => ({ worlds, models, scenario: { ...scenario, world: scenario.world || world } }));
     });
     await this.preview();
   }
 
-  // Returns to the simulation that was watched before.
+  // Returns to the simulation that was shown before.
   close(): void {
     this.end();
     if (this.left) this.session.join(this.left);
     else this.session.start();
   }
 
-  // The last change may still be on its way to the server.
+  // The last change may not have reached the server yet.
   async create(): Promise<void> {
     await this.previewing;
     const { setUp } = this.store.get();
@@ -141,7 +142,7 @@ export class SetUpControl {
     }
   }
 
-  // Uploads a world from this machine, or several to choose from, with their files.
+  // Uploads a world from this machine with its files. If there are several worlds, the user chooses one.
   async drop(files: Promise<DroppedFile[]> | DroppedFile[]): Promise<void> {
     if (!this.store.get().setUp) await this.open();
     this.patch(() => ({ isBusy: true, isHeld: true }));
@@ -203,7 +204,7 @@ export class SetUpControl {
     }
   }
 
-  // Performs a request that the server may refuse with a field name.
+  // Performs a request. If the server refuses it, it may name a field of the form.
   private async ask(work: () => Promise<void>): Promise<void> {
     this.patch(() => ({ isBusy: true }));
     try {
@@ -225,7 +226,7 @@ export class SetUpControl {
     this.patch(() => ({ isHeld: false }));
   }
 
-  // The behaviours may change while the form is open.
+  // The offered behaviours may change while the form is open.
   private async lookForOffers(): Promise<void> {
     clearTimeout(this.offersTimer);
     const asked = [this.api.behaviours(), this.api.ros2()] as const;

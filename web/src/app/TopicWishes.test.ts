@@ -22,7 +22,7 @@ test("each robot whose subscribed sensors have no topics is requested once", () 
   const { wishes, listTopics } = fixture(["/a/sonar", "/a/camera", "/gsv/beams"]);
   wishes.lookSoon();
   wishes.lookSoon();
-  expect(listTopics).not.toHaveBeenCalled(); // they may be listed any moment
+  expect(listTopics).not.toHaveBeenCalled(); // the topics may be listed at any moment
   vi.runAllTimers();
   expect(listTopics.mock.calls).toEqual([["s", "a"]]);
 });

@@ -1,17 +1,17 @@
-// If there are very many sensors, a server lists the topics of the first ones only, and those of
-// other robots on request (docs/formats/live.md). Requests the robots whose sensors the page has
-// subscribed to without success.
+// If there are very many sensors, a server lists the topics of the first ones only, and those of other robots on
+// request (docs/formats/live.md). This class requests the topics of robots if a subscription to one of their sensors
+// has no topic.
 import type { SimulationApi } from "../api/SimulationApi";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 
-// The server may still list a new subscription by itself within this time.
+// Within this time, the server may still list the topic of a new subscription without a request.
 const LISTED_MS = 300;
 
 export class TopicWishes {
   private timer: ReturnType<typeof setTimeout> | undefined;
 
-  // `missing` returns the topics that are subscribed but not listed.
+  // `missing` returns the topics that are subscribed to but not listed.
   constructor(
     private readonly api: Pick<SimulationApi, "listTopics">,
     private readonly store: Store<State>,

@@ -1,16 +1,16 @@
-// Chooses whether the browser or the server draws the view. The server draws it if the browser has no WebGL or
-// is slow. If a person chooses, that choice is kept.
+// Chooses whether the browser or the server draws the view. By default, the server draws it if the browser has no
+// WebGL or is slow. The user's choice has priority, and is stored.
 import type { Store } from "../state/Store";
 import type { Drawer, State } from "../state/State";
 
 export interface ChoiceOptions {
-  canDraw: boolean; // the browser has WebGL
-  inSoftware: boolean; // no graphics card draws
-  chosen: string | null; // by hand, earlier or in the address
+  canDraw: boolean; // whether the browser has WebGL
+  inSoftware: boolean; // whether the browser draws without a graphics card
+  chosen: string | null; // the user's choice, stored earlier or in the address
 }
 
 const SLOW_FPS = 10;
-const SLOW_SECONDS = 5; // in a row
+const SLOW_SECONDS = 5; // number of consecutive slow seconds after which the server draws
 
 export class ViewChoice {
   private slowSeconds = 0;
@@ -37,7 +37,7 @@ export class ViewChoice {
     if (this.slowSeconds >= SLOW_SECONDS) this.set("server");
   }
 
-  // The user's choice. Null if there is no choice.
+  // What the user can choose instead of the present drawer; null if there is no choice.
   get other(): Drawer | null {
     if (this.store.get().drawnBy === "browser") return "server";
     return this.options.canDraw ? "browser" : null;
@@ -49,7 +49,7 @@ export class ViewChoice {
     this.set(drawer);
   }
 
-  // The server draws no images. Returns false if the browser cannot draw either.
+  // Called if the server draws no images. Returns false if the browser cannot draw either.
   serverFailed(): boolean {
     this.serverFails = true;
     if (!this.options.canDraw) return false;

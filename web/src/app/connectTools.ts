@@ -34,7 +34,7 @@ export function connectTools(store: Store<State>, world: World3D): void {
   );
 }
 
-// Shows the last reported pose of the edited body, except while the user drags it.
+// Shows the last reported pose of the selected body, except while the user drags the body.
 export function showChosenPose(store: Store<State>, world: World3D): void {
   const state = store.get();
   if (world.tools.holds) return;

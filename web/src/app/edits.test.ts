@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import type { Edit } from "./edits";
 import { inOrder, together } from "./edits";
 
-// Logs the edits that are made. `refuses` is called before each edit.
+// Makes edits that log what they do. `refuses` is called before each edit.
 function recorder(refuses: (what: string, log: readonly string[]) => boolean = () => false) {
   const log: string[] = [];
   const edit = (name: string): Edit => {
@@ -30,7 +30,7 @@ test("edits before a refused one are undone", async () => {
 });
 
 test("bodies that obstruct each other move one after the other", async () => {
-  // "+a" fails until b is removed.
+  // The edit "+a" fails until b is removed.
   const { log, edit } = recorder((what, log) => what === "+a" && !log.includes("+b"));
   await together("all", [edit("a"), edit("b")]).apply();
   expect(log).toEqual(["+b", "+a"]);

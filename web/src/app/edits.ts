@@ -1,13 +1,13 @@
-// Edits of a world. Each edit can be undone, and several can be combined into one.
+// Edits of a world that can be undone. Several can be combined into one.
 
 export interface Edit {
-  name: string; // "move pebble"
+  name: string; // such as "move pebble"
   apply(): Promise<void>;
   revert(): Promise<void>;
 }
 
 // Performs the edits in this order. If one is refused, undoes the earlier ones and throws the
-// refusal.
+// error.
 export function inOrder(name: string, edits: readonly Edit[]): Edit {
   const run = async (list: readonly Edit[], forth: "apply" | "revert", back: "apply" | "revert") => {
     const done: Edit[] = [];
@@ -28,8 +28,8 @@ export function inOrder(name: string, edits: readonly Edit[]): Edit {
   };
 }
 
-// Performs the edits in any order that the server allows. An edit that fails because another body
-// still occupies the place is tried again after the others.
+// Performs the edits in an order that the server allows. If an edit fails because another body still occupies the
+// place, it is tried again after the others.
 export function together(name: string, edits: readonly Edit[]): Edit {
   const run = async (list: readonly Edit[], forth: "apply" | "revert", back: "apply" | "revert") => {
     const done: Edit[] = [];

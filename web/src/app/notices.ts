@@ -1,4 +1,4 @@
-// Short messages at the edge of the page, such as refusals of the server and news of robots.
+// Makes short messages at the edge of the page: refusals of the server and news of robots.
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 

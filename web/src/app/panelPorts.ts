@@ -1,4 +1,4 @@
-// The ports by which panels access this page.
+// Implements the ports with which panels access this page.
 import type { SimulationApi } from "../api/SimulationApi";
 import type { PanelPorts } from "../panels/contract/ports";
 import type { App } from "./App";

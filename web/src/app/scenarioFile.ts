@@ -11,7 +11,7 @@ export function scenarioFileName(scenario: Scenario): string {
   return `${titleOf(scenario)}.yaml`;
 }
 
-// A server chooses the names of recordings, but a file for `gsv run` must contain one.
+// In a recording, `true` lets the server choose a name. A file for `gsv run` must contain a name instead.
 export function scenarioFile(scenario: Scenario): Blob {
   const json = scenarioJson(scenario);
   if (scenario.record) json.record = `${titleOf(scenario)}.mcap`;
@@ -23,7 +23,7 @@ function titleOf({ name, world }: Scenario): string {
   return title.replace(/[^\p{L}\p{N} _.-]+/gu, "_").slice(0, 80);
 }
 
-// Throws an error with a sentence if the file is not a scenario.
+// Reads a scenario file. Throws an error with a sentence if the file is no scenario.
 export async function readScenario(file: TextFile): Promise<ReturnType<typeof parseScenario>> {
   try {
     if (file.size > LARGEST_BYTES) throw new Error("a scenario file must not be larger than 1 MB");

@@ -15,7 +15,7 @@ export function keepDrawer(storage: Storage | null, drawer: Drawer): void {
   storage?.setItem(KEY, drawer);
 }
 
-// The user's choice: view=server or view=browser in the address, else the stored choice.
+// Returns the user's choice: view=server or view=browser in the address, or else the stored choice.
 export function chosenDrawer(storage: Storage | null, parameters: URLSearchParams): string | null {
   return parameters.get("view") ?? storage?.getItem(KEY) ?? null;
 }
@@ -38,7 +38,7 @@ export function startDrawing(
     if (!choice.serverFailed()) store.set({ view: "none" });
   };
   const use = (drawer: Drawer) => {
-    // A simulation that is still being set up does not exist on the server.
+    // A simulation that is still being set up does not exist on the server, so the browser draws it.
     const isOnServer = drawer === "server" && store.get().setUp === null;
     if (!isOnServer) {
       world.drawBy(null);
@@ -68,7 +68,7 @@ export function startDrawing(
   return choice;
 }
 
-// A page in the background needs no images.
+// Waits until the page is visible. In the background it needs no images.
 async function untilVisible(): Promise<void> {
   while (document.hidden) {
     await new Promise((resolve) => document.addEventListener("visibilitychange", resolve, { once: true }));

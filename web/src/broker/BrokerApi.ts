@@ -24,19 +24,19 @@ export type Result = "true" | "false" | "no value";
 export interface Term {
   term: string;
   result: Result;
-  missing: string[]; // properties that it needs and the offer lacks
+  missing: string[]; // required properties that the offer lacks
 }
 
 export interface Offer {
   address: string;
-  properties: [name: string, value: string][]; // the values as JSON writes them
+  properties: [name: string, value: string][]; // values in JSON notation
   matches: boolean;
   terms: Term[];
 }
 
 export interface Answer {
-  offers: Offer[]; // those that match, in the order of the preference, then the others
-  isCut: boolean; // there are more
+  offers: Offer[]; // matching offers in the order of preference, then the others
+  isCut: boolean; // whether there are more offers than these
 }
 
 export interface Link {

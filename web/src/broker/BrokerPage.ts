@@ -20,7 +20,7 @@ export class BrokerPage {
   private type = "";
   private asked = 0;
 
-  // `admit`: stores the token for further requests.
+  // `admit` stores the token for further requests.
   constructor(
     private readonly api: BrokerApi,
     private readonly admit: (token: string) => void,
@@ -92,11 +92,11 @@ export class BrokerPage {
     }
     this.heading.textContent = type.name;
     this.declared.replaceChildren(declaration(type));
-    this.answer.replaceChildren(); // what is there answers for another type
+    this.answer.replaceChildren(); // the shown answer belongs to another type
     await this.find();
   }
 
-  // Ignores answers to earlier requests.
+  // Requests the offers. Answers to earlier requests are ignored.
   private async find(): Promise<void> {
     const turn = ++this.asked;
     const constraint = this.constraint.value.trim();

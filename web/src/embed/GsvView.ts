@@ -5,9 +5,9 @@ import type { Side } from "./camera";
 import { FIRST_SIDE, PLACING, imageUrl, turned, zoomed } from "./camera";
 
 const ATTRIBUTES = ["src", "simulation", "eye", "target", "follow", "camera", "fov", "quality", "fps", "token", "label"] as const;
-const STEADY_MS = 400; // after the last gesture a stream takes over from single images
+const STEADY_MS = 400; // after this time without a gesture, a stream replaces the single images
 const RETRY_MS = 2000;
-const SIDES_PX: [number, number] = [16, 4096]; // the server's limits
+const SIDES_PX: [number, number] = [16, 4096]; // minimum and maximum side of an image, as in the server
 const KEY_STEP_PX = 25;
 const ZOOM_STEP = 1.2;
 
@@ -29,8 +29,8 @@ export class GsvView extends HTMLElement {
   private readonly sizes = new ResizeObserver(() => this.refresh());
   private side: Side = FIRST_SIDE;
   private grip: { x: number; y: number } | null = null;
-  private isLoading = false; // a single image
-  private isStale = false; // it is not of the present camera
+  private isLoading = false; // whether a single image is being loaded
+  private isStale = false; // whether the shown image is of an earlier camera
   private steady: ReturnType<typeof setTimeout> | undefined;
   private retry: ReturnType<typeof setTimeout> | undefined;
 
@@ -62,7 +62,7 @@ export class GsvView extends HTMLElement {
     this.sizes.disconnect();
     clearTimeout(this.steady);
     clearTimeout(this.retry);
-    this.image.removeAttribute("src"); // ends the stream
+    this.image.removeAttribute("src"); // this ends the stream
   }
 
   attributeChangedCallback(): void {
@@ -124,8 +124,8 @@ export class GsvView extends HTMLElement {
     this.show("view.mjpeg");
   }
 
-  // While the camera moves, single images are requested one after the other, so that none of them
-  // is late.
+  // While the camera moves, requests single images, one after the other, so that no image comes
+  // late.
   private moved(): void {
     clearTimeout(this.steady);
     this.steady = setTimeout(() => this.refresh(), STEADY_MS);

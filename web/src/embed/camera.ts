@@ -2,8 +2,8 @@
 // user rotates.
 
 export interface Side {
-  azimuth: number; // degrees: heading of the view, counter-clockwise from x
-  elevation: number; // degrees: how far it looks down
+  azimuth: number; // heading of the camera in degrees, counter-clockwise from x
+  elevation: number; // angle by which the camera looks down, degrees
   zoom: number;
 }
 
@@ -27,12 +27,12 @@ export function zoomed(side: Side, factor: number): Side {
   return { ...side, zoom: Math.min(LARGEST_ZOOM, Math.max(SMALLEST_ZOOM, side.zoom * factor)) };
 }
 
-// The attributes that fix the camera. With any of them, the user cannot rotate the view.
+// The attributes that determine the camera completely. If one of them is set, the user cannot rotate the view.
 export const PLACING = ["eye", "target", "follow", "camera"] as const;
 const PASSED = [...PLACING, "fov", "quality", "token", "simulation"] as const;
 
 export interface Wanted {
-  src: string; // the viewer's address, absolute; it may name a simulation
+  src: string; // absolute address of the viewer; may contain a simulation
   attributes: Readonly<Record<string, string | null>>;
   side: Side;
   width: number; // px

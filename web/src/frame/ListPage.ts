@@ -9,19 +9,19 @@ import { showFrame } from "./frame";
 const POLL_MS = 3000;
 
 export interface Listing<Item> {
-  note: string; // where it comes from
+  note: string; // the source of the list
   items: Item[];
   more?: string; // a sentence below the list
 }
 
 export interface ListSource<Item> {
-  title: string; // the page's
-  label: string; // the list's
-  empty: string | Node; // instead of no items
-  missing?: string; // why a server may not know the address that is fetched
+  title: string; // title of the page
+  label: string; // label of the list
+  empty: string | Node; // shown if the list is empty
+  missing?: string; // shown if the server does not know the list's address
   fetch(): Promise<Listing<Item>>;
-  show(item: Item): HTMLElement; // a list item
-  admit(token: string): void; // it is shown to the server from now on
+  show(item: Item): HTMLElement; // makes a list item
+  admit(token: string): void; // stores the token for all further requests
 }
 
 export class ListPage<Item> {
@@ -53,7 +53,7 @@ export class ListPage<Item> {
     setTimeout(() => void this.follow(), POLL_MS);
   }
 
-  // Resolves when the list has changed.
+  // Waits for an action, and then updates the list.
   async after(action: Promise<void>): Promise<void> {
     try {
       await action;
@@ -69,7 +69,7 @@ export class ListPage<Item> {
       const listing = await this.source.fetch();
       this.wrong.hidden = this.token.hidden = true;
       const text = JSON.stringify(listing);
-      // Unchanged items are kept, because one of them may have the focus.
+      // If nothing has changed, items are not replaced, because one of them may have the focus.
       if (text === this.shown) return;
       this.shown = text;
       this.take(listing);

@@ -1,5 +1,5 @@
-// The common parts of the pages besides the viewer: the bar with the link to the simulation and the
-// links to the other pages.
+// The common parts of all pages except the viewer: the bar with links to the simulation and to the other
+// pages.
 import "../style/page.css";
 import "../style/panels.css";
 import "../style/frame.css";
@@ -7,12 +7,12 @@ import { element } from "../ui/element";
 import { BROKER, JOIN, RECORDINGS } from "../ui/pages";
 
 export interface Frame {
-  note: HTMLElement; // beside the title: where what is shown comes from
+  note: HTMLElement; // beside the title: the source of what the page shows
 }
 
 const PAGES = [JOIN, RECORDINGS, BROKER];
 
-// `parts` are the page's own parts, each with its place in the grid (style/page.css).
+// `parts` are the page's own parts. Each has a place in the grid (style/page.css).
 export function showFrame(page: HTMLElement, title: string, ...parts: HTMLElement[]): Frame {
   const note = element("code", { class: "frame-note dim" });
   const bar = element(

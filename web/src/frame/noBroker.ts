@@ -1,4 +1,4 @@
-// A server that replays a recording has no broker, and no addresses for it.
+// Explains a missing broker: a server that replays a recording has none, and no addresses for it.
 import { ApiError } from "../api/JsonServer";
 
 export const NO_BROKER = "A replay has no broker. Start a simulation with gsv run or gsv serve, and open this page there.";

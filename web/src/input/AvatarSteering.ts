@@ -18,7 +18,7 @@ const LEFT = ["q"];
 const RIGHT = ["e"];
 const DRIVING_KEYS = [FORWARD, BACK, TURN_LEFT, TURN_RIGHT, LEFT, RIGHT].flat();
 
-// The motion for the held keys (lower case). Opposite keys cancel each other.
+// Returns the motion for the pressed keys (lower case). Opposite keys cancel each other.
 export function driveOf(held: ReadonlySet<string>): Drive {
   const any = (keys: string[]) => (keys.some((key) => held.has(key)) ? 1 : 0);
   const haste = held.has("shift") ? HASTE : 1;
@@ -36,8 +36,8 @@ export class AvatarSteering {
   private unsent: Drive | null = null;
   private told: Drive = STANDING;
 
-  // `avatar` returns the name of the avatar to drive, or null. `send` may fail and reports that
-  // itself. `hearsSingleKeys`: whether letters drive too, or only the arrow keys.
+  // `avatar` returns the name of the avatar to drive, or null. `send` may fail; it reports this itself.
+  // `hearsSingleKeys` is whether letters also drive, and not only arrow keys.
   constructor(
     private readonly avatar: () => string | null,
     private readonly send: (avatar: string, drive: Drive) => Promise<void>,
@@ -86,7 +86,7 @@ export class AvatarSteering {
     if (!this.sending) void this.sendAll();
   }
 
-  // Sends one call at a time. Of the commands requested meanwhile, only the last one counts.
+  // Sends one command at a time. While it is pending, only the last new command is kept.
   private async sendAll(): Promise<void> {
     this.sending = true;
     while (this.unsent) {

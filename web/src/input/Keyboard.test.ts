@@ -66,7 +66,7 @@ test("Space runs and pauses after a click on a button, but presses a button that
     document.activeElement!.dispatchEvent(new KeyboardEvent("keydown", { key: " ", bubbles: true }));
   button.focus();
   space();
-  button.dispatchEvent(new MouseEvent("click", { detail: 0, bubbles: true })); // by Enter
+  button.dispatchEvent(new MouseEvent("click", { detail: 0, bubbles: true })); // as if Enter was pressed
   space();
   expect(startPauseOrResume).not.toHaveBeenCalled();
   button.dispatchEvent(new MouseEvent("click", { detail: 1, bubbles: true }));

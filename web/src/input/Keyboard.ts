@@ -1,5 +1,5 @@
-// The keys of the page. They have no effect while somebody types, chooses from a list, or has a
-// sheet open. A focused button receives Space and Enter itself.
+// The keys of the page. They have no effect while the user types or chooses from a list, or while a dialog is open. A
+// focused button handles Space and Enter itself.
 import type { App } from "../app/App";
 import type { ReplayControl } from "../app/ReplayControl";
 import { PANELS } from "../panels/registry";
@@ -7,7 +7,7 @@ import { OVERLAYS } from "../state/overlays";
 import type { ChangedKeys } from "../state/shortcuts";
 import { originalKey } from "../state/shortcuts";
 
-const MANY_POSES = 10; // of a step with Shift
+const MANY_POSES = 10; // number of poses of a step with Shift
 
 export interface Key {
   key: string;
@@ -83,7 +83,7 @@ export function replayCommandOf(event: Key): ((replay: ReplayControl) => void) |
   }
 }
 
-// The default key of the command to which the pressed key is assigned.
+// Returns the event with the default key of the command to which the pressed key is assigned.
 function asOriginal(event: Key, changed: ChangedKeys): Key {
   const { key, ctrlKey, altKey, metaKey } = event;
   return { key: isSingleKey(event) ? originalKey(key, changed) : key, ctrlKey, altKey, metaKey };
@@ -94,15 +94,15 @@ export function isSingleKey({ key, ctrlKey, altKey, metaKey }: Key): boolean {
   return [...key].length === 1 && !ctrlKey && !altKey && !metaKey;
 }
 
-// Whether the focused element receives the keys itself. The timeline's slider leaves them to the
-// page, and so does a dialog that was just closed, whose field still has the focus for a moment.
+// Whether the focused element handles keys itself. Two do not: the timeline's slider, and a field of a dialog that
+// was just closed and still has the focus for a moment.
 export function isTyping(target: EventTarget | null): boolean {
   if (!(target instanceof Element)) return false;
   if (target.closest("dialog:not([open])")) return false;
   return target.closest("input:not([type=range]), textarea, select, [contenteditable], dialog") !== null;
 }
 
-// Ctrl K (Cmd K), at any focus.
+// Whether the key is Ctrl K (Cmd K), which works whatever has the focus.
 export function isPaletteKey({ key, ctrlKey, metaKey, altKey, shiftKey }: Key): boolean {
   return key.toLowerCase() === "k" && (ctrlKey || metaKey) && !altKey && !shiftKey;
 }
@@ -131,7 +131,7 @@ export function listenForKeys(app: App, page: Pick<Window, "addEventListener"> =
     event.preventDefault();
     command(app);
   });
-  // A button that was clicked does not receive Space.
+  // A button that was clicked with the mouse must not receive Space.
   page.addEventListener("click", ({ detail, target }) => {
     if (detail > 0 && target instanceof Element) target.closest("button")?.blur();
   });

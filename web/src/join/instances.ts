@@ -9,19 +9,19 @@ export interface JoinableSimulation {
   mode: string;
   time: number; // s, simulated
   robots: number;
-  url: string | null; // of its view; null: it has none
+  url: string | null; // address of its view; null if there is none
 }
 
 export interface Instance {
   name: string;
   place: string; // host:pid
-  isHere: boolean; // it is the one that serves this page
-  url: string | null; // of its viewer; null: it has none
-  problem: string; // why nothing is known of its simulations; empty: all is well
+  isHere: boolean; // whether it serves this page
+  url: string | null; // address of its viewer; null if it has none
+  problem: string; // why its simulations are unknown; empty if they are known
   simulations: JoinableSimulation[];
 }
 
-// The other instances are queried, each for some seconds.
+// The time limit is long: the server queries the other instances, for some seconds each.
 const TIMEOUT_MS = 30_000;
 
 export async function fetchInstances(server: JsonServer): Promise<{ broker: string; instances: Instance[] }> {

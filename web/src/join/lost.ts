@@ -4,10 +4,10 @@ import type { JsonServer } from "../api/JsonServer";
 import { listAt, numberAt, objectAt, textAt, textOr } from "../api/json";
 
 export interface LostSimulation {
-  number: number; // by which it is dismissed
+  number: number; // the number with which it is dismissed
   name: string;
   sentence: string;
-  replay: string; // the recording's name in the server's folder; empty: there is none
+  replay: string; // name of its recording in the server's folder; empty if there is none
 }
 
 // Servers that keep no record of crashes, such as `gsv run`, have no such list.

@@ -1,5 +1,5 @@
-// The values of one curve by simulated time. It stores the newest values only: enough for an hour
-// at one value per second, or eleven minutes of poses.
+// The values of one curve by simulated time. Only the newest values are stored: an hour at one value per second, or
+// eleven minutes of poses.
 
 export const MOST_SAMPLES = 20_000;
 const FIRST_CAPACITY = 512;
@@ -22,8 +22,8 @@ export class Series {
     return this.values[this.from + index]!;
   }
 
-  // A value for an existing instant replaces the old one. A value for an earlier instant is
-  // inserted at its place.
+  // Adds a value. It replaces an earlier value of the same instant. A value for an earlier instant is inserted at its
+  // place.
   push(time: number, value: number): void {
     if (this.to === this.times.length) this.makeRoom();
     let at = this.to;
@@ -45,7 +45,7 @@ export class Series {
     this.from = this.to = 0;
   }
 
-  // The index of the first sample that is not before `time`; `length` if all are.
+  // Returns the index of the first sample at or after `time`; `length` if there is none.
   firstFrom(time: number): number {
     let [low, high] = [0, this.length];
     while (low < high) {
@@ -56,7 +56,7 @@ export class Series {
     return low;
   }
 
-  // The newest value that is not after `time`; null if there is none.
+  // Returns the newest value at or before `time`; null if there is none.
   newestAt(time: number): number | null {
     const after = this.firstFrom(time);
     if (after < this.length && this.timeAt(after) === time) return this.valueAt(after);

@@ -7,7 +7,7 @@ export interface LaserScan {
   range_min: number;
   range_max: number;
   ranges: Float32Array;
-  intensities?: ArrayLike<number>; // of each beam; empty: not measured
+  intensities?: ArrayLike<number>; // one per beam; empty if the lidar does not measure them
 }
 
 // For a lidar with several rows, beam i of row r is ranges[r * beams + i].
@@ -28,19 +28,19 @@ export interface PointCloud {
   data: Uint8Array;
 }
 
-export const MOST_POINTS = 20_000; // of one sensor; of more every nth is taken
+export const MOST_POINTS = 20_000; // maximum number per sensor; if there are more, every n-th is used
 
 const FLOAT32 = 7;
 const FLOAT64 = 8;
 
 export interface Points {
-  points: Float32Array; // x y z of each
-  intensities: Float32Array | null; // of each; null: not measured
+  points: Float32Array; // x y z for each point
+  intensities: Float32Array | null; // one for each point; null if they are not measured
 }
 
 const NO_POINTS: Points = { points: new Float32Array(0), intensities: null };
 
-// No points if the message is of neither kind or invalid.
+// Returns the points in a message. There are none if the message is of another kind or invalid.
 export function cloudOf(message: unknown): Points {
   if (typeof message !== "object" || message === null) return NO_POINTS;
   if ("ranges" in message && "beams" in message) return pointsOfRows(message as LidarScan);
@@ -49,7 +49,7 @@ export function cloudOf(message: unknown): Points {
   return NO_POINTS;
 }
 
-// x y z of each point.
+// Returns x y z for each point.
 export function pointsOf(message: unknown): Float32Array {
   return cloudOf(message).points;
 }
@@ -136,8 +136,8 @@ class PointList {
 
 export interface TouchPoint {
   point: [number, number, number];
-  normal: [number, number, number]; // from the robot to what it touches
-  force: [number, number, number] | null; // on the robot, N; null if no engine computes it
+  normal: [number, number, number]; // unit vector from the robot to the touched body
+  force: [number, number, number] | null; // force on the robot, N; null if the engine does not compute it
 }
 
 const MOST_CONTACTS = 200;

@@ -1,18 +1,18 @@
 // The states of robots' lamps, speakers and grippers, from their messages.
 
 export interface Glow {
-  brightness: number; // above 0, to 1
+  brightness: number; // above 0, at most 1
   colour: [number, number, number];
   radius: number; // m
-  range: number; // m that it lights; 0: nothing
-  angle: number; // rad, of the whole cone; a full turn: all around
-  intensity: number; // at full brightness
+  range: number; // range of the light, m; 0 means that it lights nothing
+  angle: number; // angle of the whole cone, rad; a full turn means all directions
+  intensity: number; // intensity at full brightness
 }
 
 export interface Sound {
   name: string; // "tone", "buzz", "chirp", "noise"
   frequency: number; // Hz
-  volume: number; // 0 to 1
+  volume: number; // from 0 to 1
   elapsed: number; // s
 }
 
@@ -25,7 +25,7 @@ export interface Jaws {
 
 type Fields = Record<string, unknown>;
 
-// Returns the state of a lamp; null if it is off or the message is not a lamp's.
+// Returns the state of a lamp; null if the lamp is off or the message is of another device.
 export function glowOf(message: unknown): Glow | null {
   const { brightness, color, radius_m, range_m, angle_rad, intensity } = fieldsOf(message);
   const { r, g, b } = fieldsOf(color);
@@ -41,7 +41,7 @@ export function glowOf(message: unknown): Glow | null {
   };
 }
 
-// Returns the state of a speaker; null if it is silent or the message is not a speaker's.
+// Returns the state of a speaker; null if it is silent or the message is of another device.
 export function soundOf(message: unknown): Sound | null {
   const { sound, frequency_hz, volume, elapsed_s } = fieldsOf(message);
   const numbers = [frequency_hz, volume, elapsed_s];
@@ -49,7 +49,7 @@ export function soundOf(message: unknown): Sound | null {
   return { name: sound, frequency: numbers[0]!, volume: numbers[1]!, elapsed: numbers[2]! };
 }
 
-// Returns the state of a gripper; null if the message is not a gripper's.
+// Returns the state of a gripper; null if the message is of another device.
 export function jawsOf(message: unknown): Jaws | null {
   const { opening_m, reach_m, height_m, held } = fieldsOf(message);
   const numbers = [opening_m, reach_m, height_m];

@@ -31,19 +31,19 @@ const FUNCTIONS: Readonly<Record<string, { least: number; most: number; of: (...
 export const FUNCTION_NAMES: readonly string[] = Object.keys(FUNCTIONS);
 
 export interface Reference {
-  of: string; // a topic, a robot, or "simulation"
+  of: string; // a topic, a robot's name, or "simulation"
   key: string;
 }
 
 export interface Expression {
   references: readonly Reference[];
-  // Evaluates the expression; `values` are in the order of the references.
+  // Evaluates the expression. `values` are the values of the references, in their order.
   evaluate(values: readonly number[]): number;
 }
 
 type Term = (values: readonly number[]) => number;
 
-// Throws an Error with a sentence for the user.
+// Parses an expression. Throws an Error with a sentence for the user.
 export function parseExpression(text: string): Expression {
   if (text.trim() === "") throw new Error("The expression is empty. Type for example {pebble speed} * 3.6.");
   if (text.length > MAX_LENGTH) throw new Error(`The expression is longer than ${MAX_LENGTH} characters.`);
@@ -55,7 +55,7 @@ export function parseExpression(text: string): Expression {
 interface Token {
   kind: "number" | "name" | "reference" | "sign" | "end";
   text: string;
-  at: number; // from 1
+  at: number; // counted from 1
 }
 
 function tokensOf(text: string): Token[] {

@@ -3,7 +3,7 @@ const MAX_LENGTH = 300;
 
 export type Step = string | number; // a field's name, or the index of an element
 
-// Returns null if the text is not a path.
+// Parses a path. Returns null for other texts.
 export function parsePath(path: string): Step[] | null {
   if (path.length > MAX_LENGTH) return null;
   if (path.startsWith(".")) return null;

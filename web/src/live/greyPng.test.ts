@@ -7,7 +7,7 @@ function chunk(type: string, content: Uint8Array): Uint8Array {
   const bytes = new Uint8Array(12 + content.length);
   new DataView(bytes.buffer).setUint32(0, content.length);
   bytes.set(new TextEncoder().encode(type), 4);
-  bytes.set(content, 8); // the checksum stays 0: nobody looks at it
+  bytes.set(content, 8); // the checksum stays 0, because it is not checked
   return bytes;
 }
 
@@ -27,7 +27,7 @@ function png(values: number[], width: number, { depth = 16, filter = 0 } = {}): 
   const parts = [
     new Uint8Array([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]),
     chunk("IHDR", head),
-    chunk("IDAT", packed.subarray(0, 5)), // in two pieces
+    chunk("IDAT", packed.subarray(0, 5)), // the data is divided into two chunks
     chunk("IDAT", packed.subarray(5)),
     chunk("IEND", new Uint8Array()),
   ];

@@ -1,17 +1,17 @@
-// The values of 16-bit grey PNGs, such as a thermal camera's images. A browser's own decoder keeps 8 of the 16
+// The values of 16-bit grey PNGs, such as a thermal camera's images. A browser's own decoder keeps only 8 of the 16
 // bits.
 import type { ValueImage } from "./valueImage";
 
 const SIGNATURE = [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a];
 const MOST_PIXELS = 1 << 24;
 
-// Returns null if it is not a complete 16-bit grey PNG without filters, as gsv writes them.
+// Returns null if `png` is not a complete 16-bit grey PNG without filters, the form that gsv writes.
 export async function valuesOfGreyPng(png: Uint8Array): Promise<ValueImage | null> {
   const parts = partsOf(png);
   if (!parts) return null;
   const { width, height, packed } = parts;
   const rows = await inflated(packed).catch(() => null);
-  const step = 1 + 2 * width; // each row begins with its filter
+  const step = 1 + 2 * width; // a row begins with one byte for its filter
   if (rows?.byteLength !== step * height) return null;
   const bytes = new DataView(rows);
   for (let y = 0; y < height; y++) if (bytes.getUint8(y * step) !== 0) return null;

@@ -5,7 +5,7 @@ import type { PointCloud } from "./clouds";
 export interface ValueImage {
   width: number;
   height: number;
-  values: Float32Array; // in rows from the top; NaN or infinite: nothing was measured
+  values: Float32Array; // rows from the top; NaN or infinite where nothing was measured
   unit: string;
 }
 
@@ -27,10 +27,10 @@ const STOPS = [
   [252, 165, 10],
   [252, 255, 164],
 ] as const;
-const NOTHING = [32, 38, 46, 255] as const; // where nothing was measured
+const NOTHING = [32, 38, 46, 255] as const; // the colour of pixels without a measurement
 
-// The image of a depth camera: the distance along the viewing direction, which is x in the camera's
-// frame. Null: the cloud has no rows.
+// The image of a depth camera: the distance along the viewing direction, which is x in the camera's frame. Returns
+// null if the cloud has no rows.
 export function depthImageOf({ width, height, fields, data, point_step, row_step, is_bigendian }: PointCloud): ValueImage | null {
   const x = fields.find(({ name, datatype }) => name === "x" && datatype === FLOAT32);
   const isWhole = height > 1 && width > 0 && width * height <= MAX_PIXELS && point_step >= 4 && row_step >= width * point_step;
@@ -45,7 +45,7 @@ export function depthImageOf({ width, height, fields, data, point_step, row_step
   return { width, height, values, unit: "m" };
 }
 
-// The smallest and the largest value; the two are equal if there are no values.
+// Returns the smallest and the largest finite value; both are equal if there are none.
 export function spanOf(values: Float32Array): [number, number] {
   let [least, largest] = [Infinity, -Infinity];
   for (const value of values) {
@@ -56,7 +56,7 @@ export function spanOf(values: Float32Array): [number, number] {
   return least <= largest ? [least, largest] : [0, 0];
 }
 
-// Colours the values, from the smallest (dark) to the largest (bright).
+// Returns the colours of the values, from dark (smallest) to bright (largest).
 export function coloured({ width, height, values }: ValueImage): ColouredImage {
   const [least, largest] = spanOf(values);
   const scale = largest > least ? 1 / (largest - least) : 0;
@@ -67,7 +67,7 @@ export function coloured({ width, height, values }: ValueImage): ColouredImage {
 
 export const SCALE_CSS = `linear-gradient(to right, ${STOPS.map((stop) => `rgb(${stop.join(" ")})`).join(", ")})`;
 
-// The colour of a value that is scaled to the range from 0 to 1.
+// Returns the colour of a value that is scaled to the range from 0 to 1.
 export function colourAt(part: number): [number, number, number, number] {
   const place = part * (STOPS.length - 1);
   const below = Math.min(Math.floor(place), STOPS.length - 2);

@@ -1,18 +1,18 @@
-// The numbers in a message, each with its own key and the unit from the server. The code knows no
-// sensor types: it shows unknown fields by their names.
+// Extracts the numbers in a message, each with a key and the server's unit. The code contains no sensor types: fields
+// are shown by their names.
 
 import type { Units } from "../api/scene";
 
 export interface LiveValue {
-  key: string; // the field's path: "range", "pose.position.x", "ranges.min"
-  unit: string; // empty: none, or not known
-  value: number; // may be infinite or NaN: an echo that did not come, a value that dropped out
+  key: string; // path of the field, such as "range", "pose.position.x" or "ranges.min"
+  unit: string; // empty if there is none, or if it is unknown
+  value: number; // may be infinite or NaN, for a missing echo or a lost value
 }
 
-const MOST_VALUES = 64; // of one message
-const LONGEST_LISTED = 8; // longer lists are summed up
+const MOST_VALUES = 64; // maximum number of values of one message
+const LONGEST_LISTED = 8; // longer lists are summarised
 const DEEPEST = 6;
-// Fields about the time, the uncertainty or the construction of the sensor, and not about its
+// Fields that are not shown: they describe the time, the uncertainty or the construction of the sensor, not its
 // reading.
 const LEFT_OUT = new RegExp(
   `^(${[
@@ -29,7 +29,7 @@ export function valuesOf(message: unknown, units: Units = {}): LiveValue[] {
   return values.map((value) => ({ ...value, unit: value.unit || unitOf(value.key, units) }));
 }
 
-// Returns the unit of the longest path that contains the key.
+// Returns the unit of the longest path in `units` that contains the key.
 export function unitOf(key: string, units: Units): string {
   const parts = key.replace(/\[[^\]]*\]/g, "").split(".");
   for (let count = parts.length; count > 0; count--) {
@@ -71,14 +71,14 @@ function collectFields(
   }
 }
 
-// For a list of objects: their number, and the values of the first one.
+// Collects the number of objects in a list, and the values of the first one.
 function collectObjects(list: unknown[], key: string, depth: number, values: LiveValue[]): void {
   if (typeof list[0] === "string") return;
   add(values, `${key}.count`, list.length);
   if (typeof list[0] === "object") collect(list[0], `${key}[0]`, depth + 1, values);
 }
 
-// A short list completely; for a long one, the extremes of the finite values.
+// Collects all values of a short list, or the minimum and maximum of the finite values of a long one.
 function collectList(list: NumberList, key: string, values: LiveValue[]): void {
   if (list.length === 0) return;
   if (list.length <= LONGEST_LISTED) {
@@ -108,7 +108,7 @@ function isNumberList(value: unknown): value is NumberList {
   return Array.isArray(value) && typeof value[0] === "number";
 }
 
-// Messages such as JointState: a name for each number in the other fields.
+// Returns the names in messages such as JointState, which have a name for each number in the other fields.
 function namesBeside(fields: Record<string, unknown>): string[] | null {
   const { name } = fields;
   if (!Array.isArray(name) || name.length === 0) return null;

@@ -16,11 +16,11 @@ import { createShapeForm } from "./ShapeForm";
 
 const TURN = Math.PI / 12;
 
-// The prefix of objects in the list; the value of a robot is its model.
+// In the list, values that begin with this prefix are objects. The value of a robot is its model.
 const OBJECT = "object ";
 const COPY = "copy ";
 
-// Open while editing is on. Closing the panel ends editing.
+// The panel is open while editing is on. Closing the panel ends editing.
 export function editPanel(app: App): Panel {
   app.store.watch(
     ({ editing }) => editing !== null,
@@ -121,7 +121,7 @@ function createEditPanel(app: App): HTMLElement {
   return panel;
 }
 
-// A hint about what the user can do next.
+// Returns a hint about what the user can do next.
 function hintOf(state: State): string {
   const { placing, editing } = state;
   const all = allChosen(state);

@@ -33,7 +33,7 @@ export function createEndCard(app: App): HTMLElement {
   );
 }
 
-// "5 robots · 1:00.00 simulated", "2 robots stuck", "Expectations: 3 of 5 held".
+// Returns facts such as "5 robots · 1:00.00 simulated", "2 robots stuck" and "Expectations: 3 of 5 held".
 export function endFacts(state: State): string[] {
   const { status, time, expectations } = state;
   const robots = listedRobots(state);
@@ -54,7 +54,7 @@ function someOf(names: string[]): string {
   return names.slice(0, MOST_NAMES).join(", ") + (more > 0 ? ` and ${count(more, "other")}` : "");
 }
 
-// A link while the server runs, else a command with the same effect.
+// Returns a link to the replay while the server runs, or else a command with the same effect.
 function replayOf({ recording, abilities, connection }: State): HTMLElement | null {
   if (!recording?.path) return null;
   const name = recording.path.slice(recording.path.lastIndexOf("/") + 1);

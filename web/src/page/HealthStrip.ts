@@ -10,7 +10,7 @@ import { shallowEqual } from "../state/Store";
 import { element, setAttribute, setText } from "../ui/element";
 
 const EXPECTATIONS_PANEL = "expectations";
-// Healthy states first, then the worst ones.
+// The order of the states: healthy ones first, then from the worst on.
 const ORDER: readonly ShownState[] = ["moving", ...SHOWN_STATES.filter((state) => state !== "moving")];
 
 export function createHealthStrip(app: App): HTMLElement {
@@ -52,7 +52,7 @@ export function createHealthStrip(app: App): HTMLElement {
   return strip;
 }
 
-// Stations are not expected to move.
+// Stations are not counted, because they never move.
 function countsOf(robots: readonly ListedRobot[]): Map<ShownState, number> {
   const counts = new Map<ShownState, number>();
   for (const { state, kind } of robots) {

@@ -6,14 +6,14 @@ import { formatNumber } from "../ui/format";
 import { icon } from "../ui/icons";
 
 const DEGREES = 180 / Math.PI;
-const BAR_PX = 120; // at most
+const BAR_PX = 120; // maximum length
 
 export interface Measured {
   distance: number; // m
   dx: number;
   dy: number;
   dz: number;
-  angleDeg: number; // of the line in the floor's plane, counter-clockwise from x
+  angleDeg: number; // direction of the line in the floor's plane, counter-clockwise from x
 }
 
 export function measure(from: Point, to: Point): Measured {
@@ -55,7 +55,7 @@ function rowsOf({ distance, dx, dy, dz, angleDeg }: Measured): HTMLElement[] {
   return Object.entries(rows).flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]);
 }
 
-// The longest length that fits, in metres: 1, 2 or 5 times a power of ten.
+// Returns the longest length that fits, in metres: 1, 2 or 5 times a power of ten.
 export function barLength(metresPerPixel: number): number {
   const longest = BAR_PX * metresPerPixel;
   const power = 10 ** Math.floor(Math.log10(longest));
@@ -67,7 +67,7 @@ export interface ScaleBar {
   show(metresPerPixel: number): void;
 }
 
-// Only shown on a map, because only a map has the same scale everywhere.
+// The scale bar is shown only on a map, because only a map has the same scale everywhere.
 export function createScaleBar(app: App): ScaleBar {
   const bar = element("div", { class: "scale-line" });
   const label = element("span", {});

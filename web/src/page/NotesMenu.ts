@@ -35,7 +35,7 @@ export function createNotesMenu(app: App): HTMLElement {
   return menu.element;
 }
 
-// Notes of a run have no number, because they are events of the run.
+// Returns the notes. Notes of a run have no id, because they are events of the run.
 function notesOf({ notes, events }: State): (Omit<RecordingNote, "id"> & { id: number | null })[] {
   const ofRun = events.flatMap(({ event, time, detail }) => (event === "note" ? [{ id: null, time, text: detail }] : []));
   return [...notes, ...ofRun].sort((a, b) => a.time - b.time);

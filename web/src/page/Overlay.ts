@@ -8,12 +8,13 @@ import { createTokenForm } from "../ui/tokenForm";
 
 type Situation = "refused" | "missing" | "none" | "connecting" | "unreachable" | "lost" | "ended" | "no-simulation" | "loading" | "no-webgl" | "webgl-lost";
 
-// A run is over if its server has ended with it, or still exists. A replay can start again.
+// Whether the run is over. This stays true if its server has ended too. A replay can start again, so it is never
+// over.
 export function hasEnded({ status, replay }: State): boolean {
   return replay === null && (status?.phase === "finished" || status?.phase === "failed");
 }
 
-// The data for the summary of an ended run.
+// Returns the data for the summary of an ended run.
 function whatEnded(state: State): string {
   const { connection, recording, abilities, expectations } = state;
   if (!hasEnded(state)) return "";
@@ -23,7 +24,7 @@ function whatEnded(state: State): string {
 
 export function situationOf(state: State): Situation {
   const { connection, simulations, simulation, view, setUp, missing, refusal } = state;
-  const scene = view === "starting" ? null : state.scene; // as good as not there yet
+  const scene = view === "starting" ? null : state.scene; // while the view starts, the scene counts as missing
   if (refusal !== "") return "refused";
   if (missing !== "") return "missing";
   if (setUp) {
@@ -117,7 +118,7 @@ function content(app: App, situation: Situation): Node[] {
   }
 }
 
-// If the server cannot create simulations, there is no button.
+// The button is missing if the server cannot create simulations.
 function createButton(app: App): HTMLElement {
   const button = element(
     "button",

@@ -1,4 +1,4 @@
-// The menu of overlays in the view, and what the colours of points and trails mean.
+// The menu of overlays in the view. It also explains the colours of points and trails.
 import type { App } from "../app/App";
 import type { OverlayColours } from "../state/overlays";
 import { OVERLAYS, POINT_COLOURS, TRAIL_COLOURS } from "../state/overlays";

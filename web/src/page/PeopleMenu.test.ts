@@ -8,7 +8,7 @@ import { createToolbar } from "./Toolbar";
 const ADA: Person = { number: 1, name: "Ada", simulation: "house", holds: false, asks: 0, passesIn: 0 };
 const BOB: Person = { ...ADA, number: 2, name: "<b>Bob</b>" };
 
-// You are "Ada".
+// The test's page is the viewer Ada.
 const people = (ada: Partial<Person> = {}, bob: Partial<Person> = {}) => ({
   people: { viewers: [{ ...ADA, ...ada }, { ...BOB, ...bob }], you: 1 },
 });

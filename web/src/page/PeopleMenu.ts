@@ -1,4 +1,4 @@
-// The menu of viewers: one's own name, the others' names, and who has control.
+// The menu of viewers: the user's own name, the other viewers' names, and who has control.
 import type { App } from "../app/App";
 import type { People, Person } from "../api/ViewersApi";
 import { asker, holderOf, together, youOf } from "../state/people";
@@ -61,7 +61,7 @@ function nameField(app: App): HTMLElement {
   return element("label", { class: "people-name" }, element("span", {}, "Your name"), field);
 }
 
-// The button's action depends on whether you have control or have requested it.
+// The button that requests or releases control, depending on whether you have control or wait for it.
 function controlButton(app: App): HTMLElement {
   const button = element("button", { class: "button", type: "button" });
   let wants = true;
@@ -89,7 +89,7 @@ function labelOf(holds: boolean, isFree: boolean, asks: boolean): string {
   return asks ? "Cancel request" : "Ask for control";
 }
 
-// Shown to the holder when somebody requests control. Control passes on if there is no answer.
+// The question to the controller when somebody requests control. Without an answer, the other viewer gets control.
 export function createControlQuestion(app: App): HTMLElement {
   const sentence = element("p", {});
   const button = (label: string, grants: boolean, primary: boolean) =>

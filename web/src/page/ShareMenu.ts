@@ -17,7 +17,7 @@ export function createShareMenu(app: App): HTMLElement {
     menuItem("Save image", "X", "Save the current view as PNG", () => void app.savePicture(), "camera"),
     film,
   );
-  // A link is available even without a view.
+  // The first button copies a link, which also works without a view. The other buttons need the view.
   const ofTheView = [...menu.sheet.querySelectorAll("button")].slice(1);
   app.store.watch(
     ({ view }) => view === "open",

@@ -11,7 +11,7 @@ import { element, setText } from "../ui/element";
 import { count, formatFactor, formatTime } from "../ui/format";
 
 const PACE = "Real-time factor: actual / target";
-// A simulation below this fraction of its target factor lags.
+// A simulation is too slow if it runs below this fraction of its target factor.
 const LAGGING_SHARE = 0.9;
 
 export function createStatusBar(app: App): HTMLElement {
@@ -76,14 +76,15 @@ export function createStatusBar(app: App): HTMLElement {
   return element("footer", { class: "status-bar" }, phase, time, factor, late, waiting, frames, connection);
 }
 
-// A simulation in lockstep has no target factor, only an actual one. A replay keeps its speed.
+// Returns the text about the speed. In lockstep, there is no target factor, only an actual one. A replay has its own
+// speed.
 function pace({ mode, realTimeFactor, targetFactor }: SimulationStatus, replay: Replay | null): string {
   if (replay) return formatFactor(replay.speed);
   const actual = formatFactor(realTimeFactor);
   return mode === "lockstep" ? `${actual} · lockstep` : `${actual} / ${formatFactor(targetFactor)}`;
 }
 
-// A sentence if the simulation is slower than requested, else empty.
+// Returns a sentence if the simulation is slower than requested, else an empty text.
 function lag({ phase, mode, realTimeFactor, targetFactor }: SimulationStatus): string {
   const isPaced = phase === "running" && mode === "real_time" && targetFactor > 0 && realTimeFactor > 0;
   if (!isPaced || realTimeFactor >= LAGGING_SHARE * targetFactor) return "";

@@ -1,5 +1,5 @@
-// The timeline below a recording, or below a run whose past is kept: a slider for the time, marks
-// of events, and controls for playback, notes and comparison.
+// The timeline of a recording, or of a run whose past is stored: a slider for the time, marks of events, and controls
+// for playback, notes and comparison.
 import type { App } from "../app/App";
 import { SPEEDS } from "../app/ReplayControl";
 import { shallowEqual } from "../state/Store";
@@ -129,7 +129,7 @@ function times(app: App): HTMLElement {
   return element("span", { class: "timeline-times number", title: "Simulated time" }, now, end, typedTime(app));
 }
 
-// A field for a time. Enter goes to the typed instant.
+// A text field for a time. Enter goes to the typed time.
 function typedTime(app: App): HTMLElement {
   const field = element("input", {
     class: "typed-time number",
@@ -146,7 +146,7 @@ function typedTime(app: App): HTMLElement {
     const time = parseTime(field.value);
     field.setAttribute("aria-invalid", String(time === null));
     if (time === null) return;
-    field.blur(); // keys are the replay's again
+    field.blur(); // now keys control the replay again
     void app.past.lookAt(time);
   });
   return field;
@@ -158,7 +158,7 @@ function speedChoice(app: App): HTMLElement {
   app.store.watch(
     ({ replay }) => replay?.speed ?? 1,
     (speed) => {
-      // The replay may have been started at another speed.
+      // The replay may have a speed that is not in the list.
       const speeds = [...new Set([...SPEEDS, speed])].sort((a, b) => a - b);
       choice.replaceChildren(
         ...speeds.map((each) => new Option(`${each}×`, String(each), false, each === speed)),

@@ -7,18 +7,18 @@ import { allMarks, spanOf } from "../state/timeline";
 import { element } from "../ui/element";
 import { formatTime } from "../ui/format";
 
-const MARKS_MS = 500; // between two drawings of the marks of a run: they only move a little
+const MARKS_MS = 500; // period of drawing the marks of a run, because they move slowly
 
 export function createTimelineTrack(app: App): HTMLElement {
   return element("div", { class: "timeline-track" }, slider(app), marks(app));
 }
 
-// The time to show: the requested one while the server has not answered.
+// The time to show: the requested one until the server has answered.
 export function shownTime({ time, wishedTime }: State): number {
   return wishedTime ?? time;
 }
 
-// The browser's own slider, because it handles pointers, touch and keys, and works with assistive
+// This is the browser's own slider: it handles pointers, touch and keys, and works with assistive
 // technology.
 function slider(app: App): HTMLElement {
   const input = element("input", { type: "range", class: "timeline-slider", step: "any" });
@@ -32,14 +32,14 @@ function slider(app: App): HTMLElement {
     ({ replay, kept, time, now }) => {
       const span = spanOf(replay, kept, now);
       if (!span) return;
-      // While the slider is dragged, its range stays as it is: a change would move the thumb.
+      // While the slider is dragged, its range does not change, because that would move the thumb.
       if (!isHeld || replay) {
         input.min = String(span.start);
         input.max = String(span.end);
       }
       const whole = replay ? formatTime(span.end) : "the running simulation";
       input.setAttribute("aria-valuetext", `${formatTime(time)} of ${whole}`);
-      // Playback does not move the thumb while the user holds it.
+      // While the user holds the thumb, playback does not move it.
       if (!isHeld) input.value = String(time);
     },
     shallowEqual,

@@ -42,7 +42,7 @@ export function createToolbar(app: App, toggleSidebar: () => void): HTMLElement 
   );
 }
 
-// A recording has its own buttons in the timeline.
+// The buttons for running. A recording has its own buttons in the timeline.
 function transport(app: App): HTMLElement {
   const group = element(
     "div",
@@ -98,7 +98,7 @@ function sidebarButton(toggle: () => void): HTMLElement {
   return button;
 }
 
-// A name if there is one simulation, a list if there are several. It is also the heading of the
+// The simulation's name, or a list if there are several simulations. It is also the heading of the
 // page.
 function simulationChoice(app: App): HTMLElement {
   const place = element("div", { class: "simulation-choice" });

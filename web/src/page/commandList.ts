@@ -8,18 +8,18 @@ import { PRESETS } from "../workspace/presets";
 export interface Command {
   group: string; // "Panel", "Robot"
   label: string;
-  key?: string; // its single key
+  key?: string; // the single key of the command
   run(): void;
 }
 
 const MAX_FOUND = 50;
 
-// The commands that are possible at present.
+// Returns the commands that are possible at present.
 export function commandsOf(app: App): Command[] {
   return [...runCommands(app), ...viewCommands(app), ...placeCommands(app), ...robotCommands(app), ...topicCommands(app)];
 }
 
-// The entries that contain each word of the text. Those that begin with the text come first.
+// Returns the entries that contain each word of the text. Entries that begin with the text come first.
 export function findCommands(commands: readonly Command[], text: string): Command[] {
   const words = text.toLowerCase().split(/\s+/).filter(Boolean);
   const fitting = commands.filter(({ group, label }) => {

@@ -1,4 +1,4 @@
-// The single keys in tooltips and in aria-keyshortcuts, as they are now.
+// Shows the assigned single keys in tooltips and in aria-keyshortcuts.
 import type { ChangedKeys } from "../state/shortcuts";
 import { keyOf } from "../state/shortcuts";
 

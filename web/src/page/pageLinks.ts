@@ -1,4 +1,4 @@
-// Links to the other pages, if these have content.
+// Makes links to the other pages that have content.
 import type { App } from "../app/App";
 import type { State } from "../state/State";
 import { element } from "../ui/element";
@@ -19,7 +19,7 @@ const LINKS: Link[] = [
   { ...BROKER, picture: "broker", label: "Broker", isOffered: isLive },
 ];
 
-// A recording has no broker.
+// Whether the page shows a running simulation. A recording has no broker.
 function isLive({ replay }: State): boolean {
   return replay === null;
 }

@@ -1,5 +1,5 @@
-// The images of one camera, or of all cameras in a grid. It subscribes only to the cameras in
-// sight.
+// The images of one camera, or of all cameras in a grid. Only visible cameras are subscribed
+// to.
 import type { CameraChoice, SceneDescription } from "../../api/scene";
 import { camerasOf, robotsOf } from "../../api/scene";
 import { shallowEqual } from "../../state/Store";
@@ -12,7 +12,7 @@ import { CameraTile } from "./CameraTile";
 type Ports = Pick<PanelPorts, "state" | "topics" | "cameras">;
 
 const SEPARATOR = " · ";
-const ALL = "\0all"; // no topic is named so
+const ALL = "\0all"; // no topic has this name
 const MAX_TILES = 60;
 
 export function mount(ports: Ports): MountedPanel {
@@ -23,7 +23,8 @@ export function mount(ports: Ports): MountedPanel {
   const hint = element("p", { class: "hint" }, "No robot has a camera.");
   let isOpen = false;
   let showsAll = false;
-  let only: CameraChoice | null = null; // a depth camera, which is no choice of the page's
+  let only: CameraChoice | null = null; // a depth camera that the user chose here; other panels do not know this
+                                        // choice
   let tiles: CameraTile[] = [];
 
   const chosen = () => only ?? state.get().camera;
@@ -106,7 +107,7 @@ export function mount(ports: Ports): MountedPanel {
       build();
     },
   );
-  // Another simulation has another stream, even for the same topic name.
+  // In another simulation, a topic of the same name is another stream.
   state.watch(
     ({ simulation, view, replay }) => ({ simulation, isStarting: view === "starting", isRecorded: replay !== null }),
     listen,
@@ -134,7 +135,7 @@ function nameOf({ robot, sensor }: CameraChoice): string {
   return robot + SEPARATOR + sensor;
 }
 
-// The cameras, then the depth cameras, whose point clouds are shown as depth images.
+// Returns the cameras, then the depth cameras, whose point clouds are shown as depth images.
 function imagesOf(scene: SceneDescription | null): readonly CameraChoice[] {
   let found = scene ? known.get(scene) : NO_CAMERAS;
   if (!found) {
@@ -147,4 +148,4 @@ function imagesOf(scene: SceneDescription | null): readonly CameraChoice[] {
 }
 
 const NO_CAMERAS: readonly CameraChoice[] = [];
-const known = new WeakMap<SceneDescription, readonly CameraChoice[]>(); // a scene never changes
+const known = new WeakMap<SceneDescription, readonly CameraChoice[]>(); // cached, because a scene never changes

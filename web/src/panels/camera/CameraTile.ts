@@ -10,7 +10,7 @@ import type { CameraMessage } from "./ImagePainter";
 import { ImagePainter } from "./ImagePainter";
 
 const SAME_INSTANT_S = 1e-6;
-const BEHIND_S = 1.5; // from then on the age is shown
+const BEHIND_S = 1.5; // the age of an image is shown if it is at least this
 const MIN_ZOOM = 1;
 const MAX_ZOOM = 16;
 const ZOOM_STEP = 1.25;
@@ -26,7 +26,7 @@ export class CameraTile {
   private readonly scale = element("div", { class: "picture-scale", hidden: true });
   private readonly painter: ImagePainter;
   private values: ValueImage | null = null;
-  private shownTime = -Infinity; // s, of the image
+  private shownTime = -Infinity; // time of the shown image, s
   private end = () => {};
   private zoom = 1;
 
@@ -73,8 +73,8 @@ export class CameraTile {
     setText(this.value, "");
     this.waiting.hidden = false;
     const { view, replay } = this.ports.state.get();
-    // A recording contains only the images that were requested while it was made. It sends an image
-    // of the present instant at once, if it has one.
+    // A recording contains only images that were requested during recording. If it has one for the present instant,
+    // the replay sends it at once.
     setText(this.waiting, replay ? "The recording has no image of this camera up to this time." : "Waiting for an image…");
     if (view === "starting") return;
     this.end = this.ports.topics.subscribe<CameraMessage>(this.camera.topic, (image) => this.painter.take(image), { newestOnly: true });
@@ -85,10 +85,10 @@ export class CameraTile {
     this.end = () => {};
   }
 
-  // Updates the age, because the simulated time has changed.
+  // Updates the image's age after a change of simulated time.
   judgeAge(): void {
     const { replay, time } = this.ports.state.get();
-    // The replay may have gone to an instant before the image's time.
+    // The replay may have moved to an instant before the time of the image.
     this.picture.classList.toggle("of-later", replay !== null && this.shownTime > time + SAME_INSTANT_S);
     if (this.shownTime === -Infinity) return;
     const age = time - this.shownTime;
@@ -134,7 +134,7 @@ export class CameraTile {
     event.preventDefault();
     const before = this.zoom;
     this.zoomBy(event.deltaY < 0 ? ZOOM_STEP : 1 / ZOOM_STEP);
-    // The point of the image under the pointer stays there.
+    // When the scale changes, the point of the image under the pointer stays where it is.
     const { left, top } = frame.getBoundingClientRect();
     const [x, y] = [event.clientX - left, event.clientY - top];
     const growth = this.zoom / before;

@@ -1,5 +1,5 @@
-// Paints the images of one camera. One image is decoded at a time; of those that arrive meanwhile,
-// only the newest is kept.
+// Paints the images of one camera. One image is decoded at a time. Of the images that arrive meanwhile, only the
+// newest is decoded next.
 import type { PointCloud } from "../../live/clouds";
 import { valuesOfGreyPng } from "../../live/greyPng";
 import type { ValueImage } from "../../live/valueImage";
@@ -12,7 +12,7 @@ export type CameraMessage = CompressedImageMessage | (PointCloud & Stamped);
 
 export interface Painted {
   time: number; // s, simulated
-  values: ValueImage | null; // null: its pixels are colours
+  values: ValueImage | null; // null if the pixels are colours
 }
 
 export class ImagePainter {
@@ -20,8 +20,8 @@ export class ImagePainter {
   private busy = false;
   private isPainted = false;
   private generation = 0;
-  // Drawn by the processor: without a graphics card, the page would otherwise wait for the 3D view
-  // that is being drawn.
+  // The processor draws it. Without a graphics card, the page would otherwise wait for the 3D view, which is being
+  // drawn.
   private readonly context: CanvasRenderingContext2D | null;
 
   // `onProblem` gets a sentence if an image cannot be shown.
@@ -36,7 +36,7 @@ export class ImagePainter {
   clear(): void {
     this.generation += 1;
     this.next = null;
-    // The first call on a canvas waits until the browser has started to draw.
+    // Do not touch the canvas earlier: its first call waits until the browser has started to draw.
     if (this.isPainted) this.context?.clearRect(0, 0, this.canvas.width, this.canvas.height);
     this.isPainted = false;
   }
@@ -57,7 +57,7 @@ export class ImagePainter {
     this.busy = false;
   }
 
-  // Returns a sentence about the problem; empty: none.
+  // Returns a sentence about the problem, or an empty text.
   private async paint(image: CameraMessage, generation: number): Promise<string> {
     if ("point_step" in image) {
       const depths = depthImageOf(image);
@@ -72,7 +72,7 @@ export class ImagePainter {
       return "";
     }
     const type = image.format.includes("png") ? "image/png" : "image/jpeg";
-    // A copy, because the connection reuses the memory to which the message refers.
+    // The data are copied, because the connection reuses the memory of the message.
     const blob = new Blob([image.data.slice()], { type });
     const bitmap = await createImageBitmap(blob).catch(() => null);
     if (!bitmap) return `The image cannot be decoded (format ${image.format}).`;

@@ -11,7 +11,7 @@ export function mount({ state, commands }: Ports): MountedPanel {
   const forms = element("div", { class: "facts-body" });
   const note = element("p", { class: "log-empty", role: "status" });
   const body = element("div", {}, note, forms);
-  let shown: string | null = null; // whose commands stand there
+  let shown: string | null = null; // the simulation whose commands are shown
 
   const setEnabled = (isEnabled: boolean) =>
     forms.querySelectorAll("button").forEach((button) => (button.disabled = !isEnabled));
@@ -34,7 +34,7 @@ export function mount({ state, commands }: Ports): MountedPanel {
       say("");
     } catch (error) {
       if (shown !== simulation) return;
-      shown = null; // the next opening asks again
+      shown = null; // the commands are requested again when the panel opens next
       say((error as Error).message);
     }
   };

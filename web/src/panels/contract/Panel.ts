@@ -11,17 +11,17 @@ export const PANEL_GROUPS = ["Look", "Control", "Data", "Health"] as const;
 export type PanelGroup = (typeof PANEL_GROUPS)[number];
 
 export interface Panel {
-  id: string; // in the store, as the element's class, and in saved layouts and links: it stays
+  id: string; // used in the store, as the element's class, and in saved layouts and links, so it must not change
   title: string;
-  hint: string; // what it shows, for the help sheet
+  hint: string; // description of the panel for the help sheet
   picture: IconName;
   group: PanelGroup;
   key?: string; // the single key that opens and closes it, in upper case
-  // Whether server and simulation provide its data, and the viewer has permission. Otherwise the
-  // panel is not offered, and if it is open it shows `absence`.
+  // Whether server and simulation provide the panel's data, and the viewer has permission. If not, the panel is not
+  // offered; if it is already open, it shows `absence`.
   isAvailable(state: State): boolean;
-  absence?: string; // why there is nothing to show
-  // The place where it opens: beside the view, below it (default), or above the panels beside the
+  absence?: string; // the reason why there is nothing to show
+  // Where the panel opens: beside the view, below it (default), or above the panels beside the
   // view.
   place?: "side" | "below" | "top-side";
   load(): Promise<PanelModule>;
@@ -35,8 +35,8 @@ export interface PanelModule {
 export interface MountedPanel {
   body: HTMLElement;
   tools?: HTMLElement[]; // controls above the body
-  // Called whenever the panel comes into sight. The returned function is called when it is closed
-  // or hidden behind another tab. Data that is read only in between (topics, the store) costs
-  // nothing at other times.
+  // Called whenever the panel becomes visible. The returned function is called when the panel is closed or
+  // hidden behind another tab. Read data (topics, the store) only in between, so that a hidden panel costs
+  // nothing.
   whileOpen?(): () => void;
 }

@@ -1,8 +1,8 @@
 // The interfaces by which a panel accesses the page.
 //
-// A panel names only the ports that it uses in its mount function, and knows nothing else of the
-// page. So tests or other pages can mount it with their own ports. app/panelPorts.ts implements the
-// ports for the viewer.
+// A panel's mount function names the ports that it uses; the panel uses no other part of the page. So
+// tests or other pages can mount it with their own ports. app/panelPorts.ts implements the ports for the
+// viewer.
 import type { ServerFigures } from "../../api/MetricsApi";
 import type { CommandArguments, CommandDescription } from "../../api/commands";
 import type { CurveOf, WholeCurve } from "../../api/curve";
@@ -19,8 +19,8 @@ import type { BodyPose, State } from "../../state/State";
 import type { StateReader } from "../../state/Store";
 
 export interface PanelPorts {
-  state: StateReader<State>; // what the page knows; it is changed through the other ports
-  topics: TopicSource; // of the simulation that is watched, and then of the next one
+  state: StateReader<State>; // the page's state, read-only; the other ports change it
+  topics: TopicSource; // topics of the simulation that is shown, and of the next one
   traffic: TrafficPort;
   server: ServerPort;
   commands: CommandsPort;
@@ -36,11 +36,11 @@ export interface PanelPorts {
 export interface TrafficPort {
   // The number of messages and bytes received on each topic that the page reads or has read.
   counts(): ReadonlyMap<string, TopicCount>;
-  choose(topic: string | null): void; // whose messages are shown
-  open(topic: string): void; // shows its messages, and opens their panel
+  choose(topic: string | null): void; // selects the topic whose messages are shown
+  open(topic: string): void; // shows the messages of a topic, and opens their panel
 }
 
-// Requests to the server that the live stream cannot answer. Promises reject with the server's
+// Requests to the server for data that is not in the live stream. If the server refuses, promises reject with its
 // sentence.
 export interface ServerPort {
   // The metrics of /metrics (docs/monitoring.md).
@@ -53,19 +53,19 @@ export interface ServerPort {
   output(simulation: string, robot: string): Promise<OutputLine[]>;
   // One value over a whole recording, as far as it is read, with at most `most` samples.
   curve(simulation: string, of: CurveOf, most: number): Promise<WholeCurve>;
-  // The same for the past that the server keeps of a running simulation.
+  // The same for the past of a running simulation that the server stores.
   pastCurve(simulation: string, of: CurveOf, most: number): Promise<WholeCurve>;
   // The same for the recording that the page compares with; null: there is no comparison.
   comparedCurve(of: CurveOf, most: number): Promise<WholeCurve | null>;
 }
 
-// Commands to a simulation. Promises reject with the server's sentence.
+// Commands to a simulation. If the server refuses, promises reject with its sentence.
 export interface CommandsPort {
   list(simulation: string): Promise<CommandDescription[]>;
   run(simulation: string, command: string, given: CommandArguments): Promise<void>;
 }
 
-// Commands to bodies. Promises reject with the server's sentence.
+// Commands to bodies. If the server refuses, promises reject with its sentence.
 export interface ControlPort {
   // Takes control of the simulation, or requests it from the viewer who has it.
   take(): Promise<void>;
@@ -83,26 +83,26 @@ export interface ReplayPort {
 export interface RobotsPort {
   select(robot: string | null): void;
   // Same as a click on the body: selects a robot, or in edit mode an object.
-  pick(body: string, isAdding?: boolean): void; // `isAdding`: besides what is chosen
-  filter(change: Partial<RobotFilter>): void; // in the list and in the view
-  follow(): void; // the selected robot, with the view; a second time ends it
+  pick(body: string, isAdding?: boolean): void; // `isAdding`: adds to the selection
+  filter(change: Partial<RobotFilter>): void; // filters the list and the view
+  follow(): void; // the view follows the selected robot; a second call ends this
 }
 
 export interface CamerasPort {
-  show(camera: CameraChoice): void; // and opens the images
+  show(camera: CameraChoice): void; // selects the camera, and opens the panel of images
 }
 
 export interface PlotsPort {
   // Plots a value against simulated time from now on, and opens the plots.
   add(source: Source, key: string, unit?: string): void;
   remove(curve: string): void;
-  setSpan(seconds: number | null): void; // the newest so many; null: all
-  setAgainst(curve: string | null): void; // what the horizontal axis has; null: simulated time
+  setSpan(seconds: number | null): void; // shows the newest seconds only; null for all
+  setAgainst(curve: string | null): void; // sets the curve on the horizontal axis; null for simulated time
   showEvents(show: boolean): void;
 }
 
 export interface EditsPort {
-  // In edit mode, moves a body to exactly this pose. Resolves to whether it is there now.
+  // In edit mode, moves a body to exactly this pose. Resolves to whether the body is now there.
   pose(pose: BodyPose): Promise<boolean>;
 }
 

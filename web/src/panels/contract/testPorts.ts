@@ -1,4 +1,4 @@
-// Ports with a test's own store. They provide only what the test sends.
+// Ports for tests: with the test's own store and the messages that it sends.
 import { vi } from "vitest";
 import type { TopicSource } from "../../protocol/SharedTopics";
 import type { State } from "../../state/State";

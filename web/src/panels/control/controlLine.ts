@@ -4,7 +4,7 @@ import { shallowEqual } from "../../state/Store";
 import { element, setText } from "../../ui/element";
 import type { PanelPorts } from "../contract/ports";
 
-// `follow` begins to watch, and returns the function that ends this.
+// `follow` calls a function on each change, and returns a function that ends this.
 export function controlLine(state: PanelPorts["state"], control: Pick<PanelPorts["control"], "take">) {
   const sentence = element("span");
   const button = element("button", { class: "button", type: "button", onclick: () => void control.take() });

@@ -1,5 +1,5 @@
-// The panel Diagnostics: the simulation, failed robots, warnings of the server, this page, and the
-// figures of the server.
+// The panel Diagnostics: the simulation, failed robots, warnings of the server, this page, and the metrics of the
+// server.
 import type { ServerFigures } from "../../api/MetricsApi";
 import { Store, shallowEqual } from "../../state/Store";
 import { element } from "../../ui/element";
@@ -26,8 +26,8 @@ export function mount({ state, topics, server }: Pick<PanelPorts, "state" | "top
   return panelOf(store, state, () => feed.start());
 }
 
-// Makes the panel for the data in the store. `start` begins to collect the data, and returns a function
-// that ends this.
+// Makes the panel for the data in the store. `start` starts collecting the data, and returns a function that ends
+// it.
 export function panelOf(store: Store<Diagnostics>, state: PanelPorts["state"], start: () => () => void): MountedPanel {
   const simulation = createFacts("Simulation", NOTHING_YET);
   const robots = createFacts("Robots", NOTHING_YET);
@@ -80,7 +80,7 @@ function pageFacts({ dropped }: Diagnostics, frames: number): Fact[] {
   ];
 }
 
-// The names are those in docs/monitoring.md.
+// The metrics' names are those in docs/monitoring.md.
 function serverFacts(figures: ServerFigures | null): Fact[] {
   if (!figures) return [];
   const line = (label: string, name: string, told: (value: number) => string = String): Fact[] => {

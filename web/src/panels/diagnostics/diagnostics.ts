@@ -13,8 +13,8 @@ export interface Diagnosis {
 export interface Diagnostics {
   simulation: Diagnosis | null;
   robots: readonly Diagnosis[];
-  server: ServerFigures | null; // null: not known
-  dropped: number | null; // updates that this page was too slow for; null: not known
+  server: ServerFigures | null; // null if unknown
+  dropped: number | null; // number of updates that were dropped because this page is too slow; null if unknown
 }
 
 export const NO_DIAGNOSTICS: Diagnostics = {
@@ -24,7 +24,7 @@ export const NO_DIAGNOSTICS: Diagnostics = {
   dropped: null,
 };
 
-// The robots with problems, the worst first.
+// Returns the robots with problems, the worst first.
 export function unwell(robots: readonly Diagnosis[]): Diagnosis[] {
   const rank = ({ health }: Diagnosis) => (health === "error" ? 0 : 1);
   return robots.filter(({ health }) => health !== "ok").sort((a, b) => rank(a) - rank(b));

@@ -26,7 +26,7 @@ const ROWS = [
 ] as const;
 type Row = (typeof ROWS)[number];
 
-// The value of a row that can be plotted.
+// The values of each row that can be plotted.
 const PLOTTED: Partial<Record<Row, string[]>> = {
   Position: ["x", "y"],
   Heading: ["yaw"],
@@ -105,12 +105,12 @@ function showStatus(robot: RobotStatus, set: (row: Row, text: string) => void): 
   set("Model", robot.model || "…");
 }
 
-// The format of SDFormat's <pose>: metres and radians.
+// Returns the pose in the format of SDFormat's <pose>: metres and radians.
 export function poseText({ x, y, z, roll, pitch, yaw }: RobotPose): string {
   return [x, y, z, roll, pitch, yaw].map((value) => formatNumber(value, 4)).join(" ");
 }
 
-// The format of gsv's --robot option.
+// Returns the pose in the format of gsv's option --robot.
 export function startText({ x, y, yaw }: RobotPose): string {
   return [x, y, yaw].map((value) => formatNumber(value, 4)).join(",");
 }

@@ -1,5 +1,5 @@
-// The output of the selected robot's behaviour: its standard output and errors. It is read only
-// while the list is open.
+// The output of the selected robot's behaviour: its standard output and errors. The output is read only while the
+// list is open.
 import type { OutputLine } from "../../api/health";
 import type { LogMessage } from "../../protocol/messages";
 import { seconds } from "../../protocol/messages";
@@ -29,7 +29,7 @@ export function createOutput(ports: Ports): HTMLElement {
 
 class OutputReader {
   private robot: string | null = null;
-  private newest = -Infinity; // s, simulated: of the lines that were asked for
+  private newest = -Infinity; // simulated time of the newest requested line, s
   private end = () => {};
 
   constructor(
@@ -40,7 +40,8 @@ class OutputReader {
 
   read(): void {
     const { simulation, selection, connection } = this.ports.state.get();
-    if (connection.phase !== "open" && this.robot === selection) return; // what was printed stays
+    if (connection.phase !== "open" && this.robot === selection) return; // if the connection is lost, the printed
+                                                                         // lines stay
     this.end();
     this.end = () => {};
     this.robot = selection;
@@ -64,18 +65,18 @@ class OutputReader {
 
   private async past(simulation: string, robot: string): Promise<OutputLine[]> {
     const { health, replay } = this.ports.state.get();
-    if (health === null || replay) return []; // nobody keeps them
+    if (health === null || replay) return []; // a replay stores no output
     try {
       return await this.ports.server.output(simulation, robot);
     } catch {
-      return []; // the topic has the last lines
+      return []; // the topic repeats the last lines
     }
   }
 
   private take({ stamp, level, name, msg }: LogMessage): void {
     const time = seconds(stamp);
     const robot = this.ports.state.get().status?.robots.find((each) => each.name === this.robot);
-    const behaviour = robot?.behaviour.split(" ")[0]; // without its options
+    const behaviour = robot?.behaviour.split(" ")[0]; // the behaviour's name without its options
     if ((name === this.robot || (behaviour && name === behaviour)) && time > this.newest) this.add({ time, level, text: msg });
   }
 

@@ -19,7 +19,7 @@ const FIELDS: readonly { name: Name; label: string; scale: number; digits: numbe
   { name: "pitch", label: "Pitch (°)", scale: DEGREES, digits: 3 },
   { name: "yaw", label: "Yaw (°)", scale: DEGREES, digits: 3 },
 ];
-const OF_ROBOTS: readonly Name[] = ["x", "y", "yaw"]; // they stand upright on the floor
+const OF_ROBOTS: readonly Name[] = ["x", "y", "yaw"]; // robots stand upright on the floor
 
 export function createPoseFields({ state, edits }: Ports): HTMLElement {
   const fields = new Map<Name, Field<number | null>>(
@@ -42,7 +42,7 @@ export function createPoseFields({ state, edits }: Ports): HTMLElement {
     const { chosenPose } = state.get();
     if (!chosenPose) return;
     if (value !== null && Number.isFinite(value) && (await edits.pose({ ...chosenPose, [name]: value }))) return;
-    show(state.get().chosenPose); // it stays where it is
+    show(state.get().chosenPose); // the body was not moved, so its pose is shown again
   };
   const show = (pose: BodyPose | null) => {
     for (const { name, scale } of FIELDS) fields.get(name)!.show(pose && pose[name] * scale);

@@ -12,8 +12,8 @@ import { plotButton } from "./plotButton";
 
 type Ports = Pick<PanelPorts, "state" | "topics" | "cameras" | "plots">;
 
-const UPDATE_MS = 200; // as fast as numbers can be read
-const LARGE_TYPES = ["depth_camera"]; // a cloud of points for each reading
+const UPDATE_MS = 200; // period of updates, so that numbers can be read
+const LARGE_TYPES = ["depth_camera"]; // types whose readings are point clouds
 
 export function createSensorList(ports: Ports): HTMLElement {
   const list = element("ul", { class: "sensors", "aria-label": "Sensors" });
@@ -31,7 +31,7 @@ export function createSensorList(ports: Ports): HTMLElement {
     list.replaceChildren(...readings.show(body, isOpen));
   };
   details.addEventListener("toggle", () => {
-    if (details.open === isOpen) return; // as a browser tells of a list that was open from the start
+    if (details.open === isOpen) return; // browsers report a list that was open from the start
     isOpen = details.open;
     refresh();
   });
@@ -39,7 +39,7 @@ export function createSensorList(ports: Ports): HTMLElement {
   return details;
 }
 
-// Whether the list may subscribe without a request by the user: images and point clouds are large.
+// Whether the list may subscribe without a request by the user. Images and point clouds are too large for that.
 export function isLight({ overlay, type }: SceneSensor): boolean {
   return overlay !== "picture" && !LARGE_TYPES.includes(type);
 }
@@ -76,7 +76,7 @@ class Readings {
 
 class SensorRow {
   readonly item: HTMLLIElement;
-  newest: unknown = null; // not written yet
+  newest: unknown = null; // the newest message, which is not shown yet
   private readonly values = element("dl", { class: "values" });
   private readonly cells = new Map<string, HTMLElement>();
 
@@ -137,7 +137,7 @@ class SensorRow {
   }
 }
 
-// "pose.pose.position.x" → "position x", "ranges.min" → "ranges min".
+// Returns a label, such as "position x" for "pose.pose.position.x", or "ranges min" for "ranges.min".
 export function labelOf(key: string): string {
   const parts = key.split(/\.(?![^[]*\])/);
   return parts.slice(-2).join(" ").replaceAll("_", " ");

@@ -1,5 +1,5 @@
-// The state of the selected robot and the reason: a sentence, its last command and its motion, and
-// what limits it.
+// Explains the state of the selected robot: a sentence, the last command, the motion, and the nearest
+// obstacle.
 import type { RobotHealth, ShownState } from "../../state/health";
 import { STATE_WORDS, motionText, sentenceOf, stateOf } from "../../state/health";
 import type { State } from "../../state/State";
@@ -13,7 +13,7 @@ type Row = (typeof ROWS)[number];
 interface Shown {
   sentence: string;
   state: ShownState;
-  rows: Record<Row, string>; // empty: the row is left out
+  rows: Record<Row, string>; // if a text is empty, its row is left out
 }
 
 export function createWhy({ state }: Pick<PanelPorts, "state">): HTMLElement {

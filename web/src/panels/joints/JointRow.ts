@@ -4,9 +4,9 @@ import type { Joint } from "../../api/joints";
 import { element, setAttribute, setText } from "../../ui/element";
 import { formatNumber } from "../../ui/format";
 
-const STEPS = 400; // of the slider
-const USUAL_VELOCITY = 2; // rad/s or m/s, where the joint has no limit
-const HELD_MS = 600; // after a change the field stays as it was set, until the server tells it back
+const STEPS = 400; // number of steps of the slider
+const USUAL_VELOCITY = 2; // used if the joint has no velocity limit, rad/s or m/s
+const HELD_MS = 600; // for this time after a change, the field keeps the set value, until the server reports it
 
 interface Actions {
   command(joint: string, kind: "position" | "velocity", value: number): Promise<void>;
@@ -14,7 +14,7 @@ interface Actions {
 }
 
 interface How {
-  isRefused: boolean; // nobody may command now
+  isRefused: boolean; // whether commands are not possible now
   inDegrees: boolean;
 }
 
@@ -32,7 +32,8 @@ export class JointRow {
 
   constructor(joint: Joint, { command, problem }: Actions) {
     const hasLimits = Number.isFinite(joint.minimum) && Number.isFinite(joint.maximum);
-    this.kind = hasLimits ? "position" : "velocity"; // without limits there is nothing to slide between
+    this.kind = hasLimits ? "position" : "velocity"; // a slider for the position needs limits; otherwise it sets the
+                                                     // velocity
     const [minimum, maximum] = this.rangeOf(joint);
     this.slider = element("input", {
       type: "range",

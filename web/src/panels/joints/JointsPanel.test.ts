@@ -72,5 +72,5 @@ test("the panel shows why a body or a joint takes no commands, and disables the 
   end();
   const asked = joints.mock.calls.length;
   await vi.advanceTimersByTimeAsync(2000);
-  expect(joints).toHaveBeenCalledTimes(asked); // nothing is asked while nobody looks
+  expect(joints).toHaveBeenCalledTimes(asked); // a hidden panel sends no requests
 });

@@ -12,7 +12,7 @@ import { JointRow } from "./JointRow";
 
 type Ports = Pick<PanelPorts, "state" | "control">;
 
-const UPDATE_MS = 200; // as fast as numbers can be read
+const UPDATE_MS = 200; // period of updates, so that numbers can be read
 const NO_BODY = "No body has joints. Add a robot or an object with joints.";
 
 export function mount({ state, control }: Ports): MountedPanel {
@@ -105,7 +105,7 @@ export function mount({ state, control }: Ports): MountedPanel {
   return { body: element("div", { class: "joints-body" }, line, note, list), tools: [choice, inDegrees], whileOpen };
 }
 
-// Robots first, then arms and other objects. Static bodies are omitted, because their joints do not
+// Returns robots first, then arms and other objects. Static bodies are left out, because their joints do not
 // move.
 function jointedBodies({ scene }: State): string[] {
   const jointed = (scene?.bodies ?? []).filter(({ joints }) => joints.length > 0);

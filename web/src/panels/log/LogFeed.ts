@@ -16,7 +16,7 @@ export type LogPorts = Pick<PanelPorts, "state" | "topics" | "notices"> & {
 
 export class LogFeed {
   private end: (() => void) | null = null;
-  private heard: string | null = null; // the simulation whose lines are there
+  private heard: string | null = null; // the simulation whose lines are stored
   private wasReplay = false;
 
   constructor(

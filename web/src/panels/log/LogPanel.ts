@@ -10,8 +10,8 @@ import { LogFeed } from "./LogFeed";
 import type { Log, LogLine } from "./log";
 import { LEVELS, NO_LOG, countUntil, levelWord, shownLines } from "./log";
 
-const MOST_ROWS = 500; // at once: those about the present instant
-const NEAR_END_PX = 24; // who reads further up is left there
+const MOST_ROWS = 500; // maximum number of shown lines: those around the present instant
+const NEAR_END_PX = 24; // if the user has scrolled farther up than this, new lines do not scroll the list
 
 const NOTHING_YET =
   "No messages yet. This panel lists events of the simulation: starts and pauses, robots " +
@@ -26,7 +26,7 @@ export function mount(ports: Ports & LogPorts): MountedPanel {
   return panelOf(store, ports);
 }
 
-// The panel of the lines in the store.
+// Makes the panel for the lines in the store.
 export function panelOf(store: Store<Log>, ports: Ports): MountedPanel {
   const list = element("ol", { class: "log-lines", "aria-label": "Lines", tabindex: "0" });
   const empty = element("p", { class: "log-empty" });
@@ -65,9 +65,9 @@ function textField(store: Store<Log>): HTMLElement {
 }
 
 class Rows {
-  private lines: LogLine[] = []; // that fit the filter
-  private from = 0; // the first that has a row
-  private until = 0; // so many of them are not after the present instant
+  private lines: LogLine[] = []; // lines that fit the filter
+  private from = 0; // index of the first line that is shown
+  private until = 0; // number of lines up to the present instant
   private shown: Log | null = null;
 
   constructor(
@@ -86,7 +86,7 @@ class Rows {
     this.draw();
   }
 
-  // A recording's lines after the present instant are in the future.
+  // Marks the lines of a recording that come after the present instant.
   mark(): void {
     const { replay, time } = this.ports.state.get();
     const until = replay ? countUntil(this.lines, time) : this.lines.length;
@@ -110,7 +110,7 @@ class Rows {
     else this.list.scrollTop = scrollTop;
   }
 
-  // Marks past and future lines, and keeps the newest line in sight.
+  // Marks past and future lines, and keeps the newest line visible.
   private place(): void {
     const present = this.until - this.from - 1;
     const rows = [...this.list.children] as HTMLElement[];

@@ -2,15 +2,15 @@
 
 export interface LogLine {
   time: number; // s, simulated
-  level: number; // as rcl_interfaces/msg/Log has it: 10 debug to 50 fatal
-  name: string; // who says it: a robot, or gsv
+  level: number; // as in rcl_interfaces/msg/Log: 10 (debug) to 50 (fatal)
+  name: string; // the source: a robot, or gsv
   text: string;
 }
 
 export interface Log {
-  lines: readonly LogLine[]; // the newest last
-  lowest: number; // of the levels that are shown
-  filter: string; // what a line's name or text must hold
+  lines: readonly LogLine[]; // ordered by time; the newest is last
+  lowest: number; // lowest level that is shown
+  filter: string; // text that a line's name or message must contain
 }
 
 export const NO_LOG: Log = { lines: [], lowest: 0, filter: "" };
@@ -23,9 +23,9 @@ export const LEVELS: readonly { level: number; label: string; word: string }[] =
   { level: 40, label: "Errors only", word: "error" },
 ];
 
-const LIKELY_AGAIN = 200; // a stream that is joined anew tells its last hundred lines again
+const LIKELY_AGAIN = 200; // a new subscription repeats the last hundred lines
 
-// "info", "warning", "error", "debug".
+// Returns "info", "warning", "error" or "debug".
 export function levelWord(level: number): string {
   return LEVELS.findLast((each) => level >= each.level)?.word ?? "debug";
 }
@@ -45,7 +45,7 @@ export function shownLines({ lines, lowest, filter }: Log): LogLine[] {
   );
 }
 
-// The number of lines that are not after an instant. The lines are in the order of time.
+// Returns the number of lines up to an instant. The lines must be ordered by time.
 export function countUntil(lines: readonly LogLine[], time: number): number {
   const after = lines.findIndex((line) => line.time > time + 1e-9);
   return after < 0 ? lines.length : after;

@@ -1,5 +1,5 @@
-// The panel Physics: gravity, step and speed, the cost of the steps by part, and the behaviours that
-// delay them.
+// The panel Physics: gravity, step and speed, the time that each part of the steps takes, and the behaviours that
+// delay the steps.
 import type { SimulationStatus } from "../../api/status";
 import { shallowEqual } from "../../state/Store";
 import { element, setText } from "../../ui/element";
@@ -19,7 +19,7 @@ const MAX_STEPS = 32;
 const MAX_HOLD_UPS = 20;
 
 interface World {
-  gravity: number | null; // m/s² along z; null: the server does not report it
+  gravity: number | null; // along z, m/s²; null if the server does not report it
   step: number | null; // s
 }
 
@@ -41,7 +41,7 @@ export function mount({ state, topics, server, robots }: Ports): MountedPanel {
     steps.show(costs.longest(MAX_STEPS));
     holdUps.show(costs);
   };
-  // The server does not answer a request for a parameter that it does not have.
+  // A server without this parameter sends no answer.
   const ask = async (key: keyof World, parameter: string) => {
     const value = await server.parameter(parameter).catch(() => null);
     if (typeof value !== "number") return;
@@ -103,7 +103,7 @@ function milliseconds(seconds: number): string {
   return `${ms >= 100 ? ms.toFixed(0) : ms >= 1 ? ms.toFixed(2) : ms.toFixed(3)} ms`;
 }
 
-// Bars of the mean cost of a step, by part.
+// Bars of the mean time that each part of a step takes.
 class Bars {
   private readonly rows = PARTS.map(({ key, label, hint }) => {
     const bar = element("span", { class: `cost-bar ${key}` });
@@ -128,7 +128,7 @@ class Bars {
   }
 }
 
-// A line for each of the longest steps, with a bar for each of its parts.
+// The longest steps: a line for each, with a bar for each part.
 class Waterfall {
   private readonly lines: { step: HTMLElement; bar: HTMLElement; who: HTMLElement; total: HTMLElement; element: HTMLElement }[] = [];
   private readonly rows = element("tbody");

@@ -31,8 +31,8 @@ export interface HoldUp {
 }
 
 const KEPT_MESSAGES = 10; // five seconds of wall-clock time
-const SLOW = 0.95; // of the target: below, a run is slower than asked
-const LARGE = 0.5; // of the busy time: what takes that much is the reason
+const SLOW = 0.95; // a run below this fraction of its target factor is slower than requested
+const LARGE = 0.5; // a part that takes this fraction of the busy time is named as the reason
 
 export class StepCosts {
   private messages: StepCostsMessage[] = [];
@@ -49,12 +49,12 @@ export class StepCosts {
     return this.messages.reduce((sum, { steps }) => sum + Number(steps), 0);
   }
 
-  // The wall-clock time of this part in seconds.
+  // Returns the wall-clock time of this part, in seconds.
   of(part: Part): number {
     return this.messages.reduce((total, { sum }) => total + sum[part], 0);
   }
 
-  // The time of all parts except the wait for the next step.
+  // The time of all parts, except waiting for the next step.
   get busy(): number {
     return PARTS.reduce((sum, { key }) => (key === "idle_s" ? sum : sum + this.of(key)), 0);
   }
@@ -71,7 +71,7 @@ export class StepCosts {
     return [...found.values()].sort((a, b) => b.total - a.total);
   }
 
-  // The longest steps, in the order of time.
+  // Returns the longest steps, ordered by time.
   longest(most: number): StepCost[] {
     const all = this.messages.flatMap(({ longest }) => longest);
     const chosen = [...all].sort((a, b) => busyTime(b) - busyTime(a)).slice(0, most);
@@ -85,7 +85,7 @@ export function busyTime(cost: StepCost): number {
 
 type Pace = Pick<SimulationStatus, "mode" | "phase" | "targetFactor" | "realTimeFactor">;
 
-// A sentence: what determines the speed of the run, and what to do about it.
+// Returns a sentence about what determines the speed of the run, and how to change it.
 export function paceSentence({ mode, phase, targetFactor, realTimeFactor }: Pace, costs: StepCosts): string {
   if (phase !== "running") return "The simulation does not run. Start it to measure its steps.";
   if (costs.steps === 0) return "No step yet.";

@@ -1,4 +1,4 @@
-// Draws the curves of the plots while the panel is in sight, and writes their values into the
+// Draws the curves of the plots while the panel is visible, and writes their values into the
 // legend.
 import { PathChart } from "../../plot/PathChart";
 import type { DrawnCurve, Range } from "../../plot/columns";
@@ -15,8 +15,8 @@ import type { PanelPorts } from "../contract/ports";
 import type { PlotEvents } from "./PlotEvents";
 import type { PlotFeed } from "./PlotFeed";
 
-const DRAWING_MS = 100; // between two pictures: as fast as curves can be read
-const NEAR_PX = 6; // of an event that is pointed at
+const DRAWING_MS = 100; // period of drawing, so that curves can be read
+const NEAR_PX = 6; // maximum distance of the pointer from an event
 
 type Shown = Curve & DrawnCurve;
 type Ports = Pick<PanelPorts, "state" | "replay" | "plots">;
@@ -27,8 +27,8 @@ export class PlotDrawing {
   private charts: { time: TimeCharts; path: PathChart } | null = null;
   private isOpen = false;
   private timer: ReturnType<typeof setTimeout> | undefined;
-  private pointed: number | null = null; // CSS pixels from the left
-  private heldSpan: Range | null = null; // while a recording is dragged: the axis stays
+  private pointed: number | null = null; // position of the pointer, CSS pixels from the left
+  private heldSpan: Range | null = null; // while the user drags in a recording, the axis does not change
   private readonly values = new Map<string, HTMLElement>();
   private readonly instant = element("span", { class: "plot-instant number" });
 
@@ -50,7 +50,7 @@ export class PlotDrawing {
     if (typeof ResizeObserver !== "undefined") new ResizeObserver(() => this.request()).observe(place);
   }
 
-  // Redraws on each change until the returned function is called.
+  // Draws after each change, until the returned function is called.
   open(): () => void {
     this.isOpen = true;
     this.request();
@@ -93,7 +93,7 @@ export class PlotDrawing {
     this.request();
   }
 
-  // In a recording, a press on the plot goes to that time, and dragging follows the pointer.
+  // In a recording, a press on the plot goes to that time. Dragging changes the time continuously.
   private hold({ button, pointerId }: PointerEvent, x: number): void {
     const { replay, plots } = this.ports.state.get();
     if (button !== 0 || !replay || plots.against !== null) return;
@@ -118,7 +118,7 @@ export class PlotDrawing {
     });
   }
 
-  // The same values of the recording that is compared with, as dashed curves.
+  // Returns the same values of the compared recording, as dashed curves.
   private compared(curves: readonly Shown[]): DrawnCurve[] {
     return curves.flatMap(({ id, unit, colour }) => {
       const series = this.feed.comparedOf(id);
@@ -174,7 +174,7 @@ export class PlotDrawing {
   }
 }
 
-// The event under the pointer.
+// Returns the event under the pointer.
 function eventAt(marks: readonly Mark[], pointed: number | null, width: number, span: Range): string {
   if (pointed === null) return "";
   const near = (NEAR_PX / Math.max(1, width)) * (span.max - span.min);
@@ -182,7 +182,7 @@ function eventAt(marks: readonly Mark[], pointed: number | null, width: number, 
   return found.length === 0 ? "" : ` · ${found.map(({ label }) => label).join(", ")}`;
 }
 
-// The page's present colours (light or dark).
+// Returns the page's present colours (light or dark).
 function lookOf(place: HTMLElement): Look {
   const style = getComputedStyle(place);
   const of = (name: string) => style.getPropertyValue(name).trim() || "grey";

@@ -15,7 +15,7 @@ test("events are marked with what happened, once each", () => {
   const { events, send, topics, end } = listening();
   send(1, "started");
   send(4, "agent_dead", "a", "exit code 1");
-  send(1, "started"); // as a new subscription brings it
+  send(1, "started"); // a new subscription repeats this event
   expect(events.marks()).toEqual([
     { time: 1, label: "started", isBad: false },
     { time: 4, label: "agent dead a exit code 1", isBad: true },

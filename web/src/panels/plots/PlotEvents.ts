@@ -1,5 +1,5 @@
-// The events that plots mark. For a running simulation: new events and the last hundred before. For
-// a recording: all events.
+// Collects the events that plots mark: all events of a recording; for a running simulation, the new ones and the
+// hundred before them.
 import type { RecordedEvent } from "../../api/replay";
 import type { LifecycleEventMessage } from "../../protocol/messages";
 import { seconds } from "../../protocol/messages";
@@ -16,7 +16,7 @@ export class PlotEvents {
 
   constructor(private readonly ports: Pick<PanelPorts, "state" | "topics">) {}
 
-  // Listens until the returned function is called.
+  // Collects events until the returned function is called.
   open(onChange: () => void): () => void {
     return this.ports.topics.subscribe<LifecycleEventMessage>(TOPIC, ({ stamp, event, robot, detail }) => {
       this.take({ time: seconds(stamp), event, robot, detail });

@@ -165,7 +165,7 @@ test("an expression is computed at each value of its fields, from the newest of 
   const sonar = (sec: number, range: number) => topics.send("/a/sonar", { header: { stamp: { sec, nsec: 0 } }, range });
   takePoses(poses(1, 4));
   sonar(2, 10);
-  expect(samples(feed, { kind: "expression" }, text)).toEqual([]); // one of its fields is not there yet
+  expect(samples(feed, { kind: "expression" }, text)).toEqual([]); // one field of the expression has no value yet
   store.set({ status: simulationStatus("running", { time: 3, lateSteps: 2 }) });
   sonar(4, 20);
   expect(samples(feed, { kind: "expression" }, text)).toEqual([
@@ -183,7 +183,7 @@ test("the history of a run precedes the values that were plotted live", () => {
   const times = Float64Array.from([8, 9, 10, 10.5]);
   feed.takePast(curveId(A, "x"), { times, values: Float64Array.from([1, 2, 3, 4]), isWhole: true, done: true, problem: "" });
   expect(samples(feed, A, "x")).toEqual([[8, 1], [9, 2], [10, 5], [11, 6]]);
-  takePoses(poses(12, 7)); // and it goes on
+  takePoses(poses(12, 7)); // later values are added
   expect(samples(feed, A, "x").at(-1)).toEqual([12, 7]);
 });
 

@@ -20,12 +20,12 @@ import type { StateReader } from "../../state/Store";
 import { shallowEqual } from "../../state/Store";
 
 const POSES_TOPIC = "/gsv/poses";
-const LONGEST_GAP_S = 1; // between two poses of which a speed is made
+const LONGEST_GAP_S = 1; // maximum time between two poses from which a speed is computed
 
 type Input = Pick<Curve, "id" | "source" | "key">;
 
 interface Formula {
-  id: string; // of the curve
+  id: string; // id of the curve
   inputs: readonly string[]; // ids, in the order of the references
   evaluate: Expression["evaluate"];
 }
