@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A first behaviour: goes forward, and turns where a wall comes near.
+"""A first behaviour: drives forward, and turns in front of walls.
 
     gsv broker --port 2809 &
     examples/python/first_behaviour.py --broker corbaloc::1.2@127.0.0.1:2809/TradingService &

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""behaviours/fetch.cc in Python, cycle by cycle: takes what is before its gripper to a point.
+"""behaviours/fetch.cc in Python, with equal commands: carries a body in front of its gripper to a point.
 
     examples/python/porter.py --broker REFERENCE [--name NAME] [--goal-x X] [--goal-y Y]
 
@@ -10,7 +10,7 @@ import math
 
 import gsv
 
-BETWEEN_THE_JAWS = 0.03  # m from the sonar
+BETWEEN_THE_JAWS = 0.03  # distance from the sonar, m
 BACK_OFF, BACK_OFF_SPEED = 0.3, 0.15  # m, m/s
 YELLOW, GREEN, RED, BLUE = (gsv.Colour(1, 0.7, 0), gsv.Colour(0, 1, 0), gsv.Colour(1, 0, 0),
                             gsv.Colour(0, 0, 1))
@@ -21,7 +21,7 @@ def clamp(value, least, most):
 
 
 class Porter(gsv.Behaviour):
-    """Takes what is before its gripper to a point, in Python."""
+    """Carries a body in front of its gripper to a point, in Python."""
 
     def __init__(self, options):
         self.goal, self.tolerance = (options.goal_x, options.goal_y), options.tolerance
@@ -37,7 +37,7 @@ class Porter(gsv.Behaviour):
         try:
             self.fetch(robot)
         except gsv.Ended:
-            pass  # an order that came after the end of the run
+            pass  # the run ended before the command
 
     def fetch(self, robot):
         self.led.set(YELLOW)
@@ -70,7 +70,7 @@ class Porter(gsv.Behaviour):
         return robot.is_running
 
     def take(self, robot):
-        """Until the fingers hold something or are shut."""
+        """Drives until the fingers hold a body or are closed."""
         self.gripper.grasp()
         while robot.sleep_for(0.05):
             state = self.gripper.read()
@@ -82,7 +82,7 @@ class Porter(gsv.Behaviour):
         while True:
             here = self.positioning.locate()
             dx, dy = self.goal[0] - here.x, self.goal[1] - here.y
-            distance = abs(complex(dx, dy))  # C's hypot; math.hypot rounds otherwise
+            distance = abs(complex(dx, dy))  # the same as hypot of C; math.hypot rounds differently
             if not robot.is_running:
                 return False
             if distance < self.tolerance:

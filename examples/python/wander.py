@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""behaviours/wander.cc in Python, cycle by cycle: in lockstep the same run, to the bit.
+"""behaviours/wander.cc in Python, with equal commands: in lockstep, runs are bit-identical.
 
     examples/python/wander.py --broker REFERENCE [--name NAME] [--no-pictures]
 """
@@ -12,12 +12,12 @@ RECONSIDER_AFTER, RECONSIDER_FOR = 200, 40  # control cycles
 
 
 class Rule:
-    """Where to next: forward where the sonars leave room, else towards the freer side."""
+    """Decides how to drive: forward if the sonars detect space, else turns to the freer side."""
 
     def __init__(self):
-        self.turn = 0  # +1: to the left, -1: to the right, 0: going forward
-        self.forward = 0  # control cycles spent going forward
-        self.reconsidering = 0  # control cycles of it that are left
+        self.turn = 0  # +1 for a turn to the left, -1 to the right, 0 for driving forward
+        self.forward = 0  # number of control cycles spent driving forward
+        self.reconsidering = 0  # remaining control cycles of reconsider()
 
     def decide(self, radius, echoes):
         if self.reconsidering > 0:
@@ -25,12 +25,12 @@ class Rule:
         ahead = gsv.nearest(echoes, 0.0, 0.9)
         left = gsv.nearest(echoes, 0.9, 0.9)
         right = gsv.nearest(echoes, -0.9, 0.9)
-        # Starts to turn a good length before an obstacle, and turns until there is more room.
+        # Starts to turn early before an obstacle, and turns until there is more space.
         if ahead < radius + (0.7 if self.turn else 0.4):
             self.turn = self.turn or (1 if left >= right else -1)
             return 0.0, 0.9 * self.turn
         self.turn = 0
-        # Drifts to one side and then to the other; after a while it tries another way.
+        # Drifts to one side and then to the other. After a while, tries another way.
         self.forward = (self.forward + 1) % RECONSIDER_AFTER
         if self.forward == 0:
             self.reconsidering = RECONSIDER_FOR
@@ -38,7 +38,7 @@ class Rule:
         return speed, 0.1 if self.forward < RECONSIDER_AFTER // 2 else -0.1
 
     def _reconsider(self, radius, echoes):
-        """Backs out where there is room behind, then turns."""
+        """Drives backwards if there is space behind, then turns."""
         self.reconsidering -= 1
         room_behind = gsv.nearest(echoes, math.pi, 0.9) > radius + 0.25
         if self.reconsidering > RECONSIDER_FOR // 2 and room_behind:
@@ -47,7 +47,7 @@ class Rule:
 
 
 class Wander(gsv.Behaviour):
-    """Wanders about without hitting anything, in Python."""
+    """Wanders without collisions, in Python."""
 
     def __init__(self, options):
         self.takes_pictures = not options.no_pictures
@@ -66,7 +66,7 @@ class Wander(gsv.Behaviour):
         try:
             return robot.create(gsv.Camera, "camera", gsv.Placement(x=0.05, z=0.25), size)
         except gsv.Error:
-            return None  # a robot that cannot have one wanders without
+            return None  # a robot without a camera wanders without it
 
     def run(self, robot):
         next_picture = robot.now()

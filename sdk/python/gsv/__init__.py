@@ -23,6 +23,6 @@ from gsv.errors import (
     Unavailable)
 from gsv.notebook import View, view
 
-del end_with_parent  # internal: gsv.behaviours and the fixtures take it from gsv._native
+del end_with_parent  # internal: gsv.behaviours and the fixtures import it from gsv._native
 
 __all__ = [name for name in dir() if not name.startswith("_")]

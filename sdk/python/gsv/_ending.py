@@ -1,4 +1,4 @@
-"""What is under way ends before the interpreter does: its threads must not call Python after it."""
+"""Ends simulations and offers before the interpreter exits: their threads must not call Python later."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _open: dict[int, tuple[weakref.ref[Any], Callable[[Any], None]]] = {}
 
 
 def end_at_exit(thing: Any, end: Callable[[Any], None]) -> None:
-    """Calls `end` with `thing` as the program exits, if it is still there. The last comes first."""
+    """Calls `end(thing)` at exit if `thing` still exists. The last registered call comes first."""
     key = id(thing)
     _open[key] = weakref.ref(thing, lambda _: _open.pop(key, None)), end
 

@@ -1,4 +1,4 @@
-"""Robotic applications: find a simulator, create, add, run until, observe, assert."""
+"""Robotic applications: programs that create, run and observe simulations on a server."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from gsv.errors import Refused
 
 
 class Simulation(_native.Simulation):
-    """A simulation on some server. It is destroyed when the `with` ends, or the last who holds it
-    lets go."""
+    """A simulation on a server. It is destroyed at the end of the `with`, or when Python deletes
+    the last reference to this object."""
 
     def __enter__(self) -> Simulation:
         return self
@@ -21,14 +21,14 @@ class Simulation(_native.Simulation):
         self.destroy()
 
     def run_for(self, duration: float, *, patience: float = 600.0) -> None:
-        """Runs that many simulated seconds further and freezes there."""
+        """Runs for `duration` simulated seconds, and pauses."""
         self.run_until(self.state().time + duration, patience=patience)
 
     def run_until_true(self, condition: Callable[[_native.SimulationState], bool], *,
                        at_most: float, every: float = 0.1) -> Optional[_native.SimulationState]:
-        """Runs until `condition` of the state holds, looking every so many simulated seconds, and
-        gives that state; None when it does not within `at_most` simulated seconds. In lockstep
-        it stops at the same instant each time."""
+        """Runs until `condition(state)` is true, and returns this state. The condition is checked
+        after each `every` simulated seconds. Returns None if it stays false for `at_most` simulated
+        seconds. In lockstep, equal runs stop at the same instant."""
         state = self.state()
         start, looks = state.time, 0
         while not condition(state):
@@ -41,16 +41,16 @@ class Simulation(_native.Simulation):
 
 
 class Application(_native.Application):
-    """The broker, as an application uses it."""
+    """A connection to a broker, which creates simulations on the servers that it knows."""
 
     def create(self, world: str = "", *, constraint: str = "", preference: str = "first",
                lockstep: bool = True, factor: float = 1.0, step: float = 0.0, seed: int = 0,
                name: str = "", options: Mapping[str, str] = {}) -> Simulation:
-        """A simulation of `world` on the first simulator, in the order of `preference` ("first",
-        "min load", "random"), whose offer matches `constraint` (over the properties of
-        docs/services.md). Lockstep: as fast as possible and repeating to the bit; otherwise `factor`
-        times real time. `step` in seconds; 0: the world's. `options` are those of
-        sba::SimulationSpecification: "on_failure", "deadline_s",
+        """Creates a simulation of `world` on a server whose offer matches `constraint` (with the
+        properties in docs/services.md). If several match, `preference` ("first", "min load",
+        "random") decides. In lockstep, the simulation is reproducible and as fast as possible;
+        otherwise it runs at `factor` times real time. `step` is in seconds; 0 means the world's own
+        step. `options` are those of sba::SimulationSpecification: "on_failure", "deadline_s",
         "abandoned_after_s"."""
         simulation = Simulation(self, world, constraint, preference, lockstep, factor, step, seed,
                                 name, dict(options))
@@ -59,7 +59,7 @@ class Application(_native.Application):
 
 
 def connect(broker: str = "") -> Application:
-    """The broker at `broker` (corbaloc::1.2@HOST:PORT/TradingService), or at $GSV_BROKER."""
+    """Connects to the broker `broker` (corbaloc::1.2@HOST:PORT/TradingService) or $GSV_BROKER."""
     broker = broker or os.environ.get("GSV_BROKER", "")
     if not broker:
         raise Refused("no broker was named: pass its reference, or set GSV_BROKER; "

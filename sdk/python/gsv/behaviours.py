@@ -1,4 +1,4 @@
-"""Behaviours: what moves a robot, and how a program offers one."""
+"""Behaviours, which drive robots, and functions with which a program offers them."""
 
 from __future__ import annotations
 
@@ -13,45 +13,45 @@ from gsv import _native
 from gsv._ending import end_at_exit
 from gsv.errors import Error, Refused
 
-_USAGE, _INFRASTRUCTURE = 2, 5  # exit codes, those of programs in C++
+_USAGE, _INFRASTRUCTURE = 2, 5  # exit codes, the same as for C++ programs
 
 
 class Behaviour:
-    """Write one of these, and it runs anywhere on the network: one instance drives one robot.
+    """The base class of behaviours. Each instance drives one robot, also over the network.
 
-    `init`, `paused` and `resumed` are called on other threads than `run`, never at once with `init`.
+    `init`, `paused` and `resumed` run on other threads than `run`, and never at the same time as `init`.
     """
 
     def init(self, robot: _native.Robot) -> None:
-        """The robot is there, time does not run yet: open sensors here. What is raised here refuses
-        the robot."""
+        """Called once, before simulated time starts. Open sensors here. An exception means that the
+        behaviour refuses the robot."""
 
     def run(self, robot: _native.Robot) -> None:
-        """Runs until robot.sleep_for() and the like return False, or until the work is done."""
+        """Drives the robot. Return when robot.sleep_for() returns False, or when the work is done."""
         raise NotImplementedError("a behaviour needs a method run(self, robot)")
 
     def paused(self) -> None:
-        """Told, not asked: who sleeps on the robot's clock need not do anything."""
+        """Called when the simulation pauses. A behaviour that waits by the robot's clock can ignore this."""
 
     def resumed(self) -> None:
-        """The end of a pause."""
+        """Called when the simulation resumes after a pause."""
 
 
 class Controller(Behaviour):
-    """A behaviour that never blocks: readings in, command out, once a period (simulated seconds)."""
+    """A behaviour that computes one command from the readings in each `period` (simulated seconds)."""
 
     period = 0.05
 
     def control(self, readings: dict[str, _native.Reading]) -> Tuple[float, ...]:
-        """The command for the next period, from the readings of all open sensors: m/s forward and
-        rad/s, and for a base that can move sideways a third number, m/s to the left."""
+        """Returns the command for the next period: m/s forward and rad/s. For a base that can move
+        sideways, a third number is m/s to the left. `readings` are those of all open sensors."""
         raise NotImplementedError("a controller needs a method control(self, readings)")
 
     def run(self, robot: _native.Robot) -> None:
         start, cycle = robot.now(), 0
         command: Tuple[float, ...] = (0.0, 0.0)
         while True:
-            cycle += 1  # instants are multiples of the period: sums would drift
+            cycle += 1  # multiply, because a sum of periods would accumulate rounding errors
             linear, angular, *sideways = command
             readings = robot.exchange(linear, angular, until=start + cycle * self.period,
                                       lateral=sideways[0] if sideways else 0.0)
@@ -61,11 +61,11 @@ class Controller(Behaviour):
 
 
 class Offer(_native.Offer):
-    """A behaviour that this program offers at a broker, until it is withdrawn or the `with` ends.
+    """A behaviour that this program offers at a broker, until withdraw() or the end of the `with`.
 
-    `make` is a class of behaviours, or what makes one when it is called: once for each robot.
-    `time_managed` says that it tells the time by the robot's clock only, so that a simulation may
-    wait for it.
+    `make` is a class of behaviours, or a function that returns one. It is called once for each robot.
+    `time_managed` means that the behaviour uses only the robot's clock, so that a simulation can wait
+    for the behaviour.
     """
 
     def __init__(self, broker: str, name: str, make: Callable[[], Any], description: str = "",
@@ -82,12 +82,13 @@ class Offer(_native.Offer):
 
 def serve(name: str, make: Callable[..., Any], parser: Optional[argparse.ArgumentParser] = None, *,
           time_managed: bool = True) -> None:
-    """What a program that offers a behaviour ends with. Reads the command line (--broker, --name,
-    --help), offers the behaviour, serves until SIGINT, SIGTERM or SIGHUP (a second one ends the
-    program at once, where a behaviour does not return) and exits: with 0, with 2 for a
-    usage error, with 5 when the broker cannot be reached.
+    """Offers a behaviour until the program ends. Call this as the last function of a program.
 
-    A behaviour with options of its own hands over a `parser` that has them; `make` is then called
+    Reads the command line (--broker, --name, --help) and serves until SIGINT, SIGTERM or SIGHUP. If a
+    behaviour does not return, a second signal ends the program at once. The exit code is 0, 2 after a
+    usage error, or 5 if the broker cannot be reached.
+
+    If the behaviour has options of its own, pass a `parser` with these options. `make` is then called
     with the namespace of their values.
     """
     doc = (make.__doc__ or name).strip().splitlines()[0]
@@ -111,8 +112,8 @@ def serve(name: str, make: Callable[..., Any], parser: Optional[argparse.Argumen
                                           parser.description or doc, time_managed) as offer:
             print(f"{options.name}: offered at {offer.broker}", flush=True)
             if options.exit_with_parent:
-                # A gsv that captures the output reads on. Other parents do not: then prints go
-                # where errors go.
+                # A gsv that captures the output continues to read stdout. Other parents do not,
+                # so then stdout becomes a copy of stderr.
                 if "GSV_OUTPUT_CAPTURED" not in os.environ:
                     os.dup2(2, 1)
                 sys.stdout.reconfigure(line_buffering=True)  # type: ignore[attr-defined]
@@ -124,11 +125,11 @@ def serve(name: str, make: Callable[..., Any], parser: Optional[argparse.Argumen
 
 
 class _Signals:
-    """SIGINT, SIGTERM and SIGHUP, whichever thread of the process they come to."""
+    """Waits for SIGINT, SIGTERM or SIGHUP, whichever thread of the process receives the signal."""
 
     def __init__(self) -> None:
         self._wanted = [signal.SIGINT, signal.SIGTERM]
-        if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN:  # nohup ignores it
+        if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN:  # nohup ignores this signal
             self._wanted.append(signal.SIGHUP)
 
     def __enter__(self) -> _Signals:
@@ -142,7 +143,7 @@ class _Signals:
     def wait(self) -> None:
         while self._received.recv(1)[0] not in self._wanted:
             pass
-        # From here on Python's threads may be stuck, and a second signal ends the process itself.
+        # Python's threads may be stuck now, so a second signal must end the process directly.
         for each in self._wanted:
             signal.signal(each, signal.SIG_DFL)
 

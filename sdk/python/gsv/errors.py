@@ -1,13 +1,13 @@
-"""What goes wrong, as exceptions: each says in one sentence what was expected, what was found and
-what to do, and most are one of Python's own as well."""
+"""The exceptions of gsv. The message of each says what was expected, what was found and what to do.
+Most derive from an exception of Python, too."""
 
 
 class Error(Exception):
-    """Anything that gsv raises."""
+    """The base class of all exceptions of gsv."""
 
 
 class Refused(Error, ValueError):
-    """A request that can never succeed as it stands."""
+    """A request that cannot succeed unless it is changed."""
 
 
 class BadModel(Error, ValueError):
@@ -19,7 +19,7 @@ class BehaviourFailed(Error):
 
 
 class NotFound(Error, LookupError):
-    """A name, file or offer that is not there."""
+    """A name, file or offer that does not exist."""
 
 
 class Unavailable(Error, ConnectionError):
@@ -27,16 +27,16 @@ class Unavailable(Error, ConnectionError):
 
 
 class TimedOut(Error, TimeoutError):
-    """Something took longer than its limit."""
+    """An operation that took longer than its time limit."""
 
 
 class NotRunning(Error):
-    """A call that is not allowed in this state."""
+    """A call that is not allowed in the current state."""
 
 
 class Ended(Error):
-    """The simulation or sensor that was addressed is gone."""
+    """A call to a simulation or sensor that no longer exists."""
 
 
 class Corrupt(Error):
-    """Bytes that do not decode."""
+    """Bytes that cannot be decoded."""

@@ -1,5 +1,5 @@
-"""A simulator of one's own for tests: `gsv serve` with a private broker, on ports that the system
-chooses. With pytest, name this module in conftest.py and take the fixture `simulate`:
+"""A private simulator for tests: `gsv serve` with its own broker, on ports that the system chooses.
+With pytest, name this module in conftest.py and use the fixture `simulate`:
 
     pytest_plugins = ["gsv.testing"]                        # conftest.py
 
@@ -9,13 +9,13 @@ chooses. With pytest, name this module in conftest.py and take the fixture `simu
         simulation.run_until(10)
         assert simulation.state().robots["pebble"].distance > 1
 
-A scenario is a test, too (docs/testing.md):
+A scenario can also be a test (docs/testing.md):
 
     def test_keeps_off_the_walls(expect_passes):
         expect_passes("scenarios/wander.yaml")
 
-A behaviour that is a program, in whatever language, is started with `simulator.start("gsv-wander")`
-and named: `behaviour="wander"`.
+If a behaviour is a program, in any language, start it with `simulator.start("gsv-wander")`. Then pass
+its name: `behaviour="wander"`.
 """
 
 from __future__ import annotations
@@ -39,8 +39,8 @@ _BAD_SCENARIO = 3  # exit code
 
 
 def find_program(name: str) -> str:
-    """A program of gsv: beside the `gsv` that $GSV_PROGRAM names, in the installation that this package
-    is of, or on the PATH; a path is taken as it is."""
+    """Returns the path of one of GSV's programs. Searches beside $GSV_PROGRAM, in the installation of
+    this package, and on the PATH. A `name` with a slash is returned unchanged."""
     if os.sep in name:
         return name
     folders = [str(Path(os.environ["GSV_PROGRAM"]).parent)] if "GSV_PROGRAM" in os.environ else []
@@ -49,13 +49,13 @@ def find_program(name: str) -> str:
         found = shutil.which(name, path=path)
         if found:
             return found
-    raise NotFound(f"there is no program {name} here; put GSV's programs on the PATH, or have "
-                   "GSV_PROGRAM say where gsv is")
+    raise NotFound(f"there is no program {name} here; put GSV's programs on the PATH, or set "
+                   "GSV_PROGRAM to the path of gsv")
 
 
 class PrivateSimulator:
-    """`gsv serve` with a broker of its own, for as long as the `with` lasts. `options` are further
-    ones of `gsv serve`, such as "--model-path"."""
+    """Runs `gsv serve` with its own broker until the `with` ends. `options` are additional options of
+    `gsv serve`, such as "--model-path"."""
 
     def __init__(self, *options: str) -> None:
         self._children: list[subprocess.Popen[str]] = []
@@ -69,7 +69,7 @@ class PrivateSimulator:
             raise
 
     def create(self, world: str = "", **request: Any) -> Simulation:
-        """As Application.create()."""
+        """Creates a simulation, see Application.create()."""
         return self.application.create(world, **request)
 
     def start(self, program: str, *options: str) -> None:

@@ -83,13 +83,13 @@ test.each([
 });
 
 test("links, encryption and unknown methods are rejected", async () => {
-  await expect(read(zipped({ path: "l", text: "/etc/passwd", mode: 0o120777 }))).rejects.toThrow("l in it is a symbolic link");
-  await expect(read(patched(zipped({ path: "a" }), 8, 1, 2))).rejects.toThrow("a in it is encrypted");
+  await expect(read(zipped({ path: "l", text: "/etc/passwd", mode: 0o120777 }))).rejects.toThrow("l in the archive is a symbolic link");
+  await expect(read(patched(zipped({ path: "a" }), 8, 1, 2))).rejects.toThrow("a in the archive is encrypted");
   await expect(read(patched(zipped({ path: "a" }), 10, 14, 2))).rejects.toThrow("uses an unsupported compression method");
 });
 
 test("a too large archive is rejected before anything is unpacked", async () => {
-  await expect(read(patched(zipped({ path: "a" }), 24, 2 ** 31))).rejects.toThrow("a in it has 2048 MiB unpacked; at most 64 MiB are allowed");
+  await expect(read(patched(zipped({ path: "a" }), 24, 2 ** 31))).rejects.toThrow("a in the archive has 2048 MiB unpacked; at most 64 MiB are allowed");
   const nine = Array.from({ length: 9 }, (_, i) => ({ path: `${i}` }));
   await expect(read(patched(zipped(...nine), 24, 60 * 2 ** 20))).rejects.toThrow("unpacked it has 540 MiB; at most 512 MiB are allowed");
   const many = Array.from({ length: 2001 }, (_, i) => ({ path: `${i}` }));
@@ -99,11 +99,11 @@ test("a too large archive is rejected before anything is unpacked", async () => 
 test("a damaged file, or one of a wrong size, is rejected while it is unpacked", async () => {
   const unpack = async (bytes: Uint8Array) => (await read(bytes))[0]!.content();
   const bomb = () => zipped({ path: "a", text: "0", times: 2 ** 22 });
-  await expect(unpack(patched(bomb(), 24, 100))).rejects.toThrow("a in it is longer than declared");
-  await expect(unpack(patched(bomb(), 24, 2 ** 22 + 1))).rejects.toThrow("a in it is damaged");
-  await expect(unpack(patched(bomb(), 16, 1))).rejects.toThrow("a in it is damaged");
-  await expect(unpack(patched(bomb(), 42, 7))).rejects.toThrow("a in it is damaged");
-  await expect(unpack(patched(bomb(), 42, 2 ** 31))).rejects.toThrow("a in it is damaged");
+  await expect(unpack(patched(bomb(), 24, 100))).rejects.toThrow("a in the archive is longer than declared");
+  await expect(unpack(patched(bomb(), 24, 2 ** 22 + 1))).rejects.toThrow("a in the archive is damaged");
+  await expect(unpack(patched(bomb(), 16, 1))).rejects.toThrow("a in the archive is damaged");
+  await expect(unpack(patched(bomb(), 42, 7))).rejects.toThrow("a in the archive is damaged");
+  await expect(unpack(patched(bomb(), 42, 2 ** 31))).rejects.toThrow("a in the archive is damaged");
 });
 
 test("a truncated archive, or one with a wrong directory, is rejected", async () => {

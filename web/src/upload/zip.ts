@@ -62,10 +62,10 @@ function mebibytes(bytes: number): string {
 function check({ filename, encrypted, compressionMethod, uncompressedSize, externalFileAttributes }: Entry, refuse: Refuse): void {
   if (leadsOut(filename)) refuse(`the name ${JSON.stringify(filename.slice(0, 80))} leads out of the archive`);
   const unixMode = externalFileAttributes >>> 16;
-  if ((unixMode & FILE_TYPE) === SYMBOLIC_LINK) refuse(`${filename} in it is a symbolic link`);
-  if (encrypted) refuse(`${filename} in it is encrypted`);
+  if ((unixMode & FILE_TYPE) === SYMBOLIC_LINK) refuse(`${filename} in the archive is a symbolic link`);
+  if (encrypted) refuse(`${filename} in the archive is encrypted`);
   if (compressionMethod !== STORED && compressionMethod !== DEFLATED) refuse(`${filename} uses an unsupported compression method`);
-  if (uncompressedSize > LARGEST_FILE) refuse(`${filename} in it has ${mebibytes(uncompressedSize)} unpacked; at most ${mebibytes(LARGEST_FILE)} are allowed`);
+  if (uncompressedSize > LARGEST_FILE) refuse(`${filename} in the archive has ${mebibytes(uncompressedSize)} unpacked; at most ${mebibytes(LARGEST_FILE)} are allowed`);
 }
 
 async function listOf(archive: Blob, refuse: Refuse): Promise<Entry[]> {
@@ -94,8 +94,8 @@ async function unpack(entry: Entry, refuse: Refuse): Promise<Blob> {
   try {
     await entry.getData!(sink);
   } catch {
-    refuse(`${entry.filename} in it is ${isLonger ? "longer than declared" : "damaged"}`);
+    refuse(`${entry.filename} in the archive is ${isLonger ? "longer than declared" : "damaged"}`);
   }
-  if (filled !== content.length) refuse(`${entry.filename} in it is damaged`);
+  if (filled !== content.length) refuse(`${entry.filename} in the archive is damaged`);
   return new Blob([content]);
 }
