@@ -1,4 +1,4 @@
-// Curves against another curve, such as the path of a point. Both axes have the same scale.
+// Draws curves against another curve, such as the path of a point. Both axes can have the same scale.
 import type uPlot from "uplot";
 import type { Range } from "./columns";
 import { rangeOf } from "./columns";
@@ -7,7 +7,7 @@ import { LEFT_PX, RIGHT_PX } from "./TimeCharts";
 
 const AXIS_PX = 34;
 const TOP_PX = 8;
-const DOT_PX = 4; // the newest point
+const DOT_PX = 4; // diameter of the newest point
 
 export interface Path {
   colour: string;
@@ -15,8 +15,8 @@ export interface Path {
 }
 
 export interface PathView {
-  label: string; // of the horizontal axis
-  isEqual: boolean; // whether both axes have one scale
+  label: string; // label of the horizontal axis
+  isEqual: boolean; // whether both axes have the same scale
 }
 
 export class PathChart {

@@ -1,4 +1,4 @@
-// Curves against simulated time: one uPlot chart per unit, one below the other, with the same time
+// Draws curves against simulated time: one uPlot chart per unit, one below the other, with the same time
 // axis.
 import type uPlot from "uplot";
 import { formatTime } from "../ui/format";
@@ -12,7 +12,7 @@ export const RIGHT_PX = 10;
 const TIME_AXIS_PX = 22;
 const GAP_PX = 6;
 const COMPARED_DASHES = [5, 4];
-const CURSORS = "gsv-plots"; // one cursor runs through all charts
+const CURSORS = "gsv-plots"; // key of the cursor that all charts share
 
 export interface Look {
   ink: string;
@@ -30,7 +30,7 @@ export interface Mark {
 
 export interface TimeView {
   time: Range; // s, simulated
-  present: number | null; // s: where a recording stands
+  present: number | null; // present instant of a recording, s; null for a running simulation
   marks: readonly Mark[];
 }
 
@@ -39,7 +39,7 @@ interface Strip {
   curves: readonly DrawnCurve[];
 }
 
-// The simulated time at pixel `x` of charts of this width.
+// Returns the simulated time at pixel `x` of charts of this width.
 export function timeAt(x: number, width: number, time: Range): number {
   return time.min + ((x - LEFT_PX) / Math.max(1, width - LEFT_PX - RIGHT_PX)) * (time.max - time.min);
 }

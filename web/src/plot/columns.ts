@@ -1,4 +1,4 @@
-// Curves as the columns of a chart, and the time that they span.
+// Converts curves to the columns of a chart, and computes the range of their times and values.
 import type { Series } from "../live/Series";
 
 export interface Range {
@@ -10,15 +10,15 @@ export interface DrawnCurve {
   unit: string;
   colour: string;
   series: Series;
-  isDashed?: boolean; // of a recording that is compared with
+  isDashed?: boolean; // whether the curve is of the compared recording
 }
 
 // If the distance of two values exceeds the usual one by this factor, there is a gap in the curve.
 const GAP_INTERVALS = 8;
 const SHORTEST_GAP_S = 1.5;
-const MARGIN = 0.06; // of the span, above and below
+const MARGIN = 0.06; // margin above and below, as a fraction of the range
 
-// The samples within the time range and one more on each side; null where the curve has a gap.
+// Returns the samples within the time range, and one more on each side. A gap in the curve is null.
 export function columnsOf(series: Series, time: Range): [number[], (number | null)[]] {
   const [times, values]: [number[], (number | null)[]] = [[], []];
   const gap = gapOf(series, time);
@@ -38,7 +38,7 @@ export function columnsOf(series: Series, time: Range): [number[], (number | nul
   return [times, values];
 }
 
-// The time between two neighbouring values above which they are not connected.
+// Returns the time between two neighbouring values above which they are not connected.
 export function gapOf(series: Series, time: Range): number {
   const first = series.firstFrom(time.min);
   const last = Math.min(series.length, series.firstFrom(time.max)) - 1;
@@ -50,7 +50,7 @@ export function gapOf(series: Series, time: Range): number {
   return Math.max(SHORTEST_GAP_S, GAP_INTERVALS * steps[steps.length >> 1]!);
 }
 
-// The path of a point with these coordinates, at the times of `y`.
+// Returns the path of a point with these coordinates, at the times of `y`.
 export function pathOf(x: Series, y: Series, time: Range): [number[], number[]] {
   const [xs, ys]: [number[], number[]] = [[], []];
   for (let i = y.firstFrom(time.min); i < y.length && y.timeAt(i) <= time.max; i++) {
@@ -62,7 +62,7 @@ export function pathOf(x: Series, y: Series, time: Range): [number[], number[]] 
   return [xs, ys];
 }
 
-// The range that contains all values, with a margin; never empty.
+// Returns the range that contains all values, with a margin; never empty.
 export function rangeOf(lists: readonly (readonly (number | null)[])[]): Range {
   let [min, max] = [Infinity, -Infinity];
   for (const list of lists) {
@@ -81,8 +81,8 @@ export function rangeOf(lists: readonly (readonly (number | null)[])[]): Range {
   return { min: min - MARGIN * span, max: max + MARGIN * span };
 }
 
-// The time range of the axis: the newest `span` seconds before `now`, or everything (null). `whole`
-// is the range of a recording.
+// Returns the time range of the axis: the newest `span` seconds before `now`, or everything (null). `whole` is the
+// range of a recording.
 export function timeRange(
   curves: readonly DrawnCurve[],
   span: number | null,

@@ -72,7 +72,7 @@ test("readers continue with a new source, and get nothing more from the old one"
   expect(first.ended).toHaveBeenCalledOnce();
   const later = vi.fn();
   topics.subscribe("/a", later);
-  expect(later).not.toHaveBeenCalled(); // what the one before sent is forgotten
+  expect(later).not.toHaveBeenCalled(); // messages of the earlier source are dropped
   const second = source();
   topics.attach({ subscribe: second.subscribe });
   expect(second.subscribe).toHaveBeenCalledOnce();

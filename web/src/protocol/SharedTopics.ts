@@ -9,7 +9,7 @@ export interface TopicOptions {
   // If messages arrive faster than the page can decode them, only the newest is decoded. This
   // applies to a topic only while all its readers request it.
   newestOnly?: boolean;
-  // The topic to read if the server does not offer the first one.
+  // The topic to read instead if the server does not offer the first one.
   orElse?: string;
 }
 
@@ -22,9 +22,9 @@ export interface TopicSource {
 
 interface SharedTopic {
   handlers: Map<Handler, { newestOnly: boolean }>;
-  orElse: string | undefined; // as its first reader asks for it
+  orElse: string | undefined; // as requested by its first reader
   newest: { message: unknown } | null;
-  newestOnly: boolean; // how it is subscribed
+  newestOnly: boolean; // the mode of the subscription at the server
   end(): void;
 }
 
@@ -32,7 +32,7 @@ export class SharedTopics implements TopicSource {
   private source: TopicSource | null = null;
   private readonly topics = new Map<string, SharedTopic>();
 
-  // Sets the source of all topics; null: none. Messages of the previous source are dropped.
+  // Sets the source of all topics; null for none. Messages of the previous source are dropped.
   attach(source: TopicSource | null): void {
     for (const shared of this.topics.values()) shared.end();
     this.source = source;

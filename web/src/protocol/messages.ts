@@ -37,7 +37,7 @@ export interface PackedPosesMessage {
   stamp: Time;
   step: bigint;
   layout_version: number;
-  positions: Int32Array; // 0.1 mm
+  positions: Int32Array; // in units of 0.1 mm
   rotations: Uint16Array;
 }
 
@@ -67,7 +67,7 @@ export interface DiagnosticArrayMessage {
   status: { level: number; name: string; message: string; values: { key: string; value: string }[] }[];
 }
 
-// gsv_msgs/msg/Health. `robots` lists only robots that do not simply move.
+// gsv_msgs/msg/Health. `robots` lists only robots whose state is not just "moving".
 export interface HealthMessage {
   stamp: Time;
   step: bigint;
@@ -118,8 +118,8 @@ export interface ExpectationMessage {
   step: bigint;
   detail: string;
   bodies: string[];
-  places: ArrayLike<number>; // x y radius of each
-  boxes: ArrayLike<number>; // x0 x1 y0 y1 of each
+  places: ArrayLike<number>; // x y radius for each
+  boxes: ArrayLike<number>; // x0 x1 y0 y1 for each
 }
 
 export const LINE_LIST = 5;

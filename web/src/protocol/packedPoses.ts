@@ -2,7 +2,7 @@
 import type { PackedPosesMessage, PosesMessage } from "./messages";
 
 export const PACKED_POSES = "/gsv/packed_poses";
-export const POSES = "/gsv/poses"; // what a replay, or an older server, offers instead
+export const POSES = "/gsv/poses"; // the topic of a replay or an older server
 
 const METRES = 1e-4;
 const HALF_SCALE = 16383.5;

@@ -5,25 +5,25 @@ import { listAt, numberOr, objectAt, textAt, textOr } from "../api/json";
 export interface RecordingLine {
   name: string;
   size: number; // bytes
-  modified: string; // as RFC 3339 has it; empty: not known
+  modified: string; // in the format of RFC 3339; empty if unknown
   state: "complete" | "unfinished" | "unreadable";
-  problem: string; // why it cannot be read
-  duration: number; // s, simulated; of those that are complete
+  problem: string; // why the recording cannot be read; empty if it can
+  duration: number; // simulated time, s; only for complete recordings
   messages: number;
-  world: string; // empty: not known
-  robots: number; // 0: not known
-  verdict: string; // of the test that kept it; empty: none
-  sentence: string; // what failed
+  world: string; // empty if unknown
+  robots: number; // 0 if unknown
+  verdict: string; // verdict of the test that made the recording; empty if there is none
+  sentence: string; // the expectation that failed
   violation: number | null; // s, simulated
 }
 
 export interface Recordings {
   folder: string;
   leftOut: number;
-  lines: RecordingLine[]; // the newest first
+  lines: RecordingLine[]; // ordered by time; the newest is first
 }
 
-// Reading many recordings for the first time takes long.
+// The time limit is long, because reading many recordings for the first time takes long.
 const TIMEOUT_MS = 30_000;
 
 export async function fetchRecordings(server: JsonServer): Promise<Recordings> {
@@ -54,7 +54,7 @@ function parseRecordingLine(json: unknown): RecordingLine {
   };
 }
 
-// The address of a page that replays the recording in its own session, from that simulated second
+// Returns the address of a page that replays the recording in its own session, from a simulated time
 // on.
 export function replayUrl(name: string, from: number | null = null): string {
   return `./?recording=${encodeURIComponent(name)}${from === null ? "" : `#t=${from}`}`;

@@ -51,7 +51,7 @@ export class PedestrianRow {
     this.route.show(routeText(group.route));
   }
 
-  // `input`: the name of the field; empty: the whole group.
+  // `input` is the name of the field; empty for the whole group.
   refuse(input: string, sentence: string): void {
     this.count.refuse(input === "count" ? sentence : "");
     this.route.refuse(input === "route" ? sentence : "");

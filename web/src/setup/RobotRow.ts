@@ -81,7 +81,7 @@ export class RobotRow {
     this.yaw.show(robot.place ? robot.place.yaw * DEGREES : null);
   }
 
-  // `input`: the name of the field; empty, or without an input of its own: the whole robot.
+  // `input` is the name of the field. If it is empty, or has no input of its own, the whole robot is meant.
   refuse(input: string, sentence: string): void {
     for (const field of this.fields.values()) field.refuse("");
     const field = this.fields.get(input);
@@ -145,7 +145,7 @@ export class RobotRow {
     this.app.setUp.changeRobot(this.list, this.index, change);
   }
 
-  // The name of an offer, or else a constraint.
+  // Returns the name of an offer, or else the constraint.
   private changeBehaviour(value: string): void {
     const offers = this.app.store.get().setUp?.behaviours?.offers ?? [];
     const isName = value === "" || offers.some(({ name }) => name === value) || value === this.robot?.behaviour;
@@ -166,7 +166,7 @@ export class RobotRow {
   }
 }
 
-// None, each offer once, and a behaviour from a file that nobody offers.
+// The choices: no behaviour, each offer once, and a behaviour from the file that nobody offers.
 function behaviourOptions({ behaviours }: SetUp, { behaviour }: RobotSetUp) {
   const names = [...new Set((behaviours?.offers ?? []).map(({ name }) => name))].sort();
   const options = names.map((name) => ({ value: name, label: name }));

@@ -74,7 +74,7 @@ export function createSetUpPanel(app: App): HTMLElement {
     },
   );
 
-  // The field may be scrolled out of sight.
+  // Scroll, because the field may be outside of the visible part.
   function showObjection(): void {
     panel.querySelector(".field-error:not([hidden])")?.scrollIntoView({ block: "center" });
   }
@@ -113,7 +113,7 @@ function head(app: App): HTMLElement {
   file.hidden = true;
   file.addEventListener("change", () => {
     const chosen = file.files?.[0];
-    file.value = ""; // the same file may be chosen again
+    file.value = ""; // so that the same file can be chosen again
     if (chosen) void app.setUp.load(chosen);
   });
   const undo = button("Undo", () => app.setUp.undo(), "undo");
@@ -137,7 +137,7 @@ function head(app: App): HTMLElement {
   );
 }
 
-// Worlds from this machine: chosen here, or dropped anywhere on the page.
+// The input for worlds from this machine: chosen here, or dropped anywhere on the page.
 function uploads(app: App): HTMLElement {
   const chooser = (label: string, isFolder: boolean) => {
     const file = element("input", {
@@ -148,7 +148,7 @@ function uploads(app: App): HTMLElement {
     file.hidden = true;
     file.addEventListener("change", () => {
       const chosen = chosenFiles(file.files!);
-      file.value = ""; // the same may be chosen again
+      file.value = ""; // so that the same file can be chosen again
       if (chosen.length > 0) void app.setUp.drop(chosen);
     });
     return [button(label, () => file.click()), file];
@@ -162,7 +162,7 @@ function uploads(app: App): HTMLElement {
   );
 }
 
-// On every page, because the browser would replace the page by a file that it does not handle.
+// Handle drops on the whole page, because the browser would otherwise show the file instead of the page.
 function takeDrops(app: App): void {
   const isTaken = ({ dataTransfer }: DragEvent) => {
     const { setUp, abilities } = app.store.get();
@@ -174,7 +174,7 @@ function takeDrops(app: App): void {
     invite(isTaken(event));
   });
   addEventListener("dragleave", ({ relatedTarget }) => {
-    if (relatedTarget === null) invite(false); // out of the window
+    if (relatedTarget === null) invite(false); // the pointer has left the window
   });
   addEventListener("drop", (event) => {
     event.preventDefault();

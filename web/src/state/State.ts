@@ -1,5 +1,5 @@
-// The state of the page: what it knows and shows. Only Session, the commands of App and the panels'
-// own controls change it.
+// The state of the page: its data and what it shows. Only Session, the commands of App and the panels' own controls
+// change it.
 import type { Action } from "../api/SimulationApi";
 import type { Recording } from "../api/recording";
 import type { Kept, RecordingNote } from "../api/history";
@@ -57,7 +57,7 @@ export interface BodyPose extends Point {
 }
 
 // Whether the browser draws in 3D.
-export type View = "starting" | "open" | "interrupted" | "none"; // interrupted: the browser took WebGL away
+export type View = "starting" | "open" | "interrupted" | "none"; // interrupted: the browser has ended WebGL
 
 // The program that draws the view.
 export type Drawer = "browser" | "server";
@@ -68,56 +68,56 @@ export type ViewMode = "orbit" | "follow" | "chase" | "eye";
 
 export interface State {
   connection: ConnectionState;
-  abilities: Abilities; // of the server
-  missing: string; // why what the address asks for cannot be shown; empty: it can
-  refusal: string; // why the server lets this page do nothing, as it takes a token; empty: it does
-  people: People; // who else is watching, and who holds control
-  editing: Editing | null; // null: what stands in the simulation is not being changed
-  recording: Recording | null; // of the simulation; null: it cannot be recorded, or not known yet
-  stopRecordingAsked: boolean; // whether the viewer is asked if it is to end
-  endSeen: boolean; // whether the viewer has closed the summary of a run that ended
-  setUp: SetUp | null; // null: no simulation is being put together
-  // null: not known yet.
+  abilities: Abilities; // what the server supports
+  missing: string; // why the content of the page's address cannot be shown; empty if it can
+  refusal: string; // why the server rejects this page's token; empty if it does not
+  people: People; // the other viewers, and who has control
+  editing: Editing | null; // null while nobody edits the simulation here
+  recording: Recording | null; // recording of the simulation; null if there cannot be one, or if unknown
+  stopRecordingAsked: boolean; // whether the question is shown if the recording shall end
+  endSeen: boolean; // whether the user has closed the summary of an ended run
+  setUp: SetUp | null; // null while no simulation is being set up
+  // null if unknown
   simulations: SimulationSummary[] | null;
   simulation: string | null;
   status: SimulationStatus | null;
   time: number; // s, simulated
-  replay: Replay | null; // null: it is no recording, or not known yet
-  kept: Kept | null; // of the running simulation's past; null: nothing, or not known yet
-  inPast: boolean; // what is replayed is the past of a simulation that runs
-  events: RecordedEvent[]; // of the recording or the run, by time
-  notes: readonly RecordingNote[]; // of the recording, by time
-  comparison: Comparison | null; // null: nothing is laid over the recording
-  wishedTime: number | null; // s: the instant of the recording that was asked for and is not there yet
+  replay: Replay | null; // null if this is no replay, or if unknown
+  kept: Kept | null; // the stored past of the running simulation; null if there is none, or if unknown
+  inPast: boolean; // whether the page replays the past of a running simulation
+  events: RecordedEvent[]; // events of the recording or the run, ordered by time
+  notes: readonly RecordingNote[]; // notes of the recording, ordered by time
+  comparison: Comparison | null; // null while no recording is compared
+  wishedTime: number | null; // s; the requested instant of the recording until the replay is there; else null
   view: View;
-  drawnBy: Drawer | null; // null: the view has not started
+  drawnBy: Drawer | null; // null before the view has started
   scene: SceneDescription | null;
-  modelsMissing: number; // shapes that are still being fetched
-  health: Health | null; // null: the server does not report it
-  expectations: readonly Expectation[]; // of the scenario
+  modelsMissing: number; // number of shapes that are being fetched
+  health: Health | null; // null if the server does not report it
+  expectations: readonly Expectation[]; // expectations of the scenario
   robotFilter: RobotFilter;
-  selection: string | null; // a robot's name
+  selection: string | null; // name of the selected robot
   selectedPose: RobotPose | null;
-  chosenPose: BodyPose | null; // of what is edited, as it is drawn
-  placing: boolean; // whether the next click on the floor puts the selection there
-  ruler: readonly Point[] | null; // the points that are measured, at most two; null: nothing is measured
+  chosenPose: BodyPose | null; // pose of the edited body as it is drawn
+  placing: boolean; // whether the next click on the floor moves the selection there
+  ruler: readonly Point[] | null; // the measured points, at most two; null if nothing is measured
   mapMode: boolean; // whether the view is a map: from above, north up
   viewMode: ViewMode;
   shown: Shown;
   overlayColours: OverlayColours;
   camera: CameraChoice | null;
   plots: Plots;
-  openPanels: readonly string[]; // by id, as panels/registry.ts has them
+  openPanels: readonly string[]; // ids of panels in panels/registry.ts
   serverWarnings: readonly string[];
-  layouts: readonly SavedLayout[]; // in this browser
-  topics: readonly TopicInfo[]; // that the server offers, by name
-  topic: string | null; // whose messages are shown
-  pending: Action | "factor" | null; // sent to the server, not answered yet
+  layouts: readonly SavedLayout[]; // layouts that this browser stores
+  topics: readonly TopicInfo[]; // topics that the server offers, ordered by name
+  topic: string | null; // the topic whose messages are shown
+  pending: Action | "factor" | null; // an action that the server has not answered yet
   notices: Notice[];
   helpOpen: boolean;
   paletteOpen: boolean;
   singleKeys: boolean; // whether single keys are commands
-  changedKeys: ChangedKeys; // those that are not as the page comes with them
+  changedKeys: ChangedKeys; // keys that differ from the default
   filming: boolean;
   framesPerSecond: number;
 }

@@ -1,11 +1,11 @@
-// A second recording that is laid over the one that is replayed.
+// A second recording that is compared with the replayed one.
 import type { Difference } from "../api/history";
 import type { SceneDescription } from "../api/scene";
 
 export interface Comparison {
-  recording: string; // its name
-  simulation: string; // that it is of
-  scene: SceneDescription | null; // null: not known yet
-  difference: Difference | null; // null: not known, or not looked for
-  problem: string; // why it cannot be compared; empty: it can
+  recording: string; // name of the recording
+  simulation: string; // name of its simulation
+  scene: SceneDescription | null; // null if unknown
+  difference: Difference | null; // null if unknown, or not requested
+  problem: string; // why it cannot be compared; empty if it can
 }

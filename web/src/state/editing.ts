@@ -2,7 +2,7 @@
 import type { Behaviours, ModelChoice } from "../api/SetUpApi";
 import type { SceneDescription } from "../api/scene";
 
-export const EDIT_PANEL = "edit"; // open while one edits
+export const EDIT_PANEL = "edit"; // id of the panel that is open while editing
 
 // The mode and the steps of the handles that move or rotate the selected body.
 export interface GizmoTool {
@@ -17,18 +17,18 @@ export interface WallDrawing {
   thickness: number;
   height: number;
   colour: string; // RRGGBB
-  from: { x: number; y: number } | null; // the first click
+  from: { x: number; y: number } | null; // the first click; null before it
 }
 
 export interface Editing {
   models: ModelChoice[];
-  objects: string[]; // models of things that are no robots
-  chosen: string | null; // the object that is to be moved, turned or removed; null: the selected robot
-  more: readonly string[]; // bodies that are chosen as well
+  objects: string[]; // models that are no robots
+  chosen: string | null; // the selected object; null for the selected robot
+  more: readonly string[]; // other selected bodies
   tool: GizmoTool;
-  wall: WallDrawing | null; // not null: clicks on the floor are its ends
-  behaviours: Behaviours | null; // null: not known yet
-  undo: string[]; // what each edit did, the newest last
+  wall: WallDrawing | null; // if set, the next clicks on the floor are the wall's ends
+  behaviours: Behaviours | null; // null if unknown
+  undo: string[]; // names of the edits; the newest is last
   redo: string[];
   isBusy: boolean;
 }
@@ -48,19 +48,19 @@ export const FIRST_EDITING: Editing = {
 
 // The movable bodies other than robots: the name of one body of each model.
 export function copiesOf(scene: SceneDescription | null): string[] {
-  const names = new Map<string, string>(); // by model
+  const names = new Map<string, string>(); // names of bodies, by model
   for (const { name, model, isRobot, isAvatar, isFixed } of scene?.bodies ?? []) {
     if (!isRobot && !isAvatar && !isFixed && !names.has(model)) names.set(model, name);
   }
   return [...names.values()].sort();
 }
 
-// The body that edits apply to: the chosen object, or else the selected robot.
+// The body that edits change: the selected object, or else the selected robot.
 export function chosenOf({ editing, selection }: { editing: Editing | null; selection: string | null }): string | null {
   return editing?.chosen ?? selection;
 }
 
-// All selected bodies. The first one is the reference for moves and turns.
+// All selected bodies. The first one is the reference for moving and rotating.
 export function allChosen(state: { editing: Editing | null; selection: string | null }): readonly string[] {
   const first = chosenOf(state);
   return first === null ? [] : [first, ...(state.editing?.more ?? [])];

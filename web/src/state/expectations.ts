@@ -7,13 +7,13 @@ export type Verdict = (typeof VERDICTS)[number];
 
 export interface Expectation {
   name: string;
-  yaml: string; // as the scenario has it, in one line
+  yaml: string; // the YAML in the scenario, on one line
   where: string; // file:line:column
   verdict: Verdict;
-  margin: { value: number; unit: string; time: number } | null; // the smallest so far, and when
-  time: number; // s, simulated: of the verdict; 0 while it is pending
+  margin: { value: number; unit: string; time: number } | null; // the smallest margin so far, and its time
+  time: number; // simulated time of the verdict, s; 0 while it is pending
   detail: string;
-  bodies: readonly string[]; // that it is about
+  bodies: readonly string[]; // bodies that the expectation names
   places: readonly (readonly [x: number, y: number, radius: number])[];
   boxes: readonly (readonly [x0: number, x1: number, y0: number, y1: number])[];
 }
@@ -40,7 +40,7 @@ function tuples(numbers: ArrayLike<number>, size: number): number[][] {
   return Array.from({ length: Math.floor(all.length / size) }, (_, i) => all.slice(size * i, size * (i + 1)));
 }
 
-// "3 of 5 hold", "2 of 5 violated"; empty without expectations.
+// Returns a text such as "3 of 5 hold" or "2 of 5 violated"; empty without expectations.
 export function summaryOf(expectations: readonly Expectation[]): string {
   const count = (verdict: Verdict) => expectations.filter((each) => each.verdict === verdict).length;
   if (expectations.length === 0) return "";
@@ -53,7 +53,7 @@ export function verdictWord(verdict: Verdict): string {
   return verdict === "holds" ? "held" : verdict;
 }
 
-// "0.26 m at 0:12.40"; empty without a margin.
+// Returns a text such as "0.26 m at 0:12.40"; empty without a margin.
 export function marginText({ margin }: Expectation): string {
   return margin === null ? "" : `${formatValue(margin.value, margin.unit)} at ${formatTime(margin.time)}`;
 }

@@ -4,8 +4,8 @@ import type { HealthMessage, RobotHealthMessage } from "../protocol/messages";
 import { seconds } from "../protocol/messages";
 import { formatNumber } from "../ui/format";
 
-// The server's states, worst first, and two of the page: a `told` robot stands although it was
-// commanded to move, and the state of an `unknown` robot is not reported.
+// The server's states, the worst first, and two of the page. A `told` robot does not move although it was commanded
+// to; the state of an `unknown` robot is not reported.
 export const SHOWN_STATES = ["dead", "stuck", "contact", "late", "told", "standing", "unknown", "moving"] as const;
 export type ShownState = (typeof SHOWN_STATES)[number];
 
@@ -23,20 +23,20 @@ export const STATE_WORDS: Record<ShownState, string> = {
 export interface RobotHealth {
   robot: string;
   state: ShownState;
-  level: number; // 0 fine, 1 warning, 2 error
+  level: number; // 0: fine, 1: warning, 2: error
   since: number; // s, simulated
-  command: { linear: number; lateral: number; angular: number }; // the last one; m/s, rad/s
+  command: { linear: number; lateral: number; angular: number }; // the last command, m/s and rad/s
   actual: { linear: number; angular: number };
-  limit: { sensor: string; value: number; unit: string } | null; // what it measures nearest
-  contact: string; // the body that it touches; empty: none
-  summary: string; // "has not moved"
-  reason: string; // "commanded 0, sonar_00 reads 0.26 m"; empty: none
+  limit: { sensor: string; value: number; unit: string } | null; // the shortest distance that its sensors measure
+  contact: string; // the body that it touches; empty if there is none
+  summary: string; // such as "has not moved"
+  reason: string; // such as "commanded 0, sonar_00 reads 0.26 m"; empty if there is none
 }
 
 export interface Health {
   time: number; // s, simulated
   stuckAfter: number; // s
-  robots: ReadonlyMap<string, RobotHealth>; // those that do not simply move
+  robots: ReadonlyMap<string, RobotHealth>; // robots whose state is not just "moving"
 }
 
 export function healthOf(message: HealthMessage): Health {
@@ -74,13 +74,13 @@ function robotHealthOf(message: RobotHealthMessage): RobotHealth {
 
 const OF_AGENT: Record<string, ShownState> = { dead: "dead", unresponsive: "late" };
 
-// Without a report from the server, only the state of the behaviour is known.
+// Without a health report, only the state of the behaviour is known.
 export function stateOf(health: Health | null, robot: Pick<RobotStatus, "name" | "agentPhase">): ShownState {
   if (!health) return OF_AGENT[robot.agentPhase] ?? "unknown";
   return health.robots.get(robot.name)?.state ?? "moving";
 }
 
-// Higher is worse. This is called for thousands of robots several times per second.
+// Returns a number for sorting; higher is worse. It is called for thousands of robots several times per second.
 const BADNESS = Object.fromEntries(
   SHOWN_STATES.map((state, i) => [state, SHOWN_STATES.length - i]),
 ) as Record<ShownState, number>;
@@ -89,12 +89,12 @@ export function badness(state: ShownState): number {
   return BADNESS[state];
 }
 
-// Whether a person should look at it.
+// Whether a person should look at the robot.
 export function isTrouble(state: ShownState): boolean {
   return BADNESS[state] >= BADNESS.told;
 }
 
-// "has not moved for 20 s: commanded 0, sonar_00 reads 0.26 m".
+// Returns a sentence such as "has not moved for 20 s: commanded 0, sonar_00 reads 0.26 m".
 export function sentenceOf({ summary, reason, since }: RobotHealth, now: number): string {
   if (summary === "") return "";
   const span = Math.max(0, now - since);
@@ -102,7 +102,7 @@ export function sentenceOf({ summary, reason, since }: RobotHealth, now: number)
   return `${summary}${duration}${reason === "" ? "" : `: ${reason}`}`;
 }
 
-// 20.4 → "20 s", 125 → "2 min 5 s".
+// Returns "20 s" for 20.4, and "2 min 5 s" for 125.
 function formatSpan(span: number): string {
   const whole = Math.floor(span);
   if (whole < 60) return `${whole} s`;
@@ -110,7 +110,7 @@ function formatSpan(span: number): string {
   return `${Math.floor(whole / 60)} min${rest > 0 ? ` ${rest} s` : ""}`;
 }
 
-// "0.30 m/s, 0.10 rad/s"; "0" when it is at rest.
+// Returns a text such as "0.30 m/s, 0.10 rad/s"; "0" if the robot is at rest.
 export function motionText(linear: number, angular: number, lateral = 0): string {
   const parts = [
     Math.abs(linear) > 0 ? `${formatNumber(linear, 2)} m/s` : "",

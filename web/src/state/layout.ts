@@ -6,18 +6,19 @@
 //
 //   r(view~740,c(inspector.topics*~600,camera~400)~260)
 export interface Tabs {
-  tabs: string[]; // ids of panels, at least one
-  front: string; // one of them
+  tabs: string[]; // ids of panels; at least one
+  front: string; // the id of the visible one
 }
 
 export interface Split {
   split: "row" | "column";
-  parts: { part: Part; share: number }[]; // thousandths, at least 1; rows hold columns and tabs, and columns rows
+  parts: { part: Part; share: number }[]; // shares in thousandths, at least 1; rows contain columns and tabs, columns
+                                          // contain rows and tabs
 }
 
 export type Part = Tabs | Split;
 
-export const VIEW = "view"; // the panel that is always there
+export const VIEW = "view"; // the panel that is always open
 
 export const MAX_LAYOUT_CHARACTERS = 4000;
 const MAX_PANELS = 100;
@@ -133,7 +134,7 @@ class Reader {
   }
 }
 
-// Removes unknown panels and parts that are then empty. Null if nothing is left.
+// Removes unknown panels, and parts that are then empty. Returns null if nothing is left.
 function pruned(part: Part, known: ReadonlySet<string>): Part | null {
   if ("tabs" in part) {
     const tabs = part.tabs.filter((id) => known.has(id));
@@ -148,7 +149,7 @@ function pruned(part: Part, known: ReadonlySet<string>): Part | null {
   return parts.length === 1 ? parts[0]!.part : { split: part.split, parts };
 }
 
-// The view is always included. The outermost part is a row or a column.
+// Adds the view if it is missing. The outermost part is a row or a column.
 function withView(part: Part | null): Split {
   const view = { part: { tabs: [VIEW], front: VIEW }, share: 500 };
   if (!part) return { split: "row", parts: [view] };

@@ -3,7 +3,7 @@ import { MAX_LAYOUT_CHARACTERS } from "./layout";
 
 export interface SavedLayout {
   name: string;
-  text: string; // as state/layout.ts describes it
+  text: string; // in the format of state/layout.ts
 }
 
 export const MAX_SAVED = 40;
@@ -20,7 +20,7 @@ export function loadLayouts(storage: Reading): SavedLayout[] {
     const kept: unknown = JSON.parse(storage?.getItem(SAVED_KEY) ?? "[]");
     return Array.isArray(kept) ? kept.filter(isSaved).slice(0, MAX_SAVED) : [];
   } catch {
-    return []; // written by something else
+    return []; // the stored text is of another program
   }
 }
 
@@ -42,7 +42,7 @@ export function keepCurrent(storage: Writing, text: string): void {
   try {
     storage?.setItem(CURRENT_KEY, text);
   } catch {
-    // If the storage is full or not allowed, nothing is saved, as in a private window.
+    // Nothing is saved if the storage is full or not allowed, as in a private window.
   }
 }
 

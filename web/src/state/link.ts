@@ -9,12 +9,12 @@ import type { ViewMode } from "./State";
 export type Viewpoint = [number, number, number, number, number, number];
 
 export interface LinkedView {
-  time: number | null; // s, simulated: of a recording
+  time: number | null; // simulated time of a recording, s
   viewpoint: Viewpoint | null;
   selection: string | null;
   viewMode: ViewMode | null;
   shown: Shown | null;
-  layout: string | null; // a preset's name or a text of state/layout.ts, not checked
+  layout: string | null; // name of a preset, or a text of state/layout.ts; not checked
 }
 
 const MODES: readonly ViewMode[] = ["orbit", "follow", "chase", "eye"];
@@ -27,7 +27,7 @@ export function hashOf({ time, viewpoint, selection, viewMode, shown, layout }: 
   if (selection !== null) parts.push(`select=${encodeURIComponent(selection)}`);
   if (viewMode !== null && viewMode !== "orbit") parts.push(`mode=${viewMode}`);
   if (shown) parts.push(`show=${OVERLAY_NAMES.filter((name) => shown[name]).join(",")}`);
-  if (layout !== null) parts.push(`layout=${layout}`); // its letters need no escape
+  if (layout !== null) parts.push(`layout=${layout}`); // the text contains no characters that need escaping
   return `#${parts.join("&")}`;
 }
 

@@ -30,7 +30,7 @@ function listed(robots: readonly RobotStatus[], health: Health | null, scene: Sc
     return {
       status: robot,
       kind,
-      state: kind === "station" && state === "moving" ? "unknown" : state, // it is not meant to move
+      state: kind === "station" && state === "moving" ? "unknown" : state, // a station never moves
       health: health?.robots.get(robot.name) ?? null,
     };
   });
@@ -38,7 +38,7 @@ function listed(robots: readonly RobotStatus[], health: Health | null, scene: Sc
 
 const knownKinds = new WeakMap<SceneDescription, Map<string, RobotKind>>();
 
-// The bodies that are not robots.
+// Returns the bodies that are no robots.
 function kindsOf(scene: SceneDescription | null): ReadonlyMap<string, RobotKind> {
   if (!scene) return new Map();
   let kinds = knownKinds.get(scene);

@@ -83,7 +83,7 @@ export function loadColours(storage: Pick<Storage, "getItem"> | null): OverlayCo
       trails: isKeyOf(TRAIL_COLOURS, trails) ? trails : FIRST_COLOURS.trails,
     };
   } catch {
-    return FIRST_COLOURS; // the stored text comes from another program
+    return FIRST_COLOURS; // the stored text is of another program
   }
 }
 
@@ -91,7 +91,7 @@ export function keepColours(storage: Pick<Storage, "setItem"> | null, colours: O
   try {
     storage?.setItem(COLOURS_KEY, JSON.stringify(colours));
   } catch {
-    // If the storage is full or not allowed, nothing is saved, as in a private window.
+    // Nothing is saved if the storage is full or not allowed, as in a private window.
   }
 }
 
@@ -119,11 +119,11 @@ export function keepShown(storage: Pick<Storage, "setItem"> | null, shown: Shown
   try {
     storage?.setItem(KEY, JSON.stringify(shown));
   } catch {
-    // If the storage is full or not allowed, nothing is saved, as in a private window.
+    // Nothing is saved if the storage is full or not allowed, as in a private window.
   }
 }
 
-// null if the browser does not allow it.
+// Returns null if the browser does not allow storage.
 export function browserStorage(): Storage | null {
   try {
     return localStorage;

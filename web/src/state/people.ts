@@ -1,4 +1,4 @@
-// Determines which viewers may act on the simulation that this page shows.
+// Determines whether this viewer may act on the simulation that the page shows.
 import type { People, Person } from "../api/ViewersApi";
 
 export const NO_PEOPLE: People = { viewers: [], you: 0 };
@@ -23,15 +23,15 @@ export function mayAct(people: People): boolean {
   return holder === null || holder.number === people.you;
 }
 
-// The reason why this viewer must take control before it drives a body: another viewer has control,
-// or might drive too. Empty: control is not needed.
+// Returns why this viewer must take control before it drives a body: another viewer has control, or could drive the
+// body too. Empty if control is not needed.
 export function needsControl(people: People): string {
   const holder = holderOf(people);
   if (holder !== null) return holder.number === people.you ? "" : `${holder.name} has control.`;
   return together(people).length > 1 ? "Others are watching this simulation. Take control first." : "";
 }
 
-// The viewer whose request you must answer, if there is one.
+// Returns the viewer whose request you must answer, if there is one.
 export function asker(people: People): Person | null {
   if (!youOf(people)?.holds) return null;
   return together(people).find(({ asks }) => asks === 1) ?? null;

@@ -5,22 +5,22 @@ import { parseExpression } from "../live/expression";
 export type Source =
   | { kind: "simulation" }
   | { kind: "robot"; robot: string }
-  | { kind: "sensor"; topic: string } // the key is a value's name (live/values.ts)
-  | { kind: "topic"; topic: string } // the key is a field's path (live/fieldPath.ts)
-  | { kind: "expression" }; // the key is its text (live/expression.ts)
+  | { kind: "sensor"; topic: string } // the key is the name of a value (live/values.ts)
+  | { kind: "topic"; topic: string } // the key is the path of a field (live/fieldPath.ts)
+  | { kind: "expression" }; // the key is the text of an expression (live/expression.ts)
 
 export interface Curve {
   id: string;
   source: Source;
-  key: string; // of the value in its source
+  key: string; // key of the value in its source
   unit: string;
   colour: string;
 }
 
 export interface Plots {
   curves: Curve[];
-  span: number | null; // s, the newest so many; null: all
-  against: string | null; // the id of the curve at the horizontal axis; null: simulated time
+  span: number | null; // show the newest seconds only; null for all
+  against: string | null; // id of the curve on the horizontal axis; null for simulated time
   events: boolean; // whether events are marked
 }
 
@@ -52,7 +52,7 @@ export function curveId(source: Source, key: string): string {
   return `${source.kind} ${of} ${key}`;
 }
 
-// "b21r speed", "b21r sonar_03 range", "real-time factor".
+// Returns a label such as "b21r speed", "b21r sonar_03 range" or "real-time factor".
 export function curveName({ source, key }: Pick<Curve, "source" | "key">): string {
   if (source.kind === "expression") return key;
   if (source.kind === "sensor" || source.kind === "topic") return `${source.topic.replace(/^\//, "").replaceAll("/", " ")} ${key}`;
@@ -61,7 +61,7 @@ export function curveName({ source, key }: Pick<Curve, "source" | "key">): strin
   return source.kind === "robot" ? `${source.robot} ${label}` : label;
 }
 
-// Adds the curve, unless it exists or there are too many.
+// Adds the curve, unless it already exists or there are too many.
 export function withCurve(plots: Plots, source: Source, key: string, unit: string): Plots {
   const id = curveId(source, key);
   const isThere = plots.curves.some((curve) => curve.id === id);
@@ -76,13 +76,13 @@ export function withoutCurve(plots: Plots, id: string): Plots {
   return { ...plots, against, curves: plots.curves.filter((curve) => curve.id !== id) };
 }
 
-// The value that a reference in an expression refers to.
+// Returns the value to which a reference in an expression refers.
 export function referredTo({ of, key }: Reference): Pick<Curve, "source" | "key"> {
   if (of.startsWith("/")) return { source: { kind: "topic", topic: of }, key };
   return { source: of === "simulation" ? { kind: "simulation" } : { kind: "robot", robot: of }, key };
 }
 
-// The inverse: how an expression refers to a curve.
+// Returns the reference with which an expression refers to a curve.
 export function referenceTo({ source, key }: Pick<Curve, "source" | "key">): string {
   if (source.kind === "expression") return `(${key})`;
   const of = source.kind === "robot" ? source.robot : source.kind === "simulation" ? "simulation" : source.topic;

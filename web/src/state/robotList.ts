@@ -9,7 +9,7 @@ export const GROUPINGS = ["none", "namespace", "model", "state", "behaviour"] as
 export type Grouping = (typeof GROUPINGS)[number];
 
 export interface RobotFilter {
-  text: string; // as it was typed
+  text: string; // the text that the user typed
   state: ShownState | null; // null: all
   sorting: Sorting;
   grouping: Grouping;
@@ -32,7 +32,7 @@ export function isTitle(entry: Entry): entry is { title: string; count: number }
   return "title" in entry;
 }
 
-// The part of a name before its last slash; without one, the name without its number.
+// Returns the part of a name before its last slash, or else the name without its number.
 export function namespaceOf(name: string): string {
   const slash = name.lastIndexOf("/");
   return slash > 0 ? name.slice(0, slash) : name.replace(/[_-]?\d+$/, "");
@@ -40,7 +40,7 @@ export function namespaceOf(name: string): string {
 
 export interface Query {
   test(robot: ListedRobot): boolean;
-  problem: string; // empty: it was understood
+  problem: string; // empty if the filter is valid
 }
 
 const FIELDS: Record<string, (robot: ListedRobot) => string> = {
@@ -94,8 +94,8 @@ export function filtered(robots: readonly ListedRobot[], { text, state }: RobotF
 
 const COLLATOR = new Intl.Collator("en", { numeric: true });
 
-// Names in natural order, "a2" before "a10". Cached while the names do not change, because
-// comparing thousands of texts for each update would take too long.
+// Sorts names in natural order: "a2" before "a10". Cached while the names do not change, because comparing thousands
+// of texts for each update would take too long.
 export class NameOrder {
   private names: readonly string[] = [];
   private ranks = new Map<string, number>();
@@ -109,7 +109,7 @@ export class NameOrder {
   }
 }
 
-// The rows of the list.
+// Returns the rows of the list.
 export function entriesOf(robots: readonly ListedRobot[], filter: RobotFilter, order = new NameOrder()): Entry[] {
   const ranks = order.ranksOf(robots);
   const key = keyOf(filter.sorting);
@@ -120,7 +120,7 @@ export function entriesOf(robots: readonly ListedRobot[], filter: RobotFilter, o
   return filter.grouping === "none" ? sorted : grouped(sorted, filter.grouping);
 }
 
-// `entries` in the order of `shown`; new entries come last.
+// Returns `entries` in the order of `shown`. New entries come last.
 export function inOrderOf(shown: readonly Entry[], entries: readonly Entry[]): Entry[] {
   const places = new Map(shown.map((entry, place) => [nameOf(entry), place]));
   const placeOf = (entry: Entry) => places.get(nameOf(entry)) ?? shown.length;
@@ -144,7 +144,7 @@ function keyOf(sorting: Sorting): (robot: ListedRobot) => number {
   }
 }
 
-// The group that contains the first robot comes first.
+// Groups are in the order of their first robots.
 function grouped(robots: readonly ListedRobot[], grouping: Exclude<Grouping, "none">): Entry[] {
   const groups = new Map<string, ListedRobot[]>();
   for (const robot of robots) {

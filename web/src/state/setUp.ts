@@ -4,37 +4,37 @@ import type { Ros2Support } from "../api/ros2";
 import type { RobotList, Scenario } from "../api/scenario";
 
 export interface Wrong {
-  field: string; // as the server names it, "robots[1].model"; empty: none in particular
+  field: string; // the server's name of the field, such as "robots[1].model"; empty for none
   sentence: string;
 }
 
 export interface Choices {
   worlds: string[];
   models: ModelChoice[];
-  behaviours: Behaviours | null; // null: not known yet
-  ros2: Ros2Support | null; // null: not known yet
+  behaviours: Behaviours | null; // null if unknown
+  ros2: Ros2Support | null; // null if unknown
 }
 
 // A world from the user's machine.
 export interface UploadedWorld {
-  name: string; // its path among the files that came with it
-  path: string; // where it lies on the server's machine
+  name: string; // its path among the uploaded files
+  path: string; // its path on the server's machine
 }
 
 export interface SetUp extends Choices {
-  uploaded: UploadedWorld[]; // the newest first
+  uploaded: UploadedWorld[]; // the newest is first
   scenario: Scenario;
-  past: Scenario[]; // the newest last
+  past: Scenario[]; // the newest is last
   future: Scenario[];
   wrong: Wrong | null;
-  warnings: string[]; // what the files lack
-  poses: Float64Array | null; // of the scene that is shown; null: not known yet
-  isBusy: boolean; // the server is being asked
-  isHeld: boolean; // nothing can be created now: the choices or a world are on their way, or it is being created
+  warnings: string[]; // what could not be read from the files
+  poses: Float64Array | null; // poses of the scene that is shown; null if unknown
+  isBusy: boolean; // whether a request is pending
+  isHeld: boolean; // whether nothing can be created now: data is being loaded, or the simulation is being created
 }
 
-// The server's sentence, with the file names of an upload as the user knows them, without the
-// server's folder.
+// Returns the server's sentence, with the names of uploaded files as the user knows them, without the server's
+// folder.
 export function inTheirWords(sentence: string, uploaded: readonly UploadedWorld[]): string {
   const folders = uploaded.filter(({ name, path }) => path.endsWith(name)).map(({ name, path }) => path.slice(0, -name.length));
   return folders.reduce((said, folder) => (folder === "" ? said : said.replaceAll(folder, "")), sentence);
@@ -62,7 +62,7 @@ const ROBOT_FIELD = /^(robots|avatars)\[(\d+)\](?:\.(\w+))?$/;
 // The fields that have their own input in a robot's row.
 const ROBOT_INPUTS = ["name", "model", "behaviour", "behaviour_constraint", "drive", "x", "y", "yaw"];
 
-// The robot and the input that a field belongs to; null if it belongs to no robot.
+// Returns the robot and the input to which a field belongs; null if it belongs to no robot.
 export function robotOfField(field: string): { list: RobotList; index: number; input: string } | null {
   const [, list, index, input = ""] = ROBOT_FIELD.exec(field) ?? [];
   if (!list) return null;

@@ -14,7 +14,7 @@ test("impossible lengths and masses are refused with a sentence", () => {
   expect(faultOf({ ...FIRST_SHAPE, height: NaN })).toMatch(/height must be/);
   expect(faultOf({ ...FIRST_SHAPE, mass: 0 })).toMatch(/mass must be/);
   expect(faultOf({ ...FIRST_SHAPE, mass: 0, isStatic: true })).toBe("");
-  expect(faultOf({ ...FIRST_SHAPE, kind: "sphere", width: 0 })).toBe(""); // a sphere has none
+  expect(faultOf({ ...FIRST_SHAPE, kind: "sphere", width: 0 })).toBe(""); // a sphere has no width
 });
 
 test("a wall reaches from one point to another", () => {

@@ -5,7 +5,7 @@ export type ShapeKind = "box" | "wall" | "cylinder" | "sphere";
 // Lengths in metres. Each kind of shape uses only some of them.
 export interface Shape {
   kind: ShapeKind;
-  length: number; // along x; of a cylinder its height
+  length: number; // along x; for a cylinder its height
   width: number; // along y
   height: number; // along z
   radius: number;
@@ -35,7 +35,7 @@ export function lengthsOf(kind: ShapeKind): readonly LengthName[] {
   return kind === "cylinder" ? ["radius", "height"] : ["length", "width", "height"];
 }
 
-// The reason why the shape is invalid; empty: it is valid.
+// Returns why the shape is invalid; empty if it is valid.
 export function faultOf(shape: Shape): string {
   for (const name of lengthsOf(shape.kind)) {
     const value = shape[name];
@@ -52,7 +52,7 @@ export function modelOf(shape: Shape): string {
   return `shape:${kind}?${size}&${isStatic ? "" : `mass=${mass}&`}static=${isStatic}&colour=${colour}`;
 }
 
-// The radius of a circle on the floor around the shape.
+// Returns the radius of a circle on the floor around the shape.
 export function footprintOf({ kind, length, width, radius }: Shape): number {
   return kind === "box" || kind === "wall" ? Math.hypot(length, width) / 2 : radius;
 }
@@ -62,7 +62,7 @@ export interface FloorPoint {
   y: number;
 }
 
-// The wall between two points: its shape, and the pose of its centre.
+// Returns the wall between two points: its shape, and the pose of its centre.
 export function wallBetween(
   from: FloorPoint,
   to: FloorPoint,

@@ -11,7 +11,7 @@ export function keepSingleKeys(storage: Pick<Storage, "setItem"> | null, isOn: b
   try {
     storage?.setItem(KEY, isOn ? "on" : OFF);
   } catch {
-    // If the storage is full or not allowed, nothing is saved, as in a private window.
+    // Nothing is saved if the storage is full or not allowed, as in a private window.
   }
 }
 
@@ -41,13 +41,13 @@ export function keepChangedKeys(storage: Pick<Storage, "setItem"> | null, change
   }
 }
 
-// The present key of the command with this default key.
+// Returns the present key of the command with this default key.
 export function keyOf(original: string, changed: ChangedKeys): string {
   const key = original.toLowerCase();
   return Object.hasOwn(changed, key) ? changed[key]! : key;
 }
 
-// The default key of the command to which the pressed key is assigned; empty: none.
+// Returns the default key of the command to which the pressed key is assigned; empty if there is none.
 export function originalKey(pressed: string, changed: ChangedKeys): string {
   const key = pressed.toLowerCase();
   const found = Object.keys(changed).find((original) => changed[original] === key);

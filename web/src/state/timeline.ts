@@ -1,14 +1,14 @@
-// The marks of a recording's events on the timeline. Events close together share a mark.
+// Computes the marks of events on the timeline. Events close together share a mark.
 import type { Difference, Kept, RecordingNote } from "../api/history";
 import type { RecordedEvent, Replay } from "../api/replay";
 import { count, formatTime } from "../ui/format";
 import type { State } from "./State";
 
 export interface Mark {
-  time: number; // s, simulated: of the first
-  share: number; // of the recording's span, 0 to 1
-  isBad: boolean; // something died, or failed
-  kind: "event" | "note" | "difference"; // what it shows above all
+  time: number; // simulated time of the first event, s
+  share: number; // position in the recording's time range, 0 to 1
+  isBad: boolean; // whether something died or failed
+  kind: "event" | "note" | "difference"; // the most important kind of its events
   text: string; // a line for each event
 }
 
@@ -28,8 +28,8 @@ export function spanOf(replay: Replay | null, kept: Kept | null, time: number): 
   return { start: kept.start, end: Math.max(kept.end, time) };
 }
 
-// `known` and those events of `found` that it does not contain, by time. Returns `known` itself if
-// there are none.
+// Returns `known` and the events of `found` that it does not contain, ordered by time. If there are none, returns
+// `known` itself.
 export function withNewEvents(known: RecordedEvent[], found: readonly RecordedEvent[]): RecordedEvent[] {
   const keys = new Set(known.map(keyOf));
   const added = found.filter((event) => !keys.has(keyOf(event)));
@@ -41,7 +41,7 @@ function keyOf({ time, event, robot, detail }: RecordedEvent): string {
   return JSON.stringify([time, event, robot, detail]);
 }
 
-// The marks besides events: the notes of the recording, and the first difference from another
+// Returns the marks of notes of the recording, and of the first difference from another
 // recording.
 export function furtherEvents(notes: readonly RecordingNote[], difference: Difference | null): RecordedEvent[] {
   const events = notes.map(({ time, text }) => ({ time, event: NOTE, robot: "", detail: text }));
@@ -56,7 +56,7 @@ export function shareOf(time: number, { start, end }: Span): number {
   return end > start ? Math.min(1, Math.max(0, (time - start) / (end - start))) : 0;
 }
 
-// The marks of the events, by time. Events before the range are omitted.
+// Returns the marks of the events, ordered by time. Events before the range are left out.
 export function marksOf(events: readonly RecordedEvent[], span: Span): Mark[] {
   const groups: RecordedEvent[][] = [];
   for (const event of events) {
@@ -86,7 +86,7 @@ function textOf(group: RecordedEvent[]): string {
   return lines.join("\n");
 }
 
-// "0:03.20 agent dead · robot_3 (wander): killed"
+// Returns a text such as "0:03.20 agent dead · robot_3 (wander): killed".
 function lineOf({ time, event, robot, detail }: RecordedEvent): string {
   const what = [event.replaceAll("_", " "), detail || robot].filter((part) => part !== "").join(" · ");
   return `${formatTime(time)} ${what}`;
@@ -94,7 +94,7 @@ function lineOf({ time, event, robot, detail }: RecordedEvent): string {
 
 type Marked = Pick<State, "replay" | "kept" | "time" | "events" | "notes" | "comparison">;
 
-// All marks of the timeline: events, notes, and the first difference from a second recording.
+// Returns all marks of the timeline: events, notes, and the first difference from a second recording.
 export function allMarks({ replay, kept, time, events, notes, comparison }: Marked): Mark[] {
   const span = spanOf(replay, kept, time);
   if (!span) return [];
@@ -103,7 +103,7 @@ export function allMarks({ replay, kept, time, events, notes, comparison }: Mark
   return marksOf(all, span);
 }
 
-// The time of the next mark after `time`, or of the last one before it; null if there is none.
+// Returns the time of the next mark after `time`, or of the last mark before it; null if there is none.
 export function markBeside(marks: Mark[], time: number, direction: 1 | -1): number | null {
   const CLOSE = 1e-6;
   const found =

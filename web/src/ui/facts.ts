@@ -9,7 +9,7 @@ export interface Facts {
   show(facts: readonly Fact[]): void;
 }
 
-// `otherwise` is shown if there are none.
+// `otherwise` is shown if there are no facts.
 export function createFacts(title: string, otherwise: string): Facts {
   const list = element("dl", { class: "facts-list" });
   const empty = element("p", { class: "dim" }, otherwise);
@@ -26,7 +26,7 @@ export function createFacts(title: string, otherwise: string): Facts {
           cells[i] = { name: element("dt"), value: element("dd") };
           list.append(cells[i].name, cells[i].value);
         }
-        // Unchanged entries are kept, because the reader may have selected them.
+        // Unchanged entries are not replaced, because the user may have selected their text.
         setText(cells[i].name, name);
         setText(cells[i].value, value);
         if (cells[i].name.className !== health) cells[i].name.className = health;

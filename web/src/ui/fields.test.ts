@@ -33,7 +33,7 @@ test("typed text is kept when another value is shown, and applies when typing is
   leave(input, true);
   expect(taken).toEqual(["scout"]);
   field.show("scout");
-  field.show("other"); // taken back, say
+  field.show("other"); // for example because the user undid the change
   expect(input.value).toBe("other");
 });
 
@@ -42,7 +42,7 @@ test("text that was typed back to its former value is replaced by a newer value"
   const input = controlOf<HTMLInputElement>(field, "input");
   field.show(1);
   type(input, "12");
-  field.show(2.5); // dragged in the picture
+  field.show(2.5); // the user dragged the robot in the view
   type(input, "1");
   leave(input, false);
   expect(input.value).toBe("2.5");

@@ -4,7 +4,7 @@ import { element, setText } from "./element";
 export interface Field<Value> {
   element: HTMLElement;
   show(value: Value): void;
-  // Shows an error; empty: none.
+  // Shows an error; an empty text removes it.
   refuse(sentence: string): void;
 }
 
@@ -45,7 +45,7 @@ function keepTyped(input: HTMLInputElement, take: () => void) {
     isTyping = false;
     take();
   });
-  // Left without a change: the text is the same as before.
+  // The user left the field without a change.
   input.addEventListener("blur", () => {
     isTyping = false;
     input.value = latest;
@@ -65,7 +65,7 @@ export function textField(label: string, placeholder: string, take: (text: strin
   return labelled(label, input, show);
 }
 
-// An empty field means `otherwise`. This number of digits is shown after the decimal point.
+// A number field. An empty field means `otherwise`. `digits` are shown after the decimal point.
 export function numberField(
   label: string,
   otherwise: number | null,
@@ -95,7 +95,7 @@ export function colourField(label: string, take: (colour: string) => void): Fiel
 export interface Option {
   value: string;
   label: string;
-  group?: string; // under which heading it stands; options of one group follow each other
+  group?: string; // heading above the option; options of one group must be adjacent
 }
 
 export interface ChoiceField extends Field<string> {
@@ -145,7 +145,7 @@ function grouped(options: Option[]): HTMLElement[] {
   return children;
 }
 
-const OTHER = "\0other"; // no name holds it
+const OTHER = "\0other"; // no option has this value
 
 // A selection from a list, or a typed text.
 export function choiceOrText(
@@ -166,7 +166,7 @@ export function choiceOrText(
     isAsked = false;
     take(input.value.trim());
   });
-  let isAsked = false; // the text, and nothing is typed yet
+  let isAsked = false; // true while the text field is shown and empty
   let values: string[] = [];
   let shown = "";
   input.hidden = true;

@@ -1,15 +1,15 @@
-// Files that the page creates for the user.
+// Offers files that the page creates for download.
 
 export function download(name: string, content: Blob): void {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(content);
   link.download = name;
   link.click();
-  // The browser reads the address some time after the click.
+  // Release the address later: the browser reads it some time after the click.
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }
 
-// "office at 12.3 s.png", with characters that every file system accepts.
+// Returns a name such as "office at 12.3 s.png", with characters that every file system accepts.
 export function fileName(simulation: string | null, time: number, kind: string, ending: string): string {
   const name = (simulation ?? "gsv").replace(/[^\p{L}\p{N} _.-]+/gu, "_").slice(0, 80);
   return `${name} ${kind} ${time.toFixed(2)}s.${ending}`;

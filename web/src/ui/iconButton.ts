@@ -5,10 +5,10 @@ import { icon } from "./icons";
 
 export interface IconButton {
   picture: IconName;
-  label: string; // its name
-  word?: string; // below the icon (default: the label)
-  title?: string; // what happens (default: the label)
-  key?: string; // its single key, shown in the tooltip
+  label: string; // accessible name of the button
+  word?: string; // text below the icon (default: the label)
+  title?: string; // tooltip: the effect of the button (default: the label)
+  key?: string; // single key of the command, shown in the tooltip
   onclick(): void;
 }
 

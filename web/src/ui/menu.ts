@@ -55,7 +55,7 @@ export function createMenu(label: string, picture: IconName, ...items: HTMLEleme
   return { element: place, button, sheet, close };
 }
 
-// "Speed and steps" → "Speed".
+// Returns "Speed" for "Speed and steps".
 function wordOf(label: string): string {
   return label.split(" ")[0]!;
 }

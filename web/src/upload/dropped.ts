@@ -1,16 +1,16 @@
-// Files that were dropped onto the page or chosen: a world, or a folder or zip archive that
-// contains one.
+// Handles files that the user dropped onto the page or chose: a world, or a folder or zip archive that contains
+// one.
 import type { DroppedFile } from "../api/DroppedFile";
 import { droppedFile, isHidden, LARGEST_FILE, MOST_FILES } from "../api/DroppedFile";
 import { filesInZip, isZip } from "./zip";
 
-// The files to send: worlds first, the most likely one at the front.
+// The files to send: worlds first, beginning with the most likely one.
 export interface Delivery {
   files: DroppedFile[];
   worlds: number; // how many of the files, at least one
 }
 
-// Throws a sentence for the user.
+// Finds the files to send. Throws a sentence for the user.
 export function worldsFirst(files: readonly DroppedFile[]): Delivery {
   if (files.length > MOST_FILES) throw new Error(`You chose ${files.length} files; at most ${MOST_FILES} are allowed.`);
   const large = files.find(({ size }) => size > LARGEST_FILE);
@@ -20,13 +20,13 @@ export function worldsFirst(files: readonly DroppedFile[]): Delivery {
   if (files.length === 1) return { files: [...files], worlds: 1 };
   const candidates = files.filter(({ path }) => rankOf(path) < NO_WORLD).sort(byLikelihood);
   if (candidates.length === 0) throw new Error("These files contain no world. Add a file whose name ends in .world or .sdf.");
-  // If there are worlds, models belong to them.
+  // If there are worlds, the models are parts of them.
   const worlds = candidates.filter(({ path }) => rankOf(path) < A_MODEL);
   const front = new Set(worlds.length > 0 ? worlds : candidates.slice(0, 1));
   return { files: [...front, ...files.filter((each) => !front.has(each))], worlds: front.size };
 }
 
-// World files before model files, and outer folders before inner ones.
+// Sorts world files before model files, and outer folders before inner ones.
 function byLikelihood(a: DroppedFile, b: DroppedFile): number {
   const depth = ({ path }: DroppedFile) => path.split("/").length;
   return rankOf(a.path) - rankOf(b.path) || depth(a) - depth(b) || a.path.localeCompare(b.path);
@@ -50,14 +50,14 @@ export async function unpacked(files: readonly DroppedFile[]): Promise<readonly 
   return (await isZip(content)) ? filesInZip(only.path, content) : files;
 }
 
-// All dropped files, including the content of folders. Hidden files are omitted.
+// Returns all dropped files, including the content of folders. Hidden files are left out.
 export async function droppedFiles(transfer: DataTransfer): Promise<DroppedFile[]> {
   const entries = [...transfer.items].map((item) => item.webkitGetAsEntry()).filter((entry) => entry !== null);
   if (entries.length === 0) return [...transfer.files].map((file) => droppedFile(file.name, file));
   return (await Promise.all(entries.map((entry) => filesOf(entry, "")))).flat();
 }
 
-// The files of a chosen folder.
+// Returns the files of a chosen folder.
 export function chosenFiles(list: FileList): DroppedFile[] {
   return [...list]
     .map((file) => droppedFile(file.webkitRelativePath || file.name, file))
@@ -78,6 +78,6 @@ async function filesOf(entry: FileSystemEntry, above: string): Promise<DroppedFi
     const some = await new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
     if (some.length === 0) return found;
     for (const each of some) found.push(...(await filesOf(each, `${path}/`)));
-    if (found.length > MOST_FILES) return found; // they are too many
+    if (found.length > MOST_FILES) return found; // too many files
   }
 }

@@ -2,7 +2,7 @@ import { execFileSync } from "node:child_process";
 import { expect, test, vi } from "vitest";
 import { filesInZip, isZip } from "./zip";
 
-vi.setConfig({ testTimeout: 60_000 }); // each archive takes a process
+vi.setConfig({ testTimeout: 60_000 }); // each archive is made by another process
 
 // The archives are made by Python's zipfile.
 const MAKE = `

@@ -11,7 +11,7 @@ export class Frame {
   private mounted: MountedPanel | null = null;
   private isLoading = false;
   private isInSight = false;
-  private end: (() => void) | null = null; // null: nothing is read for it
+  private end: (() => void) | null = null; // null while the panel reads no data
 
   constructor(
     private readonly panel: Panel,
@@ -23,7 +23,7 @@ export class Frame {
     ports.state.watch(panel.isAvailable, () => void this.follow());
   }
 
-  // Whether the panel is in sight: its tab is in front.
+  // Whether the panel is visible: its tab is in front.
   show(isInSight: boolean): void {
     this.isInSight = isInSight;
     void this.follow();
@@ -48,9 +48,9 @@ export class Frame {
     }
   }
 
-  // Returns whether this call has loaded the panel.
+  // Loads the panel. Returns whether this call has loaded it.
   private async load(): Promise<boolean> {
-    if (this.isLoading) return false; // who asked first shows it
+    if (this.isLoading) return false; // the first caller shows the panel
     this.isLoading = true;
     const { id, title, load } = this.panel;
     try {

@@ -6,9 +6,9 @@ import { createMenu } from "../ui/menu";
 import { VIEW } from "../state/layout";
 
 export interface HeadParts {
-  viewTools: HTMLElement[]; // stand where the view is
-  keyOf(panel: string): string; // its single key; empty: none
-  isNarrow(): boolean; // no room for parts beside each other
+  viewTools: HTMLElement[]; // shown at the part that contains the view
+  keyOf(panel: string): string; // single key of a panel; empty if it has none
+  isNarrow(): boolean; // whether the page is too narrow for parts beside each other
 }
 
 const SIDES = [

@@ -46,7 +46,7 @@ function workspaceOf(panels: Panel[], layout = "r(view~1000)", state: Partial<St
   return { workspace, ports, store, open, button, view };
 }
 
-// The layout's text without the sizes.
+// Returns the layout's text without the sizes.
 function shapeOf(text: string): string {
   return text.replace(/~\d+/g, "");
 }

@@ -16,7 +16,7 @@ import type { Space } from "./presets";
 
 const SIDE_PX = 300;
 const BELOW_PX = 250;
-const TOP_SIDE_SHARE = 0.62; // of the height
+const TOP_SIDE_SHARE = 0.62; // fraction of the height
 const MIN_WIDTH_PX = 150;
 const MIN_HEIGHT_PX = 90;
 const NARROW = "(max-width: 760px)";
@@ -25,21 +25,22 @@ const POPOUT_PAGE = "popout.html";
 export interface WorkspacePanels {
   panels: readonly Panel[];
   ports: PanelPorts;
-  setOpen(ids: string[]): void; // what is open now, in the store
+  setOpen(ids: string[]): void; // stores the ids of the open panels
 }
 
 export interface ViewParts {
   body: HTMLElement;
-  tools: HTMLElement[]; // in the view's head
+  tools: HTMLElement[]; // buttons in the header of the view
 }
 
 export class Workspace {
   readonly element = element("main", { class: "workspace" });
-  onChange: (layout: string) => void = () => {}; // by a person or a program; not on narrow screens
+  onChange: (layout: string) => void = () => {}; // called after a change by the user or a program; not on narrow
+                                                 // screens
   private readonly api: DockviewApi;
   private readonly frames = new Map<string, Frame>();
   private readonly narrow: MediaQueryList | null;
-  private wide: Split | null = null; // the layout to go back to from a narrow screen
+  private wide: Split | null = null; // the layout of the wide screen, while the screen is narrow
   private isApplying = false;
 
   constructor(
@@ -80,7 +81,7 @@ export class Workspace {
     return { width: clientWidth || 1000, height: clientHeight || 700 };
   }
 
-  // The present layout as text. On a narrow screen, that of the wide screen.
+  // The present layout as text. On a narrow screen, this is the layout of the wide screen.
   get layout(): string {
     const layout = this.isNarrow ? this.wide : fromDockview(this.api.toJSON());
     return layout ? textOf(layout) : textOf(this.standard(this.space));
@@ -92,14 +93,14 @@ export class Workspace {
     const { editing } = this.of.ports.state.get();
     const open = panelsOf(layout).filter((id) => id !== VIEW && (id !== EDIT_PANEL || editing !== null));
     this.apply(this.isNarrow ? narrowLayout(open, null) : layout);
-    this.of.setOpen(open); // which closes the panel in which one edits, where nobody does
+    this.of.setOpen(open); // this may close the panel for editing if nobody edits
   }
 
   isInSight(id: string): boolean {
     return this.api.getPanel(id)?.api.isVisible ?? false;
   }
 
-  // Brings a panel to the front if it is behind another.
+  // Brings a panel to the front if it is behind another tab.
   reveal(id: string): void {
     this.api.getPanel(id)?.api.setActive();
   }
@@ -126,7 +127,7 @@ export class Workspace {
     for (const id of ids) if (!this.api.getPanel(id)) this.add(id);
   }
 
-  // Opens it beside panels of its kind, or else in a new part at the side of the view or below it.
+  // Opens a panel beside panels of its kind, or else in a new part at the side of the view or below it.
   private add(id: string): void {
     const panel = this.of.panels.find((each) => each.id === id);
     if (!panel) return;
@@ -170,7 +171,7 @@ export class Workspace {
     this.follow(id);
   }
 
-  // The user has closed it.
+  // Called when the user has closed a panel.
   private follow(id: string): void {
     if (this.isApplying) return;
     const { openPanels } = this.of.ports.state.get();

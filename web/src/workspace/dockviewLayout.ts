@@ -28,7 +28,7 @@ export function toDockview(layout: Split, space: Space, panels: readonly NamedPa
   };
 }
 
-// `size` is the length along the parent part; `space` is the available size.
+// `size` is the length along the parent part; `space` is the available length.
 function nodeOf(part: Part, size: number, space: Space, counter: { groups: number }): GridNode {
   if ("tabs" in part) {
     counter.groups += 1;
@@ -64,7 +64,7 @@ function partOf(node: GridNode, isRow: boolean): Part | null {
   const parts = children.flatMap((child): Split["parts"] => {
     const part = partOf(child, !isRow);
     const share = Math.max(1, Math.round((1000 * (child.size ?? 0)) / total));
-    // Dockview keeps divisions that contain only one part.
+    // Dockview stores divisions that contain only one part; these are removed.
     if (part && "split" in part && part.split === split) {
       return part.parts.map((inner) => ({ ...inner, share: Math.max(1, Math.round((inner.share * share) / 1000)) }));
     }

@@ -4,12 +4,12 @@ import type { Part, Split } from "../state/layout";
 import { VIEW } from "../state/layout";
 
 export interface Space {
-  width: number; // CSS pixels
+  width: number; // width of the side, CSS pixels
   height: number;
 }
 
 export interface Preset {
-  name: string; // in links and menus
+  name: string; // name in links and menus
   title: string;
   hint: string;
   layout(space: Space): Split;
@@ -68,7 +68,7 @@ function column(...parts: [Part, number][]): Split {
   return { split: "column", parts: parts.map(([part, share]) => ({ part, share })) };
 }
 
-// The side has this width, but at most half of the space.
+// The side has this width, but at most half of the available space.
 function beside(width: number, sidePx: number, main: Part, side: Part): Split {
   const share = Math.round(1000 * Math.min(0.5, sidePx / Math.max(1, width)));
   return row([main, 1000 - share], [side, share]);
