@@ -1,4 +1,4 @@
-"""The rows of bench/all: what each runs, and the value that is wanted."""
+"""The rows of bench/all: the command of each row, and its target value."""
 
 import functools
 import json
@@ -34,12 +34,12 @@ class Row:
     wanted: float
     is_more_better: bool
     run: Callable[[], Measured]
-    beside: str = ""  # the operation that the other value is of
-    is_default: bool = True  # otherwise it runs only if --rows names it
+    beside: str = ""  # the operation that is measured beside this one
+    is_default: bool = True  # if false, it runs only if --rows names it
 
 
 def timed(command, cwd=None):
-    """Processor and wall seconds of a program and of those that it starts and waits for."""
+    """Returns processor time and wall-clock time of a program and of its child processes, in s."""
     start = time.monotonic()
     process = subprocess.Popen(command, cwd=cwd, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     errors = process.stderr.read().decode()
@@ -76,7 +76,7 @@ class Benches:
         return Measured(row["real_time_factor"], hash=row["state_hash"])
 
     def compiled(self, name, *libraries):
-        """The program of bench/NAME.cc."""
+        """Returns the program that is built from bench/NAME.cc."""
         program = self.folder / name
         if not program.exists():
             compiler = os.environ.get("CXX") or shutil.which("c++")
@@ -85,7 +85,7 @@ class Benches:
         return program
 
     def bare(self, operation):
-        """What the machine does of an operation without GSV, see bench/bare.cc."""
+        """Measures an operation of this machine without GSV, see bench/bare.cc."""
         program = self.compiled("bare", "-lembree3", "-pthread")
         return float(subprocess.run([program, operation], check=True, stdout=subprocess.PIPE, text=True).stdout)
 
@@ -115,7 +115,7 @@ class Benches:
         return Measured(median_of(5, command, 1))
 
     def campaign(self, which, runs_of_row):
-        """Processor (0) or wall (1) seconds of so many runs, from those of some of them."""
+        """Returns the processor time (0) or wall-clock time (1) of many runs, extrapolated from some of them."""
         runs = 20 if self.is_quick else 300
         (self.folder / "c.yaml").write_text(
             json.dumps({"scenario": "s.yaml", "parameters": {"seed": {"from": 1, "to": runs}}}))
@@ -136,7 +136,7 @@ class Benches:
         return Measured(self.broker_figures.pop(figure), bare)
 
     def recording(self):
-        """The share of its speed that a run keeps while it records all topics but images."""
+        """Returns the speed of a run that records all topics except images, as a fraction of its speed without recording."""
         out = self.folder / "recording.json"
         sonars = [f"/robot_{robot}/sonar_0{sonar}" for robot in range(100) for sonar in range(8)]
         topics = ["/clock", "/diagnostics", "/gsv/", "/rosout", "/tf", "/tf_static", *sonars]
@@ -148,19 +148,19 @@ class Benches:
         return Measured(1 / (1 + result["median_extra_percent"] / 100))
 
     def load(self, world):
-        """Processor time beyond that of an empty world."""
+        """Returns the processor time in addition to that of an empty world."""
         command = [self.gsv, "run", "--headless", "--lockstep", "--duration", "0.01"]
         return Measured(median_of(3, [*command, world], 0), median_of(3, [*command, self.folder / "empty.sdf"], 0))
 
     def house(self):
-        """The world of ROBOTIS's turtlebot3_gazebo, which is no part of GSV."""
+        """Returns the world of ROBOTIS's turtlebot3_gazebo, which is not part of GSV."""
         folder = os.environ.get("GSV_REAL_DIR", "/usr/share/gsv-real")
         world = Path(folder, "turtlebot3/worlds/turtlebot3_house.world")
         assert world.exists(), f"no {world}; GSV_REAL_DIR names the folder"
         return self.load(world)
 
     def build(self):
-        """Wall seconds from an empty build folder to what `make run` starts, without a compiler cache."""
+        """Returns the wall-clock time to build the programs of `make run` from nothing, without a compiler cache."""
         source, build = HERE.parent, self.folder / "build"
         environment = {**os.environ, "CCACHE_DISABLE": "1"}
         start = time.monotonic()

@@ -21,7 +21,7 @@ DEFAULT_ROBOTS = [
     ("pebble", -5.0, 3.0),
     ("rover4", 4.8, 3.5),
 ]
-CLEARANCE = 0.6  # m, from a robot's outline to any obstacle
+CLEARANCE = 0.6  # minimum distance between a robot's outline and any obstacle, m
 
 
 class Obstacle:
@@ -33,7 +33,7 @@ class Obstacle:
         self.low, self.high = low, high
 
     def distance(self, x, y):
-        """From a point to its outline; 0 inside."""
+        """Returns the distance from a point to the outline; 0 inside."""
         c, s = math.cos(self.yaw), math.sin(self.yaw)
         dx, dy = x - self.x, y - self.y
         across = max(abs(c * dx + s * dy) - self.half_x, 0)
@@ -41,7 +41,7 @@ class Obstacle:
         return max(math.hypot(across, along) - self.radius, 0)
 
     def corners(self):
-        """Points of its outline: exact for rectangles, sixteen for discs."""
+        """Returns points of the outline: the corners of a rectangle, or sixteen points of a disc."""
         if self.radius:
             for k in range(16):
                 a = math.pi * k / 8
@@ -111,7 +111,7 @@ def obstacles_of_world(name):
 
 
 def reach(model):
-    """The radius about its origin that holds a robot's body, its wheels taken as balls."""
+    """Returns the radius of a circle about the origin that contains a robot's body. Wheels count as balls."""
     farthest = 0.0
     for link in model.findall("link"):
         if link.get("name").endswith("wheel"):
@@ -134,7 +134,7 @@ class Office(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.obstacles = obstacles_of_world("office.sdf")
-        # What a robot of the B21r's height can run into.
+        # The obstacles for a robot of the B21r's height.
         cls.low = [o for o in cls.obstacles if o.low < 1.2]
 
     def test_default_robots_start_in_the_clear(self):

@@ -26,7 +26,7 @@ WEB_TEST = re.compile(r"\.test\.ts$|/test[A-Z]\w*\.ts$")
 
 
 def blanked(text, *patterns):
-    """The text with the patterns' matches emptied, every line where it was."""
+    """Returns the text without the matches of the patterns. Line numbers do not change."""
     for pattern in patterns:
         text = pattern.sub(lambda match: "\n" * match.group(0).count("\n"), text)
     return text
@@ -37,7 +37,7 @@ def line_of(text, offset):
 
 
 def cpp_edges(root):
-    """{file: {included file: line}} of our own C++ sources."""
+    """Returns {file: {included file: line}} for GSV's C++ sources."""
     files = {
         path.relative_to(root).as_posix(): path
         for top in CPP_TOPS
@@ -56,7 +56,7 @@ def cpp_edges(root):
 
 
 def web_edges(root):
-    """{file: {imported file: line}} of the viewer's TypeScript sources."""
+    """Returns {file: {imported file: line}} for the viewer's TypeScript sources."""
     files = {path.relative_to(root).as_posix(): path for path in sorted((root / WEB).rglob("*.ts"))}
     edges = {}
     for name, path in files.items():
@@ -71,7 +71,7 @@ def web_edges(root):
 
 
 def folder_edges(edges):
-    """{folder: {folder: (file, line)}} of files that are no tests, each edge with the first import that makes it."""
+    """Returns {folder: {folder: (file, line)}} with the first import between two folders. Tests are left out."""
     folders = {}
     for name, targets in edges.items():
         if WEB_TEST.search(name):
@@ -84,7 +84,7 @@ def folder_edges(edges):
 
 
 def circles(edges):
-    """One shortest circle through each node that no circle found before passes through."""
+    """Returns circles: for each node that is in no earlier circle, a shortest circle through it."""
     found, passed = [], set()
     for start in sorted(edges):
         if start in passed:
@@ -97,7 +97,7 @@ def circles(edges):
 
 
 def shortest_way_back(edges, start):
-    """[start, …, start] by as few edges as possible; None where no way leads back."""
+    """Returns the shortest path [start, …, start], or None if no path leads back."""
     came_from, front = {}, [start]
     while front:
         behind = []

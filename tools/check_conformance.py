@@ -85,7 +85,7 @@ TEST = re.compile(r"^TEST(?:_F)?\((\w+), (\w+)\)(.*?)^}", re.M | re.S)
 
 
 def read_tests(root):
-    """SUITE.NAME -> (its body, its file and the fixtures)"""
+    """Returns {SUITE.NAME: (body of the test, its file and its fixtures)}."""
     fixtures = "".join((root / "gsv/broker/testing" / name).read_text()
                        for name in ("broker_fixture.cc", "broker_node.h"))
     tests = {}
@@ -101,7 +101,7 @@ def quoted(cell):
 
 
 def read_rows(text):
-    """(interface, operation) -> [(exceptions, "never" stands there, tests)]"""
+    """Returns {(interface, operation): [(exceptions, whether the row says "never", tests)]}."""
     rows = {}
     for line in text.splitlines():
         cells = [cell.strip() for cell in line.strip().strip("|").split("|")]

@@ -40,12 +40,12 @@ UNCHECKED_CODE = re.compile(r"\bstd::((timed_|shared_|recursive_)?mutex|conditio
 
 
 class Table:
-    """docs/layers.txt: folders in their order, what each may include, and the core's limits."""
+    """The content of docs/layers.txt: the folders in order, what each may include, and the limits of the core."""
 
     def __init__(self, text):
         self.folders = []
         self.core = set()
-        self.exceptions = []  # (path or folder, what it may use)
+        self.exceptions = []  # (path or folder, what it may use although it is forbidden)
         self.allowed = {}
         for line in text.splitlines():
             words = line.split("#")[0].split()
@@ -71,7 +71,7 @@ class Table:
         self.allowed[folder] = reached
 
     def folder_of(self, path):
-        """The declared folder a path lies in, the deepest one; None for a path outside them."""
+        """Returns the deepest declared folder that contains the path, or None."""
         holding = [f for f in self.folders if path.startswith(f + "/")]
         return max(holding, key=len, default=None)
 
@@ -93,7 +93,7 @@ class Table:
 
 
 def library_of(folder):
-    """gsv/broker of gsv/broker/storage"""
+    """Returns the library of a folder, such as gsv/broker for gsv/broker/storage."""
     return "/".join(folder.split("/")[:2])
 
 
@@ -105,7 +105,7 @@ def sources_below(root, tops):
 
 
 def check_include(table, root, path, folder, quote, included):
-    """The sentence that says what is wrong with one include, or None."""
+    """Returns a sentence about the problem of one include, or None."""
     included_folder = table.folder_of(included)
     if included_folder is None:
         if quote == '"' and (root / path).parent.joinpath(included).exists():
@@ -124,7 +124,7 @@ def check_include(table, root, path, folder, quote, included):
 
 
 def check_code(table, path, folder, code):
-    """The sentence that says what one line of code uses and must not, or None."""
+    """Returns a sentence about a forbidden use in one line of code, or None."""
     if TEST_SOURCE.search(path) or folder.startswith(("tests", "examples")):
         return None
     unchecked = UNCHECKED_CODE.search(code)

@@ -30,7 +30,7 @@ class UseCase:
 
 
 def read_requirements(text, source):
-    """The use cases by section, and a sentence for each thing wrong with the page itself."""
+    """Returns the use cases by section, and a sentence for each problem of the page."""
     sections, problems, section = {}, [], None
     seen = set()
     for number, line in enumerate(text.splitlines(), start=1):
@@ -58,7 +58,7 @@ def read_requirements(text, source):
 
 
 def outcome(case):
-    """What became of one <testcase>: "passed", "failed" or "skipped"."""
+    """Returns the result of one <testcase>: "passed", "failed" or "skipped"."""
     if case.find("failure") is not None or case.find("error") is not None:
         return "failed"
     if case.find("skipped") is not None or case.get("status") in ("notrun", "disabled"):
@@ -71,7 +71,7 @@ def read_outcomes(junit):
 
 
 def unkept(sections, outcomes, source):
-    """A sentence for each use case that is not shown to work."""
+    """Returns a sentence for each use case without passed tests."""
     says = {None: "is not among the tests that ran", "failed": "failed", "skipped": "was skipped"}
     for use_cases in sections.values():
         for use_case in use_cases:

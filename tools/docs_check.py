@@ -33,7 +33,7 @@ def is_external(link):
 
 
 def problems_in(site):
-    """Sentences on what is wrong. Pages below reference/ are doxygen's: only what they load counts."""
+    """Returns sentences about problems. For doxygen's pages, below reference/, only loaded files are checked."""
     site = Path(site)
     pages = {}
 

@@ -43,12 +43,12 @@ LINK = re.compile(r"(\]\(|\b(?:src|href)=\")([^)\s\"#]*)(#[^)\s\"]*)?(?=[)\s\"])
 
 
 class Site:
-    """The pages to be, by their place in the site."""
+    """The pages of the site, by their path in it."""
 
     def __init__(self, root):
         self.root = Path(root)
-        self.places = {}  # path in the source tree: place in the site, of pages and images
-        self.pages = {}  # place in the site: text or bytes
+        self.places = {}  # {path in the source tree: path in the site}, for pages and images
+        self.pages = {}  # {path in the site: text or bytes}
         self.dead = []  # "file:line: sentence"
         self._sources = []
 
@@ -102,7 +102,7 @@ class Site:
         return LINK.sub(link, line)
 
     def _place_of(self, path):
-        """Where the site has a file or folder of the source tree; None where there is none."""
+        """Returns the path in the site of a file or folder of the source tree, or None."""
         for candidate in (path, f"{path}/README.md"):
             if candidate in self.places:
                 return self.places[candidate]
@@ -132,7 +132,7 @@ class Site:
         self.pages[place] = "\n".join(lines) + "\n"
 
     def navigation(self):
-        """The sections and their pages, in order, as mkdocs reads them."""
+        """Returns the sections and their pages, in order, in the format of mkdocs."""
         left = sorted(page for page in self.pages
                       if page.endswith(".md") and not page.startswith("sources/") and page != "index.md")
         navigation = [{"Home": "index.md"}]

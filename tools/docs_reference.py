@@ -22,7 +22,7 @@ MAIN_PAGES = {
 
 
 def escaped(comment):
-    """A comment whose characters mean themselves, but for code in backticks."""
+    """Returns a comment in which all characters are literal, except for code in backticks."""
     parts = re.split(r"(`[^`]*`)", comment)
     for index in range(0, len(parts), 2):
         parts[index] = re.sub(r"([\\@#%])", r"\\\1", parts[index]).replace("<", "&lt;")
@@ -30,7 +30,7 @@ def escaped(comment):
 
 
 def documented(source):
-    """The source with its comments as doxygen reads them."""
+    """Returns the source with comments in doxygen's format."""
     lines, column, is_first = [], None, True
     for line in source.splitlines():
         found = re.match(r'((?:[^"/]|"(?:[^"\\]|\\.)*"|/(?![/*]))*)//(?!/)\s?(.*)', line)

@@ -71,7 +71,7 @@ STRING = re.compile(r'"((?:[^"\\]|\\.)*)"')
 
 
 def end_of_string(source, start):
-    """The position behind the literal that opens at `start` with a quote."""
+    """Returns the position behind the string literal whose opening quote is at `start`."""
     quote, at = source[start], start + 1
     while at < len(source) and source[at] != quote:
         at += 2 if source[at] == "\\" else 1
@@ -79,7 +79,7 @@ def end_of_string(source, start):
 
 
 def arguments_of_call(source, start):
-    """The arguments of the call whose "(" is at `start`, as (position, text)."""
+    """Returns the arguments of the call whose "(" is at `start`, as (position, text)."""
     arguments, depth, begin, at = [], 0, start + 1, start
     while at < len(source):
         character = source[at]
@@ -192,7 +192,7 @@ def texts_of_comments(source):
 
 
 def parts_of_name(name):
-    """The words of an identifier in lower case: kMaxWait and max_wait_ give "max wait"."""
+    """Returns the words of an identifier in lower case: "max wait" for kMaxWait and max_wait_."""
     words = re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+", re.sub(r"^k(?=[A-Z])", "", name))
     return " ".join(words).lower()
 
@@ -282,7 +282,7 @@ SOURCES = (
 
 
 def texts_below(root):
-    """All texts, as {path relative to the root: [Text]}, in the order of the paths."""
+    """Returns all texts, as {path relative to the root: [Text]}, ordered by path."""
     texts = {}
     for pattern, extract in SOURCES:
         for file in Path(root).glob(pattern):

@@ -13,7 +13,7 @@ LINES = 25
 
 
 def failures(root):
-    """For each failed test its name and the end of its output, in the file's order."""
+    """Returns the name and the end of the output of each failed test, in the order of the file."""
     found = []
     for case in root.iter("testcase"):
         if case.get("status") != "fail":

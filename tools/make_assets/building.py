@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from mesh import Mesh
 
 HEIGHT = 2.5
-DOOR = 2.1  # how high doors are
-INNER, OUTER = 0.12, 0.2  # how thick walls are
+DOOR = 2.1  # height of doors
+INNER, OUTER = 0.12, 0.2  # thickness of inner and outer walls
 
 
 @dataclass
@@ -24,7 +24,7 @@ class Opening:
 @dataclass
 class Wall:
     along: str  # "x" or "y"
-    across: float  # where its middle lies on the other axis
+    across: float  # coordinate of its middle on the other axis
     begin: float
     end: float
     thickness: float
@@ -86,7 +86,7 @@ def make(folder):
 
 
 def placed(wall, begin, end, bottom, top, thickness):
-    """A part of a wall as (low corner, high corner)."""
+    """Returns a part of a wall as (low corner, high corner)."""
     low, high = wall.across - thickness / 2, wall.across + thickness / 2
     if wall.along == "x":
         return (begin, low, bottom), (end, high, top)
@@ -94,7 +94,7 @@ def placed(wall, begin, end, bottom, top, thickness):
 
 
 def parts_of(wall):
-    """The wall's solid parts as (mesh, low corner, high corner)."""
+    """Returns the wall's solid parts as (mesh, low corner, high corner)."""
     at = wall.begin
     for opening in sorted(wall.openings, key=lambda o: o.begin):
         yield ("plaster", *placed(wall, at, opening.begin, 0, HEIGHT, wall.thickness))

@@ -1,4 +1,4 @@
-"""A car-like robot: steers its front wheels, drives its rear ones."""
+"""A car-like robot that steers its front wheels and drives its rear wheels."""
 
 import math
 
@@ -7,12 +7,12 @@ from robots import write_wheel
 from sdf import box, collision, cylinder, inertial, link, material, mesh, pose, visual, write_model
 
 BASE, TRACK, RADIUS, WIDTH = 0.46, 0.36, 0.085, 0.06  # m
-LIMIT = 0.55  # rad that a front wheel turns
+LIMIT = 0.55  # maximum steering angle, rad
 PAINT = (0.05, 0.28, 0.5)
 # The body from the side, (x, z) from the rear axle's middle on the ground; bonnet to the right.
 BODY = [(-0.13, 0.09), (0.59, 0.09), (0.61, 0.13), (0.59, 0.17), (0.44, 0.2), (-0.1, 0.21), (-0.13, 0.17)]
 CABIN = [(-0.06, 0.205), (0.4, 0.2), (0.3, 0.3), (-0.01, 0.305)]
-# Where the eight sonars sit, counter-clockwise from ahead.
+# The positions of the eight sonars, counter-clockwise from the front.
 SONARS = [(0.61, 0), (0.58, 0.13), (0.23, 0.15), (-0.12, 0.13), (-0.13, 0), (-0.12, -0.13), (0.23, -0.15),
           (0.58, -0.13)]
 

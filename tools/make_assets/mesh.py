@@ -18,7 +18,7 @@ class Mesh:
         self.faces.append(tuple(range(first, first + len(corners))))
 
     def add_quad(self, corners, coordinates=((0, 0), (1, 0), (1, 1), (0, 1))):
-        """Four corners, counter-clockwise seen from the side that shows."""
+        """Adds a face with four corners, counter-clockwise as seen from the visible side."""
         normal = unit(cross(minus(corners[1], corners[0]), minus(corners[2], corners[0])))
         self.add_face(corners, [normal] * 4, coordinates)
 

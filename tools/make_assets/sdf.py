@@ -44,7 +44,7 @@ def link(name, parts, at=(), inertial=""):
 
 
 def inertial(mass, size, at=()):
-    """Of a box of so many kilograms."""
+    """Returns the <inertial> of a box with this mass in kg."""
     x, y, z = size
     ixx, iyy, izz = (mass * (a * a + b * b) / 12 for a, b in ((y, z), (x, z), (x, y)))
     return (f"<inertial>{pose(*at)}<mass>{mass:.6g}</mass><inertia><ixx>{ixx:.4g}</ixx>"

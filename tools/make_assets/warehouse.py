@@ -5,9 +5,9 @@ from sdf import box, collision, include, link, material, mesh, visual, write_mod
 
 LENGTH, WIDTH, HEIGHT = 24.0, 16.0, 5.0
 WALL = 0.2
-GATES = (-6.0, 0.0, 6.0)  # along the east wall; shut
+GATES = (-6.0, 0.0, 6.0)  # y of the closed gates in the east wall
 RACK = (2.8, 1.0, 3.0)
-SHELVES = (0.12, 1.1, 2.08)  # where their tops are
+SHELVES = (0.12, 1.1, 2.08)  # heights of the shelves
 BLUE, ORANGE, YELLOW = (0.1, 0.22, 0.5), (0.85, 0.35, 0.08), (0.9, 0.72, 0.08)
 
 
@@ -91,7 +91,7 @@ def make_rack(folder):
     for k, (x, size, rise) in enumerate(((-0.92, 0.74, 0.7), (0, 0.8, 0.62), (0.92, 0.7, 0.78))):
         for level, top in enumerate(SHELVES):
             if (k + level) % 4 == 3:
-                continue  # a free place
+                continue  # an empty place
             half, deep = size / 2, 0.36
             boxes.add_box((x - half, -deep, top), (x + half, deep, top + rise * (0.85 if level == 1 else 1)))
     for name, made in (("frame", frame), ("beams", beams), ("boards", boards), ("boxes", boxes)):

@@ -9,7 +9,7 @@ import random
 from mesh import Mesh, moved
 from sdf import box, collision, cylinder, include, link, material, mesh, visual, write_model, write_world
 
-HALF = 12.0  # of the fenced square
+HALF = 12.0  # half the side of the fenced square, m
 PLATFORM = (3.0, 3.0, 0.5)
 RAMP_WIDTH = 2.0
 GENTLE, STEEP = 3.0, 2.0  # lengths of the ramps: 1 in 6 and 1 in 4

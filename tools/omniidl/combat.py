@@ -34,7 +34,7 @@ SIMPLE = {
 
 
 def tcl(item):
-    """A Python list or text as one word of a Tcl list."""
+    """Returns a Python list or text as one word of a Tcl list."""
     text = item if isinstance(item, str) else " ".join(tcl(each) for each in item)
     plain = text and not any(c in ' \t\n{}"\\$[];#' for c in text)
     if plain and (isinstance(item, str) or len(item) == 1):
@@ -78,7 +78,7 @@ def members_of(node):
 
 
 def constructed_in(node):
-    """The types that are declared within a member's type."""
+    """Returns the types that are declared inside a member's type."""
     return [item for member in node.members() if member.constrType()
             for item in items_of(member.memberType().decl())]
 

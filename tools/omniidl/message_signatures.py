@@ -27,7 +27,7 @@ SIMPLE = {
 
 
 def types_of(kind):
-    """The signature of one type."""
+    """Returns the signature of one type."""
     kind = kind.unalias()
     if kind.kind() in SIMPLE:
         return SIMPLE[kind.kind()]
@@ -81,7 +81,7 @@ def is_checked(types):
 
 
 class Tables:
-    """Name -> signature, of those that need a check."""
+    """Returns {name: signature} for operations and exceptions that need a check."""
 
     def __init__(self, nodes):
         self.requests, self.replies, self.exceptions = {}, {}, {}
