@@ -9,6 +9,7 @@ import type { PointColour } from "../state/overlays";
 const SIZE_PX = 3;
 const SMALLEST_CAPACITY = 1024; // points
 const DARKEST = 0.25; // of the colour scale: what is darker does not stand out from the floor
+const BRIGHTEST = 0.85; // what is brighter does not stand out from a light floor
 const LEVELS = 65; // colours of the scale
 
 export class PointLayer {
@@ -89,6 +90,6 @@ const SCALE = Array.from({ length: LEVELS }, (_, i) => scaleColour(i / (LEVELS -
 
 // The colour of a value from 0 to 1.
 export function scaleColour(part: number): [number, number, number] {
-  const [r, g, b] = colourAt(DARKEST + (1 - DARKEST) * Math.min(1, Math.max(0, part)));
+  const [r, g, b] = colourAt(DARKEST + (BRIGHTEST - DARKEST) * Math.min(1, Math.max(0, part)));
   return new Color().setRGB(r / 255, g / 255, b / 255, SRGBColorSpace).toArray() as [number, number, number];
 }
