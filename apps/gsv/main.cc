@@ -45,7 +45,7 @@ void AddLogOptions(CLI::App& app, LogArguments& log) {
       ->envname("GSV_LOG_FORMAT");
   app.add_option("--log-rate", log.lines, "log lines per second; further lines are counted")
       ->type_name("N")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(gsv::app::Between(1, 1'000'000))
       ->capture_default_str();
 }
 
@@ -148,6 +148,17 @@ void GroupCommands(CLI::App& app) {
   }
 }
 
+// Returns the arguments in reverse order, as CLI11 wants them. `gsv help run` is `gsv run --help`.
+std::vector<std::string> WordsOf(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && words.front() == "help") {
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
+  std::reverse(words.begin(), words.end());
+  return words;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -198,7 +209,7 @@ int main(int argc, char** argv) {
   GroupCommands(app);
   TakeOneValuePerOption(app);
   try {
-    app.parse(argc, argv);
+    app.parse(WordsOf(argc, argv));
   } catch (const CLI::ParseError& error) {
     return EndOutput(stdout, app.exit(error) == 0 ? kOk : kUsage);
   } catch (const std::exception& exception) {

@@ -10,6 +10,23 @@ constexpr std::size_t kMinNameLength = 3;
 // names with at least this many letters may differ by two letters
 constexpr std::size_t kLongName = 8;
 
+// Returns the only known name of which `written` is the beginning, or that is the beginning of
+// `written` but for one letter: "comple" for completion, "pss" for ps. Empty if there is none, or
+// if there are several.
+std::string OnlyContinuation(std::string_view written, const std::vector<std::string>& known) {
+  std::string only;
+  for (const std::string& name : known) {
+    const bool is_begun = written.size() >= kMinNameLength && name.size() > written.size() &&
+                          name.starts_with(written);
+    const bool is_longer =
+        name.size() >= 2 && written.size() == name.size() + 1 && written.starts_with(name);
+    if (!is_begun && !is_longer) continue;
+    if (!only.empty() && only != name) return {};
+    only = name;
+  }
+  return only;
+}
+
 }  // namespace
 
 int SpellingDistance(std::string_view a, std::string_view b, int limit) {
@@ -48,12 +65,16 @@ std::string ClosestName(std::string_view written, const std::vector<std::string>
     least = distance;
     closest = name;
   }
-  return closest;
+  return closest.empty() ? OnlyContinuation(written, known) : closest;
 }
 
 std::string DidYouMean(std::string_view written, const std::vector<std::string>& known) {
   const std::string closest = ClosestName(written, known);
   return closest.empty() ? "" : ". Did you mean " + closest + "?";
+}
+
+std::string Counted(std::uint64_t count, std::string_view noun) {
+  return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
 }
 
 }  // namespace gsv::base

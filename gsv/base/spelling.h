@@ -1,6 +1,7 @@
-// Suggestions for misspelt names, such as "Did you mean office?".
+// Words in messages: suggestions for misspelt names, such as "Did you mean office?", and plurals.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,10 +19,14 @@ int SpellingDistance(std::string_view a, std::string_view b, int limit);
 bool LooksLike(std::string_view written, std::string_view known);
 
 // The known name that `written` looks like: the one with the smallest distance, and the first in
-// the list among equals. Empty if there is none.
+// the list among equals. If there is none, the only known name that continues `written` ("comple":
+// completion), or that `written` continues by one letter ("pss": ps). Otherwise empty.
 std::string ClosestName(std::string_view written, const std::vector<std::string>& known);
 
 // The end of an error message about an unknown name: ". Did you mean NAME?", or empty.
 std::string DidYouMean(std::string_view written, const std::vector<std::string>& known);
+
+// A number of things: "1 error", "2 errors".
+std::string Counted(std::uint64_t count, std::string_view noun);
 
 }  // namespace gsv::base

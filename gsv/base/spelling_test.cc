@@ -23,12 +23,22 @@ TEST(Spelling, SuggestsTheClosestKnownName) {
   EXPECT_EQ(ClosestName("office", worlds), "");
   EXPECT_EQ(ClosestName("rn", {"run"}), "");
   EXPECT_EQ(ClosestName("wells", {"wall", "walls"}), "walls");
+  EXPECT_EQ(ClosestName("ware", worlds), "warehouse");
+  EXPECT_EQ(ClosestName("wall", {"wallpaper", "wallflower"}), "");  // two names continue it
+  EXPECT_EQ(ClosestName("pss", {"ps", "pause"}), "ps");
+  EXPECT_EQ(ClosestName("wa", worlds), "");
 }
 
 TEST(Spelling, DidYouMeanFormatsTheEndOfAMessage) {
   EXPECT_EQ("there is no command rnu" + DidYouMean("rnu", {"rec", "run"}),
             "there is no command rnu. Did you mean run?");
   EXPECT_EQ(DidYouMean("fly", {"rec", "run"}), "");
+}
+
+TEST(Spelling, OnlyOneThingIsSingular) {
+  EXPECT_EQ(Counted(0, "error"), "0 errors");
+  EXPECT_EQ(Counted(1, "error"), "1 error");
+  EXPECT_EQ(Counted(2, "error"), "2 errors");
 }
 
 }  // namespace

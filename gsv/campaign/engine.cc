@@ -79,7 +79,8 @@ Engine ReadEngine(scenario::YamlMapping& campaign, const EngineRequest& request)
     engine.runs_per_task = request.runs_per_task > 0 ? request.runs_per_task : runs_per_task;
   }
   if (engine.type == nullptr)
-    campaign.AddProblem("engine", "there is no engine \"" + name + "\"; take " + Names());
+    campaign.AddProblem("engine",
+                        "there is no engine \"" + name + "\"; the engines are " + Names());
   return engine;
 }
 

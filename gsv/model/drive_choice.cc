@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "gsv/base/spelling.h"
 #include "gsv/model/drive_guess.h"
 
 namespace gsv::model {
@@ -54,7 +55,12 @@ class ChoiceReader {
     const std::vector<std::string> parts = SplitAt(',', text_);
     const auto* kind = std::find_if(std::begin(kKinds), std::end(kKinds),
                                     [&](const auto& known) { return parts.front() == known.name; });
-    if (kind == std::end(kKinds)) return Refuse("there is no drive \"" + parts.front() + "\"");
+    if (kind == std::end(kKinds)) {
+      std::vector<std::string> names;
+      for (const auto& known : kKinds) names.emplace_back(known.name);
+      return Refuse("there is no drive \"" + parts.front() + "\"",
+                    base::DidYouMean(parts.front(), names));
+    }
     choice_.kind = kind->kind;
     for (std::size_t i = 1; i < parts.size(); ++i) {
       const std::size_t equals = parts[i].find('=');
@@ -66,8 +72,8 @@ class ChoiceReader {
   }
 
  private:
-  tl::unexpected<base::Error> Refuse(const std::string& why) const {
-    return base::Fail(ErrorCode::kInvalidArgument, why + kExpected, text_);
+  tl::unexpected<base::Error> Refuse(const std::string& why, const std::string& hint = "") const {
+    return base::Fail(ErrorCode::kInvalidArgument, why + kExpected + hint, text_);
   }
 
   base::Status Take(const std::string& key, const std::string& value) {
@@ -90,7 +96,9 @@ class ChoiceReader {
       if (*number) return {};
       return Refuse(key + " must be a number above zero, not \"" + value + "\"");
     }
-    return Refuse("there is no key \"" + key + "\"");
+    return Refuse("there is no key \"" + key + "\"",
+                  base::DidYouMean(key, {"left", "right", "steer", "radius", "separation",
+                                         "wheel_base", "steering_limit"}));
   }
 
   const std::string& text_;

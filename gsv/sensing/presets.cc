@@ -1,5 +1,7 @@
 #include "gsv/sensing/presets.h"
 
+#include "gsv/base/spelling.h"
+
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -168,7 +170,8 @@ base::Result<model::SensorDescription> WithPreset(const std::string& type,
       base::ErrorCode::kInvalidArgument,
       fmt::format("there is no preset \"{}\"; {}", name != nullptr ? *name : "(not a text)",
                   names.empty() ? "this type has none"
-                                : fmt::format("the presets are {}", fmt::join(names, ", "))),
+                                : fmt::format("the presets are {}", fmt::join(names, ", "))) +
+          base::DidYouMean(name != nullptr ? *name : "", names),
       fmt::format("{} {}", description.type, description.name));
 }
 

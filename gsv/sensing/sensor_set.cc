@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "gsv/base/spelling.h"
+
 namespace gsv::sensing {
 
 base::Result<std::shared_ptr<const Sensor>> SensorSet::Of(
@@ -14,7 +16,9 @@ base::Result<std::shared_ptr<const Sensor>> SensorSet::Of(
   const SensorType* const type = types_.Find(description.type);
   if (type == nullptr) {
     return base::Fail(base::ErrorCode::kNotFound,
-                      "there is no sensor type \"" + description.type + "\"", description.name);
+                      "there is no sensor type \"" + description.type + "\"" +
+                          base::DidYouMean(description.type, types_.names()),
+                      description.name);
   }
   auto made = type->create(description);
   if (!made) return base::Fail(made.error());

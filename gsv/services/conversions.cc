@@ -1,5 +1,7 @@
 #include "gsv/services/conversions.h"
 
+#include "gsv/base/spelling.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
@@ -149,6 +151,7 @@ void RefuseUnknown(const model::Parameters& options,
     for (const std::string_view each : known) {
       reason += (each == *known.begin() ? " " : ", ") + std::string(each);
     }
+    reason += base::DidYouMean(name, {known.begin(), known.end()});
     throw sba::Refused(reason.c_str());
   }
 }

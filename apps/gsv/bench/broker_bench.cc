@@ -20,6 +20,7 @@
 #include "apps/gsv/machine/child_process.h"
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "gsv/base/temporary_folder.h"
 #include "gsv/broker/client/broker_client.h"
 #include "gsv/broker/storage/offer_file.h"
@@ -298,7 +299,7 @@ void AddBrokerBench(const CommandLine& bench) {
   auto arguments = std::make_shared<Arguments>();
   command->add_option("--offers", arguments->offers, "number of offers")
       ->type_name("N")
-      ->check(CLI::Range(1000, 200'000))
+      ->check(Between(1000, 200'000))
       ->capture_default_str();
   command->add_flag("--json", arguments->json, "print one JSON object per line");
   command->callback([arguments, bench] {

@@ -10,6 +10,7 @@
 
 #include "apps/gsv/bench/bench.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "apps/gsv/scenes/moving_scene.h"
 #include "gsv/base/mutex.h"
 #include "gsv/rendering/images/jpeg.h"
@@ -236,13 +237,13 @@ void AddCameraBench(const CommandLine& bench) {
   command->add_option("--cameras", arguments->cameras, "images per batch")
       ->type_name("N")
       ->capture_default_str()
-      ->check(CLI::Range(1, 1024));
+      ->check(Between(1, 1024));
   command->add_option("--size", arguments->size, "width and height of an image in pixels")
       ->capture_default_str();
   command->add_option("--robots", arguments->robots, "number of robots")
       ->type_name("N")
       ->capture_default_str()
-      ->check(CLI::Range(1, 10'000));
+      ->check(Between(1, 10'000));
   command
       ->add_option("--world", arguments->world,
                    "world, or \"square\" for the world of `gsv bench crowd`")
@@ -256,7 +257,7 @@ void AddCameraBench(const CommandLine& bench) {
   command->add_option("--duration", arguments->duration, "wall-clock time of the measurement")
       ->type_name("SECONDS")
       ->capture_default_str()
-      ->check(CLI::Range(0.1, 3600.0));
+      ->check(Between(0.1, 3600.0));
   command->add_option("--save", arguments->save, "save the first batch as JPEG")
       ->type_name("FOLDER");
   command->add_flag("--opengl", arguments->opengl,

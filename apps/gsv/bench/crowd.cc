@@ -12,6 +12,7 @@
 #include "apps/gsv/bench/bench.h"
 #include "apps/gsv/bench/crowd_check.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "apps/gsv/scenes/crowd_scenario.h"
 #include "gsv/base/thread_team.h"
 #include "gsv/hosting/hosted_behaviour.h"
@@ -213,18 +214,18 @@ void AddCrowdBench(const CommandLine& bench) {
       ->type_name("N,...")
       ->delimiter(',')
       ->capture_default_str()
-      ->check(CLI::Range(1, 100'000));
+      ->check(Between(1, 100'000));
   command->add_option("--duration", arguments->duration, "simulated time per row")
       ->type_name("SECONDS")
       ->capture_default_str()
-      ->check(CLI::Range(0.1, 1e6));
+      ->check(Between(0.1, 1e6));
   command->add_option("--seed", arguments->seed, "seed of all noise")
       ->type_name("N")
       ->capture_default_str();
   command->add_option("--threads", arguments->threads, "threads; 0: one per processor")
       ->type_name("N")
       ->capture_default_str()
-      ->check(CLI::Range(0, 256));
+      ->check(Between(0, 256));
   command->add_flag(
       "--verify", arguments->verify,
       "check overlaps and 1 % of the readings by brute force; exit with code 1 if they differ");

@@ -9,6 +9,7 @@
 
 #include "apps/gsv/bench/bench.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "apps/gsv/scenes/moving_scene.h"
 #include "gsv/base/thread_team.h"
 
@@ -193,15 +194,15 @@ void AddLidarBench(const CommandLine& bench) {
   command->add_option("--rays", arguments->rays, "rays of a scan, all around")
       ->type_name("N")
       ->capture_default_str()
-      ->check(CLI::Range(8, 100'000));
+      ->check(Between(8, 100'000));
   command->add_option("--range", arguments->range, "range of the lidar")
       ->type_name("METRES")
       ->capture_default_str()
-      ->check(CLI::Range(0.1, 1000.0));
+      ->check(Between(0.1, 1000.0));
   command->add_option("--robots", arguments->scene.robots, "number of robots")
       ->type_name("N")
       ->capture_default_str()
-      ->check(CLI::Range(1, 10'000));
+      ->check(Between(1, 10'000));
   command
       ->add_option("--world", arguments->scene.world,
                    "world, or \"square\" for the world of `gsv bench crowd`")
@@ -216,11 +217,11 @@ void AddLidarBench(const CommandLine& bench) {
       ->add_option("--threads", arguments->threads, "threads for the scans; 0: one per processor")
       ->type_name("N")
       ->capture_default_str()
-      ->check(CLI::Range(0, 64));
+      ->check(Between(0, 64));
   command->add_option("--duration", arguments->duration, "wall-clock time of the measurement")
       ->type_name("SECONDS")
       ->capture_default_str()
-      ->check(CLI::Range(0.1, 3600.0));
+      ->check(Between(0.1, 3600.0));
   command->add_flag("--json", arguments->json, "print one JSON object");
   command->callback([arguments, bench] { bench.exit_code = RunLidarBench(*arguments); });
 }

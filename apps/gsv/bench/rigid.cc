@@ -94,15 +94,15 @@ void AddRigidBench(const CommandLine& bench) {
   command->add_option("--bodies", arguments->bodies, "number of rovers, boxes or arms")
       ->type_name("N")
       ->capture_default_str()
-      ->check(CLI::Range(1, 10'000));
+      ->check(Between(1, 10'000));
   command->add_option("--duration", arguments->duration, "simulated time, with steps of 1 ms")
       ->type_name("SECONDS")
       ->capture_default_str()
-      ->check(CLI::Range(0.01, 1e6));
+      ->check(Between(0.01, 1e6));
   command->add_option("--threads", arguments->threads, "threads; 0: one per processor")
       ->type_name("N")
       ->capture_default_str()
-      ->check(CLI::Range(0, 256));
+      ->check(Between(0, 256));
   command->add_flag("--json", arguments->json, "print one JSON object");
   command->callback([arguments, bench] { bench.exit_code = Rigid(*arguments); });
 }

@@ -9,6 +9,7 @@
 #include "apps/gsv/bench/bench.h"
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "apps/gsv/running/run_population.h"
 #include "apps/gsv/scenes/crowd_scenario.h"
 #include "gsv/base/mutex.h"
@@ -255,11 +256,11 @@ std::shared_ptr<TypicalArguments> AddCommon(CLI::App& command, std::vector<int> 
       ->type_name("N,...")
       ->delimiter(',')
       ->capture_default_str()
-      ->check(CLI::Range(1, 1000));
+      ->check(Between(1, 1000));
   command.add_option("--duration", arguments->duration, "simulated time per row")
       ->type_name("SECONDS")
       ->capture_default_str()
-      ->check(CLI::Range(1.0, 3600.0));
+      ->check(Between(1.0, 3600.0));
   command
       .add_option("--world", arguments->world,
                   "world (default: office for up to 20 robots, else the square of bench crowd)")

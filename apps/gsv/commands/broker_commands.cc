@@ -9,6 +9,7 @@
 
 #include "apps/gsv/commands/broker_listing_commands.h"
 #include "apps/gsv/commands/commands.h"
+#include "apps/gsv/process/option_values.h"
 #include "gsv/broker/broker_command.h"
 
 namespace gsv::app {
@@ -53,7 +54,7 @@ void AddBrokerCommand(const CommandLine& line) {
   command->group("Commands for brokers");
   auto arguments = std::make_shared<Arguments>();
   command->add_option("--port", arguments->port, "port to listen on; 0: any free port")
-      ->check(CLI::Range(0, 65535))
+      ->check(Between(0, 65535))
       ->type_name("PORT")
       ->capture_default_str();
   command->add_option("--listen", arguments->command.broker.host, "address to listen on")
@@ -72,13 +73,13 @@ void AddBrokerCommand(const CommandLine& line) {
       ->add_option("--liveness-period", arguments->liveness_period_s,
                    "time between two checks that offered services respond; 0: no checks\n"
                    "The offer of a service that ended is visible for at most two periods.")
-      ->check(CLI::Range(0.0, kMaxSeconds))
+      ->check(Between(0.0, kMaxSeconds))
       ->type_name("SECONDS")
       ->capture_default_str();
   command
       ->add_option("--liveness-patience", arguments->liveness_max_silence_s,
                    "time without a response after which the offers of a service are removed")
-      ->check(CLI::Range(0.0, kMaxSeconds))
+      ->check(Between(0.0, kMaxSeconds))
       ->type_name("SECONDS")
       ->capture_default_str();
   command

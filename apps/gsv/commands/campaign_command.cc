@@ -194,11 +194,11 @@ CLI::Option* AddEngineOptions(CLI::App* run, const Arguments& arguments) {
                   "runs of one task, one after another (default: enough for 1,000 tasks)\n"
                   "--runs-a-task is the former name of this option.")
       ->type_name("N")
-      ->check(CLI::Range(0, static_cast<int>(campaign::kMaxRuns)))
+      ->check(Between(0, static_cast<int>(campaign::kMaxRuns)))
       ->group("Job queues");
   run->add_option("--poll", options.poll, "polling interval of the queue (default: 10; ssh: 0.5)")
       ->type_name("SECONDS")
-      ->check(CLI::Range(0.1, 3600.0))
+      ->check(Between(0.1, 3600.0))
       ->group("Job queues");
   run->add_flag("!--no-wait", options.waits, "submit the runs to the queue and end")
       ->group("Job queues");
@@ -211,10 +211,10 @@ void AddRunOptions(CLI::App* run, const Arguments& arguments, const CommandLine&
   EngineOptions& options = arguments->options;
   run->add_option("-j,--jobs", options.jobs,
                   "runs at the same time (default: one per processor, or all the servers take)")
-      ->check(CLI::Range(0, 256))
+      ->check(Between(0, 256))
       ->type_name("N");
   run->add_option("--timeout", options.timeout, "wall-clock time of a run")
-      ->check(CLI::Range(1.0, 1e6))
+      ->check(Between(1.0, 1e6))
       ->capture_default_str()
       ->type_name("SECONDS");
   run->add_option("--failures", options.failures,
@@ -277,7 +277,7 @@ void AddCampaignCommand(const CommandLine& line) {
   task->add_option("--task", its.task, "number of the task, from 0")->required();
   task->add_option("--job", its.job, "name of the job in the queue");
   task->add_option("--node", its.node, "name of this machine");
-  task->add_option("--jobs", its.jobs, "runs at the same time")->check(CLI::Range(1, 256));
+  task->add_option("--jobs", its.jobs, "runs at the same time")->check(Between(1, 256));
   task->add_flag("--until-stdin-closes", its.until_stdin_closes, "end when stdin is closed");
   task->callback([=] { line.exit_code = RunTask(arguments->task, line.signals); });
   CLI::App* run = command->get_subcommand("run");

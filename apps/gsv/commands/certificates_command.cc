@@ -5,6 +5,7 @@
 
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "gsv/base/host_name.h"
 #include "gsv/tls/certificates.h"
 
@@ -74,7 +75,7 @@ void AddCertificatesCommand(const CommandLine& line) {
   command
       ->add_option("--days", arguments->days,
                    "days for which a certificate is valid; the authority ten times as long")
-      ->check(CLI::Range(1, 3650))
+      ->check(Between(1, 3650))
       ->type_name("N")
       ->capture_default_str();
   command->callback([arguments, line] {

@@ -13,6 +13,7 @@
 #include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/serving/limit_option.h"
 #include "apps/gsv/simulations/sensor_types.h"
+#include "gsv/base/spelling.h"
 #include "gsv/formats/sdf_reader.h"
 #include "gsv/model/drive_choice.h"
 
@@ -76,8 +77,8 @@ const char* SeverityName(bool is_error) { return is_error ? "error" : "warning";
 // Prints each problem once. Returns the exit code: 3 if there are errors.
 int Report(const CheckArguments& arguments, const base::Problems& problems, const Notes& notes,
            const base::Status& read) {
-  int errors = read ? 0 : 1;
-  int warnings = 0;
+  std::uint64_t errors = read ? 0 : 1;
+  std::uint64_t warnings = 0;
   for (const std::string& note : notes) Print(arguments, "note", "", note);
   std::map<std::pair<bool, std::string>, std::set<std::string>> places;
   for (const base::Problem& problem : problems) {
@@ -96,7 +97,10 @@ int Report(const CheckArguments& arguments, const base::Problems& problems, cons
           what.second);
   }
   if (!read) Print(arguments, "error", read.error().where, read.error().message);
-  if (!arguments.json) std::printf("%d errors, %d warnings\n", errors, warnings);
+  if (!arguments.json) {
+    std::printf("%s, %s\n", base::Counted(errors, "error").c_str(),
+                base::Counted(warnings, "warning").c_str());
+  }
   return errors > 0 ? kBadModel : kOk;
 }
 

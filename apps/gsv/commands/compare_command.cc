@@ -199,15 +199,15 @@ std::shared_ptr<CompareArguments> AddOptions(CLI::App& command) {
       .add_option("--wheel-distance", arguments->options.wheel_distance,
                   "distance of the wheels of a log with wheel encoders, m")
       ->capture_default_str()
-      ->check(CLI::Range(1e-3, 100.0));
+      ->check(Between(1e-3, 100.0));
   command.add_option("--mount-height", arguments->options.height, "height of the scanner, m")
       ->capture_default_str()
-      ->check(CLI::Range(-100.0, 100.0));
+      ->check(Between(-100.0, 100.0));
   command
       .add_option(
           "--mount-forward", arguments->mount_forward,
           "distance of the scanner ahead of the robot's frame, m (default: the log's, or 0)")
-      ->check(CLI::Range(-100.0, 100.0));
+      ->check(Between(-100.0, 100.0));
   command.add_option("--seed", arguments->options.seed, "seed of the simulated devices")
       ->capture_default_str();
   command.add_option("--model-path", arguments->model_path, "folder to look for models in")

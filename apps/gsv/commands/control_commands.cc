@@ -13,6 +13,7 @@
 #include "apps/gsv/commands/selection_options.h"
 #include "apps/gsv/lost/server_note.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "gsv/gateway/api/status_json.h"
 #include "gsv/orb/errors.h"
 #include "gsv/services/conversions.h"
@@ -215,7 +216,7 @@ void AddSteering(const CommandLine& line, const char* name, const char* descript
 
 void AddStepCount(CLI::App& command, Arguments& arguments) {
   command.add_option("count", arguments.steps, "number of steps")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
+      ->check(Between(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
       ->capture_default_str();
 }
 

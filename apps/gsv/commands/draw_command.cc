@@ -12,10 +12,12 @@
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "apps/gsv/running/image_file.h"
 #include "apps/gsv/scenes/model_alone.h"
 #include "apps/gsv/scenes/moving_scene.h"
 #include "apps/gsv/serving/limit_option.h"
+#include "gsv/base/spelling.h"
 #include "gsv/formats/sdf_reader.h"
 #include "gsv/geometry/box_corners.h"
 #include "gsv/rendering/renderer.h"
@@ -104,9 +106,9 @@ int Run(const DrawArguments& arguments) {
   if (arguments.json) {
     std::printf("%s\n", json.dump().c_str());
   } else {
-    std::printf("%s: %zu models, %zu triangles, read in %.2f s\n", arguments.image.c_str(),
-                snapshot->layout->bodies.size(),
-                static_cast<std::size_t>(TrianglesIn(*snapshot->layout)), reading.count());
+    std::printf("%s: %s, %s, read in %.2f s\n", arguments.image.c_str(),
+                base::Counted(snapshot->layout->bodies.size(), "model").c_str(),
+                base::Counted(TrianglesIn(*snapshot->layout), "triangle").c_str(), reading.count());
   }
   return kOk;
 }
@@ -128,11 +130,11 @@ void AddDrawCommand(const CommandLine& line) {
   command->add_option("--width", arguments->width, "width of the image")
       ->type_name("PIXELS")
       ->capture_default_str()
-      ->check(CLI::Range(16, rendering::kMaxImageSide));
+      ->check(Between(16, rendering::kMaxImageSide));
   command->add_option("--height", arguments->height, "height of the image")
       ->type_name("PIXELS")
       ->capture_default_str()
-      ->check(CLI::Range(16, rendering::kMaxImageSide));
+      ->check(Between(16, rendering::kMaxImageSide));
   command->add_flag("--json", arguments->json, "print what was read as one JSON object");
   command->callback([arguments, line] { line.exit_code = Run(*arguments); });
 }

@@ -7,8 +7,10 @@
 #include "apps/gsv/commands/camera_options.h"
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "apps/gsv/running/film.h"
 #include "apps/gsv/running/recorded_images.h"
+#include "gsv/base/spelling.h"
 
 namespace gsv::app {
 namespace {
@@ -65,8 +67,7 @@ int MakeFilm(const FilmArguments& arguments, Signals& signals) {
     if (auto added = (*film)->Add(**image); !added) return RefuseImage(added.error());
   }
   if (auto finished = (*film)->Finish(); !finished) return RefuseImage(finished.error());
-  std::printf("%s: %llu frames, %.3f s\n", options.output.c_str(),
-              static_cast<unsigned long long>(*frames),
+  std::printf("%s: %s, %.3f s\n", options.output.c_str(), base::Counted(*frames, "frame").c_str(),
               static_cast<double>(*frames) / options.frames_a_second);
   return kOk;
 }
@@ -89,18 +90,18 @@ void AddFilmCommand(const CommandLine& line) {
       ->add_option("--from", arguments->from,
                    "first simulated time (default: the start of the recording)")
       ->type_name("SECONDS")
-      ->check(CLI::Range(-9e9, 9e9));
+      ->check(Between(-9e9, 9e9));
   command
       ->add_option("--to", arguments->to, "last simulated time (default: the end of the recording)")
       ->type_name("SECONDS")
-      ->check(CLI::Range(-9e9, 9e9));
+      ->check(Between(-9e9, 9e9));
   command->add_option("--fps", arguments->film.frames_a_second, "frames per second of the film")
       ->type_name("HZ")
-      ->check(CLI::Range(0.1, 240.0))
+      ->check(Between(0.1, 240.0))
       ->capture_default_str();
   command->add_option("--speed", arguments->speed, "recorded seconds per second of the film")
       ->type_name("F")
-      ->check(CLI::Range(0.001, 1000.0))
+      ->check(Between(0.001, 1000.0))
       ->capture_default_str();
   AddCameraOptions(*command, arguments->camera);
   command->callback([arguments, line] { line.exit_code = MakeFilm(*arguments, line.signals); });

@@ -5,6 +5,7 @@
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "apps/gsv/serving/limit_option.h"
 #include "gsv/base/atomic_file.h"
 #include "gsv/formats/sdf_reader.h"
@@ -83,7 +84,7 @@ void AddMapCommands(const CommandLine& line) {
   from->add_option("world", source->world, "the world file to write (default: MAP.sdf)");
   from->add_option("--height", source->height, "height of the walls, m")
       ->capture_default_str()
-      ->check(CLI::Range(0.01, 100.0));
+      ->check(Between(0.01, 100.0));
   from->callback([source, line] { line.exit_code = FromMap(*source); });
 
   CLI::App* to = group->add_subcommand("to-map", "Make an occupancy map of a world");
@@ -93,13 +94,13 @@ void AddMapCommands(const CommandLine& line) {
                  "the YAML file to write, with a PGM beside it (default: WORLD.yaml)");
   to->add_option("--resolution", target->slice.resolution, "side of a cell, m")
       ->capture_default_str()
-      ->check(CLI::Range(1e-3, 100.0));
+      ->check(Between(1e-3, 100.0));
   to->add_option("--height", target->slice.height, "height at which the world is cut, m")
       ->capture_default_str()
-      ->check(CLI::Range(-1e4, 1e4));
+      ->check(Between(-1e4, 1e4));
   to->add_option("--margin", target->slice.margin, "free space around the world, m")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 1e3));
+      ->check(Between(0.0, 1e3));
   to->add_option("--model-path", target->model_path, "a folder to look for models in");
   AddLimitOption(*to, target->limits);
   to->callback([target, line] { line.exit_code = ToMap(*target); });

@@ -17,6 +17,7 @@
 #include "apps/gsv/commands/recording_list_command.h"
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "apps/gsv/running/browser.h"
 #include "apps/gsv/running/resimulation.h"
 #include "apps/gsv/running/video_export.h"
@@ -152,8 +153,7 @@ int Video(const RecordingArguments& arguments, const recording::McapReader& read
   options.frames_a_second = arguments.frames_a_second;
   const auto frames = ExportVideo(reader, arguments.Selection(), options);
   if (!frames) return Refuse(frames.error());
-  std::printf("%s: %llu frames\n", options.output.c_str(),
-              static_cast<unsigned long long>(*frames));
+  std::printf("%s: %s\n", options.output.c_str(), base::Counted(*frames, "frame").c_str());
   return kOk;
 }
 
@@ -357,12 +357,12 @@ void AddReplayCommand(const CommandLine& line) {
       ->add_option("--speed", arguments->options.speed,
                    "recorded seconds per second of wall-clock time")
       ->type_name("F")
-      ->check(CLI::Range(0.001, 1000.0))
+      ->check(Between(0.001, 1000.0))
       ->capture_default_str();
   CLI::Option* at =
       command->add_option("--at", arguments->at, "simulated time at which the replay begins")
           ->type_name("SECONDS")
-          ->check(CLI::Range(0.0, 1e9));
+          ->check(Between(0.0, 1e9));
   command->add_option("--select", arguments->select, "robot that the viewer selects, with --at")
       ->type_name("ROBOT")
       ->needs(at);
@@ -449,7 +449,7 @@ void AddRecordingCommands(const CommandLine& line) {
                                            "write the images of the topic as a video, with ffmpeg");
     command->add_option("--fps", arguments->frames_a_second, "frames per second of the video")
         ->type_name("HZ")
-        ->check(CLI::Range(0.1, 240.0))
+        ->check(Between(0.1, 240.0))
         ->needs(video)
         ->capture_default_str();
   }

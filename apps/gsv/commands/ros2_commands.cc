@@ -12,6 +12,7 @@
 
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "apps/gsv/serving/ros2_access.h"
 #include "gsv/base/mutex.h"
 #include "gsv/messages/all.h"
@@ -256,7 +257,7 @@ CLI::App* AddOne(CLI::App& parent, const CommandLine& line,
       ->type_name("localhost|subnet");
   command->add_option("--seconds", arguments->seconds, "wall-clock time of the observation")
       ->type_name("SECONDS")
-      ->check(CLI::Range(0.1, 3600.0))
+      ->check(Between(0.1, 3600.0))
       ->capture_default_str();
   if (has_topic) {
     command->add_option("topic", arguments->topic, "topic, such as /pebble/odom")

@@ -18,6 +18,7 @@
 #include "apps/gsv/simulations/recordings.h"
 #include "apps/gsv/simulations/robot_drives.h"
 #include "gsv/base/log.h"
+#include "gsv/base/spelling.h"
 #include "gsv/recording/mcap/mcap_reader.h"
 #include "gsv/recording/topics/topics.h"
 #include "gsv/verdict/judge.h"
@@ -174,8 +175,8 @@ base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) 
   Warn(Shortened(warnings, kWarningsPrinted,
                  "to see all: gsv world check " + options.scenario.world));
   if (options.is_strict && !warnings.empty()) {
-    std::fprintf(stderr, "gsv: the run is refused because of --strict: %zu warnings\n",
-                 warnings.size());
+    std::fprintf(stderr, "gsv: the run is refused because of --strict: %s\n",
+                 base::Counted(warnings.size(), "warning").c_str());
     return kBadModel;
   }
 

@@ -5,6 +5,7 @@
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "apps/gsv/serving/limit_option.h"
 #include "apps/gsv/serving/runtime.h"
 #include "apps/gsv/simulations/robot_drives.h"
@@ -86,7 +87,7 @@ void AddServeCommand(const CommandLine& line) {
                    "scenarios of campaigns to run here in parallel\n"
                    "`gsv campaign run --broker` sends them. They run with the behaviours that are "
                    "installed here.")
-      ->check(CLI::Range(0, 256))
+      ->check(Between(0, 256))
       ->capture_default_str()
       ->type_name("N")
       ->group(kServiceGroup);

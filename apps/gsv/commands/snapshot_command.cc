@@ -10,6 +10,7 @@
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/commands/selection_options.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "apps/gsv/running/image_file.h"
 #include "apps/gsv/running/recorded_images.h"
 #include "gsv/base/log.h"
@@ -130,7 +131,7 @@ void AddSnapshotCommand(const CommandLine& line) {
       ->add_option("--at", arguments->at,
                    "simulated time in a recording (default: the end of the recording)")
       ->type_name("SECONDS")
-      ->check(CLI::Range(-9e9, 9e9));
+      ->check(Between(-9e9, 9e9));
   AddCameraOptions(*command, arguments->camera);
   AddInstanceOptions(*command, arguments->selection);
   command->add_option("--token", arguments->token, "control or watch token of the server")

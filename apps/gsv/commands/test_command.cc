@@ -14,6 +14,7 @@
 #include "apps/gsv/machine/child_process.h"
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/option_values.h"
 #include "apps/gsv/simulations/robot_drives.h"
 #include "apps/gsv/trials/test_cases.h"
 #include "apps/gsv/trials/test_report.h"
@@ -217,13 +218,13 @@ void AddTestCommand(const CommandLine& line) {
   command
       ->add_option("-j,--jobs", arguments->jobs,
                    "scenarios to run in parallel (default: one per CPU)")
-      ->check(CLI::Range(0, 256))
+      ->check(Between(0, 256))
       ->type_name("N")
       ->group(kRunGroup);
   command
       ->add_option("--repeat", arguments->options.repeat,
                    "runs per scenario, which must end in the same state")
-      ->check(CLI::Range(1, 100'000))
+      ->check(Between(1, 100'000))
       ->capture_default_str()
       ->type_name("N")
       ->group(kRunGroup);
@@ -232,7 +233,7 @@ void AddTestCommand(const CommandLine& line) {
       ->type_name("I/N")
       ->group(kRunGroup);
   command->add_option("--timeout", arguments->options.timeout, "wall-clock time of a run")
-      ->check(CLI::Range(1.0, 1e6))
+      ->check(Between(1.0, 1e6))
       ->capture_default_str()
       ->type_name("SECONDS")
       ->group("Limits");
@@ -251,14 +252,14 @@ void AddTestCommand(const CommandLine& line) {
   command
       ->add_option("--keep", arguments->options.kept_seconds,
                    "simulated time to keep before a failure")
-      ->check(CLI::Range(0.0, 1e9))
+      ->check(Between(0.0, 1e9))
       ->capture_default_str()
       ->type_name("SECONDS")
       ->group(kResultGroup);
   command
       ->add_option("--keep-after", arguments->options.kept_after,
                    "simulated time to keep after a failure")
-      ->check(CLI::Range(0.0, 1e9))
+      ->check(Between(0.0, 1e9))
       ->capture_default_str()
       ->type_name("SECONDS")
       ->group(kResultGroup);

@@ -4,11 +4,23 @@
 #include <set>
 
 #include "apps/gsv/simulations/robot_drives.h"
+#include "gsv/base/spelling.h"
 
 namespace gsv::app {
 namespace {
 
 using model::WorldDescription;
+
+// The names that --drive may have: those of the robots and of the models of the world.
+std::vector<std::string> DriveNames(const WorldDescription& world,
+                                    const scenario::Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const scenario::RobotEntry& robot : scenario.robots) {
+    names.push_back(robot.name.empty() ? robot.model : robot.name);
+  }
+  for (const model::PlacedModel& placed : world.models) names.push_back(placed.name);
+  return names;
+}
 
 bool HasModel(const WorldDescription& world, const std::string& name) {
   return std::any_of(world.models.begin(), world.models.end(),
@@ -66,7 +78,8 @@ base::Status PrepareDrives(const std::string& file, formats::ModelLibrary& libra
   for (const std::string& name : *left) {
     if (!HasModel(*world, name)) {
       return base::Fail(base::ErrorCode::kInvalidArgument,
-                        "there is no robot of this name or model; check --robot and the world",
+                        "there is no robot of this name or model; check --robot and the world" +
+                            base::DidYouMean(name, DriveNames(*world, options.scenario)),
                         "--drive " + name);
     }
     const scenario::RobotEntry entry{.name = name, .drive = options.drive_of.at(name)};

@@ -102,7 +102,7 @@ void AddBehaviourOptions(CLI::App& command, RunArguments& a) {
       .add_option("--stuck-after", a.stuck_after,
                   "simulated time after which a robot is stuck that does not move as commanded")
       ->default_str("5")
-      ->check(CLI::Range(0.1, 1e9))
+      ->check(Between(0.1, 1e9))
       ->type_name("SECONDS")
       ->group(kGroup);
   command.add_option("--deadline", a.deadline, "wall-clock time between two waits of a behaviour")
@@ -140,7 +140,7 @@ void AddTimeOptions(CLI::App& command, RunArguments& a) {
                   "Auto, or 0, means one per processor in lockstep, else one. Only in-process "
                   "behaviours use them. The results "
                   "do not depend on it.")
-      ->check(CLI::Range(0, 256))
+      ->check(Between(0, 256))
       ->type_name("N")
       ->group(kGroup);
 }

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/gsv/process/option_values.h"
 #include "gsv/base/log.h"
 
 namespace gsv::app {
@@ -25,7 +26,7 @@ void AddViewerOptions(CLI::App& command, ViewerOptions& options) {
       .add_option(
           "--port", options.port,
           "port of the viewer (default: 8080, or a free port)\nWith 0, gsv chooses any free port.")
-      ->check(CLI::Range(0, 65535))
+      ->check(Between(0, 65535))
       ->type_name("PORT")
       ->group(kViewerGroup);
   command
@@ -79,7 +80,7 @@ void AddRecordingsOption(CLI::App& command, ViewerOptions& options) {
   command
       .add_option("--history", options.history_mib,
                   "memory for the past of each simulation, in MiB; 0 keeps none")
-      ->check(CLI::Range(0, 65536))
+      ->check(Between(0, 65536))
       ->capture_default_str()
       ->type_name("MIB")
       ->group(kViewerGroup);

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "gsv/base/spelling.h"
 #include "gsv/gateway/api/command_json.h"
 
 namespace gsv::gateway {
@@ -85,7 +86,10 @@ base::Status CommandJoint(simulation::Simulation& simulation, const std::string&
   if (!agent) return simulation.CommandJoint(body, joint, command);
   const int number = model::FindJoint(agent->Joints(), joint);
   if (number >= 0) return agent->CommandJoint(number, command);
-  return base::Fail(base::ErrorCode::kNotFound, "there is no joint '" + joint + "'", body);
+  std::vector<std::string> names;
+  for (const model::Joint& each : agent->Joints()) names.push_back(each.name);
+  return base::Fail(base::ErrorCode::kNotFound,
+                    "there is no joint '" + joint + "'" + base::DidYouMean(joint, names), body);
 }
 
 Response HandleCommand(const SimulationPointer& simulation, const Request& request) {

@@ -1,4 +1,5 @@
 #include "gsv/recording/reading/recover.h"
+#include "gsv/base/spelling.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -89,10 +90,6 @@ class Copier {
   Recovery recovery_;
 };
 
-std::string Count(std::uint64_t number, const char* noun) {
-  return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
-}
-
 // An output file that has a temporary name while it is written. The destructor removes the file
 // unless it was renamed.
 class PartialFile {
@@ -159,9 +156,9 @@ base::Result<Recovery> Recover(const std::string& input, const std::string& outp
 }
 
 std::string ToText(const Recovery& recovery) {
-  std::string text = "recovered " + Count(recovery.messages, "message") + ", " +
-                     Count(recovery.attachments, "attachment") + ", " +
-                     Count(recovery.metadata, "metadata record") + "\n";
+  std::string text = "recovered " + base::Counted(recovery.messages, "message") + ", " +
+                     base::Counted(recovery.attachments, "attachment") + ", " +
+                     base::Counted(recovery.metadata, "metadata record") + "\n";
   for (const base::Problem& problem : recovery.problems) {
     text += "warning: " + problem.Sentence() + "\n";
   }
