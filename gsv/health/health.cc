@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <string_view>
 #include <utility>
 
 namespace gsv::health {
@@ -77,12 +78,22 @@ const char* SummaryOf(State state) {
   return "";
 }
 
+// Removes from the detail of a death what the rest of the sentence says.
+std::string DeathCause(const simulation::RobotStatus& robot) {
+  std::string_view cause = robot.detail;
+  for (const std::string& prefix :
+       {std::string("its run ended with an error: "), robot.name + ": the behaviour threw: "}) {
+    if (cause.starts_with(prefix)) cause.remove_prefix(prefix.size());
+  }
+  return std::string(cause);
+}
+
 std::string ReasonOf(State state, const simulation::RobotStatus& robot,
                      const simulation::SimulationStatus& status) {
   const simulation::Motion& motion = robot.motion;
   const std::string behaviour = "its behaviour " + robot.behaviour;
   if (state == State::kDead) {
-    return behaviour + " died" + (robot.detail.empty() ? "" : ": " + robot.detail);
+    return behaviour + " died" + (robot.detail.empty() ? "" : ": " + DeathCause(robot));
   }
   if (state == State::kLate) {
     if (robot.phase == AgentPhase::kUnresponsive) return behaviour + " " + robot.detail;

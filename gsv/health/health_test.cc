@@ -103,6 +103,13 @@ TEST(Health, ADeadBehaviourIsAnError) {
             "connections");
 }
 
+TEST(Health, TheReasonOfADeathIsTheException) {
+  simulation::RobotStatus robot = Robot();
+  robot.phase = AgentPhase::kDead;
+  robot.detail = "its run ended with an error: " + robot.name + ": the behaviour threw: too far";
+  EXPECT_EQ(HealthOf(robot).reason, "its behaviour wander died: too far");
+}
+
 TEST(Health, ABehaviourThatDoesNotWaitIsLate) {
   simulation::RobotStatus robot = Robot();
   robot.running_for = 2s;

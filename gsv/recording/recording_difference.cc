@@ -98,11 +98,7 @@ std::string RobotOf(const McapReader& reader, const Difference& difference) {
   if (presentation::FindTopic(topic) == nullptr) {  // the topic of a sensor: /ROBOT/SENSOR
     return topic.substr(1, topic.find('/', 1) - 1);
   }
-  auto messages = DecodedMessages::Open(reader, {{topic}, difference.time});
-  if (!messages) return {};
-  const auto message = messages->Next();
-  if (!message || !*message || (*message)->time != difference.time) return {};
-  return NameInMessage((*message)->content, difference.field);
+  return NameInMessage(difference.message, difference.field);
 }
 
 std::string Shortened(const std::string& text) {

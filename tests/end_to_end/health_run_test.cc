@@ -114,6 +114,19 @@ TEST_F(HealthRun, ADifferenceNamesScenarioAndRobot) {
   EXPECT_THAT(list.out, HasSubstr("playground, 1 robot\n"));
 }
 
+TEST_F(HealthRun, TheDifferenceNamesTheRobotWhoseCommandDiffers) {
+  const auto record = [&](const std::string& name, const std::string& goal) {
+    const std::string file = folder_.path() / name;
+    const Outcome run = Run({"--robot", "pebble@0,0", "--robot", "pebble@0,1", "--behaviour",
+                             "pebble=goto --goal-x 1 --goal-y 0", "--behaviour",
+                             "pebble_2=goto --goal-y 1 --goal-x " + goal, "--record", file});
+    EXPECT_EQ(run.ending, "exit code 0") << run.err;
+    return file;
+  };
+  const Outcome diff = Gsv({"rec", "diff", record("near.mcap", "0.5"), record("far.mcap", "-1")});
+  EXPECT_THAT(diff.out, HasSubstr("\npebble_2: ")) << diff.err;
+}
+
 TEST_F(HealthRun, EqualRunsWhoseBehaviourDiesHaveEqualRecordings) {
   setenv("PATH", (folder_.path().string() + ":/usr/bin:/bin").c_str(), 1);
   for (const std::string fault : {"throw", "die"}) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 
 #include <nlohmann/json.hpp>
 
@@ -11,6 +12,8 @@ namespace gsv::app {
 namespace {
 
 using nlohmann::ordered_json;
+
+constexpr std::size_t kCrowd = 20;  // robots; longer lists are sorted
 
 double Seconds(std::chrono::nanoseconds time) { return static_cast<double>(time.count()) * 1e-9; }
 
@@ -42,6 +45,43 @@ const health::RobotHealth* HealthIn(const health::Report& report, const std::str
   const auto found = std::find_if(report.robots.begin(), report.robots.end(),
                                   [&](const auto& each) { return each.robot == robot; });
   return found == report.robots.end() ? nullptr : &*found;
+}
+
+// One line per robot. A crowd begins with the robots in trouble, the worst first.
+std::string RobotLines(const simulation::SimulationStatus& status, const health::Report& report) {
+  struct Row {
+    const simulation::RobotStatus* robot;
+    const health::RobotHealth* health;  // null for a station
+    int Trouble() const {
+      if (health == nullptr) return 0;
+      return 10 * static_cast<int>(health->level) + static_cast<int>(health->state);
+    }
+  };
+  std::vector<Row> rows;
+  int name_width = 20, behaviour_width = 14;
+  for (const simulation::RobotStatus& robot : status.robots) {
+    rows.push_back({&robot, HealthIn(report, robot.name)});
+    name_width = std::max(name_width, static_cast<int>(robot.name.size()));
+    behaviour_width =
+        std::max(behaviour_width, static_cast<int>(std::strlen(BehaviourText(robot))));
+  }
+  name_width = std::min(name_width, 40);
+  behaviour_width = std::min(behaviour_width, 40);
+  if (rows.size() > kCrowd) {
+    std::stable_sort(rows.begin(), rows.end(),
+                     [](const Row& a, const Row& b) { return a.Trouble() > b.Trouble(); });
+  }
+  std::string text;
+  char line[512];
+  for (const auto& [robot, health] : rows) {
+    std::snprintf(line, sizeof line, "  %-*.64s %-*.64s %-12s %7.2f m  ", name_width,
+                  robot->name.c_str(), behaviour_width, BehaviourText(*robot),
+                  ToString(robot->phase), robot->distance);
+    text += line + Counted(robot->collisions, "collision");
+    const std::string sentence = health == nullptr ? "" : health::FinalSentence(*health);
+    text += (sentence.empty() ? "" : "; " + sentence) + "\n";
+  }
+  return text;
 }
 
 ordered_json RobotJson(const simulation::RobotStatus& robot, const health::Report& report) {
@@ -126,14 +166,7 @@ std::string TextReport(simulation::Simulation& simulation,
   std::string text = line;
   const health::Report report = health::HealthNow(simulation);
   if (report.robots.size() > 1) text += "  " + health::Summary(report) + "\n";
-  for (const auto& robot : status.robots) {
-    std::snprintf(line, sizeof line, "  %-20.64s %-14.64s %-12s %7.2f m  ", robot.name.c_str(),
-                  BehaviourText(robot), ToString(robot.phase), robot.distance);
-    text += line + Counted(robot.collisions, "collision");
-    const health::RobotHealth* health = HealthIn(report, robot.name);
-    const std::string sentence = health == nullptr ? "" : health::FinalSentence(*health);
-    text += (sentence.empty() ? "" : "; " + sentence) + "\n";
-  }
+  text += RobotLines(status, report);
   for (const verdict::Finding& finding : findings) {
     text += (finding.holds ? "  ok    " : "  FAIL  ") + finding.name +
             (finding.holds ? "" : "\n        " + finding.Sentence()) + "\n";

@@ -132,15 +132,22 @@ class InstantReader {
   std::vector<std::byte> next_data_;
 };
 
-Difference Missing(base::SimTime time, const std::string& topic, bool in_first) {
-  return {time, topic, "", in_first ? "missing" : "there", in_first ? "there" : "missing"};
+// `there`: the reader of the recording that has a message of `topic`, with the bytes `data`.
+base::Result<std::optional<Difference>> Missing(const InstantReader& there,
+                                                const std::string& topic,
+                                                const std::vector<std::byte>& data, bool in_first) {
+  auto message = there.Decode(topic, data);
+  if (!message) return base::Fail(message.error());
+  return Difference{
+      there.time,         topic, "", in_first ? "missing" : "there", in_first ? "there" : "missing",
+      *std::move(message)};
 }
 
 base::Result<Difference> Compare(const InstantReader& first, const InstantReader& second,
                                  const std::string& topic, const std::vector<std::byte>& a,
                                  const std::vector<std::byte>& b) {
   Difference difference{first.time, topic, "", "", ""};
-  const auto decoded_a = first.Decode(topic, a);
+  auto decoded_a = first.Decode(topic, a);
   if (!decoded_a) return base::Fail(decoded_a.error());
   const auto decoded_b = second.Decode(topic, b);
   if (!decoded_b) return base::Fail(decoded_b.error());
@@ -150,6 +157,7 @@ base::Result<Difference> Compare(const InstantReader& first, const InstantReader
     difference.in_first = fmt::format("{} bytes", a.size());
     difference.in_second = fmt::format("{} others", b.size());
   }
+  difference.message = *std::move(decoded_a);
   return difference;
 }
 
@@ -160,9 +168,9 @@ base::Result<std::optional<Difference>> DifferenceAtInstant(const InstantReader&
   for (; in_a != a.messages.end() || in_b != b.messages.end(); ++in_a, ++in_b) {
     const bool only_a =
         in_b == b.messages.end() || (in_a != a.messages.end() && in_a->first < in_b->first);
-    if (only_a) return Missing(a.time, in_a->first.first, false);
+    if (only_a) return Missing(a, in_a->first.first, in_a->second, false);
     if (in_a == a.messages.end() || in_b->first < in_a->first) {
-      return Missing(a.time, in_b->first.first, true);
+      return Missing(b, in_b->first.first, in_b->second, true);
     }
     if (in_a->second == in_b->second) continue;
     auto difference = Compare(a, b, in_a->first.first, in_a->second, in_b->second);
@@ -275,7 +283,8 @@ base::Result<std::optional<Difference>> FirstDifference(const McapReader& first,
     if (only_a || only_b) {
       InstantReader& alone = only_a ? a : b;
       if (gaps == Gaps::kNone) {
-        return Missing(alone.time, alone.messages.begin()->first.first, only_b);
+        const auto& [key, data] = *alone.messages.begin();
+        return Missing(alone, key.first, data, only_b);
       }
       (only_a ? more_a : more_b) = alone.Next();
       continue;

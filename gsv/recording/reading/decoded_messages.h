@@ -56,6 +56,8 @@ struct Difference {
   // such as "pose.position.x"; empty if the message is missing in one of the recordings
   std::string field;
   std::string in_first, in_second;  // the values as JSON, or "missing"
+  // The content of the message: of the first recording, or of the only one that has it.
+  nlohmann::ordered_json message = {};
   std::string Sentence() const;
 };
 // Has the keys time_s, topic, field, first and second.

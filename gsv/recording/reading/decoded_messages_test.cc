@@ -51,6 +51,7 @@ TEST(FirstDifference, NamesTimeTopicAndField) {
   EXPECT_EQ(difference->in_second, "51000000");
   EXPECT_EQ(difference->Sentence(),
             "0.050000 s, /b, clock.nanosec: 50000000 in the first, 51000000 in the second");
+  EXPECT_EQ(difference->message["clock"]["nanosec"], 50'000'000);
 }
 
 TEST(FirstDifference, IgnoresMessagesThatDependOnTheWallClock) {
