@@ -15,6 +15,8 @@ inline constexpr const char* kEntityFrame = "world";
 // Returns a body's state in the frame "world". Velocities and accelerations are of its origin.
 messages::simulation_interfaces::EntityState StateOf(const world::Snapshot& snapshot, int body);
 
+messages::geometry_msgs::Pose MessageOf(const geometry::Pose& pose);
+
 // Converts a box to two corners: first the upper right one, then the lower left one.
 messages::simulation_interfaces::Bounds BoxOf(const geometry::Bounds& bounds);
 

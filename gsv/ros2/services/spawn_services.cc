@@ -75,11 +75,11 @@ SpawnResponse Spawn(ServedSimulation& served, Simulation& simulation,
   }
   const base::Result<std::string> name = served.spawner->Spawn(simulation, spawn);
   if (!name) return NotSpawned(name.error());
-  served.spawned.insert(*name);
+  served.spawned().insert(*name);
   if (!request.entity_namespace.empty()) {
-    if (const auto ok = served.set_namespace(*name, request.entity_namespace); !ok) {
+    if (const auto ok = served.SetNamespaceOf(*name, request.entity_namespace); !ok) {
       (void)RemoveEntity(simulation, *name);
-      served.spawned.erase(*name);
+      served.spawned().erase(*name);
       return NotSpawned(SpawnResponse::kNamespaceInvalid, ok.error().Sentence());
     }
   }
@@ -131,7 +131,7 @@ void OfferSpawnServices(ServedSimulation& served) {
       "delete_entity", "DeleteEntity", Lane::kSlow,
       [&served](Simulation& simulation, const interfaces::DeleteEntityRequest& request) {
         const base::Status removed = RemoveEntity(simulation, request.entity);
-        if (removed) served.spawned.erase(request.entity);
+        if (removed) served.spawned().erase(request.entity);
         return interfaces::DeleteEntityResponse{ResultOf(removed)};
       });
 }
